@@ -1,2 +1,22 @@
 # `cmake --install` puts libraries, public headers, the program and a package that find_package(Froude) finds.
 include(CMakePackageConfigHelpers)
+set(froude_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Froude)
+
+install(TARGETS froude_hydro froude_dynamics froude_fit EXPORT FroudeTargets
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(TARGETS froude RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(EXPORT FroudeTargets NAMESPACE froude:: DESTINATION ${froude_package_dir})
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/FroudeConfig.cmake.in ${PROJECT_BINARY_DIR}/FroudeConfig.cmake
+  INSTALL_DESTINATION ${froude_package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/FroudeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/FroudeConfig.cmake ${PROJECT_BINARY_DIR}/FroudeConfigVersion.cmake
+  ${CMAKE_CURRENT_LIST_DIR}/FroudeDependencies.cmake DESTINATION ${froude_package_dir})
+
+# What the program reads at run time, and what a person wants beside it.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/validation ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/froude
+  PATTERN CMakeLists.txt EXCLUDE PATTERN "*.cpp" EXCLUDE PATTERN "*.hpp" EXCLUDE)
+install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/LICENSE
+  DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)

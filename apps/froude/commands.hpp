@@ -33,20 +33,20 @@ void bem_convert(const BemArguments& arguments, const Path& output, const std::s
 
 struct PsdArguments {
   Path file;                          ///< CSV, or a result of `froude run`
-  std::vector<std::string> signals;   ///< empty: all (with a time column), `*` allowed
-  std::optional<std::string> segment; ///< length of a Welch segment, e.g. "100 s"
-  std::optional<std::string> from;    ///< leave out what comes before, e.g. "60 s"
+  std::vector<std::string> signals = {};   ///< empty: all (with a time column), `*` allowed
+  std::optional<std::string> segment = {}; ///< length of a Welch segment, e.g. "100 s"
+  std::optional<std::string> from = {};    ///< leave out what comes before, e.g. "60 s"
   double confidence = 0.95;
-  std::optional<std::string> input;   ///< signal to take as input: H1, H2 and coherence of the others against it
-  std::optional<Path> output;         ///< .csv or .h5
-  std::optional<Path> picture;        ///< .svg
+  std::optional<std::string> input = {};   ///< signal to take as input: H1, H2 and coherence of the others against it
+  std::optional<Path> output = {};         ///< .csv or .h5
+  std::optional<Path> picture = {};        ///< .svg
 };
 void psd(const PsdArguments& arguments, const Console& console);
 
 struct FitArguments {
   Path scene;
-  std::optional<Path> output;         ///< .toml of the estimates
-  std::optional<Path> picture;
+  std::optional<Path> output = {};         ///< .toml of the estimates
+  std::optional<Path> picture = {};
 };
 void fit(const FitArguments& arguments, const Console& console);
 

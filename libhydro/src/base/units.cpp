@@ -150,6 +150,8 @@ const Named known_dimensions[] = {
     {dim::rotational_stiffness, "a rotational stiffness", "15.8 kN m/rad"},
     {dim::damping, "a damping", "60 kN s/m"},
     {dim::rotational_damping, "a rotational damping", "0.376 N m s/rad"},
+    {dim::force / dim::angle, "a stiffness between translation and rotation", "1.2 kN/rad"},
+    {dim::force / dim::angular_velocity, "a damping between translation and rotation", "0.3 kN s/rad"},
     {dim::kinematic_viscosity, "a kinematic viscosity", "1.05e-6 m^2/s"},
 };
 
@@ -290,14 +292,15 @@ std::vector<double> parse_range(std::string_view text, const Dimension& needed) 
                      "write it like \"2 s .. 8 s, 61 values\"");
   };
   if (dots == std::string_view::npos || comma == std::string_view::npos || comma < dots) fail();
-  const double from = parse_si(text.substr(0, dots), needed);
-  const double to = parse_si(text.substr(dots + 2, comma - dots - 2), needed);
+  const double from = parse_si(trimmed(text.substr(0, dots)), needed);
+  const double to = parse_si(trimmed(text.substr(dots + 2, comma - dots - 2)), needed);
   std::string_view count_text = trimmed(text.substr(comma + 1));
   int count = 0;
   const auto [end, code] = std::from_chars(count_text.data(), count_text.data() + count_text.size(), count);
   const std::string_view word = trimmed(count_text.substr(static_cast<std::size_t>(end - count_text.data())));
   if (code != std::errc{} || (word != "values" && word != "value")) fail();
   require(count >= 1, "\"{}\" asks for {} values; at least one is needed", text, count);
+  require(count <= 1'000'000, "\"{}\" asks for {} values; at most a million are possible", text, count);
   require(count == 1 || to > from, "\"{}\" does not increase", text);
   std::vector<double> out(static_cast<std::size_t>(count), from);
   for (int i = 1; i < count; ++i) out[static_cast<std::size_t>(i)] = from + (to - from) * i / (count - 1);

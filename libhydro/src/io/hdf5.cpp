@@ -154,6 +154,22 @@ std::string Hdf5Reader::text(const std::string& dataset) const {
   });
 }
 
+std::vector<std::string> Hdf5Reader::texts(const std::string& dataset) const {
+  const Handle d = impl_->dataset(dataset);
+  const Handle type(H5Dget_type(d.get()));
+  if (H5Tis_variable_str(type.get()) <= 0) impl_->fail(dataset, "holds no strings of variable length");
+  const Handle space(H5Dget_space(d.get()));
+  std::vector<char*> raw(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.get())), nullptr);
+  if (!raw.empty() && H5Dread(d.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.data()) < 0)
+    impl_->fail(dataset, "cannot be read; the file may be cut short");
+  std::vector<std::string> out;
+  for (char* text : raw) {
+    out.emplace_back(text == nullptr ? "" : text);
+    H5free_memory(text);
+  }
+  return out;
+}
+
 bool Hdf5Reader::has_attribute(const std::string& object, const std::string& name) const {
   return H5Aexists_by_name(impl_->file.get(), object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
 }
@@ -208,9 +224,10 @@ struct Hdf5Writer::Impl {
     return Handle(check(H5Dcreate2(file.get(), name.c_str(), type, space.get(), links.get(), creation.get(), H5P_DEFAULT),
                         ("create " + name).c_str()));
   }
+  /// Room for the closing zero, without which netCDF reads past the end of a text.
   static Handle string_type(std::size_t length) {
     Handle type(H5Tcopy(H5T_C_S1));
-    H5Tset_size(type.get(), std::max<std::size_t>(1, length));
+    H5Tset_size(type.get(), length + 1);
     H5Tset_cset(type.get(), H5T_CSET_UTF8);
     return type;
   }
@@ -244,8 +261,19 @@ void Hdf5Writer::write_scalar(const std::string& dataset, double value) { write(
 void Hdf5Writer::write_text(const std::string& dataset, std::string_view text) {
   const Handle type = Impl::string_type(text.size());
   const Handle d = impl_->create(dataset, type.get(), {});
-  const std::string padded(text.empty() ? std::string(1, '\0') : std::string(text));
-  Impl::check(H5Dwrite(d.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()), "write text");
+  const std::string closed(text);
+  Impl::check(H5Dwrite(d.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, closed.c_str()), "write text");
+}
+
+void Hdf5Writer::write_texts(const std::string& dataset, std::span<const std::string> texts) {
+  // netCDF-4 takes strings of variable length for texts, and those of fixed length for arrays of single characters.
+  const Handle type(H5Tcopy(H5T_C_S1));
+  H5Tset_size(type.get(), H5T_VARIABLE);
+  H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  const Handle d = impl_->create(dataset, type.get(), {texts.size()});
+  std::vector<const char*> raw;
+  for (const std::string& text : texts) raw.push_back(text.c_str());
+  Impl::check(H5Dwrite(d.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.data()), "write texts");
 }
 
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::string_view text) {
@@ -253,8 +281,8 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, s
   const Handle space(H5Screate(H5S_SCALAR));
   const Handle a(Impl::check(H5Acreate_by_name(impl_->file.get(), object.c_str(), name.c_str(), type.get(), space.get(),
                                                H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "make an attribute"));
-  const std::string padded(text.empty() ? std::string(1, '\0') : std::string(text));
-  Impl::check(H5Awrite(a.get(), type.get(), padded.data()), "write an attribute");
+  const std::string closed(text);
+  Impl::check(H5Awrite(a.get(), type.get(), closed.c_str()), "write an attribute");
 }
 
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, double value) {

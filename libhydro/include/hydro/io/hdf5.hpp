@@ -35,6 +35,7 @@ class Hdf5Reader {
   Array numbers(const std::string& dataset) const;         ///< any number type, converted to double
   double scalar(const std::string& dataset) const;         ///< exactly one number, of any shape
   std::string text(const std::string& dataset) const;      ///< fixed or variable-length string, one element
+  std::vector<std::string> texts(const std::string& dataset) const;  ///< variable-length strings, one axis
   bool has_attribute(const std::string& object, const std::string& name) const;
   std::string text_attribute(const std::string& object, const std::string& name) const;
   double number_attribute(const std::string& object, const std::string& name) const;
@@ -56,6 +57,7 @@ class Hdf5Writer {
   void write(const std::string& dataset, std::span<const double> values, std::vector<std::size_t> shape);
   void write_scalar(const std::string& dataset, double value);
   void write_text(const std::string& dataset, std::string_view text);
+  void write_texts(const std::string& dataset, std::span<const std::string> texts);  ///< shape (texts.size())
   void attribute(const std::string& object, const std::string& name, std::string_view text);
   void attribute(const std::string& object, const std::string& name, double value);
 

@@ -1,0 +1,63 @@
+#pragma once
+/// \file  A scene compiled to the smallest model that answers what it asks. What the scene does not name is not made.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/force/connector.hpp"
+#include "dynamics/force/drag.hpp"
+#include "dynamics/force/restoring.hpp"
+#include "dynamics/frequency/rao.hpp"
+#include "dynamics/model/model.hpp"
+#include "hydro/waves/sea.hpp"
+#include "scene/scene.hpp"
+
+namespace froude::compile {
+
+/// One line of `froude plan`: an effect, how it is computed, how large it is; or why it is left out.
+struct PlanLine {
+  std::string effect, method, size;
+  bool runs = true;
+};
+
+/// What both domains share: bodies, coefficients placed about the centres of gravity, springs. In the order of the scene.
+struct Prepared {
+  std::vector<dynamics::RigidBody> bodies;
+  std::vector<dynamics::frequency::PotentialGroup> groups;
+  std::vector<double> memory_tolerance;                 ///< one a group
+  std::vector<std::optional<double>> memory_length;     ///< s, where the scene fixes it
+  std::vector<dynamics::Restoring> hydrostatics, moorings;
+  std::vector<dynamics::AxialConnector> axial;
+  std::vector<dynamics::BushingConnector> bushing;
+  std::vector<std::string> axial_names, bushing_names, mooring_names;
+  std::vector<std::string> notes;                       ///< what had to be decided, for the result and the plan
+};
+
+/// Opens the data files and places everything. \throws hydro::InputError, placed in the scene
+Prepared prepare(const scene::Scene& scene);
+
+/// Linear model about rest without radiation and excitation, which the frequency domain takes from `prepared.groups`.
+/// \throws hydro::InputError if the scene is not in equilibrium as placed
+dynamics::Model frequency_model(const Prepared& prepared);
+
+/// Everything that a run needs.
+struct TimeModel {
+  dynamics::Model model;
+  dynamics::State start;
+  std::optional<hydro::waves::Sea> sea;
+  double step;                    ///< s; scene.run->every is a whole multiple of it
+  std::size_t steps;
+  std::size_t steps_per_sample;
+  std::vector<PlanLine> plan;
+  std::vector<std::string> notes;
+};
+TimeModel time_model(const scene::Scene& scene, const Prepared& prepared);
+
+/// The sea of a scene on the step grid, in the band where both the spectrum has energy and the data have coefficients.
+/// \throws hydro::InputError if more than accuracy² … of the energy lies outside the data, saying how much and where
+hydro::waves::Sea make_sea(const scene::Scene& scene, const Prepared& prepared, double repetition_s);
+
+/// Rad/s above which the sea has 5 % of its energy: what a step must resolve. The frequency of a regular wave.
+double highest_relevant_frequency(const scene::Waves& waves);
+
+}  // namespace froude::compile

@@ -1,0 +1,44 @@
+#pragma once
+/// \file  The signals that a result can hold: motions of bodies' origins, forces of connectors and moorings, waves, energies.
+#include <complex>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "compile/compile.hpp"
+#include "dynamics/integrate/ledger.hpp"
+
+namespace froude::compile {
+
+/// A number that can be read off a run at any instant.
+struct Probe {
+  std::string name, unit, long_name;
+  std::function<double(const dynamics::Workspace&, const dynamics::EnergyLedger&)> read;
+};
+
+/// All signals of a run of this model. Motions are of the body's origin from its place at rest; rotations are the yaw–pitch–roll angles
+/// of the attitude (about z, then the new y, then the new x).
+std::vector<Probe> run_probes(const scene::Scene& scene, const Prepared& prepared, const TimeModel& model);
+
+/// A linear signal of the frequency domain: (stiffness + iω damping) · ξ, ξ the displacements about the centres of gravity.
+struct LinearProbe {
+  std::string name, unit, long_name;
+  Eigen::RowVectorXd stiffness, damping;
+};
+std::vector<LinearProbe> rao_probes(const scene::Scene& scene, const Prepared& prepared);
+
+/// Those whose names match one of the patterns (`*` stands for anything); all if there are no patterns. Keeps their order.
+template <class P>
+std::vector<P> chosen(const std::vector<P>& all, const std::vector<std::string>& patterns) {
+  if (patterns.empty()) return all;
+  std::vector<P> out;
+  for (const P& p : all)
+    for (const auto& pattern : patterns)
+      if (scene::matches(pattern, p.name)) {
+        out.push_back(p);
+        break;
+      }
+  return out;
+}
+
+}  // namespace froude::compile

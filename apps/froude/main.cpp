@@ -1,0 +1,329 @@
+// The command line of froude: words in, calls of commands.hpp out, errors told in one style, exit status set.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <csignal>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include "froude/commands.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/base/units.hpp"
+
+namespace froude {
+namespace {
+
+enum ExitStatus : int { done = 0, check_failed = 1, input_wrong = 2, numerics_gave_up = 3, our_fault = 4 };
+
+/// What the command line asked for; `call` runs it and returns the exit status.
+struct Request {
+  bool json = false, quiet = false;
+  std::function<int(const Console&)> call;
+};
+
+/// Units are read when the command runs, so that a wrong one is told like any other wrong input.
+struct BemOptionTexts {
+  std::string density, gravity, depth, ulen;
+  int iperout = 0;
+};
+
+std::optional<double> parsed(const std::string& option, const std::string& text, const hydro::Dimension& needed) {
+  if (text.empty()) return std::nullopt;
+  try {
+    return hydro::parse_si(text, needed);
+  } catch (const hydro::InputError& error) {
+    throw error.at({.file = option});
+  }
+}
+
+hydro::potential::ReadOptions read_options(const BemOptionTexts& texts) {
+  hydro::potential::ReadOptions options;
+  options.density = parsed("--density", texts.density, hydro::dim::density);
+  options.gravity = parsed("--gravity", texts.gravity, hydro::dim::acceleration);
+  if (texts.depth == "infinite") {
+    options.depth = hydro::WaterDepth::infinite();
+  } else if (const auto depth = parsed("--depth", texts.depth, hydro::dim::length)) {
+    options.depth = hydro::WaterDepth::from_metres(*depth);
+  }
+  if (const auto ulen = parsed("--ulen", texts.ulen, hydro::dim::length)) {
+    hydro::require(*ulen > 0, "--ulen must be positive, got {} m", *ulen);
+    options.ulen = *ulen;
+  }
+  if (texts.iperout > 0) options.iperout = texts.iperout;
+  return options;
+}
+
+/// The options shared by all `froude bem …`; the values live as long as the returned pointer is held by a callback.
+std::shared_ptr<BemOptionTexts> add_bem_options(CLI::App& command, const std::shared_ptr<BemArguments>& arguments) {
+  auto texts = std::make_shared<BemOptionTexts>();
+  command.add_option("files", arguments->files, "data files: WAMIT .1 or stem, Capytaine .nc, BEMIO .h5, Froude .h5")
+      ->required();
+  command.add_option("--density", texts->density, "of the water, where the file does not say: \"1025 kg/m^3\"");
+  command.add_option("--gravity", texts->gravity, "where the file does not say: \"9.81 m/s^2\"");
+  command.add_option("--depth", texts->depth, "of the water, where the file does not say: \"14 m\" or infinite");
+  command.add_option("--ulen", texts->ulen, "WAMIT's length scale ULEN: \"1 m\"");
+  command.add_option("--iperout", texts->iperout, "WAMIT's IPEROUT: 1 period, 2 omega, 3 KL, 4 nu L")
+      ->check(CLI::Range(1, 4));
+  return texts;
+}
+
+void add_bem_info(CLI::App& bem, Request& request) {
+  auto* info = bem.add_subcommand("info", "what a file of coefficients holds, after conversion to one convention");
+  info->footer("Example:\n  froude bem info examples/data/pontoon1.nc");
+  auto arguments = std::make_shared<BemArguments>();
+  auto texts = add_bem_options(*info, arguments);
+  info->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      arguments->options = read_options(*texts);
+      bem_info(*arguments, console);
+      return done;
+    };
+  });
+}
+
+void add_bem_check(CLI::App& bem, Request& request) {
+  auto* check = bem.add_subcommand("check", "symmetry, damping sign, causality and more; status 1 if a check fails");
+  check->footer(
+      "Example:\n  froude bem check buoy.1 --density \"1025 kg/m^3\" --gravity \"9.81 m/s^2\" --depth infinite");
+  auto arguments = std::make_shared<BemArguments>();
+  auto texts = add_bem_options(*check, arguments);
+  check->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      arguments->options = read_options(*texts);
+      return bem_check(*arguments, console);
+    };
+  });
+}
+
+void add_bem_convert(CLI::App& bem, Request& request) {
+  auto* convert = bem.add_subcommand("convert", "from any format that froude reads to Froude .h5, BEMIO .h5 or WAMIT");
+  convert->footer("Example:\n  froude bem convert examples/data/pontoon1.nc -o pontoon1.bemio.h5");
+  auto arguments = std::make_shared<BemArguments>();
+  auto output = std::make_shared<Path>();
+  auto format = std::make_shared<std::string>();
+  auto texts = add_bem_options(*convert, arguments);
+  convert->add_option("-o,--output", *output, "file to write; its name tells the format")->required();
+  convert->add_option("--format", *format, "of the output, where its name does not tell")
+      ->check(CLI::IsMember({"froude", "bemio", "wamit"}));
+  convert->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      arguments->options = read_options(*texts);
+      bem_convert(*arguments, *output, *format, console);
+      return done;
+    };
+  });
+}
+
+void add_bem(CLI::App& app, Request& request) {
+  auto* bem = app.add_subcommand("bem", "hydrodynamic coefficients from panel codes: info, check, convert");
+  bem->require_subcommand(1);
+  add_bem_info(*bem, request);
+  add_bem_check(*bem, request);
+  add_bem_convert(*bem, request);
+}
+
+void add_new(CLI::App& app, Request& request) {
+  auto* command = app.add_subcommand("new", "writes a commented starter scene, or prints the reference of all keys");
+  command->footer("Examples:\n  froude new motion -o scene.toml\n  froude new --keys");
+  auto kind = std::make_shared<std::string>();
+  auto output = std::make_shared<std::optional<Path>>();
+  auto keys = std::make_shared<bool>(false);
+  command->add_option("kind", *kind, "of scene: motion or fit; motion if left out");
+  command->add_option("-o,--output", *output, "file to write; standard output if left out");
+  command->add_flag("--keys", *keys, "print every key that a scene may hold, as Markdown");
+  command->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      new_scene(*kind, *output, *keys, console);
+      return done;
+    };
+  });
+}
+
+/// `rao`, `run` and `plan` take the same words.
+void add_scene_command(CLI::App& app, Request& request, const std::string& name, const std::string& what,
+                       void (*function)(const SceneArguments&, const Console&), bool has_outputs) {
+  auto* command = app.add_subcommand(name, what);
+  command->footer("Example:\n  froude " + name + " examples/pontoon5.toml" +
+                  (has_outputs ? " -o " + name + ".h5 --picture " + name + ".svg" : ""));
+  auto arguments = std::make_shared<SceneArguments>();
+  command->add_option("scene", arguments->scene, "scene file (.toml)")->required();
+  if (has_outputs) {
+    command->add_option("-o,--output", arguments->output,
+                        "result, HDF5 and netCDF-4; default: SCENE." + name + ".h5 here");
+    command->add_option("--csv", arguments->csv, "the same numbers as a CSV table");
+    command->add_option("--picture", arguments->picture, "plot (.svg)");
+  }
+  command->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      function(*arguments, console);
+      return done;
+    };
+  });
+}
+
+void add_psd(CLI::App& app, Request& request) {
+  auto* command = app.add_subcommand("psd", "power spectra with confidence intervals, transfer functions, coherence");
+  command->footer(
+      "Example:\n  froude psd run.h5 --signal m3.heave --segment \"100 s\" --from \"60 s\" --picture psd.svg");
+  auto arguments = std::make_shared<PsdArguments>();
+  command->add_option("file", arguments->file, "CSV with units in its header, or a result of `froude run`")->required();
+  command->add_option("-s,--signal", arguments->signals, "signals to take; * stands for any text; default: all");
+  command->add_option("--segment", arguments->segment, "length of a Welch segment: \"100 s\"");
+  command->add_option("--from", arguments->from, "leave out what comes before: \"60 s\"");
+  command->add_option("--confidence", arguments->confidence, "level of the interval")->capture_default_str();
+  command->add_option("--input", arguments->input,
+                      "signal that drives the others: adds transfer function and coherence");
+  command->add_option("-o,--output", arguments->output, "table (.csv) or result (.h5)");
+  command->add_option("--picture", arguments->picture, "plot (.svg)");
+  command->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      psd(*arguments, console);
+      return done;
+    };
+  });
+}
+
+void add_fit(CLI::App& app, Request& request) {
+  auto* command = app.add_subcommand("fit", "force coefficients from measurements, with intervals that hold");
+  command->footer("Example:\n  froude fit examples/fit/oscillation.toml -o coefficients.toml --picture fit.svg");
+  auto arguments = std::make_shared<FitArguments>();
+  command->add_option("scene", arguments->scene, "fit scene (.toml)")->required();
+  command->add_option("-o,--output", arguments->output, "the estimates (.toml)");
+  command->add_option("--picture", arguments->picture, "plot (.svg)");
+  command->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      fit(*arguments, console);
+      return done;
+    };
+  });
+}
+
+void add_validate(CLI::App& app, Request& request) {
+  auto* command = app.add_subcommand(
+      "validate", "compares with closed forms, experiments and other codes; status 1 if a limit is broken");
+  command->footer("Example:\n  froude validate sphere-decay --data ../shared/data");
+  auto arguments = std::make_shared<ValidateArguments>();
+  command->add_option("cases", arguments->cases, "names of cases; default: all");
+  command->add_option("--folder", arguments->folder, "of the cases");
+  command->add_option("--data", arguments->data, "folder of reference data; default: FROUDE_REFERENCE_DATA");
+  command->add_option("--page", arguments->page, "write the table with pictures here (.md)");
+  command->callback(
+      [=, &request] { request.call = [=](const Console& console) { return validate(*arguments, console); }; });
+}
+
+void describe(CLI::App& app, Request& request) {
+  app.description("Floating and submerged structures in waves: RAOs, time series, spectra, fitted coefficients.");
+  app.footer(
+      "Examples:\n  froude new -o scene.toml\n  froude rao scene.toml --picture rao.svg\n  froude run scene.toml -o "
+      "run.h5\n"
+      "Exit status: 0 done, 1 a check failed, 2 the input is wrong, 3 the numerics gave up, 4 a fault of froude.");
+  app.fallthrough();
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "froude " FROUDE_VERSION);
+  app.add_flag("--json", request.json, "one JSON document on standard output");
+  app.add_flag("--quiet", request.quiet, "no progress and no tables: files, errors and the exit status only");
+  add_new(app, request);
+  add_bem(app, request);
+  add_scene_command(app, request, "rao", "response amplitude operators of a scene, in the frequency domain", &rao,
+                    true);
+  add_scene_command(app, request, "run", "time series of a scene", &run, true);
+  add_psd(app, request);
+  add_fit(app, request);
+  add_scene_command(app, request, "plan", "what a scene will run, by which method, and why the rest will not", &plan,
+                    false);
+  add_validate(app, request);
+}
+
+int tell(const hydro::InputError& error, bool json, ExitStatus status) {
+  std::cerr << error.what() << '\n';
+  if (json) {
+    const auto& where = error.where();
+    const nlohmann::json document{{"error",
+                                   {{"rule", error.rule()},
+                                    {"file", where.file},
+                                    {"line", where.line},
+                                    {"column", where.column},
+                                    {"text", where.text},
+                                    {"remedy", error.remedy()}}}};
+    std::cout << document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
+  }
+  return status;
+}
+
+/// Runs the request. Results reach standard output only when all went well, so JSON readers never see half a document.
+int carry_out(const Request& request) {
+  std::ostringstream json_text;
+  std::ostream nowhere(nullptr);
+  std::ostream& out = request.json ? json_text : request.quiet ? nowhere : std::cout;
+  const Console console{out, std::cerr, request.json, isatty(STDERR_FILENO) != 0 && !request.quiet};
+  const int status = request.call(console);
+  std::cout << json_text.str() << std::flush;
+  hydro::require(std::cout.good(), "cannot write to standard output; results are incomplete");
+  return status;
+}
+
+int guarded(const Request& request) {
+  try {
+    return carry_out(request);
+  } catch (const hydro::InputError& error) {
+    return tell(error, request.json, input_wrong);
+  } catch (const hydro::NumericsError& error) {
+    return tell(hydro::InputError(std::string("the numerics gave up: ") + error.what()), request.json,
+                numerics_gave_up);
+  } catch (const std::bad_alloc&) {
+    return tell(hydro::InputError("out of memory; if the task is a small one, please report it"), request.json,
+                our_fault);
+  } catch (const std::exception& error) {
+    return tell(hydro::InputError(fmt::format("a fault inside froude, please report it: {}", error.what())),
+                request.json, our_fault);
+  }
+}
+
+/// What is wrong with the command line, told by the command it went wrong in.
+hydro::InputError usage_error(const CLI::App& app, const CLI::ParseError& error) {
+  std::string command = "froude";
+  const CLI::App* deepest = &app;
+  for (auto chosen = app.get_subcommands(); !chosen.empty(); chosen = deepest->get_subcommands()) {
+    deepest = chosen.front();
+    command += " " + deepest->get_name();
+  }
+  const hydro::Place place{.file = "command line"};
+  std::vector<std::string> known;
+  for (const CLI::App* sub : deepest->get_subcommands([](const CLI::App*) { return true; }))
+    known.push_back(sub->get_name());
+  const auto left = app.remaining(true);
+  if (known.empty() || left.empty() || left.front().starts_with('-'))
+    return hydro::InputError(error.what(), place, "see " + command + " --help");
+  const std::string meant = hydro::nearest(left.front(), known);
+  return hydro::InputError(
+      fmt::format("{} has no command \"{}\"", command, left.front()), place,
+      (meant.empty() ? "" : fmt::format("did you mean \"{}\"? ", meant)) + "see " + command + " --help");
+}
+
+int main_program(int argc, char** argv) {
+  // A full disk under a size limit is then an ordinary error of write(), with a message, instead of a signal.
+  std::signal(SIGXFSZ, SIG_IGN);
+  Request request;
+  CLI::App app;
+  app.name("froude");
+  describe(app, request);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    return app.exit(help_or_version);
+  } catch (const CLI::ParseError& error) {
+    const bool json = std::find(argv, argv + argc, std::string_view("--json")) != argv + argc;
+    return tell(usage_error(app, error), json, input_wrong);
+  }
+  return guarded(request);
+}
+
+}  // namespace
+}  // namespace froude
+
+int main(int argc, char** argv) { return froude::main_program(argc, argv); }

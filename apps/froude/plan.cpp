@@ -1,0 +1,95 @@
+#include <nlohmann/json.hpp>
+
+#include "froude/scene_result.hpp"
+
+namespace froude {
+namespace {
+
+using compile::PlanLine;
+
+/// What the scene does not name, and therefore is neither allocated nor stepped.
+void add_absent(const scene::Scene& scene, const compile::Prepared& p, std::vector<PlanLine>& lines) {
+  const auto absent = [&](bool present, const std::string& effect, const std::string& key) {
+    if (!present) lines.push_back({effect, "not named in the scene (" + key + ")", "", false});
+  };
+  bool radiation = false, excitation = false;
+  for (const auto& g : p.groups) {
+    radiation = radiation || g.radiation;
+    excitation = excitation || g.excitation;
+  }
+  absent(scene.waves.has_value(), "waves", "[waves]");
+  absent(!p.hydrostatics.empty(), "hydrostatics", "hydrostatics = true");
+  absent(!p.moorings.empty(), "mooring", "[[mooring]]");
+  absent(!p.axial.empty() || !p.bushing.empty(), "connector", "[[connector]]");
+  absent(radiation, "radiation", "radiation = {}");
+  absent(excitation, "excitation", "excitation = true");
+  absent(!scene.members.empty(), "drag", "[[member]]");
+}
+
+struct Section {
+  std::string title;
+  std::vector<PlanLine> lines;
+};
+
+Section plan_rao(const scene::Scene& scene, const compile::Prepared& p) {
+  Section s{fmt::format("rao: {} frequencies, {} unknowns, complex dense solves", scene.rao->omega.size(), 6 * p.bodies.size()), {}};
+  for (const auto& g : p.groups) {
+    const auto open = g.table.openness();
+    s.lines.push_back({"coefficients", "cubic between the frequencies of the data",
+                       fmt::format("{} bodies, {} frequencies; left open between them: A {:.1g}, B {:.1g}, X {:.1g}", g.bodies.size(), g.table.coefficients().omega.size(), open.added_mass,
+                                   open.damping, open.excitation),
+                       true});
+  }
+  if (!scene.members.empty()) s.lines.push_back({"drag", "quadratic: has no place in a response per metre of wave", "", false});
+  return s;
+}
+
+Section plan_run(const scene::Scene& scene, const compile::Prepared& p, std::vector<std::string>& notes) {
+  compile::TimeModel m = compile::time_model(scene, p);
+  notes = m.notes;
+  const bool sparse = dynamics::BlockSolver(m.model.pattern()).is_sparse();
+  Section s{fmt::format("run: {} steps of {:.4g} s, {} unknowns, generalised-alpha rho_infinity {:.3g}, {} factors", m.steps, m.step, m.model.modes(), scene.solve.rho_infinity,
+                        sparse ? "sparse" : "dense"),
+            std::move(m.plan)};
+  if (scene.waves) {
+    const double wh = compile::highest_relevant_frequency(*scene.waves) * m.step;
+    s.lines.push_back({"step", "period error (omega h)^2 / 12 at the highest relevant frequency", fmt::format("{:.2g}", wh * wh / 12), true});
+  }
+  return s;
+}
+
+void tell(const Console& console, const std::vector<Section>& sections, const std::vector<std::string>& notes) {
+  if (console.json) {
+    nlohmann::json j{{"notes", notes}};
+    for (const auto& s : sections) {
+      nlohmann::json lines = nlohmann::json::array();
+      for (const auto& l : s.lines) lines.push_back({{"effect", l.effect}, {"method", l.method}, {"size", l.size}, {"runs", l.runs}});
+      j["sections"].push_back({{"title", s.title}, {"lines", lines}});
+    }
+    console.out << j.dump(1) << '\n';
+    return;
+  }
+  for (const auto& s : sections) {
+    console.out << s.title << '\n';
+    for (const auto& l : s.lines)
+      console.out << fmt::format("  {} {:<18} {}{}\n", l.runs ? "+" : "-", l.effect, l.method, l.size.empty() ? "" : "; " + l.size);
+  }
+  for (const auto& note : notes) console.out << "note: " << note << '\n';
+}
+
+}  // namespace
+
+void plan(const SceneArguments& arguments, const Console& console) {
+  const scene::Scene scene = scene::read(arguments.scene);
+  const compile::Prepared prepared = compile::prepare(scene);
+  std::vector<Section> sections;
+  if (scene.rao) sections.push_back(plan_rao(scene, prepared));
+  std::vector<std::string> notes = prepared.notes;
+  if (scene.run) sections.push_back(plan_run(scene, prepared, notes));
+  Section left_out{"left out, at no cost:", {}};
+  add_absent(scene, prepared, left_out.lines);
+  if (!left_out.lines.empty()) sections.push_back(std::move(left_out));
+  tell(console, sections, notes);
+}
+
+}  // namespace froude

@@ -1,0 +1,161 @@
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "froude/psd_report.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/base/units.hpp"
+#include "hydro/io/atomic_file.hpp"
+#include "hydro/io/csv.hpp"
+#include "scene/scene.hpp"
+
+namespace froude {
+namespace {
+
+namespace hs = hydro::signal;
+using spectra::Analysis;
+using spectra::Estimate;
+
+// ---- reading ----
+
+RunResult read_csv(const Path& path) {
+  const auto table = hydro::io::CsvTable::read(path);
+  RunResult record;
+  std::string time;
+  for (const std::string& name : table.names()) {
+    std::string lower = name;
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (lower == "time" || lower == "t") time = name;
+  }
+  if (time.empty())
+    throw hydro::InputError("the table has no column \"time\" or \"t\"", {.file = path.string()},
+                            fmt::format("its columns are: {}", fmt::join(table.names(), ", ")));
+  record.time = table.column(time, hydro::dim::time);
+  for (const std::string& name : table.names()) {
+    if (name == time) continue;
+    const std::string unit = table.unit_text(name);
+    // Values are in SI; a header in other units is told in SI too.
+    const bool is_si = unit.empty() || hydro::parse_unit(unit).factor == 1;
+    record.signals.push_back({name, is_si ? unit : table.dimension(name).si(), name, table.column(name)});
+  }
+  return record;
+}
+
+RunResult read_record(const Path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending == ".h5" || ending == ".nc") return read_run(path);
+  if (ending == ".csv" || ending == ".txt" || ending == ".dat") return read_csv(path);
+  throw hydro::InputError(fmt::format("\"{}\" is no kind of file with time series that is known here", ending),
+                          {.file = path.string()}, "give a .csv with a header, or the .h5 of `froude run`");
+}
+
+std::vector<Signal> chosen(const RunResult& record, const PsdArguments& arguments) {
+  std::vector<std::string> known, patterns = arguments.signals;
+  for (const Signal& s : record.signals) known.push_back(s.name);
+  if (patterns.empty()) patterns.push_back("*");
+  if (arguments.input) patterns.push_back(*arguments.input);
+  for (const std::string& pattern : patterns) {
+    if (std::any_of(known.begin(), known.end(), [&](const auto& name) { return scene::matches(pattern, name); }))
+      continue;
+    const std::string near = hydro::nearest(pattern, known);
+    throw hydro::InputError(fmt::format("no signal is called \"{}\"", pattern), {.file = arguments.file.string()},
+                            near.empty() ? fmt::format("signals are: {}", fmt::join(known, ", "))
+                                         : fmt::format("did you mean \"{}\"?", near));
+  }
+  std::vector<Signal> out;
+  for (const Signal& s : record.signals)
+    if (std::any_of(patterns.begin(), patterns.end(),
+                    [&](const auto& pattern) { return scene::matches(pattern, s.name); }))
+      out.push_back(s);
+  return out;
+}
+
+void drop_before(RunResult& record, double from, const Path& file) {
+  const auto first =
+      std::lower_bound(record.time.begin(), record.time.end(), from - 1e-9 * std::abs(from)) - record.time.begin();
+  if (first == static_cast<std::ptrdiff_t>(record.time.size()))
+    throw hydro::InputError(
+        fmt::format("the record ends at {:.6g} s, before --from {:.6g} s", record.time.back(), from),
+        {.file = file.string()});
+  record.time.erase(record.time.begin(), record.time.begin() + first);
+  for (Signal& s : record.signals) s.values.erase(s.values.begin(), s.values.begin() + first);
+}
+
+// ---- computing ----
+
+hs::WelchOptions welch_options(const PsdArguments& arguments, std::size_t samples, double step) {
+  if (!arguments.segment) return hs::fifteen_segments(samples);
+  const double length = hydro::parse_si(*arguments.segment, hydro::dim::time);
+  const auto half = std::llround(length / step / 2);  // the nearest even number of samples
+  hydro::require(half >= 2, "a segment of {} holds fewer than 4 samples at {:.4g} s each", *arguments.segment, step);
+  return {.segment = 2 * static_cast<std::size_t>(half)};
+}
+
+Estimate estimate(const Signal& signal, const RunResult& record, const Analysis& analysis, const Signal* input) {
+  Estimate e{.signal = signal,
+             .welch = hs::welch(signal.values, analysis.step, analysis.options),
+             .moments = {},
+             .peak = {},
+             .statistics = {},
+             .transfer = {}};
+  // Rounding of a large mean is no motion.
+  if (e.welch.variance <= 1e-28 * e.welch.mean * e.welch.mean) return e;
+  e.moments = hs::moments(e.welch.spectrum, hs::whole(e.welch.spectrum));
+  e.peak = hs::peak(e.welch.spectrum, hs::whole(e.welch.spectrum));
+  const auto waves = hs::single_waves(record.time, signal.values);
+  e.waves = waves.size();
+  if (e.waves >= 3) e.statistics = hs::wave_statistics(waves);
+  if (input != nullptr && input->name != signal.name)
+    e.transfer = hs::transfer(input->values, signal.values, analysis.step, analysis.options);
+  return e;
+}
+
+Analysis analyse(const PsdArguments& arguments) {
+  RunResult record = read_record(arguments.file);
+  record.signals = chosen(record, arguments);
+  hydro::require(!record.time.empty(), "the record has no samples");
+  if (arguments.from) drop_before(record, hydro::parse_si(*arguments.from, hydro::dim::time), arguments.file);
+  Analysis a{.samples = record.time.size(),
+             .step = 0,
+             .options = {},
+             .band = {},
+             .confidence = arguments.confidence,
+             .input = arguments.input.value_or(""),
+             .estimates = {}};
+  try {
+    a.step = hs::even_step(record.time);
+    a.options = welch_options(arguments, a.samples, a.step);
+    const auto at =
+        std::find_if(record.signals.begin(), record.signals.end(), [&](const Signal& s) { return s.name == a.input; });
+    for (const Signal& s : record.signals)
+      a.estimates.push_back(estimate(s, record, a, at == record.signals.end() ? nullptr : &*at));
+  } catch (const hydro::InputError& e) {
+    throw e.at({.file = arguments.file.string()});
+  }
+  a.band = hs::confidence_band(a.estimates.front().welch.dof, arguments.confidence);
+  return a;
+}
+
+}  // namespace
+
+void psd(const PsdArguments& arguments, const Console& console) {
+  if (arguments.output) hydro::io::require_writable(*arguments.output);
+  if (arguments.picture) hydro::io::require_writable(*arguments.picture);
+  const Analysis analysis = analyse(arguments);
+  if (arguments.output) spectra::write_table(*arguments.output, analysis);
+  if (arguments.picture)
+    hydro::io::write_atomically(*arguments.picture,
+                                plot::svg(spectra::figure(analysis, arguments.file.filename().string())));
+  if (console.json) {
+    console.out << spectra::as_json(analysis).dump(1) << '\n';
+    return;
+  }
+  spectra::tell(analysis, console);
+  if (arguments.output) console.out << "wrote " << arguments.output->string() << '\n';
+  if (arguments.picture) console.out << "wrote " << arguments.picture->string() << '\n';
+}
+
+}  // namespace froude

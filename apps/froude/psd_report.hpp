@@ -1,0 +1,48 @@
+#pragma once
+/// \file  Private to the command psd: what was computed, and its telling, writing and drawing.
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "froude/commands.hpp"
+#include "froude/plot.hpp"
+#include "froude/result_file.hpp"
+#include "hydro/signal/welch.hpp"
+#include "hydro/signal/zero_crossings.hpp"
+
+namespace froude::spectra {
+
+namespace hs = hydro::signal;
+
+/// Everything the output says about one signal; empty where a signal that never changes has no answer.
+struct Estimate {
+  Signal signal;
+  hs::WelchSpectrum welch;
+  std::optional<hs::Moments> moments;
+  std::optional<hs::Peak> peak;
+  std::size_t waves = 0;
+  std::optional<hs::WaveStatistics> statistics;
+  std::optional<hs::TransferEstimate> transfer;  ///< from the input to this signal
+};
+
+struct Analysis {
+  std::size_t samples;
+  double step;  ///< s
+  hs::WelchOptions options;
+  hs::BandFactors band;
+  double confidence;
+  std::string input;  ///< empty: none
+  std::vector<Estimate> estimates;
+};
+
+/// The tables on the screen.
+void tell(const Analysis& analysis, const Console& console);
+/// Everything, for programs.
+nlohmann::json as_json(const Analysis& analysis);
+/// Densities with their bands, and responses, along frequency. \throws hydro::InputError unless path ends in .csv or
+/// .h5
+void write_table(const Path& path, const Analysis& analysis);
+plot::Figure figure(const Analysis& analysis, const std::string& file_name);
+
+}  // namespace froude::spectra

@@ -1,0 +1,119 @@
+#include "froude/result_file.hpp"
+
+#include <array>
+
+#include "hydro/base/error.hpp"
+#include "hydro/base/units.hpp"
+#include "hydro/io/hdf5.hpp"
+
+namespace froude {
+namespace {
+
+using hydro::io::Hdf5Reader;
+using hydro::io::Hdf5Writer;
+
+constexpr const char* run_kind = "froude run";
+constexpr const char* rao_kind = "froude rao";
+
+void describe(Hdf5Writer& file, const std::string& dataset, const std::string& units, const std::string& long_name) {
+  file.attribute(dataset, "units", units.empty() ? "1" : units);
+  file.attribute(dataset, "long_name", long_name);
+}
+
+void write_dimension(Hdf5Writer& file, const std::string& dataset, const std::vector<double>& values,
+                     const std::string& units, const std::string& long_name) {
+  file.write(dataset, values, {values.size()});
+  file.make_dimension(dataset);
+  describe(file, dataset, units, long_name);
+}
+
+template <class Value>
+void write_attributes(Hdf5Writer& file, const std::string& group, const std::string& meaning,
+                      const std::vector<std::pair<std::string, Value>>& entries) {
+  if (entries.empty()) return;
+  file.write_text(group, meaning);
+  for (const auto& [key, value] : entries) file.attribute(group, key, value);
+}
+
+/// Entries are attributes of one text each, which says what they are: netCDF readers show them without a group walk.
+void write_provenance(Hdf5Writer& file, const char* kind, const Provenance& p) {
+  file.attribute("/", "Conventions", "CF-1.8");
+  file.attribute("/", "kind", kind);
+  file.attribute("/", "froude_version", FROUDE_VERSION);
+  file.attribute("/", "build_type", FROUDE_BUILD_TYPE);
+  if (!p.scene_file.empty()) file.attribute("/", "scene_file", p.scene_file);
+  if (!p.scene_text.empty()) file.write_text("/provenance/scene", p.scene_text);
+  write_attributes(file, "/provenance/settings", "every key that acts, defaults included", p.settings);
+  write_attributes(file, "/provenance/seeds", "seeds of random numbers", p.seeds);
+  write_attributes(file, "/provenance/wall_time", "wall time by effect, s", p.wall_time);
+  write_attributes(file, "/provenance/energy", "energy ledger, J", p.energy);
+  write_attributes(file, "/provenance/notes", "notes", p.notes);
+}
+
+std::string root_path(const std::string& name) {
+  hydro::ensure(!name.empty() && name.find('/') == std::string::npos,
+                "result file: a signal's name is no dataset name");
+  return "/" + name;
+}
+
+}  // namespace
+
+void write_run(const std::filesystem::path& path, const std::vector<double>& time, const std::vector<Signal>& signals,
+               const Provenance& provenance) {
+  Hdf5Writer file;
+  write_provenance(file, run_kind, provenance);
+  write_dimension(file, "/time", time, "s", "time from the start of the run");
+  for (const Signal& signal : signals) {
+    const std::string dataset = root_path(signal.name);
+    file.write(dataset, signal.values, {time.size()});
+    file.attach_dimension(dataset, 0, "/time");
+    describe(file, dataset, signal.units, signal.long_name);
+  }
+  file.save(path);
+}
+
+void write_rao(const std::filesystem::path& path, const std::vector<double>& omega, double heading_rad,
+               const std::vector<ComplexSignal>& signals, const Provenance& provenance) {
+  Hdf5Writer file;
+  write_provenance(file, rao_kind, provenance);
+  file.attribute("/", "phase", "Re(amplitude exp(+i omega t)), of a wave with its crest at the origin at t = 0");
+  write_dimension(file, "/omega", omega, "rad/s", "angular frequency");
+  const std::array<std::string, 2> parts{"re", "im"};
+  file.write_texts("/complex", parts);
+  file.make_dimension("/complex");
+  file.write_scalar("/heading", heading_rad);
+  describe(file, "/heading", "rad", "direction the wave propagates towards, from +x towards +y");
+  for (const ComplexSignal& signal : signals) {
+    const std::string dataset = root_path(signal.name);
+    std::vector<double> flat;
+    flat.reserve(2 * signal.values.size());
+    for (const auto& value : signal.values) flat.insert(flat.end(), {value.real(), value.imag()});
+    file.write(dataset, flat, {omega.size(), 2});
+    file.attach_dimension(dataset, 0, "/omega");
+    file.attach_dimension(dataset, 1, "/complex");
+    describe(file, dataset, signal.units, signal.long_name);
+  }
+  file.save(path);
+}
+
+RunResult read_run(const std::filesystem::path& path) {
+  const Hdf5Reader file(path);
+  if (!file.has_attribute("/", "kind") || file.text_attribute("/", "kind") != run_kind)
+    throw hydro::InputError("not a result of `froude run`", {.file = path.string()},
+                            "give the .h5 file that `froude run` wrote");
+  RunResult result;
+  result.time = file.numbers("/time").values;
+  for (const std::string& name : file.children("/")) {
+    if (name == "time" || name == "provenance") continue;
+    const std::string dataset = "/" + name;
+    Signal signal{name, file.text_attribute(dataset, "units"), file.text_attribute(dataset, "long_name"),
+                  file.numbers(dataset).values};
+    if (signal.values.size() != result.time.size())
+      throw hydro::InputError(name + " and time differ in length", {.file = path.string()}, "run the scene again");
+    if (signal.units == "1") signal.units.clear();
+    result.signals.push_back(std::move(signal));
+  }
+  return result;
+}
+
+}  // namespace froude

@@ -1,0 +1,22 @@
+#pragma once
+/// \file  Private to the commands rao, run and plan: what they share in naming, recording and drawing results.
+#include <span>
+
+#include "compile/compile.hpp"
+#include "froude/commands.hpp"
+#include "froude/plot.hpp"
+#include "froude/result_file.hpp"
+#include "scene/scene.hpp"
+
+namespace froude {
+
+/// The path asked for, or the scene's name with `ending` in the current folder.
+Path output_path(const SceneArguments& arguments, const std::string& ending);
+
+/// Scene text, echo and notes; wall times and energies are added by the caller.
+Provenance provenance_of(const scene::Scene& scene, const std::vector<std::string>& notes);
+
+/// \throws hydro::InputError if the scene does not ask for this, saying how to
+void require_asked(bool asked, const scene::Scene& scene, const std::string& what, const std::string& example);
+
+}  // namespace froude

@@ -1,0 +1,103 @@
+#include "froude/simulate.hpp"
+
+#include <chrono>
+
+#include "compile/probes.hpp"
+#include "dynamics/integrate/generalized_alpha.hpp"
+#include "hydro/base/error.hpp"
+
+namespace froude {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+/// One run on its way: stepping, book-keeping of energy, samples.
+class March {
+ public:
+  March(const compile::TimeModel& m, const std::vector<compile::Probe>& probes, double rho_infinity, Record& record)
+      : m_(m), probes_(probes), record_(record), workspace_(m.model, m.start), integrator_(m.model, {.rho_infinity = rho_infinity}) {
+    for (const auto& p : probes) record_.signals.push_back({p.name, p.unit, p.long_name});
+  }
+
+  void run(const std::function<void(double)>& done) {
+    integrator_.start(workspace_);
+    dynamics::EnergyLedger ledger(m_.model, workspace_);
+    sample(ledger);
+    try {
+      for (std::size_t n = 1; n <= m_.steps; ++n) {
+        advance(n, ledger);
+        if (n % m_.steps_per_sample != 0) continue;
+        sample(ledger);
+        if (done) done(static_cast<double>(n) / static_cast<double>(m_.steps));
+      }
+    } catch (const hydro::NumericsError& e) {
+      record_.stopped = e.what();
+    }
+    close(ledger);
+  }
+
+ private:
+  void advance(std::size_t n, dynamics::EnergyLedger& ledger) {
+    const auto report = integrator_.step(workspace_, m_.step);
+    workspace_.state.time = static_cast<double>(n) * m_.step;   // sums of steps drift, products do not
+    record_.newton_iterations += report.newton_iterations;
+    record_.halvings += report.halvings;
+    record_.steps = n;
+    ledger.note(workspace_);
+  }
+  void sample(const dynamics::EnergyLedger& ledger) {
+    record_.time.push_back(workspace_.state.time);
+    for (std::size_t i = 0; i < probes_.size(); ++i) record_.signals[i].values.push_back(probes_[i].read(workspace_, ledger));
+  }
+  void close(const dynamics::EnergyLedger& ledger) {
+    for (std::size_t k = 0; k < workspace_.evaluations.size(); ++k)
+      record_.evaluations.emplace_back(m_.model.forces()[k]->effect(), workspace_.evaluations[k]);
+    record_.energy.emplace_back("kinetic", ledger.kinetic());
+    for (const auto& e : ledger.entries()) {
+      record_.energy.emplace_back(e.effect + ".stored", e.stored);
+      record_.energy.emplace_back(e.effect + ".supplied", e.supplied);
+      record_.energy.emplace_back(e.effect + ".dissipated", e.dissipated);
+    }
+    record_.energy.emplace_back("residual", ledger.residual());
+    record_.energy.emplace_back("turnover", ledger.turnover());
+  }
+
+  const compile::TimeModel& m_;
+  const std::vector<compile::Probe>& probes_;
+  Record& record_;
+  dynamics::Workspace workspace_;
+  dynamics::GeneralizedAlpha integrator_;
+};
+
+}  // namespace
+
+const std::vector<double>& Record::signal(const std::string& name) const {
+  std::vector<std::string> names;
+  for (const Signal& s : signals) {
+    if (s.name == name) return s.values;
+    names.push_back(s.name);
+  }
+  throw hydro::InputError(fmt::format("the run has no signal \"{}\"", name), {}, fmt::format("signals are: {}", fmt::join(names, ", ")));
+}
+
+Record simulate(const scene::Scene& scene, const std::function<void(double)>& done) {
+  const auto begin = Clock::now();
+  Record record;
+  const compile::Prepared prepared = compile::prepare(scene);
+  const compile::TimeModel model = compile::time_model(scene, prepared);
+  const auto all = compile::run_probes(scene, prepared, model);
+  std::vector<std::string> names;
+  for (const auto& p : all) names.push_back(p.name);
+  scene::check_patterns(scene.run->of, scene.run->of_places, names);
+  const auto probes = compile::chosen(all, scene.run->of);
+  record.step = model.step;
+  record.notes = model.notes;
+  record.preparation_s = seconds_since(begin);
+  const auto stepping = Clock::now();
+  March(model, probes, scene.solve.rho_infinity, record).run(done);
+  record.stepping_s = seconds_since(stepping);
+  return record;
+}
+
+}  // namespace froude

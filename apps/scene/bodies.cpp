@@ -1,0 +1,141 @@
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "scene/build.hpp"
+
+namespace froude::scene {
+namespace {
+
+using hydro::Mode;
+
+/// Data are mostly rounded to three or four digits, and a flat plate meets the bound exactly.
+constexpr double inertia_rounding = 1e-3;
+
+/// A rigid body's principal moments are positive and none exceeds the sum of the other two, because
+/// I₁ + I₂ − I₃ = 2 ∫ x₃² dm >= 0 (derived in docs/guide/scenes.md).
+void check_inertia(const Record& record, std::string_view key, const Eigen::Matrix3d& inertia) {
+  const Eigen::Vector3d principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues();
+  if (!(principal[0] > 1e-12 * principal[2]))  // round-off of the eigenvalues
+    throw record.wrong(key, fmt::format("gives a principal moment of inertia of {:.6g} kg m^2", principal[0]),
+                       "a rigid body has three positive ones; check the products of inertia");
+  if (principal[2] > (principal[0] + principal[1]) * (1 + inertia_rounding))
+    throw record.wrong(
+        key,
+        fmt::format("gives principal moments {:.6g}, {:.6g}, {:.6g} kg m^2; of a rigid body none exceeds "
+                    "the sum of the other two (by more than {} of it)",
+                    principal[0], principal[1], principal[2], inertia_rounding),
+        "check the order of the components and the unit");
+}
+
+bool any_rotation(const std::array<bool, 6>& free) { return free[3] || free[4] || free[5]; }
+
+Eigen::Matrix3d read_inertia(const Record& record, double mass, bool needed) {
+  Eigen::Matrix3d inertia = mass * Eigen::Matrix3d::Identity();
+  std::string_view key = "radii_of_gyration";
+  if (record.has(key)) {
+    inertia = (mass * record.vector(key).array().square()).matrix().asDiagonal();
+  } else if (record.has("inertia")) {
+    key = record["products_of_inertia"].defaulted ? "inertia" : "products_of_inertia";
+    inertia = record.vector("inertia").asDiagonal();
+    const Eigen::Vector3d products = record.vector("products_of_inertia");  // I = ∫ (r² δ − r rᵀ) dm
+    inertia(0, 1) = inertia(1, 0) = -products[0];
+    inertia(0, 2) = inertia(2, 0) = -products[1];
+    inertia(1, 2) = inertia(2, 1) = -products[2];
+  } else if (needed) {
+    throw record.refused("may rotate and needs radii_of_gyration or inertia",
+                         "give one of them, or free only translations: free = [\"surge\", \"heave\"]");
+  } else {
+    return inertia;
+  }
+  check_inertia(record, key, inertia);
+  return inertia;
+}
+
+std::array<bool, 6> read_free(const Record& record) {
+  std::array<bool, 6> free{};
+  for (const auto& word : record["free"].texts) free[static_cast<std::size_t>(hydro::parse_mode(word.value))] = true;
+  return free;
+}
+
+std::map<Mode, double> read_modes(const Record& body, std::string_view key, const std::array<bool, 6>& free) {
+  std::map<Mode, double> out;
+  if (!body.has(key)) return out;
+  const Record& table = body.table(key);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const std::string_view mode = hydro::mode_names[i];
+    if (!table.has(mode)) continue;
+    if (!free[i]) throw table.wrong(mode, "moves a mode that is held", "add the mode to `free`, or leave it out here");
+    out[static_cast<Mode>(i)] = table.si(mode);
+  }
+  return out;
+}
+
+int small_integer(const Record& record, std::string_view key, std::int64_t most) {
+  const std::int64_t value = record[key].integer;
+  if (value > most) throw record.wrong(key, fmt::format("is more than {}", most));
+  return static_cast<int>(value);
+}
+
+Hydrodynamics read_hydrodynamics(const Record& record, const std::filesystem::path& file) {
+  Hydrodynamics out;
+  out.file = {beside(file, record.text("file")), record["file"].place};
+  if (record.has("body")) out.body = {small_integer(record, "body", 100'000), record["body"].place};
+  if (record.has("reference_point")) out.reference_point = record.vector("reference_point");
+  out.ulen = record.si("ulen");
+  if (record.has("iperout")) out.iperout = small_integer(record, "iperout", 4);
+  out.excitation = record.has("excitation");
+  out.hydrostatics = record.has("hydrostatics");
+  out.radiation = record.has("radiation");
+  if (out.radiation) {
+    const Record& radiation = record.table("radiation");
+    if (radiation.has("memory_tolerance")) out.memory_tolerance = radiation.si("memory_tolerance");
+    if (radiation.has("memory")) out.memory = radiation.si("memory");
+    out.interaction = record.text("interaction") == "full";
+  }
+  return out;
+}
+
+Body read_body(const Record& record, const std::filesystem::path& file) {
+  Body body;
+  body.name = body.family = record.text("name");
+  body.place = record.place();
+  body.position = record.vector("position");
+  body.mass = record.si("mass");
+  body.free = read_free(record);
+  const bool rotates = any_rotation(body.free);
+  if (rotates && !record.has("centre_of_gravity"))
+    throw record.refused("may rotate and needs centre_of_gravity", "add centre_of_gravity = \"(0, 0, 1.31) m\"");
+  body.centre_of_gravity =
+      record.has("centre_of_gravity") ? record.vector("centre_of_gravity") : Eigen::Vector3d::Zero();
+  body.inertia = read_inertia(record, body.mass, rotates);
+  body.initial = read_modes(record, "initial", body.free);
+  body.initial_velocity = read_modes(record, "initial_velocity", body.free);
+  if (record.has("hydrodynamics")) body.hydrodynamics = read_hydrodynamics(record.table("hydrodynamics"), file);
+  return body;
+}
+
+}  // namespace
+
+std::vector<Body> build_bodies(const Record& root, const std::filesystem::path& file, Names& names) {
+  std::vector<Body> bodies;
+  for (const Record& record : root.tables("body")) {
+    const Body one = read_body(record, file);
+    const int count = record.has("copies") ? small_integer(record.table("copies"), "count", 100'000) : 0;
+    if (count == 0) {
+      names.add(one.name, record["name"].place);
+      bodies.push_back(one);
+    }
+    for (int i = 1; i <= count; ++i) {
+      Body copy = one;
+      copy.copy = i;
+      copy.name = fmt::format("{}{}", one.family, i);
+      copy.position += (i - 1) * record.table("copies").vector("step");
+      names.add(copy.name, record["name"].place);
+      bodies.push_back(std::move(copy));
+    }
+  }
+  return bodies;
+}
+
+}  // namespace froude::scene

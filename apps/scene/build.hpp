@@ -1,0 +1,49 @@
+#pragma once
+/// \file  From records to the types of scene.hpp: what a table alone cannot know. Private to apps/scene.
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scene/record.hpp"
+
+namespace froude::scene {
+
+/// Names of bodies, members, moorings and connectors: one word, one thing, because signals are called after them.
+class Names {
+ public:
+  /// \throws hydro::InputError naming both places if the name is taken
+  void add(const std::string& name, const Place& place);
+
+  /// The names of `count` things from one table: "connector1" … counted over the file where `record` has no name of its
+  /// own; "hinge" or "hinge1", "hinge2" … where it has.
+  std::vector<std::string> of(const Record& record, std::size_t count);
+
+ private:
+  std::map<std::string, Place> taken_;
+  std::map<std::string, int> unnamed_;
+};
+
+std::vector<Body> build_bodies(const Record& root, const std::filesystem::path& file, Names& names);
+
+// Each refers to scene.bodies, which must be there already.
+void build_members(const Record& root, Names& names, Scene& scene);
+void build_moorings(const Record& root, Names& names, Scene& scene);
+void build_connectors(const Record& root, Names& names, Scene& scene);
+
+Waves build_waves(const Record& waves);
+void build_ask(const Record& ask, Scene& scene);
+Solve build_solve(const Record& solve);
+
+/// Indices of the bodies that fit the patterns of `record`'s key, in the order of the scene, each once.
+/// \throws hydro::InputError at a pattern that fits none, with the nearest name
+std::vector<int> bodies_on(const Record& record, std::string_view key, const std::vector<Body>& bodies);
+/// \throws hydro::InputError if there is no body of this name, with the nearest
+int body_named(const Record& record, const Located<std::string>& name, const std::vector<Body>& bodies);
+
+/// A file beside the scene.
+std::filesystem::path beside(const std::filesystem::path& scene, const std::string& relative);
+
+/// What both kinds of scene begin with: `schema = 1`. \throws hydro::InputError if it is another version
+void check_version(const Node& root);
+
+}  // namespace froude::scene

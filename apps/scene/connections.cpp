@@ -1,0 +1,222 @@
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/build.hpp"
+
+namespace froude::scene {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Pair = std::pair<int, std::optional<int>>;
+
+constexpr std::string_view neighbours = "neighbours of ";
+
+/// "m1" and "m2", "m2" and "m3" … of the copies of one body.
+std::vector<Pair> neighbour_pairs(const Record& record, const Located<std::string>& text,
+                                  const std::vector<Body>& bodies) {
+  const std::string family = text.value.substr(neighbours.size());
+  std::vector<Pair> pairs;
+  std::vector<std::string> families;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].copy > 0) families.push_back(bodies[i].family);
+    if (bodies[i].family == family && bodies[i].copy > 1)
+      pairs.emplace_back(static_cast<int>(i) - 1, static_cast<int>(i));
+  }
+  if (!pairs.empty()) return pairs;
+  const std::string near = hydro::nearest(family, families);
+  const bool known = std::find(families.begin(), families.end(), family) != families.end();
+  throw record.wrong(
+      "between",
+      fmt::format("names no neighbours: \"{}\" {}", family, known ? "has one copy only" : "is not a body with copies"),
+      near.empty() || known ? "give the body copies = { count = 2, step = \"(13, 0, 0) m\" }"
+                            : fmt::format("did you mean \"{}{}\"?", neighbours, near));
+}
+
+std::vector<Pair> read_between(const Record& record, const std::vector<Body>& bodies) {
+  const auto& texts = record["between"].texts;
+  if (texts.size() == 1 && texts[0].value.starts_with(neighbours)) return neighbour_pairs(record, texts[0], bodies);
+  if (texts.size() != 2)
+    throw record.wrong("between", "does not name two ends",
+                       "write [\"a\", \"b\"], [\"a\", \"ground\"] or \"neighbours of m\"");
+  if (texts[0].value == "ground")
+    throw record.wrong("between", "begins with the ground", "write the body first, then \"ground\"");
+  const int first = body_named(record, texts[0], bodies);
+  if (texts[1].value == "ground") return {{first, std::nullopt}};
+  return {{first, body_named(record, texts[1], bodies)}};
+}
+
+Eigen::Vector3d vector_or_zero(const Record& record, std::string_view key) {
+  if (!record.has(key)) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d value = record.vector(key);
+  if (value.isZero(0))
+    throw record.wrong(key, "is zero throughout", "leave the key out: what is not named does not act");
+  return value;
+}
+
+std::variant<AxialConnector, BushingConnector> read_kind(const Record& record) {
+  if (record.text("kind") == "bushing")
+    return BushingConnector{vector_or_zero(record, "stiffness"), vector_or_zero(record, "damping"),
+                            vector_or_zero(record, "rotational_stiffness"),
+                            vector_or_zero(record, "rotational_damping")};
+  AxialConnector axial;
+  if (record.has("stiffness")) axial.stiffness = record.si("stiffness");
+  if (record.has("damping")) axial.damping = record.si("damping");
+  if (record.has("rest_length") && record.text("rest_length").empty()) axial.rest_length = record.si("rest_length");
+  return axial;
+}
+
+/// A load along the line between two points needs two points.
+void check_apart(const Record& record, const Connector& c, const std::vector<Body>& bodies) {
+  if (!std::holds_alternative<AxialConnector>(c.kind)) return;
+  const auto& first = bodies[static_cast<std::size_t>(c.first)];
+  const Eigen::Vector3d a = first.position + c.first_end;
+  const Eigen::Vector3d origin =
+      c.second ? bodies[static_cast<std::size_t>(*c.second)].position : Eigen::Vector3d::Zero();
+  const Eigen::Vector3d b = origin + c.second_end;
+  if ((b - a).norm() > 1e-9 * (1 + a.norm() + b.norm())) return;  // round-off of the positions
+  throw record.wrong(
+      "ends",
+      fmt::format("of \"{}\" coincide at ({:g}, {:g}, {:g}) m; an axial connector has no direction there", c.name,
+                  a.x(), a.y(), a.z()),
+      "move the ends apart, or use kind = \"bushing\"");
+}
+
+double entry_of(const Record& matrix, const std::string& key, bool diagonal) {
+  if (!matrix.has(key)) return 0;
+  const double value = matrix.si(key);
+  if (value == 0) throw matrix.wrong(key, "is zero", "leave the key out: what is not named does not act");
+  if (diagonal && value < 0)
+    throw matrix.wrong(key, "is negative: it would push the body away from rest",
+                       "give it without the minus; what restores or damps is positive");
+  return value;
+}
+
+Matrix6 read_matrix(const Record& mooring, std::string_view key) {
+  Matrix6 out = Matrix6::Zero();
+  if (!mooring.has(key)) return out;
+  const Record& table = mooring.table(key);
+  for (int i = 0; i < 6; ++i) {
+    const std::string row(hydro::mode_names[static_cast<std::size_t>(i)]);
+    out(i, i) = entry_of(table, row, true);
+    for (int j = i + 1; j < 6; ++j)
+      out(i, j) = out(j, i) =
+          entry_of(table, row + "_" + std::string(hydro::mode_names[static_cast<std::size_t>(j)]), false);
+  }
+  return out;
+}
+
+/// v·Dv >= 0 for every v, or the mooring would be a source of power. Scaled to a unit diagonal, as the units differ.
+void check_dissipates(const Record& mooring, const Matrix6& damping) {
+  if (!mooring.has("damping")) return;
+  Matrix6 scaled = damping;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) {
+      const double scale = std::sqrt(damping(i, i) * damping(j, j));
+      if (scale > 0) scaled(i, j) /= scale;
+    }
+  const double least = Eigen::SelfAdjointEigenSolver<Matrix6>(scaled).eigenvalues()[0];
+  if (least < -1e-9)  // round-off of numbers of order one
+    throw mooring.table("damping").refused(
+        "gives power to some motion",
+        "every entry a_b must keep a_b² <= a · b, and the whole must be positive semidefinite");
+}
+
+}  // namespace
+
+void Names::add(const std::string& name, const Place& place) {
+  const auto [at, fresh] = taken_.try_emplace(name, place);
+  if (fresh) return;
+  throw hydro::InputError(fmt::format("the name \"{}\" is taken at {}", name, at->second.str()), place,
+                          "choose another name");
+}
+
+std::vector<std::string> Names::of(const Record& record, std::size_t count) {
+  const std::string& base = record.text("name");
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (record["name"].defaulted)
+      out.push_back(fmt::format("{}{}", base, ++unnamed_[base]));
+    else
+      out.push_back(count == 1 ? base : fmt::format("{}{}", base, i + 1));
+    add(out.back(), record["name"].place);
+  }
+  return out;
+}
+
+int body_named(const Record& record, const Located<std::string>& name, const std::vector<Body>& bodies) {
+  std::vector<std::string> known{"ground"};
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].name == name.value) return static_cast<int>(i);
+    known.push_back(bodies[i].name);
+  }
+  const std::string near = hydro::nearest(name.value, known);
+  throw hydro::InputError(fmt::format("{} refers to \"{}\", but there is no such body", record.title(), name.value),
+                          name.place,
+                          near.empty() ? "give a [[body]] this name" : fmt::format("did you mean \"{}\"?", near));
+}
+
+std::vector<int> bodies_on(const Record& record, std::string_view key, const std::vector<Body>& bodies) {
+  std::vector<bool> chosen(bodies.size());
+  for (const auto& pattern : record[key].texts) {
+    bool any = false;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (matches(pattern.value, bodies[i].name)) any = chosen[i] = true;
+    if (!any) body_named(record, pattern, bodies);  // throws with the nearest name
+  }
+  std::vector<int> out;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (chosen[i]) out.push_back(static_cast<int>(i));
+  return out;
+}
+
+void build_members(const Record& root, Names& names, Scene& scene) {
+  for (const Record& record : root.tables("member")) {
+    const auto& from = record["from"].points.front();
+    const auto& to = record["to"].points.front();
+    if (from.size() != to.size())
+      throw record.wrong("to", fmt::format("stands for {} points and from for {}", to.size(), from.size()),
+                         "use as many ± in one as in the other");
+    for (std::size_t k = 0; k < from.size(); ++k)
+      if (from[k] == to[k]) throw record.wrong("to", "is the same point as from", "a member has a length");
+    const auto on = bodies_on(record, "on", scene.bodies);
+    const auto name = names.of(record, on.size() * from.size());
+    for (std::size_t b = 0, n = 0; b < on.size(); ++b)
+      for (std::size_t k = 0; k < from.size(); ++k, ++n)
+        scene.members.push_back(
+            {name[n], on[b], from[k], to[k], record.si("diameter"), record.table("drag").si("cd"), record.place()});
+  }
+}
+
+void build_moorings(const Record& root, Names& names, Scene& scene) {
+  for (const Record& record : root.tables("mooring")) {
+    const Matrix6 stiffness = read_matrix(record, "stiffness"), damping = read_matrix(record, "damping");
+    check_dissipates(record, damping);
+    const auto on = bodies_on(record, "on", scene.bodies);
+    const auto name = names.of(record, on.size());
+    for (std::size_t b = 0; b < on.size(); ++b)
+      scene.moorings.push_back({name[b], on[b], stiffness, damping, record.place()});
+  }
+}
+
+void build_connectors(const Record& root, Names& names, Scene& scene) {
+  for (const Record& record : root.tables("connector")) {
+    const auto pairs = read_between(record, scene.bodies);
+    if (pairs.front().second == pairs.front().first)
+      throw record.wrong("between", "joins a body to itself", "name two bodies, or a body and the ground");
+    const auto& ends = record["ends"].points;
+    const auto kind = read_kind(record);
+    const auto name = names.of(record, pairs.size() * ends[0].size());
+    for (std::size_t p = 0, n = 0; p < pairs.size(); ++p)
+      for (std::size_t k = 0; k < ends[0].size(); ++k, ++n) {
+        scene.connectors.push_back(
+            {name[n], pairs[p].first, pairs[p].second, ends[0][k], ends[1][k], kind, record.place()});
+        check_apart(record, scene.connectors.back(), scene.bodies);
+      }
+  }
+}
+
+}  // namespace froude::scene

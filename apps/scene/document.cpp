@@ -1,0 +1,156 @@
+#include "scene/document.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+
+namespace froude::scene {
+namespace {
+
+using hydro::Place;
+
+/// The lines of the file, to quote from.
+class Lines {
+ public:
+  Lines(std::string_view text, std::string file) : file_(std::move(file)) {
+    for (std::size_t from = 0; from <= text.size();) {
+      const std::size_t to = std::min(text.find('\n', from), text.size());
+      std::string_view line = text.substr(from, to - from);
+      if (line.ends_with('\r')) line.remove_suffix(1);
+      lines_.emplace_back(line);
+      from = to + 1;
+    }
+  }
+
+  /// The TOML library counts lines and columns from 1, columns in code points: what a person counts in an editor.
+  Place place(const toml::source_region& region) const {
+    const int line = std::clamp(static_cast<int>(region.begin.line), 1, static_cast<int>(lines_.size()));
+    const std::string& text = lines_[static_cast<std::size_t>(line - 1)];
+    const int column = std::max(1, static_cast<int>(region.begin.column));
+    const int end = region.end.line == region.begin.line ? static_cast<int>(region.end.column) : characters(text) + 1;
+    return {.file = file_, .line = line, .column = column, .text = text, .width = std::max(1, end - column)};
+  }
+
+  /// The characters that a place marks.
+  static std::string marked(const Place& place) {
+    const std::size_t from = byte_of(place.text, place.column - 1);
+    return place.text.substr(from, byte_of(place.text, place.column - 1 + place.width) - from);
+  }
+
+ private:
+  static bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }
+  static int characters(std::string_view text) {
+    return static_cast<int>(std::count_if(text.begin(), text.end(), begins_character));
+  }
+  static std::size_t byte_of(std::string_view text, int character) {
+    std::size_t i = 0;
+    for (int seen = -1; i < text.size(); ++i)
+      if (begins_character(text[i]) && ++seen == character) break;
+    return i;
+  }
+
+  std::string file_;
+  std::vector<std::string> lines_;
+};
+
+Node converted(const toml::node& from, const Lines& lines);
+
+void convert_entries(const toml::table& from, const Lines& lines, Node& to) {
+  for (const auto& [key, value] : from)
+    to.entries.push_back({std::string(key.str()), lines.place(key.source()), converted(value, lines)});
+  // The library keeps keys in alphabetical order; errors and results follow the file.
+  std::sort(to.entries.begin(), to.entries.end(), [](const Node::Entry& a, const Node::Entry& b) {
+    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+  });
+}
+
+Node converted(const toml::node& from, const Lines& lines) {
+  Node to;
+  to.place = lines.place(from.source());
+  to.raw = Lines::marked(to.place);
+  if (const auto* table = from.as_table()) {
+    to.type = Node::Type::table;
+    convert_entries(*table, lines, to);
+  } else if (const auto* array = from.as_array()) {
+    to.type = Node::Type::list;
+    for (const auto& item : *array) to.items.push_back(converted(item, lines));
+  } else if (const auto* text = from.as_string()) {
+    to.type = Node::Type::text;
+    to.text = text->get();
+  } else if (const auto* integer = from.as_integer()) {
+    to.type = Node::Type::integer;
+    to.integer = integer->get();
+    to.number = static_cast<double>(integer->get());
+  } else if (const auto* number = from.as_floating_point()) {
+    to.type = Node::Type::number;
+    to.number = number->get();
+  } else if (const auto* boolean = from.as_boolean()) {
+    to.type = Node::Type::boolean;
+    to.boolean = boolean->get();
+  } else {
+    to.type = Node::Type::date;
+  }
+  return to;
+}
+
+/// The library points behind the second of two equal keys; people look for the key itself.
+Place of_whole_key(Place place) {
+  const auto first = place.text.find_first_not_of(" \t");
+  if (first == std::string::npos) return place;
+  const auto last = std::min(place.text.find('=', first), place.text.size());
+  place.column = static_cast<int>(first) + 1;
+  place.width = static_cast<int>(place.text.find_last_not_of(" \t", last - 1) - first) + 1;
+  return place;
+}
+
+[[noreturn]] void throw_syntax_error(const toml::parse_error& error, const Lines& lines) {
+  const std::string what(error.description());
+  const Place place = lines.place(error.source());
+  if (what.find("redefine") != std::string::npos)
+    throw hydro::InputError(
+        what, of_whole_key(place),
+        "a key stands once in its table, a [table] once in the file; what may repeat is a [[table]]");
+  throw hydro::InputError("this is not TOML: " + what, place, "every text value needs quotes, every list its brackets");
+}
+
+}  // namespace
+
+const Node::Entry* Node::find(std::string_view key) const {
+  const auto found = std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.key == key; });
+  return found == entries.end() ? nullptr : &*found;
+}
+
+std::string_view type_name(Node::Type type) {
+  switch (type) {
+    case Node::Type::table:
+      return "a table";
+    case Node::Type::list:
+      return "a list";
+    case Node::Type::text:
+      return "text";
+    case Node::Type::integer:
+      return "an integer";
+    case Node::Type::number:
+      return "a number";
+    case Node::Type::boolean:
+      return "a boolean";
+    case Node::Type::date:
+      return "a date or time of day";
+  }
+  return "";
+}
+
+Node parse_document(std::string_view text, const std::string& file) {
+  const Lines lines(text, file);
+  try {
+    const toml::table root = toml::parse(text);
+    Node node;
+    convert_entries(root, lines, node);
+    node.place = lines.place({.begin = {1, 1}, .end = {1, 1}, .path = nullptr});
+    return node;
+  } catch (const toml::parse_error& error) {
+    throw_syntax_error(error, lines);
+  }
+}
+
+}  // namespace froude::scene

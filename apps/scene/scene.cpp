@@ -1,0 +1,161 @@
+#include "scene/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hydro/io/atomic_file.hpp"
+#include "scene/build.hpp"
+
+namespace froude::scene {
+namespace {
+
+using hydro::InputError;
+
+hydro::Water build_water(const Record& water) {
+  const bool deep = water.text("depth") == "infinite";
+  return {.density = water.si("density"),
+          .gravity = water.si("gravity"),
+          .depth = deep ? hydro::WaterDepth::infinite() : hydro::WaterDepth::from_metres(water.si("depth"))};
+}
+
+void read_of(const Record& asked, std::vector<std::string>& of, std::vector<Place>& places) {
+  if (asked["of"].defaulted) return;  // empty means everything
+  for (const auto& pattern : asked["of"].texts) {
+    of.push_back(pattern.value);
+    places.push_back(pattern.place);
+  }
+}
+
+std::vector<double> read_omega(const Record& rao) {
+  if (rao.has("omega")) return rao["omega"].range;
+  std::vector<double> omega = rao["periods"].range;
+  for (double& value : omega) value = 2 * std::numbers::pi / value;
+  std::reverse(omega.begin(), omega.end());
+  return omega;
+}
+
+/// The heading that an RAO takes over from [waves] is echoed like any other value that was filled in.
+void read_heading(const Record& rao, Scene& scene) {
+  if (rao.has("heading")) {
+    scene.rao->heading = hydro::Angle::from_radians(rao.si("heading"));
+    return;
+  }
+  if (!scene.waves)
+    throw rao.refused("needs a heading, as there is no [waves] to take it from",
+                      "add heading = \"0 deg\" to [ask.rao]");
+  scene.rao->heading = scene.waves->heading;
+  const auto before =
+      std::find_if(scene.echo.begin(), scene.echo.end(), [](const Echo& e) { return e.key == "ask.rao.of"; });
+  const auto waves =
+      std::find_if(scene.echo.begin(), scene.echo.end(), [](const Echo& e) { return e.key == "waves.heading"; });
+  const std::string value = waves->value;
+  scene.echo.insert(before, {"ask.rao.heading", value, true});
+}
+
+AskRun read_run(const Record& run) {
+  AskRun out{.duration = run.si("duration"), .every = run.si("every"), .of = {}, .of_places = {}, .place = run.place()};
+  const double steps = out.duration / out.every, whole = std::round(steps);
+  if (whole < 1 || std::abs(steps - whole) > 1e-9 * steps)  // far above the round-off of the two, far below a sample
+    throw run.wrong("duration",
+                    fmt::format("is {:.10g} times every = {}; a whole number is needed", steps, run["every"].shown),
+                    fmt::format("write duration = \"{:.10g} s\"", std::max(1.0, std::ceil(steps)) * out.every));
+  return out;
+}
+
+void check_excitation(const Record& root, const Scene& scene) {
+  bool excited = false;
+  for (const Record& body : root.tables("body")) {
+    if (!body.has("hydrodynamics") || !body.table("hydrodynamics").has("excitation")) continue;
+    excited = true;
+    if (scene.run && !scene.waves)
+      throw body.table("hydrodynamics")
+          .wrong("excitation", "needs waves for a run", "add a [waves] table, or leave the key out");
+  }
+  if (scene.rao && !excited)
+    throw root.table("ask").table("rao").refused("asks how bodies answer waves, but no body names excitation",
+                                                 "add excitation = true to [body.hydrodynamics]");
+}
+
+}  // namespace
+
+Waves build_waves(const Record& waves) {
+  Waves out{.kind = RegularWave{},
+            .heading = hydro::Angle::from_radians(waves.si("heading")),
+            .ramp = waves.si("ramp"),
+            .place = waves.place()};
+  const std::string& kind = waves.text("kind");
+  if (kind == "regular")
+    out.kind = RegularWave{waves.has("amplitude") ? waves.si("amplitude") : waves.si("height") / 2, waves.si("period")};
+  else if (kind == "jonswap")
+    out.kind = Jonswap{waves.si("hs"), waves.si("tp"), waves.si("gamma")};
+  else
+    out.kind = PiersonMoskowitz{waves.si("hs"), waves.si("tp")};
+  if (waves.has("seed")) out.seed = static_cast<std::uint64_t>(waves["seed"].integer);
+  return out;
+}
+
+void build_ask(const Record& ask, Scene& scene) {
+  scene.accuracy = ask.si("accuracy");
+  if (ask.has("rao")) {
+    const Record& rao = ask.table("rao");
+    scene.rao = AskRao{.omega = read_omega(rao), .of = {}, .of_places = {}, .place = rao.place()};
+    read_heading(rao, scene);
+    read_of(rao, scene.rao->of, scene.rao->of_places);
+  }
+  if (ask.has("run")) {
+    scene.run = read_run(ask.table("run"));
+    read_of(ask.table("run"), scene.run->of, scene.run->of_places);
+  }
+}
+
+Solve build_solve(const Record& solve) {
+  Solve out;
+  if (solve.text("step").empty()) out.step = {solve.si("step"), solve["step"].place};
+  out.rho_infinity = solve.table("integrator").si("rho_infinity");
+  return out;
+}
+
+std::filesystem::path beside(const std::filesystem::path& scene, const std::string& relative) {
+  return std::filesystem::absolute(scene.parent_path() / relative).lexically_normal();
+}
+
+void check_version(const Node& root) {
+  const auto* schema = root.find("schema");
+  if (schema == nullptr)
+    throw InputError("a scene needs the key \"schema\"", root.place, "begin the file with schema = 1");
+  if (!schema->value.is(Node::Type::integer) || schema->value.integer != 1)
+    throw InputError(
+        fmt::format("schema = {} is not a version of the grammar that this program knows", schema->value.raw),
+        schema->value.place, "write schema = 1");
+}
+
+Scene parse(std::string_view text, const std::filesystem::path& file) {
+  const Node document = parse_document(text, file.string());
+  check_version(document);
+  if (const auto* model = document.find("model"))
+    throw InputError("this scene has a [model]: it asks for a fit, not for motion", model->place,
+                     "use `froude fit`, or take the table out");
+  Scene scene;
+  scene.file = file;
+  scene.text = text;
+  const Record root = read_record(document, motion_schema(), scene.echo);
+  if (root.has("title")) scene.title = root.text("title");
+  scene.water = build_water(root.table("water"));
+  if (root.has("waves")) scene.waves = build_waves(root.table("waves"));
+  Names names;
+  scene.bodies = build_bodies(root, file, names);
+  build_members(root, names, scene);
+  build_moorings(root, names, scene);
+  build_connectors(root, names, scene);
+  build_ask(root.table("ask"), scene);
+  scene.solve = build_solve(root.table("solve"));
+  check_excitation(root, scene);
+  return scene;
+}
+
+Scene read(const std::filesystem::path& file) { return parse(hydro::io::read_text(file), file); }
+
+}  // namespace froude::scene

@@ -1,0 +1,208 @@
+#pragma once
+/// \file  A scene as the user wrote it: typed, in SI, every name resolved, every default filled in, nothing computed
+/// yet.
+///
+/// What a scene does not name is absent here (an empty optional or list) and is never allocated later.
+/// Values that can still turn out wrong when data files are opened keep their Place in the scene file.
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "hydro/base/types.hpp"
+
+namespace froude::scene {
+
+using hydro::Place;
+
+template <class T>
+struct Located {
+  T value;
+  Place place;
+  operator const T&() const { return value; }  // NOLINT: reads as the value it holds
+};
+
+struct RegularWave {
+  double amplitude;  ///< m
+  double period;     ///< s
+};
+struct Jonswap {
+  double hs, tp, gamma;
+};
+struct PiersonMoskowitz {
+  double hs, tp;
+};
+
+struct Waves {
+  std::variant<RegularWave, Jonswap, PiersonMoskowitz> kind;
+  hydro::Angle heading = hydro::Angle::from_radians(0);
+  std::uint64_t seed = 1;  ///< of the random phases
+  double ramp = 0;         ///< s; wave loads grow by a half cosine over this time
+  Place place;
+};
+
+/// `[body.hydrodynamics]`: coefficients from a file.
+struct Hydrodynamics {
+  Located<std::filesystem::path> file;  ///< absolute
+  std::optional<Located<int>> body;     ///< which body of the file, from 1, as written: copies take the following ones
+  std::optional<Eigen::Vector3d>
+      reference_point;         ///< global, m: the point the coefficients are about, if the file does not say
+  double ulen = 1;             ///< WAMIT only
+  std::optional<int> iperout;  ///< WAMIT only
+  bool excitation = false, radiation = false, hydrostatics = false;  ///< effects named
+  double memory_tolerance = 1e-3;  ///< of radiation: relative, sets the length of the memory
+  std::optional<double> memory;    ///< s; length of the memory where the scene fixes it
+  bool interaction = true;         ///< interaction = "full" or "self": bodies of one file feel each other's waves
+};
+
+struct Body {
+  std::string name;                   ///< unique; copies are m1, m2, …
+  std::string family;                 ///< the name as written; equal to `name` for a single body
+  int copy = 0;                       ///< 0 for a single body, 1, 2, … for copies
+  Eigen::Vector3d position;           ///< of the body's origin at rest, global, m
+  double mass;                        ///< kg, > 0
+  Eigen::Vector3d centre_of_gravity;  ///< from the origin, body axes, m
+  Eigen::Matrix3d inertia;            ///< about the centre of gravity, body axes, kg m², positive definite;
+                                      ///< mass · 1 m² where no rotation is free and none was given: it does not act
+  std::array<bool, 6> free;           ///< modes that may move; all by default
+  std::map<hydro::Mode, double> initial;           ///< displacement of the origin from rest at t = 0, m or rad
+  std::map<hydro::Mode, double> initial_velocity;  ///< m/s or rad/s
+  std::optional<Hydrodynamics> hydrodynamics;
+  Place place;
+};
+
+/// `[[member]]`: a slender cylinder fixed to a body, which feels quadratic drag.
+struct Member {
+  std::string name;
+  int body;                  ///< index into Scene::bodies
+  Eigen::Vector3d from, to;  ///< body axes, m
+  double diameter, cd;
+  Place place;
+};
+
+/// `[[mooring]]`, kind = "linear": stiffness and damping about the body's origin.
+struct Mooring {
+  std::string name;
+  int body;
+  Eigen::Matrix<double, 6, 6> stiffness, damping;  ///< symmetric
+  Place place;
+};
+
+struct AxialConnector {
+  double stiffness = 0, damping = 0;  ///< N/m, N s/m; at least one of them not zero
+  std::optional<double> rest_length;  ///< m; empty: as placed
+};
+struct BushingConnector {
+  Eigen::Vector3d stiffness, damping;                        ///< along the axes of the first body, N/m, N s/m
+  Eigen::Vector3d rotational_stiffness, rotational_damping;  ///< N m/rad, N m s/rad
+};
+
+/// `[[connector]]`: joins a point of one body to a point of another, or to the ground.
+struct Connector {
+  std::string name;                       ///< "connector1" … unless named; repeated ones get a number
+  int first;                              ///< index of a body
+  std::optional<int> second;              ///< index of a body; empty: the ground
+  Eigen::Vector3d first_end, second_end;  ///< body axes; global axes for the ground
+  std::variant<AxialConnector, BushingConnector> kind;
+  Place place;
+};
+
+struct AskRao {
+  std::vector<double> omega;  ///< rad/s, increasing
+  hydro::Angle heading =
+      hydro::Angle::from_radians(0);  ///< of the waves; that of [waves] unless the scene says otherwise
+  std::vector<std::string> of;        ///< patterns such as "m*.surge", "connector*.force"; empty: everything
+  std::vector<Place> of_places;       ///< one for each pattern
+  Place place;
+};
+struct AskRun {
+  double duration;  ///< s
+  double every;     ///< s; distance of stored samples; duration is a multiple of it
+  std::vector<std::string> of;
+  std::vector<Place> of_places;
+  Place place;
+};
+
+struct Solve {
+  std::optional<Located<double>> step;  ///< s; empty: chosen from the accuracy asked
+  double rho_infinity = 0.8;            ///< spectral radius of generalised-α at infinite frequency, 0 … 1
+};
+
+/// One line of the echo: every key that acts, whether written or filled in.
+struct Echo {
+  std::string key;    ///< "body[1].mass"
+  std::string value;  ///< as text, in the unit written or in SI
+  bool defaulted;
+};
+
+struct Scene {
+  std::filesystem::path file;
+  std::string text;  ///< the file itself, kept in every result
+  std::string title;
+  hydro::Water water;
+  std::optional<Waves> waves;
+  std::vector<Body> bodies;
+  std::vector<Member> members;
+  std::vector<Mooring> moorings;
+  std::vector<Connector> connectors;
+  std::optional<AskRao> rao;
+  std::optional<AskRun> run;
+  double accuracy = 1e-2;  ///< relative, of what is asked
+  Solve solve;
+  std::vector<Echo> echo;
+};
+
+/// Reads a scene of motion. \throws hydro::InputError with file, line, column, the offending text, the rule, the
+/// remedy.
+Scene read(const std::filesystem::path& file);
+Scene parse(std::string_view text, const std::filesystem::path& file);
+
+/// True if `name` fits `pattern`, in which each `*` stands for any characters, also none.
+bool matches(std::string_view pattern, std::string_view name);
+
+/// Checks that every pattern of `of` fits one of the signals that exist.
+/// \throws hydro::InputError at the pattern, with the nearest signal
+void check_patterns(const std::vector<std::string>& of, const std::vector<Place>& places,
+                    const std::vector<std::string>& known);
+/// The same for all that the scene asks.
+void check_patterns(const Scene& scene, const std::vector<std::string>& known);
+
+// ---- scenes of kind "fit" ----
+
+struct FitScene {
+  std::filesystem::path file;
+  std::string text;
+  std::string title;
+  std::vector<Located<std::filesystem::path>> files;  ///< data, absolute, in alphabetical order; `files` may hold `*`
+  std::map<std::string, std::string> channels;  ///< role (time, force, velocity, acceleration, position) → column
+  struct Model {
+    std::string kind;                 ///< "morison" or "towing"
+    double diameter, length;          ///< m
+    double density;                   ///< kg/m³
+    std::optional<double> viscosity;  ///< m²/s, for Re
+    std::string motion;  ///< morison only: "water moves" (waves on a fixed body) or "body moves" (forced oscillation)
+    double mass_beyond_load_cells = 0;  ///< kg, body moves only
+    Place place;
+  } model;
+  std::vector<std::string> coefficients;  ///< among "cd", "cm", "ca"
+  double confidence = 0.95;
+  std::vector<Echo> echo;
+};
+
+/// True if the file has a [model] table, that is, asks for a fit.
+bool is_fit(const std::filesystem::path& file);
+/// Reads a scene of kind "fit"; the data files must be there. \throws hydro::InputError
+FitScene read_fit(const std::filesystem::path& file);
+FitScene parse_fit(std::string_view text, const std::filesystem::path& file);
+
+/// The reference of all keys, generated from the very tables that the reader uses (Markdown).
+std::string key_reference();
+
+}  // namespace froude::scene

@@ -1,0 +1,363 @@
+/// \file  The tables of a scene of motion: what may be written, what it means, what is filled in and why.
+#include "hydro/base/types.hpp"
+#include "scene/schema.hpp"
+
+namespace froude::scene {
+namespace {
+
+namespace dim = hydro::dim;
+using hydro::Mode;
+using enum Group::Count;
+
+bool rotates(std::size_t mode) { return hydro::is_rotation(static_cast<Mode>(mode)); }
+
+std::vector<std::string> mode_words() { return {hydro::mode_names.begin(), hydro::mode_names.end()}; }
+
+/// One key for each mode, a length or an angle over `per`.
+std::vector<Key> keys_of_modes(const hydro::Dimension& per, const std::string& what) {
+  std::vector<Key> keys;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const auto dimension = (rotates(i) ? dim::angle : dim::length) / per;
+    keys.push_back(
+        quantity(std::string(hydro::mode_names[i]), dimension, what + " in " + si_unit(dimension)).optional());
+  }
+  return keys;
+}
+
+/// The six diagonal and fifteen other entries of a symmetric 6 × 6 matrix: surge, …, yaw, surge_sway, …, pitch_yaw.
+std::vector<Key> keys_of_matrix(const hydro::Dimension& translation, const std::string& what) {
+  std::vector<Key> keys;
+  const auto entry = [&](std::size_t i, std::size_t j) {
+    auto dimension = translation;  // N/m → N/rad → N m/rad
+    if (rotates(i) != rotates(j)) dimension = translation * dim::length / dim::angle;
+    if (rotates(i) && rotates(j)) dimension = translation * dim::area / dim::angle;
+    const std::string row(hydro::mode_names[i]), column(hydro::mode_names[j]);
+    keys.push_back(i == j ? quantity(row, dimension, "load in " + row + " per " + what + " in " + row).optional()
+                          : quantity(row + "_" + column, dimension,
+                                     "load in " + row + " per " + what + " in " + column + ", and the reverse")
+                                .optional());
+  };
+  for (std::size_t i = 0; i < 6; ++i) entry(i, i);
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = i + 1; j < 6; ++j) entry(i, j);
+  return keys;
+}
+
+std::vector<std::string> names_of(const std::vector<Key>& keys) {
+  std::vector<std::string> names;
+  for (const Key& key : keys) names.push_back(key.name);
+  return names;
+}
+
+/// A table in which each key names one thing that acts, so an empty one is a slip.
+Table at_least_one_of(std::string title, std::string meaning, std::vector<Key> keys) {
+  auto names = names_of(keys);
+  return {.title = std::move(title),
+          .meaning = std::move(meaning),
+          .keys = std::move(keys),
+          .groups = {{at_least_one, names}}};
+}
+
+const Table& water() {
+  static const Table table{.title = "[water]",
+                           .meaning = "the water, still",
+                           .keys = {quantity("density", dim::density, "of the water").positive(),
+                                    quantity("gravity", dim::acceleration, "acceleration of free fall")
+                                        .positive()
+                                        .or_default("9.81 m/s^2", "what hydrodynamic data are mostly computed with"),
+                                    quantity("depth", dim::length, "from still water to the bottom, or \"infinite\"")
+                                        .positive()
+                                        .one_of({"infinite"})}};
+  return table;
+}
+
+const Table& waves() {
+  const auto seed = [] {
+    return integer("seed", "of the random phases; another number is another sea of the same spectrum")
+        .within(Limit::not_negative)
+        .or_default("1", "any fixed number, so that a scene gives the same sea twice");
+  };
+  const auto hs = [] { return quantity("hs", dim::length, "significant wave height, 4 √m₀").positive(); };
+  const auto tp = [] { return quantity("tp", dim::time, "peak period").positive(); };
+  static const Table table{
+      .title = "[waves]",
+      .meaning = "the waves, long-crested",
+      .keys = {text("kind", "of sea"),
+               quantity("heading", dim::angle, "where the waves go: from +x towards +y; 0 deg goes towards +x"),
+               quantity("ramp", dim::time, "wave loads grow from nothing over this time, by half a cosine")
+                   .within(Limit::not_negative)
+                   .or_default("0 s", "loads act from the start unless the scene says otherwise")},
+      .chosen_by = "kind",
+      .variants = {
+          {.word = "regular",
+           .meaning = "one sine wave",
+           .keys = {quantity("height", dim::length, "from trough to crest, twice the amplitude").positive().optional(),
+                    quantity("amplitude", dim::length, "half the height").positive().optional(),
+                    quantity("period", dim::time, "of the wave").positive()},
+           .groups = {{exactly_one, {"height", "amplitude"}}}},
+          {.word = "jonswap",
+           .meaning = "random sea, JONSWAP spectrum",
+           .keys = {hs(), tp(),
+                    number("gamma", "peak enhancement factor")
+                        .within(Limit::at_least_one)
+                        .or_default("3.3", "the mean over the JONSWAP records (Hasselmann et al., 1973)"),
+                    seed()}},
+          {.word = "pierson-moskowitz",
+           .meaning = "random sea, Pierson–Moskowitz spectrum",
+           .keys = {hs(), tp(), seed()}}}};
+  return table;
+}
+
+const Table& copies() {
+  static const Table table{.title = "[body.copies]",
+                           .meaning = "makes name1, name2, … of one description",
+                           .keys = {integer("count", "number of bodies").within(Limit::at_least_one),
+                                    vector("step", dim::length, "from each body to the next")}};
+  return table;
+}
+
+const Table& radiation() {
+  static const Table table{
+      .title = "[body.hydrodynamics.radiation]",
+      .meaning = "waves that the motion makes: added mass, damping and their memory; may be empty",
+      .keys = {number("memory_tolerance", "the memory is kept until what is left of it is this small, relative")
+                   .within(Limit::open_fraction)
+                   .or_default("1e-3", "ten times less than the accuracy usually asked"),
+               quantity("memory", dim::time, "length of the memory where you want to fix it").positive().optional()},
+      .groups = {{at_most_one, {"memory_tolerance", "memory"}}}};
+  return table;
+}
+
+const Table& hydrodynamics() {
+  static const Table table{
+      .title = "[body.hydrodynamics]",
+      .meaning = "linear potential theory, with coefficients from a file; each effect is named",
+      .keys =
+          {text("file", "of coefficients, relative to the scene: WAMIT, Capytaine, BEMIO or Froude"),
+           integer("body",
+                   "which body of the file, from 1 (copies take the following ones); needed where the scene takes "
+                   "fewer than the file holds")
+               .within(Limit::at_least_one)
+               .optional(),
+           vector("reference_point", dim::length, "global, what the coefficients are about, if the file does not say")
+               .optional(),
+           quantity("ulen", dim::length, "WAMIT's ULEN; only for WAMIT files")
+               .positive()
+               .or_default("1 m", "the usual ULEN; other formats do not need it"),
+           integer("iperout", "WAMIT's IPEROUT, 1 to 4; only for WAMIT files").within(Limit::at_least_one).optional(),
+           effect("excitation", "loads of the incoming waves on the body held still"),
+           inner_table("radiation", radiation()).optional(),
+           effect("hydrostatics", "restoring loads of buoyancy and weight"),
+           text("interaction",
+                "\"full\": bodies of one file feel each other's radiated waves; \"self\": only their own")
+               .one_of({"full", "self"})
+               .or_default("full", "leaving it out would be an approximation")
+               .only_beside("radiation")},
+      .groups = {{at_least_one, {"excitation", "radiation", "hydrostatics"}}}};
+  return table;
+}
+
+const Table& initial() {
+  static const Table table = at_least_one_of("[body.initial]", "displacement from rest at t = 0, of the body's origin",
+                                             keys_of_modes(dim::none, "displacement"));
+  return table;
+}
+
+const Table& initial_velocity() {
+  static const Table table = at_least_one_of("[body.initial_velocity]", "velocity at t = 0, of the body's origin",
+                                             keys_of_modes(dim::time, "velocity"));
+  return table;
+}
+
+const Table& body() {
+  static const Table table{
+      .title = "[[body]]",
+      .meaning = "a rigid body; its axes are x forward, y port, z up",
+      .keys = {name_key("", "of the body; other tables and signals refer to it"),
+               inner_table("copies", copies()).optional(),
+               vector("position", dim::length, "of the body's origin at rest, global; z from still water")
+                   .or_default("(0, 0, 0) m", "one body is best described about the still waterplane"),
+               quantity("mass", dim::mass, "of the body with all it carries").positive(),
+               vector("centre_of_gravity", dim::length, "from the origin, body axes; needed if a rotation is free")
+                   .optional(),
+               vector("radii_of_gyration", dim::length,
+                      "about the centre of gravity along body axes: I = mass · radius²; no products of inertia")
+                   .positive()
+                   .optional(),
+               vector("inertia", dim::inertia, "(Ixx, Iyy, Izz) about the centre of gravity, body axes")
+                   .positive()
+                   .optional(),
+               vector("products_of_inertia", dim::inertia,
+                      "(∫xy dm, ∫xz dm, ∫yz dm) from the centre of gravity; the inertia matrix holds them with a minus")
+                   .or_default("(0, 0, 0) kg m^2", "body axes are mostly principal axes")
+                   .only_beside("inertia"),
+               texts("free", "modes that may move; the others are held")
+                   .one_of(mode_words())
+                   .or_default("surge, sway, heave, roll, pitch, yaw", "a body is free unless something holds it"),
+               inner_table("initial", initial()).optional(),
+               inner_table("initial_velocity", initial_velocity()).optional(),
+               inner_table("hydrodynamics", hydrodynamics()).optional()},
+      .groups = {{at_most_one, {"radii_of_gyration", "inertia"}}}};
+  return table;
+}
+
+const Table& drag() {
+  static const Table table{.title = "[member.drag]",
+                           .meaning = "½ ρ cd D ‖u‖ u per length, of the flow across the member",
+                           .keys = {number("cd", "drag coefficient").positive()}};
+  return table;
+}
+
+const Table& member() {
+  static const Table table{
+      .title = "[[member]]",
+      .meaning = "a slender cylinder fixed to a body, which feels drag",
+      .keys = {name_key("member", "of the member"),
+               texts("on", "bodies that carry it, by name; * stands for any characters"),
+               points("from", "one end, body axes; each ± makes two members"),
+               points("to", "other end, body axes; as many as `from`, taken in pairs"),
+               quantity("diameter", dim::length, "of the member").positive(), inner_table("drag", drag())}};
+  return table;
+}
+
+const Table& mooring_stiffness() {
+  static const Table table = at_least_one_of("[mooring.stiffness]", "about the body's origin, at rest; symmetric",
+                                             keys_of_matrix(dim::stiffness, "displacement"));
+  return table;
+}
+
+const Table& mooring_damping() {
+  static const Table table = at_least_one_of("[mooring.damping]", "about the body's origin; symmetric",
+                                             keys_of_matrix(dim::damping, "velocity"));
+  return table;
+}
+
+const Table& mooring() {
+  static const Table table{
+      .title = "[[mooring]]",
+      .meaning = "what holds a body in place",
+      .keys = {name_key("mooring", "of the mooring"),
+               texts("on", "bodies it holds, by name; * stands for any characters"), text("kind", "of mooring")},
+      .chosen_by = "kind",
+      .variants = {{.word = "linear",
+                    .meaning = "load proportional to displacement and velocity",
+                    .keys = {inner_table("stiffness", mooring_stiffness()).optional(),
+                             inner_table("damping", mooring_damping()).optional()},
+                    .groups = {{at_least_one, {"stiffness", "damping"}}}}}};
+  return table;
+}
+
+const Table& connector() {
+  static const Table table{
+      .title = "[[connector]]",
+      .meaning = "joins a point of one body to a point of another, or to the ground",
+      .keys = {name_key("connector", "of the connector"),
+               texts("between",
+                     "[\"a\", \"b\"], [\"a\", \"ground\"], or \"neighbours of m\": m1–m2, m2–m3, … of the copies m"),
+               ends("ends",
+                    "[end on the first, end on the second], body axes (ground: global axes); ± makes several, taken in "
+                    "pairs"),
+               text("kind", "of connector")},
+      .chosen_by = "kind",
+      .variants = {
+          {.word = "axial",
+           .meaning = "a load along the line between its ends",
+           .keys = {quantity("stiffness", dim::stiffness, "tension per elongation").positive().optional(),
+                    quantity("damping", dim::damping, "tension per rate of elongation").positive().optional(),
+                    quantity("rest_length", dim::length,
+                             "without tension, or \"as placed\": the distance of the ends at rest")
+                        .positive()
+                        .one_of({"as placed"})
+                        .or_default("as placed", "so that the scene is at rest where it is placed")
+                        .only_beside("stiffness")},
+           .groups = {{at_least_one, {"stiffness", "damping"}}}},
+          {.word = "bushing",
+           .meaning = "loads and moments along the axes of the first body",
+           .keys = {vector("stiffness", dim::stiffness, "along x, y, z").within(Limit::not_negative).optional(),
+                    vector("damping", dim::damping, "along x, y, z").within(Limit::not_negative).optional(),
+                    vector("rotational_stiffness", dim::rotational_stiffness, "about x, y, z")
+                        .within(Limit::not_negative)
+                        .optional(),
+                    vector("rotational_damping", dim::rotational_damping, "about x, y, z")
+                        .within(Limit::not_negative)
+                        .optional()},
+           .groups = {{at_least_one, {"stiffness", "damping", "rotational_stiffness", "rotational_damping"}}}}}};
+  return table;
+}
+
+Key asked_signals() {
+  return texts("of", "signals to give, like \"m*.surge\" or \"connector*.force\"; * stands for any characters")
+      .or_default("*", "everything there is");
+}
+
+const Table& ask_rao() {
+  static const Table table{
+      .title = "[ask.rao]",
+      .meaning = "response per metre of wave amplitude",
+      .keys = {range("periods", dim::time, "wave periods").positive().optional(),
+               range("omega", dim::angular_velocity, "wave frequencies").positive().optional(),
+               quantity("heading", dim::angle, "where the waves go; left out: the heading of [waves]").optional(),
+               asked_signals()},
+      .groups = {{exactly_one, {"periods", "omega"}}}};
+  return table;
+}
+
+const Table& ask_run() {
+  static const Table table{
+      .title = "[ask.run]",
+      .meaning = "time series",
+      .keys = {quantity("duration", dim::time, "of the run, a whole multiple of `every`").positive(),
+               quantity("every", dim::time, "between stored samples").positive(), asked_signals()}};
+  return table;
+}
+
+const Table& ask() {
+  static const Table table{.title = "[ask]",
+                           .meaning = "what is wanted",
+                           .keys = {inner_table("rao", ask_rao()).optional(), inner_table("run", ask_run()).optional(),
+                                    number("accuracy", "relative, of what is asked")
+                                        .within(Limit::open_fraction)
+                                        .or_default("1e-2", "about what coefficients and measurements are good for")},
+                           .groups = {{at_least_one, {"rao", "run"}}}};
+  return table;
+}
+
+const Table& integrator() {
+  static const Table table{
+      .title = "[solve.integrator]",
+      .meaning = "how time is stepped",
+      .keys = {text("name", "of the method")
+                   .one_of({"generalized_alpha"})
+                   .or_default("generalized_alpha", "second order, damps only what the step cannot resolve"),
+               number("rho_infinity", "spectral radius at infinite frequency: 1 damps nothing, 0 all at once")
+                   .within(Limit::fraction)
+                   .or_default("0.8", "kills what is not resolved within some steps, leaves the rest alone")}};
+  return table;
+}
+
+const Table& solve() {
+  static const Table table{.title = "[solve]",
+                           .meaning = "overrides what the program would choose; rarely needed",
+                           .keys = {quantity("step", dim::time, "time step, or \"automatic\"")
+                                        .positive()
+                                        .one_of({"automatic"})
+                                        .or_default("automatic", "chosen from the accuracy asked"),
+                                    inner_table("integrator", integrator()).or_default("", "see its keys")}};
+  return table;
+}
+
+}  // namespace
+
+const Table& motion_schema() {
+  static const Table table{
+      .title = "a scene",
+      .meaning = "floating bodies in waves",
+      .keys = {integer("schema", "version of this grammar, 1"), text("title", "for people").optional(),
+               inner_table("water", water()), inner_table("waves", waves()).optional(), inner_tables("body", body()),
+               inner_tables("member", member()).optional(), inner_tables("mooring", mooring()).optional(),
+               inner_tables("connector", connector()).optional(), inner_table("ask", ask()),
+               inner_table("solve", solve()).or_default("", "see its keys")}};
+  return table;
+}
+
+}  // namespace froude::scene

@@ -1,0 +1,96 @@
+#pragma once
+/// \file  A kind of load with all its elements: every axial connector of a scene is one ForceKind.
+///
+/// Elements of one kind lie together and are evaluated in a plain loop; the kinds of a model are dispatched once an
+/// evaluation. Laws, run against every kind by tests/laws/force_kind_laws.hpp:
+///   L1  the same (t, state) gives the same load, however often and in whatever order it is asked
+///   L2  loads and Jacobians are added, never assigned
+///   L3  memory is declared by make_memory() and moves on only in Memory::accept()
+///   L4  power given to the bodies = supplied − dissipated − d(stored)/dt
+///   L5  the Jacobians are the derivatives of the load
+#include <Eigen/Core>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dynamics/model/block_matrix.hpp"
+#include "dynamics/model/body.hpp"
+
+namespace dynamics {
+
+/// State that outlives a step: the velocities behind a radiating hull, a controller. One per kind and workspace.
+class Memory {
+ public:
+  virtual ~Memory() = default;
+  /// A full step has been completed in `state`.
+  virtual void accept(const State& state) = 0;
+};
+
+/// The arguments of every evaluation. `memory` is what the kind itself made, or null.
+struct Instant {
+  const State& state;
+  Memory* memory;
+};
+
+/// Collects loads: force and moment about the centre of gravity, global axes, N and N m.
+class LoadSink {
+ public:
+  explicit LoadSink(Eigen::VectorXd& load) : load_(load) {}
+  void add(int body, const Vector6& load) { load_.segment<6>(6 * body) += load; }
+  void add_mode(int mode, double load) { load_[mode] += load; }
+
+ private:
+  Eigen::VectorXd& load_;
+};
+
+/// Collects the derivatives of loads with respect to displacement (translation and small global rotation) and velocity.
+class JacobianSink {
+ public:
+  /// Adds −(velocity_factor · ∂F/∂v + displacement_factor · ∂F/∂q) to `matrix`.
+  JacobianSink(BlockMatrix& matrix, double displacement_factor, double velocity_factor)
+      : matrix_(matrix), displacement_factor_(displacement_factor), velocity_factor_(velocity_factor) {}
+  /// Derivatives of the load on body `on` by displacement and velocity of body `by`.
+  void add(int on, int by, const Matrix6& by_displacement, const Matrix6& by_velocity) {
+    matrix_.block(on, by) -= displacement_factor_ * by_displacement + velocity_factor_ * by_velocity;
+  }
+  /// Derivatives by velocity between single modes, (modes, modes).
+  void add_velocity_modes(const std::vector<int>& modes, const Eigen::MatrixXd& by_velocity) {
+    for (std::size_t j = 0; j < modes.size(); ++j)
+      for (std::size_t i = 0; i < modes.size(); ++i)
+        matrix_.block(modes[i] / 6, modes[j] / 6)(modes[i] % 6, modes[j] % 6) -=
+            velocity_factor_ * by_velocity(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  }
+
+ private:
+  BlockMatrix& matrix_;
+  double displacement_factor_, velocity_factor_;
+};
+
+/// Energy of a kind at one instant.
+struct EnergyFlow {
+  double stored = 0;      ///< J
+  double supplied = 0;    ///< W, from outside: the waves
+  double dissipated = 0;  ///< W; radiation counts here and may be negative for a moment, when waves come back
+};
+
+class ForceKind {
+ public:
+  virtual ~ForceKind() = default;
+
+  virtual std::string effect() const = 0;        ///< the word for it in a scene: "connector", "excitation"
+  virtual std::size_t elements() const = 0;
+  virtual std::string method() const = 0;        ///< how it is computed, for `froude plan`
+  virtual void couple(BlockPattern&) const {}    ///< pairs of different bodies that its Jacobian touches
+  virtual std::unique_ptr<Memory> make_memory(const State&) const { return nullptr; }
+
+  virtual void add_load(const Instant& now, LoadSink& out) const = 0;
+  virtual void add_jacobian(const Instant& now, JacobianSink& out) const = 0;
+  virtual EnergyFlow energy(const Instant& now) const = 0;
+
+  /// True if the load is, for small motions about rest, stiffness and damping that a frequency-domain analysis takes from
+  /// add_jacobian(). Excitation and radiation have their own place there; quadratic drag has none.
+  virtual bool linear_at_rest() const { return false; }
+};
+
+}  // namespace dynamics

@@ -1,0 +1,37 @@
+#pragma once
+/// \file  Linear stiffness and damping of single bodies about their rest positions: hydrostatics, moorings as a matrix.
+#include "dynamics/force/force_kind.hpp"
+
+namespace dynamics {
+
+/// F = −Gᵀ C δ − D v with the displacement δ = (x − x₀, φ) and δ̇ = G v (D2): derived from the potential ½ δᵀCδ, so it
+/// conserves energy at any rotation below a full turn and is C δ for small ones.
+struct Restoring {
+  int body;
+  Matrix6 stiffness;                       ///< C about the centre of gravity, symmetric
+  Matrix6 damping = Matrix6::Zero();       ///< D about the centre of gravity
+};
+
+/// Load of one element. Rotations: |φ| < π.
+Vector6 restoring_load(const Restoring& element, const Vector6& displacement, const Vector6& velocity);
+
+class RestoringKind final : public ForceKind {
+ public:
+  /// `effect`: "hydrostatics" or "mooring".
+  RestoringKind(std::string effect, const std::vector<RigidBody>& bodies, std::vector<Restoring> elements);
+
+  std::string effect() const override { return effect_; }
+  std::size_t elements() const override { return elements_.size(); }
+  std::string method() const override { return "6 x 6 matrix about the rest position"; }
+  void add_load(const Instant& now, LoadSink& out) const override;
+  void add_jacobian(const Instant& now, JacobianSink& out) const override;
+  EnergyFlow energy(const Instant& now) const override;
+  bool linear_at_rest() const override { return true; }
+
+ private:
+  std::string effect_;
+  std::vector<Restoring> elements_;
+  std::vector<Eigen::Vector3d> rest_centre_;   // one an element
+};
+
+}  // namespace dynamics

@@ -1,0 +1,34 @@
+#pragma once
+/// \file  Response amplitude operators of coupled bodies, linear, in the frequency domain.
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
+#include "dynamics/model/model.hpp"
+#include "hydro/potential/operations.hpp"
+
+namespace dynamics::frequency {
+
+/// Bodies of a model that share a set of coefficients, about their centres of gravity and in the model's global frame.
+struct PotentialGroup {
+  std::vector<int> bodies;
+  hydro::potential::FrequencyTable table;
+  bool radiation, excitation;   ///< which effects the scene named
+};
+
+/// Complex amplitude of every body's displacement about its centre of gravity per metre of wave amplitude, (6N, Nω), m/m and rad/m,
+/// Re(ξ e^{iωt}) against a wave of zero phase at the global origin.
+///
+/// Solves (Q1) at each frequency: [−ω²(M + A(ω)) + iω(B(ω) + D) + K] ξ = X(ω, β), K and D from every force of the model that is
+/// linear at rest. Modes that are not free stay zero. Error: round-off, plus what FrequencyTable::openness() says of the data.
+/// \throws hydro::InputError outside the data, hydro::NumericsError naming the frequency if the matrix is singular
+Eigen::MatrixXcd response_amplitudes(const Model& model, const std::vector<PotentialGroup>& groups, const std::vector<double>& omega, double heading);
+
+/// The matrix of (Q1) at one frequency, (6N, 6N).
+Eigen::MatrixXcd impedance(const Model& model, const Model::Linear& linear, const std::vector<PotentialGroup>& groups, double omega);
+
+/// The right-hand side of (Q1), (6N).
+Eigen::VectorXcd excitation(const Model& model, const std::vector<PotentialGroup>& groups, double omega, double heading);
+
+}  // namespace dynamics::frequency

@@ -1,0 +1,39 @@
+#pragma once
+/// \file  The energy ledger: what each effect supplied, stored and took away, and what does not add up.
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+#include "dynamics/model/model.hpp"
+
+namespace dynamics {
+
+/// Kinetic + stored = initial + ∫(supplied − dissipated) dt + residual (D12). Powers are integrated by the trapezium rule over the
+/// steps, so the residual holds the error of the step as well as of the loads.
+class EnergyLedger {
+ public:
+  struct Entry {
+    std::string effect;
+    double stored = 0, supplied = 0, dissipated = 0;   ///< J; the last two since the start
+  };
+
+  EnergyLedger(const Model& model, Workspace& workspace);
+
+  /// Adds the step that ended in the state of the workspace.
+  void note(Workspace& workspace);
+
+  double kinetic() const { return kinetic_; }
+  const std::vector<Entry>& entries() const { return entries_; }
+  double residual() const;
+  /// The largest of energy supplied, taken and held: what a residual is small against.
+  double turnover() const;
+
+ private:
+  const Model& model_;
+  std::vector<Entry> entries_;
+  std::vector<EnergyFlow> before_;
+  double kinetic_ = 0, initial_ = 0, time_ = 0;
+};
+
+}  // namespace dynamics

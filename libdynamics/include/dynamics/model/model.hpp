@@ -1,0 +1,80 @@
+#pragma once
+/// \file  A scene compiled: bodies, added mass and the kinds of force that act. Const, shared between threads.
+/// All that changes is in Workspace, one per thread.
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dynamics/force/force_kind.hpp"
+#include "dynamics/model/block_matrix.hpp"
+#include "dynamics/model/body.hpp"
+
+namespace dynamics {
+
+/// Added mass at infinite frequency of bodies that feel each other, about their centres of gravity, (6n, 6n), symmetric.
+struct AddedMass {
+  std::vector<int> bodies;
+  Eigen::MatrixXd value;
+};
+
+class Workspace;
+
+/// The equations of motion (D8): (M(q) + A∞) a + gyro(q, v) = Σ loads(t, q, v, memory), with the modes that are not free
+/// left out. Integrators see nothing else.
+class Model {
+ public:
+  /// \throws hydro::InputError if mass plus added mass is not positive definite in the free modes
+  Model(std::vector<RigidBody> bodies, std::vector<AddedMass> added_mass, std::vector<std::unique_ptr<const ForceKind>> forces);
+
+  const std::vector<RigidBody>& bodies() const { return bodies_; }
+  const std::vector<std::unique_ptr<const ForceKind>>& forces() const { return forces_; }
+  const BlockPattern& pattern() const { return pattern_; }
+  int modes() const { return 6 * static_cast<int>(bodies_.size()); }
+  bool is_free(int mode) const { return bodies_[static_cast<std::size_t>(mode / 6)].is_free(mode % 6); }
+
+  /// M a + gyro − loads, zero in modes that are not free, N and N m.
+  Eigen::VectorXd residual(const State& state, const Eigen::VectorXd& acceleration, Workspace& workspace) const;
+  /// ∂residual/∂a · c_a + ∂residual/∂v · c_v + ∂residual/∂q · c_q, unit rows and columns in modes that are not free.
+  void tangent(const State& state, double c_a, double c_v, double c_q, Workspace& workspace, BlockMatrix& out) const;
+  /// Adds factor · (M(q) + A∞); and the product of M(q) + A∞ with x.
+  void add_mass(const State& state, double factor, BlockMatrix& out) const;
+  Eigen::VectorXd mass_times(const State& state, const Eigen::VectorXd& x) const;
+  /// Mass of the bodies alone at rest, (6N, 6N).
+  Eigen::MatrixXd dry_mass_at_rest() const;
+  /// Kinetic energy of the bodies and of the water that moves with them (A∞), J.
+  double kinetic_energy(const State& state) const;
+  /// Stiffness K and damping D of all kinds that are linear at rest, there: loads ≈ −K δ − D v. (6N, 6N)
+  struct Linear {
+    Eigen::MatrixXd stiffness, damping;
+  };
+  Linear linear_at_rest() const;
+  /// Net load of those kinds at rest, which a scene in equilibrium does not have.
+  Eigen::VectorXd load_at_rest() const;
+  /// "m1.heave": for messages.
+  std::string mode_name(int mode) const;
+
+ private:
+  std::vector<RigidBody> bodies_;
+  std::vector<AddedMass> added_mass_;
+  std::vector<std::unique_ptr<const ForceKind>> forces_;
+  BlockPattern pattern_;
+};
+
+/// Everything of a run that changes.
+class Workspace {
+ public:
+  Workspace(const Model& model, State start);
+
+  State state;
+  Eigen::VectorXd acceleration;                       ///< (6N), satisfies the equations of motion in `state`
+  std::vector<std::unique_ptr<Memory>> memory;        ///< one a kind, null where it needs none
+  std::vector<std::size_t> evaluations;               ///< of the load, one a kind: what a scene pays for
+  BlockMatrix matrix;
+  BlockSolver solver;
+
+  Instant instant(const State& at, std::size_t kind) { return {at, memory[kind].get()}; }
+  void accept();                                      ///< a full step has been completed: memory moves on
+};
+
+}  // namespace dynamics

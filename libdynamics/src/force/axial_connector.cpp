@@ -1,0 +1,84 @@
+#include "dynamics/force/connector.hpp"
+#include "pair.hpp"
+
+namespace dynamics {
+namespace {
+
+using detail::EndPoint;
+
+struct Stretch {
+  EndPoint a, b;
+  Eigen::Vector3d direction, relative_velocity;   // from the first end to the second
+  double length, rate, tension;
+};
+
+Stretch stretch(const AxialConnector& c, const State& state) {
+  Stretch s;
+  s.a = detail::end_point(state, c.ends.first, c.ends.first_arm);
+  s.b = detail::end_point(state, c.ends.second, c.ends.second_arm);
+  const Eigen::Vector3d d = s.b.position - s.a.position;
+  s.length = d.norm();
+  // Ends that meet have no direction between them; the pull passes through zero there whatever it is called.
+  s.direction = s.length > 0 ? Eigen::Vector3d(d / s.length) : Eigen::Vector3d::Zero();
+  s.relative_velocity = s.b.velocity - s.a.velocity;
+  s.rate = s.direction.dot(s.relative_velocity);
+  s.tension = c.stiffness * (s.length - c.rest_length) + c.damping * s.rate;
+  return s;
+}
+
+detail::PairLoad pair_load(const AxialConnector& c, const Stretch& s) {
+  detail::PairLoad p;
+  p.force = s.tension * s.direction;
+  p.first_arm = s.a.arm;
+  p.second_arm = s.b.arm;
+  if (s.length == 0) return p;
+  const Eigen::Matrix3d along = s.direction * s.direction.transpose();
+  const Eigen::Matrix3d across = (Eigen::Matrix3d::Identity() - along) / s.length;   // ∂direction/∂d
+  const Eigen::Matrix3d by_distance = c.stiffness * along + s.tension * across +
+                                      c.damping * s.direction * (across * s.relative_velocity).transpose();
+  const auto d_position = detail::relative_position_derivative(s.a, s.b);
+  p.force_by_q = by_distance * d_position + c.damping * along * detail::relative_velocity_derivative(s.a, s.b);
+  p.force_by_v = c.damping * along * d_position;
+  p.first_arm_by_q = detail::arm_derivative(0, s.a.arm);
+  p.second_arm_by_q = detail::arm_derivative(1, s.b.arm);
+  return p;
+}
+
+}  // namespace
+
+AxialState axial_state(const AxialConnector& connector, const State& state) {
+  const Stretch s = stretch(connector, state);
+  return {s.length, s.tension};
+}
+
+void AxialConnectorKind::couple(BlockPattern& pattern) const {
+  for (const auto& e : elements_)
+    if (e.ends.second) pattern.couple(e.ends.first, *e.ends.second);
+}
+
+void AxialConnectorKind::add_load(const Instant& now, LoadSink& out) const {
+  for (const auto& e : elements_) {
+    const Stretch s = stretch(e, now.state);
+    detail::PairLoad p;
+    p.force = s.tension * s.direction;
+    p.first_arm = s.a.arm;
+    p.second_arm = s.b.arm;
+    detail::add_load(e.ends, p, out);
+  }
+}
+
+void AxialConnectorKind::add_jacobian(const Instant& now, JacobianSink& out) const {
+  for (const auto& e : elements_) detail::add_jacobian(e.ends, pair_load(e, stretch(e, now.state)), out);
+}
+
+EnergyFlow AxialConnectorKind::energy(const Instant& now) const {
+  EnergyFlow flow;
+  for (const auto& e : elements_) {
+    const Stretch s = stretch(e, now.state);
+    flow.stored += 0.5 * e.stiffness * (s.length - e.rest_length) * (s.length - e.rest_length);
+    flow.dissipated += e.damping * s.rate * s.rate;
+  }
+  return flow;
+}
+
+}  // namespace dynamics

@@ -1,0 +1,107 @@
+#include "dynamics/force/drag.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "dynamics/spatial/rotation.hpp"
+
+namespace dynamics {
+namespace {
+
+struct Flow {
+  Eigen::Vector3d arm, axis, omega, water, relative, across;   // global; relative = u − v, across: its part across the axis
+};
+
+Flow flow_past(const DragPiece& piece, const State& state, const Eigen::Vector3d& water) {
+  Flow f;
+  const Eigen::Matrix3d R = state.pose[static_cast<std::size_t>(piece.body)].attitude.toRotationMatrix();
+  f.arm = R * piece.arm;
+  f.axis = R * piece.axis;
+  f.omega = state.twist(piece.body).tail<3>();
+  f.water = water;
+  f.relative = water - state.twist(piece.body).head<3>() - f.omega.cross(f.arm);
+  f.across = f.relative - f.axis * f.axis.dot(f.relative);
+  return f;
+}
+
+}  // namespace
+
+std::vector<DragPiece> drag_pieces(const std::vector<RigidBody>& bodies, int body, const Eigen::Vector3d& from,
+                                   const Eigen::Vector3d& to, double diameter, double cd, double density) {
+  const RigidBody& b = bodies[static_cast<std::size_t>(body)];
+  const Eigen::Vector3d origin = b.properties().rest_position.xyz;
+  const double z0 = origin.z() + from.z(), z1 = origin.z() + to.z();
+  double s0 = 0, s1 = 1;   // the wet part, as fractions of the length
+  if (z0 > 0 && z1 > 0) return {};
+  if (z0 > 0) s0 = z0 / (z0 - z1);
+  if (z1 > 0) s1 = z0 / (z0 - z1);
+  const Eigen::Vector3d along = to - from;
+  // Three Gauss–Legendre points: exact for a velocity that varies as a fifth-degree polynomial along the member.
+  constexpr std::array<double, 3> point{-0.774596669241483377, 0, 0.774596669241483377};
+  constexpr std::array<double, 3> weight{5.0 / 18, 8.0 / 18, 5.0 / 18};
+  std::vector<DragPiece> pieces;
+  for (std::size_t i = 0; i < point.size(); ++i) {
+    const double s = s0 + (s1 - s0) * (1 + point[i]) / 2, length = weight[i] * (s1 - s0) * along.norm();
+    pieces.push_back({body, from + s * along - b.properties().centre_of_gravity.xyz, along.normalized(),
+                      0.5 * density * cd * diameter * length});
+  }
+  return pieces;
+}
+
+Eigen::Vector3d rest_position(const DragPiece& piece, const std::vector<RigidBody>& bodies) {
+  return bodies[static_cast<std::size_t>(piece.body)].rest_centre() + piece.arm;
+}
+
+namespace {
+template <class Do>
+void for_each_flow(const std::vector<DragPiece>& pieces, const std::optional<WaveSignals>& water, const State& state, Do act) {
+  Eigen::VectorXd velocity = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(pieces.size()));
+  if (water) velocity = water->at(state.time);
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    act(pieces[i], flow_past(pieces[i], state, velocity.segment<3>(3 * static_cast<Eigen::Index>(i))));
+}
+}  // namespace
+
+void DragKind::add_load(const Instant& now, LoadSink& out) const {
+  for_each_flow(pieces_, water_, now.state, [&](const DragPiece& piece, const Flow& f) {
+    const Eigen::Vector3d force = piece.factor * f.across.norm() * f.across;
+    Vector6 load;
+    load << force, f.arm.cross(force);
+    out.add(piece.body, load);
+  });
+}
+
+void DragKind::add_jacobian(const Instant& now, JacobianSink& out) const {
+  for_each_flow(pieces_, water_, now.state, [&](const DragPiece& piece, const Flow& f) {
+    const double speed = f.across.norm();
+    if (speed == 0) return;   // |w| w is flat there
+    const Eigen::Vector3d force = piece.factor * speed * f.across;
+    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - f.axis * f.axis.transpose();
+    const Eigen::Matrix3d by_w = piece.factor * (speed * Eigen::Matrix3d::Identity() + f.across * f.across.transpose() / speed);
+    const Eigen::Matrix3d S = cross_matrix(f.arm), T = cross_matrix(f.axis);
+    // Turning by θ moves the arm (its velocity ω × s) and the axis t; dt = −[t]× dθ.
+    const Eigen::Matrix3d w_by_theta = across * cross_matrix(f.omega) * S + f.axis.dot(f.relative) * T +
+                                       f.axis * f.relative.transpose() * T;
+    Eigen::Matrix<double, 3, 6> force_by_q = Eigen::Matrix<double, 3, 6>::Zero(), force_by_v;
+    force_by_q.rightCols<3>() = by_w * w_by_theta;
+    force_by_v << -by_w * across, by_w * across * S;
+    Matrix6 by_q, by_v;
+    by_q << force_by_q, S * force_by_q;
+    by_q.bottomRightCorner<3, 3>() += cross_matrix(force) * S;
+    by_v << force_by_v, S * force_by_v;
+    out.add(piece.body, piece.body, by_q, by_v);
+  });
+}
+
+EnergyFlow DragKind::energy(const Instant& now) const {
+  EnergyFlow flow;
+  for_each_flow(pieces_, water_, now.state, [&](const DragPiece& piece, const Flow& f) {
+    const Eigen::Vector3d force = piece.factor * f.across.norm() * f.across;
+    flow.supplied += force.dot(f.water);
+    flow.dissipated += force.dot(f.relative);
+  });
+  return flow;
+}
+
+}  // namespace dynamics

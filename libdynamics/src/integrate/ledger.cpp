@@ -1,0 +1,47 @@
+#include "dynamics/integrate/ledger.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dynamics {
+
+EnergyLedger::EnergyLedger(const Model& model, Workspace& workspace) : model_(model), time_(workspace.state.time) {
+  kinetic_ = model.kinetic_energy(workspace.state);
+  initial_ = kinetic_;
+  for (std::size_t k = 0; k < model.forces().size(); ++k) {
+    before_.push_back(model.forces()[k]->energy(workspace.instant(workspace.state, k)));
+    entries_.push_back({model.forces()[k]->effect(), before_.back().stored, 0, 0});
+    initial_ += before_.back().stored;
+  }
+}
+
+void EnergyLedger::note(Workspace& workspace) {
+  const double h = workspace.state.time - time_;
+  time_ = workspace.state.time;
+  kinetic_ = model_.kinetic_energy(workspace.state);
+  for (std::size_t k = 0; k < entries_.size(); ++k) {
+    const EnergyFlow now = model_.forces()[k]->energy(workspace.instant(workspace.state, k));
+    entries_[k].stored = now.stored;
+    entries_[k].supplied += h / 2 * (before_[k].supplied + now.supplied);
+    entries_[k].dissipated += h / 2 * (before_[k].dissipated + now.dissipated);
+    before_[k] = now;
+  }
+}
+
+double EnergyLedger::residual() const {
+  double r = kinetic_ - initial_;
+  for (const Entry& e : entries_) r += e.stored - e.supplied + e.dissipated;
+  return r;
+}
+
+double EnergyLedger::turnover() const {
+  double supplied = 0, dissipated = 0, held = kinetic_;
+  for (const Entry& e : entries_) {
+    supplied += std::abs(e.supplied);
+    dissipated += std::abs(e.dissipated);
+    held += std::abs(e.stored);
+  }
+  return std::max({supplied, dissipated, held, std::abs(initial_)});
+}
+
+}  // namespace dynamics

@@ -1,0 +1,164 @@
+#include "dynamics/model/model.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include "dynamics/spatial/rotation.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/base/types.hpp"
+
+namespace dynamics {
+namespace {
+
+Eigen::Matrix3d inertia_in_world(const RigidBody& body, const Pose& pose) {
+  const Eigen::Matrix3d R = pose.attitude.toRotationMatrix();
+  return R * body.inertia() * R.transpose();
+}
+
+}  // namespace
+
+Model::Model(std::vector<RigidBody> bodies, std::vector<AddedMass> added_mass, std::vector<std::unique_ptr<const ForceKind>> forces)
+    : bodies_(std::move(bodies)), added_mass_(std::move(added_mass)), forces_(std::move(forces)), pattern_(static_cast<int>(bodies_.size())) {
+  hydro::require(!bodies_.empty(), "the model has no bodies");
+  for (const AddedMass& added : added_mass_)
+    for (const int i : added.bodies)
+      for (const int j : added.bodies)
+        if (i < j) pattern_.couple(i, j);
+  for (const auto& kind : forces_) kind->couple(pattern_);
+  pattern_.freeze();
+  // Dynamics with an indefinite mass run away at once; say so before the first step.
+  BlockMatrix mass(pattern_);
+  add_mass(rest_state(bodies_), 1, mass);
+  Eigen::MatrixXd M = mass.dense();
+  for (int i = 0; i < modes(); ++i)
+    if (!is_free(i)) {
+      M.row(i).setZero();
+      M.col(i).setZero();
+      M(i, i) = 1;
+    }
+  M = (M + M.transpose()) / 2;
+  if (Eigen::LLT<Eigen::MatrixXd>(M).info() == Eigen::Success) return;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(M);
+  Eigen::Index worst = 0;
+  eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&worst);
+  throw hydro::InputError(fmt::format("mass plus added mass is not positive definite: eigenvalue {:.4g}, mostly {}", eigen.eigenvalues()[0],
+                                      mode_name(static_cast<int>(worst))),
+                          {}, "check the added mass at infinite frequency with `froude bem check`");
+}
+
+std::string Model::mode_name(int mode) const {
+  return bodies_[static_cast<std::size_t>(mode / 6)].name() + "." + std::string(hydro::mode_names[static_cast<std::size_t>(mode % 6)]);
+}
+
+void Model::add_mass(const State& state, double factor, BlockMatrix& out) const {
+  for (int i = 0; i < static_cast<int>(bodies_.size()); ++i) {
+    const auto& body = bodies_[static_cast<std::size_t>(i)];
+    Matrix6& block = out.block(i, i);
+    block.topLeftCorner<3, 3>().diagonal().array() += factor * body.mass();
+    block.bottomRightCorner<3, 3>() += factor * inertia_in_world(body, state.pose[static_cast<std::size_t>(i)]);
+  }
+  for (const AddedMass& added : added_mass_)
+    for (std::size_t i = 0; i < added.bodies.size(); ++i)
+      for (std::size_t j = 0; j < added.bodies.size(); ++j)
+        out.block(added.bodies[i], added.bodies[j]) +=
+            factor * added.value.block<6, 6>(6 * static_cast<Eigen::Index>(i), 6 * static_cast<Eigen::Index>(j));
+}
+
+Eigen::MatrixXd Model::dry_mass_at_rest() const {
+  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(modes(), modes());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const auto row = 6 * static_cast<Eigen::Index>(i);
+    M.block<3, 3>(row, row).diagonal().setConstant(bodies_[i].mass());
+    M.block<3, 3>(row + 3, row + 3) = bodies_[i].inertia();
+  }
+  return M;
+}
+
+Eigen::VectorXd Model::mass_times(const State& state, const Eigen::VectorXd& x) const {
+  Eigen::VectorXd y(x.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const auto row = 6 * static_cast<Eigen::Index>(i);
+    y.segment<3>(row) = bodies_[i].mass() * x.segment<3>(row);
+    y.segment<3>(row + 3) = inertia_in_world(bodies_[i], state.pose[i]) * x.segment<3>(row + 3);
+  }
+  for (const AddedMass& added : added_mass_)
+    for (std::size_t i = 0; i < added.bodies.size(); ++i)
+      for (std::size_t j = 0; j < added.bodies.size(); ++j)
+        y.segment<6>(6 * added.bodies[i]) +=
+            added.value.block<6, 6>(6 * static_cast<Eigen::Index>(i), 6 * static_cast<Eigen::Index>(j)) * x.segment<6>(6 * added.bodies[j]);
+  return y;
+}
+
+Eigen::VectorXd Model::residual(const State& state, const Eigen::VectorXd& acceleration, Workspace& workspace) const {
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(modes());
+  LoadSink sink(load);
+  for (std::size_t k = 0; k < forces_.size(); ++k) {
+    forces_[k]->add_load(workspace.instant(state, k), sink);
+    ++workspace.evaluations[k];
+  }
+  Eigen::VectorXd r = mass_times(state, acceleration) - load;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const auto row = 6 * static_cast<Eigen::Index>(i) + 3;
+    const Eigen::Vector3d omega = state.velocity.segment<3>(row);
+    r.segment<3>(row) += omega.cross(inertia_in_world(bodies_[i], state.pose[i]) * omega);
+  }
+  for (int i = 0; i < modes(); ++i)
+    if (!is_free(i)) r[i] = 0;
+  return r;
+}
+
+void Model::tangent(const State& state, double c_a, double c_v, double c_q, Workspace& workspace, BlockMatrix& out) const {
+  out.set_zero();
+  add_mass(state, c_a, out);
+  JacobianSink sink(out, c_q, c_v);
+  for (std::size_t k = 0; k < forces_.size(); ++k) forces_[k]->add_jacobian(workspace.instant(state, k), sink);
+  for (int i = 0; i < static_cast<int>(bodies_.size()); ++i) {
+    const Eigen::Matrix3d I = inertia_in_world(bodies_[static_cast<std::size_t>(i)], state.pose[static_cast<std::size_t>(i)]);
+    const Eigen::Vector3d omega = state.twist(i).tail<3>();
+    out.block(i, i).bottomRightCorner<3, 3>() += c_v * (cross_matrix(omega) * I - cross_matrix(I * omega));
+  }
+  for (int i = 0; i < modes(); ++i) {
+    if (is_free(i)) continue;
+    for (const int j : pattern_.columns(i / 6)) {
+      out.block(i / 6, j).row(i % 6).setZero();
+      out.block(j, i / 6).col(i % 6).setZero();
+    }
+    out.block(i / 6, i / 6)(i % 6, i % 6) = 1;
+  }
+}
+
+double Model::kinetic_energy(const State& state) const { return 0.5 * state.velocity.dot(mass_times(state, state.velocity)); }
+
+Model::Linear Model::linear_at_rest() const {
+  const State rest = rest_state(bodies_);
+  const auto assembled = [&](double c_v, double c_q) {
+    BlockMatrix m(pattern_);
+    JacobianSink sink(m, c_q, c_v);
+    for (const auto& kind : forces_)
+      if (kind->linear_at_rest()) kind->add_jacobian({rest, nullptr}, sink);
+    return m.dense();
+  };
+  return {assembled(0, 1), assembled(1, 0)};
+}
+
+Eigen::VectorXd Model::load_at_rest() const {
+  const State rest = rest_state(bodies_);
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(modes());
+  LoadSink sink(load);
+  for (const auto& kind : forces_)
+    if (kind->linear_at_rest()) kind->add_load({rest, nullptr}, sink);
+  return load;
+}
+
+Workspace::Workspace(const Model& model, State start)
+    : state(std::move(start)), acceleration(Eigen::VectorXd::Zero(model.modes())), evaluations(model.forces().size(), 0),
+      matrix(model.pattern()), solver(model.pattern()) {
+  for (const auto& kind : model.forces()) memory.push_back(kind->make_memory(state));
+}
+
+void Workspace::accept() {
+  for (auto& m : memory)
+    if (m) m->accept(state);
+}
+
+}  // namespace dynamics

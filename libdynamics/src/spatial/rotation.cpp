@@ -1,0 +1,59 @@
+#include "dynamics/spatial/rotation.hpp"
+
+#include <cmath>
+
+namespace dynamics {
+namespace {
+// Below this angle the closed forms lose digits to cancellation and the next term of the series is below round-off.
+constexpr double small_angle = 1e-3;
+}  // namespace
+
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+Eigen::Quaterniond rotation_exp(const Eigen::Vector3d& phi) {
+  const double angle = phi.norm(), half = angle / 2;
+  const double s = angle < small_angle ? 0.5 - angle * angle / 48 : std::sin(half) / angle;
+  return Eigen::Quaterniond(std::cos(half), s * phi.x(), s * phi.y(), s * phi.z()).normalized();
+}
+
+Eigen::Vector3d rotation_log(const Eigen::Quaterniond& q) {
+  const double sign = q.w() < 0 ? -1 : 1;   // q and −q are the same rotation; take the shorter turn
+  const double s = q.vec().norm();
+  // atan2 keeps full accuracy at both ends, where asin or acos alone would not.
+  const double per_sine = s < small_angle ? 2 / std::abs(q.w()) * (1 - s * s / (3 * q.w() * q.w()))
+                                          : 2 * std::atan2(s, std::abs(q.w())) / s;
+  return sign * per_sine * q.vec();
+}
+
+Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& phi) {
+  const double a2 = phi.squaredNorm(), a = std::sqrt(a2);
+  const Eigen::Matrix3d X = cross_matrix(phi);
+  const double c1 = a < small_angle ? 0.5 - a2 / 24 : (1 - std::cos(a)) / a2;
+  const double c2 = a < small_angle ? 1.0 / 6 - a2 / 120 : (a - std::sin(a)) / (a2 * a);
+  return Eigen::Matrix3d::Identity() + c1 * X + c2 * X * X;
+}
+
+Eigen::Matrix3d left_jacobian_inverse(const Eigen::Vector3d& phi) {
+  const double a2 = phi.squaredNorm(), a = std::sqrt(a2);
+  const Eigen::Matrix3d X = cross_matrix(phi);
+  const double c2 = a < small_angle ? 1.0 / 12 + a2 / 720 : (1 - a / 2 / std::tan(a / 2)) / a2;
+  return Eigen::Matrix3d::Identity() - 0.5 * X + c2 * X * X;
+}
+
+Eigen::Matrix3d left_jacobian_inverse_transpose_derivative(const Eigen::Vector3d& phi, const Eigen::Vector3d& m) {
+  // J⁻ᵀ m = m + ½ φ×m + c(|φ|) φ×(φ×m), c as in left_jacobian_inverse.
+  const double a2 = phi.squaredNorm(), a = std::sqrt(a2);
+  const bool small = a < 1e-2;   // the closed form of c′/a loses four powers of a
+  const double cot = small ? 0 : 1 / std::tan(a / 2), sine = std::sin(a / 2);
+  const double c = small ? 1.0 / 12 + a2 / 720 + a2 * a2 / 30240 : (1 - a / 2 * cot) / a2;
+  const double dc_over_a = small ? 1.0 / 360 + a2 / 7560 : ((a / (4 * sine * sine) - cot / 2) / a2 - 2 * c / a) / a;
+  const Eigen::Vector3d once = phi.cross(m), twice = phi.cross(once);
+  return -0.5 * cross_matrix(m) - c * (cross_matrix(once) + cross_matrix(phi) * cross_matrix(m)) +
+         dc_over_a * twice * phi.transpose();
+}
+
+}  // namespace dynamics

@@ -1,0 +1,126 @@
+#include "fit/correlated.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hydro/base/error.hpp"
+
+namespace fit {
+namespace {
+
+// Divided by n, not n − k: only so is the sequence non-negative definite and the autoregression stationary.
+Eigen::VectorXd sample_autocovariance(const Eigen::VectorXd& x, Eigen::Index lags) {
+  const Eigen::Index n = x.size();
+  Eigen::VectorXd gamma(lags + 1);
+  for (Eigen::Index k = 0; k <= lags; ++k) gamma[k] = x.head(n - k).dot(x.tail(n - k)) / static_cast<double>(n);
+  return gamma;
+}
+
+// γ_k = Σ φ_i γ_{k−i} beyond the order, until it has died out.
+Eigen::VectorXd extended(const Eigen::VectorXd& gamma, const Eigen::VectorXd& phi, Eigen::Index n) {
+  const Eigen::Index p = phi.size();
+  std::vector<double> g(gamma.data(), gamma.data() + p + 1);
+  while (static_cast<Eigen::Index>(g.size()) < n) {
+    double next = 0, recent = 0;
+    for (Eigen::Index i = 1; i <= p; ++i) {
+      const double earlier = g[g.size() - static_cast<std::size_t>(i)];
+      next += phi[i - 1] * earlier;
+      recent = std::max(recent, std::abs(earlier));
+    }
+    if (recent < 1e-6 * g[0]) break;
+    g.push_back(next);
+  }
+  return Eigen::Map<const Eigen::VectorXd>(g.data(), static_cast<Eigen::Index>(g.size()));
+}
+
+Eigen::MatrixXd block_means(const Eigen::MatrixXd& m, Eigen::Index block) {
+  Eigen::MatrixXd out(m.rows() / block, m.cols());
+  for (Eigen::Index b = 0; b < out.rows(); ++b) out.row(b) = m.middleRows(b * block, block).colwise().mean();
+  return out;
+}
+
+// Jᵀ Σ J with the Toeplitz matrix Σ_ij = γ_|i−j|.
+Eigen::MatrixXd toeplitz_form(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& gamma) {
+  const Eigen::Index n = jacobian.rows();
+  Eigen::MatrixXd sum = gamma[0] * jacobian.transpose() * jacobian;
+  for (Eigen::Index k = 1; k < std::min(gamma.size(), n); ++k) {
+    const Eigen::MatrixXd lagged = jacobian.topRows(n - k).transpose() * jacobian.bottomRows(n - k);
+    sum += gamma[k] * (lagged + lagged.transpose());
+  }
+  return sum;
+}
+
+}  // namespace
+
+Autoregression fit_autoregression(const Eigen::VectorXd& record, int order_at_most) {  // (F3)
+  const Eigen::Index n = record.size();
+  hydro::require(n >= 8, "an autoregression needs at least 8 samples, got {}", n);
+  const Eigen::Index highest = std::min<Eigen::Index>(order_at_most, n / 8);
+  const Eigen::VectorXd gamma = sample_autocovariance(record, highest);
+  hydro::require(gamma[0] > 0, "the residuals are all zero: they have no autocovariance");
+  // Levinson–Durbin gives every order up to the highest; BIC = n ln σ²_p + p ln n picks one.
+  Eigen::VectorXd phi(0), best(0);
+  double variance = gamma[0];
+  double best_bic = static_cast<double>(n) * std::log(variance);
+  for (Eigen::Index p = 1; p <= highest; ++p) {
+    const double reflection = (gamma[p] - (p > 1 ? phi.dot(gamma.segment(1, p - 1).reverse()) : 0.0)) / variance;
+    Eigen::VectorXd next(p);
+    if (p > 1) next.head(p - 1) = phi - reflection * phi.reverse();
+    next[p - 1] = reflection;
+    phi = next;
+    variance *= 1 - reflection * reflection;
+    if (!(variance > 0)) break;  // a perfectly predictable record
+    const double bic =
+        static_cast<double>(n) * std::log(variance) + static_cast<double>(p) * std::log(static_cast<double>(n));
+    if (bic < best_bic) {
+      best_bic = bic;
+      best = phi;
+    }
+  }
+  return {best, extended(gamma, best, n)};
+}
+
+CoefficientCovariance correlated_covariance(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals,
+                                            int block) {
+  const Eigen::Index n = jacobian.rows(), p = jacobian.cols();
+  hydro::require(residuals.size() == n, "{} residuals but a Jacobian of {} rows", residuals.size(), n);
+  hydro::require(block >= 1 && n / block >= 8 && n > p, "{} samples in blocks of {} are too few for an uncertainty", n,
+                 block);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(jacobian);
+  hydro::require(qr.rank() == p, "the coefficients cannot be told apart: the Jacobian has rank {} of {}", qr.rank(), p);
+  const Eigen::MatrixXd inverse = (jacobian.transpose() * jacobian).inverse();
+
+  const Eigen::MatrixXd means = block_means(jacobian, block);
+  const Eigen::VectorXd residual_means = block_means(residuals, block);
+  const auto ar = fit_autoregression(residual_means);
+  const auto blocks = static_cast<double>(means.rows());
+  const double covered = static_cast<double>(n) / (blocks * block);  // samples after the last whole block count as well
+  const Eigen::MatrixXd block_inverse = (means.transpose() * means).inverse();
+  Eigen::MatrixXd meat = toeplitz_form(means, ar.autocovariance);
+  // The fit took tr(P Σ) out of the residuals' sum of squares (for white residuals: p σ²); put it back.
+  const double lost = (block_inverse * meat).trace() / (blocks * ar.autocovariance[0]);
+  hydro::require(lost < 0.5,
+                 "the residuals stay correlated over so much of the record that {} coefficients explain most of them",
+                 p);
+  meat /= 1 - lost;
+
+  CoefficientCovariance result;
+  result.covariance = inverse * meat * inverse * (block * block * covered);  // (F4)
+  result.white_dof = static_cast<double>(n - p);
+  result.white_covariance = residuals.squaredNorm() / result.white_dof * inverse;
+  result.effective_samples =
+      static_cast<double>(n) * result.white_covariance.diagonal().cwiseQuotient(result.covariance.diagonal());
+  const Eigen::VectorXd rho = ar.autocovariance.tail(ar.autocovariance.size() - 1) / ar.autocovariance[0];
+  // The formula is about random residuals. A residual that repeats is known exactly, yet gives next to nothing here;
+  // two is the least for which Student's t has a quantile of use (4.3 at 95 %).
+  const double formula = blocks / (1 + 2 * rho.squaredNorm()) - static_cast<double>(p);
+  result.dof_raised = formula < 2;
+  result.dof = std::max(2.0, formula);
+  result.order = static_cast<int>(ar.coefficients.size());
+  result.block = block;
+  return result;
+}
+
+}  // namespace fit

@@ -1,0 +1,81 @@
+#include "fit/towing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hydro/base/error.hpp"
+#include "hydro/signal/distributions.hpp"
+
+namespace fit {
+namespace {
+
+void check(const Cylinder& c, std::span<const TowingRun> runs, double confidence) {
+  hydro::require(c.diameter > 0 && c.length > 0 && c.density > 0,
+                 "diameter, length and density must be positive, got {} m, {} m, {} kg/m³", c.diameter, c.length,
+                 c.density);
+  hydro::require(!c.viscosity || *c.viscosity > 0, "the viscosity must be positive, got {} m²/s",
+                 c.viscosity.value_or(0));
+  hydro::require(c.mass_beyond_load_cells == 0,
+                 "steady towing has no inertia force: leave out the mass beyond the load cells");
+  hydro::require(!runs.empty(), "there are no towing runs");
+  hydro::require(confidence > 0 && confidence < 1, "a confidence level must lie between 0 and 1, got {}", confidence);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const TowingRun& r = runs[i];
+    hydro::require(std::isfinite(r.speed) && r.speed > 0, "run {}: the speed must be positive, got {} m/s", i + 1,
+                   r.speed);
+    hydro::require(std::isfinite(r.force), "run {}: the force is not finite", i + 1);
+    hydro::require(r.force_deviation >= 0 && std::isfinite(r.force_deviation) && r.speed_deviation >= 0 &&
+                       std::isfinite(r.speed_deviation),
+                   "run {}: the deviations must not be negative, got {} m/s and {} N", i + 1, r.speed_deviation,
+                   r.force_deviation);
+    hydro::require(
+        (r.force_deviation + r.speed_deviation > 0) == (runs[0].force_deviation + runs[0].speed_deviation > 0),
+        "run {}: deviations must be stated for all runs or for none", i + 1);
+  }
+}
+
+TowingPoint point(const Cylinder& c, const TowingRun& r) {  // (F12)
+  const double unit = 0.5 * c.density * r.speed * r.speed * c.diameter * c.length;
+  const double cd = r.force / unit;
+  TowingPoint p{cd, std::hypot(r.force_deviation / unit, 2 * cd * r.speed_deviation / r.speed), {}};
+  if (c.viscosity) p.re = r.speed * c.diameter / *c.viscosity;
+  return p;
+}
+
+}  // namespace
+
+TowingFit fit_towing(const Cylinder& cylinder, std::span<const TowingRun> runs, double confidence) {  // (F13)
+  check(cylinder, runs, confidence);
+  TowingFit fit{};
+  fit.confidence = confidence;
+  for (const TowingRun& run : runs) fit.points.push_back(point(cylinder, run));
+  const auto n = static_cast<double>(runs.size());
+  const bool stated = fit.points[0].cd_deviation > 0;
+  hydro::require(stated || n > 1, "one run without deviations has no uncertainty: state them, or add runs");
+  double weights = 0, weighted = 0, squares = 0;
+  for (const TowingPoint& p : fit.points) {
+    const double w = stated ? std::pow(p.cd_deviation, -2) : 1.0;
+    weights += w;
+    weighted += w * p.cd;
+  }
+  const double mean = weighted / weights;
+  for (const TowingPoint& p : fit.points) squares += std::pow((p.cd - mean) / (stated ? p.cd_deviation : 1.0), 2);
+  const double scatter = n > 1 ? std::sqrt(squares / (n - 1)) : 0;
+  // With an error taken from the scatter of n runs, the quantile is Student's; with stated ones it is the normal's.
+  const bool scattered = !stated || scatter > 1;
+  const double own = 1 / std::sqrt(weights), normal = own * hydro::signal::normal_quantile((1 + confidence) / 2);
+  const double half =
+      scattered ? own * scatter * hydro::signal::student_t_quantile((1 + confidence) / 2, n - 1) : normal;
+  fit.chi_square = stated ? squares : std::numeric_limits<double>::quiet_NaN();
+  fit.scatter = stated ? scatter : std::numeric_limits<double>::quiet_NaN();
+  fit.cd.name = "cd";
+  fit.cd.value = mean;
+  fit.cd.standard_error = scattered ? own * scatter : own;
+  fit.cd.interval = {mean - half, mean + half};
+  fit.cd.white_interval = stated ? Interval{mean - normal, mean + normal} : fit.cd.interval;
+  fit.cd.effective_samples = n;
+  return fit;
+}
+
+}  // namespace fit

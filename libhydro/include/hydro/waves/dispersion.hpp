@@ -1,0 +1,26 @@
+#pragma once
+/// \file  How long a wave of a given frequency is, and how fast it and its energy travel, at any depth.
+///
+///   ω² = g k tanh kh      (W1), derived in docs/theory/waves.md
+///
+/// Plain doubles in SI: these are kernels. Frequencies at a border are AngularFrequency. No current, no surface
+/// tension.
+#include "hydro/base/types.hpp"
+
+namespace hydro::waves {
+
+/// k(ω), rad/m, from ω in rad/s. Explicit start (W2) within 0.8 %, then three Newton steps (W3): (W1) holds to 1e-15
+/// relative for 1e-100 < kh and in infinitely deep water, where k = ω²/g.
+/// \throws InputError unless omega is finite and > 0 and gravity is finite and > 0
+double wavenumber(double omega, const Water& water);
+
+/// ω(k), rad/s, from k in rad/m; 4e-16 relative. \throws InputError unless k is finite and > 0, and as wavenumber()
+double angular_frequency(double k, const Water& water);
+
+/// ω/k, m/s: how fast crests travel. \throws InputError as wavenumber()
+double phase_velocity(double omega, const Water& water);
+
+/// dω/dk, m/s: how fast energy travels (W4); 1e-15 relative. \throws InputError as wavenumber()
+double group_velocity(double omega, const Water& water);
+
+}  // namespace hydro::waves

@@ -1,0 +1,161 @@
+#include <limits>
+#include <numeric>
+
+#include "hydro/io/hdf5.hpp"
+#include "hydro/potential/writers.hpp"
+#include "readers.hpp"
+
+namespace hydro::potential {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Writes datasets with their axes tied to dimensions, which is what makes the file netCDF-4.
+class Output {
+ public:
+  explicit Output(io::Hdf5Writer& file) : file_(file) {}
+
+  void axis(const std::string& name, const std::vector<double>& values, const char* units, const char* long_name) {
+    file_.write(name, values, {values.size()});
+    file_.make_dimension(name);
+    describe(name, units, long_name);
+  }
+  /// Numbers 1 … n.
+  void axis(const std::string& name, std::size_t n, const char* long_name) {
+    std::vector<double> values(n);
+    std::iota(values.begin(), values.end(), 1.0);
+    axis(name, values, "1", long_name);
+  }
+  void table(const std::string& name, const std::vector<double>& values, const std::vector<std::string>& axes,
+             const std::vector<std::size_t>& shape, const char* units, const char* long_name) {
+    file_.write(name, values, shape);
+    tie(name, axes);
+    describe(name, units, long_name);
+  }
+  void texts(const std::string& name, const std::vector<std::string>& values, const std::string& axis) {
+    file_.write_texts(name, values);
+    tie(name, {axis});
+  }
+  void scalar(const std::string& name, double value, const char* units, const char* long_name) {
+    file_.write_scalar(name, value);
+    describe(name, units, long_name);
+  }
+
+ private:
+  void tie(const std::string& name, const std::vector<std::string>& axes) {
+    for (std::size_t i = 0; i < axes.size(); ++i) file_.attach_dimension(name, i, axes[i]);
+  }
+  void describe(const std::string& name, const char* units, const char* long_name) {
+    file_.attribute(name, "units", units);
+    file_.attribute(name, "long_name", long_name);
+  }
+
+  io::Hdf5Writer& file_;
+};
+
+/// Row by row.
+void append(std::vector<double>& values, const Eigen::MatrixXd& m) {
+  for (Eigen::Index i = 0; i < m.rows(); ++i)
+    for (Eigen::Index j = 0; j < m.cols(); ++j) values.push_back(m(i, j));
+}
+
+constexpr const char* mass_units = "kg, kg m, kg m2";
+constexpr const char* damping_units = "kg/s, kg m/s, kg m2/s";
+constexpr const char* stiffness_units = "N/m, N, N m";
+constexpr const char* load_units = "N/m, N";
+
+const std::vector<std::string> square{"/load_mode", "/motion_mode"};
+
+void write_axes(Output& out, const Coefficients& c) {
+  const std::size_t n = static_cast<std::size_t>(c.modes());
+  out.axis("/omega", c.omega, "rad/s", "angular frequency");
+  if (!c.heading.empty()) out.axis("/heading", c.heading, "rad", "where the wave goes, from +x towards +y");
+  out.axis("/load_mode", n, "mode of the load: surge ... yaw of body 1, of body 2, ...");
+  out.axis("/motion_mode", n, "mode of the motion: surge ... yaw of body 1, of body 2, ...");
+  out.axis("/body", c.body.size(), "number of the body");
+  out.axis("/axis", 3, "x, y, z");
+}
+
+void write_matrices(Output& out, const Coefficients& c) {
+  const std::size_t n = static_cast<std::size_t>(c.modes());
+  std::vector<double> A, B;
+  for (const auto& m : c.A) append(A, m);
+  for (const auto& m : c.B) append(B, m);
+  out.table("/added_mass", A, {"/omega", "/load_mode", "/motion_mode"}, {c.omega.size(), n, n}, mass_units,
+            "added mass A");
+  out.table("/radiation_damping", B, {"/omega", "/load_mode", "/motion_mode"}, {c.omega.size(), n, n}, damping_units,
+            "radiation damping B");
+  const auto matrix = [&](const char* name, const std::optional<Eigen::MatrixXd>& m, const char* units,
+                          const char* what) {
+    if (!m) return;
+    std::vector<double> values;
+    append(values, *m);
+    out.table(name, values, square, {n, n}, units, what);
+  };
+  matrix("/added_mass_zero", c.A_zero, mass_units, "added mass at zero frequency");
+  matrix("/added_mass_infinite", c.A_inf, mass_units, "added mass at infinite frequency");
+  matrix("/restoring", c.C, stiffness_units, "hydrostatic and gravitational restoring C");
+}
+
+void write_excitation(Output& out, const Coefficients& c) {
+  if (c.X.empty()) return;
+  std::vector<double> re, im;
+  for (const auto& X : c.X) {
+    append(re, X.real());
+    append(im, X.imag());
+  }
+  const std::vector<std::size_t> shape{c.heading.size(), static_cast<std::size_t>(c.modes()), c.omega.size()};
+  const std::vector<std::string> axes{"/heading", "/load_mode", "/omega"};
+  out.table("/excitation_re", re, axes, shape, load_units, "real part of the excitation X per metre of amplitude");
+  out.table("/excitation_im", im, axes, shape, load_units, "imaginary part of the excitation X per metre of amplitude");
+}
+
+void write_bodies(Output& out, const Coefficients& c) {
+  const std::size_t n = c.body.size();
+  std::vector<std::string> names;
+  std::vector<double> volume;
+  for (const BodyData& body : c.body) {
+    names.push_back(body.name);
+    volume.push_back(body.displaced_volume.value_or(unknown));
+  }
+  out.texts("/body_name", names, "/body");
+  out.table("/displaced_volume", volume, {"/body"}, {n}, "m3", "displaced volume; NaN: unknown");
+  const auto points = [&](const char* name, std::optional<Eigen::Vector3d> BodyData::*member, const char* what) {
+    std::vector<double> values;
+    for (const BodyData& body : c.body)
+      for (Eigen::Index i = 0; i < 3; ++i) values.push_back(body.*member ? (*(body.*member))(i) : unknown);
+    out.table(name, values, {"/body", "/axis"}, {n, 3}, "m", what);
+  };
+  points("/reference_point", &BodyData::reference_point, "reference point, global frame; NaN: unknown");
+  points("/centre_of_gravity", &BodyData::centre_of_gravity, "centre of gravity, global frame; NaN: unknown");
+  points("/centre_of_buoyancy", &BodyData::centre_of_buoyancy, "centre of buoyancy, global frame; NaN: unknown");
+}
+
+}  // namespace
+
+std::vector<std::string> write_froude(const Coefficients& c, const std::filesystem::path& path) {
+  c.validate();
+  io::Hdf5Writer file;
+  Output out(file);
+  file.attribute("/", "format", froude_format);
+  file.attribute("/", "format_version", 1.0);
+  file.attribute(
+      "/", "convention",
+      "Re(X exp(+i omega t)); x forward, y port, z up, origin in the still waterplane; phases at the origin");
+  file.write_text("/source", c.source);
+  write_axes(out, c);
+  out.scalar("/density", c.water.density, "kg/m3", "density of water");
+  out.scalar("/gravity", c.water.gravity, "m/s2", "acceleration of gravity");
+  out.scalar("/water_depth", c.water.depth.metres(), "m", "depth of still water; inf: deep");
+  write_matrices(out, c);
+  write_excitation(out, c);
+  write_bodies(out, c);
+  if (!c.notes.empty()) {
+    out.axis("/note", c.notes.size(), "number of the note");
+    out.texts("/note_text", c.notes, "/note");
+  }
+  file.save(path);
+  return {};
+}
+
+}  // namespace hydro::potential

@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numeric>
+#include <string_view>
+
+#include "hydro/base/error.hpp"
+#include "hydro/io/hdf5.hpp"
+#include "hydro/potential/coefficients.hpp"
+#include "hydro/waves/dispersion.hpp"
+#include "readers.hpp"
+
+namespace hydro::potential {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class Container { hdf5, classic_netcdf, other };
+
+Container container_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  char head[4] = {};
+  in.read(head, 4);
+  if (!in) return Container::other;
+  const std::string_view magic(head, 4);
+  if (magic == "\x89HDF") return Container::hdf5;
+  if (magic.substr(0, 3) == "CDF" && (head[3] == 1 || head[3] == 2 || head[3] == 5)) return Container::classic_netcdf;
+  return Container::other;
+}
+
+enum class Hdf5Kind { froude, bemio, capytaine };
+
+Hdf5Kind kind_of_hdf5(const fs::path& path) {
+  const io::Hdf5Reader file(path);
+  if (file.has_attribute("/", "format") && file.text_attribute("/", "format") == froude_format) return Hdf5Kind::froude;
+  if (file.has("/simulation_parameters") && (file.has("/bem_data") || file.has("/body1/hydro_coeffs")))
+    return Hdf5Kind::bemio;
+  if (file.has("/added_mass") && file.has("/radiating_dof")) return Hdf5Kind::capytaine;
+  throw InputError("an HDF5 file, but none that holds coefficients Froude knows", {.file = path.string()},
+                   "give a file of Froude (`froude bem convert`), of BEMIO (groups body1, simulation_parameters) or of "
+                   "Capytaine (variables added_mass, radiating_dof)");
+}
+
+Coefficients read_hdf5(const fs::path& path) {
+  switch (kind_of_hdf5(path)) {
+    case Hdf5Kind::froude:
+      return read_froude(path);
+    case Hdf5Kind::bemio:
+      return read_bemio(path);
+    case Hdf5Kind::capytaine:
+      break;
+  }
+  return read_capytaine(path);
+}
+
+/// Formats that state ρ, g and h are believed; a caller who holds another value is told.
+void note_differing_water(Coefficients& c, const ReadOptions& options) {
+  const auto differs = [](double a, double b) {  // either may be an infinite depth
+    return a != b && !(std::abs(a - b) <= 1e-6 * std::min(std::abs(a), std::abs(b)));
+  };
+  const auto note = [&](const char* what, double asked, double found) {
+    c.notes.push_back(fmt::format("{} {} was asked for, but the file states {}, which is used", what, asked, found));
+  };
+  if (options.density && differs(*options.density, c.water.density)) note("density", *options.density, c.water.density);
+  if (options.gravity && differs(*options.gravity, c.water.gravity)) note("gravity", *options.gravity, c.water.gravity);
+  if (options.depth && differs(options.depth->metres(), c.water.depth.metres()))
+    note("depth", options.depth->metres(), c.water.depth.metres());
+}
+
+}  // namespace
+
+Coefficients read(const fs::path& path, const ReadOptions& options) {
+  if (fs::is_directory(path))
+    throw InputError(fmt::format("\"{}\" is a folder", path.string()), {}, "give a file in it");
+  const Container container = fs::exists(path) ? container_of(path) : Container::other;
+  Coefficients c = container == Container::hdf5             ? read_hdf5(path)
+                   : container == Container::classic_netcdf ? read_capytaine(path)
+                                                            : read_wamit(path, options);
+  if (container != Container::other) note_differing_water(c, options);
+  c.validate();
+  return c;
+}
+
+FrequencyOrder order_frequencies(const std::vector<double>& omega, const fs::path& file) {
+  const Place place{.file = file.string()};
+  FrequencyOrder order;
+  for (std::size_t i = 0; i < omega.size(); ++i) {
+    if (!(omega[i] >= 0))
+      throw InputError(fmt::format("frequency {} is {} rad/s; it must be zero, positive or infinite", i + 1, omega[i]),
+                       place);
+    if (omega[i] == 0 || std::isinf(omega[i])) {
+      auto& limit = omega[i] == 0 ? order.zero : order.infinite;
+      if (limit)
+        throw InputError(fmt::format("frequency {} rad/s is there twice", omega[i]), place, "keep one of them");
+      limit = i;
+    } else {
+      order.finite.push_back(i);
+    }
+  }
+  if (order.finite.empty()) throw InputError("there is no finite, positive frequency", place);
+  std::sort(order.finite.begin(), order.finite.end(),
+            [&](std::size_t a, std::size_t b) { return omega[a] < omega[b]; });
+  for (std::size_t i = 1; i < order.finite.size(); ++i)
+    if (omega[order.finite[i]] == omega[order.finite[i - 1]])
+      throw InputError(fmt::format("frequency {} rad/s is there twice", omega[order.finite[i]]), place,
+                       "keep one of them");
+  return order;
+}
+
+std::vector<std::size_t> order_headings(const std::vector<double>& heading_rad, const fs::path& file) {
+  const Place place{.file = file.string()};
+  std::vector<std::size_t> order(heading_rad.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (const double beta : heading_rad)
+    if (!std::isfinite(beta)) throw InputError("a wave heading is not finite", place);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return heading_rad[a] < heading_rad[b]; });
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (heading_rad[order[i]] == heading_rad[order[i - 1]])
+      throw InputError(
+          fmt::format("heading {:.6g} deg is there twice", Angle::from_radians(heading_rad[order[i]]).degrees()), place,
+          "keep one of them");
+  return order;
+}
+
+std::vector<double> picked(const std::vector<double>& values, const std::vector<std::size_t>& indices) {
+  std::vector<double> out;
+  for (const std::size_t i : indices) out.push_back(values[i]);
+  return out;
+}
+
+void require_finite(double value, const fs::path& file, const std::string& what) {
+  if (!std::isfinite(value))
+    throw InputError(fmt::format("{} is {}", what, value), {.file = file.string()},
+                     "a failed computation is stored this way: run that case again, or leave its frequency out");
+}
+
+std::string mode_label(Eigen::Index mode) {
+  return fmt::format("{} of body {}", mode_names[static_cast<std::size_t>(mode % 6)], mode / 6 + 1);
+}
+
+double frequency_of_wavenumber(double nu, const Water& water) {
+  return nu == 0 || std::isinf(nu) ? nu : waves::angular_frequency(nu, water);
+}
+
+}  // namespace hydro::potential

@@ -1,0 +1,219 @@
+#include "hydro/radiation/kernel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hydro/base/error.hpp"
+#include "polygon.hpp"
+
+namespace hydro::radiation {
+namespace {
+
+using detail::EndWeights;
+
+constexpr double two_over_pi = 2 / std::numbers::pi;
+
+/// ∫_a^b f(ω) cos(ωt − φ) dω = w_a f(a) + w_b f(b) for f straight between a and b, exactly (R3).
+EndWeights oscillating_weights(double a, double b, double t, double phase) {
+  const double h = b - a, x = t * h / 2, m = t * (a + b) / 2 - phase;
+  // With u = ω − midpoint: ∫cos = h sinc(x) cos m and ∫u cos = −(h²/2) j1(x) sin m, j1 the spherical Bessel function.
+  const double sinc = std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x;
+  const double j1 = std::abs(x) < 1e-2 ? x / 3 * (1 - x * x / 10 * (1 - x * x / 28)) : (sinc - std::cos(x)) / x;
+  const double even = h / 2 * sinc * std::cos(m), odd = h / 2 * j1 * std::sin(m);
+  return {even + odd, even - odd};
+}
+
+EndWeights cosine_weights(double a, double b, double t) { return oscillating_weights(a, b, t, 0); }
+EndWeights sine_weights(double a, double b, double t) { return oscillating_weights(a, b, t, std::numbers::pi / 2); }
+
+Eigen::VectorXd largest_diagonal(const DampingTable& damping) {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(damping.B.front().rows());
+  for (const auto& B : damping.B) out = out.cwiseMax(B.diagonal().cwiseAbs());
+  return out;
+}
+
+// Panel codes scatter around zero damping: by a few hundredths of a mode's own largest at irregular frequencies near the end of a
+// table, and by round-off of the others for a mode that makes no waves at all (yaw of a body of revolution).
+constexpr double scatter = 0.05, round_off = 1e-6;
+
+/// Most negative B_ii relative to the largest of its mode, modes without waves left out; 0 or more.
+double most_negative(const DampingTable& damping) {
+  const Eigen::VectorXd largest = largest_diagonal(damping);
+  double share = 0;
+  for (const auto& B : damping.B)
+    for (Eigen::Index i = 0; i < largest.size(); ++i)
+      if (largest[i] > round_off * largest.maxCoeff()) share = std::max(share, -B(i, i) / largest[i]);
+  return share;
+}
+
+void check(const DampingTable& damping) {
+  require(!damping.omega.empty() && damping.omega.size() == damping.B.size(), "the damping table is empty or ragged");
+  require(damping.omega.front() > 0, "damping is given at {} rad/s; frequencies must be positive", damping.omega.front());
+  for (std::size_t i = 1; i < damping.omega.size(); ++i)
+    require(damping.omega[i] > damping.omega[i - 1], "damping frequencies do not increase at {} rad/s", damping.omega[i]);
+  const Eigen::VectorXd largest = largest_diagonal(damping);
+  for (Eigen::Index mode = 0; mode < largest.size(); ++mode) {
+    const double tolerated = std::max(scatter * largest[mode], round_off * largest.maxCoeff());
+    for (std::size_t i = 0; i < damping.omega.size(); ++i)
+      if (damping.B[i](mode, mode) < -tolerated)
+        throw InputError(fmt::format("radiation damping of mode {} is negative, {:.4g} at {:.4g} rad/s: a hull at rest in calm "
+                                     "water cannot be a source of power",
+                                     mode, damping.B[i](mode, mode), damping.omega[i]),
+                         {}, "look at the data with `froude bem check`");
+  }
+}
+
+/// What is missing beyond the last frequency, ∫ B dω, if B_ii falls on as the power that its last octave shows. Near a peak B
+/// falls faster than it goes on to, so no more than ω⁻² is credited; less than ω^−1.25 is not believed, since K(0) is finite.
+/// Pairs by |B_ij| ≤ √(B_ii B_jj). (R4)
+Eigen::MatrixXd missing_tail(const DampingTable& damping) {
+  const Eigen::Index n = damping.B.front().rows();
+  const double last = damping.omega.back();
+  const auto middle = static_cast<std::size_t>(
+      std::lower_bound(damping.omega.begin(), damping.omega.end(), last / 2) - damping.omega.begin());
+  Eigen::VectorXd tail(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double end = std::abs(damping.B.back()(i, i)), mid = std::abs(damping.B[middle](i, i));
+    const double octaves = std::log(last / damping.omega[middle]);
+    const double slope = octaves > 0 && end > 0 && mid > 0 ? std::log(mid / end) / octaves : 2;
+    tail[i] = two_over_pi * end * last / (std::clamp(slope, 1.25, 2.0) - 1);
+  }
+  return (tail * tail.transpose()).cwiseSqrt();
+}
+
+/// Error of taking B as straight between samples: ∫ |B''| (ω−a)(b−ω)/2 dω = |B''| h³/12 on each interval, the second
+/// derivative from three neighbouring samples. (R4)
+Eigen::MatrixXd bend(const DampingTable& damping) {
+  const auto& w = damping.omega;
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(damping.B.front().rows(), damping.B.front().cols());
+  for (std::size_t i = 0; i + 1 < w.size(); ++i) {
+    // The first interval, from ω = 0 where B = 0, bends like the one after it.
+    const double before = i == 0 ? 0 : w[i - 1], h0 = w[i] - before, h1 = w[i + 1] - w[i];
+    const Eigen::MatrixXd B_before = i == 0 ? Eigen::MatrixXd::Zero(sum.rows(), sum.cols()) : damping.B[i - 1];
+    const Eigen::MatrixXd second =
+        2 * ((damping.B[i + 1] - damping.B[i]) / h1 - (damping.B[i] - B_before) / h0) / (h0 + h1);
+    sum += two_over_pi * second.cwiseAbs() * (h0 * h0 * h0 + h1 * h1 * h1) / 2 / 12 * (i == 0 || i + 2 == w.size() ? 1.5 : 1);
+  }
+  return sum;
+}
+
+/// K(t) of a table by (R3).
+class CosineTransform {
+ public:
+  explicit CosineTransform(const DampingTable& damping) : damping_(damping), polygon_(damping.omega) {}
+
+  Eigen::MatrixXd at(double t) const {
+    const auto weight = polygon_.gather([t](double a, double b) { return cosine_weights(a, b, t); });
+    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(damping_.B.front().rows(), damping_.B.front().cols());
+    for (std::size_t j = 0; j < weight.size(); ++j) K += two_over_pi * weight[j] * damping_.B[j];
+    return K;
+  }
+
+ private:
+  const DampingTable& damping_;
+  detail::Polygon polygon_;
+};
+
+std::size_t steps_in(double length, double step) { return static_cast<std::size_t>(std::floor(length / step + 1e-9)); }
+
+/// Step for looking at the whole kernel: eight samples in the shortest period that the table holds.
+double survey_step(const DampingTable& damping) { return 2 * std::numbers::pi / damping.omega.back() / 8; }
+
+/// ∫_t^∞ |K_ij| dt / √(max B_ii max B_jj), its largest entry, at each survey sample; decreasing in t. Beyond the longest
+/// time nothing is known; what follows is taken to be no more than the last quarter before it. (R5)
+std::vector<double> remaining_memory(const DampingTable& damping, double step) {
+  const std::size_t count = steps_in(RetardationKernel::longest_time(damping), step) + 1;
+  const Eigen::VectorXd damped = largest_diagonal(damping);
+  Eigen::VectorXd scale = Eigen::VectorXd::Zero(damped.size());   // a mode without damping has no memory to cut
+  for (Eigen::Index i = 0; i < damped.size(); ++i)
+    if (damped[i] > 1e-6 * damped.maxCoeff()) scale[i] = 1 / std::sqrt(damped[i]);
+  std::vector<Eigen::MatrixXd> magnitude(count);
+  Eigen::MatrixXd left = Eigen::MatrixXd::Zero(scale.size(), scale.size());
+  const CosineTransform K(damping);
+  for (std::size_t i = 0; i < count; ++i) {
+    magnitude[i] = step * (scale.asDiagonal() * K.at(static_cast<double>(i) * step).cwiseAbs() * scale.asDiagonal());
+    if (i >= count - count / 4) left += magnitude[i];
+  }
+  std::vector<double> out(count);
+  for (std::size_t i = count; i-- > 0;) {
+    out[i] = left.maxCoeff();
+    left += magnitude[i];
+  }
+  return out;
+}
+
+}  // namespace
+
+Eigen::MatrixXd retardation(const DampingTable& damping, double t_s) { return CosineTransform(damping).at(t_s); }
+
+double RetardationKernel::longest_time(const DampingTable& damping) {
+  // From ω = 0 to the first frequency B rises from nothing without a bend worth an echo; bend() counts what it costs.
+  double widest = damping.omega.size() == 1 ? damping.omega.front() : 0;
+  for (std::size_t i = 1; i < damping.omega.size(); ++i)
+    widest = std::max(widest, damping.omega[i] - damping.omega[i - 1]);
+  return std::numbers::pi / widest;
+}
+
+RetardationKernel RetardationKernel::from_damping(const DampingTable& damping, const MemoryGrid& grid) {
+  check(damping);
+  require(grid.step > 0 && grid.length > 0, "memory needs a positive step and length, got {} s and {} s", grid.step, grid.length);
+  const double longest = longest_time(damping);
+  if (grid.length > longest * (1 + 1e-9))
+    throw InputError(fmt::format("a memory of {:.4g} s is asked for, but frequencies {:.4g} rad/s apart tell the memory up to {:.4g} s only",
+                                 grid.length, std::numbers::pi / longest, longest),
+                     {}, "compute the coefficients at more frequencies, or ask for a shorter memory");
+  RetardationKernel kernel;
+  kernel.step_ = grid.step;
+  const std::size_t last = std::max<std::size_t>(1, steps_in(grid.length, grid.step));
+  const CosineTransform K(damping);
+  for (std::size_t i = 0; i <= last; ++i) kernel.K_.push_back(K.at(static_cast<double>(i) * grid.step));
+  kernel.error_ = missing_tail(damping) + bend(damping);
+  kernel.negative_share_ = most_negative(damping);
+  const double survey = survey_step(damping);
+  const auto remaining = remaining_memory(damping, survey);
+  kernel.truncation_ = remaining[std::min(remaining.size() - 1, steps_in(kernel.length(), survey))];
+  return kernel;
+}
+
+double memory_length(const DampingTable& damping, double tolerance) {
+  check(damping);
+  require(tolerance > 0, "a memory tolerance must be positive, got {}", tolerance);
+  const double survey = survey_step(damping);
+  const auto remaining = remaining_memory(damping, survey);
+  for (std::size_t i = 1; i < remaining.size(); ++i)
+    if (remaining[i] <= tolerance) return static_cast<double>(i) * survey;
+  return RetardationKernel::longest_time(damping);
+}
+
+InfiniteAddedMass infinite_added_mass(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A) {
+  check(damping);
+  require(A.size() == damping.omega.size(), "added mass and damping have different numbers of frequencies");
+  // ∫₀^T K sin ωt dt by straight pieces of K, at samples fine enough for the highest frequency.
+  const double step = survey_step(damping) / 4;
+  const std::size_t count = steps_in(RetardationKernel::longest_time(damping), step) + 1;
+  std::vector<Eigen::MatrixXd> K;
+  const CosineTransform transform(damping);
+  for (std::size_t i = 0; i < count; ++i) K.push_back(transform.at(static_cast<double>(i) * step));
+  const Eigen::Index n = K.front().rows();
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n), squares = sum;
+  double weight = 0;
+  for (std::size_t f = 0; f < A.size(); ++f) {
+    const double omega = damping.omega[f];
+    Eigen::MatrixXd integral = Eigen::MatrixXd::Zero(n, n);
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+      const auto w = sine_weights(static_cast<double>(i) * step, static_cast<double>(i + 1) * step, omega);
+      integral += w.a * K[i] + w.b * K[i + 1];
+    }
+    const Eigen::MatrixXd estimate = A[f] + integral / omega;
+    sum += omega * omega * estimate;
+    squares += omega * omega * estimate.cwiseAbs2();
+    weight += omega * omega;
+  }
+  InfiniteAddedMass out;
+  out.value = sum / weight;
+  out.spread = (squares / weight - out.value.cwiseAbs2()).cwiseMax(0).cwiseSqrt();
+  return out;
+}
+
+}  // namespace hydro::radiation

@@ -1,0 +1,57 @@
+#pragma once
+/// \file  Private: B over frequency as a polygon, and integrals of it as weights of the given values.
+#include <vector>
+
+#include "hydro/base/interpolation.hpp"
+
+namespace hydro::radiation::detail {
+
+/// ∫ over a piece = a · f(a) + b · f(b) for f straight between the ends of the piece.
+struct EndWeights {
+  double a, b;
+};
+
+/// B on the cubic of (P6) between the given frequencies and from ω = 0, where B = 0, cut into four straight pieces an interval.
+/// Everything is linear in B, so the pieces only gather weights, and each B is touched once an integral.
+class Polygon {
+ public:
+  explicit Polygon(const std::vector<double>& given) : given_(given.size()) {
+    std::vector<double> omega{0};
+    omega.insert(omega.end(), given.begin(), given.end());
+    constexpr int pieces = 4;
+    for (std::size_t i = 0; i + 1 < omega.size(); ++i)
+      for (int piece = 0; piece < pieces; ++piece) add_node(omega, omega[i] + (omega[i + 1] - omega[i]) * piece / pieces);
+    add_node(omega, omega.back());
+  }
+
+  const std::vector<double>& nodes() const { return node_; }
+
+  /// Weights of the given values (that of B(0) = 0 is dropped), from EndWeights piece(a, b).
+  template <class Piece>
+  std::vector<double> gather(Piece piece) const {
+    std::vector<double> weight(given_ + 1, 0.0);
+    const auto spread = [&](std::size_t node, double w) {
+      for (std::size_t k = 0; k < stencil_[node].weight.size(); ++k)
+        if (stencil_[node].weight[k] != 0) weight[stencil_[node].first + k] += w * stencil_[node].weight[k];
+    };
+    for (std::size_t i = 0; i + 1 < node_.size(); ++i) {
+      const EndWeights w = piece(node_[i], node_[i + 1]);
+      spread(i, w.a);
+      spread(i + 1, w.b);
+    }
+    weight.erase(weight.begin());
+    return weight;
+  }
+
+ private:
+  void add_node(const std::vector<double>& omega, double at) {
+    node_.push_back(at);
+    stencil_.push_back(cubic_stencil(omega, at));
+  }
+
+  std::size_t given_;
+  std::vector<double> node_;
+  std::vector<Stencil> stencil_;
+};
+
+}  // namespace hydro::radiation::detail

@@ -1,0 +1,92 @@
+// `froude fit` through the function that main.cpp calls.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "froude/commands.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/io/atomic_file.hpp"
+
+namespace {
+
+using hydro::InputError;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+const std::filesystem::path examples = std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/fit";
+
+class Fit : public testing::Test {
+ protected:
+  Fit() {
+    std::string name = (std::filesystem::temp_directory_path() / "froude-test-XXXXXX").string();
+    folder = ::mkdtemp(name.data());
+  }
+  ~Fit() override { std::filesystem::remove_all(folder); }
+
+  std::string told(const froude::FitArguments& arguments, bool json = false) {
+    std::ostringstream out, err;
+    froude::fit(arguments, {out, err, json});
+    return out.str();
+  }
+  /// The example with one text replaced, its data beside it.
+  std::filesystem::path changed(const std::string& scene, const std::string& from, const std::string& to) {
+    std::string text = hydro::io::read_text(examples / scene);
+    text.replace(text.find(from), from.size(), to);
+    using Options = std::filesystem::copy_options;
+    std::filesystem::copy(examples, folder, Options::recursive | Options::overwrite_existing);
+    hydro::io::write_atomically(folder / "changed.toml", text);
+    return folder / "changed.toml";
+  }
+
+  std::filesystem::path folder;
+};
+
+TEST_F(Fit, OfTheExampleHasTheTruthInItsIntervals) {
+  const auto j = nlohmann::json::parse(told({.scene = examples / "oscillation.toml"}, true));
+  const auto& run = j["run"][0];
+  const auto holds = [&](const char* name, double truth) {
+    return run[name]["interval"][0].get<double>() < truth && truth < run[name]["interval"][1].get<double>();
+  };
+  EXPECT_TRUE(holds("cd", 1.2));  // the values that make_oscillation.py put in
+  EXPECT_TRUE(holds("ca", 1.0));
+  EXPECT_TRUE(holds("cm", 2.0));
+  EXPECT_NEAR(run["kc"].get<double>(), 2 * 3.14159265 * 0.36 / 0.12, 0.05);
+  EXPECT_NEAR(run["re"].get<double>(), 2 * 3.14159265 / 4.35 * 0.36 * 0.12 / 1.05e-6, 200);
+  EXPECT_LT(run["cd"]["effective_samples"].get<double>(), 500);
+}
+
+TEST_F(Fit, WritesItsEstimatesAndAPicture) {
+  const std::string text =
+      told({.scene = examples / "oscillation.toml", .output = folder / "c.toml", .picture = folder / "c.svg"});
+  EXPECT_THAT(text, AllOf(HasSubstr("KC 18.8"), HasSubstr("95 % interval"), HasSubstr("body moving in still water"),
+                          HasSubstr("no delay")));
+  EXPECT_THAT(hydro::io::read_text(folder / "c.toml"),
+              AllOf(HasSubstr("[[run]]"), HasSubstr("[run.cd]"), HasSubstr("interval = [1.")));
+  EXPECT_THAT(hydro::io::read_text(folder / "c.svg"), AllOf(HasSubstr("measured"), HasSubstr("fitted")));
+}
+
+TEST_F(Fit, OfTowingGivesEachRunAndAllTogether) {
+  const std::string text =
+      told({.scene = examples / "towing.toml", .output = folder / "t.toml", .picture = folder / "t.svg"});
+  EXPECT_THAT(text, AllOf(HasSubstr("1.191"), HasSubstr("1.200"), HasSubstr("1.175"), HasSubstr("1.173"),
+                          HasSubstr("1.163"), HasSubstr("together: cd 1.18")));
+  EXPECT_THAT(hydro::io::read_text(folder / "t.svg"), HasSubstr("C_D"));
+}
+
+TEST_F(Fit, NeedsMoreThanAnAcceleration) {
+  const auto scene = changed("oscillation.toml", "position = \"pos\"", "acceleration = \"pos\"");
+  EXPECT_THAT([&] { told({.scene = scene}); }, ThrowsMessage<InputError>(HasSubstr("drag needs the velocity")));
+}
+
+TEST_F(Fit, NamesTheFileAndTheColumnAtFault) {
+  EXPECT_THAT([&] { told({.scene = changed("oscillation.toml", "force = \"F\"", "force = \"f\"")}); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr("oscillation.csv"), HasSubstr("no column \"f\""))));
+  EXPECT_THAT([&] { told({.scene = changed("oscillation.toml", "force = \"F\"", "force = \"pos\"")}); },
+              ThrowsMessage<InputError>(HasSubstr("a force is needed")));
+}
+
+}  // namespace

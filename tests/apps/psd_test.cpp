@@ -1,0 +1,123 @@
+// `froude psd` through the function that main.cpp calls.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+
+#include "froude/commands.hpp"
+#include "froude/result_file.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/io/atomic_file.hpp"
+#include "hydro/io/csv.hpp"
+#include "hydro/io/hdf5.hpp"
+
+namespace {
+
+using froude::PsdArguments;
+using hydro::InputError;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+class Psd : public testing::Test {
+ protected:
+  Psd() {
+    std::string name = (std::filesystem::temp_directory_path() / "froude-test-XXXXXX").string();
+    folder = ::mkdtemp(name.data());
+    // Ten minutes at 5 Hz: a wave of amplitude 1.5 m and period 8 s, and a heave of half of it, 30 degrees behind.
+    for (std::size_t j = 0; j < 3000; ++j) {
+      const double t = 0.2 * static_cast<double>(j), phase = 2 * std::numbers::pi / 8 * t;
+      time.push_back(t);
+      wave.push_back(1.5 * std::cos(phase));
+      heave.push_back(2 + 0.75 * std::cos(phase - std::numbers::pi / 6));
+    }
+  }
+  ~Psd() override { std::filesystem::remove_all(folder); }
+
+  std::filesystem::path csv() {
+    const std::vector<double> still(time.size(), 3.0);
+    hydro::io::write_csv(
+        folder / "r.csv",
+        {{"time", "s", &time}, {"wave", "m", &wave}, {"heave", "cm", &heave}, {"still", "N m", &still}});
+    return folder / "r.csv";
+  }
+  nlohmann::json json(const PsdArguments& arguments) {
+    std::ostringstream out, err;
+    froude::psd(arguments, {out, err, true});
+    return nlohmann::json::parse(out.str());
+  }
+  std::string text(const PsdArguments& arguments) {
+    std::ostringstream out, err;
+    froude::psd(arguments, {out, err});
+    return out.str();
+  }
+
+  std::filesystem::path folder;
+  std::vector<double> time, wave, heave;
+};
+
+TEST_F(Psd, TellsHeightAndPeriodOfARegularWave) {
+  const auto j = json({.file = csv(), .segment = "80 s"});
+  const auto& w = j["signals"]["wave"];
+  // 4σ of a sinusoid is 2√2 times its amplitude; ten periods per segment, so the line sits on its bin and Hann is
+  // exact.
+  EXPECT_NEAR(w["hs"].get<double>(), 2 * std::numbers::sqrt2 * 1.5, 1e-6);
+  EXPECT_NEAR(w["tp_s"].get<double>(), 8, 1e-6);
+  EXPECT_NEAR(w["tz_s"].get<double>(), 8, 1e-3);
+  EXPECT_NEAR(w["h13"].get<double>(), 3.0, 0.005);  // 40 samples per wave: at most 2·1.5·(1 − cos(π/40))
+  EXPECT_NEAR(j["signals"]["heave"]["mean"].get<double>(), 2.0, 1e-3);  // SI, though the header says cm
+  EXPECT_EQ(j["segment_samples"], 400);
+  EXPECT_FALSE(j["signals"]["still"].contains("hs"));
+}
+
+TEST_F(Psd, FindsTheResponseToTheInput) {
+  const auto j = json({.file = csv(), .signals = {"h*"}, .segment = "80 s", .input = "wave"});
+  const auto& t = j["signals"]["heave"]["transfer"];
+  EXPECT_NEAR(t["gain"][10].get<double>(), 0.5, 1e-9);
+  EXPECT_NEAR(t["phase_rad"][10].get<double>(), -std::numbers::pi / 6, 1e-9);
+  EXPECT_FALSE(j["signals"].contains("still"));
+  EXPECT_THAT(text({.file = csv(), .signals = {"heave"}, .segment = "80 s", .input = "wave"}),
+              testing::AllOf(HasSubstr("|H1| 0.5"), HasSubstr("phase -30.0 deg")));
+}
+
+TEST_F(Psd, ReadsAResultOfARunAndWritesTablesAndAPicture) {
+  froude::write_run(folder / "run.h5", time, {{"m1.heave", "m", "heave", heave}}, {});
+  const auto told = text({.file = folder / "run.h5",
+                          .segment = "80 s",
+                          .from = "40 s",
+                          .output = folder / "p.csv",
+                          .picture = folder / "p.svg"});
+  EXPECT_THAT(told, testing::AllOf(HasSubstr("2800 samples"), HasSubstr("m1.heave")));
+  const auto table = hydro::io::CsvTable::read(folder / "p.csv");
+  // Per hertz as the header says; in SI, which the reader gives, per rad/s.
+  EXPECT_EQ(table.unit_text("m1.heave.density"), "m^2/Hz");
+  const auto& omega = table.column("frequency", hydro::dim::angular_velocity);
+  const auto& density = table.column("m1.heave.density");
+  double variance = 0;
+  for (std::size_t k = 1; k < omega.size(); ++k) variance += density[k] * (omega[k] - omega[k - 1]);
+  EXPECT_NEAR(variance, 0.75 * 0.75 / 2, 1e-6);
+  EXPECT_THAT(hydro::io::read_text(folder / "p.svg"), HasSubstr("m²/Hz"));
+  text({.file = folder / "run.h5", .segment = "80 s", .output = folder / "p.h5"});
+  EXPECT_EQ(hydro::io::Hdf5Reader(folder / "p.h5").text_attribute("/m1.heave.density", "units"), "m^2/Hz");
+}
+
+TEST_F(Psd, SaysWhatIsWrong) {
+  const auto run = [&](const PsdArguments& arguments) { return [this, arguments] { text(arguments); }; };
+  EXPECT_THAT(run({.file = csv(), .signals = {"heeve"}}), ThrowsMessage<InputError>(HasSubstr("heeve")));
+  EXPECT_THAT(run({.file = csv(), .segment = "1000 s"}), ThrowsMessage<InputError>(HasSubstr("a segment needs")));
+  EXPECT_THAT(run({.file = csv(), .segment = "80 m"}), ThrowsMessage<InputError>(HasSubstr("length")));
+  EXPECT_THAT(run({.file = csv(), .from = "700 s"}), ThrowsMessage<InputError>(HasSubstr("ends at 599.8 s")));
+  EXPECT_THAT(run({.file = csv(), .confidence = 95}), ThrowsMessage<InputError>(HasSubstr("between 0 and 1")));
+  EXPECT_THAT(run({.file = folder / "r.xyz"}), ThrowsMessage<InputError>(HasSubstr("no kind of file")));
+  EXPECT_THAT(run({.file = csv(), .output = folder / "p.txt"}), ThrowsMessage<InputError>(HasSubstr(".csv or .h5")));
+  hydro::io::write_csv(folder / "n.csv", {{"x", "m", &wave}});
+  EXPECT_THAT(run({.file = folder / "n.csv"}), ThrowsMessage<InputError>(HasSubstr("no column \"time\"")));
+  time[1500] += 0.1;
+  EXPECT_THAT(run({.file = csv()}),
+              ThrowsMessage<InputError>(testing::AllOf(HasSubstr("r.csv"), HasSubstr("sample 1501"))));
+}
+
+}  // namespace

@@ -1,0 +1,138 @@
+#include <numbers>
+
+#include "apps/scene/scenes.hpp"
+
+namespace froude::scene {
+namespace {
+
+TEST(SceneAsk, TurnsPeriodsIntoIncreasingFrequencies) {
+  const AskRao rao = *parse(pontoons, "scene.toml").rao;
+  ASSERT_EQ(rao.omega.size(), 61u);
+  EXPECT_DOUBLE_EQ(rao.omega.front(), 2 * std::numbers::pi / 8);
+  EXPECT_DOUBLE_EQ(rao.omega.back(), 2 * std::numbers::pi / 2);
+  EXPECT_TRUE(std::is_sorted(rao.omega.begin(), rao.omega.end()));
+  const auto text = with(pontoons, "periods = \"2 s .. 8 s, 61 values\"", "omega = \"0.1 Hz .. 0.2 Hz, 2 values\"");
+  EXPECT_DOUBLE_EQ(parse(text, "scene.toml").rao->omega.front(), 0.2 * std::numbers::pi);
+}
+
+TEST(SceneAsk, RefusesRangesThatAreNone) {
+  const auto range = [](const std::string& value) {
+    return with(pontoons, "periods = \"2 s .. 8 s, 61 values\"", value);
+  };
+  EXPECT_THAT(refusal(range("periods = \"2 s - 8 s, 61 values\"")),
+              AllOf(StartsWith("scene.toml:40:19: "), HasSubstr("is not a range of values")));
+  EXPECT_THAT(refusal(range("periods = \"2 m .. 8 m, 61 values\"")),
+              HasSubstr("\"2 m\" is a length; a time is needed"));
+  EXPECT_THAT(refusal(range("periods = \"0 s .. 8 s, 9 values\"")), HasSubstr("must be positive"));
+  EXPECT_THAT(refusal(range("periods = \"8 s .. 2 s, 9 values\"")), HasSubstr("does not increase"));
+  EXPECT_THAT(refusal(range("periods = \"2 s .. 8 s, 2000000000 values\"")), HasSubstr("at most a million"));
+  EXPECT_THAT(refusal(range("periods = \"2 s .. 8 s, 9 values\", omega = \"1 rad/s .. 2 rad/s, 2 values\"")),
+              HasSubstr("may hold only one of periods, omega"));
+  EXPECT_THAT(refusal(with(pontoons, "periods = \"2 s .. 8 s, 61 values\", ", "")),
+              HasSubstr("[ask.rao] needs one of periods, omega"));
+}
+
+TEST(SceneAsk, TakesTheHeadingOfTheWavesForAnRao) {
+  const Scene scene = parse(pontoons, "scene.toml");
+  EXPECT_NEAR(scene.rao->heading.degrees(), 30, 1e-12);  // round-off of a conversion there and back
+  const auto own = parse(with(pontoons, "rao = {", "rao = { heading = \"45 deg\","), "scene.toml");
+  EXPECT_NEAR(own.rao->heading.degrees(), 45, 1e-12);
+  const auto from = pontoons.find("[waves]"), to = pontoons.find("[[body]]"), run = pontoons.find("run = ");
+  const std::string calm = pontoons.substr(0, from) + pontoons.substr(to, run - to);
+  EXPECT_THAT(refusal(calm),
+              AllOf(StartsWith("scene.toml:35:7: error: [ask.rao] needs a heading"), HasSubstr("add heading")));
+  EXPECT_NO_THROW(parse(with(calm, "rao = {", "rao = { heading = \"45 deg\","), "scene.toml"));
+}
+
+TEST(SceneAsk, WantsWavesForExcitationInARun) {
+  const auto from = sphere.find("[waves]"), to = sphere.find("[[body]]");
+  const std::string calm = sphere.substr(0, from) + sphere.substr(to);
+  EXPECT_THAT(refusal(calm),
+              AllOf(StartsWith("scene.toml:12:14: error: [body.hydrodynamics] excitation = true needs waves for a run"),
+                    HasSubstr("[waves]")));
+  EXPECT_NO_THROW(parse(with(calm, "excitation = true\n", ""), "scene.toml"));
+}
+
+TEST(SceneAsk, WantsExcitationForAnRao) {
+  EXPECT_THAT(refusal(with(pontoons, "excitation = true\n", "")),
+              AllOf(StartsWith("scene.toml:39:7: error: [ask.rao] asks how bodies answer waves"),
+                    HasSubstr("excitation = true")));
+}
+
+TEST(SceneAsk, AsksForSomething) {
+  EXPECT_THAT(refusal(with(sphere, "run = { duration = \"40 s\", every = \"0.02 s\" }\n", "")),
+              StartsWith("scene.toml:20:1: error: [ask] needs at least one of rao, run"));
+}
+
+TEST(SceneAsk, RunsAWholeNumberOfSamples) {
+  const AskRun run = *parse(sphere, "scene.toml").run;
+  EXPECT_EQ(run.duration, 40);
+  EXPECT_EQ(run.every, 0.02);
+  EXPECT_THAT(
+      refusal(with(sphere, "\"40 s\"", "\"40.01 s\"")),
+      AllOf(StartsWith("scene.toml:21:20: "), HasSubstr("is 2000.5 times every = \"0.02 s\"; a whole number is needed"),
+            HasSubstr("write duration = \"40.02 s\"")));
+  EXPECT_THAT(refusal(with(sphere, "\"40 s\"", "\"0.01 s\"")), HasSubstr("write duration = \"0.02 s\""));
+  EXPECT_NO_THROW(parse(with(sphere, "\"0.02 s\"", "\"0.1 s\""), "scene.toml"));  // 0.1 is not a binary fraction
+}
+
+TEST(SceneAsk, LeavesTheListOfSignalsEmptyForEverything) {
+  EXPECT_TRUE(parse(sphere, "scene.toml").run->of.empty());
+  EXPECT_EQ(parse(with(sphere, "\"0.02 s\" }", "\"0.02 s\", of = \"sphere.heave\" }"), "scene.toml").run->of,
+            std::vector<std::string>{"sphere.heave"});
+}
+
+TEST(SceneSolve, ChoosesUnlessOverridden) {
+  const Solve chosen = parse(sphere, "scene.toml").solve;
+  EXPECT_FALSE(chosen.step);
+  EXPECT_EQ(chosen.rho_infinity, 0.8);
+  const Solve given =
+      parse(sphere + "[solve]\nstep = \"10 ms\"\nintegrator = { name = \"generalized_alpha\", rho_infinity = 1 }\n",
+            "scene.toml")
+          .solve;
+  EXPECT_EQ(given.step->value, 0.01);
+  EXPECT_EQ(given.step->place.line, 23);
+  EXPECT_EQ(given.rho_infinity, 1);
+  EXPECT_THAT(refusal(sphere + "[solve]\nstep = \"0 s\"\n"),
+              AllOf(StartsWith("scene.toml:23:8: "), HasSubstr("must be positive")));
+  EXPECT_THAT(refusal(sphere + "[solve]\nintegrator = { rho_infinity = 1.1 }\n"), HasSubstr("must lie from 0 to 1"));
+  EXPECT_THAT(refusal(sphere + "[solve]\nintegrator = { name = \"euler\" }\n"),
+              HasSubstr("is not one of generalized_alpha"));
+}
+
+TEST(SceneWaves, KeepsAmplitudeNotHeight) {
+  EXPECT_EQ(std::get<RegularWave>(parse(sphere, "scene.toml").waves->kind).amplitude, 1);
+  EXPECT_EQ(std::get<RegularWave>(parse(with(sphere, "height", "amplitude"), "scene.toml").waves->kind).amplitude, 2);
+  const Waves jonswap = *parse(pontoons, "scene.toml").waves;
+  EXPECT_EQ(std::get<Jonswap>(jonswap.kind).gamma, 3.3);
+  EXPECT_EQ(jonswap.seed, 1u);
+  EXPECT_EQ(jonswap.ramp, 0);
+  const auto pm = parse(with(pontoons, "\"jonswap\"", "\"pierson-moskowitz\""), "scene.toml");
+  EXPECT_EQ(std::get<PiersonMoskowitz>(pm.waves->kind).tp, 6);
+}
+
+TEST(ScenePatterns, MatchAnyCharactersForAStar) {
+  EXPECT_TRUE(matches("m*.surge", "m12.surge"));
+  EXPECT_TRUE(matches("*", ""));
+  EXPECT_TRUE(matches("a*b*c", "aXbYbZc"));
+  EXPECT_TRUE(matches("m1", "m1"));
+  EXPECT_FALSE(matches("m1", "m12"));
+  EXPECT_FALSE(matches("a*b*c", "aXbYbZ"));
+  EXPECT_FALSE(matches("m*.surge", "m1.heave"));
+}
+
+TEST(ScenePatterns, AreCheckedAgainstTheSignalsThatExist) {
+  const std::vector<std::string> known{"m1.surge", "m1.heave", "connector1.force", "wave.elevation"};
+  EXPECT_NO_THROW(check_patterns(parse(pontoons, "scene.toml"), known));
+  const Scene wrong = parse(with(pontoons, "\"m*.surge\"", "\"m*.surg\""), "scene.toml");
+  try {
+    check_patterns(wrong, known);
+    FAIL() << "was accepted";
+  } catch (const hydro::InputError& error) {
+    EXPECT_THAT(error.what(), AllOf(StartsWith("scene.toml:40:50: error: no signal is called \"m*.surg\""),
+                                    HasSubstr("did you mean \"m1.surge\"?")));
+  }
+}
+
+}  // namespace
+}  // namespace froude::scene

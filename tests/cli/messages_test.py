@@ -1,0 +1,321 @@
+#!/usr/bin/python3
+"""What the program says and returns, seen from outside.
+
+    messages_test.py FROUDE SOURCE
+
+Each wrong input is one good scene, or one good data file, with a single fault planted; the test reads the message as a
+person would: it must name the place, the offending text, the rule and the remedy. Exit status: 0 done, 1 a check failed,
+2 the input is wrong, 3 the numerics gave up.
+"""
+import json
+import os
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+FROUDE = Path(sys.argv[1]).resolve()
+SOURCE = Path(sys.argv[2]).resolve()
+
+SCENE = """\
+schema = 1
+title = "One module in a regular wave"
+[water]
+density = "1000 kg/m^3"
+gravity = "9.81 m/s^2"
+depth = "14 m"
+[waves]
+kind = "regular"
+amplitude = "0.1 m"
+period = "5 s"
+heading = "0 deg"
+[[body]]
+name = "m"
+mass = "9088 kg"
+centre_of_gravity = "(0, 0, 1.31) m"
+radii_of_gyration = "(4.6, 4.6, 6.4) m"
+[body.hydrodynamics]
+file = "pontoon1.nc"
+excitation = true
+radiation = {}
+hydrostatics = true
+[[mooring]]
+on = ["m"]
+kind = "linear"
+stiffness = { surge = "4280 N/m", sway = "10348 N/m", yaw = "15839 N m/rad" }
+[ask]
+rao = { periods = "3 s .. 8 s, 6 values", of = ["m.surge", "m.heave"] }
+run = { duration = "10 s", every = "0.1 s" }
+"""
+
+SECOND_BODY = """\
+[[body]]
+name = "{name}"
+position = "(13, 0, 0) m"
+mass = "9088 kg"
+centre_of_gravity = "(0, 0, 1.31) m"
+radii_of_gyration = "(4.6, 4.6, 6.4) m"
+"""
+
+
+def line_of(text, part):
+    """The number of the line that holds `part`."""
+    return next(i for i, line in enumerate(text.splitlines(), 1) if part in line)
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="froude_cli_"))
+        shutil.copy(SOURCE / "examples" / "data" / "pontoon1.nc", self.folder)
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def froude(self, *arguments, **options):
+        return subprocess.run([str(FROUDE), *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
+                              timeout=300, **options)
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text, encoding="utf-8")
+
+    def refuses(self, result, *words, status=2):
+        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
+        for word in words:
+            self.assertIn(word, result.stderr)
+        self.assertEqual(result.stdout, "")
+
+    def refuses_scene(self, old, new, *words, command="run", scene=SCENE):
+        """The scene with `old` replaced by `new` is refused at the last line of `new`."""
+        self.assertIn(old, scene)
+        text = scene.replace(old, new, 1)
+        self.write("scene.toml", text)
+        result = self.froude(command, "scene.toml", "-o", "result.h5")
+        self.refuses(result, f"scene.toml:{line_of(text, new.splitlines()[-1])}:", *words)
+        self.assertEqual(self.leftovers(), {"pontoon1.nc", "scene.toml"})
+
+    def leftovers(self):
+        return {path.name for path in self.folder.iterdir()}
+
+
+class Success(CommandLine):
+    def test_run_and_rao_write_their_result_and_nothing_else(self):
+        self.write("scene.toml", SCENE)
+        for command in ("run", "rao"):
+            result = self.froude(command, "scene.toml", "-o", f"{command}.h5")
+            self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.leftovers(), {"pontoon1.nc", "scene.toml", "run.h5", "rao.h5"})
+
+    def test_quiet_prints_nothing(self):
+        self.write("scene.toml", SCENE)
+        result = self.froude("run", "scene.toml", "-o", "run.h5", "--quiet")
+        self.assertEqual((result.returncode, result.stdout), (0, ""), result.stderr)
+
+    def test_json_is_one_document(self):
+        self.write("scene.toml", SCENE)
+        for command in (["rao", "scene.toml", "-o", "rao.h5"], ["plan", "scene.toml"], ["bem", "info", "pontoon1.nc"]):
+            result = self.froude("--json", *command)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            json.loads(result.stdout)
+
+    def test_help_shows_an_example_of_every_command(self):
+        for command in (["new"], ["bem", "info"], ["bem", "convert"], ["bem", "check"], ["rao"], ["run"], ["psd"], ["fit"], ["plan"],
+                        ["validate"]):
+            result = self.froude(*command, "-h")
+            self.assertEqual(result.returncode, 0)
+            self.assertIn("froude " + " ".join(command) + " ", result.stdout.split("Example")[1])
+
+    def test_version(self):
+        self.assertRegex(self.froude("--version").stdout, r"^froude \d+\.\d+\.\d+\n$")
+
+    def test_a_scene_in_another_folder_finds_its_data(self):
+        (self.folder / "there").mkdir()
+        self.write("there/scene.toml", SCENE.replace("pontoon1.nc", "../pontoon1.nc"))
+        self.assertEqual(self.froude("rao", "there/scene.toml", "-o", "rao.h5").returncode, 0)
+
+
+class WrongCommandLine(CommandLine):
+    def test_an_unknown_command_with_the_nearest_one(self):
+        self.refuses(self.froude("rum", "scene.toml"), '"rum"', '"run"', "froude --help")
+        self.refuses(self.froude("bem", "chek"), '"chek"', '"check"', "froude bem --help")
+
+    def test_no_command(self):
+        self.refuses(self.froude(), "--help")
+
+    def test_an_unknown_option_names_the_help_of_its_command(self):
+        self.refuses(self.froude("run", "scene.toml", "--fast"), "--fast", "froude run --help")
+
+    def test_an_option_without_unit(self):
+        self.refuses(self.froude("bem", "info", "pontoon1.nc", "--density", "1025"), "--density", "kg/m^3")
+
+    def test_an_option_of_wrong_dimension(self):
+        self.refuses(self.froude("bem", "info", "pontoon1.nc", "--depth", "14 s"), "--depth", "a length")
+
+
+class WrongScene(CommandLine):
+    def test_a_missing_scene(self):
+        self.refuses(self.froude("run", "none.toml"), "none.toml", "No such file")
+
+    def test_an_error_as_json_for_programs(self):
+        text = SCENE.replace('"9088 kg"', '"9088 m"')
+        self.write("scene.toml", text)
+        result = self.froude("run", "scene.toml", "-o", "result.h5", "--json")
+        self.assertEqual(result.returncode, 2)
+        error = json.loads(result.stdout)["error"]
+        self.assertEqual(set(error), {"rule", "file", "line", "column", "text", "remedy"})
+        self.assertEqual(Path(error["file"]).name, "scene.toml")
+        self.assertEqual(error["line"], line_of(text, "9088 m"))
+        self.assertEqual(error["text"], 'mass = "9088 m"')
+        self.assertGreater(error["column"], 0)
+
+    def test_text_that_is_no_toml(self):
+        self.refuses_scene('depth = "14 m"', 'depth = "14 m')
+
+    def test_an_unknown_key_with_the_nearest_known_one(self):
+        self.refuses_scene("mass =", "mas =", '"mas"', "mass")
+
+    def test_an_unknown_table(self):
+        self.refuses_scene("[water]", "[watr]", "watr", "water")
+
+    def test_a_missing_unit(self):
+        self.refuses_scene('"9088 kg"', '"9088"', "mass", "has no unit", "write it like")
+
+    def test_a_bare_number(self):
+        self.refuses_scene('"9088 kg"', "9088", "mass", "kg")
+
+    def test_a_unit_of_the_wrong_dimension(self):
+        self.refuses_scene('"9088 kg"', '"9088 m"', "a length", "a mass")
+
+    def test_an_unknown_unit(self):
+        self.refuses_scene('"9088 kg"', '"9088 kgg"', "kgg")
+
+    def test_a_negative_mass(self):
+        self.refuses_scene('"9088 kg"', '"-9088 kg"', "mass", "positive")
+
+    def test_an_infinite_mass(self):
+        self.refuses_scene('"9088 kg"', '"inf kg"', "mass")
+
+    def test_a_negative_radius_of_gyration(self):
+        self.refuses_scene('radii_of_gyration = "(4.6, 4.6, 6.4) m"', 'radii_of_gyration = "(4.6, -4.6, 6.4) m"', "positive")
+
+    def test_an_inertia_that_is_not_positive_definite(self):
+        self.refuses_scene('radii_of_gyration = "(4.6, 4.6, 6.4) m"',
+                           'inertia = "(1, 1, 1) kg m^2"\nproducts_of_inertia = "(2, 0, 0) kg m^2"',
+                           "principal moment of inertia of -1 kg m^2")
+
+    def test_two_bodies_of_one_name(self):
+        text = SCENE.replace("[[mooring]]", SECOND_BODY.format(name="m") + "[[mooring]]")
+        self.write("scene.toml", text)
+        self.refuses(self.froude("run", "scene.toml", "-o", "result.h5"), "scene.toml:", "m", "name")
+
+    def test_a_connector_to_a_body_that_does_not_exist(self):
+        connector = '[[connector]]\nbetween = ["m", "n"]\nends = ["(6, 0, 0) m", "(-6, 0, 0) m"]\nkind = "axial"\nstiffness = "1 kN/m"\n'
+        text = SCENE.replace("[ask]", connector + "[ask]")
+        self.write("scene.toml", text)
+        self.refuses(self.froude("run", "scene.toml", "-o", "result.h5"), f"scene.toml:{line_of(text, 'between')}:", '"n"')
+
+    def test_a_step_of_zero_or_less(self):
+        for step in ("0 s", "-0.1 s"):
+            text = SCENE + f'[solve]\nstep = "{step}"\n'
+            self.write("scene.toml", text)
+            self.refuses(self.froude("run", "scene.toml", "-o", "result.h5"), f"scene.toml:{line_of(text, 'step =')}:", "step", "positive")
+
+    def test_a_duration_that_is_no_multiple_of_the_samples(self):
+        self.refuses_scene('duration = "10 s"', 'duration = "10.05 s"', "duration", "every")
+
+    def test_a_result_that_is_not_asked_for(self):
+        self.write("scene.toml", SCENE.replace("rao =", "# rao ="))
+        self.refuses(self.froude("rao", "scene.toml", "-o", "result.h5"), "rao")
+
+
+class WrongData(CommandLine):
+    def test_a_missing_data_file(self):
+        self.refuses_scene('"pontoon1.nc"', '"pontoon9.nc"', "pontoon9.nc", "no such file")
+
+    def test_a_data_file_cut_short(self):
+        whole = (self.folder / "pontoon1.nc").read_bytes()
+        (self.folder / "pontoon1.nc").write_bytes(whole[:len(whole) // 2])
+        self.refuses(self.froude("bem", "info", "pontoon1.nc"), "pontoon1.nc")
+        self.write("scene.toml", SCENE)
+        self.refuses(self.froude("run", "scene.toml", "-o", "result.h5"), "pontoon1.nc")
+
+    def test_a_file_that_is_no_data_file(self):
+        self.write("noise.nc", "this is no table of coefficients\n")
+        self.refuses(self.froude("bem", "info", "noise.nc"), "noise.nc")
+
+    def test_a_body_that_the_data_do_not_hold(self):
+        self.refuses_scene('file = "pontoon1.nc"', 'file = "pontoon1.nc"\nbody = 2', "body 2", "holds one body")
+
+    def edit_data(self, change):
+        import netCDF4
+        with netCDF4.Dataset(self.folder / "pontoon1.nc", "a") as data:
+            data.set_auto_mask(False)
+            change(data)
+
+    def test_a_frequency_given_twice(self):
+        def repeat(data):
+            data["omega"][3] = data["omega"][2]
+        self.edit_data(repeat)
+        self.refuses(self.froude("bem", "info", "pontoon1.nc"), "pontoon1.nc", "is there twice")
+
+    def test_a_coefficient_that_is_not_a_number(self):
+        def spoil(data):
+            data["added_mass"][2, 0, 0] = float("nan")
+        self.edit_data(spoil)
+        self.refuses(self.froude("bem", "info", "pontoon1.nc"), "pontoon1.nc", "added_mass")
+
+    def test_a_table_with_a_value_that_is_not_a_number(self):
+        self.write("table.csv", "time [s], force [N]\n0, 1\n0.1, nan\n0.2, 3\n")
+        self.refuses(self.froude("psd", "table.csv"), "table.csv:3:")
+
+    def test_a_table_whose_time_goes_back(self):
+        self.write("table.csv", "time [s], force [N]\n" + "".join(f"{t}, 1\n" for t in (0, 0.1, 0.2, 0.15, 0.4)))
+        self.refuses(self.froude("psd", "table.csv"), "table.csv", "not evenly sampled", "0.15 s")
+
+    def test_a_signal_that_is_not_there_with_the_nearest_one(self):
+        self.write("table.csv", "time [s], force [N]\n" + "".join(f"{0.1 * i:.1f}, {i % 3}\n" for i in range(100)))
+        self.refuses(self.froude("psd", "table.csv", "--signal", "forse"), "forse", "force")
+
+
+class WrongPlaceToWrite(CommandLine):
+    def test_a_folder_that_does_not_exist(self):
+        self.write("scene.toml", SCENE)
+        self.refuses(self.froude("run", "scene.toml", "-o", "absent/result.h5"), "absent/result.h5", "No such file or directory")
+
+    def test_a_folder_that_is_a_file(self):
+        self.write("scene.toml", SCENE)
+        self.refuses(self.froude("run", "scene.toml", "-o", "scene.toml/result.h5"), "scene.toml/result.h5", "Not a directory")
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")
+    def test_a_folder_without_permission(self):
+        self.write("scene.toml", SCENE)
+        (self.folder / "locked").mkdir(mode=0o555)
+        self.refuses(self.froude("run", "scene.toml", "-o", "locked/result.h5"), "locked/result.h5", "Permission denied")
+
+    def test_a_full_disk_leaves_nothing_behind(self):
+        """A limit on the size of files stands for the full disk: write() fails in the middle in the same way."""
+        self.write("scene.toml", SCENE)
+        result = self.froude("run", "scene.toml", "-o", "result.h5",
+                             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096)))
+        self.refuses(result, "result.h5", "File too large", "nothing was left behind")
+        self.assertEqual(self.leftovers(), {"pontoon1.nc", "scene.toml"})
+
+    def test_a_full_disk_keeps_the_older_result(self):
+        self.write("scene.toml", SCENE)
+        self.write("result.h5", "an older result")
+        self.froude("run", "scene.toml", "-o", "result.h5",
+                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096)))
+        self.assertEqual((self.folder / "result.h5").read_text(), "an older result")
+
+    def test_a_full_standard_output(self):
+        with open("/dev/full", "w") as full:
+            result = subprocess.run([str(FROUDE), "bem", "info", "pontoon1.nc"], cwd=self.folder, stdout=full,
+                                    stderr=subprocess.PIPE, text=True)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("standard output", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,101 @@
+#!/usr/bin/python3
+"""The checks of the documents, tried on small trees with one planted fault each: a check that cannot fail is no check."""
+import tempfile
+import unittest
+from pathlib import Path
+
+import checks
+
+
+def tree(files):
+    """A folder with these files, given as {path: text}; it lives as long as the returned object."""
+    folder = tempfile.TemporaryDirectory()
+    for name, text in files.items():
+        path = Path(folder.name) / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+    return folder
+
+
+class ChecksCase(unittest.TestCase):
+    def complaints(self, check, files):
+        with tree(files) as folder:
+            return checks.CHECKS[check](Path(folder))
+
+    def accepts(self, check, files):
+        self.assertEqual(self.complaints(check, files), [])
+
+    def refuses(self, check, files, *words):
+        complaints = "\n".join(self.complaints(check, files))
+        for word in words:
+            self.assertIn(word, complaints)
+
+
+class Tags(ChecksCase):
+    PAGE = {"docs/theory/w.md": "### (W1) Dispersion\n### (W2)-(W4) Speeds\n"}
+    CODE = {"libhydro/src/w.cpp": "// (W1), then (W2)-(W4)\nint x;\n"}
+
+    def test_accepts_tags_that_are_defined_and_used(self):
+        self.accepts("tags", self.PAGE | self.CODE)
+
+    def test_refuses_a_tag_that_is_used_but_not_defined(self):
+        self.refuses("tags", self.PAGE | self.CODE | {"tests/a_test.cpp": "int a;  // see (R7)\n"}, "tests/a_test.cpp:1", "(R7)")
+
+    def test_refuses_a_tag_that_is_defined_but_not_used(self):
+        self.refuses("tags", self.PAGE | {"libhydro/src/w.cpp": "// (W1)-(W3)\n"}, "docs/theory/w.md:2", "(W4)")
+
+    def test_refuses_a_tag_that_is_defined_twice(self):
+        self.refuses("tags", self.PAGE | self.CODE | {"docs/theory/x.md": "### (W3) Again\n"}, "already defined at")
+
+    def test_refuses_a_file_that_moved_away(self):
+        page = {"docs/theory/w.md": "### (W1) D\nCode: libhydro/src/gone.cpp\n"}
+        self.refuses("tags", page | {"libhydro/src/w.cpp": "// (W1)\n"}, "no file libhydro/src/gone.cpp")
+
+    def test_takes_no_call_or_other_letter_for_a_tag(self):
+        self.accepts("tags", {"apps/a.cpp": "f(F1);  // f(F1) and (A1), v[0](S2), (W1a)\nauto y = (F1);\n"})
+
+
+class Includes(ChecksCase):
+    HYDRO = {"libhydro/include/hydro/base/a.hpp": "\n", "libhydro/src/base/private.hpp": "\n"}
+
+    def test_accepts_includes_that_point_down(self):
+        self.accepts("includes", self.HYDRO | {"libdynamics/src/b.cpp": '#include "hydro/base/a.hpp"\n#include "local.hpp"\n'})
+
+    def test_refuses_an_include_that_points_up(self):
+        self.refuses("includes", {"libhydro/src/a.cpp": '#include <vector>\n#include "dynamics/m.hpp"\n'},
+                     "libhydro/src/a.cpp:2", "may not include dynamics/m.hpp")
+        self.refuses("includes", {"libfit/src/a.cpp": '#include "froude/commands.hpp"\n'}, "may not include")
+
+    def test_refuses_a_public_header_that_needs_a_private_one(self):
+        self.refuses("includes", self.HYDRO | {"libhydro/include/hydro/base/b.hpp": '#include "base/private.hpp"\n'},
+                     "not a public header")
+
+    def test_refuses_a_way_around_by_path(self):
+        self.refuses("includes", self.HYDRO | {"libfit/src/a.cpp": '#include "../../libhydro/src/base/private.hpp"\n'}, "by path")
+
+
+class Links(ChecksCase):
+    def test_accepts_links_to_files_of_the_repository(self):
+        text = "[a](docs/a.md#part) [w](https://example.org) [h](#here) `[c](d)`\n```\n[x](y)\n```\n"
+        self.accepts("links", {"README.md": text, "docs/a.md": "[up](../README.md)\n"})
+
+    def test_refuses_a_link_to_nothing(self):
+        self.refuses("links", {"README.md": "\n[a](docs/b.md)\n"}, "README.md:2", "docs/b.md")
+
+    def test_refuses_a_link_out_of_the_repository(self):
+        self.refuses("links", {"README.md": "[a](../../etc)\n"}, "../../etc")
+
+
+class Quotes(ChecksCase):
+    FILE = {"a.cpp": "int a;\nint b;\nint c;\n"}
+
+    def test_accepts_a_quote_of_whole_lines(self):
+        self.accepts("quotes", self.FILE | {"README.md": "<!-- file: a.cpp -->\n```cpp\nint b;\nint c;\n```\n"})
+
+    def test_refuses_a_quote_that_went_stale(self):
+        self.refuses("quotes", self.FILE | {"README.md": "x\n<!-- file: a.cpp -->\n```cpp\nint a;\nint c;\n```\n"}, "README.md:2", "differs")
+        self.refuses("quotes", self.FILE | {"README.md": "<!-- file: b.cpp -->\n```cpp\nint a;\n```\n"}, "no file b.cpp")
+
+
+if __name__ == "__main__":
+    unittest.main()

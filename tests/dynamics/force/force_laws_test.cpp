@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+
+#include "dynamics/force/connector.hpp"
+#include "dynamics/force/drag.hpp"
+#include "dynamics/force/restoring.hpp"
+#include "dynamics/force/wave_loads.hpp"
+#include "laws/force_kind_laws.hpp"
+#include "support/two_pole_body.hpp"
+
+namespace {
+
+using namespace dynamics;
+const auto bodies = support::two_bodies();
+
+Matrix6 random_spd(std::uint64_t seed) {
+  const hydro::RandomStream random(seed, 5);
+  std::uint64_t n = 0;
+  const Matrix6 m = Matrix6::NullaryExpr([&] { return random.normal(n++); });
+  return 100 * m * m.transpose();
+}
+
+WaveSignals wave_signals(Eigen::Index rows) {
+  const hydro::RandomStream random(2, 6);
+  std::uint64_t n = 0;
+  const std::vector<double> omega{0.7, 1.3};
+  const Eigen::MatrixXcd a = Eigen::MatrixXcd::NullaryExpr(rows, 2, [&] { const double re = random.normal(n++), im = random.normal(n++);
+    return std::complex<double>(re, im);
+  });
+  Eigen::MatrixXd table(rows, 3);
+  for (int i = 0; i < 3; ++i) table.col(i) = (a * Eigen::Vector2cd(std::polar(1.0, 0.7 * 0.1 * i), std::polar(1.0, 1.3 * 0.1 * i))).real();
+  return {omega, a, table, 0.1, 0};
+}
+
+TEST(ForceLaws, HoldForRestoring) {
+  laws::expect_force_laws(RestoringKind("mooring", bodies, {{0, random_spd(1), random_spd(2)}, {1, random_spd(3)}}), bodies);
+}
+
+TEST(ForceLaws, HoldForAxialConnectors) {
+  const Ends between{0, 1, Eigen::Vector3d(1, 0.5, 0.2), Eigen::Vector3d(-1, 0.5, -0.1)};
+  const Ends to_ground{1, std::nullopt, Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(9, 1, -2)};
+  laws::expect_force_laws(AxialConnectorKind({{between, 3000, 200, 1.5}, {to_ground, 500, 0, 2}}), bodies);
+}
+
+TEST(ForceLaws, HoldForBushings) {
+  const Ends between{0, 1, Eigen::Vector3d(1, 0.5, 0.2), Eigen::Vector3d(-1, 0.5, -0.1)};
+  const Ends to_ground{1, std::nullopt, Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(5.5, 0, 0.3)};
+  const Eigen::Vector3d k(1000, 2000, 500), c(30, 10, 60), kr(300, 200, 100), cr(5, 8, 3);
+  laws::expect_force_laws(BushingConnectorKind({{between, k, c, kr, cr, Eigen::Vector3d(2, 0, 0)}, {to_ground, k, c, kr, cr, Eigen::Vector3d(0.4, 0, 0)}}), bodies);
+}
+
+TEST(ForceLaws, HoldForDragInMovingAndStillWater) {
+  const auto pieces = drag_pieces(bodies, 1, Eigen::Vector3d(-1, 0.3, -2), Eigen::Vector3d(1, -0.2, -0.5), 0.4, 1.1, 1025);
+  ASSERT_EQ(pieces.size(), 3u);
+  laws::expect_force_laws(DragKind(pieces, std::nullopt), bodies);
+  laws::expect_force_laws(DragKind(pieces, wave_signals(9)), bodies);
+}
+
+TEST(ForceLaws, HoldForExcitation) { laws::expect_force_laws(ExcitationKind({{{1, 0}, wave_signals(12)}}), bodies); }
+
+TEST(ForceLaws, HoldForRadiationWithinAStep) {
+  const support::TwoPoleBody body{.decay = 0.3, .frequency = 1.1};
+  const auto kernel = hydro::radiation::RetardationKernel::from_damping(body.damping_table(20, 400, 12), {0.1, 5});
+  const RadiationKind kind({{{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}, hydro::radiation::DirectConvolution(kernel)}});
+  State start = rest_state(bodies);
+  const auto memory = kind.make_memory(start);
+  for (int i = 1; i <= 20; ++i) {
+    State s = support::random_state(bodies, static_cast<std::uint64_t>(i));
+    s.time = 0.1 * i;
+    memory->accept(s);
+  }
+  for (const double fraction : {0.25, 1.0}) {
+    State state = support::random_state(bodies, 50), other = support::random_state(bodies, 51);
+    state.time = other.time = 2 + 0.1 * fraction;
+    laws::expect_pure(kind, state, other, memory.get());
+    laws::expect_true_jacobians(kind, state, memory.get());
+    laws::expect_energy_balance(kind, state, memory.get());
+  }
+}
+
+// Newton's third law: what two bodies do to each other has no net force and no net moment about the origin.
+TEST(ForceLaws, InternalForcesCancel) {
+  const Ends between{0, 1, Eigen::Vector3d(1, 0.5, 0.2), Eigen::Vector3d(-1, 0.5, -0.1)};
+  const AxialConnectorKind axial({{between, 3000, 200, 1.5}});
+  const Eigen::Vector3d k(1000, 2000, 500), c(30, 10, 60), kr(300, 200, 100), cr(5, 8, 3);
+  const BushingConnectorKind bushing({{between, k, c, kr, cr, Eigen::Vector3d(2, 0, 0)}});
+  for (const ForceKind* kind : {static_cast<const ForceKind*>(&axial), static_cast<const ForceKind*>(&bushing)}) {
+    const State s = support::random_state(bodies, 9);
+    const Eigen::VectorXd F = laws::load(*kind, s, nullptr);
+    Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
+    for (int i = 0; i < 2; ++i) {
+      force += F.segment<3>(6 * i);
+      moment += F.segment<3>(6 * i + 3) + s.pose[static_cast<std::size_t>(i)].centre.cross(Eigen::Vector3d(F.segment<3>(6 * i)));
+    }
+    EXPECT_LT(force.norm(), 1e-12 * F.norm()) << kind->effect();
+    EXPECT_LT(moment.norm(), 1e-12 * F.norm()) << kind->effect();
+  }
+}
+
+}  // namespace

@@ -1,0 +1,271 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "hydro/base/error.hpp"
+#include "wamit_text.hpp"
+
+namespace {
+
+using froude_test::largest_relative_error;
+using froude_test::listed;
+using froude_test::SmoothBody;
+using froude_test::TemporaryFolder;
+using froude_test::WamitText;
+using hydro::InputError;
+using hydro::potential::Coefficients;
+using hydro::potential::read;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+// Files are written with 16 significant digits: 5e-16 each, times the few operations of both sides.
+constexpr double digits = 2e-14;
+
+void expect_same_numbers(const Coefficients& c, const Coefficients& expected) {
+  ASSERT_EQ(c.omega.size(), expected.omega.size());
+  for (std::size_t k = 0; k < c.omega.size(); ++k)
+    EXPECT_NEAR(c.omega[k], expected.omega[k], digits * expected.omega[k]);
+  ASSERT_EQ(c.heading.size(), expected.heading.size());
+  for (std::size_t k = 0; k < c.heading.size(); ++k) EXPECT_NEAR(c.heading[k], expected.heading[k], digits);
+  EXPECT_LT(largest_relative_error(c.A, expected.A), digits);
+  EXPECT_LT(largest_relative_error(c.B, expected.B), digits);
+  EXPECT_LT(largest_relative_error(c.X, expected.X), digits);
+  EXPECT_LT(largest_relative_error(listed(c.A_zero), listed(expected.A_zero)), digits);
+  EXPECT_LT(largest_relative_error(listed(c.A_inf), listed(expected.A_inf)), digits);
+  EXPECT_LT(largest_relative_error(listed(c.C), listed(expected.C)), digits);
+}
+
+class WamitFirstColumn : public ::testing::TestWithParam<int> {};
+
+TEST_P(WamitFirstColumn, IsUnderstoodInFiniteDepthAtAnyUlen) {
+  // (P9), four meanings; frequencies in no order; (P8), powers of ULEN
+  for (const double ulen : {1.0, 2.5}) {
+    TemporaryFolder folder;
+    const WamitText text{.body = {.bodies = 2}, .ulen = ulen, .iperout = GetParam()};
+    expect_same_numbers(read(text.write(folder), text.options()), text.expected());
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Iperout, WamitFirstColumn, ::testing::Values(1, 2, 3, 4));
+
+TEST(WamitReader, TakesFinitelyDeepWavenumbersInDeepWater) {
+  TemporaryFolder folder;
+  WamitText text{.iperout = 4};
+  text.water.depth = hydro::WaterDepth::infinite();
+  expect_same_numbers(read(text.write(folder), text.options()), text.expected());
+}
+
+TEST(WamitReader, SkipsAHeaderLineAndTakesFiveColumnsAtTheLimits) {
+  for (const bool header : {false, true})
+    for (const bool five : {false, true}) {
+      TemporaryFolder folder;
+      const WamitText text{.header = header, .five_columns_at_limits = five};
+      expect_same_numbers(read(text.write(folder), text.options()), text.expected());
+    }
+}
+
+TEST(WamitReader, TakesAnyFileOfTheSetOrItsStem) {
+  TemporaryFolder folder;
+  const WamitText text;
+  text.write(folder);
+  for (const char* name : {"x", "x.1", "x.3", "x.hst"})
+    expect_same_numbers(read(folder / name, text.options()), text.expected());
+}
+
+TEST(WamitReader, ScalesByPowersOfUlenWorkedByHand) {
+  TemporaryFolder folder;
+  folder.write("h.1",
+               "6.0 1 1 1.0 3.0\n6.0 1 4 1.0 3.0\n6.0 4 1 1.0 3.0\n6.0 4 4 1.0 3.0\n"
+               "6.0 8 8 1.0 3.0\n6.0 11 11 1.0 3.0\n6.0 8 11 1.0 3.0\n");
+  folder.write("h.3", "6.0 0 3 1.0 90.0 0.0 1.0\n6.0 0 5 2.0 180.0 -2.0 0.0\n6.0 0 10 1 0 1 0\n");
+  folder.write("h.hst", "3 3 1.0\n3 5 1.0\n5 5 1.0\n9 10 1\n");
+  const double rho = 1000, g = 10, omega = 2 * 3.14159265358979323846 / 6;
+  const auto c = read(folder / "h", {rho, g, hydro::WaterDepth::infinite(), /*ulen=*/2, 1});
+  ASSERT_EQ(c.bodies(), 2);
+  const auto near = [](double value, double expected) { EXPECT_NEAR(value, expected, 1e-12 * std::abs(expected)); };
+  near(c.A[0](0, 0), 8 * rho);
+  near(c.A[0](0, 3), 16 * rho);
+  near(c.A[0](3, 3), 32 * rho);
+  near(c.A[0](7, 7), 8 * rho);
+  near(c.A[0](7, 10), 16 * rho);
+  near(c.A[0](10, 10), 32 * rho);
+  near(c.B[0](0, 0), 3 * 8 * rho * omega);
+  near(c.B[0](3, 3), 3 * 32 * rho * omega);
+  near(c.X[0](2, 0).imag(), 4 * rho * g);
+  near(c.X[0](4, 0).real(), -2 * 8 * rho * g);
+  near(c.X[0](9, 0).real(), 8 * rho * g);
+  near((*c.C)(2, 2), 4 * rho * g);
+  near((*c.C)(2, 4), 8 * rho * g);
+  near((*c.C)(4, 4), 16 * rho * g);
+  near((*c.C)(8, 9), 8 * rho * g);
+  EXPECT_EQ(c.A[0](1, 1), 0) << "entries that the file leaves out are zero";
+}
+
+TEST(WamitReader, ReadsNumbersAsFortranWritesThem) {
+  TemporaryFolder folder;
+  folder.write("f.1", "  0.600000D+01     1     1  +0.125000D+01  1.0E-400\r\n");
+  const auto c = read(folder / "f.1", {1000, 9.81, hydro::WaterDepth::infinite(), 1, 1});
+  EXPECT_EQ(c.A[0](0, 0), 1250);
+  EXPECT_EQ(c.B[0](0, 0), 0);
+}
+
+TEST(WamitReader, LeavesOutWhatHasNoFileAndSaysSo) {
+  TemporaryFolder folder;
+  const WamitText text;
+  folder.write("x.1", text.radiation());
+  const auto c = read(folder / "x.1", text.options());
+  EXPECT_TRUE(c.heading.empty());
+  EXPECT_FALSE(c.C.has_value());
+  EXPECT_THAT(c.notes, Contains(HasSubstr("no excitation")));
+  EXPECT_THAT(c.notes, Contains(HasSubstr("no restoring matrix")));
+}
+
+TEST(WamitReader, NotesThatPeriodsAreAssumed) {
+  TemporaryFolder folder;
+  const WamitText text;
+  auto options = text.options();
+  options.iperout.reset();
+  EXPECT_THAT(read(text.write(folder), options).notes, Contains(HasSubstr("IPEROUT is not stated")));
+}
+
+// ---- a first column that is not what was assumed ----
+
+TEST(WamitReader, RefusesFrequenciesTakenForPeriodsByTheirLimits) {
+  TemporaryFolder folder;
+  const WamitText text{.iperout = 2};
+  folder.write("x.1", text.radiation());
+  auto options = text.options();
+  options.iperout.reset();
+  EXPECT_THAT([&] { read(folder / "x.1", options); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr("does not look like periods"), HasSubstr("state IPEROUT"))));
+}
+
+TEST(WamitReader, RefusesFrequenciesTakenForPeriodsByTheirHeaveExcitation) {
+  TemporaryFolder folder;
+  // The limits are written in the other way too, so that only X33 → C33 in long waves tells.
+  const WamitText text{.iperout = 2, .limits_as_frequencies = true};
+  auto options = text.options();
+  options.iperout.reset();
+  EXPECT_THAT([&] { read(text.write(folder), options); }, ThrowsMessage<InputError>(HasSubstr("heave")));
+  options.iperout = 1;  // who insists is obeyed, with a note
+  EXPECT_THAT(read(folder / "x.1", options).notes, Contains(HasSubstr("IPEROUT = 1 is doubtful")));
+}
+
+TEST(WamitReader, TellsTheTwoWaysOfWritingLimitsOfFrequenciesApartByContinuity) {
+  for (const bool as_frequencies : {false, true}) {
+    TemporaryFolder folder;
+    const WamitText text{.iperout = 2, .limits_as_frequencies = as_frequencies};
+    const auto c = read(text.write(folder), text.options());
+    expect_same_numbers(c, text.expected());
+    EXPECT_THAT(c.notes, Contains(HasSubstr("so they join the neighbouring frequencies")));
+  }
+}
+
+TEST(WamitReader, RefusesALimitThatMayBeEither) {
+  TemporaryFolder folder;
+  folder.write("x.1", "0 1 1 15\n1.0 1 1 20 1\n2.0 1 1 10 1\n");
+  EXPECT_THAT(
+      [&] {
+        read(folder / "x.1", {1000, 9.81, hydro::WaterDepth::infinite(), 1, 2});
+      },
+      ThrowsMessage<InputError>(AllOf(HasSubstr("x.1:1:1"), HasSubstr("do not tell which"), HasSubstr("IPEROUT = 1"))));
+}
+
+// ---- bad input ----
+
+struct BadSet {
+  const char* name;
+  const char *radiation, *excitation, *restoring;  ///< "" for no such file
+  std::vector<const char*> says;
+};
+
+class WamitBadInput : public ::testing::TestWithParam<BadSet> {};
+
+TEST_P(WamitBadInput, IsRefusedWithItsPlaceAndTheRule) {
+  TemporaryFolder folder;
+  const BadSet& set = GetParam();
+  folder.write("b.1", set.radiation);
+  if (*set.excitation) folder.write("b.3", set.excitation);
+  if (*set.restoring) folder.write("b.hst", set.restoring);
+  try {
+    read(folder / "b.1", {1000, 9.81, hydro::WaterDepth::infinite(), 1, 1});
+    FAIL() << "was accepted";
+  } catch (const InputError& e) {
+    for (const char* text : set.says) EXPECT_THAT(e.what(), HasSubstr(text));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cases, WamitBadInput,
+    ::testing::Values(
+        BadSet{"NanInATable", "6 1 1 1 1\n5 1 1 NaN 1\n", "", "", {"b.1:2:7", "not finite"}},
+        BadSet{"InfinityInATable", "6 1 1 1 Infinity\n", "", "", {"b.1:1:9", "not finite"}},
+        BadSet{"AWord", "6 1 1 1 1\n5 1 one 1 1\n", "", "", {"b.1:2:5", "\"one\" is no number", "PER I J A B"}},
+        BadSet{"AnOverflowedFortranField", "6 1 1 1 1\n5 1 1 ****** 1\n", "", "", {"b.1:2:7", "no number"}},
+        BadSet{"ARaggedRow", "6 1 1 1 1\n5 1 1 1 1 1\n", "", "", {"b.1:2", "has 6 numbers", "4 or 5"}},
+        BadSet{"NoDampingAtAFinitePeriod", "6 1 1 1 1\n5 1 1 1\n", "", "", {"b.1:2", "no damping"}},
+        BadSet{"ADuplicateRow", "6 1 1 1 1\n6 1 1 1 1\n", "", "", {"b.1:2", "twice"}},
+        BadSet{
+            "AnEntryMissingAtOnePeriod", "6 1 1 1 1\n6 2 2 1 1\n5 1 1 1 1\n", "", "", {"b.1:3", "PER = 5", "(2, 2)"}},
+        BadSet{"ModeZero", "6 0 1 1 1\n", "", "", {"b.1:1:3", "no mode number"}},
+        BadSet{"ModeOneAndAHalf", "6 1.5 1 1 1\n", "", "", {"b.1:1:3", "no mode number"}},
+        BadSet{"NoFinitePeriod", "0 1 1 1\n-1 1 1 1\n", "", "", {"no finite, positive period"}},
+        BadSet{"TwoNegativePeriods", "-1 1 1 1\n-2 1 1 1\n5 1 1 1 1\n", "", "", {"b.1:2:1", "second negative PER"}},
+        BadSet{"AnEmptyFile", "\n", "", "", {"no rows"}},
+        BadSet{"APeriodOnlyInTheExcitation", "6 1 1 1 1\n", "7 0 1 1 0 1 0\n", "", {"b.3:1:1", "PER = 7", "one run"}},
+        BadSet{"APeriodMissingFromTheExcitation", "6 1 1 1 1\n5 1 1 1 1\n", "6 0 1 1 0 1 0\n", "", {"b.3", "PER = 5"}},
+        BadSet{"AHeadingMissingAtOnePeriod",
+               "6 1 1 1 1\n5 1 1 1 1\n",
+               "6 0 1 1 0 1 0\n6 90 1 1 0 1 0\n5 0 1 1 0 1 0\n",
+               "",
+               {"b.3", "PER = 5", "90 deg"}},
+        BadSet{"ABodyOnlyInTheExcitation", "6 1 1 1 1\n", "6 0 7 1 0 1 0\n", "", {"b.3:1:5", "body 2", "has 1"}},
+        BadSet{
+            "ADuplicateExcitation", "6 1 1 1 1\n", "6 0 1 1 0 1 0\n6 0 1 1 0 1 0\n", "", {"b.3:2", "line 1 already"}},
+        BadSet{"ABodyOnlyInTheRestoring", "6 1 1 1 1\n", "", "9 9 1\n", {"b.hst:1:1", "body 2"}},
+        BadSet{"ADuplicateRestoring", "6 1 1 1 1\n", "", "3 3 1\n3 3 1\n", {"b.hst:2", "line 1 already"}}),
+    [](const auto& test) { return test.param.name; });
+
+TEST(WamitReader, AsksForWaterThatTheFilesDoNotHold) {
+  TemporaryFolder folder;
+  const auto path = WamitText{}.write(folder);
+  EXPECT_THAT([&] { read(path); }, ThrowsMessage<InputError>(HasSubstr("density, gravity, water depth")));
+  EXPECT_THAT(
+      [&] {
+        read(path, {{}, 9.81, hydro::WaterDepth::infinite(), 1, {}});
+      },
+      ThrowsMessage<InputError>(AllOf(HasSubstr("do not hold the density\n"), HasSubstr("[water]"))));
+  EXPECT_THAT(
+      [&] {
+        read(path, {1000, 9.81, hydro::WaterDepth::infinite(), 0.0, {}});
+      },
+      ThrowsMessage<InputError>(HasSubstr("ULEN must be positive")));
+  EXPECT_THAT(
+      [&] {
+        read(path, {1000, 9.81, hydro::WaterDepth::infinite(), 1, 5});
+      },
+      ThrowsMessage<InputError>(HasSubstr("IPEROUT must be")));
+}
+
+TEST(WamitReader, SaysWhichFileIsMissing) {
+  TemporaryFolder folder;
+  const WamitText text;
+  EXPECT_THAT([&] { read(folder / "nothing", text.options()); }, ThrowsMessage<InputError>(HasSubstr("no such file")));
+  folder.write("only.3", text.excitation());
+  EXPECT_THAT([&] { read(folder / "only.3", text.options()); }, ThrowsMessage<InputError>(HasSubstr("\"only.1\"")));
+  folder.write("readme.txt", "nothing of ours");
+  EXPECT_THAT([&] { read(folder / "readme.txt", text.options()); },
+              ThrowsMessage<InputError>(HasSubstr("not a file of coefficients")));
+  EXPECT_THAT([&] { read(folder / "", text.options()); }, ThrowsMessage<InputError>(HasSubstr("is a folder")));
+}
+
+TEST(WamitReader, NotesAPhaseThatContradictsTheParts) {
+  TemporaryFolder folder;
+  folder.write("p.1", "6 1 1 1 1\n");
+  folder.write("p.3", "6 0 1 1.0 90.0 0.0 -1.0\n");  // the phase of e^{−iωt}
+  const auto c = read(folder / "p.1", {1000, 9.81, hydro::WaterDepth::infinite(), 1, 1});
+  EXPECT_LT(c.X[0](0, 0).imag(), 0);
+  EXPECT_THAT(c.notes, Contains(AllOf(HasSubstr("p.3"), HasSubstr("line 1"), HasSubstr("disagree"))));
+}
+
+}  // namespace

@@ -1,0 +1,48 @@
+#pragma once
+/// \file  Bodies and random states on which the laws of forces are tried.
+#include "dynamics/model/model.hpp"
+#include "dynamics/spatial/rotation.hpp"
+#include "hydro/base/random.hpp"
+
+namespace support {
+
+inline std::vector<dynamics::RigidBody> two_bodies() {
+  const auto body = [](const char* name, double x) {
+    return dynamics::RigidBody({.name = name,
+                                .mass = 900,
+                                .inertia = Eigen::Vector3d(400, 500, 600).asDiagonal(),
+                                .rest_position = {Eigen::Vector3d(x, 0, 0)},
+                                .centre_of_gravity = {Eigen::Vector3d(0.1, -0.2, 0.3)}});
+  };
+  return {body("a", 0), body("b", 4)};
+}
+
+/// Every body somewhere near rest, turned by up to about `angle`, moving at about 1 m/s and 1 rad/s.
+inline dynamics::State random_state(const std::vector<dynamics::RigidBody>& bodies, std::uint64_t seed, double angle = 0.5) {
+  dynamics::State s = dynamics::rest_state(bodies);
+  const hydro::RandomStream random(seed, 17);
+  std::uint64_t n = 0;
+  const auto vector = [&](double size) {
+    Eigen::Vector3d v;
+    for (int i = 0; i < 3; ++i) v[i] = size * random.normal(n++);
+    return v;
+  };
+  for (auto& pose : s.pose) {
+    pose.centre += vector(0.2);
+    pose.attitude = dynamics::rotation_exp(vector(angle));
+  }
+  for (Eigen::Index i = 0; i < s.velocity.size(); ++i) s.velocity[i] = random.normal(n++);
+  return s;
+}
+
+/// The state after every body has moved by `displacement` (translation, small global rotation).
+inline dynamics::State moved(dynamics::State s, const Eigen::VectorXd& displacement) {
+  for (std::size_t i = 0; i < s.pose.size(); ++i) {
+    const auto row = 6 * static_cast<Eigen::Index>(i);
+    s.pose[i].centre += displacement.segment<3>(row);
+    s.pose[i].attitude = (dynamics::rotation_exp(displacement.segment<3>(row + 3)) * s.pose[i].attitude).normalized();
+  }
+  return s;
+}
+
+}  // namespace support

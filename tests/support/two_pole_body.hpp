@@ -1,0 +1,35 @@
+#pragma once
+/// \file  A radiating body whose memory is known exactly, (R9) in docs/theory/radiation.md.
+#include <cmath>
+
+#include "hydro/radiation/kernel.hpp"
+
+namespace support {
+
+/// K(t) = e^{−at}(cos bt − (a/b) sin bt), B(ω) = 2aω²/D, A(ω) − A∞ = (w² − ω²)/D, w² = a² + b², D = (w² − ω²)² + 4a²ω².
+struct TwoPoleBody {
+  double decay, frequency;   // a, b
+
+  double K(double t) const {
+    return std::exp(-decay * t) * (std::cos(frequency * t) - decay / frequency * std::sin(frequency * t));
+  }
+  double D(double omega) const {
+    const double d = w2() - omega * omega;
+    return d * d + 4 * decay * decay * omega * omega;
+  }
+  double B(double omega) const { return 2 * decay * omega * omega / D(omega); }
+  double A_minus_A_inf(double omega) const { return (w2() - omega * omega) / D(omega); }
+  double w2() const { return decay * decay + frequency * frequency; }
+
+  /// `modes` equal uncoupled modes at `count` even frequencies up to `end`.
+  hydro::radiation::DampingTable damping_table(double end, int count, int modes = 1) const {
+    hydro::radiation::DampingTable table;
+    for (int i = 1; i <= count; ++i) {
+      table.omega.push_back(end * i / count);
+      table.B.push_back(B(table.omega.back()) * Eigen::MatrixXd::Identity(modes, modes));
+    }
+    return table;
+  }
+};
+
+}  // namespace support

@@ -1,0 +1,66 @@
+#pragma once
+/// \file  A validation case: a question that has an answer outside this code, and the numbers that answer it.
+///
+/// A case is a folder validation/<name>/ with README.md (question, physics, what agreement would not show), accept.toml
+/// (the limits, accept.hpp), case.cpp (a function below) and, where the data are ours, reference/ with SOURCE.md.
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "froude/plot.hpp"
+
+namespace froude::validation {
+
+/// One answer. The unit is for people and must be the one that accept.toml states.
+struct Number {
+  std::string name;
+  double value;
+  std::string unit;  ///< "s"; "" for a number without dimension
+};
+
+struct Picture {
+  std::string name;     ///< of the file, without ending: lower case, digits and dashes
+  std::string caption;  ///< one sentence
+  plot::Figure figure;
+};
+
+struct Outcome {
+  std::vector<Number> numbers;
+  std::vector<Picture> pictures = {};
+};
+
+/// The case needs data that may be absent; it is then reported as skipped, never as passed.
+class MissingData : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Where a case finds its files.
+class Folders {
+ public:
+  /// `cases` holds one folder a case; `data` holds the reference data that are not ours, and need not exist.
+  Folders(std::filesystem::path cases, std::filesystem::path data, std::string name)
+      : cases_(std::move(cases)), data_(std::move(data)), name_(std::move(name)) {}
+
+  std::filesystem::path own() const { return cases_ / name_; }
+  std::filesystem::path reference(const std::string& file) const { return own() / "reference" / file; }
+  /// A file of examples/data, which stands beside the folder of the cases. \throws hydro::InputError if it is absent
+  std::filesystem::path example(const std::string& file) const;
+  /// A file of the reference data, "iea_sphere/wamit/sphere.1". \throws MissingData if it is absent
+  std::filesystem::path shared(const std::string& file) const;
+
+ private:
+  std::filesystem::path cases_, data_;
+  std::string name_;
+};
+
+struct Case {
+  std::string name;  ///< of the folder
+  Outcome (*run)(const Folders&);
+};
+
+/// Every case that is built in, in the order of the report (cases.cpp).
+const std::vector<Case>& cases();
+
+}  // namespace froude::validation
