@@ -20,17 +20,18 @@ struct PlanLine {
   bool runs = true;
 };
 
-/// What both domains share: bodies, coefficients placed about the centres of gravity, springs. In the order of the scene.
+/// What both domains share: bodies, coefficients placed about the centres of gravity, springs. In the order of the
+/// scene.
 struct Prepared {
   std::vector<dynamics::RigidBody> bodies;
   std::vector<dynamics::frequency::PotentialGroup> groups;
-  std::vector<double> memory_tolerance;                 ///< one a group
-  std::vector<std::optional<double>> memory_length;     ///< s, where the scene fixes it
+  std::vector<double> memory_tolerance;              ///< one a group
+  std::vector<std::optional<double>> memory_length;  ///< s, where the scene fixes it
   std::vector<dynamics::Restoring> hydrostatics, moorings;
   std::vector<dynamics::AxialConnector> axial;
   std::vector<dynamics::BushingConnector> bushing;
   std::vector<std::string> axial_names, bushing_names, mooring_names;
-  std::vector<std::string> notes;                       ///< what had to be decided, for the result and the plan
+  std::vector<std::string> notes;  ///< what had to be decided, for the result and the plan
 };
 
 /// Opens the data files and places everything. \throws hydro::InputError, placed in the scene
@@ -45,7 +46,7 @@ struct TimeModel {
   dynamics::Model model;
   dynamics::State start;
   std::optional<hydro::waves::Sea> sea;
-  double step;                    ///< s; scene.run->every is a whole multiple of it
+  double step;  ///< s; scene.run->every is a whole multiple of it
   std::size_t steps;
   std::size_t steps_per_sample;
   std::vector<PlanLine> plan;

@@ -21,7 +21,9 @@ struct Use {
   std::vector<int> file_body;  // in the file, from 0
 };
 
-const Hydrodynamics& hydrodynamics(const Scene& scene, int body) { return *scene.bodies[static_cast<std::size_t>(body)].hydrodynamics; }
+const Hydrodynamics& hydrodynamics(const Scene& scene, int body) {
+  return *scene.bodies[static_cast<std::size_t>(body)].hydrodynamics;
+}
 
 Coefficients read(const Scene& scene, const Hydrodynamics& h) {
   hydro::potential::ReadOptions options;
@@ -37,13 +39,17 @@ Coefficients read(const Scene& scene, const Hydrodynamics& h) {
   }
 }
 
-/// Density, gravity and depth of the data must be those of the scene; a file that states none was read with the scene's.
+/// Density, gravity and depth of the data must be those of the scene; a file that states none was read with the
+/// scene's.
 void require_same_water(const Scene& scene, const Coefficients& data, const hydro::Place& place) {
   const auto differs = [](double a, double b) { return a != b && !(std::abs(a - b) <= 1e-3 * std::abs(b)); };
   const auto& w = scene.water;
-  if (differs(data.water.density, w.density) || differs(data.water.gravity, w.gravity) || differs(data.water.depth.metres(), w.depth.metres()))
-    throw InputError(fmt::format("the coefficients are for ρ = {:.6g} kg/m³, g = {:.6g} m/s², depth {:.6g} m; the scene has {:.6g}, {:.6g}, {:.6g}",
-                                 data.water.density, data.water.gravity, data.water.depth.metres(), w.density, w.gravity, w.depth.metres()),
+  if (differs(data.water.density, w.density) || differs(data.water.gravity, w.gravity) ||
+      differs(data.water.depth.metres(), w.depth.metres()))
+    throw InputError(fmt::format("the coefficients are for ρ = {:.6g} kg/m³, g = {:.6g} m/s², depth {:.6g} m; the "
+                                 "scene has {:.6g}, {:.6g}, {:.6g}",
+                                 data.water.density, data.water.gravity, data.water.depth.metres(), w.density,
+                                 w.gravity, w.depth.metres()),
                      place, "make [water] agree with the data, or compute the coefficients for this water");
 }
 
@@ -57,12 +63,14 @@ void assign(const Scene& scene, Use& use) {
     if (h.body) {
       index = h.body->value - 1 + (body.copy > 0 && in_file > 1 ? body.copy - 1 : 0);
       if (index < 0 || index >= in_file)
-        throw InputError(fmt::format("body {} of \"{}\" is asked for; the file holds {}", index + 1, h.file.value.filename().string(),
+        throw InputError(fmt::format("body {} of \"{}\" is asked for; the file holds {}", index + 1,
+                                     h.file.value.filename().string(),
                                      in_file == 1 ? "one body" : fmt::format("{} bodies", in_file)),
                          h.body->place, "bodies of a file are counted from 1");
     } else if (in_file > 1) {
       if (in_scene != in_file)
-        throw InputError(fmt::format("\"{}\" holds {} bodies, but {} of the scene take their coefficients from it", h.file.value.filename().string(), in_file, in_scene),
+        throw InputError(fmt::format("\"{}\" holds {} bodies, but {} of the scene take their coefficients from it",
+                                     h.file.value.filename().string(), in_file, in_scene),
                          h.file.place, "say which body each is: body = 1");
       index = i;
     }
@@ -71,7 +79,8 @@ void assign(const Scene& scene, Use& use) {
   for (std::size_t i = 0; i < use.bodies.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (in_file > 1 && use.file_body[i] == use.file_body[j])
-        throw InputError(fmt::format("two bodies take body {} of the same file", use.file_body[i] + 1), hydrodynamics(scene, use.bodies[i]).file.place);
+        throw InputError(fmt::format("two bodies take body {} of the same file", use.file_body[i] + 1),
+                         hydrodynamics(scene, use.bodies[i]).file.place);
 }
 
 std::vector<Use> uses(const Scene& scene) {
@@ -80,7 +89,8 @@ std::vector<Use> uses(const Scene& scene) {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const auto& h = scene.bodies[b].hydrodynamics;
     if (!h) continue;
-    const std::string key = fmt::format("{}|{}|{}|{}|{}{}{}", h->file.value.string(), h->ulen, h->iperout.value_or(0), h->interaction, h->radiation, h->excitation, h->hydrostatics);
+    const std::string key = fmt::format("{}|{}|{}|{}|{}{}{}", h->file.value.string(), h->ulen, h->iperout.value_or(0),
+                                        h->interaction, h->radiation, h->excitation, h->hydrostatics);
     const auto [at, is_new] = known.try_emplace(key, out.size());
     if (is_new) {
       out.push_back({read(scene, *h), {}, {}});
@@ -92,7 +102,8 @@ std::vector<Use> uses(const Scene& scene) {
   return out;
 }
 
-/// Bodies that radiate onto each other: all of a use, or each by itself if the file has one body or the scene wants no interaction.
+/// Bodies that radiate onto each other: all of a use, or each by itself if the file has one body or the scene wants no
+/// interaction.
 std::vector<std::vector<std::size_t>> interacting(const Scene& scene, const Use& use) {
   const bool apart = use.data.bodies() == 1 || !hydrodynamics(scene, use.bodies.front()).interaction;
   std::vector<std::vector<std::size_t>> sets;
@@ -115,7 +126,8 @@ hydro::potential::Matrix6 gravity_restoring(double weight, const Eigen::Vector3d
 /// Puts one set of interacting bodies in its place and about the scene's centres of gravity.
 class Placement {
  public:
-  Placement(const Scene& scene, Coefficients data, std::vector<int> bodies, bool single_in_file, std::vector<std::string>& notes)
+  Placement(const Scene& scene, Coefficients data, std::vector<int> bodies, bool single_in_file,
+            std::vector<std::string>& notes)
       : scene_(scene), c_(std::move(data)), bodies_(std::move(bodies)), single_(single_in_file), notes_(notes) {}
 
   Coefficients place() {
@@ -136,7 +148,10 @@ class Placement {
       shift = (first.position - *c_.body.front().reference_point).head<2>();
     } else if (single_) {
       shift = first.position.head<2>();
-      if (shift.norm() > 0) notes_.push_back(fmt::format("{}: the file does not say where the body was; taken to be at x = y = 0 and carried to {}", c_.source, first.name));
+      if (shift.norm() > 0)
+        notes_.push_back(
+            fmt::format("{}: the file does not say where the body was; taken to be at x = y = 0 and carried to {}",
+                        c_.source, first.name));
     }
     if (shift.norm() > 0) c_ = hydro::potential::carried(std::move(c_), shift);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -144,10 +159,13 @@ class Placement {
       const auto& stated = c_.body[i].reference_point;
       const auto& given = b.hydrodynamics->reference_point;
       if (stated && given && (*stated - *given).norm() > 1e-6)
-        throw InputError(fmt::format("the file has the reference point ({:.6g}, {:.6g}, {:.6g}) m; the scene says otherwise", stated->x(), stated->y(), stated->z()),
-                         b.hydrodynamics->file.place, "leave out reference_point");
+        throw InputError(
+            fmt::format("the file has the reference point ({:.6g}, {:.6g}, {:.6g}) m; the scene says otherwise",
+                        stated->x(), stated->y(), stated->z()),
+            b.hydrodynamics->file.place, "leave out reference_point");
       if (stated && (b.position - *stated).head<2>().norm() > 1e-3)
-        throw InputError(fmt::format("body \"{}\" is at x = {:.6g}, y = {:.6g} m; in the data its reference point is at ({:.6g}, {:.6g}) when \"{}\" is in place",
+        throw InputError(fmt::format("body \"{}\" is at x = {:.6g}, y = {:.6g} m; in the data its reference point is "
+                                     "at ({:.6g}, {:.6g}) when \"{}\" is in place",
                                      b.name, b.position.x(), b.position.y(), stated->x(), stated->y(), first.name),
                          b.place, "bodies that interact must stand as they stood when the coefficients were computed");
       points_.push_back(stated ? *stated : given.value_or(b.position));
@@ -161,13 +179,18 @@ class Placement {
       const auto& facts = c_.body[i];
       const double weight = b.mass * scene_.water.gravity;
       if (!facts.centre_of_gravity) {
-        notes_.push_back(fmt::format("{}: the file does not say for which centre of gravity its restoring matrix is; taken to be that of {}", c_.source, b.name));
+        notes_.push_back(fmt::format(
+            "{}: the file does not say for which centre of gravity its restoring matrix is; taken to be that of {}",
+            c_.source, b.name));
         continue;
       }
       if (facts.displaced_volume && std::abs(scene_.water.density * *facts.displaced_volume / b.mass - 1) > 0.01)
-        notes_.push_back(fmt::format("{}: displaces {:.6g} kg of water but weighs {:.6g} kg: a linear restoring matrix takes them to be in balance", b.name,
-                                     scene_.water.density * *facts.displaced_volume, b.mass));
-      const double weight_in_data = facts.displaced_volume ? scene_.water.density * scene_.water.gravity * *facts.displaced_volume : weight;
+        notes_.push_back(
+            fmt::format("{}: displaces {:.6g} kg of water but weighs {:.6g} kg: a linear restoring matrix takes them "
+                        "to be in balance",
+                        b.name, scene_.water.density * *facts.displaced_volume, b.mass));
+      const double weight_in_data =
+          facts.displaced_volume ? scene_.water.density * scene_.water.gravity * *facts.displaced_volume : weight;
       const auto row = 6 * static_cast<Eigen::Index>(i);
       c_.C->block<6, 6>(row, row) += gravity_restoring(weight, b.position + b.centre_of_gravity - points_[i]) -
                                      gravity_restoring(weight_in_data, *facts.centre_of_gravity - points_[i]);
@@ -182,11 +205,13 @@ class Placement {
   std::vector<Eigen::Vector3d> points_;
 };
 
-void add_hydrostatics(const Scene& scene, const Coefficients& about_centres, const std::vector<int>& bodies, Prepared& prepared) {
+void add_hydrostatics(const Scene& scene, const Coefficients& about_centres, const std::vector<int>& bodies,
+                      Prepared& prepared) {
   const Hydrodynamics& h = hydrodynamics(scene, bodies.front());
   if (!h.hydrostatics) return;
   if (!about_centres.C)
-    throw InputError("hydrostatics are asked for, but the data have no restoring matrix", h.file.place, "put the .hst file beside the .1 file, or leave out `hydrostatics`");
+    throw InputError("hydrostatics are asked for, but the data have no restoring matrix", h.file.place,
+                     "put the .hst file beside the .1 file, or leave out `hydrostatics`");
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const auto row = 6 * static_cast<Eigen::Index>(i);
     const dynamics::Matrix6 C = about_centres.C->block<6, 6>(row, row);
@@ -206,12 +231,14 @@ void add_hydrodynamics(const Scene& scene, Prepared& prepared) {
         of_file.push_back(use.file_body[i]);
       }
       const Hydrodynamics& h = hydrodynamics(scene, bodies.front());
-      Placement placement(scene, hydro::potential::select(use.data, of_file), bodies, use.data.bodies() == 1, prepared.notes);
+      Placement placement(scene, hydro::potential::select(use.data, of_file), bodies, use.data.bodies() == 1,
+                          prepared.notes);
       Coefficients c = placement.place();
       add_hydrostatics(scene, c, bodies, prepared);
       std::vector<Eigen::Vector3d> origins;
       for (const int b : bodies) origins.push_back(scene.bodies[static_cast<std::size_t>(b)].position);
-      prepared.groups.push_back({bodies, hydro::potential::FrequencyTable(std::move(c), origins), h.radiation, h.excitation});
+      prepared.groups.push_back(
+          {bodies, hydro::potential::FrequencyTable(std::move(c), origins), h.radiation, h.excitation});
       prepared.memory_tolerance.push_back(h.memory_tolerance);
       prepared.memory_length.push_back(h.memory);
     }

@@ -31,18 +31,26 @@ void add_motions(const scene::Scene& scene, const Prepared& p, std::vector<Probe
   for (std::size_t b = 0; b < p.bodies.size(); ++b)
     for (int mode = 0; mode < 6; ++mode)
       if (p.bodies[b].is_free(mode))
-        out.push_back({scene.bodies[b].name + "." + mode_name(mode), motion_unit(mode), fmt::format("{} of {} from rest", mode_name(mode), scene.bodies[b].name),
-                       [body = p.bodies[b], b, mode](const Workspace& w, const EnergyLedger&) { return motion(body, w.state.pose[b], mode); }});
+        out.push_back({scene.bodies[b].name + "." + mode_name(mode), motion_unit(mode),
+                       fmt::format("{} of {} from rest", mode_name(mode), scene.bodies[b].name),
+                       [body = p.bodies[b], b, mode](const Workspace& w, const EnergyLedger&) {
+                         return motion(body, w.state.pose[b], mode);
+                       }});
 }
 
 void add_connectors(const Prepared& p, std::vector<Probe>& out) {
   for (std::size_t i = 0; i < p.axial.size(); ++i)
     out.push_back({p.axial_names[i] + ".force", "N", "tension of " + p.axial_names[i],
-                   [c = p.axial[i]](const Workspace& w, const EnergyLedger&) { return dynamics::axial_state(c, w.state).tension; }});
+                   [c = p.axial[i]](const Workspace& w, const EnergyLedger&) {
+                     return dynamics::axial_state(c, w.state).tension;
+                   }});
   for (std::size_t i = 0; i < p.bushing.size(); ++i)
     for (int axis = 0; axis < 3; ++axis)
-      out.push_back({p.bushing_names[i] + ".force_" + "xyz"[axis], "N", fmt::format("force of {} on its first body along that body's {}", p.bushing_names[i], "xyz"[axis]),
-                     [c = p.bushing[i], axis](const Workspace& w, const EnergyLedger&) { return dynamics::bushing_force(c, w.state)[axis]; }});
+      out.push_back({p.bushing_names[i] + ".force_" + "xyz"[axis], "N",
+                     fmt::format("force of {} on its first body along that body's {}", p.bushing_names[i], "xyz"[axis]),
+                     [c = p.bushing[i], axis](const Workspace& w, const EnergyLedger&) {
+                       return dynamics::bushing_force(c, w.state)[axis];
+                     }});
 }
 
 /// Load of a mooring about the body's origin from its load about the centre of gravity: moments move by the arm.
@@ -51,10 +59,13 @@ void add_moorings(const scene::Scene& scene, const Prepared& p, std::vector<Prob
     for (int mode = 0; mode < 6; ++mode) {
       if (scene.moorings[i].stiffness.row(mode).isZero() && scene.moorings[i].damping.row(mode).isZero()) continue;
       const auto body = static_cast<std::size_t>(p.moorings[i].body);
-      out.push_back({p.mooring_names[i] + "." + mode_name(mode), load_unit(mode), fmt::format("{} load of {} on {} about its origin", mode_name(mode), p.mooring_names[i], scene.bodies[body].name),
+      out.push_back({p.mooring_names[i] + "." + mode_name(mode), load_unit(mode),
+                     fmt::format("{} load of {} on {} about its origin", mode_name(mode), p.mooring_names[i],
+                                 scene.bodies[body].name),
                      [m = p.moorings[i], b = p.bodies[body], body, mode](const Workspace& w, const EnergyLedger&) {
                        const auto& pose = w.state.pose[body];
-                       dynamics::Vector6 load = dynamics::restoring_load(m, pose.displacement(b), w.state.twist(m.body));
+                       dynamics::Vector6 load =
+                           dynamics::restoring_load(m, pose.displacement(b), w.state.twist(m.body));
                        load.tail<3>() += (pose.attitude * b.properties().centre_of_gravity.xyz).cross(load.head<3>());
                        return load[mode];
                      }});
@@ -62,7 +73,8 @@ void add_moorings(const scene::Scene& scene, const Prepared& p, std::vector<Prob
 }
 
 void add_energies(const TimeModel& m, std::vector<Probe>& out) {
-  out.push_back({"energy.kinetic", "J", "kinetic energy of bodies and added mass", [](const Workspace&, const EnergyLedger& l) { return l.kinetic(); }});
+  out.push_back({"energy.kinetic", "J", "kinetic energy of bodies and added mass",
+                 [](const Workspace&, const EnergyLedger& l) { return l.kinetic(); }});
   for (std::size_t k = 0; k < m.model.forces().size(); ++k) {
     const std::string effect = m.model.forces()[k]->effect();
     const auto add = [&](const char* what, double EnergyLedger::Entry::*member) {
@@ -73,7 +85,8 @@ void add_energies(const TimeModel& m, std::vector<Probe>& out) {
     add("supplied", &EnergyLedger::Entry::supplied);
     add("dissipated", &EnergyLedger::Entry::dissipated);
   }
-  out.push_back({"energy.residual", "J", "energy that does not add up", [](const Workspace&, const EnergyLedger& l) { return l.residual(); }});
+  out.push_back({"energy.residual", "J", "energy that does not add up",
+                 [](const Workspace&, const EnergyLedger& l) { return l.residual(); }});
 }
 
 }  // namespace
@@ -86,7 +99,8 @@ std::vector<Probe> run_probes(const scene::Scene& scene, const Prepared& prepare
   if (model.sea)
     out.push_back({"wave.elevation", "m", "elevation of the undisturbed wave at the origin, with the ramp",
                    [sea = *model.sea, ramp = scene.waves->ramp](const Workspace& w, const EnergyLedger&) {
-                     const double t = w.state.time, grown = t >= ramp ? 1 : 0.5 * (1 - std::cos(std::numbers::pi * t / ramp));
+                     const double t = w.state.time,
+                                  grown = t >= ramp ? 1 : 0.5 * (1 - std::cos(std::numbers::pi * t / ramp));
                      return grown * sea.elevation(t, 0, 0);
                    }});
   add_energies(model, out);
@@ -96,13 +110,15 @@ std::vector<Probe> run_probes(const scene::Scene& scene, const Prepared& prepare
 namespace {
 
 /// Row that takes the displacement of a point fixed to a body along `direction` out of all displacements.
-void add_point(Eigen::RowVectorXd& row, int body, const Eigen::Vector3d& arm, const Eigen::Vector3d& direction, double sign) {
+void add_point(Eigen::RowVectorXd& row, int body, const Eigen::Vector3d& arm, const Eigen::Vector3d& direction,
+               double sign) {
   row.segment<3>(6 * body) += sign * direction.transpose();
-  row.segment<3>(6 * body + 3) += sign * arm.cross(direction).transpose();   // direction · (θ × arm)
+  row.segment<3>(6 * body + 3) += sign * arm.cross(direction).transpose();  // direction · (θ × arm)
 }
 
 /// Displacement of the second end less that of the first, along `direction`; the first measured at `first_arm`.
-Eigen::RowVectorXd stretch_row(const dynamics::Ends& ends, const Eigen::Vector3d& first_arm, const Eigen::Vector3d& direction, Eigen::Index modes) {
+Eigen::RowVectorXd stretch_row(const dynamics::Ends& ends, const Eigen::Vector3d& first_arm,
+                               const Eigen::Vector3d& direction, Eigen::Index modes) {
   Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(modes);
   add_point(row, ends.first, first_arm, direction, -1);
   if (ends.second) add_point(row, *ends.second, ends.second_arm, direction, 1);
@@ -125,20 +141,26 @@ std::vector<LinearProbe> rao_probes(const scene::Scene& scene, const Prepared& p
       if (!p.bodies[b].is_free(mode)) continue;
       Eigen::RowVectorXd row = none;
       row.segment<6>(6 * static_cast<Eigen::Index>(b)) = T.row(mode);
-      out.push_back({scene.bodies[b].name + "." + mode_name(mode), std::string(motion_unit(mode)) + "/m", fmt::format("{} of {} per metre of wave amplitude", mode_name(mode), scene.bodies[b].name), row, none});
+      out.push_back({scene.bodies[b].name + "." + mode_name(mode), std::string(motion_unit(mode)) + "/m",
+                     fmt::format("{} of {} per metre of wave amplitude", mode_name(mode), scene.bodies[b].name), row,
+                     none});
     }
   }
   for (std::size_t i = 0; i < p.axial.size(); ++i) {
     const auto& c = p.axial[i];
     const Eigen::Vector3d d = at_rest(p, c.ends.second, c.ends.second_arm) - at_rest(p, c.ends.first, c.ends.first_arm);
     const auto row = stretch_row(c.ends, c.ends.first_arm, d.normalized(), modes);
-    out.push_back({p.axial_names[i] + ".force", "N/m", fmt::format("tension of {} per metre of wave amplitude", p.axial_names[i]), c.stiffness * row, c.damping * row});
+    out.push_back({p.axial_names[i] + ".force", "N/m",
+                   fmt::format("tension of {} per metre of wave amplitude", p.axial_names[i]), c.stiffness * row,
+                   c.damping * row});
   }
   for (std::size_t i = 0; i < p.bushing.size(); ++i)
     for (int axis = 0; axis < 3; ++axis) {
       const auto& c = p.bushing[i];
       const auto row = stretch_row(c.ends, c.ends.first_arm + c.rest_offset, Eigen::Vector3d::Unit(axis), modes);
-      out.push_back({p.bushing_names[i] + ".force_" + "xyz"[axis], "N/m", fmt::format("force of {} along {} per metre of wave amplitude", p.bushing_names[i], "xyz"[axis]), c.stiffness[axis] * row, c.damping[axis] * row});
+      out.push_back({p.bushing_names[i] + ".force_" + "xyz"[axis], "N/m",
+                     fmt::format("force of {} along {} per metre of wave amplitude", p.bushing_names[i], "xyz"[axis]),
+                     c.stiffness[axis] * row, c.damping[axis] * row});
     }
   return out;
 }

@@ -1,5 +1,6 @@
 #pragma once
-/// \file  The signals that a result can hold: motions of bodies' origins, forces of connectors and moorings, waves, energies.
+/// \file  The signals that a result can hold: motions of bodies' origins, forces of connectors and moorings, waves,
+/// energies.
 #include <complex>
 #include <functional>
 #include <string>
@@ -16,18 +17,20 @@ struct Probe {
   std::function<double(const dynamics::Workspace&, const dynamics::EnergyLedger&)> read;
 };
 
-/// All signals of a run of this model. Motions are of the body's origin from its place at rest; rotations are the yaw–pitch–roll angles
-/// of the attitude (about z, then the new y, then the new x).
+/// All signals of a run of this model. Motions are of the body's origin from its place at rest; rotations are the
+/// yaw–pitch–roll angles of the attitude (about z, then the new y, then the new x).
 std::vector<Probe> run_probes(const scene::Scene& scene, const Prepared& prepared, const TimeModel& model);
 
-/// A linear signal of the frequency domain: (stiffness + iω damping) · ξ, ξ the displacements about the centres of gravity.
+/// A linear signal of the frequency domain: (stiffness + iω damping) · ξ, ξ the displacements about the centres of
+/// gravity.
 struct LinearProbe {
   std::string name, unit, long_name;
   Eigen::RowVectorXd stiffness, damping;
 };
 std::vector<LinearProbe> rao_probes(const scene::Scene& scene, const Prepared& prepared);
 
-/// Those whose names match one of the patterns (`*` stands for anything); all if there are no patterns. Keeps their order.
+/// Those whose names match one of the patterns (`*` stands for anything); all if there are no patterns. Keeps their
+/// order.
 template <class P>
 std::vector<P> chosen(const std::vector<P>& all, const std::vector<std::string>& patterns) {
   if (patterns.empty()) return all;

@@ -32,15 +32,19 @@ struct Section {
 };
 
 Section plan_rao(const scene::Scene& scene, const compile::Prepared& p) {
-  Section s{fmt::format("rao: {} frequencies, {} unknowns, complex dense solves", scene.rao->omega.size(), 6 * p.bodies.size()), {}};
+  Section s{fmt::format("rao: {} frequencies, {} unknowns, complex dense solves", scene.rao->omega.size(),
+                        6 * p.bodies.size()),
+            {}};
   for (const auto& g : p.groups) {
     const auto open = g.table.openness();
-    s.lines.push_back({"coefficients", "cubic between the frequencies of the data",
-                       fmt::format("{} bodies, {} frequencies; left open between them: A {:.1g}, B {:.1g}, X {:.1g}", g.bodies.size(), g.table.coefficients().omega.size(), open.added_mass,
-                                   open.damping, open.excitation),
-                       true});
+    s.lines.push_back(
+        {"coefficients", "cubic between the frequencies of the data",
+         fmt::format("{} bodies, {} frequencies; left open between them: A {:.1g}, B {:.1g}, X {:.1g}", g.bodies.size(),
+                     g.table.coefficients().omega.size(), open.added_mass, open.damping, open.excitation),
+         true});
   }
-  if (!scene.members.empty()) s.lines.push_back({"drag", "quadratic: has no place in a response per metre of wave", "", false});
+  if (!scene.members.empty())
+    s.lines.push_back({"drag", "quadratic: has no place in a response per metre of wave", "", false});
   return s;
 }
 
@@ -48,12 +52,13 @@ Section plan_run(const scene::Scene& scene, const compile::Prepared& p, std::vec
   compile::TimeModel m = compile::time_model(scene, p);
   notes = m.notes;
   const bool sparse = dynamics::BlockSolver(m.model.pattern()).is_sparse();
-  Section s{fmt::format("run: {} steps of {:.4g} s, {} unknowns, generalised-alpha rho_infinity {:.3g}, {} factors", m.steps, m.step, m.model.modes(), scene.solve.rho_infinity,
-                        sparse ? "sparse" : "dense"),
+  Section s{fmt::format("run: {} steps of {:.4g} s, {} unknowns, generalised-alpha rho_infinity {:.3g}, {} factors",
+                        m.steps, m.step, m.model.modes(), scene.solve.rho_infinity, sparse ? "sparse" : "dense"),
             std::move(m.plan)};
   if (scene.waves) {
     const double wh = compile::highest_relevant_frequency(*scene.waves) * m.step;
-    s.lines.push_back({"step", "period error (omega h)^2 / 12 at the highest relevant frequency", fmt::format("{:.2g}", wh * wh / 12), true});
+    s.lines.push_back({"step", "period error (omega h)^2 / 12 at the highest relevant frequency",
+                       fmt::format("{:.2g}", wh * wh / 12), true});
   }
   return s;
 }
@@ -63,7 +68,8 @@ void tell(const Console& console, const std::vector<Section>& sections, const st
     nlohmann::json j{{"notes", notes}};
     for (const auto& s : sections) {
       nlohmann::json lines = nlohmann::json::array();
-      for (const auto& l : s.lines) lines.push_back({{"effect", l.effect}, {"method", l.method}, {"size", l.size}, {"runs", l.runs}});
+      for (const auto& l : s.lines)
+        lines.push_back({{"effect", l.effect}, {"method", l.method}, {"size", l.size}, {"runs", l.runs}});
       j["sections"].push_back({{"title", s.title}, {"lines", lines}});
     }
     console.out << j.dump(1) << '\n';
@@ -72,7 +78,8 @@ void tell(const Console& console, const std::vector<Section>& sections, const st
   for (const auto& s : sections) {
     console.out << s.title << '\n';
     for (const auto& l : s.lines)
-      console.out << fmt::format("  {} {:<18} {}{}\n", l.runs ? "+" : "-", l.effect, l.method, l.size.empty() ? "" : "; " + l.size);
+      console.out << fmt::format("  {} {:<18} {}{}\n", l.runs ? "+" : "-", l.effect, l.method,
+                                 l.size.empty() ? "" : "; " + l.size);
   }
   for (const auto& note : notes) console.out << "note: " << note << '\n';
 }

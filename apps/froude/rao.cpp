@@ -21,17 +21,20 @@ Peak peak(const ComplexSignal& signal, const std::vector<double>& omega) {
   Peak best;
   for (std::size_t i = 0; i < omega.size(); ++i)
     if (std::abs(signal.values[i]) >= best.amplitude)
-      best = {std::abs(signal.values[i]), 2 * std::numbers::pi / omega[i], std::arg(signal.values[i]) * 180 / std::numbers::pi};
+      best = {std::abs(signal.values[i]), 2 * std::numbers::pi / omega[i],
+              std::arg(signal.values[i]) * 180 / std::numbers::pi};
   return best;
 }
 
-std::vector<ComplexSignal> evaluate(const std::vector<compile::LinearProbe>& probes, const Eigen::MatrixXcd& xi, const std::vector<double>& omega) {
+std::vector<ComplexSignal> evaluate(const std::vector<compile::LinearProbe>& probes, const Eigen::MatrixXcd& xi,
+                                    const std::vector<double>& omega) {
   std::vector<ComplexSignal> out;
   for (const auto& p : probes) {
     ComplexSignal s{p.name, p.unit, p.long_name, {}};
     for (std::size_t w = 0; w < omega.size(); ++w) {
       const std::complex<double> i_omega(0, omega[w]);
-      s.values.push_back((p.stiffness.cast<std::complex<double>>() + i_omega * p.damping) * xi.col(static_cast<Eigen::Index>(w)));
+      s.values.push_back((p.stiffness.cast<std::complex<double>>() + i_omega * p.damping) *
+                         xi.col(static_cast<Eigen::Index>(w)));
     }
     out.push_back(std::move(s));
   }
@@ -56,11 +59,14 @@ void write_rao_csv(const Path& path, const std::vector<double>& omega, const std
     columns.push_back({signals[i].name + " amplitude", signals[i].units, &numbers[2 * i]});
     columns.push_back({signals[i].name + " phase", "deg", &numbers[2 * i + 1]});
   }
-  hydro::io::write_csv(path, columns, {"amplitudes per metre of wave amplitude; phase leads the wave at the origin, Re(X exp(+i omega t))"});
+  hydro::io::write_csv(
+      path, columns,
+      {"amplitudes per metre of wave amplitude; phase leads the wave at the origin, Re(X exp(+i omega t))"});
 }
 
 /// One panel for each unit, so that metres and newtons do not share an axis.
-plot::Figure figure(const scene::Scene& scene, const std::vector<double>& omega, const std::vector<ComplexSignal>& signals) {
+plot::Figure figure(const scene::Scene& scene, const std::vector<double>& omega,
+                    const std::vector<ComplexSignal>& signals) {
   plot::Figure f{.title = scene.title.empty() ? "Response amplitude operators" : scene.title, .panels = {}};
   std::vector<double> period;
   for (const double w : omega) period.push_back(2 * std::numbers::pi / w);
@@ -79,7 +85,8 @@ plot::Figure figure(const scene::Scene& scene, const std::vector<double>& omega,
   return f;
 }
 
-void tell(const Console& console, const scene::Scene& scene, const std::vector<double>& omega, const std::vector<ComplexSignal>& signals, const Path& file, const std::vector<std::string>& notes) {
+void tell(const Console& console, const scene::Scene& scene, const std::vector<double>& omega,
+          const std::vector<ComplexSignal>& signals, const Path& file, const std::vector<std::string>& notes) {
   if (console.json) {
     nlohmann::json j{{"file", file.string()}, {"omega_rad_per_s", omega}, {"notes", notes}};
     for (const auto& s : signals) {
@@ -93,12 +100,15 @@ void tell(const Console& console, const scene::Scene& scene, const std::vector<d
     console.out << j.dump(1) << '\n';
     return;
   }
-  console.out << fmt::format("{}: {} signals at {} frequencies, periods {:.4g} to {:.4g} s\n", scene.file.filename().string(), signals.size(), omega.size(),
+  console.out << fmt::format("{}: {} signals at {} frequencies, periods {:.4g} to {:.4g} s\n",
+                             scene.file.filename().string(), signals.size(), omega.size(),
                              2 * std::numbers::pi / omega.back(), 2 * std::numbers::pi / omega.front());
-  console.out << fmt::format("{:<24} {:>12} {:<7} {:>10} {:>10}\n", "signal", "largest", "unit", "at T [s]", "phase [deg]");
+  console.out << fmt::format("{:<24} {:>12} {:<7} {:>10} {:>10}\n", "signal", "largest", "unit", "at T [s]",
+                             "phase [deg]");
   for (const auto& s : signals) {
     const Peak p = peak(s, omega);
-    console.out << fmt::format("{:<24} {:>12.5g} {:<7} {:>10.4g} {:>10.1f}\n", s.name, p.amplitude, s.units, p.period, p.phase);
+    console.out << fmt::format("{:<24} {:>12.5g} {:<7} {:>10.4g} {:>10.1f}\n", s.name, p.amplitude, s.units, p.period,
+                               p.phase);
   }
   for (const auto& note : notes) console.out << "note: " << note << '\n';
   console.out << "wrote " << file.string() << '\n';
@@ -113,17 +123,21 @@ void rao(const SceneArguments& arguments, const Console& console) {
   hydro::io::require_writable(file);
   compile::Prepared prepared = compile::prepare(scene);
   const dynamics::Model model = compile::frequency_model(prepared);
-  if (!scene.members.empty()) prepared.notes.push_back("quadratic drag is left out: a linear response per metre of wave has no place for it (a run has)");
+  if (!scene.members.empty())
+    prepared.notes.push_back(
+        "quadratic drag is left out: a linear response per metre of wave has no place for it (a run has)");
   const auto all = compile::rao_probes(scene, prepared);
   std::vector<std::string> names;
   for (const auto& p : all) names.push_back(p.name);
   scene::check_patterns(scene.rao->of, scene.rao->of_places, names);
   // The line that computes a RAO: (Q1) in libdynamics/src/frequency/rao.cpp.
-  const Eigen::MatrixXcd xi = dynamics::frequency::response_amplitudes(model, prepared.groups, scene.rao->omega, scene.rao->heading.radians());
+  const Eigen::MatrixXcd xi =
+      dynamics::frequency::response_amplitudes(model, prepared.groups, scene.rao->omega, scene.rao->heading.radians());
   const auto signals = evaluate(compile::chosen(all, scene.rao->of), xi, scene.rao->omega);
   write_rao(file, scene.rao->omega, scene.rao->heading.radians(), signals, provenance_of(scene, prepared.notes));
   if (arguments.csv) write_rao_csv(*arguments.csv, scene.rao->omega, signals);
-  if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, scene.rao->omega, signals)));
+  if (arguments.picture)
+    hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, scene.rao->omega, signals)));
   tell(console, scene, scene.rao->omega, signals, file, prepared.notes);
 }
 

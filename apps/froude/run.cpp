@@ -60,25 +60,42 @@ void tell(const Console& console, const scene::Scene& scene, const Record& recor
   const double turnover = found(record.energy, "turnover"), residual = found(record.energy, "residual");
   const double relative = turnover > 0 ? std::abs(residual) / turnover : 0;
   if (console.json) {
-    nlohmann::json j{{"file", file.string()}, {"duration_s", record.time.back()}, {"step_s", record.step}, {"steps", record.steps}, {"newton_iterations", record.newton_iterations},
-                     {"halvings", record.halvings}, {"wall_time_s", record.stepping_s}, {"energy_residual_relative", relative}, {"stopped", record.stopped}, {"notes", record.notes}};
+    nlohmann::json j{{"file", file.string()},
+                     {"duration_s", record.time.back()},
+                     {"step_s", record.step},
+                     {"steps", record.steps},
+                     {"newton_iterations", record.newton_iterations},
+                     {"halvings", record.halvings},
+                     {"wall_time_s", record.stepping_s},
+                     {"energy_residual_relative", relative},
+                     {"stopped", record.stopped},
+                     {"notes", record.notes}};
     for (const auto& s : record.signals) {
       const Statistics st = statistics(s.values);
-      j["signals"][s.name] = {{"unit", s.units}, {"mean", st.mean}, {"standard_deviation", st.deviation}, {"lowest", st.lowest}, {"highest", st.highest}};
+      j["signals"][s.name] = {{"unit", s.units},
+                              {"mean", st.mean},
+                              {"standard_deviation", st.deviation},
+                              {"lowest", st.lowest},
+                              {"highest", st.highest}};
     }
     console.out << j.dump(1) << '\n';
     return;
   }
-  console.out << fmt::format("{}: {:.6g} s in {} steps of {:.4g} s, {:.2f} Newton iterations a step{}, {:.2f} s of work\n", scene.file.filename().string(), record.time.back(), record.steps, record.step,
-                             static_cast<double>(record.newton_iterations) / static_cast<double>(std::max<std::size_t>(1, record.steps)),
-                             record.halvings ? fmt::format(", {} halvings", record.halvings) : "", record.stepping_s);
-  console.out << fmt::format("{:<24} {:>12} {:>12} {:>12} {:>12} {}\n", "signal", "mean", "std", "lowest", "highest", "unit");
+  console.out << fmt::format(
+      "{}: {:.6g} s in {} steps of {:.4g} s, {:.2f} Newton iterations a step{}, {:.2f} s of work\n",
+      scene.file.filename().string(), record.time.back(), record.steps, record.step,
+      static_cast<double>(record.newton_iterations) / static_cast<double>(std::max<std::size_t>(1, record.steps)),
+      record.halvings ? fmt::format(", {} halvings", record.halvings) : "", record.stepping_s);
+  console.out << fmt::format("{:<24} {:>12} {:>12} {:>12} {:>12} {}\n", "signal", "mean", "std", "lowest", "highest",
+                             "unit");
   for (const auto& s : record.signals) {
     if (s.name.starts_with("energy.")) continue;
     const Statistics st = statistics(s.values);
-    console.out << fmt::format("{:<24} {:>12.4g} {:>12.4g} {:>12.4g} {:>12.4g} {}\n", s.name, st.mean, st.deviation, st.lowest, st.highest, s.units);
+    console.out << fmt::format("{:<24} {:>12.4g} {:>12.4g} {:>12.4g} {:>12.4g} {}\n", s.name, st.mean, st.deviation,
+                               st.lowest, st.highest, s.units);
   }
-  console.out << fmt::format("energy that does not add up: {:.3g} J, {:.2g} of the {:.3g} J turned over\n", residual, relative, turnover);
+  console.out << fmt::format("energy that does not add up: {:.3g} J, {:.2g} of the {:.3g} J turned over\n", residual,
+                             relative, turnover);
   for (const auto& note : record.notes) console.out << "note: " << note << '\n';
   console.out << "wrote " << file.string() << '\n';
 }
@@ -95,14 +112,16 @@ void run(const SceneArguments& arguments, const Console& console) {
   Provenance provenance = provenance_of(scene, record.notes);
   provenance.wall_time = {{"preparation", record.preparation_s}, {"stepping", record.stepping_s}};
   provenance.settings.emplace_back("chosen.step", fmt::format("{} s", record.step));
-  for (const auto& [effect, count] : record.evaluations) provenance.settings.emplace_back("evaluations." + effect, std::to_string(count));
+  for (const auto& [effect, count] : record.evaluations)
+    provenance.settings.emplace_back("evaluations." + effect, std::to_string(count));
   provenance.energy = record.energy;
   if (!record.stopped.empty()) provenance.notes.emplace_back("stopped", record.stopped);
   write_run(file, record.time, record.signals, provenance);
   if (arguments.csv) write_run_csv(*arguments.csv, record);
   if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, record)));
   tell(console, scene, record, file);
-  if (!record.stopped.empty()) throw hydro::NumericsError(record.stopped + "; what was computed is in " + file.string());
+  if (!record.stopped.empty())
+    throw hydro::NumericsError(record.stopped + "; what was computed is in " + file.string());
 }
 
 }  // namespace froude

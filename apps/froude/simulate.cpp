@@ -16,7 +16,11 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 class March {
  public:
   March(const compile::TimeModel& m, const std::vector<compile::Probe>& probes, double rho_infinity, Record& record)
-      : m_(m), probes_(probes), record_(record), workspace_(m.model, m.start), integrator_(m.model, {.rho_infinity = rho_infinity}) {
+      : m_(m),
+        probes_(probes),
+        record_(record),
+        workspace_(m.model, m.start),
+        integrator_(m.model, {.rho_infinity = rho_infinity}) {
     for (const auto& p : probes) record_.signals.push_back({p.name, p.unit, p.long_name});
   }
 
@@ -40,7 +44,7 @@ class March {
  private:
   void advance(std::size_t n, dynamics::EnergyLedger& ledger) {
     const auto report = integrator_.step(workspace_, m_.step);
-    workspace_.state.time = static_cast<double>(n) * m_.step;   // sums of steps drift, products do not
+    workspace_.state.time = static_cast<double>(n) * m_.step;  // sums of steps drift, products do not
     record_.newton_iterations += report.newton_iterations;
     record_.halvings += report.halvings;
     record_.steps = n;
@@ -48,7 +52,8 @@ class March {
   }
   void sample(const dynamics::EnergyLedger& ledger) {
     record_.time.push_back(workspace_.state.time);
-    for (std::size_t i = 0; i < probes_.size(); ++i) record_.signals[i].values.push_back(probes_[i].read(workspace_, ledger));
+    for (std::size_t i = 0; i < probes_.size(); ++i)
+      record_.signals[i].values.push_back(probes_[i].read(workspace_, ledger));
   }
   void close(const dynamics::EnergyLedger& ledger) {
     for (std::size_t k = 0; k < workspace_.evaluations.size(); ++k)
@@ -78,7 +83,8 @@ const std::vector<double>& Record::signal(const std::string& name) const {
     if (s.name == name) return s.values;
     names.push_back(s.name);
   }
-  throw hydro::InputError(fmt::format("the run has no signal \"{}\"", name), {}, fmt::format("signals are: {}", fmt::join(names, ", ")));
+  throw hydro::InputError(fmt::format("the run has no signal \"{}\"", name), {},
+                          fmt::format("signals are: {}", fmt::join(names, ", ")));
 }
 
 Record simulate(const scene::Scene& scene, const std::function<void(double)>& done) {

@@ -12,16 +12,16 @@ namespace froude {
 
 /// What a run leaves behind, whole or up to where it stopped.
 struct Record {
-  std::vector<double> time;                                      ///< s
-  std::vector<Signal> signals;                                   ///< those that the scene asks for
-  double step = 0;                                               ///< s
-  std::size_t steps = 0;                                         ///< completed
+  std::vector<double> time;     ///< s
+  std::vector<Signal> signals;  ///< those that the scene asks for
+  double step = 0;              ///< s
+  std::size_t steps = 0;        ///< completed
   int newton_iterations = 0, halvings = 0;
   double preparation_s = 0, stepping_s = 0;                      ///< wall time
   std::vector<std::pair<std::string, std::size_t>> evaluations;  ///< of the load, by effect
   std::vector<std::pair<std::string, double>> energy;            ///< J, by effect, at the end; residual and turnover
   std::vector<std::string> notes;
-  std::string stopped;                                           ///< why it ended before its time; empty if it did not
+  std::string stopped;  ///< why it ended before its time; empty if it did not
 
   /// \throws hydro::InputError if there is no such signal
   const std::vector<double>& signal(const std::string& name) const;

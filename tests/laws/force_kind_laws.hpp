@@ -20,7 +20,8 @@ inline Eigen::VectorXd load(const ForceKind& kind, const State& state, dynamics:
 }
 
 /// ∂F/∂q (by_displacement 1, by_velocity 0) or ∂F/∂v (0, 1), dense.
-inline Eigen::MatrixXd jacobian(const ForceKind& kind, const State& state, dynamics::Memory* memory, double by_displacement, double by_velocity) {
+inline Eigen::MatrixXd jacobian(const ForceKind& kind, const State& state, dynamics::Memory* memory,
+                                double by_displacement, double by_velocity) {
   dynamics::BlockPattern pattern(static_cast<int>(state.pose.size()));
   kind.couple(pattern);
   pattern.freeze();
@@ -47,7 +48,8 @@ inline void expect_true_jacobians(const ForceKind& kind, const State& state, dyn
   Eigen::MatrixXd by_q(n, n), by_v(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const Eigen::VectorXd d = e * Eigen::VectorXd::Unit(n, i);
-    by_q.col(i) = (load(kind, support::moved(state, d), memory) - load(kind, support::moved(state, -d), memory)) / (2 * e);
+    by_q.col(i) =
+        (load(kind, support::moved(state, d), memory) - load(kind, support::moved(state, -d), memory)) / (2 * e);
     State plus = state, minus = state;
     plus.velocity += d;
     minus.velocity -= d;
@@ -65,7 +67,8 @@ inline void expect_energy_balance(const ForceKind& kind, const State& state, dyn
   const State ahead = support::moved(state, e * state.velocity), behind = support::moved(state, -e * state.velocity);
   const double stored_rate = (kind.energy({ahead, memory}).stored - kind.energy({behind, memory}).stored) / (2 * e);
   const double power = load(kind, state, memory).dot(state.velocity);
-  const double scale = std::abs(power) + std::abs(flow.supplied) + std::abs(flow.dissipated) + std::abs(stored_rate) + 1;
+  const double scale =
+      std::abs(power) + std::abs(flow.supplied) + std::abs(flow.dissipated) + std::abs(stored_rate) + 1;
   EXPECT_NEAR(power, flow.supplied - flow.dissipated - stored_rate, 1e-7 * scale) << "L4";
 }
 

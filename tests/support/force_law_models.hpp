@@ -18,7 +18,8 @@ inline std::vector<dynamics::RigidBody> two_bodies() {
 }
 
 /// Every body somewhere near rest, turned by up to about `angle`, moving at about 1 m/s and 1 rad/s.
-inline dynamics::State random_state(const std::vector<dynamics::RigidBody>& bodies, std::uint64_t seed, double angle = 0.5) {
+inline dynamics::State random_state(const std::vector<dynamics::RigidBody>& bodies, std::uint64_t seed,
+                                    double angle = 0.5) {
   dynamics::State s = dynamics::rest_state(bodies);
   const hydro::RandomStream random(seed, 17);
   std::uint64_t n = 0;

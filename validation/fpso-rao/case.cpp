@@ -32,12 +32,15 @@ Outcome fpso_rao(const Folders& folders) {
   // Motions of the hull's origin at the waterline, 1 m above the centre of gravity.
   const dynamics::Matrix6 to_origin = dynamics::shift_from_centre(-p.bodies.front().properties().centre_of_gravity.xyz);
   Eigen::Matrix<double, 6, 1> error = Eigen::Matrix<double, 6, 1>::Zero(), largest = error;
-  plot::Series ours{.name = "Froude", .x = {}, .y = {}}, theirs{.name = "WAMIT", .x = {}, .y = {}, .line = false, .marks = true};
+  plot::Series ours{.name = "Froude", .x = {}, .y = {}},
+      theirs{.name = "WAMIT", .x = {}, .y = {}, .line = false, .marks = true};
   for (const auto& [at, reference] : motions) {
     const auto [period, heading] = at;
     if (period <= 5 || period >= 25) continue;
     const Response found = to_origin.cast<std::complex<double>>() *
-                           dynamics::frequency::response_amplitudes(model, p.groups, {2 * std::numbers::pi / period}, heading * std::numbers::pi / 180).col(0);
+                           dynamics::frequency::response_amplitudes(model, p.groups, {2 * std::numbers::pi / period},
+                                                                    heading * std::numbers::pi / 180)
+                               .col(0);
     error = error.cwiseMax((found - reference).cwiseAbs());
     largest = largest.cwiseMax(reference.cwiseAbs());
     if (heading == 90) {
@@ -49,8 +52,11 @@ Outcome fpso_rao(const Folders& folders) {
   }
   Outcome out;
   for (int mode = 0; mode < 6; ++mode)
-    out.numbers.push_back({std::string(hydro::mode_names[static_cast<std::size_t>(mode)]) + ", largest error of the peak", error[mode] / largest[mode], ""});
-  plot::Figure f{.title = "FPSO in beam waves", .panels = {{.x = {"wave period", "s"}, .y = {"heave", "m/m"}, .series = {ours, theirs}}}};
+    out.numbers.push_back(
+        {std::string(hydro::mode_names[static_cast<std::size_t>(mode)]) + ", largest error of the peak",
+         error[mode] / largest[mode], ""});
+  plot::Figure f{.title = "FPSO in beam waves",
+                 .panels = {{.x = {"wave period", "s"}, .y = {"heave", "m/m"}, .series = {ours, theirs}}}};
   out.pictures.push_back({"heave", "Heave in beam waves against the panel code's own motions.", f});
   return out;
 }

@@ -30,7 +30,8 @@ Curve read_step_response(const std::filesystem::path& file) {
 }  // namespace
 
 Outcome irf_a5(const Folders& folders) {
-  const hydro::potential::ReadOptions options{.density = 1000, .gravity = 9.81, .depth = hydro::WaterDepth::infinite(), .iperout = {}};
+  const hydro::potential::ReadOptions options{
+      .density = 1000, .gravity = 9.81, .depth = hydro::WaterDepth::infinite(), .iperout = {}};
   const auto c = hydro::potential::read(folders.shared("irf_buoy_a5/BuoyA5.1"), options);
   const Curve reference = read_step_response(folders.shared("irf_buoy_a5/BuoyA5_IR.1"));
   const hydro::radiation::DampingTable damping{c.omega, c.B};
@@ -41,7 +42,8 @@ Outcome irf_a5(const Folders& folders) {
   const double K0 = before;
   for (std::size_t n = 1; n < reference.t.size(); ++n) {
     const double t0 = reference.t[n - 1], t1 = reference.t[n];
-    const double middle = hydro::radiation::retardation(damping, (t0 + t1) / 2)(2, 2) / rho, after = hydro::radiation::retardation(damping, t1)(2, 2) / rho;
+    const double middle = hydro::radiation::retardation(damping, (t0 + t1) / 2)(2, 2) / rho,
+                 after = hydro::radiation::retardation(damping, t1)(2, 2) / rho;
     ours.t.push_back(t1);
     ours.L.push_back(ours.L.back() + (t1 - t0) / 6 * (before + 4 * middle + after));
     before = after;
@@ -56,7 +58,8 @@ Outcome irf_a5(const Folders& folders) {
                  {"K33 at 0 s", K0, "m^3/s"},
                  {"added mass at infinite frequency by Ogilvie's relation", found.value(2, 2) / rho, "m^3"}};
   plot::Figure f{.title = "Buoy, heave", .panels = {{.x = {"time", "s"}, .y = {"L33 / density", "m^3"}, .series = {}}}};
-  f.panels[0].series = {{.name = "Froude", .x = ours.t, .y = ours.L}, {.name = "F2T", .x = reference.t, .y = reference.L, .dashed = true}};
+  f.panels[0].series = {{.name = "Froude", .x = ours.t, .y = ours.L},
+                        {.name = "F2T", .x = reference.t, .y = reference.L, .dashed = true}};
   out.pictures.push_back({"step-response", "Integral of the retardation function in heave against F2T.", f});
   return out;
 }

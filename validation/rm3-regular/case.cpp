@@ -9,10 +9,10 @@
 namespace froude::validation {
 namespace {
 
-constexpr double amplitude = 1.25, omega = 2 * std::numbers::pi / 8;   // m, rad/s
+constexpr double amplitude = 1.25, omega = 2 * std::numbers::pi / 8;  // m, rad/s
 
 struct Pair {
-  double of_float, of_spar;   // m
+  double of_float, of_spar;  // m
 };
 
 Pair frequency_domain(const scene::Scene& scene) {
@@ -40,7 +40,8 @@ double steady_amplitude(const Record& r, const std::string& name) {
 Outcome rm3_regular(const Folders& folders) {
   Outcome out;
   for (const bool full : {false, true}) {
-    const scene::Scene scene = read_scene(folders, "rm3/wamit/rm3.1", "interaction = \"self\"", full ? "interaction = \"full\"" : "interaction = \"self\"");
+    const scene::Scene scene = read_scene(folders, "rm3/wamit/rm3.1", "interaction = \"self\"",
+                                          full ? "interaction = \"full\"" : "interaction = \"self\"");
     const std::string which = full ? "full interaction" : "no interaction";
     const Pair f = frequency_domain(scene);
     const Record run = simulate(scene);
@@ -48,9 +49,12 @@ Outcome rm3_regular(const Folders& folders) {
     out.numbers.push_back({"spar, frequency domain, " + which, f.of_spar, "m"});
     out.numbers.push_back({"float, run, " + which, steady_amplitude(run, "float.heave"), "m"});
     out.numbers.push_back({"spar, run, " + which, steady_amplitude(run, "spar.heave"), "m"});
-    plot::Figure picture{.title = "RM3, H = 2.5 m, T = 8 s, " + which, .panels = {{.x = {"time", "s"}, .y = {"heave", "m"}, .series = {}}}};
-    for (const char* body : {"float", "spar"}) picture.panels[0].series.push_back({.name = body, .x = run.time, .y = run.signal(std::string(body) + ".heave")});
-    out.pictures.push_back({full ? "full-interaction" : "no-interaction", "Heave of float and spar, " + which + ".", picture});
+    plot::Figure picture{.title = "RM3, H = 2.5 m, T = 8 s, " + which,
+                         .panels = {{.x = {"time", "s"}, .y = {"heave", "m"}, .series = {}}}};
+    for (const char* body : {"float", "spar"})
+      picture.panels[0].series.push_back({.name = body, .x = run.time, .y = run.signal(std::string(body) + ".heave")});
+    out.pictures.push_back(
+        {full ? "full-interaction" : "no-interaction", "Heave of float and spar, " + which + ".", picture});
   }
   return out;
 }

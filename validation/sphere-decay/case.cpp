@@ -64,7 +64,8 @@ double natural_period(const scene::Scene& scene) {
   const compile::Prepared p = compile::prepare(scene);
   double omega = 1.4;
   for (int i = 0; i < 50; ++i)
-    omega = std::sqrt(p.hydrostatics.front().stiffness(2, 2) / (p.bodies.front().mass() + p.groups.front().table.added_mass(omega)(2, 2)));
+    omega = std::sqrt(p.hydrostatics.front().stiffness(2, 2) /
+                      (p.bodies.front().mass() + p.groups.front().table.added_mass(omega)(2, 2)));
   return 2 * std::numbers::pi / omega;
 }
 
@@ -92,9 +93,12 @@ Outcome sphere_decay(const Folders& folders) {
                  {"fourth extremum", peaks.at(3), "m"},
                  {"rms to inwave_h over 40 s", rms_difference(inwave, record.time, heave), "m"},
                  {"rms to hydrochrono over 40 s", rms_difference(hydrochrono, record.time, heave), "m"},
-                 {"energy residual relative to the turnover", std::abs(entry(record, "residual")) / entry(record, "turnover"), ""}};
-  plot::Figure f{.title = "Sphere released from 1 m", .panels = {{.x = {"time", "s"}, .y = {"heave", "m"}, .series = {}}}};
-  f.panels[0].series = {{.name = "Froude", .x = record.time, .y = heave}, {.name = "InWave (h)", .x = inwave.time, .y = inwave.heave, .dashed = true},
+                 {"energy residual relative to the turnover",
+                  std::abs(entry(record, "residual")) / entry(record, "turnover"), ""}};
+  plot::Figure f{.title = "Sphere released from 1 m",
+                 .panels = {{.x = {"time", "s"}, .y = {"heave", "m"}, .series = {}}}};
+  f.panels[0].series = {{.name = "Froude", .x = record.time, .y = heave},
+                        {.name = "InWave (h)", .x = inwave.time, .y = inwave.heave, .dashed = true},
                         {.name = "HydroChrono", .x = hydrochrono.time, .y = hydrochrono.heave, .dashed = true}};
   out.pictures.push_back({"decay", "Heave decay of the sphere against two linear codes.", f});
   return out;

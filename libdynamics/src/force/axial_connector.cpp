@@ -8,7 +8,7 @@ using detail::EndPoint;
 
 struct Stretch {
   EndPoint a, b;
-  Eigen::Vector3d direction, relative_velocity;   // from the first end to the second
+  Eigen::Vector3d direction, relative_velocity;  // from the first end to the second
   double length, rate, tension;
 };
 
@@ -33,9 +33,9 @@ detail::PairLoad pair_load(const AxialConnector& c, const Stretch& s) {
   p.second_arm = s.b.arm;
   if (s.length == 0) return p;
   const Eigen::Matrix3d along = s.direction * s.direction.transpose();
-  const Eigen::Matrix3d across = (Eigen::Matrix3d::Identity() - along) / s.length;   // ∂direction/∂d
-  const Eigen::Matrix3d by_distance = c.stiffness * along + s.tension * across +
-                                      c.damping * s.direction * (across * s.relative_velocity).transpose();
+  const Eigen::Matrix3d across = (Eigen::Matrix3d::Identity() - along) / s.length;  // ∂direction/∂d
+  const Eigen::Matrix3d by_distance =
+      c.stiffness * along + s.tension * across + c.damping * s.direction * (across * s.relative_velocity).transpose();
   const auto d_position = detail::relative_position_derivative(s.a, s.b);
   p.force_by_q = by_distance * d_position + c.damping * along * detail::relative_velocity_derivative(s.a, s.b);
   p.force_by_v = c.damping * along * d_position;

@@ -9,11 +9,11 @@ using detail::EndPoint;
 /// Everything seen along the first body's axes.
 struct Strain {
   EndPoint a, b;
-  Eigen::Vector3d arm_to_second;                // ρ: from the first centre to the second end, global
-  Eigen::Vector3d shift, shift_rate;            // ε, dε/dt
-  Eigen::Vector3d turn, turn_rate;              // ψ, relative angular velocity
-  Eigen::Vector3d relative_velocity;            // of the second end to the first body there, global
-  Eigen::Vector3d force, elastic_moment;        // k ε + c dε/dt; J(ψ)⁻ᵀ κ ψ
+  Eigen::Vector3d arm_to_second;          // ρ: from the first centre to the second end, global
+  Eigen::Vector3d shift, shift_rate;      // ε, dε/dt
+  Eigen::Vector3d turn, turn_rate;        // ψ, relative angular velocity
+  Eigen::Vector3d relative_velocity;      // of the second end to the first body there, global
+  Eigen::Vector3d force, elastic_moment;  // k ε + c dε/dt; J(ψ)⁻ᵀ κ ψ
 };
 
 Strain strain(const BushingConnector& c, const State& state) {
@@ -46,9 +46,11 @@ detail::PairLoad pair_load(const BushingConnector& c, const Strain& s) {
 void differentiate(const BushingConnector& c, const Strain& s, detail::PairLoad& p) {
   using detail::Matrix3x12;
   const Eigen::Matrix3d R = s.a.rotation;
-  const auto turned = [&](const Eigen::Vector3d& diagonal) { return Eigen::Matrix3d(R * diagonal.asDiagonal() * R.transpose()); };
+  const auto turned = [&](const Eigen::Vector3d& diagonal) {
+    return Eigen::Matrix3d(R * diagonal.asDiagonal() * R.transpose());
+  };
   Matrix3x12 end_by_q = detail::relative_position_derivative(s.a, s.b);
-  Matrix3x12 shift_by_q = end_by_q;                          // of the distance, less its turning with the first body
+  Matrix3x12 shift_by_q = end_by_q;  // of the distance, less its turning with the first body
   shift_by_q.middleCols<3>(3) += cross_matrix(s.arm_to_second - s.a.arm);
   Matrix3x12 rate_by_q = detail::relative_velocity_derivative(s.a, s.b);
   rate_by_q.leftCols<3>() = cross_matrix(s.a.omega);
@@ -59,26 +61,30 @@ void differentiate(const BushingConnector& c, const Strain& s, detail::PairLoad&
   p.force_by_q.middleCols<3>(3) -= cross_matrix(p.force);
   p.force_by_v = turned(c.damping) * shift_by_q;
 
-  Matrix3x12 turn_by_q = Matrix3x12::Zero();                 // of the second body's attitude seen from the first, global
+  Matrix3x12 turn_by_q = Matrix3x12::Zero();  // of the second body's attitude seen from the first, global
   turn_by_q.middleCols<3>(3) = -Eigen::Matrix3d::Identity();
   turn_by_q.rightCols<3>() = Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d Ji = left_jacobian_inverse(s.turn);
   const Eigen::Vector3d spring = c.rotational_stiffness.cwiseProduct(s.turn);
   const Eigen::Matrix3d elastic = (Ji.transpose() * c.rotational_stiffness.asDiagonal().toDenseMatrix() +
-                                   left_jacobian_inverse_transpose_derivative(s.turn, spring)) * Ji;
+                                   left_jacobian_inverse_transpose_derivative(s.turn, spring)) *
+                                  Ji;
   Matrix3x12 turn_rate_by_q = Matrix3x12::Zero();
   turn_rate_by_q.middleCols<3>(3) = cross_matrix(s.b.omega - s.a.omega);
   p.moment_by_q = R * elastic * R.transpose() * turn_by_q + turned(c.rotational_damping) * turn_rate_by_q;
   p.moment_by_q.middleCols<3>(3) -= cross_matrix(p.moment);
   p.moment_by_v = turned(c.rotational_damping) * turn_by_q;
 
-  p.first_arm_by_q << -Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity(), -cross_matrix(s.b.arm);
+  p.first_arm_by_q << -Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity(),
+      -cross_matrix(s.b.arm);
   p.second_arm_by_q = detail::arm_derivative(1, s.b.arm);
 }
 
 }  // namespace
 
-Eigen::Vector3d bushing_force(const BushingConnector& connector, const State& state) { return strain(connector, state).force; }
+Eigen::Vector3d bushing_force(const BushingConnector& connector, const State& state) {
+  return strain(connector, state).force;
+}
 
 void BushingConnectorKind::couple(BlockPattern& pattern) const {
   for (const auto& e : elements_)
@@ -102,7 +108,8 @@ EnergyFlow BushingConnectorKind::energy(const Instant& now) const {
   EnergyFlow flow;
   for (const auto& e : elements_) {
     const Strain s = strain(e, now.state);
-    flow.stored += 0.5 * (s.shift.dot(e.stiffness.cwiseProduct(s.shift)) + s.turn.dot(e.rotational_stiffness.cwiseProduct(s.turn)));
+    flow.stored += 0.5 * (s.shift.dot(e.stiffness.cwiseProduct(s.shift)) +
+                          s.turn.dot(e.rotational_stiffness.cwiseProduct(s.turn)));
     flow.dissipated += s.shift_rate.dot(e.damping.cwiseProduct(s.shift_rate)) +
                        s.turn_rate.dot(e.rotational_damping.cwiseProduct(s.turn_rate));
   }

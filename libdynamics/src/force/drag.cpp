@@ -10,7 +10,8 @@ namespace dynamics {
 namespace {
 
 struct Flow {
-  Eigen::Vector3d arm, axis, omega, water, relative, across;   // global; relative = u − v, across: its part across the axis
+  Eigen::Vector3d arm, axis, omega, water, relative,
+      across;  // global; relative = u − v, across: its part across the axis
 };
 
 Flow flow_past(const DragPiece& piece, const State& state, const Eigen::Vector3d& water) {
@@ -32,7 +33,7 @@ std::vector<DragPiece> drag_pieces(const std::vector<RigidBody>& bodies, int bod
   const RigidBody& b = bodies[static_cast<std::size_t>(body)];
   const Eigen::Vector3d origin = b.properties().rest_position.xyz;
   const double z0 = origin.z() + from.z(), z1 = origin.z() + to.z();
-  double s0 = 0, s1 = 1;   // the wet part, as fractions of the length
+  double s0 = 0, s1 = 1;  // the wet part, as fractions of the length
   if (z0 > 0 && z1 > 0) return {};
   if (z0 > 0) s0 = z0 / (z0 - z1);
   if (z1 > 0) s1 = z0 / (z0 - z1);
@@ -55,7 +56,8 @@ Eigen::Vector3d rest_position(const DragPiece& piece, const std::vector<RigidBod
 
 namespace {
 template <class Do>
-void for_each_flow(const std::vector<DragPiece>& pieces, const std::optional<WaveSignals>& water, const State& state, Do act) {
+void for_each_flow(const std::vector<DragPiece>& pieces, const std::optional<WaveSignals>& water, const State& state,
+                   Do act) {
   Eigen::VectorXd velocity = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(pieces.size()));
   if (water) velocity = water->at(state.time);
   for (std::size_t i = 0; i < pieces.size(); ++i)
@@ -75,14 +77,15 @@ void DragKind::add_load(const Instant& now, LoadSink& out) const {
 void DragKind::add_jacobian(const Instant& now, JacobianSink& out) const {
   for_each_flow(pieces_, water_, now.state, [&](const DragPiece& piece, const Flow& f) {
     const double speed = f.across.norm();
-    if (speed == 0) return;   // |w| w is flat there
+    if (speed == 0) return;  // |w| w is flat there
     const Eigen::Vector3d force = piece.factor * speed * f.across;
     const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - f.axis * f.axis.transpose();
-    const Eigen::Matrix3d by_w = piece.factor * (speed * Eigen::Matrix3d::Identity() + f.across * f.across.transpose() / speed);
+    const Eigen::Matrix3d by_w =
+        piece.factor * (speed * Eigen::Matrix3d::Identity() + f.across * f.across.transpose() / speed);
     const Eigen::Matrix3d S = cross_matrix(f.arm), T = cross_matrix(f.axis);
     // Turning by θ moves the arm (its velocity ω × s) and the axis t; dt = −[t]× dθ.
-    const Eigen::Matrix3d w_by_theta = across * cross_matrix(f.omega) * S + f.axis.dot(f.relative) * T +
-                                       f.axis * f.relative.transpose() * T;
+    const Eigen::Matrix3d w_by_theta =
+        across * cross_matrix(f.omega) * S + f.axis.dot(f.relative) * T + f.axis * f.relative.transpose() * T;
     Eigen::Matrix<double, 3, 6> force_by_q = Eigen::Matrix<double, 3, 6>::Zero(), force_by_v;
     force_by_q.rightCols<3>() = by_w * w_by_theta;
     force_by_v << -by_w * across, by_w * across * S;

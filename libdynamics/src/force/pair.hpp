@@ -17,7 +17,9 @@ struct EndPoint {
 };
 
 inline EndPoint end_point(const State& state, std::optional<int> body, const Eigen::Vector3d& arm_in_body) {
-  if (!body) return {arm_in_body, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()};
+  if (!body)
+    return {arm_in_body, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+            Eigen::Matrix3d::Identity()};
   const Pose& pose = state.pose[static_cast<std::size_t>(*body)];
   const Eigen::Matrix3d R = pose.attitude.toRotationMatrix();
   const Eigen::Vector3d arm = R * arm_in_body, omega = state.twist(*body).tail<3>();
@@ -61,10 +63,10 @@ inline void add_load(const Ends& ends, const PairLoad& p, LoadSink& out) {
 inline void add_jacobian(const Ends& ends, const PairLoad& p, JacobianSink& out) {
   const Eigen::Matrix3d F = cross_matrix(p.force);
   Eigen::Matrix<double, 12, 12> by_q, by_v;
-  by_q << p.force_by_q, p.moment_by_q - F * p.first_arm_by_q + cross_matrix(p.first_arm) * p.force_by_q,
-      -p.force_by_q, -p.moment_by_q + F * p.second_arm_by_q - cross_matrix(p.second_arm) * p.force_by_q;
-  by_v << p.force_by_v, p.moment_by_v + cross_matrix(p.first_arm) * p.force_by_v,
-      -p.force_by_v, -p.moment_by_v - cross_matrix(p.second_arm) * p.force_by_v;
+  by_q << p.force_by_q, p.moment_by_q - F * p.first_arm_by_q + cross_matrix(p.first_arm) * p.force_by_q, -p.force_by_q,
+      -p.moment_by_q + F * p.second_arm_by_q - cross_matrix(p.second_arm) * p.force_by_q;
+  by_v << p.force_by_v, p.moment_by_v + cross_matrix(p.first_arm) * p.force_by_v, -p.force_by_v,
+      -p.moment_by_v - cross_matrix(p.second_arm) * p.force_by_v;
   const int count = ends.second ? 2 : 1;
   const int body[2] = {ends.first, ends.second.value_or(-1)};
   for (int i = 0; i < count; ++i)

@@ -10,7 +10,8 @@ namespace {
 /// The velocities of some bodies in one column.
 Eigen::VectorXd gathered(const std::vector<int>& bodies, const Eigen::VectorXd& all) {
   Eigen::VectorXd out(6 * static_cast<Eigen::Index>(bodies.size()));
-  for (std::size_t i = 0; i < bodies.size(); ++i) out.segment<6>(6 * static_cast<Eigen::Index>(i)) = all.segment<6>(6 * bodies[i]);
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    out.segment<6>(6 * static_cast<Eigen::Index>(i)) = all.segment<6>(6 * bodies[i]);
   return out;
 }
 
@@ -30,7 +31,8 @@ void ExcitationKind::add_load(const Instant& now, LoadSink& out) const {
 
 EnergyFlow ExcitationKind::energy(const Instant& now) const {
   EnergyFlow flow;
-  for (const auto& e : elements_) flow.supplied += e.load.at(now.state.time).dot(gathered(e.bodies, now.state.velocity));
+  for (const auto& e : elements_)
+    flow.supplied += e.load.at(now.state.time).dot(gathered(e.bodies, now.state.velocity));
   return flow;
 }
 
@@ -38,11 +40,12 @@ namespace {
 
 Eigen::VectorXd at_modes(const std::vector<int>& modes, const Eigen::VectorXd& all) { return all(modes); }
 
-/// The histories of all groups, and what the past has decided of each integral: at the newest step itself, and at one time
-/// after it.
+/// The histories of all groups, and what the past has decided of each integral: at the newest step itself, and at one
+/// time after it.
 class RadiationState final : public Memory {
  public:
-  RadiationState(const std::vector<RadiationMemory>& groups, const State& start) : groups_(groups), newest_(start.time) {
+  RadiationState(const std::vector<RadiationMemory>& groups, const State& start)
+      : groups_(groups), newest_(start.time) {
     for (const auto& g : groups_) {
       history_.push_back(g.convolution.make_history());
       // The trapezium rule gives the first velocity half its weight.
@@ -84,22 +87,23 @@ class RadiationState final : public Memory {
   void refresh(double fraction) {
     if (fraction == known_at_) return;
     after_.clear();
-    for (std::size_t i = 0; i < groups_.size(); ++i) after_.push_back(groups_[i].convolution.decided(history_[i], fraction));
+    for (std::size_t i = 0; i < groups_.size(); ++i)
+      after_.push_back(groups_[i].convolution.decided(history_[i], fraction));
     known_at_ = fraction;
   }
 
   const std::vector<RadiationMemory>& groups_;
   std::vector<hydro::radiation::VelocityHistory> history_;
   std::vector<Eigen::VectorXd> at_newest_, after_;
-  double newest_, known_at_ = 0;   // fraction for which after_ holds; 0: none
+  double newest_, known_at_ = 0;  // fraction for which after_ holds; 0: none
   bool begun_ = false;
 };
 
 }  // namespace
 
 std::string RadiationKind::method() const {
-  return fmt::format("direct convolution, {:.4g} s of memory in steps of {:.4g} s", elements_.front().convolution.length(),
-                     elements_.front().convolution.step());
+  return fmt::format("direct convolution, {:.4g} s of memory in steps of {:.4g} s",
+                     elements_.front().convolution.length(), elements_.front().convolution.step());
 }
 
 void RadiationKind::couple(BlockPattern& pattern) const {

@@ -5,8 +5,13 @@
 
 namespace dynamics {
 
-WaveSignals::WaveSignals(std::vector<double> omega, Eigen::MatrixXcd amplitudes, Eigen::MatrixXd table, double step, double ramp_s)
-    : omega_(std::move(omega)), amplitudes_(std::move(amplitudes)), table_(std::move(table)), step_(step), ramp_(ramp_s) {}
+WaveSignals::WaveSignals(std::vector<double> omega, Eigen::MatrixXcd amplitudes, Eigen::MatrixXd table, double step,
+                         double ramp_s)
+    : omega_(std::move(omega)),
+      amplitudes_(std::move(amplitudes)),
+      table_(std::move(table)),
+      step_(step),
+      ramp_(ramp_s) {}
 
 double WaveSignals::ramp(double t) const {
   if (t >= ramp_) return 1;
@@ -16,7 +21,8 @@ double WaveSignals::ramp(double t) const {
 Eigen::VectorXd WaveSignals::at(double t) const {
   const double sample = t / step_, whole = std::round(sample);
   // Times of whole steps are products n·h, so they differ from the grid by round-off only.
-  if (std::abs(sample - whole) < 1e-9 * (1 + std::abs(whole)) && whole >= 0 && whole < static_cast<double>(table_.cols()))
+  if (std::abs(sample - whole) < 1e-9 * (1 + std::abs(whole)) && whole >= 0 &&
+      whole < static_cast<double>(table_.cols()))
     return ramp(t) * table_.col(static_cast<Eigen::Index>(whole));
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(amplitudes_.rows());
   for (std::size_t c = 0; c < omega_.size(); ++c)

@@ -12,17 +12,23 @@ template <class Matrix>
 void scatter_add(const std::vector<int>& bodies, const Matrix& part, Eigen::MatrixXcd& whole) {
   for (std::size_t i = 0; i < bodies.size(); ++i)
     for (std::size_t j = 0; j < bodies.size(); ++j)
-      whole.block<6, 6>(6 * bodies[i], 6 * bodies[j]) += part.template block<6, 6>(6 * static_cast<Eigen::Index>(i), 6 * static_cast<Eigen::Index>(j));
+      whole.block<6, 6>(6 * bodies[i], 6 * bodies[j]) +=
+          part.template block<6, 6>(6 * static_cast<Eigen::Index>(i), 6 * static_cast<Eigen::Index>(j));
 }
 
 }  // namespace
 
-Eigen::MatrixXcd impedance(const Model& model, const Model::Linear& linear, const std::vector<PotentialGroup>& groups, double omega) {
+Eigen::MatrixXcd impedance(const Model& model, const Model::Linear& linear, const std::vector<PotentialGroup>& groups,
+                           double omega) {
   const std::complex<double> i_omega(0, omega);
-  Eigen::MatrixXcd Z = linear.stiffness + i_omega * linear.damping - omega * omega * model.dry_mass_at_rest().cast<std::complex<double>>();
+  Eigen::MatrixXcd Z = linear.stiffness + i_omega * linear.damping -
+                       omega * omega * model.dry_mass_at_rest().cast<std::complex<double>>();
   for (const PotentialGroup& g : groups)
     if (g.radiation)
-      scatter_add(g.bodies, Eigen::MatrixXcd(i_omega * g.table.damping(omega) - omega * omega * g.table.added_mass(omega).cast<std::complex<double>>()), Z);
+      scatter_add(g.bodies,
+                  Eigen::MatrixXcd(i_omega * g.table.damping(omega) -
+                                   omega * omega * g.table.added_mass(omega).cast<std::complex<double>>()),
+                  Z);
   for (int m = 0; m < model.modes(); ++m) {
     if (model.is_free(m)) continue;
     Z.row(m).setZero();
@@ -32,19 +38,22 @@ Eigen::MatrixXcd impedance(const Model& model, const Model::Linear& linear, cons
   return Z;
 }
 
-Eigen::VectorXcd excitation(const Model& model, const std::vector<PotentialGroup>& groups, double omega, double heading) {
+Eigen::VectorXcd excitation(const Model& model, const std::vector<PotentialGroup>& groups, double omega,
+                            double heading) {
   Eigen::VectorXcd F = Eigen::VectorXcd::Zero(model.modes());
   for (const PotentialGroup& g : groups) {
     if (!g.excitation) continue;
     const Eigen::VectorXcd X = g.table.excitation(omega, heading);
-    for (std::size_t i = 0; i < g.bodies.size(); ++i) F.segment<6>(6 * g.bodies[i]) += X.segment<6>(6 * static_cast<Eigen::Index>(i));
+    for (std::size_t i = 0; i < g.bodies.size(); ++i)
+      F.segment<6>(6 * g.bodies[i]) += X.segment<6>(6 * static_cast<Eigen::Index>(i));
   }
   for (int m = 0; m < model.modes(); ++m)
     if (!model.is_free(m)) F[m] = 0;
   return F;
 }
 
-Eigen::MatrixXcd response_amplitudes(const Model& model, const std::vector<PotentialGroup>& groups, const std::vector<double>& omega, double heading) {
+Eigen::MatrixXcd response_amplitudes(const Model& model, const std::vector<PotentialGroup>& groups,
+                                     const std::vector<double>& omega, double heading) {
   const Model::Linear linear = model.linear_at_rest();
   Eigen::MatrixXcd xi(model.modes(), static_cast<Eigen::Index>(omega.size()));
   for (std::size_t w = 0; w < omega.size(); ++w) {
@@ -52,8 +61,9 @@ Eigen::MatrixXcd response_amplitudes(const Model& model, const std::vector<Poten
     const Eigen::VectorXcd x = lu.solve(excitation(model, groups, omega[w], heading));
     // An undamped resonance met exactly has no finite answer.
     if (!x.allFinite() || lu.rcond() < 1e-15)
-      throw hydro::NumericsError(fmt::format("no response exists at {:.6g} rad/s: the equations of motion are singular there", omega[w]));
-    xi.col(static_cast<Eigen::Index>(w)) = x;   // (Q1)
+      throw hydro::NumericsError(
+          fmt::format("no response exists at {:.6g} rad/s: the equations of motion are singular there", omega[w]));
+    xi.col(static_cast<Eigen::Index>(w)) = x;  // (Q1)
   }
   return xi;
 }

@@ -11,7 +11,7 @@ namespace dynamics {
 GeneralizedAlpha::GeneralizedAlpha(const Model& model, const Settings& settings) : model_(model), settings_(settings) {
   const double rho = settings.rho_infinity;
   hydro::require(rho >= 0 && rho <= 1, "rho_infinity must lie between 0 and 1, got {}", rho);
-  alpha_m_ = (2 * rho - 1) / (rho + 1);          // (D11)
+  alpha_m_ = (2 * rho - 1) / (rho + 1);  // (D11)
   alpha_f_ = rho / (rho + 1);
   gamma_ = 0.5 + alpha_f_ - alpha_m_;
   beta_ = 0.25 * (gamma_ + 0.5) * (gamma_ + 0.5);
@@ -25,17 +25,19 @@ void GeneralizedAlpha::start(Workspace& workspace) {
   const Eigen::VectorXd r = model_.residual(workspace.state, workspace.acceleration, workspace);
   model_.tangent(workspace.state, 1, 0, 0, workspace, workspace.matrix);
   if (!r.allFinite() || !workspace.solver.factorise(workspace.matrix))
-    throw hydro::NumericsError(fmt::format("no accelerations can be found at the start, t = {} s: the loads or the mass matrix are not finite or singular",
-                                           workspace.state.time));
+    throw hydro::NumericsError(fmt::format(
+        "no accelerations can be found at the start, t = {} s: the loads or the mass matrix are not finite or singular",
+        workspace.state.time));
   workspace.acceleration = -workspace.solver.solve(r);
   algorithmic_ = workspace.acceleration;
 }
 
-void GeneralizedAlpha::predict(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration, State& next) const {
+void GeneralizedAlpha::predict(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration,
+                               State& next) const {
   const State& now = workspace.state;
   const Eigen::VectorXd algorithmic =
       ((1 - alpha_f_) * acceleration + alpha_f_ * workspace.acceleration - alpha_m_ * algorithmic_) / (1 - alpha_m_);
-  const Eigen::VectorXd move = h * now.velocity + h * h * ((0.5 - beta_) * algorithmic_ + beta_ * algorithmic);   // (D9)
+  const Eigen::VectorXd move = h * now.velocity + h * h * ((0.5 - beta_) * algorithmic_ + beta_ * algorithmic);  // (D9)
   next.time = now.time + h;
   next.velocity = now.velocity + h * ((1 - gamma_) * algorithmic_ + gamma_ * algorithmic);
   next.pose.resize(now.pose.size());
@@ -77,7 +79,9 @@ bool GeneralizedAlpha::try_step(Workspace& workspace, double h, StepReport& repo
       trial_size = size_of(trial_r);
       if (trial_size <= size) break;
       // At round-off the residual cannot fall any more: the full correction is as good as it gets.
-      if (factor == 1 && correction.cwiseProduct(scale_).norm() <= settings_.newton_tolerance * trial.cwiseProduct(scale_).norm()) break;
+      if (factor == 1 &&
+          correction.cwiseProduct(scale_).norm() <= settings_.newton_tolerance * trial.cwiseProduct(scale_).norm())
+        break;
     }
     if (!std::isfinite(trial_size)) {
       failure_ = "the loads are not finite";
@@ -88,7 +92,8 @@ bool GeneralizedAlpha::try_step(Workspace& workspace, double h, StepReport& repo
     size = trial_size;
     const double reach = a.cwiseProduct(scale_).norm() + next.velocity.cwiseProduct(scale_).norm() / h;
     if (factor == 1 && correction.cwiseProduct(scale_).norm() <= settings_.newton_tolerance * reach) {
-      algorithmic_ = ((1 - alpha_f_) * a + alpha_f_ * workspace.acceleration - alpha_m_ * algorithmic_) / (1 - alpha_m_);   // (D10)
+      algorithmic_ =
+          ((1 - alpha_f_) * a + alpha_f_ * workspace.acceleration - alpha_m_ * algorithmic_) / (1 - alpha_m_);  // (D10)
       workspace.state = std::move(next);
       workspace.acceleration = std::move(a);
       return true;
@@ -96,14 +101,16 @@ bool GeneralizedAlpha::try_step(Workspace& workspace, double h, StepReport& repo
   }
   Eigen::Index worst = 0;
   r.cwiseQuotient(scale_).cwiseAbs().maxCoeff(&worst);
-  failure_ = fmt::format("Newton did not converge in {} iterations; worst equation: {}", settings_.iterations, model_.mode_name(static_cast<int>(worst)));
+  failure_ = fmt::format("Newton did not converge in {} iterations; worst equation: {}", settings_.iterations,
+                         model_.mode_name(static_cast<int>(worst)));
   return false;
 }
 
 void GeneralizedAlpha::advance(Workspace& workspace, double h, int depth, StepReport& report) {
   if (try_step(workspace, h, report)) return;
   if (depth == settings_.deepest_halving)
-    throw hydro::NumericsError(fmt::format("the run cannot go on from t = {:.6g} s, even with a step of {:.3g} s: {}", workspace.state.time, h, failure_));
+    throw hydro::NumericsError(fmt::format("the run cannot go on from t = {:.6g} s, even with a step of {:.3g} s: {}",
+                                           workspace.state.time, h, failure_));
   ++report.halvings;
   advance(workspace, h / 2, depth + 1, report);
   advance(workspace, h / 2, depth + 1, report);

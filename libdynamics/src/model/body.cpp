@@ -10,7 +10,8 @@
 namespace dynamics {
 
 RigidBody::RigidBody(Properties properties) : p_(std::move(properties)) {
-  hydro::require(std::isfinite(p_.mass) && p_.mass > 0, "body \"{}\": the mass must be positive, got {} kg", p_.name, p_.mass);
+  hydro::require(std::isfinite(p_.mass) && p_.mass > 0, "body \"{}\": the mass must be positive, got {} kg", p_.name,
+                 p_.mass);
   hydro::require(p_.inertia.allFinite() && p_.inertia.isApprox(p_.inertia.transpose(), 1e-12),
                  "body \"{}\": the inertia must be a symmetric matrix of finite numbers", p_.name);
   Eigen::Matrix3d turning = p_.inertia;
@@ -20,8 +21,10 @@ RigidBody::RigidBody(Properties properties) : p_(std::move(properties)) {
       turning.col(i).setZero();
       turning(i, i) = 1;
     }
-  const Eigen::Vector3d principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(turning, Eigen::EigenvaluesOnly).eigenvalues();
-  hydro::require(principal.minCoeff() > 0, "body \"{}\": the inertia is not positive definite, principal moments {:.6g}, {:.6g}, {:.6g} kg m²",
+  const Eigen::Vector3d principal =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(turning, Eigen::EigenvaluesOnly).eigenvalues();
+  hydro::require(principal.minCoeff() > 0,
+                 "body \"{}\": the inertia is not positive definite, principal moments {:.6g}, {:.6g}, {:.6g} kg m²",
                  p_.name, principal[0], principal[1], principal[2]);
 }
 

@@ -17,8 +17,12 @@ Eigen::Matrix3d inertia_in_world(const RigidBody& body, const Pose& pose) {
 
 }  // namespace
 
-Model::Model(std::vector<RigidBody> bodies, std::vector<AddedMass> added_mass, std::vector<std::unique_ptr<const ForceKind>> forces)
-    : bodies_(std::move(bodies)), added_mass_(std::move(added_mass)), forces_(std::move(forces)), pattern_(static_cast<int>(bodies_.size())) {
+Model::Model(std::vector<RigidBody> bodies, std::vector<AddedMass> added_mass,
+             std::vector<std::unique_ptr<const ForceKind>> forces)
+    : bodies_(std::move(bodies)),
+      added_mass_(std::move(added_mass)),
+      forces_(std::move(forces)),
+      pattern_(static_cast<int>(bodies_.size())) {
   hydro::require(!bodies_.empty(), "the model has no bodies");
   for (const AddedMass& added : added_mass_)
     for (const int i : added.bodies)
@@ -41,13 +45,14 @@ Model::Model(std::vector<RigidBody> bodies, std::vector<AddedMass> added_mass, s
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(M);
   Eigen::Index worst = 0;
   eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&worst);
-  throw hydro::InputError(fmt::format("mass plus added mass is not positive definite: eigenvalue {:.4g}, mostly {}", eigen.eigenvalues()[0],
-                                      mode_name(static_cast<int>(worst))),
+  throw hydro::InputError(fmt::format("mass plus added mass is not positive definite: eigenvalue {:.4g}, mostly {}",
+                                      eigen.eigenvalues()[0], mode_name(static_cast<int>(worst))),
                           {}, "check the added mass at infinite frequency with `froude bem check`");
 }
 
 std::string Model::mode_name(int mode) const {
-  return bodies_[static_cast<std::size_t>(mode / 6)].name() + "." + std::string(hydro::mode_names[static_cast<std::size_t>(mode % 6)]);
+  return bodies_[static_cast<std::size_t>(mode / 6)].name() + "." +
+         std::string(hydro::mode_names[static_cast<std::size_t>(mode % 6)]);
 }
 
 void Model::add_mass(const State& state, double factor, BlockMatrix& out) const {
@@ -85,7 +90,8 @@ Eigen::VectorXd Model::mass_times(const State& state, const Eigen::VectorXd& x) 
     for (std::size_t i = 0; i < added.bodies.size(); ++i)
       for (std::size_t j = 0; j < added.bodies.size(); ++j)
         y.segment<6>(6 * added.bodies[i]) +=
-            added.value.block<6, 6>(6 * static_cast<Eigen::Index>(i), 6 * static_cast<Eigen::Index>(j)) * x.segment<6>(6 * added.bodies[j]);
+            added.value.block<6, 6>(6 * static_cast<Eigen::Index>(i), 6 * static_cast<Eigen::Index>(j)) *
+            x.segment<6>(6 * added.bodies[j]);
   return y;
 }
 
@@ -107,13 +113,15 @@ Eigen::VectorXd Model::residual(const State& state, const Eigen::VectorXd& accel
   return r;
 }
 
-void Model::tangent(const State& state, double c_a, double c_v, double c_q, Workspace& workspace, BlockMatrix& out) const {
+void Model::tangent(const State& state, double c_a, double c_v, double c_q, Workspace& workspace,
+                    BlockMatrix& out) const {
   out.set_zero();
   add_mass(state, c_a, out);
   JacobianSink sink(out, c_q, c_v);
   for (std::size_t k = 0; k < forces_.size(); ++k) forces_[k]->add_jacobian(workspace.instant(state, k), sink);
   for (int i = 0; i < static_cast<int>(bodies_.size()); ++i) {
-    const Eigen::Matrix3d I = inertia_in_world(bodies_[static_cast<std::size_t>(i)], state.pose[static_cast<std::size_t>(i)]);
+    const Eigen::Matrix3d I =
+        inertia_in_world(bodies_[static_cast<std::size_t>(i)], state.pose[static_cast<std::size_t>(i)]);
     const Eigen::Vector3d omega = state.twist(i).tail<3>();
     out.block(i, i).bottomRightCorner<3, 3>() += c_v * (cross_matrix(omega) * I - cross_matrix(I * omega));
   }
@@ -127,7 +135,9 @@ void Model::tangent(const State& state, double c_a, double c_v, double c_q, Work
   }
 }
 
-double Model::kinetic_energy(const State& state) const { return 0.5 * state.velocity.dot(mass_times(state, state.velocity)); }
+double Model::kinetic_energy(const State& state) const {
+  return 0.5 * state.velocity.dot(mass_times(state, state.velocity));
+}
 
 Model::Linear Model::linear_at_rest() const {
   const State rest = rest_state(bodies_);
@@ -151,8 +161,11 @@ Eigen::VectorXd Model::load_at_rest() const {
 }
 
 Workspace::Workspace(const Model& model, State start)
-    : state(std::move(start)), acceleration(Eigen::VectorXd::Zero(model.modes())), evaluations(model.forces().size(), 0),
-      matrix(model.pattern()), solver(model.pattern()) {
+    : state(std::move(start)),
+      acceleration(Eigen::VectorXd::Zero(model.modes())),
+      evaluations(model.forces().size(), 0),
+      matrix(model.pattern()),
+      solver(model.pattern()) {
   for (const auto& kind : model.forces()) memory.push_back(kind->make_memory(state));
 }
 

@@ -21,7 +21,7 @@ Eigen::Quaterniond rotation_exp(const Eigen::Vector3d& phi) {
 }
 
 Eigen::Vector3d rotation_log(const Eigen::Quaterniond& q) {
-  const double sign = q.w() < 0 ? -1 : 1;   // q and −q are the same rotation; take the shorter turn
+  const double sign = q.w() < 0 ? -1 : 1;  // q and −q are the same rotation; take the shorter turn
   const double s = q.vec().norm();
   // atan2 keeps full accuracy at both ends, where asin or acos alone would not.
   const double per_sine = s < small_angle ? 2 / std::abs(q.w()) * (1 - s * s / (3 * q.w() * q.w()))
@@ -47,7 +47,7 @@ Eigen::Matrix3d left_jacobian_inverse(const Eigen::Vector3d& phi) {
 Eigen::Matrix3d left_jacobian_inverse_transpose_derivative(const Eigen::Vector3d& phi, const Eigen::Vector3d& m) {
   // J⁻ᵀ m = m + ½ φ×m + c(|φ|) φ×(φ×m), c as in left_jacobian_inverse.
   const double a2 = phi.squaredNorm(), a = std::sqrt(a2);
-  const bool small = a < 1e-2;   // the closed form of c′/a loses four powers of a
+  const bool small = a < 1e-2;  // the closed form of c′/a loses four powers of a
   const double cot = small ? 0 : 1 / std::tan(a / 2), sine = std::sin(a / 2);
   const double c = small ? 1.0 / 12 + a2 / 720 + a2 * a2 / 30240 : (1 - a / 2 * cot) / a2;
   const double dc_over_a = small ? 1.0 / 360 + a2 / 7560 : ((a / (4 * sine * sine) - cot / 2) / a2 - 2 * c / a) / a;

@@ -33,7 +33,7 @@ Stencil cubic_stencil(std::span<const double> x, double at) {
   const bool has_before = i > 0, has_after = i + 2 < x.size();
   Stencil out{has_before ? i - 1 : i, {}};
   const std::size_t here = i - out.first;
-  out.weight[here] += (1 + 2 * s) * (1 - s) * (1 - s);       // Hermite's cubics: values …
+  out.weight[here] += (1 + 2 * s) * (1 - s) * (1 - s);  // Hermite's cubics: values …
   out.weight[here + 1] += s * s * (3 - 2 * s);
   const auto add_slope = [&](std::size_t node, double factor, bool inside) {
     if (inside) {
@@ -44,7 +44,7 @@ Stencil cubic_stencil(std::span<const double> x, double at) {
       out.weight[here + 1] += factor / h;
     }
   };
-  add_slope(i, h * s * (1 - s) * (1 - s), has_before);       // … and slopes
+  add_slope(i, h * s * (1 - s) * (1 - s), has_before);  // … and slopes
   add_slope(i + 1, -h * s * s * (1 - s), has_after);
   return out;
 }

@@ -32,9 +32,9 @@ Mode parse_mode(std::string_view name) {
   for (std::size_t i = 0; i < mode_names.size(); ++i)
     if (mode_names[i] == name) return static_cast<Mode>(i);
   const std::string near = nearest(name, mode_names);
-  throw InputError(fmt::format("\"{}\" is not a rigid-body mode", name), {},
-                   near.empty() ? "modes are surge, sway, heave, roll, pitch, yaw"
-                                : fmt::format("did you mean \"{}\"?", near));
+  throw InputError(
+      fmt::format("\"{}\" is not a rigid-body mode", name), {},
+      near.empty() ? "modes are surge, sway, heave, roll, pitch, yaw" : fmt::format("did you mean \"{}\"?", near));
 }
 
 }  // namespace hydro

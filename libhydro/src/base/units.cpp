@@ -16,7 +16,8 @@ struct Symbol {
 };
 
 constexpr double pi = std::numbers::pi;
-// Knot, nautical mile, bar and the conventional standard gravity are exact by definition (BIPM, SI Brochure, 9th ed., table 8 and notes).
+// Knot, nautical mile, bar and the conventional standard gravity are exact by definition (BIPM, SI Brochure, 9th ed.,
+// table 8 and notes).
 constexpr double standard_gravity = 9.80665;
 constexpr Symbol symbols[] = {
     {"m", 1, dim::length, true},
@@ -235,9 +236,8 @@ bool compatible(const Dimension& given, const Dimension& needed) {
 namespace {
 void check_dimension(std::string_view text, const Dimension& given, const Dimension& needed) {
   if (compatible(given, needed)) return;
-  const std::string found = given == dim::none && needed != dim::none
-                                ? fmt::format("\"{}\" has no unit", text)
-                                : fmt::format("\"{}\" is {}", text, given.name());
+  const std::string found = given == dim::none && needed != dim::none ? fmt::format("\"{}\" has no unit", text)
+                                                                      : fmt::format("\"{}\" is {}", text, given.name());
   throw InputError(fmt::format("{}; {} is needed", found, needed.name()), {},
                    fmt::format("write it like \"{}\"", needed.example()));
 }

@@ -28,9 +28,7 @@ std::string reason(int error) { return std::generic_category().message(error); }
   throw InputError(fmt::format("cannot {} \"{}\": {}", doing, path.string(), reason(error)), {}, remedy);
 }
 
-fs::path temporary_name(const fs::path& path) {
-  return path.string() + fmt::format(".{}.froude.tmp", ::getpid());
-}
+fs::path temporary_name(const fs::path& path) { return path.string() + fmt::format(".{}.froude.tmp", ::getpid()); }
 
 /// An open file that is closed and removed unless it was renamed into place.
 class TemporaryFile {
@@ -86,8 +84,9 @@ std::string read_text(const fs::path& path) {
   if (fs::is_directory(path)) refuse(path, "read", EISDIR);
   errno = 0;
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(fmt::format("cannot read \"{}\": {}", path.string(), reason(errno ? errno : EIO)), {},
-                            "check the path; paths in a scene are relative to the scene file");
+  if (!in)
+    throw InputError(fmt::format("cannot read \"{}\": {}", path.string(), reason(errno ? errno : EIO)), {},
+                     "check the path; paths in a scene are relative to the scene file");
   std::ostringstream out;
   out << in.rdbuf();
   return std::move(out).str();

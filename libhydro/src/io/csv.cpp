@@ -82,7 +82,8 @@ CsvTable CsvTable::parse(std::string_view text, const std::string& file_name) {
   int line_number = 0;
   const auto header = next_line(text, line_number);
   if (!header)
-    throw InputError("the table is empty", {.file = file_name}, "the first line names the columns: time [s], force [N]");
+    throw InputError("the table is empty", {.file = file_name},
+                     "the first line names the columns: time [s], force [N]");
   table.header_text_ = header->text;
   table.header_line_ = header->number;
   const char separator = separator_of(header->text);
@@ -115,8 +116,9 @@ CsvTable CsvTable::parse(std::string_view text, const std::string& file_name) {
   while (const auto line = next_line(text, line_number)) {
     const auto cells = split(line->text, separator);
     if (cells.size() != table.columns_.size())
-      throw InputError(fmt::format("the row has {} cells, the header names {} columns", cells.size(), table.columns_.size()),
-                       {file_name, line->number, 0, std::string(line->text), 0});
+      throw InputError(
+          fmt::format("the row has {} cells, the header names {} columns", cells.size(), table.columns_.size()),
+          {file_name, line->number, 0, std::string(line->text), 0});
     for (std::size_t i = 0; i < cells.size(); ++i) {
       Column& column = table.columns_[i];
       const auto value = number(cells[i].text, separator);
@@ -126,8 +128,9 @@ CsvTable CsvTable::parse(std::string_view text, const std::string& file_name) {
         continue;
       }
       if (!value)
-        throw InputError(cells[i].text.empty() ? fmt::format("a value of \"{}\" is missing", column.name)
-                                               : fmt::format("\"{}\" in column \"{}\" is not a number", cells[i].text, column.name),
+        throw InputError(cells[i].text.empty()
+                             ? fmt::format("a value of \"{}\" is missing", column.name)
+                             : fmt::format("\"{}\" in column \"{}\" is not a number", cells[i].text, column.name),
                          place(*line, cells[i]), "every row needs a number here; leave out rows without data");
       if (!std::isfinite(*value))
         throw InputError(fmt::format("\"{}\" in column \"{}\" is not a finite number", cells[i].text, column.name),
@@ -161,8 +164,7 @@ const CsvTable::Column& CsvTable::find(std::string_view name) const {
 
 const std::vector<double>& CsvTable::column(std::string_view name) const {
   const Column& c = find(name);
-  if (c.is_text)
-    throw InputError(fmt::format("column \"{}\" holds text; numbers are needed", name), place_of(name, 0));
+  if (c.is_text) throw InputError(fmt::format("column \"{}\" holds text; numbers are needed", name), place_of(name, 0));
   return c.values;
 }
 
@@ -170,7 +172,8 @@ const std::vector<double>& CsvTable::column(std::string_view name, const Dimensi
   const Column& c = find(name);
   if (!compatible(c.unit.dimension, needed))
     throw InputError(c.unit_text.empty() ? fmt::format("column \"{}\" has no unit; {} is needed", name, needed.name())
-                                         : fmt::format("column \"{}\" is {}; {} is needed", name, c.unit.dimension.name(), needed.name()),
+                                         : fmt::format("column \"{}\" is {}; {} is needed", name,
+                                                       c.unit.dimension.name(), needed.name()),
                      {file_, header_line_, c.header_column, header_text_, static_cast<int>(c.name.size())},
                      fmt::format("name the unit in the header: {} [{}]", name, needed.si()));
   return column(name);

@@ -221,8 +221,9 @@ struct Hdf5Writer::Impl {
       H5Pset_shuffle(creation.get());
       H5Pset_deflate(creation.get(), 1);
     }
-    return Handle(check(H5Dcreate2(file.get(), name.c_str(), type, space.get(), links.get(), creation.get(), H5P_DEFAULT),
-                        ("create " + name).c_str()));
+    return Handle(
+        check(H5Dcreate2(file.get(), name.c_str(), type, space.get(), links.get(), creation.get(), H5P_DEFAULT),
+              ("create " + name).c_str()));
   }
   /// Room for the closing zero, without which netCDF reads past the end of a text.
   static Handle string_type(std::size_t length) {
@@ -243,7 +244,8 @@ Hdf5Writer::Hdf5Writer() : impl_(std::make_unique<Impl>()) {
   // The name is never used on disk, but HDF5 refuses two open files of one name.
   static int counter = 0;
   const std::string name = fmt::format("froude-in-memory-{}", counter++);
-  impl_->file = Handle(Impl::check(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), "make a file in memory"));
+  impl_->file = Handle(
+      Impl::check(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), "make a file in memory"));
 }
 Hdf5Writer::~Hdf5Writer() = default;
 
@@ -280,15 +282,17 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, s
   const Handle type = Impl::string_type(text.size());
   const Handle space(H5Screate(H5S_SCALAR));
   const Handle a(Impl::check(H5Acreate_by_name(impl_->file.get(), object.c_str(), name.c_str(), type.get(), space.get(),
-                                               H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "make an attribute"));
+                                               H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                             "make an attribute"));
   const std::string closed(text);
   Impl::check(H5Awrite(a.get(), type.get(), closed.c_str()), "write an attribute");
 }
 
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, double value) {
   const Handle space(H5Screate(H5S_SCALAR));
-  const Handle a(Impl::check(H5Acreate_by_name(impl_->file.get(), object.c_str(), name.c_str(), H5T_IEEE_F64LE, space.get(),
-                                               H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "make an attribute"));
+  const Handle a(Impl::check(H5Acreate_by_name(impl_->file.get(), object.c_str(), name.c_str(), H5T_IEEE_F64LE,
+                                               space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                             "make an attribute"));
   Impl::check(H5Awrite(a.get(), H5T_NATIVE_DOUBLE, &value), "write an attribute");
 }
 

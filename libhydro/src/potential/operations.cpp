@@ -33,7 +33,8 @@ Coefficients select(const Coefficients& all, std::span<const int> which) {
   std::vector<int> modes;
   for (const int b : which) {
     if (b < 0 || b >= all.bodies())
-      throw InputError(fmt::format("{}: body {} is asked for, but there {} {}", all.source, b + 1, all.bodies() == 1 ? "is only" : "are only", all.bodies()));
+      throw InputError(fmt::format("{}: body {} is asked for, but there {} {}", all.source, b + 1,
+                                   all.bodies() == 1 ? "is only" : "are only", all.bodies()));
     out.body.push_back(all.body[static_cast<std::size_t>(b)]);
     for (int m = 0; m < 6; ++m) modes.push_back(6 * b + m);
   }
@@ -54,8 +55,8 @@ Coefficients without_interaction(Coefficients c) {
 }
 
 Coefficients about(Coefficients c, std::span<const Eigen::Vector3d> from, std::span<const Eigen::Vector3d> to) {
-  require(from.size() == c.body.size() && to.size() == c.body.size(), "{}: {} reference points are given for {} bodies", c.source,
-          std::min(from.size(), to.size()), c.bodies());
+  require(from.size() == c.body.size() && to.size() == c.body.size(), "{}: {} reference points are given for {} bodies",
+          c.source, std::min(from.size(), to.size()), c.bodies());
   // ξ(from) = T ξ(to), hence loads by Tᵀ and matrices by Tᵀ · T. (P4)
   Eigen::MatrixXd T = Eigen::MatrixXd::Zero(c.modes(), c.modes());
   for (std::size_t i = 0; i < c.body.size(); ++i) {
@@ -83,9 +84,11 @@ Coefficients carried(Coefficients c, const Eigen::Vector2d& shift) {
   return c;
 }
 
-FrequencyTable::FrequencyTable(Coefficients c, std::vector<Eigen::Vector3d> origin) : c_(std::move(c)), origin_(std::move(origin)) {
+FrequencyTable::FrequencyTable(Coefficients c, std::vector<Eigen::Vector3d> origin)
+    : c_(std::move(c)), origin_(std::move(origin)) {
   c_.validate();
-  require(origin_.size() == c_.body.size(), "{}: {} places are given for {} bodies", c_.source, origin_.size(), c_.bodies());
+  require(origin_.size() == c_.body.size(), "{}: {} places are given for {} bodies", c_.source, origin_.size(),
+          c_.bodies());
   X_ = c_.X;
   for (std::size_t h = 0; h < X_.size(); ++h)
     for (std::size_t w = 0; w < c_.omega.size(); ++w)
@@ -99,36 +102,45 @@ void require_inside(const Coefficients& c, double omega) {
   // A frequency computed from a period may miss the table's end by round-off.
   constexpr double slack = 1e-9;
   if (omega >= c.omega.front() * (1 - slack) && omega <= c.omega.back() * (1 + slack)) return;
-  throw InputError(fmt::format("{}: coefficients are asked for at {:.6g} rad/s (period {:.6g} s), but given from {:.6g} to {:.6g} rad/s "
-                               "(periods {:.6g} to {:.6g} s)",
-                               c.source, omega, 2 * std::numbers::pi / omega, c.omega.front(), c.omega.back(), 2 * std::numbers::pi / c.omega.back(), 2 * std::numbers::pi / c.omega.front()),
-                   {}, "ask for periods inside the data, or compute the coefficients at more frequencies");
+  throw InputError(
+      fmt::format(
+          "{}: coefficients are asked for at {:.6g} rad/s (period {:.6g} s), but given from {:.6g} to {:.6g} rad/s "
+          "(periods {:.6g} to {:.6g} s)",
+          c.source, omega, 2 * std::numbers::pi / omega, c.omega.front(), c.omega.back(),
+          2 * std::numbers::pi / c.omega.back(), 2 * std::numbers::pi / c.omega.front()),
+      {}, "ask for periods inside the data, or compute the coefficients at more frequencies");
 }
 }  // namespace
 
 Eigen::MatrixXd FrequencyTable::added_mass(double omega) const {
   require_inside(c_, omega);
-  return combined(cubic_stencil(c_.omega, omega), c_.omega.size(), [&](std::size_t i) -> const Eigen::MatrixXd& { return c_.A[i]; });
+  return combined(cubic_stencil(c_.omega, omega), c_.omega.size(),
+                  [&](std::size_t i) -> const Eigen::MatrixXd& { return c_.A[i]; });
 }
 
 Eigen::MatrixXd FrequencyTable::damping(double omega) const {
   require_inside(c_, omega);
-  return combined(cubic_stencil(c_.omega, omega), c_.omega.size(), [&](std::size_t i) -> const Eigen::MatrixXd& { return c_.B[i]; });
+  return combined(cubic_stencil(c_.omega, omega), c_.omega.size(),
+                  [&](std::size_t i) -> const Eigen::MatrixXd& { return c_.B[i]; });
 }
 
 Eigen::VectorXcd FrequencyTable::excitation(double omega, double heading) const {
   require_inside(c_, omega);
   if (c_.heading.empty())
-    throw InputError(fmt::format("{}: there is no excitation in the data", c_.source), {}, "put the .3 file beside the .1 file, or leave out `excitation`");
-  constexpr double same = 1e-6;   // rad: degrees written with four decimals
+    throw InputError(fmt::format("{}: there is no excitation in the data", c_.source), {},
+                     "put the .3 file beside the .1 file, or leave out `excitation`");
+  constexpr double same = 1e-6;  // rad: degrees written with four decimals
   if (heading < c_.heading.front() - same || heading > c_.heading.back() + same)
-    throw InputError(fmt::format("{}: heading {:.6g} deg is asked for, but excitation is given from {:.6g} to {:.6g} deg", c_.source, heading * 180 / std::numbers::pi,
-                                 c_.heading.front() * 180 / std::numbers::pi, c_.heading.back() * 180 / std::numbers::pi),
-                     {}, "compute the excitation for this heading, or choose one inside the data");
+    throw InputError(
+        fmt::format("{}: heading {:.6g} deg is asked for, but excitation is given from {:.6g} to {:.6g} deg", c_.source,
+                    heading * 180 / std::numbers::pi, c_.heading.front() * 180 / std::numbers::pi,
+                    c_.heading.back() * 180 / std::numbers::pi),
+        {}, "compute the excitation for this heading, or choose one inside the data");
   const double inside = std::clamp(heading, c_.heading.front(), c_.heading.back());
   const Stencil by_heading = straight_stencil(c_.heading, inside), by_omega = cubic_stencil(c_.omega, omega);
   Eigen::VectorXcd X = combined(by_heading, c_.heading.size(), [&](std::size_t h) {
-    return Eigen::VectorXcd(combined(by_omega, c_.omega.size(), [&](std::size_t w) { return X_[h].col(static_cast<Eigen::Index>(w)); }));
+    return Eigen::VectorXcd(
+        combined(by_omega, c_.omega.size(), [&](std::size_t w) { return X_[h].col(static_cast<Eigen::Index>(w)); }));
   });
   for (std::size_t b = 0; b < origin_.size(); ++b)
     X.segment<6>(6 * static_cast<Eigen::Index>(b)) *= way(c_.water, omega, heading, origin_[b].x(), origin_[b].y());
@@ -139,11 +151,13 @@ FrequencyTable::Openness FrequencyTable::openness() const {
   const auto worst = [&](auto value) {
     double largest_gap = 0;
     Eigen::VectorXd largest = value(0).cwiseAbs().rowwise().maxCoeff();
-    for (std::size_t i = 1; i < c_.omega.size(); ++i) largest = largest.cwiseMax(Eigen::VectorXd(value(i).cwiseAbs().rowwise().maxCoeff()));
+    for (std::size_t i = 1; i < c_.omega.size(); ++i)
+      largest = largest.cwiseMax(Eigen::VectorXd(value(i).cwiseAbs().rowwise().maxCoeff()));
     for (std::size_t i = 0; i + 1 < c_.omega.size(); ++i) {
       const double middle = (c_.omega[i] + c_.omega[i + 1]) / 2;
       const Eigen::MatrixXd gap = (combined(cubic_stencil(c_.omega, middle), c_.omega.size(), value) -
-                                   combined(straight_stencil(c_.omega, middle), c_.omega.size(), value)).cwiseAbs();
+                                   combined(straight_stencil(c_.omega, middle), c_.omega.size(), value))
+                                      .cwiseAbs();
       for (Eigen::Index r = 0; r < gap.rows(); ++r)
         if (largest[r] > 0) largest_gap = std::max(largest_gap, gap.row(r).maxCoeff() / largest[r]);
     }
@@ -152,7 +166,9 @@ FrequencyTable::Openness FrequencyTable::openness() const {
   Openness out{};
   out.added_mass = worst([&](std::size_t i) -> const Eigen::MatrixXd& { return c_.A[i]; });
   out.damping = worst([&](std::size_t i) -> const Eigen::MatrixXd& { return c_.B[i]; });
-  for (const auto& X : X_) out.excitation = std::max(out.excitation, worst([&](std::size_t i) { return Eigen::MatrixXcd(X.col(static_cast<Eigen::Index>(i))); }));
+  for (const auto& X : X_)
+    out.excitation = std::max(
+        out.excitation, worst([&](std::size_t i) { return Eigen::MatrixXcd(X.col(static_cast<Eigen::Index>(i))); }));
   return out;
 }
 

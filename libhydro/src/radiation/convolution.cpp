@@ -33,7 +33,8 @@ DirectConvolution::DirectConvolution(const RetardationKernel& kernel)
 Eigen::VectorXd DirectConvolution::decided(const VelocityHistory& history, double fraction) const {
   ensure(fraction > 0 && fraction <= 1, "DirectConvolution: fraction outside (0, 1]");
   const auto v = history.newest_first();
-  // A step of fraction·h and full steps of h behind it: the newest stored velocity weighs (fraction + 1)/2, the others 1.
+  // A step of fraction·h and full steps of h behind it: the newest stored velocity weighs (fraction + 1)/2, the
+  // others 1.
   if (fraction == 1) return step_ * (late_ * v);
   const Eigen::VectorXd sum = fraction * (late_ * v) + (1 - fraction) * (early_ * v);
   const Eigen::MatrixXd K_newest = fraction * late_.leftCols(modes_) + (1 - fraction) * K0_;

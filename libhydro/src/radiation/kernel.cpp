@@ -33,8 +33,9 @@ Eigen::VectorXd largest_diagonal(const DampingTable& damping) {
   return out;
 }
 
-// Panel codes scatter around zero damping: by a few hundredths of a mode's own largest at irregular frequencies near the end of a
-// table, and by round-off of the others for a mode that makes no waves at all (yaw of a body of revolution).
+// Panel codes scatter around zero damping: by a few hundredths of a mode's own largest at irregular frequencies near
+// the end of a table, and by round-off of the others for a mode that makes no waves at all (yaw of a body of
+// revolution).
 constexpr double scatter = 0.05, round_off = 1e-6;
 
 /// Most negative B_ii relative to the largest of its mode, modes without waves left out; 0 or more.
@@ -49,29 +50,32 @@ double most_negative(const DampingTable& damping) {
 
 void check(const DampingTable& damping) {
   require(!damping.omega.empty() && damping.omega.size() == damping.B.size(), "the damping table is empty or ragged");
-  require(damping.omega.front() > 0, "damping is given at {} rad/s; frequencies must be positive", damping.omega.front());
+  require(damping.omega.front() > 0, "damping is given at {} rad/s; frequencies must be positive",
+          damping.omega.front());
   for (std::size_t i = 1; i < damping.omega.size(); ++i)
-    require(damping.omega[i] > damping.omega[i - 1], "damping frequencies do not increase at {} rad/s", damping.omega[i]);
+    require(damping.omega[i] > damping.omega[i - 1], "damping frequencies do not increase at {} rad/s",
+            damping.omega[i]);
   const Eigen::VectorXd largest = largest_diagonal(damping);
   for (Eigen::Index mode = 0; mode < largest.size(); ++mode) {
     const double tolerated = std::max(scatter * largest[mode], round_off * largest.maxCoeff());
     for (std::size_t i = 0; i < damping.omega.size(); ++i)
       if (damping.B[i](mode, mode) < -tolerated)
-        throw InputError(fmt::format("radiation damping of mode {} is negative, {:.4g} at {:.4g} rad/s: a hull at rest in calm "
-                                     "water cannot be a source of power",
-                                     mode, damping.B[i](mode, mode), damping.omega[i]),
-                         {}, "look at the data with `froude bem check`");
+        throw InputError(
+            fmt::format("radiation damping of mode {} is negative, {:.4g} at {:.4g} rad/s: a hull at rest in calm "
+                        "water cannot be a source of power",
+                        mode, damping.B[i](mode, mode), damping.omega[i]),
+            {}, "look at the data with `froude bem check`");
   }
 }
 
-/// What is missing beyond the last frequency, ∫ B dω, if B_ii falls on as the power that its last octave shows. Near a peak B
-/// falls faster than it goes on to, so no more than ω⁻² is credited; less than ω^−1.25 is not believed, since K(0) is finite.
-/// Pairs by |B_ij| ≤ √(B_ii B_jj). (R4)
+/// What is missing beyond the last frequency, ∫ B dω, if B_ii falls on as the power that its last octave shows. Near a
+/// peak B falls faster than it goes on to, so no more than ω⁻² is credited; less than ω^−1.25 is not believed, since
+/// K(0) is finite. Pairs by |B_ij| ≤ √(B_ii B_jj). (R4)
 Eigen::MatrixXd missing_tail(const DampingTable& damping) {
   const Eigen::Index n = damping.B.front().rows();
   const double last = damping.omega.back();
-  const auto middle = static_cast<std::size_t>(
-      std::lower_bound(damping.omega.begin(), damping.omega.end(), last / 2) - damping.omega.begin());
+  const auto middle = static_cast<std::size_t>(std::lower_bound(damping.omega.begin(), damping.omega.end(), last / 2) -
+                                               damping.omega.begin());
   Eigen::VectorXd tail(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const double end = std::abs(damping.B.back()(i, i)), mid = std::abs(damping.B[middle](i, i));
@@ -93,7 +97,8 @@ Eigen::MatrixXd bend(const DampingTable& damping) {
     const Eigen::MatrixXd B_before = i == 0 ? Eigen::MatrixXd::Zero(sum.rows(), sum.cols()) : damping.B[i - 1];
     const Eigen::MatrixXd second =
         2 * ((damping.B[i + 1] - damping.B[i]) / h1 - (damping.B[i] - B_before) / h0) / (h0 + h1);
-    sum += two_over_pi * second.cwiseAbs() * (h0 * h0 * h0 + h1 * h1 * h1) / 2 / 12 * (i == 0 || i + 2 == w.size() ? 1.5 : 1);
+    sum += two_over_pi * second.cwiseAbs() * (h0 * h0 * h0 + h1 * h1 * h1) / 2 / 12 *
+           (i == 0 || i + 2 == w.size() ? 1.5 : 1);
   }
   return sum;
 }
@@ -120,12 +125,12 @@ std::size_t steps_in(double length, double step) { return static_cast<std::size_
 /// Step for looking at the whole kernel: eight samples in the shortest period that the table holds.
 double survey_step(const DampingTable& damping) { return 2 * std::numbers::pi / damping.omega.back() / 8; }
 
-/// ∫_t^∞ |K_ij| dt / √(max B_ii max B_jj), its largest entry, at each survey sample; decreasing in t. Beyond the longest
-/// time nothing is known; what follows is taken to be no more than the last quarter before it. (R5)
+/// ∫_t^∞ |K_ij| dt / √(max B_ii max B_jj), its largest entry, at each survey sample; decreasing in t. Beyond the
+/// longest time nothing is known; what follows is taken to be no more than the last quarter before it. (R5)
 std::vector<double> remaining_memory(const DampingTable& damping, double step) {
   const std::size_t count = steps_in(RetardationKernel::longest_time(damping), step) + 1;
   const Eigen::VectorXd damped = largest_diagonal(damping);
-  Eigen::VectorXd scale = Eigen::VectorXd::Zero(damped.size());   // a mode without damping has no memory to cut
+  Eigen::VectorXd scale = Eigen::VectorXd::Zero(damped.size());  // a mode without damping has no memory to cut
   for (Eigen::Index i = 0; i < damped.size(); ++i)
     if (damped[i] > 1e-6 * damped.maxCoeff()) scale[i] = 1 / std::sqrt(damped[i]);
   std::vector<Eigen::MatrixXd> magnitude(count);
@@ -157,12 +162,15 @@ double RetardationKernel::longest_time(const DampingTable& damping) {
 
 RetardationKernel RetardationKernel::from_damping(const DampingTable& damping, const MemoryGrid& grid) {
   check(damping);
-  require(grid.step > 0 && grid.length > 0, "memory needs a positive step and length, got {} s and {} s", grid.step, grid.length);
+  require(grid.step > 0 && grid.length > 0, "memory needs a positive step and length, got {} s and {} s", grid.step,
+          grid.length);
   const double longest = longest_time(damping);
   if (grid.length > longest * (1 + 1e-9))
-    throw InputError(fmt::format("a memory of {:.4g} s is asked for, but frequencies {:.4g} rad/s apart tell the memory up to {:.4g} s only",
-                                 grid.length, std::numbers::pi / longest, longest),
-                     {}, "compute the coefficients at more frequencies, or ask for a shorter memory");
+    throw InputError(
+        fmt::format(
+            "a memory of {:.4g} s is asked for, but frequencies {:.4g} rad/s apart tell the memory up to {:.4g} s only",
+            grid.length, std::numbers::pi / longest, longest),
+        {}, "compute the coefficients at more frequencies, or ask for a shorter memory");
   RetardationKernel kernel;
   kernel.step_ = grid.step;
   const std::size_t last = std::max<std::size_t>(1, steps_in(grid.length, grid.step));

@@ -11,8 +11,8 @@ struct EndWeights {
   double a, b;
 };
 
-/// B on the cubic of (P6) between the given frequencies and from ω = 0, where B = 0, cut into four straight pieces an interval.
-/// Everything is linear in B, so the pieces only gather weights, and each B is touched once an integral.
+/// B on the cubic of (P6) between the given frequencies and from ω = 0, where B = 0, cut into four straight pieces an
+/// interval. Everything is linear in B, so the pieces only gather weights, and each B is touched once an integral.
 class Polygon {
  public:
   explicit Polygon(const std::vector<double>& given) : given_(given.size()) {
@@ -20,7 +20,8 @@ class Polygon {
     omega.insert(omega.end(), given.begin(), given.end());
     constexpr int pieces = 4;
     for (std::size_t i = 0; i + 1 < omega.size(); ++i)
-      for (int piece = 0; piece < pieces; ++piece) add_node(omega, omega[i] + (omega[i + 1] - omega[i]) * piece / pieces);
+      for (int piece = 0; piece < pieces; ++piece)
+        add_node(omega, omega[i] + (omega[i + 1] - omega[i]) * piece / pieces);
     add_node(omega, omega.back());
   }
 

@@ -33,30 +33,35 @@ EndWeights added_mass_weights(double a, double b, double omega) {
 double corner_weight(std::size_t corner, double last, double omega) {
   double sum = 0;
   if (corner > 0) sum += added_mass_weights(corners[corner - 1] * last, corners[corner] * last, omega).b;
-  if (corner + 1 < corners.size()) sum += added_mass_weights(corners[corner] * last, corners[corner + 1] * last, omega).a;
+  if (corner + 1 < corners.size())
+    sum += added_mass_weights(corners[corner] * last, corners[corner + 1] * last, omega).a;
   return sum;
 }
 
 /// One matrix a row, flattened.
 Eigen::MatrixXd flattened(const std::vector<Eigen::MatrixXd>& matrices) {
   Eigen::MatrixXd out(static_cast<Eigen::Index>(matrices.size()), matrices.front().size());
-  for (std::size_t i = 0; i < matrices.size(); ++i) out.row(static_cast<Eigen::Index>(i)) = matrices[i].reshaped().transpose();
+  for (std::size_t i = 0; i < matrices.size(); ++i)
+    out.row(static_cast<Eigen::Index>(i)) = matrices[i].reshaped().transpose();
   return out;
 }
 
 /// The fit of (R11) for all pairs at once: they share the design matrix.
 struct Problem {
-  std::vector<double> omega;       // where A is compared: middles of pieces, off the corners of B
-  Eigen::MatrixXd design, right;   // rows: omega; columns: free corners and, where A∞ is not known, a constant; right: pairs
+  std::vector<double> omega;  // where A is compared: middles of pieces, off the corners of B
+  Eigen::MatrixXd design,
+      right;  // rows: omega; columns: free corners and, where A∞ is not known, a constant; right: pairs
 };
 
-Problem problem(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A, const std::optional<Eigen::MatrixXd>& A_inf) {
+Problem problem(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A,
+                const std::optional<Eigen::MatrixXd>& A_inf) {
   const detail::Polygon polygon(damping.omega);
   const auto& node = polygon.nodes();
   const double first = damping.omega.front(), last = damping.omega.back();
   Problem p;
   for (std::size_t i = 0; i + 1 < node.size(); i += 2)
-    if (const double middle = (node[i] + node[i + 1]) / 2; middle > first && middle < 0.95 * last) p.omega.push_back(middle);
+    if (const double middle = (node[i] + node[i + 1]) / 2; middle > first && middle < 0.95 * last)
+      p.omega.push_back(middle);
   const auto rows = static_cast<Eigen::Index>(p.omega.size());
   p.design = Eigen::MatrixXd::Ones(rows, free_corners + (A_inf ? 0 : 1));
   p.right.resize(rows, A.front().size());
@@ -65,11 +70,14 @@ Problem problem(const DampingTable& damping, const std::vector<Eigen::MatrixXd>&
     const double omega = p.omega[static_cast<std::size_t>(r)];
     std::vector<double> known = polygon.gather([&](double a, double b) { return added_mass_weights(a, b, omega); });
     known.back() += corner_weight(0, last, omega);
-    const Eigen::RowVectorXd at_omega =
-        combined(cubic_stencil(damping.omega, omega), A.size(), [&](std::size_t i) { return Eigen::RowVectorXd(all_A.row(static_cast<Eigen::Index>(i))); });
-    p.right.row(r) = at_omega - Eigen::Map<const Eigen::RowVectorXd>(known.data(), static_cast<Eigen::Index>(known.size())) * all_B;
+    const Eigen::RowVectorXd at_omega = combined(cubic_stencil(damping.omega, omega), A.size(), [&](std::size_t i) {
+      return Eigen::RowVectorXd(all_A.row(static_cast<Eigen::Index>(i)));
+    });
+    p.right.row(r) =
+        at_omega - Eigen::Map<const Eigen::RowVectorXd>(known.data(), static_cast<Eigen::Index>(known.size())) * all_B;
     if (A_inf) p.right.row(r) -= A_inf->reshaped().transpose();
-    for (Eigen::Index k = 0; k < free_corners; ++k) p.design(r, k) = corner_weight(static_cast<std::size_t>(k) + 1, last, omega);
+    for (Eigen::Index k = 0; k < free_corners; ++k)
+      p.design(r, k) = corner_weight(static_cast<std::size_t>(k) + 1, last, omega);
   }
   return p;
 }
@@ -78,7 +86,8 @@ Problem problem(const DampingTable& damping, const std::vector<Eigen::MatrixXd>&
 void prefer_straightness(Problem& p, const Eigen::RowVectorXd& last_B) {
   // A hundredth of the data's weight kept wiggles, a tenth bent the fit; between them the tail hardly depends on it.
   constexpr double preference = 0.03;
-  const double weight = preference * p.design.leftCols(free_corners).cwiseAbs().maxCoeff() * std::sqrt(static_cast<double>(p.design.rows()));
+  const double weight = preference * p.design.leftCols(free_corners).cwiseAbs().maxCoeff() *
+                        std::sqrt(static_cast<double>(p.design.rows()));
   const Eigen::Index rows = p.design.rows();
   p.design.conservativeResize(rows + free_corners, Eigen::NoChange);
   p.right.conservativeResize(rows + free_corners, Eigen::NoChange);
@@ -87,7 +96,7 @@ void prefer_straightness(Problem& p, const Eigen::RowVectorXd& last_B) {
   for (Eigen::Index k = 0; k < free_corners; ++k) {
     const auto c = static_cast<std::size_t>(k) + 1;
     const double h0 = corners[c] - corners[c - 1], h1 = corners[c + 1] - corners[c];
-    const double before = 2 * h1 / (h0 + h1), after = 2 * h0 / (h0 + h1);   // h₀h₁ times the second divided difference
+    const double before = 2 * h1 / (h0 + h1), after = 2 * h0 / (h0 + h1);  // h₀h₁ times the second divided difference
     p.design(rows + k, k) = -2 * weight;
     if (k > 0) p.design(rows + k, k - 1) = before * weight;
     if (k + 1 < free_corners) p.design(rows + k, k + 1) = after * weight;
@@ -95,17 +104,23 @@ void prefer_straightness(Problem& p, const Eigen::RowVectorXd& last_B) {
   }
 }
 
-/// The nearest matrix that takes no power from nowhere: negative eigenvalues, in modes scaled by `size`, are set to zero. (R11)
+/// The nearest matrix that takes no power from nowhere: negative eigenvalues, in modes scaled by `size`, are set to
+/// zero. (R11)
 Eigen::MatrixXd passive(const Eigen::MatrixXd& B, const Eigen::VectorXd& size) {
-  const Eigen::MatrixXd scaled = size.cwiseInverse().asDiagonal() * ((B + B.transpose()) / 2) * size.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd scaled =
+      size.cwiseInverse().asDiagonal() * ((B + B.transpose()) / 2) * size.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
-  return size.asDiagonal() * eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose() * size.asDiagonal();
+  return size.asDiagonal() * eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
+         eigen.eigenvectors().transpose() * size.asDiagonal();
 }
 
 }  // namespace
 
-ContinuedDamping continued(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A, const std::optional<Eigen::MatrixXd>& A_inf) {
-  require(A.size() == damping.omega.size() && damping.omega.size() >= 3, "a tail needs added mass and damping at three frequencies at least, got {} and {}", A.size(), damping.omega.size());
+ContinuedDamping continued(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A,
+                           const std::optional<Eigen::MatrixXd>& A_inf) {
+  require(A.size() == damping.omega.size() && damping.omega.size() >= 3,
+          "a tail needs added mass and damping at three frequencies at least, got {} and {}", A.size(),
+          damping.omega.size());
   const Eigen::Index n = damping.B.front().rows();
   Problem p = problem(damping, A, A_inf);
   const Eigen::Index rows = p.design.rows();
@@ -115,8 +130,10 @@ ContinuedDamping continued(const DampingTable& damping, const std::vector<Eigen:
   ContinuedDamping out;
   out.table = damping;
   out.A_inf = A_inf ? *A_inf : Eigen::MatrixXd(found.row(free_corners).reshaped(n, n));
-  const Eigen::VectorXd size = out.A_inf.diagonal().cwiseAbs().cwiseMax(1e-12 * out.A_inf.cwiseAbs().maxCoeff()).cwiseSqrt();
-  for (Eigen::Index k = 0; k < free_corners; ++k) found.row(k) = passive(found.row(k).reshaped(n, n), size).reshaped().transpose();
+  const Eigen::VectorXd size =
+      out.A_inf.diagonal().cwiseAbs().cwiseMax(1e-12 * out.A_inf.cwiseAbs().maxCoeff()).cwiseSqrt();
+  for (Eigen::Index k = 0; k < free_corners; ++k)
+    found.row(k) = passive(found.row(k).reshaped(n, n), size).reshaped().transpose();
   const double last = damping.omega.back(), spacing = last - damping.omega[damping.omega.size() - 2];
   const auto count = static_cast<int>(std::lround((corners.back() - 1) * last / spacing));
   for (int i = 1; i <= count; ++i) {
@@ -125,21 +142,25 @@ ContinuedDamping continued(const DampingTable& damping, const std::vector<Eigen:
     Eigen::MatrixXd B = Eigen::MatrixXd::Zero(n, n);
     for (std::size_t k = 0; k < 2; ++k) {
       const std::size_t corner = s.first + k;
-      if (corner == 0) B += s.weight[k] * damping.B.back();
-      else if (corner <= free_corners) B += s.weight[k] * found.row(static_cast<Eigen::Index>(corner) - 1).reshaped(n, n);
+      if (corner == 0)
+        B += s.weight[k] * damping.B.back();
+      else if (corner <= free_corners)
+        B += s.weight[k] * found.row(static_cast<Eigen::Index>(corner) - 1).reshaped(n, n);
     }
     out.table.omega.push_back(omega);
     out.table.B.push_back(std::move(B));
   }
   // What the passive tail and the data's own scatter leave over the slower motions goes into the constant.
   Eigen::MatrixXd left = p.design.topRows(rows) * found - p.right.topRows(rows);
-  const auto slow = std::max<Eigen::Index>(1, std::count_if(p.omega.begin(), p.omega.end(), [&](double omega) { return omega <= 0.6 * last; }));
+  const auto slow = std::max<Eigen::Index>(
+      1, std::count_if(p.omega.begin(), p.omega.end(), [&](double omega) { return omega <= 0.6 * last; }));
   const Eigen::RowVectorXd mean = left.topRows(slow).colwise().mean();
   left.rowwise() -= mean;
   out.A_inf -= mean.reshaped(n, n);
   const Eigen::MatrixXd rms = (left.topRows(slow).cwiseAbs2().colwise().mean()).cwiseSqrt().reshaped(n, n);
   out.misfit = (size.cwiseInverse().asDiagonal() * rms * size.cwiseInverse().asDiagonal()).maxCoeff();
-  out.shift = (size.cwiseInverse().asDiagonal() * mean.reshaped(n, n).cwiseAbs() * size.cwiseInverse().asDiagonal()).maxCoeff();
+  out.shift =
+      (size.cwiseInverse().asDiagonal() * mean.reshaped(n, n).cwiseAbs() * size.cwiseInverse().asDiagonal()).maxCoeff();
   return out;
 }
 

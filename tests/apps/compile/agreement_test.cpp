@@ -13,8 +13,8 @@ namespace {
 using namespace froude;
 
 struct Setting {
-  const char* file;   // five bodies that feel each other's waves, or one that each of the five is by itself
-  double period;      // s
+  const char* file;  // five bodies that feel each other's waves, or one that each of the five is by itself
+  double period;     // s
 };
 
 /// Five coupled modules, linear: moored and joined with dampers, so that a run settles.
@@ -65,16 +65,18 @@ class Agreement : public testing::TestWithParam<Setting> {};
 TEST_P(Agreement, OfTimeAndFrequencyDomainInEveryDegreeOfFreedom) {
   const double period = GetParam().period;
   const double omegas[] = {2 * std::numbers::pi / period};
-  const scene::Scene scene = scene::parse(scene_text(GetParam()), std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/data/agreement.toml");
+  const scene::Scene scene =
+      scene::parse(scene_text(GetParam()), std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/data/agreement.toml");
   const compile::Prepared prepared = compile::prepare(scene);
   const dynamics::Model model = compile::frequency_model(prepared);
-  const Eigen::MatrixXcd xi = dynamics::frequency::response_amplitudes(model, prepared.groups, {omegas[0]}, scene.waves->heading.radians());
+  const Eigen::MatrixXcd xi =
+      dynamics::frequency::response_amplitudes(model, prepared.groups, {omegas[0]}, scene.waves->heading.radians());
   const Record run = simulate(scene);
   ASSERT_EQ(run.stopped, "");
   std::vector<double> time, values;
   const auto begin = static_cast<std::size_t>(std::lround(300 / 0.1));
   time.assign(run.time.begin() + static_cast<std::ptrdiff_t>(begin), run.time.end());
-  double largest[2] = {0, 0};   // translations, rotations
+  double largest[2] = {0, 0};  // translations, rotations
   std::vector<std::complex<double>> from_run, from_rao;
   for (const auto& probe : compile::rao_probes(scene, prepared)) {
     if (!probe.name.starts_with("m")) continue;
@@ -91,12 +93,16 @@ TEST_P(Agreement, OfTimeAndFrequencyDomainInEveryDegreeOfFreedom) {
     if (std::abs(from_rao[i]) < 0.01 * largest[i % 6 / 3]) continue;
     // 1 % is the promise; both solve the same equations, with the memory cut and the step at 1e-3 accuracy.
     EXPECT_LT(std::abs(from_run[i] - from_rao[i]), 0.01 * std::abs(from_rao[i]))
-        << "body " << i / 6 + 1 << " " << hydro::mode_names[i % 6] << ", period " << period << " s: run " << from_run[i] << ", rao " << from_rao[i];
+        << "body " << i / 6 + 1 << " " << hydro::mode_names[i % 6] << ", period " << period << " s: run " << from_run[i]
+        << ", rao " << from_rao[i];
   }
 }
 
-// With interaction the array has resonances narrower than the 0.1 rad/s between the data's frequencies, at periods of 3 s and less; a memory
-// of 31 s, all that such data tell, cannot ring as long as they do (docs/decisions/0004), so the long period is the test there.
-INSTANTIATE_TEST_SUITE_P(Modules, Agreement, testing::Values(Setting{"pontoon1.nc", 3.0}, Setting{"pontoon1.nc", 5.0}, Setting{"pontoon5.nc", 7.0}));
+// With interaction the array has resonances narrower than the 0.1 rad/s between the data's frequencies, at periods of 3
+// s and less; a memory of 31 s, all that such data tell, cannot ring as long as they do (docs/decisions/0004), so the
+// long period is the test there.
+INSTANTIATE_TEST_SUITE_P(Modules, Agreement,
+                         testing::Values(Setting{"pontoon1.nc", 3.0}, Setting{"pontoon1.nc", 5.0},
+                                         Setting{"pontoon5.nc", 7.0}));
 
 }  // namespace

@@ -10,7 +10,6 @@
 #include "hydro/base/error.hpp"
 #include "hydro/waves/dispersion.hpp"
 
-
 namespace {
 
 using namespace froude;
@@ -33,7 +32,8 @@ const std::string run_ask = R"([ask]
 run = { duration = "10 s", every = "0.1 s" }
 )";
 
-std::string module_text(const std::string& name, const std::string& position, const std::string& hydrodynamics, const std::string& cog = "(0, 0, 1.31) m") {
+std::string module_text(const std::string& name, const std::string& position, const std::string& hydrodynamics,
+                        const std::string& cog = "(0, 0, 1.31) m") {
   return fmt::format(R"([[body]]
 name = "{}"
 position = "{}"
@@ -46,78 +46,113 @@ radii_of_gyration = "(4.6, 4.6, 6.4) m"
                      name, position, cog, hydrodynamics);
 }
 
-scene::Scene parse(const std::string& text) { return scene::parse(text, std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/data/test.toml"); }
+scene::Scene parse(const std::string& text) {
+  return scene::parse(text, std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/data/test.toml");
+}
 
 TEST(Compile, CorrectsTheRestoringMatrixForTheCentreOfGravity) {
   const auto C44 = [&](const std::string& cog) {
-    const auto s = parse(water + module_text("m", "(0, 0, 0) m", "file = \"pontoon1.nc\"\nhydrostatics = true", cog) + run_ask);
+    const auto s =
+        parse(water + module_text("m", "(0, 0, 0) m", "file = \"pontoon1.nc\"\nhydrostatics = true", cog) + run_ask);
     return compile::prepare(s).hydrostatics.at(0).stiffness(3, 3);
   };
-  // (P12) about the reference point: −m g z; then moved to a centre of gravity straight above it, which leaves rotations as they are.
-  EXPECT_NEAR(C44("(0, 0, 1.31) m") - C44("(0, 0, 2.31) m"), 9088 * 9.81, 1e-3 * 9088 * 9.81);   // the mesh displaces 9088 kg to 1e-6
+  // (P12) about the reference point: −m g z; then moved to a centre of gravity straight above it, which leaves
+  // rotations as they are.
+  EXPECT_NEAR(C44("(0, 0, 1.31) m") - C44("(0, 0, 2.31) m"), 9088 * 9.81,
+              1e-3 * 9088 * 9.81);  // the mesh displaces 9088 kg to 1e-6
 }
 
 // A module carried 100 m down the waves answers as the one at the origin, later.
 TEST(Compile, CarriesASingleBodyToItsPlaceWithThePhaseOfTheWave) {
   const auto xi = [&](const std::string& position) {
-    const auto s = parse(water + module_text("m", position, "file = \"pontoon1.nc\"\nhydrostatics = true\nexcitation = true\nradiation = {}") +
-                         "[[mooring]]\non = \"m\"\nkind = \"linear\"\nstiffness = { surge = \"4 kN/m\", sway = \"4 kN/m\", yaw = \"9 kN m/rad\" }\n"
-                         "[ask]\nrao = { periods = \"4 s .. 4 s, 1 value\", heading = \"0 deg\" }\n");
+    const auto s = parse(
+        water +
+        module_text("m", position, "file = \"pontoon1.nc\"\nhydrostatics = true\nexcitation = true\nradiation = {}") +
+        "[[mooring]]\non = \"m\"\nkind = \"linear\"\nstiffness = { surge = \"4 kN/m\", sway = \"4 kN/m\", yaw = \"9 kN "
+        "m/rad\" }\n"
+        "[ask]\nrao = { periods = \"4 s .. 4 s, 1 value\", heading = \"0 deg\" }\n");
     const auto p = compile::prepare(s);
-    return Eigen::VectorXcd(dynamics::frequency::response_amplitudes(compile::frequency_model(p), p.groups, s.rao->omega, 0).col(0));
+    return Eigen::VectorXcd(
+        dynamics::frequency::response_amplitudes(compile::frequency_model(p), p.groups, s.rao->omega, 0).col(0));
   };
-  const double omega = 2 * std::numbers::pi / 4, k = hydro::waves::wavenumber(omega, {.density = 1000, .gravity = 9.81, .depth = hydro::WaterDepth::from_metres(14)});
+  const double omega = 2 * std::numbers::pi / 4,
+               k = hydro::waves::wavenumber(
+                   omega, {.density = 1000, .gravity = 9.81, .depth = hydro::WaterDepth::from_metres(14)});
   const Eigen::VectorXcd here = xi("(0, 0, 0) m"), there = xi("(100, 40, 0) m");
   EXPECT_LT((there - here * std::polar(1.0, -100 * k)).norm(), 1e-9 * here.norm());
 }
 
 TEST(Compile, SaysWhichBodyOfTheFileIsMissing) {
-  const auto text = water + waves + module_text("m", "(0, 0, 0) m", "file = \"pontoon5.nc\"\nbody = 7\nexcitation = true") + run_ask;
-  EXPECT_THAT([&] { compile::prepare(parse(text)); }, ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("body 7"), HasSubstr("holds 5 bodies"), HasSubstr("test.toml:"))));
+  const auto text =
+      water + waves + module_text("m", "(0, 0, 0) m", "file = \"pontoon5.nc\"\nbody = 7\nexcitation = true") + run_ask;
+  EXPECT_THAT([&] { compile::prepare(parse(text)); },
+              ThrowsMessage<hydro::InputError>(
+                  AllOf(HasSubstr("body 7"), HasSubstr("holds 5 bodies"), HasSubstr("test.toml:"))));
 }
 
 TEST(Compile, WantsToKnowWhichBodyOfSeveral) {
-  const auto text = water + waves + module_text("m", "(0, 0, 0) m", "file = \"pontoon5.nc\"\nexcitation = true") + run_ask;
-  EXPECT_THAT([&] { compile::prepare(parse(text)); }, ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("holds 5 bodies"), HasSubstr("body = 1"))));
+  const auto text =
+      water + waves + module_text("m", "(0, 0, 0) m", "file = \"pontoon5.nc\"\nexcitation = true") + run_ask;
+  EXPECT_THAT([&] { compile::prepare(parse(text)); },
+              ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("holds 5 bodies"), HasSubstr("body = 1"))));
 }
 
 TEST(Compile, RefusesDataOfAnotherDepth) {
-  std::string text = water + waves + module_text("m", "(0, 0, 0) m", "file = \"pontoon1.nc\"\nexcitation = true") + run_ask;
+  std::string text =
+      water + waves + module_text("m", "(0, 0, 0) m", "file = \"pontoon1.nc\"\nexcitation = true") + run_ask;
   text.replace(text.find("14 m"), 4, "20 m");
-  EXPECT_THAT([&] { compile::prepare(parse(text)); }, ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("depth 14 m"), HasSubstr("[water]"))));
+  EXPECT_THAT([&] { compile::prepare(parse(text)); },
+              ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("depth 14 m"), HasSubstr("[water]"))));
 }
 
 TEST(Compile, RefusesBodiesThatStandElsewhereThanInTheData) {
   std::string text = water + waves;
   for (int i = 1; i <= 5; ++i)
-    text += module_text(fmt::format("m{}", i), fmt::format("({}, 0, 0) m", i == 4 ? 12.0 : -26 + 13.0 * (i - 1)), "file = \"pontoon5.nc\"\nexcitation = true");
-  EXPECT_THAT([&] { compile::prepare(parse(text + run_ask)); }, ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("\"m4\" is at x = 12"), HasSubstr("must stand as they stood"))));
+    text += module_text(fmt::format("m{}", i), fmt::format("({}, 0, 0) m", i == 4 ? 12.0 : -26 + 13.0 * (i - 1)),
+                        "file = \"pontoon5.nc\"\nexcitation = true");
+  EXPECT_THAT(
+      [&] { compile::prepare(parse(text + run_ask)); },
+      ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("\"m4\" is at x = 12"), HasSubstr("must stand as they stood"))));
 }
 
 TEST(Compile, RefusesASeaOutsideTheData) {
-  std::string text = water + waves + module_text("m", "(0, 0, 0) m", "file = \"pontoon1.nc\"\nexcitation = true") + run_ask;
-  text.replace(text.find("6 s"), 3, "2 s");   // peak at 3.14 rad/s, data up to 4
+  std::string text =
+      water + waves + module_text("m", "(0, 0, 0) m", "file = \"pontoon1.nc\"\nexcitation = true") + run_ask;
+  text.replace(text.find("6 s"), 3, "2 s");  // peak at 3.14 rad/s, data up to 4
   EXPECT_THAT([&] { compile::time_model(parse(text), compile::prepare(parse(text))); },
-              ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("outside the frequencies of the data"), HasSubstr("wider band"))));
+              ThrowsMessage<hydro::InputError>(
+                  AllOf(HasSubstr("outside the frequencies of the data"), HasSubstr("wider band"))));
 }
 
 TEST(Compile, RefusesToLineariseAboutAPlaceThatIsNoRest) {
-  const std::string text = water + module_text("a", "(0, 0, 0) m", "file = \"pontoon1.nc\"\nexcitation = true\nhydrostatics = true") +
-                           "[[connector]]\nbetween = [\"a\", \"ground\"]\nends = [\"(6, 0, 0) m\", \"(20, 0, 0) m\"]\nkind = \"axial\"\nstiffness = \"5 kN/m\"\nrest_length = \"10 m\"\n"
-                           "[ask]\nrao = { periods = \"4 s .. 5 s, 2 values\", heading = \"0 deg\" }\n";
-  EXPECT_THAT([&] { compile::frequency_model(compile::prepare(parse(text))); }, ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("not in equilibrium"), HasSubstr("a.pitch"), HasSubstr("as placed"))));
+  const std::string text =
+      water + module_text("a", "(0, 0, 0) m", "file = \"pontoon1.nc\"\nexcitation = true\nhydrostatics = true") +
+      "[[connector]]\nbetween = [\"a\", \"ground\"]\nends = [\"(6, 0, 0) m\", \"(20, 0, 0) m\"]\nkind = "
+      "\"axial\"\nstiffness = \"5 kN/m\"\nrest_length = \"10 m\"\n"
+      "[ask]\nrao = { periods = \"4 s .. 5 s, 2 values\", heading = \"0 deg\" }\n";
+  EXPECT_THAT([&] { compile::frequency_model(compile::prepare(parse(text))); },
+              ThrowsMessage<hydro::InputError>(
+                  AllOf(HasSubstr("not in equilibrium"), HasSubstr("a.pitch"), HasSubstr("as placed"))));
 }
 
 TEST(Compile, RefusesAStepThatDoesNotDivideTheSamples) {
-  const std::string text = water + waves + module_text("m", "(0, 0, 0) m", "file = \"pontoon1.nc\"\nhydrostatics = true\nexcitation = true") + run_ask + "[solve]\nstep = \"0.03 s\"\n";
-  EXPECT_THAT([&] { compile::time_model(parse(text), compile::prepare(parse(text))); }, ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("does not divide"), HasSubstr("0.025 s"))));
+  const std::string text =
+      water + waves +
+      module_text("m", "(0, 0, 0) m", "file = \"pontoon1.nc\"\nhydrostatics = true\nexcitation = true") + run_ask +
+      "[solve]\nstep = \"0.03 s\"\n";
+  EXPECT_THAT([&] { compile::time_model(parse(text), compile::prepare(parse(text))); },
+              ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("does not divide"), HasSubstr("0.025 s"))));
 }
 
-// Promise: what a scene does not name is not there. Each effect named adds exactly its own kind, evaluated; nothing else exists.
+// Promise: what a scene does not name is not there. Each effect named adds exactly its own kind, evaluated; nothing
+// else exists.
 TEST(Compile, MakesOnlyTheEffectsThatAreNamed) {
   const auto effects = [&](const std::string& hydrodynamics, const std::string& more) {
     std::vector<std::string> names;
-    for (const auto& [effect, count] : simulate(parse(water + waves + module_text("m", "(0, 0, 0) m", "file = \"pontoon1.nc\"\n" + hydrodynamics) + more + run_ask)).evaluations) {
+    for (const auto& [effect, count] :
+         simulate(parse(water + waves + module_text("m", "(0, 0, 0) m", "file = \"pontoon1.nc\"\n" + hydrodynamics) +
+                        more + run_ask))
+             .evaluations) {
       EXPECT_GT(count, 100u) << effect;
       names.push_back(effect);
     }
@@ -127,13 +162,22 @@ TEST(Compile, MakesOnlyTheEffectsThatAreNamed) {
   EXPECT_EQ(effects("hydrostatics = true", ""), (Names{"hydrostatics"}));
   EXPECT_EQ(effects("hydrostatics = true\nexcitation = true", ""), (Names{"hydrostatics", "excitation"}));
   EXPECT_EQ(effects("radiation = {}\nhydrostatics = true", ""), (Names{"hydrostatics", "radiation"}));
-  EXPECT_EQ(effects("hydrostatics = true", "[[member]]\non = \"m\"\nfrom = \"(0, 0, -1) m\"\nto = \"(0, 0, 0) m\"\ndiameter = \"1 m\"\ndrag = { cd = 1.0 }\n"), (Names{"hydrostatics", "drag"}));
-  EXPECT_EQ(effects("hydrostatics = true", "[[mooring]]\non = \"m\"\nkind = \"linear\"\nstiffness = { surge = \"1 kN/m\" }\n"), (Names{"hydrostatics", "mooring"}));
+  EXPECT_EQ(effects("hydrostatics = true",
+                    "[[member]]\non = \"m\"\nfrom = \"(0, 0, -1) m\"\nto = \"(0, 0, 0) m\"\ndiameter = \"1 m\"\ndrag = "
+                    "{ cd = 1.0 }\n"),
+            (Names{"hydrostatics", "drag"}));
+  EXPECT_EQ(effects("hydrostatics = true",
+                    "[[mooring]]\non = \"m\"\nkind = \"linear\"\nstiffness = { surge = \"1 kN/m\" }\n"),
+            (Names{"hydrostatics", "mooring"}));
 }
 
 // The sea of a run is the same at any output distance, and the elevation the run reports is that sea.
 TEST(Compile, GivesTheSameRunForTheSameSeed) {
-  const std::string text = water + waves + module_text("m", "(0, 0, 0) m", "file = \"pontoon1.nc\"\nhydrostatics = true\nexcitation = true\nradiation = {}") + run_ask;
+  const std::string text =
+      water + waves +
+      module_text("m", "(0, 0, 0) m",
+                  "file = \"pontoon1.nc\"\nhydrostatics = true\nexcitation = true\nradiation = {}") +
+      run_ask;
   EXPECT_EQ(simulate(parse(text)).signal("m.heave"), simulate(parse(text)).signal("m.heave"));
 }
 

@@ -13,16 +13,21 @@ TEST(AxialConnector, PullsAlongItsLineByStiffnessTimesStretch) {
   // Ends at the centres, 4 m apart at rest.
   const AxialConnector c{{0, 1, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}, 250, 10, 3.5};
   State s = rest_state(bodies);
-  s.velocity[6] = 2;   // the second body moves away at 2 m/s
+  s.velocity[6] = 2;  // the second body moves away at 2 m/s
   EXPECT_NEAR(axial_state(c, s).tension, 250 * 0.5 + 10 * 2, 1e-12 * 145);
   const Eigen::VectorXd F = laws::load(AxialConnectorKind({c}), s, nullptr);
-  EXPECT_NEAR(F[0], 145, 1e-10);    // a stretched spring pulls the first body towards the second, +x
+  EXPECT_NEAR(F[0], 145, 1e-10);  // a stretched spring pulls the first body towards the second, +x
   EXPECT_NEAR(F[6], -145, 1e-10);
 }
 
 TEST(BushingConnector, ResistsEachAxisByItsOwnStiffness) {
   const auto bodies = support::two_bodies();
-  const BushingConnector c{{0, 1, Eigen::Vector3d(2, 0, 0), Eigen::Vector3d(-2, 0, 0)}, {100, 200, 300}, {0, 0, 0}, {0, 0, 50}, {0, 0, 0}, {0, 0, 0}};
+  const BushingConnector c{{0, 1, Eigen::Vector3d(2, 0, 0), Eigen::Vector3d(-2, 0, 0)},
+                           {100, 200, 300},
+                           {0, 0, 0},
+                           {0, 0, 50},
+                           {0, 0, 0},
+                           {0, 0, 0}};
   State s = rest_state(bodies);
   s.pose[1].centre += Eigen::Vector3d(0.01, 0.02, 0.03);
   const Eigen::VectorXd F = laws::load(BushingConnectorKind({c}), s, nullptr);
@@ -32,7 +37,7 @@ TEST(BushingConnector, ResistsEachAxisByItsOwnStiffness) {
   s = rest_state(bodies);
   const Eigen::Vector3d arm(-2, 0, 0);
   s.pose[1].attitude = rotation_exp(Eigen::Vector3d(0, 0, 0.1));
-  s.pose[1].centre -= s.pose[1].attitude * arm - arm;   // turned about the second end, which stays
+  s.pose[1].centre -= s.pose[1].attitude * arm - arm;  // turned about the second end, which stays
   EXPECT_NEAR(laws::load(BushingConnectorKind({c}), s, nullptr)[5], 50 * 0.1, 1e-9);
 }
 
@@ -53,7 +58,7 @@ TEST(Connectors, DoNotFeelARigidTurnOfTheWhole) {
     s.pose[i].attitude = turn;
     s.velocity.segment<6>(6 * static_cast<Eigen::Index>(i)) << spin.cross(s.pose[i].centre), spin;
   }
-  EXPECT_LT(laws::load(axial, s, nullptr).norm(), 1e-9);     // 3000 N/m times round-off of a few metres
+  EXPECT_LT(laws::load(axial, s, nullptr).norm(), 1e-9);  // 3000 N/m times round-off of a few metres
   EXPECT_LT(laws::load(bushing, s, nullptr).norm(), 1e-9);
 }
 

@@ -23,16 +23,19 @@ WaveSignals wave_signals(Eigen::Index rows) {
   const hydro::RandomStream random(2, 6);
   std::uint64_t n = 0;
   const std::vector<double> omega{0.7, 1.3};
-  const Eigen::MatrixXcd a = Eigen::MatrixXcd::NullaryExpr(rows, 2, [&] { const double re = random.normal(n++), im = random.normal(n++);
+  const Eigen::MatrixXcd a = Eigen::MatrixXcd::NullaryExpr(rows, 2, [&] {
+    const double re = random.normal(n++), im = random.normal(n++);
     return std::complex<double>(re, im);
   });
   Eigen::MatrixXd table(rows, 3);
-  for (int i = 0; i < 3; ++i) table.col(i) = (a * Eigen::Vector2cd(std::polar(1.0, 0.7 * 0.1 * i), std::polar(1.0, 1.3 * 0.1 * i))).real();
+  for (int i = 0; i < 3; ++i)
+    table.col(i) = (a * Eigen::Vector2cd(std::polar(1.0, 0.7 * 0.1 * i), std::polar(1.0, 1.3 * 0.1 * i))).real();
   return {omega, a, table, 0.1, 0};
 }
 
 TEST(ForceLaws, HoldForRestoring) {
-  laws::expect_force_laws(RestoringKind("mooring", bodies, {{0, random_spd(1), random_spd(2)}, {1, random_spd(3)}}), bodies);
+  laws::expect_force_laws(RestoringKind("mooring", bodies, {{0, random_spd(1), random_spd(2)}, {1, random_spd(3)}}),
+                          bodies);
 }
 
 TEST(ForceLaws, HoldForAxialConnectors) {
@@ -45,11 +48,14 @@ TEST(ForceLaws, HoldForBushings) {
   const Ends between{0, 1, Eigen::Vector3d(1, 0.5, 0.2), Eigen::Vector3d(-1, 0.5, -0.1)};
   const Ends to_ground{1, std::nullopt, Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(5.5, 0, 0.3)};
   const Eigen::Vector3d k(1000, 2000, 500), c(30, 10, 60), kr(300, 200, 100), cr(5, 8, 3);
-  laws::expect_force_laws(BushingConnectorKind({{between, k, c, kr, cr, Eigen::Vector3d(2, 0, 0)}, {to_ground, k, c, kr, cr, Eigen::Vector3d(0.4, 0, 0)}}), bodies);
+  laws::expect_force_laws(BushingConnectorKind({{between, k, c, kr, cr, Eigen::Vector3d(2, 0, 0)},
+                                                {to_ground, k, c, kr, cr, Eigen::Vector3d(0.4, 0, 0)}}),
+                          bodies);
 }
 
 TEST(ForceLaws, HoldForDragInMovingAndStillWater) {
-  const auto pieces = drag_pieces(bodies, 1, Eigen::Vector3d(-1, 0.3, -2), Eigen::Vector3d(1, -0.2, -0.5), 0.4, 1.1, 1025);
+  const auto pieces =
+      drag_pieces(bodies, 1, Eigen::Vector3d(-1, 0.3, -2), Eigen::Vector3d(1, -0.2, -0.5), 0.4, 1.1, 1025);
   ASSERT_EQ(pieces.size(), 3u);
   laws::expect_force_laws(DragKind(pieces, std::nullopt), bodies);
   laws::expect_force_laws(DragKind(pieces, wave_signals(9)), bodies);
@@ -89,7 +95,8 @@ TEST(ForceLaws, InternalForcesCancel) {
     Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
     for (int i = 0; i < 2; ++i) {
       force += F.segment<3>(6 * i);
-      moment += F.segment<3>(6 * i + 3) + s.pose[static_cast<std::size_t>(i)].centre.cross(Eigen::Vector3d(F.segment<3>(6 * i)));
+      moment += F.segment<3>(6 * i + 3) +
+                s.pose[static_cast<std::size_t>(i)].centre.cross(Eigen::Vector3d(F.segment<3>(6 * i)));
     }
     EXPECT_LT(force.norm(), 1e-12 * F.norm()) << kind->effect();
     EXPECT_LT(moment.norm(), 1e-12 * F.norm()) << kind->effect();

@@ -19,7 +19,8 @@ using hydro::potential::Coefficients;
 
 const support::TwoPoleBody water{.decay = 0.3, .frequency = 1.1};
 
-/// Coefficients of bodies along x that do not feel each other: the two-pole body in every mode, excitation by the wave's phase.
+/// Coefficients of bodies along x that do not feel each other: the two-pole body in every mode, excitation by the
+/// wave's phase.
 Coefficients coefficients(const std::vector<double>& places) {
   Coefficients c;
   c.source = "two-pole bodies";
@@ -36,20 +37,28 @@ Coefficients coefficients(const std::vector<double>& places) {
   Eigen::MatrixXcd X(n, 40);
   for (int w = 0; w < 40; ++w)
     for (std::size_t b = 0; b < places.size(); ++b)
-      X.col(w).segment<6>(6 * static_cast<Eigen::Index>(b)).setConstant(
-          2000.0 * std::polar(1.0, -hydro::waves::wavenumber(c.omega[static_cast<std::size_t>(w)], c.water) * places[b]));
+      X.col(w)
+          .segment<6>(6 * static_cast<Eigen::Index>(b))
+          .setConstant(
+              2000.0 *
+              std::polar(1.0, -hydro::waves::wavenumber(c.omega[static_cast<std::size_t>(w)], c.water) * places[b]));
   c.X = {X};
   return c;
 }
 
 RigidBody body(const std::string& name, double x) {
-  return RigidBody({.name = name, .mass = 1000, .inertia = 1000 * Eigen::Matrix3d::Identity(), .rest_position = {Eigen::Vector3d(x, 0, 0)}});
+  return RigidBody({.name = name,
+                    .mass = 1000,
+                    .inertia = 1000 * Eigen::Matrix3d::Identity(),
+                    .rest_position = {Eigen::Vector3d(x, 0, 0)}});
 }
 
-Model sprung(const std::vector<RigidBody>& bodies, double k, double c, std::unique_ptr<const ForceKind> more = nullptr) {
+Model sprung(const std::vector<RigidBody>& bodies, double k, double c,
+             std::unique_ptr<const ForceKind> more = nullptr) {
   std::vector<std::unique_ptr<const ForceKind>> f;
   std::vector<Restoring> r;
-  for (int i = 0; i < static_cast<int>(bodies.size()); ++i) r.push_back({i, k * Matrix6::Identity(), c * Matrix6::Identity()});
+  for (int i = 0; i < static_cast<int>(bodies.size()); ++i)
+    r.push_back({i, k * Matrix6::Identity(), c * Matrix6::Identity()});
   f.push_back(std::make_unique<RestoringKind>("mooring", bodies, r));
   if (more) f.push_back(std::move(more));
   return Model(bodies, {}, std::move(f));
@@ -69,31 +78,37 @@ PotentialGroup group(const Coefficients& c, std::vector<double> places) {
 TEST(Rao, OfOneModeIsTheClosedForm) {
   const std::vector<RigidBody> bodies{body("a", 0)};
   const Model model = sprung(bodies, 2500, 40);
-  const double omega = 1.0;   // a frequency of the table, so nothing is interpolated
+  const double omega = 1.0;  // a frequency of the table, so nothing is interpolated
   const auto xi = frequency::response_amplitudes(model, {group(coefficients({0}), {0})}, {omega}, 0);
-  const std::complex<double> Z(2500 - omega * omega * (1500 + 300 * water.A_minus_A_inf(omega)), omega * (40 + 300 * water.B(omega)));
+  const std::complex<double> Z(2500 - omega * omega * (1500 + 300 * water.A_minus_A_inf(omega)),
+                               omega * (40 + 300 * water.B(omega)));
   for (int mode = 0; mode < 6; ++mode) EXPECT_LT(std::abs(xi(mode, 0) - 2000.0 / Z), 1e-12);
 }
 
 TEST(Rao, InterpolatesTheWayOfTheWaveExactly) {
   const std::vector<RigidBody> bodies{body("a", 150)};
   const Model model = sprung(bodies, 2500, 40);
-  const double omega = 2.05, k = hydro::waves::wavenumber(omega, hydro::Water{});   // between two frequencies; kx = 64 rad
+  const double omega = 2.05,
+               k = hydro::waves::wavenumber(omega, hydro::Water{});  // between two frequencies; kx = 64 rad
   const auto far = frequency::response_amplitudes(model, {group(coefficients({150}), {150})}, {omega}, 0);
-  const auto near = frequency::response_amplitudes(sprung({body("a", 0)}, 2500, 40), {group(coefficients({0}), {0})}, {omega}, 0);
+  const auto near =
+      frequency::response_amplitudes(sprung({body("a", 0)}, 2500, 40), {group(coefficients({0}), {0})}, {omega}, 0);
   EXPECT_LT(std::abs(far(2, 0) - near(2, 0) * std::polar(1.0, -150 * k)), 1e-10 * std::abs(near(2, 0)));
 }
 
-// Rows and columns: a connector between two bodies gives equal and opposite forces, so momentum needs both bodies' equations.
+// Rows and columns: a connector between two bodies gives equal and opposite forces, so momentum needs both bodies'
+// equations.
 TEST(Rao, OfTwoSprungBodiesSolvesBothEquations) {
   const std::vector<RigidBody> bodies{body("a", 0), body("b", 10)};
   const double kc = 800;
   const Ends ends{0, 1, Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0)};
-  const Model model = sprung(bodies, 2500, 40, std::make_unique<AxialConnectorKind>(std::vector<AxialConnector>{{ends, kc, 0, 8}}));
+  const Model model =
+      sprung(bodies, 2500, 40, std::make_unique<AxialConnectorKind>(std::vector<AxialConnector>{{ends, kc, 0, 8}}));
   const Coefficients c = coefficients({0, 10});
   const double omega = 1.5;
   const auto xi = frequency::response_amplitudes(model, {group(c, {0, 10})}, {omega}, 0);
-  const std::complex<double> Z(2500 - omega * omega * (1500 + 300 * water.A_minus_A_inf(omega)), omega * (40 + 300 * water.B(omega)));
+  const std::complex<double> Z(2500 - omega * omega * (1500 + 300 * water.A_minus_A_inf(omega)),
+                               omega * (40 + 300 * water.B(omega)));
   const std::complex<double> x1 = xi(0, 0), x2 = xi(6, 0), stretch = x2 - x1;
   EXPECT_LT(std::abs(Z * x1 - kc * stretch - c.X[0](0, 14)), 1e-9);
   EXPECT_LT(std::abs(Z * x2 + kc * stretch - c.X[0](6, 14)), 1e-9);
@@ -104,10 +119,13 @@ TEST(Rao, OfTwoSprungBodiesSolvesBothEquations) {
 TEST(Rao, BalancesThePowerOfTheWaves) {
   const std::vector<RigidBody> bodies{body("a", 0), body("b", 10)};
   const Ends ends{0, 1, Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(-1, 0, 0)};
-  const Model model = sprung(bodies, 2500, 40, std::make_unique<AxialConnectorKind>(std::vector<AxialConnector>{{ends, 800, 60, std::sqrt(65.0)}}));
+  const Model model =
+      sprung(bodies, 2500, 40,
+             std::make_unique<AxialConnectorKind>(std::vector<AxialConnector>{{ends, 800, 60, std::sqrt(65.0)}}));
   const auto g = group(coefficients({0, 10}), {0, 10});
   for (const double omega : {0.7, 1.3, 2.2}) {
-    const Eigen::VectorXcd x = frequency::response_amplitudes(model, {g}, {omega}, 0).col(0), v = std::complex<double>(0, omega) * x;
+    const Eigen::VectorXcd x = frequency::response_amplitudes(model, {g}, {omega}, 0).col(0),
+                           v = std::complex<double>(0, omega) * x;
     const double supplied = 0.5 * (v.adjoint() * g.table.excitation(omega, 0))(0).real();
     const double taken = 0.5 * (v.adjoint() * (g.table.damping(omega) + model.linear_at_rest().damping) * v)(0).real();
     EXPECT_NEAR(supplied, taken, 1e-10 * taken);
@@ -116,8 +134,9 @@ TEST(Rao, BalancesThePowerOfTheWaves) {
 
 TEST(Rao, NamesTheRangeOfTheDataWhenAskedOutside) {
   const std::vector<RigidBody> bodies{body("a", 0)};
-  EXPECT_THAT([&] { frequency::response_amplitudes(sprung(bodies, 2500, 40), {group(coefficients({0}), {0})}, {5.0}, 0); },
-              testing::ThrowsMessage<hydro::InputError>(testing::HasSubstr("given from 0.1 to 4 rad/s")));
+  EXPECT_THAT(
+      [&] { frequency::response_amplitudes(sprung(bodies, 2500, 40), {group(coefficients({0}), {0})}, {5.0}, 0); },
+      testing::ThrowsMessage<hydro::InputError>(testing::HasSubstr("given from 0.1 to 4 rad/s")));
 }
 
 TEST(Rao, SaysWhenAnUndampedResonanceIsHit) {
@@ -125,7 +144,8 @@ TEST(Rao, SaysWhenAnUndampedResonanceIsHit) {
   const Model model = sprung(bodies, 1000, 0);
   auto g = group(coefficients({0}), {0});
   g.radiation = false;
-  EXPECT_THAT([&] { frequency::response_amplitudes(model, {g}, {1.0}, 0); }, testing::ThrowsMessage<hydro::NumericsError>(testing::HasSubstr("at 1 rad/s")));
+  EXPECT_THAT([&] { frequency::response_amplitudes(model, {g}, {1.0}, 0); },
+              testing::ThrowsMessage<hydro::NumericsError>(testing::HasSubstr("at 1 rad/s")));
 }
 
 }  // namespace

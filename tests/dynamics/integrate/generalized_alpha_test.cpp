@@ -20,7 +20,8 @@ RigidBody top() {
 }
 
 std::unique_ptr<const ForceKind> spring(const std::vector<RigidBody>& bodies, double k, double c = 0) {
-  return std::make_unique<RestoringKind>("mooring", bodies, std::vector<Restoring>{{0, k * Matrix6::Identity(), c * Matrix6::Identity()}});
+  return std::make_unique<RestoringKind>("mooring", bodies,
+                                         std::vector<Restoring>{{0, k * Matrix6::Identity(), c * Matrix6::Identity()}});
 }
 
 Model sprung_model(double k, double c = 0) {
@@ -40,7 +41,8 @@ State integrate(const Model& model, State start, double h, int steps, double rho
 
 // m x″ + c x′ + k x = 0 from x = 1: closed form.
 TEST(GeneralizedAlpha, FollowsADampedOscillator) {
-  const double k = 8, c = 0.4, m = 2, zeta = c / (2 * std::sqrt(k * m)), w0 = std::sqrt(k / m), wd = w0 * std::sqrt(1 - zeta * zeta);
+  const double k = 8, c = 0.4, m = 2, zeta = c / (2 * std::sqrt(k * m)), w0 = std::sqrt(k / m),
+               wd = w0 * std::sqrt(1 - zeta * zeta);
   const Model model = sprung_model(k, c);
   State start = rest_state(model.bodies());
   start.pose[0].centre.z() = 1;
@@ -65,7 +67,7 @@ TEST(GeneralizedAlpha, IsOfSecondOrderInTranslationAndRotation) {
     };
     const Eigen::VectorXd coarse = at(0.02), middle = at(0.01), fine = at(0.005);
     const double order = std::log2((coarse - middle).norm() / (middle - fine).norm());
-    EXPECT_NEAR(order, 2, 0.1) << "rho " << rho;   // the next term of the error is smaller by about h
+    EXPECT_NEAR(order, 2, 0.1) << "rho " << rho;  // the next term of the error is smaller by about h
   }
 }
 
@@ -82,18 +84,18 @@ TEST(GeneralizedAlpha, KeepsTheMomentumOfAFreeTop) {
   };
   const double coarse = drift(0.02), fine = drift(0.01);
   EXPECT_LT(fine, 1e-3);
-  EXPECT_NEAR(coarse / fine, 4, 0.6);   // second order
+  EXPECT_NEAR(coarse / fine, 4, 0.6);  // second order
 }
 
 TEST(GeneralizedAlpha, DampsAnUnresolvedOscillationByRhoInfinityEachStep) {
-  const Model model = sprung_model(2e10);   // 1e5 rad/s, h = 0.1: ωh = 1e4
+  const Model model = sprung_model(2e10);  // 1e5 rad/s, h = 0.1: ωh = 1e4
   State start = rest_state(model.bodies());
   start.pose[0].centre.x() = 1e-3;
   Workspace w(model, start);
   GeneralizedAlpha integrator(model, {.rho_infinity = 0.5});
   integrator.start(w);
   for (int i = 0; i < 40; ++i) integrator.step(w, 0.1);
-  EXPECT_LT(std::abs(w.state.pose[0].centre.x()), 1e-3 * 40 * 40 * std::pow(0.5, 37));   // a triple root: n² ρⁿ⁻²
+  EXPECT_LT(std::abs(w.state.pose[0].centre.x()), 1e-3 * 40 * 40 * std::pow(0.5, 37));  // a triple root: n² ρⁿ⁻²
 }
 
 TEST(GeneralizedAlpha, SolvesALinearProblemInOneIteration) {
@@ -103,7 +105,8 @@ TEST(GeneralizedAlpha, SolvesALinearProblemInOneIteration) {
   Workspace w(model, start);
   GeneralizedAlpha integrator(model, {});
   integrator.start(w);
-  for (int i = 0; i < 5; ++i) EXPECT_LE(integrator.step(w, 0.05).newton_iterations, 2);   // the second one sees that it is done
+  for (int i = 0; i < 5; ++i)
+    EXPECT_LE(integrator.step(w, 0.05).newton_iterations, 2);  // the second one sees that it is done
 }
 
 /// Pushes with a force that no step can resolve, or that is not a number.
@@ -135,8 +138,12 @@ TEST(GeneralizedAlpha, StopsWithAReasonAndTheLastGoodState) {
   Workspace w(model, start);
   GeneralizedAlpha integrator(model, {});
   integrator.start(w);
-  EXPECT_THAT([&] { for (int i = 0; i < 10; ++i) integrator.step(w, 0.1); },
-              testing::ThrowsMessage<hydro::NumericsError>(testing::AllOf(testing::HasSubstr("cannot go on from t = 0.5"), testing::HasSubstr("not finite"))));
+  EXPECT_THAT(
+      [&] {
+        for (int i = 0; i < 10; ++i) integrator.step(w, 0.1);
+      },
+      testing::ThrowsMessage<hydro::NumericsError>(
+          testing::AllOf(testing::HasSubstr("cannot go on from t = 0.5"), testing::HasSubstr("not finite"))));
   EXPECT_TRUE(w.state.velocity.allFinite());
   EXPECT_LE(w.state.pose[0].centre.x(), 0.5);
 }
@@ -147,7 +154,8 @@ TEST(EnergyLedger, ClosesForASwingingDampedPair) {
     std::vector<std::unique_ptr<const ForceKind>> f;
     const Matrix6 C = 4000 * Matrix6::Identity();
     f.push_back(std::make_unique<RestoringKind>("mooring", bodies, std::vector<Restoring>{{0, C, 0.02 * C}, {1, C}}));
-    f.push_back(std::make_unique<AxialConnectorKind>(std::vector<AxialConnector>{{{0, 1, Eigen::Vector3d(1, 0.5, 0), Eigen::Vector3d(-1, 0.5, 0)}, 2500, 100, 2}}));
+    f.push_back(std::make_unique<AxialConnectorKind>(
+        std::vector<AxialConnector>{{{0, 1, Eigen::Vector3d(1, 0.5, 0), Eigen::Vector3d(-1, 0.5, 0)}, 2500, 100, 2}}));
     const Model model(bodies, {}, std::move(f));
     State start = rest_state(bodies);
     start.pose[0].centre.x() += 0.4;
@@ -165,7 +173,7 @@ TEST(EnergyLedger, ClosesForASwingingDampedPair) {
   };
   const double coarse = residual(0.02), fine = residual(0.01);
   EXPECT_LT(fine, 1e-3);
-  EXPECT_NEAR(std::log2(coarse / fine), 2, 0.7);   // second order; a single number may pass near a zero of the error
+  EXPECT_NEAR(std::log2(coarse / fine), 2, 0.7);  // second order; a single number may pass near a zero of the error
 }
 
 }  // namespace

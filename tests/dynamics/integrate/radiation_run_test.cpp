@@ -18,26 +18,34 @@ struct Floater {
   std::vector<RigidBody> bodies;
   Model model;
   static std::vector<RigidBody> body(double mass) {
-    return {RigidBody({.name = "buoy", .mass = mass, .inertia = Eigen::Matrix3d::Identity(), .free = {false, false, true, false, false, false}})};
+    return {RigidBody({.name = "buoy",
+                       .mass = mass,
+                       .inertia = Eigen::Matrix3d::Identity(),
+                       .free = {false, false, true, false, false, false}})};
   }
-  static std::vector<std::unique_ptr<const ForceKind>> forces(const std::vector<RigidBody>& b, double stiffness, double strength, double h) {
+  static std::vector<std::unique_ptr<const ForceKind>> forces(const std::vector<RigidBody>& b, double stiffness,
+                                                              double strength, double h) {
     std::vector<std::unique_ptr<const ForceKind>> f;
-    f.push_back(std::make_unique<RestoringKind>("hydrostatics", b, std::vector<Restoring>{{0, stiffness * Matrix6::Identity()}}));
+    f.push_back(std::make_unique<RestoringKind>("hydrostatics", b,
+                                                std::vector<Restoring>{{0, stiffness * Matrix6::Identity()}}));
     auto table = water.damping_table(30, 750);
     for (auto& B : table.B) B *= strength;
-    f.push_back(std::make_unique<RadiationKind>(
-        std::vector<RadiationMemory>{{{2}, hydro::radiation::DirectConvolution(hydro::radiation::RetardationKernel::from_damping(table, {h, 30}))}}));
+    f.push_back(std::make_unique<RadiationKind>(std::vector<RadiationMemory>{
+        {{2},
+         hydro::radiation::DirectConvolution(hydro::radiation::RetardationKernel::from_damping(table, {h, 30}))}}));
     return f;
   }
   Floater(double mass, double added_mass, double stiffness, double strength, double h)
-      : bodies(body(mass)), model(bodies, {{{0}, added_mass * Eigen::MatrixXd::Identity(6, 6)}}, forces(bodies, stiffness, strength, h)) {}
+      : bodies(body(mass)),
+        model(bodies, {{{0}, added_mass * Eigen::MatrixXd::Identity(6, 6)}}, forces(bodies, stiffness, strength, h)) {}
 };
 
-/// The same motion with the memory as two states: y = ∫K(t−τ)v dτ with K = e^{−at}(cos bt − a/b sin bt), by a fine Runge–Kutta.
+/// The same motion with the memory as two states: y = ∫K(t−τ)v dτ with K = e^{−at}(cos bt − a/b sin bt), by a fine
+/// Runge–Kutta.
 double reference_decay(double mass, double stiffness, double strength, double end) {
   const double a = water.decay, w2 = water.w2();
   // K(s) = s/((s+a)² + b²): y″ + 2a y′ + w² y = v′, so y = q′ with q″ + 2a q′ + w² q = v.
-  Eigen::Vector4d x(1, 0, 0, 0);   // z, v, q, q′
+  Eigen::Vector4d x(1, 0, 0, 0);  // z, v, q, q′
   const auto rate = [&](const Eigen::Vector4d& s) {
     return Eigen::Vector4d(s[1], (-stiffness * s[0] - strength * s[3]) / mass, s[3], s[1] - 2 * a * s[3] - w2 * s[2]);
   };
@@ -69,12 +77,13 @@ double decay(double mass, double added, double stiffness, double strength, doubl
 
 TEST(RadiationInARun, DecaysLikeTheStateSpaceOfTheSameBody) {
   for (const double end : {3.0, 7.0, 12.0})
-    // Period error (ωh)²/12 and the trapezium rule: 1e-4 each at h = 0.03; the table ends at 30 rad/s: 0.4·2/30/π of K(0).
+    // Period error (ωh)²/12 and the trapezium rule: 1e-4 each at h = 0.03; the table ends at 30 rad/s: 0.4·2/30/π of
+    // K(0).
     EXPECT_NEAR(decay(2, 1, 3, 1.5, 0.03, end), reference_decay(3, 3, 1.5, end), 6e-3) << end;
 }
 
-// The instantaneous part of the memory is in the Newton matrix and the added mass on the left: a light body with a large added
-// mass and strong damping stays stable at a step of a third of its period.
+// The instantaneous part of the memory is in the Newton matrix and the added mass on the left: a light body with a
+// large added mass and strong damping stays stable at a step of a third of its period.
 TEST(RadiationInARun, StaysStableWithALightBodyAndALargeStep) {
   EXPECT_LT(std::abs(decay(0.1, 10, 12, 30, 0.25, 60)), 0.05);
 }

@@ -21,7 +21,7 @@ void fill(BlockMatrix& m) {
   for (int i = 0; i < m.pattern().bodies(); ++i)
     for (const int j : m.pattern().columns(i)) {
       m.block(i, j) = Matrix6::NullaryExpr([&] { return random.normal(n++); });
-      if (i == j) m.block(i, j).diagonal().array() += 10;   // well away from singular
+      if (i == j) m.block(i, j).diagonal().array() += 10;  // well away from singular
     }
 }
 
@@ -34,7 +34,7 @@ TEST(BlockSolver, SolvesFewBodiesDenselyAndManySparsely) {
     EXPECT_EQ(solver.is_sparse(), bodies == 40);
     ASSERT_TRUE(solver.factorise(m));
     const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(6 * bodies, -1, 2);
-    EXPECT_LT((solver.solve(m * x) - x).norm(), 1e-11 * x.norm()) << bodies;   // condition below 1e3
+    EXPECT_LT((solver.solve(m * x) - x).norm(), 1e-11 * x.norm()) << bodies;  // condition below 1e3
     EXPECT_LT((m.dense() * x - m * x).norm(), 1e-12 * x.norm());
   }
 }

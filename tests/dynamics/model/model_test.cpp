@@ -22,7 +22,7 @@ TEST(RigidBody, RefusesWhatPhysicsForbids) {
   bad = p;
   bad.inertia(1, 1) = -2;
   EXPECT_THAT([&] { RigidBody{bad}; }, ThrowsMessage<hydro::InputError>(HasSubstr("not positive definite")));
-  bad.free = {true, true, true, true, false, true};   // a rotation that cannot happen needs no inertia
+  bad.free = {true, true, true, true, false, true};  // a rotation that cannot happen needs no inertia
   EXPECT_NO_THROW(RigidBody{bad});
 }
 
@@ -30,7 +30,8 @@ std::vector<std::unique_ptr<const ForceKind>> springs(const std::vector<RigidBod
   std::vector<std::unique_ptr<const ForceKind>> f;
   Matrix6 C = Matrix6::Identity() * 800;
   f.push_back(std::make_unique<RestoringKind>("mooring", bodies, std::vector<Restoring>{{0, C, 0.1 * C}, {1, C}}));
-  f.push_back(std::make_unique<AxialConnectorKind>(std::vector<AxialConnector>{{{0, 1, Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0)}, 500, 20, 1.8}}));
+  f.push_back(std::make_unique<AxialConnectorKind>(
+      std::vector<AxialConnector>{{{0, 1, Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0)}, 500, 20, 1.8}}));
   return f;
 }
 
@@ -41,13 +42,13 @@ Eigen::MatrixXd added_mass() {
   return A;
 }
 
-// The tangent is the derivative of the residual; by differences, leaving out only what the model leaves out: the turning of the
-// inertia with the body, which multiplies the angular acceleration (taken as zero here).
+// The tangent is the derivative of the residual; by differences, leaving out only what the model leaves out: the
+// turning of the inertia with the body, which multiplies the angular acceleration (taken as zero here).
 TEST(Model, TangentIsTheDerivativeOfTheResidual) {
   const auto bodies = support::two_bodies();
   const Model model(bodies, {{{0, 1}, added_mass()}}, springs(bodies));
   State state = support::random_state(bodies, 3);
-  state.velocity[4] = state.velocity[3] = state.velocity[5] = 0;   // gyroscopic moment turns with the body too
+  state.velocity[4] = state.velocity[3] = state.velocity[5] = 0;  // gyroscopic moment turns with the body too
   state.velocity.segment<3>(9).setZero();
   Workspace w(model, state);
   const Eigen::VectorXd a = Eigen::VectorXd::Zero(12);
@@ -71,7 +72,8 @@ TEST(Model, LeavesOutModesThatAreNotFree) {
   p.free = {false, false, true, false, false, false};
   const std::vector<RigidBody> bodies{RigidBody(p)};
   std::vector<std::unique_ptr<const ForceKind>> f;
-  f.push_back(std::make_unique<RestoringKind>("mooring", bodies, std::vector<Restoring>{{0, Matrix6::Constant(50) + 100 * Matrix6::Identity()}}));
+  f.push_back(std::make_unique<RestoringKind>(
+      "mooring", bodies, std::vector<Restoring>{{0, Matrix6::Constant(50) + 100 * Matrix6::Identity()}}));
   const Model model(bodies, {}, std::move(f));
   Workspace w(model, support::random_state(bodies, 1));
   const Eigen::VectorXd r = model.residual(w.state, Eigen::VectorXd::Zero(6), w);
@@ -87,8 +89,12 @@ TEST(Model, LeavesOutModesThatAreNotFree) {
 TEST(Model, RefusesAnIndefiniteMassAndNamesTheMode) {
   const auto bodies = support::two_bodies();
   Eigen::MatrixXd A = added_mass();
-  A(8, 8) = -5000;   // heave of b
-  EXPECT_THAT([&] { Model(bodies, {{{0, 1}, A}}, {}); }, ThrowsMessage<hydro::InputError>(testing::AllOf(HasSubstr("not positive definite"), HasSubstr("b.heave"))));
+  A(8, 8) = -5000;  // heave of b
+  EXPECT_THAT(
+      [&] {
+        Model(bodies, {{{0, 1}, A}}, {});
+      },
+      ThrowsMessage<hydro::InputError>(testing::AllOf(HasSubstr("not positive definite"), HasSubstr("b.heave"))));
 }
 
 // What a scene does not name is not there: no kind, hence nothing evaluated, and no coupling in the pattern.

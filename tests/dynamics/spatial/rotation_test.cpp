@@ -16,15 +16,18 @@ const double angles[] = {0, 1e-9, 5e-4, 2e-3, 0.009, 0.011, 0.3, 1.5, 3.0};
 
 TEST(Rotation, LogUndoesExpUpToHalfATurn) {
   for (const auto& n : directions)
-    for (const double a : angles) EXPECT_LT((rotation_log(rotation_exp(a * n)) - a * n).norm(), 1e-13 + 1e-12 * a) << a;  // 1e-12: series cut at s⁴ for s < 1e-3
+    for (const double a : angles)
+      EXPECT_LT((rotation_log(rotation_exp(a * n)) - a * n).norm(), 1e-13 + 1e-12 * a)
+          << a;  // 1e-12: series cut at s⁴ for s < 1e-3
 }
 
 TEST(Rotation, ExpTurnsAboutItsAxisByItsLength) {
   const Matrix3d R = rotation_exp(Vector3d(0, 0, std::numbers::pi / 2)).toRotationMatrix();
-  EXPECT_LT((R * Vector3d(1, 0, 0) - Vector3d(0, 1, 0)).norm(), 1e-15);   // x towards y about z: right-handed
+  EXPECT_LT((R * Vector3d(1, 0, 0) - Vector3d(0, 1, 0)).norm(), 1e-15);  // x towards y about z: right-handed
 }
 
-// (D1): exp((φ + ε dφ)) = exp(ε J dφ) exp(φ) to first order; the derivative by central differences, error ε²/6 + 1e-16/ε.
+// (D1): exp((φ + ε dφ)) = exp(ε J dφ) exp(φ) to first order; the derivative by central differences, error ε²/6 +
+// 1e-16/ε.
 TEST(Rotation, LeftJacobianIsTheDerivativeOfExp) {
   constexpr double e = 1e-5;
   for (const auto& n : directions)
@@ -38,7 +41,8 @@ TEST(Rotation, LeftJacobianIsTheDerivativeOfExp) {
 TEST(Rotation, LeftJacobianTimesItsInverseIsOne) {
   for (const auto& n : directions)
     for (const double a : angles)
-      EXPECT_LT((left_jacobian(a * n) * left_jacobian_inverse(a * n) - Matrix3d::Identity()).norm(), 1e-9) << a;   // cancellation 1e-16/a² just above 1e-3
+      EXPECT_LT((left_jacobian(a * n) * left_jacobian_inverse(a * n) - Matrix3d::Identity()).norm(), 1e-9)
+          << a;  // cancellation 1e-16/a² just above 1e-3
 }
 
 TEST(Rotation, DerivativeOfTheTransposedInverseIsThatOfDifferences) {
@@ -47,8 +51,11 @@ TEST(Rotation, DerivativeOfTheTransposedInverseIsThatOfDifferences) {
   for (const auto& n : directions)
     for (const double a : {0.0, 0.005, 0.02, 0.5, 2.0}) {
       const Vector3d phi = a * n, d(0.3, -0.5, 0.8);
-      const Vector3d difference = (left_jacobian_inverse(phi + e * d).transpose() * m - left_jacobian_inverse(phi - e * d).transpose() * m) / (2 * e);
-      EXPECT_LT((left_jacobian_inverse_transpose_derivative(phi, m) * d - difference).norm(), 1e-7) << a;   // c(a) loses 1e-16/a² near 1e-3, divided by e
+      const Vector3d difference =
+          (left_jacobian_inverse(phi + e * d).transpose() * m - left_jacobian_inverse(phi - e * d).transpose() * m) /
+          (2 * e);
+      EXPECT_LT((left_jacobian_inverse_transpose_derivative(phi, m) * d - difference).norm(), 1e-7)
+          << a;  // c(a) loses 1e-16/a² near 1e-3, divided by e
     }
 }
 

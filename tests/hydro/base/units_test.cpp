@@ -44,13 +44,16 @@ TEST(Units, NeedNoRadianWhereForceTellsTheQuantity) {
 }
 
 TEST(Units, RefuseAndSayWhatToWrite) {
-  EXPECT_THAT([] { parse_si("0.02 m", dim::time); },
-              ThrowsMessage<InputError>(AllOf(HasSubstr("is a length"), HasSubstr("a time is needed"), HasSubstr("0.02 s"))));
+  EXPECT_THAT(
+      [] { parse_si("0.02 m", dim::time); },
+      ThrowsMessage<InputError>(AllOf(HasSubstr("is a length"), HasSubstr("a time is needed"), HasSubstr("0.02 s"))));
   EXPECT_THAT([] { parse_si("29.3", dim::stiffness); },
               ThrowsMessage<InputError>(AllOf(HasSubstr("has no unit"), HasSubstr("29.3 kN/m"))));
-  EXPECT_THAT([] { parse_si("3 knotts", dim::velocity); }, ThrowsMessage<InputError>(HasSubstr("did you mean \"knots\"")));
+  EXPECT_THAT([] { parse_si("3 knotts", dim::velocity); },
+              ThrowsMessage<InputError>(HasSubstr("did you mean \"knots\"")));
   EXPECT_THAT([] { parse_si("nan m", dim::length); }, ThrowsMessage<InputError>(HasSubstr("not a finite number")));
-  EXPECT_THAT([] { parse_si("deep", dim::length); }, ThrowsMessage<InputError>(HasSubstr("does not begin with a number")));
+  EXPECT_THAT([] { parse_si("deep", dim::length); },
+              ThrowsMessage<InputError>(HasSubstr("does not begin with a number")));
   EXPECT_THROW(parse_si("3 m/", dim::length), InputError);
 }
 

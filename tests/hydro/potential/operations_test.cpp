@@ -21,7 +21,9 @@ Coefficients random_coefficients() {
   c.source = "random";
   const RandomStream random(11, 0);
   std::uint64_t n = 0;
-  const auto matrix = [&] { return Eigen::MatrixXd(Eigen::MatrixXd::NullaryExpr(12, 12, [&] { return random.normal(n++); })); };
+  const auto matrix = [&] {
+    return Eigen::MatrixXd(Eigen::MatrixXd::NullaryExpr(12, 12, [&] { return random.normal(n++); }));
+  };
   for (const char* name : {"one", "two"}) c.body.emplace_back().name = name;
   for (int i = 1; i <= 10; ++i) {
     c.omega.push_back(0.2 * i);
@@ -46,17 +48,20 @@ TEST(AnotherReferencePoint, LeavesPowerAsItIs) {
   const Coefficients moved = about(c, from, to);
   Eigen::VectorXd v_to = Eigen::VectorXd::LinSpaced(12, -1, 2), v_from(12);
   for (Eigen::Index b = 0; b < 2; ++b) {
-    const Vector3d v = v_to.segment<3>(6 * b), w = v_to.segment<3>(6 * b + 3), r = from[static_cast<std::size_t>(b)] - to[static_cast<std::size_t>(b)];
+    const Vector3d v = v_to.segment<3>(6 * b), w = v_to.segment<3>(6 * b + 3),
+                   r = from[static_cast<std::size_t>(b)] - to[static_cast<std::size_t>(b)];
     v_from.segment<3>(6 * b) = v + w.cross(r);
     v_from.segment<3>(6 * b + 3) = w;
   }
-  EXPECT_NEAR(v_to.dot(moved.B[3] * v_to), v_from.dot(c.B[3] * v_from), 1e-11 * std::abs(v_from.dot(c.B[3] * v_from)) + 1e-11);
+  EXPECT_NEAR(v_to.dot(moved.B[3] * v_to), v_from.dot(c.B[3] * v_from),
+              1e-11 * std::abs(v_from.dot(c.B[3] * v_from)) + 1e-11);
   EXPECT_NEAR(v_to.dot(*moved.A_inf * v_to), v_from.dot(*c.A_inf * v_from), 1e-9);
-  const std::complex<double> before = (v_from.transpose() * c.X[1].col(4))(0), after = (v_to.transpose() * moved.X[1].col(4))(0);
+  const std::complex<double> before = (v_from.transpose() * c.X[1].col(4))(0),
+                             after = (v_to.transpose() * moved.X[1].col(4))(0);
   EXPECT_LT(std::abs(before - after), 1e-11 * std::abs(before) + 1e-11);
   EXPECT_EQ(moved.body[0].reference_point, to[0]);
   const Coefficients back = about(moved, to, from);
-  EXPECT_LT((back.A[5] - c.A[5]).norm(), 1e-11 * c.A[5].norm() * 100);   // arms of 10 m enter squared, twice
+  EXPECT_LT((back.A[5] - c.A[5]).norm(), 1e-11 * c.A[5].norm() * 100);  // arms of 10 m enter squared, twice
 }
 
 // (P5): a body carried by d meets the crest k·d/ω later.
@@ -64,7 +69,8 @@ TEST(CarriedCoefficients, LagByTheWayOfTheWave) {
   const Coefficients c = random_coefficients();
   const Coefficients there = carried(c, {30, -20});
   for (std::size_t h = 0; h < 3; ++h) {
-    const double k = waves::wavenumber(c.omega[6], c.water), way = 30 * std::cos(c.heading[h]) - 20 * std::sin(c.heading[h]);
+    const double k = waves::wavenumber(c.omega[6], c.water),
+                 way = 30 * std::cos(c.heading[h]) - 20 * std::sin(c.heading[h]);
     EXPECT_LT((there.X[h].col(6) - c.X[h].col(6) * std::polar(1.0, -k * way)).norm(), 1e-12 * c.X[h].col(6).norm());
   }
   EXPECT_EQ(there.A[2], c.A[2]);
@@ -100,8 +106,10 @@ Coefficients parabolas(const std::vector<double>& omega, const Vector3d& place) 
     c.A.push_back(value * Eigen::MatrixXd::Identity(6, 6));
     c.B.push_back(-value * Eigen::MatrixXd::Identity(6, 6));
     for (std::size_t h = 0; h < 2; ++h)
-      c.X[h].col(static_cast<Eigen::Index>(i)).setConstant(
-          value * std::polar(1.0, -waves::wavenumber(w, c.water) * (place.x() * std::cos(c.heading[h]) + place.y() * std::sin(c.heading[h]))));
+      c.X[h]
+          .col(static_cast<Eigen::Index>(i))
+          .setConstant(value * std::polar(1.0, -waves::wavenumber(w, c.water) * (place.x() * std::cos(c.heading[h]) +
+                                                                                 place.y() * std::sin(c.heading[h]))));
   }
   return c;
 }
@@ -136,15 +144,17 @@ TEST(FrequencyTable, ConvergesWithTheCubeOfTheSpacing) {
     }
     const FrequencyTable table(c, {Vector3d::Zero()});
     double error = 0;
-    for (double w = 1; w < 3; w += 0.0137) error = std::max(error, std::abs(table.added_mass(w)(0, 0) - std::sin(3 * w)));
+    for (double w = 1; w < 3; w += 0.0137)
+      error = std::max(error, std::abs(table.added_mass(w)(0, 0) - std::sin(3 * w)));
     return error;
   };
-  EXPECT_GT(std::log2(worst(0.1) / worst(0.05)), 2.7);   // slopes from parabolas: third order
+  EXPECT_GT(std::log2(worst(0.1) / worst(0.05)), 2.7);  // slopes from parabolas: third order
 }
 
 TEST(FrequencyTable, RefusesWhatTheDataDoNotHold) {
   const FrequencyTable table(parabolas({0.3, 0.5, 0.6}, Vector3d::Zero()), {Vector3d::Zero()});
-  EXPECT_THAT([&] { table.added_mass(0.7); }, testing::ThrowsMessage<InputError>(testing::AllOf(testing::HasSubstr("0.7 rad/s"), testing::HasSubstr("0.3 to 0.6"))));
+  EXPECT_THAT([&] { table.added_mass(0.7); }, testing::ThrowsMessage<InputError>(testing::AllOf(
+                                                  testing::HasSubstr("0.7 rad/s"), testing::HasSubstr("0.3 to 0.6"))));
   EXPECT_THAT([&] { table.excitation(0.5, 1.2); }, testing::ThrowsMessage<InputError>(testing::HasSubstr("heading")));
 }
 

@@ -34,8 +34,8 @@ TEST(DirectConvolution, GivesDampingAndAddedMassOfAHarmonicMotion) {
     const int steps = 3000;
     const double t = h * steps;
     const double exact = body.B(omega) * std::sin(omega * t) + omega * body.A_minus_A_inf(omega) * std::cos(omega * t);
-    // Cubic between frequencies 0.04 rad/s apart, cut into pieces of 0.01: B″ 0.01²/12 = 3e-4; the table ends at 40 rad/s and the
-    // memory at 30 s, e^{−9}; the trapezium rule adds (ωh)²/12 = 2e-4.
+    // Cubic between frequencies 0.04 rad/s apart, cut into pieces of 0.01: B″ 0.01²/12 = 3e-4; the table ends at 40
+    // rad/s and the memory at 30 s, e^{−9}; the trapezium rule adds (ωh)²/12 = 2e-4.
     EXPECT_NEAR(harmonic_force(h, omega, steps), exact, 1e-3);
   }
 }
@@ -45,7 +45,8 @@ TEST(DirectConvolution, ConvergesWithTheSquareOfTheStep) {
   const double reference = harmonic_force(0.0125, omega, static_cast<int>(t / 0.0125));
   const double coarse = std::abs(harmonic_force(0.1, omega, 120) - reference);
   const double fine = std::abs(harmonic_force(0.05, omega, 240) - reference);
-  EXPECT_NEAR(coarse / fine, 4, 0.5);   // 4.2 is exact for a pure second-order error measured against h/4 of the finer one
+  EXPECT_NEAR(coarse / fine, 4,
+              0.5);  // 4.2 is exact for a pure second-order error measured against h/4 of the finer one
 }
 
 TEST(DirectConvolution, ReachesPartOfAStepContinuously) {
@@ -56,7 +57,8 @@ TEST(DirectConvolution, ReachesPartOfAStepContinuously) {
     return convolution.decided(history, fraction)[0] +
            convolution.instantaneous(fraction)(0, 0) * std::sin(0.9 * 0.1 * (100 + fraction));
   };
-  // Straight pieces of K against the trapezium rule: both are second order in the step, 0.1² · |K''|/8 per unit of memory.
+  // Straight pieces of K against the trapezium rule: both are second order in the step, 0.1² · |K''|/8 per unit of
+  // memory.
   EXPECT_NEAR(force(0.5), (force(1) + force(1e-9)) / 2, 2e-3);
 }
 
@@ -67,13 +69,13 @@ TEST(DirectConvolution, AgreesWithASumWrittenOut) {
   auto history = convolution.make_history();
   const hydro::RandomStream random(1, 1);
   std::vector<Eigen::VectorXd> v;
-  for (std::uint64_t i = 0; i < 400; ++i) {   // more than the kernel's 150 samples: the ring has turned
+  for (std::uint64_t i = 0; i < 400; ++i) {  // more than the kernel's 150 samples: the ring has turned
     v.push_back(Eigen::Vector3d(random.normal(3 * i), random.normal(3 * i + 1), random.normal(3 * i + 2)));
     history.push(v.back());
   }
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(modes);
   for (std::size_t j = 1; j < K.samples(); ++j) sum += 0.2 * K.at(j) * v[v.size() - j];
-  EXPECT_LT((convolution.decided(history, 1) - sum).norm(), 1e-12 * sum.norm());   // round-off of 150 products
+  EXPECT_LT((convolution.decided(history, 1) - sum).norm(), 1e-12 * sum.norm());  // round-off of 150 products
 }
 
 // (R8): the discrete sum is passive: energy taken out of any motion that starts and ends at rest is not negative.
@@ -88,7 +90,7 @@ TEST(DirectConvolution, NeverGivesEnergyToARandomMotion) {
       const double force = (convolution.decided(history, 1) + convolution.instantaneous(1) * v)[0];
       energy += 0.2 * force * v[0];
       scale += 0.2 * v.squaredNorm() * convolution.instantaneous(1)(0, 0);
-      EXPECT_GE(energy, -1e-3 * scale) << "seed " << seed;   // the kernel is cut at 30 s, e^{−9}
+      EXPECT_GE(energy, -1e-3 * scale) << "seed " << seed;  // the kernel is cut at 30 s, e^{−9}
       history.push(v);
     }
   }

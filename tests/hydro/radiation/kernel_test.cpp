@@ -21,7 +21,8 @@ const TwoPoleBody body{.decay = 0.3, .frequency = 1.1};
 TEST(RetardationKernel, RecoversATwoPoleBodyFromItsDamping) {
   const auto kernel = RetardationKernel::from_damping(body.damping_table(80, 2000), {.step = 0.05, .length = 20});
   for (const std::size_t i : {0u, 1u, 10u, 20u, 100u, 400u})
-    EXPECT_NEAR(kernel.at(i)(0, 0), body.K(0.05 * static_cast<double>(i)), kernel.error_bound()(0, 0)) << "sample " << i;
+    EXPECT_NEAR(kernel.at(i)(0, 0), body.K(0.05 * static_cast<double>(i)), kernel.error_bound()(0, 0))
+        << "sample " << i;
   // Beyond 80 rad/s lie 2/π · 2a/80 = 0.0048 of K(0) = 1; a bound much above that would say nothing.
   EXPECT_LT(kernel.error_bound()(0, 0), 0.007);
 }
@@ -29,9 +30,11 @@ TEST(RetardationKernel, RecoversATwoPoleBodyFromItsDamping) {
 TEST(RetardationKernel, KeepsItsBoundWhenTheTableIsCoarseAndShort) {
   for (const double end : {4.0, 8.0, 20.0})
     for (const int count : {20, 40, 200}) {
-      if (end / count > 2 * body.decay) continue;   // wider apart than the peak of B: no estimate can see what is not sampled
+      if (end / count > 2 * body.decay)
+        continue;  // wider apart than the peak of B: no estimate can see what is not sampled
       const auto table = body.damping_table(end, count);
-      const auto kernel = RetardationKernel::from_damping(table, {.step = 0.1, .length = std::min(4.0, RetardationKernel::longest_time(table))});
+      const auto kernel = RetardationKernel::from_damping(
+          table, {.step = 0.1, .length = std::min(4.0, RetardationKernel::longest_time(table))});
       for (std::size_t i = 0; i < kernel.samples(); ++i)
         EXPECT_NEAR(kernel.at(i)(0, 0), body.K(0.1 * static_cast<double>(i)), kernel.error_bound()(0, 0))
             << end << " rad/s, " << count << " values, sample " << i;
@@ -44,27 +47,36 @@ TEST(RetardationKernel, TakesUnevenFrequencies) {
     table.omega.push_back(omega);
     table.B.push_back(Eigen::MatrixXd::Constant(1, 1, body.B(omega)));
   }
-  EXPECT_NEAR(retardation(table, 1.0)(0, 0), body.K(1.0), 0.006);   // the tail as above
+  EXPECT_NEAR(retardation(table, 1.0)(0, 0), body.K(1.0), 0.006);  // the tail as above
   EXPECT_NEAR(retardation(table, 3.0)(0, 0), body.K(3.0), 0.006);
 }
 
 TEST(RetardationKernel, RefusesAHullThatGivesPowerToItsOwnMotion) {
   auto damping = body.damping_table(80, 2000);
-  damping.B[29](0, 0) = -1.0;   // 1.2 rad/s
-  EXPECT_THAT([&] { RetardationKernel::from_damping(damping, {0.05, 20}); },
-              ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("mode 0"), HasSubstr("1.2 rad/s"))));
+  damping.B[29](0, 0) = -1.0;  // 1.2 rad/s
+  EXPECT_THAT(
+      [&] {
+        RetardationKernel::from_damping(damping, {0.05, 20});
+      },
+      ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("mode 0"), HasSubstr("1.2 rad/s"))));
 }
 
 TEST(RetardationKernel, RefusesMoreMemoryThanTheFrequenciesTell) {
-  EXPECT_THAT([&] { RetardationKernel::from_damping(body.damping_table(8, 80), {0.05, 40}); },
-              ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("31.42 s only"), HasSubstr("more frequencies"))));
+  EXPECT_THAT(
+      [&] {
+        RetardationKernel::from_damping(body.damping_table(8, 80), {0.05, 40});
+      },
+      ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("31.42 s only"), HasSubstr("more frequencies"))));
 }
 
 TEST(RetardationKernel, RefusesFrequenciesThatDoNotIncrease) {
   auto damping = body.damping_table(8, 80);
   std::swap(damping.omega[3], damping.omega[4]);
-  EXPECT_THAT([&] { RetardationKernel::from_damping(damping, {0.05, 4}); },
-              ThrowsMessage<hydro::InputError>(HasSubstr("do not increase")));
+  EXPECT_THAT(
+      [&] {
+        RetardationKernel::from_damping(damping, {0.05, 4});
+      },
+      ThrowsMessage<hydro::InputError>(HasSubstr("do not increase")));
 }
 
 TEST(MemoryLength, CutsWhereTheRestIsWithinTheTolerance) {
@@ -75,9 +87,11 @@ TEST(MemoryLength, CutsWhereTheRestIsWithinTheTolerance) {
     EXPECT_GT(length, shorter);
     shorter = length;
     EXPECT_LE(RetardationKernel::from_damping(table, {0.05, length + 0.05}).truncation(), tolerance);
-    // |K| <= (w/b) e^{−at}, so the rest is below (w/ab) e^{−aL} relative to max B = 1/2a: a length that far overshoots costs for nothing.
-    const double enough = std::log(2 * body.decay * std::sqrt(body.w2()) / (body.decay * body.frequency) / tolerance) / body.decay;
-    EXPECT_LT(length, enough + 3);   // 3 s: half a swing of K, in which its integral grows in steps
+    // |K| <= (w/b) e^{−at}, so the rest is below (w/ab) e^{−aL} relative to max B = 1/2a: a length that far overshoots
+    // costs for nothing.
+    const double enough =
+        std::log(2 * body.decay * std::sqrt(body.w2()) / (body.decay * body.frequency) / tolerance) / body.decay;
+    EXPECT_LT(length, enough + 3);  // 3 s: half a swing of K, in which its integral grows in steps
   }
 }
 
@@ -85,11 +99,12 @@ TEST(InfiniteAddedMass, FollowsFromAddedMassAndDampingByOgilvie) {
   const auto table = body.damping_table(20, 500);
   constexpr double A_inf = 7.0;
   std::vector<Eigen::MatrixXd> A;
-  for (const double omega : table.omega) A.push_back(Eigen::MatrixXd::Constant(1, 1, A_inf + body.A_minus_A_inf(omega)));
+  for (const double omega : table.omega)
+    A.push_back(Eigen::MatrixXd::Constant(1, 1, A_inf + body.A_minus_A_inf(omega)));
   const auto found = infinite_added_mass(table, A);
   EXPECT_NEAR(found.value(0, 0), A_inf, 3 * found.spread(0, 0) + 1e-3);
   EXPECT_LT(found.spread(0, 0), 1e-2);
-  for (auto& a : A) a(0, 0) -= 2 * (a(0, 0) - A_inf);   // the sign of A − A∞ is wrong: the estimates cannot agree
+  for (auto& a : A) a(0, 0) -= 2 * (a(0, 0) - A_inf);  // the sign of A − A∞ is wrong: the estimates cannot agree
   EXPECT_GT(infinite_added_mass(table, A).spread(0, 0), 10 * found.spread(0, 0));
 }
 

@@ -33,13 +33,15 @@ std::pair<double, double> transform(const DampingTable& table, double omega) {
   return {-sine / omega, cosine};
 }
 
-// (R10): cut at 2 rad/s, where a sixth of B at the peak is left, the kernel alone misses part of A(ω); continued, it has it back.
+// (R10): cut at 2 rad/s, where a sixth of B at the peak is left, the kernel alone misses part of A(ω); continued, it
+// has it back.
 TEST(ContinuedDamping, BringsBackTheAddedMassThatACutTableLoses) {
   const auto cut = body.damping_table(2, 40);
   const auto whole = continued(cut, added_mass(cut), Eigen::MatrixXd::Constant(1, 1, A_inf));
   for (const double omega : {0.4, 0.8, 1.3}) {
     const double exact = body.A_minus_A_inf(omega);
-    // Of the part lost, (2/π)∫_2^∞ B/(ν²−ω²) dν = 0.03 to 0.05, a tenth remains: corners of a polygon, spacing of the table.
+    // Of the part lost, (2/π)∫_2^∞ B/(ν²−ω²) dν = 0.03 to 0.05, a tenth remains: corners of a polygon, spacing of the
+    // table.
     EXPECT_NEAR(transform(whole.table, omega).first, exact, 5e-3) << omega;
     EXPECT_GT(std::abs(transform(cut, omega).first - exact), 1.5e-2) << omega;
     EXPECT_NEAR(transform(whole.table, omega).second, body.B(omega), 0.01) << omega;
@@ -50,14 +52,16 @@ TEST(ContinuedDamping, BringsBackTheAddedMassThatACutTableLoses) {
 TEST(ContinuedDamping, FindsTheLimitThatDataLack) {
   const auto cut = body.damping_table(4, 80);
   const auto whole = continued(cut, added_mass(cut), std::nullopt);
-  EXPECT_NEAR(whole.A_inf(0, 0), A_inf, 0.01);   // of a range of A of 3: constant and far tail look alike from inside the table
+  EXPECT_NEAR(whole.A_inf(0, 0), A_inf,
+              0.01);  // of a range of A of 3: constant and far tail look alike from inside the table
 }
 
 TEST(ContinuedDamping, AddsNextToNothingWhereTheDampingHasDiedAway) {
   const auto table = body.damping_table(30, 600);
   const auto whole = continued(table, added_mass(table), Eigen::MatrixXd::Constant(1, 1, A_inf));
   // B(30) = 2a/30² = 7e-4; the true tail goes on from there.
-  for (std::size_t i = table.omega.size(); i < whole.table.omega.size(); ++i) EXPECT_LT(std::abs(whole.table.B[i](0, 0)), 2e-3);
+  for (std::size_t i = table.omega.size(); i < whole.table.omega.size(); ++i)
+    EXPECT_LT(std::abs(whole.table.B[i](0, 0)), 2e-3);
   EXPECT_NEAR(whole.table.omega.back(), 120, 1e-9);
   EXPECT_EQ(whole.table.B.back()(0, 0), 0);
 }

@@ -6,7 +6,8 @@
 
 namespace dynamics {
 
-/// The two points a connector joins, each from its body's centre of gravity in body axes; global where `second` is empty.
+/// The two points a connector joins, each from its body's centre of gravity in body axes; global where `second` is
+/// empty.
 struct Ends {
   int first;
   std::optional<int> second;
@@ -16,24 +17,24 @@ struct Ends {
 /// A pull along the line between the ends: T = k (L − L₀) + c dL/dt, tension positive (D3).
 struct AxialConnector {
   Ends ends;
-  double stiffness;     ///< k, N/m
-  double damping;       ///< c, N s/m
-  double rest_length;   ///< L₀, m
+  double stiffness;    ///< k, N/m
+  double damping;      ///< c, N s/m
+  double rest_length;  ///< L₀, m
 };
 
-/// Springs and dampers along three axes fixed to the first body, and about them (D4). The force acts on both bodies at the
-/// second end, so that no net moment arises; the potential is ½ Σ kᵢ εᵢ² + ½ Σ κᵢ ψᵢ², ε the shift of the second end seen
-/// from the first body, ψ the rotation vector of the second body seen from the first.
+/// Springs and dampers along three axes fixed to the first body, and about them (D4). The force acts on both bodies at
+/// the second end, so that no net moment arises; the potential is ½ Σ kᵢ εᵢ² + ½ Σ κᵢ ψᵢ², ε the shift of the second
+/// end seen from the first body, ψ the rotation vector of the second body seen from the first.
 struct BushingConnector {
   Ends ends;
   Eigen::Vector3d stiffness, damping;                        ///< N/m, N s/m
   Eigen::Vector3d rotational_stiffness, rotational_damping;  ///< N m/rad, N m s/rad
-  Eigen::Vector3d rest_offset;                               ///< of the second end from the first at rest, first body's axes, m
+  Eigen::Vector3d rest_offset;  ///< of the second end from the first at rest, first body's axes, m
 };
 
 /// What an axial connector does at one instant.
 struct AxialState {
-  double length, tension;   ///< m, N
+  double length, tension;  ///< m, N
 };
 AxialState axial_state(const AxialConnector& connector, const State& state);
 

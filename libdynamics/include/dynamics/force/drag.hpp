@@ -7,12 +7,13 @@
 
 namespace dynamics {
 
-/// One piece of a member, small enough for one velocity: F = ½ ρ C_D D ℓ |w| w, w the part of u − v across the axis (D7).
+/// One piece of a member, small enough for one velocity: F = ½ ρ C_D D ℓ |w| w, w the part of u − v across the axis
+/// (D7).
 struct DragPiece {
   int body;
-  Eigen::Vector3d arm;    ///< from the centre of gravity, body axes, m
-  Eigen::Vector3d axis;   ///< unit vector, body axes
-  double factor;          ///< ½ ρ C_D D ℓ, kg/m
+  Eigen::Vector3d arm;   ///< from the centre of gravity, body axes, m
+  Eigen::Vector3d axis;  ///< unit vector, body axes
+  double factor;         ///< ½ ρ C_D D ℓ, kg/m
 };
 
 /// Cuts the part of a straight member that is wet at rest into Gauss–Legendre points. `from`, `to`: body axes from the
@@ -26,7 +27,8 @@ Eigen::Vector3d rest_position(const DragPiece& piece, const std::vector<RigidBod
 class DragKind final : public ForceKind {
  public:
   /// `water`: 3 signals a piece, the undisturbed water velocity at its rest position; absent in still water.
-  DragKind(std::vector<DragPiece> pieces, std::optional<WaveSignals> water) : pieces_(std::move(pieces)), water_(std::move(water)) {}
+  DragKind(std::vector<DragPiece> pieces, std::optional<WaveSignals> water)
+      : pieces_(std::move(pieces)), water_(std::move(water)) {}
   std::string effect() const override { return "drag"; }
   std::size_t elements() const override { return pieces_.size(); }
   std::string method() const override { return "quadratic, relative velocity, water velocity at the rest position"; }

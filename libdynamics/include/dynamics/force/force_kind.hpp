@@ -78,18 +78,18 @@ class ForceKind {
  public:
   virtual ~ForceKind() = default;
 
-  virtual std::string effect() const = 0;        ///< the word for it in a scene: "connector", "excitation"
+  virtual std::string effect() const = 0;  ///< the word for it in a scene: "connector", "excitation"
   virtual std::size_t elements() const = 0;
-  virtual std::string method() const = 0;        ///< how it is computed, for `froude plan`
-  virtual void couple(BlockPattern&) const {}    ///< pairs of different bodies that its Jacobian touches
+  virtual std::string method() const = 0;      ///< how it is computed, for `froude plan`
+  virtual void couple(BlockPattern&) const {}  ///< pairs of different bodies that its Jacobian touches
   virtual std::unique_ptr<Memory> make_memory(const State&) const { return nullptr; }
 
   virtual void add_load(const Instant& now, LoadSink& out) const = 0;
   virtual void add_jacobian(const Instant& now, JacobianSink& out) const = 0;
   virtual EnergyFlow energy(const Instant& now) const = 0;
 
-  /// True if the load is, for small motions about rest, stiffness and damping that a frequency-domain analysis takes from
-  /// add_jacobian(). Excitation and radiation have their own place there; quadratic drag has none.
+  /// True if the load is, for small motions about rest, stiffness and damping that a frequency-domain analysis takes
+  /// from add_jacobian(). Excitation and radiation have their own place there; quadratic drag has none.
   virtual bool linear_at_rest() const { return false; }
 };
 

@@ -8,8 +8,8 @@ namespace dynamics {
 /// conserves energy at any rotation below a full turn and is C δ for small ones.
 struct Restoring {
   int body;
-  Matrix6 stiffness;                       ///< C about the centre of gravity, symmetric
-  Matrix6 damping = Matrix6::Zero();       ///< D about the centre of gravity
+  Matrix6 stiffness;                  ///< C about the centre of gravity, symmetric
+  Matrix6 damping = Matrix6::Zero();  ///< D about the centre of gravity
 };
 
 /// Load of one element. Rotations: |φ| < π.
@@ -31,7 +31,7 @@ class RestoringKind final : public ForceKind {
  private:
   std::string effect_;
   std::vector<Restoring> elements_;
-  std::vector<Eigen::Vector3d> rest_centre_;   // one an element
+  std::vector<Eigen::Vector3d> rest_centre_;  // one an element
 };
 
 }  // namespace dynamics

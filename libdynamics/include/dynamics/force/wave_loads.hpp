@@ -6,7 +6,8 @@
 
 namespace dynamics {
 
-/// First-order excitation on bodies about their centres of gravity; the six signals of body bodies[i] are rows 6i … 6i+5.
+/// First-order excitation on bodies about their centres of gravity; the six signals of body bodies[i] are rows 6i …
+/// 6i+5.
 struct Excitation {
   std::vector<int> bodies;
   WaveSignals load;
@@ -27,10 +28,11 @@ class ExcitationKind final : public ForceKind {
 };
 
 /// Radiation memory of modes that feel each other's waves: F = −∫K(t−τ) v(τ) dτ about the centres of gravity. The added
-/// mass at infinite frequency is in the model's mass matrix, not here. Modes that are not free have no velocity to remember.
+/// mass at infinite frequency is in the model's mass matrix, not here. Modes that are not free have no velocity to
+/// remember.
 struct RadiationMemory {
-  std::vector<int> modes;                            ///< of the model, 6 · body + mode, increasing
-  hydro::radiation::DirectConvolution convolution;   ///< as many modes
+  std::vector<int> modes;                           ///< of the model, 6 · body + mode, increasing
+  hydro::radiation::DirectConvolution convolution;  ///< as many modes
 };
 
 class RadiationKind final : public ForceKind {

@@ -9,12 +9,13 @@ namespace dynamics {
 
 /// m signals s(t) = ramp(t) · Re Σ_c a_c e^{iω_c t}, c over the components of a sea (D6).
 ///
-/// At whole steps from the table, elsewhere by the sum over components: the same value to round-off, so a load is a pure
-/// function of time. ramp(t) grows from 0 to 1 by a half cosine over `ramp_s`.
+/// At whole steps from the table, elsewhere by the sum over components: the same value to round-off, so a load is a
+/// pure function of time. ramp(t) grows from 0 to 1 by a half cosine over `ramp_s`.
 class WaveSignals {
  public:
   /// `amplitudes`: (m, components). `table`: (m, samples) at t = 0, h, 2h, …, without the ramp.
-  WaveSignals(std::vector<double> omega, Eigen::MatrixXcd amplitudes, Eigen::MatrixXd table, double step, double ramp_s);
+  WaveSignals(std::vector<double> omega, Eigen::MatrixXcd amplitudes, Eigen::MatrixXd table, double step,
+              double ramp_s);
 
   Eigen::Index count() const { return amplitudes_.rows(); }
   std::size_t components() const { return omega_.size(); }

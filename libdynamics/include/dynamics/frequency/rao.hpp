@@ -14,21 +14,25 @@ namespace dynamics::frequency {
 struct PotentialGroup {
   std::vector<int> bodies;
   hydro::potential::FrequencyTable table;
-  bool radiation, excitation;   ///< which effects the scene named
+  bool radiation, excitation;  ///< which effects the scene named
 };
 
-/// Complex amplitude of every body's displacement about its centre of gravity per metre of wave amplitude, (6N, Nω), m/m and rad/m,
-/// Re(ξ e^{iωt}) against a wave of zero phase at the global origin.
+/// Complex amplitude of every body's displacement about its centre of gravity per metre of wave amplitude, (6N, Nω),
+/// m/m and rad/m, Re(ξ e^{iωt}) against a wave of zero phase at the global origin.
 ///
-/// Solves (Q1) at each frequency: [−ω²(M + A(ω)) + iω(B(ω) + D) + K] ξ = X(ω, β), K and D from every force of the model that is
-/// linear at rest. Modes that are not free stay zero. Error: round-off, plus what FrequencyTable::openness() says of the data.
-/// \throws hydro::InputError outside the data, hydro::NumericsError naming the frequency if the matrix is singular
-Eigen::MatrixXcd response_amplitudes(const Model& model, const std::vector<PotentialGroup>& groups, const std::vector<double>& omega, double heading);
+/// Solves (Q1) at each frequency: [−ω²(M + A(ω)) + iω(B(ω) + D) + K] ξ = X(ω, β), K and D from every force of the model
+/// that is linear at rest. Modes that are not free stay zero. Error: round-off, plus what FrequencyTable::openness()
+/// says of the data. \throws hydro::InputError outside the data, hydro::NumericsError naming the frequency if the
+/// matrix is singular
+Eigen::MatrixXcd response_amplitudes(const Model& model, const std::vector<PotentialGroup>& groups,
+                                     const std::vector<double>& omega, double heading);
 
 /// The matrix of (Q1) at one frequency, (6N, 6N).
-Eigen::MatrixXcd impedance(const Model& model, const Model::Linear& linear, const std::vector<PotentialGroup>& groups, double omega);
+Eigen::MatrixXcd impedance(const Model& model, const Model::Linear& linear, const std::vector<PotentialGroup>& groups,
+                           double omega);
 
 /// The right-hand side of (Q1), (6N).
-Eigen::VectorXcd excitation(const Model& model, const std::vector<PotentialGroup>& groups, double omega, double heading);
+Eigen::VectorXcd excitation(const Model& model, const std::vector<PotentialGroup>& groups, double omega,
+                            double heading);
 
 }  // namespace dynamics::frequency

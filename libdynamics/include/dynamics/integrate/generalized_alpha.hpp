@@ -11,22 +11,23 @@ namespace dynamics {
 /// What one full step took.
 struct StepReport {
   int newton_iterations = 0;
-  int halvings = 0;      ///< how often a step had to be cut in two
+  int halvings = 0;  ///< how often a step had to be cut in two
 };
 
-/// Generalised-α (Chung & Hulbert 1993) in the form of Arnold & Brüls (2007), which satisfies the equations of motion at the
-/// end of every step, with attitudes moved by the exponential map (Brüls, Cardona & Arnold 2012). Equations (D9)-(D11).
+/// Generalised-α (Chung & Hulbert 1993) in the form of Arnold & Brüls (2007), which satisfies the equations of motion
+/// at the end of every step, with attitudes moved by the exponential map (Brüls, Cardona & Arnold 2012). Equations
+/// (D9)-(D11).
 ///
-/// Second order; unconditionally stable for linear problems; ρ∞ is the factor by which an infinitely fast oscillation is
-/// damped each step: 1 keeps it, 0 removes it. The period of a free oscillation at ω is wrong by about (ωh)²/12 relative at ρ∞ = 1.
-/// Each step is solved by Newton with line search; a step that fails is halved.
+/// Second order; unconditionally stable for linear problems; ρ∞ is the factor by which an infinitely fast oscillation
+/// is damped each step: 1 keeps it, 0 removes it. The period of a free oscillation at ω is wrong by about (ωh)²/12
+/// relative at ρ∞ = 1. Each step is solved by Newton with line search; a step that fails is halved.
 class GeneralizedAlpha {
  public:
   struct Settings {
     double rho_infinity = 0.8;
-    double newton_tolerance = 1e-9;    ///< of the last correction relative to the acceleration and velocity / step
+    double newton_tolerance = 1e-9;  ///< of the last correction relative to the acceleration and velocity / step
     int iterations = 20;
-    int deepest_halving = 10;          ///< a step is cut into 2¹⁰ pieces at most
+    int deepest_halving = 10;  ///< a step is cut into 2¹⁰ pieces at most
   };
   GeneralizedAlpha(const Model& model, const Settings& settings);
 
@@ -35,8 +36,8 @@ class GeneralizedAlpha {
   void start(Workspace& workspace);
 
   /// One full step of h seconds; the workspace ends in the new state, memory moved on.
-  /// \throws hydro::NumericsError naming time, worst mode and reason when halving is of no use; the workspace then holds the
-  /// last good state
+  /// \throws hydro::NumericsError naming time, worst mode and reason when halving is of no use; the workspace then
+  /// holds the last good state
   StepReport step(Workspace& workspace, double h);
 
  private:
@@ -47,9 +48,9 @@ class GeneralizedAlpha {
   const Model& model_;
   Settings settings_;
   double alpha_m_, alpha_f_, beta_, gamma_;
-  Eigen::VectorXd algorithmic_;   // the auxiliary acceleration of Arnold & Brüls
-  Eigen::VectorXd scale_;         // √ of the diagonal of mass plus added mass: makes newtons and newton metres comparable
-  std::string failure_;           // why the last attempt failed
+  Eigen::VectorXd algorithmic_;  // the auxiliary acceleration of Arnold & Brüls
+  Eigen::VectorXd scale_;  // √ of the diagonal of mass plus added mass: makes newtons and newton metres comparable
+  std::string failure_;    // why the last attempt failed
 };
 
 }  // namespace dynamics

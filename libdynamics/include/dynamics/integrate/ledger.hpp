@@ -9,13 +9,13 @@
 
 namespace dynamics {
 
-/// Kinetic + stored = initial + ∫(supplied − dissipated) dt + residual (D12). Powers are integrated by the trapezium rule over the
-/// steps, so the residual holds the error of the step as well as of the loads.
+/// Kinetic + stored = initial + ∫(supplied − dissipated) dt + residual (D12). Powers are integrated by the trapezium
+/// rule over the steps, so the residual holds the error of the step as well as of the loads.
 class EnergyLedger {
  public:
   struct Entry {
     std::string effect;
-    double stored = 0, supplied = 0, dissipated = 0;   ///< J; the last two since the start
+    double stored = 0, supplied = 0, dissipated = 0;  ///< J; the last two since the start
   };
 
   EnergyLedger(const Model& model, Workspace& workspace);

@@ -12,9 +12,9 @@ namespace dynamics {
 /// Which pairs of bodies touch each other; fixed once for a model.
 class BlockPattern {
  public:
-  explicit BlockPattern(int bodies);     ///< the diagonal only
-  void couple(int row, int column);      ///< adds (row, column) and (column, row)
-  void freeze();                         ///< sorts; no couple() afterwards
+  explicit BlockPattern(int bodies);  ///< the diagonal only
+  void couple(int row, int column);   ///< adds (row, column) and (column, row)
+  void freeze();                      ///< sorts; no couple() afterwards
 
   int bodies() const { return static_cast<int>(columns_.size()); }
   std::size_t blocks() const { return count_; }
@@ -44,8 +44,8 @@ class BlockMatrix {
   std::vector<Matrix6> blocks_;
 };
 
-/// Solves with a BlockMatrix, unsymmetric: dense LU where bodies are few or all touch, sparse LU (SuiteSparse KLU, ordered
-/// and analysed once) otherwise. Which, is fixed by the pattern.
+/// Solves with a BlockMatrix, unsymmetric: dense LU where bodies are few or all touch, sparse LU (SuiteSparse KLU,
+/// ordered and analysed once) otherwise. Which, is fixed by the pattern.
 class BlockSolver {
  public:
   explicit BlockSolver(const BlockPattern& pattern);

@@ -19,13 +19,14 @@ class RigidBody {
  public:
   struct Properties {
     std::string name;
-    double mass = 0;                                                    ///< kg, > 0
-    Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();                  ///< about the centre of gravity, body axes, kg m²
-    Vec3<World> rest_position = {Eigen::Vector3d::Zero()};              ///< of the body's origin
-    Vec3<BodyAxes> centre_of_gravity = {Eigen::Vector3d::Zero()};       ///< from the origin
-    std::array<bool, 6> free = {true, true, true, true, true, true};    ///< modes that may move, global axes
+    double mass = 0;                                               ///< kg, > 0
+    Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();             ///< about the centre of gravity, body axes, kg m²
+    Vec3<World> rest_position = {Eigen::Vector3d::Zero()};         ///< of the body's origin
+    Vec3<BodyAxes> centre_of_gravity = {Eigen::Vector3d::Zero()};  ///< from the origin
+    std::array<bool, 6> free = {true, true, true, true, true, true};  ///< modes that may move, global axes
   };
-  /// \throws hydro::InputError if the mass is not positive, or the inertia is not positive definite in the free rotations
+  /// \throws hydro::InputError if the mass is not positive, or the inertia is not positive definite in the free
+  /// rotations
   explicit RigidBody(Properties properties);
 
   const Properties& properties() const { return p_; }
@@ -64,8 +65,8 @@ struct State {
 /// Every body at rest where the model places it.
 State rest_state(const std::vector<RigidBody>& bodies);
 
-/// Motion (or velocity) of the body's origin from that of its centre of gravity, small rotations: displacement or twist,
-/// each 6 numbers. Exact for velocities when `offset` is the origin seen from the centre in global axes.
+/// Motion (or velocity) of the body's origin from that of its centre of gravity, small rotations: displacement or
+/// twist, each 6 numbers. Exact for velocities when `offset` is the origin seen from the centre in global axes.
 Matrix6 shift_from_centre(const Eigen::Vector3d& offset);
 
 }  // namespace dynamics

@@ -12,7 +12,8 @@
 
 namespace dynamics {
 
-/// Added mass at infinite frequency of bodies that feel each other, about their centres of gravity, (6n, 6n), symmetric.
+/// Added mass at infinite frequency of bodies that feel each other, about their centres of gravity, (6n, 6n),
+/// symmetric.
 struct AddedMass {
   std::vector<int> bodies;
   Eigen::MatrixXd value;
@@ -20,12 +21,13 @@ struct AddedMass {
 
 class Workspace;
 
-/// The equations of motion (D8): (M(q) + A∞) a + gyro(q, v) = Σ loads(t, q, v, memory), with the modes that are not free
-/// left out. Integrators see nothing else.
+/// The equations of motion (D8): (M(q) + A∞) a + gyro(q, v) = Σ loads(t, q, v, memory), with the modes that are not
+/// free left out. Integrators see nothing else.
 class Model {
  public:
   /// \throws hydro::InputError if mass plus added mass is not positive definite in the free modes
-  Model(std::vector<RigidBody> bodies, std::vector<AddedMass> added_mass, std::vector<std::unique_ptr<const ForceKind>> forces);
+  Model(std::vector<RigidBody> bodies, std::vector<AddedMass> added_mass,
+        std::vector<std::unique_ptr<const ForceKind>> forces);
 
   const std::vector<RigidBody>& bodies() const { return bodies_; }
   const std::vector<std::unique_ptr<const ForceKind>>& forces() const { return forces_; }
@@ -67,14 +69,14 @@ class Workspace {
   Workspace(const Model& model, State start);
 
   State state;
-  Eigen::VectorXd acceleration;                       ///< (6N), satisfies the equations of motion in `state`
-  std::vector<std::unique_ptr<Memory>> memory;        ///< one a kind, null where it needs none
-  std::vector<std::size_t> evaluations;               ///< of the load, one a kind: what a scene pays for
+  Eigen::VectorXd acceleration;                 ///< (6N), satisfies the equations of motion in `state`
+  std::vector<std::unique_ptr<Memory>> memory;  ///< one a kind, null where it needs none
+  std::vector<std::size_t> evaluations;         ///< of the load, one a kind: what a scene pays for
   BlockMatrix matrix;
   BlockSolver solver;
 
   Instant instant(const State& at, std::size_t kind) { return {at, memory[kind].get()}; }
-  void accept();                                      ///< a full step has been completed: memory moves on
+  void accept();  ///< a full step has been completed: memory moves on
 };
 
 }  // namespace dynamics

@@ -5,8 +5,8 @@
 
 namespace dynamics {
 
-struct World;      ///< global axes: x forward, y port, z up, origin in the still waterplane
-struct BodyAxes;   ///< axes fixed to one body, parallel to World at rest
+struct World;     ///< global axes: x forward, y port, z up, origin in the still waterplane
+struct BodyAxes;  ///< axes fixed to one body, parallel to World at rest
 
 template <class Frame>
 struct Vec3 {

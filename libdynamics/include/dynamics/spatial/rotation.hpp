@@ -1,9 +1,9 @@
 #pragma once
 /// \file  Rotations in space without angles that lock: quaternions and their exponential coordinates.
 ///
-/// A rotation vector φ stands for a turn by |φ| about φ/|φ|, global axes. With R(t) = exp([φ]×): the angular velocity in
-/// global axes is ω = J(φ) φ̇, J the left Jacobian (D1). Formulas as in Solà, Deray & Atchuthan 2018 ("A micro Lie theory
-/// for state estimation in robotics"), section on SO(3); derived in docs/theory/dynamics.md.
+/// A rotation vector φ stands for a turn by |φ| about φ/|φ|, global axes. With R(t) = exp([φ]×): the angular velocity
+/// in global axes is ω = J(φ) φ̇, J the left Jacobian (D1). Formulas as in Solà, Deray & Atchuthan 2018 ("A micro Lie
+/// theory for state estimation in robotics"), section on SO(3); derived in docs/theory/dynamics.md.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 

@@ -1,5 +1,6 @@
 #pragma once
-/// \file  Interpolation in a table with uneven steps, as weights of neighbouring values, so that any kind of value can be combined.
+/// \file  Interpolation in a table with uneven steps, as weights of neighbouring values, so that any kind of value can
+/// be combined.
 #include <array>
 #include <cstddef>
 #include <span>
@@ -15,8 +16,8 @@ struct Stencil {
 /// Straight between the two neighbours of `at`. `x` increases; a point outside is extended from the end interval.
 Stencil straight_stencil(std::span<const double> x, double at);
 
-/// Between x_i and x_{i+1} the cubic that meets both values and, at each of the two, the slope of the parabola through it and its
-/// neighbours (at an end of the table: of the straight line). Exact for parabolas inside; third order. (P6)
+/// Between x_i and x_{i+1} the cubic that meets both values and, at each of the two, the slope of the parabola through
+/// it and its neighbours (at an end of the table: of the straight line). Exact for parabolas inside; third order. (P6)
 Stencil cubic_stencil(std::span<const double> x, double at);
 
 /// Σ weight · value(index), for values that add and scale: numbers, matrices, columns.

@@ -74,8 +74,8 @@ enum class TimeFactor { plus_i_omega_t, minus_i_omega_t };
 
 /// Water as linear theory knows it.
 struct Water {
-  double density = 1025.0;              ///< ρ, kg/m³
-  double gravity = 9.81;                ///< g, m/s²
+  double density = 1025.0;  ///< ρ, kg/m³
+  double gravity = 9.81;    ///< g, m/s²
   WaterDepth depth = WaterDepth::infinite();
 };
 

@@ -29,13 +29,13 @@ class Hdf5Reader {
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
 
-  bool has(const std::string& dataset) const;              ///< a dataset or group of this absolute path
+  bool has(const std::string& dataset) const;  ///< a dataset or group of this absolute path
   bool is_text(const std::string& dataset) const;
   std::vector<std::string> children(const std::string& group) const;  ///< names in a group, sorted; empty if absent
-  Array numbers(const std::string& dataset) const;         ///< any number type, converted to double
-  double scalar(const std::string& dataset) const;         ///< exactly one number, of any shape
-  std::string text(const std::string& dataset) const;      ///< fixed or variable-length string, one element
-  std::vector<std::string> texts(const std::string& dataset) const;  ///< variable-length strings, one axis
+  Array numbers(const std::string& dataset) const;                    ///< any number type, converted to double
+  double scalar(const std::string& dataset) const;                    ///< exactly one number, of any shape
+  std::string text(const std::string& dataset) const;                 ///< fixed or variable-length string, one element
+  std::vector<std::string> texts(const std::string& dataset) const;   ///< variable-length strings, one axis
   bool has_attribute(const std::string& object, const std::string& name) const;
   std::string text_attribute(const std::string& object, const std::string& name) const;
   double number_attribute(const std::string& object, const std::string& name) const;

@@ -3,8 +3,9 @@
 ///
 /// Convention (docs/theory/conventions.md):
 ///   (P1)  motion, load and wave are Re(amplitude · e^{+iωt}); x forward, y port, z up, origin in the still waterplane
-///   (P2)  wave of unit amplitude: ζ(x, y, t) = Re e^{i(ωt − k(x cos β + y sin β))}; β is where it goes, from +x towards +y
-///   (P3)  load on the bodies: F = X ζ_a − (C + iωB − ω²A) ξ, in the order surge, sway, heave, roll, pitch, yaw of body 1, body 2, …
+///   (P2)  wave of unit amplitude: ζ(x, y, t) = Re e^{i(ωt − k(x cos β + y sin β))}; β is where it goes, from +x
+///   towards +y (P3)  load on the bodies: F = X ζ_a − (C + iωB − ω²A) ξ, in the order surge, sway, heave, roll, pitch,
+///   yaw of body 1, body 2, …
 /// SI throughout. Rotations are in radians; moments and rotations are about each body's reference point.
 #include <Eigen/Core>
 
@@ -32,16 +33,17 @@ struct BodyData {
 /// Added mass, damping, excitation and hydrostatics of N bodies.
 struct Coefficients {
   Water water;
-  std::vector<BodyData> body;         ///< N
-  std::vector<double> omega;          ///< Nω, rad/s, finite, positive, strictly increasing
-  std::vector<double> heading;        ///< Nβ, rad, strictly increasing; empty if there is no excitation
-  std::vector<Eigen::MatrixXd> A;     ///< Nω × (6N, 6N): added mass, kg, kg m, kg m²; row: load on, column: motion of
-  std::vector<Eigen::MatrixXd> B;     ///< Nω × (6N, 6N): radiation damping, kg/s …
+  std::vector<BodyData> body;      ///< N
+  std::vector<double> omega;       ///< Nω, rad/s, finite, positive, strictly increasing
+  std::vector<double> heading;     ///< Nβ, rad, strictly increasing; empty if there is no excitation
+  std::vector<Eigen::MatrixXd> A;  ///< Nω × (6N, 6N): added mass, kg, kg m, kg m²; row: load on, column: motion of
+  std::vector<Eigen::MatrixXd> B;  ///< Nω × (6N, 6N): radiation damping, kg/s …
   std::optional<Eigen::MatrixXd> A_zero, A_inf;  ///< limits ω → 0 and ω → ∞, (6N, 6N)
-  std::vector<Eigen::MatrixXcd> X;    ///< Nβ × (6N, Nω): excitation per metre of amplitude, N/m, N; phase as (P2) at the global origin
-  std::optional<Eigen::MatrixXd> C;   ///< (6N, 6N): hydrostatic and gravitational restoring, N/m, N, N m
-  std::string source;                 ///< format and files, for people
-  std::vector<std::string> notes;     ///< what the reader had to decide, one sentence each
+  std::vector<Eigen::MatrixXcd>
+      X;  ///< Nβ × (6N, Nω): excitation per metre of amplitude, N/m, N; phase as (P2) at the global origin
+  std::optional<Eigen::MatrixXd> C;  ///< (6N, 6N): hydrostatic and gravitational restoring, N/m, N, N m
+  std::string source;                ///< format and files, for people
+  std::vector<std::string> notes;    ///< what the reader had to decide, one sentence each
 
   int bodies() const { return static_cast<int>(body.size()); }
   int modes() const { return 6 * bodies(); }
@@ -57,16 +59,16 @@ Matrix6 rigid_shift(const Eigen::Vector3d& r);
 
 /// What WAMIT-style files leave unsaid.
 struct ReadOptions {
-  std::optional<double> density;       ///< ρ; needed for WAMIT numeric files
-  std::optional<double> gravity;       ///< g; needed for WAMIT numeric files
-  std::optional<WaterDepth> depth;     ///< needed for WAMIT numeric files
-  double ulen = 1.0;                   ///< WAMIT's ULEN, m
-  std::optional<int> iperout;          ///< WAMIT's IPEROUT 1…4; empty: 1 (periods), unless a file contradicts it
+  std::optional<double> density;    ///< ρ; needed for WAMIT numeric files
+  std::optional<double> gravity;    ///< g; needed for WAMIT numeric files
+  std::optional<WaterDepth> depth;  ///< needed for WAMIT numeric files
+  double ulen = 1.0;                ///< WAMIT's ULEN, m
+  std::optional<int> iperout;       ///< WAMIT's IPEROUT 1…4; empty: 1 (periods), unless a file contradicts it
 };
 
 /// Reads any supported file and says in `source` what it was taken for. Formats are told apart by content, not by name:
-/// WAMIT (give the .1 file or the common stem; .3 and .hst beside it are read too), Capytaine netCDF, BEMIO .h5, Froude .h5.
-/// \throws InputError with file, line and remedy
+/// WAMIT (give the .1 file or the common stem; .3 and .hst beside it are read too), Capytaine netCDF, BEMIO .h5, Froude
+/// .h5. \throws InputError with file, line and remedy
 Coefficients read(const std::filesystem::path& path, const ReadOptions& options = {});
 
 }  // namespace hydro::potential

@@ -1,8 +1,10 @@
 #pragma once
-/// \file  The memory integral ∫₀ᵗ K(t−τ) v(τ) dτ by direct summation: the plain method, and the reference for every other.
+/// \file  The memory integral ∫₀ᵗ K(t−τ) v(τ) dτ by direct summation: the plain method, and the reference for every
+/// other.
 ///
-/// Trapezium rule over velocities at past steps (R7). A sampled kernel whose transform has a non-negative real part keeps it
-/// under this rule, because sampling in time only folds the spectrum onto itself (R8): the sum takes energy out, or none.
+/// Trapezium rule over velocities at past steps (R7). A sampled kernel whose transform has a non-negative real part
+/// keeps it under this rule, because sampling in time only folds the spectrum onto itself (R8): the sum takes energy
+/// out, or none.
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -11,12 +13,13 @@
 
 namespace hydro::radiation {
 
-/// Velocities at the steps behind us, newest first, as far back as the kernel remembers. Before the first of them: rest.
+/// Velocities at the steps behind us, newest first, as far back as the kernel remembers. Before the first of them:
+/// rest.
 class VelocityHistory {
  public:
   VelocityHistory(int modes, std::size_t samples);
 
-  void push(const Eigen::VectorXd& velocity);   ///< the velocity at a newly completed step
+  void push(const Eigen::VectorXd& velocity);  ///< the velocity at a newly completed step
   /// All stored velocities, newest first, as one column of modes × samples numbers.
   Eigen::Map<const Eigen::VectorXd> newest_first() const;
   std::size_t pushed() const { return pushed_; }
@@ -50,8 +53,8 @@ class DirectConvolution {
   std::size_t samples_;
   double step_;
   Eigen::MatrixXd K0_;
-  Eigen::MatrixXd late_;    // [K(h) K(2h) …], (n, n·samples): for a full step
-  Eigen::MatrixXd early_;   // [K(0) K(h) …]: together with late_, for part of a step
+  Eigen::MatrixXd late_;   // [K(h) K(2h) …], (n, n·samples): for a full step
+  Eigen::MatrixXd early_;  // [K(0) K(h) …]: together with late_, for part of a step
 };
 
 }  // namespace hydro::radiation

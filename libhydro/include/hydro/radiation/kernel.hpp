@@ -9,14 +9,14 @@ namespace hydro::radiation {
 
 /// Radiation damping of n modes over frequency.
 struct DampingTable {
-  std::vector<double> omega;        ///< rad/s, positive, strictly increasing
-  std::vector<Eigen::MatrixXd> B;   ///< one (n, n) matrix a frequency
+  std::vector<double> omega;       ///< rad/s, positive, strictly increasing
+  std::vector<Eigen::MatrixXd> B;  ///< one (n, n) matrix a frequency
 };
 
 /// How long a memory to keep and how finely to sample it.
 struct MemoryGrid {
-  double step;      ///< s, > 0
-  double length;    ///< s, a whole number of steps is kept
+  double step;    ///< s, > 0
+  double length;  ///< s, a whole number of steps is kept
 };
 
 /// The retardation function K(t), sampled at t = 0, h, 2h, …, for n coupled modes.
@@ -24,33 +24,35 @@ struct MemoryGrid {
 ///   F(t) = −A∞ a(t) − ∫₀ᵗ K(t−τ) v(τ) dτ       (R1)
 ///   K(t) =  2/π ∫₀^∞ B(ω) cos ωt dω            (R2)
 ///
-/// SI; K is N/m between translations. B is taken as cubic between the given frequencies (P6) and zero at ω = 0, cut into four straight
-/// pieces an interval on which the cosine is integrated exactly (R3), so late times are as good as early ones up to longest_time(). What lies beyond
-/// the last frequency is left out and bounded, not guessed. Cost of building: O(n² N_ω N_t).
+/// SI; K is N/m between translations. B is taken as cubic between the given frequencies (P6) and zero at ω = 0, cut
+/// into four straight pieces an interval on which the cosine is integrated exactly (R3), so late times are as good as
+/// early ones up to longest_time(). What lies beyond the last frequency is left out and bounded, not guessed. Cost of
+/// building: O(n² N_ω N_t).
 class RetardationKernel {
  public:
-  /// \throws InputError if the table is empty or not increasing, if a diagonal entry is more negative than five per cent of
-  /// its largest value (naming mode and frequency: a hull in calm water cannot be a source of power), or if `grid` asks
-  /// for more than longest_time().
+  /// \throws InputError if the table is empty or not increasing, if a diagonal entry is more negative than five per
+  /// cent of its largest value (naming mode and frequency: a hull in calm water cannot be a source of power), or if
+  /// `grid` asks for more than longest_time().
   static RetardationKernel from_damping(const DampingTable& damping, const MemoryGrid& grid);
 
-  /// The longest time at which K can be told from a table with this spacing: π / max Δω between its frequencies. Later, the straight pieces show
-  /// an echo of the beginning.
+  /// The longest time at which K can be told from a table with this spacing: π / max Δω between its frequencies. Later,
+  /// the straight pieces show an echo of the beginning.
   static double longest_time(const DampingTable& damping);
 
   int modes() const { return static_cast<int>(K_.front().rows()); }
   std::size_t samples() const { return K_.size(); }
   double step() const { return step_; }
   double length() const { return step_ * static_cast<double>(K_.size() - 1); }
-  const Eigen::MatrixXd& at(std::size_t sample) const { return K_[sample]; }   ///< K(sample · h), (n, n)
+  const Eigen::MatrixXd& at(std::size_t sample) const { return K_[sample]; }  ///< K(sample · h), (n, n)
 
-  /// Estimated largest error of each entry of K from the finite table, (n, n): what is missing beyond the last frequency plus
-  /// the bend of B between frequencies as if it were straight there (R4). An estimate, since B between and beyond its samples is not known.
+  /// Estimated largest error of each entry of K from the finite table, (n, n): what is missing beyond the last
+  /// frequency plus the bend of B between frequencies as if it were straight there (R4). An estimate, since B between
+  /// and beyond its samples is not known.
   const Eigen::MatrixXd& error_bound() const { return error_; }
 
   /// Share of the memory beyond `length`, as a bound on the relative error of the damping force at any frequency (R5):
-  /// max over pairs of ∫_length^∞ |K_ij| dt / √(max B_ii · max B_jj), where what follows longest_time() is taken to be no more
-  /// than the last quarter before it.
+  /// max over pairs of ∫_length^∞ |K_ij| dt / √(max B_ii · max B_jj), where what follows longest_time() is taken to be
+  /// no more than the last quarter before it.
   double truncation() const { return truncation_; }
 
   /// Most negative diagonal damping relative to its mode's largest, 0 if none is: power that the data give to the hull.
@@ -69,11 +71,12 @@ double memory_length(const DampingTable& damping, double tolerance);
 /// K at one time from the table, (n, n), by (R3).
 Eigen::MatrixXd retardation(const DampingTable& damping, double t_s);
 
-/// A(ω) = A∞ − (1/ω) ∫₀^∞ K(t) sin ωt dt, solved for A∞ at every frequency (Ogilvie 1964; (R6)) and averaged with weights ω², which damp
-/// the error of K at late times. For tables that reach as far as the damping does; else see tail.hpp.
+/// A(ω) = A∞ − (1/ω) ∫₀^∞ K(t) sin ωt dt, solved for A∞ at every frequency (Ogilvie 1964; (R6)) and averaged with
+/// weights ω², which damp the error of K at late times. For tables that reach as far as the damping does; else see
+/// tail.hpp.
 struct InfiniteAddedMass {
-  Eigen::MatrixXd value;    ///< (n, n)
-  Eigen::MatrixXd spread;   ///< weighted standard deviation over the frequencies, (n, n): its error as the data show it
+  Eigen::MatrixXd value;   ///< (n, n)
+  Eigen::MatrixXd spread;  ///< weighted standard deviation over the frequencies, (n, n): its error as the data show it
 };
 InfiniteAddedMass infinite_added_mass(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A);
 

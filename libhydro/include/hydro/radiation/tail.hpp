@@ -11,18 +11,22 @@ namespace hydro::radiation {
 
 /// A damping table continued to four times its last frequency, with the added mass that belongs to it.
 struct ContinuedDamping {
-  DampingTable table;       ///< the given one, then the tail at the same spacing, down to zero
-  Eigen::MatrixXd A_inf;    ///< the constant that belongs to the table: the limit given or found, less what the tail leaves at slow motions, (n, n)
-  double misfit;            ///< rms of what A(ω) differs by up to 0.6 of the given table's end, relative to √(A_ii A_jj), worst pair
-  double shift;             ///< of A_inf from the limit given or found with the tail, relative as misfit
+  DampingTable table;     ///< the given one, then the tail at the same spacing, down to zero
+  Eigen::MatrixXd A_inf;  ///< the constant that belongs to the table: the limit given or found, less what the tail
+                          ///< leaves at slow motions, (n, n)
+  double
+      misfit;  ///< rms of what A(ω) differs by up to 0.6 of the given table's end, relative to √(A_ii A_jj), worst pair
+  double shift;  ///< of A_inf from the limit given or found with the tail, relative as misfit
 };
 
-/// Where a table ends before its damping has died away, the waves beyond the end act as added mass on slower motions (Kramers and
-/// Kronig, (R10)): from A(ω) inside the table follows B beyond it, as a polygon with seven corners, fitted by least squares with a
-/// preference for straightness (R11). Without this a run would differ from the frequency domain by what is cut.
+/// Where a table ends before its damping has died away, the waves beyond the end act as added mass on slower motions
+/// (Kramers and Kronig, (R10)): from A(ω) inside the table follows B beyond it, as a polygon with seven corners, fitted
+/// by least squares with a preference for straightness (R11). Without this a run would differ from the frequency domain
+/// by what is cut.
 ///
 /// `A`: one matrix a frequency of the table. Modes whose damping has died away get a tail of next to nothing.
 /// \throws InputError as RetardationKernel::from_damping, or if the sizes disagree
-ContinuedDamping continued(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A, const std::optional<Eigen::MatrixXd>& A_inf);
+ContinuedDamping continued(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A,
+                           const std::optional<Eigen::MatrixXd>& A_inf);
 
 }  // namespace hydro::radiation
