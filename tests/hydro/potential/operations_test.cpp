@@ -1,7 +1,11 @@
 #include "hydro/potential/operations.hpp"
 
+#include <Eigen/Geometry>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
 
 #include <cmath>
 
