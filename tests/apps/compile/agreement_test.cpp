@@ -3,6 +3,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <ostream>
 
 #include "compile/probes.hpp"
 #include "froude/simulate.hpp"
@@ -16,6 +17,8 @@ struct Setting {
   const char* file;  // five bodies that feel each other's waves, or one that each of the five is by itself
   double period;     // s
 };
+
+void PrintTo(const Setting& s, std::ostream* out) { *out << s.file << " " << s.period << " s"; }
 
 /// Five coupled modules, linear: moored and joined with dampers, so that a run settles.
 std::string scene_text(const Setting& setting) {

@@ -1,7 +1,5 @@
 #include "hydro/potential/operations.hpp"
 
-#include <Eigen/Geometry>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
