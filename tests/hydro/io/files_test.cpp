@@ -1,0 +1,97 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <numeric>
+
+#include "hydro/base/error.hpp"
+#include "hydro/io/atomic_file.hpp"
+#include "hydro/io/hdf5.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace hydro::io;
+using hydro::InputError;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+/// A folder of its own that goes with the test.
+class Files : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder = fs::temp_directory_path() /
+             (std::string("froude_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder);
+    fs::create_directory(folder);
+  }
+  void TearDown() override { fs::remove_all(folder); }
+  std::size_t entries() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+  }
+  fs::path folder;
+};
+
+TEST_F(Files, AreReplacedWholeAndLeaveNothingBeside) {
+  write_atomically(folder / "a.txt", "first");
+  write_atomically(folder / "a.txt", "second, longer");
+  EXPECT_EQ(read_text(folder / "a.txt"), "second, longer");
+  EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(Files, AreRefusedWithTheReasonAndLeaveNothing) {
+  EXPECT_THAT([&] { write_atomically(folder / "none" / "a.txt", "x"); },
+              ThrowsMessage<InputError>(HasSubstr("No such file or directory")));
+  EXPECT_THAT([&] { write_atomically(folder, "x"); }, ThrowsMessage<InputError>(HasSubstr("Is a directory")));
+  EXPECT_THAT([&] { read_text(folder / "none.txt"); }, ThrowsMessage<InputError>(HasSubstr("cannot read")));
+  require_writable(folder / "new.txt");
+  EXPECT_EQ(entries(), 0u);
+}
+
+TEST_F(Files, OfHdf5ComeBackToTheLastBit) {
+  std::vector<double> large(70000);
+  std::iota(large.begin(), large.end(), 0.1);
+  {
+    Hdf5Writer file;
+    file.write("/group/deep/table", std::vector<double>{1, 2, 3, 4, 5, 6}, {2, 3});
+    file.write("/large", large, {700, 100});  // chunked and compressed
+    file.write_scalar("/one", std::numeric_limits<double>::denorm_min());
+    file.write_text("/words", "ζ is a wave");
+    file.attribute("/one", "units", "m");
+    file.attribute("/one", "scale", 0.1);
+    file.save(folder / "a.h5");
+  }
+  const Hdf5Reader read(folder / "a.h5");
+  const Array table = read.numbers("/group/deep/table");
+  EXPECT_THAT(table.shape, testing::ElementsAre(2, 3));
+  EXPECT_THAT(table.values, testing::ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_EQ(read.numbers("/large").values, large);
+  EXPECT_EQ(read.scalar("/one"), std::numeric_limits<double>::denorm_min());
+  EXPECT_EQ(read.text("/words"), "ζ is a wave");
+  EXPECT_EQ(read.text_attribute("/one", "units"), "m");
+  EXPECT_EQ(read.number_attribute("/one", "scale"), 0.1);
+  EXPECT_TRUE(read.has("/group/deep"));
+  EXPECT_FALSE(read.has("/group/shallow/table"));
+  EXPECT_TRUE(read.is_text("/words"));
+  EXPECT_THAT(read.children("/group"), testing::ElementsAre("deep"));
+}
+
+TEST_F(Files, OfHdf5SayWhatIsMissingOrCut) {
+  {
+    Hdf5Writer file;
+    file.write("/x", std::vector<double>(5000, 1.0), {5000});
+    file.save(folder / "a.h5");
+  }
+  EXPECT_THAT([&] { Hdf5Reader(folder / "a.h5").numbers("/y"); },
+              ThrowsMessage<InputError>(HasSubstr("/y: there is no such dataset")));
+  EXPECT_THAT([&] { Hdf5Reader(folder / "a.h5").scalar("/x"); },
+              ThrowsMessage<InputError>(HasSubstr("one number is needed")));
+  fs::resize_file(folder / "a.h5", fs::file_size(folder / "a.h5") / 2);
+  EXPECT_THAT([&] { Hdf5Reader(folder / "a.h5"); }, ThrowsMessage<InputError>(HasSubstr("cut short")));
+  std::ofstream(folder / "b.h5") << "not HDF5";
+  EXPECT_THAT([&] { Hdf5Reader(folder / "b.h5"); }, ThrowsMessage<InputError>(HasSubstr("not an HDF5 file")));
+}
+
+}  // namespace
