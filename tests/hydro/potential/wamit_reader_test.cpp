@@ -178,6 +178,8 @@ struct BadSet {
   const char *radiation, *excitation, *restoring;  ///< "" for no such file
   std::vector<const char*> says;
 };
+// Without it GoogleTest prints the addresses inside, and the names of the tests differ from build to build.
+void PrintTo(const BadSet& set, std::ostream* out) { *out << set.name; }
 
 class WamitBadInput : public ::testing::TestWithParam<BadSet> {};
 
