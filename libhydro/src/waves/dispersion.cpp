@@ -1,6 +1,7 @@
 #include "hydro/waves/dispersion.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace hydro::waves {
 namespace {
@@ -49,6 +50,17 @@ double group_velocity(double omega, const Water& water) {
   if (water.depth.is_infinite()) return omega / (2 * k);
   const double two_kh = 2 * k * water.depth.metres();
   return omega / (2 * k) * (1 + two_kh / std::sinh(two_kh));  // (W4); sinh = ∞ in deep water gives the limit ½
+}
+
+DepthRegime depth_regime(double kh) {
+  require(kh > 0, "kh must be positive, got {}", kh);
+  constexpr double pi = std::numbers::pi;
+  return kh >= pi ? DepthRegime::deep : kh <= pi / 10 ? DepthRegime::shallow : DepthRegime::intermediate;
+}
+
+std::string_view name(DepthRegime regime) {
+  constexpr std::array<std::string_view, 3> names{"shallow", "intermediate", "deep"};
+  return names[static_cast<std::size_t>(regime)];
 }
 
 }  // namespace hydro::waves

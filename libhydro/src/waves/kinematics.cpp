@@ -15,7 +15,7 @@ Eigen::Vector3cd velocity_transfer(const Component& wave, const Water& water, co
   const double denominator = std::expm1(-2 * wave.k * h);
   const double along = -decay * (2 + mirrored) / denominator;
   const double up = decay * mirrored / denominator;
-  const std::complex<double> unit = elevation_transfer(wave, point.x(), point.y()) * wave.omega;
+  const std::complex<double> unit = elevation_transfer(wave, point.x(), point.y()) * wave.sigma;
   constexpr std::complex<double> i(0, 1);
   return {unit * along * std::cos(wave.heading), unit * along * std::sin(wave.heading), i * unit * up};
 }

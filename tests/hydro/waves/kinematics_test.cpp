@@ -17,7 +17,8 @@ constexpr Complex i(0, 1);
 Water water_of_depth(double h) { return {.density = 1025, .gravity = 9.81, .depth = WaterDepth::from_metres(h)}; }
 
 Component wave_in(const Water& water, double omega, double heading) {
-  return {.omega = omega, .k = wavenumber(omega, water), .amplitude = 1, .phase = 0, .heading = heading};
+  return {
+      .omega = omega, .k = wavenumber(omega, water), .sigma = omega, .amplitude = 1, .phase = 0, .heading = heading};
 }
 
 // ∂V/∂axis by a five-point difference with step 1e-3/k: error of order 1e-12 k |V| plus rounding 1e-13 k |V|.

@@ -5,6 +5,8 @@
 ///
 /// Plain doubles in SI: these are kernels. Frequencies at a border are AngularFrequency. No current, no surface
 /// tension.
+#include <string_view>
+
 #include "hydro/base/types.hpp"
 
 namespace hydro::waves {
@@ -22,5 +24,11 @@ double phase_velocity(double omega, const Water& water);
 
 /// dω/dk, m/s: how fast energy travels (W4); 1e-15 relative. \throws InputError as wavenumber()
 double group_velocity(double omega, const Water& water);
+
+/// How much of the depth a wave feels (W47): deep from kh = π on (h >= λ/2, tanh kh > 0.996), shallow up to π/10
+/// (h <= λ/20).
+enum class DepthRegime { shallow, intermediate, deep };
+DepthRegime depth_regime(double kh);  ///< \throws InputError unless kh > 0; +∞ is deep
+std::string_view name(DepthRegime regime);
 
 }  // namespace hydro::waves
