@@ -11,18 +11,9 @@ namespace hydro::radiation {
 namespace {
 
 using detail::EndWeights;
+using detail::oscillating_weights;
 
 constexpr double two_over_pi = 2 / std::numbers::pi;
-
-/// ∫_a^b f(ω) cos(ωt − φ) dω = w_a f(a) + w_b f(b) for f straight between a and b, exactly (R3).
-EndWeights oscillating_weights(double a, double b, double t, double phase) {
-  const double h = b - a, x = t * h / 2, m = t * (a + b) / 2 - phase;
-  // With u = ω − midpoint: ∫cos = h sinc(x) cos m and ∫u cos = −(h²/2) j1(x) sin m, j1 the spherical Bessel function.
-  const double sinc = std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x;
-  const double j1 = std::abs(x) < 1e-2 ? x / 3 * (1 - x * x / 10 * (1 - x * x / 28)) : (sinc - std::cos(x)) / x;
-  const double even = h / 2 * sinc * std::cos(m), odd = h / 2 * j1 * std::sin(m);
-  return {even + odd, even - odd};
-}
 
 EndWeights cosine_weights(double a, double b, double t) { return oscillating_weights(a, b, t, 0); }
 EndWeights sine_weights(double a, double b, double t) { return oscillating_weights(a, b, t, std::numbers::pi / 2); }
@@ -152,6 +143,11 @@ std::vector<double> remaining_memory(const DampingTable& damping, double step) {
 
 Eigen::MatrixXd retardation(const DampingTable& damping, double t_s) { return CosineTransform(damping).at(t_s); }
 
+double negative_share(const DampingTable& damping) {
+  check(damping);
+  return most_negative(damping);
+}
+
 double RetardationKernel::longest_time(const DampingTable& damping) {
   // From ω = 0 to the first frequency B rises from nothing without a bend worth an echo; bend() counts what it costs.
   double widest = damping.omega.size() == 1 ? damping.omega.front() : 0;
@@ -181,6 +177,20 @@ RetardationKernel RetardationKernel::from_damping(const DampingTable& damping, c
   const double survey = survey_step(damping);
   const auto remaining = remaining_memory(damping, survey);
   kernel.truncation_ = remaining[std::min(remaining.size() - 1, steps_in(kernel.length(), survey))];
+  return kernel;
+}
+
+RetardationKernel RetardationKernel::from_samples(std::vector<Eigen::MatrixXd> K, double step) {
+  require(step > 0 && K.size() >= 2, "a sampled kernel needs a positive step and two samples, got {} s and {}", step,
+          K.size());
+  for (const auto& m : K)
+    require(m.rows() == K.front().rows() && m.cols() == m.rows() && m.rows() > 0,
+            "a sample of the kernel is ({}, {}), the first is ({}, {})", m.rows(), m.cols(), K.front().rows(),
+            K.front().cols());
+  RetardationKernel kernel;
+  kernel.step_ = step;
+  kernel.error_ = Eigen::MatrixXd::Zero(K.front().rows(), K.front().cols());
+  kernel.K_ = std::move(K);
   return kernel;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 /// \file  Private: B over frequency as a polygon, and integrals of it as weights of the given values.
+#include <cmath>
 #include <vector>
 
 #include "hydro/base/interpolation.hpp"
@@ -10,6 +11,16 @@ namespace hydro::radiation::detail {
 struct EndWeights {
   double a, b;
 };
+
+/// ∫_a^b f(ω) cos(ωt − φ) dω = w_a f(a) + w_b f(b) for f straight between a and b, exactly (R3).
+inline EndWeights oscillating_weights(double a, double b, double t, double phase) {
+  const double h = b - a, x = t * h / 2, m = t * (a + b) / 2 - phase;
+  // With u = ω − midpoint: ∫cos = h sinc(x) cos m and ∫u cos = −(h²/2) j1(x) sin m, j1 the spherical Bessel function.
+  const double sinc = std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x;
+  const double j1 = std::abs(x) < 1e-2 ? x / 3 * (1 - x * x / 10 * (1 - x * x / 28)) : (sinc - std::cos(x)) / x;
+  const double even = h / 2 * sinc * std::cos(m), odd = h / 2 * j1 * std::sin(m);
+  return {even + odd, even - odd};
+}
 
 /// B on the cubic of (P6) between the given frequencies and from ω = 0, where B = 0, cut into four straight pieces an
 /// interval. Everything is linear in B, so the pieces only gather weights, and each B is touched once an integral.

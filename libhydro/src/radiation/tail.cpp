@@ -116,6 +116,35 @@ Eigen::MatrixXd passive(const Eigen::MatrixXd& B, const Eigen::VectorXd& size) {
 
 }  // namespace
 
+Eigen::MatrixXd added_mass_above_limit(const DampingTable& damping, double omega) {
+  require(omega > 0, "added mass is asked for at {} rad/s; frequencies must be positive", omega);
+  const detail::Polygon polygon(damping.omega);
+  double nearest = std::abs(omega - polygon.nodes().front());
+  for (const double node : polygon.nodes()) nearest = std::min(nearest, std::abs(omega - node));
+  // At a corner the logarithms of the two pieces are infinite and cancel: the mean of both sides is the limit.
+  const double aside = nearest < 1e-7 * omega ? 1e-6 * omega : 0;
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(damping.B.front().rows(), damping.B.front().cols());
+  for (const double at : {omega - aside, omega + aside}) {
+    const auto weight = polygon.gather([&](double a, double b) { return added_mass_weights(a, b, at); });
+    for (std::size_t j = 0; j < weight.size(); ++j) sum += weight[j] / 2 * damping.B[j];
+  }
+  return sum;
+}
+
+Eigen::MatrixXd damping_from_added_mass(const std::vector<double>& given, const std::vector<Eigen::MatrixXd>& A,
+                                        const Eigen::MatrixXd& A_inf, double omega) {
+  require(!given.empty() && given.size() == A.size(), "added mass and its frequencies differ in number: {} and {}",
+          A.size(), given.size());
+  require(omega > 0 && omega < given.back(), "damping is asked for at {} rad/s; the added mass tells it up to {}",
+          omega, given.back());
+  // The part above the first value goes to zero with ω, as the polygon takes it; the constant below it is integrated by
+  // hand: ∫₀^Ω dν/(ν² − ω²) = ln|(Ω−ω)/(Ω+ω)|/2ω.
+  DampingTable above{given, {}};
+  for (const auto& a : A) above.B.push_back(a - A.front());
+  const double last = given.back(), log = std::log((last - omega) / (last + omega)) / (2 * omega);
+  return -omega * omega * (added_mass_above_limit(above, omega) + two_over_pi * log * (A.front() - A_inf));
+}
+
 ContinuedDamping continued(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A,
                            const std::optional<Eigen::MatrixXd>& A_inf) {
   require(A.size() == damping.omega.size() && damping.omega.size() >= 3,

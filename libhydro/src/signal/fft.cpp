@@ -8,15 +8,10 @@
 #include <new>
 
 #include "hydro/base/error.hpp"
+#include "planner.hpp"
 
 namespace hydro::signal {
 namespace {
-
-// FFTW executes plans from any thread but makes and destroys them in one thread at a time only.
-std::mutex& planner() {
-  static std::mutex mutex;
-  return mutex;
-}
 
 struct FreeBuffer {
   void operator()(void* p) const { fftw_free(p); }

@@ -49,6 +49,22 @@ TEST(ContinuedDamping, BringsBackTheAddedMassThatACutTableLoses) {
   EXPECT_LT(whole.misfit, 2e-3);
 }
 
+// (R10), (R21): causality ties added mass and damping together, both ways.
+TEST(KramersKronig, GivesAddedMassFromDampingAndDampingFromAddedMass) {
+  const auto table = body.damping_table(20, 500);
+  for (const double omega : {0.42, 1.1, 1.14, 2.5}) {
+    // Beyond 20 rad/s lie (2/π)∫2a/ν⁴ = 2e-5; pieces of 0.01 rad/s bend by B″h²/12 = 1e-4.
+    EXPECT_NEAR(added_mass_above_limit(table, omega)(0, 0), body.A_minus_A_inf(omega), 1e-3) << omega;
+    // The first value of A is kept below 0.04 rad/s, and 1/3·20³ is left out beyond 20.
+    EXPECT_NEAR(
+        damping_from_added_mass(table.omega, added_mass(table), Eigen::MatrixXd::Constant(1, 1, A_inf), omega)(0, 0),
+        body.B(omega), 5e-3)
+        << omega;
+  }
+  EXPECT_THROW(damping_from_added_mass(table.omega, added_mass(table), Eigen::MatrixXd::Constant(1, 1, A_inf), 25),
+               hydro::InputError);
+}
+
 TEST(ContinuedDamping, FindsTheLimitThatDataLack) {
   const auto cut = body.damping_table(4, 80);
   const auto whole = continued(cut, added_mass(cut), std::nullopt);

@@ -35,6 +35,10 @@ class RetardationKernel {
   /// `grid` asks for more than longest_time().
   static RetardationKernel from_damping(const DampingTable& damping, const MemoryGrid& grid);
 
+  /// A kernel sampled elsewhere at 0, h, 2h, …; its errors are not known here, and told as zero.
+  /// \throws InputError unless step > 0 and there are two samples or more, square and of one size
+  static RetardationKernel from_samples(std::vector<Eigen::MatrixXd> K, double step);
+
   /// The longest time at which K can be told from a table with this spacing: π / max Δω between its frequencies. Later,
   /// the straight pieces show an echo of the beginning.
   static double longest_time(const DampingTable& damping);
@@ -67,6 +71,10 @@ class RetardationKernel {
 
 /// The shortest memory whose truncation (R5) is within `tolerance`; longest_time() if none is.
 double memory_length(const DampingTable& damping, double tolerance);
+
+/// Most negative diagonal damping relative to its mode's largest, 0 if none is. \throws InputError as
+/// RetardationKernel::from_damping on a table that is not one
+double negative_share(const DampingTable& damping);
 
 /// K at one time from the table, (n, n), by (R3).
 Eigen::MatrixXd retardation(const DampingTable& damping, double t_s);

@@ -29,4 +29,13 @@ struct ContinuedDamping {
 ContinuedDamping continued(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A,
                            const std::optional<Eigen::MatrixXd>& A_inf);
 
+/// A(ω) − A∞ that belongs to a damping table, cubic between its frequencies and nothing beyond the last, by Kramers and
+/// Kronig (R10), (n, n).
+Eigen::MatrixXd added_mass_above_limit(const DampingTable& damping, double omega);
+
+/// The way back: B(ω) from added mass at the frequencies `given`, cubic between them, its first value kept down to ω =
+/// 0 and its limit A∞ beyond the last, (n, n). (R21)
+Eigen::MatrixXd damping_from_added_mass(const std::vector<double>& given, const std::vector<Eigen::MatrixXd>& A,
+                                        const Eigen::MatrixXd& A_inf, double omega);
+
 }  // namespace hydro::radiation

@@ -1,0 +1,276 @@
+#include "passivity.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "pole_basis.hpp"
+
+namespace hydro::radiation::detail {
+namespace {
+
+using Complex = std::complex<double>;
+constexpr double quarter_turn = std::numbers::pi / 2;
+
+bool positive(const Eigen::MatrixXd& Q, double margin) {
+  Eigen::MatrixXd shifted = Q;
+  shifted.diagonal().array() -= margin;
+  return shifted.allFinite() && shifted.llt().info() == Eigen::Success;
+}
+
+/// ‖(C − iS)/2‖ of each pole, Frobenius: an upper bound of the spectral norm of its residue.
+Eigen::VectorXd residue_sizes(const std::vector<Pole>& poles, const Eigen::MatrixXd& coefficients) {
+  Eigen::VectorXd out(static_cast<Eigen::Index>(poles.size()));
+  Eigen::Index column = 0;
+  for (std::size_t k = 0; k < poles.size(); ++k) {
+    const Eigen::Index width = poles[k].omega > 0 ? 2 : 1;
+    out[static_cast<Eigen::Index>(k)] = coefficients.middleRows(column, width).norm() / 2;
+    column += width;
+  }
+  return out;
+}
+
+}  // namespace
+
+Eigen::RowVectorXd packed(const Eigen::MatrixXd& m) {
+  const Eigen::Index n = m.rows();
+  Eigen::RowVectorXd row(n * (n + 1) / 2);
+  Eigen::Index at = 0;
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index i = 0; i <= j; ++i) row[at++] = i == j ? m(i, j) : std::numbers::sqrt2 * m(i, j);
+  return row;
+}
+
+Eigen::MatrixXd unpacked(const Eigen::RowVectorXd& row, Eigen::Index n) {
+  Eigen::MatrixXd m(n, n);
+  Eigen::Index at = 0;
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index i = 0; i <= j; ++i) {
+      const double value = row[at++];
+      m(i, j) = m(j, i) = i == j ? value : value / std::numbers::sqrt2;
+    }
+  return m;
+}
+
+Eigen::MatrixXd WeightedDamping::rows(double theta) const {
+  const Complex z = std::polar(1.0, 2 * theta), i(0, 1);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3, columns(poles_));
+  out.row(0) = falling_at_zero(poles_);
+  Eigen::Index column = 0;
+  for (const Pole& pole : poles_) {
+    // W/(s − p) with W = −(c² − p²)²/p², and s = c (z − 1)/(z + 1).
+    const auto share = [&](Complex p) {
+      const Complex W = -std::pow(c_ * c_ - p * p, 2) / (p * p), u = z - (c_ + p) / (c_ - p);
+      const Complex k = W * 2.0 * c_ / ((c_ - p) * (c_ - p));
+      return Eigen::Vector3cd(W / (c_ - p) + k / u, -2.0 * i * k * z / (u * u),
+                              k * (4.0 * z / (u * u) - 8.0 * z * z / (u * u * u)));
+    };
+    const Complex p(-pole.decay, pole.omega);
+    const Eigen::Vector3cd up = share(p), down = share(std::conj(p));
+    out.col(column++) += ((up + down) / 2).real();
+    if (pole.omega > 0) out.col(column++) += ((up - down) / Complex(0, 2)).real();
+  }
+  return out / (4 * c_ * c_);
+}
+
+Eigen::VectorXd WeightedDamping::third_derivative(double theta, double radius) const {
+  const Complex z = std::polar(1.0, 2 * theta);
+  Eigen::VectorXd out(static_cast<Eigen::Index>(poles_.size()));
+  for (std::size_t n = 0; n < poles_.size(); ++n) {
+    double sum = 0;
+    for (const double sign : {1.0, -1.0}) {
+      const Complex p(-poles_[n].decay, sign * poles_[n].omega), zp = (c_ + p) / (c_ - p);
+      // The point z moves on the unit circle by twice the angle, and the circle itself keeps 1 − |zp| away.
+      const double d = std::max(std::abs(z - zp) - 2 * radius, 1 - std::abs(zp));
+      const double k = std::abs(std::pow(c_ * c_ - p * p, 2) / (p * p) * 2.0 * c_ / ((c_ - p) * (c_ - p)));
+      sum += k * (8 / (d * d) + 48 / (d * d * d) + 48 / (d * d * d * d));
+    }
+    out[static_cast<Eigen::Index>(n)] = sum / (4 * c_ * c_);
+  }
+  return out;
+}
+
+Certificate certify(const WeightedDamping& weighted, const Eigen::MatrixXd& coefficients, Eigen::Index n,
+                    double margin) {
+  constexpr int most_intervals = 60000, most_open = 50;
+  constexpr double narrowest = 1e-7;
+  const Eigen::VectorXd size = residue_sizes(weighted.poles(), coefficients);
+  struct Interval {
+    double from, to;
+  };
+  std::vector<Interval> left;
+  constexpr int start = 64;
+  for (int i = start; i-- > 0;) left.push_back({quarter_turn * i / start, quarter_turn * (i + 1) / start});
+  Certificate out;
+  for (int used = 0; !left.empty(); ++used) {
+    const Interval now = left.back();
+    left.pop_back();
+    const double middle = (now.from + now.to) / 2, h = (now.to - now.from) / 2;
+    const Eigen::MatrixXd q = weighted.rows(middle) * coefficients;
+    const Eigen::MatrixXd Q = unpacked(q.row(0), n), slope = h * unpacked(q.row(1), n),
+                          bend = h * h / 2 * unpacked(q.row(2), n);
+    const double rest = weighted.third_derivative(middle, h).dot(size) * h * h * h / 6;
+    if (positive(Q - bend, margin + rest) && positive(Q - slope + bend, margin + rest) &&
+        positive(Q + slope + bend, margin + rest))
+      continue;
+    if (used >= most_intervals || h < narrowest || !positive(Q, margin)) {
+      out.open.push_back(middle);
+      if (out.open.size() >= most_open) return out;
+      continue;
+    }
+    left.push_back({middle, now.to});
+    left.push_back({now.from, middle});
+  }
+  out.passive = out.open.empty();
+  return out;
+}
+
+namespace {
+
+/// Angles that see every pole: even ones, and each resonance with its flanks.
+std::vector<double> angles(const WeightedDamping& weighted) {
+  std::vector<double> out;
+  constexpr int even = 160;
+  for (int i = 0; i <= even; ++i) out.push_back(quarter_turn * i / even);
+  for (const Pole& p : weighted.poles())
+    for (const double flank : {-2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0})
+      if (const double omega = p.omega + flank * p.decay; omega > 0)
+        out.push_back(std::atan(omega / weighted.centre()));
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+Eigen::MatrixXd rows_at(const WeightedDamping& weighted, const std::vector<double>& theta) {
+  Eigen::MatrixXd out(static_cast<Eigen::Index>(theta.size()), columns(weighted.poles()));
+  for (std::size_t i = 0; i < theta.size(); ++i) out.row(static_cast<Eigen::Index>(i)) = weighted.rows(theta[i]).row(0);
+  return out;
+}
+
+/// Smallest eigenvalue of each row's matrix.
+Eigen::VectorXd smallest(const Eigen::MatrixXd& Q, Eigen::Index n) {
+  Eigen::VectorXd out(Q.rows());
+  for (Eigen::Index i = 0; i < Q.rows(); ++i)
+    out[i] =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(unpacked(Q.row(i), n), Eigen::EigenvaluesOnly).eigenvalues()[0];
+  return out;
+}
+
+/// Each row's matrix with eigenvalues below `floor` raised to it.
+Eigen::MatrixXd raised(Eigen::MatrixXd Q, Eigen::Index n, double floor, double& lowest) {
+  lowest = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < Q.rows(); ++i) {
+    const Eigen::MatrixXd m = unpacked(Q.row(i), n);
+    if (positive(m, floor)) continue;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(m);
+    lowest = std::min(lowest, eigen.eigenvalues()[0]);
+    Q.row(i) = packed(eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(floor).asDiagonal() *
+                      eigen.eigenvectors().transpose());
+  }
+  return Q;
+}
+
+/// The smallest x (‖design · x‖ least) with rows · x >= least, by its dual: non-negative multipliers, one at a time.
+Eigen::VectorXd least_lift(const Eigen::MatrixXd& design, const Eigen::MatrixXd& rows, const Eigen::VectorXd& least) {
+  const Eigen::Index n = design.cols();
+  Eigen::MatrixXd M = design.transpose() * design;
+  M.diagonal().array() += 1e-8 * M.trace() / static_cast<double>(n);
+  const Eigen::LLT<Eigen::MatrixXd> llt(M);
+  const Eigen::MatrixXd toward = llt.solve(rows.transpose());  // (n, rows)
+  const Eigen::MatrixXd dual = rows * toward;
+  Eigen::VectorXd multiplier = Eigen::VectorXd::Zero(rows.rows()), slack = -least;
+  constexpr int sweeps = 3000;
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    double worst = 0;
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+      const double step = std::max(-multiplier[i], -slack[i] / dual(i, i));
+      if (step == 0) continue;
+      worst = std::max(worst, std::abs(step) * dual(i, i));
+      multiplier[i] += step;
+      slack += step * dual.col(i);
+    }
+    if (worst < 1e-3 * least.cwiseAbs().maxCoeff()) break;
+  }
+  return toward * multiplier;
+}
+
+/// Weight of each angle while the fit is pulled: that of B itself, so that the ends, where B is next to nothing, do not
+/// lead.
+Eigen::VectorXd importance(const std::vector<double>& theta) {
+  Eigen::VectorXd out(static_cast<Eigen::Index>(theta.size()));
+  for (std::size_t i = 0; i < theta.size(); ++i)
+    out[static_cast<Eigen::Index>(i)] = std::max(0.1, std::pow(std::sin(2 * theta[i]), 2));
+  return out;
+}
+
+/// Towards the passive ones: fit the data and, at every angle, a matrix without negative eigenvalues near that of the
+/// fit before. The targets are placed beyond the nearest one, which reaches it sooner.
+Eigen::MatrixXd approached(const Fitting& fitting, const Eigen::MatrixXd& rows, const Eigen::VectorXd& importance,
+                           Eigen::Index n, double margin, Enforced& report) {
+  // A turn costs an eigenproblem of n modes at each angle; large arrays get fewer turns and more lift.
+  const double size = static_cast<double>(n);
+  const int turns = n <= 40 ? 150 : std::max(10, static_cast<int>(150 * 40 * 40 / (size * size)));
+  constexpr double beyond = 1.8;
+  const Eigen::Index inner = rows.cols();
+  const double weight =
+      3 * std::sqrt(static_cast<double>(fitting.design.rows()) / 2 / static_cast<double>(rows.rows()));
+  Eigen::MatrixXd design(fitting.design.rows() + rows.rows(), fitting.design.cols());
+  design << fitting.design, weight * importance.asDiagonal() * rows, Eigen::MatrixXd::Zero(rows.rows(), fitting.extra);
+  const Eigen::VectorXd scale = design.colwise().norm().cwiseMax(1e-300).cwiseInverse();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(design * scale.asDiagonal());
+  Eigen::MatrixXd right(design.rows(), fitting.right.cols());
+  right.topRows(fitting.right.rows()) = fitting.right;
+  Eigen::MatrixXd x = least_squares(fitting.design, fitting.right);
+  for (int turn = 0; turn < turns; ++turn) {
+    double lowest = 0;
+    const Eigen::MatrixXd now = rows * x.topRows(inner), target = raised(now, n, 2 * margin, lowest);
+    if (turn == 0) report.most_negative = std::min(0.0, lowest);
+    if (lowest > margin) break;
+    right.bottomRows(rows.rows()) = weight * importance.asDiagonal() * (now + beyond * (target - now));
+    x = scale.asDiagonal() * qr.solve(right);
+  }
+  return x;
+}
+
+}  // namespace
+
+Eigen::MatrixXd least_squares(const Eigen::MatrixXd& design, const Eigen::MatrixXd& right) {
+  const Eigen::VectorXd scale = design.colwise().norm().cwiseMax(1e-300).cwiseInverse();
+  return scale.asDiagonal() * Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(design * scale.asDiagonal()).solve(right);
+}
+
+Enforced enforce(const WeightedDamping& weighted, const Eigen::MatrixXd& null, const Fitting& fitting, Eigen::Index n,
+                 double margin) {
+  std::vector<double> theta = angles(weighted);
+  const Eigen::Index inner = null.cols();
+  Enforced out;
+  Eigen::MatrixXd rows = rows_at(weighted, theta) * null;
+  out.x = approached(fitting, rows, importance(theta), n, margin, out);
+  // What is left is covered by damping that acts on all modes alike, as little of it as does.
+  const Eigen::MatrixXd diagonal = packed(Eigen::MatrixXd::Identity(n, n));
+  const Eigen::MatrixXd without = out.x;
+  for (int round = 0; round < 8; ++round) {
+    const Eigen::VectorXd lowest = smallest(rows * without.topRows(inner), n);
+    out.x = without;
+    if (round > 0 || lowest.minCoeff() < margin) {
+      const Eigen::VectorXd least = (1.5 * margin - lowest.array()).cwiseMax(0);
+      const Eigen::VectorXd lifted = least_lift(fitting.design.leftCols(inner), rows, least);
+      out.x.topRows(inner) += lifted * diagonal;
+      out.lift = (rows * lifted).maxCoeff();
+    }
+    const Certificate certificate = certify(weighted, null * out.x.topRows(inner), n, margin);
+    out.passive = certificate.passive;
+    if (out.passive) break;
+    theta = certificate.open;
+    const Eigen::MatrixXd more = rows_at(weighted, theta) * null;
+    rows.conservativeResize(rows.rows() + more.rows(), Eigen::NoChange);
+    rows.bottomRows(more.rows()) = more;
+  }
+  return out;
+}
+
+}  // namespace hydro::radiation::detail

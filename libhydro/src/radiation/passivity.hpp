@@ -1,0 +1,65 @@
+#pragma once
+/// \file  Private: whether a pole model can give energy to a motion, and making it unable to. (R15)-(R17)
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "hydro/radiation/rational.hpp"
+
+namespace hydro::radiation::detail {
+
+/// A symmetric matrix as its upper triangle in one row, off-diagonal entries times √2 so that lengths agree.
+Eigen::RowVectorXd packed(const Eigen::MatrixXd& symmetric);
+Eigen::MatrixXd unpacked(const Eigen::RowVectorXd& row, Eigen::Index n);
+
+/// Q(θ) = B(ω)/sin² 2θ with ω = c tan θ, 0 <= θ <= π/2: finite at both ends, where B itself goes to zero. (R15)
+/// Everything is linear in the coefficients, so this class only makes rows that multiply them.
+class WeightedDamping {
+ public:
+  WeightedDamping(std::vector<Pole> poles, double centre) : poles_(std::move(poles)), c_(centre) {}
+
+  double centre() const { return c_; }
+  const std::vector<Pole>& poles() const { return poles_; }
+  /// Rows of the derivatives 0, 1 and 2 of Q by θ, (3, columns).
+  Eigen::MatrixXd rows(double theta) const;
+  /// Bound on |Q‴| of each pole's share within `radius` of θ, per unit of √(C² + S²)/2, one a pole.
+  Eigen::VectorXd third_derivative(double theta, double radius) const;
+
+ private:
+  std::vector<Pole> poles_;
+  double c_;
+};
+
+struct Certificate {
+  bool passive = false;      ///< Q(θ) − margin ⪰ 0 for every θ
+  std::vector<double> open;  ///< θ at which that fails or could not be decided
+};
+
+/// Covers 0 … π/2 with intervals on which Q − margin is shown to be positive definite: the quadratic of Q at the middle
+/// by its Bernstein matrices, the rest by a bound of the third derivative. (R16)
+Certificate certify(const WeightedDamping& weighted, const Eigen::MatrixXd& coefficients, Eigen::Index n,
+                    double margin);
+
+/// Least-squares problem of the coefficients: ‖design · x − right‖, x (columns + extra, pairs). The last `extra`
+/// columns have no damping.
+struct Fitting {
+  Eigen::MatrixXd design, right;
+  Eigen::Index extra = 0;
+};
+
+/// x with least ‖design · x − right‖, columns scaled.
+Eigen::MatrixXd least_squares(const Eigen::MatrixXd& design, const Eigen::MatrixXd& right);
+
+struct Enforced {
+  Eigen::MatrixXd x;
+  bool passive = false;
+  double lift = 0;           ///< largest Q added to all modes alike
+  double most_negative = 0;  ///< eigenvalue of Q on the grid before
+};
+
+/// The solution nearest to the least-squares one that is passive with `margin`. (R17)
+/// `null` spans coefficients that vanish at rest: coefficients = null · x.
+Enforced enforce(const WeightedDamping& weighted, const Eigen::MatrixXd& null, const Fitting& fitting, Eigen::Index n,
+                 double margin);
+
+}  // namespace hydro::radiation::detail

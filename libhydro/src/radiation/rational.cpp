@@ -1,0 +1,233 @@
+#include "hydro/radiation/rational.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hydro/base/error.hpp"
+#include "hydro/base/interpolation.hpp"
+#include "hydro/radiation/tail.hpp"
+#include "passivity.hpp"
+#include "pole_basis.hpp"
+#include "vector_fit.hpp"
+
+namespace hydro::radiation {
+
+int PoleModel::order() const { return static_cast<int>(detail::columns(poles)); }
+
+namespace {
+
+/// Σ of the model's matrices, weighted by a row over its functions.
+template <class Row>
+auto weighted_sum(const PoleModel& m, const Row& row) {
+  using Scalar = typename Row::Scalar;
+  Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> sum =
+      Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>::Zero(m.modes(), m.modes());
+  Eigen::Index column = 0;
+  for (std::size_t k = 0; k < m.poles.size(); ++k) {
+    sum += row[column++] * m.C[k];
+    if (m.poles[k].omega > 0) sum += row[column++] * m.S[k];
+  }
+  return sum;
+}
+
+}  // namespace
+
+Eigen::MatrixXd PoleModel::kernel(double t_s) const { return weighted_sum(*this, detail::kernels_at(poles, t_s)); }
+
+Eigen::MatrixXcd PoleModel::transform(double omega) const {
+  return weighted_sum(*this, detail::basis_at(poles, omega));
+}
+
+namespace {
+
+/// The data of a fit: modes that make waves, scaled to a largest damping of one, and the continued damping beyond.
+struct Data {
+  std::vector<int> modes;  // of the caller that make waves
+  Eigen::VectorXd scale;   // of those, √max B_ii
+  std::size_t inside;      // frequencies of the table; the rest are of the tail
+  detail::Samples samples;
+  Eigen::MatrixXd A_inf;
+  double centre;  // rad/s, where the scaled damping is largest
+};
+
+Eigen::MatrixXd scaled(const Data& d, const Eigen::MatrixXd& m) {
+  return d.scale.cwiseInverse().asDiagonal() * m(d.modes, d.modes) * d.scale.cwiseInverse().asDiagonal();
+}
+
+/// Frequencies at which the tail is followed, in units of the table's last one.
+std::vector<double> tail_frequencies(double last) {
+  std::vector<double> out;
+  for (double factor = 1.1; factor < 5; factor *= 1.12) out.push_back(last * factor);
+  return out;
+}
+
+Data prepared(const DampingTable& given, const std::vector<Eigen::MatrixXd>& A,
+              const std::optional<Eigen::MatrixXd>& A_inf) {
+  const ContinuedDamping whole = continued(given, A, A_inf);
+  Data d;
+  d.A_inf = whole.A_inf;
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(given.B.front().rows());
+  for (const auto& B : given.B) largest = largest.cwiseMax(B.diagonal().cwiseAbs());
+  for (Eigen::Index i = 0; i < largest.size(); ++i)
+    if (largest[i] > 1e-6 * largest.maxCoeff()) d.modes.push_back(static_cast<int>(i));  // as (R5)
+  d.scale = largest(d.modes).cwiseSqrt();
+  d.inside = given.omega.size();
+  d.samples.omega = given.omega;
+  for (const double omega : tail_frequencies(given.omega.back())) d.samples.omega.push_back(omega);
+  const auto n = static_cast<Eigen::Index>(d.modes.size());
+  const auto rows = static_cast<Eigen::Index>(d.samples.omega.size());
+  d.samples.weight.resize(rows);
+  d.samples.values.resize(rows, n * (n + 1) / 2);
+  double most = -1;
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    const auto i = static_cast<std::size_t>(r);
+    const double omega = d.samples.omega[i];
+    const bool inside = i < d.inside;
+    // The tail is a guess and only steers what the data leave open.
+    d.samples.weight[r] = inside ? 1 : 0.1 * given.omega.back() / omega;
+    Eigen::MatrixXd B = Eigen::MatrixXd::Zero(n, n), above = B;
+    if (inside) {
+      B = scaled(d, given.B[i]);
+      above = scaled(d, A[i] - whole.A_inf);
+    } else {
+      if (omega < whole.table.omega.back())
+        B = scaled(d, combined(cubic_stencil(whole.table.omega, omega), whole.table.B.size(),
+                               [&](std::size_t k) { return whole.table.B[k]; }));
+      above = scaled(d, added_mass_above_limit(whole.table, omega));
+    }
+    d.samples.values.row(r).real() = detail::packed((B + B.transpose()) / 2);
+    d.samples.values.row(r).imag() = omega * detail::packed((above + above.transpose()) / 2);
+    if (B.trace() > most) {
+      most = B.trace();
+      d.centre = omega;
+    }
+  }
+  return d;
+}
+
+detail::Fitting fitting(const Data& d, const std::vector<Pole>& poles, const Eigen::MatrixXd& null) {
+  const auto rows = static_cast<Eigen::Index>(d.samples.omega.size());
+  Eigen::MatrixXcd phi(rows, null.cols() + 1);
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    const double omega = d.samples.omega[static_cast<std::size_t>(r)];
+    phi.row(r).head(null.cols()) = detail::basis_at(poles, omega) * null;
+    phi(r, null.cols()) = {0, omega};  // a shift of A∞
+  }
+  return {detail::stacked(d.samples.weight.asDiagonal() * phi),
+          detail::stacked(d.samples.weight.asDiagonal() * d.samples.values), 1};
+}
+
+/// Largest |error| over the table's own frequencies of each pair, relative by the scaling, (1, pairs).
+Eigen::RowVectorXd errors(const Data& d, const detail::Fitting& f, const Eigen::MatrixXd& x) {
+  const Eigen::MatrixXd off = f.design * x - f.right;
+  const auto inside = static_cast<Eigen::Index>(d.inside), rows = off.rows() / 2;
+  const Eigen::MatrixXd size =
+      (off.topRows(inside).array().square() + off.middleRows(rows, inside).array().square()).sqrt();
+  return size.colwise().maxCoeff();
+}
+
+/// Of packed pairs: the √2 off the diagonal is taken out again.
+Eigen::MatrixXd per_pair(const Data& d, const Eigen::RowVectorXd& e) {
+  return detail::unpacked(e, static_cast<Eigen::Index>(d.modes.size()));
+}
+
+struct Attempt {
+  std::vector<Pole> poles;
+  Eigen::MatrixXd coefficients, shift;  // (columns, pairs), (1, pairs), scaled
+  FitReport report;
+};
+
+Attempt attempt(const Data& d, const detail::Samples& compressed, int order, double slowest) {
+  Attempt a;
+  a.poles = detail::fitted_poles(compressed, order, slowest);
+  const Eigen::MatrixXd null = detail::vanishing_at_rest(a.poles);
+  const detail::Fitting f = fitting(d, a.poles, null);
+  const Eigen::MatrixXd x = detail::least_squares(f.design, f.right);
+  a.coefficients = null * x.topRows(null.cols());
+  a.shift = x.bottomRows(1);
+  a.report.order = static_cast<int>(detail::columns(a.poles));
+  a.report.error_per_pair = per_pair(d, errors(d, f, x));
+  a.report.error = a.report.error_before = a.report.error_per_pair.maxCoeff();
+  return a;
+}
+
+void make_passive(const Data& d, double margin, Attempt& a) {
+  const Eigen::MatrixXd null = detail::vanishing_at_rest(a.poles);
+  const detail::Fitting f = fitting(d, a.poles, null);
+  const detail::WeightedDamping weighted(a.poles, d.centre);
+  const auto enforced = detail::enforce(weighted, null, f, static_cast<Eigen::Index>(d.modes.size()), margin);
+  a.coefficients = null * enforced.x.topRows(null.cols());
+  a.shift = enforced.x.bottomRows(1);
+  a.report.error_per_pair = per_pair(d, errors(d, f, enforced.x));
+  a.report.error = a.report.error_per_pair.maxCoeff();
+  a.report.passive = enforced.passive;
+  a.report.margin = enforced.passive ? margin : 0;
+  a.report.most_negative = enforced.most_negative;
+  a.report.lift = enforced.lift;
+}
+
+RationalFit unscaled(const Data& d, const Attempt& a) {
+  const Eigen::Index n = d.A_inf.rows(), inner = static_cast<Eigen::Index>(d.modes.size());
+  const auto whole = [&](const Eigen::RowVectorXd& row) {
+    Eigen::MatrixXd m = Eigen::MatrixXd::Zero(n, n);
+    m(d.modes, d.modes) = d.scale.asDiagonal() * detail::unpacked(row, inner) * d.scale.asDiagonal();
+    return m;
+  };
+  RationalFit out;
+  out.report = a.report;
+  out.report.error_per_pair = Eigen::MatrixXd::Zero(n, n);
+  out.report.error_per_pair(d.modes, d.modes) = a.report.error_per_pair;
+  out.model.poles = a.poles;
+  Eigen::Index column = 0;
+  for (const Pole& p : a.poles) {
+    out.model.C.push_back(whole(a.coefficients.row(column++)));
+    out.model.S.push_back(p.omega > 0 ? whole(a.coefficients.row(column++)) : Eigen::MatrixXd::Zero(n, n));
+  }
+  const Eigen::MatrixXd shift = whole(a.shift);
+  const Eigen::VectorXd size =
+      d.A_inf.diagonal().cwiseAbs().cwiseMax(1e-12 * d.A_inf.cwiseAbs().maxCoeff()).cwiseSqrt().cwiseInverse();
+  out.report.shift = (size.asDiagonal() * shift.cwiseAbs() * size.asDiagonal()).maxCoeff();
+  out.A_inf = d.A_inf + shift;
+  return out;
+}
+
+}  // namespace
+
+RationalFit fit(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A,
+                const std::optional<Eigen::MatrixXd>& A_inf, const FitOptions& options) {
+  require(damping.omega.size() >= 4, "a rational fit needs four frequencies at least, got {}", damping.omega.size());
+  require(options.tolerance > 0 && options.largest_order >= 2,
+          "a fit needs a positive tolerance and an order of 2 at least");
+  const double negative = negative_share(damping);
+  const Data d = prepared(damping, A, A_inf);
+  require(!d.modes.empty(), "there is no damping to fit: no mode makes waves");
+  const detail::Samples compressed = detail::compressed(d.samples, 1e-2 * options.tolerance);
+  double widest = 0;
+  for (std::size_t i = 1; i < damping.omega.size(); ++i)
+    widest = std::max(widest, damping.omega[i] - damping.omega[i - 1]);
+  // A resonance much narrower than the spacing cannot be told from the data.
+  const double slowest = widest / 10, margin = options.tolerance / 50;
+  const int most = std::min(options.largest_order, static_cast<int>(3 * damping.omega.size() / 2));
+  std::optional<Attempt> best;
+  for (int order = 2; order <= most; order += order < 12 ? 2 : order < 32 ? 4 : 8) {
+    Attempt a = attempt(d, compressed, order, slowest);
+    const bool close = a.report.error <= options.tolerance;
+    if (close && options.enforce_passivity) make_passive(d, margin, a);
+    const bool met = a.report.error <= options.tolerance && (a.report.passive || !options.enforce_passivity);
+    if (met || !best || a.report.error < best->report.error) best = std::move(a);
+    if (!met) continue;
+    best->report.why =
+        fmt::format("order {} is the lowest that meets the tolerance of {:.2g}", best->report.order, options.tolerance);
+    best->report.negative_share = negative;
+    return unscaled(d, *best);
+  }
+  if (options.enforce_passivity && !best->report.passive) make_passive(d, margin, *best);
+  best->report.why =
+      fmt::format("no order up to {} meets the tolerance of {:.2g}; order {} comes nearest with {:.2g}{}", most,
+                  options.tolerance, best->report.order, best->report.error,
+                  best->report.passive || !options.enforce_passivity ? "" : ", and is not certified passive");
+  best->report.negative_share = negative;
+  return unscaled(d, *best);
+}
+
+}  // namespace hydro::radiation

@@ -1,0 +1,127 @@
+#include "vector_fit.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pole_basis.hpp"
+
+namespace hydro::radiation::detail {
+namespace {
+
+Eigen::MatrixXcd basis(const std::vector<Pole>& poles, const std::vector<double>& omega) {
+  Eigen::MatrixXcd out(static_cast<Eigen::Index>(omega.size()), columns(poles));
+  for (std::size_t i = 0; i < omega.size(); ++i) out.row(static_cast<Eigen::Index>(i)) = basis_at(poles, omega[i]);
+  return out;
+}
+
+/// Lightly damped pairs, evenly over the frequencies; an odd order begins with a real pole.
+std::vector<Pole> spread_poles(const std::vector<double>& omega, int order) {
+  std::vector<Pole> poles;
+  const int pairs = order / 2;
+  const double last = omega.back();
+  if (order % 2 == 1) poles.push_back({last / 2, 0});
+  for (int i = 0; i < pairs; ++i) {
+    const double at = omega.front() + (last - omega.front()) * (i + 0.5) / pairs;
+    poles.push_back({0.02 * last / pairs + 0.01 * at, at});
+  }
+  return poles;
+}
+
+/// Zeros of σ(s) = d + Σ c_k φ_k(s): eigenvalues of A − b cᵀ/d, where φ_k is realised by blocks [−a b; −b −a] and b =
+/// (1, 0).
+std::vector<Pole> zeros(const std::vector<Pole>& poles, const Eigen::VectorXd& c, double d, double slowest) {
+  const Eigen::Index n = c.size();
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(n), out = c;
+  Eigen::Index at = 0;
+  for (const Pole& p : poles) {
+    b[at] = 1;
+    A(at, at) = -p.decay;
+    if (p.omega > 0) {
+      A(at + 1, at + 1) = -p.decay;
+      A(at, at + 1) = p.omega;
+      A(at + 1, at) = -p.omega;
+      out[at + 1] = -c[at + 1];
+      ++at;
+    }
+    ++at;
+  }
+  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(A - b * out.transpose() / d, false);
+  std::vector<Pole> found;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto z = eigen.eigenvalues()[i];
+    if (z.imag() < 0) continue;
+    // A zero in the right half plane is mirrored: the modulus on the axis, which the data see, stays.
+    found.push_back({std::max(std::abs(z.real()), slowest), z.imag() > 0 ? z.imag() : 0});
+  }
+  return found;
+}
+
+/// One relaxed step of vector fitting: the zeros of σ are the better poles.
+std::vector<Pole> relocated(const Samples& s, const std::vector<Pole>& poles, double slowest) {
+  const Eigen::MatrixXcd phi = basis(poles, s.omega);
+  const Eigen::Index rows = phi.rows(), n = phi.cols(), functions = s.values.cols();
+  Eigen::MatrixXcd numerator(rows, n);  // (σK̂) with its zero at rest, and iω for a shift of A∞
+  numerator.leftCols(n - 1) = phi * vanishing_at_rest(poles);
+  for (Eigen::Index i = 0; i < rows; ++i) numerator(i, n - 1) = {0, s.omega[static_cast<std::size_t>(i)]};
+  Eigen::MatrixXd F = stacked(s.weight.asDiagonal() * numerator);
+  const Eigen::VectorXd sizes = F.colwise().norm().cwiseInverse();
+  F = F * sizes.asDiagonal();
+  const Eigen::MatrixXd Q =
+      Eigen::HouseholderQR<Eigen::MatrixXd>(F).householderQ() * Eigen::MatrixXd::Identity(2 * rows, n);
+  Eigen::MatrixXcd sigma(rows, n + 1);
+  sigma << phi, Eigen::VectorXcd::Ones(rows);
+  // Each function's own coefficients are projected out; what is left of it asks something of σ alone.
+  Eigen::MatrixXd system(functions * (n + 1) + 1, n + 1);
+  for (Eigen::Index f = 0; f < functions; ++f) {
+    Eigen::MatrixXd X = stacked((s.weight.array() * s.values.col(f).array()).matrix().asDiagonal() * sigma);
+    X -= Q * (Q.transpose() * X);
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(X);
+    system.middleRows(f * (n + 1), n + 1) = qr.matrixQR().topRows(n + 1).triangularView<Eigen::Upper>();
+  }
+  // Relaxed: the mean of Re σ is one, rather than its value at infinity, so that σ is not pulled by the start.
+  const double size = (s.weight.asDiagonal() * s.values).norm() / static_cast<double>(rows);
+  system.bottomRows(1) = size * sigma.real().colwise().sum();
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(system.rows());
+  right[system.rows() - 1] = size * static_cast<double>(rows);
+  const Eigen::VectorXd scale = system.colwise().norm().cwiseMax(1e-300).cwiseInverse();
+  const Eigen::VectorXd x =
+      scale.asDiagonal() * Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(system * scale.asDiagonal()).solve(right);
+  const double d = std::abs(x[n]) > 1e-8 ? x[n] : std::copysign(1e-8, x[n]);
+  return zeros(poles, x.head(n), d, slowest);
+}
+
+}  // namespace
+
+Eigen::MatrixXd vanishing_at_rest(const std::vector<Pole>& poles) {
+  const Eigen::VectorXd at_rest = basis_at(poles, 0).real().transpose();
+  const Eigen::Index n = at_rest.size();
+  const Eigen::MatrixXd Q = Eigen::HouseholderQR<Eigen::MatrixXd>(at_rest).householderQ();
+  return Q.rightCols(n - 1);
+}
+
+Samples compressed(const Samples& s, double relative) {
+  const Eigen::MatrixXd Y = stacked(s.weight.asDiagonal() * s.values);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Y * Y.transpose());
+  const Eigen::VectorXd size = eigen.eigenvalues().cwiseMax(0).cwiseSqrt();
+  const Eigen::Index n = size.size(), rows = n / 2;
+  const auto kept = std::max<Eigen::Index>(1, (size.array() > relative * size[n - 1]).count());
+  const Eigen::MatrixXd U = eigen.eigenvectors().rightCols(kept) * size.tail(kept).asDiagonal();
+  Samples out{s.omega, s.weight, Eigen::MatrixXcd(rows, kept)};
+  out.values.real() = s.weight.cwiseInverse().asDiagonal() * U.topRows(rows);
+  out.values.imag() = s.weight.cwiseInverse().asDiagonal() * U.bottomRows(rows);
+  return out;
+}
+
+std::vector<Pole> fitted_poles(const Samples& samples, int order, double slowest) {
+  std::vector<Pole> poles = spread_poles(samples.omega, order);
+  constexpr int rounds = 15;  // poles settle within about ten
+  for (int i = 0; i < rounds; ++i) poles = relocated(samples, poles, slowest);
+  std::sort(poles.begin(), poles.end(), [](const Pole& p, const Pole& q) { return p.omega < q.omega; });
+  return poles;
+}
+
+}  // namespace hydro::radiation::detail

@@ -1,0 +1,212 @@
+// Every way of computing the memory against the others and against the exact body.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "hydro/base/error.hpp"
+#include "hydro/base/random.hpp"
+#include "hydro/radiation/choice.hpp"
+#include "hydro/radiation/constant_memory.hpp"
+#include "hydro/radiation/convolution.hpp"
+#include "hydro/radiation/partitioned.hpp"
+#include "hydro/radiation/pole_memory.hpp"
+#include "support/random_passive.hpp"
+#include "support/two_pole_body.hpp"
+
+namespace {
+
+using namespace hydro::radiation;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+const support::TwoPoleBody body{.decay = 0.3, .frequency = 1.1};
+
+Eigen::VectorXd random_velocity(std::uint64_t i, int modes) {
+  const hydro::RandomStream random(2, 3);
+  Eigen::VectorXd v(modes);
+  for (int m = 0; m < modes; ++m)
+    v[m] = random.normal(static_cast<std::uint64_t>(modes) * i + static_cast<std::uint64_t>(m));
+  return v;
+}
+
+/// A kernel of coupled modes with many lags.
+RetardationKernel kernel(int modes, double length) {
+  const auto data = support::data_of(support::random_passive(9, modes, 3), 12, 700);
+  return RetardationKernel::from_damping(data.damping, {0.1, length});
+}
+
+class Partitioned : public testing::TestWithParam<double> {};
+
+TEST_P(Partitioned, GivesTheSumsOfDirectConvolutionToRoundOff) {
+  constexpr int modes = 4;
+  const auto K = kernel(modes, GetParam());
+  const DirectConvolution direct(K);
+  const PartitionedConvolution partitioned(K, 8);
+  const auto start = random_velocity(0, modes);
+  const auto slow = direct.start(start), fast = partitioned.start(start);
+  double size = 0;
+  for (std::uint64_t i = 1; i < 700; ++i) {
+    for (const double fraction : {1.0, 0.3}) {
+      const Eigen::VectorXd expected = slow->decided(fraction);
+      size = std::max(size, expected.norm());
+      ASSERT_LT((fast->decided(fraction) - expected).norm(), 1e-13 * size) << "step " << i << ", fraction " << fraction;
+    }
+    slow->accept(random_velocity(i, modes));
+    fast->accept(random_velocity(i, modes));
+  }
+}
+
+// 3 lags fit in the head, 8 and 9 touch its edge, 64 ends a part, 500 is in the midst of one.
+INSTANTIATE_TEST_SUITE_P(Lengths, Partitioned, testing::Values(0.3, 0.7, 0.8, 0.9, 6.3, 6.4, 50.0));
+
+TEST(PartitionedConvolution, CostsLittleOnAverageAndSaysWhatItsWorstStepIs) {
+  // Against n² products a lag: less than a thirtieth on average; in the worst step all parts at once.
+  EXPECT_LT(PartitionedConvolution::mean_step(30, 6001), 30.0 * 30 * 6001 / 30);
+  EXPECT_GT(PartitionedConvolution::worst_step(30, 6001), 30.0 * 30 * 6001);
+  EXPECT_THROW(PartitionedConvolution(kernel(1, 5), 12), hydro::InputError);
+}
+
+TEST(KernelSum, RefusesAKernelThatIsNotSymmetric) {
+  auto table = body.damping_table(10, 100, 2);
+  for (auto& B : table.B) B(0, 1) = 0.1 * B(0, 0);
+  EXPECT_THAT(
+      [&] {
+        DirectConvolution(RetardationKernel::from_damping(table, {0.1, 5}));
+      },
+      ThrowsMessage<hydro::InputError>(HasSubstr("not symmetric in modes 0 and 1")));
+}
+
+/// ∫₀ᵗ K(t−τ) v(τ) dτ of the two-pole body for v straight between its values at steps h, by its differential equation
+/// (q″ + 2a q′ + w² q = v, load q′) and a fine Runge–Kutta.
+double exact_load(const std::vector<double>& v, double h, std::size_t steps, double fraction) {
+  Eigen::Vector2d q(0, 0);
+  constexpr int fine = 200;
+  const auto run = [&](std::size_t i, double to) {
+    const double dt = to * h / fine;
+    for (int k = 0; k < fine; ++k) {
+      const auto rate = [&](const Eigen::Vector2d& x, double t) {
+        const double now = v[i] + (v[i + 1] - v[i]) * t / h;
+        return Eigen::Vector2d(x[1], now - 2 * body.decay * x[1] - body.w2() * x[0]);
+      };
+      const double t = k * dt;
+      const Eigen::Vector2d k1 = rate(q, t), k2 = rate(q + dt / 2 * k1, t + dt / 2),
+                            k3 = rate(q + dt / 2 * k2, t + dt / 2), k4 = rate(q + dt * k3, t + dt);
+      q += dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+    }
+  };
+  for (std::size_t i = 0; i < steps; ++i) run(i, 1);
+  if (fraction > 0) run(steps, fraction);
+  return q[1];
+}
+
+// (R14): no error at all for a velocity that is straight over each step, however long the step.
+TEST(PoleMemory, IsExactForStraightVelocitiesAtAnyStep) {
+  for (const double h : {0.05, 0.7, 4.0}) {
+    const PoleMemory memory(body.model(), h);
+    std::vector<double> v;
+    for (std::uint64_t i = 0; i < 14; ++i) v.push_back(random_velocity(i, 1)[0]);
+    const auto state = memory.start(Eigen::VectorXd::Constant(1, v[0]));
+    for (std::size_t i = 1; i < 12; ++i) state->accept(Eigen::VectorXd::Constant(1, v[i]));
+    for (const double fraction : {0.25, 1.0}) {
+      const double at_end = v[11] + fraction * (v[12] - v[11]);
+      const double ours = state->decided(fraction)[0] + memory.instantaneous(fraction)(0, 0) * at_end;
+      EXPECT_NEAR(ours, exact_load(v, h, 11, fraction), 1e-9 * (1 + h)) << "step " << h << ", fraction " << fraction;
+    }
+  }
+}
+
+TEST(PoleMemory, CarriesSlowPolesWithoutLossOfDigits) {
+  const PoleModel slow{{{1e-7, 0}}, {Eigen::MatrixXd::Ones(1, 1)}, {Eigen::MatrixXd::Zero(1, 1)}};
+  const auto c = PoleMemory(slow, 0.01).carried_over(0.01).front();
+  EXPECT_NEAR(c.after.real() / 0.01, 0.5 - 1e-9 / 6, 1e-15);
+  EXPECT_NEAR(c.before.real() / 0.01, 0.5 - 1e-9 / 3, 1e-15);
+}
+
+// (R14): the sampled load is the transform folded with squared sinc weights, so no motion can take energy from it.
+TEST(PoleMemory, NeverGivesEnergyToARandomMotionAtAnyStep) {
+  for (std::uint64_t seed = 0; seed < 12; ++seed)
+    for (const double h : {0.1, 1.5, 6.0}) {
+      const int modes = 1 + static_cast<int>(seed % 4);
+      const PoleMemory memory(support::random_passive(seed, modes, 3), h);
+      const auto state = memory.start(Eigen::VectorXd::Zero(modes));
+      double energy = 0, scale = 0;
+      for (std::uint64_t i = 1; i < 300; ++i) {
+        const Eigen::VectorXd v = random_velocity(1000 * seed + i, modes);
+        const Eigen::VectorXd load = state->decided(1) + memory.instantaneous(1) * v;
+        energy += h * load.dot(v);
+        scale += h * load.norm() * v.norm();
+        EXPECT_GE(energy, -1e-12 * scale) << "seed " << seed << ", step " << h;
+        state->accept(v);
+      }
+    }
+}
+
+TEST(Memories, OfOneBodyAgreeInASmoothMotion) {
+  constexpr double h = 0.02, omega = 0.9;
+  const auto K = RetardationKernel::from_damping(body.damping_table(40, 1000), {h, 30});
+  const DirectConvolution direct(K);
+  const PartitionedConvolution partitioned(K);
+  const PoleMemory poles(body.model(), h);
+  const ConstantMemory constant(body.B(omega) * Eigen::MatrixXd::Ones(1, 1), omega, h);
+  const std::vector<const MemoryMethod*> methods{&direct, &partitioned, &poles};
+  std::vector<std::unique_ptr<MemoryState>> states;
+  for (const auto* m : methods) states.push_back(m->start(Eigen::VectorXd::Zero(1)));
+  const auto v = [&](int i) { return Eigen::VectorXd::Constant(1, std::sin(omega * h * i)); };
+  const int steps = 2000;
+  for (int i = 1; i < steps; ++i)
+    for (auto& s : states) s->accept(v(i));
+  const double t = h * steps, mass_force = omega * body.A_minus_A_inf(omega) * std::cos(omega * t);
+  for (std::size_t k = 0; k < methods.size(); ++k) {
+    const double load = (states[k]->decided(1) + methods[k]->instantaneous(1) * v(steps))[0];
+    EXPECT_NEAR(load, body.B(omega) * v(steps)[0] + mass_force, 1e-3)
+        << methods[k]->describe();  // as in convolution_test
+  }
+  // Constant coefficients carry the other part as added mass.
+  EXPECT_NEAR((constant.instantaneous(1) * v(steps))[0] + mass_force, body.B(omega) * v(steps)[0] + mass_force, 1e-12);
+}
+
+// (R19), (R20)
+TEST(Choice, TakesTheCheapestWithinTheTolerance) {
+  const auto table = body.damping_table(8, 160);
+  const Eigen::MatrixXd A_inf = 7 * Eigen::MatrixXd::Identity(1, 1);
+  const auto A = body.added_mass(table, 7);
+  const auto chosen = choose(table, A, A_inf, {.step = 0.05, .tolerance = 1e-2, .length = {}, .method = {}});
+  EXPECT_EQ(chosen.method, Method::poles) << chosen.why;
+  EXPECT_EQ(chosen.alternatives.size(), 3u);
+  for (const auto& a : chosen.alternatives)
+    if (a.method == Method::poles) {
+      EXPECT_LT(a.error, 1e-2);
+      EXPECT_TRUE(a.within);
+    }
+  for (const Method method : {Method::direct, Method::partitioned, Method::poles}) {
+    const auto forced = choose(table, A, A_inf, {.step = 0.05, .tolerance = 1e-2, .length = {}, .method = method});
+    EXPECT_EQ(forced.method, method);
+    EXPECT_EQ(forced.alternatives.size(), 1u);
+    EXPECT_EQ(forced.memory->modes(), 1);
+  }
+  const auto fixed = choose(table, A, A_inf, {.step = 0.05, .tolerance = 1e-2, .length = 20.0, .method = {}});
+  EXPECT_NE(fixed.method, Method::poles) << "a length of memory asks for a convolution";
+  EXPECT_THROW(choose(table, A, A_inf, {.step = 0.05, .tolerance = 1e-2, .length = 20.0, .method = Method::poles}),
+               hydro::InputError);
+}
+
+// The yardstick sees all that a method leaves out: cut at 5 s, the two-pole kernel lacks what (R5) says it lacks.
+TEST(Choice, ReportsTheErrorOfAKernelCutShort) {
+  const auto table = body.damping_table(20, 200);
+  const auto A = body.added_mass(table, 7);
+  const auto chosen = choose(table, A, Eigen::MatrixXd(7 * Eigen::MatrixXd::Identity(1, 1)),
+                             {.step = 0.05, .tolerance = 1e-3, .length = 5.0, .method = Method::direct});
+  // ∫₅^∞ K e^{−iωt} dt of the exact body at its worst frequency, by a fine sum.
+  double worst = 0, largest = 0;
+  for (const double omega : table.omega) {
+    std::complex<double> rest = 0;
+    for (double t = 5.005; t < 60; t += 0.01) rest += 0.01 * body.K(t) * std::polar(1.0, -omega * t);
+    worst = std::max(worst, std::abs(rest));
+    largest = std::max(largest, body.B(omega));
+  }
+  EXPECT_NEAR(chosen.alternatives.front().error, worst / largest, 0.02 * worst / largest);
+  EXPECT_GE(chosen.truncation, worst / largest);
+}
+
+}  // namespace

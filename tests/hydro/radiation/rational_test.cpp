@@ -1,0 +1,138 @@
+#include "hydro/radiation/rational.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "hydro/base/error.hpp"
+#include "support/random_passive.hpp"
+#include "support/two_pole_body.hpp"
+
+namespace {
+
+using namespace hydro::radiation;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+const support::TwoPoleBody body{.decay = 0.3, .frequency = 1.1};
+
+/// Largest |K̂(model) + iω(A∞ given − A∞ fitted) − K̂(exact)| relative to √(max B_ii max B_jj), over `omegas`.
+double error(const RationalFit& fit, const PoleModel& exact, const Eigen::MatrixXd& A_inf,
+             const support::RadiationData& data, const std::vector<double>& omegas) {
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(exact.modes());
+  for (const auto& B : data.damping.B) largest = largest.cwiseMax(B.diagonal());
+  const Eigen::VectorXd scale = largest.cwiseSqrt().cwiseInverse();
+  double worst = 0;
+  for (const double omega : omegas) {
+    const Eigen::MatrixXcd off =
+        fit.model.transform(omega) - exact.transform(omega) + std::complex<double>(0, omega) * (fit.A_inf - A_inf);
+    worst = std::max(worst, (scale.asDiagonal() * off.cwiseAbs() * scale.asDiagonal()).maxCoeff());
+  }
+  return worst;
+}
+
+TEST(RationalFit, FindsTheTwoPolesOfABodyThatHasTwo) {
+  const auto table = body.damping_table(8, 80, 2);
+  const auto fit =
+      hydro::radiation::fit(table, body.added_mass(table, 7), Eigen::MatrixXd(7 * Eigen::MatrixXd::Identity(2, 2)));
+  ASSERT_EQ(fit.report.order, 2) << fit.report.why;
+  // The loosely followed tail beyond 8 rad/s is not the body's own and pulls by some 1e-6.
+  EXPECT_NEAR(fit.model.poles[0].decay, body.decay, 1e-5);
+  EXPECT_NEAR(fit.model.poles[0].omega, body.frequency, 1e-5);
+  EXPECT_TRUE(fit.report.passive);
+  for (const double t : {0.0, 1.0, 3.0, 8.0}) EXPECT_NEAR(fit.model.kernel(t)(0, 0), body.K(t), 1e-4) << t;
+}
+
+// (R12): nothing at ω = 0, K(0)/iω far out, symmetric.
+TEST(RationalFit, HasTheLimitsOfARadiatingBodyBuiltIn) {
+  const auto exact = support::random_passive(3, 4, 5);
+  const auto data = support::data_of(exact, 6, 60);
+  const auto fit = hydro::radiation::fit(data.damping, data.A, data.A_inf, {.tolerance = 1e-2});
+  const double size = exact.transform(1).cwiseAbs().maxCoeff();
+  EXPECT_LT(fit.model.transform(0).cwiseAbs().maxCoeff(), 1e-9 * size);
+  const double far = 1e5;
+  const Eigen::MatrixXcd at_far = fit.model.transform(far) * std::complex<double>(0, far);
+  EXPECT_LT((at_far - fit.model.kernel(0)).cwiseAbs().maxCoeff(), 1e-3 * fit.model.kernel(0).cwiseAbs().maxCoeff());
+  for (const double t : {0.0, 0.7})
+    EXPECT_LT((fit.model.kernel(t) - fit.model.kernel(t).transpose()).norm(), 1e-9 * size);
+  for (const Pole& p : fit.model.poles) EXPECT_GT(p.decay, 0);
+}
+
+/// Smallest eigenvalue of the fitted damping, scaled, over a fine grid from next to rest to far beyond the data.
+double smallest_damping(const PoleModel& m, const Eigen::VectorXd& scale) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (double omega = 1e-3; omega < 1e3; omega *= 1.004) {
+    const Eigen::MatrixXd B = scale.asDiagonal() * m.transform(omega).real() * scale.asDiagonal();
+    lowest =
+        std::min(lowest, Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(B, Eigen::EigenvaluesOnly).eigenvalues()[0] /
+                             std::min(1.0, omega * omega));
+  }
+  return lowest;
+}
+
+class RandomBodies : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(RandomBodies, AreFittedWithinTheToleranceAndCannotGiveEnergy) {
+  const int modes = 1 + static_cast<int>(GetParam() % 5), pairs = 2 + static_cast<int>(GetParam() % 4);
+  const auto exact = support::random_passive(GetParam(), modes, pairs);
+  const auto data = support::data_of(exact, 8, 80);
+  const auto fit = hydro::radiation::fit(data.damping, data.A, data.A_inf, {.tolerance = 1e-2});
+  EXPECT_LE(fit.report.error, 1e-2) << fit.report.why;
+  EXPECT_LE(error(fit, exact, data.A_inf, data, data.damping.omega), fit.report.error * (1 + 1e-6))
+      << "the report's error is what the model has";
+  // Halfway between the data the error may be a little larger: the poles are at least three spacings from the axis.
+  std::vector<double> between;
+  for (const double omega : data.damping.omega) between.push_back(omega - 0.05);
+  EXPECT_LE(error(fit, exact, data.A_inf, data, between), 3e-2);
+  ASSERT_TRUE(fit.report.passive);
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(modes);
+  for (const auto& B : data.damping.B) largest = largest.cwiseMax(B.diagonal());
+  EXPECT_GE(smallest_damping(fit.model, largest.cwiseSqrt().cwiseInverse()), 0) << "certified";
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomBodies, testing::Range<std::uint64_t>(0, 20));
+
+TEST(RationalFit, MakesNoisyDataPassiveAndSaysWhatThatCost) {
+  const auto exact = support::random_passive(11, 3, 3);
+  auto data = support::data_of(exact, 5, 50);
+  const hydro::RandomStream random(5, 1);
+  double largest = 0;
+  for (const auto& B : data.damping.B) largest = std::max(largest, B.diagonal().maxCoeff());
+  std::uint64_t next = 0;
+  for (auto& B : data.damping.B)
+    for (int i = 0; i < 3; ++i) B(i, i) += 5e-3 * B(i, i) * random.normal(next++) - 1e-3 * largest;
+  const auto fit = hydro::radiation::fit(data.damping, data.A, data.A_inf, {.tolerance = 1e-3});
+  EXPECT_TRUE(fit.report.passive);
+  EXPECT_LT(fit.report.most_negative, 0);
+  EXPECT_GT(fit.report.error, fit.report.error_before) << "nothing is free";
+  EXPECT_LT(fit.report.error, 5e-2) << "noise of 5e-3, three sigma and more, and what it costs to be passive";
+  EXPECT_THAT(fit.report.why, HasSubstr("no order up to"));
+}
+
+TEST(RationalFit, LeavesOutModesThatMakeNoWaves) {
+  auto table = body.damping_table(8, 80, 3);
+  auto A = body.added_mass(table, 7);
+  for (auto& B : table.B) B(1, 1) = 0;
+  for (auto& a : A) a(1, 1) = 3;
+  const auto fit = hydro::radiation::fit(table, A, std::nullopt);
+  EXPECT_EQ(fit.model.kernel(0.5).row(1).norm(), 0);
+  EXPECT_NEAR(fit.A_inf(1, 1), 3, 1e-9);
+  EXPECT_NEAR(fit.A_inf(0, 0), 7, 1e-2);  // not given: found with the fit
+  EXPECT_TRUE(fit.report.passive);
+}
+
+TEST(RationalFit, NeedsDataThatBelongTogether) {
+  const auto table = body.damping_table(8, 80);
+  EXPECT_THROW(hydro::radiation::fit(table, {}, std::nullopt), hydro::InputError);
+  const auto few = body.damping_table(8, 3);
+  EXPECT_THAT([&] { hydro::radiation::fit(few, body.added_mass(few, 7), std::nullopt); },
+              ThrowsMessage<hydro::InputError>(HasSubstr("four frequencies")));
+  auto negative = table;
+  negative.B[20](0, 0) = -1;
+  EXPECT_THAT([&] { hydro::radiation::fit(negative, body.added_mass(table, 7), std::nullopt); },
+              ThrowsMessage<hydro::InputError>(HasSubstr("source of power")));
+}
+
+}  // namespace
