@@ -1,0 +1,62 @@
+#pragma once
+/// \file  Exact linear radiation and diffraction of waves by bodies made of truncated vertical cylinders.
+///
+/// Potential theory without approximation in the interaction: each cylinder is solved by matching, the array by
+/// multiple scattering that includes evanescent waves. What is truncated (functions in the gap, partial waves) is
+/// chosen from the tolerance asked, and its effect is measured by doubling. Equations (C1)-(C14) are derived and
+/// sourced in docs/theory/cylinders.md.
+#include <functional>
+#include <vector>
+
+#include "hydro/cylinders/layout.hpp"
+#include "hydro/potential/coefficients.hpp"
+
+namespace hydro::cylinders {
+
+struct Options {
+  /// Largest relative error asked of A, B and X, an entry being measured against its two modes (P11); 1e-9 … 0.1.
+  double tolerance = 1e-5;
+  /// Frequencies that are solved at a time; the result does not depend on it. 0: as many as the machine has cores.
+  int threads = 0;
+  /// At how many frequencies the work is repeated with doubled resolution for SelfCheck::doubling; 0: none.
+  int doubled_frequencies = 3;
+  /// Called after each frequency, one call at a time, from any thread: how many are done, of how many.
+  std::function<void(int done, int all)> progress = {};
+};
+
+/// What was kept, and what theory says about the result. Relative numbers are measured as in (P11).
+struct SelfCheck {
+  double energy = 0;                   ///< largest |B − power carried away by waves|, (C13)
+  double haskind = 0;                  ///< largest |X − X from the waves made by motion|, (C13)
+  double reciprocity = 0;              ///< largest asymmetry of A and B
+  double doubling = 0;                 ///< largest change of A, B, X with all truncations doubled; NaN if not asked
+  std::vector<double> doubling_omega;  ///< where it was measured, rad/s
+  int gap_functions = 0;               ///< per family, (C5)
+  int partial_waves = 0;               ///< per cylinder, at most over the frequencies, (C11)
+  double effective_depth = 0;          ///< m; differs from the water's only if that is infinite, (C14)
+};
+
+struct Solution {
+  potential::Coefficients coefficients;
+  SelfCheck check;
+};
+
+/// What a solution will need, told before it is computed.
+struct Cost {
+  int unknowns;  ///< complex, at the frequency that has most
+  double bytes;  ///< of working memory, all threads together
+};
+
+/// A, B and X of `bodies` at the frequencies `omega` (rad/s, increasing) for waves going towards `heading` (rad,
+/// increasing; may be empty), with A(∞), the centres of buoyancy, volumes and, where every body has a centre of
+/// gravity, C. There is no A(0): in finite depth heave has none. Infinite depth is replaced by a finite one (C14).
+/// \throws InputError as check(); if a frequency is not finite and positive or the lists do not increase; if the
+/// tolerance is out of range or cannot be reached at a frequency (with the digits that can), or needs too many terms
+Solution solve(const std::vector<CylinderBody>& bodies, const Water& water, const std::vector<double>& omega,
+               const std::vector<double>& heading, const Options& options = {});
+
+/// \throws InputError as solve()
+Cost cost(const std::vector<CylinderBody>& bodies, const Water& water, const std::vector<double>& omega,
+          const Options& options = {});
+
+}  // namespace hydro::cylinders

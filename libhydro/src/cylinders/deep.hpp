@@ -1,0 +1,13 @@
+#pragma once
+/// \file  Infinitely deep water as water of a finite depth (C14). Not installed.
+#include <vector>
+
+#include "hydro/cylinders/layout.hpp"
+
+namespace hydro::cylinders {
+
+/// `water` itself if its depth is finite; else with a depth so large that A, B and X are within 1e-4.
+/// \throws InputError if the frequency (rad/s; +∞ allowed) is so low that no such depth can be solved
+Water effective_water(const std::vector<CylinderBody>& bodies, const Water& water, double omega);
+
+}  // namespace hydro::cylinders

@@ -1,0 +1,184 @@
+#include "model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "bottom_mounted.hpp"
+#include "hydro/potential/coefficients.hpp"
+
+namespace hydro::cylinders {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using std::numbers::pi;
+
+/// |M − N| of two loads of a cylinder, measured against the diagonal.
+double relative_change(const MatrixXcd& M, const MatrixXcd& N) {
+  double largest = 0;
+  for (Index i = 0; i < M.rows(); ++i)
+    for (Index j = 0; j < M.cols(); ++j)
+      largest = std::max(largest, std::abs(M(i, j) - N(i, j)) / std::sqrt(std::abs(N(i, i)) * std::abs(N(j, j))));
+  return largest;
+}
+
+/// Compression may be coarser than what is left out: its errors have random signs, and few add up.
+constexpr double precision_of_compression = 30;
+constexpr int most_terms = 300'000;  // 100 MB at 48 gap functions
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+double distance_across(const std::vector<Cylinder>& cylinders) {
+  double largest = 0;
+  for (const Cylinder& a : cylinders)
+    for (const Cylinder& b : cylinders) largest = std::max(largest, (a.centre - b.centre).norm());
+  return largest;
+}
+
+}  // namespace
+
+Resolution Resolution::doubled() const { return {2 * gap_functions, std::pow(threshold, 1.5)}; }
+
+Model::Model(const std::vector<CylinderBody>& bodies, const Water& water, const Resolution& resolution,
+             const std::vector<double>& omega)
+    : water_(water), resolution_(resolution) {
+  sort_into_types(bodies);
+  motion_ = MatrixXd::Zero(6 * static_cast<Index>(cylinders_.size()), 6 * static_cast<Index>(bodies.size()));
+  Index row = 0, column = 0;
+  for (const CylinderBody& body : bodies) {
+    for (const Cylinder& c : body.cylinders) {
+      const Eigen::Vector3d place(c.centre.x(), c.centre.y(), 0);
+      motion_.block<6, 6>(row, column) = potential::rigid_shift(place - body.reference_point);
+      row += 6;
+    }
+    column += 6;
+  }
+  for (const double w : omega) orders_ = std::max(orders_, grouping(coarse_modes(w)).within.highest_order() + 1);
+  orders_ = std::max(orders_, grouping(coarse_modes(infinite)).within.highest_order() + 1);
+  for (Type& t : types_)
+    if (t.draught) t.truncated.emplace(t.radius, *t.draught, water_.depth.metres(), resolution_.gap_functions, orders_);
+}
+
+void Model::sort_into_types(const std::vector<CylinderBody>& bodies) {
+  for (const CylinderBody& body : bodies)
+    for (const Cylinder& c : body.cylinders) {
+      cylinders_.push_back(c);
+      const auto same = [&](const Type& t) { return t.radius == c.radius && t.draught == c.draught; };
+      const auto known = std::find_if(types_.begin(), types_.end(), same);
+      type_of_.push_back(static_cast<std::size_t>(known - types_.begin()));
+      if (known == types_.end()) types_.push_back({c.radius, c.draught, {}});
+    }
+}
+
+VerticalModes Model::modes_with(double omega, int evanescent) const {
+  return std::isinf(omega) ? VerticalModes::at_infinite_frequency(water_.depth, evanescent)
+                           : VerticalModes::at(omega, water_, evanescent);
+}
+
+/// Enough modes to find which of them couple.
+VerticalModes Model::coarse_modes(double omega) const {
+  double smallest = infinite;
+  for (const Cylinder& c : cylinders_) smallest = std::min(smallest, c.radius);
+  return modes_with(omega, static_cast<int>(std::min(2000.0, 50 * water_.depth.metres() / smallest)) + 10);
+}
+
+VerticalModes Model::modes(double omega) const {
+  const double K = omega * omega / water_.gravity, h = water_.depth.metres();
+  int terms = 0;
+  for (const Type& t : types_)
+    terms = std::max(terms, t.truncated ? t.truncated->exterior_terms(K) : bottom_mounted_terms(t.radius, h, K));
+  if (terms > most_terms)
+    throw InputError(fmt::format("at {:.6g} rad/s the sums over the depth need {} terms; {} are the limit", omega,
+                                 terms, most_terms),
+                     {},
+                     "the depth is too many times the draught, radius or wavelength: state a smaller depth, or "
+                     "leave out this frequency");
+  return modes_with(omega, terms);
+}
+
+Grouping Model::grouping(const VerticalModes& modes) const {
+  return choose_grouping(cylinders_, type_of_, modes, resolution_.threshold);
+}
+
+int Model::unknowns(double omega) const {
+  const Grouping g = grouping(coarse_modes(omega));
+  int largest = g.members.size() > 1 ? g.between.count() * static_cast<int>(cylinders_.size()) : 0;
+  for (const auto& members : g.members)
+    if (members.size() > 1) largest = std::max(largest, g.within.count() * static_cast<int>(members.size()));
+  return std::max(largest, g.between.count());
+}
+
+std::vector<Scatterer> Model::scatterers(const VerticalModes& modes, const Channels& channels) const {
+  std::vector<Scatterer> all;
+  for (const Type& t : types_)
+    all.push_back(t.truncated ? t.truncated->at(modes, channels.highest_order() + 1, channels.vertical())
+                              : bottom_mounted(t.radius, modes, channels.highest_order() + 1, channels.vertical()));
+  return all;
+}
+
+Groups Model::groups(const std::vector<Scatterer>& of_type, const VerticalModes& modes,
+                     const Grouping& grouping) const {
+  std::vector<const Scatterer*> each;
+  for (const std::size_t type : type_of_) each.push_back(&of_type[type]);
+  return {cylinders_, type_of_, each, modes, grouping, precision_of_compression * resolution_.threshold};
+}
+
+// (C3): a force is iωρ ∬φ n dS; of a motion of unit velocity it is −(iωA + B).
+OneFrequency Model::at(double omega, const std::vector<double>& heading) const {
+  const VerticalModes depth_modes = modes(omega);
+  const Grouping kept = grouping(depth_modes);
+  const auto of_type = scatterers(depth_modes, kept.within);
+  const Groups all = groups(of_type, depth_modes, kept);
+  const Response response = all.respond(heading, motion_);
+  const MatrixXcd loads = motion_.transpose() * response.loads;
+  const Complex potential = Complex(0, water_.gravity / omega) / depth_modes.wave_at_surface();  // of a unit amplitude
+
+  OneFrequency result;
+  result.partial_waves = kept.within.count();
+  result.X = Complex(0, omega * water_.density) * potential * loads.leftCols(static_cast<Index>(heading.size()));
+  result.A = -water_.density * loads.rightCols(motion_.cols()).real();
+  result.B = omega * water_.density * loads.rightCols(motion_.cols()).imag();
+  add_far_field(all, response.sent_out.rightCols(motion_.cols()), omega, depth_modes, heading, result);
+  return result;
+}
+
+MatrixXd Model::added_mass_at_infinity() const {
+  const VerticalModes depth_modes = modes(infinite);
+  const Grouping kept = grouping(depth_modes);
+  const auto of_type = scatterers(depth_modes, kept.within);
+  const Response response = groups(of_type, depth_modes, kept).respond({}, motion_);
+  return -water_.density * (motion_.transpose() * response.loads).real();
+}
+
+// (C13). The integrand is a trigonometric polynomial but for terms beyond k times the extent, so the trapezium rule is
+// exact to rounding.
+void Model::add_far_field(const Groups& groups, const MatrixXcd& sent_out, double omega, const VerticalModes& modes,
+                          const std::vector<double>& heading, OneFrequency& result) const {
+  const double h = modes.depth, reach = modes.k * distance_across(cylinders_);
+  const int count = 2 * static_cast<int>(reach + 10 * std::cbrt(reach) + 4 * orders_ + 20);
+  std::vector<double> angle, against;
+  for (int t = 0; t < count; ++t) angle.push_back(2 * pi * t / count);
+  const MatrixXcd f = groups.far_field(sent_out, angle);
+  result.B_far = 4 * omega * water_.density * h / count * (f.adjoint() * f).real();
+  for (const double beta : heading) against.push_back(beta + pi);
+  const Complex factor = Complex(0, 4 * water_.density * water_.gravity * h) / modes.wave_at_surface();
+  result.X_far = factor * groups.far_field(sent_out, against).transpose();
+}
+
+double Model::difference(const Model& other, double omega) const {
+  const VerticalModes mine = modes(omega), others = other.modes(omega);
+  const Channels wave_only{{1}};
+  const auto ours = scatterers(mine, wave_only), theirs = other.scatterers(others, wave_only);
+  double largest = 0;
+  for (std::size_t t = 0; t < types_.size(); ++t) {
+    if (!types_[t].truncated) continue;
+    for (std::size_t m = 0; m < 2; ++m)
+      largest = std::max(largest, relative_change(ours[t].order[m].L, theirs[t].order[m].L));
+  }
+  return largest;
+}
+
+}  // namespace hydro::cylinders

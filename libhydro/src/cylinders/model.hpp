@@ -1,0 +1,68 @@
+#pragma once
+/// \file  A layout in water of one finite depth, solved frequency by frequency. Not installed.
+#include <Eigen/Core>
+
+#include <deque>
+#include <vector>
+
+#include "groups.hpp"
+#include "hydro/cylinders/layout.hpp"
+#include "truncated.hpp"
+
+namespace hydro::cylinders {
+
+/// How much of each infinite set is kept.
+struct Resolution {
+  int gap_functions;  ///< per family (C5)
+  double threshold;   ///< coupling below which partial waves are left out (C11)
+  Resolution doubled() const;
+};
+
+/// The answer at one frequency, in the modes of the bodies.
+struct OneFrequency {
+  Eigen::MatrixXd A, B;    ///< (6N, 6N)
+  Eigen::MatrixXcd X;      ///< (6N, headings)
+  Eigen::MatrixXd B_far;   ///< B from the power that waves carry away (C13)
+  Eigen::MatrixXcd X_far;  ///< X by Haskind's relation from the waves made by motion (C13)
+  int partial_waves = 0;   ///< per cylinder
+};
+
+class Model {
+ public:
+  /// `water` is of finite depth; `omega`: all frequencies that will be asked for, +∞ apart.
+  Model(const std::vector<CylinderBody>& bodies, const Water& water, const Resolution& resolution,
+        const std::vector<double>& omega);
+
+  OneFrequency at(double omega, const std::vector<double>& heading) const;
+  Eigen::MatrixXd added_mass_at_infinity() const;
+  /// Largest relative difference of the single cylinders' loads and diffraction from those of another resolution.
+  double difference(const Model& other, double omega) const;
+  /// Unknowns of the largest set of equations at a frequency, estimated.
+  int unknowns(double omega) const;
+
+ private:
+  struct Type {
+    double radius;
+    std::optional<double> draught;
+    std::optional<TruncatedCylinder> truncated;  ///< empty: bottom-mounted
+  };
+  void sort_into_types(const std::vector<CylinderBody>& bodies);
+  VerticalModes modes_with(double omega, int evanescent) const;
+  VerticalModes coarse_modes(double omega) const;
+  VerticalModes modes(double omega) const;
+  Grouping grouping(const VerticalModes& modes) const;
+  std::vector<Scatterer> scatterers(const VerticalModes& modes, const Channels& channels) const;
+  Groups groups(const std::vector<Scatterer>& of_type, const VerticalModes& modes, const Grouping& grouping) const;
+  void add_far_field(const Groups& groups, const Eigen::MatrixXcd& sent_out, double omega, const VerticalModes& modes,
+                     const std::vector<double>& heading, OneFrequency& result) const;
+
+  Water water_;
+  Resolution resolution_;
+  std::vector<Cylinder> cylinders_;
+  Eigen::MatrixXd motion_;  // (6 cylinders, 6 bodies): velocities of the cylinders when the bodies move
+  std::vector<Type> types_;
+  std::vector<std::size_t> type_of_;
+  int orders_ = 2;
+};
+
+}  // namespace hydro::cylinders

@@ -1,0 +1,259 @@
+#include "hydro/cylinders/solve.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "deep.hpp"
+#include "model.hpp"
+#include "self_check.hpp"
+
+namespace hydro::cylinders {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using potential::Coefficients;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+void require_increasing(const std::vector<double>& values, const char* what, const char* unit) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    require(std::isfinite(values[i]), "{} must be finite, got {} {}", what, values[i], unit);
+    require(i == 0 || values[i] > values[i - 1], "{} must increase, but {} {} follows {}", what, values[i], unit,
+            values[i == 0 ? 0 : i - 1]);
+  }
+}
+
+void check_request(const std::vector<double>& omega, const std::vector<double>& heading, const Options& options) {
+  require(!omega.empty(), "no frequency is asked for");
+  require_increasing(omega, "frequencies", "rad/s");
+  require(omega.front() > 0, "a frequency must be positive, got {} rad/s", omega.front());
+  require_increasing(heading, "headings", "rad");
+  require(options.tolerance >= 1e-9 && options.tolerance <= 0.1, "the tolerance must be between 1e-9 and 0.1, got {}",
+          options.tolerance);
+  require(options.threads >= 0 && options.threads <= 1024, "the number of threads must be between 0 and 1024, got {}",
+          options.threads);
+  require(options.doubled_frequencies >= 0, "the number of frequencies to double must not be negative, got {}",
+          options.doubled_frequencies);
+}
+
+int thread_count(const Options& options, std::size_t work) {
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int wanted = options.threads > 0 ? options.threads : cores;
+  return std::min(wanted, static_cast<int>(work));
+}
+
+/// Does job(i) for i = 0 … count − 1 on several threads. What is thrown first by index is thrown on.
+template <class Job>
+void in_parallel(std::size_t count, int threads, const Job& job) {
+  std::atomic<std::size_t> next{0};
+  std::vector<std::exception_ptr> failed(count);
+  const auto work = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        job(i);
+      } catch (...) {
+        failed[i] = std::current_exception();
+      }
+    }
+  };
+  std::vector<std::thread> pool;
+  for (int t = 1; t < threads; ++t) pool.emplace_back(work);
+  work();
+  for (std::thread& t : pool) t.join();
+  for (const auto& error : failed)
+    if (error) std::rethrow_exception(error);
+}
+
+/// The layout in the water of each frequency: one model for all if the depth is finite, else one a frequency.
+class Models {
+ public:
+  Models(const std::vector<CylinderBody>& bodies, const Water& water, const std::vector<double>& omega,
+         const Resolution& resolution)
+      : bodies_(bodies), water_(water), resolution_(resolution) {
+    if (!water.depth.is_infinite()) shared_ = std::make_shared<Model>(bodies, water, resolution, omega);
+  }
+  std::shared_ptr<const Model> at(double omega) const {
+    if (shared_) return shared_;
+    return std::make_shared<Model>(bodies_, effective_water(bodies_, water_, omega), resolution_, finite(omega));
+  }
+
+ private:
+  static std::vector<double> finite(double omega) {
+    return std::isinf(omega) ? std::vector<double>{} : std::vector<double>{omega};
+  }
+  const std::vector<CylinderBody>& bodies_;
+  Water water_;
+  Resolution resolution_;
+  std::shared_ptr<const Model> shared_;
+};
+
+/// Partial waves below this share of the tolerance are left out: there are many of them.
+constexpr double share_of_tolerance = 0.2;
+
+/// The fewest gap functions with which doubling changes the single cylinders by less than the tolerance.
+int choose_gap_functions(const std::vector<CylinderBody>& bodies, const Water& water, const std::vector<double>& omega,
+                         double tolerance) {
+  constexpr int most = 24;
+  int count = 3;
+  for (const double w : {omega.front(), omega.back(), infinite}) {
+    const Water here = effective_water(bodies, water, w);
+    const std::vector<double> list = std::isinf(w) ? std::vector<double>{} : std::vector<double>{w};
+    while (true) {
+      const Model coarse(bodies, here, {count, 1}, list), fine(bodies, here, {2 * count, 1}, list);
+      const double change = coarse.difference(fine, w);
+      if (change < tolerance) break;
+      if (2 * count > most)
+        throw InputError(fmt::format("at {:.6g} rad/s the cylinders can be solved to about {:.1f} digits; {:.1f} are "
+                                     "asked for",
+                                     w, -std::log10(change), -std::log10(tolerance)),
+                         {},
+                         "ask for less accuracy, or leave out this frequency: the depth is too many times the "
+                         "draught, radius or wavelength");
+      count *= 2;
+    }
+  }
+  return count;
+}
+
+std::vector<std::size_t> frequencies_to_double(std::size_t all, int wanted) {
+  std::vector<std::size_t> chosen;
+  const std::size_t count = std::min(all, static_cast<std::size_t>(wanted));
+  for (std::size_t i = 0; i < count; ++i)
+    chosen.push_back(count == 1 ? all / 2 : i * (all - 1) / (count - 1));  // both ends and evenly between
+  return chosen;
+}
+
+void fill_bodies(const std::vector<CylinderBody>& bodies, const Water& water, Coefficients& c) {
+  bool restoring_known = true;
+  for (const CylinderBody& body : bodies) {
+    const Displacement d = displacement(body, water.depth);
+    c.body.push_back({.name = body.name,
+                      .reference_point = body.reference_point,
+                      .centre_of_gravity = body.centre_of_gravity,
+                      .centre_of_buoyancy = d.centre_of_buoyancy,
+                      .displaced_volume = d.volume});
+    restoring_known = restoring_known && body.centre_of_gravity;
+    for (const Cylinder& cylinder : body.cylinders) restoring_known = restoring_known && cylinder.draught;
+  }
+  if (!restoring_known) {
+    c.notes.push_back("no restoring matrix: a body has no centre of gravity or stands on the sea bed");
+    return;
+  }
+  c.C = MatrixXd::Zero(c.modes(), c.modes());
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    c.C->block<6, 6>(6 * static_cast<Index>(b), 6 * static_cast<Index>(b)) = restoring(bodies[b], water);
+}
+
+std::string source_text(const std::vector<CylinderBody>& bodies) {
+  std::size_t cylinders = 0;
+  for (const CylinderBody& body : bodies) cylinders += body.cylinders.size();
+  return fmt::format("truncated vertical cylinders, exact: {} in {} {}", cylinders, bodies.size(),
+                     bodies.size() == 1 ? "body" : "bodies");
+}
+
+void add_notes(const Solution& s, const Water& water, Coefficients& c) {
+  c.notes.push_back(fmt::format(
+      "self-check, relative: energy {:.1e}, Haskind {:.1e}, reciprocity {:.1e}, change with doubled resolution {}",
+      s.check.energy, s.check.haskind, s.check.reciprocity,
+      std::isnan(s.check.doubling) ? "not asked for" : fmt::format("{:.1e}", s.check.doubling)));
+  if (water.depth.is_infinite())
+    c.notes.push_back(
+        fmt::format("infinite depth is taken as {:.4g} m or more: an error below 1e-4", s.check.effective_depth));
+}
+
+/// Everything that is solved, in one pool of work.
+struct Work {
+  std::vector<OneFrequency> results;
+  std::vector<std::size_t> doubled;  ///< frequencies that are repeated with doubled resolution
+  std::vector<OneFrequency> finer;   ///< those
+  MatrixXd A_inf;
+};
+
+Work do_work(const std::vector<CylinderBody>& bodies, const Water& water, const std::vector<double>& omega,
+             const std::vector<double>& heading, const Options& options, const Resolution& resolution) {
+  Work w;
+  w.doubled = frequencies_to_double(omega.size(), options.doubled_frequencies);
+  w.results.resize(omega.size());
+  w.finer.resize(w.doubled.size());
+  const Models models(bodies, water, omega, resolution);
+  std::unique_ptr<Models> finer_models;
+  if (!w.doubled.empty()) finer_models = std::make_unique<Models>(bodies, water, omega, resolution.doubled());
+
+  // The dearest first: doubled frequencies, then the rest and the limit.
+  const std::size_t all = w.finer.size() + omega.size() + 1;
+  std::mutex told;
+  int done = 0;
+  in_parallel(all, thread_count(options, all), [&](std::size_t i) {
+    if (i < w.finer.size()) {
+      const double at = omega[w.doubled[i]];
+      w.finer[i] = finer_models->at(at)->at(at, heading);
+    } else if (i + 1 < all) {
+      const std::size_t n = i - w.finer.size();
+      w.results[n] = models.at(omega[n])->at(omega[n], heading);
+    } else {
+      w.A_inf = models.at(infinite)->added_mass_at_infinity();
+    }
+    const std::lock_guard<std::mutex> lock(told);
+    ++done;
+    if (options.progress) options.progress(done, static_cast<int>(all));
+  });
+  return w;
+}
+
+}  // namespace
+
+Solution solve(const std::vector<CylinderBody>& bodies, const Water& water, const std::vector<double>& omega,
+               const std::vector<double>& heading, const Options& options) {
+  check(bodies, water.depth);
+  check_request(omega, heading, options);
+  const Resolution resolution{choose_gap_functions(bodies, water, omega, options.tolerance),
+                              share_of_tolerance * options.tolerance};
+  const Work w = do_work(bodies, water, omega, heading, options, resolution);
+  Solution s;
+  Coefficients& c = s.coefficients;
+  c.water = water;
+  c.omega = omega;
+  c.heading = heading;
+  c.source = source_text(bodies);
+  fill_bodies(bodies, water, c);
+  c.X.assign(heading.size(), MatrixXcd(c.modes(), static_cast<Index>(omega.size())));
+  for (std::size_t i = 0; i < omega.size(); ++i) {
+    c.A.push_back(w.results[i].A);
+    c.B.push_back(w.results[i].B);
+    for (std::size_t h = 0; h < heading.size(); ++h)
+      c.X[h].col(static_cast<Index>(i)) = w.results[i].X.col(static_cast<Index>(h));
+  }
+  c.A_inf = w.A_inf;
+  s.check = self_check(w.results, w.finer, w.doubled);
+  s.check.gap_functions = resolution.gap_functions;
+  s.check.effective_depth = effective_water(bodies, water, omega.back()).depth.metres();
+  for (const std::size_t i : w.doubled) s.check.doubling_omega.push_back(omega[i]);
+  add_notes(s, water, c);
+  c.validate();
+  return s;
+}
+
+Cost cost(const std::vector<CylinderBody>& bodies, const Water& water, const std::vector<double>& omega,
+          const Options& options) {
+  check(bodies, water.depth);
+  check_request(omega, {}, options);
+  const double threshold = share_of_tolerance * options.tolerance;
+  Cost c{0, 0};
+  for (const double w : omega) {
+    const Model model(bodies, effective_water(bodies, water, w), {1, threshold}, {w});
+    c.unknowns = std::max(c.unknowns, model.unknowns(w));
+  }
+  // Three square complex matrices stand at a time: translations, their product with T, and its factors.
+  c.bytes = 3 * 16.0 * c.unknowns * c.unknowns * thread_count(options, omega.size());
+  return c;
+}
+
+}  // namespace hydro::cylinders

@@ -1,0 +1,93 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "hydro/waves/dispersion.hpp"
+#include "layouts.hpp"
+#include "support/bottom_mounted_cylinders.hpp"
+
+namespace hydro::cylinders {
+namespace {
+
+using std::numbers::pi;
+using Complex = std::complex<double>;
+
+// Linton & Evans (1990): four cylinders at the corners of a square, a gap as wide as a diameter, waves along the
+// diagonal.
+TEST(Arrays, OfFourCylindersOnTheBottomAreThoseOfLintonAndEvans) {
+  const double a = 1, h = 6, beta = pi / 4;
+  std::vector<Eigen::Vector2d> centre;
+  std::vector<CylinderBody> bodies;
+  for (const double x : {-2.0, 2.0})
+    for (const double y : {-2.0, 2.0}) {
+      centre.emplace_back(x, y);
+      bodies.push_back({"pile", {x, y, 0}, {}, {{{x, y}, a, {}}}});
+    }
+  std::vector<double> omega;
+  for (const double ka : {0.3, 1.0, 1.66, 2.5}) omega.push_back(std::sqrt(9.81 * ka * std::tanh(ka * h)));
+  const auto c =
+      solve(bodies, tank(h), omega, {beta}, {.tolerance = 1e-6, .threads = 1, .doubled_frequencies = 0}).coefficients;
+  for (std::size_t i = 0; i < omega.size(); ++i) {
+    const double k = waves::wavenumber(omega[i], tank(h));
+    const auto expected = froude_test::forces_on_bottom_mounted(centre, a, k, h, beta, 1000, 9.81);
+    for (std::size_t b = 0; b < 4; ++b)
+      for (const int mode : {0, 1}) {
+        const Complex X = c.X[0](6 * static_cast<Eigen::Index>(b) + mode, static_cast<Eigen::Index>(i));
+        EXPECT_LT(std::abs(X - expected[b](mode)), 1e-6 * expected[b].norm()) << "ω = " << omega[i] << ", pile " << b;
+      }
+  }
+}
+
+// What one cylinder sends to another falls as √(2/(πkR)); so does its effect on the forces.
+TEST(Arrays, FarApartAreSingleCylindersWithThePhaseOfTheirPlace) {
+  const double omega = 2.0, beta = 0.4, k = waves::wavenumber(omega, tank());
+  const Options options{.tolerance = 1e-6, .threads = 1, .doubled_frequencies = 0};
+  const auto alone = solve({single(1, 1)}, tank(), {omega}, {beta}, options).coefficients;
+  for (const double R : {100.0, 10000.0}) {
+    const auto pair = solve({single(1, 1), single(1, 1, R, 0)}, tank(), {omega}, {beta}, options).coefficients;
+    const double bound = std::sqrt(2 / (pi * k * R));
+    const Complex phase = std::polar(1.0, -k * R * std::cos(beta));
+    for (const Eigen::Index mode : {0, 2, 4}) {
+      const Complex X = alone.X[0](mode, 0);
+      EXPECT_LT(std::abs(pair.X[0](mode, 0) - X), bound * std::abs(X)) << R;
+      EXPECT_LT(std::abs(pair.X[0](6 + mode, 0) - phase * X), bound * std::abs(X)) << R;
+      EXPECT_LT(std::abs(pair.A[0](mode, mode) - alone.A[0](mode, mode)), bound * alone.A[0](mode, mode)) << R;
+    }
+  }
+}
+
+// Close cylinders are grouped to save work; what is close is a matter of the other gaps, and must not show: the far
+// pair seen as single cylinders far away, or as a group, is the same.
+TEST(Arrays, GroupsOfCloseCylindersDoNotShowInTheResult) {
+  const std::vector<CylinderBody> pairs{single(0.8, 1.1, 0, 0), single(0.8, 1.1, 3, 0), single(0.8, 1.1, 12, 0),
+                                        single(0.8, 1.1, 15, 0)};
+  const Options coarse{.tolerance = 1e-3, .threads = 1, .doubled_frequencies = 0};
+  const Options fine{.tolerance = 1e-5, .threads = 1, .doubled_frequencies = 0};
+  const auto grouped = solve(pairs, tank(6), {2.2}, {0.3}, coarse).coefficients;
+  const auto finer = solve(pairs, tank(6), {2.2}, {0.3}, fine).coefficients;
+  EXPECT_LT((grouped.A[0] - finer.A[0]).cwiseAbs().maxCoeff(), 1e-3 * finer.A[0].maxCoeff());
+  const auto near_only = solve({pairs[0], pairs[1]}, tank(6), {2.2}, {0.3}, fine).coefficients;
+  // The far pair matters to the near one by some √(2/(πkR)) = 0.37 of scattered waves, but matters.
+  const double effect = (finer.A[0].topLeftCorner(12, 12) - near_only.A[0]).cwiseAbs().maxCoeff() / finer.A[0](0, 0);
+  EXPECT_GT(effect, 1e-3);
+  EXPECT_LT(effect, 0.4);
+}
+
+TEST(Arrays, OfNearlyTouchingCylindersKeepTheirTolerance) {
+  const std::vector<CylinderBody> close{single(1, 1, 0, 0), single(1, 1, 2.4, 0)};
+  const auto check =
+      solve(close, tank(3), {1.0, 2.5}, {0.5}, {.tolerance = 1e-3, .threads = 1, .doubled_frequencies = 2}).check;
+  EXPECT_LT(check.doubling, 1e-3);
+}
+
+TEST(Arrays, TellTheirCostBeforehand) {
+  const Cost small = cost({pontoon(0)}, tank(), {1.0, 2.0}, {.threads = 1});
+  const Cost large = cost({pontoon(-6.5), pontoon(6.5)}, tank(), {1.0, 2.0}, {.threads = 1});
+  EXPECT_GT(small.unknowns, 12);
+  EXPECT_GT(large.unknowns, small.unknowns);
+  EXPECT_GT(large.bytes, small.bytes);
+}
+
+}  // namespace
+}  // namespace hydro::cylinders
