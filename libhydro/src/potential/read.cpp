@@ -53,6 +53,67 @@ Coefficients read_hdf5(const fs::path& path) {
   return read_capytaine(path);
 }
 
+enum class TextKind { wamit, nemoh, aqwa_ah1, aqwa_lis, hams };
+
+/// The first lines of a text file; a few kilobytes hold every mark by which formats are known.
+std::string head_of(const fs::path& path) {
+  std::string head(4096, '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  return head;
+}
+
+TextKind kind_of_text(const fs::path& path) {
+  if (fs::is_directory(path)) {
+    if (fs::exists(path / "Nemoh.cal")) return TextKind::nemoh;
+    if (fs::exists(path / "Input" / "ControlFile.in")) return TextKind::hams;
+    throw InputError(fmt::format("\"{}\" is a folder", path.string()), {},
+                     "give a file in it; only folders of NEMOH (with Nemoh.cal) and HAMS (with Input/ControlFile.in) "
+                     "are read as a whole");
+  }
+  const std::string head = head_of(path), first = head.substr(0, head.find('\n'));
+  const auto has = [&](const char* mark) { return head.find(mark) != std::string::npos; };
+  if (first.starts_with("*") && has("AQWA")) return TextKind::aqwa_ah1;
+  if (has("JOB AQWA")) return TextKind::aqwa_lis;
+  if (has("Output_frequency_type")) return TextKind::hams;
+  if (first.starts_with("---") && first.find("Environment") != std::string::npos) return TextKind::nemoh;
+  if (first.find("VARIABLES=") != std::string::npos || first.starts_with("...")) return TextKind::nemoh;
+  return TextKind::wamit;
+}
+
+/// The control file of the HAMS run whose output is in the folder of `path`, if there is one.
+std::optional<fs::path> hams_run_around(const fs::path& path) {
+  const fs::path folder = fs::absolute(path).parent_path();
+  const fs::path control = folder.parent_path().parent_path() / "Input" / "ControlFile.in";
+  return folder.filename() == "Wamit_format" && fs::exists(control) ? std::optional(control) : std::nullopt;
+}
+
+Coefficients read_text_format(const fs::path& path, const ReadOptions& options, bool& is_wamit) {
+  const TextKind kind = kind_of_text(path);
+  is_wamit = false;
+  if (kind == TextKind::nemoh) return read_nemoh(path);
+  if (kind == TextKind::aqwa_ah1) return read_aqwa_ah1(path);
+  if (kind == TextKind::aqwa_lis) return read_aqwa_lis(path);
+  if (kind == TextKind::hams)
+    return read_hams(fs::is_directory(path) ? path / "Input" / "ControlFile.in" : path, options);
+  if (const auto control = hams_run_around(path)) return read_hams(*control, options);
+  is_wamit = true;
+  return read_wamit(path, options);
+}
+
+/// ULEN and IPEROUT are facts of WAMIT's files alone: with another format they are a mistake of the caller.
+void require_no_wamit_options(const ReadOptions& options, const Coefficients& c, const fs::path& path) {
+  constexpr const char* remedy = "leave it out: the file itself says what its numbers are";
+  if (options.ulen != 1)
+    throw InputError(fmt::format("ULEN = {} m is given, but this is no set of WAMIT files: {}", options.ulen, c.source),
+                     {.file = path.string()}, remedy);
+  if (options.iperout)
+    throw InputError(
+        fmt::format("IPEROUT = {} is given, but this is no set of WAMIT files: {}", *options.iperout, c.source),
+        {.file = path.string()}, remedy);
+}
+
 /// Formats that state ρ, g and h are believed; a caller who holds another value is told.
 void note_differing_water(Coefficients& c, const ReadOptions& options) {
   const auto differs = [](double a, double b) {  // either may be an infinite depth
@@ -70,13 +131,16 @@ void note_differing_water(Coefficients& c, const ReadOptions& options) {
 }  // namespace
 
 Coefficients read(const fs::path& path, const ReadOptions& options) {
-  if (fs::is_directory(path))
-    throw InputError(fmt::format("\"{}\" is a folder", path.string()), {}, "give a file in it");
-  const Container container = fs::exists(path) ? container_of(path) : Container::other;
+  const bool is_file = fs::exists(path) && !fs::is_directory(path);
+  const Container container = is_file ? container_of(path) : Container::other;
+  bool is_wamit = false;
   Coefficients c = container == Container::hdf5             ? read_hdf5(path)
                    : container == Container::classic_netcdf ? read_capytaine(path)
-                                                            : read_wamit(path, options);
-  if (container != Container::other) note_differing_water(c, options);
+                                                            : read_text_format(path, options, is_wamit);
+  if (!is_wamit) {
+    require_no_wamit_options(options, c, path);
+    note_differing_water(c, options);
+  }
   c.validate();
   return c;
 }

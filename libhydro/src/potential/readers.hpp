@@ -12,6 +12,10 @@ namespace hydro::potential {
 Coefficients read_wamit(const std::filesystem::path& path, const ReadOptions& options);
 Coefficients read_capytaine(const std::filesystem::path& path);
 Coefficients read_bemio(const std::filesystem::path& path);
+Coefficients read_nemoh(const std::filesystem::path& path);  ///< the folder, its Nemoh.cal, or one of its results
+Coefficients read_aqwa_ah1(const std::filesystem::path& path);
+Coefficients read_aqwa_lis(const std::filesystem::path& path);  ///< one structure
+Coefficients read_hams(const std::filesystem::path& control, const ReadOptions& options);
 Coefficients read_froude(const std::filesystem::path& path);
 
 /// The text by which Froude's own files are known: root attribute `format`.

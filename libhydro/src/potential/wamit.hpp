@@ -3,6 +3,7 @@
 /// means.
 #include <Eigen/Core>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,8 +27,11 @@ struct RadiationBlock {
   Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> present;
 };
 
-/// ω of a positive PER under IPEROUT (P9).
-double frequency_of_per(double per, int iperout, const Water& water, double ulen);
+/// What PER is: WAMIT's IPEROUT 1 to 4 (P9), and the wavelength, which HAMS can write (P23).
+enum class FirstColumn { period = 1, omega = 2, deep_wavenumber = 3, wavenumber = 4, wavelength = 5 };
+
+/// ω of a positive PER (P9).
+double frequency_of_per(double per, FirstColumn column, const Water& water, double ulen);
 
 /// Which of the blocks with PER < 0 and PER = 0 is A(0) and which A(∞), dimensionless.
 struct WamitLimits {
@@ -35,15 +39,49 @@ struct WamitLimits {
   const RadiationBlock* infinite = nullptr;
   std::optional<std::string> note;
 };
-/// `finite` is ascending in ω. IPEROUT = 1: PER < 0 is ω → 0 and PER = 0 is ω → ∞. Otherwise both meanings are in use,
-/// and continuity with the neighbouring frequencies decides (P9).
-/// \throws InputError if it does not decide
+/// `finite` is ascending in ω. Periods and lengths: PER < 0 is ω → 0 and PER = 0 is ω → ∞. Otherwise both meanings are
+/// in use, and continuity with the neighbouring frequencies decides (P9). \throws InputError if it does not decide
 WamitLimits assign_limits(const RadiationBlock* negative, const RadiationBlock* zero,
-                          const std::vector<const RadiationBlock*>& finite, int iperout, const WamitTable& table);
+                          const std::vector<const RadiationBlock*>& finite, FirstColumn column,
+                          const WamitTable& table);
 
 /// Excitation of a .3 file into `c`, whose frequencies have the values `per` in the .1 file.
 /// \throws InputError with the line for another PER, a mode beyond the bodies, a row twice, or a row that is missing
 void fill_excitation(Coefficients& c, const WamitTable& table, const std::vector<double>& per, double ulen);
+
+/// The files of one run that Froude reads; a path need not exist, except that of `radiation`.
+struct WamitFiles {
+  std::filesystem::path radiation;
+  std::string stem;
+  std::filesystem::path member(const char* extension) const { return stem + extension; }
+};
+
+/// The set of files, from any of them or from the stem. \throws InputError if there is no .1 file
+WamitFiles find_wamit_files(const std::filesystem::path& path);
+
+/// Everything that the numeric files leave unsaid.
+struct WamitRun {
+  Water water;
+  FirstColumn column = FirstColumn::period;
+  double ulen = 1;
+  TimeFactor time_factor = TimeFactor::plus_i_omega_t;
+};
+
+/// Radiation, excitation and restoring of a set of numeric files, whoever wrote them.
+Coefficients read_numeric_files(const WamitFiles& files, const WamitRun& run);
+
+/// What a .out file says of water and bodies.
+struct WamitOut {
+  double gravity, ulen;
+  WaterDepth depth = WaterDepth::infinite();
+  std::vector<BodyData> body;
+  std::vector<std::string> notes;
+};
+/// \throws InputError with the line for a .out file without these statements, or with bodies turned about the vertical
+WamitOut read_wamit_out(const std::filesystem::path& path);
+
+/// A sentence if long waves push the bodies the wrong way: then the phases are of e^{−iωt} (P21).
+std::optional<std::string> sign_of_other_time_factor(const Coefficients& coefficients);
 
 /// A sentence if the coefficients would look clearly better with the order of frequencies turned round, which is what a
 /// wrong IPEROUT does: limits that join the wrong ends, or heave excitation that grows with frequency.

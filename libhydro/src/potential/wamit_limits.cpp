@@ -41,8 +41,10 @@ const Eigen::MatrixXd* A_of(const RadiationBlock* block) { return block != nullp
 }  // namespace
 
 WamitLimits assign_limits(const RadiationBlock* negative, const RadiationBlock* zero,
-                          const std::vector<const RadiationBlock*>& finite, int iperout, const WamitTable& table) {
-  if ((negative == nullptr && zero == nullptr) || iperout == 1) return {negative, zero, std::nullopt};
+                          const std::vector<const RadiationBlock*>& finite, FirstColumn column,
+                          const WamitTable& table) {
+  const bool is_period = column == FirstColumn::period || column == FirstColumn::wavelength;
+  if ((negative == nullptr && zero == nullptr) || is_period) return {negative, zero, std::nullopt};
   const Eigen::MatrixXd &lowest = finite.front()->A, &highest = finite.back()->A;
   const double as_periods = misfit(A_of(negative), A_of(zero), lowest, highest);
   const double as_frequencies = misfit(A_of(zero), A_of(negative), lowest, highest);
@@ -57,7 +59,7 @@ WamitLimits assign_limits(const RadiationBlock* negative, const RadiationBlock* 
   const RadiationBlock* block = negative != nullptr ? negative : zero;
   throw InputError(fmt::format("with IPEROUT = {} this row is a limit of zero or infinite frequency, and the "
                                "neighbouring frequencies do not tell which",
-                               iperout),
+                               static_cast<int>(column)),
                    table.place(block->first_row, 0), "write the files with IPEROUT = 1, or take the limits out");
 }
 
@@ -78,6 +80,24 @@ std::optional<std::string> sign_of_wrong_iperout(const Coefficients& c) {
                          mode_label(i));
   }
   return std::nullopt;
+}
+
+std::optional<std::string> sign_of_other_time_factor(const Coefficients& c) {
+  if (!c.C || c.X.empty()) return std::nullopt;
+  double C33 = 0, push = 0;
+  for (Eigen::Index i = 2; i < c.modes(); i += 6) C33 += (*c.C)(i, i);
+  for (std::size_t b = 0; b < c.heading.size(); ++b) {
+    std::complex<double> lift = 0, along = 0;
+    for (Eigen::Index body = 0; body < c.modes(); body += 6) {
+      lift += c.X[b](body + 2, 0);
+      along += c.X[b](body, 0) * std::cos(c.heading[b]) + c.X[b](body + 1, 0) * std::sin(c.heading[b]);
+    }
+    // Only waves so long that they lift the bodies with the water's level tell the sign.
+    if (!(C33 > 0) || std::abs(lift / C33 - 1.0) > 0.25) return std::nullopt;
+    push += along.imag();
+  }
+  if (push >= 0) return std::nullopt;
+  return "in the longest waves the bodies are pushed while the water accelerates the other way";
 }
 
 }  // namespace hydro::potential

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -15,34 +16,31 @@ double added_mass_scale(Eigen::Index i, Eigen::Index j, double ulen) {
 double restoring_scale(Eigen::Index i, Eigen::Index j, double ulen) { return added_mass_scale(i, j, ulen) / ulen; }
 double excitation_scale(Eigen::Index i, double ulen) { return std::pow(ulen, 2 + !is_translation(i)); }
 
-double frequency_of_per(double per, int iperout, const Water& water, double ulen) {
-  switch (iperout) {  // (P9)
-    case 1:
+double frequency_of_per(double per, FirstColumn column, const Water& water, double ulen) {
+  switch (column) {  // (P9)
+    case FirstColumn::period:
       return 2 * std::numbers::pi / per;
-    case 2:
+    case FirstColumn::omega:
       return per;
-    case 3:
+    case FirstColumn::deep_wavenumber:
       return std::sqrt(per * water.gravity / ulen);
-    default:
-      return frequency_of_wavenumber(per / ulen, water);
+    case FirstColumn::wavelength:
+      return frequency_of_wavenumber(2 * std::numbers::pi / per, water);
+    case FirstColumn::wavenumber:
+      break;
   }
+  return frequency_of_wavenumber(per / ulen, water);
 }
-
-namespace {
 
 namespace fs = std::filesystem;
 
-struct WamitFiles {
-  fs::path radiation, excitation, restoring;
-};
-
-/// The set of files, from any of them or from the stem.
-WamitFiles find_files(const fs::path& path) {
+WamitFiles find_wamit_files(const fs::path& path) {
   std::string stem = path.string();
   const std::string extension = path.extension().string();
-  const bool is_member = extension == ".1" || extension == ".3" || extension == ".hst";
+  constexpr std::array members{".1", ".2", ".3", ".3fk", ".3sc", ".hst", ".out"};
+  const bool is_member = std::find(members.begin(), members.end(), extension) != members.end();
   if (is_member) stem.resize(stem.size() - extension.size());
-  const WamitFiles files{stem + ".1", stem + ".3", stem + ".hst"};
+  const WamitFiles files{stem + ".1", stem};
   if (fs::exists(files.radiation)) return files;
   if (!fs::exists(path))
     throw InputError(
@@ -52,26 +50,11 @@ WamitFiles find_files(const fs::path& path) {
     throw InputError(fmt::format("\"{}\" has no \"{}\" beside it", path.string(), files.radiation.filename().string()),
                      {}, "added mass and damping are needed too: put the .1 file in the same folder");
   throw InputError("not a file of coefficients that Froude knows", {.file = path.string()},
-                   "give a Capytaine .nc, a BEMIO .h5, a Froude .h5, or a WAMIT .1 file (or the stem of its set)");
+                   "give a Capytaine .nc, a BEMIO .h5, a Froude .h5, an AQWA .AH1, a Nemoh.cal, a HAMS ControlFile.in, "
+                   "or a WAMIT .1 file (or the stem of its set)");
 }
 
-Water stated_water(const ReadOptions& options, const fs::path& file) {
-  std::vector<std::string> missing;
-  if (!options.density) missing.push_back("density");
-  if (!options.gravity) missing.push_back("gravity");
-  if (!options.depth) missing.push_back("water depth");
-  if (!missing.empty())
-    throw InputError(
-        fmt::format("WAMIT's numeric files do not hold the {}", fmt::join(missing, ", ")), {.file = file.string()},
-        "state density, gravity and depth: in the [water] table of a scene, or as options of `froude bem`");
-  require(*options.density > 0, "density must be positive, got {} kg/m³", *options.density);
-  require(*options.gravity > 0, "gravity must be positive, got {} m/s²", *options.gravity);
-  require(std::isfinite(options.ulen) && options.ulen > 0, "ULEN must be positive, got {} m", options.ulen);
-  if (options.iperout)
-    require(*options.iperout >= 1 && *options.iperout <= 4,
-            "IPEROUT must be 1 (period), 2 (frequency), 3 (KL) or 4 (νL), got {}", *options.iperout);
-  return {*options.density, *options.gravity, *options.depth};
-}
+namespace {
 
 std::vector<RadiationBlock> blocks_of(const WamitTable& table) {
   int highest = 0;
@@ -121,8 +104,7 @@ struct SortedBlocks {
   const RadiationBlock* zero = nullptr;
 };
 
-SortedBlocks sorted(const std::vector<RadiationBlock>& blocks, int iperout, const Water& water, double ulen,
-                    const WamitTable& table) {
+SortedBlocks sorted(const std::vector<RadiationBlock>& blocks, const WamitRun& run, const WamitTable& table) {
   SortedBlocks out;
   for (const RadiationBlock& block : blocks) {
     if (block.per > 0) {
@@ -132,7 +114,7 @@ SortedBlocks sorted(const std::vector<RadiationBlock>& blocks, int iperout, cons
     }
   }
   if (out.finite.empty()) throw InputError("there is no finite, positive period", {.file = table.path().string()});
-  const auto omega = [&](const RadiationBlock* b) { return frequency_of_per(b->per, iperout, water, ulen); };
+  const auto omega = [&](const RadiationBlock* b) { return frequency_of_per(b->per, run.column, run.water, run.ulen); };
   std::sort(out.finite.begin(), out.finite.end(), [&](auto* a, auto* b) { return omega(a) < omega(b); });
   for (const RadiationBlock* b : out.finite) out.omega.push_back(omega(b));
   return out;
@@ -145,10 +127,11 @@ Eigen::MatrixXd dimensional(const Eigen::MatrixXd& m, double factor, double ulen
 }
 
 /// A = ρ Ā L^k, B = ρ ω B̄ L^k  (P8). Returns the values of PER in the order of c.omega.
-std::vector<double> fill_radiation(Coefficients& c, const WamitTable& table, int iperout, double ulen) {
+std::vector<double> fill_radiation(Coefficients& c, const WamitTable& table, const WamitRun& run) {
+  const double ulen = run.ulen;
   const auto blocks = blocks_of(table);
   require_same_entries(blocks, table);
-  const SortedBlocks s = sorted(blocks, iperout, c.water, ulen, table);
+  const SortedBlocks s = sorted(blocks, run, table);
   const double rho = c.water.density;
   std::vector<double> per;
   for (std::size_t k = 0; k < s.finite.size(); ++k) {
@@ -157,7 +140,7 @@ std::vector<double> fill_radiation(Coefficients& c, const WamitTable& table, int
     per.push_back(s.finite[k]->per);
   }
   c.omega = s.omega;
-  const WamitLimits limits = assign_limits(s.negative, s.zero, s.finite, iperout, table);
+  const WamitLimits limits = assign_limits(s.negative, s.zero, s.finite, run.column, table);
   if (limits.zero != nullptr) c.A_zero = dimensional(limits.zero->A, rho, ulen);
   if (limits.infinite != nullptr) c.A_inf = dimensional(limits.infinite->A, rho, ulen);
   if (limits.note) c.notes.push_back(*limits.note);
@@ -194,42 +177,54 @@ void fill_restoring(Coefficients& c, const WamitTable& table, double ulen) {
   c.C = C;
 }
 
-/// A doubtful IPEROUT that nobody stated is an error; one that was stated is the caller's word against the file's.
-void examine_iperout(Coefficients& c, const ReadOptions& options, const fs::path& file) {
-  const auto doubt = sign_of_wrong_iperout(c);
-  if (!options.iperout) {
-    if (doubt)
-      throw InputError("the first column does not look like periods: " + *doubt, {.file = file.string()},
-                       "state IPEROUT: 1 period, 2 frequency in rad/s, 3 ω²L/g, 4 finite-depth wavenumber times L");
-    c.notes.push_back("IPEROUT is not stated: the first column is taken for periods in seconds (IPEROUT = 1)");
-  } else if (doubt) {
-    c.notes.push_back(fmt::format("IPEROUT = {} is doubtful: {}", *options.iperout, *doubt));
+/// From diffraction (.3), by Haskind's relation (.2) or as Froude–Krylov and scattering parts, in this order.
+void fill_excitation(Coefficients& c, const WamitFiles& files, const std::vector<double>& per, double ulen) {
+  const auto add = [&](const fs::path& file) {
+    fill_excitation(c, WamitTable::read(file, {7}, "PER BETA I Mod Pha Re Im"), per, ulen);
+    c.source += ", " + file.extension().string();
+  };
+  const fs::path diffraction = files.member(".3"), haskind = files.member(".2"), krylov = files.member(".3fk"),
+                 scattering = files.member(".3sc");
+  if (fs::exists(diffraction)) return add(diffraction);
+  if (fs::exists(haskind)) {
+    c.notes.push_back("excitation is from Haskind's relation (.2): there is no .3 file");
+    return add(haskind);
   }
+  if (!fs::exists(krylov) || !fs::exists(scattering)) {
+    c.notes.push_back(fmt::format("no excitation: there is no {}", diffraction.filename().string()));
+    return;
+  }
+  add(krylov);
+  const auto heading = std::exchange(c.heading, {});
+  const auto X = std::exchange(c.X, {});
+  add(scattering);
+  if (c.heading != heading)
+    throw InputError("the headings are not those of the .3fk file", {.file = scattering.string()},
+                     "the files must come from one run");
+  for (std::size_t b = 0; b < X.size(); ++b) c.X[b] += X[b];
+  c.notes.push_back("excitation is the sum of the parts in .3fk and .3sc");
 }
 
 }  // namespace
 
-Coefficients read_wamit(const fs::path& path, const ReadOptions& options) {
-  const WamitFiles files = find_files(path);
+Coefficients read_numeric_files(const WamitFiles& files, const WamitRun& run) {
   Coefficients c;
-  c.water = stated_water(options, files.radiation);
-  const int iperout = options.iperout.value_or(1);
-  c.source = fmt::format("WAMIT numeric files {}", files.radiation.string());
-  const auto per = fill_radiation(c, WamitTable::read(files.radiation, {4, 5}, "PER I J A B"), iperout, options.ulen);
-  if (fs::exists(files.excitation)) {
-    fill_excitation(c, WamitTable::read(files.excitation, {7}, "PER BETA I Mod Pha Re Im"), per, options.ulen);
-    c.source += ", .3";
-  } else {
-    c.notes.push_back(fmt::format("no excitation: there is no {}", files.excitation.filename().string()));
-  }
-  if (fs::exists(files.restoring)) {
-    fill_restoring(c, WamitTable::read(files.restoring, {3}, "I J C"), options.ulen);
+  c.water = run.water;
+  c.source = files.radiation.string();
+  const auto per = fill_radiation(c, WamitTable::read(files.radiation, {4, 5}, "PER I J A B"), run);
+  fill_excitation(c, files, per, run.ulen);
+  if (run.time_factor == TimeFactor::minus_i_omega_t)
+    for (auto& X : c.X) X = X.conjugate().eval();  // (P7)
+  const fs::path restoring = files.member(".hst");
+  if (fs::exists(restoring)) {
+    fill_restoring(c, WamitTable::read(restoring, {3}, "I J C"), run.ulen);
     c.source += ", .hst";
   } else {
-    c.notes.push_back(fmt::format("no restoring matrix: there is no {}", files.restoring.filename().string()));
+    c.notes.push_back(fmt::format("no restoring matrix: there is no {}", restoring.filename().string()));
   }
-  examine_iperout(c, options, files.radiation);
-  c.notes.push_back("WAMIT's numeric files do not say where the reference points of the bodies (XBODY) are");
+  if (const auto doubt = sign_of_other_time_factor(c))
+    throw InputError("the phases are of the other time factor: " + *doubt, {.file = files.radiation.string()},
+                     "HAMS writes WAMIT's files for e^(−iωt): give its ControlFile.in instead of the .1 file");
   return c;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hydro/base/error.hpp"
+#include "text_lines.hpp"
 
 namespace hydro::potential {
 
@@ -23,7 +24,7 @@ class WamitTable {
                          const std::string& layout);
 
   const std::vector<Row>& rows() const { return rows_; }
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return text_.path(); }
 
   /// A mode number, 1 or more, in this column. \throws InputError
   int mode(const Row& row, std::size_t column) const;
@@ -34,10 +35,8 @@ class WamitTable {
 
  private:
   void add(int line, const std::vector<std::size_t>& columns, const std::string& layout);
-  Place place_of_word(int line, std::size_t word) const;
 
-  std::filesystem::path path_;
-  std::vector<std::string> lines_;
+  TextLines text_;
   std::vector<Row> rows_;
 };
 

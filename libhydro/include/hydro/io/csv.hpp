@@ -22,6 +22,7 @@ class CsvTable {
   static CsvTable parse(std::string_view text, const std::string& file_name);
 
   std::size_t rows() const { return rows_; }
+  const std::string& file() const { return file_; }
   std::vector<std::string> names() const;
   bool has(std::string_view name) const;
 

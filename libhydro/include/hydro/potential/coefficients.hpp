@@ -59,16 +59,22 @@ Matrix6 rigid_shift(const Eigen::Vector3d& r);
 
 /// What WAMIT-style files leave unsaid.
 struct ReadOptions {
-  std::optional<double> density;    ///< ρ; needed for WAMIT numeric files
-  std::optional<double> gravity;    ///< g; needed for WAMIT numeric files
-  std::optional<WaterDepth> depth;  ///< needed for WAMIT numeric files
-  double ulen = 1.0;                ///< WAMIT's ULEN, m
-  std::optional<int> iperout;       ///< WAMIT's IPEROUT 1…4; empty: 1 (periods), unless a file contradicts it
+  std::optional<double> density;    ///< ρ; needed for the files of WAMIT and HAMS
+  std::optional<double> gravity;    ///< g; needed for the numeric files of WAMIT without a .out file, and for HAMS
+  std::optional<WaterDepth> depth;  ///< needed for the numeric files of WAMIT without a .out file
+  double ulen = 1.0;                ///< WAMIT's ULEN, m; refused for other formats unless 1
+  std::optional<int> iperout;  ///< WAMIT's IPEROUT 1…4; empty: 1 (periods), unless a file contradicts it; refused
+                               ///< for other formats
 };
 
 /// Reads any supported file and says in `source` what it was taken for. Formats are told apart by content, not by name:
-/// WAMIT (give the .1 file or the common stem; .3 and .hst beside it are read too), Capytaine netCDF, BEMIO .h5, Froude
-/// .h5. \throws InputError with file, line and remedy
+///   WAMIT      a numeric file or the common stem; .1, .3 (or .2, or .3fk and .3sc), .hst and .out of the stem are read
+///   NEMOH      the folder, its Nemoh.cal or a file of its results; versions 2 and 3
+///   AQWA       the .AH1 file, or the .LIS file of one structure
+///   HAMS       its ControlFile.in, or the folder that holds Input and Output
+///   Capytaine  netCDF, classic or HDF5
+///   BEMIO, Froude  .h5
+/// \throws InputError with file, line and remedy
 Coefficients read(const std::filesystem::path& path, const ReadOptions& options = {});
 
 }  // namespace hydro::potential
