@@ -45,7 +45,7 @@ std::vector<DragPiece> drag_pieces(const std::vector<RigidBody>& bodies, int bod
   for (std::size_t i = 0; i < point.size(); ++i) {
     const double s = s0 + (s1 - s0) * (1 + point[i]) / 2, length = weight[i] * (s1 - s0) * along.norm();
     pieces.push_back({body, from + s * along - b.properties().centre_of_gravity.xyz, along.normalized(),
-                      0.5 * density * cd * diameter * length});
+                      0.5 * density * cd * diameter * length, Eigen::Vector3d::Zero()});
   }
   return pieces;
 }
@@ -61,7 +61,8 @@ void for_each_flow(const std::vector<DragPiece>& pieces, const std::optional<Wav
   Eigen::VectorXd velocity = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(pieces.size()));
   if (water) velocity = water->at(state.time);
   for (std::size_t i = 0; i < pieces.size(); ++i)
-    act(pieces[i], flow_past(pieces[i], state, velocity.segment<3>(3 * static_cast<Eigen::Index>(i))));
+    act(pieces[i],
+        flow_past(pieces[i], state, pieces[i].current + velocity.segment<3>(3 * static_cast<Eigen::Index>(i))));
 }
 }  // namespace
 

@@ -40,40 +40,41 @@ namespace {
 
 Eigen::VectorXd at_modes(const std::vector<int>& modes, const Eigen::VectorXd& all) { return all(modes); }
 
-/// The histories of all groups, and what the past has decided of each integral: at the newest step itself, and at one
+/// The memories of all groups, and what the past has decided of each integral: at the newest step itself, and at one
 /// time after it.
 class RadiationState final : public Memory {
  public:
   RadiationState(const std::vector<RadiationMemory>& groups, const State& start)
       : groups_(groups), newest_(start.time) {
     for (const auto& g : groups_) {
-      history_.push_back(g.convolution.make_history());
-      // The trapezium rule gives the first velocity half its weight.
-      history_.back().push(0.5 * at_modes(g.modes, start.velocity));
-      at_newest_.push_back(Eigen::VectorXd::Zero(g.convolution.modes()));
+      past_.push_back(g.method->start(at_modes(g.modes, start.velocity)));
+      at_newest_.push_back(Eigen::VectorXd::Zero(g.method->modes()));
     }
   }
   void accept(const State& state) override {
     refresh(1);
     at_newest_ = after_;
-    for (std::size_t i = 0; i < groups_.size(); ++i) history_[i].push(at_modes(groups_[i].modes, state.velocity));
+    for (std::size_t i = 0; i < groups_.size(); ++i) past_[i]->accept(at_modes(groups_[i].modes, state.velocity));
     newest_ = state.time;
     known_at_ = 0;
+    if (!begun_) weight_.clear();
     begun_ = true;
   }
   /// −(integral) of one group at the time and velocity of `state`.
   Eigen::VectorXd load(std::size_t group, const State& state) {
-    const auto& convolution = groups_[group].convolution;
-    const double fraction = fraction_of(state.time, convolution.step());
-    if (fraction == 0) return -(at_newest_[group] + weight(group, 0) * at_modes(groups_[group].modes, state.velocity));
-    refresh(fraction);
-    return -(after_[group] + weight(group, fraction) * at_modes(groups_[group].modes, state.velocity));
+    const double fraction = fraction_of(state.time, groups_[group].method->step());
+    if (fraction > 0) refresh(fraction);
+    const Eigen::VectorXd& decided = fraction > 0 ? after_[group] : at_newest_[group];
+    return -(decided + weight(group, fraction) * at_modes(groups_[group].modes, state.velocity));
   }
   /// What multiplies the velocity of this very moment. At the start of a run nothing has been radiated yet.
-  Eigen::MatrixXd weight(std::size_t group, double fraction) const {
-    const auto& convolution = groups_[group].convolution;
-    if (fraction > 0) return convolution.instantaneous(fraction);
-    return begun_ ? convolution.instantaneous(1) : Eigen::MatrixXd::Zero(convolution.modes(), convolution.modes());
+  const Eigen::MatrixXd& weight(std::size_t group, double fraction) {
+    if (weight_.empty() || fraction != weight_at_) {
+      weight_.clear();
+      for (const auto& g : groups_) weight_.push_back(weight_of(*g.method, fraction));
+      weight_at_ = fraction;
+    }
+    return weight_[group];
   }
   /// Time since the newest stored velocity in steps, 0 … 1.
   double fraction_of(double time, double step) const {
@@ -84,27 +85,28 @@ class RadiationState final : public Memory {
   }
 
  private:
+  Eigen::MatrixXd weight_of(const hydro::radiation::MemoryMethod& method, double fraction) const {
+    if (fraction > 0) return method.instantaneous(fraction);
+    return begun_ ? method.instantaneous(1) : Eigen::MatrixXd::Zero(method.modes(), method.modes());
+  }
   void refresh(double fraction) {
     if (fraction == known_at_) return;
     after_.clear();
-    for (std::size_t i = 0; i < groups_.size(); ++i)
-      after_.push_back(groups_[i].convolution.decided(history_[i], fraction));
+    for (const auto& past : past_) after_.push_back(past->decided(fraction));
     known_at_ = fraction;
   }
 
   const std::vector<RadiationMemory>& groups_;
-  std::vector<hydro::radiation::VelocityHistory> history_;
+  std::vector<std::unique_ptr<hydro::radiation::MemoryState>> past_;
   std::vector<Eigen::VectorXd> at_newest_, after_;
-  double newest_, known_at_ = 0;  // fraction for which after_ holds; 0: none
+  std::vector<Eigen::MatrixXd> weight_;
+  double newest_, known_at_ = 0, weight_at_ = 0;  // fractions for which after_ and weight_ hold; 0: none, or the newest
   bool begun_ = false;
 };
 
 }  // namespace
 
-std::string RadiationKind::method() const {
-  return fmt::format("direct convolution, {:.4g} s of memory in steps of {:.4g} s",
-                     elements_.front().convolution.length(), elements_.front().convolution.step());
-}
+std::string RadiationKind::method() const { return elements_.front().method->describe(); }
 
 void RadiationKind::couple(BlockPattern& pattern) const {
   for (const auto& e : elements_)
@@ -130,7 +132,7 @@ void RadiationKind::add_jacobian(const Instant& now, JacobianSink& out) const {
   auto& memory = static_cast<RadiationState&>(*now.memory);
   for (std::size_t g = 0; g < elements_.size(); ++g) {
     const auto& e = elements_[g];
-    out.add_velocity_modes(e.modes, -memory.weight(g, memory.fraction_of(now.state.time, e.convolution.step())));
+    out.add_velocity_modes(e.modes, -memory.weight(g, memory.fraction_of(now.state.time, e.method->step())));
   }
 }
 

@@ -4,6 +4,10 @@
 #include "dynamics/force/drag.hpp"
 #include "dynamics/force/restoring.hpp"
 #include "dynamics/force/wave_loads.hpp"
+#include "hydro/radiation/constant_memory.hpp"
+#include "hydro/radiation/convolution.hpp"
+#include "hydro/radiation/partitioned.hpp"
+#include "hydro/radiation/pole_memory.hpp"
 #include "laws/force_kind_laws.hpp"
 #include "support/two_pole_body.hpp"
 
@@ -63,23 +67,33 @@ TEST(ForceLaws, HoldForDragInMovingAndStillWater) {
 
 TEST(ForceLaws, HoldForExcitation) { laws::expect_force_laws(ExcitationKind({{{1, 0}, wave_signals(12)}}), bodies); }
 
-TEST(ForceLaws, HoldForRadiationWithinAStep) {
+/// Every way of computing the memory of twelve modes, step 0.1 s.
+std::vector<std::shared_ptr<const hydro::radiation::MemoryMethod>> memory_methods() {
+  using namespace hydro::radiation;
   const support::TwoPoleBody body{.decay = 0.3, .frequency = 1.1};
-  const auto kernel = hydro::radiation::RetardationKernel::from_damping(body.damping_table(20, 400, 12), {0.1, 5});
-  const RadiationKind kind({{{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}, hydro::radiation::DirectConvolution(kernel)}});
-  State start = rest_state(bodies);
-  const auto memory = kind.make_memory(start);
-  for (int i = 1; i <= 20; ++i) {
-    State s = support::random_state(bodies, static_cast<std::uint64_t>(i));
-    s.time = 0.1 * i;
-    memory->accept(s);
-  }
-  for (const double fraction : {0.25, 1.0}) {
-    State state = support::random_state(bodies, 50), other = support::random_state(bodies, 51);
-    state.time = other.time = 2 + 0.1 * fraction;
-    laws::expect_pure(kind, state, other, memory.get());
-    laws::expect_true_jacobians(kind, state, memory.get());
-    laws::expect_energy_balance(kind, state, memory.get());
+  const auto kernel = RetardationKernel::from_damping(body.damping_table(20, 400, 12), {0.1, 5});
+  return {std::make_shared<DirectConvolution>(kernel), std::make_shared<PartitionedConvolution>(kernel, 8),
+          std::make_shared<PoleMemory>(body.model(12), 0.1),
+          std::make_shared<ConstantMemory>(0.7 * Eigen::MatrixXd::Identity(12, 12), 1.3, 0.1)};
+}
+
+TEST(ForceLaws, HoldForEveryMemoryOfRadiationWithinAStep) {
+  for (const auto& method : memory_methods()) {
+    SCOPED_TRACE(method->describe());
+    const RadiationKind kind({{{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}, method}});
+    const auto memory = kind.make_memory(rest_state(bodies));
+    for (int i = 1; i <= 20; ++i) {
+      State s = support::random_state(bodies, static_cast<std::uint64_t>(i));
+      s.time = 0.1 * i;
+      memory->accept(s);
+    }
+    for (const double fraction : {0.0, 0.25, 1.0}) {
+      State state = support::random_state(bodies, 50), other = support::random_state(bodies, 51);
+      state.time = other.time = 2 + 0.1 * fraction;
+      laws::expect_pure(kind, state, other, memory.get());
+      laws::expect_true_jacobians(kind, state, memory.get());
+      laws::expect_energy_balance(kind, state, memory.get());
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include "dynamics/force/wave_loads.hpp"
 #include "dynamics/integrate/generalized_alpha.hpp"
 #include "dynamics/integrate/ledger.hpp"
+#include "hydro/radiation/convolution.hpp"
 #include "support/two_pole_body.hpp"
 
 namespace {
@@ -30,9 +31,10 @@ struct Floater {
                                                 std::vector<Restoring>{{0, stiffness * Matrix6::Identity()}}));
     auto table = water.damping_table(30, 750);
     for (auto& B : table.B) B *= strength;
-    f.push_back(std::make_unique<RadiationKind>(std::vector<RadiationMemory>{
-        {{2},
-         hydro::radiation::DirectConvolution(hydro::radiation::RetardationKernel::from_damping(table, {h, 30}))}}));
+    f.push_back(std::make_unique<RadiationKind>(
+        std::vector<RadiationMemory>{{{2},
+                                      std::make_shared<hydro::radiation::DirectConvolution>(
+                                          hydro::radiation::RetardationKernel::from_damping(table, {h, 30}))}}));
     return f;
   }
   Floater(double mass, double added_mass, double stiffness, double strength, double h)

@@ -11,9 +11,10 @@ namespace dynamics {
 /// (D7).
 struct DragPiece {
   int body;
-  Eigen::Vector3d arm;   ///< from the centre of gravity, body axes, m
-  Eigen::Vector3d axis;  ///< unit vector, body axes
-  double factor;         ///< ½ ρ C_D D ℓ, kg/m
+  Eigen::Vector3d arm;                                ///< from the centre of gravity, body axes, m
+  Eigen::Vector3d axis;                               ///< unit vector, body axes
+  double factor;                                      ///< ½ ρ C_D D ℓ, kg/m
+  Eigen::Vector3d current = Eigen::Vector3d::Zero();  ///< steady part of u, global, m/s
 };
 
 /// Cuts the part of a straight member that is wet at rest into Gauss–Legendre points. `from`, `to`: body axes from the

@@ -2,7 +2,7 @@
 /// \file  Loads from potential theory: wave excitation, and the memory of radiated waves.
 #include "dynamics/force/force_kind.hpp"
 #include "dynamics/force/wave_signals.hpp"
-#include "hydro/radiation/convolution.hpp"
+#include "hydro/radiation/memory.hpp"
 
 namespace dynamics {
 
@@ -31,8 +31,8 @@ class ExcitationKind final : public ForceKind {
 /// mass at infinite frequency is in the model's mass matrix, not here. Modes that are not free have no velocity to
 /// remember.
 struct RadiationMemory {
-  std::vector<int> modes;                           ///< of the model, 6 · body + mode, increasing
-  hydro::radiation::DirectConvolution convolution;  ///< as many modes
+  std::vector<int> modes;                                        ///< of the model, 6 · body + mode, increasing
+  std::shared_ptr<const hydro::radiation::MemoryMethod> method;  ///< with as many modes
 };
 
 class RadiationKind final : public ForceKind {
