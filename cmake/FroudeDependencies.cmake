@@ -7,6 +7,9 @@ find_package(HDF5 1.10 REQUIRED COMPONENTS C HL)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(FFTW3 REQUIRED IMPORTED_TARGET fftw3)
 pkg_check_modules(NETCDF REQUIRED IMPORTED_TARGET netcdf)
+if(FROUDE_BUILD_BENCHMARKS)
+  find_package(benchmark 1.7 REQUIRED)
+endif()
 
 # SuiteSparse 5.12 ships neither a CMake config nor a pkg-config file.
 if(NOT TARGET froude::suitesparse)

@@ -5,11 +5,12 @@
 #include <numbers>
 
 #include "compile/hydrodynamics.hpp"
+#include "compile/radiation.hpp"
+#include "compile/waves.hpp"
 #include "dynamics/force/wave_loads.hpp"
 #include "dynamics/spatial/rotation.hpp"
-#include "hydro/radiation/kernel.hpp"
-#include "hydro/radiation/tail.hpp"
 #include "hydro/waves/kinematics.hpp"
+#include "hydro/waves/synthesis.hpp"
 
 namespace froude::compile {
 namespace {
@@ -103,92 +104,11 @@ dynamics::Model frequency_model(const Prepared& prepared) {
 
 namespace {
 
-/// Radiation of one group: its added mass at infinite frequency and its memory.
-struct RadiationParts {
-  dynamics::AddedMass added_mass;
-  dynamics::RadiationMemory memory;
-  PlanLine line;
-};
-
-/// The free modes of a group: their numbers in the model, and in the group's matrices.
-struct FreeModes {
-  std::vector<int> in_model, in_group;
-};
-
-FreeModes free_modes(const Prepared& p, const std::vector<int>& bodies) {
-  FreeModes out;
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    for (int mode = 0; mode < 6; ++mode)
-      if (p.bodies[static_cast<std::size_t>(bodies[b])].is_free(mode)) {
-        out.in_model.push_back(6 * bodies[b] + mode);
-        out.in_group.push_back(6 * static_cast<int>(b) + mode);
-      }
-  return out;
-}
-
-RadiationParts radiation(const Prepared& prepared, const dynamics::frequency::PotentialGroup& g, double tolerance,
-                         std::optional<double> fixed_length, double step, std::vector<std::string>& notes) {
-  const auto& c = g.table.coefficients();
-  const FreeModes modes = free_modes(prepared, g.bodies);
-  // A and B of linear theory are symmetric. Panel codes miss that by their discretisation error, which in a run would
-  // be energy from nowhere; the frequency domain, which has no ledger to close, takes the data as they are.
-  double asymmetry = 0;
-  const auto symmetric = [&](const Eigen::MatrixXd& m) {
-    const double largest = m.cwiseAbs().maxCoeff();
-    if (largest > 0) asymmetry = std::max(asymmetry, (m - m.transpose()).cwiseAbs().maxCoeff() / largest);
-    return Eigen::MatrixXd((m + m.transpose()) / 2);
-  };
-  hydro::radiation::DampingTable damping{c.omega, {}};
-  for (const auto& B : c.B) damping.B.push_back(symmetric(B(modes.in_group, modes.in_group)));
-  std::vector<Eigen::MatrixXd> A;
-  for (const auto& a : c.A) A.push_back(symmetric(a(modes.in_group, modes.in_group)));
-  std::optional<Eigen::MatrixXd> A_inf_in_file;
-  if (c.A_inf) A_inf_in_file = symmetric((*c.A_inf)(modes.in_group, modes.in_group));
-  // Waves beyond the table act as added mass on slower motions; without them a run differs from the frequency domain
-  // (R10), (R11).
-  const auto complete = hydro::radiation::continued(damping, A, A_inf_in_file);
-  notes.push_back(
-      fmt::format("{}: damping continued beyond {:.4g} rad/s so that it belongs to the added mass, which is left off "
-                  "by {:.2g} (rms, worst pair); A(inf) moved by {:.2g}{}",
-                  c.source, c.omega.back(), complete.misfit, complete.shift,
-                  c.A_inf ? "" : "; added mass at infinite frequency, which the data lack, found with it"));
-  Eigen::MatrixXd A_inf = Eigen::MatrixXd::Zero(c.modes(), c.modes());
-  A_inf(modes.in_group, modes.in_group) = complete.A_inf;
-  const double longest = hydro::radiation::RetardationKernel::longest_time(complete.table);
-  const double length = std::min(fixed_length.value_or(hydro::radiation::memory_length(complete.table, tolerance)),
-                                 fixed_length ? *fixed_length : longest);
-  auto kernel = hydro::radiation::RetardationKernel::from_damping(complete.table, {step, std::max(length, 2 * step)});
-  if (kernel.truncation() > tolerance)
-    notes.push_back(
-        fmt::format("{}: the memory of {:.4g} s leaves out up to {:.2g} of the radiation damping (tolerance {:.2g}){}",
-                    c.source, kernel.length(), kernel.truncation(), tolerance,
-                    fixed_length ? "" : "; the frequencies of the data are too far apart to tell more"));
-  if (asymmetry > 1e-9)
-    notes.push_back(fmt::format(
-        "{}: added mass and damping made symmetric for the run; they were off by up to {:.2g} of the largest entry",
-        c.source, asymmetry));
-  if (kernel.negative_share() > 1e-3)
-    notes.push_back(fmt::format(
-        "{}: radiation damping is negative somewhere, by up to {:.2g} of its mode's largest; taken as it is", c.source,
-        kernel.negative_share()));
-  PlanLine line{"radiation", "",
-                fmt::format("{} modes, {} lags, left out up to {:.2g} of the damping", kernel.modes(), kernel.samples(),
-                            kernel.truncation()),
-                true};
-  dynamics::RadiationMemory memory{modes.in_model, hydro::radiation::DirectConvolution(kernel)};
-  return {{g.bodies, A_inf}, std::move(memory), std::move(line)};
-}
-
 /// Complex amplitudes, one row a signal, and their table on the step grid.
 dynamics::WaveSignals signals(const hydro::waves::Sea& sea, const Eigen::MatrixXcd& amplitudes, double step,
                               std::size_t samples, double ramp) {
-  Eigen::MatrixXd table(amplitudes.rows(), static_cast<Eigen::Index>(samples));
-  std::vector<std::complex<double>> row(static_cast<std::size_t>(amplitudes.cols()));
-  for (Eigen::Index r = 0; r < amplitudes.rows(); ++r) {
-    for (std::size_t c = 0; c < row.size(); ++c) row[c] = amplitudes(r, static_cast<Eigen::Index>(c));
-    const auto series = hydro::waves::synthesise(sea, {step, samples}, row);
-    table.row(r) = Eigen::Map<const Eigen::RowVectorXd>(series.data(), static_cast<Eigen::Index>(series.size()));
-  }
+  // All signals in one pass: they share the phasors of the sea.
+  Eigen::MatrixXd table = hydro::waves::synthesise(sea, {step, samples}, amplitudes).series.transpose();
   std::vector<double> omega;
   for (const auto& c : sea.components()) omega.push_back(c.omega);
   return {std::move(omega), amplitudes, std::move(table), step, ramp};
@@ -223,6 +143,7 @@ std::unique_ptr<const dynamics::ForceKind> drag(const Scene& scene, const Prepar
     pieces.insert(pieces.end(), wet.begin(), wet.end());
   }
   if (pieces.empty()) return nullptr;
+  for (auto& piece : pieces) piece.current.head<2>() = scene.current.at(dynamics::rest_position(piece, p.bodies).z());
   std::optional<dynamics::WaveSignals> water;
   if (sea) {
     Eigen::MatrixXcd amplitudes(3 * static_cast<Eigen::Index>(pieces.size()),
@@ -256,6 +177,44 @@ double chosen_step(const Scene& scene) {
   return every / std::max(1.0, std::ceil(every / largest - 1e-9));
 }
 
+/// The band where every group that feels the waves has coefficients; none if no group does.
+std::optional<Band> band_of_data(const Prepared& prepared) {
+  std::optional<Band> band;
+  for (const auto& g : prepared.groups) {
+    if (!g.excitation) continue;
+    if (!band) band = Band{g.table.lowest(), g.table.highest()};
+    band = Band{std::max(band->low, g.table.lowest()), std::min(band->high, g.table.highest())};
+  }
+  return band;
+}
+
+/// The sea of a run. Loads of a run are linear in the waves, so the waves must be linear; and coefficients are for
+/// water without a current.
+hydro::waves::Sea run_sea(const Scene& scene, const Prepared& prepared) {
+  const scene::Waves& waves = *scene.waves;
+  const auto band = band_of_data(prepared);
+  if (band && scene.current_place)
+    throw InputError("the wave loads come from coefficients for water without a current", *scene.current_place,
+                     "take [current] out, or the bodies' excitation");
+  if (waves.stretching != hydro::waves::Stretching::vertical && !scene.members.empty())
+    throw InputError(
+        "drag in a run takes the water's velocity at the places at rest, with nothing but \"vertical\" above",
+        waves.place, "leave [waves.kinematics] out");
+  hydro::waves::Sea sea = make_sea(scene, band);
+  if (sea.components().size() > 1 && sea.repetition_s() < scene.run->duration * (1 - 1e-9))
+    throw InputError(fmt::format("the sea repeats after {:.6g} s, before the run of {:.6g} s ends", sea.repetition_s(),
+                                 scene.run->duration),
+                     waves.place,
+                     fmt::format("add components = {{ repetition = \"{:.6g} s\" }} to [waves]", scene.run->duration));
+  return sea;
+}
+
+std::string sea_method(const hydro::waves::Sea& sea) {
+  if (sea.components().size() == 1) return "one regular wave";
+  if (std::isinf(sea.repetition_s())) return "components that never repeat";
+  return fmt::format("components on a grid, repeating after {:.6g} s", sea.repetition_s());
+}
+
 dynamics::State start_state(const Scene& scene, const Prepared& p) {
   dynamics::State state = dynamics::rest_state(p.bodies);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -283,12 +242,9 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
   std::vector<PlanLine> plan;
   std::optional<hydro::waves::Sea> sea;
   const bool wants_sea = scene.waves.has_value();
-  // An even number of steps, so that the sea repeats after the run and its inverse FFT is a plain one.
-  const std::size_t repetition_steps = steps + steps % 2;
   if (wants_sea) {
-    sea = make_sea(scene, prepared, static_cast<double>(repetition_steps) * step);
-    plan.push_back({"waves",
-                    sea->components().size() == 1 ? "one regular wave" : "random phases, fixed amplitudes, inverse FFT",
+    sea = run_sea(scene, prepared);
+    plan.push_back({"waves", sea_method(*sea),
                     fmt::format("{} components, {:.2g} of the energy left out", sea->components().size(),
                                 sea->fraction_left_out()),
                     true});
@@ -301,11 +257,10 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
   std::vector<PlanLine> memory_lines;
   for (std::size_t i = 0; i < prepared.groups.size(); ++i) {
     if (!prepared.groups[i].radiation) continue;
-    auto parts =
-        radiation(prepared, prepared.groups[i], prepared.memory_tolerance[i], prepared.memory_length[i], step, notes);
+    auto parts = radiation(prepared, i, step, sea ? &*sea : nullptr, notes);
     added_mass.push_back(std::move(parts.added_mass));
     memories.push_back(std::move(parts.memory));
-    memory_lines.push_back(std::move(parts.line));
+    memory_lines.insert(memory_lines.end(), parts.lines.begin(), parts.lines.end());
   }
   if (!memories.empty()) forces.push_back(std::make_unique<dynamics::RadiationKind>(std::move(memories)));
   if (sea)
@@ -318,10 +273,7 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
                       fmt::format("{} element{}", kind->elements(), kind->elements() == 1 ? "" : "s"), true});
       continue;
     }
-    for (PlanLine line : memory_lines) {
-      line.method = kind->method();
-      plan.push_back(std::move(line));
-    }
+    plan.insert(plan.end(), memory_lines.begin(), memory_lines.end());
   }
   dynamics::Model model(prepared.bodies, std::move(added_mass), std::move(forces));
   return {std::move(model), start_state(scene, prepared), std::move(sea), step, steps, per_sample, std::move(plan),

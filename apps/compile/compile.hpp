@@ -25,8 +25,7 @@ struct PlanLine {
 struct Prepared {
   std::vector<dynamics::RigidBody> bodies;
   std::vector<dynamics::frequency::PotentialGroup> groups;
-  std::vector<double> memory_tolerance;              ///< one a group
-  std::vector<std::optional<double>> memory_length;  ///< s, where the scene fixes it
+  std::vector<scene::Memory> memory;  ///< one a group
   std::vector<dynamics::Restoring> hydrostatics, moorings;
   std::vector<dynamics::AxialConnector> axial;
   std::vector<dynamics::BushingConnector> bushing;
@@ -53,12 +52,5 @@ struct TimeModel {
   std::vector<std::string> notes;
 };
 TimeModel time_model(const scene::Scene& scene, const Prepared& prepared);
-
-/// The sea of a scene on the step grid, in the band where both the spectrum has energy and the data have coefficients.
-/// \throws hydro::InputError if more than accuracy² … of the energy lies outside the data, saying how much and where
-hydro::waves::Sea make_sea(const scene::Scene& scene, const Prepared& prepared, double repetition_s);
-
-/// Rad/s above which the sea has 5 % of its energy: what a step must resolve. The frequency of a regular wave.
-double highest_relevant_frequency(const scene::Waves& waves);
 
 }  // namespace froude::compile

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "compile/cylinders.hpp"
 #include "hydro/potential/operations.hpp"
 
 namespace froude::compile {
@@ -25,7 +26,9 @@ const Hydrodynamics& hydrodynamics(const Scene& scene, int body) {
   return *scene.bodies[static_cast<std::size_t>(body)].hydrodynamics;
 }
 
+/// From the file, or computed for all bodies of cylinders together.
 Coefficients read(const Scene& scene, const Hydrodynamics& h) {
+  if (h.cylinders) return solve_cylinders(scene, bodies_of_cylinders(scene)).coefficients;
   hydro::potential::ReadOptions options;
   options.density = scene.water.density;
   options.gravity = scene.water.gravity;
@@ -60,7 +63,11 @@ void assign(const Scene& scene, Use& use) {
     const auto& body = scene.bodies[static_cast<std::size_t>(use.bodies[static_cast<std::size_t>(i)])];
     const Hydrodynamics& h = *body.hydrodynamics;
     int index = 0;
-    if (h.body) {
+    if (h.cylinders) {
+      const auto all = bodies_of_cylinders(scene);
+      index =
+          static_cast<int>(std::find(all.begin(), all.end(), use.bodies[static_cast<std::size_t>(i)]) - all.begin());
+    } else if (h.body) {
       index = h.body->value - 1 + (body.copy > 0 && in_file > 1 ? body.copy - 1 : 0);
       if (index < 0 || index >= in_file)
         throw InputError(fmt::format("body {} of \"{}\" is asked for; the file holds {}", index + 1,
@@ -239,8 +246,7 @@ void add_hydrodynamics(const Scene& scene, Prepared& prepared) {
       for (const int b : bodies) origins.push_back(scene.bodies[static_cast<std::size_t>(b)].position);
       prepared.groups.push_back(
           {bodies, hydro::potential::FrequencyTable(std::move(c), origins), h.radiation, h.excitation});
-      prepared.memory_tolerance.push_back(h.memory_tolerance);
-      prepared.memory_length.push_back(h.memory);
+      prepared.memory.push_back(h.memory);
     }
   }
 }

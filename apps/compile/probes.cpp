@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "dynamics/spatial/rotation.hpp"
+#include "hydro/waves/summed_field.hpp"
 
 namespace froude::compile {
 namespace {
@@ -89,7 +91,42 @@ void add_energies(const TimeModel& m, std::vector<Probe>& out) {
                  [](const Workspace&, const EnergyLedger& l) { return l.residual(); }});
 }
 
+/// The undisturbed water at the scene's [[probe]]s, with the ramp of the loads.
+void add_fixed_points(const scene::Scene& scene, const hydro::waves::Sea& sea, std::vector<Probe>& out) {
+  if (scene.probes.empty()) return;
+  const hydro::waves::HarmonicField linear = hydro::waves::linear_field(sea, {.stretching = scene.waves->stretching});
+  const auto field = std::make_shared<const hydro::waves::SummedField>(linear);
+  for (const auto& p : scene.probes)
+    for (const ProbeSignal& s : probe_signals(p))
+      out.push_back(
+          {s.name, s.unit, s.long_name,
+           [field, at = p.at, take = s.take, ramp = scene.waves->ramp](const Workspace& w, const EnergyLedger&) {
+             const double t = w.state.time, grown = t >= ramp ? 1 : 0.5 * (1 - std::cos(std::numbers::pi * t / ramp));
+             return grown * take(field->at(t, at));
+           }});
+}
+
 }  // namespace
+
+std::vector<ProbeSignal> probe_signals(const scene::Probe& probe) {
+  using hydro::waves::Kinematics;
+  std::vector<ProbeSignal> out;
+  const auto add = [&](const std::string& what, const char* unit, const std::string& meaning,
+                       std::function<double(const Kinematics&)> take) {
+    out.push_back({probe.name + "." + what, unit, fmt::format("{} at {}", meaning, probe.name), std::move(take)});
+  };
+  if (probe.elevation) add("elevation", "m", "elevation of the water", [](const Kinematics& k) { return k.elevation; });
+  for (int axis = 0; axis < 3 && probe.velocity; ++axis)
+    add(std::string("velocity_") + "xyz"[axis], "m/s", fmt::format("velocity of the water along {}", "xyz"[axis]),
+        [axis](const Kinematics& k) { return k.velocity[axis]; });
+  for (int axis = 0; axis < 3 && probe.acceleration; ++axis)
+    add(std::string("acceleration_") + "xyz"[axis], "m/s^2",
+        fmt::format("rate of the water's velocity along {} at this fixed point", "xyz"[axis]),
+        [axis](const Kinematics& k) { return k.acceleration[axis]; });
+  if (probe.pressure)
+    add("pressure", "Pa", "dynamic pressure p + rho g z", [](const Kinematics& k) { return k.dynamic_pressure; });
+  return out;
+}
 
 std::vector<Probe> run_probes(const scene::Scene& scene, const Prepared& prepared, const TimeModel& model) {
   std::vector<Probe> out;
@@ -103,6 +140,7 @@ std::vector<Probe> run_probes(const scene::Scene& scene, const Prepared& prepare
                                   grown = t >= ramp ? 1 : 0.5 * (1 - std::cos(std::numbers::pi * t / ramp));
                      return grown * sea.elevation(t, 0, 0);
                    }});
+  if (model.sea) add_fixed_points(scene, *model.sea, out);
   add_energies(model, out);
   return out;
 }

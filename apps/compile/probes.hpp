@@ -17,6 +17,13 @@ struct Probe {
   std::function<double(const dynamics::Workspace&, const dynamics::EnergyLedger&)> read;
 };
 
+/// What one [[probe]] of a scene tells: names, units, and how each is read off the water's kinematics.
+struct ProbeSignal {
+  std::string name, unit, long_name;
+  std::function<double(const hydro::waves::Kinematics&)> take;
+};
+std::vector<ProbeSignal> probe_signals(const scene::Probe& probe);
+
 /// All signals of a run of this model. Motions are of the body's origin from its place at rest; rotations are the
 /// yaw–pitch–roll angles of the attitude (about z, then the new y, then the new x).
 std::vector<Probe> run_probes(const scene::Scene& scene, const Prepared& prepared, const TimeModel& model);

@@ -1,73 +1,249 @@
+#include "compile/waves.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <numbers>
 
-#include "compile/compile.hpp"
-#include "hydro/waves/spectrum.hpp"
+#include "hydro/waves/dispersion.hpp"
+#include "hydro/waves/focus.hpp"
+#include "hydro/waves/limits.hpp"
+#include "hydro/waves/second_order.hpp"
+#include "hydro/waves/steady.hpp"
+#include "hydro/waves/summed_field.hpp"
+#include "hydro/waves/tank.hpp"
 
 namespace froude::compile {
 namespace {
 
-using hydro::waves::Jonswap;
+namespace hw = hydro::waves;
+using hydro::InputError;
+using hydro::Place;
 
-Jonswap spectrum_of(const scene::Waves& waves) {
-  if (const auto* j = std::get_if<scene::Jonswap>(&waves.kind)) return {j->hs, j->tp, j->gamma};
-  const auto& p = std::get<scene::PiersonMoskowitz>(waves.kind);
-  return hydro::waves::pierson_moskowitz(p.hs, p.tp);
-}
+constexpr double two_pi = 2 * std::numbers::pi;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The frequency with the given share of the energy above it.
-double frequency_with_share_above(const Jonswap& spectrum, double share) {
-  double low = 0.2 * 2 * std::numbers::pi / spectrum.tp(), high = 100 * low;
+/// The frequency with the given share of the energy above it, between a thousandth and a thousand times the peak's.
+double frequency_with_share_above(const hw::Spectrum& spectrum, double share) {
+  double low = 1e-3 * spectrum.peak_omega(), high = 1e6 * low;
+  const double wanted = share * spectrum.moment(0);
   for (int i = 0; i < 60; ++i) {
     const double middle = std::sqrt(low * high);
-    (spectrum.energy(middle, std::numeric_limits<double>::infinity()) > share * spectrum.moment(0) ? low : high) =
-        middle;
+    (spectrum.energy(middle, infinity) > wanted ? low : high) = middle;
   }
   return high;
 }
 
-/// The band where every group that feels the waves has coefficients.
-std::pair<double, double> band_of_data(const Prepared& prepared) {
-  std::pair<double, double> band{0, std::numeric_limits<double>::infinity()};
-  for (const auto& g : prepared.groups)
-    if (g.excitation) band = {std::max(band.first, g.table.lowest()), std::min(band.second, g.table.highest())};
+// ---- seas that break before they are made ----
+
+/// A height that no wave of this length can have.
+void check_breaking(double height, double omega, const hydro::Water& water, const Place& place, const char* what) {
+  const double length = two_pi / hw::wavenumber(omega, water), highest = hw::highest_wave(length, water.depth);
+  if (height > highest)
+    throw InputError(
+        fmt::format("{} of {:.4g} m with a period of {:.4g} s is beyond breaking: the highest wave of that "
+                    "length, {:.4g} m, is {:.4g} m (steepness {:.3g}, limit {:.3g})",
+                    what, height, two_pi / omega, length, highest, height / length, highest / length),
+        place, "make the waves lower, or longer");
+}
+
+// ---- random seas ----
+
+struct Cut {
+  Band band;
+  bool low_is_data = false, high_is_data = false;
+};
+
+/// The band that is cut up: given by the scene, else all but a hundredth of the accuracy asked on either side.
+Band band_of(const scene::RandomSea& sea, const hw::Spectrum& spectrum, const std::optional<Band>& data,
+             double accuracy) {
+  const double negligible = 0.01 * accuracy;
+  Band band{sea.lowest.value_or(frequency_with_share_above(spectrum, 1 - negligible)),
+            sea.highest.value_or(frequency_with_share_above(spectrum, negligible))};
+  if (data) band = {std::max(band.low, data->low), std::min(band.high, data->high)};
   return band;
+}
+
+void check_left_out(const scene::RandomSea& sea, const hw::Spectrum& spectrum, const Band& band,
+                    const std::optional<Band>& data, double accuracy, const Place& place) {
+  if (sea.lowest || sea.highest || !data) return;  // the scene has said so itself, and the result repeats it
+  const double outside = 1 - spectrum.energy(std::min(band.low, band.high), band.high) / spectrum.moment(0);
+  if (outside > accuracy)
+    throw InputError(fmt::format("{:.2g} % of the sea's energy lies outside the frequencies of the data, {:.4g} "
+                                 "to {:.4g} rad/s; the accuracy asked is {:.2g} %",
+                                 100 * outside, data->low, data->high, 100 * accuracy),
+                     place, "compute the coefficients for a wider band, choose another sea, or ask for less accuracy");
+}
+
+/// Systems of one scene draw from seeds of their own: the same phases twice would make them one sea.
+std::uint64_t seed_of(const scene::RandomSea& sea, std::size_t system) {
+  constexpr std::uint64_t apart = 0x9e3779b97f4a7c15;  // 2⁶⁴ over the golden ratio: far from any seed people write
+  return sea.seed + apart * system;
+}
+
+hw::Sea random_sea(const scene::Scene& scene, const scene::RandomSea& sea, const std::optional<Band>& data) {
+  const Place& place = scene.waves->place;
+  std::vector<hw::Sea> systems;
+  for (std::size_t i = 0; i < sea.systems.size(); ++i) {
+    const auto& system = sea.systems[i];
+    check_breaking(system.spectrum->hs(), system.spectrum->peak_omega(), scene.water, place,
+                   "a significant wave height");
+    const Band band = band_of(sea, *system.spectrum, data, scene.accuracy);
+    check_left_out(sea, *system.spectrum, band, data, scene.accuracy, place);
+    try {
+      systems.push_back(hw::Sea::irregular(*system.spectrum,
+                                           {sea.bins, band.low, band.high, seed_of(sea, i), sea.amplitudes},
+                                           {system.heading, system.spreading.get()}, scene.water, scene.current));
+    } catch (const InputError& e) {
+      throw e.at(sea.bins_place);
+    }
+  }
+  hw::Sea all = hw::Sea::together(systems);
+  if (!sea.crest) return all;
+  return sea.crest->alone ? hw::new_wave(all, sea.crest->height, sea.crest->focus)
+                          : hw::constrained_new_wave(all, sea.crest->height, sea.crest->focus);
+}
+
+// ---- fields ----
+
+/// The part of a uniform current along the waves; a steady nonlinear wave knows no other.
+double current_along(const scene::Scene& scene) {
+  if (scene.current.is_none()) return 0;
+  const double heading = scene.waves->heading.radians();
+  const Eigen::Vector2d U = scene.current.at(0), ahead(std::cos(heading), std::sin(heading));
+  if (!scene.current.is_uniform() || std::abs(U.x() * ahead.y() - U.y() * ahead.x()) > 1e-12 * U.norm())
+    throw InputError("a nonlinear regular wave takes a current that is uniform and along its heading only",
+                     *scene.current_place, "use theory = \"linear\", or turn the current into the heading");
+  return U.dot(ahead);
+}
+
+std::unique_ptr<const hw::WaveField> steady_field(const scene::Scene& scene, const scene::RegularWave& wave) {
+  const hw::SteadyWaveInput input{.height_m = 2 * wave.amplitude,
+                                  .length = hydro::AngularFrequency::from_period_s(wave.period),
+                                  .water = scene.water,
+                                  .mean_flow = hw::EulerianCurrent{current_along(scene)}};
+  try {
+    const hw::SteadyWave steady = wave.theory == scene::RegularTheory::stokes_second  ? hw::stokes_second(input)
+                                  : wave.theory == scene::RegularTheory::stokes_fifth ? hw::stokes_fifth(input)
+                                                                                      : hw::stream_function(input);
+    return std::make_unique<hw::HarmonicField>(steady.field(scene.waves->heading));
+  } catch (const InputError& e) {
+    throw e.at(scene.waves->place);
+  }
+}
+
+void require_no_current(const scene::Scene& scene, const char* what) {
+  if (!scene.current.is_none())
+    throw InputError(fmt::format("{} are for water without a current", what), *scene.current_place,
+                     "take [current] out, or use another kind of waves");
+}
+
+/// What the paddle's record makes of the tank: followed until the last sample asked, with enough rest after the record
+/// that no wave of its repetition has arrived by then.
+std::unique_ptr<const hw::WaveField> tank_field(const scene::Scene& scene, const scene::WaveTank& t) {
+  require_no_current(scene, "waves of a tank");
+  const hw::Band band{t.lowest, t.highest};
+  const double until = scene.ask_waves ? scene.ask_waves->from + scene.ask_waves->duration : 0;
+  const double fastest = std::sqrt(scene.water.gravity * scene.water.depth.metres());
+  const bool come_back = t.reflection > 0 && !t.yields;
+  const int trips = come_back ? static_cast<int>(std::ceil(until * fastest / (2 * t.length))) : 0;
+  const hw::Tank tank{.length_m = t.length,
+                      .water = scene.water,
+                      .paddle = t.hinge ? hw::Paddle::flap(*t.hinge) : hw::Paddle::piston(),
+                      .reflections = {.far_end = t.reflection,
+                                      .paddle = t.yields ? hw::PaddleMode::absorbing : hw::PaddleMode::reflecting,
+                                      .round_trips = trips},
+                      .stretching = scene.waves->stretching};
+  try {
+    const double slow = hw::arrival_time(scene.water, band, t.length * (2 * trips + 2));
+    const double length = t.step * static_cast<double>(t.displacement.size());
+    const auto motion = hw::record_spectrum(t.displacement, t.step, std::max(slow, until - length), band);
+    return std::make_unique<hw::WaveTank>(tank, motion.harmonics);
+  } catch (const InputError& e) {
+    throw e.at(scene.waves->place);
+  }
 }
 
 }  // namespace
 
-double highest_relevant_frequency(const scene::Waves& waves) {
-  if (const auto* regular = std::get_if<scene::RegularWave>(&waves.kind)) return 2 * std::numbers::pi / regular->period;
-  constexpr double share = 0.05;  // what is above is followed less exactly, and weighs little
-  return frequency_with_share_above(spectrum_of(waves), share);
+bool is_linear_sum(const scene::Waves& waves) {
+  if (const auto* regular = std::get_if<scene::RegularWave>(&waves.kind))
+    return regular->theory == scene::RegularTheory::linear;
+  const bool sum =
+      std::holds_alternative<scene::RandomSea>(waves.kind) || std::holds_alternative<scene::WaveList>(waves.kind);
+  return sum && !has_bound_waves(waves);
 }
 
-hydro::waves::Sea make_sea(const scene::Scene& scene, const Prepared& prepared, double repetition_s) {
+double highest_relevant_frequency(const scene::Waves& waves) {
+  constexpr double share = 0.05;  // what is above is followed less exactly, and weighs little
+  if (const auto* regular = std::get_if<scene::RegularWave>(&waves.kind)) return two_pi / regular->period;
+  double highest = 0;
+  if (const auto* random = std::get_if<scene::RandomSea>(&waves.kind)) {
+    for (const auto& system : random->systems)
+      highest = std::max(highest, frequency_with_share_above(*system.spectrum, share));
+    return highest;
+  }
+  if (const auto* list = std::get_if<scene::WaveList>(&waves.kind)) {
+    std::vector<std::pair<double, double>> energy;  // falling frequency
+    double all = 0, above = 0;
+    for (const auto& w : list->waves) {
+      energy.emplace_back(w.omega.rad_per_s(), w.amplitude.metres() * w.amplitude.metres());
+      all += energy.back().second;
+    }
+    std::sort(energy.rbegin(), energy.rend());
+    for (const auto& [omega, e] : energy)
+      if ((above += e) > share * all) return omega;
+  }
+  return highest;
+}
+
+bool has_bound_waves(const scene::Waves& waves) {
+  if (const auto* random = std::get_if<scene::RandomSea>(&waves.kind)) return random->second_order;
+  if (const auto* list = std::get_if<scene::WaveList>(&waves.kind)) return list->second_order;
+  return false;
+}
+
+hw::Sea make_sea(const scene::Scene& scene, const std::optional<Band>& data) {
   const scene::Waves& waves = *scene.waves;
-  if (const auto* regular = std::get_if<scene::RegularWave>(&waves.kind))
-    return hydro::waves::Sea::regular(hydro::WaveAmplitude::from_metres(regular->amplitude),
-                                      hydro::AngularFrequency::from_period_s(regular->period), waves.heading,
-                                      scene.water);
-  const Jonswap spectrum = spectrum_of(waves);
-  // A millionth of the energy on either side is below anything asked; leaving it out keeps the number of components
-  // small.
-  constexpr double negligible = 1e-6;
-  const auto [data_low, data_high] = band_of_data(prepared);
-  const double low = std::max(data_low, frequency_with_share_above(spectrum, 1 - negligible));
-  const double high = std::min(data_high, frequency_with_share_above(spectrum, negligible));
-  const double outside = 1 - spectrum.energy(low, high) / spectrum.moment(0);
-  if (outside > scene.accuracy)
-    throw hydro::InputError(fmt::format("{:.2g} % of the sea's energy lies outside the frequencies of the data, {:.4g} "
-                                        "to {:.4g} rad/s; the accuracy asked is {:.2g} %",
-                                        100 * outside, data_low, data_high, 100 * scene.accuracy),
-                            waves.place,
-                            "compute the coefficients for a wider band, choose another sea, or ask for less accuracy");
-  return hydro::waves::Sea::irregular(
-      spectrum, {.repetition_s = repetition_s, .omega_min = low, .omega_max = high, .seed = waves.seed}, waves.heading,
-      scene.water);
+  if (!is_linear_sum(waves))
+    throw InputError("waves of this kind are not a sum of linear waves, which this needs", waves.place,
+                     "use `froude waves make` for them, or linear waves here");
+  return free_waves(scene, data);
+}
+
+hw::Sea free_waves(const scene::Scene& scene, const std::optional<Band>& data) {
+  const scene::Waves& waves = *scene.waves;
+  if (const auto* random = std::get_if<scene::RandomSea>(&waves.kind)) return random_sea(scene, *random, data);
+  try {
+    if (const auto* list = std::get_if<scene::WaveList>(&waves.kind))
+      return hw::Sea::of(list->waves, scene.water, scene.current);
+    const auto& regular = std::get<scene::RegularWave>(waves.kind);
+    check_breaking(2 * regular.amplitude, two_pi / regular.period, scene.water, waves.place, "a wave height");
+    return hw::Sea::regular(hydro::WaveAmplitude::from_metres(regular.amplitude),
+                            hydro::AngularFrequency::from_period_s(regular.period), waves.heading, scene.water, 0,
+                            scene.current);
+  } catch (const InputError& e) {
+    throw e.at(waves.place);
+  }
+}
+
+std::unique_ptr<const hw::WaveField> make_field(const scene::Scene& scene) {
+  const scene::Waves& waves = *scene.waves;
+  if (const auto* regular = std::get_if<scene::RegularWave>(&waves.kind);
+      regular != nullptr && regular->theory != scene::RegularTheory::linear)
+    return steady_field(scene, *regular);
+  if (const auto* packets = std::get_if<scene::FocusedPackets>(&waves.kind)) {
+    require_no_current(scene, "focused packets");
+    return std::make_unique<hw::PacketField>(packets->packets, packets->focus, waves.heading, scene.water,
+                                             waves.stretching);
+  }
+  if (const auto* tank = std::get_if<scene::WaveTank>(&waves.kind)) return tank_field(scene, *tank);
+  hw::HarmonicField::Options options;
+  options.stretching = waves.stretching;
+  if (!has_bound_waves(waves)) return std::make_unique<hw::SummedField>(hw::linear_field(make_sea(scene), options));
+  return std::make_unique<hw::SummedField>(hw::second_order_field(free_waves(scene), {}, options));
 }
 
 }  // namespace froude::compile

@@ -4,7 +4,9 @@
 #include <numbers>
 #include <ostream>
 
+#include "compile/cylinders.hpp"
 #include "froude/commands.hpp"
+#include "froude/progress.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/potential/check.hpp"
 #include "hydro/potential/writers.hpp"
@@ -247,6 +249,36 @@ void bem_convert(const BemArguments& arguments, const Path& output, const std::s
     return;
   }
   console.out << fmt::format("wrote {}\n", fmt::join(written.files, ", "));
+  for (const std::string& sentence : written.left_out) console.out << "  left out or changed: " << sentence << '\n';
+}
+
+void bem_solve(const Path& file, const Path& output, const std::string& format, const Console& console) {
+  const Format target = format_of(output, format);
+  const scene::Scene scene = scene::read(file);
+  const std::vector<int> bodies = compile::bodies_of_cylinders(scene);
+  if (bodies.empty())
+    throw hydro::InputError("no body of the scene has cylinders", {.file = file.string()},
+                            "add cylinders = { at = [...], diameter = ..., draught = ... } to [body.hydrodynamics]");
+  Progress progress(console.err, "solve", console.show_progress);
+  const auto solution = compile::solve_cylinders(
+      scene, bodies, [&](int done, int all) { progress.update(static_cast<double>(done) / all); });
+  const Written written = write_as(target, solution.coefficients, output);
+  const auto& check = solution.check;
+  if (console.json) {
+    console.out << json{{"input", file.string()},
+                        {"files", written.files},
+                        {"left_out", written.left_out},
+                        {"self_check",
+                         {{"energy", check.energy},
+                          {"haskind", check.haskind},
+                          {"reciprocity", check.reciprocity},
+                          {"change_with_doubled_resolution", check.doubling}}}}
+                       .dump(2)
+                << '\n';
+    return;
+  }
+  console.out << fmt::format("wrote {}\n", fmt::join(written.files, ", "));
+  for (const std::string& note : solution.coefficients.notes) console.out << "  " << note << '\n';
   for (const std::string& sentence : written.left_out) console.out << "  left out or changed: " << sentence << '\n';
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hydro/hydrostatics/mesh.hpp"
 #include "hydro/potential/coefficients.hpp"
 
 namespace froude {
@@ -30,6 +31,18 @@ void bem_info(const BemArguments& arguments, const Console& console);
 int bem_check(const BemArguments& arguments, const Console& console);
 /// The format follows from the name of `output`: .h5 (ours), .bemio.h5 or --format bemio, .1 (WAMIT set).
 void bem_convert(const BemArguments& arguments, const Path& output, const std::string& format, const Console& console);
+
+/// Coefficients of the cylinders that a scene describes, written as bem_convert() does.
+void bem_solve(const Path& scene, const Path& output, const std::string& format, const Console& console);
+
+struct BemIrfArguments {
+  BemArguments bem;
+  double tolerance = 1e-3;           ///< of the fit, relative force
+  std::optional<Path> output = {};   ///< .ss (OpenFAST) or .h5 (BEMIO state-space groups)
+  std::optional<Path> picture = {};  ///< SVG
+};
+/// Radiation in the time domain: poles, certificate of passivity, errors, A(∞) by fit and by Ogilvie's relation.
+void bem_irf(const BemIrfArguments& arguments, const Console& console);
 
 struct PsdArguments {
   Path file;                                ///< CSV, or a result of `froude run`
@@ -59,6 +72,33 @@ struct SceneArguments {
 void rao(const SceneArguments& arguments, const Console& console);
 void run(const SceneArguments& arguments, const Console& console);
 void plan(const SceneArguments& arguments, const Console& console);
+
+struct HydrostaticsArguments {
+  Path mesh;  ///< .stl, .obj or .gdf
+  hydro::hydrostatics::MeshOptions options;
+  std::optional<double> freeboard;  ///< m, walls and deck drawn above the edge of the openings
+  hydro::Water water;
+  std::optional<double> mass;                        ///< kg; the hull then floats where it wants to
+  std::optional<Eigen::Vector3d> centre_of_gravity;  ///< as drawn, m
+  std::optional<Eigen::Vector3d> reference;          ///< of C, global, m; the origin if left out
+  std::optional<double> heave;                       ///< m; without a mass only
+  hydro::Angle heel = hydro::Angle::from_radians(0), trim = hydro::Angle::from_radians(0);  ///< with a mass: the start
+  std::vector<double> heels;  ///< of the righting arms, rad
+  bool free_trim = false;     ///< along them
+  std::optional<Path> picture;
+};
+/// Volume, centres, waterplane, C, GM and righting arms of a hull.
+void hydrostatics(const HydrostaticsArguments& arguments, const Console& console);
+
+struct WavesInfoArguments {
+  Path file;                                                ///< scene, list of components, spectrum or record
+  hydro::WaterDepth depth = hydro::WaterDepth::infinite();  ///< of the water, where the file does not say
+  double gravity = 9.81;
+  std::optional<std::string> column = {};  ///< of a record; "elevation" if left out
+  bool phase_of_kx = false;                ///< phases of a list belong to cos(kx − ωt + ε)
+};
+void waves_info(const WavesInfoArguments& arguments, const Console& console);
+void waves_make(const SceneArguments& arguments, const Console& console);
 
 /// Writes a commented starter scene. With `keys`, prints the reference of all scene keys instead.
 void new_scene(const std::string& kind, const std::optional<Path>& output, bool keys, const Console& console);

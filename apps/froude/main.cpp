@@ -61,7 +61,10 @@ hydro::potential::ReadOptions read_options(const BemOptionTexts& texts) {
 /// The options shared by all `froude bem …`; the values live as long as the returned pointer is held by a callback.
 std::shared_ptr<BemOptionTexts> add_bem_options(CLI::App& command, const std::shared_ptr<BemArguments>& arguments) {
   auto texts = std::make_shared<BemOptionTexts>();
-  command.add_option("files", arguments->files, "data files: WAMIT .1 or stem, Capytaine .nc, BEMIO .h5, Froude .h5")
+  command
+      .add_option("files", arguments->files,
+                  "data files: WAMIT .1 or stem, Capytaine .nc, NEMOH folder, AQWA .AH1, HAMS ControlFile.in, BEMIO "
+                  ".h5, Froude .h5")
       ->required();
   command.add_option("--density", texts->density, "of the water, where the file does not say: \"1025 kg/m^3\"");
   command.add_option("--gravity", texts->gravity, "where the file does not say: \"9.81 m/s^2\"");
@@ -119,12 +122,51 @@ void add_bem_convert(CLI::App& bem, Request& request) {
   });
 }
 
+void add_bem_solve(CLI::App& bem, Request& request) {
+  auto* solve = bem.add_subcommand("solve", "compute the coefficients of the cylinders of a scene, exactly");
+  solve->footer("Example:\n  froude bem solve examples/cylinders.toml -o module.h5");
+  auto scene = std::make_shared<Path>(), output = std::make_shared<Path>();
+  auto format = std::make_shared<std::string>();
+  solve->add_option("scene", *scene, "scene with cylinders in [body.hydrodynamics]")->required();
+  solve->add_option("-o,--output", *output, "file to write; its name tells the format")->required();
+  solve->add_option("--format", *format, "of the output, where its name does not tell")
+      ->check(CLI::IsMember({"froude", "bemio", "wamit"}));
+  solve->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      bem_solve(*scene, *output, *format, console);
+      return done;
+    };
+  });
+}
+
+void add_bem_irf(CLI::App& bem, Request& request) {
+  auto* irf = bem.add_subcommand("irf", "radiation in time: kernels as sums of exponentials, certified passive");
+  irf->footer("Example:\n  froude bem irf examples/data/hemisphere_r5.nc -o hemisphere.ss --picture irf.svg");
+  auto arguments = std::make_shared<BemArguments>();
+  auto irf_arguments = std::make_shared<BemIrfArguments>();
+  auto texts = add_bem_options(*irf, arguments);
+  irf->add_option("--tolerance", irf_arguments->tolerance, "of the fit: error of the force, relative")
+      ->capture_default_str();
+  irf->add_option("-o,--output", irf_arguments->output, "state space: .ss (OpenFAST) or .h5 (BEMIO groups)");
+  irf->add_option("--picture", irf_arguments->picture, "SVG of kernels and damping of the first body");
+  irf->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      irf_arguments->bem = *arguments;
+      irf_arguments->bem.options = read_options(*texts);
+      bem_irf(*irf_arguments, console);
+      return done;
+    };
+  });
+}
+
 void add_bem(CLI::App& app, Request& request) {
-  auto* bem = app.add_subcommand("bem", "hydrodynamic coefficients from panel codes: info, check, convert");
+  auto* bem = app.add_subcommand("bem", "hydrodynamic coefficients: info, check, convert, irf; solve for cylinders");
   bem->require_subcommand(1);
   add_bem_info(*bem, request);
   add_bem_check(*bem, request);
   add_bem_convert(*bem, request);
+  add_bem_irf(*bem, request);
+  add_bem_solve(*bem, request);
 }
 
 void add_new(CLI::App& app, Request& request) {
@@ -133,7 +175,7 @@ void add_new(CLI::App& app, Request& request) {
   auto kind = std::make_shared<std::string>();
   auto output = std::make_shared<std::optional<Path>>();
   auto keys = std::make_shared<bool>(false);
-  command->add_option("kind", *kind, "of scene: motion or fit; motion if left out");
+  command->add_option("kind", *kind, "of scene: motion, waves or fit; motion if left out");
   command->add_option("-o,--output", *output, "file to write; standard output if left out");
   command->add_flag("--keys", *keys, "print every key that a scene may hold, as Markdown");
   command->callback([=, &request] {
@@ -145,8 +187,8 @@ void add_new(CLI::App& app, Request& request) {
 }
 
 /// `rao`, `run` and `plan` take the same words.
-void add_scene_command(CLI::App& app, Request& request, const std::string& name, const std::string& what,
-                       void (*function)(const SceneArguments&, const Console&), bool has_outputs) {
+CLI::App* add_scene_command(CLI::App& app, Request& request, const std::string& name, const std::string& what,
+                            void (*function)(const SceneArguments&, const Console&), bool has_outputs) {
   auto* command = app.add_subcommand(name, what);
   command->footer("Example:\n  froude " + name + " examples/pontoon5.toml" +
                   (has_outputs ? " -o " + name + ".h5 --picture " + name + ".svg" : ""));
@@ -161,6 +203,111 @@ void add_scene_command(CLI::App& app, Request& request, const std::string& name,
   command->callback([=, &request] {
     request.call = [=](const Console& console) {
       function(*arguments, console);
+      return done;
+    };
+  });
+  return command;
+}
+
+void add_waves(CLI::App& app, Request& request) {
+  auto* waves = app.add_subcommand("waves", "seas: what they are, and series of the water's motion");
+  waves->require_subcommand(1);
+  auto* info = waves->add_subcommand("info", "heights, periods, steepness, breaking and focus of a sea");
+  info->footer(
+      "Examples:\n  froude waves info examples/storm.toml\n  froude waves info components.csv --depth \"30 m\"\n"
+      "  froude waves info record.csv --column gauge1");
+  auto arguments = std::make_shared<WavesInfoArguments>();
+  auto depth = std::make_shared<std::string>("infinite"), gravity = std::make_shared<std::string>("9.81 m/s^2");
+  auto phase_of = std::make_shared<std::string>("omega t - k x");
+  info->add_option("file", arguments->file,
+                   "scene (.toml); CSV of components, of a spectrum or of a record; result of `froude waves make`")
+      ->required();
+  info->add_option("--depth", *depth, "of the water, where the file is no scene: \"30 m\" or infinite")
+      ->capture_default_str();
+  info->add_option("--gravity", *gravity, "where the file is no scene")->capture_default_str();
+  info->add_option("--column", arguments->column, "of a record; default: elevation");
+  info->add_option("--phase-of", *phase_of, "what the phases of a list are added to")
+      ->check(CLI::IsMember({"omega t - k x", "k x - omega t"}))
+      ->capture_default_str();
+  info->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      if (*depth != "infinite")
+        arguments->depth = hydro::WaterDepth::from_metres(*parsed("--depth", *depth, hydro::dim::length));
+      arguments->gravity = *parsed("--gravity", *gravity, hydro::dim::acceleration);
+      arguments->phase_of_kx = *phase_of == "k x - omega t";
+      waves_info(*arguments, console);
+      return done;
+    };
+  });
+  add_scene_command(*waves, request, "make", "time series of the water at the probes of a scene", &waves_make, true)
+      ->footer("Example:\n  froude waves make examples/storm.toml -o storm.h5 --csv storm.csv --picture storm.svg");
+}
+
+/// Options of `froude hydrostatics` as they were written.
+struct HydrostaticsTexts {
+  std::string density, gravity = "9.81 m/s^2", unit, freeboard, mass, cog, reference, heave, heel = "0 deg",
+                       trim = "0 deg", heels = "0 deg .. 80 deg, 17 values";
+};
+
+void read_hydrostatics(const HydrostaticsTexts& texts, HydrostaticsArguments& arguments) {
+  namespace dim = hydro::dim;
+  const auto vector = [](const std::string& option, const std::string& text) -> std::optional<Eigen::Vector3d> {
+    if (text.empty()) return std::nullopt;
+    try {
+      return hydro::parse_vector(text, dim::length);
+    } catch (const hydro::InputError& error) {
+      throw error.at({.file = option});
+    }
+  };
+  arguments.water.density = *parsed("--density", texts.density, dim::density);
+  arguments.water.gravity = *parsed("--gravity", texts.gravity, dim::acceleration);
+  hydro::require(arguments.water.density > 0 && arguments.water.gravity > 0,
+                 "--density and --gravity must be positive");
+  if (!texts.unit.empty()) arguments.options.unit = parsed("--unit", "1 " + texts.unit, dim::length);
+  arguments.freeboard = parsed("--freeboard", texts.freeboard, dim::length);
+  arguments.mass = parsed("--mass", texts.mass, dim::mass);
+  arguments.centre_of_gravity = vector("--cog", texts.cog);
+  arguments.reference = vector("--reference", texts.reference);
+  arguments.heave = parsed("--heave", texts.heave, dim::length);
+  arguments.heel = hydro::Angle::from_radians(*parsed("--heel", texts.heel, dim::angle));
+  arguments.trim = hydro::Angle::from_radians(*parsed("--trim", texts.trim, dim::angle));
+  try {
+    arguments.heels = hydro::parse_range(texts.heels, dim::angle);
+  } catch (const hydro::InputError& error) {
+    throw error.at({.file = "--gz"});
+  }
+}
+
+void add_hydrostatics(CLI::App& app, Request& request) {
+  auto* command = app.add_subcommand(
+      "hydrostatics", "volume, centres, waterplane, restoring matrix, GM and righting arms of a hull given as a mesh");
+  command->footer(
+      "Example:\n  froude hydrostatics examples/data/workboat.obj --density \"1025 kg/m^3\" --mass \"50 t\"\n"
+      "    --cog \"(-0.75, 0, 0.2) m\" --free-trim --picture gz.svg");
+  auto arguments = std::make_shared<HydrostaticsArguments>();
+  auto texts = std::make_shared<HydrostaticsTexts>();
+  command->add_option("mesh", arguments->mesh, "the hull: .stl, .obj or .gdf; z up, z = 0 the water as it is drawn")
+      ->required();
+  command->add_option("--density", texts->density, "of the water: \"1025 kg/m^3\"")->required();
+  command->add_option("--gravity", texts->gravity, "of the place")->capture_default_str();
+  command->add_option("--mass", texts->mass, "\"50 t\": the hull floats where it wants to; left out: it is as drawn");
+  command->add_option("--cog", texts->cog, "centre of gravity as drawn: \"(-0.75, 0, 0.2) m\"; for GM and GZ");
+  command->add_option("--unit", texts->unit, "of the numbers of the mesh: mm, cm, in, ft; metres if left out");
+  command->add_flag("--reverse", arguments->options.reverse, "turn the faces of the mesh inside out");
+  command->add_option("--freeboard", texts->freeboard,
+                      "draw walls and a deck above a hull that ends at the water: \"2 m\"");
+  command->add_option("--reference", texts->reference, "point of C, global; the origin if left out");
+  command->add_option("--heave", texts->heave, "lift of the drawn hull, without --mass");
+  command->add_option("--heel", texts->heel, "starboard down; with --mass where the search begins")
+      ->capture_default_str();
+  command->add_option("--trim", texts->trim, "bow down; with --mass where the search begins")->capture_default_str();
+  command->add_option("--gz", texts->heels, "heels of the righting arms")->capture_default_str();
+  command->add_flag("--free-trim", arguments->free_trim, "let the hull trim as it heels");
+  command->add_option("--picture", arguments->picture, "plot of the righting arms (.svg)");
+  command->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      read_hydrostatics(*texts, *arguments);
+      hydrostatics(*arguments, console);
       return done;
     };
   });
@@ -232,6 +379,8 @@ void describe(CLI::App& app, Request& request) {
   add_scene_command(app, request, "rao", "response amplitude operators of a scene, in the frequency domain", &rao,
                     true);
   add_scene_command(app, request, "run", "time series of a scene", &run, true);
+  add_waves(app, request);
+  add_hydrostatics(app, request);
   add_psd(app, request);
   add_fit(app, request);
   add_scene_command(app, request, "plan", "what a scene will run, by which method, and why the rest will not", &plan,

@@ -83,12 +83,44 @@ coefficients = ["cd", "ca"]                 # cm = 1 + ca
 intervals = { level = 0.95 }
 )";
 
+constexpr const char* waves_scene =
+    R"(# A sea and what its water does at fixed points. Every key is explained by `froude new --keys`.
+# `froude waves info` on this file tells what the sea is; `froude waves make` writes the series.
+schema = 1
+title = "A sea"
+
+[water]
+density = "1025 kg/m^3"
+depth = "60 m"                              # or "infinite"
+
+[waves]
+kind = "jonswap"                            # or regular, sum, components, focused_packets, tank, and other spectra
+hs = "3 m"
+tp = "9 s"
+heading = "0 deg"                           # where the waves go: 0 deg is towards +x, 90 deg towards +y (port)
+seed = 1                                    # another number is another sea of the same spectrum
+spreading = { kind = "cos2s", s = 10 }      # leave it out for long crests
+components = { repetition = "30 min", highest = "0.5 Hz" }
+
+[[probe]]
+name = "gauge"
+at = "(0, 0, 0) m"
+[[probe]]
+name = "below"
+at = "(0, 0, -5) m"
+gives = ["velocity", "acceleration", "pressure"]
+
+[ask]
+waves = { duration = "600 s", every = "0.25 s" }
+)";
+
 std::string starter(const std::string& kind) {
   if (kind.empty() || kind == "motion") return motion_scene;
   if (kind == "fit") return fit_scene;
-  const std::string near = hydro::nearest(kind, std::vector<std::string>{"motion", "fit"});
+  if (kind == "waves") return waves_scene;
+  const std::string near = hydro::nearest(kind, std::vector<std::string>{"motion", "waves", "fit"});
   throw hydro::InputError(fmt::format("\"{}\" is not a kind of scene", kind), {},
-                          near.empty() ? "kinds are motion and fit" : fmt::format("did you mean \"{}\"?", near));
+                          near.empty() ? "kinds are motion, waves and fit" : fmt::format("did you mean \"{}\"?", near));
 }
 
 }  // namespace

@@ -1,5 +1,8 @@
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
+#include "compile/waves.hpp"
 #include "froude/scene_result.hpp"
 
 namespace froude {
@@ -63,6 +66,31 @@ Section plan_run(const scene::Scene& scene, const compile::Prepared& p, std::vec
   return s;
 }
 
+Section plan_waves(const scene::Scene& scene) {
+  const auto& ask = *scene.ask_waves;
+  Section s{fmt::format("waves: {:.6g} s every {:.4g} s", ask.duration, ask.every), {}};
+  if (is_synthesised(scene)) {
+    const auto sea = compile::free_waves(scene);
+    s.lines.push_back(
+        {"waves",
+         std::isinf(sea.repetition_s())
+             ? "components that never repeat"
+             : fmt::format("components on a grid, repeating after {:.6g} s", sea.repetition_s()),
+         fmt::format("{} components, {:.2g} of the energy left out", sea.components().size(), sea.fraction_left_out()),
+         true});
+  }
+  s.lines.push_back({"probe", is_synthesised(scene) ? "whole series at once" : "the field at each instant",
+                     fmt::format("{} point{}", scene.probes.size(), scene.probes.size() == 1 ? "" : "s"), true});
+  const bool bound = compile::has_bound_waves(*scene.waves);
+  s.lines.push_back({"second order",
+                     bound ? "sums and differences of all pairs" : "not named in the scene (second_order = true)", "",
+                     bound});
+  s.lines.push_back({"current",
+                     scene.current_place ? "waves on it, Doppler's relation" : "not named in the scene ([current])", "",
+                     scene.current_place.has_value()});
+  return s;
+}
+
 void tell(const Console& console, const std::vector<Section>& sections, const std::vector<std::string>& notes) {
   if (console.json) {
     nlohmann::json j{{"notes", notes}};
@@ -93,6 +121,8 @@ void plan(const SceneArguments& arguments, const Console& console) {
   if (scene.rao) sections.push_back(plan_rao(scene, prepared));
   std::vector<std::string> notes = prepared.notes;
   if (scene.run) sections.push_back(plan_run(scene, prepared, notes));
+  if (scene.ask_waves) sections.push_back(plan_waves(scene));
+  if (scene.bodies.empty()) return tell(console, sections, notes);
   Section left_out{"left out, at no cost:", {}};
   add_absent(scene, prepared, left_out.lines);
   if (!left_out.lines.empty()) sections.push_back(std::move(left_out));

@@ -4,51 +4,13 @@
 
 #include "froude/progress.hpp"
 #include "froude/scene_result.hpp"
+#include "froude/series.hpp"
 #include "froude/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
-#include "hydro/io/csv.hpp"
 
 namespace froude {
 namespace {
-
-struct Statistics {
-  double mean = 0, deviation = 0, lowest = 0, highest = 0;
-};
-
-Statistics statistics(const std::vector<double>& v) {
-  Statistics s{.lowest = v.front(), .highest = v.front()};
-  for (const double x : v) {
-    s.mean += x / static_cast<double>(v.size());
-    s.lowest = std::min(s.lowest, x);
-    s.highest = std::max(s.highest, x);
-  }
-  for (const double x : v) s.deviation += (x - s.mean) * (x - s.mean) / static_cast<double>(v.size());
-  s.deviation = std::sqrt(s.deviation);
-  return s;
-}
-
-void write_run_csv(const Path& path, const Record& record) {
-  std::vector<hydro::io::CsvColumn> columns{{"time", "s", &record.time}};
-  for (const auto& s : record.signals) columns.push_back({s.name, s.units, &s.values});
-  hydro::io::write_csv(path, columns);
-}
-
-plot::Figure figure(const scene::Scene& scene, const Record& record) {
-  plot::Figure f{.title = scene.title.empty() ? "Run" : scene.title, .panels = {}};
-  std::vector<std::string> units;
-  for (const auto& s : record.signals) {
-    if (s.name.starts_with("energy.")) continue;
-    auto at = std::find(units.begin(), units.end(), s.units);
-    if (at == units.end()) {
-      units.push_back(s.units);
-      f.panels.push_back({.x = {"time", "s"}, .y = {"signal", s.units}, .series = {}});
-      at = units.end() - 1;
-    }
-    f.panels[static_cast<std::size_t>(at - units.begin())].series.push_back({s.name, record.time, s.values});
-  }
-  return f;
-}
 
 double found(const std::vector<std::pair<std::string, double>>& entries, const std::string& name) {
   for (const auto& [key, value] : entries)
@@ -70,14 +32,7 @@ void tell(const Console& console, const scene::Scene& scene, const Record& recor
                      {"energy_residual_relative", relative},
                      {"stopped", record.stopped},
                      {"notes", record.notes}};
-    for (const auto& s : record.signals) {
-      const Statistics st = statistics(s.values);
-      j["signals"][s.name] = {{"unit", s.units},
-                              {"mean", st.mean},
-                              {"standard_deviation", st.deviation},
-                              {"lowest", st.lowest},
-                              {"highest", st.highest}};
-    }
+    j["signals"] = series_json(record.signals);
     console.out << j.dump(1) << '\n';
     return;
   }
@@ -86,14 +41,7 @@ void tell(const Console& console, const scene::Scene& scene, const Record& recor
       scene.file.filename().string(), record.time.back(), record.steps, record.step,
       static_cast<double>(record.newton_iterations) / static_cast<double>(std::max<std::size_t>(1, record.steps)),
       record.halvings ? fmt::format(", {} halvings", record.halvings) : "", record.stepping_s);
-  console.out << fmt::format("{:<24} {:>12} {:>12} {:>12} {:>12} {}\n", "signal", "mean", "std", "lowest", "highest",
-                             "unit");
-  for (const auto& s : record.signals) {
-    if (s.name.starts_with("energy.")) continue;
-    const Statistics st = statistics(s.values);
-    console.out << fmt::format("{:<24} {:>12.4g} {:>12.4g} {:>12.4g} {:>12.4g} {}\n", s.name, st.mean, st.deviation,
-                               st.lowest, st.highest, s.units);
-  }
+  console.out << series_table(record.signals);
   console.out << fmt::format("energy that does not add up: {:.3g} J, {:.2g} of the {:.3g} J turned over\n", residual,
                              relative, turnover);
   for (const auto& note : record.notes) console.out << "note: " << note << '\n';
@@ -117,8 +65,10 @@ void run(const SceneArguments& arguments, const Console& console) {
   provenance.energy = record.energy;
   if (!record.stopped.empty()) provenance.notes.emplace_back("stopped", record.stopped);
   write_run(file, record.time, record.signals, provenance);
-  if (arguments.csv) write_run_csv(*arguments.csv, record);
-  if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, record)));
+  if (arguments.csv) write_series_csv(*arguments.csv, record.time, record.signals);
+  if (arguments.picture)
+    hydro::io::write_atomically(*arguments.picture, plot::svg(series_figure(scene.title.empty() ? "Run" : scene.title,
+                                                                            record.time, record.signals)));
   tell(console, scene, record, file);
   if (!record.stopped.empty())
     throw hydro::NumericsError(record.stopped + "; what was computed is in " + file.string());

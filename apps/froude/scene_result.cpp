@@ -13,8 +13,9 @@ Provenance provenance_of(const scene::Scene& scene, const std::vector<std::strin
   p.scene_file = scene.file.filename().string();
   p.scene_text = scene.text;
   for (const auto& e : scene.echo) p.settings.emplace_back(e.key, e.value + (e.defaulted ? " (default)" : ""));
-  if (scene.waves && !std::holds_alternative<scene::RegularWave>(scene.waves->kind))
-    p.seeds.emplace_back("waves", static_cast<double>(scene.waves->seed));
+  if (scene.waves)
+    if (const auto* sea = std::get_if<scene::RandomSea>(&scene.waves->kind))
+      p.seeds.emplace_back("waves", static_cast<double>(sea->seed));
   for (std::size_t i = 0; i < notes.size(); ++i) p.notes.emplace_back(fmt::format("note{}", i + 1), notes[i]);
   return p;
 }

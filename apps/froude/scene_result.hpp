@@ -16,6 +16,9 @@ Path output_path(const SceneArguments& arguments, const std::string& ending);
 /// Scene text, echo and notes; wall times and energies are added by the caller.
 Provenance provenance_of(const scene::Scene& scene, const std::vector<std::string>& notes);
 
+/// True if `froude waves make` makes whole series at once for this scene, instead of asking the field at each instant.
+bool is_synthesised(const scene::Scene& scene);
+
 /// \throws hydro::InputError if the scene does not ask for this, saying how to
 void require_asked(bool asked, const scene::Scene& scene, const std::string& what, const std::string& example);
 

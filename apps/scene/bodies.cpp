@@ -2,6 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <cmath>
+
 #include "scene/build.hpp"
 
 namespace froude::scene {
@@ -77,20 +79,57 @@ int small_integer(const Record& record, std::string_view key, std::int64_t most)
   return static_cast<int>(value);
 }
 
-Hydrodynamics read_hydrodynamics(const Record& record, const std::filesystem::path& file) {
+Memory read_memory(const Record& radiation) {
+  using enum Memory::Method;
+  static const std::map<std::string, Memory::Method, std::less<>> methods{{"automatic", automatic},
+                                                                          {"direct", direct},
+                                                                          {"partitioned", partitioned},
+                                                                          {"poles", poles},
+                                                                          {"constant", constant}};
+  Memory out;
+  out.method = methods.at(radiation.text("method"));
+  out.place = radiation["method"].place;
+  if (radiation.has("memory_tolerance")) out.tolerance = radiation.si("memory_tolerance");
+  if (radiation.has("memory")) out.length = radiation.si("memory");
+  if (out.length && (out.method == poles || out.method == constant))
+    throw radiation.wrong("method", "has no length of memory", "leave out `memory`, or take a convolution");
+  return out;
+}
+
+/// The axes are given where they pierce still water, whose height in body axes is known.
+Cylinders read_cylinders(const Record& record, double height_of_origin) {
+  Cylinders out{.at = record["at"].points.front(),
+                .diameter = record.si("diameter"),
+                .draught = record.si("draught"),
+                .omega = record["frequencies"].range,
+                .headings = {}};
+  for (const Eigen::Vector3d& p : out.at)
+    if (std::abs(p.z() + height_of_origin) > 1e-9)
+      throw record.wrong(
+          "at", fmt::format("has z = {:.6g} m; still water is at {:.6g} m in body axes", p.z(), -height_of_origin),
+          "give the axes at the height of still water");
+  if (record.has("headings")) out.headings = record["headings"].range;
+  return out;
+}
+
+Hydrodynamics read_hydrodynamics(const Record& record, const std::filesystem::path& file, double height_of_origin) {
   Hydrodynamics out;
-  out.file = {beside(file, record.text("file")), record["file"].place};
+  if (record.has("file")) {
+    out.file = {beside(file, record.text("file")), record["file"].place};
+    out.ulen = record.si("ulen");
+  } else {
+    out.file.place = record["cylinders"].place;
+    out.cylinders = read_cylinders(record.table("cylinders"), height_of_origin);
+  }
   if (record.has("body")) out.body = {small_integer(record, "body", 100'000), record["body"].place};
   if (record.has("reference_point")) out.reference_point = record.vector("reference_point");
-  out.ulen = record.si("ulen");
   if (record.has("iperout")) out.iperout = small_integer(record, "iperout", 4);
   out.excitation = record.has("excitation");
   out.hydrostatics = record.has("hydrostatics");
   out.radiation = record.has("radiation");
   if (out.radiation) {
     const Record& radiation = record.table("radiation");
-    if (radiation.has("memory_tolerance")) out.memory_tolerance = radiation.si("memory_tolerance");
-    if (radiation.has("memory")) out.memory = radiation.si("memory");
+    out.memory = read_memory(radiation);
     out.interaction = record.text("interaction") == "full";
   }
   return out;
@@ -111,7 +150,8 @@ Body read_body(const Record& record, const std::filesystem::path& file) {
   body.inertia = read_inertia(record, body.mass, rotates);
   body.initial = read_modes(record, "initial", body.free);
   body.initial_velocity = read_modes(record, "initial_velocity", body.free);
-  if (record.has("hydrodynamics")) body.hydrodynamics = read_hydrodynamics(record.table("hydrodynamics"), file);
+  if (record.has("hydrodynamics"))
+    body.hydrodynamics = read_hydrodynamics(record.table("hydrodynamics"), file, body.position.z());
   return body;
 }
 

@@ -30,7 +30,9 @@ void build_members(const Record& root, Names& names, Scene& scene);
 void build_moorings(const Record& root, Names& names, Scene& scene);
 void build_connectors(const Record& root, Names& names, Scene& scene);
 
-Waves build_waves(const Record& waves);
+Waves build_waves(const Record& waves, const Scene& scene);
+hydro::waves::Current build_current(const Record& current, const std::filesystem::path& file);
+std::vector<Probe> build_probes(const Record& root, Names& names);
 void build_ask(const Record& ask, Scene& scene);
 Solve build_solve(const Record& solve);
 

@@ -55,14 +55,35 @@ void read_heading(const Record& rao, Scene& scene) {
   scene.echo.insert(before, {"ask.rao.heading", value, true});
 }
 
-AskRun read_run(const Record& run) {
-  AskRun out{.duration = run.si("duration"), .every = run.si("every"), .of = {}, .of_places = {}, .place = run.place()};
-  const double steps = out.duration / out.every, whole = std::round(steps);
+/// `duration` of a series must be a whole multiple of `every`.
+void check_whole(const Record& asked) {
+  const double every = asked.si("every"), steps = asked.si("duration") / every, whole = std::round(steps);
   if (whole < 1 || std::abs(steps - whole) > 1e-9 * steps)  // far above the round-off of the two, far below a sample
-    throw run.wrong("duration",
-                    fmt::format("is {:.10g} times every = {}; a whole number is needed", steps, run["every"].shown),
-                    fmt::format("write duration = \"{:.10g} s\"", std::max(1.0, std::ceil(steps)) * out.every));
-  return out;
+    throw asked.wrong("duration",
+                      fmt::format("is {:.10g} times every = {}; a whole number is needed", steps, asked["every"].shown),
+                      fmt::format("write duration = \"{:.10g} s\"", std::max(1.0, std::ceil(steps)) * every));
+}
+
+AskRun read_run(const Record& run) {
+  check_whole(run);
+  return {.duration = run.si("duration"), .every = run.si("every"), .of = {}, .of_places = {}, .place = run.place()};
+}
+
+AskWaves read_ask_waves(const Record& asked, const Scene& scene) {
+  check_whole(asked);
+  if (!scene.waves) throw asked.refused("asks for waves, but there are none", "add a [waves] table");
+  if (scene.probes.empty())
+    throw asked.refused("needs a point at which the water is told", "add a [[probe]] with at = \"(0, 0, 0) m\"");
+  return {
+      .from = asked.si("from"), .duration = asked.si("duration"), .every = asked.si("every"), .place = asked.place()};
+}
+
+/// Motions need something that moves.
+void check_bodies(const Record& root, const Scene& scene) {
+  if (!scene.bodies.empty()) return;
+  const Record& ask = root.table("ask");
+  for (const char* what : {"rao", "run"})
+    if (ask.has(what)) throw ask.table(what).refused("asks for motion, but the scene has no body", "add a [[body]]");
 }
 
 void check_excitation(const Record& root, const Scene& scene) {
@@ -81,22 +102,6 @@ void check_excitation(const Record& root, const Scene& scene) {
 
 }  // namespace
 
-Waves build_waves(const Record& waves) {
-  Waves out{.kind = RegularWave{},
-            .heading = hydro::Angle::from_radians(waves.si("heading")),
-            .ramp = waves.si("ramp"),
-            .place = waves.place()};
-  const std::string& kind = waves.text("kind");
-  if (kind == "regular")
-    out.kind = RegularWave{waves.has("amplitude") ? waves.si("amplitude") : waves.si("height") / 2, waves.si("period")};
-  else if (kind == "jonswap")
-    out.kind = Jonswap{waves.si("hs"), waves.si("tp"), waves.si("gamma")};
-  else
-    out.kind = PiersonMoskowitz{waves.si("hs"), waves.si("tp")};
-  if (waves.has("seed")) out.seed = static_cast<std::uint64_t>(waves["seed"].integer);
-  return out;
-}
-
 void build_ask(const Record& ask, Scene& scene) {
   scene.accuracy = ask.si("accuracy");
   if (ask.has("rao")) {
@@ -109,6 +114,7 @@ void build_ask(const Record& ask, Scene& scene) {
     scene.run = read_run(ask.table("run"));
     read_of(ask.table("run"), scene.run->of, scene.run->of_places);
   }
+  if (ask.has("waves")) scene.ask_waves = read_ask_waves(ask.table("waves"), scene);
 }
 
 Solve build_solve(const Record& solve) {
@@ -144,12 +150,18 @@ Scene parse(std::string_view text, const std::filesystem::path& file) {
   const Record root = read_record(document, motion_schema(), scene.echo);
   if (root.has("title")) scene.title = root.text("title");
   scene.water = build_water(root.table("water"));
-  if (root.has("waves")) scene.waves = build_waves(root.table("waves"));
+  if (root.has("waves")) scene.waves = build_waves(root.table("waves"), scene);
+  if (root.has("current")) {
+    scene.current = build_current(root.table("current"), file);
+    scene.current_place = root.table("current").place();
+  }
   Names names;
+  scene.probes = build_probes(root, names);
   scene.bodies = build_bodies(root, file, names);
   build_members(root, names, scene);
   build_moorings(root, names, scene);
   build_connectors(root, names, scene);
+  check_bodies(root, scene);
   build_ask(root.table("ask"), scene);
   scene.solve = build_solve(root.table("solve"));
   check_excitation(root, scene);

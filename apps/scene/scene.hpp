@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +18,8 @@
 #include <vector>
 
 #include "hydro/base/types.hpp"
+#include "hydro/waves/focus.hpp"
+#include "hydro/waves/sea.hpp"
 
 namespace froude::scene {
 
@@ -29,37 +32,112 @@ struct Located {
   operator const T&() const { return value; }  // NOLINT: reads as the value it holds
 };
 
+/// Theory of a regular wave; all but linear are for kinematics alone.
+enum class RegularTheory { linear, stokes_second, stokes_fifth, stream_function };
+
 struct RegularWave {
-  double amplitude;  ///< m
+  double amplitude;  ///< m, half the height
   double period;     ///< s
+  RegularTheory theory = RegularTheory::linear;
 };
-struct Jonswap {
-  double hs, tp, gamma;
+
+/// One system of waves with a spectrum of its own.
+struct WaveSystem {
+  std::string kind;  ///< as the scene names it
+  std::shared_ptr<const hydro::waves::Spectrum> spectrum;
+  std::shared_ptr<const hydro::waves::Spreading> spreading;  ///< null: long-crested
+  hydro::Angle heading = hydro::Angle::from_radians(0);
 };
-struct PiersonMoskowitz {
-  double hs, tp;
+
+/// A crest put into a random sea, or standing alone.
+struct Crest {
+  double height;  ///< m
+  hydro::waves::Focus focus;
+  bool alone;  ///< nothing around it
+};
+
+struct RandomSea {
+  std::vector<WaveSystem> systems;  ///< one, or those of a sum
+  std::uint64_t seed = 1;           ///< of phases and of whatever else is random
+  std::variant<hydro::waves::FftGrid, hydro::waves::EqualEnergy, hydro::waves::RandomInBin> bins;
+  hydro::waves::Amplitudes amplitudes = hydro::waves::Amplitudes::fixed;
+  std::optional<Crest> crest;
+  bool second_order = false;
+  std::optional<double> lowest, highest;  ///< rad/s; empty: where next to nothing is left
+  Place bins_place;
+};
+
+/// Waves of a list.
+struct WaveList {
+  std::vector<hydro::waves::GivenWave> waves;
+  std::filesystem::path file;
+  bool second_order = false;
+};
+
+struct FocusedPackets {
+  std::vector<hydro::waves::Packet> packets;
+  hydro::waves::Focus focus;
+};
+
+/// A paddle at x = 0 and what it does.
+struct WaveTank {
+  double length, reflection;         ///< m; relative amplitude
+  std::optional<double> hinge;       ///< z of a flap's hinge, m; empty: a piston
+  double lowest, highest;            ///< rad/s: the band of the motion that is taken
+  bool yields;                       ///< to waves that return
+  double step;                       ///< s, of the record
+  std::vector<double> displacement;  ///< m of the paddle at still water, from t = 0
 };
 
 struct Waves {
-  std::variant<RegularWave, Jonswap, PiersonMoskowitz> kind;
+  std::variant<RegularWave, RandomSea, WaveList, FocusedPackets, WaveTank> kind;
   hydro::Angle heading = hydro::Angle::from_radians(0);
-  std::uint64_t seed = 1;  ///< of the random phases
-  double ramp = 0;         ///< s; wave loads grow by a half cosine over this time
+  double ramp = 0;  ///< s; wave loads grow by a half cosine over this time
+  hydro::waves::Stretching stretching = hydro::waves::Stretching::vertical;
   Place place;
 };
 
-/// `[body.hydrodynamics]`: coefficients from a file.
+/// A fixed point at which the water is told.
+struct Probe {
+  std::string name;
+  Eigen::Vector3d at;  ///< global, m
+  bool elevation = false, velocity = false, acceleration = false, pressure = false;
+  Place place;
+};
+
+struct AskWaves {
+  double from, duration, every;  ///< s
+  Place place;
+};
+
+/// How the memory of radiated waves is to be computed.
+struct Memory {
+  enum class Method { automatic, direct, partitioned, poles, constant };
+  Method method = Method::automatic;
+  double tolerance = 1e-3;       ///< relative force
+  std::optional<double> length;  ///< s, where the scene fixes it
+  Place place;                   ///< of the method
+};
+
+/// `[body.hydrodynamics] cylinders`: truncated vertical cylinders, of which the program computes the coefficients.
+struct Cylinders {
+  std::vector<Eigen::Vector3d> at;      ///< axes at the waterline, body axes, m; z is that of still water
+  double diameter, draught;             ///< m
+  std::vector<double> omega, headings;  ///< rad/s; rad, empty: those that the scene asks for
+};
+
+/// `[body.hydrodynamics]`: coefficients from a file, or of cylinders.
 struct Hydrodynamics {
-  Located<std::filesystem::path> file;  ///< absolute
-  std::optional<Located<int>> body;     ///< which body of the file, from 1, as written: copies take the following ones
+  Located<std::filesystem::path> file;  ///< absolute; with cylinders empty, and the place is that of the cylinders
+  std::optional<Cylinders> cylinders;
+  std::optional<Located<int>> body;  ///< which body of the file, from 1, as written: copies take the following ones
   std::optional<Eigen::Vector3d>
       reference_point;         ///< global, m: the point the coefficients are about, if the file does not say
   double ulen = 1;             ///< WAMIT only
   std::optional<int> iperout;  ///< WAMIT only
   bool excitation = false, radiation = false, hydrostatics = false;  ///< effects named
-  double memory_tolerance = 1e-3;  ///< of radiation: relative, sets the length of the memory
-  std::optional<double> memory;    ///< s; length of the memory where the scene fixes it
-  bool interaction = true;         ///< interaction = "full" or "self": bodies of one file feel each other's waves
+  Memory memory;
+  bool interaction = true;  ///< interaction = "full" or "self": bodies of one file feel each other's waves
 };
 
 struct Body {
@@ -148,12 +226,16 @@ struct Scene {
   std::string title;
   hydro::Water water;
   std::optional<Waves> waves;
+  hydro::waves::Current current = hydro::waves::Current::none();
+  std::optional<Place> current_place;  ///< where the scene names a current
+  std::vector<Probe> probes;
   std::vector<Body> bodies;
   std::vector<Member> members;
   std::vector<Mooring> moorings;
   std::vector<Connector> connectors;
   std::optional<AskRao> rao;
   std::optional<AskRun> run;
+  std::optional<AskWaves> ask_waves;
   double accuracy = 1e-2;  ///< relative, of what is asked
   Solve solve;
   std::vector<Echo> echo;
@@ -166,6 +248,12 @@ Scene parse(std::string_view text, const std::filesystem::path& file);
 
 /// True if `name` fits `pattern`, in which each `*` stands for any characters, also none.
 bool matches(std::string_view pattern, std::string_view name);
+
+/// Waves of a CSV list: a period, frequency or omega column, an amplitude or height column, a phase column and perhaps
+/// a heading column, which is added to `heading`. `phase_of_kx`: phases belong to cos(kx − ωt + ε), so φ = −ε. \throws
+/// hydro::InputError with the place in the list
+std::vector<hydro::waves::GivenWave> read_wave_list(const std::filesystem::path& file, hydro::Angle heading,
+                                                    bool phase_of_kx);
 
 /// Checks that every pattern of `of` fits one of the signals that exist.
 /// \throws hydro::InputError at the pattern, with the nearest signal

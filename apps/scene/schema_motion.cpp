@@ -1,6 +1,7 @@
 /// \file  The tables of a scene of motion: what may be written, what it means, what is filled in and why.
 #include "hydro/base/types.hpp"
 #include "scene/schema.hpp"
+#include "scene/schema_waves.hpp"
 
 namespace froude::scene {
 namespace {
@@ -71,43 +72,6 @@ const Table& water() {
   return table;
 }
 
-const Table& waves() {
-  const auto seed = [] {
-    return integer("seed", "of the random phases; another number is another sea of the same spectrum")
-        .within(Limit::not_negative)
-        .or_default("1", "any fixed number, so that a scene gives the same sea twice");
-  };
-  const auto hs = [] { return quantity("hs", dim::length, "significant wave height, 4 √m₀").positive(); };
-  const auto tp = [] { return quantity("tp", dim::time, "peak period").positive(); };
-  static const Table table{
-      .title = "[waves]",
-      .meaning = "the waves, long-crested",
-      .keys = {text("kind", "of sea"),
-               quantity("heading", dim::angle, "where the waves go: from +x towards +y; 0 deg goes towards +x"),
-               quantity("ramp", dim::time, "wave loads grow from nothing over this time, by half a cosine")
-                   .within(Limit::not_negative)
-                   .or_default("0 s", "loads act from the start unless the scene says otherwise")},
-      .chosen_by = "kind",
-      .variants = {
-          {.word = "regular",
-           .meaning = "one sine wave",
-           .keys = {quantity("height", dim::length, "from trough to crest, twice the amplitude").positive().optional(),
-                    quantity("amplitude", dim::length, "half the height").positive().optional(),
-                    quantity("period", dim::time, "of the wave").positive()},
-           .groups = {{exactly_one, {"height", "amplitude"}}}},
-          {.word = "jonswap",
-           .meaning = "random sea, JONSWAP spectrum",
-           .keys = {hs(), tp(),
-                    number("gamma", "peak enhancement factor")
-                        .within(Limit::at_least_one)
-                        .or_default("3.3", "the mean over the JONSWAP records (Hasselmann et al., 1973)"),
-                    seed()}},
-          {.word = "pierson-moskowitz",
-           .meaning = "random sea, Pierson–Moskowitz spectrum",
-           .keys = {hs(), tp(), seed()}}}};
-  return table;
-}
-
 const Table& copies() {
   static const Table table{.title = "[body.copies]",
                            .meaning = "makes name1, name2, … of one description",
@@ -120,40 +84,68 @@ const Table& radiation() {
   static const Table table{
       .title = "[body.hydrodynamics.radiation]",
       .meaning = "waves that the motion makes: added mass, damping and their memory; may be empty",
-      .keys = {number("memory_tolerance", "the memory is kept until what is left of it is this small, relative")
+      .keys = {number("memory_tolerance",
+                      "error of the force that a method may make, relative; the cheapest within it is taken")
                    .within(Limit::open_fraction)
                    .or_default("1e-3", "ten times less than the accuracy usually asked"),
-               quantity("memory", dim::time, "length of the memory where you want to fix it").positive().optional()},
+               quantity("memory", dim::time, "length of the memory of a convolution, where you want to fix it")
+                   .positive()
+                   .optional(),
+               text("method",
+                    "\"direct\" or \"partitioned\" convolution, \"poles\" (sum of exponentials), or, in one regular "
+                    "wave and once the motion is steady, \"constant\" added mass and damping")
+                   .one_of({"automatic", "direct", "partitioned", "poles", "constant"})
+                   .or_default("automatic", "the program knows error and cost of each; `froude plan` shows them")},
       .groups = {{at_most_one, {"memory_tolerance", "memory"}}}};
+  return table;
+}
+
+const Table& cylinders() {
+  static const Table table{
+      .title = "[body.hydrodynamics.cylinders]",
+      .meaning = "truncated vertical cylinders: the program computes their coefficients exactly, with interaction",
+      .keys = {points("at", "axes where they pierce still water, body axes; each ± makes two"),
+               quantity("diameter", dim::length, "of each").positive(),
+               quantity("draught", dim::length, "of each").positive(),
+               range("frequencies", dim::angular_velocity,
+                     "of the table that is computed: \"0.2 rad/s .. 4 rad/s, 39 values\""),
+               range("headings", dim::angle, "of the table; without it those of [waves] and [ask]").optional()}};
   return table;
 }
 
 const Table& hydrodynamics() {
   static const Table table{
       .title = "[body.hydrodynamics]",
-      .meaning = "linear potential theory, with coefficients from a file; each effect is named",
-      .keys =
-          {text("file", "of coefficients, relative to the scene: WAMIT, Capytaine, BEMIO or Froude"),
-           integer("body",
-                   "which body of the file, from 1 (copies take the following ones); needed where the scene takes "
-                   "fewer than the file holds")
-               .within(Limit::at_least_one)
-               .optional(),
-           vector("reference_point", dim::length, "global, what the coefficients are about, if the file does not say")
-               .optional(),
-           quantity("ulen", dim::length, "WAMIT's ULEN; only for WAMIT files")
-               .positive()
-               .or_default("1 m", "the usual ULEN; other formats do not need it"),
-           integer("iperout", "WAMIT's IPEROUT, 1 to 4; only for WAMIT files").within(Limit::at_least_one).optional(),
-           effect("excitation", "loads of the incoming waves on the body held still"),
-           inner_table("radiation", radiation()).optional(),
-           effect("hydrostatics", "restoring loads of buoyancy and weight"),
-           text("interaction",
-                "\"full\": bodies of one file feel each other's radiated waves; \"self\": only their own")
-               .one_of({"full", "self"})
-               .or_default("full", "leaving it out would be an approximation")
-               .only_beside("radiation")},
-      .groups = {{at_least_one, {"excitation", "radiation", "hydrostatics"}}}};
+      .meaning = "linear potential theory, with coefficients from a file or of cylinders; each effect is named",
+      .keys = {text("file", "of coefficients, relative to the scene: WAMIT, Capytaine, BEMIO or Froude").optional(),
+               inner_table("cylinders", cylinders()).optional(),
+               integer("body",
+                       "which body of the file, from 1 (copies take the following ones); needed where the scene takes "
+                       "fewer than the file holds")
+                   .within(Limit::at_least_one)
+                   .optional()
+                   .only_beside("file"),
+               vector("reference_point", dim::length,
+                      "global, what the coefficients are about, if the file does not say")
+                   .optional()
+                   .only_beside("file"),
+               quantity("ulen", dim::length, "WAMIT's ULEN; only for WAMIT files")
+                   .positive()
+                   .or_default("1 m", "the usual ULEN; other formats do not need it")
+                   .only_beside("file"),
+               integer("iperout", "WAMIT's IPEROUT, 1 to 4; only for WAMIT files")
+                   .within(Limit::at_least_one)
+                   .optional()
+                   .only_beside("file"),
+               effect("excitation", "loads of the incoming waves on the body held still"),
+               inner_table("radiation", radiation()).optional(),
+               effect("hydrostatics", "restoring loads of buoyancy and weight"),
+               text("interaction",
+                    "\"full\": bodies of one file feel each other's radiated waves; \"self\": only their own")
+                   .one_of({"full", "self"})
+                   .or_default("full", "leaving it out would be an approximation")
+                   .only_beside("radiation")},
+      .groups = {{exactly_one, {"file", "cylinders"}}, {at_least_one, {"excitation", "radiation", "hydrostatics"}}}};
   return table;
 }
 
@@ -315,10 +307,11 @@ const Table& ask() {
   static const Table table{.title = "[ask]",
                            .meaning = "what is wanted",
                            .keys = {inner_table("rao", ask_rao()).optional(), inner_table("run", ask_run()).optional(),
+                                    inner_table("waves", ask_waves_table()).optional(),
                                     number("accuracy", "relative, of what is asked")
                                         .within(Limit::open_fraction)
                                         .or_default("1e-2", "about what coefficients and measurements are good for")},
-                           .groups = {{at_least_one, {"rao", "run"}}}};
+                           .groups = {{at_least_one, {"rao", "run", "waves"}}}};
   return table;
 }
 
@@ -353,10 +346,11 @@ const Table& motion_schema() {
       .title = "a scene",
       .meaning = "floating bodies in waves",
       .keys = {integer("schema", "version of this grammar, 1"), text("title", "for people").optional(),
-               inner_table("water", water()), inner_table("waves", waves()).optional(), inner_tables("body", body()),
-               inner_tables("member", member()).optional(), inner_tables("mooring", mooring()).optional(),
-               inner_tables("connector", connector()).optional(), inner_table("ask", ask()),
-               inner_table("solve", solve()).or_default("", "see its keys")}};
+               inner_table("water", water()), inner_table("waves", waves_table()).optional(),
+               inner_table("current", current_table()).optional(), inner_tables("body", body()).optional(),
+               inner_tables("probe", probe_table()).optional(), inner_tables("member", member()).optional(),
+               inner_tables("mooring", mooring()).optional(), inner_tables("connector", connector()).optional(),
+               inner_table("ask", ask()), inner_table("solve", solve()).or_default("", "see its keys")}};
   return table;
 }
 

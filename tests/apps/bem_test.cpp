@@ -113,6 +113,22 @@ TEST_F(Bem, ConvertTellsWhatTheFormatCannotHold) {
   EXPECT_THAT(document().at("files").get<std::vector<std::string>>(), ElementsAre((folder / "p.h5").string()));
 }
 
+TEST_F(Bem, IrfTellsPolesAndCertificateAndWritesThem) {
+  froude::BemIrfArguments arguments{file(examples / "hemisphere_r5.nc"), 1e-2, folder / "h.ss", folder / "h.svg"};
+  froude::bem_irf(arguments, as_json);
+  const json told = document();
+  EXPECT_TRUE(told.at("passive").get<bool>());
+  EXPECT_LE(told.at("error").get<double>(), 1e-2);
+  EXPECT_EQ(told.at("modes").size(), 6u);
+  EXPECT_EQ(told.at("modes")[2].at("mode"), "heave");
+  for (const json& pole : told.at("poles")) EXPECT_GT(pole.at("decay_rad_per_s").get<double>(), 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "h.ss"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "h.svg"));
+  arguments.output = folder / "h.txt";
+  EXPECT_THAT([&] { froude::bem_irf(arguments, as_json); },
+              ThrowsMessage<InputError>(HasSubstr("does not tell a format")));
+}
+
 TEST_F(Bem, RefusesWhatItCannotDo) {
   const Path nc = examples / "pontoon1.nc";
   EXPECT_THAT([&] { froude::bem_convert(file(nc), folder / "p.xls", "", text); },

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hydro/radiation/kernel.hpp"
+#include "hydro/radiation/rational.hpp"
 
 namespace support {
 
@@ -20,6 +21,20 @@ struct TwoPoleBody {
   double B(double omega) const { return 2 * decay * omega * omega / D(omega); }
   double A_minus_A_inf(double omega) const { return (w2() - omega * omega) / D(omega); }
   double w2() const { return decay * decay + frequency * frequency; }
+
+  /// The body itself: its memory is one pair of poles.
+  hydro::radiation::PoleModel model(int modes = 1) const {
+    const Eigen::MatrixXd C = Eigen::MatrixXd::Identity(modes, modes);
+    return {{{decay, frequency}}, {C}, {-decay / frequency * C}};
+  }
+  /// A(ω) of the modes of damping_table(), with the limit `A_inf`.
+  std::vector<Eigen::MatrixXd> added_mass(const hydro::radiation::DampingTable& table, double A_inf) const {
+    std::vector<Eigen::MatrixXd> A;
+    const auto n = table.B.front().rows();
+    for (const double omega : table.omega)
+      A.push_back((A_inf + A_minus_A_inf(omega)) * Eigen::MatrixXd::Identity(n, n));
+    return A;
+  }
 
   /// `modes` equal uncoupled modes at `count` even frequencies up to `end`.
   hydro::radiation::DampingTable damping_table(double end, int count, int modes = 1) const {

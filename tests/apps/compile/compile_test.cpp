@@ -115,10 +115,47 @@ TEST(Compile, RefusesBodiesThatStandElsewhereThanInTheData) {
       ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("\"m4\" is at x = 12"), HasSubstr("must stand as they stood"))));
 }
 
+/// The same sea, spread about a heading.
+std::string spread_text(const std::string& heading, const std::string& spreading) {
+  std::string text = water + waves + "spreading = " + spreading + "\n" +
+                     module_text("m", "(0, 0, 0) m", "file = \"pontoon1.nc\"\nexcitation = true") + run_ask;
+  return text.replace(text.find("0 deg"), 5, heading);
+}
+
+TEST(Compile, GivesEachWaveOfASpreadSeaTheExcitationOfItsOwnHeading) {
+  const auto scene = parse(spread_text("45 deg", "{ kind = \"wrapped-normal\", deviation = \"8 deg\" }"));
+  const auto prepared = compile::prepare(scene);
+  const auto model = compile::time_model(scene, prepared);
+  // Sway of the load at one instant, component by component with the coefficients of its own heading. The module is
+  // symmetric, so at 45 degrees surge and sway are alike and a wrong heading would show in their difference.
+  double surge = 0, sway = 0;
+  const double t = 3.0;
+  for (const auto& w : model.sea->components()) {
+    const Eigen::VectorXcd X = prepared.groups[0].table.excitation(w.omega, w.heading);
+    const std::complex<double> turn = std::polar(w.amplitude, w.phase + w.omega * t);
+    surge += (turn * X[0]).real();
+    sway += (turn * X[1]).real();
+  }
+  EXPECT_GT(std::abs(surge - sway), 1.0);  // N: the headings do differ
+  dynamics::State state = model.start;
+  state.time = t;
+  dynamics::Workspace workspace(model.model, state);
+  const Eigen::VectorXd load = -model.model.residual(state, Eigen::VectorXd::Zero(6), workspace);  // at rest: the loads
+  EXPECT_NEAR(load[0], surge, 1e-6 * std::abs(surge) + 1e-6);
+  EXPECT_NEAR(load[1], sway, 1e-6 * std::abs(sway) + 1e-6);
+}
+
+TEST(Compile, RefusesWavesFromWhereTheDataHaveNone) {
+  const auto scene = parse(spread_text("0 deg", "{ kind = \"cosn\", n = 2 }"));  // data from 0 to 90 degrees
+  EXPECT_THAT([&] { compile::time_model(scene, compile::prepare(scene)); },
+              ThrowsMessage<hydro::InputError>(HasSubstr("heading")));
+}
+
 TEST(Compile, RefusesASeaOutsideTheData) {
   std::string text =
       water + waves + module_text("m", "(0, 0, 0) m", "file = \"pontoon1.nc\"\nexcitation = true") + run_ask;
-  text.replace(text.find("6 s"), 3, "2 s");  // peak at 3.14 rad/s, data up to 4
+  text.replace(text.find("6 s"), 3, "2 s");      // peak at 3.14 rad/s, data up to 4
+  text.replace(text.find("1 m\""), 3, "0.3 m");  // at 1 m such a sea would break
   EXPECT_THAT([&] { compile::time_model(parse(text), compile::prepare(parse(text))); },
               ThrowsMessage<hydro::InputError>(
                   AllOf(HasSubstr("outside the frequencies of the data"), HasSubstr("wider band"))));

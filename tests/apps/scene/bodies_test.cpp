@@ -122,7 +122,7 @@ TEST(SceneHydrodynamics, NamesTheEffects) {
   EXPECT_EQ(all.file.value, "/somewhere/sphere.nc");
   EXPECT_EQ(all.file.place.line, 16);
   EXPECT_TRUE(all.excitation && all.radiation && all.hydrostatics && all.interaction);
-  EXPECT_EQ(all.memory_tolerance, 1e-3);
+  EXPECT_EQ(all.memory.tolerance, 1e-3);
   const auto some =
       *parse(with(sphere, "excitation = true\nradiation = {}\n", ""), "scene.toml").bodies[0].hydrodynamics;
   EXPECT_FALSE(some.excitation || some.radiation);
@@ -138,14 +138,26 @@ TEST(SceneHydrodynamics, SetsTheMemoryInOneWay) {
   const auto memory = [](const std::string& keys) {
     return with(sphere, "radiation = {}", "radiation = { " + keys + " }");
   };
-  EXPECT_EQ(parse(memory("memory = \"1 min\""), "scene.toml").bodies[0].hydrodynamics->memory, 60);
+  EXPECT_EQ(parse(memory("memory = \"1 min\""), "scene.toml").bodies[0].hydrodynamics->memory.length, 60);
   for (const Echo& e : parse(memory("memory = \"1 min\""), "scene.toml").echo)
     EXPECT_NE(e.key, "body[1].hydrodynamics.radiation.memory_tolerance")
         << "a tolerance does not act on a fixed length";
-  EXPECT_EQ(parse(memory("memory_tolerance = 0.01"), "scene.toml").bodies[0].hydrodynamics->memory_tolerance, 0.01);
+  EXPECT_EQ(parse(memory("memory_tolerance = 0.01"), "scene.toml").bodies[0].hydrodynamics->memory.tolerance, 0.01);
   EXPECT_THAT(refusal(memory("memory = \"60 s\", memory_tolerance = 1e-3")),
               AllOf(StartsWith("scene.toml:18:32: "),
                     HasSubstr("may hold only one of memory_tolerance, memory; memory stands at line 18")));
+}
+
+TEST(SceneHydrodynamics, NamesTheMethodOfItsMemory) {
+  const auto method = [](const std::string& keys) {
+    return with(sphere, "radiation = {}", "radiation = { " + keys + " }");
+  };
+  using enum Memory::Method;
+  EXPECT_EQ(parse(sphere, "scene.toml").bodies[0].hydrodynamics->memory.method, automatic);
+  EXPECT_EQ(parse(method("method = \"poles\""), "scene.toml").bodies[0].hydrodynamics->memory.method, poles);
+  EXPECT_THAT(refusal(method("method = \"pols\"")), HasSubstr("poles"));
+  EXPECT_THAT(refusal(method("method = \"poles\", memory = \"60 s\"")),
+              AllOf(StartsWith("scene.toml:18:24: "), HasSubstr("has no length of memory")));
 }
 
 TEST(SceneHydrodynamics, ReadsWhatFilesLeaveUnsaid) {

@@ -1,0 +1,67 @@
+#include "compile/cylinders.hpp"
+
+#include <algorithm>
+
+namespace froude::compile {
+namespace {
+
+using hydro::InputError;
+using scene::Scene;
+
+const scene::Body& body_of(const Scene& scene, int body) { return scene.bodies[static_cast<std::size_t>(body)]; }
+
+hydro::cylinders::CylinderBody as_cylinders(const scene::Body& body) {
+  const scene::Cylinders& given = *body.hydrodynamics->cylinders;
+  hydro::cylinders::CylinderBody out{body.name, body.position, body.position + body.centre_of_gravity, {}};
+  for (const Eigen::Vector3d& at : given.at)
+    out.cylinders.push_back({(body.position + at).head<2>(), given.diameter / 2, given.draught});
+  return out;
+}
+
+/// Where waves go in this scene.
+std::vector<double> headings_asked(const Scene& scene) {
+  std::vector<double> headings;
+  if (scene.rao) headings.push_back(scene.rao->heading.radians());
+  if (scene.waves) headings.push_back(scene.waves->heading.radians());
+  if (scene.waves)
+    if (const auto* sea = std::get_if<scene::RandomSea>(&scene.waves->kind))
+      for (const scene::WaveSystem& system : sea->systems) headings.push_back(system.heading.radians());
+  std::sort(headings.begin(), headings.end());
+  headings.erase(std::unique(headings.begin(), headings.end()), headings.end());
+  return headings;
+}
+
+}  // namespace
+
+std::vector<int> bodies_of_cylinders(const Scene& scene) {
+  std::vector<int> bodies;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    if (scene.bodies[b].hydrodynamics && scene.bodies[b].hydrodynamics->cylinders)
+      bodies.push_back(static_cast<int>(b));
+  return bodies;
+}
+
+hydro::cylinders::Solution solve_cylinders(const Scene& scene, const std::vector<int>& bodies,
+                                           std::function<void(int, int)> progress) {
+  const scene::Hydrodynamics& first = *body_of(scene, bodies.front()).hydrodynamics;
+  std::vector<hydro::cylinders::CylinderBody> layout;
+  for (const int b : bodies) {
+    const scene::Hydrodynamics& h = *body_of(scene, b).hydrodynamics;
+    if (h.cylinders->omega != first.cylinders->omega || h.cylinders->headings != first.cylinders->headings)
+      throw InputError("bodies of cylinders state different frequencies or headings", h.file.place,
+                       "they are solved together: give all the same");
+    layout.push_back(as_cylinders(body_of(scene, b)));
+  }
+  const std::vector<double> headings =
+      first.cylinders->headings.empty() ? headings_asked(scene) : first.cylinders->headings;
+  // A tenth of the accuracy asked of the motions, so that their error is not made here.
+  const double tolerance = std::clamp(0.1 * scene.accuracy, 1e-6, 1e-3);
+  try {
+    return hydro::cylinders::solve(layout, scene.water, first.cylinders->omega, headings,
+                                   {.tolerance = tolerance, .doubled_frequencies = 1, .progress = std::move(progress)});
+  } catch (const InputError& e) {
+    throw e.at(first.file.place);
+  }
+}
+
+}  // namespace froude::compile

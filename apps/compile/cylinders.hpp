@@ -1,0 +1,20 @@
+#pragma once
+/// \file  Coefficients of the cylinders that a scene describes.
+#include <functional>
+#include <vector>
+
+#include "hydro/cylinders/solve.hpp"
+#include "scene/scene.hpp"
+
+namespace froude::compile {
+
+/// Bodies of the scene that say `cylinders`, in its order.
+std::vector<int> bodies_of_cylinders(const scene::Scene& scene);
+
+/// All these bodies together, each about its origin with the scene's centre of gravity, at the frequencies and headings
+/// that they state, or the headings that the scene asks for.
+/// \throws hydro::InputError, placed in the scene, if bodies state different ones, or what hydro::cylinders refuses
+hydro::cylinders::Solution solve_cylinders(const scene::Scene& scene, const std::vector<int>& bodies,
+                                           std::function<void(int, int)> progress = {});
+
+}  // namespace froude::compile

@@ -1,0 +1,152 @@
+#include "compile/radiation.hpp"
+
+#include <algorithm>
+
+#include "hydro/radiation/choice.hpp"
+#include "hydro/radiation/constant_memory.hpp"
+
+namespace froude::compile {
+namespace {
+
+using hydro::InputError;
+using hydro::radiation::ChosenMemory;
+
+/// The free modes of a group: their numbers in the model, and in the group's matrices.
+struct FreeModes {
+  std::vector<int> in_model, in_group;
+};
+
+FreeModes free_modes(const Prepared& p, const std::vector<int>& bodies) {
+  FreeModes out;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    for (int mode = 0; mode < 6; ++mode)
+      if (p.bodies[static_cast<std::size_t>(bodies[b])].is_free(mode)) {
+        out.in_model.push_back(6 * bodies[b] + mode);
+        out.in_group.push_back(6 * static_cast<int>(b) + mode);
+      }
+  return out;
+}
+
+/// Coefficients of the free modes, made symmetric.
+///
+/// A and B of linear theory are symmetric. Panel codes miss that by their discretisation error, which in a run would be
+/// energy from nowhere; the frequency domain, which has no ledger to close, takes the data as they are.
+struct Symmetric {
+  hydro::radiation::DampingTable damping;
+  std::vector<Eigen::MatrixXd> A;
+  std::optional<Eigen::MatrixXd> A_inf;
+  double asymmetry = 0;  // of the largest entry
+
+  Symmetric(const hydro::potential::Coefficients& c, const std::vector<int>& modes) : damping{c.omega, {}} {
+    for (const auto& m : c.B) damping.B.push_back(of(m, modes));
+    for (const auto& m : c.A) A.push_back(of(m, modes));
+    if (c.A_inf) A_inf = of(*c.A_inf, modes);
+  }
+
+ private:
+  Eigen::MatrixXd of(const Eigen::MatrixXd& whole, const std::vector<int>& modes) {
+    const Eigen::MatrixXd m = whole(modes, modes);
+    const double largest = m.cwiseAbs().maxCoeff();
+    if (largest > 0) asymmetry = std::max(asymmetry, (m - m.transpose()).cwiseAbs().maxCoeff() / largest);
+    return (m + m.transpose()) / 2;
+  }
+};
+
+void note_what_was_done(const hydro::potential::Coefficients& c, const ChosenMemory& chosen, double asymmetry,
+                        double tolerance, std::vector<std::string>& notes) {
+  const auto& taken = *std::find_if(chosen.alternatives.begin(), chosen.alternatives.end(),
+                                    [&](const auto& a) { return a.method == chosen.method; });
+  if (!taken.within)
+    notes.push_back(fmt::format(
+        "{}: the memory ({}) differs from the data by up to {:.2g} of the largest damping, at {:.3g} rad/s (tolerance "
+        "{:.2g})",
+        c.source, name_of(chosen.method), taken.error, taken.at_omega, tolerance));
+  if (chosen.method == hydro::radiation::Method::poles) {
+    const auto& fit = *chosen.fit;
+    notes.push_back(fmt::format(
+        "{}: added mass and damping fitted with poles: {}; {}; A(inf) moved by {:.2g}{}", c.source, fit.why,
+        fit.passive
+            ? fmt::format("passive, which cost an error of {:.2g} in place of {:.2g}", fit.error, fit.error_before)
+            : std::string("not certified passive: the memory may give energy"),
+        fit.shift, c.A_inf ? "" : "; the data lack A(inf), which was found with it"));
+  } else {
+    notes.push_back(fmt::format(
+        "{}: damping continued beyond {:.4g} rad/s so that it belongs to the added mass, which is left off by {:.2g} "
+        "(rms, worst pair); A(inf) moved by {:.2g}{}; the memory leaves out up to {:.2g} of the radiation damping",
+        c.source, c.omega.back(), chosen.misfit, chosen.shift,
+        c.A_inf ? "" : "; added mass at infinite frequency, which the data lack, found with it", chosen.truncation));
+  }
+  if (asymmetry > 1e-9)
+    notes.push_back(fmt::format(
+        "{}: added mass and damping made symmetric for the run; they were off by up to {:.2g} of the largest entry",
+        c.source, asymmetry));
+  if (chosen.negative_share > 1e-3)
+    notes.push_back(fmt::format("{}: radiation damping is negative somewhere, by up to {:.2g} of its mode's largest{}",
+                                c.source, chosen.negative_share,
+                                chosen.method == hydro::radiation::Method::poles ? "" : "; taken as it is"));
+}
+
+std::vector<PlanLine> lines(const ChosenMemory& chosen) {
+  std::vector<PlanLine> out;
+  for (const auto& a : chosen.alternatives) {
+    const bool runs = a.method == chosen.method;
+    PlanLine line{"radiation", runs ? chosen.memory->describe() + " (" + chosen.why + ")" : name_of(a.method),
+                  fmt::format("{} modes, off the data by up to {:.2g}, about {:.2g} us a step", chosen.memory->modes(),
+                              a.error, a.microseconds),
+                  runs};
+    if (runs)
+      out.insert(out.begin(), std::move(line));
+    else
+      out.push_back(std::move(line));
+  }
+  return out;
+}
+
+/// A and B at the frequency of the one wave there is.
+RadiationParts at_one_frequency(const dynamics::frequency::PotentialGroup& g, const FreeModes& modes,
+                                const scene::Memory& asked, double step, const hydro::waves::Sea* sea) {
+  if (!sea || sea->components().size() != 1)
+    throw InputError("constant radiation coefficients hold in one regular wave only", asked.place,
+                     "leave out `method`, or make [waves] regular");
+  const double omega = sea->components().front().omega;
+  const auto symmetric = [&](const Eigen::MatrixXd& whole) {
+    const Eigen::MatrixXd m = whole(modes.in_group, modes.in_group);
+    return Eigen::MatrixXd((m + m.transpose()) / 2);
+  };
+  const Eigen::Index n = g.table.coefficients().modes();
+  RadiationParts out;
+  out.added_mass = {g.bodies, Eigen::MatrixXd::Zero(n, n)};
+  out.added_mass.value(modes.in_group, modes.in_group) = symmetric(g.table.added_mass(omega));
+  const auto memory =
+      std::make_shared<hydro::radiation::ConstantMemory>(symmetric(g.table.damping(omega)), omega, step);
+  out.memory = {modes.in_model, memory};
+  out.lines = {{"radiation", memory->describe() + " (asked for)",
+                fmt::format("{} modes, true of the steady motion only", memory->modes()), true}};
+  return out;
+}
+
+}  // namespace
+
+RadiationParts radiation(const Prepared& prepared, std::size_t group, double step, const hydro::waves::Sea* sea,
+                         std::vector<std::string>& notes) {
+  using enum scene::Memory::Method;
+  const auto& g = prepared.groups[group];
+  const auto& c = g.table.coefficients();
+  const scene::Memory& asked = prepared.memory[group];
+  const FreeModes modes = free_modes(prepared, g.bodies);
+  if (asked.method == scene::Memory::Method::constant) return at_one_frequency(g, modes, asked, step, sea);
+  const Symmetric data(c, modes.in_group);
+  hydro::radiation::MemoryDemand demand{
+      .step = step, .tolerance = asked.tolerance, .length = asked.length, .method = {}};
+  if (asked.method == direct) demand.method = hydro::radiation::Method::direct;
+  if (asked.method == partitioned) demand.method = hydro::radiation::Method::partitioned;
+  if (asked.method == poles) demand.method = hydro::radiation::Method::poles;
+  const ChosenMemory chosen = choose(data.damping, data.A, data.A_inf, demand);
+  note_what_was_done(c, chosen, data.asymmetry, asked.tolerance, notes);
+  RadiationParts out{
+      {g.bodies, Eigen::MatrixXd::Zero(c.modes(), c.modes())}, {modes.in_model, chosen.memory}, lines(chosen)};
+  out.added_mass.value(modes.in_group, modes.in_group) = chosen.A_inf;
+  return out;
+}
+
+}  // namespace froude::compile

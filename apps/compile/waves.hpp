@@ -1,0 +1,38 @@
+#pragma once
+/// \file  From the waves of a scene to a sea, or to a field that tells the water's motion anywhere.
+#include <memory>
+#include <optional>
+
+#include "hydro/waves/field.hpp"
+#include "hydro/waves/sea.hpp"
+#include "scene/scene.hpp"
+
+namespace froude::compile {
+
+/// Frequencies, rad/s.
+struct Band {
+  double low, high;
+};
+
+/// The waves of a scene as a sum of linear waves: regular waves of linear theory, random seas, lists.
+/// `data`: where coefficients are known, if any act; no component is outside.
+/// \throws hydro::InputError for waves that are no such sum; if more of the energy than the accuracy asked lies outside
+/// `data`; for a crest beyond breaking
+hydro::waves::Sea make_sea(const scene::Scene& scene, const std::optional<Band>& data = {});
+
+/// True if make_sea() can serve: the kinematics are those of linear waves, and no bound waves are asked for.
+bool is_linear_sum(const scene::Waves& waves);
+
+/// True if the scene asks for second-order waves.
+bool has_bound_waves(const scene::Waves& waves);
+
+/// As make_sea(), without regard to bound waves that the scene asks for beside them.
+hydro::waves::Sea free_waves(const scene::Scene& scene, const std::optional<Band>& data = {});
+
+/// The field of any kind of waves. \throws hydro::InputError where waves and current do not go together
+std::unique_ptr<const hydro::waves::WaveField> make_field(const scene::Scene& scene);
+
+/// Rad/s above which the sea has 5 % of its energy: what a step must resolve. The frequency of a regular wave.
+double highest_relevant_frequency(const scene::Waves& waves);
+
+}  // namespace froude::compile

@@ -1,0 +1,83 @@
+#include "froude/series.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hydro/io/csv.hpp"
+
+namespace froude {
+namespace {
+
+struct Statistics {
+  double mean = 0, deviation = 0, lowest = 0, highest = 0;
+};
+
+Statistics statistics(const std::vector<double>& v) {
+  Statistics s{.lowest = v.front(), .highest = v.front()};
+  for (const double x : v) {
+    s.mean += x / static_cast<double>(v.size());
+    s.lowest = std::min(s.lowest, x);
+    s.highest = std::max(s.highest, x);
+  }
+  for (const double x : v) s.deviation += (x - s.mean) * (x - s.mean) / static_cast<double>(v.size());
+  s.deviation = std::sqrt(s.deviation);
+  return s;
+}
+
+bool is_energy(const Signal& s) { return s.name.starts_with("energy."); }
+
+}  // namespace
+
+std::string series_table(std::span<const Signal> signals) {
+  std::string table =
+      fmt::format("{:<24} {:>12} {:>12} {:>12} {:>12} {}\n", "signal", "mean", "std", "lowest", "highest", "unit");
+  for (const Signal& s : signals) {
+    if (is_energy(s)) continue;
+    const Statistics st = statistics(s.values);
+    table += fmt::format("{:<24} {:>12.4g} {:>12.4g} {:>12.4g} {:>12.4g} {}\n", s.name, st.mean, st.deviation,
+                         st.lowest, st.highest, s.units);
+  }
+  return table;
+}
+
+nlohmann::json series_json(std::span<const Signal> signals) {
+  nlohmann::json j;
+  for (const Signal& s : signals) {
+    const Statistics st = statistics(s.values);
+    j[s.name] = {{"unit", s.units},
+                 {"mean", st.mean},
+                 {"standard_deviation", st.deviation},
+                 {"lowest", st.lowest},
+                 {"highest", st.highest}};
+  }
+  return j;
+}
+
+plot::Figure series_figure(const std::string& title, const std::vector<double>& time, std::span<const Signal> signals,
+                           const std::map<std::string, std::string>& labels) {
+  plot::Figure f{.title = title, .panels = {}};
+  std::vector<std::string> units;
+  for (const Signal& s : signals) {
+    if (is_energy(s)) continue;
+    auto at = std::find(units.begin(), units.end(), s.units);
+    if (at == units.end()) {
+      units.push_back(s.units);
+      const auto label = labels.find(s.units);
+      f.panels.push_back(
+          {.x = {"time", "s"}, .y = {label == labels.end() ? "signal" : label->second, s.units}, .series = {}});
+      at = units.end() - 1;
+    }
+    f.panels[static_cast<std::size_t>(at - units.begin())].series.push_back({s.name, time, s.values});
+  }
+  return f;
+}
+
+void write_series_csv(const Path& path, const std::vector<double>& time, std::span<const Signal> signals) {
+  std::vector<hydro::io::CsvColumn> columns{{"time", "s", &time}};
+  for (const Signal& s : signals) columns.push_back({s.name, s.units, &s.values});
+  hydro::io::write_csv(path, columns);
+}
+
+}  // namespace froude

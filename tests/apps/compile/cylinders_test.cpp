@@ -1,0 +1,92 @@
+#include "compile/cylinders.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "compile/compile.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/cylinders/solve.hpp"
+
+namespace {
+
+using namespace froude;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+/// Two cylinders of 1 m radius and draught, 8 m apart; the origins of the bodies are half a metre above still water.
+std::string scene_text(const std::string& cylinders, const std::string& further = {}) {
+  return fmt::format(R"(schema = 1
+[water]
+density = "1000 kg/m^3"
+depth = "5 m"
+[[body]]
+name = "c"
+copies = {{ count = 2, step = "(8, 0, 0) m" }}
+position = "(1, 2, 0.5) m"
+mass = "3141.6 kg"
+free = ["surge", "heave", "pitch"]
+centre_of_gravity = "(0, 0, -1) m"
+radii_of_gyration = "(1, 1, 1) m"
+[body.hydrodynamics]
+excitation = true
+radiation = {{}}
+hydrostatics = true
+{}
+[body.hydrodynamics.cylinders]
+{}
+[ask]
+rao = {{ periods = "3 s .. 5 s, 3 values", heading = "0 deg" }}
+)",
+                     further, cylinders);
+}
+
+const std::string cylinders = R"(at = "(0, 0, -0.5) m"
+diameter = "2 m"
+draught = "1 m"
+frequencies = "1 rad/s .. 3 rad/s, 9 values"
+)";
+
+scene::Scene parse(const std::string& text) { return scene::parse(text, "scene.toml"); }
+
+TEST(CylindersInAScene, AreSolvedTogetherWhereTheyStandAboutTheirCentresOfGravity) {
+  const scene::Scene scene = parse(scene_text(cylinders));
+  const auto prepared = compile::prepare(scene);
+  ASSERT_EQ(prepared.groups.size(), 1u);
+  const auto& ours = prepared.groups[0].table.coefficients();
+  std::vector<hydro::cylinders::CylinderBody> bodies;
+  for (const double x : {1.0, 9.0})
+    bodies.push_back({"c", {x, 2, -0.5}, Eigen::Vector3d(x, 2, -0.5), {{{x, 2}, 1, 1.0}}});
+  const auto expected = hydro::cylinders::solve(bodies, scene.water, ours.omega, {0}, {.tolerance = 1e-5}).coefficients;
+  for (std::size_t w = 0; w < ours.omega.size(); ++w) {
+    // The scene asks for 1e-2 and takes a tenth of that.
+    EXPECT_LT((ours.A[w] - expected.A[w]).cwiseAbs().maxCoeff(), 1e-3 * expected.A[w].maxCoeff());
+    EXPECT_LT((ours.B[w] - expected.B[w]).cwiseAbs().maxCoeff(), 1e-3 * expected.A[w].maxCoeff());
+  }
+  EXPECT_LT((ours.X[0] - expected.X[0]).cwiseAbs().maxCoeff(), 1e-3 * expected.X[0].cwiseAbs().maxCoeff());
+  // Its weight is that of the water it displaces, so the restoring matrix is that of the layout.
+  EXPECT_LT((*ours.C - *expected.C).cwiseAbs().maxCoeff(), 1e-4 * expected.C->maxCoeff());
+}
+
+TEST(CylindersInAScene, AreGivenInsteadOfAFile) {
+  EXPECT_THAT([] { parse(scene_text(cylinders, "file = \"pontoon1.nc\"")); },
+              ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("file"), HasSubstr("cylinders"))));
+}
+
+TEST(CylindersInAScene, StandAtTheHeightOfStillWater) {
+  std::string lifted = cylinders;
+  lifted.replace(lifted.find("-0.5"), 4, "0");
+  EXPECT_THAT([&] { parse(scene_text(lifted)); },
+              ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("scene.toml:"), HasSubstr("still water is at -0.5 m"))));
+}
+
+TEST(CylindersInAScene, AreRefusedAtTheirPlaceIfTheyReachTheBottom) {
+  std::string deep = cylinders;
+  deep.replace(deep.find("\"1 m\""), 5, "\"6 m\"");
+  EXPECT_THAT([&] { compile::prepare(parse(scene_text(deep))); },
+              ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("scene.toml:"), HasSubstr("reaches the bottom"))));
+}
+
+}  // namespace
