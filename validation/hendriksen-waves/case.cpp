@@ -1,0 +1,72 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "harness/case.hpp"
+#include "hydro/io/csv.hpp"
+#include "hydro/waves/sea.hpp"
+
+namespace froude::validation {
+namespace {
+
+namespace hw = hydro::waves;
+constexpr double g = 9.81, depth = 1.25, z = -0.48, diameter = 0.12, two_pi = 2 * std::numbers::pi;
+
+double wavenumber_by_bisection(double omega) {
+  double low = 0, high = omega * omega / g + omega / std::sqrt(g * depth);
+  for (int i = 0; i < 200; ++i) {
+    const double middle = (low + high) / 2;
+    (g * middle * std::tanh(middle * depth) < omega * omega ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+hw::HarmonicField wave(double amplitude, double period) {
+  const hw::Sea sea = hw::Sea::regular(hydro::WaveAmplitude::from_metres(amplitude),
+                                       hydro::AngularFrequency::from_period_s(period), hydro::Angle::from_radians(0),
+                                       {.density = 997, .gravity = g, .depth = hydro::WaterDepth::from_metres(depth)});
+  return hw::linear_field(sea, {.stretching = hw::Stretching::vertical});
+}
+
+}  // namespace
+
+Outcome hendriksen_waves(const Folders& folders) {
+  const auto table = hydro::io::CsvTable::read(folders.reference("hendriksen_tableA3_waves.csv"));
+  const auto &period = table.column("period_s"), &amplitude = table.column("amplitude_m");
+  double worst_u = 0, worst_a = 0, kc_short = 0, roundest = 0;
+  plot::Series kc{.name = "runs of table A.3", .x = {}, .y = {}, .line = false, .marks = true};
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    const double T = period[i], a = amplitude[i], omega = two_pi / T, k = wavenumber_by_bisection(omega);
+    const double profile = std::cosh(k * z + k * depth) / std::cosh(k * depth);
+    const hw::HarmonicField field = wave(a, T);
+    double largest_u = 0, largest_w = 0;
+    for (int n = 0; n < 40; ++n) {
+      const double t = T * n / 40;
+      const hw::Kinematics at = field.at(t, {0.3, 0, z});
+      const double u = a * g * k / omega * profile * std::cos(k * 0.3 - omega * t);  // 2.4
+      const double rate = a * g * k * profile * std::sin(k * 0.3 - omega * t);       // 2.5
+      worst_u = std::max(worst_u, std::abs(at.velocity.x() - u) / (a * g * k / omega * profile));
+      worst_a = std::max(worst_a, std::abs(at.acceleration.x() - rate) / (a * g * k * profile));
+      largest_u = std::max(largest_u, std::abs(at.velocity.x()));
+      largest_w = std::max(largest_w, std::abs(at.velocity.z()));
+    }
+    kc.x.push_back(T);
+    kc.y.push_back(a * g * k / omega * profile * T / diameter);
+    if (T < 1.2) kc_short = kc.y.back();
+    if (T > 2.7) roundest = std::max(roundest, largest_w / largest_u);
+  }
+  // Two waves of half the height that meet: at a node of the elevation the horizontal motions add up.
+  const double standing = 2 * wave(0.0005, 50).at(0, {0, 0, z}).velocity.x();
+  return {
+      .numbers = {{"largest relative difference of velocity from the source's equation 2.4", worst_u, ""},
+                  {"largest relative difference of acceleration from the source's equation 2.5", worst_a, ""},
+                  {"Keulegan-Carpenter number at 1.19 s", kc_short, ""},
+                  {"largest ratio of vertical to horizontal velocity in waves longer than 2.7 s", roundest, ""},
+                  {"horizontal velocity of a standing wave of 1 mm and 50 s", standing, "m/s"}},
+      .pictures = {{"kc",
+                    "Keulegan–Carpenter number of the ten wave runs at the model's depth.",
+                    {.title = "Water motion at the model",
+                     .panels = {{.x = {.label = "wave period", .unit = "s"}, .y = {.label = "KC"}, .series = {kc}}}}}}};
+}
+
+}  // namespace froude::validation
