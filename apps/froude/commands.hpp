@@ -108,6 +108,7 @@ struct ValidateArguments {
   std::optional<Path> folder;      ///< of the cases; default: installed or source
   std::optional<Path> data;        ///< reference data; default FROUDE_REFERENCE_DATA, then ../shared/data
   std::optional<Path> page;        ///< writes the page with pictures here
+  bool reference_curves = false;   ///< also the pictures that show curves of others
 };
 /// Returns 0 if every case that could run is within its limits, else 1.
 int validate(const ValidateArguments& arguments, const Console& console);

@@ -359,6 +359,8 @@ void add_validate(CLI::App& app, Request& request) {
   command->add_option("--folder", arguments->folder, "of the cases");
   command->add_option("--data", arguments->data, "folder of reference data; default: FROUDE_REFERENCE_DATA");
   command->add_option("--page", arguments->page, "write the table with pictures here (.md)");
+  command->add_flag("--reference-curves", arguments->reference_curves,
+                    "also draw the pictures that show curves of others");
   command->callback(
       [=, &request] { request.call = [=](const Console& console) { return validate(*arguments, console); }; });
 }

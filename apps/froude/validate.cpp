@@ -106,7 +106,10 @@ int validate(const ValidateArguments& arguments, const Console& console) {
     console.out << json_of(reports).dump(2) << '\n';
   else
     console.out << validation::summary(sum) << '\n';
-  if (arguments.page) validation::write_page(reports, *arguments.page);
+  if (arguments.page)
+    validation::write_page(
+        reports, *arguments.page,
+        arguments.reference_curves ? validation::ReferenceCurves::drawn : validation::ReferenceCurves::left_out);
   return sum.good() ? 0 : 1;
 }
 

@@ -183,12 +183,24 @@ TEST_F(Harness, CountsACaseThatThrowsAsBroken) {
 TEST_F(Harness, WritesAPageWithItsPictures) {
   accept(good);
   const auto page = folder_ / "validation.md";
-  write_page({run(), run(needs_a_tank)}, page);
+  write_page({run(), run(needs_a_tank)}, page, ReferenceCurves::left_out);
   const std::string text = hydro::io::read_text(page);
   EXPECT_THAT(text,
               AllOf(HasSubstr("## A swing"), HasSubstr("### Physics"), HasSubstr("| period | 2 | s | 2.01 ± 0.02 |"),
                     HasSubstr("stopwatch"), HasSubstr("](validation/swing-swing.svg)"), HasSubstr("Skipped, no data")));
   EXPECT_THAT(hydro::io::read_text(folder_ / "validation" / "swing-swing.svg"), HasSubstr("</svg>"));
+}
+
+TEST_F(Harness, DrawsCurvesOfOthersOnlyIfAsked) {
+  accept(good);
+  auto report = run();
+  report.pictures.at(0).shows_reference_curves = true;
+  const auto page = folder_ / "validation.md";
+  write_page({report}, page, ReferenceCurves::left_out);
+  EXPECT_THAT(hydro::io::read_text(page), AllOf(Not(HasSubstr("swing-swing.svg")), HasSubstr("--reference-curves")));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "validation"));
+  write_page({report}, page, ReferenceCurves::drawn);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "validation" / "swing-swing.svg"));
 }
 
 // ---- the command, with the cases as they are ----
@@ -206,7 +218,9 @@ class ValidateCommand : public Harness {
   int validate_copy(const std::vector<std::string>& cases, bool json = false) {
     out_.str("");
     const Console console{.out = out_, .err = err_, .json = json};
-    return validate({.cases = cases, .folder = folder_, .data = folder_ / "no_data", .page = {}}, console);
+    return validate(
+        {.cases = cases, .folder = folder_, .data = folder_ / "no_data", .page = {}, .reference_curves = false},
+        console);
   }
   std::ostringstream out_, err_;
 };
@@ -240,10 +254,18 @@ TEST_F(ValidateCommand, RefusesUnknownCasesAndFolders) {
   EXPECT_THAT([&] { validate_copy({"dispersal"}); },
               ThrowsMessage<InputError>(HasSubstr("did you mean \"dispersion\"?")));
   const Console console{.out = out_, .err = err_};
-  EXPECT_THAT([&] { validate({.cases = {}, .folder = folder_ / "nowhere", .data = {}, .page = {}}, console); },
-              ThrowsMessage<InputError>(HasSubstr("no such folder of cases")));
-  EXPECT_THAT([&] { validate({.cases = {}, .folder = folder_, .data = folder_ / "nowhere", .page = {}}, console); },
-              ThrowsMessage<InputError>(HasSubstr("no such folder of reference data")));
+  EXPECT_THAT(
+      [&] {
+        validate({.cases = {}, .folder = folder_ / "nowhere", .data = {}, .page = {}, .reference_curves = false},
+                 console);
+      },
+      ThrowsMessage<InputError>(HasSubstr("no such folder of cases")));
+  EXPECT_THAT(
+      [&] {
+        validate({.cases = {}, .folder = folder_, .data = folder_ / "nowhere", .page = {}, .reference_curves = false},
+                 console);
+      },
+      ThrowsMessage<InputError>(HasSubstr("no such folder of reference data")));
 }
 
 TEST(ShippedCases, HaveAFolderWithReadmeAndRuleAndEveryFolderHasACase) {

@@ -69,7 +69,7 @@ Outcome cylinder(const Folders&) {
       hydro::cylinders::solve({floating(0.8, 1.13, 0)}, water, frequencies(), {0.3}, {.tolerance = 1e-6});
   const Solution two = hydro::cylinders::solve({floating(1, 2, 0), floating(0.7, 1.2, 6)}, water, {0.8, 1.6, 2.4},
                                                {0.3}, {.tolerance = 1e-8, .doubled_frequencies = 0});
-  plot::Panel A{.x = {.label = "omega, rad/s"}, .y = {.label = "A/(rho V)"}, .series = {}};
+  plot::Panel A{.x = {.label = "ω", .unit = "rad/s"}, .y = {.label = "A / ρV"}, .series = {}};
   const double displaced = water.density * *one.coefficients.body[0].displaced_volume;
   for (const auto& [name, mode] : {std::pair{"surge", 0}, {"heave", 2}}) {
     plot::Series series{.name = name, .x = one.coefficients.omega, .y = {}};

@@ -82,8 +82,8 @@ Outcome fagerbakke_bem(const Folders& folders) {
   const Coefficients ours_1 = like(panels_1, {module_at(0)}),
                      ours_2 = like(panels_2, {module_at(-6.5), module_at(6.5)});
   const Difference one = difference(panels_1, ours_1), two = difference(panels_2, ours_2);
-  const plot::Panel heave{.x = {.label = "omega, rad/s"},
-                          .y = {.label = "heave excitation, kN/m"},
+  const plot::Panel heave{.x = {.label = "ω", .unit = "rad/s"},
+                          .y = {.label = "heave excitation", .unit = "kN/m"},
                           .series = {heave_series("cylinders", ours_1, false), heave_series("panels", panels_1, true)}};
   return {.numbers = {{"one module: largest difference of A", one.A, ""},
                       {"one module: largest difference of B", one.B, ""},

@@ -120,7 +120,7 @@ Outcome formats(const Folders& folders) {
     add("force history", rms_difference(bodies[b], bodies[0], time));
   }
   out.pictures.push_back(
-      {"force", "Heave force on the body as each code has it, 40 s of 200 s.", histories(bodies, time)});
+      {"force", "Heave force on the body as each code has it, 40 s of 200 s.", histories(bodies, time), true});
   return out;
 }
 

@@ -57,7 +57,7 @@ Outcome fpso_rao(const Folders& folders) {
          error[mode] / largest[mode], ""});
   plot::Figure f{.title = "FPSO in beam waves",
                  .panels = {{.x = {"wave period", "s"}, .y = {"heave", "m/m"}, .series = {ours, theirs}}}};
-  out.pictures.push_back({"heave", "Heave in beam waves against the panel code's own motions.", f});
+  out.pictures.push_back({"heave", "Heave in beam waves against the panel code's own motions.", f, true});
   return out;
 }
 

@@ -23,6 +23,7 @@ struct Picture {
   std::string name;     ///< of the file, without ending: lower case, digits and dashes
   std::string caption;  ///< one sentence
   plot::Figure figure;
+  bool shows_reference_curves = false;  ///< curves that are not ours: drawn on request only, never into the repository
 };
 
 struct Outcome {

@@ -72,7 +72,11 @@ std::string title_of(const CaseReport& report) {
   return report.readme.substr(2, report.readme.find('\n') - 2);
 }
 
-std::string markdown_of(const CaseReport& report, const std::string& picture_folder) {
+bool is_wanted(const Picture& picture, ReferenceCurves curves) {
+  return curves == ReferenceCurves::drawn || !picture.shows_reference_curves;
+}
+
+std::string markdown_of(const CaseReport& report, const std::string& picture_folder, ReferenceCurves curves) {
   std::string page = fmt::format("\n## {}\n{}\n", title_of(report), body_of(report.readme));
   if (report.skipped) return page + fmt::format("**Skipped, no data:** {}\n", *report.skipped);
   if (report.broken) return page + fmt::format("**Broken:** {}\n", *report.broken);
@@ -84,8 +88,9 @@ std::string markdown_of(const CaseReport& report, const std::string& picture_fol
     if (line.check && line.check->fails)
       page += fmt::format("\n**Known failure, {}:** {}\n", line.number.name, *line.check->fails);
   for (const Picture& picture : report.pictures)
-    page +=
-        fmt::format("\n![{0}]({1}/{2}-{3}.svg)\n\n{0}\n", picture.caption, picture_folder, report.name, picture.name);
+    if (is_wanted(picture, curves))
+      page +=
+          fmt::format("\n![{0}]({1}/{2}-{3}.svg)\n\n{0}\n", picture.caption, picture_folder, report.name, picture.name);
   return page;
 }
 
@@ -168,17 +173,22 @@ std::string summary(const Tally& sum) {
          counted(sum.cases_skipped, "case skipped for want of data", "cases skipped for want of data");
 }
 
-void write_page(const std::vector<CaseReport>& reports, const std::filesystem::path& page) {
+void write_page(const std::vector<CaseReport>& reports, const std::filesystem::path& page, ReferenceCurves curves) {
   const std::filesystem::path folder = page.parent_path() / page.stem();
   std::string text = fmt::format(
       "# Validation\n\nWritten by `froude validate --page`; limits and their reasons stand in "
-      "`validation/*/accept.toml`.\n\n{}.\n",
+      "`validation/*/accept.toml`.{}\n\n{}.\n",
+      curves == ReferenceCurves::drawn ? ""
+                                       : " Pictures that show reference curves\nwhich are not ours are left out; "
+                                         "`--reference-curves` draws them where the reference data are.",
       summary(tally(reports)));
   for (const CaseReport& report : reports) {
-    text += markdown_of(report, page.stem().string());
-    if (!report.pictures.empty()) std::filesystem::create_directories(folder);
-    for (const Picture& picture : report.pictures)
+    text += markdown_of(report, page.stem().string(), curves);
+    for (const Picture& picture : report.pictures) {
+      if (!is_wanted(picture, curves)) continue;
+      std::filesystem::create_directories(folder);
       hydro::io::write_atomically(folder / (report.name + "-" + picture.name + ".svg"), plot::svg(picture.figure));
+    }
   }
   hydro::io::write_atomically(page, text);
 }

@@ -48,8 +48,11 @@ std::string as_text(const CaseReport& report);
 /// "12 passed, 1 failed, 1 known failure, 2 cases skipped for want of data".
 std::string summary(const Tally& tally);
 
+/// Whether pictures that show curves of others are drawn: they must not be shipped with this project.
+enum class ReferenceCurves { drawn, left_out };
+
 /// All cases as Markdown at `page`; pictures as SVG in a folder beside it, named as the page without its ending.
 /// \throws hydro::InputError if it cannot be written
-void write_page(const std::vector<CaseReport>& reports, const std::filesystem::path& page);
+void write_page(const std::vector<CaseReport>& reports, const std::filesystem::path& page, ReferenceCurves curves);
 
 }  // namespace froude::validation

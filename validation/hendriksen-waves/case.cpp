@@ -57,16 +57,17 @@ Outcome hendriksen_waves(const Folders& folders) {
   }
   // Two waves of half the height that meet: at a node of the elevation the horizontal motions add up.
   const double standing = 2 * wave(0.0005, 50).at(0, {0, 0, z}).velocity.x();
-  return {
-      .numbers = {{"largest relative difference of velocity from the source's equation 2.4", worst_u, ""},
-                  {"largest relative difference of acceleration from the source's equation 2.5", worst_a, ""},
-                  {"Keulegan-Carpenter number at 1.19 s", kc_short, ""},
-                  {"largest ratio of vertical to horizontal velocity in waves longer than 2.7 s", roundest, ""},
-                  {"horizontal velocity of a standing wave of 1 mm and 50 s", standing, "m/s"}},
-      .pictures = {{"kc",
-                    "Keulegan–Carpenter number of the ten wave runs at the model's depth.",
-                    {.title = "Water motion at the model",
-                     .panels = {{.x = {.label = "wave period", .unit = "s"}, .y = {.label = "KC"}, .series = {kc}}}}}}};
+  return {.numbers = {{"largest relative difference of velocity from the source's equation 2.4", worst_u, ""},
+                      {"largest relative difference of acceleration from the source's equation 2.5", worst_a, ""},
+                      {"Keulegan-Carpenter number at 1.19 s", kc_short, ""},
+                      {"largest ratio of vertical to horizontal velocity in waves longer than 2.7 s", roundest, ""},
+                      {"horizontal velocity of a standing wave of 1 mm and 50 s", standing, "m/s"}},
+          .pictures = {{"kc",
+                        "Keulegan–Carpenter number of the ten wave runs at the model's depth.",
+                        {.title = "Water motion at the model",
+                         .panels = {{.x = {.label = "wave period", .unit = "s", .range = {{0, 6}}},
+                                     .y = {.label = "KC", .range = {{0, 14}}},
+                                     .series = {kc}}}}}}};
 }
 
 }  // namespace froude::validation

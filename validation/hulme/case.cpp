@@ -82,7 +82,8 @@ Outcome hulme(const Folders& folders) {
                       {"surge: mu at infinite frequency", limit_of(c.A_inf, Mode::surge, rho, "infinite"), ""}},
           .pictures = {{"coefficients",
                         "Added mass and damping of the hemisphere, panels against Hulme's tables.",
-                        {.title = "Floating hemisphere", .panels = {heave.panel, surge.panel}}}}};
+                        {.title = "Floating hemisphere", .panels = {heave.panel, surge.panel}},
+                        true}}};
 }
 
 }  // namespace froude::validation

@@ -60,7 +60,7 @@ Outcome irf_a5(const Folders& folders) {
   plot::Figure f{.title = "Buoy, heave", .panels = {{.x = {"time", "s"}, .y = {"L33 / density", "m^3"}, .series = {}}}};
   f.panels[0].series = {{.name = "Froude", .x = ours.t, .y = ours.L},
                         {.name = "F2T", .x = reference.t, .y = reference.L, .dashed = true}};
-  out.pictures.push_back({"step-response", "Integral of the retardation function in heave against F2T.", f});
+  out.pictures.push_back({"step-response", "Integral of the retardation function in heave against F2T.", f, true});
   return out;
 }
 

@@ -62,7 +62,7 @@ Outcome rm3_decay(const Folders& folders) {
                                       .x = {reference.time.begin(), reference.time.begin() + shown},
                                       .y = {reference.of_float.begin(), reference.of_float.begin() + shown},
                                       .dashed = true});
-  out.pictures.push_back({"decay", "Heave of the float by every method against another code.", picture});
+  out.pictures.push_back({"decay", "Heave of the float by every method against another code.", picture, true});
   return out;
 }
 

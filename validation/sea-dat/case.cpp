@@ -44,7 +44,8 @@ Outcome sea_dat(const Folders& folders) {
   out.numbers.push_back({"highest wave", s.highest, "m"});
   out.pictures = {{"spectrum",
                    "Spectrum of the record with two lengths of segment.",
-                   {.title = "Forty minutes of measured sea", .panels = {panel}}}};
+                   {.title = "Forty minutes of measured sea", .panels = {panel}},
+                   true}};
   return out;
 }
 

@@ -100,7 +100,7 @@ Outcome sphere_decay(const Folders& folders) {
   f.panels[0].series = {{.name = "Froude", .x = record.time, .y = heave},
                         {.name = "InWave (h)", .x = inwave.time, .y = inwave.heave, .dashed = true},
                         {.name = "HydroChrono", .x = hydrochrono.time, .y = hydrochrono.heave, .dashed = true}};
-  out.pictures.push_back({"decay", "Heave decay of the sphere against two linear codes.", f});
+  out.pictures.push_back({"decay", "Heave decay of the sphere against two linear codes.", f, true});
   return out;
 }
 

@@ -141,7 +141,8 @@ std::vector<double> table_of(const HarmonicField& field, std::size_t count) {
     const Harmonic& w = field.harmonics()[j];
     const phase::Turns time = phase::per_second(w.omega);
     const double k = std::hypot(w.kx, w.ky);
-    const std::complex<double> potential = k > 0 ? w.potential : 0.0;  // no flow without a wave vector
+    // Without a wave vector the profile is one at every height.
+    const double depth_factor = k > 0 ? 1 / (1 + std::exp(-2 * k * h)) : std::isinf(h) ? 1 : 0.5;
     const double a = phase::leading(time.high);
     const std::array<double, rows> row{a,
                                        time.high - a,
@@ -150,14 +151,14 @@ std::vector<double> table_of(const HarmonicField& field, std::size_t count) {
                                        phase::per_second(w.ky).high,
                                        w.elevation.real(),
                                        w.elevation.imag(),
-                                       potential.real(),
-                                       potential.imag(),
+                                       w.potential.real(),
+                                       w.potential.imag(),
                                        w.omega,
                                        w.kx,
                                        w.ky,
                                        k,
-                                       1 / (1 + std::exp(-2 * k * h))};
-    for (std::size_t r = 0; r < rows; ++r) table[r * count + j] = k == 0 && r == inverse_depth_factor ? 0 : row[r];
+                                       depth_factor};
+    for (std::size_t r = 0; r < rows; ++r) table[r * count + j] = row[r];
   }
   return table;
 }

@@ -139,7 +139,10 @@ std::vector<double> potential_table(const HarmonicField& field, const Band& band
   for (Eigen::Index j = 0; j < waves; ++j) {
     const Harmonic& w = field.harmonics()[static_cast<std::size_t>(j)];
     const double kappa = std::hypot(w.kx, w.ky);
-    if (kappa == 0) continue;  // no flow without a wave vector
+    if (kappa == 0) {  // without a wave vector there is no flow, but a pressure at every height
+      profile(0, j) = 1;
+      continue;
+    }
     const auto one = vertical.profile(kappa, field.water().depth.metres());
     profile.col(j) = Eigen::Map<const Eigen::VectorXd>(one.data(), levels);
   }

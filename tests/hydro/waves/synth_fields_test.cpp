@@ -2,12 +2,14 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "hydro/base/random.hpp"
 #include "hydro/waves/field_choice.hpp"
 #include "hydro/waves/sea.hpp"
+#include "hydro/waves/second_order.hpp"
 #include "hydro/waves/summed_field.hpp"
 #include "hydro/waves/tabulated_field.hpp"
 
@@ -151,6 +153,31 @@ TEST(TabulatedField, HoldsWithACurrentAndTheFullBernoulliEquation) {
   for (const Eigen::Vector4d& p : places(30)) {
     const Kinematics a = plain.at(p[0], p.tail<3>());
     if (p[3] <= a.elevation) expect_within(difference(a, table.at(p[0], p.tail<3>())), table.error_bound(), "current");
+  }
+}
+
+TEST(FastFields, KeepThePressureUnderWavesThatMeet) {
+  // The bound wave of two equal waves that run against each other has no wave vector: it lifts nothing and presses
+  // everywhere, far down with 2 ρ a² ω² at twice their frequency (Longuet-Higgins 1950).
+  for (const Water& water : std::array{deep, shallow}) {
+    const auto wave = [](double heading) {
+      return GivenWave{AngularFrequency::from_rad_per_s(1.2), WaveAmplitude::from_metres(0.5), 0.3,
+                       Angle::from_degrees(heading)};
+    };
+    const HarmonicField plain = second_order_field(Sea::of(std::array{wave(0), wave(180)}, water));
+    const SummedField sum(plain);
+    if (water.depth.is_infinite()) {
+      // Phases 2 (ωt + 0.3) of 0 at some instant; nothing else is left 500 m down (e^{-kz} is 1e-31).
+      const double t = 2 * std::numbers::pi / 1.2 - 0.3 / 1.2, expected = 2 * deep.density * 0.25 * 1.44;
+      EXPECT_NEAR(std::abs(sum.at(t, {3, 1, -500}).dynamic_pressure), expected, 1e-9 * expected);
+    }
+    const TabulatedField table(plain, box);
+    for (const Eigen::Vector4d& p : places(20)) {
+      const Kinematics a = plain.at(p[0], p.tail<3>());
+      if (p[3] > a.elevation) continue;
+      expect_within(difference(a, sum.at(p[0], p.tail<3>())), {2e-12, 2e-12, 2e-12, 2e-12, 2e-8}, "sum");
+      expect_within(difference(a, table.at(p[0], p.tail<3>())), table.error_bound(), "table");
+    }
   }
 }
 
