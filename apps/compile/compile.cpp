@@ -244,6 +244,7 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
   const bool wants_sea = scene.waves.has_value();
   if (wants_sea) {
     sea = run_sea(scene, prepared);
+    for (const auto& warning : wave_warnings(scene)) notes.push_back(warning);
     plan.push_back({"waves", sea_method(*sea),
                     fmt::format("{} components, {:.2g} of the energy left out", sea->components().size(),
                                 sea->fraction_left_out()),

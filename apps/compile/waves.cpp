@@ -39,14 +39,20 @@ double frequency_with_share_above(const hw::Spectrum& spectrum, double share) {
 // ---- seas that break before they are made ----
 
 /// A height that no wave of this length can have.
-void check_breaking(double height, double omega, const hydro::Water& water, const Place& place, const char* what) {
-  const double length = two_pi / hw::wavenumber(omega, water), highest = hw::highest_wave(length, water.depth);
+void check_height(double height, double period, double length, const hydro::Water& water, const Place& place,
+                  const char* what) {
+  const double highest = hw::highest_wave(length, water.depth);
   if (height > highest)
     throw InputError(
         fmt::format("{} of {:.4g} m with a period of {:.4g} s is beyond breaking: the highest wave of that "
                     "length, {:.4g} m, is {:.4g} m (steepness {:.3g}, limit {:.3g})",
-                    what, height, two_pi / omega, length, highest, height / length, highest / length),
+                    what, height, period, length, highest, height / length, highest / length),
         place, "make the waves lower, or longer");
+}
+
+/// As check_height(), with the length of linear theory.
+void check_breaking(double height, double omega, const hydro::Water& water, const Place& place, const char* what) {
+  check_height(height, two_pi / omega, two_pi / hw::wavenumber(omega, water), water, place, what);
 }
 
 // ---- random seas ----
@@ -119,7 +125,7 @@ double current_along(const scene::Scene& scene) {
   return U.dot(ahead);
 }
 
-std::unique_ptr<const hw::WaveField> steady_field(const scene::Scene& scene, const scene::RegularWave& wave) {
+hw::SteadyWave steady_wave(const scene::Scene& scene, const scene::RegularWave& wave) {
   const hw::SteadyWaveInput input{.height_m = 2 * wave.amplitude,
                                   .length = hydro::AngularFrequency::from_period_s(wave.period),
                                   .water = scene.water,
@@ -128,7 +134,8 @@ std::unique_ptr<const hw::WaveField> steady_field(const scene::Scene& scene, con
     const hw::SteadyWave steady = wave.theory == scene::RegularTheory::stokes_second  ? hw::stokes_second(input)
                                   : wave.theory == scene::RegularTheory::stokes_fifth ? hw::stokes_fifth(input)
                                                                                       : hw::stream_function(input);
-    return std::make_unique<hw::HarmonicField>(steady.field(scene.waves->heading));
+    check_height(steady.height, wave.period, two_pi / steady.k, scene.water, scene.waves->place, "a wave height");
+    return steady;
   } catch (const InputError& e) {
     throw e.at(scene.waves->place);
   }
@@ -233,7 +240,7 @@ std::unique_ptr<const hw::WaveField> make_field(const scene::Scene& scene) {
   const scene::Waves& waves = *scene.waves;
   if (const auto* regular = std::get_if<scene::RegularWave>(&waves.kind);
       regular != nullptr && regular->theory != scene::RegularTheory::linear)
-    return steady_field(scene, *regular);
+    return std::make_unique<hw::HarmonicField>(steady_wave(scene, *regular).field(waves.heading));
   if (const auto* packets = std::get_if<scene::FocusedPackets>(&waves.kind)) {
     require_no_current(scene, "focused packets");
     return std::make_unique<hw::PacketField>(packets->packets, packets->focus, waves.heading, scene.water,
@@ -244,6 +251,38 @@ std::unique_ptr<const hw::WaveField> make_field(const scene::Scene& scene) {
   options.stretching = waves.stretching;
   if (!has_bound_waves(waves)) return std::make_unique<hw::SummedField>(hw::linear_field(make_sea(scene), options));
   return std::make_unique<hw::SummedField>(hw::second_order_field(free_waves(scene), {}, options));
+}
+
+namespace {
+
+/// The steepest seas that are measured: 2πHs/(g Tp²) of 1/15 up to Tp = 8 s, 1/25 from 15 s, linear between
+/// (DNV-RP-C205, limits for sea states in deep water).
+double limiting_steepness(double tp) { return 1.0 / 15 + (1.0 / 25 - 1.0 / 15) * std::clamp((tp - 8) / 7, 0.0, 1.0); }
+
+}  // namespace
+
+std::vector<std::string> wave_warnings(const scene::Scene& scene) {
+  const scene::Waves& waves = *scene.waves;
+  if (const auto* regular = std::get_if<scene::RegularWave>(&waves.kind)) {
+    const double k = regular->theory == scene::RegularTheory::linear
+                         ? hw::wavenumber(two_pi / regular->period, scene.water)
+                         : steady_wave(scene, *regular).k;
+    return hw::wave_limits({.height_m = 2 * regular->amplitude,
+                            .length = hw::Wavelength::from_metres(two_pi / k),
+                            .water = scene.water})
+        .warnings;
+  }
+  std::vector<std::string> out;
+  if (const auto* random = std::get_if<scene::RandomSea>(&waves.kind))
+    for (const auto& system : random->systems) {
+      const double hs = system.spectrum->hs(), tp = two_pi / system.spectrum->peak_omega();
+      const double steepness = two_pi * hs / (scene.water.gravity * tp * tp), limit = limiting_steepness(tp);
+      if (steepness > limit)
+        out.push_back(fmt::format(
+            "2π Hs/(g Tp²) = {:.3g} is above {:.3g}: seas of Hs {:.3g} m with Tp {:.3g} s are not measured, they break",
+            steepness, limit, hs, tp));
+    }
+  return out;
 }
 
 }  // namespace froude::compile

@@ -2,6 +2,8 @@
 /// \file  From the waves of a scene to a sea, or to a field that tells the water's motion anywhere.
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "hydro/waves/field.hpp"
 #include "hydro/waves/sea.hpp"
@@ -31,6 +33,10 @@ hydro::waves::Sea free_waves(const scene::Scene& scene, const std::optional<Band
 
 /// The field of any kind of waves. \throws hydro::InputError where waves and current do not go together
 std::unique_ptr<const hydro::waves::WaveField> make_field(const scene::Scene& scene);
+
+/// What is doubtful about the waves, one sentence with its numbers each: regular waves outside the limits of
+/// hydro::waves::wave_limits(), seas steeper than are measured. Empty for lists, packets and tanks.
+std::vector<std::string> wave_warnings(const scene::Scene& scene);
 
 /// Rad/s above which the sea has 5 % of its energy: what a step must resolve. The frequency of a regular wave.
 double highest_relevant_frequency(const scene::Waves& waves);

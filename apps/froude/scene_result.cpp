@@ -5,7 +5,12 @@
 namespace froude {
 
 Path output_path(const SceneArguments& arguments, const std::string& ending) {
-  return arguments.output.value_or(arguments.scene.stem().string() + ending);
+  const Path file = arguments.output.value_or(arguments.scene.stem().string() + ending);
+  if (file.extension() != ".h5" && file.extension() != ".nc")
+    throw hydro::InputError(
+        fmt::format("a result is HDF5, so its file cannot end in \"{}\"", file.extension().string()),
+        {.file = file.string()}, "end it in .h5 or .nc; --csv FILE writes a table as well");
+  return file;
 }
 
 Provenance provenance_of(const scene::Scene& scene, const std::vector<std::string>& notes) {

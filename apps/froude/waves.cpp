@@ -135,6 +135,7 @@ Series series_of(const scene::Scene& scene, const std::function<void(double)>& p
   const scene::AskWaves& ask = *scene.ask_waves;
   require_above_bed(scene);
   Series out;
+  out.notes = compile::wave_warnings(scene);
   const auto samples = static_cast<std::size_t>(std::llround(ask.duration / ask.every)) + 1;
   for (std::size_t n = 0; n < samples; ++n) out.time.push_back(ask.from + ask.every * static_cast<double>(n));
   const double probes = static_cast<double>(scene.probes.size());

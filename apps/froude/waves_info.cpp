@@ -191,6 +191,7 @@ Info of_regular(const scene::Scene& scene, const scene::RegularWave& wave) {
   Info info{.what = "a regular wave", .facts = {}, .remarks = {}};
   add(info, "height", 2 * wave.amplitude, "m", "from trough to crest");
   add(info, "period", wave.period, "s", "at a fixed point");
+  // Region and warnings by the length that the period has in linear theory: that is how the chart is read.
   const hw::WaveLimits limits = hw::wave_limits({.height_m = 2 * wave.amplitude,
                                                  .length = hydro::AngularFrequency::from_period_s(wave.period),
                                                  .water = scene.water});

@@ -106,6 +106,11 @@ class Waves(unittest.TestCase):
     def test_a_step_that_misses_the_shortest_wave_is_refused(self):
         self.refused(SEA.replace('every = "0.5 s"', 'every = "2 s"'), "less than two samples a period", "smaller time step")
 
+    def test_a_result_is_not_written_under_the_name_of_a_table(self):
+        message = self.froude("waves", "make", self.scene(SEA), "-o", "out.csv", status=2).stderr
+        self.assertIn("end it in .h5 or .nc", message)
+        self.assertEqual(list(self.folder.glob("out*")), [])
+
     def test_what_no_sea_has_is_refused(self):
         self.refused(SEA.replace('hs = "3 m"', 'hs = "-3 m"'), "scene.toml:7:6", "must be positive")
         self.refused(SEA.replace('hs = "3 m"', 'hs = "30 m"'), "beyond breaking", "the highest wave")

@@ -139,5 +139,31 @@ TEST(SeaOfAScene, NonlinearWavesAreNoSum) {
   EXPECT_TRUE(has_bound_waves(*bound.waves));
 }
 
+TEST(SteadyWaveOfAScene, ThatBreaksIsRefusedByEveryTheory) {
+  // 3 m in 3 s: 0.16 of the length of 18.3 m that the fifth order gives, and 0.21 of the linear one; 0.14 is the limit.
+  for (const char* theory : {"linear", "stokes2", "stokes5"})
+    EXPECT_THAT(
+        [&] {
+          make_field(scene_of(std::string("kind = \"regular\"\nheight = \"3 m\"\nperiod = \"3 s\"\ntheory = \"") +
+                              theory + "\"\n"));
+        },
+        ThrowsMessage<InputError>(AllOf(HasSubstr("scene.toml:5:1"), HasSubstr("is beyond breaking"))))
+        << theory;
+}
+
+TEST(WaveWarnings, TellWhatIsNearALimitWithItsNumbers) {
+  const auto regular = [](const char* height, const char* period) {
+    return wave_warnings(
+        scene_of(std::string("kind = \"regular\"\nheight = \"") + height + "\"\nperiod = \"" + period + "\"\n"));
+  };
+  EXPECT_THAT(regular("0.5 m", "8 s"), testing::IsEmpty());
+  // 20 m deep: a wave of 30 s is 418 m long, Hλ²/h³ = 3 · 418² / 8000 = 65.
+  EXPECT_THAT(regular("3 m", "30 s"), testing::Contains(HasSubstr("is above 26")));
+  EXPECT_THAT(wave_warnings(scene_of(jonswap)), testing::IsEmpty());
+  // 2π·6/(9.81·36) = 0.107, above 1/15.
+  EXPECT_THAT(wave_warnings(scene_of("kind = \"jonswap\"\nhs = \"6 m\"\ntp = \"6 s\"\n")),
+              testing::ElementsAre(AllOf(HasSubstr("0.107"), HasSubstr("0.0667"))));
+}
+
 }  // namespace
 }  // namespace froude::compile
