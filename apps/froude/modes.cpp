@@ -1,0 +1,181 @@
+// `froude modes`: free motions about rest, with the added mass and damping of each motion's own frequency.
+#include "dynamics/frequency/modes.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "froude/progress.hpp"
+#include "froude/scene_result.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/io/atomic_file.hpp"
+#include "hydro/io/csv.hpp"
+
+namespace froude {
+namespace {
+
+using dynamics::frequency::Mode;
+using dynamics::frequency::ModeList;
+
+constexpr std::array<const char*, 6> motions{"surge", "sway", "heave", "roll", "pitch", "yaw"};
+
+double period(const Mode& mode) { return 2 * std::numbers::pi / mode.omega; }
+
+/// Shares of kinetic energy of the six motions, all bodies together.
+std::array<double, 6> shares(const Mode& mode, const dynamics::Model& model) {
+  std::array<double, 6> out{};
+  const Eigen::VectorXd share = mode.energy_share(model);
+  for (Eigen::Index m = 0; m < share.size(); ++m) out[static_cast<std::size_t>(m % 6)] += share[m];
+  return out;
+}
+
+std::vector<Mode> wanted(const ModeList& all, const scene::AskModes& ask) {
+  std::vector<Mode> out;
+  for (const Mode& mode : all.modes)
+    if (period(mode) >= ask.shortest && period(mode) <= ask.longest) out.push_back(mode);
+  return out;
+}
+
+/// "m1.surge 1, m2.surge 0.81": the motions that matter in a shape.
+std::string describe(const Eigen::VectorXd& shape, const dynamics::Model& model) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(shape.size()));
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Eigen::Index>(i);
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return std::abs(shape[a]) > std::abs(shape[b]); });
+  std::string out;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, order.size()); ++i)
+    if (std::abs(shape[order[i]]) > 0.1)
+      out += fmt::format("{}{} {:.2g}", out.empty() ? "" : ", ", model.mode_name(static_cast<int>(order[i])),
+                         shape[order[i]]);
+  return out;
+}
+
+std::vector<std::string> notes_of(const ModeList& all, const std::vector<Mode>& shown, const dynamics::Model& model,
+                                  std::vector<std::string> notes) {
+  for (const auto& shape : all.adrift) notes.push_back("nothing restores " + describe(shape, model));
+  for (const auto& shape : all.toppling)
+    notes.push_back("rest is no stable equilibrium: negative stiffness of " + describe(shape, model));
+  if (!all.indefinite_at.empty())
+    notes.push_back(
+        fmt::format("mass and added mass are not positive definite from {:.4g} to {:.4g} rad/s, as near a resonance of "
+                    "water between "
+                    "bodies: modes about there are no swinging of the bodies alone",
+                    all.indefinite_at.front(), all.indefinite_at.back()));
+  if (std::any_of(shown.begin(), shown.end(), [](const Mode& m) { return !m.damped; }))
+    notes.push_back(
+        "damping \"none\": no swinging motion is like that mode; it creeps back, or radiation leaves nothing of it");
+  if (all.modes.size() > shown.size())
+    notes.push_back(fmt::format("{} of {} modes have the periods asked for", shown.size(), all.modes.size()));
+  if (std::any_of(shown.begin(), shown.end(), [](const Mode& m) { return m.outside_data; }))
+    notes.push_back("modes marked * lie outside the frequencies of the coefficients, whose nearest end was used");
+  return notes;
+}
+
+void tell(const Console& console, const scene::Scene& scene, const dynamics::Model& model,
+          const std::vector<Mode>& modes, const std::vector<std::string>& notes, const Path& file) {
+  if (console.json) {
+    nlohmann::json j{{"file", file.string()}, {"notes", notes}, {"modes", nlohmann::json::array()}};
+    for (const Mode& mode : modes) {
+      nlohmann::json one{{"omega_rad_per_s", mode.omega}, {"outside_data", mode.outside_data}};
+      if (mode.damped) one["damping_ratio"] = mode.damped->damping_ratio();
+      for (int m = 0; m < model.modes(); ++m) one["shape"][model.mode_name(m)] = mode.shape[m];
+      j["modes"].push_back(std::move(one));
+    }
+    console.out << j.dump(1) << '\n';
+    return;
+  }
+  console.out << fmt::format("{}: {} modes; share of the kinetic energy in %\n", scene.file.filename().string(),
+                             modes.size())
+              << fmt::format("{:>4} {:>10} {:>11} {:>10}", "mode", "period [s]", "omega", "damping");
+  for (const char* motion : motions) console.out << fmt::format(" {:>6}", motion);
+  console.out << "  largest\n";
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const Mode& mode = modes[i];
+    console.out << fmt::format("{:>4} {:>10.5g}{}{:>11.5g} {:>10}", i + 1, period(mode), mode.outside_data ? "*" : " ",
+                               mode.omega,
+                               mode.damped ? fmt::format("{:.2f} %", 100 * mode.damped->damping_ratio()) : "none");
+    for (const double share : shares(mode, model)) console.out << fmt::format(" {:>6.0f}", 100 * share);
+    console.out << "  " << describe(mode.shape, model) << '\n';
+  }
+  for (const auto& note : notes) console.out << "note: " << note << '\n';
+  console.out << "wrote " << file.string() << '\n';
+}
+
+void write_csv(const Path& path, const std::vector<Mode>& modes, const dynamics::Model& model) {
+  std::vector<std::vector<double>> numbers(3 + static_cast<std::size_t>(model.modes()));
+  for (const Mode& mode : modes) {
+    numbers[0].push_back(period(mode));
+    numbers[1].push_back(mode.omega);
+    numbers[2].push_back(mode.damped ? mode.damped->damping_ratio() : std::nan(""));
+    for (int m = 0; m < model.modes(); ++m) numbers[3 + static_cast<std::size_t>(m)].push_back(mode.shape[m]);
+  }
+  std::vector<hydro::io::CsvColumn> columns{
+      {"period", "s", &numbers[0]}, {"omega", "rad/s", &numbers[1]}, {"damping ratio", "", &numbers[2]}};
+  for (int m = 0; m < model.modes(); ++m)
+    columns.push_back({model.mode_name(m), m % 6 < 3 ? "m" : "rad", &numbers[3 + static_cast<std::size_t>(m)]});
+  hydro::io::write_csv(path, columns, {"free motions about rest; shapes about the centres of gravity"});
+}
+
+/// The first shapes, over the bodies: each in the motion that has most of its energy.
+plot::Figure figure(const scene::Scene& scene, const dynamics::Model& model, const std::vector<Mode>& modes) {
+  constexpr std::size_t most = 6;
+  plot::Figure f{.title = scene.title.empty() ? "Free motions" : scene.title, .panels = {}};
+  for (std::size_t i = 0; i < std::min(most, modes.size()); ++i) {
+    const auto share = shares(modes[i], model);
+    const auto main = std::max_element(share.begin(), share.end()) - share.begin();
+    plot::Series series{.name = "", .x = {}, .y = {}, .line = true, .marks = true};
+    for (std::size_t b = 0; b < model.bodies().size(); ++b) {
+      series.x.push_back(static_cast<double>(b + 1));
+      series.y.push_back(modes[i].shape[6 * static_cast<Eigen::Index>(b) + main]);
+    }
+    f.panels.push_back({.x = {.label = fmt::format("mode {}, {:.4g} s: body", i + 1, period(modes[i])),
+                              .range = {{0.5, static_cast<double>(model.bodies().size()) + 0.5}}},
+                        .y = {.label = motions[static_cast<std::size_t>(main)],
+                              .unit = main < 3 ? "m" : "rad",
+                              .range = {{-1.1, 1.1}}},
+                        .series = {series}});
+    f.panel_height = 180;
+  }
+  return f;
+}
+
+ModeTable table_of(const std::vector<Mode>& modes, const dynamics::Model& model) {
+  ModeTable out;
+  for (int m = 0; m < model.modes(); ++m) out.motions.push_back(model.mode_name(m));
+  for (const Mode& mode : modes) {
+    out.omega.push_back(mode.omega);
+    const std::complex<double> none(std::nan(""), std::nan(""));
+    out.s.push_back(mode.damped ? mode.damped->s : none);
+    for (int m = 0; m < model.modes(); ++m) {
+      out.shape.push_back(mode.shape[m]);
+      out.damped_shape.push_back(mode.damped ? mode.damped->shape[m] : none);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+void modes(const SceneArguments& arguments, const Console& console) {
+  const scene::Scene scene = scene::read(arguments.scene);
+  require_asked(scene.ask_modes.has_value(), scene, "modes", "modes = { longest = \"60 s\" }");
+  const Path file = output_path(arguments, ".modes.h5");
+  hydro::io::require_writable(file);
+  const compile::Prepared prepared = compile::prepare(scene);
+  const dynamics::Model model = compile::frequency_model(prepared);
+  const ModeList all = dynamics::frequency::free_motions(model, prepared.groups);
+  const std::vector<Mode> shown = wanted(all, *scene.ask_modes);
+  if (shown.empty())
+    throw hydro::InputError(fmt::format("none of the {} free motions has a period from {} to {} s", all.modes.size(),
+                                        scene.ask_modes->shortest, scene.ask_modes->longest),
+                            {.file = scene.file.string()}, "ask for a wider range, or name what restores the bodies");
+  const auto notes = notes_of(all, shown, model, prepared.notes);
+  write_modes(file, table_of(shown, model), provenance_of(scene, notes));
+  if (arguments.csv) write_csv(*arguments.csv, shown, model);
+  if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, model, shown)));
+  tell(console, scene, model, shown, notes, file);
+}
+
+}  // namespace froude

@@ -1,0 +1,233 @@
+#include "dynamics/frequency/modes.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dynamics::frequency {
+namespace {
+
+using Complex = std::complex<double>;
+constexpr double slowest = 1e-6;  // rad/s: two months
+
+/// Matrices of the free motions.
+class FreeMotions {
+ public:
+  FreeMotions(const Model& model, const std::vector<PotentialGroup>& groups) : groups_(groups), size_(model.modes()) {
+    for (int m = 0; m < model.modes(); ++m)
+      if (model.is_free(m)) free_.push_back(m);
+    const Model::Linear linear = model.linear_at_rest();
+    stiffness_ = reduced(linear.stiffness);
+    damping_ = reduced(linear.damping);
+    mass_ = reduced(model.dry_mass_at_rest());
+    for (const int m : free_) gyration_.push_back(radius_of_gyration(model, m));
+    scale_ = mass_.diagonal().cwiseSqrt().cwiseInverse();
+  }
+
+  Eigen::Index count() const { return static_cast<Eigen::Index>(free_.size()); }
+  const Eigen::MatrixXd& stiffness() const { return stiffness_; }
+  /// A matrix in motions x/scale, in which all dry masses are one; and a motion back from there.
+  Eigen::MatrixXd scaled(const Eigen::MatrixXd& m) const { return scale_.asDiagonal() * m * scale_.asDiagonal(); }
+  Eigen::VectorXd unscaled(const Eigen::VectorXd& x) const { return scale_.cwiseProduct(x); }
+  /// The smallest eigenvalue of the scaled M + A(ω).
+  double lightest(double omega) const {
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled(mass(omega)), Eigen::EigenvaluesOnly)
+        .eigenvalues()
+        .minCoeff();
+  }
+
+  /// Frequencies at which any table has a row.
+  std::vector<double> frequencies() const {
+    std::vector<double> out;
+    for (const PotentialGroup& g : groups_)
+      if (g.radiation) out.insert(out.end(), g.table.coefficients().omega.begin(), g.table.coefficients().omega.end());
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+  }
+
+  bool inside_data(double omega) const {
+    return std::all_of(groups_.begin(), groups_.end(), [&](const PotentialGroup& g) {
+      return !g.radiation || (omega >= g.table.lowest() && omega <= g.table.highest());
+    });
+  }
+
+  /// M + A(ω); outside a table its nearest end.
+  Eigen::MatrixXd mass(double omega) const {
+    return mass_ + gathered([&](const auto& table) { return table.added_mass(clamped(omega, table)); });
+  }
+  /// D + B(ω), as mass().
+  Eigen::MatrixXd damping(double omega) const {
+    return damping_ + gathered([&](const auto& table) { return table.damping(clamped(omega, table)); });
+  }
+
+  /// Displacements of all motions, scaled as Mode::shape says. `x` is real up to a common factor.
+  template <class Vector>
+  Vector shape(const Vector& x) const {
+    Eigen::Index largest = 0;
+    Vector weighted = x;
+    for (Eigen::Index i = 0; i < x.size(); ++i) weighted[i] *= gyration_[static_cast<std::size_t>(i)];
+    weighted.cwiseAbs().maxCoeff(&largest);
+    Vector out = Vector::Zero(size_);
+    for (Eigen::Index i = 0; i < x.size(); ++i) out[free_[static_cast<std::size_t>(i)]] = x[i] / weighted[largest];
+    return out;
+  }
+
+ private:
+  static double clamped(double omega, const hydro::potential::FrequencyTable& table) {
+    return std::clamp(omega, table.lowest(), table.highest());
+  }
+
+  static double radius_of_gyration(const Model& model, int mode) {
+    const RigidBody& body = model.bodies()[static_cast<std::size_t>(mode / 6)];
+    return mode % 6 < 3 ? 1 : std::sqrt(body.inertia()(mode % 6 - 3, mode % 6 - 3) / body.mass());
+  }
+
+  /// Symmetric: K, M and A of a system at rest are, but for the discretisation error of panel codes.
+  Eigen::MatrixXd reduced(const Eigen::MatrixXd& whole) const {
+    const Eigen::MatrixXd m = whole(free_, free_);
+    return (m + m.transpose()) / 2;
+  }
+
+  template <class Of>
+  Eigen::MatrixXd gathered(Of of) const {
+    Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(size_, size_);
+    for (const PotentialGroup& g : groups_) {
+      if (!g.radiation) continue;
+      const Eigen::MatrixXd part = of(g.table);
+      for (std::size_t i = 0; i < g.bodies.size(); ++i)
+        for (std::size_t j = 0; j < g.bodies.size(); ++j)
+          whole.block<6, 6>(6 * g.bodies[i], 6 * g.bodies[j]) +=
+              part.block<6, 6>(6 * static_cast<Eigen::Index>(i), 6 * static_cast<Eigen::Index>(j));
+    }
+    return reduced(whole);
+  }
+
+  const std::vector<PotentialGroup>& groups_;
+  Eigen::Index size_;
+  std::vector<int> free_;
+  std::vector<double> gyration_;
+  Eigen::VectorXd scale_;
+  Eigen::MatrixXd stiffness_, damping_, mass_;
+};
+
+/// μ_1 ≤ … ≤ μ_n of K − ω²(M + A(ω)), in motions scaled so that each body's own mass is one, and its vectors.
+Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solve(const FreeMotions& system, double omega, int options) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
+      system.scaled(system.stiffness() - omega * omega * system.mass(omega)), options);
+}
+
+Eigen::VectorXd eigenvalues(const FreeMotions& system, double omega) {
+  return solve(system, omega, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+struct Bracket {
+  double omega, value;
+};
+
+/// The root of μ_k between two frequencies where it differs in sign (Q2): false position by Illinois' rule.
+double own_frequency(const FreeMotions& system, Eigen::Index k, Bracket low, Bracket high) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  for (int i = 0; i < 200 && high.omega - low.omega > 4 * epsilon * high.omega; ++i) {
+    const double omega = (low.omega * high.value - high.omega * low.value) / (high.value - low.value);
+    const Eigen::VectorXd mu = eigenvalues(system, omega);
+    if (std::abs(mu[k]) <= epsilon * mu.cwiseAbs().maxCoeff()) return omega;  // rounding of the eigenvalues
+    // The end that stays counts half, so that both ends move.
+    if ((mu[k] > 0) == (low.value > 0)) {
+      low = {omega, mu[k]};
+      high.value /= 2;
+    } else {
+      high = {omega, mu[k]};
+      low.value /= 2;
+    }
+  }
+  return (low.omega + high.omega) / 2;
+}
+
+/// Roots of x^T F(s) x = 0, F = s² m + s c + k of matrices (Q3); the one nearest to `near`.
+Complex rayleigh(const Eigen::VectorXcd& x, const Eigen::MatrixXd& m, const Eigen::MatrixXd& c,
+                 const Eigen::MatrixXd& k, Complex near) {
+  const auto form = [&](const Eigen::MatrixXd& a) { return (x.transpose() * a.cast<Complex>() * x).value(); };
+  const Complex a = form(m), b = form(c), root = std::sqrt(b * b - 4.0 * a * form(k));
+  const Complex one = (-b + root) / (2.0 * a), other = (-b - root) / (2.0 * a);
+  return std::abs(one - near) < std::abs(other - near) ? one : other;
+}
+
+/// Modal assurance criterion: 1 for equal shapes, 0 for shapes that have nothing in common.
+double likeness(const Eigen::VectorXcd& x, const Eigen::VectorXd& y) {
+  return std::norm(y.cast<Complex>().dot(x)) / (x.squaredNorm() * y.squaredNorm());
+}
+
+std::optional<DampedMode> damped(const FreeMotions& system, double omega, const Eigen::VectorXd& undamped) {
+  Complex s(0, omega);
+  Eigen::VectorXcd x = undamped.cast<Complex>();
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::MatrixXd m = system.mass(s.imag()), c = system.damping(s.imag());
+    const Complex next = rayleigh(x, m, c, system.stiffness(), s);
+    if (!(next.imag() > 1e-3 * omega)) return std::nullopt;
+    const bool settled = std::abs(next - s) < 1e-12 * std::abs(next);
+    s = next;
+    // One step of inverse iteration towards the shape; F is near singular on purpose, its rounding lies along x.
+    const Eigen::MatrixXcd F = s * s * m + s * c + system.stiffness();
+    const Eigen::VectorXcd y = F.partialPivLu().solve((2.0 * s * m + c) * x);
+    if (y.allFinite() && y.norm() > 0) x = y / y.norm();
+    if (!settled || i < 3) continue;
+    // The iteration may end at another motion. |s| = ω whatever the damping, but for A that changes with frequency; and
+    // three modes of nearly one frequency, mixed by their damping, are a third like each.
+    if (likeness(x, undamped) < 0.3 || std::abs(std::abs(s) - omega) > 0.1 * omega) return std::nullopt;
+    return DampedMode{s, system.shape(x)};
+  }
+  return std::nullopt;
+}
+
+Mode mode_at(const FreeMotions& system, Eigen::Index k, double omega) {
+  const Eigen::VectorXd x = system.unscaled(solve(system, omega, Eigen::ComputeEigenvectors).eigenvectors().col(k));
+  return {omega, system.shape(x), !system.inside_data(omega), damped(system, omega, x)};
+}
+
+/// Motions with no stiffness, or less than none.
+void add_unrestored(const FreeMotions& system, ModeList& out) {
+  const auto K = solve(system, 0, Eigen::ComputeEigenvectors);
+  const double none = 1e-9 * K.eigenvalues().cwiseAbs().maxCoeff();
+  for (Eigen::Index k = 0; k < system.count() && K.eigenvalues()[k] <= none; ++k)
+    (K.eigenvalues()[k] < -none ? out.toppling : out.adrift)
+        .push_back(system.shape(Eigen::VectorXd(system.unscaled(K.eigenvectors().col(k)))));
+}
+
+}  // namespace
+
+Eigen::VectorXd Mode::energy_share(const Model& model) const {
+  const Eigen::VectorXd share = shape.cwiseProduct(model.dry_mass_at_rest() * shape);
+  return share / share.sum();
+}
+
+ModeList free_motions(const Model& model, const std::vector<PotentialGroup>& groups) {
+  const FreeMotions system(model, groups);
+  ModeList out;
+  if (system.count() == 0) return out;
+  add_unrestored(system, out);
+  std::vector<double> nodes = system.frequencies();
+  for (const double omega : nodes)
+    if (Eigen::LLT<Eigen::MatrixXd>(system.mass(omega)).info() != Eigen::Success) out.indefinite_at.push_back(omega);
+  // Beyond either end of the tables the added mass no longer changes, so the roots there can be bounded.
+  const double lightest = system.lightest(nodes.empty() ? 1 : nodes.back());
+  const double stiffest = eigenvalues(system, 0).maxCoeff();
+  nodes.insert(nodes.begin(), slowest);
+  if (lightest > 0) nodes.push_back(2 * std::max(nodes.back(), std::sqrt(std::max(0.0, stiffest) / lightest)));
+  Eigen::VectorXd before = eigenvalues(system, nodes.front());
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    const Eigen::VectorXd here = eigenvalues(system, nodes[i]);
+    for (Eigen::Index k = 0; k < system.count(); ++k)
+      if ((before[k] > 0) != (here[k] > 0))
+        out.modes.push_back(
+            mode_at(system, k, own_frequency(system, k, {nodes[i - 1], before[k]}, {nodes[i], here[k]})));
+    before = here;
+  }
+  std::stable_sort(out.modes.begin(), out.modes.end(), [](const Mode& a, const Mode& b) { return a.omega < b.omega; });
+  return out;
+}
+
+}  // namespace dynamics::frequency
