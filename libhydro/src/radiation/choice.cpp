@@ -96,6 +96,7 @@ void weigh_convolutions(const DampingTable& damping, const std::vector<Eigen::Ma
   const double length =
       demand.length ? *demand.length : std::min(longest, memory_length(w.whole->table, demand.tolerance));
   w.kernel = RetardationKernel::from_damping(w.whole->table, {demand.step, std::max(length, 2 * demand.step)});
+  out.lags = w.kernel->samples();
   out.truncation = w.kernel->truncation();
   out.misfit = w.whole->misfit;
   out.shift = w.whole->shift;
