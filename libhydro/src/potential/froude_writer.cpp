@@ -1,63 +1,14 @@
 #include <limits>
-#include <numeric>
 
 #include "hydro/io/hdf5.hpp"
 #include "hydro/potential/writers.hpp"
+#include "netcdf_output.hpp"
 #include "readers.hpp"
 
 namespace hydro::potential {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-/// Writes datasets with their axes tied to dimensions, which is what makes the file netCDF-4.
-class Output {
- public:
-  explicit Output(io::Hdf5Writer& file) : file_(file) {}
-
-  void axis(const std::string& name, const std::vector<double>& values, const char* units, const char* long_name) {
-    file_.write(name, values, {values.size()});
-    file_.make_dimension(name);
-    describe(name, units, long_name);
-  }
-  /// Numbers 1 … n.
-  void axis(const std::string& name, std::size_t n, const char* long_name) {
-    std::vector<double> values(n);
-    std::iota(values.begin(), values.end(), 1.0);
-    axis(name, values, "1", long_name);
-  }
-  void table(const std::string& name, const std::vector<double>& values, const std::vector<std::string>& axes,
-             const std::vector<std::size_t>& shape, const char* units, const char* long_name) {
-    file_.write(name, values, shape);
-    tie(name, axes);
-    describe(name, units, long_name);
-  }
-  void texts(const std::string& name, const std::vector<std::string>& values, const std::string& axis) {
-    file_.write_texts(name, values);
-    tie(name, {axis});
-  }
-  void scalar(const std::string& name, double value, const char* units, const char* long_name) {
-    file_.write_scalar(name, value);
-    describe(name, units, long_name);
-  }
-
- private:
-  void tie(const std::string& name, const std::vector<std::string>& axes) {
-    for (std::size_t i = 0; i < axes.size(); ++i) file_.attach_dimension(name, i, axes[i]);
-  }
-  void describe(const std::string& name, const char* units, const char* long_name) {
-    file_.attribute(name, "units", units);
-    file_.attribute(name, "long_name", long_name);
-  }
-
-  io::Hdf5Writer& file_;
-};
-
-/// Row by row.
-void append(std::vector<double>& values, const Eigen::MatrixXd& m) {
-  for (Eigen::Index i = 0; i < m.rows(); ++i)
-    for (Eigen::Index j = 0; j < m.cols(); ++j) values.push_back(m(i, j));
-}
 
 constexpr const char* mass_units = "kg, kg m, kg m2";
 constexpr const char* damping_units = "kg/s, kg m/s, kg m2/s";
@@ -66,7 +17,7 @@ constexpr const char* load_units = "N/m, N";
 
 const std::vector<std::string> square{"/load_mode", "/motion_mode"};
 
-void write_axes(Output& out, const Coefficients& c) {
+void write_axes(NetcdfOutput& out, const Coefficients& c) {
   const std::size_t n = static_cast<std::size_t>(c.modes());
   out.axis("/omega", c.omega, "rad/s", "angular frequency");
   if (!c.heading.empty()) out.axis("/heading", c.heading, "rad", "where the wave goes, from +x towards +y");
@@ -76,7 +27,7 @@ void write_axes(Output& out, const Coefficients& c) {
   out.axis("/axis", 3, "x, y, z");
 }
 
-void write_matrices(Output& out, const Coefficients& c) {
+void write_matrices(NetcdfOutput& out, const Coefficients& c) {
   const std::size_t n = static_cast<std::size_t>(c.modes());
   std::vector<double> A, B;
   for (const auto& m : c.A) append(A, m);
@@ -97,7 +48,7 @@ void write_matrices(Output& out, const Coefficients& c) {
   matrix("/restoring", c.C, stiffness_units, "hydrostatic and gravitational restoring C");
 }
 
-void write_excitation(Output& out, const Coefficients& c) {
+void write_excitation(NetcdfOutput& out, const Coefficients& c) {
   if (c.X.empty()) return;
   std::vector<double> re, im;
   for (const auto& X : c.X) {
@@ -110,7 +61,7 @@ void write_excitation(Output& out, const Coefficients& c) {
   out.table("/excitation_im", im, axes, shape, load_units, "imaginary part of the excitation X per metre of amplitude");
 }
 
-void write_bodies(Output& out, const Coefficients& c) {
+void write_bodies(NetcdfOutput& out, const Coefficients& c) {
   const std::size_t n = c.body.size();
   std::vector<std::string> names;
   std::vector<double> volume;
@@ -136,7 +87,7 @@ void write_bodies(Output& out, const Coefficients& c) {
 std::vector<std::string> write_froude(const Coefficients& c, const std::filesystem::path& path) {
   c.validate();
   io::Hdf5Writer file;
-  Output out(file);
+  NetcdfOutput out(file);
   file.attribute("/", "format", froude_format);
   file.attribute("/", "format_version", 1.0);
   file.attribute(

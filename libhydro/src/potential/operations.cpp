@@ -7,18 +7,10 @@
 
 #include "hydro/base/interpolation.hpp"
 #include "hydro/waves/dispersion.hpp"
+#include "modes.hpp"
 
 namespace hydro::potential {
 namespace {
-
-/// Applies `change` to A, B and their limits.
-template <class Change>
-void for_each_matrix(Coefficients& c, Change change) {
-  for (auto& m : c.A) change(m);
-  for (auto& m : c.B) change(m);
-  if (c.A_zero) change(*c.A_zero);
-  if (c.A_inf) change(*c.A_inf);
-}
 
 /// Phase of a wave's way to (x, y): e^{−ik(x cos β + y sin β)}.
 std::complex<double> way(const Water& water, double omega, double heading, double x, double y) {
@@ -39,14 +31,14 @@ Coefficients select(const Coefficients& all, std::span<const int> which) {
     for (int m = 0; m < 6; ++m) modes.push_back(6 * b + m);
   }
   const auto cut = [&](Eigen::MatrixXd& m) { m = Eigen::MatrixXd(m(modes, modes)); };
-  for_each_matrix(out, cut);
+  for_each_radiation_matrix(out, cut);
   if (out.C) cut(*out.C);
   for (auto& X : out.X) X = Eigen::MatrixXcd(X(modes, Eigen::all));
   return out;
 }
 
 Coefficients without_interaction(Coefficients c) {
-  for_each_matrix(c, [&](Eigen::MatrixXd& m) {
+  for_each_radiation_matrix(c, [&](Eigen::MatrixXd& m) {
     for (int i = 0; i < c.bodies(); ++i)
       for (int j = 0; j < c.bodies(); ++j)
         if (i != j) m.block<6, 6>(6 * i, 6 * j).setZero();
@@ -65,7 +57,7 @@ Coefficients about(Coefficients c, std::span<const Eigen::Vector3d> from, std::s
     c.body[i].reference_point = to[i];
   }
   const auto move = [&](Eigen::MatrixXd& m) { m = T.transpose() * m * T; };
-  for_each_matrix(c, move);
+  for_each_radiation_matrix(c, move);
   if (c.C) move(*c.C);
   for (auto& X : c.X) X = T.transpose().cast<std::complex<double>>() * X;
   return c;
@@ -147,19 +139,18 @@ Eigen::VectorXcd FrequencyTable::excitation(double omega, double heading) const 
   return X;
 }
 
-FrequencyTable::Openness FrequencyTable::openness() const {
+/// `gap(i, value)` is a matrix of differences near frequency i, for i = 0 … Nω − 1, or an empty one.
+template <class Gap>
+FrequencyTable::Openness FrequencyTable::largest(Gap gap) const {
   const auto worst = [&](auto value) {
     double largest_gap = 0;
-    Eigen::VectorXd largest = value(0).cwiseAbs().rowwise().maxCoeff();
+    Eigen::VectorXd size = value(0).cwiseAbs().rowwise().maxCoeff();
     for (std::size_t i = 1; i < c_.omega.size(); ++i)
-      largest = largest.cwiseMax(Eigen::VectorXd(value(i).cwiseAbs().rowwise().maxCoeff()));
-    for (std::size_t i = 0; i + 1 < c_.omega.size(); ++i) {
-      const double middle = (c_.omega[i] + c_.omega[i + 1]) / 2;
-      const Eigen::MatrixXd gap = (combined(cubic_stencil(c_.omega, middle), c_.omega.size(), value) -
-                                   combined(straight_stencil(c_.omega, middle), c_.omega.size(), value))
-                                      .cwiseAbs();
-      for (Eigen::Index r = 0; r < gap.rows(); ++r)
-        if (largest[r] > 0) largest_gap = std::max(largest_gap, gap.row(r).maxCoeff() / largest[r]);
+      size = size.cwiseMax(Eigen::VectorXd(value(i).cwiseAbs().rowwise().maxCoeff()));
+    for (std::size_t i = 0; i < c_.omega.size(); ++i) {
+      const Eigen::MatrixXd difference = gap(i, value);
+      for (Eigen::Index r = 0; r < difference.rows(); ++r)
+        if (size[r] > 0) largest_gap = std::max(largest_gap, difference.row(r).maxCoeff() / size[r]);
     }
     return largest_gap;
   };
@@ -169,6 +160,59 @@ FrequencyTable::Openness FrequencyTable::openness() const {
   for (const auto& X : X_)
     out.excitation = std::max(
         out.excitation, worst([&](std::size_t i) { return Eigen::MatrixXcd(X.col(static_cast<Eigen::Index>(i))); }));
+  return out;
+}
+
+FrequencyTable::Openness FrequencyTable::openness() const {
+  return largest([&](std::size_t i, auto value) -> Eigen::MatrixXd {
+    if (i + 1 >= c_.omega.size()) return {};
+    const double middle = (c_.omega[i] + c_.omega[i + 1]) / 2;
+    return (combined(cubic_stencil(c_.omega, middle), c_.omega.size(), value) -
+            combined(straight_stencil(c_.omega, middle), c_.omega.size(), value))
+        .cwiseAbs();
+  });
+}
+
+FrequencyTable::Openness FrequencyTable::error_with_twice_the_spacing() const {
+  return largest([&](std::size_t i, auto value) -> Eigen::MatrixXd {
+    if (i == 0 || i + 1 >= c_.omega.size()) return {};
+    // Two neighbours on either side, as far as there are any, make the cubic where `i` is missing.
+    std::vector<std::size_t> neighbour;
+    for (std::size_t j = i >= 2 ? i - 2 : 0; j <= std::min(i + 2, c_.omega.size() - 1); ++j)
+      if (j != i) neighbour.push_back(j);
+    const std::vector<double> omega = [&] {
+      std::vector<double> at;
+      for (const std::size_t j : neighbour) at.push_back(c_.omega[j]);
+      return at;
+    }();
+    const auto without =
+        combined(cubic_stencil(omega, c_.omega[i]), omega.size(), [&](std::size_t j) { return value(neighbour[j]); });
+    return (without - value(i)).cwiseAbs();
+  });
+}
+
+Resampled resampled(const Coefficients& c, std::span<const double> omega) {
+  std::vector<Eigen::Vector3d> origin;
+  for (const BodyData& body : c.body) origin.push_back(body.reference_point.value_or(Eigen::Vector3d::Zero()));
+  const FrequencyTable table(c, origin);
+  Resampled out{c, table.error_with_twice_the_spacing()};
+  for (double* error : {&out.error.added_mass, &out.error.damping, &out.error.excitation}) *error /= 2;  // (P32)
+  Coefficients& r = out.coefficients;
+  r.omega.assign(omega.begin(), omega.end());
+  r.A.clear();
+  r.B.clear();
+  for (auto& X : r.X) X = Eigen::MatrixXcd(X.rows(), static_cast<Eigen::Index>(omega.size()));
+  for (std::size_t k = 0; k < omega.size(); ++k) {
+    r.A.push_back(table.added_mass(omega[k]));
+    r.B.push_back(table.damping(omega[k]));
+    for (std::size_t h = 0; h < r.X.size(); ++h)
+      r.X[h].col(static_cast<Eigen::Index>(k)) = table.excitation(omega[k], r.heading[h]);
+  }
+  r.notes.push_back(
+      fmt::format("interpolated to {} frequencies from {}; estimated error, relative to the largest of each mode: "
+                  "A {:.2g}, B {:.2g}, X {:.2g}",
+                  omega.size(), c.omega.size(), out.error.added_mass, out.error.damping, out.error.excitation));
+  r.validate();
   return out;
 }
 

@@ -53,7 +53,7 @@ Coefficients read_hdf5(const fs::path& path) {
   return read_capytaine(path);
 }
 
-enum class TextKind { wamit, nemoh, aqwa_ah1, aqwa_lis, hams };
+enum class TextKind { wamit, nemoh, aqwa_ah1, aqwa_lis, hams, veres, hdb };
 
 /// The first lines of a text file; a few kilobytes hold every mark by which formats are known.
 std::string head_of(const fs::path& path) {
@@ -77,16 +77,11 @@ TextKind kind_of_text(const fs::path& path) {
   if (first.starts_with("*") && has("AQWA")) return TextKind::aqwa_ah1;
   if (has("JOB AQWA")) return TextKind::aqwa_lis;
   if (has("Output_frequency_type")) return TextKind::hams;
+  if (first.find("VERES") != std::string::npos) return TextKind::veres;
+  if (has("[List_calculated_periods]")) return TextKind::hdb;
   if (first.starts_with("---") && first.find("Environment") != std::string::npos) return TextKind::nemoh;
   if (first.find("VARIABLES=") != std::string::npos || first.starts_with("...")) return TextKind::nemoh;
   return TextKind::wamit;
-}
-
-/// The control file of the HAMS run whose output is in the folder of `path`, if there is one.
-std::optional<fs::path> hams_run_around(const fs::path& path) {
-  const fs::path folder = fs::absolute(path).parent_path();
-  const fs::path control = folder.parent_path().parent_path() / "Input" / "ControlFile.in";
-  return folder.filename() == "Wamit_format" && fs::exists(control) ? std::optional(control) : std::nullopt;
 }
 
 Coefficients read_text_format(const fs::path& path, const ReadOptions& options, bool& is_wamit) {
@@ -97,6 +92,8 @@ Coefficients read_text_format(const fs::path& path, const ReadOptions& options, 
   if (kind == TextKind::aqwa_lis) return read_aqwa_lis(path);
   if (kind == TextKind::hams)
     return read_hams(fs::is_directory(path) ? path / "Input" / "ControlFile.in" : path, options);
+  if (kind == TextKind::veres) return read_veres(path, options);
+  if (kind == TextKind::hdb) return read_hdb(path, options);
   if (const auto control = hams_run_around(path)) return read_hams(*control, options);
   is_wamit = true;
   return read_wamit(path, options);
@@ -129,6 +126,12 @@ void note_differing_water(Coefficients& c, const ReadOptions& options) {
 }
 
 }  // namespace
+
+std::optional<fs::path> hams_run_around(const fs::path& path) {
+  const fs::path folder = fs::absolute(path).parent_path();
+  const fs::path control = folder.parent_path().parent_path() / "Input" / "ControlFile.in";
+  return folder.filename() == "Wamit_format" && fs::exists(control) ? std::optional(control) : std::nullopt;
+}
 
 Coefficients read(const fs::path& path, const ReadOptions& options) {
   const bool is_file = fs::exists(path) && !fs::is_directory(path);

@@ -17,6 +17,11 @@ Coefficients read_aqwa_ah1(const std::filesystem::path& path);
 Coefficients read_aqwa_lis(const std::filesystem::path& path);  ///< one structure
 Coefficients read_hams(const std::filesystem::path& control, const ReadOptions& options);
 Coefficients read_froude(const std::filesystem::path& path);
+Coefficients read_veres(const std::filesystem::path& path, const ReadOptions& options);  ///< .re7, and .re8 beside it
+Coefficients read_hdb(const std::filesystem::path& path, const ReadOptions& options);    ///< one structure
+
+/// The control file of the HAMS run whose output is in the folder of `path`, if there is one.
+std::optional<std::filesystem::path> hams_run_around(const std::filesystem::path& path);
 
 /// The text by which Froude's own files are known: root attribute `format`.
 inline constexpr const char* froude_format = "Froude coefficients";

@@ -70,15 +70,31 @@ struct WamitRun {
 /// Radiation, excitation and restoring of a set of numeric files, whoever wrote them.
 Coefficients read_numeric_files(const WamitFiles& files, const WamitRun& run);
 
+/// A sentence on rows whose modulus and phase are not those of the real and imaginary part behind them, which are what
+/// is used; `modulus` is its column.
+std::optional<std::string> note_on_phases(const WamitTable& table, std::size_t modulus);
+
 /// What a .out file says of water and bodies.
 struct WamitOut {
   double gravity, ulen;
+  std::optional<double> density = {};  ///< only some versions write it
   WaterDepth depth = WaterDepth::infinite();
   std::vector<BodyData> body;
   std::vector<std::string> notes;
 };
 /// \throws InputError with the line for a .out file without these statements, or with bodies turned about the vertical
 WamitOut read_wamit_out(const std::filesystem::path& path);
+
+/// What a file's numbers need to be known of the water.
+struct WamitNeeds {
+  bool density = true, gravity = true, depth = true;
+};
+
+/// What is known of the run of `file`: the caller's word and the .out file's, which is believed where they differ (then
+/// with a note). What is neither needed nor stated has the values of Water{}. \throws InputError for what is needed
+/// and not stated
+WamitRun run_of(const ReadOptions& options, const std::optional<WamitOut>& out, const WamitNeeds& needs,
+                const std::filesystem::path& file, std::vector<std::string>& notes);
 
 /// A sentence if long waves push the bodies the wrong way: then the phases are of e^{−iωt} (P21).
 std::optional<std::string> sign_of_other_time_factor(const Coefficients& coefficients);

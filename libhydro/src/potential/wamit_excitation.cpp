@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "readers.hpp"
 #include "wamit.hpp"
@@ -14,31 +15,17 @@ Eigen::Index index_of_per(const WamitTable& table, const WamitTable::Row& row, c
   const double wanted = row.value[0];
   for (std::size_t k = 0; k < per.size(); ++k)
     if (std::abs(per[k] - wanted) <= per_tolerance * wanted) return static_cast<Eigen::Index>(k);
+  const auto is_inverse = [&](double p) {
+    return std::abs(2 * std::numbers::pi / p - wanted) <= per_tolerance * wanted;
+  };
+  if (std::any_of(per.begin(), per.end(), is_inverse))
+    throw InputError(
+        fmt::format("PER = {} is 2π divided by one of the .1 file: one of the two files has periods in its "
+                    "first column and the other frequencies",
+                    wanted),
+        table.place(row, 0), "write both files with one IPEROUT");
   throw InputError(fmt::format("PER = {} is not among those of the .1 file", wanted), table.place(row, 0),
                    "the two files must come from one run");
-}
-
-/// A sentence on rows whose modulus and phase are not those of their real and imaginary parts, which are what is used.
-std::optional<std::string> note_on_phases(const WamitTable& table) {
-  int wrong = 0, first = 0;
-  double largest = 0;
-  for (const auto& row : table.rows()) largest = std::max(largest, std::abs(row.value[3]));
-  constexpr double round_off = 1e-9;  // loads that symmetry forbids are printed as noise with any phase
-  for (const auto& row : table.rows()) {
-    const double phase = Angle::from_degrees(row.value[4]).radians();
-    const std::complex<double> told = row.value[3] * std::complex<double>(std::cos(phase), std::sin(phase));
-    const std::complex<double> used(row.value[5], row.value[6]);
-    constexpr double printed = 1e-3;  // generous to files with few digits; a wrong sign or unit is far beyond it
-    if (std::abs(told - used) <= round_off * largest ||
-        std::abs(told - used) <= printed * (std::abs(told) + std::abs(used)))
-      continue;
-    if (wrong++ == 0) first = row.line;
-  }
-  if (wrong == 0) return std::nullopt;
-  return fmt::format(
-      "{}: in {} rows, the first in line {}, modulus and phase disagree with the real and imaginary parts, "
-      "which are used",
-      table.path().filename().string(), wrong, first);
 }
 
 /// Ascending headings of rows with a finite, positive PER.
@@ -69,6 +56,19 @@ void take_row(Coefficients& c, Lines& line, const WamitTable& table, const Wamit
       c.water.density * c.water.gravity * excitation_scale(i, ulen) * std::complex<double>(row.value[5], row.value[6]);
 }
 
+/// A body whose waves are in the .1 file meets waves too: without any row it was not in this run.
+void require_every_body(const Coefficients& c, const Lines& line, const WamitTable& table) {
+  for (Eigen::Index b = 0; b < c.bodies(); ++b) {
+    const bool radiates = !c.A.front().middleRows(6 * b, 6).isZero(0);
+    const bool is_there =
+        std::any_of(line.begin(), line.end(), [&](const auto& l) { return !l.middleRows(6 * b, 6).isZero(); });
+    if (radiates && !is_there)
+      throw InputError(
+          fmt::format("there is no row for any mode of body {}; the .1 file has {} bodies", b + 1, c.bodies()),
+          {.file = table.path().string()}, "the two files must come from one run");
+  }
+}
+
 /// A mode may be absent, being zero, but then at every frequency and heading.
 void require_complete(const Lines& line, const WamitTable& table, const std::vector<double>& per,
                       const std::vector<double>& degrees) {
@@ -86,6 +86,28 @@ void require_complete(const Lines& line, const WamitTable& table, const std::vec
 
 }  // namespace
 
+std::optional<std::string> note_on_phases(const WamitTable& table, std::size_t modulus) {
+  int wrong = 0, first = 0;
+  double largest = 0;
+  for (const auto& row : table.rows()) largest = std::max(largest, std::abs(row.value[modulus]));
+  constexpr double round_off = 1e-9;  // loads that symmetry forbids are printed as noise with any phase
+  for (const auto& row : table.rows()) {
+    const double phase = Angle::from_degrees(row.value[modulus + 1]).radians();
+    const std::complex<double> told = row.value[modulus] * std::complex<double>(std::cos(phase), std::sin(phase));
+    const std::complex<double> used(row.value[modulus + 2], row.value[modulus + 3]);
+    constexpr double printed = 1e-3;  // generous to files with few digits; a wrong sign or unit is far beyond it
+    if (std::abs(told - used) <= round_off * largest ||
+        std::abs(told - used) <= printed * (std::abs(told) + std::abs(used)))
+      continue;
+    if (wrong++ == 0) first = row.line;
+  }
+  if (wrong == 0) return std::nullopt;
+  return fmt::format(
+      "{}: in {} rows, the first in line {}, modulus and phase disagree with the real and imaginary parts, "
+      "which are used",
+      table.path().filename().string(), wrong, first);
+}
+
 void fill_excitation(Coefficients& c, const WamitTable& table, const std::vector<double>& per, double ulen) {
   const std::vector<double> degrees = headings_deg(table);
   for (const double beta : degrees) c.heading.push_back(Angle::from_degrees(beta).radians());
@@ -101,9 +123,12 @@ void fill_excitation(Coefficients& c, const WamitTable& table, const std::vector
     const auto at = std::lower_bound(degrees.begin(), degrees.end(), row.value[1]);
     take_row(c, line, table, row, static_cast<std::size_t>(at - degrees.begin()), index_of_per(table, row, per), ulen);
   }
-  if (!degrees.empty()) require_complete(line, table, per, degrees);
+  if (!degrees.empty()) {
+    require_every_body(c, line, table);
+    require_complete(line, table, per, degrees);
+  }
   if (left_out) c.notes.push_back("excitation at the limits of zero and infinite frequency is left out");
-  if (auto note = note_on_phases(table)) c.notes.push_back(*note);
+  if (auto note = note_on_phases(table, 3)) c.notes.push_back(*note);
 }
 
 }  // namespace hydro::potential

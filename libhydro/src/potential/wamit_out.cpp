@@ -70,6 +70,10 @@ WamitOut read_wamit_out(const std::filesystem::path& path) {
   if (!(out.gravity > 0 && out.ulen > 0)) text.refuse(gravity, "gravity and length scale must be positive");
   if (word_behind(text, depth, "Water depth:") != "infinite")
     out.depth = WaterDepth::from_metres(number_behind(text, depth, "Water depth:"));
+  if (text.contains(depth, "Water density:")) {
+    out.density = number_behind(text, depth, "Water density:");
+    if (!(*out.density > 0)) text.refuse(depth, "the density must be positive");
+  }
   for (int line = text.find("XBODY =", depth); line != 0; line = text.find("XBODY =", line + 1)) {
     out.body.push_back(read_body(text, line, out.ulen));
     out.body.back().name = fmt::format("body{}", out.body.size());

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "hydro/potential/responses.hpp"
 #include "readers.hpp"
 #include "wamit.hpp"
 
@@ -49,9 +50,12 @@ WamitFiles find_wamit_files(const fs::path& path) {
   if (is_member)
     throw InputError(fmt::format("\"{}\" has no \"{}\" beside it", path.string(), files.radiation.filename().string()),
                      {}, "added mass and damping are needed too: put the .1 file in the same folder");
+  if (response_kind(path) != ResponseKind::none)
+    throw InputError("the file holds motions or second-order loads, no coefficients", {.file = path.string()},
+                     "give the .1 file of its set; `froude bem info` tells what this file holds");
   throw InputError("not a file of coefficients that Froude knows", {.file = path.string()},
                    "give a Capytaine .nc, a BEMIO .h5, a Froude .h5, an AQWA .AH1, a Nemoh.cal, a HAMS ControlFile.in, "
-                   "or a WAMIT .1 file (or the stem of its set)");
+                   "a VERES .re7, a .hdb, or a WAMIT .1 file (or the stem of its set)");
 }
 
 namespace {
@@ -174,6 +178,10 @@ void fill_restoring(Coefficients& c, const WamitTable& table, double ulen) {
     line(i, j) = row.line;
     C(i, j) = row.value[2] * c.water.density * c.water.gravity * restoring_scale(i, j, ulen);
   }
+  for (Eigen::Index b = 0; b < c.bodies(); ++b)
+    if (line.middleRows(6 * b, 6).isZero() && !c.A.front().middleRows(6 * b, 6).isZero(0))
+      throw InputError(fmt::format("there is no row of body {}; the .1 file has {} bodies", b + 1, c.bodies()),
+                       {.file = table.path().string()}, "the files must come from one run");
   c.C = C;
 }
 

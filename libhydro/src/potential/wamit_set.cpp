@@ -14,25 +14,18 @@ bool differ(double a, double b) {  // either may be an infinite depth
 }
 
 /// The caller's word, or what the .out file states; a contradiction is noted, and the file is believed.
-double stated(const char* what, std::optional<double> asked, std::optional<double> found,
+double stated(const char* what, std::optional<double> asked, std::optional<double> found, double otherwise,
               std::vector<std::string>& notes) {
-  if (!found) return *asked;
+  if (!found) return asked.value_or(otherwise);
   if (asked && differ(*asked, *found))
     notes.push_back(
         fmt::format("{} {} was asked for, but the .out file states {}, which is used", what, *asked, *found));
   return *found;
 }
 
-void require_stated(const ReadOptions& options, bool has_out, const fs::path& file) {
-  std::vector<std::string> missing;
-  if (!options.density) missing.push_back("density");
-  if (!options.gravity && !has_out) missing.push_back("gravity");
-  if (!options.depth && !has_out) missing.push_back("water depth");
-  if (!missing.empty())
-    throw InputError(
-        fmt::format("WAMIT's numeric files do not hold the {}", fmt::join(missing, ", ")), {.file = file.string()},
-        "state density, gravity and depth: in the [water] table of a scene, or as options of `froude bem`");
-  require(*options.density > 0, "density must be positive, got {} kg/m³", *options.density);
+void require_sound(const ReadOptions& options) {
+  require(!options.density || *options.density > 0, "density must be positive, got {} kg/m³",
+          options.density.value_or(0));
   require(!options.gravity || *options.gravity > 0, "gravity must be positive, got {} m/s²",
           options.gravity.value_or(0));
   require(std::isfinite(options.ulen) && options.ulen > 0, "ULEN must be positive, got {} m", options.ulen);
@@ -41,21 +34,16 @@ void require_stated(const ReadOptions& options, bool has_out, const fs::path& fi
             "IPEROUT must be 1 (period), 2 (frequency), 3 (KL) or 4 (νL), got {}", *options.iperout);
 }
 
-WamitRun run_of(const ReadOptions& options, const std::optional<WamitOut>& out, const fs::path& file,
-                std::vector<std::string>& notes) {
-  require_stated(options, out.has_value(), file);
-  const auto found = [&](auto value) { return out ? std::optional<double>(value(*out)) : std::nullopt; };
-  const auto depth = options.depth ? std::optional(options.depth->metres()) : std::nullopt;
-  const double h = stated("depth", depth, found([](const WamitOut& o) { return o.depth.metres(); }), notes);
-  WamitRun run;
-  run.water = {*options.density,
-               stated("gravity", options.gravity, found([](const WamitOut& o) { return o.gravity; }), notes),
-               std::isinf(h) ? WaterDepth::infinite() : WaterDepth::from_metres(h)};
-  run.column = static_cast<FirstColumn>(options.iperout.value_or(1));
-  const bool is_silent = out && options.ulen == 1;  // the default is no statement against the file's
-  run.ulen = stated("ULEN", is_silent ? std::nullopt : std::optional(options.ulen),
-                    found([](const WamitOut& o) { return o.ulen; }), notes);
-  return run;
+void require_stated(const ReadOptions& options, const std::optional<WamitOut>& out, const WamitNeeds& needs,
+                    const fs::path& file) {
+  std::vector<std::string> missing;
+  if (needs.density && !options.density && !(out && out->density)) missing.push_back("density");
+  if (needs.gravity && !options.gravity && !out) missing.push_back("gravity");
+  if (needs.depth && !options.depth && !out) missing.push_back("water depth");
+  if (!missing.empty())
+    throw InputError(
+        fmt::format("WAMIT's numeric files do not hold the {}", fmt::join(missing, ", ")), {.file = file.string()},
+        "state density, gravity and depth: in the [water] table of a scene, or as options of `froude bem`");
 }
 
 /// A doubtful IPEROUT that nobody stated is an error; one that was stated is the caller's word against the file's.
@@ -85,24 +73,45 @@ void take_bodies(Coefficients& c, const std::optional<WamitOut>& out, const fs::
   c.source += ", .out";
 }
 
-/// Results that Coefficients has no place for.
+/// Results that have tables of their own (responses.hpp).
 void note_other_files(Coefficients& c, const WamitFiles& files) {
   std::vector<std::string> others;
   for (const char* extension : {".4", ".7", ".8", ".9", ".10d", ".10s", ".11d", ".11s", ".12d", ".12s"})
     if (fs::exists(files.member(extension))) others.emplace_back(extension);
   if (!others.empty())
-    c.notes.push_back(
-        fmt::format("{}: response amplitudes and second-order loads are not read", fmt::join(others, ", ")));
+    c.notes.push_back(fmt::format("{}: motions and second-order loads are no coefficients; read them by themselves",
+                                  fmt::join(others, ", ")));
 }
 
 }  // namespace
+
+WamitRun run_of(const ReadOptions& options, const std::optional<WamitOut>& out, const WamitNeeds& needs,
+                const fs::path& file, std::vector<std::string>& notes) {
+  require_sound(options);
+  require_stated(options, out, needs, file);
+  const auto found = [&](auto value) { return out ? std::optional<double>(value(*out)) : std::nullopt; };
+  const auto depth = options.depth ? std::optional(options.depth->metres()) : std::nullopt;
+  const Water usual;
+  const double h =
+      stated("depth", depth, found([](const WamitOut& o) { return o.depth.metres(); }), usual.depth.metres(), notes);
+  WamitRun run;
+  run.water = {
+      stated("density", options.density, out ? out->density : std::nullopt, usual.density, notes),
+      stated("gravity", options.gravity, found([](const WamitOut& o) { return o.gravity; }), usual.gravity, notes),
+      std::isinf(h) ? WaterDepth::infinite() : WaterDepth::from_metres(h)};
+  run.column = static_cast<FirstColumn>(options.iperout.value_or(1));
+  const bool is_silent = out && options.ulen == 1;  // the default is no statement against the file's
+  run.ulen = stated("ULEN", is_silent ? std::nullopt : std::optional(options.ulen),
+                    found([](const WamitOut& o) { return o.ulen; }), 1, notes);
+  return run;
+}
 
 Coefficients read_wamit(const fs::path& path, const ReadOptions& options) {
   const WamitFiles files = find_wamit_files(path);
   std::optional<WamitOut> out;
   if (fs::exists(files.member(".out"))) out = read_wamit_out(files.member(".out"));
   std::vector<std::string> notes;
-  Coefficients c = read_numeric_files(files, run_of(options, out, files.radiation, notes));
+  Coefficients c = read_numeric_files(files, run_of(options, out, {}, files.radiation, notes));
   c.source = "WAMIT numeric files " + c.source;
   c.notes.insert(c.notes.end(), notes.begin(), notes.end());
   examine_iperout(c, options, files.radiation);

@@ -14,8 +14,10 @@ using hydro::potential::Severity;
 using ::testing::HasSubstr;
 
 /// Two bodies with symmetric A and positive B, about which nothing is to be said. Rotations are 100 times as large.
+/// Loads and restoring are left out: those of a formula are no hull's.
 Coefficients sound() {
-  auto c = froude_test::SmoothBody{.bodies = 2}.coefficients({}, {0.5, 1.0, 2.0}, {0.0});
+  auto c = froude_test::SmoothBody{.bodies = 2}.coefficients({}, {0.5, 1.0, 2.0}, {});
+  c.C.reset();
   Eigen::MatrixXd S = Eigen::MatrixXd::Constant(12, 12, 0.1) + Eigen::MatrixXd::Identity(12, 12);
   const Eigen::VectorXd size = (Eigen::VectorXd(12) << 1, 2, 3, 100, 200, 300, 1, 2, 3, 100, 200, 300).finished();
   S = (size.asDiagonal() * S * size.asDiagonal()).eval();
@@ -36,7 +38,7 @@ Finding found(const Coefficients& c, const std::string& name) {
 
 TEST(Check, RecordsANoteOfEachCheckWhereAllIsWell) {
   const auto findings = check(sound());
-  ASSERT_EQ(findings.size(), 6u);
+  ASSERT_EQ(findings.size(), hydro::potential::check_names().size());
   for (const Finding& f : findings) EXPECT_EQ(f.severity, Severity::note) << f.check << ": " << f.message;
 }
 
@@ -56,8 +58,10 @@ TEST(Check, MeasuresAsymmetryByTheTwoModesItCouples) {
 
 TEST(Check, DoesNotDependOnUnits) {
   auto c = sound();
-  c.A[0](1, 4) *= 1.2;
-  c.B[0](2, 9) *= 1.5;
+  for (auto* M : {&c.A[0], &c.B[0]}) {  // within a body and between two
+    (*M)(1, 4) *= 1.2;
+    (*M)(2, 9) *= 1.5;
+  }
   c.B[2](8, 8) *= -1;
   const auto before = check(c);
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(12);

@@ -154,6 +154,24 @@ TEST(WamitOut, GivesGravityDepthAndPointsThatTheNumericFilesLack) {
   EXPECT_THAT(deep.notes, Contains(HasSubstr("depth 12 was asked for")));
 }
 
+TEST(WamitOut, GivesDensityWhereItStatesIt) {
+  TemporaryFolder folder;
+  WamitText text;
+  const auto path = text.write(folder);
+  const auto out = [](const char* density) {
+    return fmt::format(
+        " Gravity:     9.80000                Length scale:        1.00000\n Water depth:        12.00000    {}\n"
+        " XBODY =  0 YBODY = 0 ZBODY = 0 PHIBODY = 0\n Volumes (VOLX,VOLY,VOLZ):  1 1 1\n"
+        " Center of Buoyancy (Xb,Yb,Zb): 0 0 -1\n Center of Gravity  (Xg,Yg,Zg): 0 0 -1\n",
+        density);
+  };
+  folder.write("x.out", out(" Water density:      1025.00000"));
+  EXPECT_EQ(read(path, {.iperout = 1}).water.density, 1025);
+  EXPECT_THAT(read(path, {.density = 1000, .iperout = 1}).notes, Contains(HasSubstr("density 1000 was asked for")));
+  folder.write("x.out", out(""));
+  EXPECT_THAT([&] { read(path, {.iperout = 1}); }, ThrowsMessage<InputError>(HasSubstr("do not hold the density")));
+}
+
 TEST(WamitOut, GivesUlen) {
   TemporaryFolder folder;
   const WamitText text{.ulen = 2.5};
@@ -195,7 +213,7 @@ TEST(WamitExcitation, IsTakenFromHaskindOrFromItsPartsWhereThereIsNoDiffraction)
                                    std::vector<Eigen::MatrixXcd>{2 * text.expected().X[0], 2 * text.expected().X[1]}),
             digits);
   folder.write("x.4", "");
-  EXPECT_THAT(read(path, text.options()).notes, Contains(HasSubstr(".4: response amplitudes")));
+  EXPECT_THAT(read(path, text.options()).notes, Contains(HasSubstr(".4: motions")));
 }
 
 TEST(WamitExcitation, OfTheEllipsoidIsTheSumOfItsParts) {

@@ -174,6 +174,52 @@ TEST(BemioWriter, WritesNanForWhatItDoesNotKnowAndSaysSo) {
   EXPECT_TRUE(std::isnan(hydro::io::Hdf5Reader(folder / "c.h5").numbers("/body1/properties/cg").values[0]));
 }
 
+// Capytaine's layout is dimensional: every bit passes, but for volumes nobody computes anything.
+TEST(CapytaineWriter, LosesNothingThatItDoesNotTell) {
+  TemporaryFolder folder;
+  for (std::uint64_t seed = 1; seed <= trials; ++seed) {
+    const Coefficients c = random_coefficients(seed);
+    const auto told = write_capytaine(c, folder / "c.nc");
+    const Coefficients r = read(folder / "c.nc");
+    EXPECT_EQ(r.omega, c.omega);
+    EXPECT_EQ(r.heading, c.heading);
+    EXPECT_EQ(r.water.density, c.water.density);
+    EXPECT_EQ(r.water.gravity, c.water.gravity);
+    EXPECT_EQ(r.water.depth.metres(), c.water.depth.metres());
+    expect_same_bits(r.A, c.A, "A");
+    expect_same_bits(r.B, c.B, "B");
+    EXPECT_EQ(r.X, c.X);
+    expect_same_bits(listed(r.A_zero), listed(c.A_zero), "A_zero");
+    expect_same_bits(listed(r.A_inf), listed(c.A_inf), "A_inf");
+    expect_same_bits(listed(r.C), listed(c.C), "C");
+    ASSERT_EQ(r.body.size(), c.body.size());
+    for (std::size_t b = 0; b < c.body.size(); ++b) expect_same_body(r.body[b], c.body[b]);
+    EXPECT_EQ(!c.notes.empty(), testing::Value(told, Contains(HasSubstr("notes"))));
+  }
+}
+
+TEST(CapytaineWriter, GivesBodiesNamesThatTellThemApart) {
+  TemporaryFolder folder;
+  auto c = froude_test::SmoothBody{.bodies = 3}.coefficients({}, {0.5}, {0.0});
+  c.body[0].name = c.body[1].name = "buoy";
+  const auto told = write_capytaine(c, folder / "c.nc");
+  EXPECT_THAT(told, ElementsAre(HasSubstr("body 2"), HasSubstr("body 3")));
+  const Coefficients r = read(folder / "c.nc");
+  EXPECT_EQ(r.body[0].name, "buoy");
+  EXPECT_EQ(r.body[1].name, "buoy_2");
+  EXPECT_EQ(r.body[2].name, "body3");
+  expect_same_bits(r.A, c.A, "A");
+}
+
+TEST(CapytaineWriter, TiesVariablesToNamedAxes) {
+  TemporaryFolder folder;
+  write_capytaine(froude_test::SmoothBody{.bodies = 2}.coefficients({}, {0.5, 1.0, 2.0}, {0.0, 1.0}), folder / "c.nc");
+  const hydro::io::NetcdfReader file(folder / "c.nc");
+  EXPECT_THAT(file.axes("added_mass"), ElementsAre("omega", "influenced_dof", "radiating_dof"));
+  EXPECT_THAT(file.axes("excitation_force"), ElementsAre("complex", "omega", "wave_direction", "influenced_dof"));
+  EXPECT_THAT(file.axes("influenced_dof"), ElementsAre("influenced_dof"));
+}
+
 TEST(WamitWriter, KeepsAllItsDigitsAtAnyUlen) {
   TemporaryFolder folder;
   for (std::uint64_t seed = 1; seed <= trials; ++seed) {

@@ -59,12 +59,12 @@ Matrix6 rigid_shift(const Eigen::Vector3d& r);
 
 /// What WAMIT-style files leave unsaid.
 struct ReadOptions {
-  std::optional<double> density;    ///< ρ; needed for the files of WAMIT and HAMS
-  std::optional<double> gravity;    ///< g; needed for the numeric files of WAMIT without a .out file, and for HAMS
-  std::optional<WaterDepth> depth;  ///< needed for the numeric files of WAMIT without a .out file
-  double ulen = 1.0;                ///< WAMIT's ULEN, m; refused for other formats unless 1
-  std::optional<int> iperout;  ///< WAMIT's IPEROUT 1…4; empty: 1 (periods), unless a file contradicts it; refused
-                               ///< for other formats
+  std::optional<double> density = {};  ///< ρ; needed for HAMS, HDB, and WAMIT unless its .out file states it
+  std::optional<double> gravity = {};  ///< g; needed for HAMS, HDB, and the numeric files of WAMIT without a .out file
+  std::optional<WaterDepth> depth = {};  ///< needed for VERES, HDB, and the numeric files of WAMIT without a .out file
+  double ulen = 1.0;                     ///< WAMIT's ULEN, m; refused for other formats unless 1
+  std::optional<int> iperout = {};  ///< WAMIT's IPEROUT 1…4; empty: 1 (periods), unless a file contradicts it; refused
+                                    ///< for other formats
 };
 
 /// Reads any supported file and says in `source` what it was taken for. Formats are told apart by content, not by name:
@@ -72,6 +72,8 @@ struct ReadOptions {
 ///   NEMOH      the folder, its Nemoh.cal or a file of its results; versions 2 and 3
 ///   AQWA       the .AH1 file, or the .LIS file of one structure
 ///   HAMS       its ControlFile.in, or the folder that holds Input and Output
+///   VERES      the .re7 file of ShipX, with the .re8 file beside it
+///   HDB        the .hdb file of Diodore, one structure
 ///   Capytaine  netCDF, classic or HDF5
 ///   BEMIO, Froude  .h5
 /// \throws InputError with file, line and remedy

@@ -43,11 +43,29 @@ class FrequencyTable {
     double added_mass, damping, excitation;
   };
   Openness openness() const;
+  /// What interpolation misses at the frequencies of the table but its ends, each left out in turn, relative to the
+  /// largest entry of the same mode: the error with twice the spacing (P32). Zero for fewer than three frequencies.
+  Openness error_with_twice_the_spacing() const;
 
  private:
+  template <class Gap>
+  Openness largest(Gap gap) const;
+
   Coefficients c_;
   std::vector<Eigen::Vector3d> origin_;
   std::vector<Eigen::MatrixXcd> X_;  // per heading (6N, Nω), phase of the way taken out
 };
+
+/// Coefficients at other frequencies, and how far interpolation may be off.
+struct Resampled {
+  Coefficients coefficients;
+  FrequencyTable::Openness error;  ///< estimate, relative as in FrequencyTable::openness()
+};
+
+/// A, B and X at `omega` by FrequencyTable; limits and C stay. The phases of the waves' way are taken to the reference
+/// points, or to the origin where they are unknown. The error is half of that with twice the spacing, anywhere in
+/// the table (P32): an estimate, on the safe side where the coefficients are smooth from one frequency to the next, and
+/// worth nothing where they are not. \throws InputError unless `omega` increases within the table
+Resampled resampled(const Coefficients& c, std::span<const double> omega);
 
 }  // namespace hydro::potential

@@ -1,0 +1,29 @@
+#pragma once
+/// \file  Private: what operations on whole sets of matrices share.
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "hydro/potential/coefficients.hpp"
+
+namespace hydro::potential {
+
+/// Applies `change` to A, B and their limits.
+template <class Change>
+void for_each_radiation_matrix(Coefficients& c, Change change) {
+  for (auto& m : c.A) change(m);
+  for (auto& m : c.B) change(m);
+  if (c.A_zero) change(*c.A_zero);
+  if (c.A_inf) change(*c.A_inf);
+}
+
+/// s of (P11): the largest diagonal entry of each mode, at least 1 % of the largest of its kind.
+Eigen::VectorXd mode_sizes(const std::vector<Eigen::MatrixXd>& matrices);
+
+/// Largest |D_ij| / sqrt(s_i s_j) (P11); 0 where nothing has a size.
+double relative_size(const Eigen::MatrixXd& difference, const Eigen::VectorXd& size);
+
+/// The matrix of six numbers for each body, the same for all, on the diagonal: size (6N, 6N).
+Eigen::MatrixXd for_every_body(const Matrix6& one, int bodies);
+
+}  // namespace hydro::potential
