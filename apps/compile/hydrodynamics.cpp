@@ -5,6 +5,7 @@
 #include <map>
 
 #include "compile/cylinders.hpp"
+#include "hydro/potential/check.hpp"
 #include "hydro/potential/operations.hpp"
 
 namespace froude::compile {
@@ -107,6 +108,50 @@ std::vector<Use> uses(const Scene& scene) {
   }
   for (Use& use : out) assign(scene, use);
   return out;
+}
+
+/// What the scene does not name is not judged.
+Coefficients used(const Scene& scene, const Use& use) {
+  Coefficients c = use.data;
+  const Hydrodynamics& h = hydrodynamics(scene, use.bodies.front());
+  if (!h.excitation) {
+    c.X.clear();
+    c.heading.clear();
+  }
+  if (!h.hydrostatics) c.C.reset();
+  return c;
+}
+
+/// Lets the doctor look at a file: an error stops the scene unless it is accepted, and what is accepted is recorded.
+void examine(const Scene& scene, const Use& use, std::vector<std::string>& notes) {
+  const Hydrodynamics& h = hydrodynamics(scene, use.bodies.front());
+  if (h.cylinders) return;  // computed here, with a self-check of their own
+  std::vector<std::string> accepted;
+  for (const int b : use.bodies)
+    for (const auto& name : hydrodynamics(scene, b).accept)
+      if (std::find(accepted.begin(), accepted.end(), name) == accepted.end()) accepted.push_back(name);
+  const auto findings = hydro::potential::check(used(scene, use));
+  const std::string file = h.file.value.filename().string();
+  if (const auto refused = hydro::potential::refused(findings, accepted); !refused.empty()) {
+    std::vector<std::string> names;
+    for (const auto& f : refused)
+      if (names.empty() || names.back() != f.check) names.push_back(f.check);
+    throw InputError(fmt::format("\"{}\": {}: {} (at {})", file, refused.front().check, refused.front().message,
+                                 refused.front().where),
+                     h.file.place,
+                     fmt::format("{}; or take the data as they are: accept = [\"{}\"]", refused.front().remedy,
+                                 fmt::join(names, "\", \"")));
+  }
+  std::size_t warnings = 0;
+  for (const auto& f : findings) {
+    const bool is_accepted = std::find(accepted.begin(), accepted.end(), f.check) != accepted.end();
+    if (f.severity == hydro::potential::Severity::error && is_accepted)
+      notes.push_back(fmt::format("{}: accepted, {}: {} (at {})", file, f.check, f.message, f.where));
+    if (f.severity == hydro::potential::Severity::warning) ++warnings;
+  }
+  if (warnings > 0)
+    notes.push_back(fmt::format("{}: the doctor warns of {} thing{}: `froude bem check` tells", file, warnings,
+                                warnings == 1 ? "" : "s"));
 }
 
 /// Bodies that radiate onto each other: all of a use, or each by itself if the file has one body or the scene wants no
@@ -230,6 +275,7 @@ void add_hydrostatics(const Scene& scene, const Coefficients& about_centres, con
 
 void add_hydrodynamics(const Scene& scene, Prepared& prepared) {
   for (const Use& use : uses(scene)) {
+    examine(scene, use, prepared.notes);
     for (const auto& note : use.data.notes) prepared.notes.push_back(note);
     for (const auto& set : interacting(scene, use)) {
       std::vector<int> bodies, of_file;

@@ -5,19 +5,17 @@
 #include <ostream>
 
 #include "compile/cylinders.hpp"
+#include "froude/bem_responses.hpp"
+#include "froude/coefficient_files.hpp"
 #include "froude/commands.hpp"
 #include "froude/progress.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/potential/check.hpp"
-#include "hydro/potential/writers.hpp"
 
 namespace froude {
 namespace {
 
 using hydro::potential::BodyData;
 using hydro::potential::Coefficients;
-using hydro::potential::Finding;
-using hydro::potential::Severity;
 using nlohmann::json;
 
 /// The two numbers by which a person recognises a floating body.
@@ -129,68 +127,6 @@ std::string text_info(const Path& file, const Coefficients& c) {
   return out;
 }
 
-json json_finding(const Finding& f) {
-  return {{"severity", to_string(f.severity)},
-          {"check", f.check},
-          {"where", f.where},
-          {"message", f.message},
-          {"remedy", f.remedy}};
-}
-
-std::string text_finding(const Finding& f) {
-  std::string out = fmt::format("  {:<8} {:<18} {}\n", to_string(f.severity), f.check, f.message);
-  const std::string indent(30, ' ');
-  out += fmt::format("{}at {}\n", indent, f.where);
-  if (!f.remedy.empty()) out += fmt::format("{}{}\n", indent, f.remedy);
-  return out;
-}
-
-std::string summary(const std::vector<Finding>& findings) {
-  const auto count = [&](Severity s) {
-    return std::count_if(findings.begin(), findings.end(), [&](const Finding& f) { return f.severity == s; });
-  };
-  return fmt::format("  {} errors, {} warnings, {} notes\n", count(Severity::error), count(Severity::warning),
-                     count(Severity::note));
-}
-
-enum class Format { froude, bemio, wamit };
-
-bool ends_with(const std::string& text, std::string_view end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-Format format_of(const Path& output, const std::string& format) {
-  const std::vector<std::string> known{"froude", "bemio", "wamit"};
-  if (!format.empty()) {
-    const auto at = std::find(known.begin(), known.end(), format);
-    if (at == known.end())
-      throw hydro::InputError(fmt::format("there is no format \"{}\"", format), {},
-                              fmt::format("the formats are {}", fmt::join(known, ", ")));
-    return static_cast<Format>(at - known.begin());
-  }
-  const std::string name = output.filename().string();
-  if (ends_with(name, ".bemio.h5")) return Format::bemio;
-  if (ends_with(name, ".h5") || ends_with(name, ".nc")) return Format::froude;
-  if (ends_with(name, ".1")) return Format::wamit;
-  throw hydro::InputError(fmt::format("the name \"{}\" does not tell a format", name), {},
-                          "end it with .h5 (Froude), .bemio.h5 (BEMIO) or .1 (WAMIT set), or state --format");
-}
-
-struct Written {
-  std::vector<std::string> files, left_out;
-};
-
-Written write_as(Format format, const Coefficients& c, const Path& output) {
-  if (format == Format::froude) return {{output.string()}, hydro::potential::write_froude(c, output)};
-  if (format == Format::bemio) return {{output.string()}, hydro::potential::write_bemio(c, output)};
-  std::string stem = output.string();
-  if (ends_with(stem, ".1")) stem.resize(stem.size() - 2);
-  Written w{{stem + ".1"}, hydro::potential::write_wamit(c, stem)};
-  if (!c.X.empty()) w.files.push_back(stem + ".3");
-  if (c.C) w.files.push_back(stem + ".hst");
-  return w;
-}
-
 void require_a_file(const BemArguments& arguments) {
   hydro::require(!arguments.files.empty(), "no file is given; give at least one file of coefficients");
 }
@@ -201,6 +137,14 @@ void bem_info(const BemArguments& arguments, const Console& console) {
   require_a_file(arguments);
   json files = json::array();
   for (const Path& file : arguments.files) {
+    if (hydro::potential::response_kind(file) != hydro::potential::ResponseKind::none) {
+      if (console.json) {
+        files.push_back(response_info(file, arguments.options));
+      } else {
+        console.out << response_text(file, arguments.options);
+      }
+      continue;
+    }
     const Coefficients c = hydro::potential::read(file, arguments.options);
     if (console.json) {
       files.push_back(json_info(file, c));
@@ -211,49 +155,8 @@ void bem_info(const BemArguments& arguments, const Console& console) {
   if (console.json) console.out << json{{"files", files}}.dump(2) << '\n';
 }
 
-int bem_check(const BemArguments& arguments, const Console& console) {
-  require_a_file(arguments);
-  json files = json::array();
-  int status = 0;
-  for (const Path& file : arguments.files) {
-    const std::vector<Finding> findings = hydro::potential::check(hydro::potential::read(file, arguments.options));
-    for (const Finding& f : findings)
-      if (f.severity == Severity::error) status = 1;
-    if (console.json) {
-      json list = json::array();
-      for (const Finding& f : findings) list.push_back(json_finding(f));
-      files.push_back({{"file", file.string()}, {"findings", list}});
-    } else {
-      console.out << file.string() << '\n';
-      for (const Finding& f : findings) console.out << text_finding(f);
-      console.out << summary(findings);
-    }
-  }
-  if (console.json) console.out << json{{"files", files}, {"status", status}}.dump(2) << '\n';
-  return status;
-}
-
-void bem_convert(const BemArguments& arguments, const Path& output, const std::string& format, const Console& console) {
-  require_a_file(arguments);
-  hydro::require(arguments.files.size() == 1, "one file can be converted at a time; {} are given",
-                 arguments.files.size());
-  const Format target = format_of(output, format);
-  const Coefficients c = hydro::potential::read(arguments.files.front(), arguments.options);
-  const Written written = write_as(target, c, output);
-  if (console.json) {
-    console.out << json{{"input", arguments.files.front().string()},
-                        {"files", written.files},
-                        {"left_out", written.left_out}}
-                       .dump(2)
-                << '\n';
-    return;
-  }
-  console.out << fmt::format("wrote {}\n", fmt::join(written.files, ", "));
-  for (const std::string& sentence : written.left_out) console.out << "  left out or changed: " << sentence << '\n';
-}
-
 void bem_solve(const Path& file, const Path& output, const std::string& format, const Console& console) {
-  const Format target = format_of(output, format);
+  const CoefficientFormat target = format_of(output, format);
   const scene::Scene scene = scene::read(file);
   const std::vector<int> bodies = compile::bodies_of_cylinders(scene);
   if (bodies.empty())
@@ -262,7 +165,7 @@ void bem_solve(const Path& file, const Path& output, const std::string& format, 
   Progress progress(console.err, "solve", console.show_progress);
   const auto solution = compile::solve_cylinders(
       scene, bodies, [&](int done, int all) { progress.update(static_cast<double>(done) / all); });
-  const Written written = write_as(target, solution.coefficients, output);
+  const WrittenCoefficients written = write_as(target, solution.coefficients, output);
   const auto& check = solution.check;
   if (console.json) {
     console.out << json{{"input", file.string()},

@@ -9,6 +9,7 @@
 
 #include "hydro/hydrostatics/mesh.hpp"
 #include "hydro/potential/coefficients.hpp"
+#include "hydro/potential/heal.hpp"
 
 namespace froude {
 
@@ -27,10 +28,34 @@ struct BemArguments {
   hydro::potential::ReadOptions options;
 };
 void bem_info(const BemArguments& arguments, const Console& console);
-/// Returns the exit status: 0 nothing worse than a note or warning, 1 an error finding.
-int bem_check(const BemArguments& arguments, const Console& console);
-/// The format follows from the name of `output`: .h5 (ours), .bemio.h5 or --format bemio, .1 (WAMIT set).
-void bem_convert(const BemArguments& arguments, const Path& output, const std::string& format, const Console& console);
+/// Returns the exit status: 0 nothing worse than a note or warning, 1 an error finding, or a warning if `strict`.
+int bem_check(const BemArguments& arguments, const Console& console, bool strict = false);
+
+struct BemHealArguments {
+  BemArguments bem = {};
+  Path output = {};
+  std::string format = {};  ///< "": told by the name of `output`
+  hydro::potential::HealOptions steps = {};
+};
+/// Writes healed coefficients to another file, and tells what was changed by how much.
+void bem_heal(const BemHealArguments& arguments, const Console& console);
+
+/// Changes are made in the order of the members (docs/guide/coefficients.md).
+struct BemConvertArguments {
+  BemArguments bem = {};
+  Path output = {};
+  std::string format = {};                      ///< "": told by the name of `output`
+  bool merge = false;                           ///< the files are runs of the same bodies at different frequencies
+  std::vector<std::string> symmetric = {};      ///< planes in which bodies are their own images: "y", "x"
+  std::vector<std::string> about = {};          ///< new reference points, "cog" or one a body, e.g. "(0, 0, -2) m"
+  std::optional<std::string> carry = {};        ///< e.g. "(30, 0, 0) m"
+  std::optional<std::string> turn = {};         ///< e.g. "30 deg"
+  std::vector<std::string> array = {};          ///< places of copies, e.g. "(±20, ±20, 0) m"
+  std::optional<double> scale = {};             ///< ratio of lengths
+  std::optional<double> density_ratio = {};     ///< ratio of densities
+  std::optional<std::string> frequencies = {};  ///< e.g. "0.2 rad/s .. 3 rad/s, 57 values"
+};
+void bem_convert(const BemConvertArguments& arguments, const Console& console);
 
 /// Coefficients of the cylinders that a scene describes, written as bem_convert() does.
 void bem_solve(const Path& scene, const Path& output, const std::string& format, const Console& console);
@@ -70,6 +95,7 @@ struct SceneArguments {
   std::optional<Path> picture;
 };
 void rao(const SceneArguments& arguments, const Console& console);
+void modes(const SceneArguments& arguments, const Console& console);
 void run(const SceneArguments& arguments, const Console& console);
 void plan(const SceneArguments& arguments, const Console& console);
 

@@ -62,9 +62,10 @@ hydro::potential::ReadOptions read_options(const BemOptionTexts& texts) {
 std::shared_ptr<BemOptionTexts> add_bem_options(CLI::App& command, const std::shared_ptr<BemArguments>& arguments) {
   auto texts = std::make_shared<BemOptionTexts>();
   command
-      .add_option("files", arguments->files,
-                  "data files: WAMIT .1 or stem, Capytaine .nc, NEMOH folder, AQWA .AH1, HAMS ControlFile.in, BEMIO "
-                  ".h5, Froude .h5")
+      .add_option(
+          "files", arguments->files,
+          "data files: WAMIT .1 or stem, Capytaine .nc, NEMOH folder, AQWA .AH1, HAMS ControlFile.in, VERES .re7, "
+          ".hdb, BEMIO .h5, Froude .h5")
       ->required();
   command.add_option("--density", texts->density, "of the water, where the file does not say: \"1025 kg/m^3\"");
   command.add_option("--gravity", texts->gravity, "where the file does not say: \"9.81 m/s^2\"");
@@ -95,28 +96,82 @@ void add_bem_check(CLI::App& bem, Request& request) {
       "Example:\n  froude bem check buoy.1 --density \"1025 kg/m^3\" --gravity \"9.81 m/s^2\" --depth infinite");
   auto arguments = std::make_shared<BemArguments>();
   auto texts = add_bem_options(*check, arguments);
+  auto strict = std::make_shared<bool>(false);
+  check->add_flag("--strict", *strict, "status 1 for a warning too");
   check->callback([=, &request] {
     request.call = [=](const Console& console) {
       arguments->options = read_options(*texts);
-      return bem_check(*arguments, console);
+      return bem_check(*arguments, console, *strict);
     };
   });
 }
 
-void add_bem_convert(CLI::App& bem, Request& request) {
-  auto* convert = bem.add_subcommand("convert", "from any format that froude reads to Froude .h5, BEMIO .h5 or WAMIT");
-  convert->footer("Example:\n  froude bem convert examples/data/pontoon1.nc -o pontoon1.bemio.h5");
+void add_bem_heal(CLI::App& bem, Request& request) {
+  auto* heal = bem.add_subcommand("heal", "puts right what theory demands: symmetry, spikes, tail, passivity");
+  heal->footer(
+      "Examples:\n  froude bem heal examples/data/pontoon1.nc -o pontoon1.healed.h5\n"
+      "  froude bem heal buoy.nc --symmetry --passivity -o buoy.healed.h5");
   auto arguments = std::make_shared<BemArguments>();
-  auto output = std::make_shared<Path>();
-  auto format = std::make_shared<std::string>();
+  auto all = std::make_shared<BemHealArguments>();
+  auto chosen = std::make_shared<hydro::potential::HealOptions>(
+      hydro::potential::HealOptions{.symmetry = false, .spikes = false, .tail = false, .passivity = false});
+  auto texts = add_bem_options(*heal, arguments);
+  heal->add_option("-o,--output", all->output, "file to write, not the one that is read; its name tells the format")
+      ->required();
+  heal->add_option("--format", all->format, "of the output, where its name does not tell")
+      ->check(CLI::IsMember({"froude", "bemio", "wamit", "capytaine"}));
+  heal->add_flag("--symmetry", chosen->symmetry, "A and B become the means of themselves and their transposes");
+  heal->add_flag("--spikes", chosen->spikes,
+                 "irregular frequencies and wrong numbers are put between their neighbours");
+  heal->add_flag("--tail", chosen->tail, "frequencies beyond the end are added, with the damping that A tells");
+  heal->add_flag("--passivity", chosen->passivity, "B becomes the nearest matrix without negative eigenvalues");
+  heal->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      all->bem = *arguments;
+      all->bem.options = read_options(*texts);
+      // Named steps are taken and no others; none named means all.
+      if (chosen->symmetry || chosen->spikes || chosen->tail || chosen->passivity) all->steps = *chosen;
+      bem_heal(*all, console);
+      return done;
+    };
+  });
+}
+
+/// The options of changes; the order of the guide, in which they are made.
+void add_changes(CLI::App& convert, BemConvertArguments& a) {
+  convert.add_flag("--merge", a.merge, "the files are runs of the same bodies at different frequencies");
+  convert
+      .add_option("--symmetric", a.symmetric,
+                  "complete the headings: y if port and starboard are alike, x fore and aft")
+      ->check(CLI::IsMember({"y", "x"}));
+  convert.add_option("--about", a.about, "other reference points: cog, or \"(0, 0, -1.5) m\" for each body");
+  convert.add_option("--carry", a.carry, "all bodies along the water: \"(30, 0, 0) m\"");
+  convert.add_option("--turn", a.turn, "all bodies about the vertical through the origin: \"30 deg\"");
+  convert.add_option("--array", a.array, "copies of one body without interaction: \"(±20, ±20, 0) m\"");
+  convert.add_option("--scale", a.scale, "ratio of lengths, by Froude's law");
+  convert.add_option("--density-ratio", a.density_ratio, "ratio of densities, by Froude's law");
+  convert.add_option("--frequencies", a.frequencies, "interpolated: \"0.2 rad/s .. 3 rad/s, 57 values\"");
+}
+
+void add_bem_convert(CLI::App& bem, Request& request) {
+  auto* convert = bem.add_subcommand(
+      "convert",
+      "from any format that froude reads to Froude .h5, BEMIO .h5, Capytaine .nc or WAMIT; turned, scaled, …");
+  convert->footer(
+      "Examples:\n  froude bem convert examples/data/pontoon1.nc -o pontoon1.bemio.h5\n"
+      "  froude bem convert examples/data/pontoon1.nc --scale 25 --density-ratio 1.025 -o full_scale.h5");
+  auto arguments = std::make_shared<BemArguments>();
+  auto all = std::make_shared<BemConvertArguments>();
   auto texts = add_bem_options(*convert, arguments);
-  convert->add_option("-o,--output", *output, "file to write; its name tells the format")->required();
-  convert->add_option("--format", *format, "of the output, where its name does not tell")
-      ->check(CLI::IsMember({"froude", "bemio", "wamit"}));
+  convert->add_option("-o,--output", all->output, "file to write; its name tells the format")->required();
+  convert->add_option("--format", all->format, "of the output, where its name does not tell")
+      ->check(CLI::IsMember({"froude", "bemio", "wamit", "capytaine"}));
+  add_changes(*convert, *all);
   convert->callback([=, &request] {
     request.call = [=](const Console& console) {
-      arguments->options = read_options(*texts);
-      bem_convert(*arguments, *output, *format, console);
+      all->bem = *arguments;
+      all->bem.options = read_options(*texts);
+      bem_convert(*all, console);
       return done;
     };
   });
@@ -130,7 +185,7 @@ void add_bem_solve(CLI::App& bem, Request& request) {
   solve->add_option("scene", *scene, "scene with cylinders in [body.hydrodynamics]")->required();
   solve->add_option("-o,--output", *output, "file to write; its name tells the format")->required();
   solve->add_option("--format", *format, "of the output, where its name does not tell")
-      ->check(CLI::IsMember({"froude", "bemio", "wamit"}));
+      ->check(CLI::IsMember({"froude", "bemio", "wamit", "capytaine"}));
   solve->callback([=, &request] {
     request.call = [=](const Console& console) {
       bem_solve(*scene, *output, *format, console);
@@ -160,10 +215,12 @@ void add_bem_irf(CLI::App& bem, Request& request) {
 }
 
 void add_bem(CLI::App& app, Request& request) {
-  auto* bem = app.add_subcommand("bem", "hydrodynamic coefficients: info, check, convert, irf; solve for cylinders");
+  auto* bem =
+      app.add_subcommand("bem", "hydrodynamic coefficients: info, check, heal, convert, irf; solve for cylinders");
   bem->require_subcommand(1);
   add_bem_info(*bem, request);
   add_bem_check(*bem, request);
+  add_bem_heal(*bem, request);
   add_bem_convert(*bem, request);
   add_bem_irf(*bem, request);
   add_bem_solve(*bem, request);
@@ -379,6 +436,8 @@ void describe(CLI::App& app, Request& request) {
   add_new(app, request);
   add_bem(app, request);
   add_scene_command(app, request, "rao", "response amplitude operators of a scene, in the frequency domain", &rao,
+                    true);
+  add_scene_command(app, request, "modes", "free motions of a scene about rest: periods, damping, shapes", &modes,
                     true);
   add_scene_command(app, request, "run", "time series of a scene", &run, true);
   add_waves(app, request);

@@ -51,6 +51,15 @@ Section plan_rao(const scene::Scene& scene, const compile::Prepared& p) {
   return s;
 }
 
+Section plan_modes(const compile::Prepared& p) {
+  std::size_t frequencies = 1;
+  for (const auto& g : p.groups)
+    if (g.radiation) frequencies += g.table.coefficients().omega.size();
+  return {fmt::format("modes: {} unknowns, symmetric eigenvalues at {} frequencies, then each root by itself",
+                      6 * p.bodies.size(), frequencies),
+          {}};
+}
+
 Section plan_run(const scene::Scene& scene, const compile::Prepared& p, std::vector<std::string>& notes) {
   compile::TimeModel m = compile::time_model(scene, p);
   notes = m.notes;
@@ -119,6 +128,7 @@ void plan(const SceneArguments& arguments, const Console& console) {
   const compile::Prepared prepared = compile::prepare(scene);
   std::vector<Section> sections;
   if (scene.rao) sections.push_back(plan_rao(scene, prepared));
+  if (scene.ask_modes) sections.push_back(plan_modes(prepared));
   std::vector<std::string> notes = prepared.notes;
   if (scene.run) sections.push_back(plan_run(scene, prepared, notes));
   if (scene.ask_waves) sections.push_back(plan_waves(scene));

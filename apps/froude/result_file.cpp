@@ -1,6 +1,7 @@
 #include "froude/result_file.hpp"
 
 #include <array>
+#include <numbers>
 
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
@@ -14,6 +15,7 @@ using hydro::io::Hdf5Writer;
 
 constexpr const char* run_kind = "froude run";
 constexpr const char* rao_kind = "froude rao";
+constexpr const char* modes_kind = "froude modes";
 
 void describe(Hdf5Writer& file, const std::string& dataset, const std::string& units, const std::string& long_name) {
   file.attribute(dataset, "units", units.empty() ? "1" : units);
@@ -93,6 +95,43 @@ void write_rao(const std::filesystem::path& path, const std::vector<double>& ome
     file.attach_dimension(dataset, 1, "/complex");
     describe(file, dataset, signal.units, signal.long_name);
   }
+  file.save(path);
+}
+
+void write_modes(const std::filesystem::path& path, const ModeTable& modes, const Provenance& provenance) {
+  const auto flat = [](const std::vector<std::complex<double>>& values) {
+    std::vector<double> out;
+    for (const auto& value : values) out.insert(out.end(), {value.real(), value.imag()});
+    return out;
+  };
+  Hdf5Writer file;
+  write_provenance(file, modes_kind, provenance);
+  file.attribute("/", "phase", "Re(damped_shape exp(s t))");
+  std::vector<double> number, period;
+  for (std::size_t i = 0; i < modes.omega.size(); ++i) {
+    number.push_back(static_cast<double>(i + 1));
+    period.push_back(2 * std::numbers::pi / modes.omega[i]);
+  }
+  write_dimension(file, "/mode", number, "1", "number, by rising frequency");
+  file.write_texts("/motion", modes.motions);
+  file.make_dimension("/motion");
+  const std::array<std::string, 2> parts{"re", "im"};
+  file.write_texts("/complex", parts);
+  file.make_dimension("/complex");
+  const std::size_t count = modes.omega.size(), motions = modes.motions.size();
+  const auto write = [&](const std::string& name, const std::vector<double>& values, std::vector<std::size_t> shape,
+                         std::vector<std::string> dimensions, const std::string& units, const std::string& what) {
+    file.write(name, values, shape);
+    for (std::size_t d = 0; d < dimensions.size(); ++d) file.attach_dimension(name, d, dimensions[d]);
+    describe(file, name, units, what);
+  };
+  write("/omega", modes.omega, {count}, {"/mode"}, "rad/s", "undamped angular frequency");
+  write("/period", period, {count}, {"/mode"}, "s", "undamped period");
+  write("/s", flat(modes.s), {count, 2}, {"/mode", "/complex"}, "1/s", "eigenvalue of the damped motion");
+  write("/shape", modes.shape, {count, motions}, {"/mode", "/motion"}, "1",
+        "undamped displacements about the centres of gravity, m and rad");
+  write("/damped_shape", flat(modes.damped_shape), {count, motions, 2}, {"/mode", "/motion", "/complex"}, "1",
+        "damped displacements about the centres of gravity, m and rad");
   file.save(path);
 }
 

@@ -47,6 +47,18 @@ void write_run(const std::filesystem::path& path, const std::vector<double>& tim
 void write_rao(const std::filesystem::path& path, const std::vector<double>& omega, double heading_rad,
                const std::vector<ComplexSignal>& signals, const Provenance& provenance);
 
+/// Free motions. Shapes: one row a mode, one column a motion.
+struct ModeTable {
+  std::vector<std::string> motions;                ///< "m1.surge", …
+  std::vector<double> omega;                       ///< undamped, rad/s
+  std::vector<std::complex<double>> s;             ///< 1/s, of the damped motion; NaN where it creeps
+  std::vector<double> shape;                       ///< undamped, m and rad
+  std::vector<std::complex<double>> damped_shape;  ///< NaN where it creeps
+};
+
+/// Dimensions `mode` (counted from 1), `motion` and `complex`. \throws hydro::InputError if the file cannot be written
+void write_modes(const std::filesystem::path& path, const ModeTable& modes, const Provenance& provenance);
+
 /// A result of write_run, read back.
 struct RunResult {
   std::vector<double> time;     ///< s

@@ -110,6 +110,14 @@ void build_ask(const Record& ask, Scene& scene) {
     read_heading(rao, scene);
     read_of(rao, scene.rao->of, scene.rao->of_places);
   }
+  if (ask.has("modes")) {
+    const Record& modes = ask.table("modes");
+    scene.ask_modes.emplace();
+    if (modes.has("shortest")) scene.ask_modes->shortest = modes.si("shortest");
+    if (modes.has("longest")) scene.ask_modes->longest = modes.si("longest");
+    if (!(scene.ask_modes->shortest < scene.ask_modes->longest))
+      throw modes.wrong("longest", "must be longer than the shortest period", "exchange the two, or leave one out");
+  }
   if (ask.has("run")) {
     scene.run = read_run(ask.table("run"));
     read_of(ask.table("run"), scene.run->of, scene.run->of_places);

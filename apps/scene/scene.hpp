@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -132,9 +133,10 @@ struct Hydrodynamics {
   std::optional<Cylinders> cylinders;
   std::optional<Located<int>> body;  ///< which body of the file, from 1, as written: copies take the following ones
   std::optional<Eigen::Vector3d>
-      reference_point;         ///< global, m: the point the coefficients are about, if the file does not say
-  double ulen = 1;             ///< WAMIT only
-  std::optional<int> iperout;  ///< WAMIT only
+      reference_point;              ///< global, m: the point the coefficients are about, if the file does not say
+  double ulen = 1;                  ///< WAMIT only
+  std::optional<int> iperout;       ///< WAMIT only
+  std::vector<std::string> accept;  ///< names of checks of the doctor whose errors do not stop the scene
   bool excitation = false, radiation = false, hydrostatics = false;  ///< effects named
   Memory memory;
   bool interaction = true;  ///< interaction = "full" or "self": bodies of one file feel each other's waves
@@ -200,6 +202,10 @@ struct AskRao {
   std::vector<Place> of_places;       ///< one for each pattern
   Place place;
 };
+/// Free motions with periods between two.
+struct AskModes {
+  double shortest = 0, longest = std::numeric_limits<double>::infinity();  ///< s
+};
 struct AskRun {
   double duration;  ///< s
   double every;     ///< s; distance of stored samples; duration is a multiple of it
@@ -234,6 +240,7 @@ struct Scene {
   std::vector<Mooring> moorings;
   std::vector<Connector> connectors;
   std::optional<AskRao> rao;
+  std::optional<AskModes> ask_modes;
   std::optional<AskRun> run;
   std::optional<AskWaves> ask_waves;
   double accuracy = 1e-2;  ///< relative, of what is asked

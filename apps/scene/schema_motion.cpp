@@ -1,5 +1,6 @@
 /// \file  The tables of a scene of motion: what may be written, what it means, what is filled in and why.
 #include "hydro/base/types.hpp"
+#include "hydro/potential/check.hpp"
 #include "scene/schema.hpp"
 #include "scene/schema_waves.hpp"
 
@@ -117,7 +118,7 @@ const Table& hydrodynamics() {
   static const Table table{
       .title = "[body.hydrodynamics]",
       .meaning = "linear potential theory, with coefficients from a file or of cylinders; each effect is named",
-      .keys = {text("file", "of coefficients, relative to the scene: WAMIT, Capytaine, BEMIO or Froude").optional(),
+      .keys = {text("file", "of coefficients, relative to the scene: any format of `froude bem info`").optional(),
                inner_table("cylinders", cylinders()).optional(),
                integer("body",
                        "which body of the file, from 1 (copies take the following ones); needed where the scene takes "
@@ -135,6 +136,12 @@ const Table& hydrodynamics() {
                    .only_beside("file"),
                integer("iperout", "WAMIT's IPEROUT, 1 to 4; only for WAMIT files")
                    .within(Limit::at_least_one)
+                   .optional()
+                   .only_beside("file"),
+               texts("accept",
+                     "findings of the doctor (`froude bem check`) that are known and shall not stop the scene; the "
+                     "result records them")
+                   .one_of(hydro::potential::check_names())
                    .optional()
                    .only_beside("file"),
                effect("excitation", "loads of the incoming waves on the body held still"),
@@ -303,15 +310,25 @@ const Table& ask_run() {
   return table;
 }
 
+const Table& ask_modes() {
+  static const Table table{
+      .title = "[ask.modes]",
+      .meaning = "free motions about rest: periods, damping, shapes",
+      .keys = {quantity("shortest", dim::time, "no mode of a shorter period").positive().optional(),
+               quantity("longest", dim::time, "no mode of a longer period").positive().optional()}};
+  return table;
+}
+
 const Table& ask() {
-  static const Table table{.title = "[ask]",
-                           .meaning = "what is wanted",
-                           .keys = {inner_table("rao", ask_rao()).optional(), inner_table("run", ask_run()).optional(),
-                                    inner_table("waves", ask_waves_table()).optional(),
-                                    number("accuracy", "relative, of what is asked")
-                                        .within(Limit::open_fraction)
-                                        .or_default("1e-2", "about what coefficients and measurements are good for")},
-                           .groups = {{at_least_one, {"rao", "run", "waves"}}}};
+  static const Table table{
+      .title = "[ask]",
+      .meaning = "what is wanted",
+      .keys = {inner_table("rao", ask_rao()).optional(), inner_table("modes", ask_modes()).optional(),
+               inner_table("run", ask_run()).optional(), inner_table("waves", ask_waves_table()).optional(),
+               number("accuracy", "relative, of what is asked")
+                   .within(Limit::open_fraction)
+                   .or_default("1e-2", "about what coefficients and measurements are good for")},
+      .groups = {{at_least_one, {"rao", "modes", "run", "waves"}}}};
   return table;
 }
 

@@ -8,6 +8,7 @@ person would: it must name the place, the offending text, the rule and the remed
 2 the input is wrong, 3 the numerics gave up.
 """
 import json
+import math
 import os
 import resource
 import shutil
@@ -108,6 +109,26 @@ class Success(CommandLine):
             self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(self.leftovers(), {"pontoon1.nc", "scene.toml", "run.h5", "rao.h5"})
 
+    def test_modes_are_written_as_told(self):
+        self.write("scene.toml", SCENE.replace("rao =", 'modes = { longest = "60 s" }\nrao ='))
+        result = self.froude("--json", "modes", "scene.toml", "-o", "modes.h5", "--csv", "modes.csv", "--picture", "modes.svg")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        told = json.loads(result.stdout)["modes"]
+        rows = [line for line in (self.folder / "modes.csv").read_text().splitlines() if not line.startswith("#")]
+        self.assertEqual(len(told), len(rows) - 1)
+        omega = [mode["omega_rad_per_s"] for mode in told]
+        self.assertEqual(omega, sorted(omega))
+        for mode, row in zip(told, rows[1:]):
+            self.assertAlmostEqual(2 * math.pi / float(row.split(",")[0]), mode["omega_rad_per_s"], places=12)
+
+    def test_modes_that_cannot_be_are_refused(self):
+        self.write("scene.toml", SCENE.replace("rao =", 'modes = { longest = "2 s", shortest = "3 s" }\nrao ='))
+        self.refuses(self.froude("modes", "scene.toml", "-o", "modes.h5"), "scene.toml", "longer than the shortest")
+        self.write("scene.toml", SCENE.replace("rao =", 'modes = { longest = "0.01 s" }\nrao ='))
+        self.refuses(self.froude("modes", "scene.toml", "-o", "modes.h5"), "none of the", "0.01")
+        self.write("scene.toml", SCENE)
+        self.refuses(self.froude("modes", "scene.toml", "-o", "modes.h5"), "modes = {")
+
     def test_quiet_prints_nothing(self):
         self.write("scene.toml", SCENE)
         result = self.froude("run", "scene.toml", "-o", "run.h5", "--quiet")
@@ -121,7 +142,7 @@ class Success(CommandLine):
             json.loads(result.stdout)
 
     def test_help_shows_an_example_of_every_command(self):
-        for command in (["new"], ["bem", "info"], ["bem", "convert"], ["bem", "check"], ["rao"], ["run"], ["psd"], ["fit"], ["plan"],
+        for command in (["new"], ["bem", "info"], ["bem", "convert"], ["bem", "check"], ["rao"], ["modes"], ["run"], ["psd"], ["fit"], ["plan"],
                         ["validate"]):
             result = self.froude(*command, "-h")
             self.assertEqual(result.returncode, 0)
