@@ -7,6 +7,9 @@
 #include "hydro/base/error.hpp"
 
 namespace dynamics {
+namespace {
+constexpr double closed = 1e-9;  // m, and sine of an angle: what rounding of a placed body leaves
+}
 
 GeneralizedAlpha::GeneralizedAlpha(const Model& model, const Settings& settings) : model_(model), settings_(settings) {
   const double rho = settings.rho_infinity;
@@ -18,17 +21,48 @@ GeneralizedAlpha::GeneralizedAlpha(const Model& model, const Settings& settings)
   BlockMatrix mass(model.pattern());
   model.add_mass(rest_state(model.bodies()), 1, mass);
   scale_ = mass.dense().diagonal().cwiseSqrt();
+  const auto G = model.joints().gradients(rest_state(model.bodies()));
+  joint_scale_.resize(model.joints().count());
+  for (Eigen::Index i = 0; i < joint_scale_.size(); ++i) {  // the root of the mass that a condition moves
+    Eigen::VectorXd one = Eigen::VectorXd::Zero(joint_scale_.size()), row = Eigen::VectorXd::Zero(model.modes());
+    one[i] = 1;
+    model.joints().add_transposed(G, one, row);
+    joint_scale_[i] = 1 / row.cwiseQuotient(scale_).norm();
+  }
+}
+
+void GeneralizedAlpha::require_closed_joints(const State& state, const std::vector<Gradient>& G) const {
+  const JointSet& joints = model_.joints();
+  if (joints.count() == 0) return;
+  const Eigen::VectorXd g = joints.values(state), speed = joints.times(G, state.velocity);
+  const auto name = [&](Eigen::Index i) {
+    return joints.joints()[static_cast<std::size_t>(joints.conditions()[static_cast<std::size_t>(i)].joint)].name;
+  };
+  Eigen::Index worst = 0;
+  if (g.cwiseAbs().maxCoeff(&worst) > closed)
+    throw hydro::InputError(fmt::format("joint \"{}\" does not fit where the run starts: it is off by {:.3g}",
+                                        name(worst), std::abs(g[worst])),
+                            {}, "start both its bodies where the joint is closed");
+  if (speed.cwiseAbs().maxCoeff(&worst) > closed * std::max(1.0, state.velocity.cwiseAbs().maxCoeff()))
+    throw hydro::InputError(fmt::format("the velocities at the start pull joint \"{}\" apart by {:.3g} per second",
+                                        name(worst), std::abs(speed[worst])),
+                            {}, "start both its bodies with velocities that the joint allows");
 }
 
 void GeneralizedAlpha::start(Workspace& workspace) {
+  const auto G = model_.joints().gradients(workspace.state);
+  require_closed_joints(workspace.state, G);
   workspace.acceleration.setZero();
   const Eigen::VectorXd r = model_.residual(workspace.state, workspace.acceleration, workspace);
   model_.tangent(workspace.state, 1, 0, 0, workspace, workspace.matrix);
-  if (!r.allFinite() || !workspace.solver.factorise(workspace.matrix))
+  if (!r.allFinite() || !workspace.solver.factorise(workspace.matrix, G, G))
     throw hydro::NumericsError(fmt::format(
         "no accelerations can be found at the start, t = {} s: the loads or the mass matrix are not finite or singular",
         workspace.state.time));
-  workspace.acceleration = -workspace.solver.solve(r);
+  // G a = −Ġ v keeps the joints closed (D16).
+  auto [a, lambda] = workspace.solver.solve(-r, -model_.joints().convective(workspace.state));
+  workspace.acceleration = std::move(a);
+  workspace.multipliers = std::move(lambda);
   algorithmic_ = workspace.acceleration;
 }
 
@@ -48,59 +82,87 @@ void GeneralizedAlpha::predict(const Workspace& workspace, double h, const Eigen
   }
 }
 
+GeneralizedAlpha::Trial GeneralizedAlpha::evaluate(Workspace& workspace, double h, Eigen::VectorXd acceleration,
+                                                   Eigen::VectorXd multipliers) const {
+  Trial out{std::move(acceleration), std::move(multipliers), {}, {}, {}, {}, 0};
+  predict(workspace, h, out.acceleration, out.state);
+  out.residual = model_.residual(out.state, out.acceleration, workspace);
+  out.size = out.residual.cwiseQuotient(scale_).squaredNorm();
+  if (model_.joints().count() > 0) {
+    out.gradients = model_.joints().gradients(out.state);
+    model_.joints().add_transposed(out.gradients, out.multipliers, out.residual);
+    // Divided by ∂q/∂a, the distance by which a joint is open is an acceleration, as large as what closes it.
+    const double s = (1 - alpha_f_) / (1 - alpha_m_);
+    out.open = model_.joints().values(out.state) / (s * beta_ * h * h);
+    out.size = out.residual.cwiseQuotient(scale_).squaredNorm() + out.open.cwiseProduct(joint_scale_).squaredNorm();
+  }
+  out.size = std::sqrt(out.size);
+  return out;
+}
+
+// The step turns body i by exp(Δθ), which varies by J(Δθ) δΔθ.
+std::vector<Gradient> GeneralizedAlpha::by_step(const std::vector<Gradient>& G, const State& before,
+                                                const State& after) const {
+  std::vector<Gradient> out = G;
+  const auto turned = [&](int body, Vector6& row) {
+    const auto i = static_cast<std::size_t>(body);
+    const Eigen::Vector3d turn = rotation_log(after.pose[i].attitude * before.pose[i].attitude.conjugate());
+    row.tail<3>() = left_jacobian(turn).transpose() * row.tail<3>();
+  };
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Condition& c = model_.joints().conditions()[i];
+    turned(c.first, out[i].first);
+    if (c.second) turned(*c.second, out[i].second);
+  }
+  return out;
+}
+
 bool GeneralizedAlpha::try_step(Workspace& workspace, double h, StepReport& report) {
   const double s = (1 - alpha_f_) / (1 - alpha_m_);
-  State next;
-  Eigen::VectorXd a = workspace.acceleration;
-  predict(workspace, h, a, next);
-  Eigen::VectorXd r = model_.residual(next, a, workspace);
-  const auto size_of = [&](const Eigen::VectorXd& residual) { return residual.cwiseQuotient(scale_).norm(); };
-  double size = size_of(r);
+  Trial now = evaluate(workspace, h, workspace.acceleration, workspace.multipliers);
   for (int iteration = 0; iteration < settings_.iterations; ++iteration) {
-    if (!std::isfinite(size)) {
+    if (!std::isfinite(now.size)) {
       failure_ = "the loads are not finite";
       return false;
     }
     ++report.newton_iterations;
-    // The exponential map turns by J(Δθ) ≈ 1 + Δθ×/2; leaving that out costs Newton some speed, not the solution.
-    model_.tangent(next, 1, s * gamma_ * h, s * beta_ * h * h, workspace, workspace.matrix);
-    if (!workspace.solver.factorise(workspace.matrix)) {
+    // Leaving J out of the loads' derivatives costs Newton some speed, not the solution; joints have it, to close
+    // fully.
+    model_.tangent(now.state, 1, s * gamma_ * h, s * beta_ * h * h, workspace, workspace.matrix);
+    model_.joints().add_curvature(now.state, now.multipliers, s * beta_ * h * h, workspace.matrix);
+    if (!workspace.solver.factorise(workspace.matrix, now.gradients,
+                                    by_step(now.gradients, workspace.state, now.state))) {
       failure_ = "the iteration matrix is singular";
       return false;
     }
-    const Eigen::VectorXd correction = -workspace.solver.solve(r);
+    const auto [correction, more] = workspace.solver.solve(-now.residual, -now.open);
+    const double move = correction.cwiseProduct(scale_).norm();
+    Trial trial;
     double factor = 1;
-    Eigen::VectorXd trial, trial_r;
-    double trial_size = std::numeric_limits<double>::infinity();
     for (; factor > 1e-3; factor /= 2) {
-      trial = a + factor * correction;
-      predict(workspace, h, trial, next);
-      trial_r = model_.residual(next, trial, workspace);
-      trial_size = size_of(trial_r);
-      if (trial_size <= size) break;
+      trial = evaluate(workspace, h, now.acceleration + factor * correction, now.multipliers + factor * more);
+      if (trial.size <= now.size) break;
       // At round-off the residual cannot fall any more: the full correction is as good as it gets.
-      if (factor == 1 &&
-          correction.cwiseProduct(scale_).norm() <= settings_.newton_tolerance * trial.cwiseProduct(scale_).norm())
-        break;
+      if (factor == 1 && move <= settings_.newton_tolerance * trial.acceleration.cwiseProduct(scale_).norm()) break;
     }
-    if (!std::isfinite(trial_size)) {
+    if (!std::isfinite(trial.size)) {
       failure_ = "the loads are not finite";
       return false;
     }
-    a = trial;
-    r = trial_r;
-    size = trial_size;
-    const double reach = a.cwiseProduct(scale_).norm() + next.velocity.cwiseProduct(scale_).norm() / h;
-    if (factor == 1 && correction.cwiseProduct(scale_).norm() <= settings_.newton_tolerance * reach) {
-      algorithmic_ =
-          ((1 - alpha_f_) * a + alpha_f_ * workspace.acceleration - alpha_m_ * algorithmic_) / (1 - alpha_m_);  // (D10)
-      workspace.state = std::move(next);
-      workspace.acceleration = std::move(a);
+    now = std::move(trial);
+    const double reach =
+        now.acceleration.cwiseProduct(scale_).norm() + now.state.velocity.cwiseProduct(scale_).norm() / h;
+    if (factor == 1 && move <= settings_.newton_tolerance * reach) {
+      algorithmic_ = ((1 - alpha_f_) * now.acceleration + alpha_f_ * workspace.acceleration - alpha_m_ * algorithmic_) /
+                     (1 - alpha_m_);  // (D10)
+      workspace.state = std::move(now.state);
+      workspace.acceleration = std::move(now.acceleration);
+      workspace.multipliers = std::move(now.multipliers);
       return true;
     }
   }
   Eigen::Index worst = 0;
-  r.cwiseQuotient(scale_).cwiseAbs().maxCoeff(&worst);
+  now.residual.cwiseQuotient(scale_).cwiseAbs().maxCoeff(&worst);
   failure_ = fmt::format("Newton did not converge in {} iterations; worst equation: {}", settings_.iterations,
                          model_.mode_name(static_cast<int>(worst)));
   return false;

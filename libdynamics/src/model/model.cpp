@@ -18,17 +18,19 @@ Eigen::Matrix3d inertia_in_world(const RigidBody& body, const Pose& pose) {
 }  // namespace
 
 Model::Model(std::vector<RigidBody> bodies, std::vector<AddedMass> added_mass,
-             std::vector<std::unique_ptr<const ForceKind>> forces)
+             std::vector<std::unique_ptr<const ForceKind>> forces, std::vector<Joint> joints)
     : bodies_(std::move(bodies)),
       added_mass_(std::move(added_mass)),
       forces_(std::move(forces)),
-      pattern_(static_cast<int>(bodies_.size())) {
+      pattern_(static_cast<int>(bodies_.size())),
+      joints_(bodies_, std::move(joints)) {
   hydro::require(!bodies_.empty(), "the model has no bodies");
   for (const AddedMass& added : added_mass_)
     for (const int i : added.bodies)
       for (const int j : added.bodies)
         if (i < j) pattern_.couple(i, j);
   for (const auto& kind : forces_) kind->couple(pattern_);
+  joints_.couple(pattern_);
   pattern_.freeze();
   // Dynamics with an indefinite mass run away at once; say so before the first step.
   BlockMatrix mass(pattern_);
@@ -41,13 +43,50 @@ Model::Model(std::vector<RigidBody> bodies, std::vector<AddedMass> added_mass,
       M(i, i) = 1;
     }
   M = (M + M.transpose()) / 2;
-  if (Eigen::LLT<Eigen::MatrixXd>(M).info() == Eigen::Success) return;
+  if (Eigen::LLT<Eigen::MatrixXd>(M).info() == Eigen::Success) {
+    leave_out_redundant(M);
+    return;
+  }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(M);
   Eigen::Index worst = 0;
   eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&worst);
   throw hydro::InputError(fmt::format("mass plus added mass is not positive definite: eigenvalue {:.4g}, mostly {}",
                                       eigen.eigenvalues()[0], mode_name(static_cast<int>(worst))),
                           {}, "check the added mass at infinite frequency with `froude bem check`");
+}
+
+// Gram and Schmidt in the order of the scene, in the metric of M⁻¹: what a condition adds to those before it, relative
+// to what it is by itself.
+void Model::leave_out_redundant(const Eigen::MatrixXd& mass) {
+  if (joints_.count() == 0) return;
+  const auto G = joints_.gradients(rest_state(bodies_));
+  const Eigen::LLT<Eigen::MatrixXd> root(mass);
+  Eigen::MatrixXd basis(modes(), 0);
+  std::vector<bool> keep;
+  std::vector<int> lost(joints_.joints().size(), 0), of(joints_.joints().size(), 0);
+  for (Eigen::Index i = 0; i < joints_.count(); ++i) {
+    Eigen::VectorXd one = Eigen::VectorXd::Zero(joints_.count()), row = Eigen::VectorXd::Zero(modes());
+    one[i] = 1;
+    joints_.add_transposed(G, one, row);
+    Eigen::VectorXd w = root.matrixL().solve(row);
+    const double alone = w.norm();
+    for (int twice = 0; twice < 2; ++twice) w -= basis * (basis.transpose() * w);
+    const bool adds = alone > 0 && w.norm() > 1e-9 * alone;
+    const auto joint = static_cast<std::size_t>(joints_.conditions()[static_cast<std::size_t>(i)].joint);
+    keep.push_back(adds);
+    ++of[joint];
+    if (adds) {
+      basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
+      basis.rightCols<1>() = w.normalized();
+    } else {
+      ++lost[joint];
+    }
+  }
+  for (std::size_t j = 0; j < lost.size(); ++j)
+    if (lost[j] > 0)
+      redundant_.push_back(fmt::format("joint \"{}\" ({}): {} of its {} conditions are held already and left out",
+                                       joints_.joints()[j].name, name_of(joints_.joints()[j].kind), lost[j], of[j]));
+  joints_.reduce(keep);
 }
 
 std::string Model::mode_name(int mode) const {
@@ -163,9 +202,10 @@ Eigen::VectorXd Model::load_at_rest() const {
 Workspace::Workspace(const Model& model, State start)
     : state(std::move(start)),
       acceleration(Eigen::VectorXd::Zero(model.modes())),
+      multipliers(Eigen::VectorXd::Zero(model.joints().count())),
       evaluations(model.forces().size(), 0),
       matrix(model.pattern()),
-      solver(model.pattern()) {
+      solver(model.pattern(), model.joints()) {
   for (const auto& kind : model.forces()) memory.push_back(kind->make_memory(state));
 }
 

@@ -21,6 +21,9 @@ struct StepReport {
 /// Second order; unconditionally stable for linear problems; ρ∞ is the factor by which an infinitely fast oscillation
 /// is damped each step: 1 keeps it, 0 removes it. The period of a free oscillation at ω is wrong by about (ωh)²/12
 /// relative at ρ∞ = 1. Each step is solved by Newton with line search; a step that fails is halved.
+///
+/// Joints are closed at the end of every step, to round-off; their multipliers are of second order too (Arnold & Brüls
+/// 2007), for ρ∞ < 1. Velocities leave the joints' directions by the order of the step's own error (D16).
 class GeneralizedAlpha {
  public:
   struct Settings {
@@ -31,8 +34,9 @@ class GeneralizedAlpha {
   };
   GeneralizedAlpha(const Model& model, const Settings& settings);
 
-  /// Finds the accelerations of the workspace's state and begins there.
-  /// \throws hydro::NumericsError if they cannot be found
+  /// Finds the accelerations and the joints' loads of the workspace's state and begins there.
+  /// \throws hydro::NumericsError if they cannot be found, hydro::InputError naming the joint if one is open or its
+  /// bodies' velocities pull it apart
   void start(Workspace& workspace);
 
   /// One full step of h seconds; the workspace ends in the new state, memory moved on.
@@ -44,13 +48,25 @@ class GeneralizedAlpha {
   bool try_step(Workspace& workspace, double h, StepReport& report);
   void advance(Workspace& workspace, double h, int depth, StepReport& report);
   void predict(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration, State& next) const;
+  /// What a guess of accelerations and multipliers at the end of the step leads to.
+  struct Trial {
+    Eigen::VectorXd acceleration, multipliers;
+    State state;
+    std::vector<Gradient> gradients;
+    Eigen::VectorXd residual, open;  ///< forces that do not balance; how far joints are open, as accelerations
+    double size;                     ///< of both, scaled
+  };
+  Trial evaluate(Workspace& workspace, double h, Eigen::VectorXd acceleration, Eigen::VectorXd multipliers) const;
+  std::vector<Gradient> by_step(const std::vector<Gradient>& G, const State& before, const State& after) const;
+  void require_closed_joints(const State& state, const std::vector<Gradient>& G) const;
 
   const Model& model_;
   Settings settings_;
   double alpha_m_, alpha_f_, beta_, gamma_;
   Eigen::VectorXd algorithmic_;  // the auxiliary acceleration of Arnold & Brüls
   Eigen::VectorXd scale_;  // √ of the diagonal of mass plus added mass: makes newtons and newton metres comparable
-  std::string failure_;    // why the last attempt failed
+  Eigen::VectorXd joint_scale_;  // the same for the joints' conditions
+  std::string failure_;          // why the last attempt failed
 };
 
 }  // namespace dynamics

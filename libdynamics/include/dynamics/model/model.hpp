@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "dynamics/force/force_kind.hpp"
+#include "dynamics/joint/joint.hpp"
 #include "dynamics/model/block_matrix.hpp"
 #include "dynamics/model/body.hpp"
+#include "dynamics/model/kkt_solver.hpp"
 
 namespace dynamics {
 
@@ -21,21 +23,25 @@ struct AddedMass {
 
 class Workspace;
 
-/// The equations of motion (D8): (M(q) + A∞) a + gyro(q, v) = Σ loads(t, q, v, memory), with the modes that are not
-/// free left out. Integrators see nothing else.
+/// The equations of motion (D8): (M(q) + A∞) a + gyro(q, v) + Gᵀλ = Σ loads(t, q, v, memory), with the modes that are
+/// not free left out, and the conditions g(q) = 0 of the joints. Integrators see nothing else.
 class Model {
  public:
-  /// \throws hydro::InputError if mass plus added mass is not positive definite in the free modes
+  /// \throws hydro::InputError if mass plus added mass is not positive definite in the free modes, or as JointSet
   Model(std::vector<RigidBody> bodies, std::vector<AddedMass> added_mass,
-        std::vector<std::unique_ptr<const ForceKind>> forces);
+        std::vector<std::unique_ptr<const ForceKind>> forces, std::vector<Joint> joints = {});
 
   const std::vector<RigidBody>& bodies() const { return bodies_; }
   const std::vector<std::unique_ptr<const ForceKind>>& forces() const { return forces_; }
   const BlockPattern& pattern() const { return pattern_; }
+  const JointSet& joints() const { return joints_; }
+  /// One sentence for each joint of which others, or locked modes, already hold a part at rest: that part is left out,
+  /// and what it would carry cannot be told.
+  const std::vector<std::string>& redundant() const { return redundant_; }
   int modes() const { return 6 * static_cast<int>(bodies_.size()); }
   bool is_free(int mode) const { return bodies_[static_cast<std::size_t>(mode / 6)].is_free(mode % 6); }
 
-  /// M a + gyro − loads, zero in modes that are not free, N and N m.
+  /// M a + gyro − loads, without those of the joints; zero in modes that are not free, N and N m.
   Eigen::VectorXd residual(const State& state, const Eigen::VectorXd& acceleration, Workspace& workspace) const;
   /// ∂residual/∂a · c_a + ∂residual/∂v · c_v + ∂residual/∂q · c_q, unit rows and columns in modes that are not free.
   void tangent(const State& state, double c_a, double c_v, double c_q, Workspace& workspace, BlockMatrix& out) const;
@@ -61,6 +67,10 @@ class Model {
   std::vector<AddedMass> added_mass_;
   std::vector<std::unique_ptr<const ForceKind>> forces_;
   BlockPattern pattern_;
+  JointSet joints_;
+  std::vector<std::string> redundant_;
+
+  void leave_out_redundant(const Eigen::MatrixXd& mass);
 };
 
 /// Everything of a run that changes.
@@ -70,10 +80,11 @@ class Workspace {
 
   State state;
   Eigen::VectorXd acceleration;                 ///< (6N), satisfies the equations of motion in `state`
+  Eigen::VectorXd multipliers;                  ///< λ of the joints' conditions
   std::vector<std::unique_ptr<Memory>> memory;  ///< one a kind, null where it needs none
   std::vector<std::size_t> evaluations;         ///< of the load, one a kind: what a scene pays for
   BlockMatrix matrix;
-  BlockSolver solver;
+  KktSolver solver;
 
   Instant instant(const State& at, std::size_t kind) { return {at, memory[kind].get()}; }
   void accept();  ///< a full step has been completed: memory moves on

@@ -1,0 +1,100 @@
+#pragma once
+/// \file  Joints: bodies that keep points or directions together, exactly, whatever the forces.
+///
+/// A joint is a few conditions g(q) = 0 with multipliers λ: loads −Gᵀλ on the bodies, G = ∂g/∂q. All kinds are made of
+/// two sorts of condition, (D13) and (D14), so each has one value, one gradient and one curvature to check.
+#include <Eigen/Core>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "dynamics/model/block_matrix.hpp"
+#include "dynamics/model/body.hpp"
+
+namespace dynamics {
+
+enum class JointKind {
+  fixed,      ///< nothing moves
+  hinge,      ///< turns about the axis
+  universal,  ///< turns about the axis, which the first body holds, and about `second_axis`, which the second holds
+  ball,       ///< turns freely about the point
+  slider,     ///< slides along the axis of the first body, turns about nothing
+  planar      ///< slides across the axis of the first body and turns about it
+};
+std::string name_of(JointKind kind);
+
+/// A joint, described where the bodies are at rest.
+struct Joint {
+  std::string name;
+  JointKind kind;
+  int first;
+  std::optional<int> second;                               ///< empty: the ground
+  Eigen::Vector3d place;                                   ///< global, m
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();         ///< global, any length
+  Eigen::Vector3d second_axis = Eigen::Vector3d::UnitY();  ///< global, across `axis`; of universal joints
+};
+
+/// A direction n that keeps d, from the first body's point to the second's, at zero: g = n·d (D13).
+struct PointCondition {
+  Eigen::Vector3d first_arm, second_arm;  ///< from the centres, body axes; of the ground: global place
+  Eigen::Vector3d direction;              ///< n, unit; global, or in the first body's axes if `turns`
+  bool turns;
+};
+/// Directions u of the first body and v of the second that stay across each other: g = u·v (D14).
+struct AxesCondition {
+  Eigen::Vector3d first_axis, second_axis;  ///< u, v, body axes; of the ground: global
+};
+
+struct Condition {
+  int joint, first;
+  std::optional<int> second;
+  std::variant<PointCondition, AxesCondition> what;
+};
+
+/// G of one condition, by translation and small global rotation of its two bodies.
+struct Gradient {
+  Vector6 first, second;
+};
+
+/// All joints of a model.
+class JointSet {
+ public:
+  JointSet() = default;
+  /// \throws hydro::InputError for a body that is not there, a body joined to itself, an axis of no length, axes of a
+  /// universal joint that are not across each other
+  JointSet(const std::vector<RigidBody>& bodies, std::vector<Joint> joints);
+
+  const std::vector<Joint>& joints() const { return joints_; }
+  const std::vector<Condition>& conditions() const { return conditions_; }
+  Eigen::Index count() const { return static_cast<Eigen::Index>(conditions_.size()); }
+  /// Leaves out conditions that others already hold; `keep` has one entry a condition.
+  void reduce(const std::vector<bool>& keep);
+
+  void couple(BlockPattern& pattern) const;
+  /// g, (count): metres, and sines of angles.
+  Eigen::VectorXd values(const State& state) const;
+  /// Columns of modes that are not free are zero.
+  std::vector<Gradient> gradients(const State& state) const;
+  /// G x, for x a velocity or displacement of all bodies.
+  Eigen::VectorXd times(const std::vector<Gradient>& G, const Eigen::VectorXd& x) const;
+  /// Adds Gᵀ λ.
+  void add_transposed(const std::vector<Gradient>& G, const Eigen::VectorXd& lambda, Eigen::VectorXd& out) const;
+  /// Adds factor · ∂(Gᵀλ)/∂q (D15).
+  void add_curvature(const State& state, const Eigen::VectorXd& lambda, double factor, BlockMatrix& out) const;
+  /// Ġ v, (count): the acceleration that the conditions have without any of the bodies'.
+  Eigen::VectorXd convective(const State& state) const;
+  /// Load of the joint on its first body: force and moment about the joint's place, in that body's axes, N and N m.
+  /// What redundant conditions would carry is not in it.
+  Vector6 load_on_first(int joint, const State& state, const Eigen::VectorXd& lambda) const;
+
+ private:
+  std::vector<Joint> joints_;
+  std::vector<Condition> conditions_;
+  std::vector<Eigen::Vector3d> place_in_first_;  // from the first body's centre, body axes
+  std::vector<std::array<bool, 6>> free_;        // one a body
+};
+
+}  // namespace dynamics

@@ -1,0 +1,34 @@
+#pragma once
+/// \file  Factors of the equations of motion together with the conditions of joints.
+#include <Eigen/Core>
+
+#include <memory>
+#include <vector>
+
+#include "dynamics/joint/joint.hpp"
+#include "dynamics/model/block_matrix.hpp"
+
+namespace dynamics {
+
+/// Solves [T Gᵀ; H 0] (x, λ) = (b, c): T of the bodies, Gᵀ and H one column and one row a condition. Dense LU where the
+/// system is small or all bodies touch, sparse LU (SuiteSparse KLU, ordered once) otherwise. Without conditions this is
+/// BlockSolver and costs the same.
+class KktSolver {
+ public:
+  KktSolver(const BlockPattern& pattern, const JointSet& joints);
+  ~KktSolver();
+  KktSolver(KktSolver&&) noexcept;
+  bool is_sparse() const;
+  /// False if the matrix is singular to working precision or not finite.
+  bool factorise(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H);
+  struct Solution {
+    Eigen::VectorXd x, lambda;
+  };
+  Solution solve(const Eigen::VectorXd& b, const Eigen::VectorXd& c) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace dynamics

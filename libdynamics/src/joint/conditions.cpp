@@ -1,0 +1,89 @@
+#include "dynamics/joint/conditions.hpp"
+
+#include "dynamics/spatial/rotation.hpp"
+
+namespace dynamics {
+namespace {
+
+/// Arms, direction and the way from the first centre to the second point, global.
+struct Points {
+  Eigen::Vector3d n, first_arm, second_arm, reach;
+
+  Points(const PointCondition& c, const ConditionEnds& at)
+      : n(c.turns ? Eigen::Vector3d(at.first * c.direction) : c.direction),
+        first_arm(at.first * c.first_arm),
+        second_arm(at.second * c.second_arm),
+        reach(at.second_centre + second_arm - at.first_centre) {}
+};
+
+}  // namespace
+
+ConditionEnds ends_of(const Condition& condition, const State& state) {
+  const Pose& first = state.pose[static_cast<std::size_t>(condition.first)];
+  ConditionEnds out{first.centre, Eigen::Vector3d::Zero(), first.attitude.toRotationMatrix(),
+                    Eigen::Matrix3d::Identity()};
+  if (condition.second) {
+    const Pose& second = state.pose[static_cast<std::size_t>(*condition.second)];
+    out.second_centre = second.centre;
+    out.second = second.attitude.toRotationMatrix();
+  }
+  return out;
+}
+
+double value(const PointCondition& c, const ConditionEnds& at) {
+  const Points p(c, at);
+  return p.n.dot(p.reach - p.first_arm);
+}
+
+double value(const AxesCondition& c, const ConditionEnds& at) {
+  return (at.first * c.first_axis).dot(at.second * c.second_axis);
+}
+
+// δ(n·d): both points move, and n turns with the first body (D13).
+Gradient gradient(const PointCondition& c, const ConditionEnds& at) {
+  const Points p(c, at);
+  Gradient out;
+  out.first << -p.n, p.n.cross(c.turns ? p.reach : p.first_arm);
+  out.second << p.n, p.second_arm.cross(p.n);
+  return out;
+}
+
+Gradient gradient(const AxesCondition& c, const ConditionEnds& at) {
+  const Eigen::Vector3d turn = (at.first * c.first_axis).cross(at.second * c.second_axis);
+  Gradient out;
+  out.first << Eigen::Vector3d::Zero(), turn;
+  out.second << Eigen::Vector3d::Zero(), -turn;
+  return out;
+}
+
+// Rows and columns: x₁, θ₁, x₂, θ₂ (D15).
+Matrix12 curvature(const PointCondition& c, const ConditionEnds& at) {
+  const Points p(c, at);
+  const Eigen::Matrix3d n = cross_matrix(p.n), second_arm = cross_matrix(p.second_arm);
+  Matrix12 H = Matrix12::Zero();
+  H.block<3, 3>(9, 9) = n * second_arm;
+  if (!c.turns) {
+    H.block<3, 3>(3, 3) = -n * cross_matrix(p.first_arm);
+    return H;
+  }
+  H.block<3, 3>(0, 3) = n;
+  H.block<3, 3>(3, 0) = -n;
+  H.block<3, 3>(3, 3) = cross_matrix(p.reach) * n;
+  H.block<3, 3>(3, 6) = n;
+  H.block<3, 3>(3, 9) = -n * second_arm;
+  H.block<3, 3>(6, 3) = -n;
+  H.block<3, 3>(9, 3) = -second_arm * n;
+  return H;
+}
+
+Matrix12 curvature(const AxesCondition& c, const ConditionEnds& at) {
+  const Eigen::Matrix3d u = cross_matrix(at.first * c.first_axis), v = cross_matrix(at.second * c.second_axis);
+  Matrix12 H = Matrix12::Zero();
+  H.block<3, 3>(3, 3) = v * u;
+  H.block<3, 3>(3, 9) = -u * v;
+  H.block<3, 3>(9, 3) = -v * u;
+  H.block<3, 3>(9, 9) = u * v;
+  return H;
+}
+
+}  // namespace dynamics

@@ -1,0 +1,199 @@
+#include "dynamics/joint/joint.hpp"
+
+#include <cmath>
+
+#include "dynamics/joint/conditions.hpp"
+#include "dynamics/spatial/rotation.hpp"
+#include "hydro/base/error.hpp"
+
+namespace dynamics {
+
+std::string name_of(JointKind kind) {
+  constexpr std::array<const char*, 6> names{"fixed", "hinge", "universal", "ball", "slider", "planar"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+namespace {
+
+/// The joint's frame at rest, columns x (the axis), y, z.
+Eigen::Matrix3d frame_of(const Joint& joint) {
+  hydro::require(joint.axis.allFinite() && joint.axis.norm() > 0, "the axis of joint \"{}\" has no direction",
+                 joint.name);
+  Eigen::Matrix3d frame;
+  frame.col(0) = joint.axis.normalized();
+  if (joint.kind == JointKind::universal) {
+    hydro::require(joint.second_axis.norm() > 0 && std::abs(frame.col(0).dot(joint.second_axis.normalized())) < 1e-9,
+                   "the axes of the universal joint \"{}\" must be across each other", joint.name);
+    frame.col(1) = joint.second_axis.normalized();
+  } else {
+    frame.col(1) = frame.col(0).unitOrthogonal();
+  }
+  frame.col(2) = frame.col(0).cross(frame.col(1));
+  return frame;
+}
+
+void require_bodies(const Joint& joint, int bodies) {
+  const auto there = [&](int body) { return body >= 0 && body < bodies; };
+  hydro::require(there(joint.first) && (!joint.second || there(*joint.second)),
+                 "joint \"{}\" names a body that is not there", joint.name);
+  hydro::require(!joint.second || *joint.second != joint.first, "joint \"{}\" joins a body to itself", joint.name);
+}
+
+/// Conditions in the frame at rest, where bodies have no attitude: body axes are global there.
+std::vector<std::variant<PointCondition, AxesCondition>> conditions_of(const Joint& joint,
+                                                                       const Eigen::Vector3d& first_centre,
+                                                                       const Eigen::Vector3d& second_centre) {
+  using enum JointKind;
+  const Eigen::Matrix3d frame = frame_of(joint);
+  const Eigen::Vector3d x = frame.col(0), y = frame.col(1), z = frame.col(2);
+  const Eigen::Vector3d first_arm = joint.place - first_centre, second_arm = joint.place - second_centre;
+  std::vector<std::variant<PointCondition, AxesCondition>> out;
+  const auto meet = [&](const Eigen::Vector3d& n, bool turns) {
+    out.emplace_back(PointCondition{first_arm, second_arm, n, turns});
+  };
+  const auto across = [&](const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
+    out.emplace_back(AxesCondition{u, v});
+  };
+  switch (joint.kind) {
+    case slider:
+      meet(y, true);
+      meet(z, true);
+      break;
+    case planar:
+      meet(x, true);
+      break;
+    default:
+      for (int i = 0; i < 3; ++i) meet(Eigen::Vector3d::Unit(i), false);
+  }
+  if (joint.kind == universal) across(x, y);
+  if (joint.kind == hinge || joint.kind == planar || joint.kind == fixed || joint.kind == slider) {
+    across(y, x);
+    across(z, x);
+  }
+  if (joint.kind == fixed || joint.kind == slider) across(y, z);
+  return out;
+}
+
+void set_locked_to_zero(Vector6& row, const std::array<bool, 6>& free) {
+  for (int i = 0; i < 6; ++i)
+    if (!free[static_cast<std::size_t>(i)]) row[i] = 0;
+}
+
+}  // namespace
+
+JointSet::JointSet(const std::vector<RigidBody>& bodies, std::vector<Joint> joints) : joints_(std::move(joints)) {
+  for (const RigidBody& body : bodies) free_.push_back(body.properties().free);
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const Joint& joint = joints_[j];
+    require_bodies(joint, static_cast<int>(bodies.size()));
+    const Eigen::Vector3d first = bodies[static_cast<std::size_t>(joint.first)].rest_centre();
+    const Eigen::Vector3d second =
+        joint.second ? bodies[static_cast<std::size_t>(*joint.second)].rest_centre() : Eigen::Vector3d::Zero();
+    place_in_first_.push_back(joint.place - first);
+    for (auto& what : conditions_of(joint, first, second))
+      conditions_.push_back({static_cast<int>(j), joint.first, joint.second, std::move(what)});
+  }
+}
+
+void JointSet::reduce(const std::vector<bool>& keep) {
+  std::vector<Condition> kept;
+  for (std::size_t i = 0; i < conditions_.size(); ++i)
+    if (keep[i]) kept.push_back(conditions_[i]);
+  conditions_ = std::move(kept);
+}
+
+void JointSet::couple(BlockPattern& pattern) const {
+  for (const Condition& c : conditions_)
+    if (c.second) pattern.couple(c.first, *c.second);
+}
+
+Eigen::VectorXd JointSet::values(const State& state) const {
+  Eigen::VectorXd g(count());
+  for (Eigen::Index i = 0; i < count(); ++i) {
+    const Condition& c = conditions_[static_cast<std::size_t>(i)];
+    g[i] = std::visit([&](const auto& what) { return value(what, ends_of(c, state)); }, c.what);
+  }
+  return g;
+}
+
+std::vector<Gradient> JointSet::gradients(const State& state) const {
+  std::vector<Gradient> G;
+  G.reserve(conditions_.size());
+  for (const Condition& c : conditions_) {
+    Gradient row = std::visit([&](const auto& what) { return gradient(what, ends_of(c, state)); }, c.what);
+    set_locked_to_zero(row.first, free_[static_cast<std::size_t>(c.first)]);
+    if (c.second) set_locked_to_zero(row.second, free_[static_cast<std::size_t>(*c.second)]);
+    G.push_back(row);
+  }
+  return G;
+}
+
+Eigen::VectorXd JointSet::times(const std::vector<Gradient>& G, const Eigen::VectorXd& x) const {
+  Eigen::VectorXd out(count());
+  for (std::size_t i = 0; i < conditions_.size(); ++i) {
+    const Condition& c = conditions_[i];
+    out[static_cast<Eigen::Index>(i)] =
+        G[i].first.dot(x.segment<6>(6 * c.first)) + (c.second ? G[i].second.dot(x.segment<6>(6 * *c.second)) : 0);
+  }
+  return out;
+}
+
+void JointSet::add_transposed(const std::vector<Gradient>& G, const Eigen::VectorXd& lambda,
+                              Eigen::VectorXd& out) const {
+  for (std::size_t i = 0; i < conditions_.size(); ++i) {
+    const Condition& c = conditions_[i];
+    const double l = lambda[static_cast<Eigen::Index>(i)];
+    out.segment<6>(6 * c.first) += l * G[i].first;
+    if (c.second) out.segment<6>(6 * *c.second) += l * G[i].second;
+  }
+}
+
+void JointSet::add_curvature(const State& state, const Eigen::VectorXd& lambda, double factor, BlockMatrix& out) const {
+  for (std::size_t i = 0; i < conditions_.size(); ++i) {
+    const Condition& c = conditions_[i];
+    Matrix12 H = factor * lambda[static_cast<Eigen::Index>(i)] *
+                 std::visit([&](const auto& what) { return curvature(what, ends_of(c, state)); }, c.what);
+    for (int k = 0; k < 12; ++k) {  // motions that are not free have rows and columns of their own
+      const std::optional<int> body = k < 6 ? c.first : c.second;
+      if (!body || free_[static_cast<std::size_t>(*body)][static_cast<std::size_t>(k % 6)]) continue;
+      H.row(k).setZero();
+      H.col(k).setZero();
+    }
+    out.block(c.first, c.first) += H.topLeftCorner<6, 6>();
+    if (!c.second) continue;
+    out.block(c.first, *c.second) += H.topRightCorner<6, 6>();
+    out.block(*c.second, c.first) += H.bottomLeftCorner<6, 6>();
+    out.block(*c.second, *c.second) += H.bottomRightCorner<6, 6>();
+  }
+}
+
+Eigen::VectorXd JointSet::convective(const State& state) const {
+  Eigen::VectorXd out(count());
+  for (std::size_t i = 0; i < conditions_.size(); ++i) {
+    const Condition& c = conditions_[i];
+    Eigen::Matrix<double, 12, 1> v = Eigen::Matrix<double, 12, 1>::Zero();
+    v.head<6>() = state.twist(c.first);
+    if (c.second) v.tail<6>() = state.twist(*c.second);
+    const Matrix12 H = std::visit([&](const auto& what) { return curvature(what, ends_of(c, state)); }, c.what);
+    out[static_cast<Eigen::Index>(i)] = v.dot(H * v);
+  }
+  return out;
+}
+
+Vector6 JointSet::load_on_first(int joint, const State& state, const Eigen::VectorXd& lambda) const {
+  const auto body = static_cast<std::size_t>(joints_[static_cast<std::size_t>(joint)].first);
+  const Eigen::Matrix3d R = state.pose[body].attitude.toRotationMatrix();
+  const Eigen::Vector3d arm = R * place_in_first_[static_cast<std::size_t>(joint)];
+  Vector6 load = Vector6::Zero();
+  for (std::size_t i = 0; i < conditions_.size(); ++i) {
+    const Condition& c = conditions_[i];
+    if (c.joint == joint)
+      load -= lambda[static_cast<Eigen::Index>(i)] *
+              std::visit([&](const auto& what) { return gradient(what, ends_of(c, state)); }, c.what).first;
+  }
+  Vector6 out;
+  out << R.transpose() * load.head<3>(), R.transpose() * (load.tail<3>() - arm.cross(load.head<3>()));
+  return out;
+}
+
+}  // namespace dynamics

@@ -1,0 +1,98 @@
+#include "dynamics/model/kkt_solver.hpp"
+
+#include <Eigen/KLUSupport>
+#include <Eigen/LU>
+#include <Eigen/Sparse>
+
+namespace dynamics {
+
+struct KktSolver::Impl {
+  using Sparse = Eigen::SparseMatrix<double>;
+
+  Impl(const BlockPattern& pattern, const JointSet& set) : joints(set), bodies_alone(pattern) {}
+
+  const JointSet& joints;
+  BlockSolver bodies_alone;
+  Eigen::PartialPivLU<Eigen::MatrixXd> dense_lu;
+  Eigen::KLU<Sparse> sparse_lu;
+  bool ordered = false;
+
+  // Calls f(row or column of the bodies, condition, which body's part) for all numbers of G.
+  template <class Use>
+  void for_each(const std::vector<Gradient>& G, Use use) const {
+    for (std::size_t i = 0; i < G.size(); ++i) {
+      const Condition& c = joints.conditions()[i];
+      for (int k = 0; k < 6; ++k) use(6 * c.first + k, static_cast<Eigen::Index>(i), G[i].first[k]);
+      if (!c.second) continue;
+      for (int k = 0; k < 6; ++k) use(6 * *c.second + k, static_cast<Eigen::Index>(i), G[i].second[k]);
+    }
+  }
+
+  bool factorise_dense(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H) {
+    const Eigen::MatrixXd bodies = T.dense();
+    const Eigen::Index n = bodies.rows();
+    Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n + joints.count(), n + joints.count());
+    whole.topLeftCorner(n, n) = bodies;
+    for_each(G, [&](Eigen::Index mode, Eigen::Index i, double value) { whole(mode, n + i) = value; });
+    for_each(H, [&](Eigen::Index mode, Eigen::Index i, double value) { whole(n + i, mode) = value; });
+    if (!whole.allFinite()) return false;
+    equilibrate(whole);
+    dense_lu.compute(whole);
+    return dense_lu.rcond() > 1e-15;
+  }
+
+  // Forces and metres, kilograms and numbers lie far apart in size: rows and columns scaled to one before the factors.
+  Eigen::VectorXd row_scale, column_scale;
+  void equilibrate(Eigen::MatrixXd& m) {
+    row_scale = m.cwiseAbs().rowwise().maxCoeff().cwiseMax(1e-300).cwiseInverse();
+    m = row_scale.asDiagonal() * m;
+    column_scale = m.cwiseAbs().colwise().maxCoeff().transpose().cwiseMax(1e-300).cwiseInverse();
+    m = m * column_scale.asDiagonal();
+  }
+
+  bool factorise_sparse(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H) {
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(36 * T.pattern().blocks() + 24 * conditions());
+    for (int i = 0; i < T.pattern().bodies(); ++i)
+      for (const int j : T.pattern().columns(i))
+        for (int r = 0; r < 6; ++r)
+          for (int c = 0; c < 6; ++c) entries.emplace_back(6 * i + r, 6 * j + c, T.block(i, j)(r, c));
+    const Eigen::Index n = 6 * T.pattern().bodies();
+    for_each(G, [&](Eigen::Index mode, Eigen::Index i, double value) { entries.emplace_back(mode, n + i, value); });
+    for_each(H, [&](Eigen::Index mode, Eigen::Index i, double value) { entries.emplace_back(n + i, mode, value); });
+    for (const auto& entry : entries)
+      if (!std::isfinite(entry.value())) return false;
+    Sparse whole(n + joints.count(), n + joints.count());
+    whole.setFromTriplets(entries.begin(), entries.end());
+    if (!ordered) sparse_lu.analyzePattern(whole);
+    ordered = true;
+    sparse_lu.factorize(whole);
+    return sparse_lu.info() == Eigen::Success;
+  }
+  std::size_t conditions() const { return static_cast<std::size_t>(joints.count()); }
+};
+
+KktSolver::KktSolver(const BlockPattern& pattern, const JointSet& joints)
+    : impl_(std::make_unique<Impl>(pattern, joints)) {}
+KktSolver::~KktSolver() = default;
+KktSolver::KktSolver(KktSolver&&) noexcept = default;
+
+bool KktSolver::is_sparse() const { return impl_->bodies_alone.is_sparse(); }
+
+bool KktSolver::factorise(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H) {
+  if (impl_->joints.count() == 0) return impl_->bodies_alone.factorise(T);
+  return is_sparse() ? impl_->factorise_sparse(T, G, H) : impl_->factorise_dense(T, G, H);
+}
+
+KktSolver::Solution KktSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& c) const {
+  if (impl_->joints.count() == 0) return {impl_->bodies_alone.solve(b), Eigen::VectorXd()};
+  Eigen::VectorXd right(b.size() + c.size()), out;
+  right << b, c;
+  if (is_sparse())
+    out = impl_->sparse_lu.solve(right);
+  else
+    out = impl_->column_scale.cwiseProduct(impl_->dense_lu.solve(impl_->row_scale.cwiseProduct(right)));
+  return {out.head(b.size()), out.tail(c.size())};
+}
+
+}  // namespace dynamics
