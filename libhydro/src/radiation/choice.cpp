@@ -94,7 +94,9 @@ void weigh_convolutions(const DampingTable& damping, const std::vector<Eigen::Ma
   w.whole = continued(damping, A, A_inf);
   const double longest = RetardationKernel::longest_time(w.whole->table);
   const double length =
-      demand.length ? *demand.length : std::min(longest, memory_length(w.whole->table, demand.tolerance));
+      demand.length
+          ? *demand.length
+          : std::min(longest, memory_length(w.whole->table, demand.tolerance / 2));  // half is left for the sampling
   w.kernel = RetardationKernel::from_damping(w.whole->table, {demand.step, std::max(length, 2 * demand.step)});
   out.lags = w.kernel->samples();
   out.truncation = w.kernel->truncation();
