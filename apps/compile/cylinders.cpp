@@ -1,6 +1,7 @@
 #include "compile/cylinders.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace froude::compile {
 namespace {
@@ -31,6 +32,31 @@ std::vector<double> headings_asked(const Scene& scene) {
   return headings;
 }
 
+/// What hydro::cylinders is asked.
+struct Request {
+  std::vector<hydro::cylinders::CylinderBody> layout;
+  std::vector<double> omega, headings;
+  hydro::cylinders::Options options;
+  hydro::Place place;
+};
+
+Request request(const Scene& scene, const std::vector<int>& bodies) {
+  const scene::Hydrodynamics& first = *body_of(scene, bodies.front()).hydrodynamics;
+  Request r{{}, first.cylinders->omega, first.cylinders->headings, {}, first.file.place};
+  for (const int b : bodies) {
+    const scene::Hydrodynamics& h = *body_of(scene, b).hydrodynamics;
+    if (h.cylinders->omega != first.cylinders->omega || h.cylinders->headings != first.cylinders->headings)
+      throw InputError("bodies of cylinders state different frequencies or headings", h.file.place,
+                       "they are solved together: give all the same");
+    r.layout.push_back(as_cylinders(body_of(scene, b)));
+  }
+  if (r.headings.empty()) r.headings = headings_asked(scene);
+  // A tenth of the accuracy asked of the motions, so that their error is not made here.
+  r.options.tolerance = std::clamp(0.1 * scene.accuracy, 1e-6, 1e-3);
+  r.options.doubled_frequencies = 1;
+  return r;
+}
+
 }  // namespace
 
 std::vector<int> bodies_of_cylinders(const Scene& scene) {
@@ -43,25 +69,37 @@ std::vector<int> bodies_of_cylinders(const Scene& scene) {
 
 hydro::cylinders::Solution solve_cylinders(const Scene& scene, const std::vector<int>& bodies,
                                            std::function<void(int, int)> progress) {
-  const scene::Hydrodynamics& first = *body_of(scene, bodies.front()).hydrodynamics;
-  std::vector<hydro::cylinders::CylinderBody> layout;
-  for (const int b : bodies) {
-    const scene::Hydrodynamics& h = *body_of(scene, b).hydrodynamics;
-    if (h.cylinders->omega != first.cylinders->omega || h.cylinders->headings != first.cylinders->headings)
-      throw InputError("bodies of cylinders state different frequencies or headings", h.file.place,
-                       "they are solved together: give all the same");
-    layout.push_back(as_cylinders(body_of(scene, b)));
-  }
-  const std::vector<double> headings =
-      first.cylinders->headings.empty() ? headings_asked(scene) : first.cylinders->headings;
-  // A tenth of the accuracy asked of the motions, so that their error is not made here.
-  const double tolerance = std::clamp(0.1 * scene.accuracy, 1e-6, 1e-3);
+  const Request r = request(scene, bodies);
+  hydro::cylinders::Options options = r.options;
+  options.progress = std::move(progress);
   try {
-    return hydro::cylinders::solve(layout, scene.water, first.cylinders->omega, headings,
-                                   {.tolerance = tolerance, .doubled_frequencies = 1, .progress = std::move(progress)});
+    return hydro::cylinders::solve(r.layout, scene.water, r.omega, r.headings, options);
   } catch (const InputError& e) {
-    throw e.at(first.file.place);
+    throw e.at(r.place);
   }
+}
+
+std::string CylinderPlan::method() const {
+  return fmt::format("exact, the equations between groups {}", cost.iterative ? "by iteration" : "by elimination");
+}
+
+std::string CylinderPlan::size() const {
+  return fmt::format(
+      "{} cylinders in {} {}, {} frequencies, {} headings; {} unknowns at most, {:.3g} MB, about {:.2g} s", cylinders,
+      bodies, bodies == 1 ? "body" : "bodies", frequencies, headings, cost.unknowns, std::ceil(cost.bytes / 1e6),
+      std::max(0.1, cost.seconds));
+}
+
+CylinderPlan plan_cylinders(const Scene& scene, const std::vector<int>& bodies) {
+  const Request r = request(scene, bodies);
+  CylinderPlan plan{{}, 0, bodies.size(), r.omega.size(), r.headings.size()};
+  for (const auto& body : r.layout) plan.cylinders += body.cylinders.size();
+  try {
+    plan.cost = hydro::cylinders::cost(r.layout, scene.water, r.omega, r.headings, r.options);
+  } catch (const InputError& e) {
+    throw e.at(r.place);
+  }
+  return plan;
 }
 
 }  // namespace froude::compile

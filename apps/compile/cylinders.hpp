@@ -1,6 +1,7 @@
 #pragma once
 /// \file  Coefficients of the cylinders that a scene describes.
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "hydro/cylinders/solve.hpp"
@@ -16,5 +17,16 @@ std::vector<int> bodies_of_cylinders(const scene::Scene& scene);
 /// \throws hydro::InputError, placed in the scene, if bodies state different ones, or what hydro::cylinders refuses
 hydro::cylinders::Solution solve_cylinders(const scene::Scene& scene, const std::vector<int>& bodies,
                                            std::function<void(int, int)> progress = {});
+
+/// What solve_cylinders() will take, told before it is done.
+struct CylinderPlan {
+  hydro::cylinders::Cost cost;
+  std::size_t cylinders, bodies, frequencies, headings;
+  std::string method() const;  ///< "exact, …"
+  std::string size() const;    ///< numbers, memory and time in words
+};
+
+/// \throws hydro::InputError as solve_cylinders()
+CylinderPlan plan_cylinders(const scene::Scene& scene, const std::vector<int>& bodies);
 
 }  // namespace froude::compile

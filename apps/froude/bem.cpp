@@ -162,6 +162,7 @@ void bem_solve(const Path& file, const Path& output, const std::string& format, 
   if (bodies.empty())
     throw hydro::InputError("no body of the scene has cylinders", {.file = file.string()},
                             "add cylinders = { at = [...], diameter = ..., draught = ... } to [body.hydrodynamics]");
+  if (console.show_progress) console.err << compile::plan_cylinders(scene, bodies).size() << '\n';
   Progress progress(console.err, "solve", console.show_progress);
   const auto solution = compile::solve_cylinders(
       scene, bodies, [&](int done, int all) { progress.update(static_cast<double>(done) / all); });

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "compile/cylinders.hpp"
 #include "compile/waves.hpp"
 #include "froude/scene_result.hpp"
 
@@ -100,6 +101,12 @@ Section plan_waves(const scene::Scene& scene) {
   return s;
 }
 
+/// Coefficients of cylinders, before any is computed.
+Section plan_coefficients(const compile::CylinderPlan& cylinders) {
+  return {"coefficients of cylinders, computed when a run starts:",
+          {{"potential", cylinders.method(), cylinders.size(), true}}};
+}
+
 void tell(const Console& console, const std::vector<Section>& sections, const std::vector<std::string>& notes) {
   if (console.json) {
     nlohmann::json j{{"notes", notes}};
@@ -125,8 +132,17 @@ void tell(const Console& console, const std::vector<Section>& sections, const st
 
 void plan(const SceneArguments& arguments, const Console& console) {
   const scene::Scene scene = scene::read(arguments.scene);
-  const compile::Prepared prepared = compile::prepare(scene);
   std::vector<Section> sections;
+  if (const auto bodies = compile::bodies_of_cylinders(scene); !bodies.empty()) {
+    const compile::CylinderPlan cylinders = compile::plan_cylinders(scene, bodies);
+    sections.push_back(plan_coefficients(cylinders));
+    constexpr double patience_s = 60;
+    if (cylinders.cost.seconds > patience_s)
+      return tell(console, sections,
+                  {"the rest of the plan depends on these coefficients, which take longer than a plan should: compute "
+                   "them with `froude bem solve`, name the file in the scene, and plan again"});
+  }
+  const compile::Prepared prepared = compile::prepare(scene);
   if (scene.rao) sections.push_back(plan_rao(scene, prepared));
   if (scene.ask_modes) sections.push_back(plan_modes(prepared));
   std::vector<std::string> notes = prepared.notes;

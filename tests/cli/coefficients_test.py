@@ -41,6 +41,20 @@ class Coefficients(unittest.TestCase):
         for part in parts:
             self.assertIn(part, message)
 
+    def test_the_plan_tells_what_coefficients_of_cylinders_take_before_they_are_computed(self):
+        scene = (SOURCE / "examples" / "cylinders.toml").read_text()
+        small = self.froude("plan", SOURCE / "examples" / "cylinders.toml").stdout
+        self.assertIn("4 cylinders in 1 body, 39 frequencies", small)
+        self.assertIn("run:", small)
+        scene = scene[:scene.index("[[mooring]]")] + scene[scene.index("[ask]"):].replace("module.", "module_1.")
+        scene = scene.replace('name = "module"', 'name = "module"\ncopies = { count = 60, step = "(13, 0, 0) m" }')
+        (self.folder / "farm.toml").write_text(scene)
+        large = self.froude("plan", self.folder / "farm.toml").stdout
+        self.assertIn("240 cylinders in 60 bodies", large)
+        self.assertIn("by iteration", large)
+        self.assertIn("froude bem solve", large)
+        self.assertNotIn("run:", large)
+
     def test_scaling_there_and_back_gives_the_same_numbers(self):
         self.convert(PONTOON, "--scale", 25, "--density-ratio", 1.025, "-o", "big.h5")
         self.convert("big.h5", "--scale", 0.04, "--density-ratio", 1 / 1.025, "-o", "back.h5")

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "bessel.hpp"
 #include "channels.hpp"
@@ -63,15 +64,25 @@ std::vector<double> coupling(const Pair& p, double kappa, bool wave) {
   return c;
 }
 
-/// Highest order of one vertical mode whose coupling exceeds the threshold, or −1.
-int highest_coupled(const std::vector<Pair>& pairs, double kappa, bool wave, double threshold) {
-  int highest = -1;
+struct Coupled {
+  int highest = -1;     ///< order of one vertical mode whose coupling exceeds the threshold; −1: none does
+  double largest = 0;   ///< coupling of any order
+  double left_out = 0;  ///< at the highest order of all, if above the threshold
+};
+
+Coupled coupled(const std::vector<Pair>& pairs, double kappa, bool wave, double threshold) {
+  Coupled all;
   for (const Pair& p : pairs) {
     const auto c = coupling(p, kappa, wave);
     for (int m = 0; m <= most_orders; ++m)
-      if (c[static_cast<std::size_t>(m)] > threshold) highest = std::max(highest, m);
+      if (c[static_cast<std::size_t>(m)] > threshold) all.highest = std::max(all.highest, m);
+    all.largest = std::max(all.largest, *std::max_element(c.begin(), c.end()));
+    // A short wave, or a low order, is given back whole; a high order by 1/(πm).
+    const bool whole = !wave || kappa * p.b > most_orders;
+    const double returned = whole ? c.back() : c.back() / (std::numbers::pi * most_orders);
+    if (c.back() > threshold) all.left_out = std::max(all.left_out, returned);
   }
-  return highest;
+  return all;
 }
 
 }  // namespace
@@ -88,7 +99,7 @@ int Channels::vertical_of(int azimuthal) const {
 }
 
 Channels Channels::united_with(const Channels& other) const {
-  Channels both{std::vector<int>(std::max(order.size(), other.order.size()))};
+  Channels both{std::vector<int>(std::max(order.size(), other.order.size())), std::max(left_out, other.left_out)};
   for (std::size_t n = 0; n < both.order.size(); ++n)
     both.order[n] = std::max(n < order.size() ? order[n] : 0, n < other.order.size() ? other.order[n] : 0);
   return both;
@@ -97,12 +108,19 @@ Channels Channels::united_with(const Channels& other) const {
 Channels coupled_channels(const std::vector<Cylinder>& cylinders, const VerticalModes& modes, double threshold,
                           const WantedPair& wanted) {
   const auto pairs = closest_pairs(cylinders, modes.depth, wanted);
-  Channels channels{{modes.has_wave() ? std::max(1, highest_coupled(pairs, modes.k, true, threshold)) : 1}};
-  for (const double kappa : modes.kappa) {
-    const int highest = highest_coupled(pairs, kappa, false, threshold);
-    if (highest < 0) break;
-    channels.order.push_back(highest);
+  Channels channels{{1}};
+  if (modes.has_wave()) {
+    const Coupled wave = coupled(pairs, modes.k, true, threshold);
+    channels = {{std::max(1, wave.highest)}, wave.left_out};
   }
+  Coupled last;
+  for (const double kappa : modes.kappa) {
+    last = coupled(pairs, kappa, false, threshold);
+    if (last.highest < 0) break;
+    channels.order.push_back(last.highest);
+    channels.left_out = std::max(channels.left_out, last.left_out);
+  }
+  if (last.highest >= 0) channels.left_out = std::max(channels.left_out, last.largest);  // there are more such modes
   for (std::size_t n = channels.order.size() - 1; n-- > 0;)
     channels.order[n] = std::max(channels.order[n], channels.order[n + 1]);
   return channels;

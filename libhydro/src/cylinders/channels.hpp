@@ -11,6 +11,7 @@ namespace hydro::cylinders {
 /// Which partial waves carry the interaction: azimuthal orders −order[n] … order[n] of the vertical mode n.
 struct Channels {
   std::vector<int> order;  ///< by vertical mode, the wave first; does not increase
+  double left_out = 0;  ///< coupling beyond the highest order and vertical mode that can be had, if above the threshold
   int vertical() const { return static_cast<int>(order.size()); }
   int highest_order() const { return order.front(); }
   int count() const;                     ///< partial waves of one cylinder

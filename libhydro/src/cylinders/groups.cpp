@@ -50,10 +50,20 @@ std::vector<double> distinct_gaps(const std::vector<Cylinder>& cylinders, std::s
   return distinct;
 }
 
+double square(double x) { return x * x; }
 double cube(double x) { return x * x * x; }
 
-Grouping grouped(const std::vector<Cylinder>& cylinders, const std::vector<std::size_t>& kind,
-                 const VerticalModes& modes, double threshold, double reach) {
+constexpr double compression = 0.4;  // unknowns left of the partial waves within groups, as seen
+constexpr double number = sizeof(Complex);
+constexpr int most_steps = 100;
+constexpr Eigen::Index columns_at_a_time = 48;
+
+/// Errors of many pairs have random signs.
+double weakest_passage(double precision, std::size_t cylinders) {
+  return 1e-2 * precision / std::sqrt(static_cast<double>(cylinders));
+}
+
+Grouping grouped(const std::vector<Cylinder>& cylinders, const VerticalModes& modes, double threshold, double reach) {
   Grouping g{joined(cylinders, reach), {}, {}, 0};
   std::vector<std::size_t> group(cylinders.size());
   for (std::size_t s = 0; s < g.members.size(); ++s)
@@ -64,12 +74,6 @@ Grouping grouped(const std::vector<Cylinder>& cylinders, const std::vector<std::
       coupled_channels(cylinders, modes, threshold, [&](std::size_t i, std::size_t j) { return group[i] != group[j]; });
   g.between.order[0] = std::max(g.between.order[0], g.within.order[0]);  // arriving waves have all orders
   g.within = g.within.united_with(g.between);
-  constexpr double compression = 0.4;  // unknowns left of the partial waves within groups, as seen
-  std::set<std::string> known;
-  if (g.members.size() > 1) g.work = cube(static_cast<double>(cylinders.size()) * g.between.count());
-  for (const auto& members : g.members)
-    if (members.size() > 1 && known.insert(shape_of(members, cylinders, kind)).second)
-      g.work += cube(static_cast<double>(members.size()) * g.within.count() * compression);
   return g;
 }
 
@@ -86,102 +90,145 @@ std::string shape_of(const std::vector<std::size_t>& members, const std::vector<
   return shape;
 }
 
+EquationsCost equations_cost(const Grouping& grouping, std::size_t cylinders, double columns, Equations wanted) {
+  constexpr double steps = 15;  // of the iteration, as seen
+  const double N = static_cast<double>(cylinders), size = N * grouping.between.count();
+  if (grouping.members.size() == 1) return {false, 0, 0};
+  const double entries = square(N * (1 + grouping.between.highest_order()));  // half of the orders, for most pairs
+  double within = 0;                                                          // entries of T
+  for (const auto& members : grouping.members)
+    within += square(static_cast<double>(members.size()) * grouping.between.count());
+  const double elimination = cube(size) / 3 + square(size) * columns;
+  const double iteration = columns * steps * (entries + within + steps * size);
+  const bool iterative = wanted == Equations::automatic ? iteration < elimination : wanted == Equations::iterative;
+  const double kept = entries + within + 6 * size * columns, one = columns_at_a_time;
+  if (iterative) return {true, iteration, number * (kept + (steps + 5) * size * std::min(columns, one))};
+  return {false, elimination, number * (kept + 2 * square(size))};  // the matrix and its factors
+}
+
+EquationsCost compounds_cost(const Grouping& grouping, const std::vector<Cylinder>& cylinders,
+                             const std::vector<std::size_t>& kind) {
+  EquationsCost sum{false, 0, 0};
+  std::set<std::string> known;
+  for (const auto& members : grouping.members) {
+    if (members.size() == 1 || !known.insert(shape_of(members, cylinders, kind)).second) continue;
+    const double size = static_cast<double>(members.size()), all = size * grouping.within.count();
+    const double n = compression * all, columns = size * (grouping.between.count() + 6);
+    sum.work += cube(n) / 3 + square(n) * columns + 4 * all * grouping.within.vertical() * columns;
+    sum.bytes = std::max(sum.bytes, number * (2 * square(n) + 4 * all * columns));
+  }
+  return sum;
+}
+
 Grouping choose_grouping(const std::vector<Cylinder>& cylinders, const std::vector<std::size_t>& kind,
-                         const VerticalModes& modes, double threshold) {
-  Grouping best = grouped(cylinders, kind, modes, threshold, 0);
+                         const VerticalModes& modes, double threshold, double columns, Equations wanted) {
+  const auto with_reach = [&](double reach) {
+    Grouping g = grouped(cylinders, modes, threshold, reach);
+    g.work = equations_cost(g, cylinders.size(), columns, wanted).work + compounds_cost(g, cylinders, kind).work;
+    return g;
+  };
+  Grouping best = with_reach(0);
   for (const double reach : distinct_gaps(cylinders, 8)) {
-    Grouping g = grouped(cylinders, kind, modes, threshold, reach);
+    Grouping g = with_reach(reach);
     if (g.work < best.work) best = std::move(g);
   }
   return best;
 }
 
 Groups::Groups(std::vector<Cylinder> cylinders, const std::vector<std::size_t>& kind,
-               const std::vector<const Scatterer*>& scatterer, const VerticalModes& modes, const Grouping& grouping,
+               const std::vector<const Scatterer*>& scatterer, const VerticalModes& modes, Grouping grouping,
                double precision)
     : cylinders_(std::move(cylinders)),
       modes_(modes),
-      members_(grouping.members),
-      group_of_(cylinders_.size()),
-      between_(grouping.between),
-      index_(between_) {
+      grouping_(std::move(grouping)),
+      index_(grouping_.between),
+      precision_(precision) {
+  groups_.members = grouping_.members;
+  groups_.group_of.resize(cylinders_.size());
   std::map<std::string, std::shared_ptr<const Compound>> known;
-  for (std::size_t g = 0; g < members_.size(); ++g) {
+  for (std::size_t g = 0; g < groups_.members.size(); ++g) {
     std::vector<Cylinder> own;
     std::vector<const Scatterer*> of_own;
-    for (const std::size_t c : members_[g]) {
+    for (const std::size_t c : groups_.members[g]) {
       own.push_back(cylinders_[c]);
       of_own.push_back(scatterer[c]);
-      group_of_[c] = g;
+      groups_.group_of[c] = g;
     }
-    auto& compound = known[shape_of(members_[g], cylinders_, kind)];
-    const Channels& channels = own.size() == 1 ? between_ : grouping.within;
+    auto& compound = known[shape_of(groups_.members[g], cylinders_, kind)];
+    const Channels& channels = own.size() == 1 ? grouping_.between : grouping_.within;
     if (!compound)
-      compound = std::make_shared<Compound>(Array(own, of_own, modes_, channels, precision).compound(between_));
-    compound_.push_back(compound);
+      compound =
+          std::make_shared<Compound>(Array(own, of_own, modes_, channels, precision).compound(grouping_.between));
+    groups_.compound.push_back(compound);
   }
-  for (const Cylinder& c : cylinders_) scale_.push_back(radial_scales(modes_, c.radius, between_));
-  const std::size_t N = cylinders_.size();
-  G_.resize(N * N);
-  for (std::size_t to = 0; to < N; ++to)
-    for (std::size_t from = 0; from < N; ++from)
-      if (group_of_[to] != group_of_[from])
-        G_[to * N + from] =
-            translation(cylinders_[to], cylinders_[from], scale_[to], scale_[from], modes_, between_, 1e-2 * precision);
+  for (const Cylinder& c : cylinders_) scale_.push_back(radial_scales(modes_, c.radius, grouping_.between));
+  const double least = weakest_passage(precision, cylinders_.size());
+  between_ = std::make_unique<Between>(cylinders_, groups_.group_of, scale_, modes_, grouping_.between, least);
 }
 
-MatrixXcd Groups::apply(MatrixXcd Compound::*part, const MatrixXcd& x, Index rows, Index columns) const {
-  MatrixXcd y = MatrixXcd::Zero(rows * static_cast<Index>(cylinders_.size()), x.cols());
-  for (std::size_t g = 0; g < members_.size(); ++g) {
-    const Index size = static_cast<Index>(members_[g].size());
-    MatrixXcd of_group(columns * size, x.cols());
+Amplitudes Groups::apply(MatrixXcd Compound::*part, const Amplitudes& x, Index rows, Index columns) const {
+  Amplitudes y = Amplitudes::Zero(rows * static_cast<Index>(cylinders_.size()), x.cols());
+  for (std::size_t g = 0; g < groups_.members.size(); ++g) {
+    const auto& members = groups_.members[g];
+    const Index size = static_cast<Index>(members.size());
+    Amplitudes of_group(columns * size, x.cols());
     for (Index i = 0; i < size; ++i)
       of_group.middleRows(i * columns, columns) =
-          x.middleRows(static_cast<Index>(members_[g][static_cast<std::size_t>(i)]) * columns, columns);
-    const MatrixXcd result = (*compound_[g]).*part * of_group;
+          x.middleRows(static_cast<Index>(members[static_cast<std::size_t>(i)]) * columns, columns);
+    const Amplitudes result = (*groups_.compound[g]).*part * of_group;
     for (Index i = 0; i < size; ++i)
-      y.middleRows(static_cast<Index>(members_[g][static_cast<std::size_t>(i)]) * rows, rows) =
+      y.middleRows(static_cast<Index>(members[static_cast<std::size_t>(i)]) * rows, rows) =
           result.middleRows(i * rows, rows);
   }
   return y;
 }
 
-MatrixXcd Groups::translated(const MatrixXcd& b) const {
-  MatrixXcd a = MatrixXcd::Zero(b.rows(), b.cols());
-  const std::size_t N = cylinders_.size();
-  for (std::size_t to = 0; to < N; ++to)
-    for (std::size_t from = 0; from < N; ++from)
-      for (std::size_t n = 0; n < G_[to * N + from].size(); ++n) {
-        const int M = between_.order[n];
-        a.middleRows(index_(to, static_cast<int>(n), -M), 2 * M + 1).noalias() +=
-            G_[to * N + from][n] * b.middleRows(index_(from, static_cast<int>(n), -M), 2 * M + 1);
-      }
-  return a;
+// A few columns at a time bound the memory of the iteration.
+std::optional<Iterated> Groups::iterated(const Amplitudes& arriving) const {
+  const Index waves = grouping_.between.count();
+  const auto equations = [&](const Amplitudes& a) -> Amplitudes {
+    return a - between_->translated(apply(&Compound::T, a, waves, waves));
+  };
+  Iterated all{Amplitudes(arriving.rows(), arriving.cols()), 0};
+  for (Index first = 0; first < arriving.cols(); first += columns_at_a_time) {
+    const Index count = std::min<Index>(columns_at_a_time, arriving.cols() - first);
+    const auto some = iterate(equations, arriving.middleCols(first, count), 1e-3 * precision_, most_steps);
+    if (!some) return {};
+    all.x.middleCols(first, count) = some->x;
+    all.steps = std::max(all.steps, some->steps);
+  }
+  return all;
 }
 
 // a = plane waves + G b, b = T a + R v, loads = E a + L v with the matrices of the groups.
-Response Groups::respond(const std::vector<double>& heading, const MatrixXd& motion) const {
-  const Index waves = between_.count(), size = waves * static_cast<Index>(cylinders_.size());
-  const Index headings = static_cast<Index>(heading.size());
-  MatrixXcd moving = MatrixXcd::Zero(motion.rows(), headings + motion.cols());
+Response Groups::respond(const std::vector<double>& heading, const MatrixXd& motion, Equations wanted) const {
+  const Index waves = grouping_.between.count(), headings = static_cast<Index>(heading.size());
+  Amplitudes moving = Amplitudes::Zero(motion.rows(), headings + motion.cols());
   moving.rightCols(motion.cols()) = motion.cast<Complex>();
-  const MatrixXcd own = apply(&Compound::R, moving, waves, 6);
-  MatrixXcd a = translated(own);
+  const Amplitudes own = apply(&Compound::R, moving, waves, 6);
+  Amplitudes a = between_->translated(own);
   a.leftCols(headings) += plane_waves(heading);
-  if (members_.size() > 1) {
-    const MatrixXcd T = apply(&Compound::T, MatrixXcd::Identity(size, size), waves, waves);
-    const MatrixXcd system = MatrixXcd::Identity(size, size) - translated(T);
-    a = system.partialPivLu().solve(a).eval();
+  int steps = 0;
+  if (groups_.members.size() > 1) {
+    const double columns = static_cast<double>(a.cols());
+    std::optional<Iterated> found;
+    if (equations_cost(grouping_, cylinders_.size(), columns, wanted).iterative) found = iterated(a);
+    if (!found && wanted == Equations::iterative)
+      throw InputError(fmt::format("the iteration between {} groups of cylinders did not converge in {} steps",
+                                   groups_.members.size(), most_steps),
+                       {}, "ask for direct equations, or leave the choice to the program");
+    if (found) steps = found->steps;
+    a = found ? std::move(found->x) : Amplitudes(between_->system(groups_).partialPivLu().solve(MatrixXcd(a)));
   }
   return {apply(&Compound::T, a, waves, waves) + own,
-          apply(&Compound::E, a, 6, waves) + apply(&Compound::L, moving, 6, 6)};
+          apply(&Compound::E, a, 6, waves) + apply(&Compound::L, moving, 6, 6), steps};
 }
 
 // e^{−ikr cos(θ−β)} = Σ_m (−i)^m J_m(kr) e^{im(θ−β)}.
 MatrixXcd Groups::plane_waves(const std::vector<double>& heading) const {
-  MatrixXcd a =
-      MatrixXcd::Zero(between_.count() * static_cast<Index>(cylinders_.size()), static_cast<Index>(heading.size()));
-  const int M = between_.highest_order();
+  MatrixXcd a = MatrixXcd::Zero(grouping_.between.count() * static_cast<Index>(cylinders_.size()),
+                                static_cast<Index>(heading.size()));
+  const int M = grouping_.between.highest_order();
   for (std::size_t c = 0; c < cylinders_.size(); ++c)
     for (std::size_t w = 0; w < heading.size(); ++w) {
       const double beta = heading[w];
@@ -196,19 +243,27 @@ MatrixXcd Groups::plane_waves(const std::vector<double>& heading) const {
   return a;
 }
 
-// H⁽²⁾_m(kr) → i^m √(2/(πkr)) e^{−i(kr − π/4)}, and r is shorter by the way to the cylinder along θ.
+// H⁽²⁾_m(kr) → i^m √(2/(πkr)) e^{−i(kr − π/4)}, and r is shorter by the way to the cylinder along θ. Some angles at a
+// time bound the memory.
 MatrixXcd Groups::far_field(const MatrixXcd& sent_out, const std::vector<double>& angle) const {
-  MatrixXcd f = MatrixXcd::Zero(static_cast<Index>(angle.size()), sent_out.cols());
-  const int M = between_.highest_order();
-  for (std::size_t t = 0; t < angle.size(); ++t) {
-    const Eigen::Vector2d towards(std::cos(angle[t]), std::sin(angle[t]));
-    for (std::size_t c = 0; c < cylinders_.size(); ++c) {
-      const Complex phase = std::polar(1.0, modes_.k * cylinders_[c].centre.dot(towards));
-      for (int m = -M; m <= M; ++m)
-        f.row(static_cast<Index>(t)) += phase * std::polar(1.0, m * angle[t] + std::abs(m) * pi / 2) /
-                                        scale_[c][0][static_cast<std::size_t>(std::abs(m))] *
-                                        sent_out.row(index_(c, 0, m));
+  constexpr Index angles_at_a_time = 64;
+  const Index all = static_cast<Index>(angle.size());
+  MatrixXcd f(all, sent_out.cols());
+  const int M = grouping_.between.highest_order();
+  for (Index first = 0; first < all; first += angles_at_a_time) {
+    const Index count = std::min(angles_at_a_time, all - first);
+    MatrixXcd reach = MatrixXcd::Zero(count, sent_out.rows());
+    for (Index t = 0; t < count; ++t) {
+      const double theta = angle[static_cast<std::size_t>(first + t)];
+      const Eigen::Vector2d towards(std::cos(theta), std::sin(theta));
+      for (std::size_t c = 0; c < cylinders_.size(); ++c) {
+        const Complex phase = std::polar(1.0, modes_.k * cylinders_[c].centre.dot(towards));
+        for (int m = -M; m <= M; ++m)
+          reach(t, index_(c, 0, m)) = phase * std::polar(1.0, m * theta + std::abs(m) * pi / 2) /
+                                      scale_[c][0][static_cast<std::size_t>(std::abs(m))];
+      }
     }
+    f.middleRows(first, count).noalias() = reach * sent_out;
   }
   return f;
 }

@@ -9,6 +9,9 @@
 #include <vector>
 
 #include "array.hpp"
+#include "between.hpp"
+#include "hydro/cylinders/solve.hpp"
+#include "iterate.hpp"
 
 namespace hydro::cylinders {
 
@@ -19,51 +22,65 @@ struct Grouping {
   double work;               ///< estimate, complex multiplications
 };
 
-/// The grouping that costs least among those that join all pairs closer than some distance. `kind[i]`: equal cylinders
-/// have equal numbers.
-Grouping choose_grouping(const std::vector<Cylinder>& cylinders, const std::vector<std::size_t>& kind,
-                         const VerticalModes& modes, double threshold);
-
 /// A group's shape: equal for groups that are copies of each other.
 std::string shape_of(const std::vector<std::size_t>& members, const std::vector<Cylinder>& cylinders,
                      const std::vector<std::size_t>& kind);
+
+/// The work of solving the groups together, in complex multiplications and bytes, as far as it is known beforehand.
+struct EquationsCost {
+  bool iterative;
+  double work, bytes;
+};
+
+/// By elimination or by iteration: the one that needs fewer multiplications, unless `wanted` says which (C15).
+/// `columns`: motions and headings.
+EquationsCost equations_cost(const Grouping& grouping, std::size_t cylinders, double columns, Equations wanted);
+
+/// The same of solving the groups by themselves, which is direct.
+EquationsCost compounds_cost(const Grouping& grouping, const std::vector<Cylinder>& cylinders,
+                             const std::vector<std::size_t>& kind);
+
+/// The grouping that costs least among those that join all pairs closer than some distance. `kind[i]`: equal cylinders
+/// have equal numbers; `columns`: motions.
+Grouping choose_grouping(const std::vector<Cylinder>& cylinders, const std::vector<std::size_t>& kind,
+                         const VerticalModes& modes, double threshold, double columns, Equations wanted);
 
 /// Answers for waves that arrive (columns first) and for motions (columns after).
 struct Response {
   Eigen::MatrixXcd sent_out;  ///< amplitudes b in the partial waves between groups
   Eigen::MatrixXcd loads;     ///< ∬ φ n dS, 6 a cylinder
+  int steps;                  ///< of the iteration; 0: solved by elimination
 };
 
 class Groups {
  public:
   /// `scatterer[i]` belongs to cylinder i.
   Groups(std::vector<Cylinder> cylinders, const std::vector<std::size_t>& kind,
-         const std::vector<const Scatterer*>& scatterer, const VerticalModes& modes, const Grouping& grouping,
+         const std::vector<const Scatterer*>& scatterer, const VerticalModes& modes, Grouping grouping,
          double precision);
 
-  int partial_waves() const { return between_.count(); }
+  int partial_waves() const { return grouping_.between.count(); }
   /// Potentials Z_0(z) e^{−ik(x cos β + y sin β)}, one a heading, and velocities (6 a cylinder, columns).
-  Response respond(const std::vector<double>& heading, const Eigen::MatrixXd& motion) const;
+  /// \throws InputError if iteration is wanted and does not converge; where it was chosen here, elimination follows
+  Response respond(const std::vector<double>& heading, const Eigen::MatrixXd& motion, Equations wanted) const;
   /// f(θ) of the waves sent out, φ → f(θ) √(2/(πkr)) e^{−i(kr − π/4)} Z_0(z) (C13): one row an angle.
   Eigen::MatrixXcd far_field(const Eigen::MatrixXcd& sent_out, const std::vector<double>& angle) const;
 
  private:
   Eigen::MatrixXcd plane_waves(const std::vector<double>& heading) const;
-  Eigen::MatrixXcd translated(const Eigen::MatrixXcd& b) const;
+  std::optional<Iterated> iterated(const Amplitudes& arriving) const;
   /// Σ over groups of one of the four matrices of each, applied to rows of x; `rows`, `columns` a cylinder.
-  Eigen::MatrixXcd apply(Eigen::MatrixXcd Compound::*part, const Eigen::MatrixXcd& x, Eigen::Index rows,
-                         Eigen::Index columns) const;
-  std::size_t group_of(std::size_t cylinder) const { return group_of_[cylinder]; }
+  Amplitudes apply(Eigen::MatrixXcd Compound::*part, const Amplitudes& x, Eigen::Index rows,
+                   Eigen::Index columns) const;
 
   std::vector<Cylinder> cylinders_;
   const VerticalModes& modes_;
-  std::vector<std::vector<std::size_t>> members_;
-  std::vector<std::size_t> group_of_;
-  Channels between_;
+  Grouping grouping_;
   WaveIndex index_;
+  double precision_;
   std::vector<RadialScales> scale_;
-  std::vector<std::shared_ptr<const Compound>> compound_;  // of each group
-  std::vector<Translation> G_;                             // [to * cylinders + from], empty within a group
+  GroupedCylinders groups_;
+  std::unique_ptr<const Between> between_;
 };
 
 }  // namespace hydro::cylinders

@@ -27,7 +27,7 @@ double relative_change(const MatrixXcd& M, const MatrixXcd& N) {
 }
 
 /// Compression may be coarser than what is left out: its errors have random signs, and few add up.
-constexpr double precision_of_compression = 30;
+constexpr double precision_of_compression = 10;
 constexpr int most_terms = 300'000;  // 100 MB at 48 gap functions
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -38,9 +38,20 @@ double distance_across(const std::vector<Cylinder>& cylinders) {
   return largest;
 }
 
+void require_coupling(double left_out, double omega) {
+  constexpr double most_left_out = 0.1;
+  if (left_out > most_left_out)
+    throw InputError(fmt::format("at {:.6g} rad/s no digit is certain: waves between the cylinders need more partial "
+                                 "waves than there can be",
+                                 omega),
+                     {},
+                     "the gaps between cylinders are too small, or the waves too short, for their radii: move the "
+                     "cylinders apart or leave out this frequency");
+}
+
 }  // namespace
 
-Resolution Resolution::doubled() const { return {2 * gap_functions, std::pow(threshold, 1.5)}; }
+Resolution Resolution::doubled() const { return {2 * gap_functions, std::pow(threshold, 1.5), equations}; }
 
 Model::Model(const std::vector<CylinderBody>& bodies, const Water& water, const Resolution& resolution,
              const std::vector<double>& omega)
@@ -100,15 +111,25 @@ VerticalModes Model::modes(double omega) const {
 }
 
 Grouping Model::grouping(const VerticalModes& modes) const {
-  return choose_grouping(cylinders_, type_of_, modes, resolution_.threshold);
+  return choose_grouping(cylinders_, type_of_, modes, resolution_.threshold, static_cast<double>(motion_.cols()),
+                         resolution_.equations);
 }
 
-int Model::unknowns(double omega) const {
-  const Grouping g = grouping(coarse_modes(omega));
-  int largest = g.members.size() > 1 ? g.between.count() * static_cast<int>(cylinders_.size()) : 0;
+// Beside the equations between groups: those within, the single cylinders (as seen), and the waves far away.
+ModelCost Model::cost(double omega, double headings) const {
+  constexpr double single = 3e6, number = 16;
+  const VerticalModes depth_modes = coarse_modes(omega);
+  const Grouping g = grouping(depth_modes);
+  const double motions = static_cast<double>(motion_.cols()), columns = motions + headings;
+  const EquationsCost between = equations_cost(g, cylinders_.size(), columns, resolution_.equations);
+  const EquationsCost within = compounds_cost(g, cylinders_, type_of_);
+  const double size = static_cast<double>(cylinders_.size()) * g.between.count();
+  const double far = 2 * (depth_modes.k * distance_across(cylinders_) + 40) * size * motions;
+  int unknowns = g.members.size() > 1 ? static_cast<int>(size) : g.between.count();
   for (const auto& members : g.members)
-    if (members.size() > 1) largest = std::max(largest, g.within.count() * static_cast<int>(members.size()));
-  return std::max(largest, g.between.count());
+    if (members.size() > 1) unknowns = std::max(unknowns, g.within.count() * static_cast<int>(members.size()));
+  return {unknowns, between.work + within.work + far + single * static_cast<double>(types_.size()),
+          between.bytes + within.bytes + 4 * number * size * columns, between.iterative};
 }
 
 std::vector<Scatterer> Model::scatterers(const VerticalModes& modes, const Channels& channels) const {
@@ -130,14 +151,17 @@ Groups Model::groups(const std::vector<Scatterer>& of_type, const VerticalModes&
 OneFrequency Model::at(double omega, const std::vector<double>& heading) const {
   const VerticalModes depth_modes = modes(omega);
   const Grouping kept = grouping(depth_modes);
+  require_coupling(kept.within.left_out, omega);
   const auto of_type = scatterers(depth_modes, kept.within);
   const Groups all = groups(of_type, depth_modes, kept);
-  const Response response = all.respond(heading, motion_);
+  const Response response = all.respond(heading, motion_, resolution_.equations);
   const MatrixXcd loads = motion_.transpose() * response.loads;
   const Complex potential = Complex(0, water_.gravity / omega) / depth_modes.wave_at_surface();  // of a unit amplitude
 
   OneFrequency result;
   result.partial_waves = kept.within.count();
+  result.left_out = kept.within.left_out;
+  result.steps = response.steps;
   result.X = Complex(0, omega * water_.density) * potential * loads.leftCols(static_cast<Index>(heading.size()));
   result.A = -water_.density * loads.rightCols(motion_.cols()).real();
   result.B = omega * water_.density * loads.rightCols(motion_.cols()).imag();
@@ -149,7 +173,7 @@ MatrixXd Model::added_mass_at_infinity() const {
   const VerticalModes depth_modes = modes(infinite);
   const Grouping kept = grouping(depth_modes);
   const auto of_type = scatterers(depth_modes, kept.within);
-  const Response response = groups(of_type, depth_modes, kept).respond({}, motion_);
+  const Response response = groups(of_type, depth_modes, kept).respond({}, motion_, resolution_.equations);
   return -water_.density * (motion_.transpose() * response.loads).real();
 }
 

@@ -15,6 +15,7 @@ namespace hydro::cylinders {
 struct Resolution {
   int gap_functions;  ///< per family (C5)
   double threshold;   ///< coupling below which partial waves are left out (C11)
+  Equations equations = Equations::automatic;
   Resolution doubled() const;
 };
 
@@ -25,6 +26,16 @@ struct OneFrequency {
   Eigen::MatrixXd B_far;   ///< B from the power that waves carry away (C13)
   Eigen::MatrixXcd X_far;  ///< X by Haskind's relation from the waves made by motion (C13)
   int partial_waves = 0;   ///< per cylinder
+  double left_out = 0;     ///< coupling by partial waves that cannot be had (C11)
+  int steps = 0;           ///< of the iteration; 0: solved by elimination
+};
+
+/// What one frequency takes, told beforehand.
+struct ModelCost {
+  int unknowns;    ///< complex, of the largest set of equations
+  double work;     ///< complex multiplications
+  double bytes;    ///< of working memory
+  bool iterative;  ///< the equations between groups
 };
 
 class Model {
@@ -37,8 +48,8 @@ class Model {
   Eigen::MatrixXd added_mass_at_infinity() const;
   /// Largest relative difference of the single cylinders' loads and diffraction from those of another resolution.
   double difference(const Model& other, double omega) const;
-  /// Unknowns of the largest set of equations at a frequency, estimated.
-  int unknowns(double omega) const;
+  /// What at() will take.
+  ModelCost cost(double omega, double headings) const;
 
  private:
   struct Type {

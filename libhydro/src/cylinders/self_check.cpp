@@ -59,6 +59,8 @@ SelfCheck self_check(const std::vector<OneFrequency>& results, const std::vector
     check.reciprocity = std::max({check.reciprocity, relative(MatrixXd(r.A - r.A.transpose()), s.A),
                                   relative(MatrixXd(r.B - r.B.transpose()), s.B)});
     check.partial_waves = std::max(check.partial_waves, r.partial_waves);
+    check.left_out = std::max(check.left_out, r.left_out);
+    check.steps = std::max(check.steps, r.steps);
   }
   if (finer.empty()) check.doubling = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i < finer.size(); ++i) {

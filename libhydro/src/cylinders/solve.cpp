@@ -11,6 +11,7 @@
 
 #include "deep.hpp"
 #include "model.hpp"
+#include "request.hpp"
 #include "self_check.hpp"
 
 namespace hydro::cylinders {
@@ -22,33 +23,6 @@ using Eigen::MatrixXd;
 using potential::Coefficients;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-void require_increasing(const std::vector<double>& values, const char* what, const char* unit) {
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    require(std::isfinite(values[i]), "{} must be finite, got {} {}", what, values[i], unit);
-    require(i == 0 || values[i] > values[i - 1], "{} must increase, but {} {} follows {}", what, values[i], unit,
-            values[i == 0 ? 0 : i - 1]);
-  }
-}
-
-void check_request(const std::vector<double>& omega, const std::vector<double>& heading, const Options& options) {
-  require(!omega.empty(), "no frequency is asked for");
-  require_increasing(omega, "frequencies", "rad/s");
-  require(omega.front() > 0, "a frequency must be positive, got {} rad/s", omega.front());
-  require_increasing(heading, "headings", "rad");
-  require(options.tolerance >= 1e-9 && options.tolerance <= 0.1, "the tolerance must be between 1e-9 and 0.1, got {}",
-          options.tolerance);
-  require(options.threads >= 0 && options.threads <= 1024, "the number of threads must be between 0 and 1024, got {}",
-          options.threads);
-  require(options.doubled_frequencies >= 0, "the number of frequencies to double must not be negative, got {}",
-          options.doubled_frequencies);
-}
-
-int thread_count(const Options& options, std::size_t work) {
-  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const int wanted = options.threads > 0 ? options.threads : cores;
-  return std::min(wanted, static_cast<int>(work));
-}
 
 /// Does job(i) for i = 0 … count − 1 on several threads. What is thrown first by index is thrown on.
 template <class Job>
@@ -95,9 +69,6 @@ class Models {
   std::shared_ptr<const Model> shared_;
 };
 
-/// Partial waves below this share of the tolerance are left out: there are many of them.
-constexpr double share_of_tolerance = 0.2;
-
 /// The fewest gap functions with which doubling changes the single cylinders by less than the tolerance.
 int choose_gap_functions(const std::vector<CylinderBody>& bodies, const Water& water, const std::vector<double>& omega,
                          double tolerance) {
@@ -121,14 +92,6 @@ int choose_gap_functions(const std::vector<CylinderBody>& bodies, const Water& w
     }
   }
   return count;
-}
-
-std::vector<std::size_t> frequencies_to_double(std::size_t all, int wanted) {
-  std::vector<std::size_t> chosen;
-  const std::size_t count = std::min(all, static_cast<std::size_t>(wanted));
-  for (std::size_t i = 0; i < count; ++i)
-    chosen.push_back(count == 1 ? all / 2 : i * (all - 1) / (count - 1));  // both ends and evenly between
-  return chosen;
 }
 
 void fill_bodies(const std::vector<CylinderBody>& bodies, const Water& water, Coefficients& c) {
@@ -159,11 +122,26 @@ std::string source_text(const std::vector<CylinderBody>& bodies) {
                      bodies.size() == 1 ? "body" : "bodies");
 }
 
-void add_notes(const Solution& s, const Water& water, Coefficients& c) {
+void add_notes(const Solution& s, const Water& water, double tolerance, Coefficients& c) {
   c.notes.push_back(fmt::format(
       "self-check, relative: energy {:.1e}, Haskind {:.1e}, reciprocity {:.1e}, change with doubled resolution {}",
       s.check.energy, s.check.haskind, s.check.reciprocity,
       std::isnan(s.check.doubling) ? "not asked for" : fmt::format("{:.1e}", s.check.doubling)));
+  if (s.check.left_out > 0)
+    c.notes.push_back(
+        fmt::format("warning: gaps between cylinders are so small, or waves so short, that partial waves "
+                    "had to be left out: about {:.1f} digits are left",
+                    -std::log10(s.check.left_out)));
+  if (s.check.doubling > tolerance)
+    c.notes.push_back(
+        fmt::format("warning: {:.1e} was asked for, but doubled resolution changes the result by {:.1e}: "
+                    "about {:.1f} digits are left",
+                    tolerance, s.check.doubling, std::max(0.0, -std::log10(s.check.doubling))));
+  if (s.check.steps > 0)
+    c.notes.push_back(
+        fmt::format("the equations between groups of cylinders were solved by iteration, in {} steps at "
+                    "most",
+                    s.check.steps));
   if (water.depth.is_infinite())
     c.notes.push_back(
         fmt::format("infinite depth is taken as {:.4g} m or more: an error below 1e-4", s.check.effective_depth));
@@ -215,7 +193,7 @@ Solution solve(const std::vector<CylinderBody>& bodies, const Water& water, cons
   check(bodies, water.depth);
   check_request(omega, heading, options);
   const Resolution resolution{choose_gap_functions(bodies, water, omega, options.tolerance),
-                              share_of_tolerance * options.tolerance};
+                              share_of_tolerance * options.tolerance, options.equations};
   const Work w = do_work(bodies, water, omega, heading, options, resolution);
   Solution s;
   Coefficients& c = s.coefficients;
@@ -236,24 +214,9 @@ Solution solve(const std::vector<CylinderBody>& bodies, const Water& water, cons
   s.check.gap_functions = resolution.gap_functions;
   s.check.effective_depth = effective_water(bodies, water, omega.back()).depth.metres();
   for (const std::size_t i : w.doubled) s.check.doubling_omega.push_back(omega[i]);
-  add_notes(s, water, c);
+  add_notes(s, water, options.tolerance, c);
   c.validate();
   return s;
-}
-
-Cost cost(const std::vector<CylinderBody>& bodies, const Water& water, const std::vector<double>& omega,
-          const Options& options) {
-  check(bodies, water.depth);
-  check_request(omega, {}, options);
-  const double threshold = share_of_tolerance * options.tolerance;
-  Cost c{0, 0};
-  for (const double w : omega) {
-    const Model model(bodies, effective_water(bodies, water, w), {1, threshold}, {w});
-    c.unknowns = std::max(c.unknowns, model.unknowns(w));
-  }
-  // Three square complex matrices stand at a time: translations, their product with T, and its factors.
-  c.bytes = 3 * 16.0 * c.unknowns * c.unknowns * thread_count(options, omega.size());
-  return c;
 }
 
 }  // namespace hydro::cylinders

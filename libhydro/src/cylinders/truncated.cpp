@@ -152,7 +152,9 @@ AzimuthalOrder TruncatedCylinder::solve(int m, const Exterior& outside, const Ra
   if (m == 0) rhs(P, 0) = -a_ / (2 * b_);
   MatrixXcd struck = MatrixXcd::Zero(A.rows(), N);  // unit incident amplitudes, without ψ_n
   struck.topRows(P) = W.cast<Complex>();
-  const MatrixXcd moved_gap = lu.solve(rhs), struck_gap = lu.solve(struck);
+  const MatrixXcd struck_gap = lu.solve(struck);
+  MatrixXcd moved_gap(A.rows(), motions);
+  if (motions > 0) moved_gap = lu.solve(rhs);  // Eigen must not be asked for nothing
 
   MatrixXcd side = MatrixXcd::Zero(N, motions);  // s_n
   if (m == 1) side = outside.rows().block(P, 0, 2, N).transpose().cast<Complex>();

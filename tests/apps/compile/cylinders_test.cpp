@@ -70,6 +70,34 @@ TEST(CylindersInAScene, AreSolvedTogetherWhereTheyStandAboutTheirCentresOfGravit
   EXPECT_LT((*ours.C - *expected.C).cwiseAbs().maxCoeff(), 1e-4 * expected.C->maxCoeff());
 }
 
+TEST(CylindersInAScene, HaveTheirCostToldBeforeTheyAreSolved) {
+  const scene::Scene scene = parse(scene_text(cylinders));
+  const auto plan = compile::plan_cylinders(scene, compile::bodies_of_cylinders(scene));
+  EXPECT_EQ(plan.cylinders, 2u);
+  EXPECT_EQ(plan.bodies, 2u);
+  EXPECT_EQ(plan.frequencies, 9u);
+  EXPECT_GT(plan.cost.unknowns, 2);
+  EXPECT_THAT(plan.method(), HasSubstr("by elimination"));
+  EXPECT_THAT(plan.size(), AllOf(HasSubstr("2 cylinders in 2 bodies"), HasSubstr("MB, about")));
+}
+
+TEST(CylindersInAScene, TellWhichAreSolvedTogetherOnlyIfTheyAskForTheSame) {
+  std::string other = cylinders;
+  other.replace(other.find("9 values"), 8, "5 values");
+  std::string text = scene_text(cylinders);
+  const auto begin = text.find("[[body]]"), end = text.find("[ask]");
+  std::string second = scene_text(other).substr(begin, end - begin);
+  second.replace(second.find("\"c\""), 3, "\"d\"");
+  second.replace(second.find("(1, 2, 0.5)"), 11, "(1, 20, 0.5)");
+  text.insert(end, second);
+  EXPECT_THAT(
+      [&] {
+        const scene::Scene scene = parse(text);
+        compile::plan_cylinders(scene, compile::bodies_of_cylinders(scene));
+      },
+      ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("scene.toml:"), HasSubstr("different frequencies"))));
+}
+
 TEST(CylindersInAScene, AreGivenInsteadOfAFile) {
   EXPECT_THAT([] { parse(scene_text(cylinders, "file = \"pontoon1.nc\"")); },
               ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("file"), HasSubstr("cylinders"))));

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -81,9 +82,55 @@ TEST(Arrays, OfNearlyTouchingCylindersKeepTheirTolerance) {
   EXPECT_LT(check.doubling, 1e-3);
 }
 
+/// Sixteen cylinders in close pairs, so that there are groups and something between them.
+std::vector<CylinderBody> pairs() {
+  std::vector<CylinderBody> bodies;
+  for (int i = 0; i < 4; ++i)
+    for (const double y : {0.0, 9.0})
+      for (const double dx : {0.0, 2.5}) bodies.push_back(single(0.8, 1.1, 10.0 * i + dx, y + 0.3 * i));
+  return bodies;
+}
+
+// Iteration stops far below the tolerance, and what is left out between pairs is the same: a tenth of it is generous.
+TEST(Arrays, ByIterationAndByEliminationAgree) {
+  for (const double tolerance : {1e-3, 1e-5}) {
+    Options options{.tolerance = tolerance, .threads = 1, .doubled_frequencies = 0, .equations = Equations::direct};
+    const auto direct = solve(pairs(), tank(6), {0.8, 2.2}, {0.3, 1.9}, options);
+    options.equations = Equations::iterative;
+    const auto iterated = solve(pairs(), tank(6), {0.8, 2.2}, {0.3, 1.9}, options);
+    EXPECT_EQ(direct.check.steps, 0);
+    EXPECT_GT(iterated.check.steps, 2);
+    EXPECT_THAT(iterated.coefficients.notes, testing::Contains(testing::HasSubstr("by iteration")));
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Eigen::MatrixXd &A = direct.coefficients.A[i], &B = direct.coefficients.B[i];
+      const Eigen::MatrixXcd& X = direct.coefficients.X[i];
+      EXPECT_LT((iterated.coefficients.A[i] - A).cwiseAbs().maxCoeff(), 0.1 * tolerance * A.cwiseAbs().maxCoeff());
+      EXPECT_LT((iterated.coefficients.B[i] - B).cwiseAbs().maxCoeff(), 0.1 * tolerance * B.cwiseAbs().maxCoeff());
+      EXPECT_LT((iterated.coefficients.X[i] - X).cwiseAbs().maxCoeff(), 0.1 * tolerance * X.cwiseAbs().maxCoeff());
+    }
+  }
+}
+
+// Elimination grows as the cube of the number of cylinders; so many are dearer by it, whatever the machine.
+TEST(Arrays, OfHundredsOfCylindersAreSolvedByIterationUnlessAskedOtherwise) {
+  std::vector<CylinderBody> farm;
+  for (int i = 0; i < 14; ++i)
+    for (int j = 0; j < 14; ++j) farm.push_back(single(0.8, 1.1, 10.0 * i, 10.0 * j));
+  CylinderBody raft{"raft", {0, 0, 0}, {}, {}};
+  for (const CylinderBody& body : farm) raft.cylinders.push_back(body.cylinders.front());
+  const Cost many = cost({raft}, tank(), {2.0}, {0}, {.tolerance = 1e-4, .threads = 1});
+  const Cost asked =
+      cost({raft}, tank(), {2.0}, {0}, {.tolerance = 1e-4, .threads = 1, .equations = Equations::direct});
+  EXPECT_TRUE(many.iterative);
+  EXPECT_FALSE(asked.iterative);
+  EXPECT_LT(many.bytes, asked.bytes);
+  EXPECT_LT(many.seconds, asked.seconds);
+  EXPECT_FALSE(cost({single(1, 1), single(1, 1, 9, 0)}, tank(), {2.0}, {0}, {.threads = 1}).iterative);
+}
+
 TEST(Arrays, TellTheirCostBeforehand) {
-  const Cost small = cost({pontoon(0)}, tank(), {1.0, 2.0}, {.threads = 1});
-  const Cost large = cost({pontoon(-6.5), pontoon(6.5)}, tank(), {1.0, 2.0}, {.threads = 1});
+  const Cost small = cost({pontoon(0)}, tank(), {1.0, 2.0}, {0}, {.threads = 1});
+  const Cost large = cost({pontoon(-6.5), pontoon(6.5)}, tank(), {1.0, 2.0}, {0}, {.threads = 1});
   EXPECT_GT(small.unknowns, 12);
   EXPECT_GT(large.unknowns, small.unknowns);
   EXPECT_GT(large.bytes, small.bytes);

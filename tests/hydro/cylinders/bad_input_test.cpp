@@ -61,6 +61,23 @@ TEST(CylinderInput, SaysHowManyDigitsAreLeft) {
               ThrowsMessage<InputError>(AllOf(HasSubstr("digits"), HasSubstr("less accuracy"))));
 }
 
+// A gap of a twentieth of the radius: the orders that cross it fall as (2a/L)^{2m}, and at m = 24 that is not little.
+TEST(CylinderInput, WarnsOfGapsTooSmallForItsDigits) {
+  const Options options{.tolerance = 5e-2, .threads = 1, .doubled_frequencies = 0};
+  const auto narrow = solve({single(1, 1), single(1, 1, 2.05, 0)}, tank(2), {1.0}, {}, options);
+  EXPECT_GT(narrow.check.left_out, 1e-3);
+  EXPECT_THAT(narrow.coefficients.notes, testing::Contains(AllOf(HasSubstr("warning"), HasSubstr("digits are left"))));
+  const auto wide = solve({single(1, 1), single(1, 1, 4, 0)}, tank(2), {1.0}, {}, options);
+  EXPECT_EQ(wide.check.left_out, 0);
+  EXPECT_THAT(wide.coefficients.notes, testing::Not(testing::Contains(HasSubstr("warning"))));
+}
+
+// Waves a hundredth of the cylinders long need partial waves of far higher order than there are.
+TEST(CylinderInput, RefusesWavesTooShortForAnArray) {
+  EXPECT_THAT(solving({single(10, 1), single(10, 1, 30, 0)}, tank(), {8.0}, {0}, 1e-2),
+              ThrowsMessage<InputError>(AllOf(HasSubstr("8 rad/s"), HasSubstr("no digit"), HasSubstr("too short"))));
+}
+
 TEST(CylinderInput, RefusesADepthThatIsTooManyDraughts) {
   EXPECT_THAT(solving({single(1, 1e-4)}, tank(100)), ThrowsMessage<InputError>(HasSubstr("terms")));
 }

@@ -3,7 +3,7 @@
 ///
 /// Potential theory without approximation in the interaction: each cylinder is solved by matching, the array by
 /// multiple scattering that includes evanescent waves. What is truncated (functions in the gap, partial waves) is
-/// chosen from the tolerance asked, and its effect is measured by doubling. Equations (C1)-(C14) are derived and
+/// chosen from the tolerance asked, and its effect is measured by doubling. Equations (C1)-(C15) are derived and
 /// sourced in docs/theory/cylinders.md.
 #include <functional>
 #include <vector>
@@ -13,6 +13,13 @@
 
 namespace hydro::cylinders {
 
+/// How the equations between groups of cylinders are solved (C15).
+enum class Equations {
+  automatic,  ///< whichever needs fewer operations
+  direct,     ///< elimination: operations as the cube, memory as the square of the number of cylinders
+  iterative,  ///< block by block until the residual is far below the tolerance: both as the square
+};
+
 struct Options {
   /// Largest relative error asked of A, B and X, an entry being measured against its two modes (P11); 1e-9 … 0.1.
   double tolerance = 1e-5;
@@ -20,6 +27,8 @@ struct Options {
   int threads = 0;
   /// At how many frequencies the work is repeated with doubled resolution for SelfCheck::doubling; 0: none.
   int doubled_frequencies = 3;
+  /// Small layouts are solved directly, some hundred cylinders with few motions by iteration.
+  Equations equations = Equations::automatic;
   /// Called after each frequency, one call at a time, from any thread: how many are done, of how many.
   std::function<void(int done, int all)> progress = {};
 };
@@ -33,6 +42,8 @@ struct SelfCheck {
   std::vector<double> doubling_omega;  ///< where it was measured, rad/s
   int gap_functions = 0;               ///< per family, (C5)
   int partial_waves = 0;               ///< per cylinder, at most over the frequencies, (C11)
+  double left_out = 0;                 ///< estimated effect of partial waves beyond those that can be had; usually 0
+  int steps = 0;                       ///< of the iteration between groups, at most; 0: all by elimination
   double effective_depth = 0;          ///< m; differs from the water's only if that is infinite, (C14)
 };
 
@@ -43,8 +54,10 @@ struct Solution {
 
 /// What a solution will need, told before it is computed.
 struct Cost {
-  int unknowns;  ///< complex, at the frequency that has most
-  double bytes;  ///< of working memory, all threads together
+  int unknowns;    ///< complex, at the frequency that has most
+  double bytes;    ///< of working memory, all threads together, estimated
+  double seconds;  ///< estimated from how fast this machine multiplies matrices now; good to a factor of three
+  bool iterative;  ///< Equations::automatic takes the iteration at some frequency, or it was asked for
 };
 
 /// A, B and X of `bodies` at the frequencies `omega` (rad/s, increasing) for waves going towards `heading` (rad,
@@ -57,6 +70,6 @@ Solution solve(const std::vector<CylinderBody>& bodies, const Water& water, cons
 
 /// \throws InputError as solve()
 Cost cost(const std::vector<CylinderBody>& bodies, const Water& water, const std::vector<double>& omega,
-          const Options& options = {});
+          const std::vector<double>& heading, const Options& options = {});
 
 }  // namespace hydro::cylinders

@@ -1,0 +1,64 @@
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include "deep.hpp"
+#include "model.hpp"
+#include "request.hpp"
+
+namespace hydro::cylinders {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Complex multiplications a second of products of matrices on this machine, one thread.
+double measured_rate() {
+  constexpr Eigen::Index size = 128;
+  const Eigen::MatrixXcd a = Eigen::MatrixXcd::Constant(size, size, {0.5, 0.1});
+  Eigen::MatrixXcd b = a;
+  double least = infinite;
+  for (int run = 0; run < 5; ++run) {
+    const auto start = Clock::now();
+    b = (a * b / static_cast<double>(size)).eval();
+    least = std::min(least, std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  ensure(b.allFinite(), "products of matrices are finite");
+  return static_cast<double>(size * size * size) / least;
+}
+
+/// One model a frequency, in the water that is used for it.
+ModelCost cost_at(const std::vector<CylinderBody>& bodies, const Water& water, double omega, double headings,
+                  const Resolution& resolution) {
+  const Model model(bodies, effective_water(bodies, water, omega), resolution, {});
+  return model.cost(omega, headings);
+}
+
+}  // namespace
+
+Cost cost(const std::vector<CylinderBody>& bodies, const Water& water, const std::vector<double>& omega,
+          const std::vector<double>& heading, const Options& options) {
+  check(bodies, water.depth);
+  check_request(omega, heading, options);
+  const Resolution usual{1, share_of_tolerance * options.tolerance, options.equations};
+  Cost c{0, 0, 0, false};
+  double work = 0, bytes = 0;
+  const auto add = [&](double w, const Resolution& resolution) {
+    const ModelCost here = cost_at(bodies, water, w, static_cast<double>(heading.size()), resolution);
+    c.unknowns = std::max(c.unknowns, here.unknowns);
+    c.iterative = c.iterative || here.iterative;
+    bytes = std::max(bytes, here.bytes);
+    work += here.work;
+  };
+  for (const double w : omega) add(w, usual);
+  add(infinite, usual);
+  for (const std::size_t i : frequencies_to_double(omega.size(), options.doubled_frequencies))
+    add(omega[i], usual.doubled());
+  const int threads = thread_count(options, omega.size());
+  c.bytes = bytes * threads;
+  c.seconds = work / measured_rate() / threads;
+  return c;
+}
+
+}  // namespace hydro::cylinders
