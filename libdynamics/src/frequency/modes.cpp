@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scatter.hpp"
+
 namespace dynamics::frequency {
 namespace {
 
@@ -95,14 +97,8 @@ class FreeMotions {
   template <class Of>
   Eigen::MatrixXd gathered(Of of) const {
     Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(size_, size_);
-    for (const PotentialGroup& g : groups_) {
-      if (!g.radiation) continue;
-      const Eigen::MatrixXd part = of(g.table);
-      for (std::size_t i = 0; i < g.bodies.size(); ++i)
-        for (std::size_t j = 0; j < g.bodies.size(); ++j)
-          whole.block<6, 6>(6 * g.bodies[i], 6 * g.bodies[j]) +=
-              part.block<6, 6>(6 * static_cast<Eigen::Index>(i), 6 * static_cast<Eigen::Index>(j));
-    }
+    for (const PotentialGroup& g : groups_)
+      if (g.radiation) scatter_add(g.bodies, Eigen::MatrixXd(of(g.table)), whole);
     return reduced(whole);
   }
 

@@ -3,21 +3,9 @@
 #include <Eigen/LU>
 
 #include "hydro/base/error.hpp"
+#include "scatter.hpp"
 
 namespace dynamics::frequency {
-namespace {
-
-/// Adds the blocks of a group's matrix to those of the whole.
-template <class Matrix>
-void scatter_add(const std::vector<int>& bodies, const Matrix& part, Eigen::MatrixXcd& whole) {
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    for (std::size_t j = 0; j < bodies.size(); ++j)
-      whole.block<6, 6>(6 * bodies[i], 6 * bodies[j]) +=
-          part.template block<6, 6>(6 * static_cast<Eigen::Index>(i), 6 * static_cast<Eigen::Index>(j));
-}
-
-}  // namespace
-
 Eigen::MatrixXcd impedance(const Model& model, const Model::Linear& linear, const std::vector<PotentialGroup>& groups,
                            double omega) {
   const std::complex<double> i_omega(0, omega);

@@ -87,16 +87,15 @@ GeneralizedAlpha::Trial GeneralizedAlpha::evaluate(Workspace& workspace, double 
   Trial out{std::move(acceleration), std::move(multipliers), {}, {}, {}, {}, 0};
   predict(workspace, h, out.acceleration, out.state);
   out.residual = model_.residual(out.state, out.acceleration, workspace);
-  out.size = out.residual.cwiseQuotient(scale_).squaredNorm();
   if (model_.joints().count() > 0) {
     out.gradients = model_.joints().gradients(out.state);
     model_.joints().add_transposed(out.gradients, out.multipliers, out.residual);
     // Divided by ∂q/∂a, the distance by which a joint is open is an acceleration, as large as what closes it.
     const double s = (1 - alpha_f_) / (1 - alpha_m_);
     out.open = model_.joints().values(out.state) / (s * beta_ * h * h);
-    out.size = out.residual.cwiseQuotient(scale_).squaredNorm() + out.open.cwiseProduct(joint_scale_).squaredNorm();
   }
-  out.size = std::sqrt(out.size);
+  // Without joints `open` is empty and its norm zero.
+  out.size = std::hypot(out.residual.cwiseQuotient(scale_).norm(), out.open.cwiseProduct(joint_scale_).norm());
   return out;
 }
 

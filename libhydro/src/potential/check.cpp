@@ -6,6 +6,7 @@
 
 #include "doctor.hpp"
 #include "hydro/waves/dispersion.hpp"
+#include "modes.hpp"
 #include "readers.hpp"
 
 namespace hydro::potential {
@@ -23,17 +24,7 @@ Series series_of(const Coefficients& c, const std::vector<Eigen::MatrixXd>& matr
 Eigen::VectorXd sizes(const Series& series, Eigen::Index n) {
   Eigen::VectorXd s = Eigen::VectorXd::Zero(n);
   for (const Sample& sample : series) s = s.cwiseMax(sample.matrix->diagonal().cwiseAbs());
-  // Yaw of a body of revolution has no added mass but the panels' noise; without a floor that noise would be divided
-  // by itself.
-  constexpr double floor = 0.01;
-  for (const bool translations : {true, false}) {
-    double most = 0;
-    for (Eigen::Index i = 0; i < n; ++i)
-      if (is_translation(i) == translations) most = std::max(most, s(i));
-    for (Eigen::Index i = 0; i < n; ++i)
-      if (is_translation(i) == translations) s(i) = std::max(s(i), floor * most);
-  }
-  return s;
+  return with_floor(std::move(s));
 }
 
 }  // namespace

@@ -17,7 +17,11 @@ void for_each_radiation_matrix(Coefficients& c, Change change) {
   if (c.A_inf) change(*c.A_inf);
 }
 
-/// s of (P11): the largest diagonal entry of each mode, at least 1 % of the largest of its kind.
+/// Sizes of modes, each raised to 1 % of the largest of its kind (translations, rotations): yaw of a body of revolution
+/// has no added mass but the panels' noise, and without a floor that noise would be divided by itself (P11).
+Eigen::VectorXd with_floor(Eigen::VectorXd size);
+
+/// s of (P11): the largest diagonal entry of each mode, with_floor().
 Eigen::VectorXd mode_sizes(const std::vector<Eigen::MatrixXd>& matrices);
 
 /// Largest |D_ij| / sqrt(s_i s_j) (P11); 0 where nothing has a size.

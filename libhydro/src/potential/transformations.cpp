@@ -12,15 +12,19 @@
 
 namespace hydro::potential {
 
-Eigen::VectorXd mode_sizes(const std::vector<Eigen::MatrixXd>& matrices) {
-  Eigen::VectorXd size = Eigen::VectorXd::Zero(matrices.front().rows());
-  for (const auto& m : matrices) size = size.cwiseMax(m.diagonal().cwiseAbs());
+Eigen::VectorXd with_floor(Eigen::VectorXd size) {
   double largest[2] = {0, 0};
   for (Eigen::Index i = 0; i < size.size(); ++i)
     largest[is_translation(i)] = std::max(largest[is_translation(i)], size(i));
   constexpr double floor = 0.01;
   for (Eigen::Index i = 0; i < size.size(); ++i) size(i) = std::max(size(i), floor * largest[is_translation(i)]);
   return size;
+}
+
+Eigen::VectorXd mode_sizes(const std::vector<Eigen::MatrixXd>& matrices) {
+  Eigen::VectorXd size = Eigen::VectorXd::Zero(matrices.front().rows());
+  for (const auto& m : matrices) size = size.cwiseMax(m.diagonal().cwiseAbs());
+  return with_floor(std::move(size));
 }
 
 double relative_size(const Eigen::MatrixXd& difference, const Eigen::VectorXd& size) {
