@@ -25,6 +25,7 @@ void add_absent(const scene::Scene& scene, const compile::Prepared& p, std::vect
   absent(!p.hydrostatics.empty(), "hydrostatics", "hydrostatics = true");
   absent(!p.moorings.empty(), "mooring", "[[mooring]]");
   absent(!p.axial.empty() || !p.bushing.empty(), "connector", "[[connector]]");
+  absent(!p.joints.empty(), "joint", "[[joint]]");
   absent(radiation, "radiation", "radiation = {}");
   absent(excitation, "excitation", "excitation = true");
   absent(!scene.members.empty(), "drag", "[[member]]");

@@ -2,6 +2,7 @@
 #include "hydro/base/types.hpp"
 #include "hydro/potential/check.hpp"
 #include "scene/schema.hpp"
+#include "scene/schema_joint.hpp"
 #include "scene/schema_waves.hpp"
 
 namespace froude::scene {
@@ -367,6 +368,7 @@ const Table& motion_schema() {
                inner_table("current", current_table()).optional(), inner_tables("body", body()).optional(),
                inner_tables("probe", probe_table()).optional(), inner_tables("member", member()).optional(),
                inner_tables("mooring", mooring()).optional(), inner_tables("connector", connector()).optional(),
+               inner_tables("joint", joint_table()).optional(),
                inner_table("ask", ask()), inner_table("solve", solve()).or_default("", "see its keys")}};
   return table;
 }

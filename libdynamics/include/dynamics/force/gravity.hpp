@@ -15,6 +15,7 @@ class GravityKind final : public ForceKind {
   void add_load(const Instant& now, LoadSink& out) const override;
   void add_jacobian(const Instant&, JacobianSink&) const override {}  // constant
   EnergyFlow energy(const Instant& now) const override;
+  bool linear_at_rest() const override { return true; }
 
  private:
   std::vector<double> weight_;  // N, one a body
