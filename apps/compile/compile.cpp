@@ -7,6 +7,7 @@
 #include "compile/hydrodynamics.hpp"
 #include "compile/radiation.hpp"
 #include "compile/waves.hpp"
+#include "dynamics/force/gravity.hpp"
 #include "dynamics/force/wave_loads.hpp"
 #include "dynamics/joint/assemble.hpp"
 #include "dynamics/spatial/rotation.hpp"
@@ -82,6 +83,7 @@ void add_mooring(const Scene& scene, const scene::Mooring& m, Prepared& out) {
 
 /// Springs and dampers, in the order in which a plan lists them.
 void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::ForceKind>>& forces) {
+  if (!p.heavy.empty()) forces.push_back(std::make_unique<dynamics::GravityKind>(p.bodies, p.gravity, p.heavy));
   if (!p.hydrostatics.empty())
     forces.push_back(std::make_unique<dynamics::RestoringKind>("hydrostatics", p.bodies, p.hydrostatics));
   if (!p.moorings.empty()) forces.push_back(std::make_unique<dynamics::RestoringKind>("mooring", p.bodies, p.moorings));
@@ -93,7 +95,11 @@ void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::
 
 Prepared prepare(const Scene& scene) {
   Prepared out;
-  for (const auto& b : scene.bodies) out.bodies.push_back(rigid_body(b));
+  for (const auto& b : scene.bodies) {
+    if (b.weight) out.heavy.push_back(static_cast<int>(out.bodies.size()));
+    out.bodies.push_back(rigid_body(b));
+  }
+  out.gravity = scene.water.gravity;
   add_hydrodynamics(scene, out);
   for (const auto& m : scene.moorings) add_mooring(scene, m, out);
   for (const auto& c : scene.connectors) add_connector(scene, c, out);
@@ -107,7 +113,7 @@ dynamics::Model frequency_model(const Prepared& prepared) {
   dynamics::Model model(prepared.bodies, {}, std::move(forces), prepared.joints);
   const Eigen::VectorXd load = model.linear_at_rest().unbalanced;
   double weight = 0;
-  for (const auto& b : prepared.bodies) weight += b.mass() * 9.81;
+  for (const auto& b : prepared.bodies) weight += b.mass() * prepared.gravity;
   Eigen::Index worst = 0;
   // Pretension that does not cancel would shift the rest position about which everything is linearised.
   if (load.size() > 0 && load.cwiseAbs().maxCoeff(&worst) > 1e-6 * weight)

@@ -27,6 +27,8 @@ struct Prepared {
   std::vector<dynamics::frequency::PotentialGroup> groups;
   std::vector<scene::Memory> memory;  ///< one a group
   std::vector<dynamics::Restoring> hydrostatics, moorings;
+  std::vector<int> heavy;  ///< bodies that feel gravity by themselves
+  double gravity;          ///< m/s²
   std::vector<dynamics::AxialConnector> axial;
   std::vector<dynamics::BushingConnector> bushing;
   std::vector<dynamics::Joint> joints;

@@ -154,6 +154,7 @@ struct Body {
   std::array<bool, 6> free;           ///< modes that may move; all by default
   std::map<hydro::Mode, double> initial;           ///< displacement of the origin from rest at t = 0, m or rad
   std::map<hydro::Mode, double> initial_velocity;  ///< m/s or rad/s
+  bool weight = false;                             ///< feels gravity; linear hydrostatics hold it already
   std::optional<Hydrodynamics> hydrodynamics;
   Place place;
 };

@@ -191,6 +191,9 @@ const Table& body() {
                       "(∫xy dm, ∫xz dm, ∫yz dm) from the centre of gravity; the inertia matrix holds them with a minus")
                    .or_default("(0, 0, 0) kg m^2", "body axes are mostly principal axes")
                    .only_beside("inertia"),
+               effect("weight",
+                      "gravity pulls at the centre of gravity; for a body whose hydrostatics are not linear (those "
+                      "hold the weight already)"),
                texts("free", "modes that may move; the others are held")
                    .one_of(mode_words())
                    .or_default("surge, sway, heave, roll, pitch, yaw", "a body is free unless something holds it"),
