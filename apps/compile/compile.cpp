@@ -309,8 +309,8 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
                     fmt::format("{} joints, {} conditions", prepared.joints.size(), model.joints().count()), true});
   notes.insert(notes.end(), model.redundant().begin(), model.redundant().end());
   dynamics::State start = start_state(scene, prepared, model);
-  return {std::move(model), std::move(start), std::move(sea), step, steps, per_sample, std::move(plan),
-          std::move(notes)};
+  return {std::move(model), std::move(start), std::move(sea),  step, steps,
+          per_sample,       std::move(plan),  std::move(notes)};
 }
 
 }  // namespace froude::compile

@@ -225,26 +225,34 @@ void add_joints(const Prepared& p, const dynamics::Model& model, std::vector<Lin
     if (joint.kind == dynamics::JointKind::hinge) {
       row.segment<3>(6 * joint.first + 3) = -axis.transpose();
       if (joint.second) row.segment<3>(6 * *joint.second + 3) = axis.transpose();
-      out.push_back({joint.name + ".angle", "rad/m",
-                     fmt::format("angle of {} per metre of wave amplitude", joint.name), row, {}});
+      out.push_back({joint.name + ".angle",
+                     "rad/m",
+                     fmt::format("angle of {} per metre of wave amplitude", joint.name),
+                     row,
+                     {}});
     } else if (joint.kind == dynamics::JointKind::slider) {
       const auto arm = [&](int body) {
         return Eigen::Vector3d(joint.place - p.bodies[static_cast<std::size_t>(body)].rest_centre());
       };
       add_point(row, joint.first, arm(joint.first), axis, -1);
       if (joint.second) add_point(row, *joint.second, arm(*joint.second), axis, 1);
-      out.push_back({joint.name + ".travel", "m/m",
-                     fmt::format("travel of {} per metre of wave amplitude", joint.name), row, {}});
+      out.push_back({joint.name + ".travel",
+                     "m/m",
+                     fmt::format("travel of {} per metre of wave amplitude", joint.name),
+                     row,
+                     {}});
     }
   }
   for_each_end(p, [&](int joint, dynamics::End end, const std::string& name) {
     const auto variation = model.joints().load_variation(joint, end, rest, multipliers);
     for (int i = 0; i < 6; ++i)
-      out.push_back({fmt::format("{}.{}", name, joint_load(i)), std::string(load_unit(i)) + "/m",
-                     fmt::format("load of the joint on {} per metre of wave amplitude, about the joint, body axes", name),
-                     variation.by_motion.row(i),
-                     {},
-                     variation.by_multiplier.row(i)});
+      out.push_back(
+          {fmt::format("{}.{}", name, joint_load(i)),
+           std::string(load_unit(i)) + "/m",
+           fmt::format("load of the joint on {} per metre of wave amplitude, about the joint, body axes", name),
+           variation.by_motion.row(i),
+           {},
+           variation.by_multiplier.row(i)});
   });
 }
 

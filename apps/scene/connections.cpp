@@ -15,7 +15,7 @@ constexpr std::string_view neighbours = "neighbours of ";
 
 /// "m1" and "m2", "m2" and "m3" … of the copies of one body.
 std::vector<Between> neighbour_pairs(const Record& record, const Located<std::string>& text,
-                                  const std::vector<Body>& bodies) {
+                                     const std::vector<Body>& bodies) {
   const std::string family = text.value.substr(neighbours.size());
   std::vector<Between> pairs;
   std::vector<std::string> families;

@@ -7,9 +7,9 @@ namespace {
 
 JointKind kind_of(const std::string& word) {
   using enum JointKind;
-  static const std::map<std::string, JointKind, std::less<>> kinds{{"fixed", fixed}, {"hinge", hinge},
+  static const std::map<std::string, JointKind, std::less<>> kinds{{"fixed", fixed},         {"hinge", hinge},
                                                                    {"universal", universal}, {"ball", ball},
-                                                                   {"slider", slider}, {"planar", planar}};
+                                                                   {"slider", slider},       {"planar", planar}};
   return kinds.at(word);
 }
 
@@ -19,12 +19,14 @@ void read_axes(const Record& record, Joint& joint) {
   joint.second_axis = record.vector("second_axis");
   const double leaning = joint.axis.normalized().dot(joint.second_axis.normalized());
   if (std::abs(leaning) > 1e-9)  // round-off of two unit vectors
-    throw record.wrong("second_axis", fmt::format("is {:.4g} degrees off a right angle with axis",
-                                                  std::asin(std::abs(leaning)) * 180 / 3.14159265358979324),
+    throw record.wrong("second_axis",
+                       fmt::format("is {:.4g} degrees off a right angle with axis",
+                                   std::asin(std::abs(leaning)) * 180 / 3.14159265358979324),
                        "the two axes of a universal joint are across each other");
 }
 
-/// Held modes of a body are held for its own sake, not by joints: a joint that asks it to leave its place holds it fast.
+/// Held modes of a body are held for its own sake, not by joints: a joint that asks it to leave its place holds it
+/// fast.
 void check_may_turn(const Record& record, const Joint& joint, const std::vector<Body>& bodies) {
   for (const std::optional<int> index : {joint.first, joint.second}) {
     if (!index) continue;
@@ -34,8 +36,8 @@ void check_may_turn(const Record& record, const Joint& joint, const std::vector<
     const Eigen::Vector3d arm = joint.at - body.position - body.centre_of_gravity;
     if (turns && !moves && arm.norm() > 1e-9)
       throw record.refused(
-          fmt::format("joins \"{}\", which may turn about its centre of gravity only, {:.4g} m from the joint", body.name,
-                      arm.norm()),
+          fmt::format("joins \"{}\", which may turn about its centre of gravity only, {:.4g} m from the joint",
+                      body.name, arm.norm()),
           "a joint holds what it holds; free the translations of the body that turning about the joint needs");
   }
 }

@@ -199,7 +199,7 @@ enum class JointKind { fixed, hinge, universal, ball, slider, planar };
 
 /// `[[joint]]`: described where the bodies are at rest.
 struct Joint {
-  std::string name;                  ///< "joint1" … unless named; repeated ones get a number
+  std::string name;  ///< "joint1" … unless named; repeated ones get a number
   JointKind kind;
   std::optional<int> first, second;  ///< indices of bodies; one may be empty: the ground
   Eigen::Vector3d at;                ///< global, m

@@ -13,12 +13,14 @@ const Table& joint_table() {
   static const Table table{
       .title = "[[joint]]",
       .meaning = "keeps two bodies, or a body and the ground, together exactly, whatever the forces",
-      .keys = {name_key("joint", "of the joint"),
-               texts("between",
-                     "[\"a\", \"b\"], [\"ground\", \"a\"], or \"neighbours of m\": m1–m2, m2–m3, … of the copies m"),
-               vector("at", dim::length,
-                      "where the joint is at rest, global; of neighbours the first pair's, and the others' moves with them"),
-               text("kind", "of joint")},
+      .keys =
+          {name_key("joint", "of the joint"),
+           texts("between",
+                 "[\"a\", \"b\"], [\"ground\", \"a\"], or \"neighbours of m\": m1–m2, m2–m3, … of the copies m"),
+           vector(
+               "at", dim::length,
+               "where the joint is at rest, global; of neighbours the first pair's, and the others' moves with them"),
+           text("kind", "of joint")},
       .chosen_by = "kind",
       .variants = {{.word = "fixed", .meaning = "nothing moves", .keys = {}},
                    {.word = "hinge",

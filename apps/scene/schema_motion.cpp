@@ -371,8 +371,8 @@ const Table& motion_schema() {
                inner_table("current", current_table()).optional(), inner_tables("body", body()).optional(),
                inner_tables("probe", probe_table()).optional(), inner_tables("member", member()).optional(),
                inner_tables("mooring", mooring()).optional(), inner_tables("connector", connector()).optional(),
-               inner_tables("joint", joint_table()).optional(),
-               inner_table("ask", ask()), inner_table("solve", solve()).or_default("", "see its keys")}};
+               inner_tables("joint", joint_table()).optional(), inner_table("ask", ask()),
+               inner_table("solve", solve()).or_default("", "see its keys")}};
   return table;
 }
 
