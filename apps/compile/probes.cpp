@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "dynamics/spatial/rotation.hpp"
-#include "hydro/waves/summed_field.hpp"
 
 namespace froude::compile {
 namespace {
@@ -131,18 +129,16 @@ void add_energies(const TimeModel& m, std::vector<Probe>& out) {
                  [](const Workspace&, const EnergyLedger& l) { return l.residual(); }});
 }
 
-/// The undisturbed water at the scene's [[probe]]s, with the ramp of the loads.
-void add_fixed_points(const scene::Scene& scene, const hydro::waves::Sea& sea, std::vector<Probe>& out) {
-  if (scene.probes.empty()) return;
-  const hydro::waves::HarmonicField linear = hydro::waves::linear_field(sea, {.stretching = scene.waves->stretching});
-  const auto field = std::make_shared<const hydro::waves::SummedField>(linear);
+/// The undisturbed water at the origin and at the scene's [[probe]]s, with the ramp of the loads.
+void add_water(const scene::Scene& scene, const std::shared_ptr<const hydro::waves::WaveField>& field,
+               std::vector<Probe>& out) {
+  out.push_back({"wave.elevation", "m", "elevation of the undisturbed wave at the origin, with the ramp",
+                 [field](const Workspace& w, const EnergyLedger&) { return field->elevation(w.state.time, 0, 0); }});
   for (const auto& p : scene.probes)
     for (const ProbeSignal& s : probe_signals(p))
       out.push_back(
-          {s.name, s.unit, s.long_name,
-           [field, at = p.at, take = s.take, ramp = scene.waves->ramp](const Workspace& w, const EnergyLedger&) {
-             const double t = w.state.time, grown = t >= ramp ? 1 : 0.5 * (1 - std::cos(std::numbers::pi * t / ramp));
-             return grown * take(field->at(t, at));
+          {s.name, s.unit, s.long_name, [field, at = p.at, take = s.take](const Workspace& w, const EnergyLedger&) {
+             return take(field->at(w.state.time, at));
            }});
 }
 
@@ -175,14 +171,7 @@ std::vector<Probe> run_probes(const scene::Scene& scene, const Prepared& prepare
   add_moorings(scene, prepared, out);
   add_travels(prepared, model.model, out);
   add_joint_loads(prepared, model.model, out);
-  if (model.sea)
-    out.push_back({"wave.elevation", "m", "elevation of the undisturbed wave at the origin, with the ramp",
-                   [sea = *model.sea, ramp = scene.waves->ramp](const Workspace& w, const EnergyLedger&) {
-                     const double t = w.state.time,
-                                  grown = t >= ramp ? 1 : 0.5 * (1 - std::cos(std::numbers::pi * t / ramp));
-                     return grown * sea.elevation(t, 0, 0);
-                   }});
-  if (model.sea) add_fixed_points(scene, *model.sea, out);
+  if (scene.waves) add_water(scene, model.water.field, out);
   add_energies(model, out);
   return out;
 }

@@ -129,7 +129,8 @@ void rao(const SceneArguments& arguments, const Console& console) {
   const dynamics::Model model = compile::frequency_model(prepared);
   if (!scene.members.empty())
     prepared.notes.push_back(
-        "quadratic drag is left out: a linear response per metre of wave has no place for it (a run has)");
+        "loads on members are left out, also their added mass: a linear response per metre of wave has no place for "
+        "them (a run has)");
   const auto all = compile::rao_probes(scene, prepared, model);
   std::vector<std::string> names;
   for (const auto& p : all) names.push_back(p.name);

@@ -172,24 +172,6 @@ std::vector<int> bodies_on(const Record& record, std::string_view key, const std
   return out;
 }
 
-void build_members(const Record& root, Names& names, Scene& scene) {
-  for (const Record& record : root.tables("member")) {
-    const auto& from = record["from"].points.front();
-    const auto& to = record["to"].points.front();
-    if (from.size() != to.size())
-      throw record.wrong("to", fmt::format("stands for {} points and from for {}", to.size(), from.size()),
-                         "use as many ± in one as in the other");
-    for (std::size_t k = 0; k < from.size(); ++k)
-      if (from[k] == to[k]) throw record.wrong("to", "is the same point as from", "a member has a length");
-    const auto on = bodies_on(record, "on", scene.bodies);
-    const auto name = names.of(record, on.size() * from.size());
-    for (std::size_t b = 0, n = 0; b < on.size(); ++b)
-      for (std::size_t k = 0; k < from.size(); ++k, ++n)
-        scene.members.push_back(
-            {name[n], on[b], from[k], to[k], record.si("diameter"), record.table("drag").si("cd"), record.place()});
-  }
-}
-
 void build_moorings(const Record& root, Names& names, Scene& scene) {
   for (const Record& record : root.tables("mooring")) {
     const Matrix6 stiffness = read_matrix(record, "stiffness"), damping = read_matrix(record, "damping");

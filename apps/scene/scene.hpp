@@ -159,12 +159,32 @@ struct Body {
   Place place;
 };
 
-/// `[[member]]`: a slender cylinder fixed to a body, which feels quadratic drag.
+/// `[member.morison]`: loads on the member at its true position.
+struct Morison {
+  double cd, ca;             ///< across the axis
+  double cd_tangential = 0;  ///< of the skin
+  bool partial = false;      ///< only the part under water is loaded
+  bool still = false;        ///< with `partial`: under still water, whatever the waves
+  std::optional<int> pieces = {};
+};
+
+/// `[member.slamming]`.
+struct Slamming {
+  enum class Model { goda, wienke, von_karman } model;
+  enum class Begins { underside, line, submerged } begins;
+  double factor;
+  std::optional<int> pieces;
+};
+
+/// `[[member]]`: a slender cylinder fixed to a body. What is named acts on it.
 struct Member {
   std::string name;
   int body;                  ///< index into Scene::bodies
   Eigen::Vector3d from, to;  ///< body axes, m
-  double diameter, cd;
+  double diameter;
+  std::optional<double> cd;  ///< of `[member.drag]`: quadratic drag as it is at rest
+  std::optional<Morison> morison;
+  std::optional<Slamming> slamming;
   Place place;
 };
 

@@ -106,6 +106,8 @@ void Model::add_mass(const State& state, double factor, BlockMatrix& out) const 
       for (std::size_t j = 0; j < added.bodies.size(); ++j)
         out.block(added.bodies[i], added.bodies[j]) +=
             factor * added.value.block<6, 6>(6 * static_cast<Eigen::Index>(i), 6 * static_cast<Eigen::Index>(j));
+  MassSink sink(out, factor);
+  for (const auto& kind : forces_) kind->add_mass(state, sink);
 }
 
 Eigen::MatrixXd Model::dry_mass_at_rest() const {
@@ -131,6 +133,8 @@ Eigen::VectorXd Model::mass_times(const State& state, const Eigen::VectorXd& x) 
         y.segment<6>(6 * added.bodies[i]) +=
             added.value.block<6, 6>(6 * static_cast<Eigen::Index>(i), 6 * static_cast<Eigen::Index>(j)) *
             x.segment<6>(6 * added.bodies[j]);
+  MassSink sink(x, y);
+  for (const auto& kind : forces_) kind->add_mass(state, sink);
   return y;
 }
 

@@ -23,8 +23,9 @@ struct AddedMass {
 
 class Workspace;
 
-/// The equations of motion (D8): (M(q) + A∞) a + gyro(q, v) + Gᵀλ = Σ loads(t, q, v, memory), with the modes that are
-/// not free left out, and the conditions g(q) = 0 of the joints. Integrators see nothing else.
+/// The equations of motion (D8): (M(q) + A∞ + mass of the kinds of force (D40)) a + gyro(q, v) + Gᵀλ = Σ loads(t, q, v,
+/// memory), with the modes that are not free left out, and the conditions g(q) = 0 of the joints. Integrators see
+/// nothing else.
 class Model {
  public:
   /// \throws hydro::InputError if mass plus added mass is not positive definite in the free modes, or as JointSet
@@ -45,12 +46,12 @@ class Model {
   Eigen::VectorXd residual(const State& state, const Eigen::VectorXd& acceleration, Workspace& workspace) const;
   /// ∂residual/∂a · c_a + ∂residual/∂v · c_v + ∂residual/∂q · c_q, unit rows and columns in modes that are not free.
   void tangent(const State& state, double c_a, double c_v, double c_q, Workspace& workspace, BlockMatrix& out) const;
-  /// Adds factor · (M(q) + A∞); and the product of M(q) + A∞ with x.
+  /// Adds factor · M, all of the mass in (D8); and the product of M with x.
   void add_mass(const State& state, double factor, BlockMatrix& out) const;
   Eigen::VectorXd mass_times(const State& state, const Eigen::VectorXd& x) const;
   /// Mass of the bodies alone at rest, (6N, 6N).
   Eigen::MatrixXd dry_mass_at_rest() const;
-  /// Kinetic energy of the bodies and of the water that moves with them (A∞), J.
+  /// Kinetic energy of the bodies and of the water that moves with them, J.
   double kinetic_energy(const State& state) const;
   /// The model for small motions about rest, of the kinds that are linear there and the joints (D17).
   struct Linear {
