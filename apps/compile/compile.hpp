@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dynamics/force/connector.hpp"
+#include "dynamics/force/friction.hpp"
 #include "dynamics/force/restoring.hpp"
 #include "dynamics/frequency/rao.hpp"
 #include "dynamics/model/model.hpp"
@@ -33,6 +34,7 @@ struct Prepared {
   std::vector<dynamics::AxialConnector> axial;
   std::vector<dynamics::BushingConnector> bushing;
   std::vector<dynamics::Joint> joints;
+  std::vector<dynamics::Friction> friction;
   std::vector<double>
       joint_sign;  ///< −1 where the scene wrote the ground first: travel is the second's against the first
   std::vector<std::string> axial_names, bushing_names, mooring_names;

@@ -28,6 +28,7 @@ void add_absent(const scene::Scene& scene, const compile::Prepared& p, std::vect
   absent(!p.moorings.empty(), "mooring", "[[mooring]]");
   absent(!p.axial.empty() || !p.bushing.empty(), "connector", "[[connector]]");
   absent(!p.joints.empty(), "joint", "[[joint]]");
+  absent(!p.friction.empty(), "friction", "friction = { … } of a [[joint]]");
   absent(radiation, "radiation", "radiation = {}");
   absent(excitation, "excitation", "excitation = true");
   const auto named = [&](auto key) {

@@ -215,6 +215,11 @@ struct Connector {
   Place place;
 };
 
+/// Friction of a hinge, N m, or of a slider, N.
+struct JointFriction {
+  double breakaway, sliding;
+};
+
 enum class JointKind { fixed, hinge, universal, ball, slider, planar };
 
 /// `[[joint]]`: described where the bodies are at rest.
@@ -224,6 +229,7 @@ struct Joint {
   std::optional<int> first, second;  ///< indices of bodies; one may be empty: the ground
   Eigen::Vector3d at;                ///< global, m
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX(), second_axis = Eigen::Vector3d::UnitY();  ///< global, any length
+  std::optional<JointFriction> friction = {};
   Place place;
 };
 
