@@ -9,8 +9,10 @@
 #include "compile/radiation.hpp"
 #include "compile/signals.hpp"
 #include "compile/waves.hpp"
+#include "dynamics/force/gravity.hpp"
 #include "dynamics/force/ramped_field.hpp"
 #include "dynamics/force/wave_loads.hpp"
+#include "dynamics/joint/assemble.hpp"
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/waves/summed_field.hpp"
 
@@ -60,6 +62,19 @@ void add_connector(const Scene& scene, const scene::Connector& c, Prepared& out)
   out.bushing_names.push_back(c.name);
 }
 
+/// libdynamics has the body first and the ground second.
+void add_joint(const scene::Joint& j, Prepared& out) {
+  const bool turned = !j.first;
+  out.joints.push_back({.name = j.name,
+                        .kind = static_cast<dynamics::JointKind>(j.kind),
+                        .first = turned ? *j.second : *j.first,
+                        .second = turned ? j.first : j.second,
+                        .place = j.at,
+                        .axis = turned && j.kind == scene::JointKind::universal ? j.second_axis : j.axis,
+                        .second_axis = turned ? j.axis : j.second_axis});
+  out.joint_sign.push_back(turned ? -1 : 1);
+}
+
 void add_mooring(const Scene& scene, const scene::Mooring& m, Prepared& out) {
   // Given about the body's origin; the origin seen from the centre of gravity is −c.
   const Matrix6 T = dynamics::shift_from_centre(-scene.bodies[static_cast<std::size_t>(m.body)].centre_of_gravity);
@@ -70,6 +85,7 @@ void add_mooring(const Scene& scene, const scene::Mooring& m, Prepared& out) {
 
 /// Springs and dampers, in the order in which a plan lists them.
 void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::ForceKind>>& forces) {
+  if (!p.heavy.empty()) forces.push_back(std::make_unique<dynamics::GravityKind>(p.bodies, p.gravity, p.heavy));
   if (!p.hydrostatics.empty())
     forces.push_back(std::make_unique<dynamics::RestoringKind>("hydrostatics", p.bodies, p.hydrostatics));
   if (!p.moorings.empty()) forces.push_back(std::make_unique<dynamics::RestoringKind>("mooring", p.bodies, p.moorings));
@@ -81,20 +97,25 @@ void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::
 
 Prepared prepare(const Scene& scene) {
   Prepared out;
-  for (const auto& b : scene.bodies) out.bodies.push_back(rigid_body(b));
+  for (const auto& b : scene.bodies) {
+    if (b.weight) out.heavy.push_back(static_cast<int>(out.bodies.size()));
+    out.bodies.push_back(rigid_body(b));
+  }
+  out.gravity = scene.water.gravity;
   add_hydrodynamics(scene, out);
   for (const auto& m : scene.moorings) add_mooring(scene, m, out);
   for (const auto& c : scene.connectors) add_connector(scene, c, out);
+  for (const auto& j : scene.joints) add_joint(j, out);
   return out;
 }
 
 dynamics::Model frequency_model(const Prepared& prepared) {
   std::vector<std::unique_ptr<const dynamics::ForceKind>> forces;
   add_springs(prepared, forces);
-  dynamics::Model model(prepared.bodies, {}, std::move(forces));
-  const Eigen::VectorXd load = model.load_at_rest();
+  dynamics::Model model(prepared.bodies, {}, std::move(forces), prepared.joints);
+  const Eigen::VectorXd load = model.linear_at_rest().unbalanced;
   double weight = 0;
-  for (const auto& b : prepared.bodies) weight += b.mass() * 9.81;
+  for (const auto& b : prepared.bodies) weight += b.mass() * prepared.gravity;
   Eigen::Index worst = 0;
   // Pretension that does not cancel would shift the rest position about which everything is linearised.
   if (load.size() > 0 && load.cwiseAbs().maxCoeff(&worst) > 1e-6 * weight)
@@ -198,8 +219,10 @@ PlanLine waves_line(const std::optional<hydro::waves::Sea>& sea) {
       true};
 }
 
-dynamics::State start_state(const Scene& scene, const Prepared& p) {
+/// Where the scene puts bodies at t = 0; joints carry along those that it says nothing of.
+dynamics::State start_state(const Scene& scene, const Prepared& p, const dynamics::Model& model) {
   dynamics::State state = dynamics::rest_state(p.bodies);
+  std::vector<bool> placed, given;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const auto& b = scene.bodies[i];
     Eigen::Matrix<double, 6, 1> moved = Eigen::Matrix<double, 6, 1>::Zero(), velocity = moved;
@@ -211,7 +234,11 @@ dynamics::State start_state(const Scene& scene, const Prepared& p) {
     pose.centre = b.position + moved.head<3>() + to_centre;
     velocity.head<3>() += velocity.tail<3>().cross(to_centre);
     state.velocity.segment<6>(6 * static_cast<Eigen::Index>(i)) = velocity;
+    placed.push_back(!b.initial.empty());
+    given.push_back(!b.initial_velocity.empty());
   }
+  dynamics::close_joints(model, placed, state);
+  dynamics::close_joint_velocities(model, given, state);
   return state;
 }
 
@@ -255,8 +282,13 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
     }
     plan.insert(plan.end(), memory_lines.begin(), memory_lines.end());
   }
-  dynamics::Model model(prepared.bodies, std::move(added_mass), std::move(forces));
-  return {std::move(model), start_state(scene, prepared), std::move(water), step, steps, per_sample, std::move(plan),
+  dynamics::Model model(prepared.bodies, std::move(added_mass), std::move(forces), prepared.joints);
+  if (!prepared.joints.empty())
+    plan.push_back({"joint", "conditions held exactly, with the loads that this takes as unknowns",
+                    fmt::format("{} joints, {} conditions", prepared.joints.size(), model.joints().count()), true});
+  notes.insert(notes.end(), model.redundant().begin(), model.redundant().end());
+  dynamics::State start = start_state(scene, prepared, model);
+  return {std::move(model), std::move(start), std::move(water), step, steps, per_sample, std::move(plan),
           std::move(notes)};
 }
 

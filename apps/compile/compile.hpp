@@ -28,8 +28,12 @@ struct Prepared {
   std::vector<dynamics::frequency::PotentialGroup> groups;
   std::vector<scene::Memory> memory;  ///< one a group
   std::vector<dynamics::Restoring> hydrostatics, moorings;
+  std::vector<int> heavy;  ///< bodies that feel gravity by themselves
+  double gravity;          ///< m/s²
   std::vector<dynamics::AxialConnector> axial;
   std::vector<dynamics::BushingConnector> bushing;
+  std::vector<dynamics::Joint> joints;
+  std::vector<double> joint_sign;  ///< −1 where the scene wrote the ground first: travel is the second's against the first
   std::vector<std::string> axial_names, bushing_names, mooring_names;
   std::vector<std::string> notes;  ///< what had to be decided, for the result and the plan
 };

@@ -72,6 +72,46 @@ void add_moorings(const scene::Scene& scene, const Prepared& p, std::vector<Prob
     }
 }
 
+const char* joint_load(int component) {
+  constexpr const char* names[] = {"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"};
+  return names[component];
+}
+
+/// Calls f(joint, end, "hinge.top") for each body of each joint.
+template <class Do>
+void for_each_end(const Prepared& p, Do act) {
+  for (std::size_t j = 0; j < p.joints.size(); ++j)
+    for (const auto end : {dynamics::End::first, dynamics::End::second}) {
+      const std::optional<int> body = end == dynamics::End::first ? p.joints[j].first : p.joints[j].second;
+      if (body)
+        act(static_cast<int>(j), end, p.joints[j].name + "." + p.bodies[static_cast<std::size_t>(*body)].name());
+    }
+}
+
+/// "hinge" turns by an angle, "slider" goes a way; other joints have no single number.
+void add_travels(const Prepared& p, const dynamics::Model& model, std::vector<Probe>& out) {
+  for (std::size_t j = 0; j < p.joints.size(); ++j) {
+    const bool turns = p.joints[j].kind == dynamics::JointKind::hinge;
+    if (!turns && p.joints[j].kind != dynamics::JointKind::slider) continue;
+    out.push_back({p.joints[j].name + (turns ? ".angle" : ".travel"), turns ? "rad" : "m",
+                   fmt::format("{} of {}, the second against the first", turns ? "angle" : "travel", p.joints[j].name),
+                   [&model, j, sign = p.joint_sign[j]](const Workspace& w, const EnergyLedger&) {
+                     return sign * model.joints().travel(static_cast<int>(j), w.state);
+                   }});
+  }
+}
+
+void add_joint_loads(const Prepared& p, const dynamics::Model& model, std::vector<Probe>& out) {
+  for_each_end(p, [&](int joint, dynamics::End end, const std::string& name) {
+    for (int i = 0; i < 6; ++i)
+      out.push_back({fmt::format("{}.{}", name, joint_load(i)), load_unit(i),
+                     fmt::format("load of the joint on {}, about the joint, body axes", name),
+                     [&model, joint, end, i](const Workspace& w, const EnergyLedger&) {
+                       return model.joints().load_on(joint, end, w.state, w.multipliers)[i];
+                     }});
+  });
+}
+
 void add_energies(const TimeModel& m, std::vector<Probe>& out) {
   out.push_back({"energy.kinetic", "J", "kinetic energy of bodies and added mass",
                  [](const Workspace&, const EnergyLedger& l) { return l.kinetic(); }});
@@ -129,6 +169,8 @@ std::vector<Probe> run_probes(const scene::Scene& scene, const Prepared& prepare
   add_motions(scene, prepared, out);
   add_connectors(prepared, out);
   add_moorings(scene, prepared, out);
+  add_travels(prepared, model.model, out);
+  add_joint_loads(prepared, model.model, out);
   if (scene.waves) add_water(scene, model.water.field, out);
   add_energies(model, out);
   return out;
@@ -158,7 +200,46 @@ Eigen::Vector3d at_rest(const Prepared& p, std::optional<int> body, const Eigen:
 
 }  // namespace
 
-std::vector<LinearProbe> rao_probes(const scene::Scene& scene, const Prepared& p) {
+namespace {
+
+/// Travel of sliders and hinges, and loads of all joints, beyond those at rest.
+void add_joints(const Prepared& p, const dynamics::Model& model, std::vector<LinearProbe>& out) {
+  if (p.joints.empty()) return;
+  const auto rest = dynamics::rest_state(p.bodies);
+  const Eigen::VectorXd multipliers = model.linear_at_rest().multipliers;
+  for (std::size_t j = 0; j < p.joints.size(); ++j) {
+    const auto& joint = p.joints[j];
+    const Eigen::Vector3d axis = p.joint_sign[j] * joint.axis.normalized();
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(model.modes());
+    if (joint.kind == dynamics::JointKind::hinge) {
+      row.segment<3>(6 * joint.first + 3) = -axis.transpose();
+      if (joint.second) row.segment<3>(6 * *joint.second + 3) = axis.transpose();
+      out.push_back({joint.name + ".angle", "rad/m",
+                     fmt::format("angle of {} per metre of wave amplitude", joint.name), row, {}});
+    } else if (joint.kind == dynamics::JointKind::slider) {
+      const auto arm = [&](int body) {
+        return Eigen::Vector3d(joint.place - p.bodies[static_cast<std::size_t>(body)].rest_centre());
+      };
+      add_point(row, joint.first, arm(joint.first), axis, -1);
+      if (joint.second) add_point(row, *joint.second, arm(*joint.second), axis, 1);
+      out.push_back({joint.name + ".travel", "m/m",
+                     fmt::format("travel of {} per metre of wave amplitude", joint.name), row, {}});
+    }
+  }
+  for_each_end(p, [&](int joint, dynamics::End end, const std::string& name) {
+    const auto variation = model.joints().load_variation(joint, end, rest, multipliers);
+    for (int i = 0; i < 6; ++i)
+      out.push_back({fmt::format("{}.{}", name, joint_load(i)), std::string(load_unit(i)) + "/m",
+                     fmt::format("load of the joint on {} per metre of wave amplitude, about the joint, body axes", name),
+                     variation.by_motion.row(i),
+                     {},
+                     variation.by_multiplier.row(i)});
+  });
+}
+
+}  // namespace
+
+std::vector<LinearProbe> rao_probes(const scene::Scene& scene, const Prepared& p, const dynamics::Model& model) {
   std::vector<LinearProbe> out;
   const Eigen::Index modes = 6 * static_cast<Eigen::Index>(p.bodies.size());
   const Eigen::RowVectorXd none = Eigen::RowVectorXd::Zero(modes);
@@ -189,6 +270,7 @@ std::vector<LinearProbe> rao_probes(const scene::Scene& scene, const Prepared& p
                      fmt::format("force of {} along {} per metre of wave amplitude", p.bushing_names[i], "xyz"[axis]),
                      c.stiffness[axis] * row, c.damping[axis] * row});
     }
+  add_joints(p, model, out);
   return out;
 }
 

@@ -154,6 +154,10 @@ Body read_body(const Record& record, const std::filesystem::path& file) {
   body.initial_velocity = read_modes(record, "initial_velocity", body.free);
   if (record.has("hydrodynamics"))
     body.hydrodynamics = read_hydrodynamics(record.table("hydrodynamics"), file, body.position.z());
+  body.weight = record.has("weight");
+  if (body.weight && body.hydrodynamics && body.hydrodynamics->hydrostatics)
+    throw record.wrong("weight", "would act twice: linear hydrostatics are about the balance of buoyancy and weight",
+                       "leave out `weight`");
   return body;
 }
 

@@ -154,6 +154,7 @@ struct Body {
   std::array<bool, 6> free;           ///< modes that may move; all by default
   std::map<hydro::Mode, double> initial;           ///< displacement of the origin from rest at t = 0, m or rad
   std::map<hydro::Mode, double> initial_velocity;  ///< m/s or rad/s
+  bool weight = false;                             ///< feels gravity; linear hydrostatics hold it already
   std::optional<Hydrodynamics> hydrodynamics;
   Place place;
 };
@@ -214,6 +215,18 @@ struct Connector {
   Place place;
 };
 
+enum class JointKind { fixed, hinge, universal, ball, slider, planar };
+
+/// `[[joint]]`: described where the bodies are at rest.
+struct Joint {
+  std::string name;                  ///< "joint1" … unless named; repeated ones get a number
+  JointKind kind;
+  std::optional<int> first, second;  ///< indices of bodies; one may be empty: the ground
+  Eigen::Vector3d at;                ///< global, m
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX(), second_axis = Eigen::Vector3d::UnitY();  ///< global, any length
+  Place place;
+};
+
 struct AskRao {
   std::vector<double> omega;  ///< rad/s, increasing
   hydro::Angle heading =
@@ -259,6 +272,7 @@ struct Scene {
   std::vector<Member> members;
   std::vector<Mooring> moorings;
   std::vector<Connector> connectors;
+  std::vector<Joint> joints;
   std::optional<AskRao> rao;
   std::optional<AskModes> ask_modes;
   std::optional<AskRun> run;

@@ -25,6 +25,7 @@ enum class Holds {
   vector,    ///< "(0, 0, 1.31) m"
   points,    ///< "(±6, ±5, 0) m": a vector, or several by ±
   ends,      ///< a list of two `points`
+  direction,  ///< "x", "y", "z", or "(1, 0, 1)" of any length but zero
   range,     ///< "2 s .. 8 s, 61 values"
   table,     ///< [header] or { … }
   tables     ///< [[header]], any number
@@ -92,6 +93,7 @@ Key quantity(std::string name, const hydro::Dimension& dimension, std::string me
 Key vector(std::string name, const hydro::Dimension& dimension, std::string meaning);
 Key points(std::string name, std::string meaning);
 Key ends(std::string name, std::string meaning);
+Key direction(std::string name, std::string meaning);
 Key range(std::string name, const hydro::Dimension& dimension, std::string meaning);
 Key inner_table(std::string name, const Table& inner);
 Key inner_tables(std::string name, const Table& inner);

@@ -2,6 +2,7 @@
 #include "hydro/base/types.hpp"
 #include "hydro/potential/check.hpp"
 #include "scene/schema.hpp"
+#include "scene/schema_joint.hpp"
 #include "scene/schema_members.hpp"
 #include "scene/schema_waves.hpp"
 
@@ -191,6 +192,9 @@ const Table& body() {
                       "(∫xy dm, ∫xz dm, ∫yz dm) from the centre of gravity; the inertia matrix holds them with a minus")
                    .or_default("(0, 0, 0) kg m^2", "body axes are mostly principal axes")
                    .only_beside("inertia"),
+               effect("weight",
+                      "gravity pulls at the centre of gravity; for a body whose hydrostatics are not linear (those "
+                      "hold the weight already)"),
                texts("free", "modes that may move; the others are held")
                    .one_of(mode_words())
                    .or_default("surge, sway, heave, roll, pitch, yaw", "a body is free unless something holds it"),
@@ -349,6 +353,7 @@ const Table& motion_schema() {
                inner_table("current", current_table()).optional(), inner_tables("body", body()).optional(),
                inner_tables("probe", probe_table()).optional(), inner_tables("member", member_table()).optional(),
                inner_tables("mooring", mooring()).optional(), inner_tables("connector", connector()).optional(),
+               inner_tables("joint", joint_table()).optional(),
                inner_table("ask", ask()), inner_table("solve", solve()).or_default("", "see its keys")}};
   return table;
 }

@@ -1,18 +1,33 @@
 #include "dynamics/force/gravity.hpp"
 
-namespace dynamics {
+#include <numeric>
 
-GravityKind::GravityKind(const std::vector<RigidBody>& bodies, double gravity) {
-  for (const RigidBody& body : bodies) weight_.push_back(body.mass() * gravity);
+namespace dynamics {
+namespace {
+
+std::vector<int> all_of(const std::vector<RigidBody>& bodies) {
+  std::vector<int> all(bodies.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
 }
 
+}  // namespace
+
+GravityKind::GravityKind(const std::vector<RigidBody>& bodies, double gravity, const std::vector<int>& heavy) {
+  for (const int b : heavy) elements_.push_back({b, bodies[static_cast<std::size_t>(b)].mass() * gravity});
+}
+
+GravityKind::GravityKind(const std::vector<RigidBody>& bodies, double gravity)
+    : GravityKind(bodies, gravity, all_of(bodies)) {}
+
 void GravityKind::add_load(const Instant&, LoadSink& out) const {
-  for (std::size_t i = 0; i < weight_.size(); ++i) out.add_mode(6 * static_cast<int>(i) + 2, -weight_[i]);
+  for (const Element& e : elements_) out.add_mode(6 * e.body + 2, -e.weight);
 }
 
 EnergyFlow GravityKind::energy(const Instant& now) const {
   EnergyFlow out;
-  for (std::size_t i = 0; i < weight_.size(); ++i) out.stored += weight_[i] * now.state.pose[i].centre.z();
+  for (const Element& e : elements_)
+    out.stored += e.weight * now.state.pose[static_cast<std::size_t>(e.body)].centre.z();
   return out;
 }
 

@@ -24,9 +24,8 @@ GeneralizedAlpha::GeneralizedAlpha(const Model& model, const Settings& settings)
   const auto G = model.joints().gradients(rest_state(model.bodies()));
   joint_scale_.resize(model.joints().count());
   for (Eigen::Index i = 0; i < joint_scale_.size(); ++i) {  // the root of the mass that a condition moves
-    Eigen::VectorXd one = Eigen::VectorXd::Zero(joint_scale_.size()), row = Eigen::VectorXd::Zero(model.modes());
-    one[i] = 1;
-    model.joints().add_transposed(G, one, row);
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(model.modes());
+    model.joints().add_transposed(G, Eigen::VectorXd::Unit(joint_scale_.size(), i), row);
     joint_scale_[i] = 1 / row.cwiseQuotient(scale_).norm();
   }
 }

@@ -81,7 +81,7 @@ TEST_P(Agreement, OfTimeAndFrequencyDomainInEveryDegreeOfFreedom) {
   time.assign(run.time.begin() + static_cast<std::ptrdiff_t>(begin), run.time.end());
   double largest[2] = {0, 0};  // translations, rotations
   std::vector<std::complex<double>> from_run, from_rao;
-  for (const auto& probe : compile::rao_probes(scene, prepared)) {
+  for (const auto& probe : compile::rao_probes(scene, prepared, model)) {
     if (!probe.name.starts_with("m")) continue;
     if (probe.name.starts_with("mooring")) continue;
     const auto& all = run.signal(probe.name);

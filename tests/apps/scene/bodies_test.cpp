@@ -69,6 +69,13 @@ TEST(SceneBodies, FreesTheModesNamedAndAllByDefault) {
   EXPECT_THAT(refusal(with(sphere, "[\"heave\"]", "[\"heave\", \"heave\"]")), StartsWith("scene.toml:14:18: "));
 }
 
+TEST(SceneBodies, FeelGravityWhereTheSceneSaysSoAndNothingHoldsTheWeightAlready) {
+  EXPECT_FALSE(parse(sphere, "scene.toml").bodies.at(0).weight);
+  const std::string heavy = with(sphere, "free = [\"heave\"]\n", "free = [\"heave\"]\nweight = true\n");
+  EXPECT_THAT(refusal(heavy), AllOf(HasSubstr("weight = true would act twice"), HasSubstr("leave out `weight`")));
+  EXPECT_TRUE(parse(with(heavy, "hydrostatics = true\n", ""), "scene.toml").bodies.at(0).weight);
+}
+
 TEST(SceneBodies, StartsWhereTheSceneSays) {
   const auto text =
       with(sphere, "free =", "initial = { heave = \"50 cm\" }\ninitial_velocity = { heave = \"-1 m/s\" }\nfree =");

@@ -2,6 +2,7 @@
 
 #include "dynamics/force/connector.hpp"
 #include "dynamics/force/drag.hpp"
+#include "dynamics/force/gravity.hpp"
 #include "dynamics/force/restoring.hpp"
 #include "dynamics/force/wave_loads.hpp"
 #include "hydro/radiation/constant_memory.hpp"
@@ -40,6 +41,16 @@ WaveSignals wave_signals(Eigen::Index rows) {
 TEST(ForceLaws, HoldForRestoring) {
   laws::expect_force_laws(RestoringKind("mooring", bodies, {{0, random_spd(1), random_spd(2)}, {1, random_spd(3)}}),
                           bodies);
+}
+
+TEST(ForceLaws, HoldForWeight) {
+  laws::expect_force_laws(GravityKind(bodies, 9.81), bodies);
+  laws::expect_force_laws(GravityKind(bodies, 9.81, {1}), bodies);
+}
+
+TEST(Weight, ActsOnTheBodiesThatFeelItAlone) {
+  const Eigen::VectorXd F = laws::load(GravityKind(bodies, 9.81, {1}), rest_state(bodies), nullptr);
+  EXPECT_EQ(F, -900 * 9.81 * Eigen::VectorXd::Unit(12, 8));
 }
 
 TEST(ForceLaws, HoldForAxialConnectors) {

@@ -91,7 +91,7 @@ TEST(JointMotion, AHingeCarriesWeightAndCentrifugalForce) {
   const Model model = pendulum();
   const Outcome swung = run(model, turned_out(model, 1.5), 1e-3, 700, 0.8);
   const double theta = angle_of(swung.state), rate = swung.state.velocity[4];
-  const Vector6 load = model.joints().load_on_first(0, swung.state, swung.multipliers);
+  const Vector6 load = model.joints().load_on(0, End::first, swung.state, swung.multipliers);
   ASSERT_GT(std::abs(rate), 0.3);
   EXPECT_NEAR(load[2], 3 * g * std::cos(theta) + 3 * arm * rate * rate, 1e-3);  // of 30 N; second order in h
   EXPECT_NEAR(std::abs(load[0]), std::abs(3 * g * std::sin(theta) * (1 - 3 * arm * arm / inertia_about_hinge)), 1e-3);

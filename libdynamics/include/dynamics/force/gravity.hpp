@@ -4,20 +4,29 @@
 
 namespace dynamics {
 
-/// −m g ẑ on each body, at its centre of gravity; stored energy m g z from the global origin. For bodies whose
+/// −m g ẑ on bodies, at their centres of gravity; stored energy m g z from the global origin. For bodies whose
 /// hydrostatic stiffness does not hold their weight already.
 class GravityKind final : public ForceKind {
  public:
+  /// `heavy`: indices of the bodies that feel it.
+  GravityKind(const std::vector<RigidBody>& bodies, double gravity, const std::vector<int>& heavy);
+  /// All of them.
   GravityKind(const std::vector<RigidBody>& bodies, double gravity);
-  std::string effect() const override { return "gravity"; }
-  std::size_t elements() const override { return weight_.size(); }
-  std::string method() const override { return "constant weight"; }
+  std::string effect() const override { return "weight"; }
+  std::size_t elements() const override { return elements_.size(); }
+  std::string method() const override { return "constant, at the centre of gravity"; }
   void add_load(const Instant& now, LoadSink& out) const override;
   void add_jacobian(const Instant&, JacobianSink&) const override {}  // constant
   EnergyFlow energy(const Instant& now) const override;
+  /// No stiffness about the centre of gravity, but a load that something must carry at rest.
+  bool linear_at_rest() const override { return true; }
 
  private:
-  std::vector<double> weight_;  // N, one a body
+  struct Element {
+    int body;
+    double weight;  // N
+  };
+  std::vector<Element> elements_;
 };
 
 }  // namespace dynamics

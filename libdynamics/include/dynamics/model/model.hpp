@@ -53,13 +53,14 @@ class Model {
   Eigen::MatrixXd dry_mass_at_rest() const;
   /// Kinetic energy of the bodies and of the water that moves with them, J.
   double kinetic_energy(const State& state) const;
-  /// Stiffness K and damping D of all kinds that are linear at rest, there: loads ≈ −K δ − D v. (6N, 6N)
+  /// The model for small motions about rest, of the kinds that are linear there and the joints (D17).
   struct Linear {
-    Eigen::MatrixXd stiffness, damping;
+    Eigen::MatrixXd stiffness, damping;  ///< loads, joints' among them, ≈ −K δ − D v; (6N, 6N)
+    Eigen::MatrixXd conditions;          ///< G, (m, 6N): G δ = 0
+    Eigen::VectorXd multipliers;         ///< λ that carries what the loads at rest ask of the joints, (m)
+    Eigen::VectorXd unbalanced;          ///< load at rest that neither joints nor locked modes carry, (6N)
   };
   Linear linear_at_rest() const;
-  /// Net load of those kinds at rest, which a scene in equilibrium does not have.
-  Eigen::VectorXd load_at_rest() const;
   /// "m1.heave": for messages.
   std::string mode_name(int mode) const;
 
@@ -72,6 +73,7 @@ class Model {
   std::vector<std::string> redundant_;
 
   void leave_out_redundant(const Eigen::MatrixXd& mass);
+  void balance_at_rest(const State& rest, Linear& out) const;
 };
 
 /// Everything of a run that changes.
