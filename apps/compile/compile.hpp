@@ -5,7 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/force/catenary_mooring.hpp"
 #include "dynamics/force/connector.hpp"
+#include "dynamics/force/constant_load.hpp"
+#include "dynamics/force/pto.hpp"
 #include "dynamics/force/restoring.hpp"
 #include "dynamics/frequency/rao.hpp"
 #include "dynamics/model/model.hpp"
@@ -32,8 +35,12 @@ struct Prepared {
   double gravity;          ///< m/s²
   std::vector<dynamics::AxialConnector> axial;
   std::vector<dynamics::BushingConnector> bushing;
+  std::vector<dynamics::Pto> ptos;
+  std::vector<dynamics::ConstantLoad> loads;
+  std::vector<dynamics::CatenaryMooring> lines;
   std::vector<dynamics::Joint> joints;
-  std::vector<double> joint_sign;  ///< −1 where the scene wrote the ground first: travel is the second's against the first
+  std::vector<double>
+      joint_sign;  ///< −1 where the scene wrote the ground first: travel is the second's against the first
   std::vector<std::string> axial_names, bushing_names, mooring_names;
   std::vector<std::string> notes;  ///< what had to be decided, for the result and the plan
 };

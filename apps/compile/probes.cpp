@@ -53,6 +53,21 @@ void add_connectors(const Prepared& p, std::vector<Probe>& out) {
                      }});
 }
 
+/// Tensions of catenaries, at the fairlead and at the anchor.
+void add_lines(const scene::Scene& scene, const Prepared& p, std::vector<Probe>& out) {
+  for (std::size_t i = 0; i < p.lines.size(); ++i) {
+    const std::string& name = scene.lines[i].name;
+    out.push_back({name + ".tension", "N", "tension of " + name + " at the fairlead",
+                   [m = p.lines[i]](const Workspace& w, const EnergyLedger&) {
+                     return dynamics::tension_of(m, w.state).fairlead();
+                   }});
+    out.push_back({name + ".anchor_tension", "N", "tension of " + name + " at the anchor",
+                   [m = p.lines[i]](const Workspace& w, const EnergyLedger&) {
+                     return dynamics::tension_of(m, w.state).anchor();
+                   }});
+  }
+}
+
 /// Load of a mooring about the body's origin from its load about the centre of gravity: moments move by the arm.
 void add_moorings(const scene::Scene& scene, const Prepared& p, std::vector<Probe>& out) {
   for (std::size_t i = 0; i < p.moorings.size(); ++i)
@@ -97,6 +112,26 @@ void add_travels(const Prepared& p, const dynamics::Model& model, std::vector<Pr
                    fmt::format("{} of {}, the second against the first", turns ? "angle" : "travel", p.joints[j].name),
                    [&model, j, sign = p.joint_sign[j]](const Workspace& w, const EnergyLedger&) {
                      return sign * model.joints().travel(static_cast<int>(j), w.state);
+                   }});
+  }
+}
+
+/// What works on the travel of a joint: its force (or moment) against the travel, and the power that it takes.
+void add_ptos(const scene::Scene& scene, const Prepared& p, std::vector<Probe>& out) {
+  std::size_t next = 0;
+  for (const auto& joint : scene.joints) {
+    if (!joint.pto) continue;
+    const dynamics::Pto pto = p.ptos[next++];
+    const bool turns = joint.kind == scene::JointKind::hinge;
+    out.push_back(
+        {joint.name + (turns ? ".pto_moment" : ".pto_force"), turns ? "N m" : "N",
+         fmt::format("{} of the power take-off against the travel of {}", turns ? "moment" : "force", joint.name),
+         [pto](const Workspace& w, const EnergyLedger&) { return dynamics::pto_state(pto, w.state).force; }});
+    out.push_back({joint.name + ".pto_power", "W",
+                   fmt::format("power that the power take-off takes from {}, springs included", joint.name),
+                   [pto](const Workspace& w, const EnergyLedger&) {
+                     const auto s = dynamics::pto_state(pto, w.state);
+                     return s.force * s.rate;
                    }});
   }
 }
@@ -169,7 +204,9 @@ std::vector<Probe> run_probes(const scene::Scene& scene, const Prepared& prepare
   add_motions(scene, prepared, out);
   add_connectors(prepared, out);
   add_moorings(scene, prepared, out);
+  add_lines(scene, prepared, out);
   add_travels(prepared, model.model, out);
+  add_ptos(scene, prepared, out);
   add_joint_loads(prepared, model.model, out);
   if (scene.waves) add_water(scene, model.water.field, out);
   add_energies(model, out);
@@ -214,26 +251,34 @@ void add_joints(const Prepared& p, const dynamics::Model& model, std::vector<Lin
     if (joint.kind == dynamics::JointKind::hinge) {
       row.segment<3>(6 * joint.first + 3) = -axis.transpose();
       if (joint.second) row.segment<3>(6 * *joint.second + 3) = axis.transpose();
-      out.push_back({joint.name + ".angle", "rad/m",
-                     fmt::format("angle of {} per metre of wave amplitude", joint.name), row, {}});
+      out.push_back({joint.name + ".angle",
+                     "rad/m",
+                     fmt::format("angle of {} per metre of wave amplitude", joint.name),
+                     row,
+                     {}});
     } else if (joint.kind == dynamics::JointKind::slider) {
       const auto arm = [&](int body) {
         return Eigen::Vector3d(joint.place - p.bodies[static_cast<std::size_t>(body)].rest_centre());
       };
       add_point(row, joint.first, arm(joint.first), axis, -1);
       if (joint.second) add_point(row, *joint.second, arm(*joint.second), axis, 1);
-      out.push_back({joint.name + ".travel", "m/m",
-                     fmt::format("travel of {} per metre of wave amplitude", joint.name), row, {}});
+      out.push_back({joint.name + ".travel",
+                     "m/m",
+                     fmt::format("travel of {} per metre of wave amplitude", joint.name),
+                     row,
+                     {}});
     }
   }
   for_each_end(p, [&](int joint, dynamics::End end, const std::string& name) {
     const auto variation = model.joints().load_variation(joint, end, rest, multipliers);
     for (int i = 0; i < 6; ++i)
-      out.push_back({fmt::format("{}.{}", name, joint_load(i)), std::string(load_unit(i)) + "/m",
-                     fmt::format("load of the joint on {} per metre of wave amplitude, about the joint, body axes", name),
-                     variation.by_motion.row(i),
-                     {},
-                     variation.by_multiplier.row(i)});
+      out.push_back(
+          {fmt::format("{}.{}", name, joint_load(i)),
+           std::string(load_unit(i)) + "/m",
+           fmt::format("load of the joint on {} per metre of wave amplitude, about the joint, body axes", name),
+           variation.by_motion.row(i),
+           {},
+           variation.by_multiplier.row(i)});
   });
 }
 
@@ -258,9 +303,10 @@ std::vector<LinearProbe> rao_probes(const scene::Scene& scene, const Prepared& p
     const auto& c = p.axial[i];
     const Eigen::Vector3d d = at_rest(p, c.ends.second, c.ends.second_arm) - at_rest(p, c.ends.first, c.ends.first_arm);
     const auto row = stretch_row(c.ends, c.ends.first_arm, d.normalized(), modes);
+    const auto at_rest_law = c.law.at(d.norm() - c.rest_length, 0);
     out.push_back({p.axial_names[i] + ".force", "N/m",
-                   fmt::format("tension of {} per metre of wave amplitude", p.axial_names[i]), c.stiffness * row,
-                   c.damping * row});
+                   fmt::format("tension of {} per metre of wave amplitude", p.axial_names[i]), at_rest_law.by_x * row,
+                   at_rest_law.by_rate * row});
   }
   for (std::size_t i = 0; i < p.bushing.size(); ++i)
     for (int axis = 0; axis < 3; ++axis) {

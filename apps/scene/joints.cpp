@@ -7,9 +7,9 @@ namespace {
 
 JointKind kind_of(const std::string& word) {
   using enum JointKind;
-  static const std::map<std::string, JointKind, std::less<>> kinds{{"fixed", fixed}, {"hinge", hinge},
+  static const std::map<std::string, JointKind, std::less<>> kinds{{"fixed", fixed},         {"hinge", hinge},
                                                                    {"universal", universal}, {"ball", ball},
-                                                                   {"slider", slider}, {"planar", planar}};
+                                                                   {"slider", slider},       {"planar", planar}};
   return kinds.at(word);
 }
 
@@ -19,12 +19,14 @@ void read_axes(const Record& record, Joint& joint) {
   joint.second_axis = record.vector("second_axis");
   const double leaning = joint.axis.normalized().dot(joint.second_axis.normalized());
   if (std::abs(leaning) > 1e-9)  // round-off of two unit vectors
-    throw record.wrong("second_axis", fmt::format("is {:.4g} degrees off a right angle with axis",
-                                                  std::asin(std::abs(leaning)) * 180 / 3.14159265358979324),
+    throw record.wrong("second_axis",
+                       fmt::format("is {:.4g} degrees off a right angle with axis",
+                                   std::asin(std::abs(leaning)) * 180 / 3.14159265358979324),
                        "the two axes of a universal joint are across each other");
 }
 
-/// Held modes of a body are held for its own sake, not by joints: a joint that asks it to leave its place holds it fast.
+/// Held modes of a body are held for its own sake, not by joints: a joint that asks it to leave its place holds it
+/// fast.
 void check_may_turn(const Record& record, const Joint& joint, const std::vector<Body>& bodies) {
   for (const std::optional<int> index : {joint.first, joint.second}) {
     if (!index) continue;
@@ -34,13 +36,47 @@ void check_may_turn(const Record& record, const Joint& joint, const std::vector<
     const Eigen::Vector3d arm = joint.at - body.position - body.centre_of_gravity;
     if (turns && !moves && arm.norm() > 1e-9)
       throw record.refused(
-          fmt::format("joins \"{}\", which may turn about its centre of gravity only, {:.4g} m from the joint", body.name,
-                      arm.norm()),
+          fmt::format("joins \"{}\", which may turn about its centre of gravity only, {:.4g} m from the joint",
+                      body.name, arm.norm()),
           "a joint holds what it holds; free the translations of the body that turning about the joint needs");
   }
 }
 
+Pto read_pto(const Record& record) {
+  const auto number = [&](std::string_view key) { return record.has(key) ? record.si(key) : 0.0; };
+  Pto out{.stiffness = number("stiffness"),
+          .cubic = number("cubic"),
+          .damping = number("damping"),
+          .quadratic_damping = number("quadratic_damping"),
+          .preload = number("preload"),
+          .force_limit = {},
+          .stops = {}};
+  if (record.has("force_limit")) out.force_limit = record.si("force_limit");
+  if (!record.has("stops")) return out;
+  const Record& stops = record.table("stops");
+  out.stops.emplace();
+  if (stops.has("lower")) out.stops->lower = stops.si("lower");
+  if (stops.has("upper")) out.stops->upper = stops.si("upper");
+  if (out.stops->lower && out.stops->upper && !(*out.stops->lower < *out.stops->upper))
+    throw stops.wrong("upper", "is not above the lower stop", "exchange the two");
+  out.stops->stiffness = stops.si("stiffness");
+  out.stops->damping = stops.si("damping");
+  return out;
+}
+
 }  // namespace
+
+void build_loads(const Record& root, Names& names, Scene& scene) {
+  for (const Record& record : root.tables("load")) {
+    const auto part = [&](std::string_view key) {
+      return record.has(key) ? record.vector(key) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    };
+    const auto on = bodies_on(record, "on", scene.bodies);
+    const auto name = names.of(record, on.size());
+    for (std::size_t b = 0; b < on.size(); ++b)
+      scene.loads.push_back({name[b], on[b], record.vector("at"), part("force"), part("moment"), record.place()});
+  }
+}
 
 void build_joints(const Record& root, Names& names, Scene& scene) {
   for (const Record& record : root.tables("joint")) {
@@ -54,11 +90,13 @@ void build_joints(const Record& root, Names& names, Scene& scene) {
                   .first = pairs[p].first,
                   .second = pairs[p].second,
                   .at = record.vector("at"),
+                  .pto = {},
                   .place = record.place()};
       if (p > 0)
         joint.at += scene.bodies[static_cast<std::size_t>(*pairs[p].first)].position -
                     scene.bodies[static_cast<std::size_t>(*pairs.front().first)].position;
       read_axes(record, joint);
+      if (record.has("pto")) joint.pto = read_pto(record.table("pto"));
       check_may_turn(record, joint, scene.bodies);
       scene.joints.push_back(std::move(joint));
     }

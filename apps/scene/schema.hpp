@@ -20,15 +20,15 @@ enum class Holds {
   texts,   ///< "…" or ["…", "…"]; each one of Key::words if there are any
   number,  ///< without dimension
   integer,
-  effect,    ///< true; there is no false, because what is not named does not act
-  quantity,  ///< "29.3 kN/m", or one of Key::words
-  vector,    ///< "(0, 0, 1.31) m"
-  points,    ///< "(±6, ±5, 0) m": a vector, or several by ±
-  ends,      ///< a list of two `points`
+  effect,     ///< true; there is no false, because what is not named does not act
+  quantity,   ///< "29.3 kN/m", or one of Key::words
+  vector,     ///< "(0, 0, 1.31) m"
+  points,     ///< "(±6, ±5, 0) m": a vector, or several by ±
+  ends,       ///< a list of two `points`
   direction,  ///< "x", "y", "z", or "(1, 0, 1)" of any length but zero
-  range,     ///< "2 s .. 8 s, 61 values"
-  table,     ///< [header] or { … }
-  tables     ///< [[header]], any number
+  range,      ///< "2 s .. 8 s, 61 values"
+  table,      ///< [header] or { … }
+  tables      ///< [[header]], any number
 };
 
 /// The bound that a number or each component of a vector must keep; in the unit of the key, SI.

@@ -64,8 +64,8 @@ Eigen::MatrixXcd multiplier_amplitudes(const Model& model, const std::vector<Pot
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
   for (std::size_t w = 0; w < omega.size(); ++w) {
     const auto column = static_cast<Eigen::Index>(w);
-    const Eigen::VectorXcd rest = excitation(model, groups, omega[w], heading) -
-                                  impedance(model, linear, groups, omega[w]) * xi.col(column);
+    const Eigen::VectorXcd rest =
+        excitation(model, groups, omega[w], heading) - impedance(model, linear, groups, omega[w]) * xi.col(column);
     lambda.col(column).real() = qr.solve(scale.cwiseProduct(rest.real()));
     lambda.col(column).imag() = qr.solve(scale.cwiseProduct(rest.imag()));
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "dynamics/joint/conditions.hpp"
+#include "dynamics/joint/travel.hpp"
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/error.hpp"
 
@@ -13,9 +14,6 @@ std::string name_of(JointKind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-namespace {
-
-/// The joint's frame at rest, columns x (the axis), y, z.
 Eigen::Matrix3d frame_of(const Joint& joint) {
   hydro::require(joint.axis.allFinite() && joint.axis.norm() > 0, "the axis of joint \"{}\" has no direction",
                  joint.name);
@@ -31,6 +29,8 @@ Eigen::Matrix3d frame_of(const Joint& joint) {
   frame.col(2) = frame.col(0).cross(frame.col(1));
   return frame;
 }
+
+namespace {
 
 void require_bodies(const Joint& joint, int bodies) {
   const auto there = [&](int body) { return body >= 0 && body < bodies; };
@@ -238,15 +238,8 @@ JointSet::LoadVariation JointSet::load_variation(int joint, End end, const State
 }
 
 double JointSet::travel(int joint, const State& state) const {
-  const Joint& j = joints_[static_cast<std::size_t>(joint)];
   const auto& place = place_in_[static_cast<std::size_t>(joint)];
-  const Eigen::Matrix3d frame = frame_of(j);
-  const PointCondition along{place[0], place[1], frame.col(0), true};
-  const ConditionEnds at = ends_of({joint, j.first, j.second, along}, state);
-  if (j.kind == JointKind::slider) return value(along, at);
-  hydro::ensure(j.kind == JointKind::hinge, "travel of a joint that is neither slider nor hinge");
-  const Eigen::Vector3d y = at.second * frame.col(1);  // seen from the first body
-  return std::atan2(y.dot(at.first * frame.col(2)), y.dot(at.first * frame.col(1)));
+  return Travel(joints_[static_cast<std::size_t>(joint)], place[0], place[1]).value(state);
 }
 
 }  // namespace dynamics

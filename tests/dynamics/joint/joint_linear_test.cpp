@@ -45,17 +45,20 @@ Model model_of(std::vector<RigidBody> bodies, std::vector<Joint> joints, std::ve
 
 /// Two rods of 3 and 2 kg hung under each other: hinge at 0, centres at −1 and −2.5 m, second hinge at −2 m.
 Model double_pendulum() {
-  return model_of({body("top", {0, 0, -1}, 3, diagonal(1, 1, 0.1)), body("low", {0, 0, -2.5}, 2, diagonal(0.5, 0.5, 0.1))},
-                  {joint(JointKind::hinge, 0, {}, {0, 0, 0}), joint(JointKind::hinge, 1, 0, {0, 0, -2})}, {}, true);
+  return model_of(
+      {body("top", {0, 0, -1}, 3, diagonal(1, 1, 0.1)), body("low", {0, 0, -2.5}, 2, diagonal(0.5, 0.5, 0.1))},
+      {joint(JointKind::hinge, 0, {}, {0, 0, 0}), joint(JointKind::hinge, 1, 0, {0, 0, -2})}, {}, true);
 }
 
 TEST(JointLinear, ACompoundPendulumHasItsPeriodFromTheLoadInItsHinge) {
   // Nothing but the hinge's load at rest, m g, restores it: ω² = m g l / (I + m l²).
-  const Model m = model_of({body("bob", {0, 0, -2}, 3, diagonal(1, 2, 2.5))}, {joint(JointKind::hinge, 0, {}, {0, 0, 0})}, {}, true);
+  const Model m = model_of({body("bob", {0, 0, -2}, 3, diagonal(1, 2, 2.5))},
+                           {joint(JointKind::hinge, 0, {}, {0, 0, 0})}, {}, true);
   const auto found = free_motions(m, {});
   ASSERT_THAT(found.modes, SizeIs(1));
   EXPECT_NEAR(found.modes[0].omega, std::sqrt(3 * g * 2 / (2 + 3 * 4.0)), 1e-12);
-  EXPECT_NEAR(found.modes[0].shape[0] / found.modes[0].shape[4], -2, 1e-12) << "the bob goes back as its rod leans forward";
+  EXPECT_NEAR(found.modes[0].shape[0] / found.modes[0].shape[4], -2, 1e-12)
+      << "the bob goes back as its rod leans forward";
 }
 
 TEST(JointLinear, ADoublePendulumHasTheTwoFrequenciesOfItsPairOfAngles) {
@@ -79,8 +82,9 @@ TEST(JointLinear, TwoBodiesWeldedTogetherSwingAsTheOneBodyTheyMake) {
                               {joint(JointKind::fixed, 0, 1, {0, 0, 0})}, {{0, spring}});
   // The same spring holds the same point: about the common centre it is carried there.
   const Matrix6 T = shift_from_centre(a - centre);
-  const Model one = model_of({body("one", centre, 6, diagonal(3, 4, 5.5) + moved(4, a - centre) + moved(2, b - centre))}, {},
-                             {{0, T.transpose() * spring * T}});
+  const Model one =
+      model_of({body("one", centre, 6, diagonal(3, 4, 5.5) + moved(4, a - centre) + moved(2, b - centre))}, {},
+               {{0, T.transpose() * spring * T}});
   const auto of_pair = free_motions(pair, {}), of_one = free_motions(one, {});
   ASSERT_THAT(of_pair.modes, SizeIs(6));
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(of_pair.modes[i].omega / of_one.modes[i].omega, 1, 1e-12);
@@ -90,7 +94,8 @@ TEST(JointLinear, WhatJointsAndHeldModesCarryIsNotOutOfBalance) {
   const auto linear = double_pendulum().linear_at_rest();
   EXPECT_LT(linear.unbalanced.norm(), 1e-12 * 5 * g);
   // A pendulum that leans is not at rest: its moment about the hinge, m g l, is left over.
-  const Model leaning = model_of({body("bob", {2, 0, 0}, 3, diagonal(1, 2, 2.5))}, {joint(JointKind::hinge, 0, {}, {0, 0, 0})}, {}, true);
+  const Model leaning =
+      model_of({body("bob", {2, 0, 0}, 3, diagonal(1, 2, 2.5))}, {joint(JointKind::hinge, 0, {}, {0, 0, 0})}, {}, true);
   const Eigen::VectorXd left = leaning.linear_at_rest().unbalanced;
   const double about_hinge = left[4] - 2 * left[2];  // pitch moment, z × x: a force up at +x pitches nose up, negative
   EXPECT_NEAR(about_hinge, 3 * g * 2, 1e-9);
@@ -132,14 +137,16 @@ TEST(JointLinear, ThePairOfLoadsOfAJointIsEqualAndOpposite) {
     p.attitude = R;
   }
   const Eigen::VectorXd lambda = Eigen::VectorXd::LinSpaced(m.joints().count(), -3, 4);
-  const Vector6 first = m.joints().load_on(1, End::first, s, lambda), second = m.joints().load_on(1, End::second, s, lambda);
+  const Vector6 first = m.joints().load_on(1, End::first, s, lambda),
+                second = m.joints().load_on(1, End::second, s, lambda);
   EXPECT_LT((first + second).norm(), 1e-12) << "the same axes here, the same place";
 }
 
 TEST(CloseJoints, CarriesAlongWhatIsNotPlaced) {
   // A second body welded to one that is placed goes where it must; velocities too.
-  const Model m = model_of({body("a", {1, 0, 0}, 4, diagonal(2, 3, 4)), body("b", {-2, 0.5, 1}, 2, diagonal(1, 1, 1.5))},
-                           {joint(JointKind::fixed, 0, 1, {0, 0, 0})});
+  const Model m =
+      model_of({body("a", {1, 0, 0}, 4, diagonal(2, 3, 4)), body("b", {-2, 0.5, 1}, 2, diagonal(1, 1, 1.5))},
+               {joint(JointKind::fixed, 0, 1, {0, 0, 0})});
   State s = rest_state(m.bodies());
   const Eigen::Quaterniond R = rotation_exp(Eigen::Vector3d(0.3, -0.6, 0.9));
   const Eigen::Vector3d shift(3, 2, 1), omega(0.2, -0.4, 0.1);
@@ -151,7 +158,8 @@ TEST(CloseJoints, CarriesAlongWhatIsNotPlaced) {
   close_joint_velocities(m, {true, false}, s);
   EXPECT_LT((s.velocity.segment<3>(6) - omega.cross(s.pose[1].centre - s.pose[0].centre)).norm(), 1e-13);
   EXPECT_LT((s.velocity.segment<3>(9) - omega).norm(), 1e-13);
-  EXPECT_THAT(std::vector<double>(s.velocity.data(), s.velocity.data() + 3), Each(0.0)) << "of a body that was given one";
+  EXPECT_THAT(std::vector<double>(s.velocity.data(), s.velocity.data() + 3), Each(0.0))
+      << "of a body that was given one";
 }
 
 TEST(JointTravel, TellsTheAngleOfAHingeAndTheWayOfASlider) {
@@ -160,8 +168,9 @@ TEST(JointTravel, TellsTheAngleOfAHingeAndTheWayOfASlider) {
   const Eigen::Quaterniond R = rotation_exp(Eigen::Vector3d(0, 2.5, 0));
   s.pose[1].attitude = R;
   EXPECT_NEAR(hinge.joints().travel(1, s), -2.5, 1e-14) << "the first body of the joint is the one that turned";
-  const Model slider = model_of({body("a", {0, 0, 0}, 1, diagonal(1, 1, 1)), body("b", {0, 1, 0}, 1, diagonal(1, 1, 1))},
-                                {joint(JointKind::slider, 0, 1, {0, 1, 0})});
+  const Model slider =
+      model_of({body("a", {0, 0, 0}, 1, diagonal(1, 1, 1)), body("b", {0, 1, 0}, 1, diagonal(1, 1, 1))},
+               {joint(JointKind::slider, 0, 1, {0, 1, 0})});
   s = rest_state(slider.bodies());
   for (Pose& p : s.pose) {
     p.attitude = rotation_exp(Eigen::Vector3d(0.4, 0, 0));

@@ -89,8 +89,8 @@ class JointSet {
   void add_curvature(const State& state, const Eigen::VectorXd& lambda, double factor, BlockMatrix& out) const;
   /// Ġ v, (count): the acceleration that the conditions have without any of the bodies'.
   Eigen::VectorXd convective(const State& state) const;
-  /// Load of the joint on one of its bodies: force and moment about the joint's place in that body, in that body's axes,
-  /// N and N m. What redundant conditions would carry is not in it. The second body must not be the ground.
+  /// Load of the joint on one of its bodies: force and moment about the joint's place in that body, in that body's
+  /// axes, N and N m. What redundant conditions would carry is not in it. The second body must not be the ground.
   Vector6 load_on(int joint, End end, const State& state, const Eigen::VectorXd& lambda) const;
   /// How load_on() varies about rest: with the displacements of all bodies while `lambda` acts, and with λ.
   struct LoadVariation {
@@ -98,8 +98,8 @@ class JointSet {
     Eigen::MatrixXd by_multiplier;  ///< (6, count)
   };
   LoadVariation load_variation(int joint, End end, const State& rest, const Eigen::VectorXd& lambda) const;
-  /// Where the joint lets its second body (or the ground) move against the first: the travel of a slider along the axis, m,
-  /// or the angle of a hinge about it, −π … π rad. Zero at rest. For sliders and hinges only.
+  /// Where the joint lets its second body (or the ground) move against the first: the travel of a slider along the
+  /// axis, m, or the angle of a hinge about it, −π … π rad. Zero at rest. For sliders and hinges only.
   double travel(int joint, const State& state) const;
 
  private:
@@ -107,7 +107,6 @@ class JointSet {
   std::vector<Condition> conditions_;
   std::vector<std::array<Eigen::Vector3d, 2>> place_in_;  // from the bodies' centres, body axes; of the ground: global
   std::vector<std::array<bool, 6>> free_;                 // one a body
-
 };
 
 }  // namespace dynamics
