@@ -53,7 +53,14 @@ void add_connector(const Scene& scene, const scene::Connector& c, Prepared& out)
     if (offset.norm() < 1e-9)
       throw InputError(fmt::format("the ends of \"{}\" coincide, so it has no direction to act along", c.name), c.place,
                        "move an end, or use kind = \"bushing\"");
-    out.axial.push_back({ends, axial->stiffness, axial->damping, axial->rest_length.value_or(offset.norm())});
+    const dynamics::LineLaw law{.stiffness = axial->stiffness,
+                                .damping = axial->damping,
+                                .cubic = axial->cubic,
+                                .quadratic_damping = axial->quadratic_damping,
+                                .table_x = axial->elongations,
+                                .table_force = axial->tensions,
+                                .pulls_only = axial->pulls_only};
+    out.axial.push_back({ends, law, axial->rest_length.value_or(offset.norm())});
     out.axial_names.push_back(c.name);
     return;
   }
@@ -74,7 +81,8 @@ void add_joint(const scene::Joint& j, Prepared& out) {
                         .second_axis = turned ? j.axis : j.second_axis});
   out.joint_sign.push_back(turned ? -1 : 1);
   if (j.friction)
-    out.friction.push_back({static_cast<int>(out.joints.size()) - 1, j.friction->breakaway, j.friction->sliding});
+    out.friction.push_back(
+        {j.name, dynamics::Travel(out.bodies, out.joints.back()), j.friction->breakaway, j.friction->sliding});
 }
 
 void add_mooring(const Scene& scene, const scene::Mooring& m, Prepared& out) {
@@ -85,14 +93,62 @@ void add_mooring(const Scene& scene, const scene::Mooring& m, Prepared& out) {
   out.mooring_names.push_back(m.name);
 }
 
+/// What the scene lets work on the travel of joints. A joint that names the ground first counts its travel backwards.
+std::vector<dynamics::Pto> ptos(const Scene& scene, const Prepared& p) {
+  std::vector<dynamics::Pto> out;
+  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+    if (!scene.joints[j].pto) continue;
+    const scene::Pto& s = *scene.joints[j].pto;
+    dynamics::TravelLaw law{.line = {.stiffness = s.stiffness,
+                                     .damping = s.damping,
+                                     .cubic = s.cubic,
+                                     .quadratic_damping = s.quadratic_damping},
+                            .preload = s.preload,
+                            .lower = {},
+                            .upper = {}};
+    if (s.force_limit) law.force_limit = *s.force_limit;
+    if (s.stops) {
+      if (s.stops->lower) law.lower = dynamics::EndStop{*s.stops->lower, s.stops->stiffness, s.stops->damping};
+      if (s.stops->upper) law.upper = dynamics::EndStop{*s.stops->upper, s.stops->stiffness, s.stops->damping};
+    }
+    out.push_back({dynamics::Travel(p.bodies, p.joints[j]), law, p.joint_sign[j]});
+  }
+  return out;
+}
+
+dynamics::ConstantLoad constant_load(const Scene& scene, const scene::Load& l) {
+  return {l.body, arm(scene, l.body, l.at), l.force, l.moment};
+}
+
+/// The line as it hangs in water; its place is checked by solving it once, at rest.
+dynamics::CatenaryMooring catenary_mooring(const Scene& scene, const scene::CatenaryLine& l, const Prepared& p) {
+  const double displaced = scene.water.density * std::numbers::pi / 4 * l.diameter * l.diameter;
+  dynamics::CatenaryMooring out{l.body,
+                                arm(scene, l.body, l.fairlead),
+                                l.anchor,
+                                {.length = l.length,
+                                 .weight = (l.mass_per_length - displaced) * scene.water.gravity,
+                                 .axial_stiffness = l.axial_stiffness,
+                                 .on_bed = l.on_bed}};
+  try {
+    dynamics::tension_of(out, dynamics::rest_state(p.bodies));
+  } catch (const hydro::NumericsError& e) {
+    throw InputError(fmt::format("mooring \"{}\": {}", l.name, e.what()), l.place, "check `from`, `to` and `on_bed`");
+  }
+  return out;
+}
+
 /// Springs and dampers, in the order in which a plan lists them.
 void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::ForceKind>>& forces) {
   if (!p.heavy.empty()) forces.push_back(std::make_unique<dynamics::GravityKind>(p.bodies, p.gravity, p.heavy));
   if (!p.hydrostatics.empty())
     forces.push_back(std::make_unique<dynamics::RestoringKind>("hydrostatics", p.bodies, p.hydrostatics));
   if (!p.moorings.empty()) forces.push_back(std::make_unique<dynamics::RestoringKind>("mooring", p.bodies, p.moorings));
+  if (!p.lines.empty()) forces.push_back(std::make_unique<dynamics::CatenaryMooringKind>(p.lines));
   if (!p.axial.empty()) forces.push_back(std::make_unique<dynamics::AxialConnectorKind>(p.axial));
   if (!p.bushing.empty()) forces.push_back(std::make_unique<dynamics::BushingConnectorKind>(p.bushing));
+  if (!p.ptos.empty()) forces.push_back(std::make_unique<dynamics::PtoKind>(p.ptos));
+  if (!p.loads.empty()) forces.push_back(std::make_unique<dynamics::ConstantLoadKind>(p.loads));
 }
 
 }  // namespace
@@ -108,6 +164,9 @@ Prepared prepare(const Scene& scene) {
   for (const auto& m : scene.moorings) add_mooring(scene, m, out);
   for (const auto& c : scene.connectors) add_connector(scene, c, out);
   for (const auto& j : scene.joints) add_joint(j, out);
+  out.ptos = ptos(scene, out);
+  for (const auto& l : scene.lines) out.lines.push_back(catenary_mooring(scene, l, out));
+  for (const auto& l : scene.loads) out.loads.push_back(constant_load(scene, l));
   return out;
 }
 
@@ -276,9 +335,7 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
     if (auto kind = excitation(prepared, *sea, {step, steps + 1}, scene.waves->ramp)) forces.push_back(std::move(kind));
   add_members(scene, prepared.bodies, water, {step, steps + 1}, forces);
 
-  if (!prepared.friction.empty())
-    forces.push_back(std::make_unique<dynamics::FrictionKind>(dynamics::JointSet(prepared.bodies, prepared.joints),
-                                                              prepared.friction));
+  if (!prepared.friction.empty()) forces.push_back(std::make_unique<dynamics::FrictionKind>(prepared.friction));
 
   for (const auto& kind : forces) {
     if (kind->effect() != "radiation") {

@@ -5,8 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/force/catenary_mooring.hpp"
 #include "dynamics/force/connector.hpp"
+#include "dynamics/force/constant_load.hpp"
 #include "dynamics/force/friction.hpp"
+#include "dynamics/force/pto.hpp"
 #include "dynamics/force/restoring.hpp"
 #include "dynamics/frequency/rao.hpp"
 #include "dynamics/model/model.hpp"
@@ -33,6 +36,9 @@ struct Prepared {
   double gravity;          ///< m/s²
   std::vector<dynamics::AxialConnector> axial;
   std::vector<dynamics::BushingConnector> bushing;
+  std::vector<dynamics::Pto> ptos;
+  std::vector<dynamics::ConstantLoad> loads;
+  std::vector<dynamics::CatenaryMooring> lines;
   std::vector<dynamics::Joint> joints;
   std::vector<dynamics::Friction> friction;
   std::vector<double>

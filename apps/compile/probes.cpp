@@ -53,6 +53,21 @@ void add_connectors(const Prepared& p, std::vector<Probe>& out) {
                      }});
 }
 
+/// Tensions of catenaries, at the fairlead and at the anchor.
+void add_lines(const scene::Scene& scene, const Prepared& p, std::vector<Probe>& out) {
+  for (std::size_t i = 0; i < p.lines.size(); ++i) {
+    const std::string& name = scene.lines[i].name;
+    out.push_back({name + ".tension", "N", "tension of " + name + " at the fairlead",
+                   [m = p.lines[i]](const Workspace& w, const EnergyLedger&) {
+                     return dynamics::tension_of(m, w.state).fairlead();
+                   }});
+    out.push_back({name + ".anchor_tension", "N", "tension of " + name + " at the anchor",
+                   [m = p.lines[i]](const Workspace& w, const EnergyLedger&) {
+                     return dynamics::tension_of(m, w.state).anchor();
+                   }});
+  }
+}
+
 /// Load of a mooring about the body's origin from its load about the centre of gravity: moments move by the arm.
 void add_moorings(const scene::Scene& scene, const Prepared& p, std::vector<Probe>& out) {
   for (std::size_t i = 0; i < p.moorings.size(); ++i)
@@ -106,13 +121,34 @@ void add_friction(const Prepared& p, const dynamics::Model& model, std::vector<P
   std::size_t kind = 0;
   while (kind < model.forces().size() && model.forces()[kind]->friction() == nullptr) ++kind;
   for (std::size_t i = 0; i < p.friction.size(); ++i) {
-    const auto joint = static_cast<std::size_t>(p.friction[i].joint);
-    const bool turns = p.joints[joint].kind == dynamics::JointKind::hinge;
-    out.push_back({p.joints[joint].name + ".friction", turns ? "N m" : "N",
-                   fmt::format("load of the friction of {} on its second body along the axis", p.joints[joint].name),
-                   [&model, i, kind, sign = p.joint_sign[joint]](const Workspace& w, const EnergyLedger&) {
+    const std::string& name = p.friction[i].name;
+    const auto joint = std::find_if(p.joints.begin(), p.joints.end(), [&](const auto& j) { return j.name == name; });
+    const double sign = p.joint_sign[static_cast<std::size_t>(joint - p.joints.begin())];
+    out.push_back({name + ".friction", p.friction[i].travel.turns() ? "N m" : "N",
+                   fmt::format("load of the friction of {} on its second body along the axis", name),
+                   [&model, i, kind, sign](const Workspace& w, const EnergyLedger&) {
                      return sign * model.forces()[kind]->friction()->load(i, w.memory[kind].get(), w.multipliers,
                                                                           model.joints().count());
+                   }});
+  }
+}
+
+/// What works on the travel of a joint: its force (or moment) against the travel, and the power that it takes.
+void add_ptos(const scene::Scene& scene, const Prepared& p, std::vector<Probe>& out) {
+  std::size_t next = 0;
+  for (const auto& joint : scene.joints) {
+    if (!joint.pto) continue;
+    const dynamics::Pto pto = p.ptos[next++];
+    const bool turns = joint.kind == scene::JointKind::hinge;
+    out.push_back(
+        {joint.name + (turns ? ".pto_moment" : ".pto_force"), turns ? "N m" : "N",
+         fmt::format("{} of the power take-off against the travel of {}", turns ? "moment" : "force", joint.name),
+         [pto](const Workspace& w, const EnergyLedger&) { return dynamics::pto_state(pto, w.state).force; }});
+    out.push_back({joint.name + ".pto_power", "W",
+                   fmt::format("power that the power take-off takes from {}, springs included", joint.name),
+                   [pto](const Workspace& w, const EnergyLedger&) {
+                     const auto s = dynamics::pto_state(pto, w.state);
+                     return s.force * s.rate;
                    }});
   }
 }
@@ -185,8 +221,10 @@ std::vector<Probe> run_probes(const scene::Scene& scene, const Prepared& prepare
   add_motions(scene, prepared, out);
   add_connectors(prepared, out);
   add_moorings(scene, prepared, out);
+  add_lines(scene, prepared, out);
   add_travels(prepared, model.model, out);
   add_friction(prepared, model.model, out);
+  add_ptos(scene, prepared, out);
   add_joint_loads(prepared, model.model, out);
   if (scene.waves) add_water(scene, model.water.field, out);
   add_energies(model, out);
@@ -283,9 +321,10 @@ std::vector<LinearProbe> rao_probes(const scene::Scene& scene, const Prepared& p
     const auto& c = p.axial[i];
     const Eigen::Vector3d d = at_rest(p, c.ends.second, c.ends.second_arm) - at_rest(p, c.ends.first, c.ends.first_arm);
     const auto row = stretch_row(c.ends, c.ends.first_arm, d.normalized(), modes);
+    const auto at_rest_law = c.law.at(d.norm() - c.rest_length, 0);
     out.push_back({p.axial_names[i] + ".force", "N/m",
-                   fmt::format("tension of {} per metre of wave amplitude", p.axial_names[i]), c.stiffness * row,
-                   c.damping * row});
+                   fmt::format("tension of {} per metre of wave amplitude", p.axial_names[i]), at_rest_law.by_x * row,
+                   at_rest_law.by_rate * row});
   }
   for (std::size_t i = 0; i < p.bushing.size(); ++i)
     for (int axis = 0; axis < 3; ++axis) {

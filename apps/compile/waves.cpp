@@ -162,7 +162,8 @@ void require_no_current(const scene::Scene& scene, const char* what) {
 std::unique_ptr<const hw::WaveField> tank_field(const scene::Scene& scene, const scene::WaveTank& t) {
   require_no_current(scene, "waves of a tank");
   const hw::Band band{t.lowest, t.highest};
-  const double until = scene.ask_waves ? scene.ask_waves->from + scene.ask_waves->duration : 0;
+  const double series = scene.ask_waves ? scene.ask_waves->from + scene.ask_waves->duration : 0;
+  const double until = std::max(series, scene.run ? scene.run->duration : 0);
   const double fastest = std::sqrt(scene.water.gravity * scene.water.depth.metres());
   const bool come_back = t.reflection > 0 && !t.yields;
   const int trips = come_back ? static_cast<int>(std::ceil(until * fastest / (2 * t.length))) : 0;

@@ -25,10 +25,12 @@ void add_absent(const scene::Scene& scene, const compile::Prepared& p, std::vect
   absent(scene.waves.has_value(), "waves", "[waves]");
   absent(!p.heavy.empty(), "weight", "weight = true; linear hydrostatics hold it already");
   absent(!p.hydrostatics.empty(), "hydrostatics", "hydrostatics = true");
-  absent(!p.moorings.empty(), "mooring", "[[mooring]]");
+  absent(!p.moorings.empty() || !p.lines.empty(), "mooring", "[[mooring]]");
   absent(!p.axial.empty() || !p.bushing.empty(), "connector", "[[connector]]");
   absent(!p.joints.empty(), "joint", "[[joint]]");
   absent(!p.friction.empty(), "friction", "friction = { … } of a [[joint]]");
+  absent(!p.ptos.empty(), "pto", "[joint.pto]");
+  absent(!p.loads.empty(), "load", "[[load]]");
   absent(radiation, "radiation", "radiation = {}");
   absent(excitation, "excitation", "excitation = true");
   const auto named = [&](auto key) {

@@ -30,6 +30,7 @@ void build_members(const Record& root, Names& names, Scene& scene);
 void build_moorings(const Record& root, Names& names, Scene& scene);
 void build_connectors(const Record& root, Names& names, Scene& scene);
 void build_joints(const Record& root, Names& names, Scene& scene);
+void build_loads(const Record& root, Names& names, Scene& scene);
 
 Waves build_waves(const Record& waves, const Scene& scene);
 hydro::waves::Current build_current(const Record& current, const std::filesystem::path& file);

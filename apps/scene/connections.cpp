@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "hydro/io/csv.hpp"
 #include "scene/build.hpp"
 
 namespace froude::scene {
@@ -42,14 +44,36 @@ Eigen::Vector3d vector_or_zero(const Record& record, std::string_view key) {
   return value;
 }
 
-std::variant<AxialConnector, BushingConnector> read_kind(const Record& record) {
+/// Elongations increase and tensions do not fall: what gives way as it is pulled has no place that it stays at.
+void check_table(const Record& record, const AxialConnector& axial) {
+  const auto& x = axial.elongations;
+  const auto& f = axial.tensions;
+  if (x.size() < 2) throw record.wrong("table", "holds fewer than two points", "give two or more");
+  for (std::size_t i = 1; i < x.size(); ++i)
+    if (!(x[i] > x[i - 1]) || !(f[i] >= f[i - 1]))
+      throw record.wrong(
+          "table", fmt::format("has the point ({:g} m, {:g} N) after ({:g} m, {:g} N)", x[i], f[i], x[i - 1], f[i - 1]),
+          "elongations must increase, and tensions must not fall");
+}
+
+std::variant<AxialConnector, BushingConnector> read_kind(const Record& record, const std::filesystem::path& file) {
   if (record.text("kind") == "bushing")
     return BushingConnector{vector_or_zero(record, "stiffness"), vector_or_zero(record, "damping"),
                             vector_or_zero(record, "rotational_stiffness"),
                             vector_or_zero(record, "rotational_damping")};
   AxialConnector axial;
-  if (record.has("stiffness")) axial.stiffness = record.si("stiffness");
-  if (record.has("damping")) axial.damping = record.si("damping");
+  const auto number = [&](std::string_view key) { return record.has(key) ? record.si(key) : 0.0; };
+  axial.stiffness = number("stiffness");
+  axial.cubic = number("cubic");
+  axial.damping = number("damping");
+  axial.quadratic_damping = number("quadratic_damping");
+  axial.pulls_only = record.text("kind") == "cable";
+  if (record.has("table")) {
+    const auto table = hydro::io::CsvTable::read(beside(file, record.text("table")));
+    axial.elongations = table.column("elongation", hydro::dim::length);
+    axial.tensions = table.column("tension", hydro::dim::force);
+    check_table(record, axial);
+  }
   if (record.has("rest_length") && record.text("rest_length").empty()) axial.rest_length = record.si("rest_length");
   return axial;
 }
@@ -172,8 +196,37 @@ std::vector<int> bodies_on(const Record& record, std::string_view key, const std
   return out;
 }
 
+namespace {
+
+void build_lines(const Record& record, Names& names, Scene& scene) {
+  const auto& from = record["from"].points.front();
+  const auto& to = record["to"].points.front();
+  if (from.size() != to.size())
+    throw record.wrong("to", fmt::format("stands for {} points and from for {}", to.size(), from.size()),
+                       "use as many ± in one as in the other");
+  const double displaced = scene.water.density * std::numbers::pi / 4 * std::pow(record.si("diameter"), 2);
+  if (!(record.si("mass_per_length") > displaced))
+    throw record.wrong(
+        "mass_per_length",
+        fmt::format("is less than the {:.4g} kg/m of water that the line displaces: it floats", displaced),
+        "a catenary hangs; give a heavier or a thinner line");
+  const auto on = bodies_on(record, "on", scene.bodies);
+  const auto name = names.of(record, on.size() * from.size());
+  for (std::size_t b = 0, n = 0; b < on.size(); ++b)
+    for (std::size_t k = 0; k < from.size(); ++k, ++n)
+      scene.lines.push_back({name[n], on[b], from[k], to[k], record.si("length"), record.si("mass_per_length"),
+                             record.si("diameter"), record.si("axial_stiffness"), record.has("on_bed"),
+                             record.place()});
+}
+
+}  // namespace
+
 void build_moorings(const Record& root, Names& names, Scene& scene) {
   for (const Record& record : root.tables("mooring")) {
+    if (record.text("kind") == "catenary") {
+      build_lines(record, names, scene);
+      continue;
+    }
     const Matrix6 stiffness = read_matrix(record, "stiffness"), damping = read_matrix(record, "damping");
     check_dissipates(record, damping);
     const auto on = bodies_on(record, "on", scene.bodies);
@@ -189,7 +242,7 @@ void build_connectors(const Record& root, Names& names, Scene& scene) {
     if (pairs.front().second == pairs.front().first)
       throw record.wrong("between", "joins a body to itself", "name two bodies, or a body and the ground");
     const auto& ends = record["ends"].points;
-    const auto kind = read_kind(record);
+    const auto kind = read_kind(record, scene.file);
     const auto name = names.of(record, pairs.size() * ends[0].size());
     for (std::size_t p = 0, n = 0; p < pairs.size(); ++p)
       for (std::size_t k = 0; k < ends[0].size(); ++k, ++n) {

@@ -52,7 +52,41 @@ void check_may_turn(const Record& record, const Joint& joint, const std::vector<
   }
 }
 
+Pto read_pto(const Record& record) {
+  const auto number = [&](std::string_view key) { return record.has(key) ? record.si(key) : 0.0; };
+  Pto out{.stiffness = number("stiffness"),
+          .cubic = number("cubic"),
+          .damping = number("damping"),
+          .quadratic_damping = number("quadratic_damping"),
+          .preload = number("preload"),
+          .force_limit = {},
+          .stops = {}};
+  if (record.has("force_limit")) out.force_limit = record.si("force_limit");
+  if (!record.has("stops")) return out;
+  const Record& stops = record.table("stops");
+  out.stops.emplace();
+  if (stops.has("lower")) out.stops->lower = stops.si("lower");
+  if (stops.has("upper")) out.stops->upper = stops.si("upper");
+  if (out.stops->lower && out.stops->upper && !(*out.stops->lower < *out.stops->upper))
+    throw stops.wrong("upper", "is not above the lower stop", "exchange the two");
+  out.stops->stiffness = stops.si("stiffness");
+  out.stops->damping = stops.si("damping");
+  return out;
+}
+
 }  // namespace
+
+void build_loads(const Record& root, Names& names, Scene& scene) {
+  for (const Record& record : root.tables("load")) {
+    const auto part = [&](std::string_view key) {
+      return record.has(key) ? record.vector(key) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    };
+    const auto on = bodies_on(record, "on", scene.bodies);
+    const auto name = names.of(record, on.size());
+    for (std::size_t b = 0; b < on.size(); ++b)
+      scene.loads.push_back({name[b], on[b], record.vector("at"), part("force"), part("moment"), record.place()});
+  }
+}
 
 void build_joints(const Record& root, Names& names, Scene& scene) {
   for (const Record& record : root.tables("joint")) {
@@ -66,12 +100,14 @@ void build_joints(const Record& root, Names& names, Scene& scene) {
                   .first = pairs[p].first,
                   .second = pairs[p].second,
                   .at = record.vector("at"),
+                  .pto = {},
                   .place = record.place()};
       if (p > 0)
         joint.at += scene.bodies[static_cast<std::size_t>(*pairs[p].first)].position -
                     scene.bodies[static_cast<std::size_t>(*pairs.front().first)].position;
       read_axes(record, joint);
       joint.friction = read_friction(record);
+      if (record.has("pto")) joint.pto = read_pto(record.table("pto"));
       check_may_turn(record, joint, scene.bodies);
       scene.joints.push_back(std::move(joint));
     }

@@ -196,9 +196,22 @@ struct Mooring {
   Place place;
 };
 
+/// `[[mooring]]`, kind = "catenary": one line from a body to the ground.
+struct CatenaryLine {
+  std::string name;
+  int body;
+  Eigen::Vector3d fairlead, anchor;                           ///< body axes; global, m
+  double length, mass_per_length, diameter, axial_stiffness;  ///< m, kg/m, m, N
+  bool on_bed;  ///< the anchor lies on the bed, on which the line may rest
+  Place place;
+};
+
 struct AxialConnector {
-  double stiffness = 0, damping = 0;  ///< N/m, N s/m; at least one of them not zero
-  std::optional<double> rest_length;  ///< m; empty: as placed
+  double stiffness = 0, damping = 0;          ///< N/m, N s/m
+  double cubic = 0, quadratic_damping = 0;    ///< N/m³, N s²/m²
+  std::vector<double> elongations, tensions;  ///< of a table instead of stiffness and cubic, m and N
+  bool pulls_only = false;                    ///< kind = "cable"
+  std::optional<double> rest_length;          ///< m; empty: as placed
 };
 struct BushingConnector {
   Eigen::Vector3d stiffness, damping;                        ///< along the axes of the first body, N/m, N s/m
@@ -222,6 +235,25 @@ struct JointFriction {
 
 enum class JointKind { fixed, hinge, universal, ball, slider, planar };
 
+/// `[joint.pto]`: against the travel of a slider (m, N) or the angle of a hinge (rad, N m), zero at rest.
+struct Pto {
+  double stiffness = 0, cubic = 0, damping = 0, quadratic_damping = 0, preload = 0;
+  std::optional<double> force_limit;
+  struct Stops {
+    std::optional<double> lower, upper;
+    double stiffness, damping;
+  };
+  std::optional<Stops> stops;
+};
+
+/// `[[load]]`: constant.
+struct Load {
+  std::string name;
+  int body;
+  Eigen::Vector3d at, force, moment;  ///< body axes, m; global axes, N and N m
+  Place place;
+};
+
 /// `[[joint]]`: described where the bodies are at rest.
 struct Joint {
   std::string name;  ///< "joint1" … unless named; repeated ones get a number
@@ -230,6 +262,7 @@ struct Joint {
   Eigen::Vector3d at;                ///< global, m
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX(), second_axis = Eigen::Vector3d::UnitY();  ///< global, any length
   std::optional<JointFriction> friction = {};
+  std::optional<Pto> pto = {};  ///< of sliders and hinges
   Place place;
 };
 
@@ -277,7 +310,9 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<Member> members;
   std::vector<Mooring> moorings;
+  std::vector<CatenaryLine> lines;
   std::vector<Connector> connectors;
+  std::vector<Load> loads;
   std::vector<Joint> joints;
   std::optional<AskRao> rao;
   std::optional<AskModes> ask_modes;

@@ -224,12 +224,30 @@ const Table& mooring() {
       .keys = {name_key("mooring", "of the mooring"),
                texts("on", "bodies it holds, by name; * stands for any characters"), text("kind", "of mooring")},
       .chosen_by = "kind",
-      .variants = {{.word = "linear",
-                    .meaning = "load proportional to displacement and velocity",
-                    .keys = {inner_table("stiffness", mooring_stiffness()).optional(),
-                             inner_table("damping", mooring_damping()).optional()},
-                    .groups = {{at_least_one, {"stiffness", "damping"}}}}}};
+      .variants = {
+          {.word = "linear",
+           .meaning = "load proportional to displacement and velocity",
+           .keys = {inner_table("stiffness", mooring_stiffness()).optional(),
+                    inner_table("damping", mooring_damping()).optional()},
+           .groups = {{at_least_one, {"stiffness", "damping"}}}},
+          {.word = "catenary",
+           .meaning = "elastic lines in their static shape, from each body to the ground",
+           .keys = {points("from", "fairlead, body axes; each ± makes two lines"),
+                    points("to", "anchor, global; as many as `from`, taken in pairs"),
+                    quantity("length", dim::length, "of the line without tension").positive(),
+                    quantity("mass_per_length", dim::mass / dim::length, "of the line, in air").positive(),
+                    quantity("diameter", dim::length, "of the line, by the water that it displaces").positive(),
+                    quantity("axial_stiffness", dim::force, "EA: tension per strain").positive(),
+                    effect("on_bed", "the anchor lies on a flat bed, on which the line may rest, without friction")
+                        .optional()}}}};
   return table;
+}
+
+Key rest_length() {
+  return quantity("rest_length", dim::length, "without tension, or \"as placed\": the distance of the ends at rest")
+      .positive()
+      .one_of({"as placed"})
+      .or_default("as placed", "so that the scene is at rest where it is placed");
 }
 
 const Table& connector() {
@@ -248,14 +266,32 @@ const Table& connector() {
           {.word = "axial",
            .meaning = "a load along the line between its ends",
            .keys = {quantity("stiffness", dim::stiffness, "tension per elongation").positive().optional(),
+                    quantity("cubic", dim::stiffness / dim::area, "tension per elongation cubed, beside stiffness")
+                        .optional()
+                        .only_beside("stiffness"),
                     quantity("damping", dim::damping, "tension per rate of elongation").positive().optional(),
-                    quantity("rest_length", dim::length,
-                             "without tension, or \"as placed\": the distance of the ends at rest")
+                    quantity("quadratic_damping", dim::force / (dim::velocity * dim::velocity),
+                             "tension per rate of elongation times its size")
                         .positive()
-                        .one_of({"as placed"})
-                        .or_default("as placed", "so that the scene is at rest where it is placed")
-                        .only_beside("stiffness")},
-           .groups = {{at_least_one, {"stiffness", "damping"}}}},
+                        .optional(),
+                    rest_length().only_beside("stiffness")},
+           .groups = {{at_least_one, {"stiffness", "damping", "quadratic_damping"}}}},
+          {.word = "tabulated",
+           .meaning = "as axial, with a spring by a table",
+           .keys = {text("table",
+                         "CSV beside the scene: columns elongation [m], increasing, and tension [N], not falling; "
+                         "straight between points and beyond the ends"),
+                    quantity("damping", dim::damping, "tension per rate of elongation").positive().optional(),
+                    rest_length()},
+           .groups = {}},
+          {.word = "cable",
+           .meaning = "as axial, but it never pushes: slack where it is shorter than its rest length",
+           .keys = {quantity("stiffness", dim::stiffness, "tension per elongation").positive(),
+                    quantity("damping", dim::damping, "tension per rate of elongation, as far as the cable is tight")
+                        .positive()
+                        .optional(),
+                    rest_length()},
+           .groups = {}},
           {.word = "bushing",
            .meaning = "loads and moments along the axes of the first body",
            .keys = {vector("stiffness", dim::stiffness, "along x, y, z").within(Limit::not_negative).optional(),
@@ -353,8 +389,8 @@ const Table& motion_schema() {
                inner_table("current", current_table()).optional(), inner_tables("body", body()).optional(),
                inner_tables("probe", probe_table()).optional(), inner_tables("member", member_table()).optional(),
                inner_tables("mooring", mooring()).optional(), inner_tables("connector", connector()).optional(),
-               inner_tables("joint", joint_table()).optional(), inner_table("ask", ask()),
-               inner_table("solve", solve()).or_default("", "see its keys")}};
+               inner_tables("joint", joint_table()).optional(), inner_tables("load", load_table()).optional(),
+               inner_table("ask", ask()), inner_table("solve", solve()).or_default("", "see its keys")}};
   return table;
 }
 

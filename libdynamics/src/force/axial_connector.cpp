@@ -9,7 +9,8 @@ using detail::EndPoint;
 struct Stretch {
   EndPoint a, b;
   Eigen::Vector3d direction, relative_velocity;  // from the first end to the second
-  double length, rate, tension;
+  double length, rate;
+  Answer answer;  // tension
 };
 
 Stretch stretch(const AxialConnector& c, const State& state) {
@@ -22,33 +23,36 @@ Stretch stretch(const AxialConnector& c, const State& state) {
   s.direction = s.length > 0 ? Eigen::Vector3d(d / s.length) : Eigen::Vector3d::Zero();
   s.relative_velocity = s.b.velocity - s.a.velocity;
   s.rate = s.direction.dot(s.relative_velocity);
-  s.tension = c.stiffness * (s.length - c.rest_length) + c.damping * s.rate;
+  s.answer = c.law.at(s.length - c.rest_length, s.rate);
   return s;
 }
 
-detail::PairLoad pair_load(const AxialConnector& c, const Stretch& s) {
+detail::PairLoad pair_load(const Stretch& s) {
   detail::PairLoad p;
-  p.force = s.tension * s.direction;
+  p.force = s.answer.force * s.direction;
   p.first_arm = s.a.arm;
   p.second_arm = s.b.arm;
-  if (s.length == 0) return p;
+  return p;
+}
+
+void differentiate(const Stretch& s, detail::PairLoad& p) {
+  if (s.length == 0) return;
   const Eigen::Matrix3d along = s.direction * s.direction.transpose();
   const Eigen::Matrix3d across = (Eigen::Matrix3d::Identity() - along) / s.length;  // ∂direction/∂d
-  const Eigen::Matrix3d by_distance =
-      c.stiffness * along + s.tension * across + c.damping * s.direction * (across * s.relative_velocity).transpose();
+  const Eigen::Matrix3d by_distance = s.answer.by_x * along + s.answer.force * across +
+                                      s.answer.by_rate * s.direction * (across * s.relative_velocity).transpose();
   const auto d_position = detail::relative_position_derivative(s.a, s.b);
-  p.force_by_q = by_distance * d_position + c.damping * along * detail::relative_velocity_derivative(s.a, s.b);
-  p.force_by_v = c.damping * along * d_position;
+  p.force_by_q = by_distance * d_position + s.answer.by_rate * along * detail::relative_velocity_derivative(s.a, s.b);
+  p.force_by_v = s.answer.by_rate * along * d_position;
   p.first_arm_by_q = detail::arm_derivative(0, s.a.arm);
   p.second_arm_by_q = detail::arm_derivative(1, s.b.arm);
-  return p;
 }
 
 }  // namespace
 
 AxialState axial_state(const AxialConnector& connector, const State& state) {
   const Stretch s = stretch(connector, state);
-  return {s.length, s.tension};
+  return {s.length, s.answer.force};
 }
 
 void AxialConnectorKind::couple(BlockPattern& pattern) const {
@@ -57,26 +61,24 @@ void AxialConnectorKind::couple(BlockPattern& pattern) const {
 }
 
 void AxialConnectorKind::add_load(const Instant& now, LoadSink& out) const {
-  for (const auto& e : elements_) {
-    const Stretch s = stretch(e, now.state);
-    detail::PairLoad p;
-    p.force = s.tension * s.direction;
-    p.first_arm = s.a.arm;
-    p.second_arm = s.b.arm;
-    detail::add_load(e.ends, p, out);
-  }
+  for (const auto& e : elements_) detail::add_load(e.ends, pair_load(stretch(e, now.state)), out);
 }
 
 void AxialConnectorKind::add_jacobian(const Instant& now, JacobianSink& out) const {
-  for (const auto& e : elements_) detail::add_jacobian(e.ends, pair_load(e, stretch(e, now.state)), out);
+  for (const auto& e : elements_) {
+    const Stretch s = stretch(e, now.state);
+    detail::PairLoad p = pair_load(s);
+    differentiate(s, p);
+    detail::add_jacobian(e.ends, p, out);
+  }
 }
 
 EnergyFlow AxialConnectorKind::energy(const Instant& now) const {
   EnergyFlow flow;
   for (const auto& e : elements_) {
     const Stretch s = stretch(e, now.state);
-    flow.stored += 0.5 * e.stiffness * (s.length - e.rest_length) * (s.length - e.rest_length);
-    flow.dissipated += e.damping * s.rate * s.rate;
+    flow.stored += s.answer.stored;
+    flow.dissipated += s.answer.dissipated;
   }
   return flow;
 }

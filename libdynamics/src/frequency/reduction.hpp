@@ -1,5 +1,6 @@
 #pragma once
-/// \file  Private: the small motions that joints and held modes leave, and matrices of all motions brought down to them.
+/// \file  Private: the small motions that joints and held modes leave, and matrices of all motions brought down to
+/// them.
 #include <Eigen/Core>
 #include <Eigen/QR>
 
@@ -40,7 +41,6 @@ class Reduction {
   }
 
  private:
-
   Eigen::Index modes_;
   bool jointed_;
   std::vector<int> free_;

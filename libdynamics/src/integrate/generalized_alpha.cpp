@@ -82,7 +82,7 @@ void GeneralizedAlpha::start(Workspace& workspace) {
     FrictionMemory& memory = friction_memory(workspace);
     const double rounding = closed * workspace.state.velocity.cwiseAbs().maxCoeff();
     for (std::size_t i = 0; i < memory.direction.size(); ++i) {
-      const double rate = friction_->rate(i, workspace.state);
+      const double rate = friction_->all()[i].travel.rate(workspace.state);
       memory.direction[i] = std::abs(rate) <= rounding ? 0 : (rate > 0 ? 1 : -1);
     }
     settle_friction(workspace);
@@ -241,7 +241,7 @@ void GeneralizedAlpha::set_conditions(Workspace& workspace) {
   active_ = model_.joints();
   const FrictionMemory& memory = friction_memory(workspace);
   for (std::size_t i = 0; i < memory.direction.size(); ++i)
-    if (memory.direction[i] == 0) active_.add(friction_->condition(i, workspace.state));
+    if (memory.direction[i] == 0) active_.add(friction_->all()[i].travel.holding(workspace.state));
   find_joint_scale(workspace.state);
   workspace.solver = KktSolver(model_.pattern(), active_);
 }
@@ -251,7 +251,7 @@ GeneralizedAlpha::Margin GeneralizedAlpha::friction_margin(Workspace& workspace)
   Margin least;
   Eigen::Index row = model_.joints().count();
   for (std::size_t i = 0; i < memory.direction.size(); ++i) {
-    Margin of{i, memory.direction[i] * friction_->rate(i, workspace.state), 0};
+    Margin of{i, memory.direction[i] * friction_->all()[i].travel.rate(workspace.state), 0};
     if (memory.direction[i] == 0) {
       const double load = workspace.multipliers[row++];
       of.value = 1 - std::abs(load) / friction_->all()[i].breakaway;

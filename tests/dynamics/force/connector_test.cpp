@@ -11,7 +11,7 @@ using namespace dynamics;
 TEST(AxialConnector, PullsAlongItsLineByStiffnessTimesStretch) {
   const auto bodies = support::two_bodies();
   // Ends at the centres, 4 m apart at rest.
-  const AxialConnector c{{0, 1, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}, 250, 10, 3.5};
+  const AxialConnector c{{0, 1, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}, {250, 10}, 3.5};
   State s = rest_state(bodies);
   s.velocity[6] = 2;  // the second body moves away at 2 m/s
   EXPECT_NEAR(axial_state(c, s).tension, 250 * 0.5 + 10 * 2, 1e-12 * 145);
@@ -47,7 +47,7 @@ TEST(Connectors, DoNotFeelARigidTurnOfTheWhole) {
   const Ends ends{0, 1, Eigen::Vector3d(1, 0.5, 0.2), Eigen::Vector3d(-1, 0.5, -0.1)};
   const State rest = rest_state(bodies);
   const Eigen::Vector3d offset = rest.pose[1].centre + ends.second_arm - rest.pose[0].centre - ends.first_arm;
-  const AxialConnectorKind axial({{ends, 3000, 200, offset.norm()}});
+  const AxialConnectorKind axial({{ends, {3000, 200}, offset.norm()}});
   const Eigen::Vector3d k(1000, 2000, 500), c(30, 10, 60), kr(300, 200, 100), cr(5, 8, 3);
   const BushingConnectorKind bushing({{ends, k, c, kr, cr, offset}});
   State s = rest;

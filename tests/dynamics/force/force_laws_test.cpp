@@ -69,7 +69,7 @@ TEST(Weight, ActsOnTheBodiesThatFeelItAlone) {
 TEST(ForceLaws, HoldForAxialConnectors) {
   const Ends between{0, 1, Eigen::Vector3d(1, 0.5, 0.2), Eigen::Vector3d(-1, 0.5, -0.1)};
   const Ends to_ground{1, std::nullopt, Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(9, 1, -2)};
-  laws::expect_force_laws(AxialConnectorKind({{between, 3000, 200, 1.5}, {to_ground, 500, 0, 2}}), bodies);
+  laws::expect_force_laws(AxialConnectorKind({{between, {3000, 200}, 1.5}, {to_ground, {500, 0}, 2}}), bodies);
 }
 
 TEST(ForceLaws, HoldForBushings) {
@@ -124,7 +124,7 @@ TEST(ForceLaws, HoldForEveryMemoryOfRadiationWithinAStep) {
 // Newton's third law: what two bodies do to each other has no net force and no net moment about the origin.
 TEST(ForceLaws, InternalForcesCancel) {
   const Ends between{0, 1, Eigen::Vector3d(1, 0.5, 0.2), Eigen::Vector3d(-1, 0.5, -0.1)};
-  const AxialConnectorKind axial({{between, 3000, 200, 1.5}});
+  const AxialConnectorKind axial({{between, {3000, 200}, 1.5}});
   const Eigen::Vector3d k(1000, 2000, 500), c(30, 10, 60), kr(300, 200, 100), cr(5, 8, 3);
   const BushingConnectorKind bushing({{between, k, c, kr, cr, Eigen::Vector3d(2, 0, 0)}});
   for (const ForceKind* kind : {static_cast<const ForceKind*>(&axial), static_cast<const ForceKind*>(&bushing)}) {

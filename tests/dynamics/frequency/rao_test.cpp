@@ -103,7 +103,7 @@ TEST(Rao, OfTwoSprungBodiesSolvesBothEquations) {
   const double kc = 800;
   const Ends ends{0, 1, Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0)};
   const Model model =
-      sprung(bodies, 2500, 40, std::make_unique<AxialConnectorKind>(std::vector<AxialConnector>{{ends, kc, 0, 8}}));
+      sprung(bodies, 2500, 40, std::make_unique<AxialConnectorKind>(std::vector<AxialConnector>{{ends, {kc, 0}, 8}}));
   const Coefficients c = coefficients({0, 10});
   const double omega = 1.5;
   const auto xi = frequency::response_amplitudes(model, {group(c, {0, 10})}, {omega}, 0);
@@ -121,7 +121,7 @@ TEST(Rao, BalancesThePowerOfTheWaves) {
   const Ends ends{0, 1, Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(-1, 0, 0)};
   const Model model =
       sprung(bodies, 2500, 40,
-             std::make_unique<AxialConnectorKind>(std::vector<AxialConnector>{{ends, 800, 60, std::sqrt(65.0)}}));
+             std::make_unique<AxialConnectorKind>(std::vector<AxialConnector>{{ends, {800, 60}, std::sqrt(65.0)}}));
   const auto g = group(coefficients({0, 10}), {0, 10});
   for (const double omega : {0.7, 1.3, 2.2}) {
     const Eigen::VectorXcd x = frequency::response_amplitudes(model, {g}, {omega}, 0).col(0),

@@ -53,11 +53,24 @@ class Ramp final : public ForceKind {
   double surge_, pitch_;
 };
 
-Model with_friction(std::vector<RigidBody> bodies, std::vector<Joint> joints, std::vector<Friction> friction,
+/// Friction of joints by number: joint, static, dynamic level.
+struct Levels {
+  std::size_t joint;
+  double breakaway, sliding;
+};
+std::vector<Friction> on_joints(const std::vector<RigidBody>& bodies, const std::vector<Joint>& joints,
+                                const std::vector<Levels>& levels) {
+  std::vector<Friction> out;
+  for (const Levels& l : levels)
+    out.push_back({joints[l.joint].name, Travel(bodies, joints[l.joint]), l.breakaway, l.sliding});
+  return out;
+}
+
+Model with_friction(std::vector<RigidBody> bodies, std::vector<Joint> joints, const std::vector<Levels>& friction,
                     std::unique_ptr<const ForceKind> other = nullptr) {
   std::vector<std::unique_ptr<const ForceKind>> forces;
   if (other) forces.push_back(std::move(other));
-  forces.push_back(std::make_unique<FrictionKind>(JointSet(bodies, joints), friction));
+  forces.push_back(std::make_unique<FrictionKind>(on_joints(bodies, joints, friction)));
   return Model(std::move(bodies), {}, std::move(forces), std::move(joints));
 }
 
@@ -186,8 +199,8 @@ TEST(Friction, OfManyJointsHoldsOnlyWhatItMust) {
 TEST(Friction, ObeysTheLawsOfForcesWhileItSlips) {
   std::vector<RigidBody> bodies{body("a", {1, 0, 0}), body("b", {3, 0, 0}), body("c", {5, 0, 0})};
   Joint slider{.name = "s", .kind = JointKind::slider, .first = 0, .second = 1, .place = {2, 1, 0}, .axis = {1, 2, 3}};
-  const FrictionKind kind(JointSet(bodies, {slider, pin(2, 1, {4, 0, 1}), pin(0, {})}),
-                          {{0, 4, 3}, {1, 5, 4}, {2, 2, 2}});
+  const FrictionKind kind(
+      on_joints(bodies, {slider, pin(2, 1, {4, 0, 1}), pin(0, {})}, {{0, 4, 3}, {1, 5, 4}, {2, 2, 2}}));
   FrictionMemory memory(3);
   memory.direction = {1, -1, 1};
   State state = rest_state(bodies);
@@ -200,17 +213,11 @@ TEST(Friction, ObeysTheLawsOfForcesWhileItSlips) {
 }
 
 TEST(Friction, WantsPositiveLevelsInOrder) {
-  const JointSet joints({body("a")}, {rail(0, {})});
-  EXPECT_THAT(
-      [&] {
-        FrictionKind(joints, {{0, 1, 2}});
-      },
-      ThrowsMessage<hydro::InputError>(HasSubstr("below the dynamic")));
-  EXPECT_THAT(
-      [&] {
-        FrictionKind(joints, {{0, 1, 0}});
-      },
-      ThrowsMessage<hydro::InputError>(HasSubstr("must be positive")));
+  const auto of = [](double breakaway, double sliding) {
+    return on_joints({body("a")}, {rail(0, {})}, {{0, breakaway, sliding}});
+  };
+  EXPECT_THAT([&] { FrictionKind(of(1, 2)); }, ThrowsMessage<hydro::InputError>(HasSubstr("below the dynamic")));
+  EXPECT_THAT([&] { FrictionKind(of(1, 0)); }, ThrowsMessage<hydro::InputError>(HasSubstr("must be positive")));
 }
 
 }  // namespace

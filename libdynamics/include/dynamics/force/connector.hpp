@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "dynamics/force/force_kind.hpp"
+#include "dynamics/force/force_law.hpp"
 
 namespace dynamics {
 
@@ -14,11 +15,10 @@ struct Ends {
   Eigen::Vector3d first_arm, second_arm;
 };
 
-/// A pull along the line between the ends: T = k (L − L₀) + c dL/dt, tension positive (D3).
+/// A pull along the line between the ends: what its law answers to L − L₀ and dL/dt, tension positive (D3).
 struct AxialConnector {
   Ends ends;
-  double stiffness;    ///< k, N/m
-  double damping;      ///< c, N s/m
+  LineLaw law;
   double rest_length;  ///< L₀, m
 };
 

@@ -1,13 +1,14 @@
 #pragma once
 /// \file  Coulomb friction in hinges and sliders: a set-valued law, which sticks or slips and is never smoothed.
 #include "dynamics/force/force_kind.hpp"
-#include "dynamics/joint/joint.hpp"
+#include "dynamics/joint/travel.hpp"
 
 namespace dynamics {
 
 /// Friction of one joint: while it sticks it carries up to `breakaway`, while it slips it resists with `sliding` (D19).
 struct Friction {
-  int joint;         ///< a hinge or slider
+  std::string name;  ///< of the joint
+  Travel travel;
   double breakaway;  ///< static level, N m or N, >= sliding
   double sliding;    ///< dynamic level, > 0
 };
@@ -26,12 +27,12 @@ class FrictionMemory final : public Memory {
 class FrictionKind final : public ForceKind {
  public:
   /// \throws hydro::InputError if a level is not positive or the static one is below the dynamic one
-  FrictionKind(JointSet joints, std::vector<Friction> elements);
+  explicit FrictionKind(std::vector<Friction> elements);
 
   std::string effect() const override { return "friction"; }
   std::size_t elements() const override { return elements_.size(); }
   std::string method() const override { return "sticks or slips, events located"; }
-  void couple(BlockPattern& pattern) const override { joints_.couple(pattern); }
+  void couple(BlockPattern& pattern) const override;
   std::unique_ptr<Memory> make_memory(const State& start) const override;
   void add_load(const Instant& now, LoadSink& out) const override;
   void add_jacobian(const Instant& now, JacobianSink& out) const override;
@@ -39,13 +40,6 @@ class FrictionKind final : public ForceKind {
   const FrictionKind* friction() const override { return this; }
 
   const std::vector<Friction>& all() const { return elements_; }
-  /// Travel and its rate, m or rad (per second).
-  double travel(std::size_t element, const State& state) const {
-    return joints_.travel(elements_[element].joint, state);
-  }
-  double rate(std::size_t element, const State& state) const;
-  /// Holds the element where it is in `state`; its multiplier is the load along the axis, N m or N.
-  Condition condition(std::size_t element, const State& state) const;
   /// What the friction does to the second body along the axis, N m or N. `multipliers` of an integrator hold those of
   /// the joints, of which there are `joints`, and then one for each element that sticks.
   double load(std::size_t element, const Memory* memory, const Eigen::VectorXd& multipliers, Eigen::Index joints) const;
@@ -53,7 +47,6 @@ class FrictionKind final : public ForceKind {
   void note_work(const State& before, const State& after, FrictionMemory& memory) const;
 
  private:
-  JointSet joints_;
   std::vector<Friction> elements_;
 };
 

@@ -13,6 +13,9 @@ struct ConditionEnds {
 };
 ConditionEnds ends_of(const Condition& condition, const State& state);
 
+/// The joint's frame at rest, columns x (the axis), y, z. \throws hydro::InputError for an axis without direction
+Eigen::Matrix3d frame_of(const Joint& joint);
+
 double value(const PointCondition& c, const ConditionEnds& at);
 double value(const AxesCondition& c, const ConditionEnds& at);
 

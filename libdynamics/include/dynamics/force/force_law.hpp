@@ -1,0 +1,47 @@
+#pragma once
+/// \file  How a spring and a damper answer one number and its rate: an elongation, a travel, an angle. (D50)-(D52)
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace dynamics {
+
+/// The answer to (x, ẋ): a force against x, its derivatives, the energy held, and the power lost.
+struct Answer {
+  double force = 0, by_x = 0, by_rate = 0;
+  double stored = 0, dissipated = 0;
+};
+
+/// A spring, straight (k₁x + k₃x³) or by a table, and a damper c₁ẋ + c₂|ẋ|ẋ. Units follow x: N, m, s or N m, rad, s.
+struct LineLaw {
+  double stiffness = 0, damping = 0;        ///< k₁, c₁
+  double cubic = 0, quadratic_damping = 0;  ///< k₃, c₂
+  std::vector<double> table_x = {},
+                      table_force =
+                          {};  ///< at least two, x increasing; straight between them and beyond, instead of k₁, k₃
+  bool pulls_only = false;     ///< nothing at x <= 0, and never a push: cables, end stops (D51)
+
+  Answer at(double x, double rate) const;
+};
+
+/// A stop that a travel runs into: nothing before `at`, a spring with a damper that never pulls behind it.
+struct EndStop {
+  double at;
+  double stiffness, damping;
+};
+
+/// What works on the travel of a joint: a spring and damper with a preload, all of which cannot exceed a limit, and end
+/// stops, which can. (D52)
+struct TravelLaw {
+  LineLaw line;
+  double preload = 0;
+  double force_limit = std::numeric_limits<double>::infinity();
+  std::optional<EndStop> lower, upper;
+
+  struct Working : Answer {
+    double supplied = 0;  ///< W, where a limit keeps the force below what spring and damper would give
+  };
+  Working at(double x, double rate) const;
+};
+
+}  // namespace dynamics

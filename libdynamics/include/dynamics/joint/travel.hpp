@@ -1,0 +1,36 @@
+#pragma once
+/// \file  How far the second body of a slider has gone along its axis, or of a hinge has turned about it: one number
+/// with
+///        gradient and curvature, made of the conditions of joints. (D53)
+#include "dynamics/joint/conditions.hpp"
+
+namespace dynamics {
+
+/// Zero at rest. Of hinges within half a turn, −π … π.
+class Travel {
+ public:
+  /// `joint`: a slider or hinge, as JointSet takes it.
+  Travel(const std::vector<RigidBody>& bodies, const Joint& joint);
+  /// Arms from the bodies' centres to the joint's place, body axes; of the ground: the global place.
+  Travel(const Joint& joint, const Eigen::Vector3d& first_arm, const Eigen::Vector3d& second_arm);
+
+  int first() const { return first_; }
+  const std::optional<int>& second() const { return second_; }
+  double value(const State& state) const;  ///< m or rad
+  Gradient gradient(const State& state) const;
+  Matrix12 curvature(const State& state) const;
+  double rate(const State& state) const;  ///< m/s or rad/s
+  /// Of a hinge: angles come back after a turn.
+  bool turns() const { return turns_; }
+  /// A condition that holds the travel where it is in `state`, with gradient() as its gradient there; of no joint.
+  Condition holding(const State& state) const;
+
+ private:
+  int first_;
+  std::optional<int> second_;
+  bool turns_;
+  PointCondition along_;         // of sliders
+  AxesCondition cosine_, sine_;  // of hinges
+};
+
+}  // namespace dynamics

@@ -1,0 +1,100 @@
+#include "dynamics/force/force_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dynamics {
+namespace {
+
+/// Of the table, straight between its points and beyond its ends; energy from x = 0.
+Answer tabulated(const std::vector<double>& xs, const std::vector<double>& fs, double x) {
+  const auto segment = [&](double at) {
+    const auto above = std::upper_bound(xs.begin() + 1, xs.end() - 1, at) - xs.begin();
+    return static_cast<std::size_t>(above) - 1;
+  };
+  const auto slope = [&](std::size_t i) { return (fs[i + 1] - fs[i]) / (xs[i + 1] - xs[i]); };
+  const auto force = [&](double at) {
+    const std::size_t i = segment(at);
+    return fs[i] + slope(i) * (at - xs[i]);
+  };
+  Answer out{.force = force(x), .by_x = slope(segment(x))};
+  // ∫ from 0 to x by trapezia, exact between corners.
+  double from = std::min(0.0, x), sum = 0;
+  const double to = std::max(0.0, x);
+  for (const double corner : xs) {
+    if (corner <= from || corner >= to) continue;
+    sum += (force(from) + force(corner)) / 2 * (corner - from);
+    from = corner;
+  }
+  sum += (force(from) + force(to)) / 2 * (to - from);
+  out.stored = x >= 0 ? sum : -sum;
+  return out;
+}
+
+Answer spring(const LineLaw& law, double x) {
+  if (!law.table_x.empty()) return tabulated(law.table_x, law.table_force, x);
+  const double x2 = x * x;
+  return {.force = (law.stiffness + law.cubic * x2) * x,
+          .by_x = law.stiffness + 3 * law.cubic * x2,
+          .stored = (law.stiffness / 2 + law.cubic / 4 * x2) * x2};
+}
+
+}  // namespace
+
+Answer LineLaw::at(double x, double rate) const {
+  if (pulls_only && x <= 0) return {};
+  Answer out = spring(*this, x);
+  const double damper = (damping + quadratic_damping * std::abs(rate)) * rate;
+  const double damper_by_rate = damping + 2 * quadratic_damping * std::abs(rate);
+  if (!pulls_only) {
+    out.force += damper;
+    out.by_rate = damper_by_rate;
+    out.dissipated = damper * rate;
+    return out;
+  }
+  // (D51): as large as the damper's own force, but never above the spring's, so that the sum never pushes.
+  const double pull = out.force, sum = pull + std::abs(damper);
+  const double taken = sum > 0 ? pull * damper / sum : 0;
+  out.dissipated = taken * rate;
+  out.force += taken;
+  if (sum > 0) {
+    out.by_x *= 1 + damper * std::abs(damper) / (sum * sum);
+    out.by_rate = damper_by_rate * pull * pull / (sum * sum);
+  }
+  return out;
+}
+
+namespace {
+
+/// Behind a stop, seen along `side` = ±1.
+void add_stop(const EndStop& stop, double side, double x, double rate, Answer& out) {
+  const LineLaw law{.stiffness = stop.stiffness, .damping = stop.damping, .pulls_only = true};
+  const Answer a = law.at(side * (x - stop.at), side * rate);
+  out.force += side * a.force;
+  out.by_x += a.by_x;
+  out.by_rate += a.by_rate;
+  out.stored += a.stored;
+  out.dissipated += a.dissipated;
+}
+
+}  // namespace
+
+TravelLaw::Working TravelLaw::at(double x, double rate) const {
+  Working out;
+  static_cast<Answer&>(out) = line.at(x, rate);
+  const double elastic = out.force + preload - (rate != 0 ? out.dissipated / rate : 0);
+  out.force += preload;
+  out.stored += preload * x;
+  if (std::abs(out.force) > force_limit) {
+    out.force = std::copysign(force_limit, out.force);
+    out.by_x = out.by_rate = 0;
+    const double lost = (out.force - elastic) * rate;  // (D52)
+    out.dissipated = std::max(0.0, lost);
+    out.supplied = std::max(0.0, -lost);
+  }
+  if (upper) add_stop(*upper, 1, x, rate, out);
+  if (lower) add_stop(*lower, -1, x, rate, out);
+  return out;
+}
+
+}  // namespace dynamics

@@ -1,0 +1,77 @@
+#include "dynamics/joint/travel.hpp"
+
+#include <cmath>
+
+#include "hydro/base/error.hpp"
+
+namespace dynamics {
+namespace {
+
+using Vector12 = Eigen::Matrix<double, 12, 1>;
+
+Vector12 joined(const Gradient& g) {
+  Vector12 out;
+  out << g.first, g.second;
+  return out;
+}
+
+}  // namespace
+
+Travel::Travel(const Joint& joint, const Eigen::Vector3d& first_arm, const Eigen::Vector3d& second_arm)
+    : first_(joint.first), second_(joint.second), turns_(joint.kind == JointKind::hinge) {
+  hydro::ensure(turns_ || joint.kind == JointKind::slider, "travel of a joint that is neither slider nor hinge");
+  const Eigen::Matrix3d frame = frame_of(joint);
+  along_ = {first_arm, second_arm, frame.col(0), true};
+  cosine_ = {frame.col(1), frame.col(1)};
+  sine_ = {frame.col(2), frame.col(1)};
+}
+
+Travel::Travel(const std::vector<RigidBody>& bodies, const Joint& joint)
+    : Travel(joint, joint.place - bodies[static_cast<std::size_t>(joint.first)].rest_centre(),
+             joint.second ? Eigen::Vector3d(joint.place - bodies[static_cast<std::size_t>(*joint.second)].rest_centre())
+                          : joint.place) {}
+
+double Travel::value(const State& state) const {
+  const ConditionEnds at = ends_of({0, first_, second_, along_}, state);
+  if (!turns_) return dynamics::value(along_, at);
+  return std::atan2(dynamics::value(sine_, at), dynamics::value(cosine_, at));
+}
+
+Gradient Travel::gradient(const State& state) const {
+  const ConditionEnds at = ends_of({0, first_, second_, along_}, state);
+  if (!turns_) return dynamics::gradient(along_, at);
+  const double c = dynamics::value(cosine_, at), s = dynamics::value(sine_, at), r2 = c * c + s * s;
+  const Gradient dc = dynamics::gradient(cosine_, at), ds = dynamics::gradient(sine_, at);
+  return {(c * ds.first - s * dc.first) / r2, (c * ds.second - s * dc.second) / r2};
+}
+
+// (D53)
+Matrix12 Travel::curvature(const State& state) const {
+  const ConditionEnds at = ends_of({0, first_, second_, along_}, state);
+  if (!turns_) return dynamics::curvature(along_, at);
+  const double c = dynamics::value(cosine_, at), s = dynamics::value(sine_, at), r2 = c * c + s * s;
+  const Vector12 dc = joined(dynamics::gradient(cosine_, at)), ds = joined(dynamics::gradient(sine_, at));
+  const Matrix12 numerator = c * dynamics::curvature(sine_, at) - s * dynamics::curvature(cosine_, at) +
+                             ds * dc.transpose() - dc * ds.transpose();
+  return numerator / r2 - (c * ds - s * dc) * (2 * c * dc + 2 * s * ds).transpose() / (r2 * r2);
+}
+
+double Travel::rate(const State& state) const {
+  const Gradient g = gradient(state);
+  return g.first.dot(state.twist(first_)) + (second_ ? g.second.dot(state.twist(*second_)) : 0);
+}
+
+// A hinge: y of the first body stays across what is its z now. A slider: the point of the second body that has come to
+// the first's place stays in the plane across the axis.
+Condition Travel::holding(const State& state) const {
+  const ConditionEnds at = ends_of({0, first_, second_, along_}, state);
+  constexpr int of_no_joint = -1;
+  if (turns_)
+    return {of_no_joint, first_, second_,
+            AxesCondition{-cosine_.first_axis, at.second.transpose() * (at.first * sine_.first_axis)}};
+  PointCondition here = along_;
+  here.second_arm -= at.second.transpose() * (at.first * along_.direction) * dynamics::value(along_, at);
+  return {of_no_joint, first_, second_, here};
+}
+
+}  // namespace dynamics

@@ -1,0 +1,87 @@
+#include "compile/members.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "froude/simulate.hpp"
+#include "hydro/base/error.hpp"
+
+namespace {
+
+using namespace froude;
+using testing::AllOf;
+using testing::Contains;
+using testing::Field;
+using testing::HasSubstr;
+using testing::Not;
+using testing::ThrowsMessage;
+
+const std::filesystem::path examples = std::filesystem::path(FROUDE_SOURCE_DIR) / "examples";
+
+/// A pile in surge, with waves and what acts on its member.
+scene::Scene pile(const std::string& waves, const std::string& loads, const std::string& top = "-1") {
+  return scene::parse("schema = 1\n[water]\ndensity = \"1000 kg/m^3\"\ndepth = \"20 m\"\n" + waves +
+                          "[[body]]\nname = \"pile\"\nmass = \"500 kg\"\nfree = [\"surge\"]\n"
+                          "[[member]]\non = \"pile\"\nfrom = \"(0, 0, -9) m\"\nto = \"(0, 0, " +
+                          top + ") m\"\ndiameter = \"0.4 m\"\n" + loads +
+                          "\n[ask]\nrun = { duration = \"8 s\", every = \"0.1 s\" }\n",
+                      examples / "test.toml");
+}
+
+const std::string linear = "[waves]\nkind = \"regular\"\nheight = \"1 m\"\nperiod = \"4 s\"\nheading = \"0 deg\"\n";
+const std::string stream = linear + "theory = \"stream\"\n";
+
+TEST(Members, NameTheEffectsThatThePlanShows) {
+  const auto effects = [](const std::string& loads) {
+    const auto s = pile(linear, loads);
+    std::vector<std::string> names;
+    for (const auto& line : compile::time_model(s, compile::prepare(s)).plan) names.push_back(line.effect);
+    return names;
+  };
+  EXPECT_THAT(effects("drag = { cd = 1 }"), AllOf(Contains("drag"), Not(Contains("morison"))));
+  EXPECT_THAT(effects("morison = { cd = 1, ca = 1 }\nslamming = { model = \"wienke\" }"),
+              AllOf(Contains("morison"), Contains("slamming"), Not(Contains("drag"))));
+}
+
+TEST(Members, OfMorisonTakeWavesOfAnyKind) {
+  const auto s = pile(stream, "morison = { cd = 1, ca = 1, partial_immersion = true }", "2");
+  const auto record = simulate(s);
+  EXPECT_EQ(record.stopped, "");
+  double most = 0;
+  for (const double x : record.signal("pile.surge")) most = std::max(most, std::abs(x));
+  EXPECT_GT(most, 0.05);
+}
+
+TEST(Members, OfDragAtRestTakeLinearWavesOnly) {
+  const auto s = pile(stream, "drag = { cd = 1 }");
+  EXPECT_THAT([&] { compile::time_model(s, compile::prepare(s)); },
+              ThrowsMessage<hydro::InputError>(HasSubstr("not a sum of linear waves")));
+}
+
+TEST(Members, ThatReachOutOfTheWaterMustSaySo) {
+  const auto s = pile(linear, "morison = { cd = 1, ca = 1 }", "2");
+  EXPECT_THAT([&] { compile::time_model(s, compile::prepare(s)); },
+              ThrowsMessage<hydro::InputError>(
+                  AllOf(HasSubstr("reaches above still water"), HasSubstr("partial_immersion = true"))));
+}
+
+TEST(Members, ExampleOfABraceRunsAndItsEnergyAddsUp) {
+  const auto s = scene::read(examples / "brace.toml");
+  const auto record = simulate(s);
+  EXPECT_EQ(record.stopped, "");
+  double most = 0;
+  for (const double x : record.signal("brace.pitch")) most = std::max(most, std::abs(x));
+  EXPECT_GT(most, 0.02);
+  EXPECT_LT(most, 1.5);
+  const auto energy = [&](const std::string& name) {
+    for (const auto& [key, value] : record.energy)
+      if (key == name) return value;
+    return std::nan("");
+  };
+  EXPECT_GT(energy("morison.dissipated"), 0);
+  EXPECT_NE(energy("slamming.supplied"), 0);
+  // The trapezium rule over an impact that begins at full force within a step is of first order.
+  EXPECT_LT(std::abs(energy("residual")), 0.02 * energy("turnover"));
+}
+
+}  // namespace

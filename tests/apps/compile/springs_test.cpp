@@ -1,0 +1,99 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "compile/compile.hpp"
+#include "froude/simulate.hpp"
+#include "hydro/base/error.hpp"
+
+namespace {
+
+using namespace froude;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+const std::filesystem::path examples = std::filesystem::path(FROUDE_SOURCE_DIR) / "examples";
+
+double energy(const Record& record, const std::string& name) {
+  for (const auto& [key, value] : record.energy)
+    if (key == name) return value;
+  return std::nan("");
+}
+
+double largest(const std::vector<double>& values) {
+  double most = 0;
+  for (const double v : values) most = std::max(most, std::abs(v));
+  return most;
+}
+
+TEST(Springs, ExampleOfAPowerTakeOffKeepsToItsLimitAndItsEnergyAddsUp) {
+  const auto record = simulate(scene::read(examples / "takeoff.toml"));
+  EXPECT_EQ(record.stopped, "");
+  const double travel = largest(record.signal("rack.travel"));
+  EXPECT_GT(travel, 0.2);
+  EXPECT_LT(travel, 0.7);  // the stops yield some centimetres
+  EXPECT_GT(energy(record, "pto.dissipated"), 0);
+  EXPECT_LT(std::abs(energy(record, "residual")), 0.01 * energy(record, "turnover"));
+}
+
+TEST(Springs, ExampleOfChainsBeginsWithTheirStaticTensions) {
+  const auto scene = scene::read(examples / "moored.toml");
+  const auto record = simulate(scene);
+  EXPECT_EQ(record.stopped, "");
+  // From ((5.2, 5.2, −1.1) m) to ((45, 45, −14) m): four equal chains.
+  const double weight = (8 - 1000 * std::numbers::pi / 4 * 0.036 * 0.036) * 9.81;
+  const auto rest = dynamics::catenary({59, weight, 30e6, true}, std::hypot(39.8, 39.8), 12.9);
+  for (const char* name : {"chain1", "chain2", "chain3", "chain4"}) {
+    EXPECT_NEAR(record.signal(std::string(name) + ".tension").front(), rest.fairlead(), 1e-6 * rest.fairlead());
+    EXPECT_NEAR(record.signal(std::string(name) + ".anchor_tension").front(), rest.anchor(), 1e-6 * rest.fairlead());
+  }
+  EXPECT_LT(std::abs(energy(record, "residual")), 0.01 * energy(record, "turnover"));
+}
+
+/// Two bodies in surge, joined; nothing else.
+scene::Scene joined(const std::string& connector) {
+  std::string text = "schema = 1\n[water]\ndensity = \"1000 kg/m^3\"\ndepth = \"20 m\"\n";
+  for (const char* body :
+       {"name = \"a\"\n", "name = \"b\"\nposition = \"(5, 0, 0) m\"\ninitial_velocity = { surge = \"1 m/s\" }\n"})
+    text += std::string("[[body]]\n") + body + "mass = \"100 kg\"\nfree = [\"surge\"]\n";
+  return scene::parse(text + "[[connector]]\nbetween = [\"a\", \"b\"]\nends = [\"(0, 0, 0) m\", \"(0, 0, 0) m\"]\n" +
+                          connector + "[ask]\nrun = { duration = \"10 s\", every = \"0.01 s\" }\n",
+                      examples / "test.toml");
+}
+
+// b flies off, the cable tightens after 1 s and throws both together: they meet at half the speed and part again.
+TEST(Springs, ACableExchangesVelocitiesOnceItTightens) {
+  const auto record = simulate(joined("kind = \"cable\"\nstiffness = \"20 kN/m\"\nrest_length = \"6 m\"\n"));
+  const auto& a = record.signal("a.surge");
+  EXPECT_LT(a[99], 1e-9);                    // until 1 s nothing
+  EXPECT_NEAR(a[300] - a[299], 0.01, 1e-5);  // then a has b's velocity
+  EXPECT_NEAR(*std::min_element(record.signal("connector1.force").begin(), record.signal("connector1.force").end()), 0,
+              1e-9);
+  // Half a swing of the reduced mass: peak v √(k m/2).
+  EXPECT_NEAR(largest(record.signal("connector1.force")), std::sqrt(20e3 * 50), 0.02 * std::sqrt(20e3 * 50));
+}
+
+TEST(Springs, RefuseWhatDoesNotHang) {
+  const auto text = [](const std::string& line) {
+    return "schema = 1\n[water]\ndensity = \"1000 kg/m^3\"\ndepth = \"20 m\"\n[[body]]\nname = \"a\"\nmass = \"100 "
+           "kg\"\nfree = [\"surge\"]\n[[mooring]]\non = \"a\"\nkind = \"catenary\"\nfrom = \"(0, 0, 0) m\"\n" +
+           line +
+           "diameter = \"0.1 m\"\naxial_stiffness = \"1 MN\"\n[ask]\nrun = { duration = \"10 s\", every = \"0.1 s\" "
+           "}\n";
+  };
+  EXPECT_THAT(
+      [&] {
+        scene::parse(text("to = \"(30, 0, -20) m\"\nlength = \"40 m\"\nmass_per_length = \"5 kg/m\"\n"), "test.toml");
+      },
+      ThrowsMessage<hydro::InputError>(HasSubstr("it floats")));
+  const auto above = scene::parse(
+      text("to = \"(30, 0, 5) m\"\non_bed = true\nlength = \"40 m\"\nmass_per_length = \"20 kg/m\"\n"), "test.toml");
+  EXPECT_THAT([&] { compile::prepare(above); },
+              ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("under the bed"), HasSubstr("on_bed"))));
+}
+
+}  // namespace
