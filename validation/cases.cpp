@@ -24,6 +24,7 @@ Outcome sea_dat(const Folders& folders);
 Outcome sphere_decay(const Folders& folders);
 Outcome two_pole(const Folders& folders);
 Outcome zanten_periods(const Folders& folders);
+Outcome zanten_stick_slip(const Folders& folders);
 Outcome zanten_wave_table(const Folders& folders);
 
 const std::vector<Case>& cases() {
@@ -33,6 +34,7 @@ const std::vector<Case>& cases() {
       {"hendriksen-towing", hendriksen_towing},
       {"hendriksen-calibration", hendriksen_calibration},
       {"zanten-periods", zanten_periods},
+      {"zanten-stick-slip", zanten_stick_slip},
       {"zanten-wave-table", zanten_wave_table},
       {"huijgen-sea", huijgen_sea},
       {"hendriksen-waves", hendriksen_waves},

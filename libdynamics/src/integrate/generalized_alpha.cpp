@@ -30,7 +30,7 @@ GeneralizedAlpha::GeneralizedAlpha(const Model& model, const Settings& settings)
       friction_ = kind;
       friction_index_ = k;
     }
-  double farthest = 0;  // what positions and arms are rounded against
+  double farthest = 1;  // what positions and arms are rounded against, m; and directions, unit vectors
   for (const Joint& joint : model.joints().joints()) {
     farthest = std::max(farthest, joint.place.norm());
     for (const std::optional<int> body : {std::optional(joint.first), joint.second})
@@ -322,7 +322,7 @@ double GeneralizedAlpha::step_to_event(Workspace& workspace, double h, StepRepor
 }
 
 void GeneralizedAlpha::advance_to_events(Workspace& workspace, double h, StepReport& report) {
-  constexpr int most = 1000;  // in one step: more is no motion but a mistake
+  constexpr std::size_t most = 1000;  // in one step: more is no motion but a mistake
   FrictionMemory& memory = friction_memory(workspace);
   for (double left = h; left > h * event_resolution;) {
     const State before = workspace.state;
@@ -331,11 +331,14 @@ void GeneralizedAlpha::advance_to_events(Workspace& workspace, double h, StepRep
     if (way == left) return;
     left -= way;
     const Margin next = friction_margin(workspace);
-    if (++report.events > most)
+    if (report.events.size() == most)
       throw hydro::NumericsError(
           fmt::format("friction changes more than {} times in the step from t = {:.6g} s", most, before.time));
+    const std::vector<int> was = memory.direction;
     memory.direction[next.element] = next.changes_to;
     settle_friction(workspace);
+    for (std::size_t i = 0; i < was.size(); ++i)
+      if (memory.direction[i] != was[i]) report.events.push_back({workspace.state.time, i, memory.direction[i]});
   }
 }
 

@@ -14,6 +14,7 @@
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/error.hpp"
 #include "laws/force_kind_laws.hpp"
+#include "support/ramp_load.hpp"
 
 namespace {
 
@@ -32,26 +33,6 @@ Joint rail(int first, std::optional<int> second) {
 Joint pin(int first, std::optional<int> second, const Eigen::Vector3d& place = {0, 0, 0}) {
   return {.name = "pin", .kind = JointKind::hinge, .first = first, .second = second, .place = place, .axis = {0, 1, 0}};
 }
-
-/// A load that grows with time: on surge, and on pitch.
-class Ramp final : public ForceKind {
- public:
-  Ramp(double surge, double pitch) : surge_(surge), pitch_(pitch) {}
-  std::string effect() const override { return "ramp"; }
-  std::size_t elements() const override { return 1; }
-  std::string method() const override { return "linear in time"; }
-  void add_load(const Instant& now, LoadSink& out) const override {
-    out.add_mode(0, surge_ * now.state.time);
-    out.add_mode(4, pitch_ * now.state.time);
-  }
-  void add_jacobian(const Instant&, JacobianSink&) const override {}
-  EnergyFlow energy(const Instant& now) const override {
-    return {.supplied = now.state.time * (surge_ * now.state.velocity[0] + pitch_ * now.state.velocity[4])};
-  }
-
- private:
-  double surge_, pitch_;
-};
 
 /// Friction of joints by number: joint, static, dynamic level.
 struct Levels {
@@ -96,7 +77,7 @@ struct Motion {
   }
   void go(double h, int steps) {
     for (int i = 0; i < steps; ++i) {
-      events += integrator.step(workspace, h).events;
+      events += static_cast<int>(integrator.step(workspace, h).events.size());
       ledger.note(workspace);
     }
   }
@@ -119,7 +100,8 @@ TEST(Friction, BringsASledgeToRestWhereItsEnergyIsSpent) {
 
 TEST(Friction, LetsGoWhereTheLoadReachesTheStaticLevel) {
   // Torque 0.5 t: it holds until 3.7/0.5 = 7.4 s, then I θ'' = 0.5 t − 3, I = 2.
-  const Model model = with_friction({body("arm")}, {pin(0, {})}, {{0, 3.7, 3.0}}, std::make_unique<Ramp>(0, 0.5));
+  const Model model =
+      with_friction({body("arm")}, {pin(0, {})}, {{0, 3.7, 3.0}}, std::make_unique<support::RampLoad>(0, 0.5));
   Motion run(model, rest_state(model.bodies()));
   run.go(0.03, 246);  // 7.38 s
   EXPECT_LT(rotation_log(run.workspace.state.pose[0].attitude).norm(), 1e-14);
@@ -186,7 +168,7 @@ TEST(Friction, OfManyJointsHoldsOnlyWhatItMust) {
   // A chain of three arms, torque on the first: its own pin lets go, the others hold.
   std::vector<RigidBody> bodies{body("a", {1, 0, 0}), body("b", {3, 0, 0}), body("c", {5, 0, 0})};
   const Model model = with_friction(bodies, {pin(0, {}), pin(1, 0, {2, 0, 0}), pin(2, 1, {4, 0, 0})},
-                                    {{0, 3, 2}, {1, 50, 40}, {2, 50, 40}}, std::make_unique<Ramp>(0, 1));
+                                    {{0, 3, 2}, {1, 50, 40}, {2, 50, 40}}, std::make_unique<support::RampLoad>(0, 1));
   Motion run(model, rest_state(model.bodies()));
   run.go(0.05, 100);
   EXPECT_EQ(run.events, 1);

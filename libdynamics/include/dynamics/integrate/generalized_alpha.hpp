@@ -9,11 +9,18 @@
 
 namespace dynamics {
 
+/// Where friction changed.
+struct FrictionEvent {
+  double time;          ///< s
+  std::size_t element;  ///< of FrictionKind::all()
+  int direction;        ///< in which it slips from then on; 0: it sticks
+};
+
 /// What one full step took.
 struct StepReport {
   int newton_iterations = 0;
   int halvings = 0;  ///< how often a step had to be cut in two
-  int events = 0;    ///< how often friction began to slip, or came to rest
+  std::vector<FrictionEvent> events = {};
 };
 
 /// Generalised-α (Chung & Hulbert 1993) in the form of Arnold & Brüls (2007), which satisfies the equations of motion
