@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/force/buoyancy.hpp"
 #include "dynamics/force/connector.hpp"
 #include "dynamics/force/drag.hpp"
 #include "dynamics/force/restoring.hpp"
@@ -28,7 +29,8 @@ struct Prepared {
   std::vector<scene::Memory> memory;  ///< one a group
   std::vector<dynamics::Restoring> hydrostatics, moorings;
   std::vector<int> heavy;  ///< bodies that feel gravity by themselves
-  double gravity;          ///< m/s²
+  std::vector<dynamics::Buoyancy> buoyancy;
+  hydro::Water water;
   std::vector<dynamics::AxialConnector> axial;
   std::vector<dynamics::BushingConnector> bushing;
   std::vector<std::string> axial_names, bushing_names, mooring_names;
