@@ -6,13 +6,16 @@
 
 #include "compile/buoyancy.hpp"
 #include "compile/hydrodynamics.hpp"
+#include "compile/members.hpp"
 #include "compile/radiation.hpp"
+#include "compile/signals.hpp"
 #include "compile/waves.hpp"
 #include "dynamics/force/gravity.hpp"
+#include "dynamics/force/ramped_field.hpp"
 #include "dynamics/force/wave_loads.hpp"
+#include "dynamics/joint/assemble.hpp"
 #include "dynamics/spatial/rotation.hpp"
-#include "hydro/waves/kinematics.hpp"
-#include "hydro/waves/synthesis.hpp"
+#include "hydro/waves/summed_field.hpp"
 
 namespace froude::compile {
 namespace {
@@ -60,6 +63,21 @@ void add_connector(const Scene& scene, const scene::Connector& c, Prepared& out)
   out.bushing_names.push_back(c.name);
 }
 
+/// libdynamics has the body first and the ground second.
+void add_joint(const scene::Joint& j, Prepared& out) {
+  const bool turned = !j.first;
+  out.joints.push_back({.name = j.name,
+                        .kind = static_cast<dynamics::JointKind>(j.kind),
+                        .first = turned ? *j.second : *j.first,
+                        .second = turned ? j.first : j.second,
+                        .place = j.at,
+                        .axis = turned && j.kind == scene::JointKind::universal ? j.second_axis : j.axis,
+                        .second_axis = turned ? j.axis : j.second_axis});
+  out.joint_sign.push_back(turned ? -1 : 1);
+  if (j.friction)
+    out.friction.push_back({static_cast<int>(out.joints.size()) - 1, j.friction->breakaway, j.friction->sliding});
+}
+
 void add_mooring(const Scene& scene, const scene::Mooring& m, Prepared& out) {
   // Given about the body's origin; the origin seen from the centre of gravity is −c.
   const Matrix6 T = dynamics::shift_from_centre(-scene.bodies[static_cast<std::size_t>(m.body)].centre_of_gravity);
@@ -92,6 +110,7 @@ Prepared prepare(const Scene& scene) {
   add_hydrodynamics(scene, out);
   for (const auto& m : scene.moorings) add_mooring(scene, m, out);
   for (const auto& c : scene.connectors) add_connector(scene, c, out);
+  for (const auto& j : scene.joints) add_joint(j, out);
   return out;
 }
 
@@ -100,7 +119,7 @@ namespace {
 /// Pretension that does not cancel, or weight that does not float, would shift the rest position about which everything
 /// is linearised.
 void require_rest(const Prepared& prepared, const dynamics::Model& model) {
-  const Eigen::VectorXd load = model.load_at_rest();
+  const Eigen::VectorXd load = model.linear_at_rest().unbalanced;
   double weight = 0;
   for (const auto& b : prepared.bodies) weight += b.mass() * prepared.water.gravity;
   // Masses are given to some four digits and meshes hold 32-bit numbers: a hull that sinks by 1e-4 of its draught is at
@@ -123,27 +142,15 @@ void require_rest(const Prepared& prepared, const dynamics::Model& model) {
 dynamics::Model frequency_model(const Prepared& prepared) {
   std::vector<std::unique_ptr<const dynamics::ForceKind>> forces;
   add_springs(prepared, forces);
-  dynamics::Model model(prepared.bodies, {}, std::move(forces));
+  dynamics::Model model(prepared.bodies, {}, std::move(forces), prepared.joints);
   require_rest(prepared, model);
   return model;
 }
 
 namespace {
 
-/// Complex amplitudes, one row a signal, and their table on the step grid.
-dynamics::WaveSignals signals(const hydro::waves::Sea& sea, const Eigen::MatrixXcd& amplitudes, double step,
-                              std::size_t samples, double ramp) {
-  // All signals in one pass: they share the phasors of the sea.
-  Eigen::MatrixXd table = hydro::waves::synthesise(sea, {step, samples}, amplitudes).series.transpose();
-  std::vector<double> omega;
-  for (const auto& c : sea.components()) omega.push_back(c.omega);
-  return {std::move(omega), amplitudes, std::move(table), step, ramp};
-}
-
-std::complex<double> elevation_at_origin(const hydro::waves::Component& c) { return std::polar(c.amplitude, c.phase); }
-
-std::unique_ptr<const dynamics::ForceKind> excitation(const Prepared& p, const hydro::waves::Sea& sea, double step,
-                                                      std::size_t samples, double ramp) {
+std::unique_ptr<const dynamics::ForceKind> excitation(const Prepared& p, const hydro::waves::Sea& sea,
+                                                      const StepGrid& grid, double ramp) {
   std::vector<dynamics::Excitation> elements;
   for (const auto& g : p.groups) {
     if (!g.excitation) continue;
@@ -152,38 +159,10 @@ std::unique_ptr<const dynamics::ForceKind> excitation(const Prepared& p, const h
     Eigen::Index column = 0;
     for (const auto& c : sea.components())
       amplitudes.col(column++) = elevation_at_origin(c) * g.table.excitation(c.omega, c.heading);
-    elements.push_back({g.bodies, signals(sea, amplitudes, step, samples, ramp)});
+    elements.push_back({g.bodies, signals(sea, amplitudes, grid, ramp)});
   }
   if (elements.empty()) return nullptr;
   return std::make_unique<dynamics::ExcitationKind>(std::move(elements));
-}
-
-std::unique_ptr<const dynamics::ForceKind> drag(const Scene& scene, const Prepared& p, const hydro::waves::Sea* sea,
-                                                double step, std::size_t samples) {
-  std::vector<dynamics::DragPiece> pieces;
-  for (const auto& m : scene.members) {
-    const auto wet = dynamics::drag_pieces(p.bodies, m.body, m.from, m.to, m.diameter, m.cd, scene.water.density);
-    if (wet.empty())
-      throw InputError(fmt::format("member \"{}\" is above the water at rest and feels no drag", m.name), m.place,
-                       "put it under water, or leave it out");
-    pieces.insert(pieces.end(), wet.begin(), wet.end());
-  }
-  if (pieces.empty()) return nullptr;
-  for (auto& piece : pieces) piece.current.head<2>() = scene.current.at(dynamics::rest_position(piece, p.bodies).z());
-  std::optional<dynamics::WaveSignals> water;
-  if (sea) {
-    Eigen::MatrixXcd amplitudes(3 * static_cast<Eigen::Index>(pieces.size()),
-                                static_cast<Eigen::Index>(sea->components().size()));
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      const Eigen::Vector3d at = dynamics::rest_position(pieces[i], p.bodies);
-      Eigen::Index column = 0;
-      for (const auto& c : sea->components())
-        amplitudes.block<3, 1>(3 * static_cast<Eigen::Index>(i), column++) =
-            elevation_at_origin(c) * hydro::waves::velocity_transfer(c, sea->water(), at);
-    }
-    water = signals(*sea, amplitudes, step, samples, scene.waves->ramp);
-  }
-  return std::make_unique<dynamics::DragKind>(std::move(pieces), std::move(water));
 }
 
 /// The step that keeps the period error of generalised-α, (ωh)²/12, a sixteenth of the accuracy asked at the highest
@@ -214,18 +193,12 @@ std::optional<Band> band_of_data(const Prepared& prepared) {
   return band;
 }
 
-/// The sea of a run. Loads of a run are linear in the waves, so the waves must be linear; and coefficients are for
-/// water without a current.
-hydro::waves::Sea run_sea(const Scene& scene, const Prepared& prepared) {
+/// The sea of a run, where a load that is linear in the waves, or the same sea for all that move in it, needs one.
+hydro::waves::Sea run_sea(const Scene& scene, const std::optional<Band>& band) {
   const scene::Waves& waves = *scene.waves;
-  const auto band = band_of_data(prepared);
   if (band && scene.current_place)
     throw InputError("the wave loads come from coefficients for water without a current", *scene.current_place,
                      "take [current] out, or the bodies' excitation");
-  if (waves.stretching != hydro::waves::Stretching::vertical && !scene.members.empty())
-    throw InputError(
-        "drag in a run takes the water's velocity at the places at rest, with nothing but \"vertical\" above",
-        waves.place, "leave [waves.kinematics] out");
   hydro::waves::Sea sea = make_sea(scene, band);
   if (sea.components().size() > 1 && sea.repetition_s() < scene.run->duration * (1 - 1e-9))
     throw InputError(fmt::format("the sea repeats after {:.6g} s, before the run of {:.6g} s ends", sea.repetition_s(),
@@ -235,14 +208,43 @@ hydro::waves::Sea run_sea(const Scene& scene, const Prepared& prepared) {
   return sea;
 }
 
-std::string sea_method(const hydro::waves::Sea& sea) {
-  if (sea.components().size() == 1) return "one regular wave";
-  if (std::isinf(sea.repetition_s())) return "components that never repeat";
-  return fmt::format("components on a grid, repeating after {:.6g} s", sea.repetition_s());
+/// Waves of any kind: as a sum of linear waves where they are one, and as a field. Loads by coefficients and drag at
+/// rest are linear in the waves or in their velocities, and take such a sum only.
+RunWater run_water(const Scene& scene, const Prepared& prepared) {
+  const auto band = band_of_data(prepared);
+  const bool needs_sum = band || any_drag_at_rest(scene);
+  RunWater out;
+  std::shared_ptr<const hydro::waves::WaveField> field;
+  if (scene.waves && (needs_sum || is_linear_sum(*scene.waves))) {
+    out.sea = run_sea(scene, band);
+    field = std::make_shared<hydro::waves::SummedField>(
+        hydro::waves::linear_field(*out.sea, {.stretching = scene.waves->stretching}));
+  } else if (scene.waves) {
+    field = make_field(scene);
+  } else {
+    field = std::make_shared<hydro::waves::HarmonicField>(std::vector<hydro::waves::Harmonic>{}, scene.water,
+                                                          hydro::waves::HarmonicField::Options{}, scene.current);
+  }
+  const double ramp = scene.waves ? scene.waves->ramp : 0;
+  out.field = std::make_shared<dynamics::RampedField>(std::move(field), ramp, scene.current);
+  return out;
 }
 
-dynamics::State start_state(const Scene& scene, const Prepared& p) {
+PlanLine waves_line(const std::optional<hydro::waves::Sea>& sea) {
+  if (!sea) return {"waves", "nonlinear or made by a paddle: a field, asked where members are", "", true};
+  std::string method = fmt::format("components on a grid, repeating after {:.6g} s", sea->repetition_s());
+  if (std::isinf(sea->repetition_s())) method = "components that never repeat";
+  if (sea->components().size() == 1) method = "one regular wave";
+  return {
+      "waves", std::move(method),
+      fmt::format("{} components, {:.2g} of the energy left out", sea->components().size(), sea->fraction_left_out()),
+      true};
+}
+
+/// Where the scene puts bodies at t = 0; joints carry along those that it says nothing of.
+dynamics::State start_state(const Scene& scene, const Prepared& p, const dynamics::Model& model) {
   dynamics::State state = dynamics::rest_state(p.bodies);
+  std::vector<bool> placed, given;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const auto& b = scene.bodies[i];
     Eigen::Matrix<double, 6, 1> moved = Eigen::Matrix<double, 6, 1>::Zero(), velocity = moved;
@@ -254,7 +256,11 @@ dynamics::State start_state(const Scene& scene, const Prepared& p) {
     pose.centre = b.position + moved.head<3>() + to_centre;
     velocity.head<3>() += velocity.tail<3>().cross(to_centre);
     state.velocity.segment<6>(6 * static_cast<Eigen::Index>(i)) = velocity;
+    placed.push_back(!b.initial.empty());
+    given.push_back(!b.initial_velocity.empty());
   }
+  dynamics::close_joints(model, placed, state);
+  dynamics::close_joint_velocities(model, given, state);
   return state;
 }
 
@@ -266,16 +272,12 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
   const auto steps = static_cast<std::size_t>(std::llround(scene.run->duration / scene.run->every)) * per_sample;
   std::vector<std::string> notes = prepared.notes;
   std::vector<PlanLine> plan;
-  std::optional<hydro::waves::Sea> sea;
-  const bool wants_sea = scene.waves.has_value();
-  if (wants_sea) {
-    sea = run_sea(scene, prepared);
+  RunWater water = run_water(scene, prepared);
+  if (scene.waves) {
     for (const auto& warning : wave_warnings(scene)) notes.push_back(warning);
-    plan.push_back({"waves", sea_method(*sea),
-                    fmt::format("{} components, {:.2g} of the energy left out", sea->components().size(),
-                                sea->fraction_left_out()),
-                    true});
+    plan.push_back(waves_line(water.sea));
   }
+  const hydro::waves::Sea* sea = water.sea ? &*water.sea : nullptr;
 
   std::vector<std::unique_ptr<const dynamics::ForceKind>> forces;
   std::vector<dynamics::AddedMass> added_mass;
@@ -284,15 +286,19 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
   std::vector<PlanLine> memory_lines;
   for (std::size_t i = 0; i < prepared.groups.size(); ++i) {
     if (!prepared.groups[i].radiation) continue;
-    auto parts = radiation(prepared, i, step, sea ? &*sea : nullptr, notes);
+    auto parts = radiation(prepared, i, step, sea, notes);
     added_mass.push_back(std::move(parts.added_mass));
     memories.push_back(std::move(parts.memory));
     memory_lines.insert(memory_lines.end(), parts.lines.begin(), parts.lines.end());
   }
   if (!memories.empty()) forces.push_back(std::make_unique<dynamics::RadiationKind>(std::move(memories)));
   if (sea)
-    if (auto kind = excitation(prepared, *sea, step, steps + 1, scene.waves->ramp)) forces.push_back(std::move(kind));
-  if (auto kind = drag(scene, prepared, sea ? &*sea : nullptr, step, steps + 1)) forces.push_back(std::move(kind));
+    if (auto kind = excitation(prepared, *sea, {step, steps + 1}, scene.waves->ramp)) forces.push_back(std::move(kind));
+  add_members(scene, prepared.bodies, water, {step, steps + 1}, forces);
+
+  if (!prepared.friction.empty())
+    forces.push_back(std::make_unique<dynamics::FrictionKind>(dynamics::JointSet(prepared.bodies, prepared.joints),
+                                                              prepared.friction));
 
   for (const auto& kind : forces) {
     if (kind->effect() != "radiation") {
@@ -302,9 +308,14 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
     }
     plan.insert(plan.end(), memory_lines.begin(), memory_lines.end());
   }
-  dynamics::Model model(prepared.bodies, std::move(added_mass), std::move(forces));
-  return {std::move(model), start_state(scene, prepared), std::move(sea), step, steps, per_sample, std::move(plan),
-          std::move(notes)};
+  dynamics::Model model(prepared.bodies, std::move(added_mass), std::move(forces), prepared.joints);
+  if (!prepared.joints.empty())
+    plan.push_back({"joint", "conditions held exactly, with the loads that this takes as unknowns",
+                    fmt::format("{} joints, {} conditions", prepared.joints.size(), model.joints().count()), true});
+  notes.insert(notes.end(), model.redundant().begin(), model.redundant().end());
+  dynamics::State start = start_state(scene, prepared, model);
+  return {std::move(model), std::move(start), std::move(water), step, steps,
+          per_sample,       std::move(plan),  std::move(notes)};
 }
 
 }  // namespace froude::compile

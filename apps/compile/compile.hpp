@@ -1,15 +1,17 @@
 #pragma once
 /// \file  A scene compiled to the smallest model that answers what it asks. What the scene does not name is not made.
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "dynamics/force/buoyancy.hpp"
 #include "dynamics/force/connector.hpp"
-#include "dynamics/force/drag.hpp"
+#include "dynamics/force/friction.hpp"
 #include "dynamics/force/restoring.hpp"
 #include "dynamics/frequency/rao.hpp"
 #include "dynamics/model/model.hpp"
+#include "hydro/waves/field.hpp"
 #include "hydro/waves/sea.hpp"
 #include "scene/scene.hpp"
 
@@ -33,6 +35,10 @@ struct Prepared {
   hydro::Water water;
   std::vector<dynamics::AxialConnector> axial;
   std::vector<dynamics::BushingConnector> bushing;
+  std::vector<dynamics::Joint> joints;
+  std::vector<dynamics::Friction> friction;
+  std::vector<double>
+      joint_sign;  ///< −1 where the scene wrote the ground first: travel is the second's against the first
   std::vector<std::string> axial_names, bushing_names, mooring_names;
   std::vector<std::string> notes;  ///< what had to be decided, for the result and the plan
 };
@@ -44,11 +50,17 @@ Prepared prepare(const scene::Scene& scene);
 /// \throws hydro::InputError if the scene is not in equilibrium as placed
 dynamics::Model frequency_model(const Prepared& prepared);
 
+/// The water of a run.
+struct RunWater {
+  std::optional<hydro::waves::Sea> sea;                  ///< where the waves are a sum of linear ones
+  std::shared_ptr<const hydro::waves::WaveField> field;  ///< with the ramp; still water is a field without waves
+};
+
 /// Everything that a run needs.
 struct TimeModel {
   dynamics::Model model;
   dynamics::State start;
-  std::optional<hydro::waves::Sea> sea;
+  RunWater water;
   double step;  ///< s; scene.run->every is a whole multiple of it
   std::size_t steps;
   std::size_t steps_per_sample;

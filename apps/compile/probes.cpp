@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "dynamics/spatial/rotation.hpp"
-#include "hydro/waves/summed_field.hpp"
 
 namespace froude::compile {
 namespace {
@@ -74,6 +72,62 @@ void add_moorings(const scene::Scene& scene, const Prepared& p, std::vector<Prob
     }
 }
 
+const char* joint_load(int component) {
+  constexpr const char* names[] = {"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"};
+  return names[component];
+}
+
+/// Calls f(joint, end, "hinge.top") for each body of each joint.
+template <class Do>
+void for_each_end(const Prepared& p, Do act) {
+  for (std::size_t j = 0; j < p.joints.size(); ++j)
+    for (const auto end : {dynamics::End::first, dynamics::End::second}) {
+      const std::optional<int> body = end == dynamics::End::first ? p.joints[j].first : p.joints[j].second;
+      if (body)
+        act(static_cast<int>(j), end, p.joints[j].name + "." + p.bodies[static_cast<std::size_t>(*body)].name());
+    }
+}
+
+/// "hinge" turns by an angle, "slider" goes a way; other joints have no single number.
+void add_travels(const Prepared& p, const dynamics::Model& model, std::vector<Probe>& out) {
+  for (std::size_t j = 0; j < p.joints.size(); ++j) {
+    const bool turns = p.joints[j].kind == dynamics::JointKind::hinge;
+    if (!turns && p.joints[j].kind != dynamics::JointKind::slider) continue;
+    out.push_back({p.joints[j].name + (turns ? ".angle" : ".travel"), turns ? "rad" : "m",
+                   fmt::format("{} of {}, the second against the first", turns ? "angle" : "travel", p.joints[j].name),
+                   [&model, j, sign = p.joint_sign[j]](const Workspace& w, const EnergyLedger&) {
+                     return sign * model.joints().travel(static_cast<int>(j), w.state);
+                   }});
+  }
+}
+
+/// Along the axis on the second of the joint as the scene writes it: what its friction does to it.
+void add_friction(const Prepared& p, const dynamics::Model& model, std::vector<Probe>& out) {
+  std::size_t kind = 0;
+  while (kind < model.forces().size() && model.forces()[kind]->friction() == nullptr) ++kind;
+  for (std::size_t i = 0; i < p.friction.size(); ++i) {
+    const auto joint = static_cast<std::size_t>(p.friction[i].joint);
+    const bool turns = p.joints[joint].kind == dynamics::JointKind::hinge;
+    out.push_back({p.joints[joint].name + ".friction", turns ? "N m" : "N",
+                   fmt::format("load of the friction of {} on its second body along the axis", p.joints[joint].name),
+                   [&model, i, kind, sign = p.joint_sign[joint]](const Workspace& w, const EnergyLedger&) {
+                     return sign * model.forces()[kind]->friction()->load(i, w.memory[kind].get(), w.multipliers,
+                                                                          model.joints().count());
+                   }});
+  }
+}
+
+void add_joint_loads(const Prepared& p, const dynamics::Model& model, std::vector<Probe>& out) {
+  for_each_end(p, [&](int joint, dynamics::End end, const std::string& name) {
+    for (int i = 0; i < 6; ++i)
+      out.push_back({fmt::format("{}.{}", name, joint_load(i)), load_unit(i),
+                     fmt::format("load of the joint on {}, about the joint, body axes", name),
+                     [&model, joint, end, i](const Workspace& w, const EnergyLedger&) {
+                       return model.joints().load_on(joint, end, w.state, w.multipliers)[i];
+                     }});
+  });
+}
+
 void add_energies(const TimeModel& m, std::vector<Probe>& out) {
   out.push_back({"energy.kinetic", "J", "kinetic energy of bodies and added mass",
                  [](const Workspace&, const EnergyLedger& l) { return l.kinetic(); }});
@@ -91,18 +145,16 @@ void add_energies(const TimeModel& m, std::vector<Probe>& out) {
                  [](const Workspace&, const EnergyLedger& l) { return l.residual(); }});
 }
 
-/// The undisturbed water at the scene's [[probe]]s, with the ramp of the loads.
-void add_fixed_points(const scene::Scene& scene, const hydro::waves::Sea& sea, std::vector<Probe>& out) {
-  if (scene.probes.empty()) return;
-  const hydro::waves::HarmonicField linear = hydro::waves::linear_field(sea, {.stretching = scene.waves->stretching});
-  const auto field = std::make_shared<const hydro::waves::SummedField>(linear);
+/// The undisturbed water at the origin and at the scene's [[probe]]s, with the ramp of the loads.
+void add_water(const scene::Scene& scene, const std::shared_ptr<const hydro::waves::WaveField>& field,
+               std::vector<Probe>& out) {
+  out.push_back({"wave.elevation", "m", "elevation of the undisturbed wave at the origin, with the ramp",
+                 [field](const Workspace& w, const EnergyLedger&) { return field->elevation(w.state.time, 0, 0); }});
   for (const auto& p : scene.probes)
     for (const ProbeSignal& s : probe_signals(p))
       out.push_back(
-          {s.name, s.unit, s.long_name,
-           [field, at = p.at, take = s.take, ramp = scene.waves->ramp](const Workspace& w, const EnergyLedger&) {
-             const double t = w.state.time, grown = t >= ramp ? 1 : 0.5 * (1 - std::cos(std::numbers::pi * t / ramp));
-             return grown * take(field->at(t, at));
+          {s.name, s.unit, s.long_name, [field, at = p.at, take = s.take](const Workspace& w, const EnergyLedger&) {
+             return take(field->at(w.state.time, at));
            }});
 }
 
@@ -133,14 +185,10 @@ std::vector<Probe> run_probes(const scene::Scene& scene, const Prepared& prepare
   add_motions(scene, prepared, out);
   add_connectors(prepared, out);
   add_moorings(scene, prepared, out);
-  if (model.sea)
-    out.push_back({"wave.elevation", "m", "elevation of the undisturbed wave at the origin, with the ramp",
-                   [sea = *model.sea, ramp = scene.waves->ramp](const Workspace& w, const EnergyLedger&) {
-                     const double t = w.state.time,
-                                  grown = t >= ramp ? 1 : 0.5 * (1 - std::cos(std::numbers::pi * t / ramp));
-                     return grown * sea.elevation(t, 0, 0);
-                   }});
-  if (model.sea) add_fixed_points(scene, *model.sea, out);
+  add_travels(prepared, model.model, out);
+  add_friction(prepared, model.model, out);
+  add_joint_loads(prepared, model.model, out);
+  if (scene.waves) add_water(scene, model.water.field, out);
   add_energies(model, out);
   return out;
 }
@@ -169,7 +217,54 @@ Eigen::Vector3d at_rest(const Prepared& p, std::optional<int> body, const Eigen:
 
 }  // namespace
 
-std::vector<LinearProbe> rao_probes(const scene::Scene& scene, const Prepared& p) {
+namespace {
+
+/// Travel of sliders and hinges, and loads of all joints, beyond those at rest.
+void add_joints(const Prepared& p, const dynamics::Model& model, std::vector<LinearProbe>& out) {
+  if (p.joints.empty()) return;
+  const auto rest = dynamics::rest_state(p.bodies);
+  const Eigen::VectorXd multipliers = model.linear_at_rest().multipliers;
+  for (std::size_t j = 0; j < p.joints.size(); ++j) {
+    const auto& joint = p.joints[j];
+    const Eigen::Vector3d axis = p.joint_sign[j] * joint.axis.normalized();
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(model.modes());
+    if (joint.kind == dynamics::JointKind::hinge) {
+      row.segment<3>(6 * joint.first + 3) = -axis.transpose();
+      if (joint.second) row.segment<3>(6 * *joint.second + 3) = axis.transpose();
+      out.push_back({joint.name + ".angle",
+                     "rad/m",
+                     fmt::format("angle of {} per metre of wave amplitude", joint.name),
+                     row,
+                     {}});
+    } else if (joint.kind == dynamics::JointKind::slider) {
+      const auto arm = [&](int body) {
+        return Eigen::Vector3d(joint.place - p.bodies[static_cast<std::size_t>(body)].rest_centre());
+      };
+      add_point(row, joint.first, arm(joint.first), axis, -1);
+      if (joint.second) add_point(row, *joint.second, arm(*joint.second), axis, 1);
+      out.push_back({joint.name + ".travel",
+                     "m/m",
+                     fmt::format("travel of {} per metre of wave amplitude", joint.name),
+                     row,
+                     {}});
+    }
+  }
+  for_each_end(p, [&](int joint, dynamics::End end, const std::string& name) {
+    const auto variation = model.joints().load_variation(joint, end, rest, multipliers);
+    for (int i = 0; i < 6; ++i)
+      out.push_back(
+          {fmt::format("{}.{}", name, joint_load(i)),
+           std::string(load_unit(i)) + "/m",
+           fmt::format("load of the joint on {} per metre of wave amplitude, about the joint, body axes", name),
+           variation.by_motion.row(i),
+           {},
+           variation.by_multiplier.row(i)});
+  });
+}
+
+}  // namespace
+
+std::vector<LinearProbe> rao_probes(const scene::Scene& scene, const Prepared& p, const dynamics::Model& model) {
   std::vector<LinearProbe> out;
   const Eigen::Index modes = 6 * static_cast<Eigen::Index>(p.bodies.size());
   const Eigen::RowVectorXd none = Eigen::RowVectorXd::Zero(modes);
@@ -200,6 +295,7 @@ std::vector<LinearProbe> rao_probes(const scene::Scene& scene, const Prepared& p
                      fmt::format("force of {} along {} per metre of wave amplitude", p.bushing_names[i], "xyz"[axis]),
                      c.stiffness[axis] * row, c.damping[axis] * row});
     }
+  add_joints(p, model, out);
   return out;
 }
 

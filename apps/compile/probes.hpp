@@ -28,13 +28,13 @@ std::vector<ProbeSignal> probe_signals(const scene::Probe& probe);
 /// yaw–pitch–roll angles of the attitude (about z, then the new y, then the new x).
 std::vector<Probe> run_probes(const scene::Scene& scene, const Prepared& prepared, const TimeModel& model);
 
-/// A linear signal of the frequency domain: (stiffness + iω damping) · ξ, ξ the displacements about the centres of
-/// gravity.
+/// A linear signal of the frequency domain: (stiffness + iω damping) · ξ + joints · λ, ξ the displacements about the
+/// centres of gravity, λ the multipliers of joints. Rows that are empty have no part.
 struct LinearProbe {
   std::string name, unit, long_name;
-  Eigen::RowVectorXd stiffness, damping;
+  Eigen::RowVectorXd stiffness, damping, joints = {};
 };
-std::vector<LinearProbe> rao_probes(const scene::Scene& scene, const Prepared& prepared);
+std::vector<LinearProbe> rao_probes(const scene::Scene& scene, const Prepared& prepared, const dynamics::Model& model);
 
 /// Those whose names match one of the patterns (`*` stands for anything); all if there are no patterns. Keeps their
 /// order.

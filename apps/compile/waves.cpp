@@ -36,6 +36,16 @@ double frequency_with_share_above(const hw::Spectrum& spectrum, double share) {
   return high;
 }
 
+/// The highest frequency of a list with at most this share of the energy above it; pairs of frequency and energy.
+double frequency_with_energy_above(std::vector<std::pair<double, double>> waves, double share) {
+  double all = 0, above = 0;
+  for (const auto& [omega, e] : waves) all += e;
+  std::sort(waves.rbegin(), waves.rend());
+  for (const auto& [omega, e] : waves)
+    if ((above += e) > share * all) return omega;
+  return 0;
+}
+
 // ---- seas that break before they are made ----
 
 /// A height that no wave of this length can have.
@@ -192,18 +202,16 @@ double highest_relevant_frequency(const scene::Waves& waves) {
       highest = std::max(highest, frequency_with_share_above(*system.spectrum, share));
     return highest;
   }
-  if (const auto* list = std::get_if<scene::WaveList>(&waves.kind)) {
-    std::vector<std::pair<double, double>> energy;  // falling frequency
-    double all = 0, above = 0;
-    for (const auto& w : list->waves) {
-      energy.emplace_back(w.omega.rad_per_s(), w.amplitude.metres() * w.amplitude.metres());
-      all += energy.back().second;
-    }
-    std::sort(energy.rbegin(), energy.rend());
-    for (const auto& [omega, e] : energy)
-      if ((above += e) > share * all) return omega;
-  }
-  return highest;
+  if (const auto* tank = std::get_if<scene::WaveTank>(&waves.kind)) return tank->highest;
+  std::vector<std::pair<double, double>> energy;  // falling frequency
+  const auto note = [&](const auto& w) {
+    energy.emplace_back(w.omega.rad_per_s(), w.amplitude.metres() * w.amplitude.metres());
+  };
+  if (const auto* list = std::get_if<scene::WaveList>(&waves.kind))
+    for (const auto& w : list->waves) note(w);
+  else
+    for (const auto& w : std::get<scene::FocusedPackets>(waves.kind).packets) note(w);
+  return frequency_with_energy_above(std::move(energy), share);
 }
 
 bool has_bound_waves(const scene::Waves& waves) {

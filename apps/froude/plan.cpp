@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 #include "compile/cylinders.hpp"
@@ -27,9 +28,16 @@ void add_absent(const scene::Scene& scene, const compile::Prepared& p, std::vect
   absent(!p.hydrostatics.empty(), "hydrostatics", "hydrostatics = true");
   absent(!p.moorings.empty(), "mooring", "[[mooring]]");
   absent(!p.axial.empty() || !p.bushing.empty(), "connector", "[[connector]]");
+  absent(!p.joints.empty(), "joint", "[[joint]]");
+  absent(!p.friction.empty(), "friction", "friction = { … } of a [[joint]]");
   absent(radiation, "radiation", "radiation = {}");
   absent(excitation, "excitation", "excitation = true");
-  absent(!scene.members.empty(), "drag", "[[member]]");
+  const auto named = [&](auto key) {
+    return std::any_of(scene.members.begin(), scene.members.end(), [&](const auto& m) { return (m.*key).has_value(); });
+  };
+  absent(named(&scene::Member::cd), "drag", "[member.drag]");
+  absent(named(&scene::Member::morison), "morison", "[member.morison]");
+  absent(named(&scene::Member::slamming), "slamming", "[member.slamming]");
 }
 
 struct Section {
@@ -50,7 +58,8 @@ Section plan_rao(const scene::Scene& scene, const compile::Prepared& p) {
          true});
   }
   if (!scene.members.empty())
-    s.lines.push_back({"drag", "quadratic: has no place in a response per metre of wave", "", false});
+    s.lines.push_back(
+        {"members", "drag, Morison's loads and impact have no place in a response per metre of wave", "", false});
   return s;
 }
 

@@ -27,14 +27,18 @@ Peak peak(const ComplexSignal& signal, const std::vector<double>& omega) {
 }
 
 std::vector<ComplexSignal> evaluate(const std::vector<compile::LinearProbe>& probes, const Eigen::MatrixXcd& xi,
-                                    const std::vector<double>& omega) {
+                                    const Eigen::MatrixXcd& multipliers, const std::vector<double>& omega) {
   std::vector<ComplexSignal> out;
   for (const auto& p : probes) {
     ComplexSignal s{p.name, p.unit, p.long_name, {}};
     for (std::size_t w = 0; w < omega.size(); ++w) {
       const std::complex<double> i_omega(0, omega[w]);
-      s.values.push_back((p.stiffness.cast<std::complex<double>>() + i_omega * p.damping) *
-                         xi.col(static_cast<Eigen::Index>(w)));
+      const auto column = static_cast<Eigen::Index>(w);
+      std::complex<double> value = 0;
+      if (p.stiffness.size() > 0) value += (p.stiffness * xi.col(column)).value();
+      if (p.damping.size() > 0) value += i_omega * (p.damping * xi.col(column)).value();
+      if (p.joints.size() > 0) value += (p.joints * multipliers.col(column)).value();
+      s.values.push_back(value);
     }
     out.push_back(std::move(s));
   }
@@ -125,15 +129,20 @@ void rao(const SceneArguments& arguments, const Console& console) {
   const dynamics::Model model = compile::frequency_model(prepared);
   if (!scene.members.empty())
     prepared.notes.push_back(
-        "quadratic drag is left out: a linear response per metre of wave has no place for it (a run has)");
-  const auto all = compile::rao_probes(scene, prepared);
+        "loads on members are left out, also their added mass: a linear response per metre of wave has no place for "
+        "them (a run has)");
+  if (!prepared.friction.empty())
+    prepared.notes.push_back("friction is left out: its joints move freely in a linear response");
+  const auto all = compile::rao_probes(scene, prepared, model);
   std::vector<std::string> names;
   for (const auto& p : all) names.push_back(p.name);
   scene::check_patterns(scene.rao->of, scene.rao->of_places, names);
   // The line that computes a RAO: (Q1) in libdynamics/src/frequency/rao.cpp.
   const Eigen::MatrixXcd xi =
       dynamics::frequency::response_amplitudes(model, prepared.groups, scene.rao->omega, scene.rao->heading.radians());
-  const auto signals = evaluate(compile::chosen(all, scene.rao->of), xi, scene.rao->omega);
+  const Eigen::MatrixXcd multipliers = dynamics::frequency::multiplier_amplitudes(
+      model, prepared.groups, scene.rao->omega, scene.rao->heading.radians(), xi);
+  const auto signals = evaluate(compile::chosen(all, scene.rao->of), xi, multipliers, scene.rao->omega);
   write_rao(file, scene.rao->omega, scene.rao->heading.radians(), signals, provenance_of(scene, prepared.notes));
   if (arguments.csv) write_rao_csv(*arguments.csv, scene.rao->omega, signals);
   if (arguments.picture)

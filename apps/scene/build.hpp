@@ -29,12 +29,21 @@ std::vector<Body> build_bodies(const Record& root, const std::filesystem::path& 
 void build_members(const Record& root, Names& names, Scene& scene);
 void build_moorings(const Record& root, Names& names, Scene& scene);
 void build_connectors(const Record& root, Names& names, Scene& scene);
+void build_joints(const Record& root, Names& names, Scene& scene);
 
 Waves build_waves(const Record& waves, const Scene& scene);
 hydro::waves::Current build_current(const Record& current, const std::filesystem::path& file);
 std::vector<Probe> build_probes(const Record& root, Names& names);
 void build_ask(const Record& ask, Scene& scene);
 Solve build_solve(const Record& solve);
+
+/// What `between` joins; an empty one is the ground. Of neighbours both are bodies.
+struct Between {
+  std::optional<int> first, second;
+};
+enum class GroundFirst { allowed, refused };
+/// All pairs of the key `between`. \throws hydro::InputError at names that do not fit
+std::vector<Between> read_between(const Record& record, const std::vector<Body>& bodies, GroundFirst ground_first);
 
 /// Indices of the bodies that fit the patterns of `record`'s key, in the order of the scene, each once.
 /// \throws hydro::InputError at a pattern that fits none, with the nearest name

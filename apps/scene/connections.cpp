@@ -11,20 +11,18 @@ namespace froude::scene {
 namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Pair = std::pair<int, std::optional<int>>;
-
 constexpr std::string_view neighbours = "neighbours of ";
 
 /// "m1" and "m2", "m2" and "m3" … of the copies of one body.
-std::vector<Pair> neighbour_pairs(const Record& record, const Located<std::string>& text,
-                                  const std::vector<Body>& bodies) {
+std::vector<Between> neighbour_pairs(const Record& record, const Located<std::string>& text,
+                                     const std::vector<Body>& bodies) {
   const std::string family = text.value.substr(neighbours.size());
-  std::vector<Pair> pairs;
+  std::vector<Between> pairs;
   std::vector<std::string> families;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (bodies[i].copy > 0) families.push_back(bodies[i].family);
     if (bodies[i].family == family && bodies[i].copy > 1)
-      pairs.emplace_back(static_cast<int>(i) - 1, static_cast<int>(i));
+      pairs.push_back({static_cast<int>(i) - 1, static_cast<int>(i)});
   }
   if (!pairs.empty()) return pairs;
   const std::string near = hydro::nearest(family, families);
@@ -34,19 +32,6 @@ std::vector<Pair> neighbour_pairs(const Record& record, const Located<std::strin
       fmt::format("names no neighbours: \"{}\" {}", family, known ? "has one copy only" : "is not a body with copies"),
       near.empty() || known ? "give the body copies = { count = 2, step = \"(13, 0, 0) m\" }"
                             : fmt::format("did you mean \"{}{}\"?", neighbours, near));
-}
-
-std::vector<Pair> read_between(const Record& record, const std::vector<Body>& bodies) {
-  const auto& texts = record["between"].texts;
-  if (texts.size() == 1 && texts[0].value.starts_with(neighbours)) return neighbour_pairs(record, texts[0], bodies);
-  if (texts.size() != 2)
-    throw record.wrong("between", "does not name two ends",
-                       "write [\"a\", \"b\"], [\"a\", \"ground\"] or \"neighbours of m\"");
-  if (texts[0].value == "ground")
-    throw record.wrong("between", "begins with the ground", "write the body first, then \"ground\"");
-  const int first = body_named(record, texts[0], bodies);
-  if (texts[1].value == "ground") return {{first, std::nullopt}};
-  return {{first, body_named(record, texts[1], bodies)}};
 }
 
 Eigen::Vector3d vector_or_zero(const Record& record, std::string_view key) {
@@ -147,6 +132,20 @@ std::vector<std::string> Names::of(const Record& record, std::size_t count) {
   return out;
 }
 
+std::vector<Between> read_between(const Record& record, const std::vector<Body>& bodies, GroundFirst ground_first) {
+  const auto& texts = record["between"].texts;
+  if (texts.size() == 1 && texts[0].value.starts_with(neighbours)) return neighbour_pairs(record, texts[0], bodies);
+  if (texts.size() != 2)
+    throw record.wrong("between", "does not name two ends",
+                       "write [\"a\", \"b\"], [\"a\", \"ground\"] or \"neighbours of m\"");
+  if (texts[0].value == "ground" && ground_first == GroundFirst::refused)
+    throw record.wrong("between", "begins with the ground", "write the body first, then \"ground\"");
+  const auto end = [&](const Located<std::string>& name) {
+    return name.value == "ground" ? std::nullopt : std::optional<int>(body_named(record, name, bodies));
+  };
+  return {{end(texts[0]), end(texts[1])}};
+}
+
 int body_named(const Record& record, const Located<std::string>& name, const std::vector<Body>& bodies) {
   std::vector<std::string> known{"ground"};
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -173,24 +172,6 @@ std::vector<int> bodies_on(const Record& record, std::string_view key, const std
   return out;
 }
 
-void build_members(const Record& root, Names& names, Scene& scene) {
-  for (const Record& record : root.tables("member")) {
-    const auto& from = record["from"].points.front();
-    const auto& to = record["to"].points.front();
-    if (from.size() != to.size())
-      throw record.wrong("to", fmt::format("stands for {} points and from for {}", to.size(), from.size()),
-                         "use as many ± in one as in the other");
-    for (std::size_t k = 0; k < from.size(); ++k)
-      if (from[k] == to[k]) throw record.wrong("to", "is the same point as from", "a member has a length");
-    const auto on = bodies_on(record, "on", scene.bodies);
-    const auto name = names.of(record, on.size() * from.size());
-    for (std::size_t b = 0, n = 0; b < on.size(); ++b)
-      for (std::size_t k = 0; k < from.size(); ++k, ++n)
-        scene.members.push_back(
-            {name[n], on[b], from[k], to[k], record.si("diameter"), record.table("drag").si("cd"), record.place()});
-  }
-}
-
 void build_moorings(const Record& root, Names& names, Scene& scene) {
   for (const Record& record : root.tables("mooring")) {
     const Matrix6 stiffness = read_matrix(record, "stiffness"), damping = read_matrix(record, "damping");
@@ -204,7 +185,7 @@ void build_moorings(const Record& root, Names& names, Scene& scene) {
 
 void build_connectors(const Record& root, Names& names, Scene& scene) {
   for (const Record& record : root.tables("connector")) {
-    const auto pairs = read_between(record, scene.bodies);
+    const auto pairs = read_between(record, scene.bodies, GroundFirst::refused);
     if (pairs.front().second == pairs.front().first)
       throw record.wrong("between", "joins a body to itself", "name two bodies, or a body and the ground");
     const auto& ends = record["ends"].points;
@@ -213,7 +194,7 @@ void build_connectors(const Record& root, Names& names, Scene& scene) {
     for (std::size_t p = 0, n = 0; p < pairs.size(); ++p)
       for (std::size_t k = 0; k < ends[0].size(); ++k, ++n) {
         scene.connectors.push_back(
-            {name[n], pairs[p].first, pairs[p].second, ends[0][k], ends[1][k], kind, record.place()});
+            {name[n], *pairs[p].first, pairs[p].second, ends[0][k], ends[1][k], kind, record.place()});
         check_apart(record, scene.connectors.back(), scene.bodies);
       }
   }

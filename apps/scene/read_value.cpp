@@ -53,6 +53,8 @@ std::string what_is_needed(const Key& key) {
       return "a point";
     case Holds::ends:
       return "a list of two points";
+    case Holds::direction:
+      return "a direction";
     case Holds::range:
       return "a range of values";
     case Holds::table:
@@ -132,6 +134,21 @@ void read_ends(const Site& at, Value& value) {
   if (value.points[0].size() != value.points[1].size())
     at.refuse(fmt::format("stands for {} and {} points", value.points[0].size(), value.points[1].size()),
               "use as many ± on one end as on the other");
+}
+
+Eigen::Vector3d read_direction(const Site& at) {
+  if (!at.node.is(Node::Type::text)) refuse_type(at);
+  const auto& words = at.key.words;
+  const auto word = std::find(words.begin(), words.end(), at.node.text);
+  if (word != words.end()) return Eigen::Vector3d::Unit(word - words.begin());
+  Eigen::Vector3d out;
+  try {
+    out = hydro::parse_vector(at.node.text, hydro::dim::none);
+  } catch (const InputError& why) {
+    at.refuse(why, "write \"x\", \"y\", \"z\", or a vector like \"(1, 0, 1)\"");
+  }
+  if (out.norm() == 0) at.refuse("has no direction", "give one component that is not zero");
+  return out;
 }
 
 void read_range(const Site& at, Value& value) {
@@ -214,6 +231,9 @@ Value read_value(const Node& node, const Key& key, const std::string& title) {
       break;
     case Holds::ends:
       read_ends(at, value);
+      break;
+    case Holds::direction:
+      value.points.push_back({read_direction(at)});
       break;
     case Holds::range:
       read_range(at, value);
@@ -298,6 +318,8 @@ std::string example(const Key& key) {
     case Holds::vector:
     case Holds::points:
       return fmt::format("{} = \"(0, 0, 1.31) {}\"", key.name, unit);
+    case Holds::direction:
+      return fmt::format("{} = \"y\"", key.name);
     case Holds::ends:
       return fmt::format("{} = [\"(6, ±5, 0) m\", \"(-6, ±5, 0) m\"]", key.name);
     case Holds::range:

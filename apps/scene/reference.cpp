@@ -36,6 +36,8 @@ std::string form_of(const Key& key) {
       return "vector with ±, " + unit;
     case Holds::ends:
       return "list of two vectors with ±, " + unit;
+    case Holds::direction:
+      return listed + ", or a vector without unit";
     case Holds::range:
       return "range, " + unit;
     case Holds::table:

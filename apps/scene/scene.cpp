@@ -169,6 +169,7 @@ Scene parse(std::string_view text, const std::filesystem::path& file) {
   build_members(root, names, scene);
   build_moorings(root, names, scene);
   build_connectors(root, names, scene);
+  build_joints(root, names, scene);
   check_bodies(root, scene);
   build_ask(root.table("ask"), scene);
   scene.solve = build_solve(root.table("solve"));

@@ -180,12 +180,32 @@ struct Body {
   Place place;
 };
 
-/// `[[member]]`: a slender cylinder fixed to a body, which feels quadratic drag.
+/// `[member.morison]`: loads on the member at its true position.
+struct Morison {
+  double cd, ca;             ///< across the axis
+  double cd_tangential = 0;  ///< of the skin
+  bool partial = false;      ///< only the part under water is loaded
+  bool still = false;        ///< with `partial`: under still water, whatever the waves
+  std::optional<int> pieces = {};
+};
+
+/// `[member.slamming]`.
+struct Slamming {
+  enum class Model { goda, wienke, von_karman } model;
+  enum class Begins { underside, line, submerged } begins;
+  double factor;
+  std::optional<int> pieces;
+};
+
+/// `[[member]]`: a slender cylinder fixed to a body. What is named acts on it.
 struct Member {
   std::string name;
   int body;                  ///< index into Scene::bodies
   Eigen::Vector3d from, to;  ///< body axes, m
-  double diameter, cd;
+  double diameter;
+  std::optional<double> cd;  ///< of `[member.drag]`: quadratic drag as it is at rest
+  std::optional<Morison> morison;
+  std::optional<Slamming> slamming;
   Place place;
 };
 
@@ -213,6 +233,24 @@ struct Connector {
   std::optional<int> second;              ///< index of a body; empty: the ground
   Eigen::Vector3d first_end, second_end;  ///< body axes; global axes for the ground
   std::variant<AxialConnector, BushingConnector> kind;
+  Place place;
+};
+
+/// Friction of a hinge, N m, or of a slider, N.
+struct JointFriction {
+  double breakaway, sliding;
+};
+
+enum class JointKind { fixed, hinge, universal, ball, slider, planar };
+
+/// `[[joint]]`: described where the bodies are at rest.
+struct Joint {
+  std::string name;  ///< "joint1" … unless named; repeated ones get a number
+  JointKind kind;
+  std::optional<int> first, second;  ///< indices of bodies; one may be empty: the ground
+  Eigen::Vector3d at;                ///< global, m
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX(), second_axis = Eigen::Vector3d::UnitY();  ///< global, any length
+  std::optional<JointFriction> friction = {};
   Place place;
 };
 
@@ -261,6 +299,7 @@ struct Scene {
   std::vector<Member> members;
   std::vector<Mooring> moorings;
   std::vector<Connector> connectors;
+  std::vector<Joint> joints;
   std::optional<AskRao> rao;
   std::optional<AskModes> ask_modes;
   std::optional<AskRun> run;

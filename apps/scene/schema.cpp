@@ -40,6 +40,9 @@ Key points(std::string name, std::string meaning) {
 Key ends(std::string name, std::string meaning) {
   return {.name = std::move(name), .holds = Holds::ends, .dimension = dim::length, .meaning = std::move(meaning)};
 }
+Key direction(std::string name, std::string meaning) {
+  return {.name = std::move(name), .holds = Holds::direction, .meaning = std::move(meaning), .words = {"x", "y", "z"}};
+}
 Key range(std::string name, const hydro::Dimension& dimension, std::string meaning) {
   return {.name = std::move(name), .holds = Holds::range, .dimension = dimension, .meaning = std::move(meaning)};
 }

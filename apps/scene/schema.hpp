@@ -20,14 +20,15 @@ enum class Holds {
   texts,   ///< "…" or ["…", "…"]; each one of Key::words if there are any
   number,  ///< without dimension
   integer,
-  effect,    ///< true; there is no false, because what is not named does not act
-  quantity,  ///< "29.3 kN/m", or one of Key::words
-  vector,    ///< "(0, 0, 1.31) m"
-  points,    ///< "(±6, ±5, 0) m": a vector, or several by ±
-  ends,      ///< a list of two `points`
-  range,     ///< "2 s .. 8 s, 61 values"
-  table,     ///< [header] or { … }
-  tables     ///< [[header]], any number
+  effect,     ///< true; there is no false, because what is not named does not act
+  quantity,   ///< "29.3 kN/m", or one of Key::words
+  vector,     ///< "(0, 0, 1.31) m"
+  points,     ///< "(±6, ±5, 0) m": a vector, or several by ±
+  ends,       ///< a list of two `points`
+  direction,  ///< "x", "y", "z", or "(1, 0, 1)" of any length but zero
+  range,      ///< "2 s .. 8 s, 61 values"
+  table,      ///< [header] or { … }
+  tables      ///< [[header]], any number
 };
 
 /// The bound that a number or each component of a vector must keep; in the unit of the key, SI.
@@ -92,6 +93,7 @@ Key quantity(std::string name, const hydro::Dimension& dimension, std::string me
 Key vector(std::string name, const hydro::Dimension& dimension, std::string meaning);
 Key points(std::string name, std::string meaning);
 Key ends(std::string name, std::string meaning);
+Key direction(std::string name, std::string meaning);
 Key range(std::string name, const hydro::Dimension& dimension, std::string meaning);
 Key inner_table(std::string name, const Table& inner);
 Key inner_tables(std::string name, const Table& inner);

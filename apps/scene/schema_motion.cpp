@@ -2,6 +2,8 @@
 #include "hydro/base/types.hpp"
 #include "hydro/potential/check.hpp"
 #include "scene/schema.hpp"
+#include "scene/schema_joint.hpp"
+#include "scene/schema_members.hpp"
 #include "scene/schema_waves.hpp"
 
 namespace froude::scene {
@@ -251,25 +253,6 @@ const Table& body() {
   return table;
 }
 
-const Table& drag() {
-  static const Table table{.title = "[member.drag]",
-                           .meaning = "½ ρ cd D ‖u‖ u per length, of the flow across the member",
-                           .keys = {number("cd", "drag coefficient").positive()}};
-  return table;
-}
-
-const Table& member() {
-  static const Table table{
-      .title = "[[member]]",
-      .meaning = "a slender cylinder fixed to a body, which feels drag",
-      .keys = {name_key("member", "of the member"),
-               texts("on", "bodies that carry it, by name; * stands for any characters"),
-               points("from", "one end, body axes; each ± makes two members"),
-               points("to", "other end, body axes; as many as `from`, taken in pairs"),
-               quantity("diameter", dim::length, "of the member").positive(), inner_table("drag", drag())}};
-  return table;
-}
-
 const Table& mooring_stiffness() {
   static const Table table = at_least_one_of("[mooring.stiffness]", "about the body's origin, at rest; symmetric",
                                              keys_of_matrix(dim::stiffness, "displacement"));
@@ -416,9 +399,10 @@ const Table& motion_schema() {
       .keys = {integer("schema", "version of this grammar, 1"), text("title", "for people").optional(),
                inner_table("water", water()), inner_table("waves", waves_table()).optional(),
                inner_table("current", current_table()).optional(), inner_tables("body", body()).optional(),
-               inner_tables("probe", probe_table()).optional(), inner_tables("member", member()).optional(),
+               inner_tables("probe", probe_table()).optional(), inner_tables("member", member_table()).optional(),
                inner_tables("mooring", mooring()).optional(), inner_tables("connector", connector()).optional(),
-               inner_table("ask", ask()), inner_table("solve", solve()).or_default("", "see its keys")}};
+               inner_tables("joint", joint_table()).optional(), inner_table("ask", ask()),
+               inner_table("solve", solve()).or_default("", "see its keys")}};
   return table;
 }
 

@@ -49,7 +49,7 @@ inline void expect_true_jacobians(const ForceKind& kind, const State& state, dyn
   for (Eigen::Index i = 0; i < n; ++i) {
     const Eigen::VectorXd d = e * Eigen::VectorXd::Unit(n, i);
     by_q.col(i) =
-        (load(kind, support::moved(state, d), memory) - load(kind, support::moved(state, -d), memory)) / (2 * e);
+        (load(kind, dynamics::moved(state, d), memory) - load(kind, dynamics::moved(state, -d), memory)) / (2 * e);
     State plus = state, minus = state;
     plus.velocity += d;
     minus.velocity -= d;
@@ -60,13 +60,42 @@ inline void expect_true_jacobians(const ForceKind& kind, const State& state, dyn
   EXPECT_LT((v - by_v).cwiseAbs().maxCoeff(), 2e-7 * (1 + by_v.cwiseAbs().maxCoeff())) << "L5 by velocity";
 }
 
-/// L4: F·v = supplied − dissipated − d(stored)/dt, the last by central differences along the motion.
+/// vᵀM v of the kind's own mass.
+inline double mass_between_velocities(const ForceKind& kind, const State& state) {
+  Eigen::VectorXd momentum = Eigen::VectorXd::Zero(state.velocity.size());
+  dynamics::MassSink sink(state.velocity, momentum);
+  kind.add_mass(state, sink);
+  return momentum.dot(state.velocity);
+}
+
+/// Both ways of asking for the mass agree, and it is symmetric and never negative.
+inline void expect_true_mass(const ForceKind& kind, const State& state) {
+  dynamics::BlockPattern pattern(static_cast<int>(state.pose.size()));
+  kind.couple(pattern);
+  pattern.freeze();
+  dynamics::BlockMatrix matrix(pattern);
+  dynamics::MassSink sink(matrix, 2);
+  kind.add_mass(state, sink);
+  const Eigen::MatrixXd M = matrix.dense() / 2;
+  const double size = 1 + M.cwiseAbs().maxCoeff();
+  EXPECT_LT((M - M.transpose()).cwiseAbs().maxCoeff(), 1e-12 * size);
+  EXPECT_NEAR(state.velocity.dot(M * state.velocity), mass_between_velocities(kind, state),
+              1e-12 * size * state.velocity.squaredNorm());
+  EXPECT_GE(mass_between_velocities(kind, state), -1e-12 * size);
+}
+
+/// L4: F·v + ½ vᵀ(dM/dt)v = supplied − dissipated − d(stored)/dt, rates by central differences along the motion. What
+/// the mass itself was is asked at other times too, since water rises.
 inline void expect_energy_balance(const ForceKind& kind, const State& state, dynamics::Memory* memory) {
   constexpr double e = 1e-5;
   const auto flow = kind.energy({state, memory});
-  const State ahead = support::moved(state, e * state.velocity), behind = support::moved(state, -e * state.velocity);
+  const State ahead = dynamics::moved(state, e * state.velocity), behind = dynamics::moved(state, -e * state.velocity);
   const double stored_rate = (kind.energy({ahead, memory}).stored - kind.energy({behind, memory}).stored) / (2 * e);
-  const double power = load(kind, state, memory).dot(state.velocity);
+  State later = ahead, earlier = behind;
+  later.time += e;
+  earlier.time -= e;
+  const double mass_rate = (mass_between_velocities(kind, later) - mass_between_velocities(kind, earlier)) / (4 * e);
+  const double power = load(kind, state, memory).dot(state.velocity) + mass_rate;
   const double scale =
       std::abs(power) + std::abs(flow.supplied) + std::abs(flow.dissipated) + std::abs(stored_rate) + 1;
   EXPECT_NEAR(power, flow.supplied - flow.dissipated - stored_rate, 1e-7 * scale) << "L4";
@@ -80,6 +109,7 @@ inline void expect_force_laws(const ForceKind& kind, const std::vector<dynamics:
     expect_pure(kind, state, other, memory.get());
     expect_true_jacobians(kind, state, memory.get());
     expect_energy_balance(kind, state, memory.get());
+    expect_true_mass(kind, state);
   }
 }
 

@@ -36,14 +36,4 @@ inline dynamics::State random_state(const std::vector<dynamics::RigidBody>& bodi
   return s;
 }
 
-/// The state after every body has moved by `displacement` (translation, small global rotation).
-inline dynamics::State moved(dynamics::State s, const Eigen::VectorXd& displacement) {
-  for (std::size_t i = 0; i < s.pose.size(); ++i) {
-    const auto row = 6 * static_cast<Eigen::Index>(i);
-    s.pose[i].centre += displacement.segment<3>(row);
-    s.pose[i].attitude = (dynamics::rotation_exp(displacement.segment<3>(row + 3)) * s.pose[i].attitude).normalized();
-  }
-  return s;
-}
-
 }  // namespace support

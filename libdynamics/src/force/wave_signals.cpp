@@ -1,7 +1,8 @@
 #include "dynamics/force/wave_signals.hpp"
 
 #include <cmath>
-#include <numbers>
+
+#include "dynamics/force/ramped_field.hpp"
 
 namespace dynamics {
 
@@ -13,21 +14,17 @@ WaveSignals::WaveSignals(std::vector<double> omega, Eigen::MatrixXcd amplitudes,
       step_(step),
       ramp_(ramp_s) {}
 
-double WaveSignals::ramp(double t) const {
-  if (t >= ramp_) return 1;
-  return t <= 0 ? 0 : 0.5 * (1 - std::cos(std::numbers::pi * t / ramp_));
-}
-
 Eigen::VectorXd WaveSignals::at(double t) const {
+  const double grown = ramp(t, ramp_).value;
   const double sample = t / step_, whole = std::round(sample);
   // Times of whole steps are products n·h, so they differ from the grid by round-off only.
   if (std::abs(sample - whole) < 1e-9 * (1 + std::abs(whole)) && whole >= 0 &&
       whole < static_cast<double>(table_.cols()))
-    return ramp(t) * table_.col(static_cast<Eigen::Index>(whole));
+    return grown * table_.col(static_cast<Eigen::Index>(whole));
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(amplitudes_.rows());
   for (std::size_t c = 0; c < omega_.size(); ++c)
     sum += (amplitudes_.col(static_cast<Eigen::Index>(c)) * std::polar(1.0, omega_[c] * t)).real();
-  return ramp(t) * sum;
+  return grown * sum;
 }
 
 }  // namespace dynamics

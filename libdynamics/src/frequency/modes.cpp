@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "reduction.hpp"
 #include "scatter.hpp"
 
 namespace dynamics::frequency {
@@ -18,18 +19,17 @@ constexpr double slowest = 1e-6;  // rad/s: two months
 /// Matrices of the free motions.
 class FreeMotions {
  public:
-  FreeMotions(const Model& model, const std::vector<PotentialGroup>& groups) : groups_(groups), size_(model.modes()) {
-    for (int m = 0; m < model.modes(); ++m)
-      if (model.is_free(m)) free_.push_back(m);
-    const Model::Linear linear = model.linear_at_rest();
+  FreeMotions(const Model& model, const std::vector<PotentialGroup>& groups, const Model::Linear& linear)
+      : groups_(groups), size_(model.modes()), reduction_(model, linear) {
     stiffness_ = reduced(linear.stiffness);
     damping_ = reduced(linear.damping);
     mass_ = reduced(model.dry_mass_at_rest());
-    for (const int m : free_) gyration_.push_back(radius_of_gyration(model, m));
+    gyration_.resize(size_);
+    for (int m = 0; m < model.modes(); ++m) gyration_[m] = radius_of_gyration(model, m);
     scale_ = mass_.diagonal().cwiseSqrt().cwiseInverse();
   }
 
-  Eigen::Index count() const { return static_cast<Eigen::Index>(free_.size()); }
+  Eigen::Index count() const { return reduction_.count(); }
   const Eigen::MatrixXd& stiffness() const { return stiffness_; }
   /// A matrix in motions x/scale, in which all dry masses are one; and a motion back from there.
   Eigen::MatrixXd scaled(const Eigen::MatrixXd& m) const { return scale_.asDiagonal() * m * scale_.asDiagonal(); }
@@ -70,12 +70,9 @@ class FreeMotions {
   template <class Vector>
   Vector shape(const Vector& x) const {
     Eigen::Index largest = 0;
-    Vector weighted = x;
-    for (Eigen::Index i = 0; i < x.size(); ++i) weighted[i] *= gyration_[static_cast<std::size_t>(i)];
-    weighted.cwiseAbs().maxCoeff(&largest);
-    Vector out = Vector::Zero(size_);
-    for (Eigen::Index i = 0; i < x.size(); ++i) out[free_[static_cast<std::size_t>(i)]] = x[i] / weighted[largest];
-    return out;
+    const Vector out = reduction_.expanded(x);
+    gyration_.cwiseProduct(out.cwiseAbs()).maxCoeff(&largest);
+    return out / (gyration_[largest] * out[largest]);
   }
 
  private:
@@ -90,7 +87,7 @@ class FreeMotions {
 
   /// Symmetric: K, M and A of a system at rest are, but for the discretisation error of panel codes.
   Eigen::MatrixXd reduced(const Eigen::MatrixXd& whole) const {
-    const Eigen::MatrixXd m = whole(free_, free_);
+    const Eigen::MatrixXd m = reduction_.matrix(whole);
     return (m + m.transpose()) / 2;
   }
 
@@ -104,8 +101,8 @@ class FreeMotions {
 
   const std::vector<PotentialGroup>& groups_;
   Eigen::Index size_;
-  std::vector<int> free_;
-  std::vector<double> gyration_;
+  Reduction reduction_;
+  Eigen::VectorXd gyration_;  // one a mode of the model
   Eigen::VectorXd scale_;
   Eigen::MatrixXd stiffness_, damping_, mass_;
 };
@@ -201,7 +198,7 @@ Eigen::VectorXd Mode::energy_share(const Model& model) const {
 }
 
 ModeList free_motions(const Model& model, const std::vector<PotentialGroup>& groups) {
-  const FreeMotions system(model, groups);
+  const FreeMotions system(model, groups, model.linear_at_rest());
   ModeList out;
   if (system.count() == 0) return out;
   add_unrestored(system, out);

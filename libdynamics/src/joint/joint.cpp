@@ -89,7 +89,7 @@ JointSet::JointSet(const std::vector<RigidBody>& bodies, std::vector<Joint> join
     const Eigen::Vector3d first = bodies[static_cast<std::size_t>(joint.first)].rest_centre();
     const Eigen::Vector3d second =
         joint.second ? bodies[static_cast<std::size_t>(*joint.second)].rest_centre() : Eigen::Vector3d::Zero();
-    place_in_first_.push_back(joint.place - first);
+    place_in_.push_back({joint.place - first, joint.place - second});
     for (auto& what : conditions_of(joint, first, second))
       conditions_.push_back({static_cast<int>(j), joint.first, joint.second, std::move(what)});
   }
@@ -180,20 +180,123 @@ Eigen::VectorXd JointSet::convective(const State& state) const {
   return out;
 }
 
-Vector6 JointSet::load_on_first(int joint, const State& state, const Eigen::VectorXd& lambda) const {
-  const auto body = static_cast<std::size_t>(joints_[static_cast<std::size_t>(joint)].first);
-  const Eigen::Matrix3d R = state.pose[body].attitude.toRotationMatrix();
-  const Eigen::Vector3d arm = R * place_in_first_[static_cast<std::size_t>(joint)];
+namespace {
+
+/// Rows of one end in the gradient or curvature of a condition: the first six or the last.
+constexpr int row_of(End end) { return end == End::first ? 0 : 6; }
+
+Vector6 part_of(const Gradient& g, End end) { return end == End::first ? g.first : g.second; }
+
+/// A load about the centre of gravity, carried to a point `arm` from there.
+void carry(const Eigen::Vector3d& arm, Eigen::Ref<Eigen::MatrixXd> load) {
+  load.bottomRows<3>() -= cross_matrix(arm) * load.topRows<3>();
+}
+
+}  // namespace
+
+Vector6 JointSet::load_on(int joint, End end, const State& state, const Eigen::VectorXd& lambda) const {
+  const Joint& j = joints_[static_cast<std::size_t>(joint)];
+  const auto body = static_cast<std::size_t>(end == End::first ? j.first : j.second.value());
+  const Eigen::Matrix3d to_body = state.pose[body].attitude.toRotationMatrix().transpose();
   Vector6 load = Vector6::Zero();
   for (std::size_t i = 0; i < conditions_.size(); ++i) {
     const Condition& c = conditions_[i];
-    if (c.joint == joint)
-      load -= lambda[static_cast<Eigen::Index>(i)] *
-              std::visit([&](const auto& what) { return gradient(what, ends_of(c, state)); }, c.what).first;
+    if (c.joint != joint) continue;
+    const Gradient g = std::visit([&](const auto& what) { return gradient(what, ends_of(c, state)); }, c.what);
+    load -= lambda[static_cast<Eigen::Index>(i)] * part_of(g, end);
   }
-  Vector6 out;
-  out << R.transpose() * load.head<3>(), R.transpose() * (load.tail<3>() - arm.cross(load.head<3>()));
+  Eigen::MatrixXd out(6, 1);
+  out << to_body * load.head<3>(), to_body * load.tail<3>();
+  carry(place_in_[static_cast<std::size_t>(joint)][end == End::first ? 0 : 1], out);
   return out;
+}
+
+// Body axes turn with the body: δ(Rᵀf) = δf − θ × f where R is one (D17).
+JointSet::LoadVariation JointSet::load_variation(int joint, End end, const State& rest,
+                                                 const Eigen::VectorXd& lambda) const {
+  const Joint& j = joints_[static_cast<std::size_t>(joint)];
+  const int body = end == End::first ? j.first : j.second.value();
+  LoadVariation out{Eigen::MatrixXd::Zero(6, 6 * static_cast<Eigen::Index>(free_.size())),
+                    Eigen::MatrixXd::Zero(6, count())};
+  for (std::size_t i = 0; i < conditions_.size(); ++i) {
+    const Condition& c = conditions_[i];
+    if (c.joint != joint) continue;
+    const auto index = static_cast<Eigen::Index>(i);
+    const ConditionEnds at = ends_of(c, rest);
+    const Vector6 p = part_of(std::visit([&](const auto& what) { return gradient(what, at); }, c.what), end);
+    const Matrix12 H = std::visit([&](const auto& what) { return curvature(what, at); }, c.what);
+    out.by_multiplier.col(index) -= p;
+    out.by_motion.middleCols<6>(6 * c.first) -= lambda[index] * H.block<6, 6>(row_of(end), 0);
+    if (c.second) out.by_motion.middleCols<6>(6 * *c.second) -= lambda[index] * H.block<6, 6>(row_of(end), 6);
+    out.by_motion.block<3, 3>(0, 6 * body + 3) -= lambda[index] * cross_matrix(p.head<3>());
+    out.by_motion.block<3, 3>(3, 6 * body + 3) -= lambda[index] * cross_matrix(p.tail<3>());
+  }
+  const Eigen::Vector3d arm = place_in_[static_cast<std::size_t>(joint)][end == End::first ? 0 : 1];
+  carry(arm, out.by_motion);
+  carry(arm, out.by_multiplier);
+  return out;
+}
+
+namespace {
+
+/// The frame of a joint and its place in both bodies, as they are in a state.
+struct TravelFrame {
+  ConditionEnds at;
+  PointCondition along;  // of a slider
+  Eigen::Matrix3d frame;
+
+  TravelFrame(const Joint& joint, const std::array<Eigen::Vector3d, 2>& place, const State& state)
+      : frame(frame_of(joint)) {
+    hydro::ensure(joint.kind == JointKind::slider || joint.kind == JointKind::hinge,
+                  "travel of a joint that is neither slider nor hinge");
+    along = {place[0], place[1], frame.col(0), true};
+    at = ends_of({0, joint.first, joint.second, along}, state);
+  }
+  Eigen::Vector3d axis() const { return at.first * frame.col(0); }
+};
+
+}  // namespace
+
+double JointSet::travel(int joint, const State& state) const {
+  const auto index = static_cast<std::size_t>(joint);
+  const TravelFrame f(joints_[index], place_in_[index], state);
+  if (joints_[index].kind == JointKind::slider) return value(f.along, f.at);
+  const Eigen::Vector3d y = f.at.second * f.frame.col(1);  // seen from the first body
+  return std::atan2(y.dot(f.at.first * f.frame.col(2)), y.dot(f.at.first * f.frame.col(1)));
+}
+
+Gradient JointSet::travel_gradient(int joint, const State& state) const {
+  const auto index = static_cast<std::size_t>(joint);
+  const TravelFrame f(joints_[index], place_in_[index], state);
+  if (joints_[index].kind == JointKind::slider) return gradient(f.along, f.at);
+  Gradient out;
+  out.first << Eigen::Vector3d::Zero(), -f.axis();
+  out.second << Eigen::Vector3d::Zero(), f.axis();
+  return out;
+}
+
+Matrix12 JointSet::travel_curvature(int joint, const State& state) const {
+  const auto index = static_cast<std::size_t>(joint);
+  const TravelFrame f(joints_[index], place_in_[index], state);
+  if (joints_[index].kind == JointKind::slider) return curvature(f.along, f.at);
+  Matrix12 H = Matrix12::Zero();  // the axis turns with the first body: δx = θ₁ × x
+  H.block<3, 3>(3, 3) = cross_matrix(f.axis());
+  H.block<3, 3>(9, 3) = -cross_matrix(f.axis());
+  return H;
+}
+
+// A hinge: y of the first body stays across what is its z now, so that ∂g is the axis itself. A slider: the point of
+// the second body that has come to the first's place stays in the plane across the axis.
+Condition JointSet::holding(int joint, const State& state) const {
+  const auto index = static_cast<std::size_t>(joint);
+  const Joint& j = joints_[index];
+  const TravelFrame f(j, place_in_[index], state);
+  if (j.kind == JointKind::hinge)
+    return {joint, j.first, j.second,
+            AxesCondition{-f.frame.col(1), f.at.second.transpose() * (f.at.first * f.frame.col(2))}};
+  PointCondition here = f.along;
+  here.second_arm -= f.at.second.transpose() * f.axis() * value(f.along, f.at);
+  return {joint, j.first, j.second, here};
 }
 
 }  // namespace dynamics

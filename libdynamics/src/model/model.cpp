@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/error.hpp"
@@ -65,9 +66,8 @@ void Model::leave_out_redundant(const Eigen::MatrixXd& mass) {
   std::vector<bool> keep;
   std::vector<int> lost(joints_.joints().size(), 0), of(joints_.joints().size(), 0);
   for (Eigen::Index i = 0; i < joints_.count(); ++i) {
-    Eigen::VectorXd one = Eigen::VectorXd::Zero(joints_.count()), row = Eigen::VectorXd::Zero(modes());
-    one[i] = 1;
-    joints_.add_transposed(G, one, row);
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(modes());
+    joints_.add_transposed(G, Eigen::VectorXd::Unit(joints_.count(), i), row);
     Eigen::VectorXd w = root.matrixL().solve(row);
     const double alone = w.norm();
     for (int twice = 0; twice < 2; ++twice) w -= basis * (basis.transpose() * w);
@@ -106,6 +106,8 @@ void Model::add_mass(const State& state, double factor, BlockMatrix& out) const 
       for (std::size_t j = 0; j < added.bodies.size(); ++j)
         out.block(added.bodies[i], added.bodies[j]) +=
             factor * added.value.block<6, 6>(6 * static_cast<Eigen::Index>(i), 6 * static_cast<Eigen::Index>(j));
+  MassSink sink(out, factor);
+  for (const auto& kind : forces_) kind->add_mass(state, sink);
 }
 
 Eigen::MatrixXd Model::dry_mass_at_rest() const {
@@ -131,6 +133,8 @@ Eigen::VectorXd Model::mass_times(const State& state, const Eigen::VectorXd& x) 
         y.segment<6>(6 * added.bodies[i]) +=
             added.value.block<6, 6>(6 * static_cast<Eigen::Index>(i), 6 * static_cast<Eigen::Index>(j)) *
             x.segment<6>(6 * added.bodies[j]);
+  MassSink sink(x, y);
+  for (const auto& kind : forces_) kind->add_mass(state, sink);
   return y;
 }
 
@@ -187,16 +191,36 @@ Model::Linear Model::linear_at_rest() const {
       if (kind->linear_at_rest()) kind->add_jacobian({rest, nullptr}, sink);
     return m.dense();
   };
-  return {assembled(0, 1), assembled(1, 0)};
+  Linear out{assembled(0, 1), assembled(1, 0), {}, {}, {}};
+  balance_at_rest(rest, out);
+  if (joints_.count() == 0) return out;
+  BlockMatrix curvature(pattern_);
+  joints_.add_curvature(rest, out.multipliers, 1, curvature);
+  out.stiffness += curvature.dense();
+  return out;
 }
 
-Eigen::VectorXd Model::load_at_rest() const {
-  const State rest = rest_state(bodies_);
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(modes());
-  LoadSink sink(load);
+// F = Gᵀλ + what is left, the least in the metric of M⁻¹, in which newtons and newton metres compare.
+void Model::balance_at_rest(const State& rest, Linear& out) const {
+  out.unbalanced = Eigen::VectorXd::Zero(modes());
+  LoadSink sink(out.unbalanced);
   for (const auto& kind : forces_)
     if (kind->linear_at_rest()) kind->add_load({rest, nullptr}, sink);
-  return load;
+  for (int m = 0; m < modes(); ++m)
+    if (!is_free(m)) out.unbalanced[m] = 0;
+  out.conditions.resize(joints_.count(), modes());
+  out.multipliers.resize(joints_.count());
+  if (joints_.count() == 0) return;
+  const auto G = joints_.gradients(rest);
+  for (Eigen::Index i = 0; i < joints_.count(); ++i) {
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(modes());
+    joints_.add_transposed(G, Eigen::VectorXd::Unit(joints_.count(), i), row);
+    out.conditions.row(i) = row;
+  }
+  const Eigen::VectorXd root = dry_mass_at_rest().diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = root.asDiagonal() * out.conditions.transpose();
+  out.multipliers = scaled.colPivHouseholderQr().solve(root.cwiseProduct(out.unbalanced));
+  out.unbalanced -= out.conditions.transpose() * out.multipliers;
 }
 
 Workspace::Workspace(const Model& model, State start)

@@ -142,7 +142,7 @@ TEST(Compile, GivesEachWaveOfASpreadSeaTheExcitationOfItsOwnHeading) {
   // symmetric, so at 45 degrees surge and sway are alike and a wrong heading would show in their difference.
   double surge = 0, sway = 0;
   const double t = 3.0;
-  for (const auto& w : model.sea->components()) {
+  for (const auto& w : model.water.sea->components()) {
     const Eigen::VectorXcd X = prepared.groups[0].table.excitation(w.omega, w.heading);
     const std::complex<double> turn = std::polar(w.amplitude, w.phase + w.omega * t);
     surge += (turn * X[0]).real();

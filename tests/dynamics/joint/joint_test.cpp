@@ -42,17 +42,6 @@ Joint joint(JointKind kind, std::optional<int> second = 1) {
 constexpr JointKind all_kinds[] = {JointKind::fixed, JointKind::hinge,  JointKind::universal,
                                    JointKind::ball,  JointKind::slider, JointKind::planar};
 
-/// Bodies carried by `move` (translation and global rotation, 12 numbers) from a state.
-State moved(const State& from, const Eigen::VectorXd& move) {
-  State out = from;
-  for (std::size_t i = 0; i < out.pose.size(); ++i) {
-    const auto row = 6 * static_cast<Eigen::Index>(i);
-    out.pose[i].centre += move.segment<3>(row);
-    out.pose[i].attitude = rotation_exp(move.segment<3>(row + 3)) * out.pose[i].attitude;
-  }
-  return out;
-}
-
 Eigen::VectorXd random_vector(Eigen::Index size, std::uint64_t seed) {
   const hydro::RandomStream random(seed, 3);
   Eigen::VectorXd out(size);

@@ -58,7 +58,7 @@ TEST(Model, TangentIsTheDerivativeOfTheResidual) {
   for (Eigen::Index i = 0; i < 12; ++i) {
     const Eigen::VectorXd d = e * Eigen::VectorXd::Unit(12, i);
     const auto at = [&](double sign) {
-      State s = support::moved(state, sign * 0.05 * d);
+      State s = dynamics::moved(state, sign * 0.05 * d);
       s.velocity += sign * 0.2 * d;
       return model.residual(s, a + sign * 0.7 * d, w);
     };

@@ -104,6 +104,17 @@ TEST(SubmergedCylinder, UnderAThinSheetOfWaterIsNotOneThatPiercesTheSurface) {
   EXPECT_LT(last, 0.1);
 }
 
+// A long wave is pressure ρgη on the top of what stands on the bed, and next to nothing on what has water all around:
+// its weight of water is pulled along by the slope. The relations of (C13) do not see the sign of a motion; this does.
+TEST(SubmergedCylinder, IsPressedDownByLongWavesIfItStandsOnTheBed) {
+  const auto X = [](std::optional<double> draught) {
+    return solve({submerged(1, 0.5, draught)}, tank(2), {0.1}, {0}, exact).coefficients.X[0](2, 0);
+  };
+  EXPECT_NEAR(X({}).real(), -9810 * pi, 0.01 * 9810 * pi);  // (ωa)²/(gh) = 5e-4, times a few
+  EXPECT_LT(std::abs(X({}).imag()), 0.02 * 9810 * pi);
+  EXPECT_LT(std::abs(X(1.0)), 0.02 * 9810 * pi);
+}
+
 // McIver & Evans (1984): a shallow one has negative added mass over some frequencies.
 TEST(SubmergedCylinder, InShallowSubmergenceHasNegativeAddedMass) {
   const auto c = solve({submerged(1, 0.1, 0.3)}, tank(4), {2.0}, {}, exact).coefficients;

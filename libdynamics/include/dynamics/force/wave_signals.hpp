@@ -21,7 +21,6 @@ class WaveSignals {
   std::size_t components() const { return omega_.size(); }
   double step() const { return step_; }
   Eigen::VectorXd at(double t) const;
-  double ramp(double t) const;
 
  private:
   std::vector<double> omega_;

@@ -59,6 +59,9 @@ struct Gradient {
   Vector6 first, second;
 };
 
+/// One of the two bodies of a joint.
+enum class End { first, second };
+
 /// All joints of a model.
 class JointSet {
  public:
@@ -86,15 +89,31 @@ class JointSet {
   void add_curvature(const State& state, const Eigen::VectorXd& lambda, double factor, BlockMatrix& out) const;
   /// Ġ v, (count): the acceleration that the conditions have without any of the bodies'.
   Eigen::VectorXd convective(const State& state) const;
-  /// Load of the joint on its first body: force and moment about the joint's place, in that body's axes, N and N m.
-  /// What redundant conditions would carry is not in it.
-  Vector6 load_on_first(int joint, const State& state, const Eigen::VectorXd& lambda) const;
+  /// Load of the joint on one of its bodies: force and moment about the joint's place in that body, in that body's
+  /// axes, N and N m. What redundant conditions would carry is not in it. The second body must not be the ground.
+  Vector6 load_on(int joint, End end, const State& state, const Eigen::VectorXd& lambda) const;
+  /// How load_on() varies about rest: with the displacements of all bodies while `lambda` acts, and with λ.
+  struct LoadVariation {
+    Eigen::MatrixXd by_motion;      ///< (6, 6N)
+    Eigen::MatrixXd by_multiplier;  ///< (6, count)
+  };
+  LoadVariation load_variation(int joint, End end, const State& rest, const Eigen::VectorXd& lambda) const;
+  /// Where the joint lets its second body (or the ground) move against the first: the travel of a slider along the
+  /// axis, m, or the angle of a hinge about it, −π … π rad. Zero at rest. For sliders and hinges only.
+  double travel(int joint, const State& state) const;
+  /// Its derivatives by the motion of both bodies, and those of that: the axis turns with the first body. (D19)
+  Gradient travel_gradient(int joint, const State& state) const;
+  Eigen::Matrix<double, 12, 12> travel_curvature(int joint, const State& state) const;
+  /// A condition that holds travel() where it is in `state`; its gradient is that of travel() there.
+  Condition holding(int joint, const State& state) const;
+  /// Adds a condition that belongs to no joint's own.
+  void add(Condition condition) { conditions_.push_back(std::move(condition)); }
 
  private:
   std::vector<Joint> joints_;
   std::vector<Condition> conditions_;
-  std::vector<Eigen::Vector3d> place_in_first_;  // from the first body's centre, body axes
-  std::vector<std::array<bool, 6>> free_;        // one a body
+  std::vector<std::array<Eigen::Vector3d, 2>> place_in_;  // from the bodies' centres, body axes; of the ground: global
+  std::vector<std::array<bool, 6>> free_;                 // one a body
 };
 
 }  // namespace dynamics

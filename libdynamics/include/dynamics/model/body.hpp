@@ -62,6 +62,9 @@ struct State {
   auto twist(int body) const { return velocity.segment<6>(6 * body); }
 };
 
+/// The state after every body has moved by `displacement` (translation and small global rotation), all else as it was.
+State moved(State state, const Eigen::VectorXd& displacement);
+
 /// Every body at rest where the model places it.
 State rest_state(const std::vector<RigidBody>& bodies);
 

@@ -23,8 +23,9 @@ struct AddedMass {
 
 class Workspace;
 
-/// The equations of motion (D8): (M(q) + A∞) a + gyro(q, v) + Gᵀλ = Σ loads(t, q, v, memory), with the modes that are
-/// not free left out, and the conditions g(q) = 0 of the joints. Integrators see nothing else.
+/// The equations of motion (D8): (M(q) + A∞ + mass of the kinds of force (D40)) a + gyro(q, v) + Gᵀλ = Σ loads(t, q, v,
+/// memory), with the modes that are not free left out, and the conditions g(q) = 0 of the joints. Integrators see
+/// nothing else.
 class Model {
  public:
   /// \throws hydro::InputError if mass plus added mass is not positive definite in the free modes, or as JointSet
@@ -45,20 +46,21 @@ class Model {
   Eigen::VectorXd residual(const State& state, const Eigen::VectorXd& acceleration, Workspace& workspace) const;
   /// ∂residual/∂a · c_a + ∂residual/∂v · c_v + ∂residual/∂q · c_q, unit rows and columns in modes that are not free.
   void tangent(const State& state, double c_a, double c_v, double c_q, Workspace& workspace, BlockMatrix& out) const;
-  /// Adds factor · (M(q) + A∞); and the product of M(q) + A∞ with x.
+  /// Adds factor · M, all of the mass in (D8); and the product of M with x.
   void add_mass(const State& state, double factor, BlockMatrix& out) const;
   Eigen::VectorXd mass_times(const State& state, const Eigen::VectorXd& x) const;
   /// Mass of the bodies alone at rest, (6N, 6N).
   Eigen::MatrixXd dry_mass_at_rest() const;
-  /// Kinetic energy of the bodies and of the water that moves with them (A∞), J.
+  /// Kinetic energy of the bodies and of the water that moves with them, J.
   double kinetic_energy(const State& state) const;
-  /// Stiffness K and damping D of all kinds that are linear at rest, there: loads ≈ −K δ − D v. (6N, 6N)
+  /// The model for small motions about rest, of the kinds that are linear there and the joints (D17).
   struct Linear {
-    Eigen::MatrixXd stiffness, damping;
+    Eigen::MatrixXd stiffness, damping;  ///< loads, joints' among them, ≈ −K δ − D v; (6N, 6N)
+    Eigen::MatrixXd conditions;          ///< G, (m, 6N): G δ = 0
+    Eigen::VectorXd multipliers;         ///< λ that carries what the loads at rest ask of the joints, (m)
+    Eigen::VectorXd unbalanced;          ///< load at rest that neither joints nor locked modes carry, (6N)
   };
   Linear linear_at_rest() const;
-  /// Net load of those kinds at rest, which a scene in equilibrium does not have.
-  Eigen::VectorXd load_at_rest() const;
   /// "m1.heave": for messages.
   std::string mode_name(int mode) const;
 
@@ -71,6 +73,7 @@ class Model {
   std::vector<std::string> redundant_;
 
   void leave_out_redundant(const Eigen::MatrixXd& mass);
+  void balance_at_rest(const State& rest, Linear& out) const;
 };
 
 /// Everything of a run that changes.

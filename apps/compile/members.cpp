@@ -1,0 +1,122 @@
+#include "compile/members.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compile/waves.hpp"
+#include "dynamics/force/drag.hpp"
+#include "dynamics/force/morison.hpp"
+#include "dynamics/force/slamming.hpp"
+#include "hydro/waves/dispersion.hpp"
+#include "hydro/waves/kinematics.hpp"
+
+namespace froude::compile {
+namespace {
+
+using hydro::InputError;
+using scene::Scene;
+
+/// The velocity of the water at each piece's place at rest, three signals a piece.
+dynamics::WaveSignals water_at_rest(const std::vector<dynamics::DragPiece>& pieces,
+                                    const std::vector<dynamics::RigidBody>& bodies, const hydro::waves::Sea& sea,
+                                    const StepGrid& grid, double ramp) {
+  Eigen::MatrixXcd amplitudes(3 * static_cast<Eigen::Index>(pieces.size()),
+                              static_cast<Eigen::Index>(sea.components().size()));
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Eigen::Vector3d at = dynamics::rest_position(pieces[i], bodies);
+    Eigen::Index column = 0;
+    for (const auto& c : sea.components())
+      amplitudes.block<3, 1>(3 * static_cast<Eigen::Index>(i), column++) =
+          elevation_at_origin(c) * hydro::waves::velocity_transfer(c, sea.water(), at);
+  }
+  return signals(sea, amplitudes, grid, ramp);
+}
+
+std::unique_ptr<const dynamics::ForceKind> drag(const Scene& scene, const std::vector<dynamics::RigidBody>& bodies,
+                                                const hydro::waves::Sea* sea, const StepGrid& grid) {
+  if (sea != nullptr && scene.waves->stretching != hydro::waves::Stretching::vertical)
+    throw InputError(
+        "[member.drag] takes the water's velocity at the places at rest, with nothing but \"vertical\" above",
+        scene.waves->place, "leave [waves.kinematics] out, or use [member.morison]");
+  std::vector<dynamics::DragPiece> pieces;
+  for (const auto& m : scene.members) {
+    if (!m.cd) continue;
+    const auto wet = dynamics::drag_pieces(bodies, m.body, m.from, m.to, m.diameter, *m.cd, scene.water.density);
+    if (wet.empty())
+      throw InputError(fmt::format("member \"{}\" is above the water at rest and feels no drag", m.name), m.place,
+                       "put it under water, or leave it out");
+    pieces.insert(pieces.end(), wet.begin(), wet.end());
+  }
+  for (auto& piece : pieces) piece.current.head<2>() = scene.current.at(dynamics::rest_position(piece, bodies).z());
+  std::optional<dynamics::WaveSignals> moving;
+  if (sea != nullptr) moving = water_at_rest(pieces, bodies, *sea, grid, scene.waves->ramp);
+  return std::make_unique<dynamics::DragKind>(std::move(pieces), std::move(moving));
+}
+
+/// (D44): pieces so short that neither the shortest relevant wave nor turning about an end is missed by more than the
+/// accuracy asked.
+int needed_pieces(const Scene& scene, double length) {
+  double pieces = std::ceil(0.5 / std::sqrt(scene.accuracy));
+  if (scene.waves) {
+    const double k = hydro::waves::wavenumber(highest_relevant_frequency(*scene.waves), scene.water);
+    pieces = std::max(pieces, std::ceil(length * k / std::sqrt(6 * scene.accuracy)));
+  }
+  return static_cast<int>(pieces);
+}
+
+dynamics::SlenderMember slender(const Scene& scene, const scene::Member& m, dynamics::Immersion immersion,
+                                const std::optional<int>& pieces) {
+  const Eigen::Vector3d centre = scene.bodies[static_cast<std::size_t>(m.body)].centre_of_gravity;
+  return {m.body,
+          m.from - centre,
+          m.to - centre,
+          m.diameter,
+          pieces ? *pieces : needed_pieces(scene, (m.to - m.from).norm()),
+          immersion};
+}
+
+dynamics::MorisonMember morison(const Scene& scene, const scene::Member& m) {
+  using enum dynamics::Immersion;
+  const scene::Morison& load = *m.morison;
+  const double height = scene.bodies[static_cast<std::size_t>(m.body)].position.z();
+  if (!load.partial && height + std::max(m.from.z(), m.to.z()) > 0)
+    throw InputError(
+        fmt::format("member \"{}\" reaches above still water, but would be loaded as if all of it were wet", m.name),
+        m.place, "add partial_immersion = true to its morison, or end the member at still water");
+  const auto immersion = !load.partial ? whole : load.still ? still_water : surface;
+  return {slender(scene, m, immersion, load.pieces), load.cd, load.ca, load.cd_tangential};
+}
+
+dynamics::SlammingMember slamming(const Scene& scene, const scene::Member& m) {
+  using enum hydro::waves::ImpactTheory;
+  using Model = scene::Slamming::Model;
+  using Begins = scene::Slamming::Begins;
+  const scene::Slamming& s = *m.slamming;
+  const auto theory = s.model == Model::goda ? goda : s.model == Model::wienke ? wienke_oumeraci : von_karman;
+  const auto begins = s.begins == Begins::underside ? dynamics::ImpactBegins::underside
+                      : s.begins == Begins::line    ? dynamics::ImpactBegins::line
+                                                    : dynamics::ImpactBegins::submerged;
+  return {slender(scene, m, dynamics::Immersion::surface, s.pieces), theory, begins, s.factor};
+}
+
+}  // namespace
+
+bool any_drag_at_rest(const Scene& scene) {
+  return std::any_of(scene.members.begin(), scene.members.end(), [](const auto& m) { return m.cd.has_value(); });
+}
+
+void add_members(const Scene& scene, const std::vector<dynamics::RigidBody>& bodies, const RunWater& water,
+                 const StepGrid& grid, std::vector<std::unique_ptr<const dynamics::ForceKind>>& forces) {
+  if (any_drag_at_rest(scene)) forces.push_back(drag(scene, bodies, water.sea ? &*water.sea : nullptr, grid));
+  std::vector<dynamics::MorisonMember> moving;
+  std::vector<dynamics::SlammingMember> struck;
+  for (const auto& m : scene.members) {
+    if (m.morison) moving.push_back(morison(scene, m));
+    if (m.slamming) struck.push_back(slamming(scene, m));
+  }
+  if (!moving.empty()) forces.push_back(std::make_unique<dynamics::MorisonKind>(std::move(moving), water.field));
+  if (!struck.empty())
+    forces.push_back(std::make_unique<dynamics::SlammingKind>(std::move(struck), water.field, grid.step));
+}
+
+}  // namespace froude::compile

@@ -1,0 +1,15 @@
+#pragma once
+/// \file  Private to compile/: loads on slender members.
+#include "compile/compile.hpp"
+#include "compile/signals.hpp"
+
+namespace froude::compile {
+
+/// True if a member names drag at its place at rest.
+bool any_drag_at_rest(const scene::Scene& scene);
+
+/// Adds the kinds of load that members name. \throws hydro::InputError at a member that is dry where it must be wet
+void add_members(const scene::Scene& scene, const std::vector<dynamics::RigidBody>& bodies, const RunWater& water,
+                 const StepGrid& grid, std::vector<std::unique_ptr<const dynamics::ForceKind>>& forces);
+
+}  // namespace froude::compile

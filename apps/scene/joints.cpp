@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+
+#include "scene/build.hpp"
+
+namespace froude::scene {
+namespace {
+
+JointKind kind_of(const std::string& word) {
+  using enum JointKind;
+  static const std::map<std::string, JointKind, std::less<>> kinds{{"fixed", fixed},         {"hinge", hinge},
+                                                                   {"universal", universal}, {"ball", ball},
+                                                                   {"slider", slider},       {"planar", planar}};
+  return kinds.at(word);
+}
+
+void read_axes(const Record& record, Joint& joint) {
+  if (record.has("axis")) joint.axis = record.vector("axis");
+  if (!record.has("second_axis")) return;
+  joint.second_axis = record.vector("second_axis");
+  const double leaning = joint.axis.normalized().dot(joint.second_axis.normalized());
+  if (std::abs(leaning) > 1e-9)  // round-off of two unit vectors
+    throw record.wrong("second_axis",
+                       fmt::format("is {:.4g} degrees off a right angle with axis",
+                                   std::asin(std::abs(leaning)) * 180 / 3.14159265358979324),
+                       "the two axes of a universal joint are across each other");
+}
+
+std::optional<JointFriction> read_friction(const Record& record) {
+  if (!record.has("friction")) return std::nullopt;
+  const Record& friction = record.table("friction");
+  const double sliding = friction.si("dynamic");
+  if (!friction.has("static")) return JointFriction{sliding, sliding};
+  if (friction.si("static") < sliding)
+    throw friction.wrong("static", "is below the dynamic level", "what sticks holds at least as much as what slips");
+  return JointFriction{friction.si("static"), sliding};
+}
+
+/// Held modes of a body are held for its own sake, not by joints: a joint that asks it to leave its place holds it
+/// fast.
+void check_may_turn(const Record& record, const Joint& joint, const std::vector<Body>& bodies) {
+  for (const std::optional<int> index : {joint.first, joint.second}) {
+    if (!index) continue;
+    const Body& body = bodies[static_cast<std::size_t>(*index)];
+    const bool turns = body.free[3] || body.free[4] || body.free[5];
+    const bool moves = body.free[0] || body.free[1] || body.free[2];
+    const Eigen::Vector3d arm = joint.at - body.position - body.centre_of_gravity;
+    if (turns && !moves && arm.norm() > 1e-9)
+      throw record.refused(
+          fmt::format("joins \"{}\", which may turn about its centre of gravity only, {:.4g} m from the joint",
+                      body.name, arm.norm()),
+          "a joint holds what it holds; free the translations of the body that turning about the joint needs");
+  }
+}
+
+}  // namespace
+
+void build_joints(const Record& root, Names& names, Scene& scene) {
+  for (const Record& record : root.tables("joint")) {
+    const auto pairs = read_between(record, scene.bodies, GroundFirst::allowed);
+    const auto name = names.of(record, pairs.size());
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+      if (pairs[p].first == pairs[p].second)
+        throw record.wrong("between", "joins one thing to itself", "name two bodies, or a body and the ground");
+      Joint joint{.name = name[p],
+                  .kind = kind_of(record.text("kind")),
+                  .first = pairs[p].first,
+                  .second = pairs[p].second,
+                  .at = record.vector("at"),
+                  .place = record.place()};
+      if (p > 0)
+        joint.at += scene.bodies[static_cast<std::size_t>(*pairs[p].first)].position -
+                    scene.bodies[static_cast<std::size_t>(*pairs.front().first)].position;
+      read_axes(record, joint);
+      joint.friction = read_friction(record);
+      check_may_turn(record, joint, scene.bodies);
+      scene.joints.push_back(std::move(joint));
+    }
+  }
+}
+
+}  // namespace froude::scene

@@ -1,0 +1,72 @@
+#pragma once
+/// \file  Slender members at their true position in waves: where they are wet, and how that changes. (D42), (D43)
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "dynamics/model/body.hpp"
+#include "hydro/waves/field.hpp"
+
+namespace dynamics {
+
+/// Which part of a member is taken as wet.
+enum class Immersion {
+  whole,        ///< all of it, always: members that stay under water
+  still_water,  ///< what is below z = 0
+  surface       ///< what is below the waves, at each instant
+};
+
+/// A straight circular cylinder fixed to a body, cut into pieces of equal length.
+struct SlenderMember {
+  int body;
+  Eigen::Vector3d from, to;  ///< its ends from the body's centre of gravity, body axes, m
+  double diameter;           ///< m
+  int pieces;                ///< at least 1
+  Immersion immersion;
+};
+
+/// A member where its body has it now, global axes.
+struct PlacedMember {
+  Eigen::Vector3d centre;       ///< the body's centre of gravity
+  Eigen::Vector3d from, along;  ///< arm of the first end, and from there to the second
+  Eigen::Vector3d axis;         ///< unit vector along it
+  Eigen::Vector3d velocity, omega;
+  double length;
+  double
+      rise;  ///< h: height of the cylinder's own surface across its axis, from lowest to highest point of a section, m
+
+  Eigen::Vector3d arm(double fraction) const { return from + fraction * along; }
+};
+PlacedMember placed(const SlenderMember& member, const State& state);
+
+/// Height of the water above the axis at the ends of its pieces, (pieces + 1), m; negative where the axis is dry.
+/// Without a surface (Immersion::whole): +∞.
+std::vector<double> heights(const SlenderMember& member, const PlacedMember& at, const hydro::waves::WaveField& water,
+                            double t_s);
+
+/// The share of a section that is wet, its height below the surface over the diameter, 0 … 1, (W80) for any slope.
+double wetness(double height_m, double rise_m);
+
+/// The wet part of one piece: its length (sections half wet count half) and its middle.
+struct WetPiece {
+  using Row = Eigen::Matrix<double, 1, 6>;
+  double length;                ///< m
+  Eigen::Vector3d arm;          ///< from the centre of gravity to the middle of the wet part, global
+  Row length_by = Row::Zero();  ///< how the length and the place along the axis change with translation and small
+  Row place_by = Row::Zero();   ///  global rotation of the body
+};
+
+/// All pieces that are wet at all. Their derivatives only where asked; slopes of the surface are differences over a
+/// millionth of the diameter.
+std::vector<WetPiece> wet_pieces(const SlenderMember& member, const PlacedMember& at,
+                                 const hydro::waves::WaveField& water, double t_s, bool derivatives);
+
+/// ∫β dσ over 0 … 1 and the mean place ∫βσ dσ/∫β dσ, β = wetness of a height that runs straight from g₀ to g₁, with
+/// derivatives by (g₀, g₁, h). The place is ½ where nothing is wet. (D42)
+struct WetShare {
+  double share, place;
+  Eigen::Vector3d share_by, place_by;
+};
+WetShare wet_share(double g0, double g1, double h);
+
+}  // namespace dynamics

@@ -1,0 +1,42 @@
+#pragma once
+/// \file  Morison's load on slender members that move, at their true position: drag across and along the axis,
+///        Froude–Krylov, and added mass on the left of the equations of motion. (D43)-(D45)
+#include <memory>
+
+#include "dynamics/force/force_kind.hpp"
+#include "dynamics/force/member.hpp"
+
+namespace dynamics {
+
+/// Per length, with u the water's velocity and u̇ the acceleration of its particles at the member's axis, w and ẇ those
+/// of the member, P the projection across the axis t (D43):
+///   ½ρ C_D D |P(u−w)| P(u−w) + ½ρ C_T πD |t·(u−w)| t·(u−w) t + ρ ¼πD² P(u̇ + C_A (u̇ − ẇ))
+/// Buoyancy, and pressure on the ends, are other effects.
+struct MorisonMember {
+  SlenderMember line;
+  double cd, ca;
+  double cd_tangential = 0;  ///< of the wetted skin πD
+};
+
+/// One point a piece, the middle of its wet part: the error is (κΔ)²/24 of the inertia load and four times that of the
+/// drag, κ the wavenumber (or the inverse of the distance to the point about which the member turns), Δ the length of a
+/// piece (D44).
+class MorisonKind final : public ForceKind {
+ public:
+  /// `water`: still water is a field without waves.
+  MorisonKind(std::vector<MorisonMember> members, std::shared_ptr<const hydro::waves::WaveField> water)
+      : members_(std::move(members)), water_(std::move(water)) {}
+  std::string effect() const override { return "morison"; }
+  std::size_t elements() const override { return members_.size(); }
+  std::string method() const override;
+  void add_load(const Instant& now, LoadSink& out) const override;
+  void add_jacobian(const Instant& now, JacobianSink& out) const override;
+  void add_mass(const State& state, MassSink& out) const override;
+  EnergyFlow energy(const Instant& now) const override;
+
+ private:
+  std::vector<MorisonMember> members_;
+  std::shared_ptr<const hydro::waves::WaveField> water_;
+};
+
+}  // namespace dynamics

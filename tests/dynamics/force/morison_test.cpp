@@ -1,0 +1,158 @@
+#include "dynamics/force/morison.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "dynamics/force/gravity.hpp"
+#include "dynamics/integrate/generalized_alpha.hpp"
+#include "dynamics/integrate/ledger.hpp"
+#include "hydro/waves/dispersion.hpp"
+#include "laws/force_kind_laws.hpp"
+#include "support/small_seas.hpp"
+
+namespace {
+
+using namespace dynamics;
+using hydro::waves::Stretching;
+using std::numbers::pi;
+
+const auto bodies = support::two_bodies();
+
+/// Ends are global, at rest.
+MorisonMember member(int body, const Eigen::Vector3d& from, const Eigen::Vector3d& to, Immersion immersion,
+                     double cd = 0, double ca = 0, double cd_tangential = 0, int pieces = 12) {
+  const Eigen::Vector3d c = bodies[static_cast<std::size_t>(body)].rest_centre();
+  return {{body, from - c, to - c, 0.4, pieces, immersion}, cd, ca, cd_tangential};
+}
+
+TEST(ForceLaws, HoldForMorisonMembersOfEveryImmersion) {
+  using enum Immersion;
+  const Eigen::Vector3d deep(-1, 0.3, -3), high(1, -0.2, 0.8), low(1, -0.2, -1.4);
+  const auto current = hydro::waves::Current::profile({-20, 0}, {{0.1, 0}, {0.5, 0.2}});
+  for (const auto& water : {support::still_water(), support::still_water(current),
+                            support::steep_wave(Stretching::wheeler), support::steep_wave(Stretching::none, current)}) {
+    SCOPED_TRACE(water->elevation(0, 0, 0));
+    laws::expect_force_laws(MorisonKind({member(0, deep, low, whole, 1.1, 0.9, 0.02)}, water), bodies);
+    laws::expect_force_laws(MorisonKind({member(1, deep, high, still_water, 1.1, 0.9, 0.02)}, water), bodies);
+    laws::expect_force_laws(MorisonKind({member(0, deep, high, surface, 1.1, 0.9, 0.02),
+                                         member(1, {3, 1, 0.1}, {5, 1, -0.1}, surface, 0.7, 1, 0)},
+                                        water),
+                            bodies);
+  }
+}
+
+// A vertical pile held in small waves: ∫ ρA(1 + C_A) u̇ dz = ρA(1 + C_A) a ω²/k · (sinh kh − sinh k(h−d))/sinh kh.
+TEST(Morison, InertiaOfAHeldPileIsItsIntegralOverTheDepth) {
+  const double a = 1e-4, omega = 2 * pi / 4, d = 6;
+  const double k = hydro::waves::wavenumber(omega, support::fresh_water);
+  const MorisonKind kind({member(0, {0, 0, -d}, {0, 0, 0}, Immersion::whole, 0, 1.0, 0, 60)},
+                         support::steep_wave(Stretching::vertical, hydro::waves::Current::none(), a));
+  State s = rest_state(bodies);
+  double most = 0;
+  for (int i = 0; i < 40; ++i) {
+    s.time = 0.1 * i;
+    most = std::max(most, laws::load(kind, s, nullptr).head<2>().norm());
+  }
+  const double h = 20, depth_integral = (std::sinh(k * h) - std::sinh(k * (h - d))) / std::sinh(k * h) / k;
+  const double exact = 1000 * pi / 4 * 0.16 * 2 * a * omega * omega * depth_integral;
+  // 40 samples of a period miss the largest by at most 1 − cos(π/40) = 3e-3; the pieces by (kΔ)²/24 = 3e-5.
+  EXPECT_NEAR(most, exact, 3.1e-3 * exact);
+}
+
+TEST(Morison, DragOfATowedPileIsTheTextbookForceAcrossAndAlong) {
+  const MorisonKind kind({member(0, {0, 0, -2}, {0, 0, 1}, Immersion::surface, 1.2, 0, 0.03)}, support::still_water());
+  State s = rest_state(bodies);
+  s.velocity[0] = 3;
+  s.velocity[2] = -2;
+  const Eigen::VectorXd F = laws::load(kind, s, nullptr);
+  EXPECT_NEAR(F[0], -0.5 * 1000 * 1.2 * 0.4 * 2 * 9, 1e-3);  // the section that is half wet is a millionth of D high
+  EXPECT_NEAR(F[2], 0.5 * 1000 * 0.03 * pi * 0.4 * 2 * 4, 1e-4);
+}
+
+TEST(Morison, AddedMassIsOnTheLeftAcrossTheAxisAndAsFarAsTheMemberIsWet) {
+  const auto mass = [&](double z) {
+    std::vector<std::unique_ptr<const ForceKind>> forces;
+    forces.push_back(std::make_unique<MorisonKind>(
+        std::vector{member(0, {0, -1, z}, {0, 1, z}, Immersion::surface, 0, 0.8)}, support::still_water()));
+    const Model model(bodies, {}, std::move(forces));
+    BlockMatrix M(model.pattern());
+    model.add_mass(rest_state(bodies), 1, M);
+    return Eigen::MatrixXd(M.dense() - model.dry_mass_at_rest());
+  };
+  const double whole = 0.8 * 1000 * pi / 4 * 0.16 * 2;
+  EXPECT_NEAR(mass(-5)(0, 0), whole, 1e-9 * whole);
+  EXPECT_NEAR(mass(-5)(2, 2), whole, 1e-9 * whole);
+  EXPECT_NEAR(mass(-5)(1, 1), 0, 1e-9 * whole);  // along the axis there is none
+  EXPECT_NEAR(mass(0)(0, 0), whole / 2, 1e-9 * whole);
+  EXPECT_NEAR(mass(0.1)(0, 0), whole / 4, 1e-9 * whole);
+  EXPECT_EQ(mass(1).norm(), 0);
+}
+
+/// Body "a" in fresh water with one member, alone.
+struct Alone {
+  Model model;
+  Workspace workspace;
+  GeneralizedAlpha integrator;
+
+  static std::vector<std::unique_ptr<const ForceKind>> forces(MorisonMember m, const RigidBody& body, double gravity) {
+    std::vector<std::unique_ptr<const ForceKind>> out;
+    out.push_back(std::make_unique<MorisonKind>(std::vector{std::move(m)}, support::still_water()));
+    if (gravity > 0) out.push_back(std::make_unique<GravityKind>(std::vector{body}, gravity));
+    return out;
+  }
+  Alone(const RigidBody& body, MorisonMember m, double gravity, State start)
+      : model({body}, {}, forces(std::move(m), body, gravity)),
+        workspace(model, std::move(start)),
+        integrator(model, {.rho_infinity = 1}) {
+    integrator.start(workspace);
+  }
+};
+
+// Under water, without drag: (m + ρA C_A L) a = m g.
+TEST(Morison, ABodyFallsAsMuchSlowerAsTheWaterItCarriesIsHeavy) {
+  Alone alone(bodies[0], member(0, {0, -1, -5}, {0, 1, -5}, Immersion::whole, 0, 1), 9.81, rest_state({bodies[0]}));
+  const double water = 1000 * pi / 4 * 0.16 * 2;
+  EXPECT_NEAR(alone.workspace.acceleration[2], -900 * 9.81 / (900 + water),
+              0.1);  // the member is not quite at the centre
+  for (int i = 0; i < 100; ++i) alone.integrator.step(alone.workspace, 0.01);
+  EXPECT_TRUE(alone.workspace.state.velocity.allFinite());
+}
+
+// Turning about a fixed direction across all flow, in still water, inertia loads neither give nor take energy: the body
+// spins about y with a member along y and another arm, so that P does not turn with it.
+TEST(Morison, InertiaOfAMemberAcrossTheMotionKeepsTheKineticEnergy) {
+  State start = rest_state({bodies[0]});
+  start.velocity << 1.0, 0, 0.5, 0, 2.0, 0;
+  const RigidBody body({.name = "a",
+                        .mass = 900,
+                        .inertia = Eigen::Vector3d(400, 500, 600).asDiagonal(),
+                        .centre_of_gravity = {Eigen::Vector3d(0.1, -0.2, 0.3)},
+                        .free = {true, false, true, false, true, false}});
+  Alone alone(body, member(0, {0.5, -1, -9}, {0.5, 1, -9}, Immersion::whole, 0, 1), 0, start);
+  const double before = alone.model.kinetic_energy(alone.workspace.state);
+  EnergyLedger ledger(alone.model, alone.workspace);
+  for (int i = 0; i < 400; ++i) {
+    alone.integrator.step(alone.workspace, 0.002);
+    ledger.note(alone.workspace);
+  }
+  const double after = alone.model.kinetic_energy(alone.workspace.state);
+  EXPECT_NEAR(after, before, 1e-4 * before);  // second order in the step: (2 rad/s · 2 ms)² over 400 steps
+  EXPECT_LT(std::abs(ledger.residual()), 1e-4 * before);
+}
+
+TEST(Morison, EnergyAddsUpWhileAMemberFallsIntoTheWater) {
+  State start = rest_state({bodies[0]});
+  start.velocity << 0, 0, -2, 0, 0.3, 0;
+  Alone alone(bodies[0], member(0, {-1, -1, 0.5}, {1, 1, 1.2}, Immersion::surface, 1, 1, 0.02), 9.81, start);
+  EnergyLedger ledger(alone.model, alone.workspace);
+  for (int i = 0; i < 1000; ++i) {
+    alone.integrator.step(alone.workspace, 1e-3);
+    ledger.note(alone.workspace);
+  }
+  EXPECT_LT(alone.workspace.state.pose[0].centre.z(), -1);
+  EXPECT_LT(std::abs(ledger.residual()), 1e-4 * ledger.turnover());  // second order in the step, kinks at immersion
+}
+
+}  // namespace

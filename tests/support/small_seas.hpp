@@ -1,0 +1,32 @@
+#pragma once
+/// \file  Waters in which members are tried.
+#include <memory>
+#include <numbers>
+
+#include "hydro/waves/field.hpp"
+#include "hydro/waves/sea.hpp"
+#include "hydro/waves/summed_field.hpp"
+
+namespace support {
+
+inline const hydro::Water fresh_water{.density = 1000, .gravity = 9.81, .depth = hydro::WaterDepth::from_metres(20)};
+
+inline std::shared_ptr<const hydro::waves::WaveField> still_water(
+    const hydro::waves::Current& current = hydro::waves::Current::none()) {
+  return std::make_shared<hydro::waves::HarmonicField>(std::vector<hydro::waves::Harmonic>{}, fresh_water,
+                                                       hydro::waves::HarmonicField::Options{}, current);
+}
+
+/// 0.6 m of amplitude, 4 s, towards 20 degrees: k = 0.25 rad/m.
+inline std::shared_ptr<const hydro::waves::WaveField> steep_wave(
+    hydro::waves::Stretching stretching, const hydro::waves::Current& current = hydro::waves::Current::none(),
+    double amplitude = 0.6) {
+  const auto sea = hydro::waves::Sea::regular(
+      hydro::WaveAmplitude::from_metres(amplitude), hydro::AngularFrequency::from_period_s(4),
+      hydro::Angle::from_radians(20 * std::numbers::pi / 180), fresh_water, 0.3, current);
+  hydro::waves::HarmonicField::Options options;
+  options.stretching = stretching;
+  return std::make_shared<hydro::waves::SummedField>(hydro::waves::linear_field(sea, options));
+}
+
+}  // namespace support
