@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compile/buoyancy.hpp"
 #include "compile/hydrodynamics.hpp"
 #include "compile/members.hpp"
 #include "compile/radiation.hpp"
@@ -140,7 +141,8 @@ dynamics::CatenaryMooring catenary_mooring(const Scene& scene, const scene::Cate
 
 /// Springs and dampers, in the order in which a plan lists them.
 void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::ForceKind>>& forces) {
-  if (!p.heavy.empty()) forces.push_back(std::make_unique<dynamics::GravityKind>(p.bodies, p.gravity, p.heavy));
+  if (!p.heavy.empty()) forces.push_back(std::make_unique<dynamics::GravityKind>(p.bodies, p.water.gravity, p.heavy));
+  if (!p.buoyancy.empty()) forces.push_back(std::make_unique<dynamics::BuoyancyKind>(p.bodies, p.buoyancy, p.water));
   if (!p.hydrostatics.empty())
     forces.push_back(std::make_unique<dynamics::RestoringKind>("hydrostatics", p.bodies, p.hydrostatics));
   if (!p.moorings.empty()) forces.push_back(std::make_unique<dynamics::RestoringKind>("mooring", p.bodies, p.moorings));
@@ -159,7 +161,8 @@ Prepared prepare(const Scene& scene) {
     if (b.weight) out.heavy.push_back(static_cast<int>(out.bodies.size()));
     out.bodies.push_back(rigid_body(b));
   }
-  out.gravity = scene.water.gravity;
+  out.water = scene.water;
+  add_buoyancy(scene, out);
   add_hydrodynamics(scene, out);
   for (const auto& m : scene.moorings) add_mooring(scene, m, out);
   for (const auto& c : scene.connectors) add_connector(scene, c, out);
@@ -170,19 +173,36 @@ Prepared prepare(const Scene& scene) {
   return out;
 }
 
+namespace {
+
+/// Pretension that does not cancel, or weight that does not float, would shift the rest position about which everything
+/// is linearised.
+void require_rest(const Prepared& prepared, const dynamics::Model& model) {
+  const Eigen::VectorXd load = model.linear_at_rest().unbalanced;
+  double weight = 0;
+  for (const auto& b : prepared.bodies) weight += b.mass() * prepared.water.gravity;
+  // Masses are given to some four digits and meshes hold 32-bit numbers: a hull that sinks by 1e-4 of its draught is at
+  // rest. Springs alone can be placed without error.
+  const double least = prepared.buoyancy.empty() ? 1e-6 : 1e-4;
+  Eigen::Index worst = 0;
+  if (load.size() == 0 || load.cwiseAbs().maxCoeff(&worst) <= least * weight) return;
+  const auto why = out_of_balance(prepared);
+  throw InputError(fmt::format("the scene is not in equilibrium as placed: {} feels {:.4g} {}{}{}",
+                               model.mode_name(static_cast<int>(worst)), load[worst], worst % 6 < 3 ? "N" : "N m",
+                               why.empty() ? "" : "; ", fmt::join(why, "; ")),
+                   {},
+                   why.empty() ? "give connectors rest_length = \"as placed\", or place the bodies where they balance"
+                               : "change mass, centre_of_gravity or position until the body floats as placed: `froude "
+                                 "hydrostatics --mass` tells where it does");
+}
+
+}  // namespace
+
 dynamics::Model frequency_model(const Prepared& prepared) {
   std::vector<std::unique_ptr<const dynamics::ForceKind>> forces;
   add_springs(prepared, forces);
   dynamics::Model model(prepared.bodies, {}, std::move(forces), prepared.joints);
-  const Eigen::VectorXd load = model.linear_at_rest().unbalanced;
-  double weight = 0;
-  for (const auto& b : prepared.bodies) weight += b.mass() * prepared.gravity;
-  Eigen::Index worst = 0;
-  // Pretension that does not cancel would shift the rest position about which everything is linearised.
-  if (load.size() > 0 && load.cwiseAbs().maxCoeff(&worst) > 1e-6 * weight)
-    throw InputError(fmt::format("the scene is not in equilibrium as placed: {} feels {:.4g} {}",
-                                 model.mode_name(static_cast<int>(worst)), load[worst], worst % 6 < 3 ? "N" : "N m"),
-                     {}, "give connectors rest_length = \"as placed\", or place the bodies where they balance");
+  require_rest(prepared, model);
   return model;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/force/buoyancy.hpp"
 #include "dynamics/force/catenary_mooring.hpp"
 #include "dynamics/force/connector.hpp"
 #include "dynamics/force/constant_load.hpp"
@@ -33,7 +34,8 @@ struct Prepared {
   std::vector<scene::Memory> memory;  ///< one a group
   std::vector<dynamics::Restoring> hydrostatics, moorings;
   std::vector<int> heavy;  ///< bodies that feel gravity by themselves
-  double gravity;          ///< m/s²
+  std::vector<dynamics::Buoyancy> buoyancy;
+  hydro::Water water;
   std::vector<dynamics::AxialConnector> axial;
   std::vector<dynamics::BushingConnector> bushing;
   std::vector<dynamics::Pto> ptos;

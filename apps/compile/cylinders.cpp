@@ -15,7 +15,7 @@ hydro::cylinders::CylinderBody as_cylinders(const scene::Body& body) {
   const scene::Cylinders& given = *body.hydrodynamics->cylinders;
   hydro::cylinders::CylinderBody out{body.name, body.position, body.position + body.centre_of_gravity, {}};
   for (const Eigen::Vector3d& at : given.at)
-    out.cylinders.push_back({(body.position + at).head<2>(), given.diameter / 2, given.draught});
+    out.cylinders.push_back({(body.position + at).head<2>(), given.diameter / 2, given.draught, given.top});
   return out;
 }
 

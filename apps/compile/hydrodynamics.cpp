@@ -97,8 +97,9 @@ std::vector<Use> uses(const Scene& scene) {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const auto& h = scene.bodies[b].hydrodynamics;
     if (!h) continue;
-    const std::string key = fmt::format("{}|{}|{}|{}|{}{}{}", h->file.value.string(), h->ulen, h->iperout.value_or(0),
-                                        h->interaction, h->radiation, h->excitation, h->hydrostatics);
+    const std::string key =
+        fmt::format("{}|{}|{}|{}|{}{}{}", h->file.value.string(), h->ulen.value_or(0), h->iperout.value_or(0),
+                    h->interaction, h->radiation, h->excitation, h->hydrostatics);
     const auto [at, is_new] = known.try_emplace(key, out.size());
     if (is_new) {
       out.push_back({read(scene, *h), {}, {}});

@@ -24,6 +24,7 @@ void add_absent(const scene::Scene& scene, const compile::Prepared& p, std::vect
   }
   absent(scene.waves.has_value(), "waves", "[waves]");
   absent(!p.heavy.empty(), "weight", "weight = true; linear hydrostatics hold it already");
+  absent(!p.buoyancy.empty(), "buoyancy", "[body.buoyancy]");
   absent(!p.hydrostatics.empty(), "hydrostatics", "hydrostatics = true");
   absent(!p.moorings.empty() || !p.lines.empty(), "mooring", "[[mooring]]");
   absent(!p.axial.empty() || !p.bushing.empty(), "connector", "[[connector]]");

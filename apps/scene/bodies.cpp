@@ -100,9 +100,14 @@ Memory read_memory(const Record& radiation) {
 Cylinders read_cylinders(const Record& record, double height_of_origin) {
   Cylinders out{.at = record["at"].points.front(),
                 .diameter = record.si("diameter"),
-                .draught = record.si("draught"),
+                .draught = {},
+                .top = {},
                 .omega = record["frequencies"].range,
                 .headings = {}};
+  if (record.text("draught").empty()) out.draught = record.si("draught");
+  if (record.has("top")) out.top = record.si("top");
+  if (out.top && out.draught && *out.top >= *out.draught)
+    throw record.wrong("top", "is not above the bottom", "both are depths, from still water down");
   for (const Eigen::Vector3d& p : out.at)
     if (std::abs(p.z() + height_of_origin) > 1e-9)
       throw record.wrong(
@@ -116,7 +121,7 @@ Hydrodynamics read_hydrodynamics(const Record& record, const std::filesystem::pa
   Hydrodynamics out;
   if (record.has("file")) {
     out.file = {beside(file, record.text("file")), record["file"].place};
-    out.ulen = record.si("ulen");
+    if (record.has("ulen")) out.ulen = record.si("ulen");
   } else {
     out.file.place = record["cylinders"].place;
     out.cylinders = read_cylinders(record.table("cylinders"), height_of_origin);
@@ -137,6 +142,42 @@ Hydrodynamics read_hydrodynamics(const Record& record, const std::filesystem::pa
   return out;
 }
 
+Buoyancy read_buoyancy(const Record& record, const std::filesystem::path& file) {
+  Buoyancy out;
+  out.place = record.place();
+  if (record.has("mesh")) out.mesh = {beside(file, record.text("mesh")), record["mesh"].place};
+  if (record.has("unit")) out.unit = record.si("unit");
+  if (record.has("freeboard")) out.freeboard = record.si("freeboard");
+  if (record.has("cylinders")) {
+    const Record& cylinders = record.table("cylinders");
+    const auto &from = cylinders["from"].points.front(), &to = cylinders["to"].points.front();
+    if (from.size() != to.size())
+      throw cylinders.wrong("to", fmt::format("gives {} points, `from` gives {}", to.size(), from.size()),
+                            "each cylinder needs both ends");
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      if ((to[i] - from[i]).norm() <= 1e-9 * cylinders.si("diameter"))
+        throw cylinders.wrong("to", "is where the cylinder begins", "give the middle of the other end");
+      out.cylinders.push_back({from[i], to[i], cylinders.si("diameter") / 2});
+    }
+  }
+  if (record.has("spheres"))
+    for (const Eigen::Vector3d& at : record.table("spheres")["at"].points.front())
+      out.spheres.push_back({at, record.table("spheres").si("diameter") / 2});
+  return out;
+}
+
+/// Linear hydrostatics hold buoyancy and weight already.
+void require_nothing_twice(const Record& record, const Body& body) {
+  if (!body.hydrodynamics || !body.hydrodynamics->hydrostatics) return;
+  if (body.weight)
+    throw record.wrong("weight", "would act twice: linear hydrostatics are about the balance of buoyancy and weight",
+                       "leave out `weight`");
+  if (body.buoyancy)
+    throw record.table("buoyancy")
+        .refused("would act twice: linear hydrostatics hold buoyancy and weight",
+                 "leave out `hydrostatics` and add weight = true, or leave out buoyancy");
+}
+
 Body read_body(const Record& record, const std::filesystem::path& file) {
   Body body;
   body.name = body.family = record.text("name");
@@ -155,9 +196,8 @@ Body read_body(const Record& record, const std::filesystem::path& file) {
   if (record.has("hydrodynamics"))
     body.hydrodynamics = read_hydrodynamics(record.table("hydrodynamics"), file, body.position.z());
   body.weight = record.has("weight");
-  if (body.weight && body.hydrodynamics && body.hydrodynamics->hydrostatics)
-    throw record.wrong("weight", "would act twice: linear hydrostatics are about the balance of buoyancy and weight",
-                       "leave out `weight`");
+  if (record.has("buoyancy")) body.buoyancy = read_buoyancy(record.table("buoyancy"), file);
+  require_nothing_twice(record, body);
   return body;
 }
 

@@ -120,10 +120,12 @@ struct Memory {
   Place place;                   ///< of the method
 };
 
-/// `[body.hydrodynamics] cylinders`: truncated vertical cylinders, of which the program computes the coefficients.
+/// `[body.hydrodynamics] cylinders`: vertical cylinders, of which the program computes the coefficients.
 struct Cylinders {
   std::vector<Eigen::Vector3d> at;      ///< axes at the waterline, body axes, m; z is that of still water
-  double diameter, draught;             ///< m
+  double diameter;                      ///< m
+  std::optional<double> draught;        ///< m; empty: they stand on the sea bed
+  std::optional<double> top;            ///< m, depth; empty: they pierce the surface
   std::vector<double> omega, headings;  ///< rad/s; rad, empty: those that the scene asks for
 };
 
@@ -134,12 +136,30 @@ struct Hydrodynamics {
   std::optional<Located<int>> body;  ///< which body of the file, from 1, as written: copies take the following ones
   std::optional<Eigen::Vector3d>
       reference_point;              ///< global, m: the point the coefficients are about, if the file does not say
-  double ulen = 1;                  ///< WAMIT only
+  std::optional<double> ulen;       ///< m; WAMIT only
   std::optional<int> iperout;       ///< WAMIT only
   std::vector<std::string> accept;  ///< names of checks of the doctor whose errors do not stop the scene
   bool excitation = false, radiation = false, hydrostatics = false;  ///< effects named
   Memory memory;
   bool interaction = true;  ///< interaction = "full" or "self": bodies of one file feel each other's waves
+};
+
+/// `[body.buoyancy]`: what the body shows the water, in body axes.
+struct Buoyancy {
+  std::optional<Located<std::filesystem::path>> mesh;  ///< absolute
+  std::optional<double> unit;                          ///< of the mesh, m
+  std::optional<double> freeboard;                     ///< m: walls drawn up from an open rim, with a deck
+  struct Cylinder {
+    Eigen::Vector3d from, to;  ///< middles of the ends, m
+    double radius;             ///< m
+  };
+  std::vector<Cylinder> cylinders;
+  struct Sphere {
+    Eigen::Vector3d at;  ///< m
+    double radius;       ///< m
+  };
+  std::vector<Sphere> spheres;
+  Place place;
 };
 
 struct Body {
@@ -155,6 +175,7 @@ struct Body {
   std::map<hydro::Mode, double> initial;           ///< displacement of the origin from rest at t = 0, m or rad
   std::map<hydro::Mode, double> initial_velocity;  ///< m/s or rad/s
   bool weight = false;                             ///< feels gravity; linear hydrostatics hold it already
+  std::optional<Buoyancy> buoyancy;
   std::optional<Hydrodynamics> hydrodynamics;
   Place place;
 };

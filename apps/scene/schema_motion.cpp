@@ -106,10 +106,15 @@ const Table& radiation() {
 const Table& cylinders() {
   static const Table table{
       .title = "[body.hydrodynamics.cylinders]",
-      .meaning = "truncated vertical cylinders: the program computes their coefficients exactly, with interaction",
-      .keys = {points("at", "axes where they pierce still water, body axes; each ± makes two"),
+      .meaning = "vertical cylinders: the program computes their coefficients exactly, with interaction",
+      .keys = {points("at", "axes where they meet still water, body axes; each ± makes two"),
                quantity("diameter", dim::length, "of each").positive(),
-               quantity("draught", dim::length, "of each").positive(),
+               quantity("draught", dim::length, "depth of the bottom of each, or \"to the sea bed\"")
+                   .positive()
+                   .one_of({"to the sea bed"}),
+               quantity("top", dim::length, "depth of the top of each; left out: they pierce the surface")
+                   .positive()
+                   .optional(),
                range("frequencies", dim::angular_velocity,
                      "of the table that is computed: \"0.2 rad/s .. 4 rad/s, 39 values\""),
                range("headings", dim::angle, "of the table; without it those of [waves] and [ask]").optional()}};
@@ -132,9 +137,11 @@ const Table& hydrodynamics() {
                       "global, what the coefficients are about, if the file does not say")
                    .optional()
                    .only_beside("file"),
-               quantity("ulen", dim::length, "WAMIT's ULEN; only for WAMIT files")
+               quantity(
+                   "ulen", dim::length,
+                   "WAMIT's ULEN; only for WAMIT files, where it is 1 m unless this or the .out file says otherwise")
                    .positive()
-                   .or_default("1 m", "the usual ULEN; other formats do not need it")
+                   .optional()
                    .only_beside("file"),
                integer("iperout", "WAMIT's IPEROUT, 1 to 4; only for WAMIT files")
                    .within(Limit::at_least_one)
@@ -155,6 +162,46 @@ const Table& hydrodynamics() {
                    .or_default("full", "leaving it out would be an approximation")
                    .only_beside("radiation")},
       .groups = {{exactly_one, {"file", "cylinders"}}, {at_least_one, {"excitation", "radiation", "hydrostatics"}}}};
+  return table;
+}
+
+const Table& buoyant_cylinders() {
+  static const Table table{
+      .title = "[body.buoyancy.cylinders]",
+      .meaning = "circular cylinders with flat ends, exact without a mesh",
+      .keys = {points("from", "middle of one end, body axes; each ± makes two cylinders"),
+               points("to", "middle of the other end, body axes; as many as `from`, taken in pairs"),
+               quantity("diameter", dim::length, "of each").positive()}};
+  return table;
+}
+
+const Table& buoyant_spheres() {
+  static const Table table{.title = "[body.buoyancy.spheres]",
+                           .meaning = "spheres, exact without a mesh",
+                           .keys = {points("at", "centres, body axes; each ± makes two"),
+                                    quantity("diameter", dim::length, "of each").positive()}};
+  return table;
+}
+
+const Table& buoyancy() {
+  static const Table table{
+      .title = "[body.buoyancy]",
+      .meaning =
+          "load of still water on the hull as it is: exact at any pose in a run, its derivative at rest in "
+          "responses and modes; the hull is all that is named here",
+      .keys = {text("mesh", "of the hull in body axes, relative to the scene: STL, OBJ or GDF").optional(),
+               quantity("unit", dim::length, "what one unit of the mesh is; left out: metres, or what the file says")
+                   .positive()
+                   .optional()
+                   .only_beside("mesh"),
+               quantity("freeboard", dim::length,
+                        "height of walls drawn straight up from the rim of an open mesh, with a deck on them")
+                   .positive()
+                   .optional()
+                   .only_beside("mesh"),
+               inner_table("cylinders", buoyant_cylinders()).optional(),
+               inner_table("spheres", buoyant_spheres()).optional()},
+      .groups = {{at_least_one, {"mesh", "cylinders", "spheres"}}}};
   return table;
 }
 
@@ -200,6 +247,7 @@ const Table& body() {
                    .or_default("surge, sway, heave, roll, pitch, yaw", "a body is free unless something holds it"),
                inner_table("initial", initial()).optional(),
                inner_table("initial_velocity", initial_velocity()).optional(),
+               inner_table("buoyancy", buoyancy()).optional(),
                inner_table("hydrodynamics", hydrodynamics()).optional()},
       .groups = {{at_most_one, {"radii_of_gyration", "inertia"}}}};
   return table;

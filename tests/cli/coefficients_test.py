@@ -149,7 +149,7 @@ class Coefficients(unittest.TestCase):
         self.refused("info", "x.12d", parts=["density, gravity"])
 
     def test_wamits_options_are_refused_for_other_formats(self):
-        self.refused("info", PONTOON, "--ulen", "2 m", parts=["ULEN"])
+        self.refused("info", PONTOON, "--ulen", "1 m", parts=["ULEN"])
         self.refused("info", PONTOON, "--iperout", "1", parts=["IPEROUT"])
 
 

@@ -8,6 +8,17 @@ namespace {
 
 using Eigen::Vector3d;
 
+void check_top(const Cylinder& c, const std::string& what, const WaterDepth& depth) {
+  if (!c.top) return;
+  require(std::isfinite(*c.top) && *c.top > 0, "{}: the depth of its top must be finite and positive, got {} m", what,
+          *c.top);
+  const double bottom = c.draught.value_or(depth.metres());
+  if (*c.top >= bottom)
+    throw InputError(
+        fmt::format("{}: its top at {} m is not above its bottom at {} m", what, *c.top, bottom), {},
+        "state the depth of the top, from still water down; leave it out if the cylinder pierces the surface");
+}
+
 void check_cylinder(const Cylinder& c, const std::string& what, const WaterDepth& depth) {
   require(c.centre.allFinite(), "{}: its centre is not finite", what);
   require(std::isfinite(c.radius) && c.radius > 0, "{}: the radius must be finite and positive, got {} m", what,
@@ -27,7 +38,7 @@ void check_cylinder(const Cylinder& c, const std::string& what, const WaterDepth
 }
 
 double area(const Cylinder& c) { return std::numbers::pi * c.radius * c.radius; }
-double height(const Cylinder& c, const WaterDepth& depth) { return c.draught.value_or(depth.metres()); }
+double bottom(const Cylinder& c, const WaterDepth& depth) { return c.draught.value_or(depth.metres()); }
 
 }  // namespace
 
@@ -45,6 +56,7 @@ void check(const std::vector<CylinderBody>& bodies, const WaterDepth& depth) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto& [c, what] = all[i];
     check_cylinder(*c, what, depth);
+    check_top(*c, what, depth);
     for (std::size_t j = 0; j < i; ++j) {
       const auto& [other, other_what] = all[j];
       const double distance = (c->centre - other->centre).norm();
@@ -60,9 +72,9 @@ void check(const std::vector<CylinderBody>& bodies, const WaterDepth& depth) {
 Displacement displacement(const CylinderBody& body, const WaterDepth& depth) {
   Displacement d{0, Vector3d::Zero()};
   for (const Cylinder& c : body.cylinders) {
-    const double volume = area(c) * height(c, depth);
+    const double top = c.top.value_or(0), volume = area(c) * (bottom(c, depth) - top);
     d.volume += volume;
-    d.centre_of_buoyancy += volume * Vector3d(c.centre.x(), c.centre.y(), -height(c, depth) / 2);
+    d.centre_of_buoyancy += volume * Vector3d(c.centre.x(), c.centre.y(), -(bottom(c, depth) + top) / 2);
   }
   d.centre_of_buoyancy /= d.volume;
   return d;
@@ -75,6 +87,7 @@ Eigen::Matrix<double, 6, 6> restoring(const CylinderBody& body, const Water& wat
   Eigen::Matrix<double, 6, 6> C = Eigen::Matrix<double, 6, 6>::Zero();
   for (const Cylinder& c : body.cylinders) {  // the waterplane
     require(c.draught.has_value(), "body \"{}\" stands on the sea bed, so it has no restoring matrix", body.name);
+    if (c.top) continue;
     const double x = c.centre.x() - P.x(), y = c.centre.y() - P.y(), own = c.radius * c.radius / 4;
     const double S = water.density * water.gravity * area(c);
     C(2, 2) += S;

@@ -69,18 +69,24 @@ Model::Model(const std::vector<CylinderBody>& bodies, const Water& water, const 
   }
   for (const double w : omega) orders_ = std::max(orders_, grouping(coarse_modes(w)).within.highest_order() + 1);
   orders_ = std::max(orders_, grouping(coarse_modes(infinite)).within.highest_order() + 1);
-  for (Type& t : types_)
-    if (t.draught) t.truncated.emplace(t.radius, *t.draught, water_.depth.metres(), resolution_.gap_functions, orders_);
+  const double h = water_.depth.metres();
+  for (Type& t : types_) {
+    if (t.top) {
+      t.submerged.emplace(t.radius, *t.top, t.draught, h, resolution_.gap_functions, orders_);
+    } else if (t.draught) {
+      t.truncated.emplace(t.radius, *t.draught, h, resolution_.gap_functions, orders_);
+    }
+  }
 }
 
 void Model::sort_into_types(const std::vector<CylinderBody>& bodies) {
   for (const CylinderBody& body : bodies)
     for (const Cylinder& c : body.cylinders) {
       cylinders_.push_back(c);
-      const auto same = [&](const Type& t) { return t.radius == c.radius && t.draught == c.draught; };
+      const auto same = [&](const Type& t) { return t.radius == c.radius && t.draught == c.draught && t.top == c.top; };
       const auto known = std::find_if(types_.begin(), types_.end(), same);
       type_of_.push_back(static_cast<std::size_t>(known - types_.begin()));
-      if (known == types_.end()) types_.push_back({c.radius, c.draught, {}});
+      if (known == types_.end()) types_.push_back({c.radius, c.draught, c.top, {}, {}});
     }
 }
 
@@ -96,11 +102,15 @@ VerticalModes Model::coarse_modes(double omega) const {
   return modes_with(omega, static_cast<int>(std::min(2000.0, 50 * water_.depth.metres() / smallest)) + 10);
 }
 
+int Model::exterior_terms(const Type& t, double K) const {
+  if (t.submerged) return t.submerged->exterior_terms(K);
+  return t.truncated ? t.truncated->exterior_terms(K) : bottom_mounted_terms(t.radius, water_.depth.metres(), K);
+}
+
 VerticalModes Model::modes(double omega) const {
-  const double K = omega * omega / water_.gravity, h = water_.depth.metres();
+  const double K = omega * omega / water_.gravity;
   int terms = 0;
-  for (const Type& t : types_)
-    terms = std::max(terms, t.truncated ? t.truncated->exterior_terms(K) : bottom_mounted_terms(t.radius, h, K));
+  for (const Type& t : types_) terms = std::max(terms, exterior_terms(t, K));
   if (terms > most_terms)
     throw InputError(fmt::format("at {:.6g} rad/s the sums over the depth need {} terms; {} are the limit", omega,
                                  terms, most_terms),
@@ -117,7 +127,7 @@ Grouping Model::grouping(const VerticalModes& modes) const {
 
 // Beside the equations between groups: those within, the single cylinders (as seen), and the waves far away.
 ModelCost Model::cost(double omega, double headings) const {
-  constexpr double single = 3e6, number = 16;
+  constexpr double single = 3e6, with_column = 3e7, number = 16;
   const VerticalModes depth_modes = coarse_modes(omega);
   const Grouping g = grouping(depth_modes);
   const double motions = static_cast<double>(motion_.cols()), columns = motions + headings;
@@ -125,18 +135,24 @@ ModelCost Model::cost(double omega, double headings) const {
   const EquationsCost within = compounds_cost(g, cylinders_, type_of_);
   const double size = static_cast<double>(cylinders_.size()) * g.between.count();
   const double far = 2 * (depth_modes.k * distance_across(cylinders_) + 40) * size * motions;
+  double cylinders = 0;
+  for (const Type& t : types_) cylinders += t.top ? with_column : single;
   int unknowns = g.members.size() > 1 ? static_cast<int>(size) : g.between.count();
   for (const auto& members : g.members)
     if (members.size() > 1) unknowns = std::max(unknowns, g.within.count() * static_cast<int>(members.size()));
-  return {unknowns, between.work + within.work + far + single * static_cast<double>(types_.size()),
+  return {unknowns, between.work + within.work + far + cylinders,
           between.bytes + within.bytes + 4 * number * size * columns, between.iterative};
+}
+
+Scatterer Model::scatterer(const Type& t, const VerticalModes& modes, const Channels& channels) const {
+  const int orders = channels.highest_order() + 1, vertical = channels.vertical();
+  if (t.submerged) return t.submerged->at(modes, orders, vertical);
+  return t.truncated ? t.truncated->at(modes, orders, vertical) : bottom_mounted(t.radius, modes, orders, vertical);
 }
 
 std::vector<Scatterer> Model::scatterers(const VerticalModes& modes, const Channels& channels) const {
   std::vector<Scatterer> all;
-  for (const Type& t : types_)
-    all.push_back(t.truncated ? t.truncated->at(modes, channels.highest_order() + 1, channels.vertical())
-                              : bottom_mounted(t.radius, modes, channels.highest_order() + 1, channels.vertical()));
+  for (const Type& t : types_) all.push_back(scatterer(t, modes, channels));
   return all;
 }
 

@@ -7,6 +7,7 @@
 
 #include "groups.hpp"
 #include "hydro/cylinders/layout.hpp"
+#include "submerged.hpp"
 #include "truncated.hpp"
 
 namespace hydro::cylinders {
@@ -55,8 +56,12 @@ class Model {
   struct Type {
     double radius;
     std::optional<double> draught;
-    std::optional<TruncatedCylinder> truncated;  ///< empty: bottom-mounted
+    std::optional<double> top;
+    std::optional<TruncatedCylinder> truncated;  ///< if it has a draught and no top under water
+    std::optional<SubmergedCylinder> submerged;  ///< if it has a top under water; neither: bottom-mounted
   };
+  int exterior_terms(const Type& type, double K) const;
+  Scatterer scatterer(const Type& type, const VerticalModes& modes, const Channels& channels) const;
   void sort_into_types(const std::vector<CylinderBody>& bodies);
   VerticalModes modes_with(double omega, int evanescent) const;
   VerticalModes coarse_modes(double omega) const;

@@ -60,4 +60,16 @@ double RadialFunctions::slope_S(int m, int n) const {
 
 Complex RadialFunctions::wronskian(int n) const { return n == 0 ? Complex(0, -2 / std::numbers::pi) : Complex(-1); }
 
+void to_amplitudes(AzimuthalOrder& o, int m, const RadialFunctions& radial, double radius) {
+  const auto channels = static_cast<int>(o.T.cols());
+  for (int n = 0; n < channels; ++n) {
+    const Complex slope = radial.slope_Q(m, n), psi = radial.wronskian(n) / (radius * slope);
+    o.T.col(n) *= psi;
+    o.E.col(n) *= psi;
+    o.T(n, n) -= radial.slope_S(m, n);
+    o.R.row(n) /= slope;
+  }
+  for (int n = 0; n < channels; ++n) o.T.row(n) /= radial.slope_Q(m, n);
+}
+
 }  // namespace hydro::cylinders

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hydro/cylinders/vertical_modes.hpp"
+#include "scatterer.hpp"
 
 namespace hydro::cylinders {
 
@@ -30,6 +31,9 @@ class RadialFunctions {
   std::vector<std::vector<double>> ratio_;    // [n − 1][m]
   std::vector<std::vector<double>> slope_S_;  // [n − 1][m], first channels only
 };
+
+/// From velocities to the amplitudes of (C4): T and R hold V_n per unit ψ_n a_n and velocity, E loads per unit ψ_n a_n.
+void to_amplitudes(AzimuthalOrder& order, int m, const RadialFunctions& radial, double radius);
 
 /// s_m = |H⁽²⁾_m(ka)| for m = 0 … orders − 1; ones if there is no wave.
 std::vector<double> wave_scales(double k, double radius, int orders);

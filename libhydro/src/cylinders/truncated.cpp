@@ -98,7 +98,6 @@ Scatterer TruncatedCylinder::at(const VerticalModes& modes, int orders, int chan
   return s;
 }
 
-/// Part of the right-hand side that does not depend on frequency, (C7): columns are motions.
 MatrixXd TruncatedCylinder::forcing(int m) const {
   const Index P = basis_.size();
   MatrixXd f = MatrixXd::Zero(P, m == 0 ? 1 : m == 1 ? 2 : 0);
@@ -112,7 +111,6 @@ MatrixXd TruncatedCylinder::forcing(int m) const {
   return f;
 }
 
-/// Part of the loads that neither the gap velocity nor the side gives, (C7).
 MatrixXd TruncatedCylinder::inner_loads(int m) const {
   const double a2 = a_ * a_, b2 = b_ * b_;
   if (m == 0) {
@@ -162,14 +160,7 @@ AzimuthalOrder TruncatedCylinder::solve(int m, const Exterior& outside, const Ra
   o.T = b_ / h_ * (W.transpose() * struck_gap.topRows(P));
   o.R = b_ / h_ * (W.transpose() * moved_gap.topRows(P)) + side;
   o.E = a_ * h_ * side.transpose() + a_ * b_ * (rhs.transpose() * struck_gap);
-  for (int n = 0; n < channels; ++n) {
-    const Complex slope = radial.slope_Q(m, n), psi = radial.wronskian(n) / (a_ * slope);
-    o.T.col(n) *= psi;
-    o.E.col(n) *= psi;
-    o.T(n, n) -= radial.slope_S(m, n);
-    o.R.row(n) /= slope;
-  }
-  for (int n = 0; n < channels; ++n) o.T.row(n) /= radial.slope_Q(m, n);
+  to_amplitudes(o, m, radial, a_);
   o.L = MatrixXcd::Zero(motions, motions);
   if (motions > 0) o.L = a_ * b_ * (rhs.transpose() * moved_gap) + inner_loads(m);
   if (m == 1) o.L += a_ * h_ * G.block(P, P, 2, 2);

@@ -25,12 +25,19 @@ class TruncatedCylinder {
   /// the azimuthal orders below `orders`.
   Scatterer at(const VerticalModes& modes, int orders, int channels) const;
 
+  // The gap's side of the matching, which a cylinder with water above it has too.
+  const GapBasis& basis() const { return basis_; }
+  /// H of (C6), rows: gap functions, then τ².
+  const Eigen::MatrixXd& interior(int m) const { return interior_[static_cast<std::size_t>(m)]; }
+  /// Part of the right-hand side that does not depend on frequency, (C7): columns are motions.
+  Eigen::MatrixXd forcing(int m) const;
+  /// Part of the loads that neither the gap velocity nor the side gives, (C7).
+  Eigen::MatrixXd inner_loads(int m) const;
+
  private:
   AzimuthalOrder solve(int m, const Exterior& outside, const RadialFunctions& radial, int channels) const;
   void build_interior(int orders);
   void add_interior_tail(int orders, int last);
-  Eigen::MatrixXd forcing(int m) const;
-  Eigen::MatrixXd inner_loads(int m) const;
   Eigen::MatrixXcd system(int m, const Eigen::MatrixXcd& G) const;
 
   double a_, d_, h_, b_;

@@ -102,9 +102,10 @@ Coefficients read_text_format(const fs::path& path, const ReadOptions& options, 
 /// ULEN and IPEROUT are facts of WAMIT's files alone: with another format they are a mistake of the caller.
 void require_no_wamit_options(const ReadOptions& options, const Coefficients& c, const fs::path& path) {
   constexpr const char* remedy = "leave it out: the file itself says what its numbers are";
-  if (options.ulen != 1)
-    throw InputError(fmt::format("ULEN = {} m is given, but this is no set of WAMIT files: {}", options.ulen, c.source),
-                     {.file = path.string()}, remedy);
+  if (options.ulen)
+    throw InputError(
+        fmt::format("ULEN = {} m is given, but this is no set of WAMIT files: {}", *options.ulen, c.source),
+        {.file = path.string()}, remedy);
   if (options.iperout)
     throw InputError(
         fmt::format("IPEROUT = {} is given, but this is no set of WAMIT files: {}", *options.iperout, c.source),

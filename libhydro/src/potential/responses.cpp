@@ -29,7 +29,7 @@ void require_our_time_factor(const RaoTable& rao, const fs::path& path) {
 }
 
 void refuse_wamit_options(const ReadOptions& options, const fs::path& path) {
-  if (options.ulen != 1 || options.iperout)
+  if (options.ulen || options.iperout)
     throw InputError("ULEN and IPEROUT belong to files of WAMIT; this is one of VERES", {.file = path.string()},
                      "leave them out");
 }

@@ -28,7 +28,8 @@ void require_sound(const ReadOptions& options) {
           options.density.value_or(0));
   require(!options.gravity || *options.gravity > 0, "gravity must be positive, got {} m/s²",
           options.gravity.value_or(0));
-  require(std::isfinite(options.ulen) && options.ulen > 0, "ULEN must be positive, got {} m", options.ulen);
+  require(!options.ulen || (std::isfinite(*options.ulen) && *options.ulen > 0), "ULEN must be positive, got {} m",
+          options.ulen.value_or(0));
   if (options.iperout)
     require(*options.iperout >= 1 && *options.iperout <= 4,
             "IPEROUT must be 1 (period), 2 (frequency), 3 (KL) or 4 (νL), got {}", *options.iperout);
@@ -100,9 +101,7 @@ WamitRun run_of(const ReadOptions& options, const std::optional<WamitOut>& out, 
       stated("gravity", options.gravity, found([](const WamitOut& o) { return o.gravity; }), usual.gravity, notes),
       std::isinf(h) ? WaterDepth::infinite() : WaterDepth::from_metres(h)};
   run.column = static_cast<FirstColumn>(options.iperout.value_or(1));
-  const bool is_silent = out && options.ulen == 1;  // the default is no statement against the file's
-  run.ulen = stated("ULEN", is_silent ? std::nullopt : std::optional(options.ulen),
-                    found([](const WamitOut& o) { return o.ulen; }), 1, notes);
+  run.ulen = stated("ULEN", options.ulen, found([](const WamitOut& o) { return o.ulen; }), 1, notes);
   return run;
 }
 

@@ -90,6 +90,18 @@ TEST(Compile, SaysWhichBodyOfTheFileIsMissing) {
                   AllOf(HasSubstr("body 7"), HasSubstr("holds 5 bodies"), HasSubstr("test.toml:"))));
 }
 
+TEST(Compile, RefusesFactsOfWamitBesideAnotherFormatAlsoWhereTheyAreTheUsualOnes) {
+  for (const auto* fact : {"ulen = \"1 m\"", "iperout = 1"})
+    EXPECT_THAT(
+        [&] {
+          compile::prepare(parse(
+              water + waves +
+              module_text("m", "(0, 0, 0) m", fmt::format("file = \"pontoon1.nc\"\nexcitation = true\n{}", fact)) +
+              run_ask));
+        },
+        ThrowsMessage<hydro::InputError>(HasSubstr("is given, but this is no set of WAMIT files")));
+}
+
 TEST(Compile, WantsToKnowWhichBodyOfSeveral) {
   const auto text =
       water + waves + module_text("m", "(0, 0, 0) m", "file = \"pontoon5.nc\"\nexcitation = true") + run_ask;

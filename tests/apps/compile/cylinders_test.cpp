@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <numbers>
 
 #include "compile/compile.hpp"
 #include "hydro/base/error.hpp"
@@ -50,6 +51,24 @@ frequencies = "1 rad/s .. 3 rad/s, 9 values"
 )";
 
 scene::Scene parse(const std::string& text) { return scene::parse(text, "scene.toml"); }
+
+TEST(CylindersInAScene, MayLieUnderWaterOrStandOnTheSeaBed) {
+  const scene::Scene discs = scene::read(std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/discs.toml");
+  const auto prepared = compile::prepare(discs);
+  ASSERT_EQ(prepared.groups.size(), 1u);
+  const auto& c = prepared.groups[0].table.coefficients();
+  EXPECT_NEAR(*c.body[1].displaced_volume, std::numbers::pi * 16 * 0.8, 1e-9);
+  EXPECT_NO_THROW(compile::frequency_model(prepared));
+  // Four cylinders in the same place that reach the bed: no weight, no restoring matrix, and no waves by heave.
+  std::string text = scene_text(cylinders);
+  text.replace(text.find("\"1 m\"\nfreq"), 5, "\"to the sea bed\"");
+  EXPECT_THAT([&] { compile::prepare(parse(text)); },
+              ThrowsMessage<hydro::InputError>(HasSubstr("no restoring matrix")));
+  text.erase(text.find("hydrostatics = true\n"), 20);
+  const auto piles = compile::solve_cylinders(parse(text), {0, 1}).coefficients;
+  EXPECT_EQ(piles.A[0](2, 2), 0);
+  EXPECT_GT(piles.A[0](0, 0), 0);
+}
 
 TEST(CylindersInAScene, AreSolvedTogetherWhereTheyStandAboutTheirCentresOfGravity) {
   const scene::Scene scene = parse(scene_text(cylinders));

@@ -76,6 +76,23 @@ TEST(SceneBodies, FeelGravityWhereTheSceneSaysSoAndNothingHoldsTheWeightAlready)
   EXPECT_TRUE(parse(with(heavy, "hydrostatics = true\n", ""), "scene.toml").bodies.at(0).weight);
 }
 
+TEST(SceneBodies, ShowStillWaterTheHullThatTheSceneNames) {
+  const std::string afloat = with(with(sphere, "hydrostatics = true\n", ""), "[body.hydrodynamics]\n",
+                                  "[body.buoyancy]\nspheres = { at = \"(0, ±2, -1) m\", diameter = \"3 m\" }\n"
+                                  "mesh = \"hull.stl\"\nunit = \"1 mm\"\n[body.hydrodynamics]\n");
+  const Buoyancy b = parse(afloat, "/scenes/scene.toml").bodies.at(0).buoyancy.value();
+  ASSERT_EQ(b.spheres.size(), 2u);
+  EXPECT_EQ(b.spheres[1].radius, 1.5);
+  EXPECT_EQ(b.mesh->value, "/scenes/hull.stl");
+  EXPECT_EQ(b.unit, 1e-3);
+  EXPECT_THAT(refusal(with(afloat, "radiation = {}\n", "radiation = {}\nhydrostatics = true\n")),
+              AllOf(HasSubstr("[body.buoyancy] would act twice"), HasSubstr("weight = true")));
+  EXPECT_THAT(refusal(with(afloat, "mesh = \"hull.stl\"\n", "")), HasSubstr("mesh"));
+  EXPECT_THAT(refusal(with(afloat, "spheres = { at = \"(0, ±2, -1) m\"",
+                           "cylinders = { from = \"(0, ±2, -1) m\", to = \"(0, 2, 1) m\"")),
+              HasSubstr("gives 1 points, `from` gives 2"));
+}
+
 TEST(SceneBodies, StartsWhereTheSceneSays) {
   const auto text =
       with(sphere, "free =", "initial = { heave = \"50 cm\" }\ninitial_velocity = { heave = \"-1 m/s\" }\nfree =");

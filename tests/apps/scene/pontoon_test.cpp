@@ -49,7 +49,6 @@ TEST(PontoonScene, IsEchoedWithEveryDefault) {
             "body[1].initial.heave = 10 cm\n"
             "body[1].initial.pitch = 5 deg\n"
             "body[1].hydrodynamics.file = data/pontoon5.nc\n"
-            "body[1].hydrodynamics.ulen = 1 m  (default)\n"
             "body[1].hydrodynamics.excitation = true\n"
             "body[1].hydrodynamics.radiation.memory_tolerance = 1e-3\n"
             "body[1].hydrodynamics.radiation.method = automatic  (default)\n"

@@ -133,7 +133,7 @@ TEST(VeresReader, RefusesWhatItCannotMean) {
   refused([](VeresText& t) { t.omega = {0.4, 0.4}; }, "must increase");
   const auto file = VeresText{}.write(folder);
   EXPECT_THAT([&] { read(file); }, ThrowsMessage<InputError>(HasSubstr("depth")));
-  EXPECT_THAT([&] { read(file, {.depth = WaterDepth::infinite(), .ulen = 2}); },
+  EXPECT_THAT([&] { read(file, {.depth = WaterDepth::infinite(), .ulen = 1}); },
               ThrowsMessage<InputError>(HasSubstr("ULEN")));
   VeresText other;
   other.omega = {0.4, 0.9, 1.4};
@@ -245,7 +245,8 @@ struct HdbText {
   froude_test::SmoothBody body = {};
   std::vector<double> period{4, 8, 16}, heading_deg{0, 90};
   int structures = 1;
-  double speed = 0;
+  double speed = 0, apart = 20;
+  bool is_coupled = true;
 
   std::string rows(auto value) const {
     std::string text;
@@ -263,12 +264,36 @@ struct HdbText {
     for (const double T : period) out += fmt::format("{:.3f}\n", T);
     out += "[List_calculated_headings]\n";
     for (const double beta : heading_deg) out += fmt::format("{:.3f}\n", beta);
-    out += fmt::format(
-        "[STRUCTURES_NUMBER] {}\n[STRUCTURE_01] buoy\n[UNDERWATER_VOLUME] 12\n[CENTER_OF_BUOYANCY] 0 0 -2\n"
-        "[CENTER_OF_GRAVITY] 1 2 -1\n[Hydrostatic_matrix]\n",
-        structures);
+    out += fmt::format("[STRUCTURES_NUMBER] {}\n", structures);
+    for (int b = 0; b < body.bodies; ++b) out += structure(b);
+    if (is_coupled)
+      for (int by = 0; by < body.bodies; ++by)
+        for (int on = 0; on < body.bodies; ++on)
+          if (on != by)
+            out += fmt::format(
+                       "[HYDRODYNAMIC_COUPLING_BETWEEN_STRUCTURES] buoy {}\n[ON] buoy {}\n"
+                       "[Coupled_Added_mass_Radiation_Damping]\n",
+                       by + 1, on + 1) +
+                   radiation(on, by);
+    return out;
+  }
+  std::string radiation(int on, int by) const {
+    std::string out;
+    for (int i = 0; i < 6; ++i)
+      out += fmt::format("[ADDED_MASS_LINE_{}]\n", i + 1) +
+             rows([&](int j, double w) { return body.A(6 * on + i, 6 * by + j, w); });
+    for (int i = 0; i < 6; ++i)
+      out += fmt::format("[DAMPING_TERM_{}]\n", i + 1) +
+             rows([&](int j, double w) { return body.B(6 * on + i, 6 * by + j, w); });
+    return out;
+  }
+  std::string structure(int b) const {
+    std::string out = fmt::format(
+        "[STRUCTURE_{:02}] buoy {}\n[UNDERWATER_VOLUME] {}\n[CENTER_OF_BUOYANCY] 0 0 -2\n"
+        "[CENTER_OF_GRAVITY] {} 2 -1\n[Hydrostatic_matrix]\n",
+        b + 1, b + 1, 12 + b, 1 + apart * b);
     for (int i = 0; i < 6; ++i) {
-      for (int j = 0; j < 6; ++j) out += fmt::format(" {:.17g}", body.C(i, j));
+      for (int j = 0; j < 6; ++j) out += fmt::format(" {:.17g}", body.C(6 * b + i, 6 * b + j));
       out += '\n';
     }
     out += "[EXCITATION_FORCES_AND_MOMENTS]\n";
@@ -276,15 +301,11 @@ struct HdbText {
       for (std::size_t h = 0; h < heading_deg.size(); ++h) {
         out += fmt::format("[INCIDENCE_EFM_{}_{:03}] {:.3f}\n", is_phase ? "PH" : "MOD", h + 1, heading_deg[h]);
         out += rows([&](int i, double w) {
-          const auto X = body.X(i, w, heading_deg[h] * degree);
+          const auto X = body.X(6 * b + i, w, heading_deg[h] * degree);
           return is_phase ? -std::arg(X) - std::numbers::pi / 2 : std::abs(X);
         });
       }
-    for (int i = 0; i < 6; ++i)
-      out += fmt::format("[ADDED_MASS_LINE_{}]\n", i + 1) + rows([&](int j, double w) { return body.A(i, j, w); });
-    for (int i = 0; i < 6; ++i)
-      out += fmt::format("[DAMPING_TERM_{}]\n", i + 1) + rows([&](int j, double w) { return body.B(i, j, w); });
-    return out;
+    return out + radiation(b, b);
   }
 };
 
@@ -301,9 +322,54 @@ TEST(HdbReader, ReadsRowsForLoadsAndTurnsPhasesRound) {
   EXPECT_EQ(froude_test::largest_relative_error(c.B, expected.B), 0);
   EXPECT_EQ(froude_test::largest_relative_error(std::vector{*c.C}, std::vector{*expected.C}), 0);
   EXPECT_LT(froude_test::largest_relative_error(c.X, expected.X), 1e-14);  // modulus, phase and back
-  EXPECT_EQ(c.body[0].name, "buoy");
+  EXPECT_EQ(c.body[0].name, "buoy 1");
   EXPECT_EQ(*c.body[0].displaced_volume, 12);
   EXPECT_EQ(*c.body[0].reference_point, Eigen::Vector3d(1, 2, -1));
+}
+
+HdbText two_structures() {
+  HdbText text;
+  text.body.bodies = text.structures = 2;
+  return text;
+}
+
+TEST(HdbReader, CouplesStructuresByLoadsOnTheOneBehindOn) {
+  TemporaryFolder folder;
+  HdbText text = two_structures();
+  const Coefficients c = read(folder.write("b.hdb", text.text()), sea);
+  const auto expected = text.body.coefficients(
+      {1025, 9.81, WaterDepth::from_metres(60)},
+      {2 * std::numbers::pi / 16, 2 * std::numbers::pi / 8, 2 * std::numbers::pi / 4}, {0, 90 * degree});
+  ASSERT_EQ(c.bodies(), 2);
+  EXPECT_EQ(froude_test::largest_relative_error(c.A, expected.A), 0);
+  EXPECT_EQ(froude_test::largest_relative_error(c.B, expected.B), 0);
+  EXPECT_EQ(froude_test::largest_relative_error(std::vector{*c.C}, std::vector{*expected.C}), 0);
+  EXPECT_LT(froude_test::largest_relative_error(c.X, expected.X), 1e-14);  // modulus, phase and back
+  EXPECT_EQ(*c.body[1].displaced_volume, 13);
+  EXPECT_EQ(*c.body[1].reference_point, Eigen::Vector3d(21, 2, -1));
+
+  text.is_coupled = false;
+  const Coefficients alone = read(folder.write("b.hdb", text.text()), sea);
+  EXPECT_THAT(alone.notes, testing::Contains(HasSubstr("couples no structures")));
+  EXPECT_EQ(alone.A[0].topRightCorner(6, 6).norm(), 0);
+  EXPECT_EQ(alone.A[0].bottomRightCorner(6, 6), c.A[0].bottomRightCorner(6, 6));
+}
+
+TEST(HdbReader, RefusesStructuresOfWhichItCannotTellPlaceOrCoupling) {
+  TemporaryFolder folder;
+  const auto refused = [&](const std::string& text, const char* what) {
+    EXPECT_THAT([&] { read(folder.write("b.hdb", text), sea); }, ThrowsMessage<InputError>(HasSubstr(what)));
+  };
+  HdbText same = two_structures();
+  same.apart = 0;
+  refused(same.text(), "does not say where its structures stand");
+  const std::string whole = two_structures().text();
+  refused(whole.substr(0, whole.rfind("[HYDRODYNAMIC")), "buoy 2 [ON] buoy 1");
+  std::string twice = whole;
+  refused(twice + whole.substr(whole.rfind("[HYDRODYNAMIC")), "stands twice");
+  std::string gap = whole;
+  gap.replace(gap.find("[STRUCTURE_02]"), 14, "[STRUCTURE_03]");
+  refused(gap, "stands where structure 2 should");
 }
 
 TEST(HdbReader, RefusesWhatItDoesNotKnow) {
@@ -314,7 +380,7 @@ TEST(HdbReader, RefusesWhatItDoesNotKnow) {
   refused(HdbText{}.text(), {}, "density, gravity and depth");
   HdbText text;
   text.structures = 2;
-  refused(text.text(), sea, "2 structures");
+  refused(text.text(), sea, "sections of 1 structures, not of 2");
   text = {};
   text.speed = 1;
   refused(text.text(), sea, "forward speed");

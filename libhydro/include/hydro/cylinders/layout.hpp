@@ -10,11 +10,12 @@
 
 namespace hydro::cylinders {
 
-/// A circular cylinder with a vertical axis and a flat bottom that pierces the surface; its top is above all water.
+/// A circular cylinder with a vertical axis and flat ends.
 struct Cylinder {
-  Eigen::Vector2d centre;         ///< x, y of the axis, global, m
-  double radius;                  ///< a, m
-  std::optional<double> draught;  ///< d, m; empty: it stands on the sea bed
+  Eigen::Vector2d centre;          ///< x, y of the axis, global, m
+  double radius;                   ///< a, m
+  std::optional<double> draught;   ///< d, of its bottom, m; empty: it stands on the sea bed
+  std::optional<double> top = {};  ///< t, depth of its top, m; empty: it pierces the surface, its top above all water
 };
 
 /// Cylinders that move as one. What joins them does not touch the water.
@@ -26,8 +27,8 @@ struct CylinderBody {
 };
 
 /// \throws InputError naming body and cylinder: a radius, draught or position that is not finite, a radius or draught
-/// that is not positive, a draught that reaches the bottom, cylinders (of any bodies) that overlap or touch, a body
-/// without cylinders, no body
+/// that is not positive, a draught that reaches the bottom, a top that is not under water or not above the bottom of
+/// its cylinder, cylinders (of any bodies) that overlap or touch, a body without cylinders, no body
 void check(const std::vector<CylinderBody>& bodies, const WaterDepth& depth);
 
 /// What a body displaces at rest.
@@ -37,7 +38,7 @@ struct Displacement {
 };
 Displacement displacement(const CylinderBody& body, const WaterDepth& depth);
 
-/// C of one body about its reference point, in balance: its weight is that of the water it displaces (C12).
+/// C of one body about its reference point, in balance: its weight is that of the water it displaces (P12).
 /// \throws InputError unless the centre of gravity is given and no cylinder stands on the bottom
 Eigen::Matrix<double, 6, 6> restoring(const CylinderBody& body, const Water& water);
 

@@ -1,9 +1,9 @@
 #pragma once
-/// \file  Exact linear radiation and diffraction of waves by bodies made of truncated vertical cylinders.
+/// \file  Exact linear radiation and diffraction of waves by bodies made of vertical cylinders.
 ///
 /// Potential theory without approximation in the interaction: each cylinder is solved by matching, the array by
 /// multiple scattering that includes evanescent waves. What is truncated (functions in the gap, partial waves) is
-/// chosen from the tolerance asked, and its effect is measured by doubling. Equations (C1)-(C15) are derived and
+/// chosen from the tolerance asked, and its effect is measured by doubling. Equations (C1)-(C20) are derived and
 /// sourced in docs/theory/cylinders.md.
 #include <functional>
 #include <vector>

@@ -62,7 +62,8 @@ struct ReadOptions {
   std::optional<double> density = {};  ///< ρ; needed for HAMS, HDB, and WAMIT unless its .out file states it
   std::optional<double> gravity = {};  ///< g; needed for HAMS, HDB, and the numeric files of WAMIT without a .out file
   std::optional<WaterDepth> depth = {};  ///< needed for VERES, HDB, and the numeric files of WAMIT without a .out file
-  double ulen = 1.0;                     ///< WAMIT's ULEN, m; refused for other formats unless 1
+  std::optional<double> ulen = {};       ///< WAMIT's ULEN, m; empty: that of the .out file, else 1; refused for other
+                                         ///< formats
   std::optional<int> iperout = {};  ///< WAMIT's IPEROUT 1…4; empty: 1 (periods), unless a file contradicts it; refused
                                     ///< for other formats
 };
