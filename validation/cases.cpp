@@ -9,6 +9,7 @@ Outcome fagerbakke_bem(const Folders& folders);
 Outcome fagerbakke_eigen(const Folders& folders);
 Outcome hendriksen_calibration(const Folders& folders);
 Outcome hendriksen_towing(const Folders& folders);
+Outcome f3of(const Folders& folders);
 Outcome formats(const Folders& folders);
 Outcome fpso_rao(const Folders& folders);
 Outcome hendriksen_waves(const Folders& folders);
@@ -45,6 +46,7 @@ const std::vector<Case>& cases() {
       {"sphere-decay", sphere_decay},
       {"rm3-regular", rm3_regular},
       {"rm3-decay", rm3_decay},
+      {"f3of", f3of},
       {"formats", formats},
       {"fpso-rao", fpso_rao},
       {"irf-a5", irf_a5},

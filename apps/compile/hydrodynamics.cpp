@@ -175,6 +175,18 @@ hydro::potential::Matrix6 gravity_restoring(double weight, const Eigen::Vector3d
   return G;
 }
 
+bool is_jointed(const Scene& scene, int body) {
+  return std::any_of(scene.joints.begin(), scene.joints.end(),
+                     [&](const scene::Joint& j) { return j.first == body || j.second == body; });
+}
+
+/// Buoyancy less weight at rest: zero for a body that floats by itself; joints carry it where it hangs on others.
+double lift(const Scene& scene, int body, const hydro::potential::BodyData& facts) {
+  if (!facts.displaced_volume || !is_jointed(scene, body)) return 0;
+  const double mass = scene.bodies[static_cast<std::size_t>(body)].mass;
+  return scene.water.gravity * (scene.water.density * *facts.displaced_volume - mass);
+}
+
 /// Puts one set of interacting bodies in its place and about the scene's centres of gravity.
 class Placement {
  public:
@@ -229,14 +241,17 @@ class Placement {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const auto& b = body(bodies_[i]);
       const auto& facts = c_.body[i];
-      const double weight = b.mass * scene_.water.gravity;
+      // About its own centre of gravity a body is restored by buoyancy alone; what it lacks in weight acts there,
+      // lift().
+      const double weight = b.mass * scene_.water.gravity + lift(scene_, bodies_[i], facts);
       if (!facts.centre_of_gravity) {
         notes_.push_back(fmt::format(
             "{}: the file does not say for which centre of gravity its restoring matrix is; taken to be that of {}",
             c_.source, b.name));
         continue;
       }
-      if (facts.displaced_volume && std::abs(scene_.water.density * *facts.displaced_volume / b.mass - 1) > 0.01)
+      if (facts.displaced_volume && !is_jointed(scene_, bodies_[i]) &&
+          std::abs(scene_.water.density * *facts.displaced_volume / b.mass - 1) > 0.01)
         notes_.push_back(
             fmt::format("{}: displaces {:.6g} kg of water but weighs {:.6g} kg: a linear restoring matrix takes them "
                         "to be in balance",
@@ -267,7 +282,9 @@ void add_hydrostatics(const Scene& scene, const Coefficients& about_centres, con
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const auto row = 6 * static_cast<Eigen::Index>(i);
     const dynamics::Matrix6 C = about_centres.C->block<6, 6>(row, row);
-    prepared.hydrostatics.push_back({.body = bodies[i], .stiffness = (C + C.transpose()) / 2});
+    prepared.hydrostatics.push_back({.body = bodies[i],
+                                     .stiffness = (C + C.transpose()) / 2,
+                                     .lift = lift(scene, bodies[i], about_centres.body[i])});
   }
 }
 

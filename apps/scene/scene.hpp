@@ -165,7 +165,7 @@ struct Morison {
   double cd_tangential = 0;  ///< of the skin
   bool partial = false;      ///< only the part under water is loaded
   bool still = false;        ///< with `partial`: under still water, whatever the waves
-  std::optional<int> pieces;
+  std::optional<int> pieces = {};
 };
 
 /// `[member.slamming]`.

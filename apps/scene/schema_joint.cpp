@@ -16,7 +16,7 @@ const Measure of_slider{"slider", dim::length, dim::force}, of_hinge{"hinge", di
 
 Table stops_table(const Measure& m) {
   return {
-      .title = "[joint.pto.stops]",
+      .title = std::string("[joint.pto.stops] of a ") + m.joint,
       .meaning = "ends of the travel: a spring and a damper that never pull",
       .keys = {quantity("lower", m.travel, "travel at which the lower one begins").optional(),
                quantity("upper", m.travel, "travel at which the upper one begins").optional(),
@@ -30,7 +30,7 @@ Table stops_table(const Measure& m) {
 Table pto_table(const Measure& m, const Table& stops) {
   const auto rate = m.travel / dim::time;
   return {
-      .title = "[joint.pto]",
+      .title = std::string("[joint.pto] of a ") + m.joint,
       .meaning = std::string("works against the travel of the ") + m.joint + ", zero at rest",
       .keys = {quantity("stiffness", m.force / m.travel, "of the spring; negative ones push away from rest").optional(),
                quantity("cubic", m.force / (m.travel * m.travel * m.travel), "of the spring, times the travel cubed")

@@ -15,9 +15,9 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }  // namespace
 
 scene::Scene read_scene(const Folders& folders, const std::string& needs, const std::string& from,
-                        const std::string& to) {
+                        const std::string& to, const std::string& name) {
   const std::string found = folders.shared(needs).string();
-  const auto file = folders.own() / "scene.toml";
+  const auto file = folders.own() / name;
   std::string text =
       replaced(hydro::io::read_text(file), "../../../shared/data/", found.substr(0, found.size() - needs.size()));
   if (!from.empty()) {

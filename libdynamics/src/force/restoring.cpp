@@ -29,7 +29,9 @@ void RestoringKind::add_load(const Instant& now, LoadSink& out) const {
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     const Restoring& e = elements_[i];
     const Pose& pose = now.state.pose[static_cast<std::size_t>(e.body)];
-    out.add(e.body, restoring_load(e, displacement(pose, rest_centre_[i]), now.state.twist(e.body)));
+    Vector6 load = restoring_load(e, displacement(pose, rest_centre_[i]), now.state.twist(e.body));
+    load.z() += e.lift;
+    out.add(e.body, load);
   }
 }
 
@@ -52,7 +54,7 @@ EnergyFlow RestoringKind::energy(const Instant& now) const {
     const Restoring& e = elements_[i];
     const Vector6 d = displacement(now.state.pose[static_cast<std::size_t>(e.body)], rest_centre_[i]);
     const Vector6 v = now.state.twist(e.body);
-    flow.stored += 0.5 * d.dot(e.stiffness * d);
+    flow.stored += 0.5 * d.dot(e.stiffness * d) - e.lift * d.z();
     flow.dissipated += v.dot(e.damping * v);
   }
   return flow;

@@ -28,6 +28,21 @@ GeneralizedAlpha::GeneralizedAlpha(const Model& model, const Settings& settings)
     model.joints().add_transposed(G, Eigen::VectorXd::Unit(joint_scale_.size(), i), row);
     joint_scale_[i] = 1 / row.cwiseQuotient(scale_).norm();
   }
+  double farthest = 0;  // what positions and arms are rounded against
+  for (const Joint& joint : model.joints().joints()) {
+    farthest = std::max(farthest, joint.place.norm());
+    for (const std::optional<int> body : {std::optional(joint.first), joint.second})
+      if (body) farthest = std::max(farthest, model.bodies()[static_cast<std::size_t>(*body)].rest_centre().norm());
+  }
+  constexpr double roundings = 32;  // sums and products between a state and how far a joint is open
+  rounding_ = roundings * std::numeric_limits<double>::epsilon() * farthest;
+}
+
+// How far a joint is open is known to rounding only; divided by ∂q/∂a that is an acceleration, the larger the shorter
+// the step, and corrections below it mean nothing.
+double GeneralizedAlpha::unresolved(double h) const {
+  const double s = (1 - alpha_f_) / (1 - alpha_m_);
+  return rounding_ / (s * beta_ * h * h) * scale_.norm();
 }
 
 void GeneralizedAlpha::require_closed_joints(const State& state, const std::vector<Gradient>& G) const {
@@ -118,6 +133,9 @@ std::vector<Gradient> GeneralizedAlpha::by_step(const std::vector<Gradient>& G, 
 bool GeneralizedAlpha::try_step(Workspace& workspace, double h, StepReport& report) {
   const double s = (1 - alpha_f_) / (1 - alpha_m_);
   Trial now = evaluate(workspace, h, workspace.acceleration, workspace.multipliers);
+  const auto settled = [&](double move, double reach) {
+    return move <= settings_.newton_tolerance * reach || move <= unresolved(h);
+  };
   for (int iteration = 0; iteration < settings_.iterations; ++iteration) {
     if (!std::isfinite(now.size)) {
       failure_ = "the loads are not finite";
@@ -141,7 +159,7 @@ bool GeneralizedAlpha::try_step(Workspace& workspace, double h, StepReport& repo
       trial = evaluate(workspace, h, now.acceleration + factor * correction, now.multipliers + factor * more);
       if (trial.size <= now.size) break;
       // At round-off the residual cannot fall any more: the full correction is as good as it gets.
-      if (factor == 1 && move <= settings_.newton_tolerance * trial.acceleration.cwiseProduct(scale_).norm()) break;
+      if (factor == 1 && settled(move, trial.acceleration.cwiseProduct(scale_).norm())) break;
     }
     if (!std::isfinite(trial.size)) {
       failure_ = "the loads are not finite";
@@ -150,7 +168,7 @@ bool GeneralizedAlpha::try_step(Workspace& workspace, double h, StepReport& repo
     now = std::move(trial);
     const double reach =
         now.acceleration.cwiseProduct(scale_).norm() + now.state.velocity.cwiseProduct(scale_).norm() / h;
-    if (factor == 1 && move <= settings_.newton_tolerance * reach) {
+    if (factor == 1 && settled(move, reach)) {
       algorithmic_ = ((1 - alpha_f_) * now.acceleration + alpha_f_ * workspace.acceleration - alpha_m_ * algorithmic_) /
                      (1 - alpha_m_);  // (D10)
       workspace.state = std::move(now.state);

@@ -39,7 +39,7 @@ WaveSignals wave_signals(Eigen::Index rows) {
 }
 
 TEST(ForceLaws, HoldForRestoring) {
-  laws::expect_force_laws(RestoringKind("mooring", bodies, {{0, random_spd(1), random_spd(2)}, {1, random_spd(3)}}),
+  laws::expect_force_laws(RestoringKind("mooring", bodies, {{0, random_spd(1), random_spd(2)}, {1, random_spd(3), Matrix6::Zero(), 700}}),
                           bodies);
 }
 

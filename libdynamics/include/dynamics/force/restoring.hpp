@@ -10,6 +10,8 @@ struct Restoring {
   int body;
   Matrix6 stiffness;                  ///< C about the centre of gravity, symmetric
   Matrix6 damping = Matrix6::Zero();  ///< D about the centre of gravity
+  double lift = 0;  ///< N, a constant force upwards at the centre of gravity: buoyancy less weight of a body that
+                    ///< others hold at its draught
 };
 
 /// Load of one element. Rotations: |φ| < π.

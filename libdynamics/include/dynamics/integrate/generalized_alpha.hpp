@@ -58,6 +58,7 @@ class GeneralizedAlpha {
   };
   Trial evaluate(Workspace& workspace, double h, Eigen::VectorXd acceleration, Eigen::VectorXd multipliers) const;
   std::vector<Gradient> by_step(const std::vector<Gradient>& G, const State& before, const State& after) const;
+  double unresolved(double h) const;
   void require_closed_joints(const State& state, const std::vector<Gradient>& G) const;
 
   const Model& model_;
@@ -66,6 +67,7 @@ class GeneralizedAlpha {
   Eigen::VectorXd algorithmic_;  // the auxiliary acceleration of Arnold & Brüls
   Eigen::VectorXd scale_;  // √ of the diagonal of mass plus added mass: makes newtons and newton metres comparable
   Eigen::VectorXd joint_scale_;  // the same for the joints' conditions
+  double rounding_ = 0;          // m, of a joint's place computed from its bodies' positions
   std::string failure_;          // why the last attempt failed
 };
 

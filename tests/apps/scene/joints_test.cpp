@@ -1,0 +1,57 @@
+#include "apps/scene/scenes.hpp"
+
+namespace froude::scene {
+namespace {
+
+/// The pontoons with joints in place of the connector.
+std::string jointed(const std::string& lines) {
+  const auto from = pontoons.find("[[connector]]"), to = pontoons.find("[ask]");
+  return with(pontoons.substr(0, from) + lines + "\n" + pontoons.substr(to), ", \"connector*.force\"", "");
+}
+
+const std::string hinges =
+    "[[joint]]\nname = \"hinge\"\nkind = \"hinge\"\nbetween = \"neighbours of m\"\nat = \"(6.5, 0, 0.5) m\"\naxis = "
+    "\"y\"\n";
+
+TEST(SceneJoints, StandBetweenNeighboursAsTheBodiesDo) {
+  const Scene scene = parse(jointed(hinges), "scene.toml");
+  ASSERT_EQ(scene.joints.size(), 4u);
+  EXPECT_EQ(scene.joints[3].name, "hinge4");
+  EXPECT_EQ(scene.joints[3].first, 3);
+  EXPECT_EQ(scene.joints[3].second, 4);
+  EXPECT_EQ(scene.joints[3].at, Eigen::Vector3d(6.5 + 3 * 13, 0, 0.5));
+  EXPECT_EQ(scene.joints[3].axis, Eigen::Vector3d::UnitY());
+}
+
+TEST(SceneJoints, TakeTheGroundAtEitherEndAndAnyDirection) {
+  const Scene scene = parse(
+      jointed(
+          "[[joint]]\nkind = \"slider\"\nbetween = [\"ground\", \"m1\"]\nat = \"(0, 0, 0) m\"\naxis = \"(1, 0, 2)\"\n"),
+      "scene.toml");
+  ASSERT_EQ(scene.joints.size(), 1u);
+  EXPECT_EQ(scene.joints[0].first, std::nullopt);
+  EXPECT_EQ(scene.joints[0].second, 0);
+  EXPECT_EQ(scene.joints[0].axis, Eigen::Vector3d(1, 0, 2));
+}
+
+TEST(SceneJoints, RefuseWhatCannotBeAJoint) {
+  EXPECT_THAT(refusal(jointed(with(hinges, "\"y\"", "\"w\""))), HasSubstr("\"(1, 0, 1)\""));
+  EXPECT_THAT(refusal(jointed(with(hinges, "\"y\"", "\"(0, 0, 0)\""))), HasSubstr("has no direction"));
+  EXPECT_THAT(refusal(jointed(with(hinges, "axis = \"y\"\n", ""))), HasSubstr("needs the key \"axis\""));
+  EXPECT_THAT(refusal(jointed(with(hinges, "\"neighbours of m\"", "[\"m1\", \"m1\"]"))),
+              HasSubstr("stands twice"));
+  EXPECT_THAT(refusal(jointed(with(hinges, "kind = \"hinge\"", "kind = \"weld\""))), HasSubstr("fixed"));
+  EXPECT_THAT(refusal(jointed(with(with(hinges, "kind = \"hinge\"", "kind = \"universal\""), "axis = \"y\"",
+                                   "axis = \"y\"\nsecond_axis = \"(0, 1, 1)\""))),
+              AllOf(HasSubstr("45 degrees off a right angle"), HasSubstr("second_axis")));
+}
+
+TEST(SceneJoints, RefuseABodyThatMayOnlyTurnAboutItsCentre) {
+  std::string text = with(jointed(hinges), "radii_of_gyration", "free = [\"pitch\"]\nradii_of_gyration");
+  text = with(text, "initial = { heave = \"10 cm\", pitch = \"5 deg\" }\n", "");
+  EXPECT_THAT(refusal(text),
+              AllOf(HasSubstr("may turn about its centre of gravity only"), HasSubstr("free the translations")));
+}
+
+}  // namespace
+}  // namespace froude::scene
