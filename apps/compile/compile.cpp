@@ -80,6 +80,8 @@ void add_joint(const scene::Joint& j, Prepared& out) {
                         .axis = turned && j.kind == scene::JointKind::universal ? j.second_axis : j.axis,
                         .second_axis = turned ? j.axis : j.second_axis});
   out.joint_sign.push_back(turned ? -1 : 1);
+  if (j.friction)
+    out.friction.push_back({static_cast<int>(out.joints.size()) - 1, j.friction->breakaway, j.friction->sliding});
 }
 
 void add_mooring(const Scene& scene, const scene::Mooring& m, Prepared& out) {
@@ -331,6 +333,10 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
   if (sea)
     if (auto kind = excitation(prepared, *sea, {step, steps + 1}, scene.waves->ramp)) forces.push_back(std::move(kind));
   add_members(scene, prepared.bodies, water, {step, steps + 1}, forces);
+
+  if (!prepared.friction.empty())
+    forces.push_back(std::make_unique<dynamics::FrictionKind>(dynamics::JointSet(prepared.bodies, prepared.joints),
+                                                              prepared.friction));
 
   for (const auto& kind : forces) {
     if (kind->effect() != "radiation") {

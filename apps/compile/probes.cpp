@@ -136,6 +136,22 @@ void add_ptos(const scene::Scene& scene, const Prepared& p, std::vector<Probe>& 
   }
 }
 
+/// Along the axis on the second of the joint as the scene writes it: what its friction does to it.
+void add_friction(const Prepared& p, const dynamics::Model& model, std::vector<Probe>& out) {
+  std::size_t kind = 0;
+  while (kind < model.forces().size() && model.forces()[kind]->friction() == nullptr) ++kind;
+  for (std::size_t i = 0; i < p.friction.size(); ++i) {
+    const auto joint = static_cast<std::size_t>(p.friction[i].joint);
+    const bool turns = p.joints[joint].kind == dynamics::JointKind::hinge;
+    out.push_back({p.joints[joint].name + ".friction", turns ? "N m" : "N",
+                   fmt::format("load of the friction of {} on its second body along the axis", p.joints[joint].name),
+                   [&model, i, kind, sign = p.joint_sign[joint]](const Workspace& w, const EnergyLedger&) {
+                     return sign * model.forces()[kind]->friction()->load(i, w.memory[kind].get(), w.multipliers,
+                                                                          model.joints().count());
+                   }});
+  }
+}
+
 void add_joint_loads(const Prepared& p, const dynamics::Model& model, std::vector<Probe>& out) {
   for_each_end(p, [&](int joint, dynamics::End end, const std::string& name) {
     for (int i = 0; i < 6; ++i)
@@ -207,6 +223,7 @@ std::vector<Probe> run_probes(const scene::Scene& scene, const Prepared& prepare
   add_lines(scene, prepared, out);
   add_travels(prepared, model.model, out);
   add_ptos(scene, prepared, out);
+  add_friction(prepared, model.model, out);
   add_joint_loads(prepared, model.model, out);
   if (scene.waves) add_water(scene, model.water.field, out);
   add_energies(model, out);

@@ -163,7 +163,8 @@ void modes(const SceneArguments& arguments, const Console& console) {
   require_asked(scene.ask_modes.has_value(), scene, "modes", "modes = { longest = \"60 s\" }");
   const Path file = output_path(arguments, ".modes.h5");
   hydro::io::require_writable(file);
-  const compile::Prepared prepared = compile::prepare(scene);
+  compile::Prepared prepared = compile::prepare(scene);
+  if (!prepared.friction.empty()) prepared.notes.push_back("friction is left out: its joints move freely");
   const dynamics::Model model = compile::frequency_model(prepared);
   const ModeList all = dynamics::frequency::free_motions(model, prepared.groups);
   const std::vector<Mode> shown = wanted(all, *scene.ask_modes);

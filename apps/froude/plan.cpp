@@ -30,6 +30,7 @@ void add_absent(const scene::Scene& scene, const compile::Prepared& p, std::vect
   absent(!p.joints.empty(), "joint", "[[joint]]");
   absent(!p.ptos.empty(), "pto", "[joint.pto]");
   absent(!p.loads.empty(), "load", "[[load]]");
+  absent(!p.friction.empty(), "friction", "friction = { … } of a [[joint]]");
   absent(radiation, "radiation", "radiation = {}");
   absent(excitation, "excitation", "excitation = true");
   const auto named = [&](auto key) {

@@ -131,6 +131,8 @@ void rao(const SceneArguments& arguments, const Console& console) {
     prepared.notes.push_back(
         "loads on members are left out, also their added mass: a linear response per metre of wave has no place for "
         "them (a run has)");
+  if (!prepared.friction.empty())
+    prepared.notes.push_back("friction is left out: its joints move freely in a linear response");
   const auto all = compile::rao_probes(scene, prepared, model);
   std::vector<std::string> names;
   for (const auto& p : all) names.push_back(p.name);

@@ -28,6 +28,7 @@ void tell(const Console& console, const scene::Scene& scene, const Record& recor
                      {"steps", record.steps},
                      {"newton_iterations", record.newton_iterations},
                      {"halvings", record.halvings},
+                     {"events", record.events},
                      {"wall_time_s", record.stepping_s},
                      {"energy_residual_relative", relative},
                      {"stopped", record.stopped},
@@ -37,10 +38,11 @@ void tell(const Console& console, const scene::Scene& scene, const Record& recor
     return;
   }
   console.out << fmt::format(
-      "{}: {:.6g} s in {} steps of {:.4g} s, {:.2f} Newton iterations a step{}, {:.2f} s of work\n",
+      "{}: {:.6g} s in {} steps of {:.4g} s, {:.2f} Newton iterations a step{}{}, {:.2f} s of work\n",
       scene.file.filename().string(), record.time.back(), record.steps, record.step,
       static_cast<double>(record.newton_iterations) / static_cast<double>(std::max<std::size_t>(1, record.steps)),
-      record.halvings ? fmt::format(", {} halvings", record.halvings) : "", record.stepping_s);
+      record.halvings ? fmt::format(", {} halvings", record.halvings) : "",
+      record.events ? fmt::format(", friction changes {} times", record.events) : "", record.stepping_s);
   console.out << series_table(record.signals);
   console.out << fmt::format("energy that does not add up: {:.3g} J, {:.2g} of the {:.3g} J turned over\n", residual,
                              relative, turnover);

@@ -47,6 +47,7 @@ class March {
     workspace_.state.time = static_cast<double>(n) * m_.step;  // sums of steps drift, products do not
     record_.newton_iterations += report.newton_iterations;
     record_.halvings += report.halvings;
+    record_.events += report.events;
     record_.steps = n;
     ledger.note(workspace_);
   }

@@ -16,7 +16,7 @@ struct Record {
   std::vector<Signal> signals;  ///< those that the scene asks for
   double step = 0;              ///< s
   std::size_t steps = 0;        ///< completed
-  int newton_iterations = 0, halvings = 0;
+  int newton_iterations = 0, halvings = 0, events = 0;
   double preparation_s = 0, stepping_s = 0;                      ///< wall time
   std::vector<std::pair<std::string, std::size_t>> evaluations;  ///< of the load, by effect
   std::vector<std::pair<std::string, double>> energy;            ///< J, by effect, at the end; residual and turnover

@@ -25,6 +25,16 @@ void read_axes(const Record& record, Joint& joint) {
                        "the two axes of a universal joint are across each other");
 }
 
+std::optional<JointFriction> read_friction(const Record& record) {
+  if (!record.has("friction")) return std::nullopt;
+  const Record& friction = record.table("friction");
+  const double sliding = friction.si("dynamic");
+  if (!friction.has("static")) return JointFriction{sliding, sliding};
+  if (friction.si("static") < sliding)
+    throw friction.wrong("static", "is below the dynamic level", "what sticks holds at least as much as what slips");
+  return JointFriction{friction.si("static"), sliding};
+}
+
 /// Held modes of a body are held for its own sake, not by joints: a joint that asks it to leave its place holds it
 /// fast.
 void check_may_turn(const Record& record, const Joint& joint, const std::vector<Body>& bodies) {
@@ -97,6 +107,7 @@ void build_joints(const Record& root, Names& names, Scene& scene) {
                     scene.bodies[static_cast<std::size_t>(*pairs.front().first)].position;
       read_axes(record, joint);
       if (record.has("pto")) joint.pto = read_pto(record.table("pto"));
+      joint.friction = read_friction(record);
       check_may_turn(record, joint, scene.bodies);
       scene.joints.push_back(std::move(joint));
     }

@@ -228,6 +228,11 @@ struct Connector {
   Place place;
 };
 
+/// Friction of a hinge, N m, or of a slider, N.
+struct JointFriction {
+  double breakaway, sliding;
+};
+
 enum class JointKind { fixed, hinge, universal, ball, slider, planar };
 
 /// `[joint.pto]`: against the travel of a slider (m, N) or the angle of a hinge (rad, N m), zero at rest.
@@ -257,6 +262,7 @@ struct Joint {
   Eigen::Vector3d at;                ///< global, m
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX(), second_axis = Eigen::Vector3d::UnitY();  ///< global, any length
   std::optional<Pto> pto;                                                                   ///< of sliders and hinges
+  std::optional<JointFriction> friction = {};
   Place place;
 };
 

@@ -5,6 +5,24 @@ namespace {
 
 namespace dim = hydro::dim;
 
+Table friction_table(const hydro::Dimension& dimension, const std::string& what) {
+  return {.title = "[joint.friction]",
+          .meaning =
+              "Coulomb friction: the joint sticks until the static level is reached, and slips against the dynamic one",
+          .keys = {quantity("dynamic", dimension, what + " that resists while it slips").positive(),
+                   quantity("static", dimension, what + " that it holds while it sticks; left out: the dynamic one")
+                       .positive()
+                       .optional()}};
+}
+const Table& hinge_friction() {
+  static const Table table = friction_table(dim::moment, "moment");
+  return table;
+}
+const Table& slider_friction() {
+  static const Table table = friction_table(dim::force, "force");
+  return table;
+}
+
 Key axis(const std::string& meaning) { return direction("axis", meaning); }
 
 /// What a kind of joint measures its travel in.
@@ -90,7 +108,8 @@ const Table& joint_table() {
           {.word = "fixed", .meaning = "nothing moves", .keys = {}},
           {.word = "hinge",
            .meaning = "the two turn about one axis",
-           .keys = {axis("about which they turn, global at rest"), inner_table("pto", pto_of_hinge()).optional()}},
+           .keys = {axis("about which they turn, global at rest"), inner_table("friction", hinge_friction()).optional(),
+                    inner_table("pto", pto_of_hinge()).optional()}},
           {.word = "universal",
            .meaning = "the two turn about two axes across each other",
            .keys = {axis("that the first body holds, global at rest"),
@@ -99,6 +118,7 @@ const Table& joint_table() {
           {.word = "slider",
            .meaning = "the second slides along an axis of the first and turns about nothing",
            .keys = {axis("along which it slides, held by the first, global at rest"),
+                    inner_table("friction", slider_friction()).optional(),
                     inner_table("pto", pto_of_slider()).optional()}},
           {.word = "planar",
            .meaning = "the second slides in a plane of the first and turns about its normal",

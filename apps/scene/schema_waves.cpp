@@ -148,7 +148,8 @@ Key seed() {
 std::vector<Key> of_random_seas() {
   return {seed(), inner_table("components", components()).or_default("", "see its keys"),
           inner_table("crest", crest()).optional(),
-          effect("second_order", "bound waves: sums and differences of frequencies (Sharma & Dean); for `froude waves` and members")
+          effect("second_order",
+                 "bound waves: sums and differences of frequencies (Sharma & Dean); for `froude waves` and members")
               .optional()};
 }
 
@@ -211,7 +212,8 @@ std::vector<Variant> other_kinds() {
         text("phase_of", "what a phase is added to: \"omega t - k x\" (ours) or \"k x - omega t\"")
             .one_of({"omega t - k x", "k x - omega t"})
             .or_default("omega t - k x", "the convention of every result"),
-        effect("second_order", "bound waves: sums and differences of frequencies (Sharma & Dean); for `froude waves` and members")
+        effect("second_order",
+               "bound waves: sums and differences of frequencies (Sharma & Dean); for `froude waves` and members")
             .optional()}},
       {"focused_packets",
        "groups 3.5 waves long that meet at one place and time; for `froude waves` and members",

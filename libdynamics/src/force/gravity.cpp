@@ -14,7 +14,10 @@ std::vector<int> all_of(const std::vector<RigidBody>& bodies) {
 }  // namespace
 
 GravityKind::GravityKind(const std::vector<RigidBody>& bodies, double gravity, const std::vector<int>& heavy) {
-  for (const int b : heavy) elements_.push_back({b, bodies[static_cast<std::size_t>(b)].mass() * gravity});
+  for (const int b : heavy) {
+    const RigidBody& body = bodies[static_cast<std::size_t>(b)];
+    elements_.push_back({b, body.mass() * gravity, body.rest_centre().z()});
+  }
 }
 
 GravityKind::GravityKind(const std::vector<RigidBody>& bodies, double gravity)
@@ -27,7 +30,7 @@ void GravityKind::add_load(const Instant&, LoadSink& out) const {
 EnergyFlow GravityKind::energy(const Instant& now) const {
   EnergyFlow out;
   for (const Element& e : elements_)
-    out.stored += e.weight * now.state.pose[static_cast<std::size_t>(e.body)].centre.z();
+    out.stored += e.weight * (now.state.pose[static_cast<std::size_t>(e.body)].centre.z() - e.rest_height);
   return out;
 }
 

@@ -8,8 +8,9 @@
 
 namespace dynamics {
 namespace {
-constexpr double closed = 1e-9;  // m, and sine of an angle: what rounding of a placed body leaves
-}
+constexpr double closed = 1e-9;             // m, and sine of an angle: what rounding of a placed body leaves
+constexpr double event_resolution = 1e-12;  // of a step, and of a level of friction: what rounding leaves of both
+}  // namespace
 
 GeneralizedAlpha::GeneralizedAlpha(const Model& model, const Settings& settings) : model_(model), settings_(settings) {
   const double rho = settings.rho_infinity;
@@ -21,13 +22,14 @@ GeneralizedAlpha::GeneralizedAlpha(const Model& model, const Settings& settings)
   BlockMatrix mass(model.pattern());
   model.add_mass(rest_state(model.bodies()), 1, mass);
   scale_ = mass.dense().diagonal().cwiseSqrt();
-  const auto G = model.joints().gradients(rest_state(model.bodies()));
-  joint_scale_.resize(model.joints().count());
-  for (Eigen::Index i = 0; i < joint_scale_.size(); ++i) {  // the root of the mass that a condition moves
-    Eigen::VectorXd row = Eigen::VectorXd::Zero(model.modes());
-    model.joints().add_transposed(G, Eigen::VectorXd::Unit(joint_scale_.size(), i), row);
-    joint_scale_[i] = 1 / row.cwiseQuotient(scale_).norm();
-  }
+  active_ = model.joints();
+  find_joint_scale(rest_state(model.bodies()));
+  for (std::size_t k = 0; k < model.forces().size(); ++k)
+    if (const FrictionKind* kind = model.forces()[k]->friction()) {
+      hydro::ensure(friction_ == nullptr, "all friction of a model is one kind");
+      friction_ = kind;
+      friction_index_ = k;
+    }
   double farthest = 0;  // what positions and arms are rounded against
   for (const Joint& joint : model.joints().joints()) {
     farthest = std::max(farthest, joint.place.norm());
@@ -36,6 +38,17 @@ GeneralizedAlpha::GeneralizedAlpha(const Model& model, const Settings& settings)
   }
   constexpr double roundings = 32;  // sums and products between a state and how far a joint is open
   rounding_ = roundings * std::numeric_limits<double>::epsilon() * farthest;
+}
+
+// The root of the mass that a condition moves.
+void GeneralizedAlpha::find_joint_scale(const State& state) {
+  const auto G = active_.gradients(state);
+  joint_scale_.resize(active_.count());
+  for (Eigen::Index i = 0; i < joint_scale_.size(); ++i) {
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(model_.modes());
+    active_.add_transposed(G, Eigen::VectorXd::Unit(joint_scale_.size(), i), row);
+    joint_scale_[i] = 1 / row.cwiseQuotient(scale_).norm();
+  }
 }
 
 // How far a joint is open is known to rounding only; divided by ∂q/∂a that is an acceleration, the larger the shorter
@@ -64,20 +77,34 @@ void GeneralizedAlpha::require_closed_joints(const State& state, const std::vect
 }
 
 void GeneralizedAlpha::start(Workspace& workspace) {
-  const auto G = model_.joints().gradients(workspace.state);
-  require_closed_joints(workspace.state, G);
-  workspace.acceleration.setZero();
-  const Eigen::VectorXd r = model_.residual(workspace.state, workspace.acceleration, workspace);
-  model_.tangent(workspace.state, 1, 0, 0, workspace, workspace.matrix);
-  if (!r.allFinite() || !workspace.solver.factorise(workspace.matrix, G, G))
+  require_closed_joints(workspace.state, model_.joints().gradients(workspace.state));
+  if (friction_ != nullptr) {
+    FrictionMemory& memory = friction_memory(workspace);
+    const double rounding = closed * workspace.state.velocity.cwiseAbs().maxCoeff();
+    for (std::size_t i = 0; i < memory.direction.size(); ++i) {
+      const double rate = friction_->rate(i, workspace.state);
+      memory.direction[i] = std::abs(rate) <= rounding ? 0 : (rate > 0 ? 1 : -1);
+    }
+    settle_friction(workspace);
+    return;
+  }
+  if (!solve_accelerations(workspace))
     throw hydro::NumericsError(fmt::format(
         "no accelerations can be found at the start, t = {} s: the loads or the mass matrix are not finite or singular",
         workspace.state.time));
-  // G a = −Ġ v keeps the joints closed (D16).
-  auto [a, lambda] = workspace.solver.solve(-r, -model_.joints().convective(workspace.state));
+}
+
+// G a = −Ġ v keeps the joints closed (D16).
+bool GeneralizedAlpha::solve_accelerations(Workspace& workspace) {
+  const auto G = active_.gradients(workspace.state);
+  const Eigen::VectorXd r = model_.residual(workspace.state, Eigen::VectorXd::Zero(model_.modes()), workspace);
+  model_.tangent(workspace.state, 1, 0, 0, workspace, workspace.matrix);
+  if (!r.allFinite() || !workspace.solver.factorise(workspace.matrix, G, G)) return false;
+  auto [a, lambda] = workspace.solver.solve(-r, -active_.convective(workspace.state));
   workspace.acceleration = std::move(a);
   workspace.multipliers = std::move(lambda);
   algorithmic_ = workspace.acceleration;
+  return true;
 }
 
 void GeneralizedAlpha::predict(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration,
@@ -101,12 +128,12 @@ GeneralizedAlpha::Trial GeneralizedAlpha::evaluate(Workspace& workspace, double 
   Trial out{std::move(acceleration), std::move(multipliers), {}, {}, {}, {}, 0};
   predict(workspace, h, out.acceleration, out.state);
   out.residual = model_.residual(out.state, out.acceleration, workspace);
-  if (model_.joints().count() > 0) {
-    out.gradients = model_.joints().gradients(out.state);
-    model_.joints().add_transposed(out.gradients, out.multipliers, out.residual);
+  if (active_.count() > 0) {
+    out.gradients = active_.gradients(out.state);
+    active_.add_transposed(out.gradients, out.multipliers, out.residual);
     // Divided by ∂q/∂a, the distance by which a joint is open is an acceleration, as large as what closes it.
     const double s = (1 - alpha_f_) / (1 - alpha_m_);
-    out.open = model_.joints().values(out.state) / (s * beta_ * h * h);
+    out.open = active_.values(out.state) / (s * beta_ * h * h);
   }
   // Without joints `open` is empty and its norm zero.
   out.size = std::hypot(out.residual.cwiseQuotient(scale_).norm(), out.open.cwiseProduct(joint_scale_).norm());
@@ -123,7 +150,7 @@ std::vector<Gradient> GeneralizedAlpha::by_step(const std::vector<Gradient>& G, 
     row.tail<3>() = left_jacobian(turn).transpose() * row.tail<3>();
   };
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const Condition& c = model_.joints().conditions()[i];
+    const Condition& c = active_.conditions()[i];
     turned(c.first, out[i].first);
     if (c.second) turned(*c.second, out[i].second);
   }
@@ -145,7 +172,7 @@ bool GeneralizedAlpha::try_step(Workspace& workspace, double h, StepReport& repo
     // Leaving J out of the loads' derivatives costs Newton some speed, not the solution; joints have it, to close
     // fully.
     model_.tangent(now.state, 1, s * gamma_ * h, s * beta_ * h * h, workspace, workspace.matrix);
-    model_.joints().add_curvature(now.state, now.multipliers, s * beta_ * h * h, workspace.matrix);
+    active_.add_curvature(now.state, now.multipliers, s * beta_ * h * h, workspace.matrix);
     if (!workspace.solver.factorise(workspace.matrix, now.gradients,
                                     by_step(now.gradients, workspace.state, now.state))) {
       failure_ = "the iteration matrix is singular";
@@ -194,9 +221,130 @@ void GeneralizedAlpha::advance(Workspace& workspace, double h, int depth, StepRe
   advance(workspace, h / 2, depth + 1, report);
 }
 
+GeneralizedAlpha::Snapshot GeneralizedAlpha::snapshot(const Workspace& workspace) const {
+  return {workspace.state, workspace.acceleration, workspace.multipliers, algorithmic_};
+}
+
+void GeneralizedAlpha::restore(Workspace& workspace, const Snapshot& before) {
+  workspace.state = before.state;
+  workspace.acceleration = before.acceleration;
+  workspace.multipliers = before.multipliers;
+  algorithmic_ = before.algorithmic;
+}
+
+FrictionMemory& GeneralizedAlpha::friction_memory(Workspace& workspace) const {
+  return static_cast<FrictionMemory&>(*workspace.memory[friction_index_]);
+}
+
+// The joints' conditions come first, then one for each friction that sticks, in the order of the elements.
+void GeneralizedAlpha::set_conditions(Workspace& workspace) {
+  active_ = model_.joints();
+  const FrictionMemory& memory = friction_memory(workspace);
+  for (std::size_t i = 0; i < memory.direction.size(); ++i)
+    if (memory.direction[i] == 0) active_.add(friction_->condition(i, workspace.state));
+  find_joint_scale(workspace.state);
+  workspace.solver = KktSolver(model_.pattern(), active_);
+}
+
+GeneralizedAlpha::Margin GeneralizedAlpha::friction_margin(Workspace& workspace) const {
+  const FrictionMemory& memory = friction_memory(workspace);
+  Margin least;
+  Eigen::Index row = model_.joints().count();
+  for (std::size_t i = 0; i < memory.direction.size(); ++i) {
+    Margin of{i, memory.direction[i] * friction_->rate(i, workspace.state), 0};
+    if (memory.direction[i] == 0) {
+      const double load = workspace.multipliers[row++];
+      of.value = 1 - std::abs(load) / friction_->all()[i].breakaway;
+      of.changes_to = load > 0 ? 1 : -1;
+    }
+    if (of.value < least.value) least = of;
+  }
+  return least;
+}
+
+// What sticks with more than its static level is let go, the most loaded first: the others may then hold.
+void GeneralizedAlpha::settle_friction(Workspace& workspace) {
+  FrictionMemory& memory = friction_memory(workspace);
+  for (std::size_t tries = 0; tries <= memory.direction.size(); ++tries) {
+    set_conditions(workspace);
+    if (!solve_accelerations(workspace))
+      throw hydro::NumericsError(fmt::format(
+          "no accelerations can be found at t = {} s: the loads or the mass matrix are not finite or singular",
+          workspace.state.time));
+    std::size_t worst = 0;
+    double load = 0, most = 1;
+    Eigen::Index row = model_.joints().count();
+    for (std::size_t i = 0; i < memory.direction.size(); ++i) {
+      if (memory.direction[i] != 0) continue;
+      const double lambda = workspace.multipliers[row++], share = std::abs(lambda) / friction_->all()[i].breakaway;
+      if (share > most) worst = i, load = lambda, most = share;
+    }
+    if (load == 0) return;
+    memory.direction[worst] = load > 0 ? 1 : -1;
+  }
+}
+
+double GeneralizedAlpha::step_to_event(Workspace& workspace, double h, StepReport& report) {
+  const Snapshot before = snapshot(workspace);
+  const auto margin_after = [&](double way) {
+    restore(workspace, before);
+    advance(workspace, way, 0, report);
+    return friction_margin(workspace).value;
+  };
+  double low = 0, high = h, at_low = friction_margin(workspace).value, at_high = margin_after(h);
+  if (at_high >= 0) return h;
+  // Right after it began, a slip has no rate yet: go back until it has.
+  if (at_low <= event_resolution)
+    for (double way = h / 2; way > h * event_resolution; way /= 2) {
+      const double value = margin_after(way);
+      if (value > 0) {
+        low = way, at_low = value;
+        break;
+      }
+      high = way, at_high = value;
+    }
+  // False position by Illinois' rule: both ends move.
+  double at = high;
+  for (int i = 0; i < 100 && high - low > h * event_resolution; ++i) {
+    at = at_low > 0 ? (low * at_high - high * at_low) / (at_high - at_low) : (low + high) / 2;
+    const double value = margin_after(at);
+    if (value == 0) break;
+    if (value < 0) {
+      high = at, at_high = value;
+      at_low /= 2;
+    } else {
+      low = at, at_low = value;
+      at_high /= 2;
+    }
+  }
+  margin_after(at);
+  return at;
+}
+
+void GeneralizedAlpha::advance_to_events(Workspace& workspace, double h, StepReport& report) {
+  constexpr int most = 1000;  // in one step: more is no motion but a mistake
+  FrictionMemory& memory = friction_memory(workspace);
+  for (double left = h; left > h * event_resolution;) {
+    const State before = workspace.state;
+    const double way = step_to_event(workspace, left, report);
+    friction_->note_work(before, workspace.state, memory);
+    if (way == left) return;
+    left -= way;
+    const Margin next = friction_margin(workspace);
+    if (++report.events > most)
+      throw hydro::NumericsError(
+          fmt::format("friction changes more than {} times in the step from t = {:.6g} s", most, before.time));
+    memory.direction[next.element] = next.changes_to;
+    settle_friction(workspace);
+  }
+}
+
 StepReport GeneralizedAlpha::step(Workspace& workspace, double h) {
   StepReport report;
-  advance(workspace, h, 0, report);
+  if (friction_ != nullptr)
+    advance_to_events(workspace, h, report);
+  else
+    advance(workspace, h, 0, report);
   workspace.accept();
   return report;
 }

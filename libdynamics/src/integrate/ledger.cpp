@@ -23,7 +23,8 @@ void EnergyLedger::note(Workspace& workspace) {
     const EnergyFlow now = model_.forces()[k]->energy(workspace.instant(workspace.state, k));
     entries_[k].stored = now.stored;
     entries_[k].supplied += h / 2 * (before_[k].supplied + now.supplied);
-    entries_[k].dissipated += h / 2 * (before_[k].dissipated + now.dissipated);
+    entries_[k].dissipated += now.dissipated_so_far ? *now.dissipated_so_far - *before_[k].dissipated_so_far
+                                                    : h / 2 * (before_[k].dissipated + now.dissipated);
     before_[k] = now;
   }
 }

@@ -237,9 +237,63 @@ JointSet::LoadVariation JointSet::load_variation(int joint, End end, const State
   return out;
 }
 
+namespace {
+
+/// The frame of a joint and its place in both bodies, as they are in a state.
+struct TravelFrame {
+  ConditionEnds at;
+  PointCondition along;  // of a slider
+  Eigen::Matrix3d frame;
+
+  TravelFrame(const Joint& joint, const std::array<Eigen::Vector3d, 2>& place, const State& state)
+      : frame(frame_of(joint)) {
+    hydro::ensure(joint.kind == JointKind::slider || joint.kind == JointKind::hinge,
+                  "travel of a joint that is neither slider nor hinge");
+    along = {place[0], place[1], frame.col(0), true};
+    at = ends_of({0, joint.first, joint.second, along}, state);
+  }
+  Eigen::Vector3d axis() const { return at.first * frame.col(0); }
+};
+
+}  // namespace
+
 double JointSet::travel(int joint, const State& state) const {
   const auto& place = place_in_[static_cast<std::size_t>(joint)];
   return Travel(joints_[static_cast<std::size_t>(joint)], place[0], place[1]).value(state);
+}
+
+Gradient JointSet::travel_gradient(int joint, const State& state) const {
+  const auto index = static_cast<std::size_t>(joint);
+  const TravelFrame f(joints_[index], place_in_[index], state);
+  if (joints_[index].kind == JointKind::slider) return gradient(f.along, f.at);
+  Gradient out;
+  out.first << Eigen::Vector3d::Zero(), -f.axis();
+  out.second << Eigen::Vector3d::Zero(), f.axis();
+  return out;
+}
+
+Matrix12 JointSet::travel_curvature(int joint, const State& state) const {
+  const auto index = static_cast<std::size_t>(joint);
+  const TravelFrame f(joints_[index], place_in_[index], state);
+  if (joints_[index].kind == JointKind::slider) return curvature(f.along, f.at);
+  Matrix12 H = Matrix12::Zero();  // the axis turns with the first body: δx = θ₁ × x
+  H.block<3, 3>(3, 3) = cross_matrix(f.axis());
+  H.block<3, 3>(9, 3) = -cross_matrix(f.axis());
+  return H;
+}
+
+// A hinge: y of the first body stays across what is its z now, so that ∂g is the axis itself. A slider: the point of
+// the second body that has come to the first's place stays in the plane across the axis.
+Condition JointSet::holding(int joint, const State& state) const {
+  const auto index = static_cast<std::size_t>(joint);
+  const Joint& j = joints_[index];
+  const TravelFrame f(j, place_in_[index], state);
+  if (j.kind == JointKind::hinge)
+    return {joint, j.first, j.second,
+            AxesCondition{-f.frame.col(1), f.at.second.transpose() * (f.at.first * f.frame.col(2))}};
+  PointCondition here = f.along;
+  here.second_arm -= f.at.second.transpose() * f.axis() * value(f.along, f.at);
+  return {joint, j.first, j.second, here};
 }
 
 }  // namespace dynamics

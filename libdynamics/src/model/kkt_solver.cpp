@@ -9,9 +9,15 @@ namespace dynamics {
 struct KktSolver::Impl {
   using Sparse = Eigen::SparseMatrix<double>;
 
-  Impl(const BlockPattern& pattern, const JointSet& set) : joints(set), bodies_alone(pattern) {}
+  Impl(const BlockPattern& pattern, const JointSet& joints) : bodies_alone(pattern) {
+    for (const Condition& c : joints.conditions()) ends.push_back({c.first, c.second});
+  }
 
-  const JointSet& joints;
+  struct ConditionBodies {
+    int first;
+    std::optional<int> second;
+  };
+  std::vector<ConditionBodies> ends;  // one a condition
   BlockSolver bodies_alone;
   Eigen::PartialPivLU<Eigen::MatrixXd> dense_lu;
   Eigen::KLU<Sparse> sparse_lu;
@@ -21,7 +27,7 @@ struct KktSolver::Impl {
   template <class Use>
   void for_each(const std::vector<Gradient>& G, Use use) const {
     for (std::size_t i = 0; i < G.size(); ++i) {
-      const Condition& c = joints.conditions()[i];
+      const ConditionBodies& c = ends[i];
       for (int k = 0; k < 6; ++k) use(6 * c.first + k, static_cast<Eigen::Index>(i), G[i].first[k]);
       if (!c.second) continue;
       for (int k = 0; k < 6; ++k) use(6 * *c.second + k, static_cast<Eigen::Index>(i), G[i].second[k]);
@@ -31,7 +37,7 @@ struct KktSolver::Impl {
   bool factorise_dense(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H) {
     const Eigen::MatrixXd bodies = T.dense();
     const Eigen::Index n = bodies.rows();
-    Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n + joints.count(), n + joints.count());
+    Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n + count(), n + count());
     whole.topLeftCorner(n, n) = bodies;
     for_each(G, [&](Eigen::Index mode, Eigen::Index i, double value) { whole(mode, n + i) = value; });
     for_each(H, [&](Eigen::Index mode, Eigen::Index i, double value) { whole(n + i, mode) = value; });
@@ -52,7 +58,7 @@ struct KktSolver::Impl {
 
   bool factorise_sparse(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H) {
     std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(36 * T.pattern().blocks() + 24 * conditions());
+    entries.reserve(36 * T.pattern().blocks() + 24 * ends.size());
     for (int i = 0; i < T.pattern().bodies(); ++i)
       for (const int j : T.pattern().columns(i))
         for (int r = 0; r < 6; ++r)
@@ -62,30 +68,31 @@ struct KktSolver::Impl {
     for_each(H, [&](Eigen::Index mode, Eigen::Index i, double value) { entries.emplace_back(n + i, mode, value); });
     for (const auto& entry : entries)
       if (!std::isfinite(entry.value())) return false;
-    Sparse whole(n + joints.count(), n + joints.count());
+    Sparse whole(n + count(), n + count());
     whole.setFromTriplets(entries.begin(), entries.end());
     if (!ordered) sparse_lu.analyzePattern(whole);
     ordered = true;
     sparse_lu.factorize(whole);
     return sparse_lu.info() == Eigen::Success;
   }
-  std::size_t conditions() const { return static_cast<std::size_t>(joints.count()); }
+  Eigen::Index count() const { return static_cast<Eigen::Index>(ends.size()); }
 };
 
 KktSolver::KktSolver(const BlockPattern& pattern, const JointSet& joints)
     : impl_(std::make_unique<Impl>(pattern, joints)) {}
 KktSolver::~KktSolver() = default;
 KktSolver::KktSolver(KktSolver&&) noexcept = default;
+KktSolver& KktSolver::operator=(KktSolver&&) noexcept = default;
 
 bool KktSolver::is_sparse() const { return impl_->bodies_alone.is_sparse(); }
 
 bool KktSolver::factorise(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H) {
-  if (impl_->joints.count() == 0) return impl_->bodies_alone.factorise(T);
+  if (impl_->count() == 0) return impl_->bodies_alone.factorise(T);
   return is_sparse() ? impl_->factorise_sparse(T, G, H) : impl_->factorise_dense(T, G, H);
 }
 
 KktSolver::Solution KktSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& c) const {
-  if (impl_->joints.count() == 0) return {impl_->bodies_alone.solve(b), Eigen::VectorXd()};
+  if (impl_->count() == 0) return {impl_->bodies_alone.solve(b), Eigen::VectorXd()};
   Eigen::VectorXd right(b.size() + c.size()), out;
   right << b, c;
   if (is_sparse())

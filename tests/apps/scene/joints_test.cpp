@@ -34,12 +34,22 @@ TEST(SceneJoints, TakeTheGroundAtEitherEndAndAnyDirection) {
   EXPECT_EQ(scene.joints[0].axis, Eigen::Vector3d(1, 0, 2));
 }
 
+TEST(SceneJoints, HaveFrictionWithTwoLevels) {
+  const auto with_friction = [](const std::string& table) { return jointed(hinges + "friction = " + table + "\n"); };
+  const Scene scene = parse(with_friction("{ static = \"3.7 N m\", dynamic = \"3 N m\" }"), "scene.toml");
+  EXPECT_EQ(scene.joints[2].friction->breakaway, 3.7);
+  EXPECT_EQ(scene.joints[2].friction->sliding, 3);
+  EXPECT_EQ(parse(with_friction("{ dynamic = \"3 N m\" }"), "scene.toml").joints[0].friction->breakaway, 3);
+  EXPECT_THAT(refusal(with_friction("{ static = \"2 N m\", dynamic = \"3 N m\" }")),
+              HasSubstr("below the dynamic level"));
+  EXPECT_THAT(refusal(with_friction("{ dynamic = \"3 N\" }")), HasSubstr("moment"));
+}
+
 TEST(SceneJoints, RefuseWhatCannotBeAJoint) {
   EXPECT_THAT(refusal(jointed(with(hinges, "\"y\"", "\"w\""))), HasSubstr("\"(1, 0, 1)\""));
   EXPECT_THAT(refusal(jointed(with(hinges, "\"y\"", "\"(0, 0, 0)\""))), HasSubstr("has no direction"));
   EXPECT_THAT(refusal(jointed(with(hinges, "axis = \"y\"\n", ""))), HasSubstr("needs the key \"axis\""));
-  EXPECT_THAT(refusal(jointed(with(hinges, "\"neighbours of m\"", "[\"m1\", \"m1\"]"))),
-              HasSubstr("stands twice"));
+  EXPECT_THAT(refusal(jointed(with(hinges, "\"neighbours of m\"", "[\"m1\", \"m1\"]"))), HasSubstr("stands twice"));
   EXPECT_THAT(refusal(jointed(with(hinges, "kind = \"hinge\"", "kind = \"weld\""))), HasSubstr("fixed"));
   EXPECT_THAT(refusal(jointed(with(with(hinges, "kind = \"hinge\"", "kind = \"universal\""), "axis = \"y\"",
                                    "axis = \"y\"\nsecond_axis = \"(0, 1, 1)\""))),

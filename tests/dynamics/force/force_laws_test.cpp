@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
+#include "dynamics/force/buoyancy.hpp"
 #include "dynamics/force/connector.hpp"
 #include "dynamics/force/drag.hpp"
 #include "dynamics/force/gravity.hpp"
 #include "dynamics/force/restoring.hpp"
 #include "dynamics/force/wave_loads.hpp"
+#include "hydro/hydrostatics/primitives.hpp"
 #include "hydro/radiation/constant_memory.hpp"
 #include "hydro/radiation/convolution.hpp"
 #include "hydro/radiation/partitioned.hpp"
@@ -46,6 +48,17 @@ TEST(ForceLaws, HoldForRestoring) {
 TEST(ForceLaws, HoldForWeight) {
   laws::expect_force_laws(GravityKind(bodies, 9.81), bodies);
   laws::expect_force_laws(GravityKind(bodies, 9.81, {1}), bodies);
+}
+
+TEST(ForceLaws, HoldForBuoyancy) {
+  namespace hh = hydro::hydrostatics;
+  const auto shape = [](FloatingShape s) { return std::make_shared<const FloatingShape>(std::move(s)); };
+  const BuoyancyKind kind(bodies,
+                          {{0, shape(hh::Hull(hh::box_mesh({-1, -0.5, -0.6}, {1.2, 0.6, 0.5})))},
+                           {1, shape(hh::CircularCylinder{{0.2, 0, -0.7}, {0.1, 0, 0.9}, 0.6})},
+                           {1, shape(hh::Sphere{{-0.9, 0.3, -0.2}, 0.5})}},
+                          hydro::Water{.density = 1000, .gravity = 9.81});
+  laws::expect_force_laws(kind, bodies);
 }
 
 TEST(Weight, ActsOnTheBodiesThatFeelItAlone) {

@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -94,7 +95,10 @@ struct EnergyFlow {
   double stored = 0;      ///< J
   double supplied = 0;    ///< W, from outside: the waves
   double dissipated = 0;  ///< W; radiation counts here and may be negative for a moment, when waves come back
+  std::optional<double> dissipated_so_far = {};  ///< J since the start, of kinds that know it exactly
 };
+
+class FrictionKind;
 
 class ForceKind {
  public:
@@ -117,6 +121,9 @@ class ForceKind {
   /// True if the load is, for small motions about rest, stiffness and damping that a frequency-domain analysis takes
   /// from add_jacobian(). Excitation and radiation have their own place there; quadratic drag has none.
   virtual bool linear_at_rest() const { return false; }
+
+  /// The set-valued laws of this kind, which an integrator must see; null if it has none.
+  virtual const FrictionKind* friction() const { return nullptr; }
 };
 
 /// ½ vᵀ (dM/dt) v of a kind's own mass along the motion, W (D40): by central differences over ± 10 µs, error of about

@@ -4,7 +4,7 @@
 
 namespace dynamics {
 
-/// −m g ẑ on bodies, at their centres of gravity; stored energy m g z from the global origin. For bodies whose
+/// −m g ẑ on bodies, at their centres of gravity; stored energy m g (z − z at rest). For bodies whose
 /// hydrostatic stiffness does not hold their weight already.
 class GravityKind final : public ForceKind {
  public:
@@ -24,7 +24,8 @@ class GravityKind final : public ForceKind {
  private:
   struct Element {
     int body;
-    double weight;  // N
+    double weight;       // N
+    double rest_height;  // m
   };
   std::vector<Element> elements_;
 };

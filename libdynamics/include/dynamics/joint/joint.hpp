@@ -101,6 +101,13 @@ class JointSet {
   /// Where the joint lets its second body (or the ground) move against the first: the travel of a slider along the
   /// axis, m, or the angle of a hinge about it, −π … π rad. Zero at rest. For sliders and hinges only.
   double travel(int joint, const State& state) const;
+  /// Its derivatives by the motion of both bodies, and those of that: the axis turns with the first body. (D19)
+  Gradient travel_gradient(int joint, const State& state) const;
+  Eigen::Matrix<double, 12, 12> travel_curvature(int joint, const State& state) const;
+  /// A condition that holds travel() where it is in `state`; its gradient is that of travel() there.
+  Condition holding(int joint, const State& state) const;
+  /// Adds a condition that belongs to no joint's own.
+  void add(Condition condition) { conditions_.push_back(std::move(condition)); }
 
  private:
   std::vector<Joint> joints_;

@@ -18,6 +18,7 @@ class KktSolver {
   KktSolver(const BlockPattern& pattern, const JointSet& joints);
   ~KktSolver();
   KktSolver(KktSolver&&) noexcept;
+  KktSolver& operator=(KktSolver&&) noexcept;
   bool is_sparse() const;
   /// False if the matrix is singular to working precision or not finite.
   bool factorise(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H);

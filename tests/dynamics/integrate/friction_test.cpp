@@ -1,0 +1,216 @@
+// Coulomb friction that sticks and slips, against closed forms.
+#include "dynamics/force/friction.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "dynamics/force/restoring.hpp"
+#include "dynamics/integrate/generalized_alpha.hpp"
+#include "dynamics/integrate/ledger.hpp"
+#include "dynamics/joint/assemble.hpp"
+#include "dynamics/spatial/rotation.hpp"
+#include "hydro/base/error.hpp"
+#include "laws/force_kind_laws.hpp"
+
+namespace {
+
+using namespace dynamics;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+constexpr double mass = 2;
+
+RigidBody body(const std::string& name, const Eigen::Vector3d& at = {0, 0, 0}, double m = mass) {
+  return RigidBody({.name = name, .mass = m, .inertia = m * Eigen::Matrix3d::Identity(), .rest_position = {at}});
+}
+Joint rail(int first, std::optional<int> second) {
+  return {.name = "rail", .kind = JointKind::slider, .first = first, .second = second, .place = {0, 0, 0}};
+}
+Joint pin(int first, std::optional<int> second, const Eigen::Vector3d& place = {0, 0, 0}) {
+  return {.name = "pin", .kind = JointKind::hinge, .first = first, .second = second, .place = place, .axis = {0, 1, 0}};
+}
+
+/// A load that grows with time: on surge, and on pitch.
+class Ramp final : public ForceKind {
+ public:
+  Ramp(double surge, double pitch) : surge_(surge), pitch_(pitch) {}
+  std::string effect() const override { return "ramp"; }
+  std::size_t elements() const override { return 1; }
+  std::string method() const override { return "linear in time"; }
+  void add_load(const Instant& now, LoadSink& out) const override {
+    out.add_mode(0, surge_ * now.state.time);
+    out.add_mode(4, pitch_ * now.state.time);
+  }
+  void add_jacobian(const Instant&, JacobianSink&) const override {}
+  EnergyFlow energy(const Instant& now) const override {
+    return {.supplied = now.state.time * (surge_ * now.state.velocity[0] + pitch_ * now.state.velocity[4])};
+  }
+
+ private:
+  double surge_, pitch_;
+};
+
+Model with_friction(std::vector<RigidBody> bodies, std::vector<Joint> joints, std::vector<Friction> friction,
+                    std::unique_ptr<const ForceKind> other = nullptr) {
+  std::vector<std::unique_ptr<const ForceKind>> forces;
+  if (other) forces.push_back(std::move(other));
+  forces.push_back(std::make_unique<FrictionKind>(JointSet(bodies, joints), friction));
+  return Model(std::move(bodies), {}, std::move(forces), std::move(joints));
+}
+
+std::unique_ptr<const ForceKind> spring(const std::vector<RigidBody>& bodies, int on, double k) {
+  Matrix6 K = Matrix6::Zero();
+  K(0, 0) = k;
+  return std::make_unique<RestoringKind>("mooring", bodies, std::vector<Restoring>{{on, K}});
+}
+
+/// A run that tells what came of it.
+struct Motion {
+  Workspace workspace;
+  GeneralizedAlpha integrator;
+  EnergyLedger ledger;
+  int events = 0;
+
+  Motion(const Model& model, State start, double rho = 0.8)
+      : workspace(model, std::move(start)), integrator(started(model, workspace, rho)), ledger(model, workspace) {}
+  static GeneralizedAlpha started(const Model& model, Workspace& w, double rho) {
+    GeneralizedAlpha out(model, {.rho_infinity = rho});
+    out.start(w);
+    return out;
+  }
+  void go(double h, int steps) {
+    for (int i = 0; i < steps; ++i) {
+      events += integrator.step(workspace, h).events;
+      ledger.note(workspace);
+    }
+  }
+};
+
+TEST(Friction, BringsASledgeToRestWhereItsEnergyIsSpent) {
+  // v₀ = 3 m/s, T = 1.5 N: rest after v₀ m/T = 4 s and ½ m v₀²/T = 6 m, in the middle of a step.
+  const Model model = with_friction({body("sledge")}, {rail(0, {})}, {{0, 2.0, 1.5}});
+  State start = rest_state(model.bodies());
+  start.velocity[0] = 3;
+  Motion run(model, start);
+  run.go(0.3, 40);
+  EXPECT_EQ(run.events, 1);
+  // The motion is a parabola, which the method follows exactly; a root is found to 1e-12 of the step.
+  EXPECT_NEAR(run.workspace.state.pose[0].centre.x(), 6, 1e-11);
+  EXPECT_NEAR(run.workspace.state.velocity[0], 0, 1e-11);
+  EXPECT_NEAR(run.ledger.entries().back().dissipated, 9, 1e-11);
+  EXPECT_NEAR(run.ledger.residual(), 0, 1e-10);
+}
+
+TEST(Friction, LetsGoWhereTheLoadReachesTheStaticLevel) {
+  // Torque 0.5 t: it holds until 3.7/0.5 = 7.4 s, then I θ'' = 0.5 t − 3, I = 2.
+  const Model model = with_friction({body("arm")}, {pin(0, {})}, {{0, 3.7, 3.0}}, std::make_unique<Ramp>(0, 0.5));
+  Motion run(model, rest_state(model.bodies()));
+  run.go(0.03, 246);  // 7.38 s
+  EXPECT_LT(rotation_log(run.workspace.state.pose[0].attitude).norm(), 1e-14);
+  run.go(0.03, 54);  // 9 s
+  EXPECT_EQ(run.events, 1);
+  const double t = 9 - 7.4, theta = (0.7 / 2 * t * t + 0.5 / 6 * t * t * t) / mass;
+  const double error = std::abs(rotation_log(run.workspace.state.pose[0].attitude).y() - theta);
+  EXPECT_LT(error, 2e-4 * theta) << "second order: (h/t)² of the cubic part";
+  // Work is the level times the angle, which is what the ledger has to the last digits.
+  EXPECT_NEAR(run.ledger.entries().back().dissipated, 3 * rotation_log(run.workspace.state.pose[0].attitude).y(),
+              1e-12);
+}
+
+TEST(Friction, StopsASpringSwingByTheSameStretchEveryHalfPeriod) {
+  // k = 50 N/m, T = 3 N, released 1 m out: each half swing ends 2T/k = 0.12 m nearer; rest where k|x| <= T_s: after
+  // eight half swings at 1 − 8 · 0.12 = 0.04 m (k x = 2 N).
+  std::vector<RigidBody> bodies{body("sledge")};
+  const Model model = with_friction(bodies, {rail(0, {})}, {{0, 3.3, 3.0}}, spring(bodies, 0, 50));
+  State start = rest_state(model.bodies());
+  start.pose[0].centre.x() = 1;
+  Motion run(model, start, 1.0);
+  run.go(0.02, 300);
+  EXPECT_EQ(run.events, 8) << "between two swings it stands still for no time";
+  // At ρ∞ = 1 the method keeps the energy of a linear spring, and friction takes exactly T times the way.
+  EXPECT_NEAR(run.workspace.state.pose[0].centre.x(), 0.04, 1e-12);
+  EXPECT_NEAR(run.ledger.entries().back().dissipated, 0.5 * 50 * (1 - 0.04 * 0.04), 1e-11);
+}
+
+TEST(Friction, SticksAndSlipsOnABeltForEverTheSameWay) {
+  // A belt (so heavy that nothing slows it) at v = 0.1 m/s drags a block of 2 kg on a spring, k = 50: it sticks until
+  // k x = T_s, slips with ω = 5 about T_d/k from there, and sticks again when it has the belt's speed. With
+  // a = (T_s − T_d)/k the slip lasts 2(π − atan(aω/v))/ω and the stick 2a/v.
+  const double k = 50, v = 0.1, breakaway = 3.5, sliding = 3, omega = 5;
+  std::vector<RigidBody> bodies{body("block"), body("belt", {0, 0, 0}, 1e12)};
+  const Model model = with_friction(
+      bodies,
+      {rail(0, {}), {.name = "contact", .kind = JointKind::slider, .first = 1, .second = 0, .place = {0, 0, 0}}},
+      {{1, breakaway, sliding}}, spring(bodies, 0, k));
+  State start = rest_state(model.bodies());
+  start.velocity[6] = v;  // the belt; the block lies still and is dragged at once
+  start.velocity[0] = v;
+  Motion run(model, start, 1.0);
+  std::vector<double> slips;
+  const double h = 2e-3;
+  for (int i = 0; i < 4000; ++i) {
+    const int before = run.events;
+    run.go(h, 1);
+    if (run.events > before && (run.events - before) % 2 == 1 && run.events % 2 == 1)
+      slips.push_back(run.workspace.state.time);
+  }
+  const double a = (breakaway - sliding) / k;
+  const double period = 2 * a / v + 2 * (std::numbers::pi - std::atan(a * omega / v)) / omega;
+  EXPECT_NEAR(slips.front(), breakaway / k / v, h) << "the first after it was dragged to the static level";
+  ASSERT_GE(slips.size(), 5u);
+  EXPECT_EQ(
+      run.events,
+      static_cast<int>(2 * std::floor((8 - breakaway / k / v) / period) + 1) +
+          ((std::fmod(8 - breakaway / k / v, period) > 2 * (std::numbers::pi - std::atan(a * omega / v)) / omega) ? 1
+                                                                                                                  : 0));
+  EXPECT_NEAR((slips[4] - slips[0]) / 4, period, h / 2) << "times are told to a step only";
+}
+
+TEST(Friction, OfManyJointsHoldsOnlyWhatItMust) {
+  // A chain of three arms, torque on the first: its own pin lets go, the others hold.
+  std::vector<RigidBody> bodies{body("a", {1, 0, 0}), body("b", {3, 0, 0}), body("c", {5, 0, 0})};
+  const Model model = with_friction(bodies, {pin(0, {}), pin(1, 0, {2, 0, 0}), pin(2, 1, {4, 0, 0})},
+                                    {{0, 3, 2}, {1, 50, 40}, {2, 50, 40}}, std::make_unique<Ramp>(0, 1));
+  Motion run(model, rest_state(model.bodies()));
+  run.go(0.05, 100);
+  EXPECT_EQ(run.events, 1);
+  for (std::size_t i : {1u, 2u})
+    EXPECT_LT(run.workspace.state.pose[i].attitude.angularDistance(run.workspace.state.pose[0].attitude), 1e-12)
+        << "arm " << i << " turns with the first";
+  EXPECT_GT(rotation_log(run.workspace.state.pose[0].attitude).norm(), 1e-3);
+}
+
+TEST(Friction, ObeysTheLawsOfForcesWhileItSlips) {
+  std::vector<RigidBody> bodies{body("a", {1, 0, 0}), body("b", {3, 0, 0}), body("c", {5, 0, 0})};
+  Joint slider{.name = "s", .kind = JointKind::slider, .first = 0, .second = 1, .place = {2, 1, 0}, .axis = {1, 2, 3}};
+  const FrictionKind kind(JointSet(bodies, {slider, pin(2, 1, {4, 0, 1}), pin(0, {})}),
+                          {{0, 4, 3}, {1, 5, 4}, {2, 2, 2}});
+  FrictionMemory memory(3);
+  memory.direction = {1, -1, 1};
+  State state = rest_state(bodies);
+  state.velocity = Eigen::VectorXd::LinSpaced(18, -1, 1.5);
+  for (std::size_t i = 0; i < 3; ++i)
+    state.pose[i].attitude = rotation_exp(Eigen::Vector3d(0.2, -0.3, 0.1 + 0.2 * static_cast<double>(i)));
+  laws::expect_pure(kind, state, rest_state(bodies), &memory);
+  laws::expect_true_jacobians(kind, state, &memory);
+  laws::expect_energy_balance(kind, state, &memory);
+}
+
+TEST(Friction, WantsPositiveLevelsInOrder) {
+  const JointSet joints({body("a")}, {rail(0, {})});
+  EXPECT_THAT(
+      [&] {
+        FrictionKind(joints, {{0, 1, 2}});
+      },
+      ThrowsMessage<hydro::InputError>(HasSubstr("below the dynamic")));
+  EXPECT_THAT(
+      [&] {
+        FrictionKind(joints, {{0, 1, 0}});
+      },
+      ThrowsMessage<hydro::InputError>(HasSubstr("must be positive")));
+}
+
+}  // namespace
