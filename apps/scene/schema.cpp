@@ -54,16 +54,20 @@ Key inner_tables(std::string name, const Table& inner) {
 }
 
 std::string si_unit(const hydro::Dimension& dimension) {
-  const std::pair<hydro::Dimension, const char*> usual[] = {{dim::stiffness, "N/m"},
-                                                            {dim::damping, "N s/m"},
-                                                            {dim::force, "N"},
-                                                            {dim::moment, "N m"},
-                                                            {dim::pressure, "Pa"},
-                                                            {dim::rotational_stiffness, "N m/rad"},
-                                                            {dim::force / dim::angle, "N/rad"},
-                                                            {dim::inertia, "kg m^2"},
-                                                            {dim::rotational_damping, "N m s/rad"},
-                                                            {dim::force / dim::angular_velocity, "N s/rad"}};
+  const std::pair<hydro::Dimension, const char*> usual[] = {
+      {dim::stiffness, "N/m"},
+      {dim::damping, "N s/m"},
+      {dim::force, "N"},
+      {dim::moment, "N m"},
+      {dim::pressure, "Pa"},
+      {dim::rotational_stiffness, "N m/rad"},
+      {dim::force / dim::angle, "N/rad"},
+      {dim::inertia, "kg m^2"},
+      {dim::rotational_damping, "N m s/rad"},
+      {dim::force / dim::angular_velocity, "N s/rad"},
+      {dim::stiffness / dim::area, "N/m^3"},
+      {dim::rotational_stiffness / (dim::angle * dim::angle), "N m/rad^3"},
+      {dim::moment / (dim::angular_velocity * dim::angular_velocity), "N m s^2/rad^2"}};
   for (const auto& [known, unit] : usual)
     if (known == dimension) return unit;
   return dimension.si();

@@ -5,8 +5,8 @@ namespace {
 
 namespace dim = hydro::dim;
 
-Table friction_table(const hydro::Dimension& dimension, const std::string& what) {
-  return {.title = "[joint.friction]",
+Table friction_table(const std::string& joint, const hydro::Dimension& dimension, const std::string& what) {
+  return {.title = "[joint.friction] of a " + joint,
           .meaning =
               "Coulomb friction: the joint sticks until the static level is reached, and slips against the dynamic one",
           .keys = {quantity("dynamic", dimension, what + " that resists while it slips").positive(),
@@ -15,11 +15,11 @@ Table friction_table(const hydro::Dimension& dimension, const std::string& what)
                        .optional()}};
 }
 const Table& hinge_friction() {
-  static const Table table = friction_table(dim::moment, "moment");
+  static const Table table = friction_table("hinge", dim::moment, "moment");
   return table;
 }
 const Table& slider_friction() {
-  static const Table table = friction_table(dim::force, "force");
+  static const Table table = friction_table("slider", dim::force, "force");
   return table;
 }
 
@@ -34,7 +34,7 @@ const Measure of_slider{"slider", dim::length, dim::force}, of_hinge{"hinge", di
 
 Table stops_table(const Measure& m) {
   return {
-      .title = "[joint.pto.stops]",
+      .title = std::string("[joint.pto.stops] of a ") + m.joint,
       .meaning = "ends of the travel: a spring and a damper that never pull",
       .keys = {quantity("lower", m.travel, "travel at which the lower one begins").optional(),
                quantity("upper", m.travel, "travel at which the upper one begins").optional(),
@@ -48,7 +48,7 @@ Table stops_table(const Measure& m) {
 Table pto_table(const Measure& m, const Table& stops) {
   const auto rate = m.travel / dim::time;
   return {
-      .title = "[joint.pto]",
+      .title = std::string("[joint.pto] of a ") + m.joint,
       .meaning = std::string("works against the travel of the ") + m.joint + ", zero at rest",
       .keys = {quantity("stiffness", m.force / m.travel, "of the spring; negative ones push away from rest").optional(),
                quantity("cubic", m.force / (m.travel * m.travel * m.travel), "of the spring, times the travel cubed")

@@ -80,8 +80,8 @@ bool newton(const LineProperties& line, const Vector2d& span, Vector2d& tension)
       open = left;
       break;
     }
-    // At round-off nothing falls any more; V is a sum over the whole line, so a digit less may be all there is.
-    if (factor <= 1e-8) return open.norm() <= 100 * tolerance;
+    // At round-off nothing falls any more: spans are differences of numbers as large as T/w.
+    if (factor <= 1e-8) return open.norm() <= 100 * (tolerance + 2e-16 * tension.norm() / w);
   }
   return false;
 }

@@ -36,7 +36,8 @@ TEST(LineLaw, ForceIsTheSlopeOfTheEnergyAndDerivativesAreTrue) {
         const double slope = (law->at(x + e, 0).stored - law->at(x - e, 0).stored) / (2 * e);
         EXPECT_NEAR(law->at(x, 0).force, slope, 1e-6) << x;
         EXPECT_NEAR(a.by_x, (law->at(x + e, v).force - law->at(x - e, v).force) / (2 * e), 1e-6) << x << ' ' << v;
-        EXPECT_NEAR(a.by_rate, (law->at(x, v + e).force - law->at(x, v - e).force) / (2 * e), 1e-4) << x << ' ' << v;
+        // A damper that its spring bounds has a corner of curvature c²/S at rest: e c²/S = 8e-4.
+        EXPECT_NEAR(a.by_rate, (law->at(x, v + e).force - law->at(x, v - e).force) / (2 * e), 1e-3) << x << ' ' << v;
         EXPECT_GE(a.dissipated, 0);
         EXPECT_NEAR(a.force * v, law->at(x, 0).force * v + a.dissipated, 1e-9);
       }

@@ -38,7 +38,8 @@ TEST(Catenary, PutsTheFairleadWhereItWasAsked) {
           const LineTension t = catenary(line, x, z);
           if (t.horizontal == 0) continue;  // slack on the bed: has a test of its own
           const Eigen::Vector2d span = catenary_span(line, t.horizontal, t.vertical);
-          EXPECT_LT((span - Eigen::Vector2d(x, z)).norm(), 1e-8) << x << ' ' << z << ' ' << stiffness << ' ' << on_bed;
+          EXPECT_LT((span - Eigen::Vector2d(x, z)).norm(), 1e-8 + 4e-16 * t.fairlead() / line.weight)
+              << x << ' ' << z << ' ' << stiffness << ' ' << on_bed;
         }
 }
 

@@ -100,7 +100,7 @@ TEST(CapytaineReader, TakesWaterFromTheFileAndTellsWhoAskedForAnother) {
   CapytaineFile file;
   file.water = {1025, 9.8, hydro::WaterDepth::infinite()};
   file.write(folder / "a.nc");
-  const auto c = read(folder / "a.nc", {1000, 9.8, hydro::WaterDepth::from_metres(50), 1, {}});
+  const auto c = read(folder / "a.nc", {1000, 9.8, hydro::WaterDepth::from_metres(50), {}, {}});
   EXPECT_EQ(c.water.density, 1025);
   EXPECT_EQ(c.water.gravity, 9.8);
   EXPECT_TRUE(c.water.depth.is_infinite());

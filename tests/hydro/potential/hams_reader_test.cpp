@@ -30,7 +30,7 @@ std::string control(int frequency_type, double depth, double length = 1) {
       depth, frequency_type, length);
 }
 
-ReadOptions water(const hydro::Water& w) { return {w.density, w.gravity, {}, 1, {}}; }
+ReadOptions water(const hydro::Water& w) { return {w.density, w.gravity, {}, {}, {}}; }
 
 /// WAMIT's numbers with the phase turned round, as HAMS writes them.
 std::string conjugated(const WamitText& text) {
@@ -110,7 +110,7 @@ TEST(HamsReader, RefusesWhatItDoesNotKnow) {
 
 TEST(HamsOutsideData, IsRefusedAsWamitAndReadWithItsControlFile) {
   FROUDE_REQUIRE_DATA(data, "bem_formats/cylinder_hams");
-  const ReadOptions options{1025, 9.81, hydro::WaterDepth::infinite(), 1, {}};
+  const ReadOptions options{1025, 9.81, hydro::WaterDepth::infinite(), {}, {}};
   // (P21): the phases say that these are not WAMIT's
   EXPECT_THAT([&] { read(data / "Buoy.1", options); }, ThrowsMessage<InputError>(HasSubstr("other time factor")));
   TemporaryFolder folder;

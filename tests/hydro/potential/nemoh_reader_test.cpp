@@ -206,7 +206,7 @@ TEST(NemohReader, RefusesWamitsOptions) {
   hydro::potential::ReadOptions options;
   options.ulen = 2;
   EXPECT_THAT([&] { read(path, options); }, ThrowsMessage<InputError>(HasSubstr("ULEN = 2 m is given")));
-  options.ulen = 1;
+  options.ulen.reset();
   options.iperout = 1;
   EXPECT_THAT([&] { read(path, options); }, ThrowsMessage<InputError>(HasSubstr("IPEROUT = 1 is given")));
 }

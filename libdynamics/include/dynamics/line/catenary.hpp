@@ -25,10 +25,10 @@ struct LineTension {
   double anchor() const;    ///< N
 };
 
-/// Solves (D60) or (D61) by Newton, and where that fails by bisection inside bisection. Residual 1e-12 of L. A line on
-/// the bed with more length than it needs hangs straight down and has no horizontal pull. \throws hydro::InputError
-/// unless length, weight and stiffness are positive. \throws hydro::NumericsError if the fairlead of a line on the bed
-/// is under the bed, or a free line hangs from one place
+/// Solves (D60) or (D61) by Newton, and where that fails by bisection inside bisection. Residual 1e-12 of L, or the
+/// rounding of T/w. A line on the bed with more length than it needs hangs straight down and has no horizontal pull.
+/// \throws hydro::InputError unless length, weight and stiffness are positive. \throws hydro::NumericsError if the
+/// fairlead of a line on the bed is under the bed, or a free line hangs from one place
 LineTension catenary(const LineProperties& line, double x_m, double z_m);
 
 /// Where a line with tensions (H, V) at the fairlead has it: (x, z) from the anchor, m. H > 0.
