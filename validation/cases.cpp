@@ -25,6 +25,7 @@ Outcome sphere_decay(const Folders& folders);
 Outcome two_pole(const Folders& folders);
 Outcome zanten_periods(const Folders& folders);
 Outcome zanten_stick_slip(const Folders& folders);
+Outcome zanten_waves(const Folders& folders);
 Outcome zanten_wave_table(const Folders& folders);
 
 const std::vector<Case>& cases() {
@@ -36,6 +37,7 @@ const std::vector<Case>& cases() {
       {"zanten-periods", zanten_periods},
       {"zanten-stick-slip", zanten_stick_slip},
       {"zanten-wave-table", zanten_wave_table},
+      {"zanten-waves", zanten_waves},
       {"huijgen-sea", huijgen_sea},
       {"hendriksen-waves", hendriksen_waves},
       {"sea-dat", sea_dat},
