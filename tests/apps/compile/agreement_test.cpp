@@ -7,6 +7,7 @@
 #include <ostream>
 #include <tuple>
 
+#include "apps/compile/scenes.hpp"
 #include "compile/probes.hpp"
 #include "froude/simulate.hpp"
 #include "hydro/signal/harmonics.hpp"
@@ -79,8 +80,7 @@ class Agreement : public testing::TestWithParam<Setting> {};
 TEST_P(Agreement, OfTimeAndFrequencyDomainInEveryDegreeOfFreedom) {
   const double period = GetParam().period;
   const double omegas[] = {2 * std::numbers::pi / period};
-  const scene::Scene scene = scene::parse(scene_text(GetParam(), springs),
-                                          std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/data/agreement.toml");
+  const scene::Scene scene = froude_test::parse(scene_text(GetParam(), springs));
   const compile::Prepared prepared = compile::prepare(scene);
   const dynamics::Model model = compile::frequency_model(prepared);
   const Eigen::MatrixXcd xi =
@@ -119,8 +119,7 @@ TEST_P(Agreement, OfTimeAndFrequencyDomainInEveryDegreeOfFreedom) {
 TEST(HingeAgreement, OfTimeAndFrequencyDomainInHinges) {
   const double period = 5;
   const std::vector<double> omegas{2 * std::numbers::pi / period};
-  const scene::Scene scene = scene::parse(scene_text({"pontoon5.nc", period}, hinges),
-                                          std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/data/agreement.toml");
+  const scene::Scene scene = froude_test::parse(scene_text({"pontoon5.nc", period}, hinges));
   const compile::Prepared prepared = compile::prepare(scene);
   const dynamics::Model model = compile::frequency_model(prepared);
   const double heading = scene.waves->heading.radians();

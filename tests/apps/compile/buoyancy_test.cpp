@@ -6,6 +6,7 @@
 
 #include <numbers>
 
+#include "apps/compile/scenes.hpp"
 #include "froude/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/cylinders/layout.hpp"
@@ -13,15 +14,12 @@
 namespace {
 
 using namespace froude;
+using froude_test::parse;
+using froude_test::water;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-const std::string water = R"(schema = 1
-[water]
-density = "1000 kg/m^3"
-depth = "14 m"
-)";
 const std::string ask = R"([ask]
 modes = {}
 )";
@@ -49,10 +47,6 @@ centre_of_gravity = "(0, 0, 1.31) m"
 radii_of_gyration = "(4.6, 4.6, 6.4) m"
 hydrodynamics = { file = "pontoon1.nc", hydrostatics = true }
 )";
-
-scene::Scene parse(const std::string& text) {
-  return scene::parse(text, std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/data/test.toml");
-}
 
 TEST(BuoyancyInAScene, IsLinearlyTheRestoringMatrixOfThePontoons) {
   const auto prepared = compile::prepare(parse(water + module_on_pontoons() + ask));

@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "apps/compile/scenes.hpp"
 #include "compile/probes.hpp"
 #include "froude/simulate.hpp"
 #include "hydro/base/error.hpp"
@@ -13,15 +14,12 @@
 namespace {
 
 using namespace froude;
+using froude_test::parse;
+using froude_test::water;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-const std::string water = R"(schema = 1
-[water]
-density = "1000 kg/m^3"
-depth = "14 m"
-)";
 const std::string waves = R"([waves]
 kind = "jonswap"
 hs = "1 m"
@@ -44,10 +42,6 @@ radii_of_gyration = "(4.6, 4.6, 6.4) m"
 {}
 )",
                      name, position, cog, hydrodynamics);
-}
-
-scene::Scene parse(const std::string& text) {
-  return scene::parse(text, std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/data/test.toml");
 }
 
 TEST(Compile, CorrectsTheRestoringMatrixForTheCentreOfGravity) {

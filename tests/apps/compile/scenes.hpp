@@ -1,0 +1,22 @@
+#pragma once
+// Scenes in text for tests of what they compile to.
+#include <filesystem>
+#include <string>
+
+#include "scene/scene.hpp"
+
+namespace froude_test {
+
+/// The water of the pontoons' coefficients.
+inline const std::string water = R"(schema = 1
+[water]
+density = "1000 kg/m^3"
+depth = "14 m"
+)";
+
+/// A scene that finds the files of examples/data beside it.
+inline froude::scene::Scene parse(const std::string& text) {
+  return froude::scene::parse(text, std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/data/test.toml");
+}
+
+}  // namespace froude_test
