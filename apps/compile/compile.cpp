@@ -14,6 +14,7 @@
 #include "dynamics/force/ramped_field.hpp"
 #include "dynamics/force/wave_loads.hpp"
 #include "dynamics/joint/assemble.hpp"
+#include "dynamics/model/equilibrium.hpp"
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/waves/summed_field.hpp"
 
@@ -300,6 +301,17 @@ PlanLine waves_line(const std::optional<hydro::waves::Sea>& sea) {
       true};
 }
 
+/// Where they balance without waves, with the velocities that the scene gives them there.
+dynamics::State in_equilibrium(const Scene& scene, const dynamics::Model& model, dynamics::State start) {
+  try {
+    dynamics::State out = dynamics::equilibrium(model, start);
+    out.velocity = start.velocity;
+    return out;
+  } catch (const InputError& e) {
+    throw e.at(scene.run->place);
+  }
+}
+
 /// Where the scene puts bodies at t = 0; joints carry along those that it says nothing of.
 dynamics::State start_state(const Scene& scene, const Prepared& p, const dynamics::Model& model) {
   dynamics::State state = dynamics::rest_state(p.bodies);
@@ -318,6 +330,7 @@ dynamics::State start_state(const Scene& scene, const Prepared& p, const dynamic
     placed.push_back(!b.initial.empty());
     given.push_back(!b.initial_velocity.empty());
   }
+  if (scene.run->from_equilibrium) return in_equilibrium(scene, model, std::move(state));
   dynamics::close_joints(model, placed, state);
   dynamics::close_joint_velocities(model, given, state);
   return state;

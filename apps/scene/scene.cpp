@@ -66,7 +66,21 @@ void check_whole(const Record& asked) {
 
 AskRun read_run(const Record& run) {
   check_whole(run);
-  return {.duration = run.si("duration"), .every = run.si("every"), .of = {}, .of_places = {}, .place = run.place()};
+  return {.duration = run.si("duration"),
+          .every = run.si("every"),
+          .from_equilibrium = run.text("start") == "equilibrium",
+          .of = {},
+          .of_places = {},
+          .place = run.place()};
+}
+
+/// Equilibrium finds where bodies begin; `initial` says it.
+void check_start(const Record& root, const Scene& scene) {
+  if (!scene.run || !scene.run->from_equilibrium) return;
+  for (const Record& body : root.tables("body"))
+    if (body.has("initial"))
+      throw body.table("initial").refused("places a body that is to begin in equilibrium",
+                                          "leave it out, or take start = \"equilibrium\" out of [ask.run]");
 }
 
 AskWaves read_ask_waves(const Record& asked, const Scene& scene) {
@@ -175,6 +189,7 @@ Scene parse(std::string_view text, const std::filesystem::path& file) {
   build_ask(root.table("ask"), scene);
   scene.solve = build_solve(root.table("solve"));
   check_excitation(root, scene);
+  check_start(root, scene);
   return scene;
 }
 

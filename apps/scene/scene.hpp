@@ -300,8 +300,9 @@ struct AskModes {
   double shortest = 0, longest = std::numeric_limits<double>::infinity();  ///< s
 };
 struct AskRun {
-  double duration;  ///< s
-  double every;     ///< s; distance of stored samples; duration is a multiple of it
+  double duration;                ///< s
+  double every;                   ///< s; distance of stored samples; duration is a multiple of it
+  bool from_equilibrium = false;  ///< bodies begin where they balance, not where they are placed
   std::vector<std::string> of;
   std::vector<Place> of_places;
   Place place;

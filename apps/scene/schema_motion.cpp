@@ -376,7 +376,11 @@ const Table& ask_run() {
       .title = "[ask.run]",
       .meaning = "time series",
       .keys = {quantity("duration", dim::time, "of the run, a whole multiple of `every`").positive(),
-               quantity("every", dim::time, "between stored samples").positive(), asked_signals()}};
+               quantity("every", dim::time, "between stored samples").positive(),
+               text("start", "\"as placed\", or in \"equilibrium\": where the bodies balance without waves")
+                   .one_of({"as placed", "equilibrium"})
+                   .or_default("as placed", "where the scene puts them is where they begin"),
+               asked_signals()}};
   return table;
 }
 

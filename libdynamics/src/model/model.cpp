@@ -182,36 +182,35 @@ double Model::kinetic_energy(const State& state) const {
   return 0.5 * state.velocity.dot(mass_times(state, state.velocity));
 }
 
-Model::Linear Model::linear_at_rest() const {
-  const State rest = rest_state(bodies_);
+Model::Linear Model::linear_at(const State& still) const {
   const auto assembled = [&](double c_v, double c_q) {
     BlockMatrix m(pattern_);
     JacobianSink sink(m, c_q, c_v);
     for (const auto& kind : forces_)
-      if (kind->linear_at_rest()) kind->add_jacobian({rest, nullptr}, sink);
+      if (kind->linear_at_rest()) kind->add_jacobian({still, nullptr}, sink);
     return m.dense();
   };
   Linear out{assembled(0, 1), assembled(1, 0), {}, {}, {}};
-  balance_at_rest(rest, out);
+  balance(still, out);
   if (joints_.count() == 0) return out;
   BlockMatrix curvature(pattern_);
-  joints_.add_curvature(rest, out.multipliers, 1, curvature);
+  joints_.add_curvature(still, out.multipliers, 1, curvature);
   out.stiffness += curvature.dense();
   return out;
 }
 
 // F = Gᵀλ + what is left, the least in the metric of M⁻¹, in which newtons and newton metres compare.
-void Model::balance_at_rest(const State& rest, Linear& out) const {
+void Model::balance(const State& still, Linear& out) const {
   out.unbalanced = Eigen::VectorXd::Zero(modes());
   LoadSink sink(out.unbalanced);
   for (const auto& kind : forces_)
-    if (kind->linear_at_rest()) kind->add_load({rest, nullptr}, sink);
+    if (kind->linear_at_rest()) kind->add_load({still, nullptr}, sink);
   for (int m = 0; m < modes(); ++m)
     if (!is_free(m)) out.unbalanced[m] = 0;
   out.conditions.resize(joints_.count(), modes());
   out.multipliers.resize(joints_.count());
   if (joints_.count() == 0) return;
-  const auto G = joints_.gradients(rest);
+  const auto G = joints_.gradients(still);
   for (Eigen::Index i = 0; i < joints_.count(); ++i) {
     Eigen::VectorXd row = Eigen::VectorXd::Zero(modes());
     joints_.add_transposed(G, Eigen::VectorXd::Unit(joints_.count(), i), row);

@@ -45,6 +45,13 @@ TEST(SceneJoints, HaveFrictionWithTwoLevels) {
   EXPECT_THAT(refusal(with_friction("{ dynamic = \"3 N\" }")), HasSubstr("moment"));
 }
 
+TEST(SceneRun, StartsInEquilibriumOnlyIfNothingElseIsSaid) {
+  const std::string asked = with(pontoons, "every = \"0.05 s\"", "every = \"0.05 s\", start = \"equilibrium\"");
+  EXPECT_THAT(refusal(asked), HasSubstr("places a body that is to begin in equilibrium"));
+  EXPECT_TRUE(parse(with(asked, "initial = { heave = \"10 cm\", pitch = \"5 deg\" }\n", ""), "scene.toml")
+                  .run->from_equilibrium);
+}
+
 TEST(SceneJoints, RefuseWhatCannotBeAJoint) {
   EXPECT_THAT(refusal(jointed(with(hinges, "\"y\"", "\"w\""))), HasSubstr("\"(1, 0, 1)\""));
   EXPECT_THAT(refusal(jointed(with(hinges, "\"y\"", "\"(0, 0, 0)\""))), HasSubstr("has no direction"));

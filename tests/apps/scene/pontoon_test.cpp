@@ -77,6 +77,7 @@ TEST(PontoonScene, IsEchoedWithEveryDefault) {
             "ask.rao.of = [m*.surge, m*.heave, connector*.force]\n"
             "ask.run.duration = 600 s\n"
             "ask.run.every = 0.05 s\n"
+            "ask.run.start = as placed  (default)\n"
             "ask.run.of = [*]  (default)\n"
             "ask.accuracy = 1e-2\n"
             "solve.step = automatic  (default)\n"

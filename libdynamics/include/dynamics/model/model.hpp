@@ -53,14 +53,16 @@ class Model {
   Eigen::MatrixXd dry_mass_at_rest() const;
   /// Kinetic energy of the bodies and of the water that moves with them, J.
   double kinetic_energy(const State& state) const;
-  /// The model for small motions about rest, of the kinds that are linear there and the joints (D17).
+  /// The model for small motions about a state, of the kinds that are linear at rest and the joints (D17).
   struct Linear {
     Eigen::MatrixXd stiffness, damping;  ///< loads, joints' among them, ≈ −K δ − D v; (6N, 6N)
     Eigen::MatrixXd conditions;          ///< G, (m, 6N): G δ = 0
-    Eigen::VectorXd multipliers;         ///< λ that carries what the loads at rest ask of the joints, (m)
-    Eigen::VectorXd unbalanced;          ///< load at rest that neither joints nor locked modes carry, (6N)
+    Eigen::VectorXd multipliers;         ///< λ that carries what the loads ask of the joints there, (m)
+    Eigen::VectorXd unbalanced;          ///< load that neither joints nor locked modes carry, (6N)
   };
-  Linear linear_at_rest() const;
+  Linear linear_at_rest() const { return linear_at(rest_state(bodies_)); }
+  /// The same about any state without velocities: `multipliers` balance what they can there.
+  Linear linear_at(const State& still) const;
   /// "m1.heave": for messages.
   std::string mode_name(int mode) const;
 
@@ -73,7 +75,7 @@ class Model {
   std::vector<std::string> redundant_;
 
   void leave_out_redundant(const Eigen::MatrixXd& mass);
-  void balance_at_rest(const State& rest, Linear& out) const;
+  void balance(const State& still, Linear& out) const;
 };
 
 /// Everything of a run that changes.

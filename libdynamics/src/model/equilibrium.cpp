@@ -1,0 +1,104 @@
+#include "dynamics/model/equilibrium.hpp"
+
+#include <Eigen/QR>
+
+#include "dynamics/joint/assemble.hpp"
+#include "hydro/base/error.hpp"
+
+namespace dynamics {
+namespace {
+
+/// Loads left over, and the displacements that Newton asks for, in motions scaled by the root of the bodies' masses.
+class Balance {
+ public:
+  explicit Balance(const Model& model) : model_(model), root_(model.dry_mass_at_rest().diagonal().cwiseSqrt()) {}
+
+  Eigen::VectorXd unbalanced(const State& state) const {
+    return root_.cwiseInverse().cwiseProduct(model_.linear_at(state).unbalanced);
+  }
+  /// The smallest solution of [K Gᵀ; G 0] (δ, λ) = (F, 0): along what nothing restores it does not go.
+  Eigen::VectorXd correction(const State& state) const {
+    const Model::Linear linear = model_.linear_at(state);
+    const Eigen::VectorXd scale = root_.cwiseInverse();
+    const Eigen::Index n = scale.size(), m = linear.conditions.rows();
+    Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n + m, n + m);
+    whole.topLeftCorner(n, n) = scale.asDiagonal() * linear.stiffness * scale.asDiagonal();
+    whole.topRightCorner(n, m) = scale.asDiagonal() * linear.conditions.transpose();
+    whole.bottomLeftCorner(m, n) = linear.conditions * scale.asDiagonal();
+    for (int mode = 0; mode < n; ++mode)
+      if (!model_.is_free(mode)) {
+        whole.row(mode).setZero();
+        whole.col(mode).setZero();
+      }
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(n + m);
+    right.head(n) = scale.cwiseProduct(linear.unbalanced);
+    return scale.cwiseProduct(whole.completeOrthogonalDecomposition().solve(right).head(n));
+  }
+  /// The way that bodies begin to go by themselves; its length means nothing.
+  Eigen::VectorXd along_load(const State& state) const { return root_.cwiseInverse().cwiseProduct(unbalanced(state)); }
+  double weight() const {  // scaled as the loads
+    return 9.81 * root_.norm();
+  }
+
+ private:
+  const Model& model_;
+  Eigen::VectorXd root_;
+};
+
+/// `move` made so long that some body turns by 0.3 rad or moves by 10 m, and none by more.
+Eigen::VectorXd longest(const Eigen::VectorXd& move) {
+  double most = 0;
+  for (Eigen::Index mode = 0; mode < move.size(); ++mode)
+    most = std::max(most, std::abs(move[mode]) / (mode % 6 < 3 ? 10.0 : 0.3));
+  return most > 0 ? Eigen::VectorXd(move / most) : move;
+}
+/// The share of `move` that is no longer than that.
+double allowed(const Eigen::VectorXd& move) { return std::min(1.0, longest(move).norm() / move.norm()); }
+
+State displaced(const Model& model, const State& from, const Eigen::VectorXd& move) {
+  State out = moved(from, move);
+  close_joints(model, std::vector<bool>(out.pose.size(), false), out);
+  return out;
+}
+
+[[noreturn]] void give_up(const Model& model, const State& state) {
+  const Eigen::VectorXd left = model.linear_at(state).unbalanced;
+  const Eigen::VectorXd per_mass = left.cwiseQuotient(model.dry_mass_at_rest().diagonal());
+  Eigen::Index worst = 0;
+  per_mass.cwiseAbs().maxCoeff(&worst);
+  throw hydro::InputError(
+      fmt::format("no equilibrium is found: nothing holds {} against {:.4g} {}",
+                  model.mode_name(static_cast<int>(worst)), left[worst], worst % 6 < 3 ? "N" : "N m"),
+      {}, "name what holds it (hydrostatics, buoyancy, a mooring), or place the bodies nearer to where they balance");
+}
+
+}  // namespace
+
+State equilibrium(const Model& model, State start) {
+  constexpr int most = 200;
+  const Balance balance(model);
+  start.velocity.setZero();
+  State now = displaced(model, start, Eigen::VectorXd::Zero(model.modes()));
+  double size = balance.unbalanced(now).norm();
+  // Takes as much of a move as leaves less unbalanced; false if no part of it does.
+  const auto goes = [&](const Eigen::VectorXd& move) {
+    if (!move.allFinite() || move.norm() == 0) return false;
+    for (double share = allowed(move); share > 1e-6; share /= 2) {
+      const State trial = displaced(model, now, share * move);
+      const double there = balance.unbalanced(trial).norm();
+      if (!(there < (1 - 1e-4 * share) * size)) continue;
+      now = trial;
+      size = there;
+      return true;
+    }
+    return false;
+  };
+  for (int i = 0; i < most; ++i) {
+    if (size <= 1e-9 * balance.weight()) return now;
+    // Where Newton leads nowhere, as for a pendulum held out level, the bodies follow their loads for a while.
+    if (!goes(balance.correction(now)) && !goes(longest(balance.along_load(now)))) give_up(model, now);
+  }
+  give_up(model, now);
+}
+
+}  // namespace dynamics
