@@ -122,10 +122,13 @@ struct Memory {
 
 /// `[body.hydrodynamics] cylinders`: vertical cylinders, of which the program computes the coefficients.
 struct Cylinders {
-  std::vector<Eigen::Vector3d> at;      ///< axes at the waterline, body axes, m; z is that of still water
-  double diameter;                      ///< m
-  std::optional<double> draught;        ///< m; empty: they stand on the sea bed
-  std::optional<double> top;            ///< m, depth; empty: they pierce the surface
+  struct Equal {
+    std::vector<Eigen::Vector3d> at;  ///< axes at the waterline, body axes, m; z is that of still water
+    double diameter;                  ///< m
+    std::optional<double> draught;    ///< m; empty: they stand on the sea bed
+    std::optional<double> top;        ///< m, depth; empty: they pierce the surface
+  };
+  std::vector<Equal> sorts;             ///< at least one
   std::vector<double> omega, headings;  ///< rad/s; rad, empty: those that the scene asks for
 };
 

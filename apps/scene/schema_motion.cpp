@@ -103,21 +103,35 @@ const Table& radiation() {
   return table;
 }
 
+std::vector<Key> keys_of_equal_cylinders() {
+  return {points("at", "axes where they meet still water, body axes; each ± makes two"),
+          quantity("diameter", dim::length, "of each").positive(),
+          quantity("draught", dim::length, "depth of the bottom of each, or \"to the sea bed\"")
+              .positive()
+              .one_of({"to the sea bed"}),
+          quantity("top", dim::length, "depth of the top of each; left out: they pierce the surface")
+              .positive()
+              .optional()};
+}
+
+const Table& other_cylinders() {
+  static const Table table{.title = "[[body.hydrodynamics.cylinders.others]]",
+                           .meaning = "cylinders of another size in the same body",
+                           .keys = keys_of_equal_cylinders()};
+  return table;
+}
+
 const Table& cylinders() {
-  static const Table table{
-      .title = "[body.hydrodynamics.cylinders]",
-      .meaning = "vertical cylinders: the program computes their coefficients exactly, with interaction",
-      .keys = {points("at", "axes where they meet still water, body axes; each ± makes two"),
-               quantity("diameter", dim::length, "of each").positive(),
-               quantity("draught", dim::length, "depth of the bottom of each, or \"to the sea bed\"")
-                   .positive()
-                   .one_of({"to the sea bed"}),
-               quantity("top", dim::length, "depth of the top of each; left out: they pierce the surface")
-                   .positive()
-                   .optional(),
-               range("frequencies", dim::angular_velocity,
-                     "of the table that is computed: \"0.2 rad/s .. 4 rad/s, 39 values\""),
-               range("headings", dim::angle, "of the table; without it those of [waves] and [ask]").optional()}};
+  static const Table table = [] {
+    Table out{.title = "[body.hydrodynamics.cylinders]",
+              .meaning = "vertical cylinders: the program computes their coefficients exactly, with interaction",
+              .keys = keys_of_equal_cylinders()};
+    out.keys.push_back(inner_tables("others", other_cylinders()).optional());
+    out.keys.push_back(range("frequencies", dim::angular_velocity,
+                             "of the table that is computed: \"0.2 rad/s .. 4 rad/s, 39 values\""));
+    out.keys.push_back(range("headings", dim::angle, "of the table; without it those of [waves] and [ask]").optional());
+    return out;
+  }();
   return table;
 }
 
