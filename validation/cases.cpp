@@ -22,6 +22,7 @@ Outcome rm3_regular(const Folders& folders);
 Outcome spectra(const Folders& folders);
 Outcome sea_dat(const Folders& folders);
 Outcome sphere_decay(const Folders& folders);
+Outcome stick(const Folders& folders);
 Outcome two_pole(const Folders& folders);
 Outcome zanten_periods(const Folders& folders);
 Outcome zanten_stick_slip(const Folders& folders);
@@ -46,6 +47,7 @@ const std::vector<Case>& cases() {
       {"hulme", hulme},
       {"cylinder", cylinder},
       {"two-pole", two_pole},
+      {"stick", stick},
       {"kramers-kronig", kramers_kronig},
       {"sphere-decay", sphere_decay},
       {"rm3-regular", rm3_regular},

@@ -9,6 +9,7 @@
 #include "dynamics/force/catenary_mooring.hpp"
 #include "dynamics/force/connector.hpp"
 #include "dynamics/force/constant_load.hpp"
+#include "dynamics/force/contact.hpp"
 #include "dynamics/force/friction.hpp"
 #include "dynamics/force/pto.hpp"
 #include "dynamics/force/restoring.hpp"
@@ -43,6 +44,7 @@ struct Prepared {
   std::vector<dynamics::CatenaryMooring> lines;
   std::vector<dynamics::Joint> joints;
   std::vector<dynamics::Friction> friction;
+  std::vector<dynamics::Contact> contacts;
   std::vector<double>
       joint_sign;  ///< −1 where the scene wrote the ground first: travel is the second's against the first
   std::vector<std::string> axial_names, bushing_names, mooring_names;

@@ -183,6 +183,7 @@ Scene parse(std::string_view text, const std::filesystem::path& file) {
   build_members(root, names, scene);
   build_moorings(root, names, scene);
   build_connectors(root, names, scene);
+  build_contacts(root, names, scene);
   build_joints(root, names, scene);
   build_loads(root, names, scene);
   check_bodies(root, scene);

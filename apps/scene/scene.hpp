@@ -252,6 +252,28 @@ struct Connector {
   Place place;
 };
 
+/// A cylinder with round ends; a ball where both are one point. Body axes, of the ground global.
+struct ContactRod {
+  Eigen::Vector3d from, to;
+  double radius;  ///< m
+};
+struct ContactPlane {
+  Eigen::Vector3d at, normal;  ///< out of the body, unit
+};
+struct ContactBox {
+  Eigen::Vector3d centre, half;  ///< half of its sides, along the body's axes
+};
+/// `[[contact]]`: shapes of two bodies that touch and part.
+struct Contact {
+  std::string name;  ///< "contact1" … unless named; repeated ones get a number
+  int first;
+  std::optional<int> second;  ///< empty: the ground
+  ContactRod on_first;
+  std::variant<ContactRod, ContactPlane, ContactBox> on_second;
+  double restitution, friction;
+  Place place;
+};
+
 /// Friction of a hinge, N m, or of a slider, N.
 struct JointFriction {
   double breakaway, sliding;
@@ -336,6 +358,7 @@ struct Scene {
   std::vector<Member> members;
   std::vector<Mooring> moorings;
   std::vector<CatenaryLine> lines;
+  std::vector<Contact> contacts;
   std::vector<Connector> connectors;
   std::vector<Load> loads;
   std::vector<Joint> joints;

@@ -2,6 +2,7 @@
 #include "hydro/base/types.hpp"
 #include "hydro/potential/check.hpp"
 #include "scene/schema.hpp"
+#include "scene/schema_contact.hpp"
 #include "scene/schema_joint.hpp"
 #include "scene/schema_members.hpp"
 #include "scene/schema_waves.hpp"
@@ -456,7 +457,8 @@ const Table& motion_schema() {
                inner_tables("probe", probe_table()).optional(), inner_tables("member", member_table()).optional(),
                inner_tables("mooring", mooring()).optional(), inner_tables("connector", connector()).optional(),
                inner_tables("joint", joint_table()).optional(), inner_tables("load", load_table()).optional(),
-               inner_table("ask", ask()), inner_table("solve", solve()).or_default("", "see its keys")}};
+               inner_tables("contact", contact_table()).optional(), inner_table("ask", ask()),
+               inner_table("solve", solve()).or_default("", "see its keys")}};
   return table;
 }
 

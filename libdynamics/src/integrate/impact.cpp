@@ -1,5 +1,7 @@
 #include "impact.hpp"
 
+#include <Eigen/QR>
+
 #include <algorithm>
 
 #include "hydro/base/error.hpp"
@@ -23,12 +25,25 @@ void relax(const ImpactLaw& law, const Eigen::MatrixXd& W, const Eigen::VectorXd
   z.segment<2>(n + 1) = held;
 }
 
+/// The least impulses that would turn all speeds as wanted and stop all slip. Where contacts are more than a body
+/// needs, impulses are not unique: from here relaxation ends near those that equal contacts share evenly.
+Eigen::VectorXd evenly_shared(const Eigen::MatrixXd& W, const Eigen::VectorXd& before,
+                              const std::vector<ImpactLaw>& laws) {
+  Eigen::VectorXd change = -before;
+  for (const ImpactLaw& law : laws) change[law.row] -= law.restitution * std::min(before[law.row], 0.0);
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors;
+  factors.setThreshold(1e-10);
+  Eigen::VectorXd z = factors.compute(W).solve(change);
+  for (const ImpactLaw& law : laws) z[law.row] = std::max(0.0, z[law.row]);
+  return z;
+}
+
 }  // namespace
 
 Eigen::VectorXd impulses(const Eigen::MatrixXd& W, const Eigen::VectorXd& before, const std::vector<ImpactLaw>& laws) {
   constexpr int most_sweeps = 100'000;
   constexpr double settled = 1e-15;  // of the largest speed, by each sweep
-  Eigen::VectorXd z = Eigen::VectorXd::Zero(before.size());
+  Eigen::VectorXd z = evenly_shared(W, before, laws);
   const Eigen::VectorXd gain = W.diagonal();
   const double fastest = before.cwiseAbs().maxCoeff();
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {

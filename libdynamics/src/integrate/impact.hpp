@@ -1,5 +1,5 @@
 #pragma once
-/// \file  Impulses of contacts that close at one instant (D73). Not installed.
+/// \file  Impulses of contacts that close at one instant (D25). Not installed.
 #include <Eigen/Core>
 
 #include <vector>

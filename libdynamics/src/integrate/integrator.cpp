@@ -67,8 +67,8 @@ bool Integrator::try_turned_step(Workspace& workspace, double h, StepReport& rep
   return true;
 }
 
-// Between two changes that all but coincide: conditions on places would leave their rounding, divided by the time, in the
-// velocities; a straight way is exact to rounding there.
+// Between two changes that all but coincide: conditions on places would leave their rounding, divided by the time, in
+// the velocities; a straight way is exact to rounding there.
 void Integrator::go_straight(Workspace& workspace, double h) const {
   const Eigen::VectorXd &v = workspace.state.velocity, &a = workspace.acceleration;
   workspace.state = displaced(workspace.state, h * v + h * h / 2 * a, v + h * a, h);

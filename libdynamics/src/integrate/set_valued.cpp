@@ -79,7 +79,7 @@ void SetValuedLaws::begin(Workspace& workspace) {
   settle(workspace);
 }
 
-// (D73). Joints hold in an impact; friction of joints does not, since its load is bounded and an impact takes no time.
+// (D25). Joints hold in an impact; friction of joints does not, since its load is bounded and an impact takes no time.
 // \returns true if there was one.
 bool SetValuedLaws::collide(Workspace& workspace) {
   if (active_.contact() == nullptr) return false;
@@ -154,11 +154,12 @@ void SetValuedLaws::still(Workspace& workspace, double step) {
   settle(workspace);
 }
 
-std::vector<int> SetValuedLaws::situation(Workspace& workspace) const {
-  std::vector<int> out;
-  if (active_.friction() != nullptr) out = active_.friction_memory(workspace).direction;
+std::vector<SetValuedLaws::Seen> SetValuedLaws::situation(Workspace& workspace) const {
+  std::vector<Seen> out;
+  if (active_.friction() != nullptr)
+    for (const int direction : active_.friction_memory(workspace).direction) out.push_back({direction, 0});
   if (active_.contact() != nullptr)
-    for (const ContactState& c : active_.contact_memory(workspace).contact) out.push_back(c.is);
+    for (const ContactState& c : active_.contact_memory(workspace).contact) out.push_back({c.is, c.impacts});
   return out;
 }
 
@@ -192,7 +193,7 @@ Eigen::Vector3d SetValuedLaws::direction_of_slip(std::size_t element, Workspace&
 
 std::vector<Event> SetValuedLaws::change(Workspace& workspace, const Margin& at, double step) {
   step_ = step;
-  const std::vector<int> was = situation(workspace);
+  const std::vector<Seen> was = situation(workspace);
   if (collide(workspace)) {
     classify_contacts(workspace);
     classify_friction(workspace);
@@ -200,13 +201,13 @@ std::vector<Event> SetValuedLaws::change(Workspace& workspace, const Margin& at,
     take_up(workspace, at);
   }
   settle(workspace);
-  const std::vector<int> is = situation(workspace);
+  const std::vector<Seen> is = situation(workspace);
   const std::size_t frictions = active_.friction() == nullptr ? 0 : active_.friction()->elements();
   std::vector<Event> events;
   for (std::size_t i = 0; i < is.size(); ++i)
     if (is[i] != was[i])
       events.push_back({i < frictions ? Event::Law::friction : Event::Law::contact, workspace.state.time,
-                        i < frictions ? i : i - frictions, is[i]});
+                        i < frictions ? i : i - frictions, is[i].is});
   return events;
 }
 
@@ -218,8 +219,8 @@ SetValuedLaws::Margin SetValuedLaws::least_margin(Workspace& workspace) const {
   const bool holds = active_.conditions().count() > model_.joints().count();
   const auto loads = holds ? active_.balance(workspace) : ActiveSet::Balance{workspace.acceleration, {}};
   if (!loads)
-    throw hydro::NumericsError(fmt::format("no loads can be found at t = {} s: they are not finite or the mass is singular",
-                                           workspace.state.time));
+    throw hydro::NumericsError(fmt::format(
+        "no loads can be found at t = {} s: they are not finite or the mass is singular", workspace.state.time));
   if (active_.friction() != nullptr) {
     const FrictionMemory& memory = active_.friction_memory(workspace);
     Eigen::Index row = model_.joints().count();

@@ -100,7 +100,7 @@ Gradient apart(const Eigen::Vector3d& n, const Eigen::Vector3d& on_first, const 
 
 double value(const GapCondition& c, const ConditionEnds& at) { return meeting(c, at).gap; }
 
-// The points are those of the shortest way: how they wander over the shapes changes its length by nothing (D71).
+// The points are those of the shortest way: how they wander over the shapes changes its length by nothing (D23).
 Gradient gradient(const GapCondition& c, const ConditionEnds& at) {
   const Meeting m = meeting(c, at);
   return apart(m.normal, m.on_first, m.on_second, at);

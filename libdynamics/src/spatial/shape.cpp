@@ -54,7 +54,7 @@ Meeting between(const Box& box, const Ball& ball) {
   return {-depth - ball.radius, n, ball.centre + depth * n, ball.centre - ball.radius * n};
 }
 
-/// Shares of the way along each of two segments at which they are closest (D70).
+/// Shares of the way along each of two segments at which they are closest (D22).
 std::pair<double, double> closest(const Rod& a, const Rod& b) {
   const Vector3d u = a.to - a.from, v = b.to - b.from, w = b.from - a.from;
   const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v);

@@ -67,7 +67,7 @@ struct Motion {
   Eigen::Vector3d place(std::size_t i = 0) const { return workspace.state.pose[i].centre; }
 };
 
-// (D73), (D74): dropped from H the ball has v₀ = √(2gH); it comes back after 2 e v₀/g, e times that, … and lies still
+// (D25), (D26): dropped from H the ball has v₀ = √(2gH); it comes back after 2 e v₀/g, e times that, … and lies still
 // after t₀ (1 + e)/(1 − e), t₀ = v₀/g. The step is exact for a constant acceleration, so only the last bounces, which
 // would all end within a step, are lost: the rest comes at most a step early.
 TEST(Contact, LetsABallBounceUntilItsSeriesOfBouncesEnds) {
@@ -224,6 +224,77 @@ TEST(Contact, PassesAnElasticBlowOnAndKeepsMomentum) {
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(run.workspace.state.velocity[6 * i], 0, 1e-13);
   EXPECT_NEAR(run.workspace.state.velocity[24], 1.5, 1e-13);
   EXPECT_EQ(run.contact(0).impacts, 1u);
+}
+
+/// Five boxes side by side, touching, in water that couples all of them.
+struct Row {
+  std::vector<RigidBody> bodies;
+  std::vector<Contact> contacts;
+  Eigen::MatrixXd added;
+
+  Row(double restitution, double friction) : added(30, 30) {
+    for (int i = 0; i < 5; ++i)
+      bodies.push_back(RigidBody({.name = "m",
+                                  .mass = 900.0 + 50 * i,
+                                  .inertia = Eigen::Vector3d(2000, 3000, 4000).asDiagonal(),
+                                  .rest_position = {Eigen::Vector3d(4 * i, 0, 0.1 * i)}}));
+    for (int i = 0; i < 4; ++i)
+      for (const double y : {-1.5, 1.5})
+        contacts.push_back(
+            {"fender", i, i + 1, {Ball{{1.9, y, 0.2}, 0.1}, HalfSpace{{-2, 0, 0}, {-1, 0, 0}}}, restitution, friction});
+    for (Eigen::Index i = 0; i < 30; ++i)
+      for (Eigen::Index j = 0; j < 30; ++j) added(i, j) = std::cos(1.7 * static_cast<double>(i * j % 11));
+    added = 40 * added * added.transpose();
+  }
+  Model model() const {
+    std::vector<std::unique_ptr<const ForceKind>> forces;
+    forces.push_back(std::make_unique<ContactKind>(contacts));
+    return Model(bodies, {{{0, 1, 2, 3, 4}, added}}, std::move(forces));
+  }
+};
+
+// All five meet at one instant. What contacts do is equal and opposite at one point, so that the momentum of bodies and
+// water, linear and about the origin, stays to rounding; the kinetic energy that goes is what the ledger says.
+TEST(Contact, OfFiveModulesAtOnceKeepsMomentum) {
+  for (const double friction : {0.0, 0.4}) {
+    const Row row(0.5, friction);
+    const Model model = row.model();
+    State start = rest_state(model.bodies());
+    for (Eigen::Index i = 0; i < 30; ++i) start.velocity[i] = 0.2 * std::sin(2.3 * static_cast<double>(i));
+    for (int i = 0; i < 5; ++i) start.velocity[6 * i] = 2 - i;
+    const double before = model.kinetic_energy(start);
+    Motion run(model, start);
+    const State& now = run.workspace.state;
+    const Eigen::VectorXd gained = model.mass_times(now, now.velocity - start.velocity);
+    Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = linear;
+    for (int i = 0; i < 5; ++i) {
+      linear += gained.segment<3>(6 * i);
+      angular +=
+          gained.segment<3>(6 * i + 3) + start.pose[static_cast<std::size_t>(i)].centre.cross(gained.segment<3>(6 * i));
+    }
+    const double size = gained.cwiseAbs().maxCoeff();
+    EXPECT_GT(size, 100);
+    EXPECT_LT(linear.norm(), 1e-13 * size) << friction;
+    EXPECT_LT(angular.norm(), 1e-12 * size) << friction << ": arms of 16 m";
+    double lost = 0;
+    for (std::size_t i = 0; i < 8; ++i) {
+      lost += run.contact(i).dissipated;
+      EXPECT_GE(model.forces()[0]->contact()->relative_velocity(i, now).x(), -1e-9) << "none goes on approaching";
+    }
+    EXPECT_GT(lost, 0);
+    EXPECT_NEAR(before - model.kinetic_energy(now), lost, 1e-12 * before);
+  }
+}
+
+TEST(Contact, SharesABlowEvenlyWhereItIsSymmetric) {
+  Row row(0.3, 0);
+  row.added = Eigen::MatrixXd::Zero(30, 30);
+  const Model model = row.model();
+  State start = rest_state(model.bodies());
+  start.velocity[0] = 1;
+  Motion run(model, start);
+  EXPECT_NEAR(run.contact(0).dissipated, run.contact(1).dissipated, 1e-12);
+  EXPECT_GT(run.contact(0).dissipated, 0);
 }
 
 TEST(Contact, OfShapesThatOverlapAtTheStartIsRefusedByName) {

@@ -5,7 +5,7 @@
 
 namespace dynamics {
 
-/// Two shapes of two bodies that do not pass through each other (D71)-(D73).
+/// Two shapes of two bodies that do not pass through each other (D23)-(D25).
 struct Contact {
   std::string name;
   int first;

@@ -26,7 +26,7 @@ class ActiveSet {
   /// Takes up what the memories say, where the bodies are now; the workspace's solver with it.
   void rebuild(Workspace& workspace);
   const JointSet& conditions() const { return conditions_; }
-  /// Loads are −columns · λ: G, and friction along with the normal of a contact that slides (D72).
+  /// Loads are −columns · λ: G, and friction along with the normal of a contact that slides (D24).
   std::vector<Gradient> columns(std::vector<Gradient> G, const State& state) const;
   /// Directions of slip are those where a step begins, until turn_slides() takes those of its end.
   bool has_slides() const { return !slides_.empty(); }
@@ -47,7 +47,7 @@ class ActiveSet {
   /// √ of the mass that each condition moves.
   const Eigen::VectorXd& condition_scale() const { return condition_scale_; }
   /// Of closed contacts, which may be more than needed to hold a body: a small inverse mass, for Newton's matrix alone,
-  /// by which they share the load evenly (D72). Zero for joints.
+  /// by which they share the load evenly (D24). Zero for joints.
   const Eigen::VectorXd& compliance() const { return compliance_; }
   /// Of a place computed from the bodies' positions, m.
   double rounding() const { return rounding_; }

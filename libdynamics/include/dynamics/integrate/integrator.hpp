@@ -19,7 +19,7 @@ struct StepReport {
 
 /// Friction sticks as one more condition or slips with a given load, contacts are closed as one more condition or open;
 /// where that changes, the step is cut at the instant, found to round-off, and goes on with accelerations of its own
-/// (D20), (D74). No velocity counts as small, no stiffness stands for contact.
+/// (D20), (D26). No velocity counts as small, no stiffness stands for contact.
 class Integrator {
  public:
   virtual ~Integrator() = default;

@@ -4,7 +4,7 @@
 
 namespace dynamics {
 
-/// A change of a set-valued law.
+/// A change of a set-valued law, or an impact.
 struct Event {
   enum class Law { friction, contact } law;
   double time;          ///< s
@@ -12,7 +12,7 @@ struct Event {
   int becomes;          ///< friction: the direction in which it slips, 0 if it sticks; contact: a ContactState::Is
 };
 
-/// The laws of friction (D19), (D20) and contact (D71)-(D74) at the instants where something changes.
+/// The laws of friction (D19), (D20) and contact (D23)-(D26) at the instants where something changes.
 class SetValuedLaws {
  public:
   SetValuedLaws(const Model& model, ActiveSet& active) : model_(model), active_(active) {}
@@ -35,7 +35,7 @@ class SetValuedLaws {
   /// stick. `step`: of the run, s, what rounding of speeds is seen against.
   std::vector<Event> change(Workspace& workspace, const Margin& at, double step);
   /// Ends what goes on in ever shorter times, bounces and rocking: contacts that could close within a step have no more
-  /// speed along their normals (D74).
+  /// speed along their normals (D26).
   void still(Workspace& workspace, double step);
 
   /// Power of the slip of each contact, W, in the workspace's state.
@@ -59,7 +59,12 @@ class SetValuedLaws {
   double rounding(const ActiveSet::Balance& loads) const;
   double approach(std::size_t element, const State& state) const;
   double pull(std::size_t element, const Workspace& workspace) const;
-  std::vector<int> situation(Workspace& workspace) const;
+  struct Seen {
+    int is;  ///< as Event::becomes
+    std::size_t impacts;
+    bool operator==(const Seen&) const = default;
+  };
+  std::vector<Seen> situation(Workspace& workspace) const;
 
   const Model& model_;
   ActiveSet& active_;

@@ -1,5 +1,5 @@
 #pragma once
-/// \file  One condition of a joint or contact: its value, gradient and curvature (D13)-(D15), (D71). For JointSet and
+/// \file  One condition of a joint or contact: its value, gradient and curvature (D13)-(D15), (D23). For JointSet and
 /// for
 ///        tests.
 #include "dynamics/joint/joint.hpp"

@@ -3,7 +3,7 @@
 ///
 /// A joint is a few conditions g(q) = 0 with multipliers λ: loads −Gᵀλ on the bodies, G = ∂g/∂q. All kinds are made of
 /// two sorts of condition, (D13) and (D14), so each has one value, one gradient and one curvature to check. A contact
-/// that is closed is a third sort, (D71).
+/// that is closed is a third sort, (D23).
 #include <Eigen/Core>
 
 #include <array>
@@ -50,13 +50,13 @@ struct AxesCondition {
   Eigen::Vector3d first_axis, second_axis;  ///< u, v, body axes; of the ground: global
 };
 
-/// Shapes of the two bodies that touch: g is the gap between them (D71).
+/// Shapes of the two bodies that touch: g is the gap between them (D23).
 struct GapCondition {
   Shape first, second;  ///< from the centres, body axes; of the ground: global
 };
 
 /// Where the shapes touch, the second does not slip over the first along a direction: a condition on velocities alone,
-/// so that round shapes may roll (D72).
+/// so that round shapes may roll (D24).
 struct StickCondition {
   GapCondition shapes;
   Eigen::Vector3d direction;  ///< along the surface, global, unit
