@@ -53,6 +53,9 @@ class Equations {
   /// Moves x along the directions of `from` until lengths are kept.
   bool project_place(const Places& from, double tolerance, Places& x);
 
+  /// What held nodes need besides loads and pulls, N.
+  Places holding(const State& state, const Places& a, const Eigen::VectorXd& T);
+
   Powers powers(const Stage& stage, const State& before, const Places& u, const Eigen::VectorXd& T);
   /// Stored in stretched segments, and in the bed, J.
   double stored_in_segments(const State& state) const;

@@ -26,6 +26,13 @@ bool Equations::accelerations(const State& state, Places& a, VectorXd& T) {
   return true;
 }
 
+Places Equations::holding(const State& state, const Places& a, const VectorXd& T) {
+  assemble(instant(state, a), state, Places::Zero(3, line_.nodes()), T, false);
+  Places out = Places::Zero(3, line_.nodes());
+  for (const Held& h : line_.description().held) out.col(h.node) = residual_.col(h.node);
+  return out;
+}
+
 /// M δ + Gᵀ μ = 0 and G δ = −law_ in the matrix, G the lengths that are kept, along `along`, and their derivative at x.
 void Equations::assemble_projection(const Places& along, const Places& x) {
   scale_by_mass();

@@ -126,4 +126,15 @@ LinkAngles link_angles(const State& state, int segment, const LinkAngles& before
   return distance(first) <= distance(second) ? first : second;
 }
 
+LinkAngles link_rates(const State& state, int segment, const LinkAngles& now) {
+  const Eigen::Vector3d d = state.position.col(segment + 1) - state.position.col(segment),
+                        v = state.velocity.col(segment + 1) - state.velocity.col(segment);
+  const double level = std::hypot(d.x(), d.y());
+  if (level == 0) return {0, 0};
+  const double level_rate = (d.x() * v.x() + d.y() * v.y()) / level;
+  const double polar_rate = (d.z() * level_rate - level * v.z()) / d.squaredNorm();
+  // On the branch (π − θ, φ + π) the polar angle runs the other way.
+  return {std::cos(now.polar) < 0 ? -polar_rate : polar_rate, (d.x() * v.y() - d.y() * v.x()) / (level * level)};
+}
+
 }  // namespace dynamics::line

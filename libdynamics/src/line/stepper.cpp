@@ -1,5 +1,6 @@
 #include "dynamics/line/stepper.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -46,6 +47,7 @@ struct Stepper::Work {
   bool euler(State& state, double h);
   bool solve(const Stage& stage, const State& state, Places& u, VectorXd& T, StepReport& report);
   void lead(State& state) const;
+  void require_lengths(const State& state) const;
   bool settle(State& state);
   void note_powers(const Powers& mean, double h);
   void note_state(const State& state);
@@ -73,8 +75,11 @@ Stepper::~Stepper() = default;
 
 const Energies& Stepper::energies() const { return work_->energies; }
 
-bool Stepper::balance(const State& state, Places& acceleration, VectorXd& tension) {
-  return work_->equations.accelerations(state, acceleration, tension);
+std::optional<Stepper::Balance> Stepper::balance(const State& state) {
+  Balance out;
+  if (!work_->equations.accelerations(state, out.acceleration, out.tension)) return std::nullopt;
+  out.holding = work_->equations.holding(state, out.acceleration, out.tension);
+  return out;
 }
 
 /// Held nodes where their paths have them.
@@ -90,24 +95,31 @@ void Stepper::Work::lead(State& state) const {
   }
 }
 
-void Stepper::start(State& state) {
-  Work& w = *work_;
-  const Line& line = w.line;
-  hydro::require(state.position.cols() == line.nodes() && state.velocity.cols() == line.nodes(),
-                 "a line of {} nodes cannot start with {}", line.nodes(), state.position.cols());
-  w.lead(state);
+void Stepper::Work::require_lengths(const State& state) const {
   const double fastest = std::max(1.0, state.velocity.cwiseAbs().maxCoeff());
   for (int j = 0; j < line.segments(); ++j) {
     if (!line.segment(j).keeps_length()) continue;
     const Vector3d d = state.position.col(j + 1) - state.position.col(j);
-    const double off = d.norm() - line.segment(j).length;
-    hydro::require(std::abs(off) <= closed * line.segment(j).length,
+    hydro::require(std::abs(d.norm() - line.segment(j).length) <= closed * line.segment(j).length,
                    "segment {} keeps its length of {} m, but the line starts with its nodes {} m apart", j + 1,
                    line.segment(j).length, d.norm());
     const double rate = d.normalized().dot(state.velocity.col(j + 1) - state.velocity.col(j));
     hydro::require(std::abs(rate) <= closed * fastest,
                    "segment {} keeps its length, but the velocities at the start change it by {} m/s", j + 1, rate);
   }
+}
+
+void Stepper::start(State& state) {
+  Work& w = *work_;
+  const Line& line = w.line;
+  hydro::require(state.position.cols() == line.nodes() && state.velocity.cols() == line.nodes(),
+                 "a line of {} nodes cannot start with {}", line.nodes(), state.position.cols());
+  w.lead(state);
+  // A line at rest whose end is led off at once takes the nearest velocities that its lengths allow.
+  const bool led = std::any_of(line.description().held.begin(), line.description().held.end(),
+                               [](const Held& h) { return h.path != nullptr; });
+  if (led) w.equations.project_velocity(state, state.velocity);
+  w.require_lengths(state);
   if (!w.settle(state) && !line.has_massless_nodes())
     throw hydro::NumericsError(fmt::format(
         "the line has no accelerations at t = {} s: masses or loads are singular or not finite", state.time));

@@ -9,7 +9,7 @@
 #include "dynamics/line/stepper.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/waves/sea.hpp"
-#include "line_models.hpp"
+#include "support/line_models.hpp"
 
 namespace {
 

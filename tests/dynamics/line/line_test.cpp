@@ -5,9 +5,10 @@
 
 #include <numbers>
 
+#include "dynamics/line/path.hpp"
 #include "dynamics/line/stepper.hpp"
 #include "hydro/base/error.hpp"
-#include "line_models.hpp"
+#include "support/line_models.hpp"
 
 namespace {
 
@@ -91,6 +92,56 @@ TEST(LinkAngles, FollowALinkOverThePoleWithoutAJump) {
     EXPECT_NEAR(now.azimuth, 0, 1e-13);
     last = now;
   }
+}
+
+TEST(LinkAngles, HaveTheRatesOfTheirChange) {
+  const Line line(pendulums(1));
+  State s = in_plane(line, {0});
+  const Eigen::Vector3d d(0.3, -0.5, 0.7), v(0.2, 0.9, -0.4);
+  constexpr double e = 1e-6;
+  for (const double before : {0.0, 3.1}) {  // either branch
+    s.position.col(1) = d;
+    s.velocity.col(1) = v;
+    const LinkAngles now = link_angles(s, 0, {before, 0}), rates = link_rates(s, 0, now);
+    s.position.col(1) = d + e * v;
+    const LinkAngles later = link_angles(s, 0, now);
+    EXPECT_NEAR(rates.polar, (later.polar - now.polar) / e, 1e-5);
+    EXPECT_NEAR(rates.azimuth, (later.azimuth - now.azimuth) / e, 1e-5);
+  }
+}
+
+TEST(SplinePath, ConvergesToAPathThatEndsStraight) {
+  double error[2];
+  for (int k = 0; k < 2; ++k) {
+    std::vector<double> time;
+    std::vector<Eigen::Vector3d> places;
+    for (int i = 0; i <= 10 << k; ++i) {
+      time.push_back(std::numbers::pi * i / (10 << k));
+      places.push_back({std::sin(time.back()), 2 * time.back(), 1});  // bends nowhere at either end
+    }
+    const SplinePath path(time, places);
+    error[k] = 0;
+    for (double t = 0; t < 3.14; t += 0.01)
+      error[k] = std::max(error[k], std::abs(path.at(t).position.x() - std::sin(t)));
+    EXPECT_NEAR(path.at(1).position.y(), 2, 1e-14);
+    EXPECT_EQ(path.at(-1).position, places.front());
+    EXPECT_EQ(path.at(4).position, places.back());
+    EXPECT_EQ(path.at(4).velocity.norm(), 0);
+  }
+  EXPECT_NEAR(error[0] / error[1], 16, 2);  // fourth order
+}
+
+TEST(SplinePath, HasVelocityAndAccelerationThatAreItsOwnDerivatives) {
+  std::vector<double> time{0, 0.4, 1, 1.3, 2};
+  std::vector<Eigen::Vector3d> places{{0, 0, 0}, {1, 0, 1}, {0, 2, 1}, {0, 1, 3}, {1, 1, 1}};
+  const SplinePath path(time, places);
+  for (std::size_t i = 0; i < time.size(); ++i) EXPECT_LT((path.at(time[i]).position - places[i]).norm(), 1e-14);
+  constexpr double e = 1e-5;
+  for (const double t : {0.1, 0.4, 0.9, 1.0, 1.7}) {
+    EXPECT_LT(((path.at(t + e).position - path.at(t - e).position) / (2 * e) - path.at(t).velocity).norm(), 1e-7);
+    EXPECT_LT(((path.at(t + e).velocity - path.at(t - e).velocity) / (2 * e) - path.at(t).acceleration).norm(), 1e-3);
+  }
+  EXPECT_THROW(SplinePath({0, 0}, {places[0], places[1]}), hydro::InputError);
 }
 
 TEST(Stepper, RefusesSettingsAndStartsThatCannotBe) {

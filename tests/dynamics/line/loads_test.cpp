@@ -4,8 +4,8 @@
 
 #include "hydro/base/random.hpp"
 #include "hydro/waves/sea.hpp"
-#include "line_models.hpp"
 #include "springs.hpp"
+#include "support/line_models.hpp"
 
 namespace {
 

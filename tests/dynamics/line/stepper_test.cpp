@@ -9,7 +9,7 @@
 #include "dynamics/line/equilibrium.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/waves/sea.hpp"
-#include "line_models.hpp"
+#include "support/line_models.hpp"
 #include "support/plain_pendulums.hpp"
 
 namespace {

@@ -135,4 +135,8 @@ LinkAngles link_angles(const State& state, int segment);
 /// The same with the branch (θ, φ) or (π − θ, φ + π), and the turn, that is nearest to `before`: series without jumps.
 LinkAngles link_angles(const State& state, int segment, const LinkAngles& before);
 
+/// Rates of those angles, rad/s, for a link whose angles are `now` (of either branch). Of a vertical link the azimuth
+/// has none: 0.
+LinkAngles link_rates(const State& state, int segment, const LinkAngles& now);
+
 }  // namespace dynamics::line

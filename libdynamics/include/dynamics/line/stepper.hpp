@@ -1,6 +1,7 @@
 #pragma once
 /// \file  Time stepping of lines, and their energy ledger. (D77), (D79)-(D82), (D84)
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "dynamics/line/line.hpp"
@@ -67,8 +68,13 @@ class Stepper {
   /// Of the state after the last step.
   const Energies& energies() const;
 
-  /// Tensions and accelerations that balance a state, whatever the step did (D77). False if masses leave them open.
-  bool balance(const State& state, Places& acceleration, Eigen::VectorXd& tension);
+  /// What balances a state, whatever the step did (D77); nothing if masses leave it open.
+  struct Balance {
+    Places acceleration;
+    Eigen::VectorXd tension;
+    Places holding;  ///< the force on each held node by what holds it, N; zero for free ones
+  };
+  std::optional<Balance> balance(const State& state);
 
  private:
   struct Work;
