@@ -146,14 +146,12 @@ Solve build_solve(const Record& solve) {
   if (solve.text("step").empty()) out.step = {solve.si("step"), solve["step"].place};
   const Record& integrator = solve.table("integrator");
   out.rho_infinity = integrator.si("rho_infinity");
-  out.line_scheme = integrator.text("lines");
+  if (integrator.has("lines")) out.line_scheme = integrator.text("lines");
   if (integrator.has("gamma")) {
     if (out.line_scheme != "gamma")
       throw integrator.wrong("gamma", "acts only with lines = \"gamma\"", "leave it out, or add lines = \"gamma\"");
     out.gamma = integrator.si("gamma");
-    if (out.gamma == 0 || out.gamma > 1)
-      throw integrator.wrong("gamma", "must lie above 0 and not above 1",
-                             "0.5 is the trapezium rule, 1 implicit Euler");
+    if (out.gamma > 1) throw integrator.wrong("gamma", "is above 1", "0.5 is the trapezium rule, 1 implicit Euler");
   }
   return out;
 }

@@ -411,18 +411,20 @@ const Table& integrator() {
   static const Table table{
       .title = "[solve.integrator]",
       .meaning = "how time is stepped",
-      .keys = {text("name", "of the method")
-                   .one_of({"generalized_alpha"})
-                   .or_default("generalized_alpha", "second order, damps only what the step cannot resolve"),
-               number("rho_infinity", "spectral radius at infinite frequency: 1 damps nothing, 0 all at once")
-                   .within(Limit::fraction)
-                   .or_default("0.8", "kills what is not resolved within some steps, leaves the rest alone"),
-               text("lines", "how each [[line]] is stepped")
-                   .one_of({"energy_momentum", "generalised_alpha", "gamma", "semi_implicit_euler", "explicit_euler"})
-                   .or_default("energy_momentum", "keeps energy and lengths to rounding at any step"),
-               number("gamma", "share of the new state in a step of lines = \"gamma\"; left out: 0.51")
-                   .positive()
-                   .optional()}};
+      .keys = {
+          text("name", "of the method")
+              .one_of({"generalized_alpha"})
+              .or_default("generalized_alpha", "second order, damps only what the step cannot resolve"),
+          number("rho_infinity", "spectral radius at infinite frequency: 1 damps nothing, 0 all at once")
+              .within(Limit::fraction)
+              .or_default("0.8", "kills what is not resolved within some steps, leaves the rest alone"),
+          text("lines",
+               "how each [[line]] is stepped; left out: energy_momentum, which keeps energy and lengths at any step")
+              .one_of({"energy_momentum", "generalised_alpha", "gamma", "semi_implicit_euler", "explicit_euler"})
+              .optional(),
+          number("gamma", "share of the new state in a step of lines = \"gamma\"; left out: 0.51")
+              .positive()
+              .optional()}};
   return table;
 }
 
