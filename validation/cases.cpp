@@ -13,6 +13,14 @@ Outcome f3of(const Folders& folders);
 Outcome formats(const Folders& folders);
 Outcome fpso_rao(const Folders& folders);
 Outcome hendriksen_waves(const Folders& folders);
+Outcome huijgen_cone(const Folders& folders);
+Outcome huijgen_double(const Folders& folders);
+Outcome huijgen_string(const Folders& folders);
+Outcome huijgen_dropper_static(const Folders& folders);
+Outcome huijgen_dropper_a(const Folders& folders);
+Outcome huijgen_dropper_b(const Folders& folders);
+Outcome huijgen_dropper_c(const Folders& folders);
+Outcome huijgen_gamma(const Folders& folders);
 Outcome huijgen_sea(const Folders& folders);
 Outcome hulme(const Folders& folders);
 Outcome irf_a5(const Folders& folders);
@@ -39,6 +47,14 @@ const std::vector<Case>& cases() {
       {"zanten-stick-slip", zanten_stick_slip},
       {"zanten-wave-table", zanten_wave_table},
       {"zanten-waves", zanten_waves},
+      {"huijgen-cone", huijgen_cone},
+      {"huijgen-double", huijgen_double},
+      {"huijgen-string", huijgen_string},
+      {"huijgen-dropper-static", huijgen_dropper_static},
+      {"huijgen-dropper-A", huijgen_dropper_a},
+      {"huijgen-dropper-B", huijgen_dropper_b},
+      {"huijgen-dropper-C", huijgen_dropper_c},
+      {"huijgen-gamma", huijgen_gamma},
       {"huijgen-sea", huijgen_sea},
       {"hendriksen-waves", hendriksen_waves},
       {"sea-dat", sea_dat},

@@ -403,9 +403,18 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
     plan.push_back({"joint", "conditions held exactly, with the loads that this takes as unknowns",
                     fmt::format("{} joints, {} conditions", prepared.joints.size(), model.joints().count()), true});
   notes.insert(notes.end(), model.redundant().begin(), model.redundant().end());
+  std::vector<LineModel> lines = line_models(scene, water);
+  for (const LineModel& line : lines) plan.push_back(plan_line(line));
   dynamics::State start = start_state(scene, prepared, model);
-  return {std::move(model), std::move(start), std::move(water), step, steps,
-          per_sample,       std::move(plan),  std::move(notes)};
+  return {.model = std::move(model),
+          .start = std::move(start),
+          .water = std::move(water),
+          .lines = std::move(lines),
+          .step = step,
+          .steps = steps,
+          .steps_per_sample = per_sample,
+          .plan = std::move(plan),
+          .notes = std::move(notes)};
 }
 
 }  // namespace froude::compile

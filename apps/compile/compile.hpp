@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "compile/lines.hpp"
 #include "dynamics/force/buoyancy.hpp"
 #include "dynamics/force/catenary_mooring.hpp"
 #include "dynamics/force/connector.hpp"
@@ -69,6 +70,7 @@ struct TimeModel {
   dynamics::Model model;
   dynamics::State start;
   RunWater water;
+  std::vector<LineModel> lines;  ///< stepped beside the bodies
   double step;  ///< s; scene.run->every is a whole multiple of it
   std::size_t steps;
   std::size_t steps_per_sample;

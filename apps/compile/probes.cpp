@@ -250,7 +250,7 @@ std::vector<Probe> run_probes(const scene::Scene& scene, const Prepared& prepare
   add_ptos(scene, prepared, out);
   add_joint_loads(prepared, model.model, out);
   if (scene.waves) add_water(scene, model.water.field, out);
-  add_energies(model, out);
+  if (!prepared.bodies.empty()) add_energies(model, out);
   return out;
 }
 

@@ -78,8 +78,10 @@ Section plan_run(const scene::Scene& scene, const compile::Prepared& p, std::vec
   compile::TimeModel m = compile::time_model(scene, p);
   notes = m.notes;
   const bool sparse = dynamics::BlockSolver(m.model.pattern()).is_sparse();
-  Section s{fmt::format("run: {} steps of {:.4g} s, {} unknowns, generalised-alpha rho_infinity {:.3g}, {} factors",
-                        m.steps, m.step, m.model.modes(), scene.solve.rho_infinity, sparse ? "sparse" : "dense"),
+  const std::string title = fmt::format("run: {} steps of {:.4g} s", m.steps, m.step);
+  Section s{p.bodies.empty() ? title
+                             : fmt::format("{}, {} unknowns, generalised-alpha rho_infinity {:.3g}, {} factors", title,
+                                           m.model.modes(), scene.solve.rho_infinity, sparse ? "sparse" : "dense"),
             std::move(m.plan)};
   if (scene.waves) {
     const double wh = compile::highest_relevant_frequency(*scene.waves) * m.step;

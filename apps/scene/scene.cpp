@@ -96,8 +96,10 @@ AskWaves read_ask_waves(const Record& asked, const Scene& scene) {
 void check_bodies(const Record& root, const Scene& scene) {
   if (!scene.bodies.empty()) return;
   const Record& ask = root.table("ask");
-  for (const char* what : {"rao", "run"})
-    if (ask.has(what)) throw ask.table(what).refused("asks for motion, but the scene has no body", "add a [[body]]");
+  for (const char* what : {"rao", "run"}) {
+    if (!ask.has(what) || (what == std::string_view("run") && !scene.chains.empty())) continue;
+    throw ask.table(what).refused("asks for motion, but the scene has no body", "add a [[body]]");
+  }
 }
 
 void check_excitation(const Record& root, const Scene& scene) {
@@ -142,7 +144,15 @@ void build_ask(const Record& ask, Scene& scene) {
 Solve build_solve(const Record& solve) {
   Solve out;
   if (solve.text("step").empty()) out.step = {solve.si("step"), solve["step"].place};
-  out.rho_infinity = solve.table("integrator").si("rho_infinity");
+  const Record& integrator = solve.table("integrator");
+  out.rho_infinity = integrator.si("rho_infinity");
+  if (integrator.has("lines")) out.line_scheme = integrator.text("lines");
+  if (integrator.has("gamma")) {
+    if (out.line_scheme != "gamma")
+      throw integrator.wrong("gamma", "acts only with lines = \"gamma\"", "leave it out, or add lines = \"gamma\"");
+    out.gamma = integrator.si("gamma");
+    if (out.gamma > 1) throw integrator.wrong("gamma", "is above 1", "0.5 is the trapezium rule, 1 implicit Euler");
+  }
   return out;
 }
 
@@ -181,6 +191,7 @@ Scene parse(std::string_view text, const std::filesystem::path& file) {
   scene.probes = build_probes(root, names);
   scene.bodies = build_bodies(root, file, names);
   build_members(root, names, scene);
+  build_lines(root, file, names, scene);
   build_moorings(root, names, scene);
   build_connectors(root, names, scene);
   build_contacts(root, names, scene);

@@ -230,6 +230,47 @@ struct CatenaryLine {
   Place place;
 };
 
+/// `[[line]]`: a chain of nodes and segments that is stepped by itself. What is named acts on it.
+struct Line {
+  struct Link {
+    double length, mass, centre, inertia;  ///< m, kg, share of the length from its first node, kg m² about that
+  };
+  struct Water {
+    double cd, ca, cd_tangential;
+  };
+  struct Damping {
+    double linear, quadratic;  ///< of each node, kg/s and kg/m
+    bool componentwise;
+  };
+  struct Bed {
+    double stiffness, damping;  ///< Pa/m, Pa s/m
+  };
+  struct Release {
+    int node;
+    Eigen::Vector3d at;  ///< m
+  };
+  struct Lead {
+    bool first;                          ///< the end `from`, else `to`
+    std::vector<double> time;            ///< s
+    std::vector<Eigen::Vector3d> place;  ///< m
+  };
+  std::string name;
+  Eigen::Vector3d from;               ///< m
+  std::optional<Eigen::Vector3d> to;  ///< m; empty: a free end
+  std::vector<Link> links;
+  double node_mass = 0;                   ///< kg, at every node but held ends
+  double diameter = 0;                    ///< m
+  std::optional<double> axial_stiffness;  ///< N; empty: keeps its length
+  double axial_damping = 0;               ///< N s
+  bool pulls_only = false, buoyancy = false, partial_immersion = false;
+  std::optional<Water> morison;
+  std::optional<Damping> damping;
+  std::optional<Bed> bed;
+  std::optional<Release> release;
+  std::optional<Lead> lead;
+  Place place;
+};
+
 struct AxialConnector {
   double stiffness = 0, damping = 0;          ///< N/m, N s/m
   double cubic = 0, quadratic_damping = 0;    ///< N/m³, N s²/m²
@@ -334,8 +375,10 @@ struct AskRun {
 };
 
 struct Solve {
-  std::optional<Located<double>> step;  ///< s; empty: chosen from the accuracy asked
-  double rho_infinity = 0.8;            ///< spectral radius of generalised-α at infinite frequency, 0 … 1
+  std::optional<Located<double>> step;          ///< s; empty: chosen from the accuracy asked
+  double rho_infinity = 0.8;                    ///< spectral radius of generalised-α at infinite frequency, 0 … 1
+  std::string line_scheme = "energy_momentum";  ///< of lines, as dynamics::line::parse_scheme() reads it
+  double gamma = 0.51;                          ///< of the γ-method of lines
 };
 
 /// One line of the echo: every key that acts, whether written or filled in.
@@ -359,6 +402,7 @@ struct Scene {
   std::vector<Mooring> moorings;
   std::vector<CatenaryLine> lines;
   std::vector<Contact> contacts;
+  std::vector<Line> chains;  ///< [[line]]
   std::vector<Connector> connectors;
   std::vector<Load> loads;
   std::vector<Joint> joints;

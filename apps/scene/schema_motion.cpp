@@ -4,6 +4,7 @@
 #include "scene/schema.hpp"
 #include "scene/schema_contact.hpp"
 #include "scene/schema_joint.hpp"
+#include "scene/schema_line.hpp"
 #include "scene/schema_members.hpp"
 #include "scene/schema_waves.hpp"
 
@@ -425,12 +426,20 @@ const Table& integrator() {
   static const Table table{
       .title = "[solve.integrator]",
       .meaning = "how time is stepped",
-      .keys = {text("name", "of the method")
-                   .one_of({"generalized_alpha"})
-                   .or_default("generalized_alpha", "second order, damps only what the step cannot resolve"),
-               number("rho_infinity", "spectral radius at infinite frequency: 1 damps nothing, 0 all at once")
-                   .within(Limit::fraction)
-                   .or_default("0.8", "kills what is not resolved within some steps, leaves the rest alone")}};
+      .keys = {
+          text("name", "of the method")
+              .one_of({"generalized_alpha"})
+              .or_default("generalized_alpha", "second order, damps only what the step cannot resolve"),
+          number("rho_infinity", "spectral radius at infinite frequency: 1 damps nothing, 0 all at once")
+              .within(Limit::fraction)
+              .or_default("0.8", "kills what is not resolved within some steps, leaves the rest alone"),
+          text("lines",
+               "how each [[line]] is stepped; left out: energy_momentum, which keeps energy and lengths at any step")
+              .one_of({"energy_momentum", "generalised_alpha", "gamma", "semi_implicit_euler", "explicit_euler"})
+              .optional(),
+          number("gamma", "share of the new state in a step of lines = \"gamma\"; left out: 0.51")
+              .positive()
+              .optional()}};
   return table;
 }
 
@@ -455,10 +464,10 @@ const Table& motion_schema() {
                inner_table("water", water()), inner_table("waves", waves_table()).optional(),
                inner_table("current", current_table()).optional(), inner_tables("body", body()).optional(),
                inner_tables("probe", probe_table()).optional(), inner_tables("member", member_table()).optional(),
-               inner_tables("mooring", mooring()).optional(), inner_tables("connector", connector()).optional(),
-               inner_tables("joint", joint_table()).optional(), inner_tables("load", load_table()).optional(),
-               inner_tables("contact", contact_table()).optional(), inner_table("ask", ask()),
-               inner_table("solve", solve()).or_default("", "see its keys")}};
+               inner_tables("line", line_table()).optional(), inner_tables("mooring", mooring()).optional(),
+               inner_tables("connector", connector()).optional(), inner_tables("joint", joint_table()).optional(),
+               inner_tables("load", load_table()).optional(), inner_tables("contact", contact_table()).optional(),
+               inner_table("ask", ask()), inner_table("solve", solve()).or_default("", "see its keys")}};
   return table;
 }
 

@@ -25,7 +25,6 @@ Model::Model(std::vector<RigidBody> bodies, std::vector<AddedMass> added_mass,
       forces_(std::move(forces)),
       pattern_(static_cast<int>(bodies_.size())),
       joints_(bodies_, std::move(joints)) {
-  hydro::require(!bodies_.empty(), "the model has no bodies");
   for (const AddedMass& added : added_mass_)
     for (const int i : added.bodies)
       for (const int j : added.bodies)
@@ -33,6 +32,7 @@ Model::Model(std::vector<RigidBody> bodies, std::vector<AddedMass> added_mass,
   for (const auto& kind : forces_) kind->couple(pattern_);
   joints_.couple(pattern_);
   pattern_.freeze();
+  if (bodies_.empty()) return;  // a scene may hold lines alone
   // Dynamics with an indefinite mass run away at once; say so before the first step.
   BlockMatrix mass(pattern_);
   add_mass(rest_state(bodies_), 1, mass);
