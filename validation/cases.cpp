@@ -25,6 +25,7 @@ Outcome huijgen_sea(const Folders& folders);
 Outcome hulme(const Folders& folders);
 Outcome irf_a5(const Folders& folders);
 Outcome kramers_kronig(const Folders& folders);
+Outcome order(const Folders& folders);
 Outcome rm3_decay(const Folders& folders);
 Outcome rm3_regular(const Folders& folders);
 Outcome spectra(const Folders& folders);
@@ -63,6 +64,7 @@ const std::vector<Case>& cases() {
       {"hulme", hulme},
       {"cylinder", cylinder},
       {"two-pole", two_pole},
+      {"order", order},
       {"stick", stick},
       {"kramers-kronig", kramers_kronig},
       {"sphere-decay", sphere_decay},

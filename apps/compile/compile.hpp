@@ -71,7 +71,7 @@ struct TimeModel {
   dynamics::State start;
   RunWater water;
   std::vector<LineModel> lines;  ///< stepped beside the bodies
-  double step;  ///< s; scene.run->every is a whole multiple of it
+  double step;                   ///< s; scene.run->every is a whole multiple of it
   std::size_t steps;
   std::size_t steps_per_sample;
   std::vector<PlanLine> plan;

@@ -145,7 +145,17 @@ Solve build_solve(const Record& solve) {
   Solve out;
   if (solve.text("step").empty()) out.step = {solve.si("step"), solve["step"].place};
   const Record& integrator = solve.table("integrator");
+  out.integrator = integrator.text("name");
+  out.integrator_place = integrator["name"].place;
   out.rho_infinity = integrator.si("rho_infinity");
+  out.tolerance = integrator.si("tolerance");
+  const bool lines_alike = integrator.has("lines") && integrator.text("lines") == "generalised_alpha";
+  const auto only_of = [&](std::string_view key, std::string_view method) {
+    if (integrator[key].defaulted || out.integrator == method) return;
+    throw integrator.wrong(key, fmt::format("acts only with name = \"{}\"", method), "leave it out");
+  };
+  if (!lines_alike) only_of("rho_infinity", "generalized_alpha");
+  only_of("tolerance", "explicit_pair");
   if (integrator.has("lines")) out.line_scheme = integrator.text("lines");
   if (integrator.has("gamma")) {
     if (out.line_scheme != "gamma")

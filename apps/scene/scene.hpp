@@ -375,8 +375,11 @@ struct AskRun {
 };
 
 struct Solve {
-  std::optional<Located<double>> step;          ///< s; empty: chosen from the accuracy asked
+  std::optional<Located<double>> step;  ///< s; empty: chosen from the accuracy asked
+  std::string integrator = "generalized_alpha";
+  Place integrator_place = {};
   double rho_infinity = 0.8;                    ///< spectral radius of generalised-α at infinite frequency, 0 … 1
+  double tolerance = 1e-8;                      ///< of the explicit pair
   std::string line_scheme = "energy_momentum";  ///< of lines, as dynamics::line::parse_scheme() reads it
   double gamma = 0.51;                          ///< of the γ-method of lines
 };

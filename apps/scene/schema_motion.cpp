@@ -427,12 +427,21 @@ const Table& integrator() {
       .title = "[solve.integrator]",
       .meaning = "how time is stepped",
       .keys = {
-          text("name", "of the method")
-              .one_of({"generalized_alpha"})
+          text("name",
+               "of the method: generalized_alpha; energy_momentum keeps momentum, and energy of joints and weights, "
+               "and damps "
+               "nothing; explicit_pair, of orders 5 and 4, cuts steps by its own error; implicit_euler and "
+               "semi_implicit_euler, of order 1, show what they cost")
+              .one_of(
+                  {"generalized_alpha", "energy_momentum", "explicit_pair", "implicit_euler", "semi_implicit_euler"})
               .or_default("generalized_alpha", "second order, damps only what the step cannot resolve"),
-          number("rho_infinity", "spectral radius at infinite frequency: 1 damps nothing, 0 all at once")
+          number("rho_infinity",
+                 "of generalized_alpha: spectral radius at infinite frequency: 1 damps nothing, 0 all at once")
               .within(Limit::fraction)
               .or_default("0.8", "kills what is not resolved within some steps, leaves the rest alone"),
+          number("tolerance", "of explicit_pair: local error of a step relative to what moves in it")
+              .positive()
+              .or_default("1e-8", "far below any other error of a run"),
           text("lines",
                "how each [[line]] is stepped; left out: energy_momentum, which keeps energy and lengths at any step")
               .one_of({"energy_momentum", "generalised_alpha", "gamma", "semi_implicit_euler", "explicit_euler"})

@@ -2,7 +2,7 @@
 /// \file  Time stepping by generalised-α on rotations and translations, with the guards that keep it finite.
 #include <Eigen/Core>
 
-#include "dynamics/integrate/integrator.hpp"
+#include "dynamics/integrate/newton_integrator.hpp"
 
 namespace dynamics {
 
@@ -16,36 +16,25 @@ namespace dynamics {
 ///
 /// Joints are closed at the end of every step, to round-off; their multipliers are of second order too (Arnold & Brüls
 /// 2007), for ρ∞ < 1. Velocities leave the joints' directions by the order of the step's own error (D16).
-class GeneralizedAlpha final : public Integrator {
+class GeneralizedAlpha final : public NewtonIntegrator {
  public:
   struct Settings {
     double rho_infinity = 0.8;
-    double newton_tolerance = 1e-9;  ///< of the last correction relative to the acceleration and velocity / step
-    int iterations = 20;
   };
   GeneralizedAlpha(const Model& model, const Settings& settings);
 
  private:
-  bool try_step(Workspace& workspace, double h, StepReport& report) override;
   void begin(const Workspace& workspace) override { algorithmic_ = workspace.acceleration; }
   Eigen::VectorXd history() const override { return algorithmic_; }
   void set_history(const Eigen::VectorXd& was) override { algorithmic_ = was; }
 
-  State predict(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration) const;
+  Slopes slopes(double h) const override;
+  State end_of_step(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration) const override;
+  void accepted(const Workspace& before, const Eigen::VectorXd& acceleration) override {
+    algorithmic_ = algorithmic_after(before, acceleration);
+  }
   Eigen::VectorXd algorithmic_after(const Workspace& workspace, const Eigen::VectorXd& acceleration) const;
-  /// What a guess of accelerations and multipliers at the end of the step leads to.
-  struct Trial {
-    Eigen::VectorXd acceleration, multipliers;
-    State state;
-    std::vector<Gradient> gradients, columns;  ///< of the conditions, and of their loads
-    Eigen::VectorXd residual, open;  ///< forces that do not balance; how far joints are open, as accelerations
-    double size;                     ///< of both, scaled
-  };
-  Trial evaluate(Workspace& workspace, double h, Eigen::VectorXd acceleration, Eigen::VectorXd multipliers) const;
-  std::vector<Gradient> by_step(const std::vector<Gradient>& G, const State& before, const State& after) const;
-  double unresolved(double h) const;
 
-  Settings settings_;
   double alpha_m_, alpha_f_, beta_, gamma_;
   Eigen::VectorXd algorithmic_;  // the auxiliary acceleration of Arnold & Brüls
 };
