@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "hydro/io/atomic_file.hpp"
 #include "scene/build.hpp"
@@ -12,8 +13,9 @@ namespace {
 namespace fs = std::filesystem;
 using hydro::InputError;
 
-const std::vector<std::string> all_channels{"time",     "force", "velocity", "acceleration",
-                                            "position", "speed", "speed_sd", "force_sd"};
+const std::vector<std::string> all_channels{"time",  "velocity", "acceleration", "position",
+                                            "speed", "speed_sd", "force_sd"};
+constexpr double two_pi = 2 * std::numbers::pi;
 
 /// Files that fit one entry of `files`, in alphabetical order. A `*` may stand in the file's name, not in a folder's.
 void expand(const Record& data, const Located<std::string>& entry, const fs::path& scene,
@@ -54,8 +56,7 @@ std::map<std::string, std::string> read_channels(const Record& channels, const s
   const std::vector<std::string> known =
       towing ? std::vector<std::string>{"speed", "force", "speed_sd", "force_sd"}
              : std::vector<std::string>{"time", "force", "velocity", "acceleration", "position"};
-  const std::vector<std::string> needed =
-      towing ? std::vector<std::string>{"speed", "force"} : std::vector<std::string>{"time", "force"};
+  const std::vector<std::string> needed{towing ? "speed" : "time", "force"};
   std::map<std::string, std::string> out;
   for (const std::string& role : all_channels) {
     if (!channels.has(role)) continue;
@@ -66,7 +67,7 @@ std::map<std::string, std::string> read_channels(const Record& channels, const s
     out[role] = channels.text(role);
   }
   for (const std::string& role : needed)
-    if (out.count(role) == 0)
+    if (out.count(role) == 0 && !(role == "force" && channels.has(role)))
       throw channels.refused(fmt::format("needs \"{}\" for a fit of kind \"{}\"", role, kind),
                              fmt::format("add {} = \"name of a column\"", role));
   if (!towing && out.count("velocity") + out.count("position") == 0)
@@ -75,6 +76,106 @@ std::map<std::string, std::string> read_channels(const Record& channels, const s
   if (out.count("velocity") > 0 && out.count("position") > 0)
     throw channels.wrong("position", "does not act beside the velocity", "keep one of the two");
   return out;
+}
+
+/// The force channels, each with its sign and, where they are given, its calibration.
+std::vector<FitScene::ForceChannel> read_force(const Record& data, const std::string& kind, const fs::path& scene) {
+  const Record& channels = data.table("channels");
+  std::vector<FitScene::ForceChannel> out;
+  for (const auto& name : channels["force"].texts) {
+    const bool turned = name.value.starts_with('-');
+    const std::string column = turned ? name.value.substr(1) : name.value;
+    if (column.empty()) throw channels.wrong("force", "is empty", "write the name of a column");
+    for (const auto& other : out)
+      if (other.column == column) throw channels.wrong("force", fmt::format("holds \"{}\" twice", column));
+    out.push_back({column, turned, {}});
+  }
+  if (out.empty()) throw channels.wrong("force", "is empty", "write the name of a column");
+  if (kind == "towing" && out.size() > 1)
+    throw channels.wrong("force", "may hold one column only in a fit of kind \"towing\"");
+  if (!data.has("calibration")) return out;
+  const auto& files = data["calibration"].texts;
+  if (kind == "towing") throw data.wrong("calibration", "has no part in a fit of kind \"towing\"");
+  if (files.size() != out.size())
+    throw data.wrong("calibration", fmt::format("names {} files for {} force channels", files.size(), out.size()),
+                     "name one for each, in the order of the channels");
+  for (std::size_t i = 0; i < files.size(); ++i) out[i].calibration = {{beside(scene, files[i].value), files[i].place}};
+  return out;
+}
+
+std::vector<FitScene::Filter> read_filters(const Record& prepare) {
+  std::vector<FitScene::Filter> out;
+  for (const Record& n : prepare.tables("notch"))
+    out.push_back({.kind = "notch", .hz = n.si("centre") / two_pi, .width_hz = n.si("width") / two_pi});
+  if (prepare.has("moving_average")) out.push_back({.kind = "moving average", .seconds = prepare.si("moving_average")});
+  if (!prepare.has("low_pass")) return out;
+  const Record& low = prepare.table("low_pass");
+  FitScene::Filter f{.kind = low.text("kind"), .hz = low.si("cutoff") / two_pi};
+  if (low.has("order")) {
+    f.order = static_cast<int>(low["order"].integer);
+    if (f.order < 1 || f.order > 10) throw low.wrong("order", "must lie between 1 and 10");
+  }
+  out.push_back(f);
+  return out;
+}
+
+void read_delay(const Record& prepare, FitScene::Prepare& out) {
+  if (!prepare.has("delay")) return;
+  const bool estimate = prepare.text("delay") == "estimate";
+  if (estimate && prepare.has("delay_error"))
+    throw prepare.wrong("delay_error", "does not act where the delay is estimated: its error is then estimated too",
+                        "leave it out");
+  if (!estimate && prepare.has("longest_delay"))
+    throw prepare.wrong("longest_delay", "does not act where the delay is given",
+                        "leave it out, or set delay = \"estimate\"");
+  if (!estimate) out.delay = prepare.si("delay");
+  if (prepare.has("delay_error")) out.delay_error = prepare.si("delay_error");
+  if (!estimate) return;
+  if (!prepare.has("longest_delay"))
+    throw prepare.wrong(
+        "delay", "needs \"longest_delay\"",
+        "add longest_delay = \"1 s\": less than half the main period, which would be the force turned round");
+  out.longest_delay = prepare.si("longest_delay");
+}
+
+FitScene::Prepare read_prepare(const Record& root, const std::string& kind) {
+  FitScene::Prepare out;
+  if (!root.has("prepare")) return out;
+  const Record& prepare = root.table("prepare");
+  if (kind == "towing")
+    throw prepare.refused("has no part in a fit of kind \"towing\"", "leave it out: a row is a whole run there");
+  if (prepare.has("longest_gap")) out.longest_gap = prepare.si("longest_gap");
+  if (prepare.has("outliers")) {
+    out.outlier_window = prepare.table("outliers").si("window");
+    out.outlier_deviations = prepare.table("outliers").si("deviations");
+    if (out.outlier_deviations < 3)
+      throw prepare.table("outliers").wrong("deviations", "must be 3 at least: noise itself comes so far");
+  }
+  read_delay(prepare, out);
+  if (prepare.has("derivative_bandwidth")) out.derivative_bandwidth = prepare.si("derivative_bandwidth") / two_pi;
+  out.filters = read_filters(prepare);
+  if (!prepare.has("window")) return out;
+  const Record& window = prepare.table("window");
+  out.window = window.text("kind");
+  if (window.has("last") && window["last"].integer < 1) throw window.wrong("last", "must be 1 at least");
+  if (window.has("last")) out.cycles = static_cast<int>(window["last"].integer);
+  if (window.has("tolerance")) out.tolerance = window.si("tolerance");
+  if (window.has("from")) out.from = window.si("from");
+  if (window.has("to")) out.to = window.si("to");
+  if (window.has("to") && !(out.from < out.to)) throw window.wrong("to", "must be later than from");
+  return out;
+}
+
+void read_errors(const Record& model, FitScene::Model& out) {
+  if (!model.has("uncertainty")) return;
+  const Record& e = model.table("uncertainty");
+  const auto of = [&](const char* key) { return e.has(key) ? e.si(key) : 0.0; };
+  out.diameter_error = of("diameter");
+  out.length_error = of("length");
+  out.density_error = of("density");
+  out.mass_error = of("mass");
+  if (out.mass_error > 0 && out.motion == "water moves")
+    throw e.wrong("mass", "does not act: the body does not move", "leave it out");
 }
 
 FitScene::Model read_model(const Record& model) {
@@ -98,6 +199,7 @@ FitScene::Model read_model(const Record& model) {
         "needs \"mass_beyond_load_cells\" where the body moves: its inertia is part of the measured force",
         "add mass_beyond_load_cells = \"5.9 kg\", contained water included; \"0 kg\" if it is taken off already");
   if (given) out.mass_beyond_load_cells = model.si("mass_beyond_load_cells");
+  read_errors(model, out);
   return out;
 }
 
@@ -131,6 +233,14 @@ FitScene parse_fit(std::string_view text, const fs::path& file) {
   if (root.has("title")) scene.title = root.text("title");
   scene.model = read_model(root.table("model"));
   scene.channels = read_channels(root.table("data").table("channels"), scene.model.kind);
+  scene.force = read_force(root.table("data"), scene.model.kind, file);
+  if (root.table("data").has("zero")) {
+    const Value& zero = root.table("data")["zero"];
+    if (scene.model.kind == "towing")
+      throw root.table("data").wrong("zero", "has no part in a fit of kind \"towing\"", "take it off the means");
+    scene.zero_run = {{beside(file, zero.text), zero.place}};
+  }
+  scene.prepare = read_prepare(root, scene.model.kind);
   scene.coefficients = read_coefficients(root.table("ask"), scene.model.kind);
   scene.confidence = root.table("ask").table("intervals").si("level");
   scene.files = read_files(root.table("data"), file);

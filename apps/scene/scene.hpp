@@ -373,7 +373,14 @@ struct FitScene {
   std::string text;
   std::string title;
   std::vector<Located<std::filesystem::path>> files;  ///< data, absolute, in alphabetical order; `files` may hold `*`
-  std::map<std::string, std::string> channels;  ///< role (time, force, velocity, acceleration, position) → column
+  std::map<std::string, std::string> channels;        ///< role (time, velocity, acceleration, position, …) → column
+  struct ForceChannel {
+    std::string column;
+    bool turned = false;  ///< written "-F2": positive the other way
+    std::optional<Located<std::filesystem::path>> calibration;
+  };
+  std::vector<ForceChannel> force;  ///< their sum is the force
+  std::optional<Located<std::filesystem::path>> zero_run;
   struct Model {
     std::string kind;                 ///< "morison" or "towing"
     double diameter, length;          ///< m
@@ -381,8 +388,28 @@ struct FitScene {
     std::optional<double> viscosity;  ///< m²/s, for Re
     std::string motion;  ///< morison only: "water moves" (waves on a fixed body) or "body moves" (forced oscillation)
     double mass_beyond_load_cells = 0;  ///< kg, body moves only
+    /// Standard uncertainties, SI; 0 where none is stated.
+    double diameter_error = 0, length_error = 0, density_error = 0, mass_error = 0;
     Place place;
   } model;
+  /// Steps between the measurement and the fit; frequencies in Hz, times in s.
+  struct Filter {
+    std::string kind;  ///< "butterworth", "symmetric weights", "notch", "moving average"
+    int order = 0;
+    double hz = 0, width_hz = 0, seconds = 0;
+  };
+  struct Prepare {
+    double longest_gap = 0;
+    double outlier_window = 0, outlier_deviations = 0;  ///< 0: not looked for
+    double delay = 0, delay_error = 0;
+    std::optional<double> longest_delay;  ///< the delay is to be estimated, within this
+    double derivative_bandwidth = 0;
+    std::vector<Filter> filters;
+    std::string window = "all";  ///< "all", "span", "full cycles"
+    double from = 0, to = 0;
+    int cycles = 0;  ///< 0: as many as there are
+    double tolerance = 0.03;
+  } prepare;
   std::vector<std::string> coefficients;  ///< among "cd", "cm", "ca"
   double confidence = 0.95;
   std::vector<Echo> echo;

@@ -69,6 +69,25 @@ TEST_F(Fit, WritesItsEstimatesAndAPicture) {
   EXPECT_THAT(hydro::io::read_text(folder / "c.svg"), AllOf(HasSubstr("measured"), HasSubstr("fitted")));
 }
 
+TEST_F(Fit, OfARawRecordTellsItsStepsAndHasTheTruthInItsIntervals) {
+  const auto run = nlohmann::json::parse(told({.scene = examples / "tank.toml"}, true))["run"][0];
+  const auto holds = [&](const char* name, double truth) {
+    return run[name]["interval"][0].get<double>() < truth && truth < run[name]["interval"][1].get<double>();
+  };
+  EXPECT_TRUE(holds("cd", 2.4));  // the values that make_tank_run.py put in
+  EXPECT_TRUE(holds("ca", 1.1));
+  EXPECT_TRUE(holds("delay", 0.12));
+  EXPECT_GT(run["cd"]["systematic_error"].get<double>(), 0.009);  // 0.5 mm of 120 mm
+  const std::string text = told({.scene = examples / "tank.toml"});
+  EXPECT_THAT(text, AllOf(HasSubstr("8.041 Hz in the force"), HasSubstr("V2 has 0.0935"),
+                          HasSubstr("10 cycles of full amplitude"), HasSubstr("one deviation of the diameter")));
+}
+
+TEST_F(Fit, SaysThatAChannelHasTheWrongSign) {
+  const auto scene = changed("tank.toml", "\"-V2\"", "\"V2\"");
+  EXPECT_THAT([&] { told({.scene = scene}); }, ThrowsMessage<InputError>(HasSubstr("wrong sign")));
+}
+
 TEST_F(Fit, OfTowingGivesEachRunAndAllTogether) {
   const std::string text =
       told({.scene = examples / "towing.toml", .output = folder / "t.toml", .picture = folder / "t.svg"});
