@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "block_means.hpp"
 #include "hydro/base/error.hpp"
 
 namespace fit {
@@ -33,12 +34,6 @@ Eigen::VectorXd extended(const Eigen::VectorXd& gamma, const Eigen::VectorXd& ph
     g.push_back(next);
   }
   return Eigen::Map<const Eigen::VectorXd>(g.data(), static_cast<Eigen::Index>(g.size()));
-}
-
-Eigen::MatrixXd block_means(const Eigen::MatrixXd& m, Eigen::Index block) {
-  Eigen::MatrixXd out(m.rows() / block, m.cols());
-  for (Eigen::Index b = 0; b < out.rows(); ++b) out.row(b) = m.middleRows(b * block, block).colwise().mean();
-  return out;
 }
 
 // Jᵀ Σ J with the Toeplitz matrix Σ_ij = γ_|i−j|.
@@ -107,6 +102,7 @@ CoefficientCovariance correlated_covariance(const Eigen::MatrixXd& jacobian, con
   meat /= 1 - lost;
 
   CoefficientCovariance result;
+  result.residual_share_lost = lost;
   result.covariance = inverse * meat * inverse * (block * block * covered);  // (F4)
   result.white_dof = static_cast<double>(n - p);
   result.white_covariance = residuals.squaredNorm() / result.white_dof * inverse;

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "fit/correlated.hpp"
+#include "fit/resampling.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
 #include "hydro/signal/welch.hpp"
@@ -95,12 +96,11 @@ Coefficient coefficient(const FitReport& search, const std::string& name, Eigen:
   return c;
 }
 
-Uncertainty uncertainty(const Eigen::MatrixXd& columns, const Eigen::VectorXd& residuals, int block,
-                        double confidence) {
-  Uncertainty u{correlated_covariance(columns, residuals, block), {}, {}, 0, 0, 0};
-  u.t = hydro::signal::student_t_quantile((1 + confidence) / 2, u.covariance.dof);
-  u.white_t = hydro::signal::student_t_quantile((1 + confidence) / 2, u.covariance.white_dof);
-  return u;
+CoefficientCovariance covariance_by(IntervalMethod method, const Eigen::MatrixXd& columns,
+                                    const Eigen::VectorXd& residuals, int block, double period_samples) {
+  if (method == IntervalMethod::cycle_clusters) return cluster_covariance(columns, residuals, period_samples, block);
+  if (method == IntervalMethod::block_bootstrap) return bootstrap_covariance(columns, residuals, {.block = block});
+  return correlated_covariance(columns, residuals, block);
 }
 
 // Stands where no scatter can be estimated: 0 for a force made by the model itself, which leaves rounding only, NaN
@@ -116,12 +116,17 @@ Uncertainty known_scatter(Eigen::Index n, Eigen::Index p, double scatter) {
 }
 
 Uncertainty uncertainty_of(const FitReport& search, const Eigen::MatrixXd& columns, const Eigen::VectorXd& residuals,
-                           double unit, int block, double confidence) {
+                           double unit, double period_samples, const MorisonOptions& options) {
   if (!search.all_identifiable())
     return known_scatter(columns.rows(), columns.cols(), std::numeric_limits<double>::quiet_NaN());
   const bool perfect = residuals.squaredNorm() <= 1e-24 * unit * unit * static_cast<double>(columns.rows());
   if (perfect) return known_scatter(columns.rows(), columns.cols(), 0);
-  return uncertainty(columns, residuals, block, confidence);
+  // A fortieth of the period: the columns hardly change within, see correlated_covariance().
+  const int block = std::max(1, static_cast<int>(period_samples / 40));
+  Uncertainty u{covariance_by(options.method, columns, residuals, block, period_samples), {}, {}, 0, 0, 0};
+  u.t = hydro::signal::student_t_quantile((1 + options.confidence) / 2, u.covariance.dof);
+  u.white_t = hydro::signal::student_t_quantile((1 + options.confidence) / 2, u.covariance.white_dof);
+  return u;
 }
 
 /// Period, amplitude, KC and Re of the motion.
@@ -260,9 +265,7 @@ MorisonFit fit_columns(const Cylinder& cylinder, const ForceRecord& record, cons
   const Eigen::VectorXd residuals = target - columns * x;
   result.residual_rms = std::sqrt(residuals.squaredNorm() / rows);
   result.explained = 1 - residuals.squaredNorm() / (force.array() - force.mean()).matrix().squaredNorm();
-  // A fortieth of the period: the columns hardly change within, see correlated_covariance().
-  const int block = std::max(1, static_cast<int>(result.period / 40 / step));
-  Uncertainty u = uncertainty_of(result.search, columns, residuals, unit, block, options.confidence);
+  Uncertainty u = uncertainty_of(result.search, columns, residuals, unit, result.period / step, options);
   u.shift = shift_per_degree(columns, record.force, step, result.period);
   result.budget = budget(cylinder, columns, x, u.shift, result, options);
   u.systematic = total(result.budget, columns.cols());

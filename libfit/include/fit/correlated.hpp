@@ -25,6 +25,7 @@ struct CoefficientCovariance {
   double dof;                         ///< for Student's t with `covariance`: n_b/(1 + 2Σρ²) − p, but at least 2
   bool dof_raised;                    ///< the formula gave less than 2: the residuals repeat rather than scatter
   double white_dof;                   ///< n − p
+  double residual_share_lost;         ///< of the residuals' sum of squares, taken out by the fit and put back
   int order;                          ///< of the autoregression
   int block;                          ///< samples averaged before it was fitted
 };

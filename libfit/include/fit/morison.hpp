@@ -57,8 +57,16 @@ struct CylinderErrors {
   double mass = 0;                  ///< kg, beyond the load cells
 };
 
+/// Where the intervals come from.
+enum class IntervalMethod {
+  effective_samples,  ///< autoregression of the residuals, (F4)
+  cycle_clusters,     ///< sums over single periods, (F27)
+  block_bootstrap     ///< residuals drawn anew in blocks, (F28)
+};
+
 struct MorisonOptions {
   double confidence = 0.95;
+  IntervalMethod method = IntervalMethod::effective_samples;
   bool force_offset = false;  ///< fit a constant force as well: an offset of the load cells
   CylinderErrors cylinder_errors = {};
   std::vector<ForceError> force_errors = {};
