@@ -3,11 +3,13 @@
 // One function a case, in validation/<name>/case.cpp. They are listed by hand: nothing registers itself.
 namespace froude::validation {
 
+Outcome ball_drops(const Folders& folders);
 Outcome cylinder(const Folders& folders);
 Outcome dispersion(const Folders& folders);
 Outcome fagerbakke_bem(const Folders& folders);
 Outcome fagerbakke_eigen(const Folders& folders);
 Outcome hendriksen_calibration(const Folders& folders);
+Outcome hendriksen_oscillation(const Folders& folders);
 Outcome hendriksen_towing(const Folders& folders);
 Outcome f3of(const Folders& folders);
 Outcome formats(const Folders& folders);
@@ -15,10 +17,14 @@ Outcome fpso_rao(const Folders& folders);
 Outcome hendriksen_waves(const Folders& folders);
 Outcome huijgen_sea(const Folders& folders);
 Outcome hulme(const Folders& folders);
+Outcome interval_coverage(const Folders& folders);
 Outcome irf_a5(const Folders& folders);
 Outcome kramers_kronig(const Folders& folders);
+Outcome morison(const Folders& folders);
+Outcome pendulums(const Folders& folders);
 Outcome rm3_decay(const Folders& folders);
 Outcome rm3_regular(const Folders& folders);
+Outcome roll_decay(const Folders& folders);
 Outcome spectra(const Folders& folders);
 Outcome sea_dat(const Folders& folders);
 Outcome sphere_decay(const Folders& folders);
@@ -39,7 +45,10 @@ const std::vector<Case>& cases() {
       {"zanten-wave-table", zanten_wave_table},
       {"zanten-waves", zanten_waves},
       {"huijgen-sea", huijgen_sea},
+      {"hendriksen-oscillation", hendriksen_oscillation},
       {"hendriksen-waves", hendriksen_waves},
+      {"morison", morison},
+      {"interval-coverage", interval_coverage},
       {"sea-dat", sea_dat},
       {"dispersion", dispersion},
       {"spectra", spectra},
@@ -54,6 +63,9 @@ const std::vector<Case>& cases() {
       {"formats", formats},
       {"fpso-rao", fpso_rao},
       {"irf-a5", irf_a5},
+      {"roll-decay", roll_decay},
+      {"pendulums", pendulums},
+      {"ball-drops", ball_drops},
   };
   return all;
 }

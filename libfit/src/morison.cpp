@@ -9,6 +9,7 @@
 
 #include "fit/correlated.hpp"
 #include "fit/resampling.hpp"
+#include "fit/robust.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
 #include "hydro/signal/welch.hpp"
@@ -262,10 +263,18 @@ MorisonFit fit_columns(const Cylinder& cylinder, const ForceRecord& record, cons
                             parameters(cylinder, options, delay_column != nullptr, unit, result.period), unit),
                x);
 
+  Eigen::VectorXd scatter;
+  if (options.robust && result.search.all_identifiable()) {
+    RobustFit robust = fit_huber(columns, target);
+    x = robust.x;
+    result.share_inside = robust.share_inside;
+    scatter = robust.influence / robust.share_inside;  // (F39)
+  }
   const Eigen::VectorXd residuals = target - columns * x;
+  if (scatter.size() == 0) scatter = residuals;
   result.residual_rms = std::sqrt(residuals.squaredNorm() / rows);
   result.explained = 1 - residuals.squaredNorm() / (force.array() - force.mean()).matrix().squaredNorm();
-  Uncertainty u = uncertainty_of(result.search, columns, residuals, unit, result.period / step, options);
+  Uncertainty u = uncertainty_of(result.search, columns, scatter, unit, result.period / step, options);
   u.shift = shift_per_degree(columns, record.force, step, result.period);
   result.budget = budget(cylinder, columns, x, u.shift, result, options);
   u.systematic = total(result.budget, columns.cols());

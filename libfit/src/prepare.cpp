@@ -56,8 +56,10 @@ struct Work {
 std::vector<std::pair<std::string, std::vector<double>*>> measured(RawRun& run) {
   std::vector<std::pair<std::string, std::vector<double>*>> all;
   for (ForceChannel& f : run.force) all.push_back({f.name, &f.values});
-  for (auto& [name, column] :
-       {std::pair{"position", &run.position}, {"velocity", &run.velocity}, {"acceleration", &run.acceleration}})
+  for (auto& [name, column] : {std::pair{"position", &run.position},
+                               {"velocity", &run.velocity},
+                               {"acceleration", &run.acceleration},
+                               {"cross velocity", &run.cross_velocity}})
     if (!column->empty()) all.push_back({name, column});
   return all;
 }
@@ -199,6 +201,15 @@ void add_motion(Work& w, double bandwidth_hz) {
       m.noise_velocity, m.noise_acceleration);
 }
 
+/// √(u² + w²) u where the water moves across as well; (F7).
+void add_cross_flow(Work& w) {
+  if (w.run.cross_velocity.empty()) return;
+  for (std::size_t j = 0; j < w.run.time.size(); ++j)
+    w.out.record.drag_flow.push_back(std::hypot(w.out.record.velocity[j], w.run.cross_velocity[j]) *
+                                     w.out.record.velocity[j]);
+  w.tell("drag: the velocity across counts, sqrt(u^2 + w^2) u");
+}
+
 ZeroPhaseFilter made(const FilterChoice& c, double step) {
   switch (c.kind) {
     case FilterChoice::Kind::butterworth:
@@ -235,7 +246,8 @@ void filter_all(Work& w, const std::vector<FilterChoice>& choices) {  // (F25)
   tell_lines(w, filters);
   if (filters.empty()) return;
   ForceRecord& r = w.out.record;
-  for (const double u : r.velocity) r.drag_flow.push_back(std::abs(u) * u);
+  if (r.drag_flow.empty())
+    for (const double u : r.velocity) r.drag_flow.push_back(std::abs(u) * u);
   for (const ZeroPhaseFilter& f : filters) {
     std::vector<std::pair<std::vector<double>*, std::vector<double>>> smooth;
     for (auto* column : {&r.force, &r.acceleration, &r.drag_flow}) smooth.push_back({column, f.apply(*column)});
@@ -304,6 +316,7 @@ Prepared prepare(const RawRun& run, const PrepareOptions& options) {
   sum_forces(w);
   take_delay(w, options.delay_s);
   add_motion(w, options.derivative_bandwidth_hz);
+  add_cross_flow(w);
   filter_all(w, options.filters);
   cut_window(w, options.window);
   add_force_errors(w);

@@ -57,12 +57,12 @@ CoefficientCovariance bootstrap_covariance(const Eigen::MatrixXd& jacobian, cons
   const Eigen::Index n = e.size(), p = jacobian.cols();
   const Eigen::VectorXd gamma = fit_autoregression(e).autocovariance;
   const double memory = gamma.cwiseAbs().sum() / gamma[0];
-  const auto length = options.length > 0 ? static_cast<Eigen::Index>(options.length)
-                                         : static_cast<Eigen::Index>(std::ceil(std::max(
-                                               4 * memory, std::cbrt(static_cast<double>(n)))));
-  hydro::require(length >= 1 && 10 * length <= n,
-                 "blocks of {} of {} averaged residuals are too few to draw from: the residuals remember too much", length,
-                 n);
+  const double usual = std::clamp(8 * memory, std::cbrt(static_cast<double>(n)), static_cast<double>(n) / 10);
+  const auto length = static_cast<Eigen::Index>(options.length > 0 ? options.length : std::ceil(usual));
+  hydro::require(
+      length >= 1 && static_cast<double>(length) >= 3 * memory && 2 * length <= n,
+      "the residuals remember {:.3g} of {} averaged samples: blocks of {} hold too little of that, or are too few",
+      memory, n, length);
   e.array() -= e.mean();
   // What the fit took out of the residuals (F4), and what blocks lose that begin and end anywhere.
   const double lost = result.residual_share_lost;

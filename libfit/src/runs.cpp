@@ -34,8 +34,8 @@ std::vector<Regressor> regressors(Law law) {
 }
 
 struct Design {
-  Eigen::MatrixXd x;              // (n, p)
-  Eigen::VectorXd y, own;         // values, own variances
+  Eigen::MatrixXd x;       // (n, p)
+  Eigen::VectorXd y, own;  // values, own variances
   std::vector<std::string> terms;
 };
 
@@ -58,7 +58,8 @@ Design design(std::span<const RunEstimate> runs, Law law) {  // (F31)
   for (Eigen::Index k = 1; k < d.x.cols(); ++k) {
     const double middle = d.x.col(k).mean();
     d.x.col(k).array() -= middle;
-    hydro::require(d.x.col(k).norm() > 1e-6, "the runs do not differ in {}", wanted[static_cast<std::size_t>(k) - 1].name);
+    hydro::require(d.x.col(k).norm() > 1e-6, "the runs do not differ in {}",
+                   wanted[static_cast<std::size_t>(k) - 1].name);
     d.terms.push_back(fmt::format("ln({}/{:.4g})", wanted[static_cast<std::size_t>(k) - 1].name, std::exp(middle)));
   }
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(d.x);
@@ -109,8 +110,8 @@ double cross_validate(const Design& d, double between_squared) {  // (F33)
 void judge(const Design& d, RandomEffects& r) {  // (F33)
   const auto n = static_cast<double>(d.y.size()), k = static_cast<double>(d.x.cols()) + 1;
   const Weighted ml = solve(d, between_runs(d, false));
-  r.log_likelihood = -0.5 * (2 * std::numbers::pi / ml.weights.array()).log().sum() -
-                     0.5 * ml.weights.dot(ml.residuals.cwiseAbs2());
+  r.log_likelihood =
+      -0.5 * (2 * std::numbers::pi / ml.weights.array()).log().sum() - 0.5 * ml.weights.dot(ml.residuals.cwiseAbs2());
   r.bic = -2 * r.log_likelihood + k * std::log(n);
   r.aicc = n > k + 1 ? -2 * r.log_likelihood + 2 * k + 2 * k * (k + 1) / (n - k - 1)
                      : std::numeric_limits<double>::infinity();
@@ -137,8 +138,8 @@ std::string name_of(Law law) {
 
 RandomEffects fit_runs(std::span<const RunEstimate> runs, Law law, double confidence) {  // (F31), (F32)
   hydro::require(confidence > 0 && confidence < 1, "a confidence level must lie between 0 and 1, got {}", confidence);
-  hydro::require(runs.size() >= regressors(law).size() + 3, "the law \"{}\" needs {} runs at least, got {}", name_of(law),
-                 regressors(law).size() + 3, runs.size());
+  hydro::require(runs.size() >= regressors(law).size() + 3, "the law \"{}\" needs {} runs at least, got {}",
+                 name_of(law), regressors(law).size() + 3, runs.size());
   const Design d = design(runs, law);
   const auto n = static_cast<double>(d.y.size()), p = static_cast<double>(d.x.cols());
   const double squared = between_runs(d, true);

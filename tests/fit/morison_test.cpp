@@ -317,4 +317,46 @@ TEST(MorisonFit, AddsWhatDoesNotAverageOutToTheInterval) {
   EXPECT_NEAR(half, std::hypot(scatter, 1.959964 * wide.cd.systematic_error), 1e-6);
 }
 
+TEST(MorisonFit, IsNotPulledByWildSamplesIfItIsRobust) {
+  const auto c = cylinder(Experiment::body_moves);
+  int plain_holds = 0, robust_holds = 0;
+  double width = 0;
+  constexpr int sets = 200;
+  for (int i = 0; i < sets; ++i) {
+    const auto stream = 500 + static_cast<std::uint64_t>(i);
+    auto record = made(c, 1.2, 1.0, 0.4, 4, 1000, 0.02);
+    add(record.force, ar1_noise(1000, 0.5, 1.0, stream));
+    const auto robust_alone = fit::fit_morison(c, record, {.robust = true}).cd;
+    width += (robust_alone.interval.high - robust_alone.interval.low) / sets;
+    for (std::size_t j = 0; j < 1000; j += 23) record.force[j] += record.velocity[j] > 0 ? 40 : 0;  // one side only
+    const auto plain = fit::fit_morison(c, record).cd, robust = fit::fit_morison(c, record, {.robust = true}).cd;
+    plain_holds += plain.interval.low < 1.2 && 1.2 < plain.interval.high;
+    robust_holds += robust_alone.interval.low < 1.2 && 1.2 < robust_alone.interval.high;
+    EXPECT_LT(std::abs(*robust.value - 1.2), 0.3 * std::abs(*plain.value - 1.2));
+  }
+  EXPECT_LT(plain_holds, 20);
+  EXPECT_GE(robust_holds, 178);  // 190 ± 3.1
+}
+
+TEST(MorisonFit, ThatIsRobustSolvesHubersEquations) {
+  const auto c = cylinder(Experiment::water_moves);
+  auto record = made(c, 1.2, 1.7, 0.4, 4, 800, 0.02);
+  add(record.force, ar1_noise(800, 0, 2.0, 8));
+  const auto fit = fit::fit_morison(c, record, {.robust = true});
+  std::vector<double> e(800);
+  for (std::size_t j = 0; j < 800; ++j) e[j] = record.force[j] - fit.fitted[j];
+  auto sorted = e;
+  for (double& x : sorted) x = std::abs(x);
+  std::nth_element(sorted.begin(), sorted.begin() + 400, sorted.end());
+  const double limit = 1.345 * sorted[400] / 0.6745;
+  double gradient = 0, scale = 0;
+  for (std::size_t j = 0; j < 800; ++j) {
+    const double column = std::abs(record.velocity[j]) * record.velocity[j];
+    gradient += column * std::clamp(e[j], -limit, limit);
+    scale += column * column;
+  }
+  EXPECT_LT(std::abs(gradient) / std::sqrt(scale), 0.02 * limit);  // the scale is that of the third round
+  EXPECT_NEAR(fit.share_inside, 0.82, 0.05);                       // P(|Z| < 1.345)
+}
+
 }  // namespace

@@ -180,4 +180,28 @@ TEST(Prepare, TurnsVoltsIntoNewtonsAndKeepsTheErrorsOfTheLine) {
   EXPECT_NEAR(fit.budget[2].cd, 0.4 * 0.01 * truth_cd, 1e-3);
 }
 
+TEST(Prepare, CountsTheVelocityAcrossInTheDragOfAHorizontalCylinder) {
+  fit::Cylinder fixed = cylinder;
+  fixed.experiment = fit::Experiment::water_moves;
+  fixed.mass_beyond_load_cells = 0;
+  RawRun run;
+  run.force = {{"F", {}, {}}};
+  const double omega = 2 * std::numbers::pi / 3;
+  for (int j = 0; j < 3000; ++j) {
+    const double t = 0.01 * j, u = 0.5 * std::cos(omega * t), w = 0.4 * std::sin(omega * t);
+    const double a = -0.5 * omega * std::sin(omega * t);
+    run.time.push_back(t);
+    run.velocity.push_back(u);
+    run.cross_velocity.push_back(w);
+    run.acceleration.push_back(a);
+    run.force[0].values.push_back(997 * fixed.volume() * 1.8 * a +
+                                  0.5 * 997 * 0.06 * 1.4 * std::sqrt(u * u + w * w) * u);
+  }
+  const auto fit = fit::fit_morison(fixed, fit::prepare(run, usual).record);
+  EXPECT_NEAR(*fit.cd.value, 1.4, 1e-6);  // the filter's settling leaves 1e-4 of 1e-4
+  EXPECT_NEAR(*fit.inertia.value, 1.8, 1e-6);
+  run.cross_velocity.clear();
+  EXPECT_GT(*fit::fit_morison(fixed, fit::prepare(run, usual).record).cd.value, 1.5);
+}
+
 }  // namespace

@@ -13,11 +13,8 @@
 namespace {
 
 using fit::IntervalMethod;
-const fit::Cylinder cylinder{.diameter = 0.12,
-                             .length = 0.5,
-                             .density = 997,
-                             .viscosity = {},
-                             .experiment = fit::Experiment::water_moves};
+const fit::Cylinder cylinder{
+    .diameter = 0.12, .length = 0.5, .density = 997, .viscosity = {}, .experiment = fit::Experiment::water_moves};
 
 /// Fourteen cycles of 4 s at 20 Hz, C_D = 1.2 and C_M = 1.8, with AR(1) noise of 3 N.
 fit::ForceRecord record(double phi, std::uint64_t stream) {
@@ -48,8 +45,8 @@ Coverage coverage(IntervalMethod method, double phi, int sets) {
   return c;
 }
 
-// A share of N sets with p = 0.95 has the deviation √(0.95·0.05/N): 0.0049 for 2000, so 0.92 to 0.98 is six of them, and
-// 0.011 for 400.
+// A share of N sets with p = 0.95 has the deviation √(0.95·0.05/N): 0.0049 for 2000, so 0.92 to 0.98 is six of them,
+// and 0.011 for 400.
 TEST(Coverage, Of2000SetsIsWithin92And98PercentForWhiteAndCorrelatedNoise) {
   for (const double phi : {0.0, 0.85}) {
     const Coverage c = coverage(IntervalMethod::effective_samples, phi, 2000);
@@ -73,17 +70,19 @@ TEST(Coverage, OfCycleClustersAndOfTheBootstrapHoldsToo) {
 
 TEST(Resampling, AgreesWithTheAutoregressionWhereThatHolds) {
   const auto r = record(0.85, 5);
-  const auto a = fit::fit_morison(cylinder, r).cd, b = fit::fit_morison(cylinder, r, {.method = IntervalMethod::block_bootstrap}).cd,
+  const auto a = fit::fit_morison(cylinder, r).cd,
+             b = fit::fit_morison(cylinder, r, {.method = IntervalMethod::block_bootstrap}).cd,
              c = fit::fit_morison(cylinder, r, {.method = IntervalMethod::cycle_clusters}).cd;
   EXPECT_DOUBLE_EQ(*a.value, *b.value);
-  EXPECT_NEAR(b.standard_error / a.standard_error, 1, 0.25);  // blocks of four memories lose an eighth of the variance
+  EXPECT_NEAR(b.standard_error / a.standard_error, 1, 0.25);  // eight memories to a block lose some 6 % of the variance
   EXPECT_NEAR(c.standard_error / a.standard_error, 1, 0.6);   // 14 cycles: the variance is known to √(2/12) = 40 %
 }
 
 TEST(Resampling, GivesTheSameNumbersForTheSameSeed) {
   const auto r = record(0.5, 6);
   const fit::MorisonOptions options{.method = IntervalMethod::block_bootstrap};
-  EXPECT_EQ(fit::fit_morison(cylinder, r, options).cd.interval.low, fit::fit_morison(cylinder, r, options).cd.interval.low);
+  EXPECT_EQ(fit::fit_morison(cylinder, r, options).cd.interval.low,
+            fit::fit_morison(cylinder, r, options).cd.interval.low);
 }
 
 TEST(Resampling, NeedsCyclesAndBlocks) {

@@ -68,6 +68,7 @@ struct MorisonOptions {
   double confidence = 0.95;
   IntervalMethod method = IntervalMethod::effective_samples;
   bool force_offset = false;  ///< fit a constant force as well: an offset of the load cells
+  bool robust = false;        ///< Huber's estimate (F39): wild samples of the force pull less
   CylinderErrors cylinder_errors = {};
   std::vector<ForceError> force_errors = {};
   double delay_error_s = 0;  ///< standard uncertainty of the delay that was taken off the force
@@ -94,6 +95,7 @@ struct MorisonFit {
   double dof;                           ///< of Student's t behind the intervals
   double correlation = 0;               ///< of the errors of the two coefficients, −1 … 1; 0 where not known
   std::vector<SystematicError> budget;  ///< empty where no such uncertainty was stated
+  double share_inside = 1;              ///< of samples that a robust fit counts in full
   std::optional<Coefficient> delay;     ///< s, of the force behind the motion, where it was estimated
   std::string caution;  ///< why the intervals may be too narrow; empty where nothing is known against them
   std::size_t samples;

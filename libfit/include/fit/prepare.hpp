@@ -29,6 +29,9 @@ struct RawRun {
   std::vector<double> position;      ///< m
   std::vector<double> velocity;      ///< m/s, in place of a position
   std::vector<double> acceleration;  ///< m/s²; empty: from velocity or position
+  /// Velocity of the water across both the force and the body's axis, m/s: a horizontal cylinder in waves feels
+  /// √(u² + w²) u. Empty: none.
+  std::vector<double> cross_velocity = {};
 };
 
 struct FilterChoice {

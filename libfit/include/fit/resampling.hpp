@@ -15,14 +15,14 @@ CoefficientCovariance cluster_covariance(const Eigen::MatrixXd& jacobian, const 
                                          double period_samples, int block = 1);
 
 struct BootstrapOptions {
-  int block = 1;           ///< samples averaged first, as in correlated_covariance()
-  int draws = 1000;        ///< the standard error is then known to 2 %
+  int block = 1;    ///< samples averaged first, as in correlated_covariance()
+  int draws = 500;  ///< the standard error is then known to 3 %
   std::uint64_t seed = 1;
-  int length = 0;          ///< of the blocks drawn, in averaged samples; 0: four times the memory, n^{1/3} at least
+  int length = 0;  ///< of the blocks drawn, in averaged samples; 0: eight times the memory, between n^{1/3} and n/10
 };
-/// Moving-block bootstrap of the residuals (Künsch 1989, Annals of Statistics 17): stretches of residuals are drawn with
-/// replacement, laid end to end, and fitted; the covariance is that of the fits. \throws hydro::InputError as above,
-/// for fewer than 10 draws, and for residuals that remember more than a tenth of the record
+/// Moving-block bootstrap of the residuals (Künsch 1989, Annals of Statistics 17): stretches of residuals are drawn
+/// with replacement, laid end to end, and fitted; the covariance is that of the fits. \throws hydro::InputError as
+/// above, for fewer than 10 draws, and for blocks shorter than three times the memory of the residuals
 CoefficientCovariance bootstrap_covariance(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals,
                                            const BootstrapOptions& options = {});
 

@@ -24,17 +24,17 @@ std::string name_of(Law law);  ///< "constant", "ln KC", …
 
 struct RandomEffects {
   Law law;
-  std::vector<std::string> terms;      ///< "constant", "ln(KC/12.3)" …
-  Eigen::VectorXd coefficients;        ///< shape (p)
-  Eigen::MatrixXd covariance;          ///< shape (p, p), (F32)
-  std::vector<Interval> intervals;     ///< Student, n − p degrees of freedom
-  double between;                      ///< τ: standard deviation from run to run beyond the runs' own errors (REML)
-  double heterogeneity;                ///< I² = τ²/(τ² + typical own variance), 0 … 1
-  Interval prediction;                 ///< where the next run in the middle of these should come out
-  double log_likelihood;               ///< at the maximum over coefficients and τ
-  double aicc, bic;                    ///< −2 ln L + penalties of p + 1 parameters; AICc = ∞ where n <= p + 2
-  double cross_validation;             ///< rms error of predicting each run from the others
-  Eigen::VectorXd residuals;           ///< value minus law, shape (n)
+  std::vector<std::string> terms;   ///< "constant", "ln(KC/12.3)" …
+  Eigen::VectorXd coefficients;     ///< shape (p)
+  Eigen::MatrixXd covariance;       ///< shape (p, p), (F32)
+  std::vector<Interval> intervals;  ///< Student, n − p degrees of freedom
+  double between;                   ///< τ: standard deviation from run to run beyond the runs' own errors (REML)
+  double heterogeneity;             ///< I² = τ²/(τ² + typical own variance), 0 … 1
+  Interval prediction;              ///< where the next run in the middle of these should come out
+  double log_likelihood;            ///< at the maximum over coefficients and τ
+  double aicc, bic;                 ///< −2 ln L + penalties of p + 1 parameters; AICc = ∞ where n <= p + 2
+  double cross_validation;          ///< rms error of predicting each run from the others
+  Eigen::VectorXd residuals;        ///< value minus law, shape (n)
 };
 
 /// Fits one law to runs with random effects: value_i = law(x_i) + b_i + e_i, b_i ~ N(0, τ²), e_i ~ N(0, σ_i²).

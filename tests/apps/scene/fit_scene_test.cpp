@@ -79,7 +79,7 @@ TEST_F(FitScenes, AreReadInSi) {
   EXPECT_EQ(scene.model.viscosity, 1.05e-6);
   EXPECT_EQ(scene.coefficients, (std::vector<std::string>{"cd", "ca"}));
   EXPECT_EQ(scene.confidence, 0.95);
-  EXPECT_EQ(scene.echo.back().key, "ask.intervals.level");
+  EXPECT_EQ(scene.echo.back().key, "ask.intervals.method");
   EXPECT_TRUE(scene.echo.back().defaulted);
   const FitScene towed = read(towing);
   EXPECT_EQ(towed.channels.size(), 2u);
