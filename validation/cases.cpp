@@ -3,11 +3,13 @@
 // One function a case, in validation/<name>/case.cpp. They are listed by hand: nothing registers itself.
 namespace froude::validation {
 
+Outcome ball_drops(const Folders& folders);
 Outcome cylinder(const Folders& folders);
 Outcome dispersion(const Folders& folders);
 Outcome fagerbakke_bem(const Folders& folders);
 Outcome fagerbakke_eigen(const Folders& folders);
 Outcome hendriksen_calibration(const Folders& folders);
+Outcome hendriksen_oscillation(const Folders& folders);
 Outcome hendriksen_towing(const Folders& folders);
 Outcome f3of(const Folders& folders);
 Outcome formats(const Folders& folders);
@@ -23,11 +25,15 @@ Outcome huijgen_dropper_c(const Folders& folders);
 Outcome huijgen_gamma(const Folders& folders);
 Outcome huijgen_sea(const Folders& folders);
 Outcome hulme(const Folders& folders);
+Outcome interval_coverage(const Folders& folders);
 Outcome irf_a5(const Folders& folders);
 Outcome kramers_kronig(const Folders& folders);
+Outcome morison(const Folders& folders);
 Outcome order(const Folders& folders);
+Outcome pendulums(const Folders& folders);
 Outcome rm3_decay(const Folders& folders);
 Outcome rm3_regular(const Folders& folders);
+Outcome roll_decay(const Folders& folders);
 Outcome spectra(const Folders& folders);
 Outcome sea_dat(const Folders& folders);
 Outcome sphere_decay(const Folders& folders);
@@ -57,7 +63,10 @@ const std::vector<Case>& cases() {
       {"huijgen-dropper-C", huijgen_dropper_c},
       {"huijgen-gamma", huijgen_gamma},
       {"huijgen-sea", huijgen_sea},
+      {"hendriksen-oscillation", hendriksen_oscillation},
       {"hendriksen-waves", hendriksen_waves},
+      {"morison", morison},
+      {"interval-coverage", interval_coverage},
       {"sea-dat", sea_dat},
       {"dispersion", dispersion},
       {"spectra", spectra},
@@ -74,6 +83,9 @@ const std::vector<Case>& cases() {
       {"formats", formats},
       {"fpso-rao", fpso_rao},
       {"irf-a5", irf_a5},
+      {"roll-decay", roll_decay},
+      {"pendulums", pendulums},
+      {"ball-drops", ball_drops},
   };
   return all;
 }

@@ -57,6 +57,10 @@ int body_named(const Record& record, const Located<std::string>& name, const std
 /// A file beside the scene.
 std::filesystem::path beside(const std::filesystem::path& scene, const std::string& relative);
 
+/// Puts the numbers of included files, [coefficients] cd = 1.19 of fit.toml, in place of texts "fit.cd".
+/// \throws hydro::InputError for a file that is not there or has no such table, or a name that is not in it
+void resolve_includes(Node& root, const std::filesystem::path& scene);
+
 /// What both kinds of scene begin with: `schema = 1`. \throws hydro::InputError if it is another version
 void check_version(const Node& root);
 

@@ -181,8 +181,9 @@ void check_version(const Node& root) {
 }
 
 Scene parse(std::string_view text, const std::filesystem::path& file) {
-  const Node document = parse_document(text, file.string());
+  Node document = parse_document(text, file.string());
   check_version(document);
+  resolve_includes(document, file);
   if (const auto* model = document.find("model"))
     throw InputError("this scene has a [model]: it asks for a fit, not for motion", model->place,
                      "use `froude fit`, or take the table out");

@@ -470,6 +470,10 @@ const Table& motion_schema() {
       .title = "a scene",
       .meaning = "floating bodies in waves",
       .keys = {integer("schema", "version of this grammar, 1"), text("title", "for people").optional(),
+               texts("include",
+                     "results of `froude fit -o`: with \"fit.toml\", a text \"fit.cd\" stands for the number cd of its "
+                     "[coefficients]")
+                   .optional(),
                inner_table("water", water()), inner_table("waves", waves_table()).optional(),
                inner_table("current", current_table()).optional(), inner_tables("body", body()).optional(),
                inner_tables("probe", probe_table()).optional(), inner_tables("member", member_table()).optional(),
