@@ -73,7 +73,9 @@ void add_static(const Chain& c, FromCatenary& worst, Outcome& out) {
   const MooringLine line = mooring(c);
   const dynamics::line::State s = line.at_rest(c.segments);
   const EndPulls pulls = end_pulls(line, s);
-  const auto exact = dynamics::catenary({c.length, line.weight(), line.axial_stiffness, true}, c.span, c.depth);
+  // The chain sinks until the bed carries it: the catenary stands on that level.
+  const double sunk = line.weight() / (line.bed.front().stiffness * line.diameter);
+  const auto exact = dynamics::catenary({c.length, line.weight(), line.axial_stiffness, true}, c.span, c.depth + sunk);
   worst.tension = std::max(worst.tension, std::abs(pulls.fairlead.norm() / exact.fairlead() - 1));
   for (int i = 1; i < c.segments; ++i) {
     const double along = c.length * i / c.segments, hanging = along - exact.resting;
@@ -82,7 +84,7 @@ void add_static(const Chain& c, FromCatenary& worst, Outcome& out) {
       at = dynamics::catenary_span({hanging, line.weight(), line.axial_stiffness, false}, exact.horizontal,
                                    line.weight() * hanging) +
            Eigen::Vector2d(exact.resting * (1 + exact.horizontal / line.axial_stiffness), 0);
-    const Vector3d place(c.span - at.x(), 0, at.y() - c.depth);
+    const Vector3d place(c.span - at.x(), 0, at.y() - c.depth - sunk);
     worst.place = std::max(worst.place, (s.position.col(i) - place).norm() / c.length);
   }
   out.numbers.push_back({fmt::format("static fairlead tension, {} m, over the reference", c.depth),
@@ -101,7 +103,7 @@ double heaving(const Folders& folders, const Chain& c, const std::string& motion
     places.emplace_back(row[1], row[2], row[3]);
   }
   const LedRun run = run_led(mooring(c), c.segments, std::make_shared<dynamics::line::SplinePath>(time, places),
-                             time.front(), time.back(), 0.05);
+                             time.front(), time.back() - 0.1, 0.05);
   plot::Series ours{.name = "ours", .x = {}, .y = {}}, theirs{.name = "reference", .x = {}, .y = {}, .dashed = true};
   for (std::size_t i = 0; i < run.time.size(); ++i)
     if (run.time[i] >= 0) ours.x.push_back(run.time[i]), ours.y.push_back(run.fairlead[i] / 1e3);
