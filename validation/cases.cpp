@@ -26,6 +26,8 @@ Outcome huijgen_gamma(const Folders& folders);
 Outcome huijgen_sea(const Folders& folders);
 Outcome hulme(const Folders& folders);
 Outcome interval_coverage(const Folders& folders);
+Outcome moorings(const Folders& folders);
+Outcome oc3_line(const Folders& folders);
 Outcome irf_a5(const Folders& folders);
 Outcome kramers_kronig(const Folders& folders);
 Outcome morison(const Folders& folders);
@@ -83,9 +85,11 @@ const std::vector<Case>& cases() {
       {"formats", formats},
       {"fpso-rao", fpso_rao},
       {"irf-a5", irf_a5},
-      {"roll-decay", roll_decay},
-      {"pendulums", pendulums},
       {"ball-drops", ball_drops},
+      {"moorings", moorings},
+      {"oc3-line", oc3_line},
+      {"pendulums", pendulums},
+      {"roll-decay", roll_decay},
   };
   return all;
 }

@@ -227,7 +227,7 @@ Equations::Outcome Equations::solve(const Stage& stage, const State& before, dou
     for (int cut = 0; cut < 12; ++cut, share /= 2) {
       trial = u + share * du;
       trial_T = T + share * dT;
-      size = assemble(stage, before, trial, trial_T, false);
+      size = assemble(stage, before, trial, trial_T, true);
       if (size <= (1 - 1e-4 * share) * out.size || step <= rounding) break;
     }
     const bool small = step <= std::max(tolerance * trial.cwiseAbs().maxCoeff(), rounding) &&
@@ -247,7 +247,6 @@ Equations::Outcome Equations::solve(const Stage& stage, const State& before, dou
       out.converged = true;
       return out;
     }
-    assemble(stage, before, u, T, true);
   }
   if (out.why.empty()) out.why = fmt::format("Newton did not converge in {} iterations", most);
   double largest = -1;

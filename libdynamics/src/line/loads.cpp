@@ -59,7 +59,7 @@ PointDerivatives differentiate(const PerLength& c, const Point& p) {
   if (speed > 0) by_across = c.normal * (speed * Matrix3d::Identity() + across * across.transpose() / speed);
   const double skin = c.tangential * std::abs(along);
   PointDerivatives d;
-  d.by_relative = by_across * P + 2 * skin * p.axis * p.axis.transpose();
+  d.by_relative = by_across - (by_across * p.axis) * p.axis.transpose() + 2 * skin * p.axis * p.axis.transpose();
   d.by_inertial = P;
   d.by_axis = -by_across * (along * Matrix3d::Identity() + p.axis * p.relative.transpose()) +
               skin * (along * Matrix3d::Identity() + 2 * p.axis * p.relative.transpose()) -
@@ -156,7 +156,8 @@ void Loads::add_water(int j, const Motion& now, const By& by, Places& force, Blo
     if (derivative == nullptr) continue;
     const PointDerivatives d = differentiate(c, p);
     const double turning = length > 0 ? by.x / length : 0;
-    const Matrix3d turn = turning * d.by_axis * (Matrix3d::Identity() - p.axis * p.axis.transpose());
+    const Vector3d along = d.by_axis * p.axis;
+    const Matrix3d turn = turning * (d.by_axis - along * p.axis.transpose());
     const Matrix3d follow = -by.v * d.by_relative - by.a * c.added * d.by_inertial;
     const Matrix3d by_first = (1 - p.s) * follow - turn, by_second = p.s * follow + turn;
     const auto at = static_cast<std::size_t>(j);

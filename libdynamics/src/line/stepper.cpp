@@ -130,11 +130,11 @@ void Stepper::start(State& state) {
   w.energies.at_start = w.energies.total();
 }
 
-/// Accelerations and tensions of the state; zero where masses leave them open.
+/// Accelerations and tensions of the state. Where masses leave them open, tensions to begin Newton with: the weight.
 bool Stepper::Work::settle(State& state) {
   if (equations.accelerations(state, a, state.tension)) return true;
   a = Places::Zero(3, line.nodes());
-  state.tension = VectorXd::Zero(line.segments());
+  state.tension = VectorXd::Constant(line.segments(), line.constant_load().colwise().norm().sum());
   return false;
 }
 
