@@ -8,6 +8,7 @@ Outcome cylinder(const Folders& folders);
 Outcome dispersion(const Folders& folders);
 Outcome fagerbakke_bem(const Folders& folders);
 Outcome fagerbakke_eigen(const Folders& folders);
+Outcome fagerbakke_switching(const Folders& folders);
 Outcome hendriksen_calibration(const Folders& folders);
 Outcome hendriksen_oscillation(const Folders& folders);
 Outcome hendriksen_towing(const Folders& folders);
@@ -50,6 +51,7 @@ const std::vector<Case>& cases() {
   static const std::vector<Case> all{
       {"fagerbakke-eigen", fagerbakke_eigen},
       {"fagerbakke-bem", fagerbakke_bem},
+      {"fagerbakke-switching", fagerbakke_switching},
       {"hendriksen-towing", hendriksen_towing},
       {"hendriksen-calibration", hendriksen_calibration},
       {"zanten-periods", zanten_periods},

@@ -14,6 +14,7 @@
 #include "dynamics/force/friction.hpp"
 #include "dynamics/force/pto.hpp"
 #include "dynamics/force/restoring.hpp"
+#include "dynamics/force/switched_connector.hpp"
 #include "dynamics/frequency/rao.hpp"
 #include "dynamics/model/model.hpp"
 #include "hydro/waves/field.hpp"
@@ -39,6 +40,7 @@ struct Prepared {
   std::vector<dynamics::Buoyancy> buoyancy;
   hydro::Water water;
   std::vector<dynamics::AxialConnector> axial;
+  std::vector<dynamics::SwitchedConnectors> switched;  ///< one for each [[connector]] with a switch
   std::vector<dynamics::BushingConnector> bushing;
   std::vector<dynamics::Pto> ptos;
   std::vector<dynamics::ConstantLoad> loads;
@@ -48,9 +50,15 @@ struct Prepared {
   std::vector<dynamics::Contact> contacts;
   std::vector<double>
       joint_sign;  ///< −1 where the scene wrote the ground first: travel is the second's against the first
+  std::vector<std::vector<std::string>> switched_names;
+  std::vector<scene::Place> switched_places;
   std::vector<std::string> axial_names, bushing_names, mooring_names;
   std::vector<std::string> notes;  ///< what had to be decided, for the result and the plan
 };
+
+/// Motion of a body's origin from rest, m or rad: rotations are yaw about z, then pitch about the new y, then roll
+/// about the newest x.
+double motion_from_rest(const dynamics::RigidBody& body, const dynamics::Pose& pose, int mode);
 
 /// Opens the data files and places everything. \throws hydro::InputError, placed in the scene
 Prepared prepare(const scene::Scene& scene);

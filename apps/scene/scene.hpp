@@ -271,12 +271,26 @@ struct Line {
   Place place;
 };
 
+/// `[connector.switch]`: the stiffness by the period that dominates a motion.
+struct StiffnessSwitch {
+  int body;
+  hydro::Mode mode;      ///< of the body's origin from rest: what is watched
+  double every, window;  ///< s
+  double hysteresis;     ///< rad/s
+  double dwell;          ///< s
+  struct Setting {
+    double from, stiffness;  ///< s, N/m
+  };
+  std::vector<Setting> settings;
+};
+
 struct AxialConnector {
   double stiffness = 0, damping = 0;          ///< N/m, N s/m
   double cubic = 0, quadratic_damping = 0;    ///< N/m³, N s²/m²
   std::vector<double> elongations, tensions;  ///< of a table instead of stiffness and cubic, m and N
   bool pulls_only = false;                    ///< kind = "cable"
   std::optional<double> rest_length;          ///< m; empty: as placed
+  std::optional<StiffnessSwitch> switching;
 };
 struct BushingConnector {
   Eigen::Vector3d stiffness, damping;                        ///< along the axes of the first body, N/m, N s/m

@@ -314,6 +314,32 @@ Key rest_length() {
       .or_default("as placed", "so that the scene is at rest where it is placed");
 }
 
+const Table& switch_setting() {
+  static const Table table{
+      .title = "[[connector.switch.settings]]",
+      .meaning = "a stiffness from some period on",
+      .keys = {quantity("from", dim::time, "period; the first is \"0 s\"").within(Limit::not_negative),
+               quantity("stiffness", dim::stiffness, "of each connector").positive()}};
+  return table;
+}
+
+const Table& connector_switch() {
+  static const Table table{
+      .title = "[connector.switch]",
+      .meaning = "sets the stiffness by the period that dominates a motion, once two checks in turn agree",
+      .keys = {text("watch", "a motion, like \"m2.surge\""),
+               quantity("every", dim::time, "from one check to the next").positive(),
+               quantity("window", dim::time, "of the motion that a check looks at; some periods").positive(),
+               quantity("hysteresis", dim::angular_velocity,
+                        "by which the frequencies of two checks in turn may differ: \"0.001 Hz\"")
+                   .positive(),
+               quantity("dwell", dim::time, "least time between two switches")
+                   .within(Limit::not_negative)
+                   .or_default("0 s", "two checks that agree are enough"),
+               inner_tables("settings", switch_setting())}};
+  return table;
+}
+
 const Table& connector() {
   static const Table table{
       .title = "[[connector]]",
@@ -338,7 +364,8 @@ const Table& connector() {
                              "tension per rate of elongation times its size")
                         .positive()
                         .optional(),
-                    rest_length().only_beside("stiffness")},
+                    rest_length().only_beside("stiffness"),
+                    inner_table("switch", connector_switch()).optional().only_beside("stiffness")},
            .groups = {{at_least_one, {"stiffness", "damping", "quadratic_damping"}}}},
           {.word = "tabulated",
            .meaning = "as axial, with a spring by a table",

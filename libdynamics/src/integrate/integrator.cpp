@@ -34,11 +34,17 @@ void Integrator::start(Workspace& workspace) {
   require_closed_joints(workspace.state);
   if (active_.may_change()) {
     laws_.begin(workspace);
-  } else if (!active_.solve_accelerations(workspace)) {
-    throw hydro::NumericsError(fmt::format(
-        "no accelerations can be found at the start, t = {} s: the loads or the mass matrix are not finite or singular",
-        workspace.state.time));
+    begin(workspace);
+  } else {
+    begin_anew(workspace);
   }
+}
+
+void Integrator::begin_anew(Workspace& workspace) {
+  if (!active_.solve_accelerations(workspace))
+    throw hydro::NumericsError(fmt::format(
+        "no accelerations can be found at t = {} s: the loads or the mass matrix are not finite or singular",
+        workspace.state.time));
   begin(workspace);
 }
 
@@ -163,7 +169,7 @@ StepReport Integrator::step(Workspace& workspace, double h) {
   } else {
     advance(workspace, h, 0, report);
   }
-  workspace.accept();
+  if (workspace.accept()) begin_anew(workspace);
   return report;
 }
 

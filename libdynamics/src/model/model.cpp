@@ -225,9 +225,14 @@ Workspace::Workspace(const Model& model, State start)
   for (const auto& kind : model.forces()) memory.push_back(kind->make_memory(state));
 }
 
-void Workspace::accept() {
+bool Workspace::accept() {
+  bool jumped = false;
   for (auto& m : memory)
-    if (m) m->accept(state);
+    if (m) {
+      m->accept(state);
+      jumped = jumped || m->has_jumped();
+    }
+  return jumped;
 }
 
 }  // namespace dynamics

@@ -66,6 +66,7 @@ class Integrator {
   void advance(Workspace& workspace, double h, int depth, StepReport& report);
   void advance_to_changes(Workspace& workspace, double h, StepReport& report);
   double step_to_change(Workspace& workspace, double h, StepReport& report);
+  void begin_anew(Workspace& workspace);
   void require_closed_joints(const State& state) const;
 
   const Model& model_;
