@@ -383,6 +383,7 @@ struct AskRun {
   double duration;                ///< s
   double every;                   ///< s; distance of stored samples; duration is a multiple of it
   bool from_equilibrium = false;  ///< bodies begin where they balance, not where they are placed
+  bool steady = false;            ///< motions as if the sea had always been there: no start, no step
   std::vector<std::string> of;
   std::vector<Place> of_places;
   Place place;
