@@ -199,6 +199,14 @@ void add_motion(Work& w, double bandwidth_hz) {
       "the main frequency; noise of velocity {:.2g} m/s, of acceleration {:.2g} m/s^2",
       from_velocity ? "velocity" : "position", 2 * m.half_width + 1, m.bandwidth_hz, 100 * m.gain_error_main,
       m.noise_velocity, m.noise_acceleration);
+  double squares = 0;
+  for (const double a : r.acceleration) squares += a * a / static_cast<double>(r.acceleration.size());
+  const double share = m.noise_acceleration * m.noise_acceleration / squares;
+  if (w.run.acceleration.empty() && share > 0.003)  // (F6)
+    w.warn(
+        "noise is {:.2g} % of the derived acceleration's variance: unless a low pass takes it out, inertia comes out too "
+        "small by as much; derivatives up to fewer than {:.3g} Hz have less of it",
+        100 * share, m.bandwidth_hz);
 }
 
 /// √(u² + w²) u where the water moves across as well; (F7).

@@ -204,4 +204,19 @@ TEST(Prepare, CountsTheVelocityAcrossInTheDragOfAHorizontalCylinder) {
   EXPECT_GT(*fit::fit_morison(fixed, fit::prepare(run, usual).record).cd.value, 1.5);
 }
 
+TEST(Prepare, WarnsOfNoiseInADerivedAccelerationAndOfWhatItDoes) {
+  RawRun run = clean();
+  const auto noise = froude_test::ar1_noise(run.time.size(), 0, 0.004, 12);
+  for (std::size_t j = 0; j < noise.size(); ++j) run.position[j] += noise[j];
+  PrepareOptions wide = usual;
+  wide.filters.clear();
+  wide.derivative_bandwidth_hz = 3;
+  const auto noisy = fit::prepare(run, wide);
+  EXPECT_THAT(noisy.cautions, Contains(HasSubstr("inertia comes out too small")));
+  EXPECT_LT(*fit::fit_morison(cylinder, noisy.record).inertia.value, 0.98);
+  const auto narrow = fit::prepare(run, usual);
+  EXPECT_THAT(narrow.cautions, IsEmpty());
+  EXPECT_NEAR(*fit::fit_morison(cylinder, narrow.record).inertia.value, truth_ca, 0.01);
+}
+
 }  // namespace
