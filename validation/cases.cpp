@@ -15,12 +15,21 @@ Outcome f3of(const Folders& folders);
 Outcome formats(const Folders& folders);
 Outcome fpso_rao(const Folders& folders);
 Outcome hendriksen_waves(const Folders& folders);
+Outcome huijgen_cone(const Folders& folders);
+Outcome huijgen_double(const Folders& folders);
+Outcome huijgen_string(const Folders& folders);
+Outcome huijgen_dropper_static(const Folders& folders);
+Outcome huijgen_dropper_a(const Folders& folders);
+Outcome huijgen_dropper_b(const Folders& folders);
+Outcome huijgen_dropper_c(const Folders& folders);
+Outcome huijgen_gamma(const Folders& folders);
 Outcome huijgen_sea(const Folders& folders);
 Outcome hulme(const Folders& folders);
 Outcome interval_coverage(const Folders& folders);
 Outcome irf_a5(const Folders& folders);
 Outcome kramers_kronig(const Folders& folders);
 Outcome morison(const Folders& folders);
+Outcome order(const Folders& folders);
 Outcome pendulums(const Folders& folders);
 Outcome rm3_decay(const Folders& folders);
 Outcome rm3_regular(const Folders& folders);
@@ -28,6 +37,7 @@ Outcome roll_decay(const Folders& folders);
 Outcome spectra(const Folders& folders);
 Outcome sea_dat(const Folders& folders);
 Outcome sphere_decay(const Folders& folders);
+Outcome stick(const Folders& folders);
 Outcome two_pole(const Folders& folders);
 Outcome zanten_periods(const Folders& folders);
 Outcome zanten_stick_slip(const Folders& folders);
@@ -44,6 +54,14 @@ const std::vector<Case>& cases() {
       {"zanten-stick-slip", zanten_stick_slip},
       {"zanten-wave-table", zanten_wave_table},
       {"zanten-waves", zanten_waves},
+      {"huijgen-cone", huijgen_cone},
+      {"huijgen-double", huijgen_double},
+      {"huijgen-string", huijgen_string},
+      {"huijgen-dropper-static", huijgen_dropper_static},
+      {"huijgen-dropper-A", huijgen_dropper_a},
+      {"huijgen-dropper-B", huijgen_dropper_b},
+      {"huijgen-dropper-C", huijgen_dropper_c},
+      {"huijgen-gamma", huijgen_gamma},
       {"huijgen-sea", huijgen_sea},
       {"hendriksen-oscillation", hendriksen_oscillation},
       {"hendriksen-waves", hendriksen_waves},
@@ -55,6 +73,8 @@ const std::vector<Case>& cases() {
       {"hulme", hulme},
       {"cylinder", cylinder},
       {"two-pole", two_pole},
+      {"order", order},
+      {"stick", stick},
       {"kramers-kronig", kramers_kronig},
       {"sphere-decay", sphere_decay},
       {"rm3-regular", rm3_regular},

@@ -154,6 +154,24 @@ void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::
   if (!p.loads.empty()) forces.push_back(std::make_unique<dynamics::ConstantLoadKind>(p.loads));
 }
 
+dynamics::Shape as_shape(const scene::ContactRod& rod) {
+  if (rod.from == rod.to) return dynamics::Ball{rod.from, rod.radius};
+  return dynamics::Rod{rod.from, rod.to, rod.radius};
+}
+dynamics::Shape as_shape(const scene::ContactPlane& plane) { return dynamics::HalfSpace{plane.at, plane.normal}; }
+dynamics::Shape as_shape(const scene::ContactBox& box) { return dynamics::Box{box.centre, box.half}; }
+
+/// Shapes from the centres of gravity; of the ground as they are.
+dynamics::Contact contact(const Scene& scene, const scene::Contact& c) {
+  const auto from_centre = [&](const dynamics::Shape& shape, int body) {
+    return dynamics::moved(shape, Eigen::Matrix3d::Identity(),
+                           -scene.bodies[static_cast<std::size_t>(body)].centre_of_gravity);
+  };
+  dynamics::Shape second = std::visit([](const auto& shape) { return as_shape(shape); }, c.on_second);
+  if (c.second) second = from_centre(second, *c.second);
+  return {c.name, c.first, c.second, {from_centre(as_shape(c.on_first), c.first), second}, c.restitution, c.friction};
+}
+
 }  // namespace
 
 Prepared prepare(const Scene& scene) {
@@ -167,6 +185,7 @@ Prepared prepare(const Scene& scene) {
   add_hydrodynamics(scene, out);
   for (const auto& m : scene.moorings) add_mooring(scene, m, out);
   for (const auto& c : scene.connectors) add_connector(scene, c, out);
+  for (const auto& c : scene.contacts) out.contacts.push_back(contact(scene, c));
   for (const auto& j : scene.joints) add_joint(j, out);
   out.ptos = ptos(scene, out);
   for (const auto& l : scene.lines) out.lines.push_back(catenary_mooring(scene, l, out));
@@ -369,6 +388,7 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
   add_members(scene, prepared.bodies, water, {step, steps + 1}, forces);
 
   if (!prepared.friction.empty()) forces.push_back(std::make_unique<dynamics::FrictionKind>(prepared.friction));
+  if (!prepared.contacts.empty()) forces.push_back(std::make_unique<dynamics::ContactKind>(prepared.contacts));
 
   for (const auto& kind : forces) {
     if (kind->effect() != "radiation") {
@@ -383,9 +403,18 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
     plan.push_back({"joint", "conditions held exactly, with the loads that this takes as unknowns",
                     fmt::format("{} joints, {} conditions", prepared.joints.size(), model.joints().count()), true});
   notes.insert(notes.end(), model.redundant().begin(), model.redundant().end());
+  std::vector<LineModel> lines = line_models(scene, water);
+  for (const LineModel& line : lines) plan.push_back(plan_line(line));
   dynamics::State start = start_state(scene, prepared, model);
-  return {std::move(model), std::move(start), std::move(water), step, steps,
-          per_sample,       std::move(plan),  std::move(notes)};
+  return {.model = std::move(model),
+          .start = std::move(start),
+          .water = std::move(water),
+          .lines = std::move(lines),
+          .step = step,
+          .steps = steps,
+          .steps_per_sample = per_sample,
+          .plan = std::move(plan),
+          .notes = std::move(notes)};
 }
 
 }  // namespace froude::compile

@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "compile/lines.hpp"
 #include "dynamics/force/buoyancy.hpp"
 #include "dynamics/force/catenary_mooring.hpp"
 #include "dynamics/force/connector.hpp"
 #include "dynamics/force/constant_load.hpp"
+#include "dynamics/force/contact.hpp"
 #include "dynamics/force/friction.hpp"
 #include "dynamics/force/pto.hpp"
 #include "dynamics/force/restoring.hpp"
@@ -43,6 +45,7 @@ struct Prepared {
   std::vector<dynamics::CatenaryMooring> lines;
   std::vector<dynamics::Joint> joints;
   std::vector<dynamics::Friction> friction;
+  std::vector<dynamics::Contact> contacts;
   std::vector<double>
       joint_sign;  ///< −1 where the scene wrote the ground first: travel is the second's against the first
   std::vector<std::string> axial_names, bushing_names, mooring_names;
@@ -67,7 +70,8 @@ struct TimeModel {
   dynamics::Model model;
   dynamics::State start;
   RunWater water;
-  double step;  ///< s; scene.run->every is a whole multiple of it
+  std::vector<LineModel> lines;  ///< stepped beside the bodies
+  double step;                   ///< s; scene.run->every is a whole multiple of it
   std::size_t steps;
   std::size_t steps_per_sample;
   std::vector<PlanLine> plan;

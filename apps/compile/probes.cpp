@@ -116,6 +116,28 @@ void add_travels(const Prepared& p, const dynamics::Model& model, std::vector<Pr
   }
 }
 
+/// Gap and load along the normal of contacts.
+void add_contacts(const Prepared& p, const dynamics::Model& model, std::vector<Probe>& out) {
+  std::size_t kind = 0;
+  while (kind < model.forces().size() && model.forces()[kind]->contact() == nullptr) ++kind;
+  for (std::size_t i = 0; i < p.contacts.size(); ++i) {
+    const std::string& name = p.contacts[i].name;
+    out.push_back({name + ".gap", "m", "shortest way between the shapes of " + name,
+                   [&model, i, kind](const Workspace& w, const EnergyLedger&) {
+                     return model.forces()[kind]->contact()->gap(i, w.state);
+                   }});
+    out.push_back({name + ".force", "N", "load along the normal of " + name + " while it is closed",
+                   [&model, i, kind](const Workspace& w, const EnergyLedger&) {
+                     return model.forces()[kind]->contact()->load(i, w.memory[kind].get(), w.multipliers);
+                   }});
+    out.push_back({name + ".impacts", "1", "impacts of " + name + " since the start",
+                   [i, kind](const Workspace& w, const EnergyLedger&) {
+                     const auto& memory = static_cast<const dynamics::ContactMemory&>(*w.memory[kind]);
+                     return static_cast<double>(memory.contact[i].impacts);
+                   }});
+  }
+}
+
 /// Along the axis on the second of the joint as the scene writes it: what its friction does to it.
 void add_friction(const Prepared& p, const dynamics::Model& model, std::vector<Probe>& out) {
   std::size_t kind = 0;
@@ -224,10 +246,11 @@ std::vector<Probe> run_probes(const scene::Scene& scene, const Prepared& prepare
   add_lines(scene, prepared, out);
   add_travels(prepared, model.model, out);
   add_friction(prepared, model.model, out);
+  add_contacts(prepared, model.model, out);
   add_ptos(scene, prepared, out);
   add_joint_loads(prepared, model.model, out);
   if (scene.waves) add_water(scene, model.water.field, out);
-  add_energies(model, out);
+  if (!prepared.bodies.empty()) add_energies(model, out);
   return out;
 }
 

@@ -2,8 +2,8 @@
 
 #include <chrono>
 
+#include "compile/integrator.hpp"
 #include "compile/probes.hpp"
-#include "dynamics/integrate/generalized_alpha.hpp"
 #include "hydro/base/error.hpp"
 
 namespace froude {
@@ -15,17 +15,21 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 /// One run on its way: stepping, book-keeping of energy, samples.
 class March {
  public:
-  March(const compile::TimeModel& m, const std::vector<compile::Probe>& probes, double rho_infinity, Record& record)
+  March(const compile::TimeModel& m, const std::vector<compile::Probe>& probes,
+        const std::vector<compile::LineProbe>& line_probes, const scene::Solve& solve, Record& record)
       : m_(m),
         probes_(probes),
+        line_probes_(line_probes),
         record_(record),
         workspace_(m.model, m.start),
-        integrator_(m.model, {.rho_infinity = rho_infinity}) {
+        integrator_(compile::make_integrator(solve, m.model)) {
     for (const auto& p : probes) record_.signals.push_back({p.name, p.unit, p.long_name});
+    for (const auto& p : line_probes) record_.signals.push_back({p.name, p.unit, p.long_name});
+    for (const auto& line : m.lines) lines_.push_back(std::make_unique<compile::LineRun>(line));
   }
 
   void run(const std::function<void(double)>& done) {
-    integrator_.start(workspace_);
+    if (bodies()) integrator_->start(workspace_);
     dynamics::EnergyLedger ledger(m_.model, workspace_);
     sample(ledger);
     try {
@@ -42,8 +46,14 @@ class March {
   }
 
  private:
+  bool bodies() const { return !m_.model.bodies().empty(); }
   void advance(std::size_t n, dynamics::EnergyLedger& ledger) {
-    const auto report = integrator_.step(workspace_, m_.step);
+    for (auto& line : lines_) {
+      const auto report = line->step(m_.step);
+      record_.newton_iterations += report.newton_iterations;
+      record_.halvings += report.halvings;
+    }
+    const auto report = bodies() ? integrator_->step(workspace_, m_.step) : dynamics::StepReport{};
     workspace_.state.time = static_cast<double>(n) * m_.step;  // sums of steps drift, products do not
     record_.newton_iterations += report.newton_iterations;
     record_.halvings += report.halvings;
@@ -55,6 +65,9 @@ class March {
     record_.time.push_back(workspace_.state.time);
     for (std::size_t i = 0; i < probes_.size(); ++i)
       record_.signals[i].values.push_back(probes_[i].read(workspace_, ledger));
+    for (auto& line : lines_) line->look();
+    for (std::size_t i = 0; i < line_probes_.size(); ++i)
+      record_.signals[probes_.size() + i].values.push_back(line_probes_[i].read(*lines_[line_probes_[i].line]));
   }
   void close(const dynamics::EnergyLedger& ledger) {
     for (std::size_t k = 0; k < workspace_.evaluations.size(); ++k)
@@ -65,15 +78,28 @@ class March {
       record_.energy.emplace_back(e.effect + ".supplied", e.supplied);
       record_.energy.emplace_back(e.effect + ".dissipated", e.dissipated);
     }
-    record_.energy.emplace_back("residual", ledger.residual());
-    record_.energy.emplace_back("turnover", ledger.turnover());
+    double residual = ledger.residual(), turnover = ledger.turnover();
+    for (std::size_t k = 0; k < lines_.size(); ++k) {
+      const auto& e = lines_[k]->energies();
+      const std::string& name = m_.lines[k].name;
+      record_.energy.emplace_back(name + ".kinetic", e.kinetic);
+      record_.energy.emplace_back(name + ".stored", e.height + e.axial + e.bed);
+      record_.energy.emplace_back(name + ".supplied", e.supplied());
+      record_.energy.emplace_back(name + ".dissipated", e.dissipated());
+      residual += e.residual();
+      turnover += lines_[k]->turnover();
+    }
+    record_.energy.emplace_back("residual", residual);
+    record_.energy.emplace_back("turnover", turnover);
   }
 
   const compile::TimeModel& m_;
   const std::vector<compile::Probe>& probes_;
+  const std::vector<compile::LineProbe>& line_probes_;
+  std::vector<std::unique_ptr<compile::LineRun>> lines_;
   Record& record_;
   dynamics::Workspace workspace_;
-  dynamics::GeneralizedAlpha integrator_;
+  std::unique_ptr<dynamics::Integrator> integrator_;
 };
 
 }  // namespace
@@ -94,15 +120,18 @@ Record simulate(const scene::Scene& scene, const std::function<void(double)>& do
   const compile::Prepared prepared = compile::prepare(scene);
   const compile::TimeModel model = compile::time_model(scene, prepared);
   const auto all = compile::run_probes(scene, prepared, model);
+  const auto all_of_lines = compile::line_probes(model.lines);
   std::vector<std::string> names;
   for (const auto& p : all) names.push_back(p.name);
+  for (const auto& p : all_of_lines) names.push_back(p.name);
   scene::check_patterns(scene.run->of, scene.run->of_places, names);
   const auto probes = compile::chosen(all, scene.run->of);
+  const auto line_probes = compile::chosen(all_of_lines, scene.run->of);
   record.step = model.step;
   record.notes = model.notes;
   record.preparation_s = seconds_since(begin);
   const auto stepping = Clock::now();
-  March(model, probes, scene.solve.rho_infinity, record).run(done);
+  March(model, probes, line_probes, scene.solve, record).run(done);
   record.stepping_s = seconds_since(stepping);
   return record;
 }

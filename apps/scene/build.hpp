@@ -27,7 +27,9 @@ std::vector<Body> build_bodies(const Record& root, const std::filesystem::path& 
 
 // Each refers to scene.bodies, which must be there already.
 void build_members(const Record& root, Names& names, Scene& scene);
+void build_lines(const Record& root, const std::filesystem::path& file, Names& names, Scene& scene);
 void build_moorings(const Record& root, Names& names, Scene& scene);
+void build_contacts(const Record& root, Names& names, Scene& scene);
 void build_connectors(const Record& root, Names& names, Scene& scene);
 void build_joints(const Record& root, Names& names, Scene& scene);
 void build_loads(const Record& root, Names& names, Scene& scene);

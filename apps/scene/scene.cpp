@@ -96,8 +96,10 @@ AskWaves read_ask_waves(const Record& asked, const Scene& scene) {
 void check_bodies(const Record& root, const Scene& scene) {
   if (!scene.bodies.empty()) return;
   const Record& ask = root.table("ask");
-  for (const char* what : {"rao", "run"})
-    if (ask.has(what)) throw ask.table(what).refused("asks for motion, but the scene has no body", "add a [[body]]");
+  for (const char* what : {"rao", "run"}) {
+    if (!ask.has(what) || (what == std::string_view("run") && !scene.chains.empty())) continue;
+    throw ask.table(what).refused("asks for motion, but the scene has no body", "add a [[body]]");
+  }
 }
 
 void check_excitation(const Record& root, const Scene& scene) {
@@ -142,7 +144,25 @@ void build_ask(const Record& ask, Scene& scene) {
 Solve build_solve(const Record& solve) {
   Solve out;
   if (solve.text("step").empty()) out.step = {solve.si("step"), solve["step"].place};
-  out.rho_infinity = solve.table("integrator").si("rho_infinity");
+  const Record& integrator = solve.table("integrator");
+  out.integrator = integrator.text("name");
+  out.integrator_place = integrator["name"].place;
+  out.rho_infinity = integrator.si("rho_infinity");
+  out.tolerance = integrator.si("tolerance");
+  const bool lines_alike = integrator.has("lines") && integrator.text("lines") == "generalised_alpha";
+  const auto only_of = [&](std::string_view key, std::string_view method) {
+    if (integrator[key].defaulted || out.integrator == method) return;
+    throw integrator.wrong(key, fmt::format("acts only with name = \"{}\"", method), "leave it out");
+  };
+  if (!lines_alike) only_of("rho_infinity", "generalized_alpha");
+  only_of("tolerance", "explicit_pair");
+  if (integrator.has("lines")) out.line_scheme = integrator.text("lines");
+  if (integrator.has("gamma")) {
+    if (out.line_scheme != "gamma")
+      throw integrator.wrong("gamma", "acts only with lines = \"gamma\"", "leave it out, or add lines = \"gamma\"");
+    out.gamma = integrator.si("gamma");
+    if (out.gamma > 1) throw integrator.wrong("gamma", "is above 1", "0.5 is the trapezium rule, 1 implicit Euler");
+  }
   return out;
 }
 
@@ -182,8 +202,10 @@ Scene parse(std::string_view text, const std::filesystem::path& file) {
   scene.probes = build_probes(root, names);
   scene.bodies = build_bodies(root, file, names);
   build_members(root, names, scene);
+  build_lines(root, file, names, scene);
   build_moorings(root, names, scene);
   build_connectors(root, names, scene);
+  build_contacts(root, names, scene);
   build_joints(root, names, scene);
   build_loads(root, names, scene);
   check_bodies(root, scene);

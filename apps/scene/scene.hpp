@@ -122,10 +122,13 @@ struct Memory {
 
 /// `[body.hydrodynamics] cylinders`: vertical cylinders, of which the program computes the coefficients.
 struct Cylinders {
-  std::vector<Eigen::Vector3d> at;      ///< axes at the waterline, body axes, m; z is that of still water
-  double diameter;                      ///< m
-  std::optional<double> draught;        ///< m; empty: they stand on the sea bed
-  std::optional<double> top;            ///< m, depth; empty: they pierce the surface
+  struct Equal {
+    std::vector<Eigen::Vector3d> at;  ///< axes at the waterline, body axes, m; z is that of still water
+    double diameter;                  ///< m
+    std::optional<double> draught;    ///< m; empty: they stand on the sea bed
+    std::optional<double> top;        ///< m, depth; empty: they pierce the surface
+  };
+  std::vector<Equal> sorts;             ///< at least one
   std::vector<double> omega, headings;  ///< rad/s; rad, empty: those that the scene asks for
 };
 
@@ -227,6 +230,47 @@ struct CatenaryLine {
   Place place;
 };
 
+/// `[[line]]`: a chain of nodes and segments that is stepped by itself. What is named acts on it.
+struct Line {
+  struct Link {
+    double length, mass, centre, inertia;  ///< m, kg, share of the length from its first node, kg m² about that
+  };
+  struct Water {
+    double cd, ca, cd_tangential;
+  };
+  struct Damping {
+    double linear, quadratic;  ///< of each node, kg/s and kg/m
+    bool componentwise;
+  };
+  struct Bed {
+    double stiffness, damping;  ///< Pa/m, Pa s/m
+  };
+  struct Release {
+    int node;
+    Eigen::Vector3d at;  ///< m
+  };
+  struct Lead {
+    bool first;                          ///< the end `from`, else `to`
+    std::vector<double> time;            ///< s
+    std::vector<Eigen::Vector3d> place;  ///< m
+  };
+  std::string name;
+  Eigen::Vector3d from;               ///< m
+  std::optional<Eigen::Vector3d> to;  ///< m; empty: a free end
+  std::vector<Link> links;
+  double node_mass = 0;                   ///< kg, at every node but held ends
+  double diameter = 0;                    ///< m
+  std::optional<double> axial_stiffness;  ///< N; empty: keeps its length
+  double axial_damping = 0;               ///< N s
+  bool pulls_only = false, buoyancy = false, partial_immersion = false;
+  std::optional<Water> morison;
+  std::optional<Damping> damping;
+  std::optional<Bed> bed;
+  std::optional<Release> release;
+  std::optional<Lead> lead;
+  Place place;
+};
+
 struct AxialConnector {
   double stiffness = 0, damping = 0;          ///< N/m, N s/m
   double cubic = 0, quadratic_damping = 0;    ///< N/m³, N s²/m²
@@ -246,6 +290,28 @@ struct Connector {
   std::optional<int> second;              ///< index of a body; empty: the ground
   Eigen::Vector3d first_end, second_end;  ///< body axes; global axes for the ground
   std::variant<AxialConnector, BushingConnector> kind;
+  Place place;
+};
+
+/// A cylinder with round ends; a ball where both are one point. Body axes, of the ground global.
+struct ContactRod {
+  Eigen::Vector3d from, to;
+  double radius;  ///< m
+};
+struct ContactPlane {
+  Eigen::Vector3d at, normal;  ///< out of the body, unit
+};
+struct ContactBox {
+  Eigen::Vector3d centre, half;  ///< half of its sides, along the body's axes
+};
+/// `[[contact]]`: shapes of two bodies that touch and part.
+struct Contact {
+  std::string name;  ///< "contact1" … unless named; repeated ones get a number
+  int first;
+  std::optional<int> second;  ///< empty: the ground
+  ContactRod on_first;
+  std::variant<ContactRod, ContactPlane, ContactBox> on_second;
+  double restitution, friction;
   Place place;
 };
 
@@ -310,7 +376,12 @@ struct AskRun {
 
 struct Solve {
   std::optional<Located<double>> step;  ///< s; empty: chosen from the accuracy asked
-  double rho_infinity = 0.8;            ///< spectral radius of generalised-α at infinite frequency, 0 … 1
+  std::string integrator = "generalized_alpha";
+  Place integrator_place = {};
+  double rho_infinity = 0.8;                    ///< spectral radius of generalised-α at infinite frequency, 0 … 1
+  double tolerance = 1e-8;                      ///< of the explicit pair
+  std::string line_scheme = "energy_momentum";  ///< of lines, as dynamics::line::parse_scheme() reads it
+  double gamma = 0.51;                          ///< of the γ-method of lines
 };
 
 /// One line of the echo: every key that acts, whether written or filled in.
@@ -333,6 +404,8 @@ struct Scene {
   std::vector<Member> members;
   std::vector<Mooring> moorings;
   std::vector<CatenaryLine> lines;
+  std::vector<Contact> contacts;
+  std::vector<Line> chains;  ///< [[line]]
   std::vector<Connector> connectors;
   std::vector<Load> loads;
   std::vector<Joint> joints;

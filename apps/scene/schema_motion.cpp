@@ -2,7 +2,9 @@
 #include "hydro/base/types.hpp"
 #include "hydro/potential/check.hpp"
 #include "scene/schema.hpp"
+#include "scene/schema_contact.hpp"
 #include "scene/schema_joint.hpp"
+#include "scene/schema_line.hpp"
 #include "scene/schema_members.hpp"
 #include "scene/schema_waves.hpp"
 
@@ -103,21 +105,35 @@ const Table& radiation() {
   return table;
 }
 
+std::vector<Key> keys_of_equal_cylinders() {
+  return {points("at", "axes where they meet still water, body axes; each ± makes two"),
+          quantity("diameter", dim::length, "of each").positive(),
+          quantity("draught", dim::length, "depth of the bottom of each, or \"to the sea bed\"")
+              .positive()
+              .one_of({"to the sea bed"}),
+          quantity("top", dim::length, "depth of the top of each; left out: they pierce the surface")
+              .positive()
+              .optional()};
+}
+
+const Table& other_cylinders() {
+  static const Table table{.title = "[[body.hydrodynamics.cylinders.others]]",
+                           .meaning = "cylinders of another size in the same body",
+                           .keys = keys_of_equal_cylinders()};
+  return table;
+}
+
 const Table& cylinders() {
-  static const Table table{
-      .title = "[body.hydrodynamics.cylinders]",
-      .meaning = "vertical cylinders: the program computes their coefficients exactly, with interaction",
-      .keys = {points("at", "axes where they meet still water, body axes; each ± makes two"),
-               quantity("diameter", dim::length, "of each").positive(),
-               quantity("draught", dim::length, "depth of the bottom of each, or \"to the sea bed\"")
-                   .positive()
-                   .one_of({"to the sea bed"}),
-               quantity("top", dim::length, "depth of the top of each; left out: they pierce the surface")
-                   .positive()
-                   .optional(),
-               range("frequencies", dim::angular_velocity,
-                     "of the table that is computed: \"0.2 rad/s .. 4 rad/s, 39 values\""),
-               range("headings", dim::angle, "of the table; without it those of [waves] and [ask]").optional()}};
+  static const Table table = [] {
+    Table out{.title = "[body.hydrodynamics.cylinders]",
+              .meaning = "vertical cylinders: the program computes their coefficients exactly, with interaction",
+              .keys = keys_of_equal_cylinders()};
+    out.keys.push_back(inner_tables("others", other_cylinders()).optional());
+    out.keys.push_back(range("frequencies", dim::angular_velocity,
+                             "of the table that is computed: \"0.2 rad/s .. 4 rad/s, 39 values\""));
+    out.keys.push_back(range("headings", dim::angle, "of the table; without it those of [waves] and [ask]").optional());
+    return out;
+  }();
   return table;
 }
 
@@ -410,12 +426,29 @@ const Table& integrator() {
   static const Table table{
       .title = "[solve.integrator]",
       .meaning = "how time is stepped",
-      .keys = {text("name", "of the method")
-                   .one_of({"generalized_alpha"})
-                   .or_default("generalized_alpha", "second order, damps only what the step cannot resolve"),
-               number("rho_infinity", "spectral radius at infinite frequency: 1 damps nothing, 0 all at once")
-                   .within(Limit::fraction)
-                   .or_default("0.8", "kills what is not resolved within some steps, leaves the rest alone")}};
+      .keys = {
+          text("name",
+               "of the method: generalized_alpha; energy_momentum keeps momentum, and energy of joints and weights, "
+               "and damps "
+               "nothing; explicit_pair, of orders 5 and 4, cuts steps by its own error; implicit_euler and "
+               "semi_implicit_euler, of order 1, show what they cost")
+              .one_of(
+                  {"generalized_alpha", "energy_momentum", "explicit_pair", "implicit_euler", "semi_implicit_euler"})
+              .or_default("generalized_alpha", "second order, damps only what the step cannot resolve"),
+          number("rho_infinity",
+                 "of generalized_alpha: spectral radius at infinite frequency: 1 damps nothing, 0 all at once")
+              .within(Limit::fraction)
+              .or_default("0.8", "kills what is not resolved within some steps, leaves the rest alone"),
+          number("tolerance", "of explicit_pair: local error of a step relative to what moves in it")
+              .positive()
+              .or_default("1e-8", "far below any other error of a run"),
+          text("lines",
+               "how each [[line]] is stepped; left out: energy_momentum, which keeps energy and lengths at any step")
+              .one_of({"energy_momentum", "generalised_alpha", "gamma", "semi_implicit_euler", "explicit_euler"})
+              .optional(),
+          number("gamma", "share of the new state in a step of lines = \"gamma\"; left out: 0.51")
+              .positive()
+              .optional()}};
   return table;
 }
 
@@ -444,8 +477,9 @@ const Table& motion_schema() {
                inner_table("water", water()), inner_table("waves", waves_table()).optional(),
                inner_table("current", current_table()).optional(), inner_tables("body", body()).optional(),
                inner_tables("probe", probe_table()).optional(), inner_tables("member", member_table()).optional(),
-               inner_tables("mooring", mooring()).optional(), inner_tables("connector", connector()).optional(),
-               inner_tables("joint", joint_table()).optional(), inner_tables("load", load_table()).optional(),
+               inner_tables("line", line_table()).optional(), inner_tables("mooring", mooring()).optional(),
+               inner_tables("connector", connector()).optional(), inner_tables("joint", joint_table()).optional(),
+               inner_tables("load", load_table()).optional(), inner_tables("contact", contact_table()).optional(),
                inner_table("ask", ask()), inner_table("solve", solve()).or_default("", "see its keys")}};
   return table;
 }

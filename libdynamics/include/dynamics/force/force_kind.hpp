@@ -99,6 +99,7 @@ struct EnergyFlow {
 };
 
 class FrictionKind;
+class ContactKind;
 
 class ForceKind {
  public:
@@ -124,6 +125,7 @@ class ForceKind {
 
   /// The set-valued laws of this kind, which an integrator must see; null if it has none.
   virtual const FrictionKind* friction() const { return nullptr; }
+  virtual const ContactKind* contact() const { return nullptr; }
 };
 
 /// ½ vᵀ (dM/dt) v of a kind's own mass along the motion, W (D40): by central differences over ± 10 µs, error of about

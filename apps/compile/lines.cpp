@@ -1,0 +1,226 @@
+#include "compile/lines.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compile/compile.hpp"
+#include "dynamics/line/equilibrium.hpp"
+#include "dynamics/line/path.hpp"
+#include "hydro/base/error.hpp"
+
+namespace froude::compile {
+namespace {
+
+namespace dl = dynamics::line;
+using hydro::InputError;
+using scene::Scene;
+
+dl::Segment segment(const scene::Line& l, const scene::Line::Link& link) {
+  dl::Segment s{.length = link.length, .mass = link.mass, .centre = link.centre, .inertia = link.inertia};
+  if (l.axial_stiffness) s.axial_stiffness = *l.axial_stiffness;
+  s.axial_damping = l.axial_damping;
+  s.pulls_only = l.pulls_only;
+  s.diameter = l.diameter;
+  if (l.morison) {
+    s.cd = l.morison->cd;
+    s.ca = l.morison->ca;
+    s.cd_tangential = l.morison->cd_tangential;
+  }
+  return s;
+}
+
+dl::Held end(const scene::Line& l, int node, bool first) {
+  dl::Held out{.node = node};
+  if (!l.lead || l.lead->first != first) return out;
+  out.path = std::make_shared<dl::SplinePath>(l.lead->time, l.lead->place);
+  const Eigen::Vector3d begins = out.path->at(0).position, stands = first ? l.from : *l.to;
+  if ((begins - stands).norm() > 1e-3)  // m: what a table of a path is rounded to
+    throw InputError(fmt::format("the path of \"{}\" is at ({:.4g}, {:.4g}, {:.4g}) m at t = 0, its end at ({:.4g}, "
+                                 "{:.4g}, {:.4g}) m",
+                                 l.name, begins.x(), begins.y(), begins.z(), stands.x(), stands.y(), stands.z()),
+                     l.place, "let `from` or `to` be where the path begins");
+  return out;
+}
+
+dl::Description description(const Scene& scene, const scene::Line& l,
+                            std::shared_ptr<const hydro::waves::WaveField> field) {
+  dl::Description d;
+  const int last = static_cast<int>(l.links.size());
+  d.nodes.assign(l.links.size() + 1, dl::Node{.mass = l.node_mass});
+  if (l.damping)
+    for (dl::Node& n : d.nodes) {
+      n.damping = l.damping->linear;
+      n.quadratic_damping = l.damping->quadratic;
+    }
+  d.componentwise_damping = l.damping && l.damping->componentwise;
+  for (const auto& link : l.links) d.segments.push_back(segment(l, link));
+  d.held.push_back(end(l, 0, true));
+  d.nodes.front().mass = 0;
+  if (l.to) {
+    d.held.push_back(end(l, last, false));
+    d.nodes.back().mass = 0;
+  }
+  d.gravity = scene.water.gravity;
+  if (l.bed) d.bed.push_back({-scene.water.depth.metres(), l.bed->stiffness, l.bed->damping});
+  if (l.morison || l.buoyancy)
+    d.water = {std::move(field), l.partial_immersion ? dl::Wet::below_surface : dl::Wet::all, l.buoyancy};
+  return d;
+}
+
+/// Where the line reaches of the place at which a node is to be held before its release: places are written with few
+/// digits, and a single link reaches one distance only.
+Eigen::Vector3d reached(const scene::Line& l) {
+  constexpr double written = 1e-3;  // of the way, that a place may be off
+  const Eigen::Vector3d way = l.release->at - l.from;
+  double reach = 0;
+  for (int j = 0; j < l.release->node; ++j) reach += l.links[static_cast<std::size_t>(j)].length;
+  const bool fixed = !l.axial_stiffness && (l.release->node == 1 || way.norm() > reach);
+  return fixed && std::abs(way.norm() - reach) <= written * reach ? Eigen::Vector3d(l.from + reach * way.normalized())
+                                                                  : l.release->at;
+}
+
+/// Rest without waves, in the current, with the node that is to be released held.
+dl::State at_rest(const Scene& scene, const scene::Line& l) {
+  const auto still = std::make_shared<hydro::waves::HarmonicField>(
+      std::vector<hydro::waves::Harmonic>{}, scene.water, hydro::waves::HarmonicField::Options{}, scene.current);
+  dl::Description d = description(scene, l, still);
+  if (l.release) d.held.push_back({.node = l.release->node});
+  const dl::Line line(std::move(d));
+  dl::State places{.position = dl::Places::Zero(3, line.nodes()),
+                   .velocity = dl::Places::Zero(3, line.nodes()),
+                   .tension = Eigen::VectorXd::Zero(line.segments())};
+  places.position.col(0) = l.from;
+  if (l.to) places.position.col(line.nodes() - 1) = *l.to;
+  if (l.release) places.position.col(l.release->node) = reached(l);
+  return dl::equilibrium(line, dl::hanging_shape(line, places));
+}
+
+}  // namespace
+
+std::vector<LineModel> line_models(const Scene& scene, const RunWater& water) {
+  std::vector<LineModel> out;
+  for (const scene::Line& l : scene.chains) {
+    try {
+      LineModel m{.name = l.name,
+                  .line = std::make_unique<const dl::Line>(description(scene, l, water.field)),
+                  .start = at_rest(scene, l),
+                  .settings = {.scheme = dl::parse_scheme(scene.solve.line_scheme),
+                               .rho_infinity = scene.solve.rho_infinity,
+                               .gamma = scene.solve.gamma}};
+      const dl::Stepper refuses(*m.line, m.settings);
+      out.push_back(std::move(m));
+    } catch (const InputError& e) {
+      throw e.at(l.place);
+    } catch (const hydro::NumericsError& e) {
+      throw hydro::NumericsError(fmt::format("line \"{}\": {}", l.name, e.what()));
+    }
+  }
+  return out;
+}
+
+PlanLine plan_line(const LineModel& m) {
+  std::string method(dl::name_of(m.settings.scheme));
+  std::replace(method.begin(), method.end(), '_', ' ');
+  return {"line " + m.name, method + " on a chain of its own, one band elimination an iteration",
+          fmt::format("{} segments, {} unknowns", m.line->segments(), 3 * m.line->nodes() + m.line->segments()), true};
+}
+
+LineRun::LineRun(const LineModel& model) : model_(model), state_(model.start), stepper_(*model.line, model.settings) {
+  stepper_.start(state_);
+  first_height_ = energies().height;
+  look();
+}
+
+dl::StepReport LineRun::step(double h) {
+  try {
+    return stepper_.step(state_, h);
+  } catch (const hydro::NumericsError& e) {
+    throw hydro::NumericsError(fmt::format("line \"{}\": {}", model_.name, e.what()));
+  }
+}
+
+void LineRun::look() {
+  const dl::Energies& e = energies();
+  turnover_ = std::max(
+      {turnover_, e.kinetic, e.axial, std::abs(e.height - first_height_), std::abs(e.supplied()), e.dissipated()});
+  if (auto found = stepper_.balance(state_)) {
+    balance_ = std::move(*found);
+  } else {
+    balance_ = {.acceleration = dl::Places::Zero(3, model_.line->nodes()),
+                .tension = state_.tension,
+                .holding = dl::Places::Zero(3, model_.line->nodes())};
+  }
+  const bool first = angles_.empty();
+  angles_.resize(static_cast<std::size_t>(model_.line->segments()));
+  for (int j = 0; j < model_.line->segments(); ++j) {
+    Angles& a = angles_[static_cast<std::size_t>(j)];
+    const dl::LinkAngles now = first ? dl::link_angles(state_, j) : dl::link_angles(state_, j, a);
+    const dl::LinkAngles rate = dl::link_rates(state_, j, now);
+    a = {{now.polar, now.azimuth}, rate.polar, rate.azimuth};
+  }
+}
+
+namespace {
+
+void add_nodes(std::size_t k, const LineModel& m, std::vector<LineProbe>& out) {
+  for (int i = 0; i < m.line->nodes(); ++i) {
+    const auto* held = m.line->held(i);
+    if (held != nullptr && !held->path) continue;
+    for (int axis = 0; axis < 3; ++axis)
+      out.push_back({k, fmt::format("{}.node{}.{}", m.name, i, "xyz"[axis]), "m",
+                     fmt::format("{} of node {} of {}", "xyz"[axis], i, m.name),
+                     [i, axis](const LineRun& r) { return r.state().position(axis, i); }});
+  }
+}
+
+void add_links(std::size_t k, const LineModel& m, std::vector<LineProbe>& out) {
+  for (int j = 0; j < m.line->segments(); ++j) {
+    const auto add = [&](const char* what, const char* unit, const char* meaning, auto read) {
+      out.push_back({k, fmt::format("{}.link{}.{}", m.name, j + 1, what), unit,
+                     fmt::format("{} of link {} of {}", meaning, j + 1, m.name), read});
+    };
+    const auto at = static_cast<std::size_t>(j);
+    add("tension", "N", "tension", [j](const LineRun& r) { return r.balance().tension[j]; });
+    add("polar", "rad", "angle below the horizontal", [at](const LineRun& r) { return r.angles()[at].polar; });
+    add("azimuth", "rad", "direction from x towards y", [at](const LineRun& r) { return r.angles()[at].azimuth; });
+    add("polar_rate", "rad/s", "rate of the polar angle", [at](const LineRun& r) { return r.angles()[at].polar_rate; });
+    add("azimuth_rate", "rad/s", "rate of the azimuth", [at](const LineRun& r) { return r.angles()[at].azimuth_rate; });
+  }
+}
+
+void add_whole(std::size_t k, const LineModel& m, std::vector<LineProbe>& out) {
+  const auto add = [&](const std::string& what, const char* unit, const char* meaning, auto read) {
+    out.push_back({k, m.name + "." + what, unit, fmt::format("{} of {}", meaning, m.name), read});
+  };
+  add("largest_tension", "N", "largest tension", [](const LineRun& r) { return r.balance().tension.maxCoeff(); });
+  add("from.force", "N", "pull on what holds the first node",
+      [](const LineRun& r) { return r.balance().holding.leftCols<1>().norm(); });
+  if (m.line->held(m.line->nodes() - 1) != nullptr)
+    add("to.force", "N", "pull on what holds the last node",
+        [](const LineRun& r) { return r.balance().holding.rightCols<1>().norm(); });
+  const auto energy = [&](const char* what, auto read) {
+    out.push_back({k, fmt::format("energy.{}.{}", m.name, what), "J", fmt::format("energy of {}: {}", m.name, what),
+                   [read](const LineRun& r) { return read(r.energies()); }});
+  };
+  energy("kinetic", [](const dl::Energies& e) { return e.kinetic; });
+  energy("stored", [](const dl::Energies& e) { return e.height + e.axial + e.bed; });
+  energy("supplied", [](const dl::Energies& e) { return e.supplied(); });
+  energy("dissipated", [](const dl::Energies& e) { return e.dissipated(); });
+  energy("residual", [](const dl::Energies& e) { return e.residual(); });
+}
+
+}  // namespace
+
+std::vector<LineProbe> line_probes(const std::vector<LineModel>& models) {
+  std::vector<LineProbe> out;
+  for (std::size_t k = 0; k < models.size(); ++k) {
+    add_nodes(k, models[k], out);
+    add_links(k, models[k], out);
+    add_whole(k, models[k], out);
+  }
+  return out;
+}
+
+}  // namespace froude::compile

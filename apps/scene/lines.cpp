@@ -1,0 +1,105 @@
+#include <fmt/format.h>
+
+#include "hydro/io/csv.hpp"
+#include "scene/build.hpp"
+
+namespace froude::scene {
+namespace {
+
+/// Equal segments of a line, or its links one by one.
+std::vector<Line::Link> read_links(const Record& record) {
+  std::vector<Line::Link> out;
+  if (!record.has("length")) {
+    for (const Record& link : record.tables("link")) {
+      const double length = link.si("length"), mass = link.si("mass");
+      out.push_back(
+          {length, mass, link.si("centre"), link.has("inertia") ? link.si("inertia") : mass * length * length / 12});
+    }
+    return out;
+  }
+  for (const char* key : {"segments", "mass_per_length"})
+    if (!record.has(key)) throw record.refused(fmt::format("needs the key \"{}\" beside \"length\"", key));
+  constexpr std::int64_t most = 1'000'000;
+  const std::int64_t count = record["segments"].integer;
+  if (count > most) throw record.wrong("segments", fmt::format("is more than {}", most));
+  const double length = record.si("length") / static_cast<double>(count), mass = record.si("mass_per_length") * length;
+  const double inertia = mass * length * length / (record.text("mass_at") == "nodes" ? 4 : 12);
+  out.assign(static_cast<std::size_t>(count), {length, mass, 0.5, inertia});
+  return out;
+}
+
+Line::Damping read_damping(const Record& record) {
+  return {record.has("linear") ? record.si("linear") : 0, record.has("quadratic") ? record.si("quadratic") : 0,
+          record.has("componentwise")};
+}
+
+Line::Release read_release(const Record& record, const Line& line) {
+  const auto last = static_cast<std::int64_t>(line.links.size());
+  const std::int64_t node = record["node"].integer;
+  if (node > last || (node == last && line.to))
+    throw record.wrong("node", fmt::format("is not a free node: the line has {} segments", last),
+                       "count nodes from 0 at `from`");
+  return {static_cast<int>(node), record.vector("at")};
+}
+
+/// The path begins where the end is, at t = 0 or before.
+Line::Lead read_lead(const Record& record, const Line& line, const std::filesystem::path& file) {
+  Line::Lead out{.first = record.text("end") == "from", .time = {}, .place = {}};
+  if (!out.first && !line.to)
+    throw record.wrong("end", "is free: the line has no `to`", "add `to`, or lead the end \"from\"");
+  const auto table = hydro::io::CsvTable::read(beside(file, record.text("file")));
+  out.time = table.column("time", hydro::dim::time);
+  const auto &x = table.column("x", hydro::dim::length), &y = table.column("y", hydro::dim::length),
+             &z = table.column("z", hydro::dim::length);
+  for (std::size_t i = 0; i < x.size(); ++i) out.place.emplace_back(x[i], y[i], z[i]);
+  if (out.time.size() < 2) throw record.wrong("file", "holds fewer than two places of the path");
+  for (std::size_t i = 1; i < out.time.size(); ++i)
+    if (!(out.time[i] > out.time[i - 1]))
+      throw hydro::InputError("times of a path must increase", table.place_of("time", i));
+  if (out.time.front() > 0) throw record.wrong("file", "begins after t = 0", "let the path begin at t = 0 or before");
+  return out;
+}
+
+void check_surroundings(const Record& record, const Line& line, const Scene& scene) {
+  const bool wet = line.morison || line.buoyancy;
+  if (line.partial_immersion && !wet)
+    throw record.refused("is immersed in part, but nothing of the water acts on it",
+                         "add morison or buoyancy = true, or leave partial_immersion out");
+  if (line.bed && scene.water.depth.is_infinite())
+    throw record.table("bed").refused("needs a bed, but the water is infinitely deep", "give [water] a depth");
+  if (!wet && !line.bed && record.has("diameter"))
+    throw record.wrong("diameter", "acts on nothing here", "leave it out, or add morison, buoyancy or bed");
+}
+
+}  // namespace
+
+void build_lines(const Record& root, const std::filesystem::path& file, Names& names, Scene& scene) {
+  for (const Record& record : root.tables("line")) {
+    Line line;
+    line.name = names.of(record, 1).front();
+    line.from = record.vector("from");
+    if (record.has("to")) line.to = record.vector("to");
+    line.links = read_links(record);
+    const auto number = [&](std::string_view key) { return record.has(key) ? record.si(key) : 0.0; };
+    line.node_mass = number("node_mass");
+    line.diameter = number("diameter");
+    if (record.has("axial_stiffness")) line.axial_stiffness = record.si("axial_stiffness");
+    line.axial_damping = number("axial_damping");
+    line.pulls_only = record.has("pulls_only");
+    line.buoyancy = record.has("buoyancy");
+    line.partial_immersion = record.has("partial_immersion");
+    if (record.has("morison")) {
+      const Record& m = record.table("morison");
+      line.morison = {m.si("cd"), m.si("ca"), m.si("cd_tangential")};
+    }
+    if (record.has("damping")) line.damping = read_damping(record.table("damping"));
+    if (record.has("bed")) line.bed = {record.table("bed").si("stiffness"), record.table("bed").si("damping")};
+    if (record.has("release")) line.release = read_release(record.table("release"), line);
+    if (record.has("lead")) line.lead = read_lead(record.table("lead"), line, file);
+    line.place = record.place();
+    check_surroundings(record, line, scene);
+    scene.chains.push_back(std::move(line));
+  }
+}
+
+}  // namespace froude::scene

@@ -1,0 +1,125 @@
+/// \file  The tables of lines that are stepped: droppers, chains of pendulums, cables.
+#include "scene/schema_line.hpp"
+
+namespace froude::scene {
+namespace {
+
+namespace dim = hydro::dim;
+using enum Group::Count;
+
+const Table& link() {
+  static const Table table{
+      .title = "[[line.link]]",
+      .meaning = "one rigid link, in order from `from`",
+      .keys = {quantity("length", dim::length, "of the link").positive(),
+               quantity("mass", dim::mass, "of the link").within(Limit::not_negative),
+               number("centre", "of its mass: share of the length from its first node")
+                   .within(Limit::fraction)
+                   .or_default("0.5", "the middle"),
+               quantity("inertia", dim::inertia, "about that centre, across; left out: a uniform rod's, m l^2/12")
+                   .within(Limit::not_negative)
+                   .optional()}};
+  return table;
+}
+
+const Table& morison() {
+  static const Table table{
+      .title = "[line.morison]",
+      .meaning = "drag, Froude-Krylov load and added mass of the segments where they are at each instant",
+      .keys = {number("cd", "drag coefficient across the segment").within(Limit::not_negative),
+               number("ca", "added mass over displaced mass, across the segment").within(Limit::not_negative),
+               number("cd_tangential", "drag coefficient along the segment, of its skin pi D")
+                   .within(Limit::not_negative)
+                   .or_default("0", "a smooth cylinder has some 0.01")}};
+  return table;
+}
+
+const Table& damping() {
+  static const Table table{
+      .title = "[line.damping]",
+      .meaning = "of each node, against its velocity",
+      .keys = {quantity("linear", dim::mass / dim::time, "b_l of -b_l v").positive().optional(),
+               quantity("quadratic", dim::mass / dim::length, "b_q of -b_q |v| v").positive().optional(),
+               effect("componentwise", "-b_q |v_i| v_i for each component instead, which depends on the axes")
+                   .optional()
+                   .only_beside("quadratic")},
+      .groups = {{at_least_one, {"linear", "quadratic"}}}};
+  return table;
+}
+
+const Table& bed() {
+  static const Table table{
+      .title = "[line.bed]",
+      .meaning = "the sea bed at the water's depth pushes back where the line sinks into it",
+      .keys = {
+          quantity("stiffness", dim::pressure / dim::length, "pressure per depth, on the line's diameter").positive(),
+          quantity("damping", dim::pressure / dim::velocity, "pressure per velocity; never pulls")
+              .within(Limit::not_negative)
+              .or_default("0 Pa s/m", "what is not named does not act")}};
+  return table;
+}
+
+const Table& release() {
+  static const Table table{.title = "[line.release]",
+                           .meaning = "the line starts at rest with one node held, and is let go at t = 0",
+                           .keys = {integer("node", "counted from 0 at `from`").within(Limit::at_least_one),
+                                    vector("at", dim::length, "where it is held, global")}};
+  return table;
+}
+
+const Table& lead() {
+  static const Table table{
+      .title = "[line.lead]",
+      .meaning = "one end is led along a path",
+      .keys = {text("end", "which: \"from\" or \"to\"").one_of({"from", "to"}),
+               text("file", "CSV beside the scene with time, x, y, z; a cubic spline goes through its points")}};
+  return table;
+}
+
+}  // namespace
+
+const Table& line_table() {
+  static const Table table{
+      .title = "[[line]]",
+      .meaning = "a chain of nodes and straight segments between two places: dropper, cable, pendulums; it has weight",
+      .keys =
+          {name_key("line", "of the line"),
+           vector("from", dim::length, "where its first node is held, global"),
+           vector("to", dim::length, "where its last node is held, global; left out: a free end").optional(),
+           quantity("length", dim::length, "of the line without tension").positive().optional(),
+           integer("segments", "into which it is cut").within(Limit::at_least_one).optional().only_beside("length"),
+           quantity("mass_per_length", dim::mass / dim::length, "of the line")
+               .positive()
+               .optional()
+               .only_beside("length"),
+           text("mass_at", "\"nodes\": half a segment's mass at either end; \"segments\": spread along it")
+               .one_of({"nodes", "segments"})
+               .or_default("segments", "as a line has it")
+               .only_beside("length"),
+           inner_tables("link", link()).optional(),
+           quantity("node_mass", dim::mass, "of a bob, pin or clump at every node that is not held")
+               .positive()
+               .optional(),
+           quantity("diameter", dim::length, "that the water and the bed meet").positive().optional(),
+           quantity("axial_stiffness", dim::force, "EA: tension per strain; left out: segments keep their length")
+               .positive()
+               .optional(),
+           quantity("axial_damping", dim::force * dim::time, "tension per rate of strain")
+               .positive()
+               .optional()
+               .only_beside("axial_stiffness"),
+           effect("pulls_only", "segments go slack instead of being pressed").optional().only_beside("axial_stiffness"),
+           effect("buoyancy", "weight of the water that it displaces").optional().only_beside("diameter"),
+           effect("partial_immersion", "only what is under the waves is wet; left out: all of it, always")
+               .optional()
+               .only_beside("diameter"),
+           inner_table("morison", morison()).optional().only_beside("diameter"),
+           inner_table("damping", damping()).optional(),
+           inner_table("bed", bed()).optional().only_beside("diameter"),
+           inner_table("release", release()).optional(),
+           inner_table("lead", lead()).optional()},
+      .groups = {{exactly_one, {"length", "link"}}}};
+  return table;
+}
+
+}  // namespace froude::scene

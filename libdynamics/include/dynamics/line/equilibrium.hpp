@@ -1,0 +1,24 @@
+#pragma once
+/// \file  Lines at rest: the closed-form discrete catenary, and rest under any loads. (D85), (D86)
+#include "dynamics/line/line.hpp"
+
+namespace dynamics::line {
+
+/// How each span between held nodes hangs under constant loads (weight, lasting buoyancy, given forces) alone, and what
+/// is beyond the last held node: the discrete catenary (D85), exact for segments that keep their lengths and for
+/// springs. Held nodes stand in `places` where they are; its other nodes are not looked at. Where a segment would have
+/// to be pressed (ends closer than it), the shape is near and not exact: equilibrium() goes on from there. \throws
+/// hydro::InputError if a span that cannot stretch is shorter than the way between its ends, saying by how much
+State hanging_shape(const Line& line, const State& places);
+
+/// What rest took.
+struct RestReport {
+  int steps = 0, newton_iterations = 0;
+};
+
+/// Rest under all loads at the time of `guess` with velocities zero: steps of steepest descent made implicit, longer
+/// and longer, then Newton (D86). `guess` has its held nodes in place and its lengths kept or nearly so. \throws
+/// hydro::NumericsError with what is left over and at which node
+State equilibrium(const Line& line, const State& guess, RestReport* report = nullptr);
+
+}  // namespace dynamics::line

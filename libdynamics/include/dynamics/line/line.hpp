@@ -1,0 +1,142 @@
+#pragma once
+/// \file  A chain of nodes and straight segments: pendulums, droppers, cables and moorings. (D70)-(D76)
+///
+/// Nodes have Cartesian places, so that no direction is special. A segment is a rod without torsion: it keeps its
+/// length (its tension is then what does so) or stretches by a law. n segments join n + 1 nodes, one after the other.
+#include <Eigen/Core>
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "hydro/waves/field.hpp"
+
+namespace dynamics::line {
+
+using Places = Eigen::Matrix3Xd;  ///< one column a node
+
+/// From one node to the next.
+struct Segment {
+  double length;        ///< ℓ, unstretched, m, > 0
+  double mass = 0;      ///< m, kg
+  double centre = 0.5;  ///< of the mass: share of the length from the first node
+  double inertia = 0;  ///< about that centre, across the axis, kg m²: mℓ²/12 of a uniform rod, mℓ²/4 of two half masses
+  double axial_stiffness = std::numeric_limits<double>::infinity();  ///< EA, N; ∞: keeps its length
+  double axial_damping = 0;                                          ///< N per strain rate, N s
+  bool pulls_only = false;                                           ///< goes slack instead of being pressed
+  double diameter = 0;                                               ///< of what the water and the bed meet, m
+  double cd = 0, cd_tangential = 0, ca = 0;  ///< drag across the axis and of the skin πD, added mass across (D74)
+
+  /// A uniform rod, or half the mass at either end.
+  static Segment rod(double length, double mass);
+  static Segment bobs(double length, double mass);
+  bool keeps_length() const { return axial_stiffness == std::numeric_limits<double>::infinity(); }
+};
+
+struct Node {
+  double mass = 0;                                  ///< a bob, clump or pin besides the segments' own, kg
+  double damping = 0, quadratic_damping = 0;        ///< −b_l v − b_q |v| v, kg/s and kg/m (D73)
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< constant, N
+};
+
+/// Where a node is led, whatever pulls at it. Immutable.
+class Path {
+ public:
+  struct Place {
+    Eigen::Vector3d position, velocity, acceleration;
+  };
+  virtual ~Path() = default;
+  virtual Place at(double t_s) const = 0;
+};
+
+/// A node led along a path; it holds still without one.
+struct Held {
+  int node;
+  std::shared_ptr<const Path> path = nullptr;
+};
+
+/// A level bed that pushes back at nodes under it, as an area of bed under each segment's diameter. (D75)
+struct Bed {
+  double z;          ///< m
+  double stiffness;  ///< Pa per metre of depth
+  double damping;    ///< Pa per m/s
+};
+
+/// Which part of the line is taken as wet.
+enum class Wet { nothing, all, below_surface };
+
+/// The water and what of it acts.
+struct Surroundings {
+  std::shared_ptr<const hydro::waves::WaveField> field = nullptr;  ///< null: no water
+  Wet wet = Wet::nothing;
+  bool buoyancy = false;
+};
+
+/// What is given of a line.
+struct Description {
+  std::vector<Node> nodes;
+  std::vector<Segment> segments;  ///< one fewer than nodes
+  std::vector<Held> held;
+  double gravity = 9.81;      ///< m/s²; 0: no weight
+  std::vector<Bed> bed = {};  ///< none or one
+  Surroundings water = {};
+  bool componentwise_damping = false;  ///< −b_q |v_i| v_i instead, as Huijgen 2024, eq. 4.14 with its sign put right
+};
+
+/// A line, checked, with its constant matrices. Immutable.
+class Line {
+ public:
+  /// \throws hydro::InputError naming the node or segment whose numbers cannot be
+  explicit Line(Description description);
+
+  int nodes() const { return static_cast<int>(d_.nodes.size()); }
+  int segments() const { return static_cast<int>(d_.segments.size()); }
+  const Node& node(int i) const { return d_.nodes[static_cast<std::size_t>(i)]; }
+  const Segment& segment(int j) const { return d_.segments[static_cast<std::size_t>(j)]; }
+  const Description& description() const { return d_; }
+
+  /// Null: free. Otherwise where node i is held, by its path or where it was at the start.
+  const Held* held(int i) const {
+    const int k = held_[static_cast<std::size_t>(i)];
+    return k < 0 ? nullptr : &d_.held[static_cast<std::size_t>(k)];
+  }
+  /// The mass matrix (D71) is block-tridiagonal with m ⊗ 1: its diagonal, and what joins nodes j and j + 1, kg.
+  double mass(int i) const { return diagonal_[i]; }
+  double mass_between(int j) const { return between_[j]; }
+  /// Weight, buoyancy of what is always wet, and the given constant load of each node, N.
+  const Places& constant_load() const { return constant_; }
+  /// Area of bed under a node, m²: diameter times half of each segment beside it.
+  double bed_area(int i) const { return bed_area_[i]; }
+  bool has_massless_nodes() const;
+  double length() const;
+
+ private:
+  void find_held();
+  Description d_;
+  std::vector<int> held_;  // index into d_.held, −1: free
+  Eigen::VectorXd diagonal_, between_, bed_area_;
+  Places constant_;
+};
+
+/// Where a line is and how it moves.
+struct State {
+  double time = 0;
+  Places position, velocity;
+  Eigen::VectorXd tension;  ///< of each segment, N, > 0 pulls
+};
+
+/// Direction of a link as Huijgen 2024 has it (eqs. 4.3-4.5): d = ℓ (cos θ cos φ, cos θ sin φ, −sin θ).
+struct LinkAngles {
+  double polar;    ///< θ from the horizontal, positive down, −π/2 … π/2
+  double azimuth;  ///< φ from x towards y, −π … π; of a vertical link 0
+};
+LinkAngles link_angles(const State& state, int segment);
+
+/// The same with the branch (θ, φ) or (π − θ, φ + π), and the turn, that is nearest to `before`: series without jumps.
+LinkAngles link_angles(const State& state, int segment, const LinkAngles& before);
+
+/// Rates of those angles, rad/s, for a link whose angles are `now` (of either branch). Of a vertical link the azimuth
+/// has none: 0.
+LinkAngles link_rates(const State& state, int segment, const LinkAngles& now);
+
+}  // namespace dynamics::line

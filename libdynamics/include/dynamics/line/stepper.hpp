@@ -1,0 +1,84 @@
+#pragma once
+/// \file  Time stepping of lines, and their energy ledger. (D77), (D79)-(D82), (D84)
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "dynamics/line/line.hpp"
+
+namespace dynamics::line {
+
+/// How a line is stepped. The last three are those of Huijgen 2024, on the same chain without angles.
+enum class Scheme {
+  energy_momentum,    ///< midpoint with the means of pulls over the step: keeps energy and lengths, second order (D79)
+  generalised_alpha,  ///< second order, damps what is faster than the step by ρ∞ (D80)
+  gamma,              ///< γ new + (1 − γ) old: 1 implicit Euler, ½ trapezium; of first order but at ½ (D81)
+  semi_implicit_euler,  ///< velocity by the loads at the start, then place by the new velocity (D82)
+  explicit_euler        ///< both by what is known at the start (D82)
+};
+/// "energy_momentum", …; \throws hydro::InputError naming the nearest
+Scheme parse_scheme(std::string_view name);
+std::string_view name_of(Scheme scheme);
+
+/// Where energy is and where it went since the start, J. (D84)
+struct Energies {
+  double kinetic = 0, height = 0, axial = 0, bed = 0;    ///< held; height: of weight, buoyancy, constant loads
+  double held = 0, drag = 0, inertia = 0, buoyancy = 0;  ///< supplied by what leads nodes, and by the water
+  double lost_damping = 0, lost_drag = 0, lost_axial = 0, lost_bed = 0;  ///< dissipated
+  double at_start = 0;
+
+  double total() const { return kinetic + height + axial + bed; }
+  double supplied() const { return held + drag + inertia + buoyancy; }
+  double dissipated() const { return lost_damping + lost_drag + lost_axial + lost_bed; }
+  double residual() const { return total() - at_start - supplied() + dissipated(); }
+};
+
+/// What one full step took.
+struct StepReport {
+  int newton_iterations = 0, halvings = 0;
+};
+
+/// Steps one line. Every implicit step is Newton's with line search; a step that fails is halved; lengths that are kept
+/// are exact at the end of every step. Cost O(nodes) an iteration.
+class Stepper {
+ public:
+  struct Settings {
+    Scheme scheme = Scheme::energy_momentum;
+    double rho_infinity = 0.8;  ///< of generalised-α
+    double gamma = 0.51;        ///< of the γ-method
+    double tolerance = 1e-9;    ///< of Newton's last correction, relative to displacement of the step and tension
+    int iterations = 25;
+    int deepest_halving = 10;  ///< a step is cut into 2¹⁰ pieces at most
+  };
+
+  /// \throws hydro::InputError for settings that cannot be, and for massless free nodes where the scheme needs mass
+  Stepper(const Line& line, const Settings& settings);
+  ~Stepper();
+  Stepper(const Stepper&) = delete;
+  Stepper& operator=(const Stepper&) = delete;
+
+  /// Begins at `state`: nodes on paths are put there, tensions found. \throws hydro::InputError naming the segment if a
+  /// length is not kept, or velocities change it; hydro::NumericsError if there are no accelerations
+  void start(State& state);
+
+  /// One step of h seconds. \throws hydro::NumericsError naming time, node and reason when halving is of no use;
+  /// `state` is then the last good one
+  StepReport step(State& state, double h);
+
+  /// Of the state after the last step.
+  const Energies& energies() const;
+
+  /// What balances a state, whatever the step did (D77); nothing if masses leave it open.
+  struct Balance {
+    Places acceleration;
+    Eigen::VectorXd tension;
+    Places holding;  ///< the force on each held node by what holds it, N; zero for free ones
+  };
+  std::optional<Balance> balance(const State& state);
+
+ private:
+  struct Work;
+  std::unique_ptr<Work> work_;
+};
+
+}  // namespace dynamics::line

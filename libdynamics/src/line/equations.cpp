@@ -1,0 +1,262 @@
+#include "equations.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "springs.hpp"
+
+namespace dynamics::line {
+namespace {
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+}  // namespace
+
+Stage instant(const State& state, const Places& a) {
+  return {.t = state.time,
+          .end = state.time,
+          .h = 0,
+          .x_by = 0,
+          .v_by = 0,
+          .a_by = 1,
+          .v_from = state.velocity,
+          .a_from = a};
+}
+
+Equations::Equations(const Line& line)
+    : line_(line), loads_(line), matrix_(4 * line.nodes()), rhs_(4 * line.nodes()), law_(line.segments()) {
+  blocks_.set_zero(line.nodes());
+  x_ = v_ = a_ = force_ = residual_ = Places::Zero(3, line.nodes());
+}
+
+void Equations::move(const Stage& stage, const State& before, const Places& u) {
+  x_ = before.position + stage.x_by * u;
+  v_ = stage.v_from + stage.v_by * u;
+  a_ = stage.a_from + stage.a_by * u;
+  if (stage.still) return;
+  for (const Held& h : line_.description().held) {
+    const Path::Place end =
+        h.path ? h.path->at(stage.end) : Path::Place{before.position.col(h.node), Vector3d::Zero(), Vector3d::Zero()};
+    v_.col(h.node) = stage.mean ? (u.col(h.node) / stage.h).eval() : end.velocity;
+    a_.col(h.node) = stage.mean ? ((end.velocity - before.velocity.col(h.node)) / stage.h).eval() : end.acceleration;
+  }
+}
+
+// (D72), (D79)
+Equations::Pull Equations::pull(int j, const Stage& stage, const State& before, double T) const {
+  const Segment& s = line_.segment(j);
+  const Vector3d d0 = before.position.col(j + 1) - before.position.col(j);
+  Vector3d d1 = x_.col(j + 1) - x_.col(j);
+  if (stage.mean) d1 = 2 * d1 - d0;  // x_ is in the middle of the step
+  const double r1 = d1.norm(), r0 = stage.mean ? d0.norm() : r1;
+  const Vector3d t1 = r1 > 0 ? Vector3d(d1 / r1) : Vector3d::Zero();
+  const double middle = (r0 + r1) / 2;
+  const double own = stage.mean ? 0.5 : 1;  // of both ends of the step, the share of this one
+  Pull p;
+  p.direction = stage.mean && middle > 0 ? Vector3d((d0 + d1) / (2 * middle)) : t1;
+  p.direction_by.setZero();
+  if (middle > 0) p.direction_by = own * (Matrix3d::Identity() - p.direction * t1.transpose()) / middle;
+  const Vector3d w = v_.col(j + 1) - v_.col(j);
+  const bool at_once = stage.x_by == 0;
+  if (s.keeps_length()) {
+    p.law = r1 - s.length;
+    if (at_once)  // (D77): t·ẅ + |w across t|²/ℓ = 0
+      p.law = t1.dot(a_.col(j + 1) - a_.col(j)) + (w - t1 * t1.dot(w)).squaredNorm() / r1;
+    p.law_by = t1;
+    p.law_by_T = 0;
+    return p;
+  }
+  const double k = s.axial_stiffness / s.length, c = s.axial_damping / s.length;
+  const double rate = stage.mean ? (r1 - r0) / stage.h : t1.dot(w);
+  const Vector3d rate_by =
+      stage.mean ? Vector3d(t1 / stage.h) : Vector3d(stage.v_by * t1 + (r1 > 0 ? (w - t1 * t1.dot(w)) / r1 : w));
+  const Answer spring =
+      s.pulls_only ? one_sided_spring(k, r0 - s.length, r1 - s.length) : Answer{k * (middle - s.length), own * k, 0};
+  const Answer answer =
+      s.pulls_only ? with_damper(spring, c * rate) : Answer{spring.force + c * rate, spring.by_stretch, 1};
+  p.lost = (answer.force - spring.force) * rate;
+  p.law = (T - answer.force) / k;
+  p.law_by_T = 1 / k;
+  p.law_by = -(answer.by_stretch * t1 + answer.by_damper * c * rate_by) / k;
+  if (at_once) p.law_by.setZero();
+  return p;
+}
+
+void Equations::add_block(int row, int column, const Matrix3d& block) {
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) matrix_(place_index(row) + r, place_index(column) + c) += block(r, c);
+}
+
+// The columns of T_j, in units of the matrix's own scale.
+void Equations::set_pull(int j, const Vector3d& direction) {
+  for (int r = 0; r < 3; ++r) {
+    matrix_(place_index(j) + r, tension_index(j)) = -scale_ * direction[r];
+    matrix_(place_index(j + 1) + r, tension_index(j)) = scale_ * direction[r];
+  }
+}
+
+/// Masses and the derivative of loads in blocks_.
+void Equations::fill(double mass_by, double relax) {
+  matrix_.set_zero();
+  for (int i = 0; i < line_.nodes(); ++i)
+    add_block(i, i,
+              (mass_by * line_.mass(i) + relax) * Matrix3d::Identity() - blocks_.diagonal[static_cast<std::size_t>(i)]);
+  for (int j = 0; j < line_.segments(); ++j) {
+    const Matrix3d joined = mass_by * line_.mass_between(j) * Matrix3d::Identity();
+    add_block(j, j + 1, joined - blocks_.upper[static_cast<std::size_t>(j)]);
+    add_block(j + 1, j, joined - blocks_.lower[static_cast<std::size_t>(j)]);
+  }
+}
+
+// M a, not of nodes that relax.
+void Equations::add_mass(const Places& a) {
+  for (int i = 0; i < line_.nodes(); ++i) residual_.col(i) += line_.mass(i) * a.col(i);
+  for (int j = 0; j < line_.segments(); ++j) {
+    residual_.col(j) += line_.mass_between(j) * a.col(j + 1);
+    residual_.col(j + 1) += line_.mass_between(j) * a.col(j);
+  }
+}
+
+// (D75), (D79)
+Equations::Push Equations::bed(int i, const Stage& stage, const State& before) const {
+  const Bed& bed = line_.description().bed.front();
+  const double k = bed.stiffness * line_.bed_area(i), c = bed.damping * line_.bed_area(i);
+  const double z0 = before.position(2, i), z1 = stage.mean ? 2 * x_(2, i) - z0 : x_(2, i);
+  const double depth1 = bed.z - z1, depth0 = stage.mean ? bed.z - z0 : depth1;
+  const double rate = stage.mean ? (z0 - z1) / stage.h : -v_(2, i);
+  const Answer spring = one_sided_spring(k, depth0, depth1), answer = with_damper(spring, c * rate);
+  double by_end = answer.by_stretch + answer.by_damper * c * (stage.mean ? 1 / stage.h : stage.v_by);
+  if (stage.x_by == 0) by_end = 0;
+  return {answer.force, by_end, (answer.force - spring.force) * rate};
+}
+
+void Equations::add_bed(const Stage& stage, const State& before, bool matrix) {
+  if (line_.description().bed.empty()) return;
+  for (int i = 0; i < line_.nodes(); ++i) {
+    const Push push = bed(i, stage, before);
+    residual_(2, i) -= push.force;
+    if (matrix) matrix_(place_index(i) + 2, place_index(i) + 2) += push.by_end;
+  }
+}
+
+void Equations::add_pulls(const Stage& stage, const State& before, const VectorXd& T, bool matrix) {
+  for (int j = 0; j < line_.segments(); ++j) {
+    const Pull p = pull(j, stage, before, T[j]);
+    residual_.col(j) -= T[j] * p.direction;
+    residual_.col(j + 1) += T[j] * p.direction;
+    law_[j] = p.law;
+    if (!matrix) continue;
+    const Matrix3d stiffness = stage.x_by == 0 ? Matrix3d::Zero() : Matrix3d(T[j] * p.direction_by);
+    add_block(j, j, stiffness);
+    add_block(j + 1, j + 1, stiffness);
+    add_block(j, j + 1, -stiffness);
+    add_block(j + 1, j, -stiffness);
+    set_pull(j, p.direction);
+    for (int c = 0; c < 3; ++c) {
+      matrix_(tension_index(j), place_index(j) + c) = -scale_ * p.law_by[c];
+      matrix_(tension_index(j), place_index(j + 1) + c) = scale_ * p.law_by[c];
+    }
+    // Of a length that others keep already (both ends of a straight line held) the tension is undetermined: a share of
+    // 1e-13 of its change chooses the least, and changes nothing where it is determined.
+    matrix_(tension_index(j), tension_index(j)) =
+        line_.segment(j).keeps_length() ? -undetermined * scale_ : scale_ * scale_ * p.law_by_T;
+  }
+}
+
+/// Residual, law, and the matrix of their derivatives; returns their size, m.
+double Equations::assemble(const Stage& stage, const State& before, const Places& u, const VectorXd& T, bool matrix) {
+  move(stage, before, u);
+  force_.setZero();
+  if (matrix) blocks_.set_zero(line_.nodes());
+  loads_.add({stage.t, x_, v_, a_}, {stage.x_by, stage.v_by, stage.a_by}, force_, matrix ? &blocks_ : nullptr);
+  residual_ = -force_ + stage.relax * u;
+  if (!stage.still) add_mass(a_);
+  if (matrix) fill(stage.still ? 0 : stage.a_by, stage.relax);
+  add_bed(stage, before, matrix);
+  add_pulls(stage, before, T, matrix);
+  double sum = law_.squaredNorm();
+  for (int i = 0; i < line_.nodes(); ++i)
+    if (line_.held(i) == nullptr) sum += residual_.col(i).squaredNorm() / (scale_ * scale_);
+  return std::sqrt(sum);
+}
+
+/// Held nodes keep what they have; then solves for the corrections.
+bool Equations::solve_linear(Places& du, VectorXd& dT) {
+  matrix_(0, 0) = 1;
+  rhs_[0] = 0;
+  for (int j = 0; j < line_.segments(); ++j) rhs_[tension_index(j)] = -scale_ * law_[j];
+  for (int i = 0; i < line_.nodes(); ++i) {
+    rhs_.segment<3>(place_index(i)) = -residual_.col(i);
+    if (line_.held(i) == nullptr) continue;
+    for (int r = place_index(i); r < place_index(i) + 3; ++r) {
+      for (int c = std::max(0, r - BandMatrix::half);
+           c <= std::min<int>(static_cast<int>(rhs_.size()) - 1, r + BandMatrix::half); ++c)
+        matrix_(r, c) = 0;
+      matrix_(r, r) = scale_;
+      rhs_[r] = 0;
+    }
+  }
+  if (!matrix_.solve(rhs_)) return false;
+  for (int j = 0; j < line_.segments(); ++j) dT[j] = scale_ * rhs_[tension_index(j)];
+  for (int i = 0; i < line_.nodes(); ++i) du.col(i) = rhs_.segment<3>(place_index(i));
+  return du.allFinite() && dT.allFinite();
+}
+
+Equations::Outcome Equations::solve(const Stage& stage, const State& before, double tolerance, int most, Places& u,
+                                    VectorXd& T) {
+  scale_ = std::max(stage.relax, 1e-300);
+  for (int i = 0; i < line_.nodes(); ++i) scale_ = std::max(scale_, line_.mass(i) * std::abs(stage.a_by));
+  for (int j = 0; j < line_.segments(); ++j) scale_ = std::max(scale_, std::abs(T[j]) / line_.segment(j).length);
+  for (const Held& h : line_.description().held)
+    u.col(h.node) = h.path ? (h.path->at(stage.end).position - before.position.col(h.node)).eval() : Vector3d::Zero();
+  Outcome out;
+  Places du(3, line_.nodes()), trial;
+  VectorXd dT(line_.segments()), trial_T;
+  out.size = assemble(stage, before, u, T, true);
+  const double extent = before.position.cwiseAbs().maxCoeff();
+  const double balanced = 4e-16 * extent * std::sqrt(static_cast<double>(rhs_.size()));  // all that doubles can tell
+  const double rounding = stage.rounding * extent;
+  for (out.iterations = 1; out.iterations <= most; ++out.iterations) {
+    if (!std::isfinite(out.size) || !solve_linear(du, dT)) {
+      out.why = "its equations are singular or not finite";
+      break;
+    }
+    const double step = du.cwiseAbs().maxCoeff(), pull = dT.cwiseAbs().maxCoeff();
+    double share = 1, size = 0;
+    for (int cut = 0; cut < 12; ++cut, share /= 2) {
+      trial = u + share * du;
+      trial_T = T + share * dT;
+      size = assemble(stage, before, trial, trial_T, false);
+      if (size <= (1 - 1e-4 * share) * out.size || step <= rounding) break;
+    }
+    const bool small = step <= std::max(tolerance * trial.cwiseAbs().maxCoeff(), rounding) &&
+                       pull <= tolerance * std::max(trial_T.cwiseAbs().maxCoeff(), scale_ * step / tolerance);
+    if (!(size <= out.size) && out.size <= balanced) {
+      out.converged = true;
+      return out;
+    }
+    if (!(size <= out.size) && !small) {
+      out.why = "no part of Newton's correction brings it nearer to balance";
+      break;
+    }
+    u = trial;
+    T = trial_T;
+    out.size = size;
+    if (small) {
+      out.converged = true;
+      return out;
+    }
+    assemble(stage, before, u, T, true);
+  }
+  if (out.why.empty()) out.why = fmt::format("Newton did not converge in {} iterations", most);
+  double largest = -1;
+  for (int i = 0; i < line_.nodes(); ++i)
+    if (line_.held(i) == nullptr && !(residual_.col(i).norm() <= largest)) {
+      largest = residual_.col(i).norm();
+      out.worst = i;
+    }
+  return out;
+}
+
+}  // namespace dynamics::line

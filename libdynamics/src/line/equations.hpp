@@ -1,0 +1,105 @@
+#pragma once
+/// \file  The equations of a line at one instant or over one step, and Newton's method on them. (D70), (D72)-(D80)
+#include <Eigen/Core>
+
+#include <string>
+
+#include "band_matrix.hpp"
+#include "loads.hpp"
+
+namespace dynamics::line {
+
+/// What a step asks: balance at an instant t at which place, velocity and acceleration follow from the displacement u
+/// of the step, x = x₀ + x_by u, v = v_from + v_by u, a = a_from + a_by u. Held nodes move as their paths say. With
+/// x_by = v_by = 0 it is one instant, u is what is added to its accelerations, and lengths are kept by those.
+struct Stage {
+  double t, end, h;  ///< of the balance; of the step's end; its duration, s
+  double x_by, v_by, a_by;
+  Places v_from, a_from;
+  bool mean = false;        ///< pulls as the means over the step (D79), else as they are at its end
+  bool still = false;       ///< at rest: no masses, held nodes without velocity (D86)
+  double relax = 0;         ///< (relax) u resists: steps towards rest, N/m
+  double rounding = 1e-14;  ///< of places, below which no correction means anything, relative to the farthest
+};
+
+/// Powers at a stage, W; means over the step if the stage is one.
+struct Powers : LoadPowers {
+  double axial = 0, bed = 0;  ///< dissipated
+  double held = 0;            ///< supplied by what holds nodes
+};
+
+/// The balance of a state with accelerations a, as a stage.
+Stage instant(const State& state, const Places& a);
+
+class Equations {
+ public:
+  struct Outcome {
+    bool converged = false;
+    int iterations = 0, worst = 0;  ///< the node whose balance is worst
+    double size = 0;                ///< of what is left over, m
+    std::string why = {};
+  };
+
+  explicit Equations(const Line& line);
+
+  /// Solves for u and T from the guesses given. `tolerance`: of the last correction, relative to u and T.
+  Outcome solve(const Stage& stage, const State& before, double tolerance, int most, Places& u, Eigen::VectorXd& T);
+
+  /// Accelerations and tensions of a state (D77). False if masses leave them open.
+  bool accelerations(const State& state, Places& a, Eigen::VectorXd& T);
+
+  /// Takes from v what changes lengths that are kept, the least in the metric of the masses. (D82)
+  bool project_velocity(const State& state, Places& v);
+  /// Moves x along the directions of `from` until lengths are kept.
+  bool project_place(const Places& from, double tolerance, Places& x);
+
+  /// What held nodes need besides loads and pulls, N.
+  Places holding(const State& state, const Places& a, const Eigen::VectorXd& T);
+
+  Powers powers(const Stage& stage, const State& before, const Places& u, const Eigen::VectorXd& T);
+  /// Stored in stretched segments, and in the bed, J.
+  double stored_in_segments(const State& state) const;
+  double stored_in_bed(const State& state) const;
+  double kinetic(const Places& v) const;
+
+ private:
+  static constexpr double undetermined = 1e-13;
+
+  /// One segment's pull T n on its first node (and −T n on its second), and what its law leaves open, m.
+  struct Pull {
+    Eigen::Vector3d direction;
+    Eigen::Matrix3d direction_by;  ///< by the vector from first to second node at the end of the step
+    double law, law_by_T;
+    Eigen::Vector3d law_by;
+    double lost = 0;  ///< by its damper, W
+  };
+  /// The bed's force up on a node, N, its derivative by the node's depth at the end of the step, and what it takes, W.
+  struct Push {
+    double force, by_end, lost;
+  };
+  static int tension_index(int segment) { return 4 * (segment + 1); }
+  static int place_index(int node) { return 4 * node + 1; }
+  void move(const Stage& stage, const State& before, const Places& u);
+  Pull pull(int j, const Stage& stage, const State& before, double T) const;
+  void add_mass(const Places& a);
+  void add_bed(const Stage& stage, const State& before, bool matrix);
+  void add_pulls(const Stage& stage, const State& before, const Eigen::VectorXd& T, bool matrix);
+  double assemble(const Stage& stage, const State& before, const Places& u, const Eigen::VectorXd& T, bool matrix);
+  Push bed(int i, const Stage& stage, const State& before) const;
+  void fill(double mass_by, double relax);
+  void add_block(int row, int column, const Eigen::Matrix3d& block);
+  void set_pull(int j, const Eigen::Vector3d& direction);
+  bool solve_linear(Places& u, Eigen::VectorXd& T);
+  void scale_by_mass();
+  void assemble_projection(const Places& along, const Places& x);
+
+  const Line& line_;
+  Loads loads_;
+  BandMatrix matrix_;
+  Eigen::VectorXd rhs_, law_;
+  Blocks blocks_;
+  Places x_, v_, a_, force_, residual_;
+  double scale_ = 1;  // what makes newtons and metres comparable, N/m
+};
+
+}  // namespace dynamics::line

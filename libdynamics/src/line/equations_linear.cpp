@@ -1,0 +1,134 @@
+/// What of a line's equations is linear: accelerations, projections; and the powers and energies of its parts.
+#include <algorithm>
+#include <cmath>
+
+#include "equations.hpp"
+
+namespace dynamics::line {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+void Equations::scale_by_mass() {
+  scale_ = 1e-300;
+  for (int i = 0; i < line_.nodes(); ++i) scale_ = std::max(scale_, line_.mass(i));
+}
+
+bool Equations::accelerations(const State& state, Places& a, VectorXd& T) {
+  scale_by_mass();
+  a = Places::Zero(3, line_.nodes());
+  T = VectorXd::Zero(line_.segments());
+  const Stage now = instant(state, a);
+  assemble(now, state, a, T, true);
+  const Places led = a_;  // of nodes along paths
+  if (!solve_linear(a, T)) return false;
+  a += led;
+  return true;
+}
+
+Places Equations::holding(const State& state, const Places& a, const VectorXd& T) {
+  assemble(instant(state, a), state, Places::Zero(3, line_.nodes()), T, false);
+  Places out = Places::Zero(3, line_.nodes());
+  for (const Held& h : line_.description().held) out.col(h.node) = residual_.col(h.node);
+  return out;
+}
+
+/// M δ + Gᵀ μ = 0 and G δ = −law_ in the matrix, G the lengths that are kept, along `along`, and their derivative at x.
+void Equations::assemble_projection(const Places& along, const Places& x) {
+  scale_by_mass();
+  blocks_.set_zero(line_.nodes());
+  residual_.setZero();
+  fill(1, 0);
+  for (int j = 0; j < line_.segments(); ++j) {
+    if (!line_.segment(j).keeps_length()) {
+      matrix_(tension_index(j), tension_index(j)) = 1;
+      law_[j] = 0;
+      continue;
+    }
+    matrix_(tension_index(j), tension_index(j)) = -undetermined * scale_;
+    set_pull(j, (along.col(j + 1) - along.col(j)).normalized());
+    const Vector3d t = (x.col(j + 1) - x.col(j)).normalized();
+    for (int c = 0; c < 3; ++c) {
+      matrix_(tension_index(j), place_index(j) + c) = -scale_ * t[c];
+      matrix_(tension_index(j), place_index(j + 1) + c) = scale_ * t[c];
+    }
+  }
+}
+
+bool Equations::project_velocity(const State& state, Places& v) {
+  assemble_projection(state.position, state.position);
+  for (int j = 0; j < line_.segments(); ++j)
+    if (line_.segment(j).keeps_length())
+      law_[j] = (state.position.col(j + 1) - state.position.col(j)).normalized().dot(v.col(j + 1) - v.col(j));
+  Places dv(3, line_.nodes());
+  VectorXd impulse(line_.segments());
+  if (!solve_linear(dv, impulse)) return false;
+  v += dv;
+  return true;
+}
+
+bool Equations::project_place(const Places& from, double tolerance, Places& x) {
+  Places dx(3, line_.nodes());
+  VectorXd impulse(line_.segments());
+  constexpr int most = 50;
+  for (int i = 0; i < most; ++i) {
+    assemble_projection(from, x);
+    for (int j = 0; j < line_.segments(); ++j)
+      if (line_.segment(j).keeps_length()) law_[j] = (x.col(j + 1) - x.col(j)).norm() - line_.segment(j).length;
+    const double open = law_.cwiseAbs().maxCoeff();
+    if (!solve_linear(dx, impulse)) return false;
+    x += dx;
+    if (open <= tolerance) return true;
+  }
+  return false;
+}
+
+Powers Equations::powers(const Stage& stage, const State& before, const Places& u, const VectorXd& T) {
+  assemble(stage, before, u, T, false);
+  Powers out{loads_.powers({stage.t, x_, v_, a_})};
+  for (int j = 0; j < line_.segments(); ++j) out.axial += pull(j, stage, before, T[j]).lost;
+  if (!line_.description().bed.empty())
+    for (int i = 0; i < line_.nodes(); ++i) out.bed += bed(i, stage, before).lost;
+  // What holds a node gives its force times the way; but of the force on the masses, times the mean of the velocities,
+  // as their kinetic energy has it.
+  const Places all = residual_;
+  residual_.setZero();
+  add_mass(a_);
+  for (const Held& h : line_.description().held) {
+    const Vector3d inertia = residual_.col(h.node), rest = all.col(h.node) - inertia, v = v_.col(h.node);
+    const Vector3d mean = stage.mean ? Vector3d(before.velocity.col(h.node) + stage.h / 2 * a_.col(h.node)) : v;
+    out.held += inertia.dot(mean) + rest.dot(v);
+  }
+  return out;
+}
+
+double Equations::kinetic(const Places& v) const {
+  double sum = 0;
+  for (int i = 0; i < line_.nodes(); ++i) sum += line_.mass(i) / 2 * v.col(i).squaredNorm();
+  for (int j = 0; j < line_.segments(); ++j) sum += line_.mass_between(j) * v.col(j).dot(v.col(j + 1));
+  return sum;
+}
+
+double Equations::stored_in_segments(const State& state) const {
+  double sum = 0;
+  for (int j = 0; j < line_.segments(); ++j) {
+    const Segment& s = line_.segment(j);
+    if (s.keeps_length()) continue;
+    double stretch = (state.position.col(j + 1) - state.position.col(j)).norm() - s.length;
+    if (s.pulls_only) stretch = std::max(stretch, 0.0);
+    sum += s.axial_stiffness / s.length / 2 * stretch * stretch;
+  }
+  return sum;
+}
+
+double Equations::stored_in_bed(const State& state) const {
+  double sum = 0;
+  for (const Bed& bed : line_.description().bed)
+    for (int i = 0; i < line_.nodes(); ++i) {
+      const double depth = std::max(bed.z - state.position(2, i), 0.0);
+      sum += bed.stiffness * line_.bed_area(i) / 2 * depth * depth;
+    }
+  return sum;
+}
+
+}  // namespace dynamics::line

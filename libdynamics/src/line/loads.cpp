@@ -1,0 +1,192 @@
+#include "loads.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace dynamics::line {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// Coefficients per length: ½ρC_D D, ½ρC_T πD, ρA, ρA C_A, and ρgA.
+struct PerLength {
+  double normal, tangential, displaced, added, lift;
+
+  PerLength(const Segment& s, const hydro::Water& water) {
+    normal = 0.5 * water.density * s.cd * s.diameter;
+    tangential = 0.5 * water.density * s.cd_tangential * std::numbers::pi * s.diameter;
+    displaced = water.density * std::numbers::pi / 4 * s.diameter * s.diameter;
+    added = displaced * s.ca;
+    lift = displaced * water.gravity;
+  }
+};
+
+/// The share of a segment that is under water, its surface straight between heights g₀, g₁ above the ends.
+std::array<double, 2> wet_interval(double g0, double g1) {
+  if (g0 >= 0 && g1 >= 0) return {0, 1};
+  if (g0 < 0 && g1 < 0) return {0, 0};
+  const double at = g0 / (g0 - g1);
+  return g0 < 0 ? std::array{at, 1.0} : std::array{0.0, at};
+}
+
+/// One point of a segment: where, what length of wet line it stands for, and what flows past.
+struct Point {
+  double s, length;
+  Vector3d axis, water, relative, inertial;  // t, u, u − w, and y = (1 + C_A)ρA u̇ − C_A ρA ẇ
+};
+
+Vector3d drag(const PerLength& c, const Point& p) {
+  const double along = p.axis.dot(p.relative);
+  const Vector3d across = p.relative - along * p.axis;
+  return c.normal * across.norm() * across + c.tangential * std::abs(along) * along * p.axis;
+}
+
+Vector3d inertia(const Point& p) { return p.inertial - p.axis * p.axis.dot(p.inertial); }
+
+/// Derivatives of drag and inertia per length by u − w, by y and by t.
+struct PointDerivatives {
+  Matrix3d by_relative, by_inertial, by_axis;
+};
+
+PointDerivatives differentiate(const PerLength& c, const Point& p) {
+  const Matrix3d P = Matrix3d::Identity() - p.axis * p.axis.transpose();
+  const double along = p.axis.dot(p.relative);
+  const Vector3d across = p.relative - along * p.axis;
+  const double speed = across.norm();
+  Matrix3d by_across = Matrix3d::Zero();  // |w| w is flat at w = 0
+  if (speed > 0) by_across = c.normal * (speed * Matrix3d::Identity() + across * across.transpose() / speed);
+  const double skin = c.tangential * std::abs(along);
+  PointDerivatives d;
+  d.by_relative = by_across * P + 2 * skin * p.axis * p.axis.transpose();
+  d.by_inertial = P;
+  d.by_axis = -by_across * (along * Matrix3d::Identity() + p.axis * p.relative.transpose()) +
+              skin * (along * Matrix3d::Identity() + 2 * p.axis * p.relative.transpose()) -
+              p.axis.dot(p.inertial) * Matrix3d::Identity() - p.axis * p.inertial.transpose();
+  return d;
+}
+
+/// Both Gauss points of the wet part of segment j: exact for the added mass of a rod, of third order in the drag.
+std::array<Point, 2> points(const Line& line, int j, const PerLength& c, const Motion& now,
+                            const std::vector<hydro::waves::Kinematics>& water) {
+  const Segment& segment = line.segment(j);
+  const auto& k0 = water[static_cast<std::size_t>(j)];
+  const auto& k1 = water[static_cast<std::size_t>(j + 1)];
+  const Vector3d axis = (now.x.col(j + 1) - now.x.col(j)).normalized();
+  std::array<double, 2> wet{0, 1};
+  if (line.description().water.wet == Wet::below_surface)
+    wet = wet_interval(k0.elevation - now.x(2, j), k1.elevation - now.x(2, j + 1));
+  std::array<Point, 2> out;
+  const double middle = (wet[0] + wet[1]) / 2, half = (wet[1] - wet[0]) / 2;
+  for (std::size_t g = 0; g < 2; ++g) {
+    Point& p = out[g];
+    p.s = middle + (g == 0 ? -half : half) / std::numbers::sqrt3;
+    p.length = half * segment.length;
+    p.axis = axis;
+    const double r = 1 - p.s, s = p.s;
+    p.water = r * k0.velocity + s * k1.velocity;
+    p.relative = p.water - r * now.v.col(j) - s * now.v.col(j + 1);
+    p.inertial = (c.displaced + c.added) * (r * k0.material_acceleration() + s * k1.material_acceleration()) -
+                 c.added * (r * now.a.col(j) + s * now.a.col(j + 1));
+  }
+  return out;
+}
+
+}  // namespace
+
+void Blocks::set_zero(int nodes) {
+  diagonal.assign(static_cast<std::size_t>(nodes), Matrix3d::Zero());
+  upper.assign(static_cast<std::size_t>(nodes - 1), Matrix3d::Zero());
+  lower = upper;
+}
+
+void Loads::look_at_water(const Motion& now) {
+  const auto& field = *line_.description().water.field;
+  const double bed = -field.water().depth.metres();
+  points_.resize(static_cast<std::size_t>(line_.nodes()));
+  water_.resize(points_.size());
+  for (int i = 0; i < line_.nodes(); ++i) {
+    Vector3d& p = points_[static_cast<std::size_t>(i)];
+    p = now.x.col(i);
+    p.z() = std::max(p.z(), bed);  // a node pressed into the bed feels the water above it
+  }
+  field.at(now.t, points_, water_);
+}
+
+void Loads::add(const Motion& now, const By& by, Places& force, Blocks* derivative) {
+  force += line_.constant_load();
+  add_damping(now, by, force, derivative);
+  if (line_.description().water.wet == Wet::nothing) return;
+  look_at_water(now);
+  for (int j = 0; j < line_.segments(); ++j) add_water(j, now, by, force, derivative);
+}
+
+void Loads::add_damping(const Motion& now, const By& by, Places& force, Blocks* derivative) const {
+  for (int i = 0; i < line_.nodes(); ++i) {
+    const Node& node = line_.node(i);
+    if (node.damping == 0 && node.quadratic_damping == 0) continue;
+    const Vector3d v = now.v.col(i);
+    const double speed = v.norm();
+    Matrix3d by_v = node.damping * Matrix3d::Identity();
+    if (line_.description().componentwise_damping) {
+      force.col(i) -= node.damping * v + node.quadratic_damping * v.cwiseAbs().cwiseProduct(v);
+      by_v.diagonal() += 2 * node.quadratic_damping * v.cwiseAbs();
+    } else {
+      force.col(i) -= (node.damping + node.quadratic_damping * speed) * v;
+      if (speed > 0) by_v += node.quadratic_damping * (speed * Matrix3d::Identity() + v * v.transpose() / speed);
+    }
+    if (derivative != nullptr) derivative->diagonal[static_cast<std::size_t>(i)] -= by.v * by_v;
+  }
+}
+
+void Loads::add_water(int j, const Motion& now, const By& by, Places& force, Blocks* derivative) const {
+  const Segment& segment = line_.segment(j);
+  const auto& surroundings = line_.description().water;
+  const PerLength c(segment, surroundings.field->water());
+  const bool lifted = surroundings.buoyancy && surroundings.wet == Wet::below_surface;
+  const double length = (now.x.col(j + 1) - now.x.col(j)).norm();
+  for (const Point& p : points(line_, j, c, now, water_)) {
+    if (p.length == 0) continue;
+    Vector3d f = drag(c, p) + inertia(p);
+    if (lifted) f.z() += c.lift;
+    const double share[2] = {p.length * (1 - p.s), p.length * p.s};
+    force.col(j) += share[0] * f;
+    force.col(j + 1) += share[1] * f;
+    if (derivative == nullptr) continue;
+    const PointDerivatives d = differentiate(c, p);
+    const double turning = length > 0 ? by.x / length : 0;
+    const Matrix3d turn = turning * d.by_axis * (Matrix3d::Identity() - p.axis * p.axis.transpose());
+    const Matrix3d follow = -by.v * d.by_relative - by.a * c.added * d.by_inertial;
+    const Matrix3d by_first = (1 - p.s) * follow - turn, by_second = p.s * follow + turn;
+    const auto at = static_cast<std::size_t>(j);
+    derivative->diagonal[at] += share[0] * by_first;
+    derivative->upper[at] += share[0] * by_second;
+    derivative->lower[at] += share[1] * by_first;
+    derivative->diagonal[at + 1] += share[1] * by_second;
+  }
+}
+
+LoadPowers Loads::powers(const Motion& now) {
+  LoadPowers out;
+  Places force = Places::Zero(3, line_.nodes());
+  add_damping(now, {0, 0, 0}, force, nullptr);
+  out.damping = -force.cwiseProduct(now.v).sum();
+  const auto& surroundings = line_.description().water;
+  if (surroundings.wet == Wet::nothing) return out;
+  look_at_water(now);
+  const bool lifted = surroundings.buoyancy && surroundings.wet == Wet::below_surface;
+  for (int j = 0; j < line_.segments(); ++j) {
+    const PerLength c(line_.segment(j), surroundings.field->water());
+    for (const Point& p : points(line_, j, c, now, water_)) {
+      const Vector3d resistance = p.length * drag(c, p), own = p.water - p.relative;
+      out.drag_supplied += resistance.dot(p.water);
+      out.drag_dissipated += resistance.dot(p.relative);
+      out.inertia_supplied += p.length * inertia(p).dot(own);
+      if (lifted) out.buoyancy_supplied += p.length * c.lift * own.z();
+    }
+  }
+  return out;
+}
+
+}  // namespace dynamics::line

@@ -1,0 +1,56 @@
+#pragma once
+/// \file  What pulls at the nodes of a line besides its segments and its bed: constant loads, damping, water. (D73),
+/// (D74)
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "dynamics/line/line.hpp"
+
+namespace dynamics::line {
+
+/// Place, velocity and acceleration of all nodes at one instant.
+struct Motion {
+  double t;
+  const Places &x, &v, &a;
+};
+
+/// How each of them changes with one unknown displacement of the same node.
+struct By {
+  double x, v, a;
+};
+
+/// 3 × 3 blocks of a matrix that joins neighbours: of node i itself, and of row j, column j + 1 and the other way
+/// round.
+struct Blocks {
+  std::vector<Eigen::Matrix3d> diagonal, upper, lower;
+  void set_zero(int nodes);
+};
+
+/// Powers of these loads, W.
+struct LoadPowers {
+  double damping = 0;                                  ///< dissipated
+  double drag_supplied = 0, drag_dissipated = 0;       ///< F·u and F·(u − w) (D46)
+  double inertia_supplied = 0, buoyancy_supplied = 0;  ///< the latter of what is wet in part
+};
+
+class Loads {
+ public:
+  explicit Loads(const Line& line) : line_(line) {}
+
+  /// Adds to `force` (3, nodes) and, where asked, its derivative by the unknowns to `derivative`. Of the water only the
+  /// flow's own change from place to place is left out of the derivative: it is small against m/h² (D78).
+  void add(const Motion& now, const By& by, Places& force, Blocks* derivative);
+  LoadPowers powers(const Motion& now);
+
+ private:
+  void look_at_water(const Motion& now);
+  void add_damping(const Motion& now, const By& by, Places& force, Blocks* derivative) const;
+  void add_water(int j, const Motion& now, const By& by, Places& force, Blocks* derivative) const;
+
+  const Line& line_;
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<hydro::waves::Kinematics> water_;
+};
+
+}  // namespace dynamics::line

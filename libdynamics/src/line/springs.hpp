@@ -1,0 +1,31 @@
+#pragma once
+/// \file  Laws of segments and bed over one step, so that what they store is exactly what they took. (D72), (D75),
+/// (D79)
+#include <algorithm>
+#include <cmath>
+
+namespace dynamics::line {
+
+/// A force and its derivatives.
+struct Answer {
+  double force, by_stretch, by_damper;
+};
+
+/// Mean force of a spring that pulls only, over a step between the stretches e₀ and e₁: ΔU/Δe, U = ½k max(e, 0)². (D79)
+/// With e₀ = e₁ it is the spring's law.
+inline Answer one_sided_spring(double k, double e0, double e1) {
+  if (e0 >= 0 && e1 >= 0) return {k * (e0 + e1) / 2, e0 == e1 ? k : k / 2, 0};
+  if (e0 <= 0 && e1 <= 0) return {0, 0, 0};
+  const double taut = std::max(e0, e1), change = e1 - e0;
+  const double mean = k * taut * taut / (2 * std::abs(change));
+  return {mean, e1 > e0 ? k * taut / change - mean / change : -mean / change, 0};
+}
+
+/// With a damper d beside it that never makes it push: S + S d/(S + |d|) (D51).
+inline Answer with_damper(const Answer& spring, double d) {
+  const double S = spring.force, sum = S + std::abs(d);
+  if (!(S > 0)) return {0, 0, 0};
+  return {S + S * d / sum, spring.by_stretch * (1 + d * std::abs(d) / (sum * sum)), S * S / (sum * sum)};
+}
+
+}  // namespace dynamics::line

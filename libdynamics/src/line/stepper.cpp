@@ -1,0 +1,306 @@
+#include "dynamics/line/stepper.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "equations.hpp"
+#include "hydro/base/error.hpp"
+
+namespace dynamics::line {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double closed = 1e-9;  // of a length, and of a speed: what rounding of given places leaves
+constexpr std::array<std::string_view, 5> scheme_names{"energy_momentum", "generalised_alpha", "gamma",
+                                                       "semi_implicit_euler", "explicit_euler"};
+
+}  // namespace
+
+Scheme parse_scheme(std::string_view name) {
+  for (std::size_t i = 0; i < scheme_names.size(); ++i)
+    if (scheme_names[i] == name) return static_cast<Scheme>(i);
+  const std::string near = hydro::nearest(name, scheme_names);
+  throw hydro::InputError(fmt::format("there is no scheme \"{}\" for lines", name), {},
+                          near.empty() ? "" : fmt::format("did you mean \"{}\"?", near));
+}
+
+std::string_view name_of(Scheme scheme) { return scheme_names[static_cast<std::size_t>(scheme)]; }
+
+struct Stepper::Work {
+  const Line& line;
+  Settings settings;
+  Equations equations;
+  Places a, algorithmic;  // accelerations at the start of a step, and those that generalised-α steps with
+  Energies energies;
+  Powers before;  // at the start of a step
+  std::string failure;
+
+  Work(const Line& l, const Settings& s) : line(l), settings(s), equations(l) {}
+
+  bool try_step(State& state, double h, StepReport& report);
+  bool energy_momentum(State& state, double h, StepReport& report);
+  bool generalised_alpha(State& state, double h, StepReport& report);
+  bool gamma(State& state, double h, StepReport& report);
+  bool euler(State& state, double h);
+  bool solve(const Stage& stage, const State& state, Places& u, VectorXd& T, StepReport& report);
+  void lead(State& state) const;
+  void require_lengths(const State& state) const;
+  bool settle(State& state);
+  void note_powers(const Powers& mean, double h);
+  void note_state(const State& state);
+  void advance(State& state, double h, int depth, StepReport& report);
+};
+
+Stepper::Stepper(const Line& line, const Settings& settings) : work_(std::make_unique<Work>(line, settings)) {
+  hydro::require(settings.rho_infinity >= 0 && settings.rho_infinity <= 1,
+                 "rho_infinity must lie between 0 and 1, got {}", settings.rho_infinity);
+  hydro::require(settings.gamma > 0 && settings.gamma <= 1, "gamma must lie above 0 and not above 1, got {}",
+                 settings.gamma);
+  bool kept = false;
+  for (int j = 0; j < line.segments(); ++j) kept = kept || line.segment(j).keeps_length();
+  if (settings.scheme == Scheme::generalised_alpha && settings.rho_infinity == 1 && kept)
+    throw hydro::InputError(
+        "generalised-α with rho_infinity = 1 lets the tensions of segments that keep their length grow", {},
+        "take rho_infinity below 1, or step with \"energy_momentum\"");
+  if (settings.scheme != Scheme::energy_momentum && line.has_massless_nodes())
+    throw hydro::InputError(
+        fmt::format("a free node of the line has no mass, so {} finds no accelerations", name_of(settings.scheme)), {},
+        "give every free node or segment a mass, or step with \"energy_momentum\"");
+}
+
+Stepper::~Stepper() = default;
+
+const Energies& Stepper::energies() const { return work_->energies; }
+
+std::optional<Stepper::Balance> Stepper::balance(const State& state) {
+  Balance out;
+  if (!work_->equations.accelerations(state, out.acceleration, out.tension)) return std::nullopt;
+  out.holding = work_->equations.holding(state, out.acceleration, out.tension);
+  return out;
+}
+
+/// Held nodes where their paths have them.
+void Stepper::Work::lead(State& state) const {
+  for (const Held& h : line.description().held) {
+    if (!h.path) {
+      state.velocity.col(h.node).setZero();
+      continue;
+    }
+    const Path::Place p = h.path->at(state.time);
+    state.position.col(h.node) = p.position;
+    state.velocity.col(h.node) = p.velocity;
+  }
+}
+
+void Stepper::Work::require_lengths(const State& state) const {
+  const double fastest = std::max(1.0, state.velocity.cwiseAbs().maxCoeff());
+  for (int j = 0; j < line.segments(); ++j) {
+    if (!line.segment(j).keeps_length()) continue;
+    const Vector3d d = state.position.col(j + 1) - state.position.col(j);
+    hydro::require(std::abs(d.norm() - line.segment(j).length) <= closed * line.segment(j).length,
+                   "segment {} keeps its length of {} m, but the line starts with its nodes {} m apart", j + 1,
+                   line.segment(j).length, d.norm());
+    const double rate = d.normalized().dot(state.velocity.col(j + 1) - state.velocity.col(j));
+    hydro::require(std::abs(rate) <= closed * fastest,
+                   "segment {} keeps its length, but the velocities at the start change it by {} m/s", j + 1, rate);
+  }
+}
+
+void Stepper::start(State& state) {
+  Work& w = *work_;
+  const Line& line = w.line;
+  hydro::require(state.position.cols() == line.nodes() && state.velocity.cols() == line.nodes(),
+                 "a line of {} nodes cannot start with {}", line.nodes(), state.position.cols());
+  w.lead(state);
+  // A line at rest whose end is led off at once takes the nearest velocities that its lengths allow.
+  const bool led = std::any_of(line.description().held.begin(), line.description().held.end(),
+                               [](const Held& h) { return h.path != nullptr; });
+  if (led) w.equations.project_velocity(state, state.velocity);
+  w.require_lengths(state);
+  if (!w.settle(state) && !line.has_massless_nodes())
+    throw hydro::NumericsError(fmt::format(
+        "the line has no accelerations at t = {} s: masses or loads are singular or not finite", state.time));
+  w.algorithmic = w.a;
+  w.energies = {};
+  w.before = w.equations.powers(instant(state, w.a), state, Places::Zero(3, line.nodes()), state.tension);
+  w.note_state(state);
+  w.energies.at_start = w.energies.total();
+}
+
+/// Accelerations and tensions of the state; zero where masses leave them open.
+bool Stepper::Work::settle(State& state) {
+  if (equations.accelerations(state, a, state.tension)) return true;
+  a = Places::Zero(3, line.nodes());
+  state.tension = VectorXd::Zero(line.segments());
+  return false;
+}
+
+void Stepper::Work::note_state(const State& state) {
+  energies.kinetic = equations.kinetic(state.velocity);
+  energies.height = -line.constant_load().cwiseProduct(state.position).sum();
+  energies.axial = equations.stored_in_segments(state);
+  energies.bed = equations.stored_in_bed(state);
+}
+
+void Stepper::Work::note_powers(const Powers& mean, double h) {
+  energies.held += h * mean.held;
+  energies.drag += h * mean.drag_supplied;
+  energies.inertia += h * mean.inertia_supplied;
+  energies.buoyancy += h * mean.buoyancy_supplied;
+  energies.lost_damping += h * mean.damping;
+  energies.lost_drag += h * mean.drag_dissipated;
+  energies.lost_axial += h * mean.axial;
+  energies.lost_bed += h * mean.bed;
+}
+
+bool Stepper::Work::solve(const Stage& stage, const State& state, Places& u, VectorXd& T, StepReport& report) {
+  u = stage.h * state.velocity + stage.h * stage.h / 2 * a;
+  T = state.tension;
+  const auto outcome = equations.solve(stage, state, settings.tolerance, settings.iterations, u, T);
+  report.newton_iterations += outcome.iterations;
+  if (!outcome.converged) failure = fmt::format("{}; node {} is worst", outcome.why, outcome.worst);
+  return outcome.converged;
+}
+
+// (D79)
+bool Stepper::Work::energy_momentum(State& state, double h, StepReport& report) {
+  const Stage stage{.t = state.time + h / 2,
+                    .end = state.time + h,
+                    .h = h,
+                    .x_by = 0.5,
+                    .v_by = 1 / h,
+                    .a_by = 2 / (h * h),
+                    .v_from = Places::Zero(3, line.nodes()),
+                    .a_from = -2 / h * state.velocity,
+                    .mean = true};
+  Places u;
+  VectorXd T;
+  if (!solve(stage, state, u, T, report)) return false;
+  note_powers(equations.powers(stage, state, u, T), h);
+  const Places old = state.velocity;
+  state.position += u;
+  state.velocity = 2 / h * u - old;
+  state.tension = T;
+  state.time = stage.end;
+  lead(state);
+  a = (state.velocity - old) / h;
+  return true;
+}
+
+// (D80), with the parameters of (D11).
+bool Stepper::Work::generalised_alpha(State& state, double h, StepReport& report) {
+  const double rho = settings.rho_infinity, alpha_m = (2 * rho - 1) / (rho + 1), alpha_f = rho / (rho + 1);
+  const double g = 0.5 + alpha_f - alpha_m, beta = 0.25 * (g + 0.5) * (g + 0.5);
+  const Places known = h * state.velocity + h * h * (0.5 - beta) * algorithmic;
+  const double a_by = (1 - alpha_m) / ((1 - alpha_f) * h * h * beta);
+  const Stage stage{.t = state.time + h,
+                    .end = state.time + h,
+                    .h = h,
+                    .x_by = 1,
+                    .v_by = g / (h * beta),
+                    .a_by = a_by,
+                    .v_from = state.velocity + h * (1 - g) * algorithmic - g / (h * beta) * known,
+                    .a_from = (alpha_m * algorithmic - alpha_f * a) / (1 - alpha_f) - a_by * known};
+  Places u;
+  VectorXd T;
+  if (!solve(stage, state, u, T, report)) return false;
+  state.position += u;
+  state.velocity = stage.v_from + stage.v_by * u;
+  state.tension = T;
+  state.time = stage.end;
+  a = stage.a_from + stage.a_by * u;
+  algorithmic = (u - known) / (h * h * beta);
+  lead(state);
+  return equations.project_velocity(state, state.velocity);
+}
+
+// (D81)
+bool Stepper::Work::gamma(State& state, double h, StepReport& report) {
+  const double g = settings.gamma;
+  const Stage stage{.t = state.time + h,
+                    .end = state.time + h,
+                    .h = h,
+                    .x_by = 1,
+                    .v_by = 1 / (h * g),
+                    .a_by = 1 / (h * h * g * g),
+                    .v_from = -(1 - g) / g * state.velocity,
+                    .a_from = -1 / (h * g * g) * state.velocity - (1 - g) / g * a};
+  Places u;
+  VectorXd T;
+  if (!solve(stage, state, u, T, report)) return false;
+  State next = state;
+  next.position += u;
+  next.velocity = stage.v_from + stage.v_by * u;
+  next.time = stage.end;
+  lead(next);
+  if (!equations.project_velocity(next, next.velocity) || !settle(next)) return false;
+  state = next;
+  return true;
+}
+
+// (D82)
+bool Stepper::Work::euler(State& state, double h) {
+  State next = state;
+  next.time = state.time + h;
+  const bool place_first = settings.scheme == Scheme::explicit_euler;
+  next.velocity += h * a;
+  next.position += h * (place_first ? state.velocity : next.velocity);
+  lead(next);
+  if (!equations.project_place(state.position, closed * 1e-3 * line.length(), next.position)) {
+    failure = "lengths cannot be kept";
+    return false;
+  }
+  if (!place_first) next.velocity = (next.position - state.position) / h;
+  lead(next);
+  if (!equations.project_velocity(next, next.velocity) || !settle(next)) {
+    failure = "its equations are singular or not finite";
+    return false;
+  }
+  state = next;
+  return true;
+}
+
+bool Stepper::Work::try_step(State& state, double h, StepReport& report) {
+  if (settings.scheme == Scheme::energy_momentum) {
+    if (!energy_momentum(state, h, report)) return false;
+  } else {
+    const State old = state;
+    const Places old_a = a, old_algorithmic = algorithmic;
+    const bool done = settings.scheme == Scheme::generalised_alpha ? generalised_alpha(state, h, report)
+                      : settings.scheme == Scheme::gamma           ? gamma(state, h, report)
+                                                                   : euler(state, h);
+    if (!done || !state.position.allFinite() || !state.velocity.allFinite()) {
+      state = old;
+      a = old_a;
+      algorithmic = old_algorithmic;
+      return false;
+    }
+    const Powers now = equations.powers(instant(state, a), state, Places::Zero(3, line.nodes()), state.tension);
+    note_powers(before, h / 2);
+    note_powers(now, h / 2);
+    before = now;
+  }
+  note_state(state);
+  return true;
+}
+
+void Stepper::Work::advance(State& state, double h, int depth, StepReport& report) {
+  if (try_step(state, h, report)) return;
+  if (depth == settings.deepest_halving)
+    throw hydro::NumericsError(fmt::format("the line cannot go on from t = {:.6g} s, even with a step of {:.3g} s: {}",
+                                           state.time, h, failure));
+  ++report.halvings;
+  advance(state, h / 2, depth + 1, report);
+  advance(state, h / 2, depth + 1, report);
+}
+
+StepReport Stepper::step(State& state, double h) {
+  StepReport report;
+  work_->advance(state, h, 0, report);
+  return report;
+}
+
+}  // namespace dynamics::line

@@ -1,0 +1,170 @@
+#include "loads.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hydro/base/random.hpp"
+#include "hydro/waves/sea.hpp"
+#include "springs.hpp"
+#include "support/line_models.hpp"
+
+namespace {
+
+using namespace support;
+namespace hw = hydro::waves;
+using Eigen::Vector3d;
+
+std::shared_ptr<const hw::WaveField> still(double current = 0) {
+  const hydro::Water water{.density = 1000, .gravity = 9.81, .depth = hydro::WaterDepth::from_metres(30)};
+  return std::make_shared<hw::HarmonicField>(std::vector<hw::Harmonic>{}, water, hw::HarmonicField::Options{},
+                                             hw::Current::uniform({current, 0}));
+}
+
+Description wet_line(Wet wet, double current) {
+  Description d;
+  d.nodes.assign(5, Node{.mass = 1, .damping = 0.3, .quadratic_damping = 0.7});
+  Segment s = Segment::rod(1, 2);
+  s.diameter = 0.2;
+  s.cd = 1.3;
+  s.cd_tangential = 0.1;
+  s.ca = 0.8;
+  d.segments.assign(4, s);
+  d.water = {.field = still(current), .wet = wet, .buoyancy = true};
+  return d;
+}
+
+struct Sample {
+  Places x{3, 5}, v{3, 5}, a{3, 5};
+  explicit Sample(std::uint64_t seed) {
+    const hydro::RandomStream random(seed, 1);
+    std::uint64_t k = 0;
+    for (Places* p : {&x, &v, &a})
+      for (int i = 0; i < 15; ++i) p->data()[i] = random.normal(k++);
+    for (int i = 0; i < 5; ++i) x.col(i) = Vector3d(0.8 * i, 0, -1.3 + 0.5 * i) + 0.1 * x.col(i);
+  }
+};
+
+Places force(const Line& line, const Places& x, const Places& v, const Places& a) {
+  Loads loads(line);
+  Places out = Places::Zero(3, line.nodes());
+  loads.add({0, x, v, a}, {0, 0, 0}, out, nullptr);
+  return out;
+}
+
+TEST(LineLoads, DerivativesAreThoseOfTheLoads) {
+  for (const bool componentwise : {false, true}) {
+    Description d = wet_line(Wet::all, 0.4);
+    d.componentwise_damping = componentwise;
+    const Line line(d);
+    const Sample s(3);
+    const By by{.x = 0.6, .v = 1.7, .a = 2.9};
+    Loads loads(line);
+    Blocks blocks;
+    blocks.set_zero(5);
+    Places sink = Places::Zero(3, 5);
+    loads.add({0, s.x, s.v, s.a}, by, sink, &blocks);
+    constexpr double e = 1e-6, rounding = 1e-6;  // of loads of some 1000 N over 2e-6
+    for (int j = 0; j < 5; ++j)
+      for (int c = 0; c < 3; ++c) {
+        Places u = Places::Zero(3, 5);
+        u(c, j) = e;
+        const Places slope = (force(line, s.x + by.x * u, s.v + by.v * u, s.a + by.a * u) -
+                              force(line, s.x - by.x * u, s.v - by.v * u, s.a - by.a * u)) /
+                             (2 * e);
+        for (int i = 0; i < 5; ++i) {
+          Vector3d block = Vector3d::Zero();
+          const auto k = static_cast<std::size_t>(i);
+          if (i == j) block = blocks.diagonal[k].col(c);
+          if (j == i + 1) block = blocks.upper[k].col(c);
+          if (i == j + 1) block = blocks.lower[k - 1].col(c);
+          EXPECT_LT((slope.col(i) - block).norm(), rounding) << i << ' ' << j << ' ' << c;
+        }
+      }
+  }
+}
+
+// A level rod across the stream: ½ρC_D D U² per length; along it the skin's; at rest the sum of both ends is the whole.
+TEST(LineLoads, DragOfARodIsMorisons) {
+  Description d = wet_line(Wet::all, 0.5);
+  d.gravity = 0;
+  d.water.buoyancy = false;
+  const Line line(d);
+  Places x(3, 5), zero = Places::Zero(3, 5);
+  for (int i = 0; i < 5; ++i) x.col(i) = Vector3d(0, i, -3);
+  EXPECT_NEAR(force(line, x, zero, zero).row(0).sum(), 0.5 * 1000 * 1.3 * 0.2 * 0.25 * 4, 1e-9);
+  for (int i = 0; i < 5; ++i) x.col(i) = Vector3d(i, 0, -3);
+  EXPECT_NEAR(force(line, x, zero, zero).row(0).sum(), 0.5 * 1000 * 0.1 * 3.141592653589793 * 0.2 * 0.25 * 4, 1e-9);
+}
+
+TEST(LineLoads, AddedMassOfARodIsAcrossItsAxisAlone) {
+  Description d = wet_line(Wet::all, 0);
+  d.gravity = 0;
+  d.water.buoyancy = false;
+  const Line line(d);
+  Places x(3, 5), zero = Places::Zero(3, 5), a = Places::Zero(3, 5);
+  for (int i = 0; i < 5; ++i) x.col(i) = Vector3d(i, 0, -3);
+  a.row(0).setConstant(1);
+  a.row(2).setConstant(2);
+  const Places f = force(line, x, zero, a);
+  EXPECT_NEAR(f.row(0).sum(), 0, 1e-12);
+  EXPECT_NEAR(f.row(2).sum(), -2 * 0.8 * 1000 * 3.141592653589793 / 4 * 0.04 * 4, 1e-9);
+}
+
+TEST(LineLoads, WhatIsOutOfTheWaterFeelsNoneOfIt) {
+  Description d = wet_line(Wet::below_surface, 0.5);
+  d.gravity = 0;
+  for (Node& n : d.nodes) n.damping = n.quadratic_damping = 0;
+  const Line line(d);
+  Places x(3, 5), zero = Places::Zero(3, 5);
+  // Upright, from 2.5 m below to 1.5 m above: 2.5 m are wet.
+  for (int i = 0; i < 5; ++i) x.col(i) = Vector3d(0, 0, -2.5 + i);
+  const Places f = force(line, x, zero, zero);
+  EXPECT_NEAR(f.row(0).sum(), 0.5 * 1000 * 1.3 * 0.2 * 0.25 * 2.5, 1e-9);
+  EXPECT_NEAR(f.row(2).sum(), 1000 * 9.81 * 3.141592653589793 / 4 * 0.04 * 2.5, 1e-9);
+  EXPECT_EQ(f.col(4).norm(), 0);
+}
+
+TEST(LineLoads, PowersAreForcesTimesVelocities) {
+  for (const Wet wet : {Wet::all, Wet::below_surface}) {
+    Description d = wet_line(wet, 0.4);
+    const Line line(d);
+    const Sample s(5);
+    Loads loads(line);
+    const LoadPowers p = loads.powers({0, s.x, s.v, s.a});
+    const double constant = line.constant_load().cwiseProduct(s.v).sum();
+    EXPECT_NEAR(force(line, s.x, s.v, s.a).cwiseProduct(s.v).sum() - constant,
+                p.drag_supplied - p.drag_dissipated + p.inertia_supplied + p.buoyancy_supplied - p.damping, 1e-9);
+    EXPECT_GT(p.drag_dissipated, 0);
+    EXPECT_GT(p.damping, 0);
+  }
+}
+
+// (D79): what the mean force takes over a step is what the spring stores.
+TEST(LineSprings, MeanForceTimesWayIsTheEnergyStored) {
+  const auto stored = [](double e) { return e > 0 ? 50 * e * e : 0.0; };
+  for (const double from : {-0.3, -1e-9, 0.0, 0.2, 1.0})
+    for (const double to : {-0.4, 0.0, 1e-9, 0.2, 0.7}) {
+      const double mean = one_sided_spring(100, from, to).force;
+      EXPECT_NEAR(mean * (to - from), stored(to) - stored(from), 1e-14) << from << ' ' << to;
+      EXPECT_GE(mean, 0);
+    }
+}
+
+TEST(LineSprings, NeverPushWhateverTheDamper) {
+  for (const double d : {-1e6, -10.0, 0.0, 10.0, 1e6}) {
+    EXPECT_GE(with_damper(one_sided_spring(100, 0.1, 0.1), d).force, 0);
+    EXPECT_EQ(with_damper(one_sided_spring(100, -0.1, -0.2), d).force, 0);
+  }
+}
+
+TEST(LineSprings, DerivativesAreThoseOfTheForce) {
+  for (const double from : {-0.3, 0.2})
+    for (const double to : {-0.4, 0.1, 0.7})
+      for (const double d : {-30.0, 4.0}) {
+        constexpr double e = 1e-7;
+        const auto at = [&](double x, double y) { return with_damper(one_sided_spring(100, from, x), y); };
+        EXPECT_NEAR(at(to, d).by_stretch, (at(to + e, d).force - at(to - e, d).force) / (2 * e), 1e-4);
+        EXPECT_NEAR(at(to, d).by_damper, (at(to, d + e).force - at(to, d - e).force) / (2 * e), 1e-6);
+      }
+}
+
+}  // namespace
