@@ -24,7 +24,7 @@ Outcome huijgen_gamma(const Folders& folders);
 Outcome huijgen_sea(const Folders& folders);
 Outcome hulme(const Folders& folders);
 Outcome moorings(const Folders& folders);
-Outcome oc3_line(const Folders& folders);
+Outcome oc3_line_case(const Folders& folders);
 Outcome irf_a5(const Folders& folders);
 Outcome kramers_kronig(const Folders& folders);
 Outcome rm3_decay(const Folders& folders);
@@ -72,7 +72,7 @@ const std::vector<Case>& cases() {
       {"formats", formats},
       {"fpso-rao", fpso_rao},
       {"irf-a5", irf_a5},
-      {"oc3-line", oc3_line},
+      {"oc3-line", oc3_line_case},
       {"moorings", moorings},
   };
   return all;
