@@ -3,11 +3,14 @@
 // One function a case, in validation/<name>/case.cpp. They are listed by hand: nothing registers itself.
 namespace froude::validation {
 
+Outcome ball_drops(const Folders& folders);
 Outcome cylinder(const Folders& folders);
 Outcome dispersion(const Folders& folders);
 Outcome fagerbakke_bem(const Folders& folders);
 Outcome fagerbakke_eigen(const Folders& folders);
+Outcome fagerbakke_switching(const Folders& folders);
 Outcome hendriksen_calibration(const Folders& folders);
+Outcome hendriksen_oscillation(const Folders& folders);
 Outcome hendriksen_towing(const Folders& folders);
 Outcome f3of(const Folders& folders);
 Outcome formats(const Folders& folders);
@@ -23,15 +26,21 @@ Outcome huijgen_dropper_c(const Folders& folders);
 Outcome huijgen_gamma(const Folders& folders);
 Outcome huijgen_sea(const Folders& folders);
 Outcome hulme(const Folders& folders);
+Outcome interval_coverage(const Folders& folders);
 Outcome moorings(const Folders& folders);
 Outcome oc3_line_case(const Folders& folders);
 Outcome irf_a5(const Folders& folders);
 Outcome kramers_kronig(const Folders& folders);
+Outcome morison(const Folders& folders);
+Outcome order(const Folders& folders);
+Outcome pendulums(const Folders& folders);
 Outcome rm3_decay(const Folders& folders);
 Outcome rm3_regular(const Folders& folders);
+Outcome roll_decay(const Folders& folders);
 Outcome spectra(const Folders& folders);
 Outcome sea_dat(const Folders& folders);
 Outcome sphere_decay(const Folders& folders);
+Outcome stick(const Folders& folders);
 Outcome two_pole(const Folders& folders);
 Outcome zanten_periods(const Folders& folders);
 Outcome zanten_stick_slip(const Folders& folders);
@@ -42,6 +51,7 @@ const std::vector<Case>& cases() {
   static const std::vector<Case> all{
       {"fagerbakke-eigen", fagerbakke_eigen},
       {"fagerbakke-bem", fagerbakke_bem},
+      {"fagerbakke-switching", fagerbakke_switching},
       {"hendriksen-towing", hendriksen_towing},
       {"hendriksen-calibration", hendriksen_calibration},
       {"zanten-periods", zanten_periods},
@@ -57,13 +67,18 @@ const std::vector<Case>& cases() {
       {"huijgen-dropper-C", huijgen_dropper_c},
       {"huijgen-gamma", huijgen_gamma},
       {"huijgen-sea", huijgen_sea},
+      {"hendriksen-oscillation", hendriksen_oscillation},
       {"hendriksen-waves", hendriksen_waves},
+      {"morison", morison},
+      {"interval-coverage", interval_coverage},
       {"sea-dat", sea_dat},
       {"dispersion", dispersion},
       {"spectra", spectra},
       {"hulme", hulme},
       {"cylinder", cylinder},
       {"two-pole", two_pole},
+      {"order", order},
+      {"stick", stick},
       {"kramers-kronig", kramers_kronig},
       {"sphere-decay", sphere_decay},
       {"rm3-regular", rm3_regular},
@@ -72,8 +87,11 @@ const std::vector<Case>& cases() {
       {"formats", formats},
       {"fpso-rao", fpso_rao},
       {"irf-a5", irf_a5},
-      {"oc3-line", oc3_line_case},
+      {"ball-drops", ball_drops},
       {"moorings", moorings},
+      {"oc3-line", oc3_line_case},
+      {"pendulums", pendulums},
+      {"roll-decay", roll_decay},
   };
   return all;
 }

@@ -10,6 +10,7 @@
 #include "compile/radiation.hpp"
 #include "compile/signals.hpp"
 #include "compile/waves.hpp"
+#include "dynamics/control/dominant_period.hpp"
 #include "dynamics/force/gravity.hpp"
 #include "dynamics/force/ramped_field.hpp"
 #include "dynamics/force/wave_loads.hpp"
@@ -48,6 +49,30 @@ Eigen::Vector3d placed(const Scene& scene, std::optional<int> body, const Eigen:
   return body ? Eigen::Vector3d(scene.bodies[static_cast<std::size_t>(*body)].position + end) : end;
 }
 
+/// All connectors of one table of the scene have one controller.
+void add_switched(const scene::Connector& c, const scene::StiffnessSwitch& s, const dynamics::AxialConnector& made,
+                  Prepared& out) {
+  const bool same = !out.switched.empty() && out.switched_places.back().line == c.place.line &&
+                    out.switched_places.back().column == c.place.column;
+  if (!same) {
+    dynamics::PeriodSwitching law{
+        .signal = [body = out.bodies[static_cast<std::size_t>(s.body)], index = static_cast<std::size_t>(s.body),
+                   mode = static_cast<int>(s.mode)](
+                      const dynamics::State& state) { return motion_from_rest(body, state.pose[index], mode); },
+        .every = s.every,
+        .window = s.window,
+        .hysteresis = s.hysteresis / (2 * std::numbers::pi),
+        .dwell = s.dwell,
+        .settings = {}};
+    for (const auto& setting : s.settings) law.settings.push_back({setting.from, setting.stiffness});
+    out.switched.push_back({{}, [law] { return std::make_unique<dynamics::DominantPeriodController>(law); }});
+    out.switched_names.emplace_back();
+    out.switched_places.push_back(c.place);
+  }
+  out.switched.back().connectors.push_back(made);
+  out.switched_names.back().push_back(c.name);
+}
+
 void add_connector(const Scene& scene, const scene::Connector& c, Prepared& out) {
   const dynamics::Ends ends{c.first, c.second, arm(scene, c.first, c.first_end), arm(scene, c.second, c.second_end)};
   const Eigen::Vector3d offset = placed(scene, c.second, c.second_end) - placed(scene, c.first, c.first_end);
@@ -62,7 +87,12 @@ void add_connector(const Scene& scene, const scene::Connector& c, Prepared& out)
                                 .table_x = axial->elongations,
                                 .table_force = axial->tensions,
                                 .pulls_only = axial->pulls_only};
-    out.axial.push_back({ends, law, axial->rest_length.value_or(offset.norm())});
+    const dynamics::AxialConnector made{ends, law, axial->rest_length.value_or(offset.norm())};
+    if (axial->switching) {
+      add_switched(c, *axial->switching, made, out);
+      return;
+    }
+    out.axial.push_back(made);
     out.axial_names.push_back(c.name);
     return;
   }
@@ -149,12 +179,46 @@ void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::
   if (!p.moorings.empty()) forces.push_back(std::make_unique<dynamics::RestoringKind>("mooring", p.bodies, p.moorings));
   if (!p.lines.empty()) forces.push_back(std::make_unique<dynamics::CatenaryMooringKind>(p.lines));
   if (!p.axial.empty()) forces.push_back(std::make_unique<dynamics::AxialConnectorKind>(p.axial));
+  if (!p.switched.empty()) forces.push_back(std::make_unique<dynamics::SwitchedConnectorKind>(p.switched));
   if (!p.bushing.empty()) forces.push_back(std::make_unique<dynamics::BushingConnectorKind>(p.bushing));
   if (!p.ptos.empty()) forces.push_back(std::make_unique<dynamics::PtoKind>(p.ptos));
   if (!p.loads.empty()) forces.push_back(std::make_unique<dynamics::ConstantLoadKind>(p.loads));
 }
 
+dynamics::Shape as_shape(const scene::ContactRod& rod) {
+  if (rod.from == rod.to) return dynamics::Ball{rod.from, rod.radius};
+  return dynamics::Rod{rod.from, rod.to, rod.radius};
+}
+dynamics::Shape as_shape(const scene::ContactPlane& plane) { return dynamics::HalfSpace{plane.at, plane.normal}; }
+dynamics::Shape as_shape(const scene::ContactBox& box) { return dynamics::Box{box.centre, box.half}; }
+
+/// Shapes from the centres of gravity; of the ground as they are.
+dynamics::Contact contact(const Scene& scene, const scene::Contact& c) {
+  const auto from_centre = [&](const dynamics::Shape& shape, int body) {
+    return dynamics::moved(shape, Eigen::Matrix3d::Identity(),
+                           -scene.bodies[static_cast<std::size_t>(body)].centre_of_gravity);
+  };
+  dynamics::Shape second = std::visit([](const auto& shape) { return as_shape(shape); }, c.on_second);
+  if (c.second) second = from_centre(second, *c.second);
+  return {c.name, c.first, c.second, {from_centre(as_shape(c.on_first), c.first), second}, c.restitution, c.friction};
+}
+
 }  // namespace
+
+namespace {
+
+/// Yaw about z, pitch about the new y, roll about the newest x: R = Rz(yaw) Ry(pitch) Rx(roll).
+Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& q) {
+  const Eigen::Matrix3d R = q.toRotationMatrix();
+  return {std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)), std::atan2(R(1, 0), R(0, 0))};
+}
+
+}  // namespace
+
+double motion_from_rest(const dynamics::RigidBody& body, const dynamics::Pose& pose, int mode) {
+  if (mode >= 3) return roll_pitch_yaw(pose.attitude)[mode - 3];
+  return (pose.point(body, {Eigen::Vector3d::Zero()}).xyz - body.properties().rest_position.xyz)[mode];
+}
 
 Prepared prepare(const Scene& scene) {
   Prepared out;
@@ -167,6 +231,7 @@ Prepared prepare(const Scene& scene) {
   add_hydrodynamics(scene, out);
   for (const auto& m : scene.moorings) add_mooring(scene, m, out);
   for (const auto& c : scene.connectors) add_connector(scene, c, out);
+  for (const auto& c : scene.contacts) out.contacts.push_back(contact(scene, c));
   for (const auto& j : scene.joints) add_joint(j, out);
   out.ptos = ptos(scene, out);
   for (const auto& l : scene.lines) out.lines.push_back(catenary_mooring(scene, l, out));
@@ -369,6 +434,7 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
   add_members(scene, prepared.bodies, water, {step, steps + 1}, forces);
 
   if (!prepared.friction.empty()) forces.push_back(std::make_unique<dynamics::FrictionKind>(prepared.friction));
+  if (!prepared.contacts.empty()) forces.push_back(std::make_unique<dynamics::ContactKind>(prepared.contacts));
 
   for (const auto& kind : forces) {
     if (kind->effect() != "radiation") {

@@ -10,9 +10,11 @@
 #include "dynamics/force/catenary_mooring.hpp"
 #include "dynamics/force/connector.hpp"
 #include "dynamics/force/constant_load.hpp"
+#include "dynamics/force/contact.hpp"
 #include "dynamics/force/friction.hpp"
 #include "dynamics/force/pto.hpp"
 #include "dynamics/force/restoring.hpp"
+#include "dynamics/force/switched_connector.hpp"
 #include "dynamics/frequency/rao.hpp"
 #include "dynamics/model/model.hpp"
 #include "hydro/waves/field.hpp"
@@ -38,17 +40,25 @@ struct Prepared {
   std::vector<dynamics::Buoyancy> buoyancy;
   hydro::Water water;
   std::vector<dynamics::AxialConnector> axial;
+  std::vector<dynamics::SwitchedConnectors> switched;  ///< one for each [[connector]] with a switch
   std::vector<dynamics::BushingConnector> bushing;
   std::vector<dynamics::Pto> ptos;
   std::vector<dynamics::ConstantLoad> loads;
   std::vector<dynamics::CatenaryMooring> lines;
   std::vector<dynamics::Joint> joints;
   std::vector<dynamics::Friction> friction;
+  std::vector<dynamics::Contact> contacts;
   std::vector<double>
       joint_sign;  ///< −1 where the scene wrote the ground first: travel is the second's against the first
+  std::vector<std::vector<std::string>> switched_names;
+  std::vector<scene::Place> switched_places;
   std::vector<std::string> axial_names, bushing_names, mooring_names;
   std::vector<std::string> notes;  ///< what had to be decided, for the result and the plan
 };
+
+/// Motion of a body's origin from rest, m or rad: rotations are yaw about z, then pitch about the new y, then roll
+/// about the newest x.
+double motion_from_rest(const dynamics::RigidBody& body, const dynamics::Pose& pose, int mode);
 
 /// Opens the data files and places everything. \throws hydro::InputError, placed in the scene
 Prepared prepare(const scene::Scene& scene);
@@ -69,7 +79,7 @@ struct TimeModel {
   dynamics::State start;
   RunWater water;
   std::vector<LineModel> lines;  ///< stepped beside the bodies
-  double step;  ///< s; scene.run->every is a whole multiple of it
+  double step;                   ///< s; scene.run->every is a whole multiple of it
   std::size_t steps;
   std::size_t steps_per_sample;
   std::vector<PlanLine> plan;

@@ -12,10 +12,10 @@ using scene::Scene;
 const scene::Body& body_of(const Scene& scene, int body) { return scene.bodies[static_cast<std::size_t>(body)]; }
 
 hydro::cylinders::CylinderBody as_cylinders(const scene::Body& body) {
-  const scene::Cylinders& given = *body.hydrodynamics->cylinders;
   hydro::cylinders::CylinderBody out{body.name, body.position, body.position + body.centre_of_gravity, {}};
-  for (const Eigen::Vector3d& at : given.at)
-    out.cylinders.push_back({(body.position + at).head<2>(), given.diameter / 2, given.draught, given.top});
+  for (const scene::Cylinders::Equal& sort : body.hydrodynamics->cylinders->sorts)
+    for (const Eigen::Vector3d& at : sort.at)
+      out.cylinders.push_back({(body.position + at).head<2>(), sort.diameter / 2, sort.draught, sort.top});
   return out;
 }
 

@@ -16,17 +16,6 @@ const char* motion_unit(int mode) { return mode < 3 ? "m" : "rad"; }
 const char* load_unit(int mode) { return mode < 3 ? "N" : "N m"; }
 std::string mode_name(int mode) { return std::string(hydro::mode_names[static_cast<std::size_t>(mode)]); }
 
-/// Yaw about z, pitch about the new y, roll about the newest x: R = Rz(yaw) Ry(pitch) Rx(roll).
-Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& q) {
-  const Eigen::Matrix3d R = q.toRotationMatrix();
-  return {std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)), std::atan2(R(1, 0), R(0, 0))};
-}
-
-double motion(const dynamics::RigidBody& body, const dynamics::Pose& pose, int mode) {
-  if (mode >= 3) return roll_pitch_yaw(pose.attitude)[mode - 3];
-  return (pose.point(body, {Eigen::Vector3d::Zero()}).xyz - body.properties().rest_position.xyz)[mode];
-}
-
 void add_motions(const scene::Scene& scene, const Prepared& p, std::vector<Probe>& out) {
   for (std::size_t b = 0; b < p.bodies.size(); ++b)
     for (int mode = 0; mode < 6; ++mode)
@@ -34,7 +23,7 @@ void add_motions(const scene::Scene& scene, const Prepared& p, std::vector<Probe
         out.push_back({scene.bodies[b].name + "." + mode_name(mode), motion_unit(mode),
                        fmt::format("{} of {} from rest", mode_name(mode), scene.bodies[b].name),
                        [body = p.bodies[b], b, mode](const Workspace& w, const EnergyLedger&) {
-                         return motion(body, w.state.pose[b], mode);
+                         return motion_from_rest(body, w.state.pose[b], mode);
                        }});
 }
 
@@ -51,6 +40,25 @@ void add_connectors(const Prepared& p, std::vector<Probe>& out) {
                      [c = p.bushing[i], axis](const Workspace& w, const EnergyLedger&) {
                        return dynamics::bushing_force(c, w.state)[axis];
                      }});
+}
+
+/// Tension and stiffness of connectors that a controller rules.
+void add_switched(const Prepared& p, const dynamics::Model& model, std::vector<Probe>& out) {
+  std::size_t kind = 0;
+  while (kind < model.forces().size() && model.forces()[kind]->effect() != "connector.switched") ++kind;
+  for (std::size_t g = 0; g < p.switched.size(); ++g)
+    for (std::size_t i = 0; i < p.switched[g].connectors.size(); ++i) {
+      const std::string& name = p.switched_names[g][i];
+      const auto stiffness = [kind, g](const Workspace& w) {
+        return static_cast<const dynamics::SwitchMemory&>(*w.memory[kind]).stiffness[g];
+      };
+      out.push_back({name + ".force", "N", "tension of " + name,
+                     [c = p.switched[g].connectors[i], stiffness](const Workspace& w, const EnergyLedger&) {
+                       return dynamics::axial_state(dynamics::with_stiffness(c, stiffness(w)), w.state).tension;
+                     }});
+      out.push_back({name + ".stiffness", "N/m", "stiffness of " + name + " as its controller has set it",
+                     [stiffness](const Workspace& w, const EnergyLedger&) { return stiffness(w); }});
+    }
 }
 
 /// Tensions of catenaries, at the fairlead and at the anchor.
@@ -112,6 +120,28 @@ void add_travels(const Prepared& p, const dynamics::Model& model, std::vector<Pr
                    fmt::format("{} of {}, the second against the first", turns ? "angle" : "travel", p.joints[j].name),
                    [&model, j, sign = p.joint_sign[j]](const Workspace& w, const EnergyLedger&) {
                      return sign * model.joints().travel(static_cast<int>(j), w.state);
+                   }});
+  }
+}
+
+/// Gap and load along the normal of contacts.
+void add_contacts(const Prepared& p, const dynamics::Model& model, std::vector<Probe>& out) {
+  std::size_t kind = 0;
+  while (kind < model.forces().size() && model.forces()[kind]->contact() == nullptr) ++kind;
+  for (std::size_t i = 0; i < p.contacts.size(); ++i) {
+    const std::string& name = p.contacts[i].name;
+    out.push_back({name + ".gap", "m", "shortest way between the shapes of " + name,
+                   [&model, i, kind](const Workspace& w, const EnergyLedger&) {
+                     return model.forces()[kind]->contact()->gap(i, w.state);
+                   }});
+    out.push_back({name + ".force", "N", "load along the normal of " + name + " while it is closed",
+                   [&model, i, kind](const Workspace& w, const EnergyLedger&) {
+                     return model.forces()[kind]->contact()->load(i, w.memory[kind].get(), w.multipliers);
+                   }});
+    out.push_back({name + ".impacts", "1", "impacts of " + name + " since the start",
+                   [i, kind](const Workspace& w, const EnergyLedger&) {
+                     const auto& memory = static_cast<const dynamics::ContactMemory&>(*w.memory[kind]);
+                     return static_cast<double>(memory.contact[i].impacts);
                    }});
   }
 }
@@ -220,10 +250,12 @@ std::vector<Probe> run_probes(const scene::Scene& scene, const Prepared& prepare
   std::vector<Probe> out;
   add_motions(scene, prepared, out);
   add_connectors(prepared, out);
+  add_switched(prepared, model.model, out);
   add_moorings(scene, prepared, out);
   add_lines(scene, prepared, out);
   add_travels(prepared, model.model, out);
   add_friction(prepared, model.model, out);
+  add_contacts(prepared, model.model, out);
   add_ptos(scene, prepared, out);
   add_joint_loads(prepared, model.model, out);
   if (scene.waves) add_water(scene, model.water.field, out);
@@ -317,15 +349,17 @@ std::vector<LinearProbe> rao_probes(const scene::Scene& scene, const Prepared& p
                      none});
     }
   }
-  for (std::size_t i = 0; i < p.axial.size(); ++i) {
-    const auto& c = p.axial[i];
+  const auto add_axial = [&](const dynamics::AxialConnector& c, const std::string& name) {
     const Eigen::Vector3d d = at_rest(p, c.ends.second, c.ends.second_arm) - at_rest(p, c.ends.first, c.ends.first_arm);
     const auto row = stretch_row(c.ends, c.ends.first_arm, d.normalized(), modes);
     const auto at_rest_law = c.law.at(d.norm() - c.rest_length, 0);
-    out.push_back({p.axial_names[i] + ".force", "N/m",
-                   fmt::format("tension of {} per metre of wave amplitude", p.axial_names[i]), at_rest_law.by_x * row,
-                   at_rest_law.by_rate * row});
-  }
+    out.push_back({name + ".force", "N/m", fmt::format("tension of {} per metre of wave amplitude", name),
+                   at_rest_law.by_x * row, at_rest_law.by_rate * row});
+  };
+  for (std::size_t i = 0; i < p.axial.size(); ++i) add_axial(p.axial[i], p.axial_names[i]);
+  for (std::size_t g = 0; g < p.switched.size(); ++g)
+    for (std::size_t i = 0; i < p.switched[g].connectors.size(); ++i)
+      add_axial(p.switched[g].connectors[i], p.switched_names[g][i]);
   for (std::size_t i = 0; i < p.bushing.size(); ++i)
     for (int axis = 0; axis < 3; ++axis) {
       const auto& c = p.bushing[i];

@@ -84,6 +84,7 @@ void psd(const PsdArguments& arguments, const Console& console);
 struct FitArguments {
   Path scene;
   std::optional<Path> output = {};  ///< .toml of the estimates
+  std::optional<Path> table = {};   ///< .csv with one row for each run
   std::optional<Path> picture = {};
 };
 void fit(const FitArguments& arguments, const Console& console);

@@ -398,6 +398,8 @@ void add_fit(CLI::App& app, Request& request) {
   auto arguments = std::make_shared<FitArguments>();
   command->add_option("scene", arguments->scene, "fit scene (.toml)")->required();
   command->add_option("-o,--output", arguments->output, "the estimates (.toml)");
+  command->add_option("--table", arguments->table,
+                      "one row for each run: KC, Re, beta, coefficients, intervals (.csv)");
   command->add_option("--picture", arguments->picture, "plot (.svg)");
   command->callback([=, &request] {
     request.call = [=](const Console& console) {

@@ -165,6 +165,7 @@ void modes(const SceneArguments& arguments, const Console& console) {
   hydro::io::require_writable(file);
   compile::Prepared prepared = compile::prepare(scene);
   if (!prepared.friction.empty()) prepared.notes.push_back("friction is left out: its joints move freely");
+  if (!prepared.contacts.empty()) prepared.notes.push_back("contacts are left out: bodies are taken not to touch");
   if (!scene.members.empty()) prepared.notes.push_back("loads on members are left out, also their added mass");
   const dynamics::Model model = compile::frequency_model(prepared);
   const ModeList all = dynamics::frequency::free_motions(model, prepared.groups);

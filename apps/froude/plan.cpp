@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "compile/cylinders.hpp"
+#include "compile/integrator.hpp"
 #include "compile/waves.hpp"
 #include "froude/scene_result.hpp"
 
@@ -74,14 +75,23 @@ Section plan_modes(const compile::Prepared& p) {
           {}};
 }
 
+std::string integrator_text(const scene::Solve& solve) {
+  if (solve.integrator == "generalized_alpha")
+    return fmt::format("generalised-alpha rho_infinity {:.3g}", solve.rho_infinity);
+  if (solve.integrator == "explicit_pair")
+    return fmt::format("explicit pair of orders 5 and 4, tolerance {:.3g}", solve.tolerance);
+  return solve.integrator;
+}
+
 Section plan_run(const scene::Scene& scene, const compile::Prepared& p, std::vector<std::string>& notes) {
   compile::TimeModel m = compile::time_model(scene, p);
   notes = m.notes;
   const bool sparse = dynamics::BlockSolver(m.model.pattern()).is_sparse();
   const std::string title = fmt::format("run: {} steps of {:.4g} s", m.steps, m.step);
+  compile::make_integrator(scene.solve, m.model);  // tells now what it could not step
   Section s{p.bodies.empty() ? title
-                             : fmt::format("{}, {} unknowns, generalised-alpha rho_infinity {:.3g}, {} factors", title,
-                                           m.model.modes(), scene.solve.rho_infinity, sparse ? "sparse" : "dense"),
+                             : fmt::format("{}, {} unknowns, {}, {} factors", title, m.model.modes(),
+                                           integrator_text(scene.solve), sparse ? "sparse" : "dense"),
             std::move(m.plan)};
   if (scene.waves) {
     const double wh = compile::highest_relevant_frequency(*scene.waves) * m.step;

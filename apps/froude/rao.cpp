@@ -133,6 +133,7 @@ void rao(const SceneArguments& arguments, const Console& console) {
         "them (a run has)");
   if (!prepared.friction.empty())
     prepared.notes.push_back("friction is left out: its joints move freely in a linear response");
+  if (!prepared.contacts.empty()) prepared.notes.push_back("contacts are left out: bodies are taken not to touch");
   const auto all = compile::rao_probes(scene, prepared, model);
   std::vector<std::string> names;
   for (const auto& p : all) names.push_back(p.name);

@@ -42,7 +42,7 @@ void tell(const Console& console, const scene::Scene& scene, const Record& recor
       scene.file.filename().string(), record.time.back(), record.steps, record.step,
       static_cast<double>(record.newton_iterations) / static_cast<double>(std::max<std::size_t>(1, record.steps)),
       record.halvings ? fmt::format(", {} halvings", record.halvings) : "",
-      record.events ? fmt::format(", friction changes {} times", record.events) : "", record.stepping_s);
+      record.events ? fmt::format(", friction or contacts change {} times", record.events) : "", record.stepping_s);
   console.out << series_table(record.signals);
   console.out << fmt::format("energy that does not add up: {:.3g} J, {:.2g} of the {:.3g} J turned over\n", residual,
                              relative, turnover);

@@ -2,8 +2,8 @@
 
 #include <chrono>
 
+#include "compile/integrator.hpp"
 #include "compile/probes.hpp"
-#include "dynamics/integrate/generalized_alpha.hpp"
 #include "hydro/base/error.hpp"
 
 namespace froude {
@@ -16,20 +16,20 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 class March {
  public:
   March(const compile::TimeModel& m, const std::vector<compile::Probe>& probes,
-        const std::vector<compile::LineProbe>& line_probes, double rho_infinity, Record& record)
+        const std::vector<compile::LineProbe>& line_probes, const scene::Solve& solve, Record& record)
       : m_(m),
         probes_(probes),
         line_probes_(line_probes),
         record_(record),
         workspace_(m.model, m.start),
-        integrator_(m.model, {.rho_infinity = rho_infinity}) {
+        integrator_(compile::make_integrator(solve, m.model)) {
     for (const auto& p : probes) record_.signals.push_back({p.name, p.unit, p.long_name});
     for (const auto& p : line_probes) record_.signals.push_back({p.name, p.unit, p.long_name});
     for (const auto& line : m.lines) lines_.push_back(std::make_unique<compile::LineRun>(line));
   }
 
   void run(const std::function<void(double)>& done) {
-    if (bodies()) integrator_.start(workspace_);
+    if (bodies()) integrator_->start(workspace_);
     dynamics::EnergyLedger ledger(m_.model, workspace_);
     sample(ledger);
     try {
@@ -53,7 +53,7 @@ class March {
       record_.newton_iterations += report.newton_iterations;
       record_.halvings += report.halvings;
     }
-    const auto report = bodies() ? integrator_.step(workspace_, m_.step) : dynamics::StepReport{};
+    const auto report = bodies() ? integrator_->step(workspace_, m_.step) : dynamics::StepReport{};
     workspace_.state.time = static_cast<double>(n) * m_.step;  // sums of steps drift, products do not
     record_.newton_iterations += report.newton_iterations;
     record_.halvings += report.halvings;
@@ -99,7 +99,7 @@ class March {
   std::vector<std::unique_ptr<compile::LineRun>> lines_;
   Record& record_;
   dynamics::Workspace workspace_;
-  dynamics::GeneralizedAlpha integrator_;
+  std::unique_ptr<dynamics::Integrator> integrator_;
 };
 
 }  // namespace
@@ -131,7 +131,7 @@ Record simulate(const scene::Scene& scene, const std::function<void(double)>& do
   record.notes = model.notes;
   record.preparation_s = seconds_since(begin);
   const auto stepping = Clock::now();
-  March(model, probes, line_probes, scene.solve.rho_infinity, record).run(done);
+  March(model, probes, line_probes, scene.solve, record).run(done);
   record.stepping_s = seconds_since(stepping);
   return record;
 }

@@ -97,13 +97,8 @@ Memory read_memory(const Record& radiation) {
 }
 
 /// The axes are given where they pierce still water, whose height in body axes is known.
-Cylinders read_cylinders(const Record& record, double height_of_origin) {
-  Cylinders out{.at = record["at"].points.front(),
-                .diameter = record.si("diameter"),
-                .draught = {},
-                .top = {},
-                .omega = record["frequencies"].range,
-                .headings = {}};
+Cylinders::Equal read_equal_cylinders(const Record& record, double height_of_origin) {
+  Cylinders::Equal out{record["at"].points.front(), record.si("diameter"), {}, {}};
   if (record.text("draught").empty()) out.draught = record.si("draught");
   if (record.has("top")) out.top = record.si("top");
   if (out.top && out.draught && *out.top >= *out.draught)
@@ -113,6 +108,13 @@ Cylinders read_cylinders(const Record& record, double height_of_origin) {
       throw record.wrong(
           "at", fmt::format("has z = {:.6g} m; still water is at {:.6g} m in body axes", p.z(), -height_of_origin),
           "give the axes at the height of still water");
+  return out;
+}
+
+Cylinders read_cylinders(const Record& record, double height_of_origin) {
+  Cylinders out{{read_equal_cylinders(record, height_of_origin)}, record["frequencies"].range, {}};
+  for (const Record& other : record.tables("others"))
+    out.sorts.push_back(read_equal_cylinders(other, height_of_origin));
   if (record.has("headings")) out.headings = record["headings"].range;
   return out;
 }

@@ -29,6 +29,7 @@ std::vector<Body> build_bodies(const Record& root, const std::filesystem::path& 
 void build_members(const Record& root, Names& names, Scene& scene);
 void build_lines(const Record& root, const std::filesystem::path& file, Names& names, Scene& scene);
 void build_moorings(const Record& root, Names& names, Scene& scene);
+void build_contacts(const Record& root, Names& names, Scene& scene);
 void build_connectors(const Record& root, Names& names, Scene& scene);
 void build_joints(const Record& root, Names& names, Scene& scene);
 void build_loads(const Record& root, Names& names, Scene& scene);
@@ -55,6 +56,10 @@ int body_named(const Record& record, const Located<std::string>& name, const std
 
 /// A file beside the scene.
 std::filesystem::path beside(const std::filesystem::path& scene, const std::string& relative);
+
+/// Puts the numbers of included files, [coefficients] cd = 1.19 of fit.toml, in place of texts "fit.cd".
+/// \throws hydro::InputError for a file that is not there or has no such table, or a name that is not in it
+void resolve_includes(Node& root, const std::filesystem::path& scene);
 
 /// What both kinds of scene begin with: `schema = 1`. \throws hydro::InputError if it is another version
 void check_version(const Node& root);

@@ -56,7 +56,33 @@ void check_table(const Record& record, const AxialConnector& axial) {
           "elongations must increase, and tensions must not fall");
 }
 
-std::variant<AxialConnector, BushingConnector> read_kind(const Record& record, const std::filesystem::path& file) {
+StiffnessSwitch read_switch(const Record& record, const std::vector<Body>& bodies) {
+  const std::string& watch = record.text("watch");
+  const auto dot = watch.rfind('.');
+  const auto mode = dot == std::string::npos
+                        ? hydro::mode_names.end()
+                        : std::find(hydro::mode_names.begin(), hydro::mode_names.end(), watch.substr(dot + 1));
+  if (mode == hydro::mode_names.end())
+    throw record.wrong("watch", "is not a motion", "write a body and a mode, like \"m2.surge\"");
+  StiffnessSwitch out{body_named(record, {watch.substr(0, dot), record["watch"].place}, bodies),
+                      static_cast<hydro::Mode>(mode - hydro::mode_names.begin()),
+                      record.si("every"),
+                      record.si("window"),
+                      record.si("hysteresis"),
+                      record.si("dwell"),
+                      {}};
+  for (const Record& setting : record.tables("settings")) {
+    const double from = setting.si("from");
+    if (out.settings.empty() ? from != 0 : !(from > out.settings.back().from))
+      throw setting.wrong("from", out.settings.empty() ? "is not 0 s in the first setting" : "does not ascend",
+                          "give settings from short periods to long ones, the first from \"0 s\"");
+    out.settings.push_back({from, setting.si("stiffness")});
+  }
+  return out;
+}
+
+std::variant<AxialConnector, BushingConnector> read_kind(const Record& record, const std::filesystem::path& file,
+                                                         const std::vector<Body>& bodies) {
   if (record.text("kind") == "bushing")
     return BushingConnector{vector_or_zero(record, "stiffness"), vector_or_zero(record, "damping"),
                             vector_or_zero(record, "rotational_stiffness"),
@@ -75,6 +101,7 @@ std::variant<AxialConnector, BushingConnector> read_kind(const Record& record, c
     check_table(record, axial);
   }
   if (record.has("rest_length") && record.text("rest_length").empty()) axial.rest_length = record.si("rest_length");
+  if (record.has("switch")) axial.switching = read_switch(record.table("switch"), bodies);
   return axial;
 }
 
@@ -242,7 +269,7 @@ void build_connectors(const Record& root, Names& names, Scene& scene) {
     if (pairs.front().second == pairs.front().first)
       throw record.wrong("between", "joins a body to itself", "name two bodies, or a body and the ground");
     const auto& ends = record["ends"].points;
-    const auto kind = read_kind(record, scene.file);
+    const auto kind = read_kind(record, scene.file, scene.bodies);
     const auto name = names.of(record, pairs.size() * ends[0].size());
     for (std::size_t p = 0, n = 0; p < pairs.size(); ++p)
       for (std::size_t k = 0; k < ends[0].size(); ++k, ++n) {

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "hydro/io/atomic_file.hpp"
 #include "scene/build.hpp"
@@ -12,8 +13,9 @@ namespace {
 namespace fs = std::filesystem;
 using hydro::InputError;
 
-const std::vector<std::string> all_channels{"time",     "force", "velocity", "acceleration",
-                                            "position", "speed", "speed_sd", "force_sd"};
+const std::vector<std::string> all_channels{"time",     "force",          "angle", "velocity", "acceleration",
+                                            "position", "cross_velocity", "speed", "speed_sd", "force_sd"};
+constexpr double two_pi = 2 * std::numbers::pi;
 
 /// Files that fit one entry of `files`, in alphabetical order. A `*` may stand in the file's name, not in a folder's.
 void expand(const Record& data, const Located<std::string>& entry, const fs::path& scene,
@@ -39,6 +41,7 @@ void expand(const Record& data, const Located<std::string>& entry, const fs::pat
 
 std::vector<Located<fs::path>> read_files(const Record& data, const fs::path& scene) {
   std::vector<Located<fs::path>> out;
+  if (!data.has("files")) return out;
   for (const auto& entry : data["files"].texts) expand(data, entry, scene, out);
   std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
   const auto twice =
@@ -49,43 +52,162 @@ std::vector<Located<fs::path>> read_files(const Record& data, const fs::path& sc
   return out;
 }
 
+struct Channels {
+  std::vector<std::string> known, needed;
+};
+Channels channels_of(const std::string& kind) {
+  if (kind == "towing") return {{"speed", "force", "speed_sd", "force_sd"}, {"speed", "force"}};
+  if (kind == "decay") return {{"time", "position", "angle"}, {"time"}};
+  return {{"time", "force", "velocity", "acceleration", "position", "cross_velocity"}, {"time", "force"}};
+}
+
+/// Exactly one of the motion's channels, which others must not contradict.
+void check_motion(const Record& channels, const std::string& kind) {
+  const auto has = [&](const char* role) { return channels.has(role); };
+  if (kind == "morison" && !has("velocity") && !has("position"))
+    throw channels.refused("needs velocity or position for a fit of kind \"morison\": drag needs the velocity",
+                           "add one of them; an acceleration alone does not give it, its integral drifts");
+  if (has("velocity") && has("position"))
+    throw channels.wrong("position", "does not act beside the velocity", "keep one of the two");
+  if (kind == "decay" && has("angle") == has("position"))
+    throw channels.refused("needs either position or angle for a fit of kind \"decay\"",
+                           "name the column of the motion");
+}
+
 std::map<std::string, std::string> read_channels(const Record& channels, const std::string& kind) {
-  const bool towing = kind == "towing";
-  const std::vector<std::string> known =
-      towing ? std::vector<std::string>{"speed", "force", "speed_sd", "force_sd"}
-             : std::vector<std::string>{"time", "force", "velocity", "acceleration", "position"};
-  const std::vector<std::string> needed =
-      towing ? std::vector<std::string>{"speed", "force"} : std::vector<std::string>{"time", "force"};
+  const auto [known, needed] = channels_of(kind);
   std::map<std::string, std::string> out;
   for (const std::string& role : all_channels) {
     if (!channels.has(role)) continue;
     if (std::find(known.begin(), known.end(), role) == known.end())
       throw channels.wrong(role, fmt::format("has no part in a fit of kind \"{}\"", kind),
                            fmt::format("its channels are {}", fmt::join(known, ", ")));
+    if (role == "force") continue;  // may be several, see read_force()
     if (channels.text(role).empty()) throw channels.wrong(role, "is empty", "write the name of a column");
     out[role] = channels.text(role);
   }
   for (const std::string& role : needed)
-    if (out.count(role) == 0)
+    if (!channels.has(role))
       throw channels.refused(fmt::format("needs \"{}\" for a fit of kind \"{}\"", role, kind),
                              fmt::format("add {} = \"name of a column\"", role));
-  if (!towing && out.count("velocity") + out.count("position") == 0)
-    throw channels.refused("needs velocity or position for a fit of kind \"morison\": drag needs the velocity",
-                           "add one of them; an acceleration alone does not give it, its integral drifts");
-  if (out.count("velocity") > 0 && out.count("position") > 0)
-    throw channels.wrong("position", "does not act beside the velocity", "keep one of the two");
+  check_motion(channels, kind);
   return out;
 }
 
+/// The force channels, each with its sign and, where they are given, its calibration.
+std::vector<FitScene::ForceChannel> read_force(const Record& data, const std::string& kind, const fs::path& scene) {
+  const Record& channels = data.table("channels");
+  std::vector<FitScene::ForceChannel> out;
+  if (kind == "decay" && data.has("calibration"))
+    throw data.wrong("calibration", "has no part in a fit of kind \"decay\"", "leave it out");
+  if (kind == "decay") return out;
+  for (const auto& name : channels["force"].texts) {
+    const bool turned = name.value.starts_with('-');
+    const std::string column = turned ? name.value.substr(1) : name.value;
+    if (column.empty()) throw channels.wrong("force", "is empty", "write the name of a column");
+    for (const auto& other : out)
+      if (other.column == column) throw channels.wrong("force", fmt::format("holds \"{}\" twice", column));
+    out.push_back({column, turned, {}});
+  }
+  if (out.empty()) throw channels.wrong("force", "is empty", "write the name of a column");
+  if (kind == "towing" && out.size() > 1)
+    throw channels.wrong("force", "may hold one column only in a fit of kind \"towing\"");
+  if (!data.has("calibration")) return out;
+  const auto& files = data["calibration"].texts;
+  if (kind == "towing") throw data.wrong("calibration", "has no part in a fit of kind \"towing\"");
+  if (files.size() != out.size())
+    throw data.wrong("calibration", fmt::format("names {} files for {} force channels", files.size(), out.size()),
+                     "name one for each, in the order of the channels");
+  for (std::size_t i = 0; i < files.size(); ++i) out[i].calibration = {{beside(scene, files[i].value), files[i].place}};
+  return out;
+}
+
+std::vector<FitScene::Filter> read_filters(const Record& prepare) {
+  std::vector<FitScene::Filter> out;
+  for (const Record& n : prepare.tables("notch"))
+    out.push_back({.kind = "notch", .hz = n.si("centre") / two_pi, .width_hz = n.si("width") / two_pi});
+  if (prepare.has("moving_average")) out.push_back({.kind = "moving average", .seconds = prepare.si("moving_average")});
+  if (!prepare.has("low_pass")) return out;
+  const Record& low = prepare.table("low_pass");
+  FitScene::Filter f{.kind = low.text("kind"), .hz = low.si("cutoff") / two_pi};
+  if (low.has("order")) {
+    f.order = static_cast<int>(low["order"].integer);
+    if (f.order < 1 || f.order > 10) throw low.wrong("order", "must lie between 1 and 10");
+  }
+  out.push_back(f);
+  return out;
+}
+
+void read_delay(const Record& prepare, FitScene::Prepare& out) {
+  if (!prepare.has("delay")) return;
+  const bool estimate = prepare.text("delay") == "estimate";
+  if (estimate && prepare.has("delay_error"))
+    throw prepare.wrong("delay_error", "does not act where the delay is estimated: its error is then estimated too",
+                        "leave it out");
+  if (!estimate && prepare.has("longest_delay"))
+    throw prepare.wrong("longest_delay", "does not act where the delay is given",
+                        "leave it out, or set delay = \"estimate\"");
+  if (!estimate) out.delay = prepare.si("delay");
+  if (prepare.has("delay_error")) out.delay_error = prepare.si("delay_error");
+  if (!estimate) return;
+  if (!prepare.has("longest_delay"))
+    throw prepare.wrong(
+        "delay", "needs \"longest_delay\"",
+        "add longest_delay = \"1 s\": less than half the main period, which would be the force turned round");
+  out.longest_delay = prepare.si("longest_delay");
+}
+
+FitScene::Prepare read_prepare(const Record& root, const std::string& kind) {
+  FitScene::Prepare out;
+  if (!root.has("prepare")) return out;
+  const Record& prepare = root.table("prepare");
+  if (kind != "morison")
+    throw prepare.refused(fmt::format("has no part in a fit of kind \"{}\"", kind),
+                          "leave it out: its steps are those of a force");
+  if (prepare.has("longest_gap")) out.longest_gap = prepare.si("longest_gap");
+  if (prepare.has("outliers")) {
+    out.outlier_window = prepare.table("outliers").si("window");
+    out.outlier_deviations = prepare.table("outliers").si("deviations");
+    if (out.outlier_deviations < 3)
+      throw prepare.table("outliers").wrong("deviations", "must be 3 at least: noise itself comes so far");
+  }
+  read_delay(prepare, out);
+  if (prepare.has("derivative_bandwidth")) out.derivative_bandwidth = prepare.si("derivative_bandwidth") / two_pi;
+  out.filters = read_filters(prepare);
+  if (!prepare.has("window")) return out;
+  const Record& window = prepare.table("window");
+  out.window = window.text("kind");
+  if (window.has("last") && window["last"].integer < 1) throw window.wrong("last", "must be 1 at least");
+  if (window.has("last")) out.cycles = static_cast<int>(window["last"].integer);
+  if (window.has("tolerance")) out.tolerance = window.si("tolerance");
+  if (window.has("from")) out.from = window.si("from");
+  if (window.has("to")) out.to = window.si("to");
+  if (window.has("to") && !(out.from < out.to)) throw window.wrong("to", "must be later than from");
+  return out;
+}
+
+void read_errors(const Record& model, FitScene::Model& out) {
+  if (!model.has("uncertainty")) return;
+  const Record& e = model.table("uncertainty");
+  const auto of = [&](const char* key) { return e.has(key) ? e.si(key) : 0.0; };
+  out.diameter_error = of("diameter");
+  out.length_error = of("length");
+  out.density_error = of("density");
+  out.mass_error = of("mass");
+  if (out.mass_error > 0 && out.motion == "water moves")
+    throw e.wrong("mass", "does not act: the body does not move", "leave it out");
+}
+
 FitScene::Model read_model(const Record& model) {
+  FitScene::Model out{.kind = model.text("kind"), .place = model.place()};
+  if (out.kind == "decay") {
+    out.sine = model.text("restoring") == "sine";
+    return out;
+  }
   const Record& water = model.table("water");
-  FitScene::Model out{.kind = model.text("kind"),
-                      .diameter = model.si("diameter"),
-                      .length = model.si("length"),
-                      .density = water.si("density"),
-                      .viscosity = {},
-                      .motion = {},
-                      .place = model.place()};
+  out.diameter = model.si("diameter");
+  out.length = model.si("length");
+  out.density = water.si("density");
   if (water.has("viscosity")) out.viscosity = water.si("viscosity");
   if (out.kind != "morison") return out;
   out.motion = model.text("motion");
@@ -98,18 +220,47 @@ FitScene::Model read_model(const Record& model) {
         "needs \"mass_beyond_load_cells\" where the body moves: its inertia is part of the measured force",
         "add mass_beyond_load_cells = \"5.9 kg\", contained water included; \"0 kg\" if it is taken off already");
   if (given) out.mass_beyond_load_cells = model.si("mass_beyond_load_cells");
+  read_errors(model, out);
   return out;
 }
 
 std::vector<std::string> read_coefficients(const Record& ask, const std::string& kind) {
   std::vector<std::string> out;
+  const std::vector<std::string> forces{"cd", "cm", "ca"};
   for (const auto& c : ask["coefficients"].texts) {
+    const bool of_force = std::find(forces.begin(), forces.end(), c.value) != forces.end();
+    if (of_force == (kind == "decay"))
+      throw InputError(fmt::format("[ask] coefficients: \"{}\" has no part in a fit of kind \"{}\"", c.value, kind),
+                       c.place,
+                       of_force ? "a decay knows linear, quadratic, cubic and coulomb" : "ask for cd, cm or ca");
     if (kind == "towing" && c.value != "cd")
       throw InputError(fmt::format("[ask] coefficients: \"{}\" cannot come from towing at steady speed", c.value),
                        c.place, "ask for \"cd\" alone");
     out.push_back(c.value);
   }
   return out;
+}
+
+/// What concerns several runs, and how a run is looked at.
+void read_batch(const Record& root, const fs::path& file, FitScene& scene) {
+  const Record &data = root.table("data"), &ask = root.table("ask"), &intervals = ask.table("intervals");
+  const auto for_morison = [&](const Record& record, const char* key) {
+    if (scene.model.kind != "morison" && record.has(key) && !record[key].defaulted)
+      throw record.wrong(key, fmt::format("has no part in a fit of kind \"{}\"", scene.model.kind), "leave it out");
+  };
+  for_morison(data, "runs");
+  for (const char* key : {"robust", "cycles", "law", "sensitivity"}) for_morison(ask, key);
+  for_morison(intervals, "method");
+  if (data.has("runs")) scene.run_table = {{beside(file, data.text("runs")), data["runs"].place}};
+  scene.interval_method = intervals.text("method");
+  scene.robust = ask.has("robust");
+  scene.cycles = ask.has("cycles");
+  scene.sensitivity = ask.has("sensitivity");
+  if (ask.has("law")) scene.law = ask.text("law");
+  if (scene.cycles && scene.prepare.window != "full cycles")
+    throw ask.wrong("cycles", "needs cycles", "set [prepare] window = { kind = \"full cycles\" }");
+  if (scene.cycles && scene.prepare.longest_delay)
+    throw ask.wrong("cycles", "cannot be had while the delay is being estimated", "give the delay that was estimated");
 }
 
 }  // namespace
@@ -131,9 +282,23 @@ FitScene parse_fit(std::string_view text, const fs::path& file) {
   if (root.has("title")) scene.title = root.text("title");
   scene.model = read_model(root.table("model"));
   scene.channels = read_channels(root.table("data").table("channels"), scene.model.kind);
+  if (scene.channels.count("cross_velocity") > 0 && scene.model.motion == "body moves")
+    throw root.table("data")
+        .table("channels")
+        .wrong("cross_velocity", "has no part where the body moves", "leave it out");
+  scene.force = read_force(root.table("data"), scene.model.kind, file);
+  if (root.table("data").has("zero")) {
+    const Value& zero = root.table("data")["zero"];
+    if (scene.model.kind != "morison")
+      throw root.table("data").wrong("zero", fmt::format("has no part in a fit of kind \"{}\"", scene.model.kind),
+                                     "leave it out");
+    scene.zero_run = {{beside(file, zero.text), zero.place}};
+  }
+  scene.prepare = read_prepare(root, scene.model.kind);
   scene.coefficients = read_coefficients(root.table("ask"), scene.model.kind);
   scene.confidence = root.table("ask").table("intervals").si("level");
   scene.files = read_files(root.table("data"), file);
+  read_batch(root, file, scene);
   return scene;
 }
 

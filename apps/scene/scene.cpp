@@ -145,7 +145,17 @@ Solve build_solve(const Record& solve) {
   Solve out;
   if (solve.text("step").empty()) out.step = {solve.si("step"), solve["step"].place};
   const Record& integrator = solve.table("integrator");
+  out.integrator = integrator.text("name");
+  out.integrator_place = integrator["name"].place;
   out.rho_infinity = integrator.si("rho_infinity");
+  out.tolerance = integrator.si("tolerance");
+  const bool lines_alike = integrator.has("lines") && integrator.text("lines") == "generalised_alpha";
+  const auto only_of = [&](std::string_view key, std::string_view method) {
+    if (integrator[key].defaulted || out.integrator == method) return;
+    throw integrator.wrong(key, fmt::format("acts only with name = \"{}\"", method), "leave it out");
+  };
+  if (!lines_alike) only_of("rho_infinity", "generalized_alpha");
+  only_of("tolerance", "explicit_pair");
   if (integrator.has("lines")) out.line_scheme = integrator.text("lines");
   if (integrator.has("gamma")) {
     if (out.line_scheme != "gamma")
@@ -171,8 +181,9 @@ void check_version(const Node& root) {
 }
 
 Scene parse(std::string_view text, const std::filesystem::path& file) {
-  const Node document = parse_document(text, file.string());
+  Node document = parse_document(text, file.string());
   check_version(document);
+  resolve_includes(document, file);
   if (const auto* model = document.find("model"))
     throw InputError("this scene has a [model]: it asks for a fit, not for motion", model->place,
                      "use `froude fit`, or take the table out");
@@ -194,6 +205,7 @@ Scene parse(std::string_view text, const std::filesystem::path& file) {
   build_lines(root, file, names, scene);
   build_moorings(root, names, scene);
   build_connectors(root, names, scene);
+  build_contacts(root, names, scene);
   build_joints(root, names, scene);
   build_loads(root, names, scene);
   check_bodies(root, scene);

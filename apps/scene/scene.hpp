@@ -122,10 +122,13 @@ struct Memory {
 
 /// `[body.hydrodynamics] cylinders`: vertical cylinders, of which the program computes the coefficients.
 struct Cylinders {
-  std::vector<Eigen::Vector3d> at;      ///< axes at the waterline, body axes, m; z is that of still water
-  double diameter;                      ///< m
-  std::optional<double> draught;        ///< m; empty: they stand on the sea bed
-  std::optional<double> top;            ///< m, depth; empty: they pierce the surface
+  struct Equal {
+    std::vector<Eigen::Vector3d> at;  ///< axes at the waterline, body axes, m; z is that of still water
+    double diameter;                  ///< m
+    std::optional<double> draught;    ///< m; empty: they stand on the sea bed
+    std::optional<double> top;        ///< m, depth; empty: they pierce the surface
+  };
+  std::vector<Equal> sorts;             ///< at least one
   std::vector<double> omega, headings;  ///< rad/s; rad, empty: those that the scene asks for
 };
 
@@ -268,12 +271,26 @@ struct Line {
   Place place;
 };
 
+/// `[connector.switch]`: the stiffness by the period that dominates a motion.
+struct StiffnessSwitch {
+  int body;
+  hydro::Mode mode;      ///< of the body's origin from rest: what is watched
+  double every, window;  ///< s
+  double hysteresis;     ///< rad/s
+  double dwell;          ///< s
+  struct Setting {
+    double from, stiffness;  ///< s, N/m
+  };
+  std::vector<Setting> settings;
+};
+
 struct AxialConnector {
   double stiffness = 0, damping = 0;          ///< N/m, N s/m
   double cubic = 0, quadratic_damping = 0;    ///< N/m³, N s²/m²
   std::vector<double> elongations, tensions;  ///< of a table instead of stiffness and cubic, m and N
   bool pulls_only = false;                    ///< kind = "cable"
   std::optional<double> rest_length;          ///< m; empty: as placed
+  std::optional<StiffnessSwitch> switching;
 };
 struct BushingConnector {
   Eigen::Vector3d stiffness, damping;                        ///< along the axes of the first body, N/m, N s/m
@@ -287,6 +304,28 @@ struct Connector {
   std::optional<int> second;              ///< index of a body; empty: the ground
   Eigen::Vector3d first_end, second_end;  ///< body axes; global axes for the ground
   std::variant<AxialConnector, BushingConnector> kind;
+  Place place;
+};
+
+/// A cylinder with round ends; a ball where both are one point. Body axes, of the ground global.
+struct ContactRod {
+  Eigen::Vector3d from, to;
+  double radius;  ///< m
+};
+struct ContactPlane {
+  Eigen::Vector3d at, normal;  ///< out of the body, unit
+};
+struct ContactBox {
+  Eigen::Vector3d centre, half;  ///< half of its sides, along the body's axes
+};
+/// `[[contact]]`: shapes of two bodies that touch and part.
+struct Contact {
+  std::string name;  ///< "contact1" … unless named; repeated ones get a number
+  int first;
+  std::optional<int> second;  ///< empty: the ground
+  ContactRod on_first;
+  std::variant<ContactRod, ContactPlane, ContactBox> on_second;
+  double restitution, friction;
   Place place;
 };
 
@@ -350,8 +389,11 @@ struct AskRun {
 };
 
 struct Solve {
-  std::optional<Located<double>> step;          ///< s; empty: chosen from the accuracy asked
+  std::optional<Located<double>> step;  ///< s; empty: chosen from the accuracy asked
+  std::string integrator = "generalized_alpha";
+  Place integrator_place = {};
   double rho_infinity = 0.8;                    ///< spectral radius of generalised-α at infinite frequency, 0 … 1
+  double tolerance = 1e-8;                      ///< of the explicit pair
   std::string line_scheme = "energy_momentum";  ///< of lines, as dynamics::line::parse_scheme() reads it
   double gamma = 0.51;                          ///< of the γ-method of lines
 };
@@ -376,6 +418,7 @@ struct Scene {
   std::vector<Member> members;
   std::vector<Mooring> moorings;
   std::vector<CatenaryLine> lines;
+  std::vector<Contact> contacts;
   std::vector<Line> chains;  ///< [[line]]
   std::vector<Connector> connectors;
   std::vector<Load> loads;
@@ -417,18 +460,51 @@ struct FitScene {
   std::string text;
   std::string title;
   std::vector<Located<std::filesystem::path>> files;  ///< data, absolute, in alphabetical order; `files` may hold `*`
-  std::map<std::string, std::string> channels;  ///< role (time, force, velocity, acceleration, position) → column
+  std::optional<Located<std::filesystem::path>> run_table;  ///< in place of files
+  std::map<std::string, std::string> channels;  ///< role (time, velocity, acceleration, position, …) → column
+  struct ForceChannel {
+    std::string column;
+    bool turned = false;  ///< written "-F2": positive the other way
+    std::optional<Located<std::filesystem::path>> calibration;
+  };
+  std::vector<ForceChannel> force;  ///< their sum is the force
+  std::optional<Located<std::filesystem::path>> zero_run;
   struct Model {
-    std::string kind;                 ///< "morison" or "towing"
-    double diameter, length;          ///< m
-    double density;                   ///< kg/m³
-    std::optional<double> viscosity;  ///< m²/s, for Re
-    std::string motion;  ///< morison only: "water moves" (waves on a fixed body) or "body moves" (forced oscillation)
+    std::string kind;                      ///< "morison", "towing" or "decay"
+    double diameter = 0, length = 0;       ///< m; as what follows, but for `sine`, not of a decay
+    double density = 0;                    ///< kg/m³
+    std::optional<double> viscosity = {};  ///< m²/s, for Re
+    std::string motion =
+        {};  ///< morison only: "water moves" (waves on a fixed body) or "body moves" (forced oscillation)
     double mass_beyond_load_cells = 0;  ///< kg, body moves only
-    Place place;
+    /// Standard uncertainties, SI; 0 where none is stated.
+    double diameter_error = 0, length_error = 0, density_error = 0, mass_error = 0;
+    bool sine = false;  ///< decay: restored by sin x
+    Place place = {};
   } model;
+  /// Steps between the measurement and the fit; frequencies in Hz, times in s.
+  struct Filter {
+    std::string kind;  ///< "butterworth", "symmetric weights", "notch", "moving average"
+    int order = 0;
+    double hz = 0, width_hz = 0, seconds = 0;
+  };
+  struct Prepare {
+    double longest_gap = 0;
+    double outlier_window = 0, outlier_deviations = 0;  ///< 0: not looked for
+    double delay = 0, delay_error = 0;
+    std::optional<double> longest_delay;  ///< the delay is to be estimated, within this
+    double derivative_bandwidth = 0;
+    std::vector<Filter> filters;
+    std::string window = "all";  ///< "all", "span", "full cycles"
+    double from = 0, to = 0;
+    int cycles = 0;  ///< 0: as many as there are
+    double tolerance = 0.03;
+  } prepare;
   std::vector<std::string> coefficients;  ///< among "cd", "cm", "ca"
   double confidence = 0.95;
+  std::string interval_method = "effective samples";
+  bool robust = false, cycles = false, sensitivity = false;
+  std::string law;  ///< "" for none
   std::vector<Echo> echo;
 };
 

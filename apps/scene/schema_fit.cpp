@@ -10,14 +10,19 @@ const Table& channels() {
   static const Table table{
       .title = "[data.channels]",
       .meaning = "which column of the files plays which part",
-      .keys = {text("time", "morison: time").optional(),
-               text("force",
-                    "measured force, positive along positive velocity: of the water on a fixed body, or what load "
-                    "cells carry")
+      .keys = {text("time", "morison, decay: time").optional(),
+               texts("force",
+                     "morison, towing: measured force, positive along positive velocity: of the water on a fixed body, "
+                     "or what load "
+                     "cells carry; several columns are added up, and \"-F2\" is F2 turned round")
                    .optional(),
                text("velocity", "morison: of the water, or of the body, whichever moves").optional(),
                text("acceleration", "morison: as velocity; left out: from the velocity or position").optional(),
-               text("position", "morison: as velocity, instead of it").optional(),
+               text("position", "morison: as velocity, instead of it; decay: the motion").optional(),
+               text("cross_velocity",
+                    "morison, water moves: velocity across both the force and the axis: drag is then sqrt(u^2 + w^2) u")
+                   .optional(),
+               text("angle", "decay: the motion, in place of a position").optional(),
                text("speed", "towing: speed of the carriage").optional(),
                text("speed_sd", "towing: standard deviation of the speed").optional(),
                text("force_sd", "towing: standard deviation of the force").optional()}};
@@ -28,8 +33,116 @@ const Table& data() {
   static const Table table{
       .title = "[data]",
       .meaning = "the measurements",
-      .keys = {texts("files", "CSV, relative to the scene; * stands for any characters of a file's name"),
-               inner_table("channels", channels())}};
+      .keys = {texts("files", "CSV, relative to the scene; * stands for any characters of a file's name").optional(),
+               text(
+                   "runs",
+                   "morison: CSV with one row for each run: the column file, and any of zero, delay, diameter, length, "
+                   "density, viscosity and mass_beyond_load_cells, which then hold for that run; other columns are "
+                   "carried into the results")
+                   .optional(),
+               inner_table("channels", channels()),
+               texts("calibration",
+                     "morison: one CSV for each force channel, with columns force and voltage (and cycle, where there "
+                     "are several): the channel is then in volts")
+                   .optional(),
+               text("zero", "morison: CSV of a run at rest, with the same force channels: its mean is taken off")
+                   .optional()},
+      .groups = {{Group::Count::exactly_one, {"files", "runs"}}}};
+  return table;
+}
+
+const Table& outliers() {
+  static const Table table{
+      .title = "[prepare.outliers]",
+      .meaning = "single samples far off their neighbours, which are bridged",
+      .keys = {quantity("window", dim::time, "neighbours asked, half before and half after").positive(),
+               number("deviations", "how far off, in deviations of the neighbours (from their medians), 3 at least")
+                   .positive()
+                   .or_default("8", "noise alone comes so far once in 1e15 samples")}};
+  return table;
+}
+
+const Table& low_pass() {
+  static const Table table{
+      .title = "[prepare.low_pass]",
+      .meaning = "low pass without delay, over force and model alike",
+      .keys = {text("kind", "of filter"),
+               quantity("cutoff", dim::angular_velocity, "frequency of half the amplitude").positive()},
+      .chosen_by = "kind",
+      .variants = {{.word = "butterworth",
+                    .meaning = "recursive, forward and backward",
+                    .keys = {integer("order", "of one pass, 1 to 10").or_default("4", "as steep as most need")}},
+                   {.word = "symmetric weights",
+                    .meaning = "finite: sinc under a Kaiser window of 60 dB, from half the cutoff to one and a half",
+                    .keys = {}}}};
+  return table;
+}
+
+const Table& notch() {
+  static const Table table{
+      .title = "[[prepare.notch]]",
+      .meaning = "takes one line out: hum of the mains, a vibration of the structure",
+      .keys = {quantity("centre", dim::angular_velocity, "frequency of the line").positive(),
+               quantity("width", dim::angular_velocity, "between the frequencies of half the amplitude").positive()}};
+  return table;
+}
+
+const Table& window() {
+  static const Table table{
+      .title = "[prepare.window]",
+      .meaning = "the part of the record that is fitted",
+      .keys = {text("kind", "of window")},
+      .chosen_by = "kind",
+      .variants = {
+          {.word = "full cycles",
+           .meaning = "cycles of full amplitude, found in the motion; build-up and run-down fall out",
+           .keys = {integer("last", "so many of them; left out: all").optional(),
+                    number("tolerance", "of amplitude and period, relative")
+                        .within(Limit::open_fraction)
+                        .or_default("0.03", "a build-up over three cycles takes a quarter each")}},
+          {.word = "span",
+           .meaning = "from one time to another",
+           .keys = {quantity("from", dim::time, "first instant"), quantity("to", dim::time, "last instant")}}}};
+  return table;
+}
+
+const Table& prepare() {
+  static const Table table{
+      .title = "[prepare]",
+      .meaning = "steps between the measurement and a fit of kind \"morison\"; each is told in the report",
+      .keys = {quantity("longest_gap", dim::time, "rows missing no longer than this are bridged").positive().optional(),
+               inner_table("outliers", outliers()).optional(),
+               quantity("delay", dim::time, "of the force behind the motion: taken off, or estimated with the fit")
+                   .one_of({"estimate"})
+                   .optional(),
+               quantity("delay_error", dim::time, "standard uncertainty of a delay that is given")
+                   .positive()
+                   .only_beside("delay")
+                   .optional(),
+               quantity("longest_delay", dim::time, "where it is estimated: searched so far either way")
+                   .positive()
+                   .only_beside("delay")
+                   .optional(),
+               quantity("derivative_bandwidth", dim::angular_velocity,
+                        "of velocity and acceleration where they are derived; left out: five times the main frequency")
+                   .positive()
+                   .optional(),
+               inner_table("low_pass", low_pass()).optional(), inner_tables("notch", notch()).optional(),
+               quantity("moving_average", dim::time, "length of a mean over neighbours; a low pass does it better")
+                   .positive()
+                   .optional(),
+               inner_table("window", window()).optional()}};
+  return table;
+}
+
+const Table& model_errors() {
+  static const Table table{
+      .title = "[model.uncertainty]",
+      .meaning = "standard uncertainties of what the cylinder is taken for",
+      .keys = {quantity("diameter", dim::length, "of the diameter").positive().optional(),
+               quantity("length", dim::length, "of the length").positive().optional(),
+               quantity("density", dim::density, "of the water's density").positive().optional(),
+               quantity("mass", dim::mass, "of the mass beyond the load cells").positive().optional()}};
   return table;
 }
 
@@ -44,25 +157,38 @@ const Table& model_water() {
   return table;
 }
 
+std::vector<Key> with_cylinder(std::vector<Key> own) {
+  std::vector<Key> keys{quantity("diameter", dim::length, "of the cylinder").positive(),
+                        quantity("length", dim::length, "of the cylinder in the water").positive(),
+                        inner_table("water", model_water())};
+  keys.insert(keys.end(), own.begin(), own.end());
+  return keys;
+}
+
 const Table& model() {
   static const Table table{
       .title = "[model]",
-      .meaning = "what the force is taken for",
-      .keys = {text("kind", "of experiment"), quantity("diameter", dim::length, "of the cylinder").positive(),
-               quantity("length", dim::length, "of the cylinder in the water").positive(),
-               inner_table("water", model_water())},
+      .meaning = "what the measurement is taken for",
+      .keys = {text("kind", "of experiment")},
       .chosen_by = "kind",
       .variants = {
           {.word = "morison",
            .meaning = "drag and inertia in unsteady flow (Morison et al., 1950)",
-           .keys = {text("motion",
-                         "\"water moves\": waves on a fixed body; \"body moves\": forced oscillation in still water")
-                        .one_of({"water moves", "body moves"}),
-                    quantity("mass_beyond_load_cells", dim::mass,
-                             "body moves: all that the load cells accelerate, contained water included")
-                        .within(Limit::not_negative)
-                        .optional()}},
-          {.word = "towing", .meaning = "drag at steady speed", .keys = {}}}};
+           .keys = with_cylinder(
+               {text("motion",
+                     "\"water moves\": waves on a fixed body; \"body moves\": forced oscillation in still water")
+                    .one_of({"water moves", "body moves"}),
+                quantity("mass_beyond_load_cells", dim::mass,
+                         "body moves: all that the load cells accelerate, contained water included")
+                    .within(Limit::not_negative)
+                    .optional(),
+                inner_table("uncertainty", model_errors()).optional()})},
+          {.word = "towing", .meaning = "drag at steady speed", .keys = with_cylinder({})},
+          {.word = "decay",
+           .meaning = "period and damping of a body let go: x'' + b1 x' + b2 |x'| x' + b3 x'^3 + c sgn x' + w0^2 x = 0",
+           .keys = {text("restoring", "by x, or by sin x for a pendulum")
+                        .one_of({"linear", "sine"})
+                        .or_default("linear", "small angles, and all that floats")}}}};
   return table;
 }
 
@@ -71,7 +197,10 @@ const Table& intervals() {
                            .meaning = "how sure to be",
                            .keys = {number("level", "probability that the interval covers the truth")
                                         .within(Limit::open_fraction)
-                                        .or_default("0.95", "the usual level")}};
+                                        .or_default("0.95", "the usual level"),
+                                    text("method", "morison: how the residuals' memory is counted")
+                                        .one_of({"effective samples", "cycle clusters", "block bootstrap"})
+                                        .or_default("effective samples", "sharpest where residuals are stationary")}};
   return table;
 }
 
@@ -80,8 +209,19 @@ const Table& ask() {
       .title = "[ask]",
       .meaning = "what is wanted of a fit",
       .keys = {
-          texts("coefficients", "drag cd, inertia cm, added mass ca; towing knows cd alone").one_of({"cd", "cm", "ca"}),
-          inner_table("intervals", intervals()).or_default("", "see its keys")}};
+          texts("coefficients",
+                "drag cd, inertia cm, added mass ca; towing knows cd alone; decay: the damping terms that act, linear, "
+                "quadratic, cubic, coulomb")
+              .one_of({"cd", "cm", "ca", "linear", "quadratic", "cubic", "coulomb"}),
+          inner_table("intervals", intervals()).or_default("", "see its keys"),
+          effect("robust", "morison: wild samples of the force pull less (Huber)").optional(),
+          effect("cycles", "morison: coefficients of each cycle too; needs [prepare] window in full cycles").optional(),
+          text("law",
+               "morison: coefficients of all runs against KC, Re or beta = Re/KC, with runs that differ by chance")
+              .one_of({"constant", "kc", "re", "beta", "kc and re", "best"})
+              .optional(),
+          effect("sensitivity", "morison: the fit repeated with other cutoffs, bandwidths and halves of the window")
+              .optional()}};
   return table;
 }
 
@@ -92,7 +232,8 @@ const Table& fit_schema() {
       .title = "a fit",
       .meaning = "coefficients from measurements",
       .keys = {integer("schema", "version of this grammar, 1"), text("title", "for people").optional(),
-               inner_table("data", data()), inner_table("model", model()), inner_table("ask", ask())}};
+               inner_table("data", data()), inner_table("prepare", prepare()).optional(), inner_table("model", model()),
+               inner_table("ask", ask())}};
   return table;
 }
 

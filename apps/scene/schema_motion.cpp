@@ -2,6 +2,7 @@
 #include "hydro/base/types.hpp"
 #include "hydro/potential/check.hpp"
 #include "scene/schema.hpp"
+#include "scene/schema_contact.hpp"
 #include "scene/schema_joint.hpp"
 #include "scene/schema_line.hpp"
 #include "scene/schema_members.hpp"
@@ -104,21 +105,35 @@ const Table& radiation() {
   return table;
 }
 
+std::vector<Key> keys_of_equal_cylinders() {
+  return {points("at", "axes where they meet still water, body axes; each ± makes two"),
+          quantity("diameter", dim::length, "of each").positive(),
+          quantity("draught", dim::length, "depth of the bottom of each, or \"to the sea bed\"")
+              .positive()
+              .one_of({"to the sea bed"}),
+          quantity("top", dim::length, "depth of the top of each; left out: they pierce the surface")
+              .positive()
+              .optional()};
+}
+
+const Table& other_cylinders() {
+  static const Table table{.title = "[[body.hydrodynamics.cylinders.others]]",
+                           .meaning = "cylinders of another size in the same body",
+                           .keys = keys_of_equal_cylinders()};
+  return table;
+}
+
 const Table& cylinders() {
-  static const Table table{
-      .title = "[body.hydrodynamics.cylinders]",
-      .meaning = "vertical cylinders: the program computes their coefficients exactly, with interaction",
-      .keys = {points("at", "axes where they meet still water, body axes; each ± makes two"),
-               quantity("diameter", dim::length, "of each").positive(),
-               quantity("draught", dim::length, "depth of the bottom of each, or \"to the sea bed\"")
-                   .positive()
-                   .one_of({"to the sea bed"}),
-               quantity("top", dim::length, "depth of the top of each; left out: they pierce the surface")
-                   .positive()
-                   .optional(),
-               range("frequencies", dim::angular_velocity,
-                     "of the table that is computed: \"0.2 rad/s .. 4 rad/s, 39 values\""),
-               range("headings", dim::angle, "of the table; without it those of [waves] and [ask]").optional()}};
+  static const Table table = [] {
+    Table out{.title = "[body.hydrodynamics.cylinders]",
+              .meaning = "vertical cylinders: the program computes their coefficients exactly, with interaction",
+              .keys = keys_of_equal_cylinders()};
+    out.keys.push_back(inner_tables("others", other_cylinders()).optional());
+    out.keys.push_back(range("frequencies", dim::angular_velocity,
+                             "of the table that is computed: \"0.2 rad/s .. 4 rad/s, 39 values\""));
+    out.keys.push_back(range("headings", dim::angle, "of the table; without it those of [waves] and [ask]").optional());
+    return out;
+  }();
   return table;
 }
 
@@ -299,6 +314,32 @@ Key rest_length() {
       .or_default("as placed", "so that the scene is at rest where it is placed");
 }
 
+const Table& switch_setting() {
+  static const Table table{
+      .title = "[[connector.switch.settings]]",
+      .meaning = "a stiffness from some period on",
+      .keys = {quantity("from", dim::time, "period; the first is \"0 s\"").within(Limit::not_negative),
+               quantity("stiffness", dim::stiffness, "of each connector").positive()}};
+  return table;
+}
+
+const Table& connector_switch() {
+  static const Table table{
+      .title = "[connector.switch]",
+      .meaning = "sets the stiffness by the period that dominates a motion, once two checks in turn agree",
+      .keys = {text("watch", "a motion, like \"m2.surge\""),
+               quantity("every", dim::time, "from one check to the next").positive(),
+               quantity("window", dim::time, "of the motion that a check looks at; some periods").positive(),
+               quantity("hysteresis", dim::angular_velocity,
+                        "by which the frequencies of two checks in turn may differ: \"0.001 Hz\"")
+                   .positive(),
+               quantity("dwell", dim::time, "least time between two switches")
+                   .within(Limit::not_negative)
+                   .or_default("0 s", "two checks that agree are enough"),
+               inner_tables("settings", switch_setting())}};
+  return table;
+}
+
 const Table& connector() {
   static const Table table{
       .title = "[[connector]]",
@@ -323,7 +364,8 @@ const Table& connector() {
                              "tension per rate of elongation times its size")
                         .positive()
                         .optional(),
-                    rest_length().only_beside("stiffness")},
+                    rest_length().only_beside("stiffness"),
+                    inner_table("switch", connector_switch()).optional().only_beside("stiffness")},
            .groups = {{at_least_one, {"stiffness", "damping", "quadratic_damping"}}}},
           {.word = "tabulated",
            .meaning = "as axial, with a spring by a table",
@@ -412,12 +454,21 @@ const Table& integrator() {
       .title = "[solve.integrator]",
       .meaning = "how time is stepped",
       .keys = {
-          text("name", "of the method")
-              .one_of({"generalized_alpha"})
+          text("name",
+               "of the method: generalized_alpha; energy_momentum keeps momentum, and energy of joints and weights, "
+               "and damps "
+               "nothing; explicit_pair, of orders 5 and 4, cuts steps by its own error; implicit_euler and "
+               "semi_implicit_euler, of order 1, show what they cost")
+              .one_of(
+                  {"generalized_alpha", "energy_momentum", "explicit_pair", "implicit_euler", "semi_implicit_euler"})
               .or_default("generalized_alpha", "second order, damps only what the step cannot resolve"),
-          number("rho_infinity", "spectral radius at infinite frequency: 1 damps nothing, 0 all at once")
+          number("rho_infinity",
+                 "of generalized_alpha: spectral radius at infinite frequency: 1 damps nothing, 0 all at once")
               .within(Limit::fraction)
               .or_default("0.8", "kills what is not resolved within some steps, leaves the rest alone"),
+          number("tolerance", "of explicit_pair: local error of a step relative to what moves in it")
+              .positive()
+              .or_default("1e-8", "far below any other error of a run"),
           text("lines",
                "how each [[line]] is stepped; left out: energy_momentum, which keeps energy and lengths at any step")
               .one_of({"energy_momentum", "generalised_alpha", "gamma", "semi_implicit_euler", "explicit_euler"})
@@ -446,13 +497,17 @@ const Table& motion_schema() {
       .title = "a scene",
       .meaning = "floating bodies in waves",
       .keys = {integer("schema", "version of this grammar, 1"), text("title", "for people").optional(),
+               texts("include",
+                     "results of `froude fit -o`: with \"fit.toml\", a text \"fit.cd\" stands for the number cd of its "
+                     "[coefficients]")
+                   .optional(),
                inner_table("water", water()), inner_table("waves", waves_table()).optional(),
                inner_table("current", current_table()).optional(), inner_tables("body", body()).optional(),
                inner_tables("probe", probe_table()).optional(), inner_tables("member", member_table()).optional(),
                inner_tables("line", line_table()).optional(), inner_tables("mooring", mooring()).optional(),
                inner_tables("connector", connector()).optional(), inner_tables("joint", joint_table()).optional(),
-               inner_tables("load", load_table()).optional(), inner_table("ask", ask()),
-               inner_table("solve", solve()).or_default("", "see its keys")}};
+               inner_tables("load", load_table()).optional(), inner_tables("contact", contact_table()).optional(),
+               inner_table("ask", ask()), inner_table("solve", solve()).or_default("", "see its keys")}};
   return table;
 }
 

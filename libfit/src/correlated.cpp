@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "block_means.hpp"
 #include "hydro/base/error.hpp"
 
 namespace fit {
@@ -33,12 +34,6 @@ Eigen::VectorXd extended(const Eigen::VectorXd& gamma, const Eigen::VectorXd& ph
     g.push_back(next);
   }
   return Eigen::Map<const Eigen::VectorXd>(g.data(), static_cast<Eigen::Index>(g.size()));
-}
-
-Eigen::MatrixXd block_means(const Eigen::MatrixXd& m, Eigen::Index block) {
-  Eigen::MatrixXd out(m.rows() / block, m.cols());
-  for (Eigen::Index b = 0; b < out.rows(); ++b) out.row(b) = m.middleRows(b * block, block).colwise().mean();
-  return out;
 }
 
 // Jᵀ Σ J with the Toeplitz matrix Σ_ij = γ_|i−j|.
@@ -83,7 +78,7 @@ Autoregression fit_autoregression(const Eigen::VectorXd& record, int order_at_mo
 }
 
 CoefficientCovariance correlated_covariance(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals,
-                                            int block) {
+                                            int block, LongMemory long_memory) {
   const Eigen::Index n = jacobian.rows(), p = jacobian.cols();
   hydro::require(residuals.size() == n, "{} residuals but a Jacobian of {} rows", residuals.size(), n);
   hydro::require(block >= 1 && n / block >= 8 && n > p, "{} samples in blocks of {} are too few for an uncertainty", n,
@@ -100,13 +95,16 @@ CoefficientCovariance correlated_covariance(const Eigen::MatrixXd& jacobian, con
   const Eigen::MatrixXd block_inverse = (means.transpose() * means).inverse();
   Eigen::MatrixXd meat = toeplitz_form(means, ar.autocovariance);
   // The fit took tr(P Σ) out of the residuals' sum of squares (for white residuals: p σ²); put it back.
-  const double lost = (block_inverse * meat).trace() / (blocks * ar.autocovariance[0]);
-  hydro::require(lost < 0.5,
+  double lost = (block_inverse * meat).trace() / (blocks * ar.autocovariance[0]);
+  const bool too_long = lost >= 0.5;
+  hydro::require(!too_long || long_memory == LongMemory::widen,
                  "the residuals stay correlated over so much of the record that {} coefficients explain most of them",
                  p);
+  lost = std::min(lost, 0.5);
   meat /= 1 - lost;
 
   CoefficientCovariance result;
+  result.residual_share_lost = lost;
   result.covariance = inverse * meat * inverse * (block * block * covered);  // (F4)
   result.white_dof = static_cast<double>(n - p);
   result.white_covariance = residuals.squaredNorm() / result.white_dof * inverse;
@@ -116,8 +114,8 @@ CoefficientCovariance correlated_covariance(const Eigen::MatrixXd& jacobian, con
   // The formula is about random residuals. A residual that repeats is known exactly, yet gives next to nothing here;
   // two is the least for which Student's t has a quantile of use (4.3 at 95 %).
   const double formula = blocks / (1 + 2 * rho.squaredNorm()) - static_cast<double>(p);
-  result.dof_raised = formula < 2;
-  result.dof = std::max(2.0, formula);
+  result.dof_raised = formula < 2 || too_long;
+  result.dof = result.dof_raised ? 2 : formula;
   result.order = static_cast<int>(ar.coefficients.size());
   result.block = block;
   return result;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "convolve.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/welch.hpp"
 
@@ -100,12 +101,7 @@ double LocalPolynomial::noise_gain() const {
 }
 
 std::vector<double> LocalPolynomial::apply(std::span<const double> values) const {
-  hydro::require(values.size() >= weights_.size(), "{} samples are fewer than the window's {}", values.size(),
-                 weights_.size());
-  std::vector<double> out(values.size() - weights_.size() + 1);
-  for (std::size_t j = 0; j < out.size(); ++j)
-    out[j] = std::inner_product(weights_.begin(), weights_.end(), values.begin() + static_cast<std::ptrdiff_t>(j), 0.0);
-  return out;
+  return sliding_sum(values, weights_);
 }
 
 Motion from_position(std::span<const double> position_m, double step_s, double bandwidth_hz) {

@@ -69,6 +69,70 @@ TEST_F(Fit, WritesItsEstimatesAndAPicture) {
   EXPECT_THAT(hydro::io::read_text(folder / "c.svg"), AllOf(HasSubstr("measured"), HasSubstr("fitted")));
 }
 
+TEST_F(Fit, OfARawRecordTellsItsStepsAndHasTheTruthInItsIntervals) {
+  const auto run = nlohmann::json::parse(told({.scene = examples / "tank.toml"}, true))["run"][0];
+  const auto holds = [&](const char* name, double truth) {
+    return run[name]["interval"][0].get<double>() < truth && truth < run[name]["interval"][1].get<double>();
+  };
+  EXPECT_TRUE(holds("cd", 2.4));  // the values that make_tank_run.py put in
+  EXPECT_TRUE(holds("ca", 1.1));
+  EXPECT_TRUE(holds("delay", 0.12));
+  EXPECT_GT(run["cd"]["systematic_error"].get<double>(), 0.009);  // 0.5 mm of 120 mm
+  const std::string text = told({.scene = examples / "tank.toml"});
+  EXPECT_THAT(text, AllOf(HasSubstr("8.041 Hz in the force"), HasSubstr("V2 has 0.0935"),
+                          HasSubstr("10 cycles of full amplitude"), HasSubstr("one deviation of the diameter")));
+}
+
+TEST_F(Fit, OfADecayHasTheTruthInItsIntervals) {
+  const auto run = nlohmann::json::parse(told({.scene = examples / "decay.toml"}, true))["run"][0];
+  const auto holds = [&](const char* name, double truth) {
+    return run[name]["interval"][0].get<double>() < truth && truth < run[name]["interval"][1].get<double>();
+  };
+  EXPECT_TRUE(holds("period", 6.4));  // the values of make_decay.py
+  EXPECT_TRUE(holds("linear", 0.02));
+  EXPECT_TRUE(holds("quadratic", 0.6));
+  const std::string text =
+      told({.scene = examples / "decay.toml", .output = folder / "d.toml", .picture = folder / "d.svg"});
+  EXPECT_THAT(text, AllOf(HasSubstr("quadratic"), HasSubstr("1/rad"), HasSubstr("AICc")));
+  EXPECT_THAT(hydro::io::read_text(folder / "d.toml"),
+              AllOf(HasSubstr("[coefficients]"), HasSubstr("[run.quadratic]")));
+  EXPECT_THAT(hydro::io::read_text(folder / "d.svg"), HasSubstr("residual"));
+}
+
+TEST_F(Fit, OfACampaignGivesATableAndALaw) {
+  const auto j = nlohmann::json::parse(told({.scene = examples / "batch.toml"}, true));
+  ASSERT_EQ(j["run"].size(), 7u);
+  const nlohmann::json* kc = nullptr;
+  for (const auto& law : j["law"])
+    if (law["of"] == "cd" && law["law"] == "ln KC") kc = &law;
+  ASSERT_NE(kc, nullptr);
+  EXPECT_LT((*kc)["intervals"][1][0].get<double>(), -0.8);  // the slope of make_batch.py
+  EXPECT_GT((*kc)["intervals"][1][1].get<double>(), -0.8);
+  const std::string text =
+      told({.scene = examples / "batch.toml", .table = folder / "t.csv", .picture = folder / "t.svg"});
+  EXPECT_THAT(text, AllOf(HasSubstr("cd over 7 runs"), HasSubstr("cross-validation")));
+  EXPECT_THAT(hydro::io::read_text(folder / "t.csv"),
+              AllOf(HasSubstr("file,amplitude,period,day,KC,Re,beta"), HasSubstr("run_3.csv,0.3,3.6,Monday,15.")));
+  EXPECT_THAT(hydro::io::read_text(folder / "t.svg"), AllOf(HasSubstr("95 % interval"), HasSubstr("Re")));
+}
+
+TEST_F(Fit, LooksAtCyclesAndAtOtherChoicesWhereAsked) {
+  const auto scene =
+      changed("tank.toml", "coefficients = [\"cd\", \"ca\"]",
+              "coefficients = [\"cd\", \"ca\"]\nsensitivity = true\nintervals = { method = \"cycle clusters\" }");
+  const auto run = nlohmann::json::parse(told({.scene = scene}, true))["run"][0];
+  ASSERT_EQ(run["variant"].size(), 6u);  // two cutoffs, two bandwidths, two halves
+  for (const auto& v : run["variant"])
+    EXPECT_LT(std::abs(v["cd"].get<double>()), 4 * run["cd"]["standard_error"].get<double>()) << v["with"];
+  EXPECT_THAT([&] { told({.scene = changed("tank.toml", "[ask]", "[ask]\ncycles = true")}); },
+              ThrowsMessage<InputError>(HasSubstr("while the delay is being estimated")));
+}
+
+TEST_F(Fit, SaysThatAChannelHasTheWrongSign) {
+  const auto scene = changed("tank.toml", "\"-V2\"", "\"V2\"");
+  EXPECT_THAT([&] { told({.scene = scene}); }, ThrowsMessage<InputError>(HasSubstr("wrong sign")));
+}
+
 TEST_F(Fit, OfTowingGivesEachRunAndAllTogether) {
   const std::string text =
       told({.scene = examples / "towing.toml", .output = folder / "t.toml", .picture = folder / "t.svg"});

@@ -107,4 +107,24 @@ TEST(LeastSquares, RefusesFewerObservationsThanParameters) {
   EXPECT_THROW(fit::minimise(linear(random_matrix(9, 3, 0), random_matrix(9, 1, 1)), y), hydro::InputError);
 }
 
+TEST(Compressed, HasTheSolutionAndTheResidualOfTheWholeProblem) {
+  const Eigen::Index n = 5000;
+  for (const double apart : {1.0, 1e-5}) {  // two columns well apart; nearly the same
+    Eigen::MatrixXd a = Eigen::MatrixXd::Random(n, 3);
+    a.col(2) = a.col(1) + apart * a.col(2);
+    const Eigen::VectorXd b = a * Eigen::Vector3d(1, -2, 3) + 0.3 * Eigen::VectorXd::Random(n);
+    const Eigen::VectorXd x = a.householderQr().solve(b);
+    const auto small = fit::compress(a, b);
+    const Eigen::VectorXd y = small.columns.triangularView<Eigen::Upper>().solve(small.target);
+    EXPECT_NEAR((x - y).norm() / x.norm(), 0, 1e-11);  // condition 1e5 costs five digits of sixteen
+    EXPECT_NEAR(small.rest, (b - a * x).norm(), 1e-9 * b.norm());
+    EXPECT_NEAR((small.columns.transpose() * small.columns - a.transpose() * a).norm(), 0, 1e-11 * a.squaredNorm());
+  }
+}
+
+TEST(Compressed, KeepsAPerfectFitPerfect) {
+  const Eigen::MatrixXd a = Eigen::MatrixXd::Random(2000, 2);
+  EXPECT_LT(fit::compress(a, a * Eigen::Vector2d(2, 5)).rest, 1e-12);
+}
+
 }  // namespace

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "fit/differentiate.hpp"
+#include "fit/filter.hpp"
 #include "hydro/base/error.hpp"
 #include "support/coloured_noise.hpp"
 
@@ -270,6 +271,92 @@ TEST(MorisonFit, RefusesBadRecordsAndBodies) {
   body = c;
   body.diameter = 0;
   EXPECT_THROW(fit(body, good)(), hydro::InputError);
+}
+
+TEST(MorisonFit, IsNotBiasedByAFilterThatRunsOverTheDragFlowToo) {
+  const auto c = cylinder(Experiment::water_moves);
+  const auto raw = made(c, 1.2, 1.7, 0.4, 4, 4000, 0.02);
+  const auto filter = fit::ZeroPhaseFilter::butterworth(2, 0.5, 0.02);  // cuts the third harmonic, 0.75 Hz, to 0.16
+  ForceRecord r = raw;
+  r.drag_flow.clear();
+  for (const double u : raw.velocity) r.drag_flow.push_back(std::abs(u) * u);
+  for (auto* column : {&r.force, &r.acceleration, &r.drag_flow}) *column = filter.apply(*column);
+  for (auto* column : {&r.time, &r.velocity})
+    *column = {column->begin() + static_cast<long>(filter.settling()),
+               column->end() - static_cast<long>(filter.settling())};
+  const auto fit = fit::fit_morison(c, r);
+  EXPECT_NEAR(fit.cd.value.value(), 1.2, 1e-9);  // the same linear filter over both sides of the equation
+  EXPECT_NEAR(fit.inertia.value.value(), 1.7, 1e-9);
+  r.drag_flow.clear();
+  // First harmonic of |u|u: 8/(3π); only it and a sixth of the third are left in the force.
+  EXPECT_GT(std::abs(*fit::fit_morison(c, r).cd.value - 1.2), 0.02);
+}
+
+TEST(MorisonFit, AddsWhatDoesNotAverageOutToTheInterval) {
+  const auto c = cylinder(Experiment::body_moves);
+  auto record = made(c, 1.2, 1.0, 0.4, 4, 1000, 0.02);
+  std::vector<double> slope = record.force;  // a slope that may be wrong by 2 % of the force
+  for (double& f : slope) f *= 0.02;
+  add(record.force, ar1_noise(1000, 0.7, 1.0, 4));
+  const auto plain = fit::fit_morison(c, record);
+  const auto wide = fit::fit_morison(
+      c, record, {.cylinder_errors = {.diameter = 0.001, .mass = 0.1}, .force_errors = {{"slope of F1", slope}}});
+  const double displaced = 997 * c.volume();
+  ASSERT_EQ(wide.budget.size(), 3u);
+  EXPECT_EQ(wide.budget[0].source, "slope of F1");
+  EXPECT_NEAR(wide.budget[0].cd, 0.02 * 1.2, 1e-9);  // drag is proportional to the force,
+  EXPECT_NEAR(wide.budget[0].inertia, 0.02 * (1.0 + 5.9 / displaced),
+              1e-9);  // and so is all inertia, the mass included
+  EXPECT_NEAR(wide.budget[1].cd, -*plain.cd.value / 120, 1e-9);
+  EXPECT_NEAR(wide.budget[1].inertia, -2 * *plain.inertia.value / 120, 1e-9);
+  EXPECT_NEAR(wide.budget[2].inertia, -0.1 / displaced, 1e-12);
+  EXPECT_DOUBLE_EQ(*wide.cd.value, *plain.cd.value);
+  EXPECT_NEAR(wide.cd.systematic_error, std::hypot(0.024, *plain.cd.value / 120), 1e-9);
+  const double half = (wide.cd.interval.high - wide.cd.interval.low) / 2;
+  const double scatter = (plain.cd.interval.high - plain.cd.interval.low) / 2;
+  EXPECT_NEAR(half, std::hypot(scatter, 1.959964 * wide.cd.systematic_error), 1e-6);
+}
+
+TEST(MorisonFit, IsNotPulledByWildSamplesIfItIsRobust) {
+  const auto c = cylinder(Experiment::body_moves);
+  int plain_holds = 0, robust_holds = 0;
+  double width = 0;
+  constexpr int sets = 200;
+  for (int i = 0; i < sets; ++i) {
+    const auto stream = 500 + static_cast<std::uint64_t>(i);
+    auto record = made(c, 1.2, 1.0, 0.4, 4, 1000, 0.02);
+    add(record.force, ar1_noise(1000, 0.5, 1.0, stream));
+    const auto robust_alone = fit::fit_morison(c, record, {.robust = true}).cd;
+    width += (robust_alone.interval.high - robust_alone.interval.low) / sets;
+    for (std::size_t j = 0; j < 1000; j += 23) record.force[j] += record.velocity[j] > 0 ? 40 : 0;  // one side only
+    const auto plain = fit::fit_morison(c, record).cd, robust = fit::fit_morison(c, record, {.robust = true}).cd;
+    plain_holds += plain.interval.low < 1.2 && 1.2 < plain.interval.high;
+    robust_holds += robust_alone.interval.low < 1.2 && 1.2 < robust_alone.interval.high;
+    EXPECT_LT(std::abs(*robust.value - 1.2), 0.3 * std::abs(*plain.value - 1.2));
+  }
+  EXPECT_LT(plain_holds, 20);
+  EXPECT_GE(robust_holds, 178);  // 190 ± 3.1
+}
+
+TEST(MorisonFit, ThatIsRobustSolvesHubersEquations) {
+  const auto c = cylinder(Experiment::water_moves);
+  auto record = made(c, 1.2, 1.7, 0.4, 4, 800, 0.02);
+  add(record.force, ar1_noise(800, 0, 2.0, 8));
+  const auto fit = fit::fit_morison(c, record, {.robust = true});
+  std::vector<double> e(800);
+  for (std::size_t j = 0; j < 800; ++j) e[j] = record.force[j] - fit.fitted[j];
+  auto sorted = e;
+  for (double& x : sorted) x = std::abs(x);
+  std::nth_element(sorted.begin(), sorted.begin() + 400, sorted.end());
+  const double limit = 1.345 * sorted[400] / 0.6745;
+  double gradient = 0, scale = 0;
+  for (std::size_t j = 0; j < 800; ++j) {
+    const double column = std::abs(record.velocity[j]) * record.velocity[j];
+    gradient += column * std::clamp(e[j], -limit, limit);
+    scale += column * column;
+  }
+  EXPECT_LT(std::abs(gradient) / std::sqrt(scale), 0.02 * limit);  // the scale is that of the third round
+  EXPECT_NEAR(fit.share_inside, 0.82, 0.05);                       // P(|Z| < 1.345)
 }
 
 }  // namespace

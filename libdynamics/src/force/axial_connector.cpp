@@ -1,4 +1,4 @@
-#include "dynamics/force/connector.hpp"
+#include "axial.hpp"
 #include "pair.hpp"
 
 namespace dynamics {
@@ -61,26 +61,38 @@ void AxialConnectorKind::couple(BlockPattern& pattern) const {
 }
 
 void AxialConnectorKind::add_load(const Instant& now, LoadSink& out) const {
-  for (const auto& e : elements_) detail::add_load(e.ends, pair_load(stretch(e, now.state)), out);
+  for (const auto& e : elements_) detail::add_axial_load(e, now.state, out);
 }
 
 void AxialConnectorKind::add_jacobian(const Instant& now, JacobianSink& out) const {
-  for (const auto& e : elements_) {
-    const Stretch s = stretch(e, now.state);
-    detail::PairLoad p = pair_load(s);
-    differentiate(s, p);
-    detail::add_jacobian(e.ends, p, out);
-  }
+  for (const auto& e : elements_) detail::add_axial_jacobian(e, now.state, out);
 }
 
 EnergyFlow AxialConnectorKind::energy(const Instant& now) const {
   EnergyFlow flow;
-  for (const auto& e : elements_) {
-    const Stretch s = stretch(e, now.state);
-    flow.stored += s.answer.stored;
-    flow.dissipated += s.answer.dissipated;
-  }
+  for (const auto& e : elements_) detail::add_axial_energy(e, now.state, flow);
   return flow;
 }
+
+namespace detail {
+
+void add_axial_load(const AxialConnector& connector, const State& state, LoadSink& out) {
+  add_load(connector.ends, pair_load(stretch(connector, state)), out);
+}
+
+void add_axial_jacobian(const AxialConnector& connector, const State& state, JacobianSink& out) {
+  const Stretch s = stretch(connector, state);
+  PairLoad p = pair_load(s);
+  differentiate(s, p);
+  add_jacobian(connector.ends, p, out);
+}
+
+void add_axial_energy(const AxialConnector& connector, const State& state, EnergyFlow& flow) {
+  const Answer answer = stretch(connector, state).answer;
+  flow.stored += answer.stored;
+  flow.dissipated += answer.dissipated;
+}
+
+}  // namespace detail
 
 }  // namespace dynamics

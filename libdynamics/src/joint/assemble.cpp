@@ -15,12 +15,7 @@ Eigen::VectorXd smallest_closing(const Model& model, const std::vector<bool>& he
   Eigen::VectorXd root = model.dry_mass_at_rest().diagonal().cwiseSqrt().cwiseInverse();
   for (std::size_t b = 0; b < held.size(); ++b)
     if (held[b]) root.segment<6>(6 * static_cast<Eigen::Index>(b)).setZero();
-  Eigen::MatrixXd scaled(joints.count(), model.modes());
-  for (Eigen::Index i = 0; i < joints.count(); ++i) {
-    Eigen::VectorXd row = Eigen::VectorXd::Zero(model.modes());
-    joints.add_transposed(G, Eigen::VectorXd::Unit(joints.count(), i), row);
-    scaled.row(i) = row.cwiseProduct(root);
-  }
+  const Eigen::MatrixXd scaled = joints.dense(G) * root.asDiagonal();
   return root.cwiseProduct(scaled.completeOrthogonalDecomposition().solve(-open));
 }
 

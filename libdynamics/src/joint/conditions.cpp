@@ -86,4 +86,58 @@ Matrix12 curvature(const AxesCondition& c, const ConditionEnds& at) {
   return H;
 }
 
+Meeting meeting(const GapCondition& c, const ConditionEnds& at) {
+  return meet(moved(c.first, at.first, at.first_centre), moved(c.second, at.second, at.second_centre));
+}
+
+Gradient apart(const Eigen::Vector3d& n, const Eigen::Vector3d& on_first, const Eigen::Vector3d& on_second,
+               const ConditionEnds& at) {
+  Gradient out;
+  out.first << -n, n.cross(on_first - at.first_centre);
+  out.second << n, (on_second - at.second_centre).cross(n);
+  return out;
+}
+
+double value(const GapCondition& c, const ConditionEnds& at) { return meeting(c, at).gap; }
+
+// The points are those of the shortest way: how they wander over the shapes changes its length by nothing (D23).
+Gradient gradient(const GapCondition& c, const ConditionEnds& at) {
+  const Meeting m = meeting(c, at);
+  return apart(m.normal, m.on_first, m.on_second, at);
+}
+
+double value(const StickCondition&, const ConditionEnds&) { return 0; }
+
+Gradient gradient(const StickCondition& c, const ConditionEnds& at) {
+  const Meeting m = meeting(c.shapes, at);
+  return apart(c.direction, m.on_first, m.on_second, at);
+}
+
+namespace {
+
+template <class ContactCondition>
+Matrix12 curvature_by_differences(const ContactCondition& c, const ConditionEnds& at) {
+  constexpr double by = 1e-5;  // m and rad: rounding and curvature of higher order are both 1e-10 there
+  const auto displaced = [&](int k, double way) {
+    ConditionEnds out = at;
+    const Eigen::Vector3d move = way * Eigen::Vector3d::Unit(k % 3);
+    if (k / 3 == 0) out.first_centre += move;
+    if (k / 3 == 1) out.first = rotation_exp(move).toRotationMatrix() * at.first;
+    if (k / 3 == 2) out.second_centre += move;
+    if (k / 3 == 3) out.second = rotation_exp(move).toRotationMatrix() * at.second;
+    const Gradient g = gradient(c, out);
+    Eigen::Matrix<double, 12, 1> joined;
+    joined << g.first, g.second;
+    return joined;
+  };
+  Matrix12 H;
+  for (int k = 0; k < 12; ++k) H.col(k) = (displaced(k, by) - displaced(k, -by)) / (2 * by);
+  return H;
+}
+
+}  // namespace
+
+Matrix12 curvature(const GapCondition& c, const ConditionEnds& at) { return curvature_by_differences(c, at); }
+Matrix12 curvature(const StickCondition& c, const ConditionEnds& at) { return curvature_by_differences(c, at); }
+
 }  // namespace dynamics

@@ -40,14 +40,13 @@ void require_bodies(const Joint& joint, int bodies) {
 }
 
 /// Conditions in the frame at rest, where bodies have no attitude: body axes are global there.
-std::vector<std::variant<PointCondition, AxesCondition>> conditions_of(const Joint& joint,
-                                                                       const Eigen::Vector3d& first_centre,
-                                                                       const Eigen::Vector3d& second_centre) {
+std::vector<ConditionLaw> conditions_of(const Joint& joint, const Eigen::Vector3d& first_centre,
+                                        const Eigen::Vector3d& second_centre) {
   using enum JointKind;
   const Eigen::Matrix3d frame = frame_of(joint);
   const Eigen::Vector3d x = frame.col(0), y = frame.col(1), z = frame.col(2);
   const Eigen::Vector3d first_arm = joint.place - first_centre, second_arm = joint.place - second_centre;
-  std::vector<std::variant<PointCondition, AxesCondition>> out;
+  std::vector<ConditionLaw> out;
   const auto meet = [&](const Eigen::Vector3d& n, bool turns) {
     out.emplace_back(PointCondition{first_arm, second_arm, n, turns});
   };
@@ -121,11 +120,15 @@ std::vector<Gradient> JointSet::gradients(const State& state) const {
   G.reserve(conditions_.size());
   for (const Condition& c : conditions_) {
     Gradient row = std::visit([&](const auto& what) { return gradient(what, ends_of(c, state)); }, c.what);
-    set_locked_to_zero(row.first, free_[static_cast<std::size_t>(c.first)]);
-    if (c.second) set_locked_to_zero(row.second, free_[static_cast<std::size_t>(*c.second)]);
+    keep_free(c.first, c.second, row);
     G.push_back(row);
   }
   return G;
+}
+
+void JointSet::keep_free(int first, std::optional<int> second, Gradient& row) const {
+  set_locked_to_zero(row.first, free_[static_cast<std::size_t>(first)]);
+  if (second) set_locked_to_zero(row.second, free_[static_cast<std::size_t>(*second)]);
 }
 
 Eigen::VectorXd JointSet::times(const std::vector<Gradient>& G, const Eigen::VectorXd& x) const {
@@ -146,6 +149,17 @@ void JointSet::add_transposed(const std::vector<Gradient>& G, const Eigen::Vecto
     out.segment<6>(6 * c.first) += l * G[i].first;
     if (c.second) out.segment<6>(6 * *c.second) += l * G[i].second;
   }
+}
+
+Eigen::MatrixXd JointSet::dense(const std::vector<Gradient>& G) const {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(count(), 6 * static_cast<Eigen::Index>(free_.size()));
+  for (std::size_t i = 0; i < conditions_.size(); ++i) {
+    const Condition& c = conditions_[i];
+    const auto row = static_cast<Eigen::Index>(i);
+    out.row(row).segment<6>(6 * c.first) = G[i].first;
+    if (c.second) out.row(row).segment<6>(6 * *c.second) = G[i].second;
+  }
+  return out;
 }
 
 void JointSet::add_curvature(const State& state, const Eigen::VectorXd& lambda, double factor, BlockMatrix& out) const {

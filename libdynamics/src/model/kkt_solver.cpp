@@ -34,11 +34,13 @@ struct KktSolver::Impl {
     }
   }
 
-  bool factorise_dense(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H) {
+  bool factorise_dense(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H,
+                       const Eigen::VectorXd& compliance) {
     const Eigen::MatrixXd bodies = T.dense();
     const Eigen::Index n = bodies.rows();
     Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n + count(), n + count());
     whole.topLeftCorner(n, n) = bodies;
+    whole.diagonal().tail(count()) = -compliance;
     for_each(G, [&](Eigen::Index mode, Eigen::Index i, double value) { whole(mode, n + i) = value; });
     for_each(H, [&](Eigen::Index mode, Eigen::Index i, double value) { whole(n + i, mode) = value; });
     if (!whole.allFinite()) return false;
@@ -56,7 +58,8 @@ struct KktSolver::Impl {
     m = m * column_scale.asDiagonal();
   }
 
-  bool factorise_sparse(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H) {
+  bool factorise_sparse(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H,
+                        const Eigen::VectorXd& compliance) {
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(36 * T.pattern().blocks() + 24 * ends.size());
     for (int i = 0; i < T.pattern().bodies(); ++i)
@@ -66,6 +69,7 @@ struct KktSolver::Impl {
     const Eigen::Index n = 6 * T.pattern().bodies();
     for_each(G, [&](Eigen::Index mode, Eigen::Index i, double value) { entries.emplace_back(mode, n + i, value); });
     for_each(H, [&](Eigen::Index mode, Eigen::Index i, double value) { entries.emplace_back(n + i, mode, value); });
+    for (Eigen::Index i = 0; i < count(); ++i) entries.emplace_back(n + i, n + i, -compliance[i]);
     for (const auto& entry : entries)
       if (!std::isfinite(entry.value())) return false;
     Sparse whole(n + count(), n + count());
@@ -86,9 +90,10 @@ KktSolver& KktSolver::operator=(KktSolver&&) noexcept = default;
 
 bool KktSolver::is_sparse() const { return impl_->bodies_alone.is_sparse(); }
 
-bool KktSolver::factorise(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H) {
+bool KktSolver::factorise(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H,
+                          const Eigen::VectorXd& compliance) {
   if (impl_->count() == 0) return impl_->bodies_alone.factorise(T);
-  return is_sparse() ? impl_->factorise_sparse(T, G, H) : impl_->factorise_dense(T, G, H);
+  return is_sparse() ? impl_->factorise_sparse(T, G, H, compliance) : impl_->factorise_dense(T, G, H, compliance);
 }
 
 KktSolver::Solution KktSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& c) const {

@@ -60,15 +60,13 @@ Model::Model(std::vector<RigidBody> bodies, std::vector<AddedMass> added_mass,
 // to what it is by itself.
 void Model::leave_out_redundant(const Eigen::MatrixXd& mass) {
   if (joints_.count() == 0) return;
-  const auto G = joints_.gradients(rest_state(bodies_));
+  const Eigen::MatrixXd G = joints_.dense(joints_.gradients(rest_state(bodies_)));
   const Eigen::LLT<Eigen::MatrixXd> root(mass);
   Eigen::MatrixXd basis(modes(), 0);
   std::vector<bool> keep;
   std::vector<int> lost(joints_.joints().size(), 0), of(joints_.joints().size(), 0);
   for (Eigen::Index i = 0; i < joints_.count(); ++i) {
-    Eigen::VectorXd row = Eigen::VectorXd::Zero(modes());
-    joints_.add_transposed(G, Eigen::VectorXd::Unit(joints_.count(), i), row);
-    Eigen::VectorXd w = root.matrixL().solve(row);
+    Eigen::VectorXd w = root.matrixL().solve(G.row(i).transpose());
     const double alone = w.norm();
     for (int twice = 0; twice < 2; ++twice) w -= basis * (basis.transpose() * w);
     const bool adds = alone > 0 && w.norm() > 1e-9 * alone;
@@ -207,15 +205,10 @@ void Model::balance(const State& still, Linear& out) const {
     if (kind->linear_at_rest()) kind->add_load({still, nullptr}, sink);
   for (int m = 0; m < modes(); ++m)
     if (!is_free(m)) out.unbalanced[m] = 0;
-  out.conditions.resize(joints_.count(), modes());
+  out.conditions.resize(0, modes());
   out.multipliers.resize(joints_.count());
   if (joints_.count() == 0) return;
-  const auto G = joints_.gradients(still);
-  for (Eigen::Index i = 0; i < joints_.count(); ++i) {
-    Eigen::VectorXd row = Eigen::VectorXd::Zero(modes());
-    joints_.add_transposed(G, Eigen::VectorXd::Unit(joints_.count(), i), row);
-    out.conditions.row(i) = row;
-  }
+  out.conditions = joints_.dense(joints_.gradients(still));
   const Eigen::VectorXd root = dry_mass_at_rest().diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = root.asDiagonal() * out.conditions.transpose();
   out.multipliers = scaled.colPivHouseholderQr().solve(root.cwiseProduct(out.unbalanced));
@@ -232,9 +225,14 @@ Workspace::Workspace(const Model& model, State start)
   for (const auto& kind : model.forces()) memory.push_back(kind->make_memory(state));
 }
 
-void Workspace::accept() {
+bool Workspace::accept() {
+  bool jumped = false;
   for (auto& m : memory)
-    if (m) m->accept(state);
+    if (m) {
+      m->accept(state);
+      jumped = jumped || m->has_jumped();
+    }
+  return jumped;
 }
 
 }  // namespace dynamics

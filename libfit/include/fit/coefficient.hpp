@@ -13,6 +13,7 @@ struct Coefficient {
   std::string name;
   std::optional<double> value;  ///< empty: the data do not tell; see `why_not`
   double standard_error = 0;
+  double systematic_error = 0;   ///< standard error from what is the same throughout: calibration, geometry, delay
   Interval interval{};           ///< at the level asked for; it is given for an empty value too, as wide as it is
   Interval white_interval{};     ///< as if residuals were independent; for comparison only
   double effective_samples = 0;  ///< independent samples that would tell as much

@@ -23,10 +23,19 @@ struct CoefficientCovariance {
   Eigen::MatrixXd white_covariance;   ///< what white residuals would give: σ²(JᵀJ)⁻¹, for comparison
   Eigen::VectorXd effective_samples;  ///< n·white/honest variance, per coefficient: white samples worth as much
   double dof;                         ///< for Student's t with `covariance`: n_b/(1 + 2Σρ²) − p, but at least 2
-  bool dof_raised;                    ///< the formula gave less than 2: the residuals repeat rather than scatter
+  bool dof_raised;                    ///< the formula gave less than 2: the residuals repeat rather than scatter,
+                                      ///< or hardly forget within the record
   double white_dof;                   ///< n − p
+  double residual_share_lost;         ///< of the residuals' sum of squares, taken out by the fit and put back
   int order;                          ///< of the autoregression
   int block;                          ///< samples averaged before it was fitted
+};
+
+/// What to do where residuals stay correlated over so much of the record that the coefficients took more than half of
+/// them: what is left then says little of what there was.
+enum class LongMemory {
+  refuse,  ///< throw
+  widen    ///< twice the variance that is left, and Student's t of two degrees of freedom (`dof_raised`)
 };
 
 /// Covariance of coefficients fitted by ordinary least squares to n samples even in time, by the sandwich (F4) with the
@@ -38,6 +47,6 @@ struct CoefficientCovariance {
 /// Coverage is tested for white and AR(1) residuals (0.92 to 0.98 for intervals of 0.95).
 /// \throws hydro::InputError if shapes disagree, J has not full rank, or the record has fewer than 8 blocks
 CoefficientCovariance correlated_covariance(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals,
-                                            int block = 1);
+                                            int block = 1, LongMemory long_memory = LongMemory::refuse);
 
 }  // namespace fit

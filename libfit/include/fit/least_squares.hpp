@@ -2,6 +2,7 @@
 /// \file  Least squares: problem in, report out; (F1)-(F2), docs/theory/fit.md.
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -38,11 +39,27 @@ struct FitReport {
   std::vector<bool> identifiable;   ///< per parameter; false where a direction that the data do not see involves it
   std::string identifiability;      ///< one sentence per direction not seen, naming its parameters
   Eigen::MatrixXd covariance;  ///< (JᵀJ)⁻¹, shape (p, p), times σ² for white residuals; NaN where not identifiable
+  bool all_identifiable() const {
+    return std::find(identifiable.begin(), identifiable.end(), false) == identifiable.end();
+  }
 };
 
 /// Minimises ½‖r(x)‖² from the start x (Ceres: Levenberg–Marquardt, dense QR). `x` is replaced only if the cost fell.
 /// A direction counts as not seen if its singular value is below 1e-10 of the largest (rounding of r alone would move
 /// it freely). \throws hydro::InputError if x has another length, n < p, or a scale is not positive
 FitReport minimise(const ResidualModel& model, Eigen::VectorXd& x, const StopWhen& stop = {});
+
+/// The same least-squares problem with few rows; (F1).
+struct Compressed {
+  Eigen::MatrixXd columns;  ///< R of columns = QR, shape (p, p)
+  Eigen::VectorXd target;   ///< Qᵀ target, shape (p)
+  double rest;              ///< ‖target − Q Qᵀ target‖, which no parameter can change
+};
+/// Compresses n rows of a linear model columns·x ≈ target to p, exactly up to rounding: fit the p rows instead.
+/// Cost 2np² and one pass over memory where the columns are well apart. \throws hydro::InputError for n <= p
+Compressed compress(const Eigen::MatrixXd& columns, const Eigen::VectorXd& target);
+
+/// The compressed problem as a residual model: residuals over `unit`, names and scales as given.
+ResidualModel linear_model(const Compressed& problem, std::vector<ResidualModel::Parameter> parameters, double unit);
 
 }  // namespace fit

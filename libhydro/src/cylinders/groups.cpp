@@ -90,20 +90,23 @@ std::string shape_of(const std::vector<std::size_t>& members, const std::vector<
   return shape;
 }
 
-EquationsCost equations_cost(const Grouping& grouping, std::size_t cylinders, double columns, Equations wanted) {
+EquationsCost equations_cost(const Grouping& grouping, std::size_t cylinders, const Lattice* lattice, double columns,
+                             Equations wanted) {
   constexpr double steps = 15;  // of the iteration, as seen
   const double N = static_cast<double>(cylinders), size = N * grouping.between.count();
   if (grouping.members.size() == 1) return {false, 0, 0};
-  const double entries = square(N * (1 + grouping.between.highest_order()));  // half of the orders, for most pairs
-  double within = 0;                                                          // entries of T
+  const double orders = 0.5 * grouping.between.highest_order();  // for most pairs, as seen
+  const double pairwise = square(N * (2 * orders + 1));
+  const double entries = lattice != nullptr ? std::min(pairwise, lattice->work(orders)) : pairwise;
+  double within = 0;  // entries of T
   for (const auto& members : grouping.members)
     within += square(static_cast<double>(members.size()) * grouping.between.count());
   const double elimination = cube(size) / 3 + square(size) * columns;
   const double iteration = columns * steps * (entries + within + steps * size);
   const bool iterative = wanted == Equations::automatic ? iteration < elimination : wanted == Equations::iterative;
-  const double kept = entries + within + 6 * size * columns, one = columns_at_a_time;
-  if (iterative) return {true, iteration, number * (kept + (steps + 5) * size * std::min(columns, one))};
-  return {false, elimination, number * (kept + 2 * square(size))};  // the matrix and its factors
+  const double kept = within + 6 * size * columns, one = columns_at_a_time;
+  if (iterative) return {true, iteration, number * (kept + entries + (steps + 5) * size * std::min(columns, one))};
+  return {false, elimination, number * (kept + pairwise + 2 * square(size))};  // the matrix and its factors
 }
 
 EquationsCost compounds_cost(const Grouping& grouping, const std::vector<Cylinder>& cylinders,
@@ -121,10 +124,12 @@ EquationsCost compounds_cost(const Grouping& grouping, const std::vector<Cylinde
 }
 
 Grouping choose_grouping(const std::vector<Cylinder>& cylinders, const std::vector<std::size_t>& kind,
-                         const VerticalModes& modes, double threshold, double columns, Equations wanted) {
+                         const Lattice* lattice, const VerticalModes& modes, double threshold, double columns,
+                         Equations wanted) {
   const auto with_reach = [&](double reach) {
     Grouping g = grouped(cylinders, modes, threshold, reach);
-    g.work = equations_cost(g, cylinders.size(), columns, wanted).work + compounds_cost(g, cylinders, kind).work;
+    g.work =
+        equations_cost(g, cylinders.size(), lattice, columns, wanted).work + compounds_cost(g, cylinders, kind).work;
     return g;
   };
   Grouping best = with_reach(0);
@@ -135,10 +140,11 @@ Grouping choose_grouping(const std::vector<Cylinder>& cylinders, const std::vect
   return best;
 }
 
-Groups::Groups(std::vector<Cylinder> cylinders, const std::vector<std::size_t>& kind,
+Groups::Groups(std::vector<Cylinder> cylinders, const std::vector<std::size_t>& kind, const Lattice* lattice,
                const std::vector<const Scatterer*>& scatterer, const VerticalModes& modes, Grouping grouping,
                double precision)
     : cylinders_(std::move(cylinders)),
+      lattice_(lattice),
       modes_(modes),
       grouping_(std::move(grouping)),
       index_(grouping_.between),
@@ -162,8 +168,11 @@ Groups::Groups(std::vector<Cylinder> cylinders, const std::vector<std::size_t>& 
     groups_.compound.push_back(compound);
   }
   for (const Cylinder& c : cylinders_) scale_.push_back(radial_scales(modes_, c.radius, grouping_.between));
-  const double least = weakest_passage(precision, cylinders_.size());
-  between_ = std::make_unique<Between>(cylinders_, groups_.group_of, scale_, modes_, grouping_.between, least);
+}
+
+Between Groups::between(const Lattice* lattice) const {
+  const double least = weakest_passage(precision_, cylinders_.size());
+  return {cylinders_, groups_.group_of, scale_, modes_, grouping_.between, least, lattice};
 }
 
 Amplitudes Groups::apply(MatrixXcd Compound::*part, const Amplitudes& x, Index rows, Index columns) const {
@@ -184,10 +193,10 @@ Amplitudes Groups::apply(MatrixXcd Compound::*part, const Amplitudes& x, Index r
 }
 
 // A few columns at a time bound the memory of the iteration.
-std::optional<Iterated> Groups::iterated(const Amplitudes& arriving) const {
+std::optional<Iterated> Groups::iterated(const Between& between, const Amplitudes& arriving) const {
   const Index waves = grouping_.between.count();
   const auto equations = [&](const Amplitudes& a) -> Amplitudes {
-    return a - between_->translated(apply(&Compound::T, a, waves, waves));
+    return a - between.translated(apply(&Compound::T, a, waves, waves));
   };
   Iterated all{Amplitudes(arriving.rows(), arriving.cols()), 0};
   for (Index first = 0; first < arriving.cols(); first += columns_at_a_time) {
@@ -206,22 +215,31 @@ Response Groups::respond(const std::vector<double>& heading, const MatrixXd& mot
   Amplitudes moving = Amplitudes::Zero(motion.rows(), headings + motion.cols());
   moving.rightCols(motion.cols()) = motion.cast<Complex>();
   const Amplitudes own = apply(&Compound::R, moving, waves, 6);
-  Amplitudes a = between_->translated(own);
+  const double columns = static_cast<double>(moving.cols());
+  const bool iterative = equations_cost(grouping_, cylinders_.size(), lattice_, columns, wanted).iterative;
+  const Between passages = between(iterative ? lattice_ : nullptr);
+  Amplitudes a = passages.translated(own);
   a.leftCols(headings) += plane_waves(heading);
-  int steps = 0;
+  Response out{{}, {}, 0, passages.uses_lattice()};
   if (groups_.members.size() > 1) {
-    const double columns = static_cast<double>(a.cols());
-    std::optional<Iterated> found;
-    if (equations_cost(grouping_, cylinders_.size(), columns, wanted).iterative) found = iterated(a);
+    const auto found = iterative ? iterated(passages, a) : std::nullopt;
     if (!found && wanted == Equations::iterative)
       throw InputError(fmt::format("the iteration between {} groups of cylinders did not converge in {} steps",
                                    groups_.members.size(), most_steps),
                        {}, "ask for direct equations, or leave the choice to the program");
-    if (found) steps = found->steps;
-    a = found ? std::move(found->x) : Amplitudes(between_->system(groups_).partialPivLu().solve(MatrixXcd(a)));
+    const auto eliminated = [&](const Between& all) -> Amplitudes {
+      return all.system(groups_).partialPivLu().solve(MatrixXcd(a));
+    };
+    if (found) {
+      out.steps = found->steps;
+      a = found->x;
+    } else {
+      a = out.lattice ? eliminated(between(nullptr)) : eliminated(passages);
+    }
   }
-  return {apply(&Compound::T, a, waves, waves) + own,
-          apply(&Compound::E, a, 6, waves) + apply(&Compound::L, moving, 6, 6), steps};
+  out.sent_out = apply(&Compound::T, a, waves, waves) + own;
+  out.loads = apply(&Compound::E, a, 6, waves) + apply(&Compound::L, moving, 6, 6);
+  return out;
 }
 
 // e^{−ikr cos(θ−β)} = Σ_m (−i)^m J_m(kr) e^{im(θ−β)}.

@@ -33,8 +33,9 @@ struct EquationsCost {
 };
 
 /// By elimination or by iteration: the one that needs fewer multiplications, unless `wanted` says which (C15).
-/// `columns`: motions and headings.
-EquationsCost equations_cost(const Grouping& grouping, std::size_t cylinders, double columns, Equations wanted);
+/// `columns`: motions and headings; `lattice` may be null.
+EquationsCost equations_cost(const Grouping& grouping, std::size_t cylinders, const Lattice* lattice, double columns,
+                             Equations wanted);
 
 /// The same of solving the groups by themselves, which is direct.
 EquationsCost compounds_cost(const Grouping& grouping, const std::vector<Cylinder>& cylinders,
@@ -43,19 +44,21 @@ EquationsCost compounds_cost(const Grouping& grouping, const std::vector<Cylinde
 /// The grouping that costs least among those that join all pairs closer than some distance. `kind[i]`: equal cylinders
 /// have equal numbers; `columns`: motions.
 Grouping choose_grouping(const std::vector<Cylinder>& cylinders, const std::vector<std::size_t>& kind,
-                         const VerticalModes& modes, double threshold, double columns, Equations wanted);
+                         const Lattice* lattice, const VerticalModes& modes, double threshold, double columns,
+                         Equations wanted);
 
 /// Answers for waves that arrive (columns first) and for motions (columns after).
 struct Response {
   Eigen::MatrixXcd sent_out;  ///< amplitudes b in the partial waves between groups
   Eigen::MatrixXcd loads;     ///< ∬ φ n dS, 6 a cylinder
   int steps;                  ///< of the iteration; 0: solved by elimination
+  bool lattice;               ///< waves passed over a lattice
 };
 
 class Groups {
  public:
-  /// `scatterer[i]` belongs to cylinder i.
-  Groups(std::vector<Cylinder> cylinders, const std::vector<std::size_t>& kind,
+  /// `scatterer[i]` belongs to cylinder i; `lattice` may be null.
+  Groups(std::vector<Cylinder> cylinders, const std::vector<std::size_t>& kind, const Lattice* lattice,
          const std::vector<const Scatterer*>& scatterer, const VerticalModes& modes, Grouping grouping,
          double precision);
 
@@ -68,19 +71,20 @@ class Groups {
 
  private:
   Eigen::MatrixXcd plane_waves(const std::vector<double>& heading) const;
-  std::optional<Iterated> iterated(const Amplitudes& arriving) const;
+  Between between(const Lattice* lattice) const;
+  std::optional<Iterated> iterated(const Between& between, const Amplitudes& arriving) const;
   /// Σ over groups of one of the four matrices of each, applied to rows of x; `rows`, `columns` a cylinder.
   Amplitudes apply(Eigen::MatrixXcd Compound::*part, const Amplitudes& x, Eigen::Index rows,
                    Eigen::Index columns) const;
 
   std::vector<Cylinder> cylinders_;
+  const Lattice* lattice_;
   const VerticalModes& modes_;
   Grouping grouping_;
   WaveIndex index_;
   double precision_;
   std::vector<RadialScales> scale_;
   GroupedCylinders groups_;
-  std::unique_ptr<const Between> between_;
 };
 
 }  // namespace hydro::cylinders

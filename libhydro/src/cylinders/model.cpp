@@ -57,6 +57,7 @@ Model::Model(const std::vector<CylinderBody>& bodies, const Water& water, const 
              const std::vector<double>& omega)
     : water_(water), resolution_(resolution) {
   sort_into_types(bodies);
+  lattice_ = find_lattice(cylinders_);
   motion_ = MatrixXd::Zero(6 * static_cast<Index>(cylinders_.size()), 6 * static_cast<Index>(bodies.size()));
   Index row = 0, column = 0;
   for (const CylinderBody& body : bodies) {
@@ -121,8 +122,8 @@ VerticalModes Model::modes(double omega) const {
 }
 
 Grouping Model::grouping(const VerticalModes& modes) const {
-  return choose_grouping(cylinders_, type_of_, modes, resolution_.threshold, static_cast<double>(motion_.cols()),
-                         resolution_.equations);
+  return choose_grouping(cylinders_, type_of_, lattice(), modes, resolution_.threshold,
+                         static_cast<double>(motion_.cols()), resolution_.equations);
 }
 
 // Beside the equations between groups: those within, the single cylinders (as seen), and the waves far away.
@@ -131,7 +132,7 @@ ModelCost Model::cost(double omega, double headings) const {
   const VerticalModes depth_modes = coarse_modes(omega);
   const Grouping g = grouping(depth_modes);
   const double motions = static_cast<double>(motion_.cols()), columns = motions + headings;
-  const EquationsCost between = equations_cost(g, cylinders_.size(), columns, resolution_.equations);
+  const EquationsCost between = equations_cost(g, cylinders_.size(), lattice(), columns, resolution_.equations);
   const EquationsCost within = compounds_cost(g, cylinders_, type_of_);
   const double size = static_cast<double>(cylinders_.size()) * g.between.count();
   const double far = 2 * (depth_modes.k * distance_across(cylinders_) + 40) * size * motions;
@@ -160,7 +161,7 @@ Groups Model::groups(const std::vector<Scatterer>& of_type, const VerticalModes&
                      const Grouping& grouping) const {
   std::vector<const Scatterer*> each;
   for (const std::size_t type : type_of_) each.push_back(&of_type[type]);
-  return {cylinders_, type_of_, each, modes, grouping, precision_of_compression * resolution_.threshold};
+  return {cylinders_, type_of_, lattice(), each, modes, grouping, precision_of_compression * resolution_.threshold};
 }
 
 // (C3): a force is iωρ ∬φ n dS; of a motion of unit velocity it is −(iωA + B).
@@ -178,6 +179,7 @@ OneFrequency Model::at(double omega, const std::vector<double>& heading) const {
   result.partial_waves = kept.within.count();
   result.left_out = kept.within.left_out;
   result.steps = response.steps;
+  result.lattice = response.lattice;
   result.X = Complex(0, omega * water_.density) * potential * loads.leftCols(static_cast<Index>(heading.size()));
   result.A = -water_.density * loads.rightCols(motion_.cols()).real();
   result.B = omega * water_.density * loads.rightCols(motion_.cols()).imag();

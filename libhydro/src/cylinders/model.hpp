@@ -29,6 +29,7 @@ struct OneFrequency {
   int partial_waves = 0;   ///< per cylinder
   double left_out = 0;     ///< coupling by partial waves that cannot be had (C11)
   int steps = 0;           ///< of the iteration; 0: solved by elimination
+  bool lattice = false;    ///< waves passed over a lattice (C21)
 };
 
 /// What one frequency takes, told beforehand.
@@ -74,7 +75,10 @@ class Model {
 
   Water water_;
   Resolution resolution_;
+  const Lattice* lattice() const { return lattice_ ? &*lattice_ : nullptr; }
+
   std::vector<Cylinder> cylinders_;
+  std::optional<Lattice> lattice_;
   Eigen::MatrixXd motion_;  // (6 cylinders, 6 bodies): velocities of the cylinders when the bodies move
   std::vector<Type> types_;
   std::vector<std::size_t> type_of_;

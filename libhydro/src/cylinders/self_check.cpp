@@ -61,6 +61,7 @@ SelfCheck self_check(const std::vector<OneFrequency>& results, const std::vector
     check.partial_waves = std::max(check.partial_waves, r.partial_waves);
     check.left_out = std::max(check.left_out, r.left_out);
     check.steps = std::max(check.steps, r.steps);
+    check.lattice = check.lattice || r.lattice;
   }
   if (finer.empty()) check.doubling = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i < finer.size(); ++i) {

@@ -139,9 +139,8 @@ void add_notes(const Solution& s, const Water& water, double tolerance, Coeffici
                     tolerance, s.check.doubling, std::max(0.0, -std::log10(s.check.doubling))));
   if (s.check.steps > 0)
     c.notes.push_back(
-        fmt::format("the equations between groups of cylinders were solved by iteration, in {} steps at "
-                    "most",
-                    s.check.steps));
+        fmt::format("the equations between groups of cylinders were solved by iteration, in {} steps at most{}",
+                    s.check.steps, s.check.lattice ? ", waves passed over a lattice" : ""));
   if (water.depth.is_infinite())
     c.notes.push_back(
         fmt::format("infinite depth is taken as {:.4g} m or more: an error below 1e-4", s.check.effective_depth));

@@ -13,13 +13,7 @@
 namespace hydro::radiation {
 namespace {
 
-struct FreePlan {
-  void operator()(fftw_plan plan) const {
-    const std::lock_guard lock(signal::planner());
-    fftw_destroy_plan(plan);
-  }
-};
-using Plan = std::unique_ptr<std::remove_pointer_t<fftw_plan>, FreePlan>;
+using signal::Plan;
 
 /// Real transforms of all modes at once, in place over columns: one column a mode.
 struct Transform {

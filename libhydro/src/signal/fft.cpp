@@ -27,29 +27,14 @@ Buffer<T> allocate(std::size_t n) {
   return buffer;
 }
 
-class Plan {
- public:
-  explicit Plan(fftw_plan plan) : plan_(plan) {}
-  ~Plan() {
-    const std::lock_guard lock(planner());
-    fftw_destroy_plan(plan_);
-  }
-  Plan(const Plan&) = delete;
-  Plan& operator=(const Plan&) = delete;
-  void execute() const { fftw_execute(plan_); }
-
- private:
-  fftw_plan plan_;
-};
-
 // ESTIMATE plans do not time candidates: the choice depends on n alone, not on how busy the machine was.
-fftw_plan plan_forward(int n, double* in, fftw_complex* out) {
+Plan plan_forward(int n, double* in, fftw_complex* out) {
   const std::lock_guard lock(planner());
-  return fftw_plan_dft_r2c_1d(n, in, out, FFTW_ESTIMATE);
+  return Plan(fftw_plan_dft_r2c_1d(n, in, out, FFTW_ESTIMATE));
 }
-fftw_plan plan_inverse(int n, fftw_complex* in, double* out) {
+Plan plan_inverse(int n, fftw_complex* in, double* out) {
   const std::lock_guard lock(planner());
-  return fftw_plan_dft_c2r_1d(n, in, out, FFTW_ESTIMATE);
+  return Plan(fftw_plan_dft_c2r_1d(n, in, out, FFTW_ESTIMATE));
 }
 
 }  // namespace
@@ -58,9 +43,9 @@ std::vector<std::complex<double>> real_fft(std::span<const double> x) {
   require(!x.empty(), "a series of no samples has no Fourier transform");
   const auto in = allocate<double>(x.size());
   const auto out = allocate<fftw_complex>(x.size() / 2 + 1);
-  const Plan plan(plan_forward(static_cast<int>(x.size()), in.get(), out.get()));
+  const Plan plan = plan_forward(static_cast<int>(x.size()), in.get(), out.get());
   std::copy(x.begin(), x.end(), in.get());
-  plan.execute();
+  fftw_execute(plan.get());
   std::vector<std::complex<double>> half(x.size() / 2 + 1);
   for (std::size_t k = 0; k < half.size(); ++k) half[k] = {out[k][0], out[k][1]};
   return half;
@@ -72,12 +57,12 @@ std::vector<double> inverse_real_fft(std::span<const std::complex<double>> half,
           half.size());
   const auto in = allocate<fftw_complex>(half.size());
   const auto out = allocate<double>(n);
-  const Plan plan(plan_inverse(static_cast<int>(n), in.get(), out.get()));
+  const Plan plan = plan_inverse(static_cast<int>(n), in.get(), out.get());
   for (std::size_t k = 0; k < half.size(); ++k) {
     in[k][0] = half[k].real();
     in[k][1] = half[k].imag();
   }
-  plan.execute();
+  fftw_execute(plan.get());
   return {out.get(), out.get() + n};
 }
 

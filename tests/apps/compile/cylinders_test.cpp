@@ -89,6 +89,24 @@ TEST(CylindersInAScene, AreSolvedTogetherWhereTheyStandAboutTheirCentresOfGravit
   EXPECT_LT((*ours.C - *expected.C).cwiseAbs().maxCoeff(), 1e-4 * expected.C->maxCoeff());
 }
 
+// A wide one between four slender ones: each sort has its own draught.
+TEST(CylindersInAScene, MayBeOfSeveralSizesInOneBody) {
+  std::string text = scene_text(R"(at = "(±3, ±3, -0.5) m"
+diameter = "0.8 m"
+draught = "1.5 m"
+others = [{ at = "(0, 0, -0.5) m", diameter = "3 m", draught = "2 m", top = "0.5 m" }]
+frequencies = "1 rad/s .. 3 rad/s, 3 values"
+)");
+  text.replace(text.find("(8, 0, 0)"), 9, "(20, 0, 0)");
+  const auto solved = compile::solve_cylinders(parse(text), {0, 1});
+  const double expected = std::numbers::pi * (4 * 0.4 * 0.4 * 1.5 + 1.5 * 1.5 * 1.5);
+  EXPECT_NEAR(*solved.coefficients.body[0].displaced_volume, expected, 1e-12 * expected);
+  EXPECT_LT(solved.check.haskind, 1e-3);
+  text.replace(text.find("\"0.5 m\" }]"), 10, "\"2.5 m\" }]");
+  EXPECT_THAT([&] { parse(text); },
+              ThrowsMessage<hydro::InputError>(HasSubstr("[[body.hydrodynamics.cylinders.others]]")));
+}
+
 TEST(CylindersInAScene, HaveTheirCostToldBeforeTheyAreSolved) {
   const scene::Scene scene = parse(scene_text(cylinders));
   const auto plan = compile::plan_cylinders(scene, compile::bodies_of_cylinders(scene));

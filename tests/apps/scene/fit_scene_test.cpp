@@ -69,7 +69,9 @@ TEST_F(FitScenes, AreReadInSi) {
   ASSERT_EQ(scene.files.size(), 2u);
   EXPECT_EQ(scene.files[0].value.filename(), "a.csv");
   EXPECT_TRUE(scene.files[0].value.is_absolute());
-  EXPECT_EQ(scene.channels, (std::map<std::string, std::string>{{"time", "t"}, {"force", "F"}, {"velocity", "u"}}));
+  EXPECT_EQ(scene.channels, (std::map<std::string, std::string>{{"time", "t"}, {"velocity", "u"}}));
+  ASSERT_EQ(scene.force.size(), 1u);
+  EXPECT_EQ(scene.force[0].column, "F");
   EXPECT_EQ(scene.model.kind, "morison");
   EXPECT_EQ(scene.model.motion, "body moves");
   EXPECT_EQ(scene.model.length, 0.5);
@@ -77,10 +79,10 @@ TEST_F(FitScenes, AreReadInSi) {
   EXPECT_EQ(scene.model.viscosity, 1.05e-6);
   EXPECT_EQ(scene.coefficients, (std::vector<std::string>{"cd", "ca"}));
   EXPECT_EQ(scene.confidence, 0.95);
-  EXPECT_EQ(scene.echo.back().key, "ask.intervals.level");
+  EXPECT_EQ(scene.echo.back().key, "ask.intervals.method");
   EXPECT_TRUE(scene.echo.back().defaulted);
   const FitScene towed = read(towing);
-  EXPECT_EQ(towed.channels.size(), 3u);
+  EXPECT_EQ(towed.channels.size(), 2u);
   EXPECT_EQ(towed.confidence, 0.9);
   EXPECT_FALSE(towed.model.viscosity);
 }
@@ -119,6 +121,53 @@ TEST_F(FitScenes, AskForCoefficientsThatExist) {
               AllOf(StartsWith("fit.toml:13:23: "), HasSubstr("is not one of cd, cm, ca")));
   EXPECT_THAT(refused(with(towing, "\"cd\"", "[\"cd\", \"cm\"]")), HasSubstr("cannot come from towing"));
   EXPECT_THAT(refused(with(towing, "0.9", "95")), HasSubstr("must lie between 0 and 1"));
+}
+
+TEST_F(FitScenes, TellTheStepsOfPreparation) {
+  const std::string with_steps =
+      with(with(oscillation, "force = \"F\"", "force = [\"F1\", \"-F2\"]"), "[model]", R"([prepare]
+longest_gap = "0.1 s"
+outliers = { window = "0.2 s" }
+delay = "0.73 s"
+delay_error = "5 ms"
+derivative_bandwidth = "2 Hz"
+low_pass = { kind = "butterworth", cutoff = "3.33 Hz" }
+notch = [{ centre = "50 Hz", width = "2 Hz" }]
+window = { kind = "full cycles", last = 5 }
+[model]
+uncertainty = { diameter = "0.5 mm", mass = "50 g" })");
+  const FitScene scene = read(with_steps);
+  ASSERT_EQ(scene.force.size(), 2u);
+  EXPECT_FALSE(scene.force[0].turned);
+  EXPECT_EQ(scene.force[1].column, "F2");
+  EXPECT_TRUE(scene.force[1].turned);
+  const auto& p = scene.prepare;
+  EXPECT_EQ(p.delay, 0.73);
+  EXPECT_EQ(p.delay_error, 0.005);
+  EXPECT_NEAR(p.derivative_bandwidth, 2, 1e-12);
+  ASSERT_EQ(p.filters.size(), 2u);
+  EXPECT_EQ(p.filters[0].kind, "notch");
+  EXPECT_NEAR(p.filters[0].width_hz, 2, 1e-12);
+  EXPECT_EQ(p.filters[1].order, 4);
+  EXPECT_NEAR(p.filters[1].hz, 3.33, 1e-12);
+  EXPECT_EQ(p.window, "full cycles");
+  EXPECT_EQ(p.cycles, 5);
+  EXPECT_EQ(p.outlier_deviations, 8);
+  EXPECT_EQ(scene.model.diameter_error, 0.0005);
+  EXPECT_EQ(scene.model.mass_error, 0.05);
+  EXPECT_THAT(refused(with(with_steps, "delay = \"0.73 s\"", "delay = \"estimate\"")), HasSubstr("delay_error"));
+  EXPECT_THAT(refused(with(with_steps, "delay = \"0.73 s\"\ndelay_error = \"5 ms\"", "delay = \"estimate\"")),
+              HasSubstr("needs \"longest_delay\""));
+  EXPECT_THAT(refused(with(with_steps, "cutoff = \"3.33 Hz\"", "cutoff = \"3.33 Hz\", order = 40")),
+              HasSubstr("must lie between 1 and 10"));
+  EXPECT_THAT(refused(with(towing, "[model]", "[prepare]\ndelay = \"1 s\"\n[model]")), HasSubstr("has no part"));
+}
+
+TEST_F(FitScenes, NeedACalibrationForEachForce) {
+  const std::string calibrated = with(oscillation, "channels", "calibration = [\"a\", \"b\"]\nchannels");
+  EXPECT_THAT(refused(calibrated), HasSubstr("names 2 files for 1 force channels"));
+  const FitScene scene = read(with(calibrated, "force = \"F\"", "force = [\"F\", \"G\"]"));
+  EXPECT_EQ(scene.force[1].calibration->value.filename(), "b");
 }
 
 TEST_F(FitScenes, WithOneCharacterMissingAreReadOrRefusedWithTheirPlace) {

@@ -82,7 +82,8 @@ TEST(PontoonScene, IsEchoedWithEveryDefault) {
             "ask.accuracy = 1e-2\n"
             "solve.step = automatic  (default)\n"
             "solve.integrator.name = generalized_alpha  (default)\n"
-            "solve.integrator.rho_infinity = 0.8  (default)\n");
+            "solve.integrator.rho_infinity = 0.8  (default)\n"
+            "solve.integrator.tolerance = 1e-8  (default)\n");
 }
 
 TEST(PontoonScene, OrderOfTablesDoesNotMatter) {

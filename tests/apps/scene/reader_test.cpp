@@ -40,9 +40,9 @@ TEST(SceneReader, NamesTheNearestKeyForAnUnknownOne) {
             "scene.toml:13:1: error: unknown key \"masss\" in [[body]]\n"
             "    13 | masss = \"261.8 t\"\n"
             "       | ^^^^^ did you mean \"mass\"?");
-  EXPECT_THAT(refusal(sphere + "include = \"fit.toml\"\n"), HasSubstr("unknown key \"include\" in [ask]"));
-  EXPECT_THAT(refusal(with(sphere, "title", "include")),
-              StartsWith("scene.toml:2:1: error: unknown key \"include\" in a scene"));
+  EXPECT_THAT(refusal(sphere + "inclusion = \"fit.toml\"\n"), HasSubstr("unknown key \"inclusion\" in [ask]"));
+  EXPECT_THAT(refusal(with(sphere, "title", "inclusion")),
+              StartsWith("scene.toml:2:1: error: unknown key \"inclusion\" in a scene"));
   EXPECT_THAT(refusal(with(sphere, "[waves]", "[wave]")),
               AllOf(StartsWith("scene.toml:6:2: "), HasSubstr("did you mean \"waves\"?")));
   EXPECT_THAT(refusal(with(pontoons, "stiffness = { surge", "stiffness = { pitch_surge")),

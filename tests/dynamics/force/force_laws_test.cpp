@@ -5,6 +5,7 @@
 #include "dynamics/force/drag.hpp"
 #include "dynamics/force/gravity.hpp"
 #include "dynamics/force/restoring.hpp"
+#include "dynamics/force/switched_connector.hpp"
 #include "dynamics/force/wave_loads.hpp"
 #include "hydro/hydrostatics/primitives.hpp"
 #include "hydro/radiation/constant_memory.hpp"
@@ -71,6 +72,14 @@ TEST(ForceLaws, HoldForAxialConnectors) {
   const Ends between{0, 1, Eigen::Vector3d(1, 0.5, 0.2), Eigen::Vector3d(-1, 0.5, -0.1)};
   const Ends to_ground{1, std::nullopt, Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(9, 1, -2)};
   laws::expect_force_laws(AxialConnectorKind({{between, {3000, 200}, 1.5}, {to_ground, {500, 0}, 2}}), bodies);
+}
+
+TEST(ForceLaws, HoldForConnectorsThatAControllerSets) {
+  const Ends between{0, 1, Eigen::Vector3d(1, 0.5, 0.2), Eigen::Vector3d(-1, 0.5, -0.1)};
+  const auto idle = [] {
+    return std::make_unique<FunctionController>([](const State&) { return std::optional<double>(); });
+  };
+  laws::expect_force_laws(SwitchedConnectorKind({{{{between, {3000, 200}, 1.5}}, idle}}), bodies);
 }
 
 TEST(ForceLaws, HoldForBushings) {

@@ -154,7 +154,7 @@ TEST(Friction, SticksAndSlipsOnABeltForEverTheSameWay) {
   }
   const double a = (breakaway - sliding) / k;
   const double period = 2 * a / v + 2 * (std::numbers::pi - std::atan(a * omega / v)) / omega;
-  EXPECT_NEAR(slips.front(), breakaway / k / v, h) << "the first after it was dragged to the static level";
+  EXPECT_NEAR(slips.front(), breakaway / k / v, 1.001 * h) << "the first after it was dragged to the static level";
   ASSERT_GE(slips.size(), 5u);
   EXPECT_EQ(
       run.events,

@@ -27,6 +27,8 @@ class Memory {
   virtual ~Memory() = default;
   /// A full step has been completed in `state`.
   virtual void accept(const State& state) = 0;
+  /// True if loads jumped in the last accept(): an integrator then begins anew.
+  virtual bool has_jumped() const { return false; }
 };
 
 /// The arguments of every evaluation. `memory` is what the kind itself made, or null.
@@ -99,6 +101,7 @@ struct EnergyFlow {
 };
 
 class FrictionKind;
+class ContactKind;
 
 class ForceKind {
  public:
@@ -124,6 +127,7 @@ class ForceKind {
 
   /// The set-valued laws of this kind, which an integrator must see; null if it has none.
   virtual const FrictionKind* friction() const { return nullptr; }
+  virtual const ContactKind* contact() const { return nullptr; }
 };
 
 /// ½ vᵀ (dM/dt) v of a kind's own mass along the motion, W (D40): by central differences over ± 10 µs, error of about

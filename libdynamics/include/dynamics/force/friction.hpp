@@ -22,8 +22,8 @@ class FrictionMemory final : public Memory {
   std::vector<double> work;  ///< J, taken from the bodies since the start
 };
 
-/// Loads of frictions that slip. Those that stick are conditions, which an integrator adds to the joints' own: it asks
-/// condition() and compares their multipliers with the static level.
+/// Loads of frictions that slip. Those that stick are conditions, Travel::holding(), which an integrator adds to the
+/// joints' own, to compare their multipliers with the static level.
 class FrictionKind final : public ForceKind {
  public:
   /// \throws hydro::InputError if a level is not positive or the static one is below the dynamic one

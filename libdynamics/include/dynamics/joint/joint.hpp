@@ -2,7 +2,8 @@
 /// \file  Joints: bodies that keep points or directions together, exactly, whatever the forces.
 ///
 /// A joint is a few conditions g(q) = 0 with multipliers λ: loads −Gᵀλ on the bodies, G = ∂g/∂q. All kinds are made of
-/// two sorts of condition, (D13) and (D14), so each has one value, one gradient and one curvature to check.
+/// two sorts of condition, (D13) and (D14), so each has one value, one gradient and one curvature to check. A contact
+/// that is closed is a third sort, (D23).
 #include <Eigen/Core>
 
 #include <array>
@@ -13,6 +14,7 @@
 
 #include "dynamics/model/block_matrix.hpp"
 #include "dynamics/model/body.hpp"
+#include "dynamics/spatial/shape.hpp"
 
 namespace dynamics {
 
@@ -48,10 +50,23 @@ struct AxesCondition {
   Eigen::Vector3d first_axis, second_axis;  ///< u, v, body axes; of the ground: global
 };
 
+/// Shapes of the two bodies that touch: g is the gap between them (D23).
+struct GapCondition {
+  Shape first, second;  ///< from the centres, body axes; of the ground: global
+};
+
+/// Where the shapes touch, the second does not slip over the first along a direction: a condition on velocities alone,
+/// so that round shapes may roll (D24).
+struct StickCondition {
+  GapCondition shapes;
+  Eigen::Vector3d direction;  ///< along the surface, global, unit
+};
+using ConditionLaw = std::variant<PointCondition, AxesCondition, GapCondition, StickCondition>;
+
 struct Condition {
   int joint, first;
   std::optional<int> second;
-  std::variant<PointCondition, AxesCondition> what;
+  ConditionLaw what;
 };
 
 /// G of one condition, by translation and small global rotation of its two bodies.
@@ -77,7 +92,11 @@ class JointSet {
   void reduce(const std::vector<bool>& keep);
 
   void couple(BlockPattern& pattern) const;
-  /// g, (count): metres, and sines of angles.
+  /// True for a condition on velocities, G v = 0, which no g belongs to.
+  bool is_on_velocity(Eigen::Index condition) const {
+    return std::holds_alternative<StickCondition>(conditions_[static_cast<std::size_t>(condition)].what);
+  }
+  /// g, (count): metres, and sines of angles; zero for conditions on velocities.
   Eigen::VectorXd values(const State& state) const;
   /// Columns of modes that are not free are zero.
   std::vector<Gradient> gradients(const State& state) const;
@@ -85,6 +104,8 @@ class JointSet {
   Eigen::VectorXd times(const std::vector<Gradient>& G, const Eigen::VectorXd& x) const;
   /// Adds Gᵀ λ.
   void add_transposed(const std::vector<Gradient>& G, const Eigen::VectorXd& lambda, Eigen::VectorXd& out) const;
+  /// G, (count, 6N).
+  Eigen::MatrixXd dense(const std::vector<Gradient>& G) const;
   /// Adds factor · ∂(Gᵀλ)/∂q (D15).
   void add_curvature(const State& state, const Eigen::VectorXd& lambda, double factor, BlockMatrix& out) const;
   /// Ġ v, (count): the acceleration that the conditions have without any of the bodies'.
@@ -101,6 +122,8 @@ class JointSet {
   /// Where the joint lets its second body (or the ground) move against the first: the travel of a slider along the
   /// axis, m, or the angle of a hinge about it, −π … π rad. Zero at rest. For sliders and hinges only.
   double travel(int joint, const State& state) const;
+  /// Sets to zero what stands in modes that are not free.
+  void keep_free(int first, std::optional<int> second, Gradient& row) const;
   /// Adds a condition that belongs to no joint's own.
   void add(Condition condition) { conditions_.push_back(std::move(condition)); }
 

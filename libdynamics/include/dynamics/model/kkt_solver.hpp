@@ -20,8 +20,10 @@ class KktSolver {
   KktSolver(KktSolver&&) noexcept;
   KktSolver& operator=(KktSolver&&) noexcept;
   bool is_sparse() const;
+  /// `compliance` c, one a condition, >= 0, puts −c on the diagonal of the lower right block.
   /// False if the matrix is singular to working precision or not finite.
-  bool factorise(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H);
+  bool factorise(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H,
+                 const Eigen::VectorXd& compliance);
   struct Solution {
     Eigen::VectorXd x, lambda;
   };

@@ -92,7 +92,8 @@ class Workspace {
   KktSolver solver;
 
   Instant instant(const State& at, std::size_t kind) { return {at, memory[kind].get()}; }
-  void accept();  ///< a full step has been completed: memory moves on
+  /// A full step has been completed: memory moves on. \returns true if loads jumped by it
+  bool accept();
 };
 
 }  // namespace dynamics

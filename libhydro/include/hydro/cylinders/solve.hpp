@@ -3,7 +3,7 @@
 ///
 /// Potential theory without approximation in the interaction: each cylinder is solved by matching, the array by
 /// multiple scattering that includes evanescent waves. What is truncated (functions in the gap, partial waves) is
-/// chosen from the tolerance asked, and its effect is measured by doubling. Equations (C1)-(C20) are derived and
+/// chosen from the tolerance asked, and its effect is measured by doubling. Equations (C1)-(C21) are derived and
 /// sourced in docs/theory/cylinders.md.
 #include <functional>
 #include <vector>
@@ -17,7 +17,8 @@ namespace hydro::cylinders {
 enum class Equations {
   automatic,  ///< whichever needs fewer operations
   direct,     ///< elimination: operations as the cube, memory as the square of the number of cylinders
-  iterative,  ///< block by block until the residual is far below the tolerance: both as the square
+  iterative,  ///< block by block until the residual is far below the tolerance: both as the square, or nearly as the
+              ///< number itself where cylinders stand as copies of a few on a lattice
 };
 
 struct Options {
@@ -44,6 +45,7 @@ struct SelfCheck {
   int partial_waves = 0;               ///< per cylinder, at most over the frequencies, (C11)
   double left_out = 0;                 ///< estimated effect of partial waves beyond those that can be had; usually 0
   int steps = 0;                       ///< of the iteration between groups, at most; 0: all by elimination
+  bool lattice = false;                ///< waves between groups passed over a lattice, by Fourier transforms (C21)
   double effective_depth = 0;          ///< m; differs from the water's only if that is infinite, (C14)
 };
 

@@ -32,6 +32,7 @@ class CsvTable {
   /// Values in SI with the dimension that the header states (a number where it states none).
   const std::vector<double>& column(std::string_view name) const;
   const std::vector<std::string>& text_column(std::string_view name) const;
+  bool is_text(std::string_view name) const { return find(name).is_text; }
   Dimension dimension(std::string_view name) const;
   /// The unit as the header has it, "" for none.
   const std::string& unit_text(std::string_view name) const;

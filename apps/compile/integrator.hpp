@@ -1,0 +1,13 @@
+#pragma once
+/// \file  The integrator that a scene asks for.
+#include <memory>
+
+#include "dynamics/integrate/integrator.hpp"
+#include "scene/scene.hpp"
+
+namespace froude::compile {
+
+/// \throws hydro::InputError, at its place in the scene, if the method cannot step what the scene names
+std::unique_ptr<dynamics::Integrator> make_integrator(const scene::Solve& solve, const dynamics::Model& model);
+
+}  // namespace froude::compile

@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "froude/fit_report.hpp"
+
+namespace froude {
+namespace {
+
+using ::fit::Coefficient;
+constexpr double gap = std::numeric_limits<double>::quiet_NaN();
+
+/// Measured and fitted force and what is left, the last five periods of one run.
+void add_run(const FitRun& run, plot::Figure& f) {
+  const auto& r = run.prepared.record;
+  const auto from = std::lower_bound(r.time.begin(), r.time.end(), r.time.back() - 5 * run.fit.period) - r.time.begin();
+  const auto tail = [&](const std::vector<double>& v) { return std::vector<double>(v.begin() + from, v.end()); };
+  std::vector<double> left = tail(r.force);
+  for (std::size_t j = 0; j < left.size(); ++j) left[j] -= run.fit.fitted[j + static_cast<std::size_t>(from)];
+  f.panels.push_back({.x = {"time", "s"},
+                      .y = {"force", "N"},
+                      .series = {{run.name + ": measured", tail(r.time), tail(r.force)},
+                                 {"fitted", tail(r.time), tail(run.fit.fitted), true, false, true}}});
+  f.panels.push_back(
+      {.x = {"time", "s"}, .y = {"residual", "N"}, .series = {{"measured − fitted", tail(r.time), left}}});
+}
+
+/// One coefficient over KC with its intervals, and the law where it asks for KC alone.
+plot::Panel coefficient_panel(const std::vector<FitRun>& runs, std::size_t i, const FitLaw* law) {
+  const std::string name = runs[0].asked[i].name;
+  plot::Series values{name, {}, {}, false, true}, bars{"95 % interval", {}, {}};
+  bars.name = fmt::format("{:g} % interval", 100 * runs[0].fit.confidence);
+  for (const FitRun& run : runs) {
+    const Coefficient& c = run.asked[i];
+    if (!c.value) continue;
+    values.x.push_back(run.fit.kc);
+    values.y.push_back(*c.value);
+    for (const double y : {c.interval.low, c.interval.high, gap}) {
+      bars.x.push_back(run.fit.kc);
+      bars.y.push_back(y);
+    }
+  }
+  plot::Panel panel{.x = {"KC"}, .y = {name}, .series = {values, bars}};
+  if (law == nullptr || values.x.empty()) return panel;
+  const auto& best = law->laws.front();
+  if (best.law != ::fit::Law::kc && best.law != ::fit::Law::constant) return panel;
+  double middle = 0;
+  for (const double kc : values.x) middle += std::log(kc) / static_cast<double>(values.x.size());
+  plot::Series line{"law", {}, {}};
+  const auto [low, high] = std::minmax_element(values.x.begin(), values.x.end());
+  for (int k = 0; k <= 50; ++k) {
+    const double kc = *low * std::pow(*high / *low, k / 50.0);
+    line.x.push_back(kc);
+    line.y.push_back(best.coefficients[0] +
+                     (best.law == ::fit::Law::kc ? best.coefficients[1] * (std::log(kc) - middle) : 0.0));
+  }
+  panel.series.push_back(line);
+  return panel;
+}
+
+}  // namespace
+
+plot::Figure runs_figure(const scene::FitScene& scene, const std::vector<FitRun>& runs,
+                         const std::vector<FitLaw>& laws) {
+  plot::Figure f{.title = scene.title.empty() ? scene.file.filename().string() : scene.title, .panels = {}};
+  if (runs.size() < 3) {
+    for (const FitRun& run : runs) add_run(run, f);
+    return f;
+  }
+  for (std::size_t i = 0; i < scene.coefficients.size(); ++i)
+    f.panels.push_back(coefficient_panel(runs, i, laws.empty() ? nullptr : &laws[i]));
+  plot::Series map{"runs", {}, {}, false, true};
+  for (const FitRun& run : runs) {
+    if (!run.fit.re) continue;
+    map.x.push_back(run.fit.kc);
+    map.y.push_back(*run.fit.re);
+  }
+  if (!map.x.empty()) f.panels.push_back({.x = {"KC"}, .y = {"Re"}, .series = {map}});
+  return f;
+}
+
+std::string runs_table(const std::vector<FitRun>& runs) {
+  std::string out =
+      "# One row for each run; a coefficient that the run does not tell has an empty value and its interval.\nfile";
+  for (const auto& [name, value] : runs[0].labels) out += "," + name;
+  out += ",KC,Re,beta,period [s]";
+  for (const Coefficient& c : runs[0].asked) out += fmt::format(",{0},{0}_low,{0}_high,{0}_error", c.name);
+  out += ",residual_rms [N],explained,cautions\n";
+  for (const FitRun& run : runs) {
+    out += run.name;
+    for (const auto& [name, value] : run.labels) out += "," + value;
+    const auto& f = run.fit;
+    out += fmt::format(",{:.6g},{},{},{:.6g}", f.kc, f.re ? fmt::format("{:.6g}", *f.re) : "",
+                       f.re ? fmt::format("{:.6g}", *f.re / f.kc) : "", f.period);
+    for (const Coefficient& c : run.asked)
+      out += fmt::format(",{},{:.6g},{:.6g},{:.3g}", c.value ? fmt::format("{:.6g}", *c.value) : "", c.interval.low,
+                         c.interval.high, c.standard_error);
+    out += fmt::format(",{:.4g},{:.6g},{}\n", f.residual_rms, f.explained,
+                       run.prepared.cautions.size() + (f.caution.empty() ? 0 : 1));
+  }
+  return out;
+}
+
+}  // namespace froude

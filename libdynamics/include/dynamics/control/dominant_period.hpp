@@ -1,0 +1,47 @@
+#pragma once
+/// \file  Switching by the period of a motion (Fagerbakke 2023, sections 4.2 and 6.8).
+#include <vector>
+
+#include "dynamics/control/controller.hpp"
+
+namespace dynamics {
+
+/// A setting from some period on.
+struct PeriodSetting {
+  double from;   ///< s; the first is 0
+  double value;  ///< in the unit of what is ruled
+};
+
+struct PeriodSwitching {
+  std::function<double(const State&)> signal;  ///< what is watched: the surge of a module
+  double every;                                ///< s, from one check to the next
+  double window;                               ///< s, of the motion that a check looks at: at least two periods
+  double hysteresis;                           ///< Hz, by which two checks in turn may differ to be taken as steady
+  double dwell = 0;                            ///< s, least time between switches
+  std::vector<PeriodSetting> settings;         ///< from short to long
+};
+
+/// The frequency with the largest amplitude in evenly sampled values, Hz (D64): peak of the spectrum of the record
+/// under a Hann window, between its bins by a parabola through the logarithms; to some 1 % of a bin for one
+/// oscillation. 0 where nothing moves.
+double dominant_frequency(const std::vector<double>& values, double step_s);
+
+/// Checks every so often what period dominates, and takes its setting once two checks in turn agree.
+class DominantPeriodController final : public Controller {
+ public:
+  /// \throws hydro::InputError for times that are not positive, a window that holds no two checks' worth of samples,
+  /// settings that do not begin at 0 or do not ascend
+  explicit DominantPeriodController(PeriodSwitching law);
+  std::optional<double> sample(const State& state) override;
+
+ private:
+  double frequency() const;
+
+  PeriodSwitching law_;
+  std::vector<double> time_, value_;
+  double next_check_, last_switch_ = -1e300;
+  std::optional<double> last_frequency_;
+  std::optional<std::size_t> setting_;
+};
+
+}  // namespace dynamics

@@ -1,0 +1,75 @@
+#pragma once
+/// \file  Everything that holds bodies at one time: joints, frictions that stick, contacts that are closed.
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
+#include "dynamics/force/contact.hpp"
+#include "dynamics/force/friction.hpp"
+#include "dynamics/model/model.hpp"
+
+namespace dynamics {
+
+/// The conditions of the joints come first, then one for each friction that sticks, then the normal of each contact
+/// that is closed and, if it sticks, its directions along the surface.
+class ActiveSet {
+ public:
+  explicit ActiveSet(const Model& model);
+
+  const FrictionKind* friction() const { return friction_; }
+  const ContactKind* contact() const { return contact_; }
+  bool may_change() const { return friction_ != nullptr || contact_ != nullptr; }
+  FrictionMemory& friction_memory(Workspace& workspace) const;
+  ContactMemory& contact_memory(Workspace& workspace) const;
+
+  /// Takes up what the memories say, where the bodies are now; the workspace's solver with it.
+  void rebuild(Workspace& workspace);
+  const JointSet& conditions() const { return conditions_; }
+  /// Loads are −columns · λ: G, and friction along with the normal of a contact that slides (D24).
+  std::vector<Gradient> columns(std::vector<Gradient> G, const State& state) const;
+  /// Directions of slip are those where a step begins, until turn_slides() takes those of its end.
+  bool has_slides() const { return !slides_.empty(); }
+  void reset_slides();
+  /// \returns true if one has turned by more than 1e-9
+  bool turn_slides(const State& end);
+  /// Accelerations and multipliers in a state: G a = −Ġ v (D16).
+  struct Balance {
+    Eigen::VectorXd acceleration, multipliers;
+  };
+  /// Of the workspace's state; none if they cannot be had.
+  std::optional<Balance> balance(Workspace& workspace) const;
+  /// Takes them into the workspace. \returns false if they cannot be had
+  bool solve_accelerations(Workspace& workspace) const;
+
+  /// √ of the diagonal of mass plus added mass: makes newtons and newton metres comparable.
+  const Eigen::VectorXd& scale() const { return scale_; }
+  /// √ of the mass that each condition moves.
+  const Eigen::VectorXd& condition_scale() const { return condition_scale_; }
+  /// Of closed contacts, which may be more than needed to hold a body: a small inverse mass, for Newton's matrix alone,
+  /// by which they share the load evenly (D24). Zero for joints.
+  const Eigen::VectorXd& compliance() const { return compliance_; }
+  /// Of a place computed from the bodies' positions, m.
+  double rounding() const { return rounding_; }
+
+ private:
+  void close(std::size_t element, Workspace& workspace);
+  bool moves(const Condition& condition, const State& state) const;
+  void find_condition_scale(const State& state);
+
+  struct Slide {
+    Eigen::Index row;  ///< of the normal
+    std::size_t element;
+    Eigen::Vector3d start, direction;  ///< of slip, global
+  };
+  const Model& model_;
+  const FrictionKind* friction_ = nullptr;
+  const ContactKind* contact_ = nullptr;
+  std::size_t friction_index_ = 0, contact_index_ = 0;  // among the model's forces
+  JointSet conditions_;
+  std::vector<Slide> slides_;
+  Eigen::VectorXd scale_, condition_scale_, compliance_;
+  double rounding_ = 0;
+};
+
+}  // namespace dynamics

@@ -1,0 +1,33 @@
+#pragma once
+/// \file  An explicit pair of orders 5 and 4 that chooses its own steps, for motions without stiffness.
+#include "dynamics/integrate/integrator.hpp"
+
+namespace dynamics {
+
+/// Dormand & Prince (1980) in places, rotation vectors within the step and velocities (D28). Each step asked for is cut
+/// so that the estimated local error of places over the step, and of velocities, in the metric of the masses, stays
+/// below the tolerance relative to the velocities and what accelerations add in the step. Joints: as SemiImplicitEuler.
+///
+/// Cheap where nothing is stiff; springs of frequency ω hold it to steps below some 3/ω whatever they move.
+/// \throws hydro::InputError for models with contacts
+class ExplicitPair final : public Integrator {
+ public:
+  struct Settings {
+    double tolerance = 1e-8;  ///< infinite: one step of order 5 each, to see its order
+  };
+  ExplicitPair(const Model& model, const Settings& settings);
+
+ private:
+  bool try_step(Workspace& workspace, double h, StepReport& report) override;
+  /// One step of both orders: the end by order 5, and the estimated error relative to what is allowed.
+  struct Attempt {
+    State end;
+    double error;
+  };
+  std::optional<Attempt> attempt(Workspace& workspace, double h) const;
+
+  Settings settings_;
+  double last_ = 0;  // step that was taken last, s
+};
+
+}  // namespace dynamics

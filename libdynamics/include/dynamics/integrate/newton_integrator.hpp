@@ -1,0 +1,44 @@
+#pragma once
+/// \file  What implicit integrators share: each step solved by Newton with line search for accelerations and
+/// multipliers.
+#include <Eigen/Core>
+
+#include "dynamics/integrate/integrator.hpp"
+
+namespace dynamics {
+
+/// Joints are closed at the end of every step, to round-off. Newton ends where the last correction is 1e-9 of the
+/// acceleration and of the velocity over the step, or below what rounding leaves of places.
+class NewtonIntegrator : public Integrator {
+ protected:
+  using Integrator::Integrator;
+
+  /// What a guess of accelerations and multipliers leads to.
+  struct Trial {
+    Eigen::VectorXd acceleration, multipliers;
+    State state;                               ///< at the end of the step
+    State loads_at;                            ///< where loads are taken
+    std::vector<Gradient> gradients, columns;  ///< of the conditions at the end, and of their loads
+    Eigen::VectorXd residual, open;  ///< forces that do not balance; how far joints are open, as accelerations
+    double size;                     ///< of both, scaled
+  };
+  /// How places and velocities move with the accelerations that Newton seeks, where loads are taken and at the end.
+  struct Slopes {
+    double load_place, load_speed, end_place, end_speed;
+  };
+
+ private:
+  virtual Slopes slopes(double h) const = 0;
+  virtual State end_of_step(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration) const = 0;
+  /// Fills loads_at, residual (without joints) and columns; here at the end of the step.
+  virtual void find_loads(Workspace& workspace, double h, Trial& trial) const;
+  /// The step is done; the workspace is still as before it.
+  virtual void accepted(const Workspace&, const Eigen::VectorXd&) {}
+
+  bool try_step(Workspace& workspace, double h, StepReport& report) final;
+  Trial evaluate(Workspace& workspace, double h, Eigen::VectorXd acceleration, Eigen::VectorXd multipliers) const;
+  std::vector<Gradient> by_step(const std::vector<Gradient>& G, const State& before, const State& after) const;
+  double unresolved(double h) const;
+};
+
+}  // namespace dynamics

@@ -1,0 +1,74 @@
+#pragma once
+/// \file  When friction and contacts change, and into what. Integrators take smooth steps between.
+#include "dynamics/integrate/active_set.hpp"
+
+namespace dynamics {
+
+/// A change of a set-valued law, or an impact.
+struct Event {
+  enum class Law { friction, contact } law;
+  double time;          ///< s
+  std::size_t element;  ///< of FrictionKind::all() or ContactKind::all()
+  int becomes;          ///< friction: the direction in which it slips, 0 if it sticks; contact: a ContactState::Is
+};
+
+/// The laws of friction (D19), (D20) and contact (D23)-(D26) at the instants where something changes.
+class SetValuedLaws {
+ public:
+  SetValuedLaws(const Model& model, ActiveSet& active) : model_(model), active_(active) {}
+
+  /// What holds and what slips where a run starts, with its accelerations.
+  /// \throws hydro::InputError for shapes that overlap there
+  void begin(Workspace& workspace);
+
+  /// How far the law next to change is from doing so; negative if it should have changed already. Loads are those of
+  /// the state, not of the method that led to it, whose own waver in short steps.
+  struct Margin {
+    Event::Law law = Event::Law::friction;
+    std::size_t element = 0;
+    double value = 1;  ///< a share, a speed in m/s, a length in m
+    int becomes = 0;   ///< as in Event
+  };
+  Margin least_margin(Workspace& workspace) const;
+
+  /// Carries out what least_margin() found where it is zero, and whatever follows at that instant: impacts, slip,
+  /// stick. `step`: of the run, s, what rounding of speeds is seen against.
+  std::vector<Event> change(Workspace& workspace, const Margin& at, double step);
+  /// Ends what goes on in ever shorter times, bounces and rocking: contacts that could close within a step have no more
+  /// speed along their normals (D26).
+  void still(Workspace& workspace, double step);
+
+  /// Power of the slip of each contact, W, in the workspace's state.
+  Eigen::VectorXd slip_power(Workspace& workspace) const;
+  /// Adds the work of what slipped from `before` on.
+  void note_work(const State& before, const Eigen::VectorXd& power_before, Workspace& workspace) const;
+  /// Points that stick on round shapes roll: they are taken anew where they touch now.
+  /// \returns true if accelerations had to be found anew too
+  bool follow_rolling(Workspace& workspace);
+
+ private:
+  bool collide(Workspace& workspace);
+  void classify_contacts(Workspace& workspace) const;
+  void classify_friction(Workspace& workspace) const;
+  void take_up(Workspace& workspace, const Margin& at);
+  Eigen::Vector3d direction_of_slip(std::size_t element, Workspace& workspace) const;
+  void settle(Workspace& workspace);
+  bool release(Workspace& workspace);
+  bool close_what_would_overlap(Workspace& workspace);
+  double slow(const Workspace& workspace) const;
+  double rounding(const ActiveSet::Balance& loads) const;
+  double approach(std::size_t element, const State& state) const;
+  double pull(std::size_t element, const Workspace& workspace) const;
+  struct Seen {
+    int is;  ///< as Event::becomes
+    std::size_t impacts;
+    bool operator==(const Seen&) const = default;
+  };
+  std::vector<Seen> situation(Workspace& workspace) const;
+
+  const Model& model_;
+  ActiveSet& active_;
+  double step_ = 0;
+};
+
+}  // namespace dynamics

@@ -1,0 +1,87 @@
+#include "dynamics/force/switched_connector.hpp"
+
+#include "axial.hpp"
+
+namespace dynamics {
+namespace {
+
+/// Calls use(connector as it is) for all of all groups; at rest, without memory, as they begin.
+template <class Use>
+void for_each(const std::vector<SwitchedConnectors>& groups, const std::vector<double>* stiffness, Use use) {
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (const AxialConnector& c : groups[g].connectors)
+      use(stiffness != nullptr ? with_stiffness(c, (*stiffness)[g]) : c);
+}
+
+const std::vector<double>* set_in(const Instant& now) {
+  return now.memory == nullptr ? nullptr : &static_cast<const SwitchMemory*>(now.memory)->stiffness;
+}
+
+}  // namespace
+
+AxialConnector with_stiffness(AxialConnector connector, double stiffness) {
+  connector.law.stiffness = stiffness;
+  return connector;
+}
+
+SwitchMemory::SwitchMemory(const std::vector<SwitchedConnectors>& groups, const State& start)
+    : switches(groups.size(), 0), groups_(groups), time_(start.time) {
+  for (const SwitchedConnectors& group : groups) {
+    stiffness.push_back(group.connectors.front().law.stiffness);
+    controllers_.push_back(group.controller());
+  }
+  power_ = flow(start).dissipated;
+}
+
+EnergyFlow SwitchMemory::flow(const State& state) const {
+  EnergyFlow out;
+  for_each(groups_, &stiffness, [&](const AxialConnector& c) { detail::add_axial_energy(c, state, out); });
+  return out;
+}
+
+// A switch changes what the springs hold at once: the controller pays for it or takes it.
+void SwitchMemory::accept(const State& state) {
+  const EnergyFlow before = flow(state);
+  dissipated += (state.time - time_) * (power_ + before.dissipated) / 2;
+  jumped_ = false;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const auto set = controllers_[g]->sample(state);
+    if (!set || *set == stiffness[g]) continue;
+    stiffness[g] = *set;
+    ++switches[g];
+    jumped_ = true;
+  }
+  const EnergyFlow after = flow(state);
+  dissipated -= after.stored - before.stored;
+  time_ = state.time;
+  power_ = after.dissipated;
+}
+
+std::size_t SwitchedConnectorKind::elements() const {
+  std::size_t count = 0;
+  for (const auto& group : groups_) count += group.connectors.size();
+  return count;
+}
+
+void SwitchedConnectorKind::couple(BlockPattern& pattern) const {
+  for_each(groups_, nullptr, [&](const AxialConnector& c) {
+    if (c.ends.second) pattern.couple(c.ends.first, *c.ends.second);
+  });
+}
+
+void SwitchedConnectorKind::add_load(const Instant& now, LoadSink& out) const {
+  for_each(groups_, set_in(now), [&](const AxialConnector& c) { detail::add_axial_load(c, now.state, out); });
+}
+
+void SwitchedConnectorKind::add_jacobian(const Instant& now, JacobianSink& out) const {
+  for_each(groups_, set_in(now), [&](const AxialConnector& c) { detail::add_axial_jacobian(c, now.state, out); });
+}
+
+EnergyFlow SwitchedConnectorKind::energy(const Instant& now) const {
+  EnergyFlow flow;
+  for_each(groups_, set_in(now), [&](const AxialConnector& c) { detail::add_axial_energy(c, now.state, flow); });
+  if (now.memory != nullptr) flow.dissipated_so_far = static_cast<const SwitchMemory*>(now.memory)->dissipated;
+  return flow;
+}
+
+}  // namespace dynamics

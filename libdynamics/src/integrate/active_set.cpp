@@ -1,0 +1,149 @@
+#include "dynamics/integrate/active_set.hpp"
+
+#include <limits>
+
+#include "hydro/base/error.hpp"
+
+namespace dynamics {
+
+ActiveSet::ActiveSet(const Model& model)
+    : model_(model), conditions_(model.joints()), compliance_(Eigen::VectorXd::Zero(conditions_.count())) {
+  const State rest = rest_state(model.bodies());
+  BlockMatrix mass(model.pattern());
+  model.add_mass(rest, 1, mass);
+  scale_ = mass.dense().diagonal().cwiseSqrt();
+  find_condition_scale(rest);
+  for (std::size_t k = 0; k < model.forces().size(); ++k) {
+    if (const FrictionKind* kind = model.forces()[k]->friction()) {
+      hydro::ensure(friction_ == nullptr, "all friction of a model is one kind");
+      friction_ = kind, friction_index_ = k;
+    }
+    if (const ContactKind* kind = model.forces()[k]->contact()) {
+      hydro::ensure(contact_ == nullptr, "all contacts of a model are one kind");
+      contact_ = kind, contact_index_ = k;
+    }
+  }
+  double farthest = 1;  // what positions and arms are rounded against, m; and directions, unit vectors
+  for (const RigidBody& body : model.bodies()) farthest = std::max(farthest, body.rest_centre().norm());
+  for (const Joint& joint : model.joints().joints()) farthest = std::max(farthest, joint.place.norm());
+  constexpr double roundings = 32;  // sums and products between a state and how far a joint is open
+  rounding_ = roundings * std::numeric_limits<double>::epsilon() * farthest;
+}
+
+FrictionMemory& ActiveSet::friction_memory(Workspace& workspace) const {
+  return static_cast<FrictionMemory&>(*workspace.memory[friction_index_]);
+}
+
+ContactMemory& ActiveSet::contact_memory(Workspace& workspace) const {
+  return static_cast<ContactMemory&>(*workspace.memory[contact_index_]);
+}
+
+void ActiveSet::find_condition_scale(const State& state) {
+  const Eigen::MatrixXd G = conditions_.dense(conditions_.gradients(state)) * scale_.cwiseInverse().asDiagonal();
+  condition_scale_ = G.rowwise().norm().cwiseInverse();
+}
+
+/// False if its bodies cannot move that way at all.
+bool ActiveSet::moves(const Condition& condition, const State& state) const {
+  JointSet alone = model_.joints();
+  alone.reduce(std::vector<bool>(static_cast<std::size_t>(alone.count()), false));
+  alone.add(condition);
+  const Gradient g = alone.gradients(state).front();
+  return g.first.norm() + (condition.second ? g.second.norm() : 0) > 0;
+}
+
+void ActiveSet::close(std::size_t element, Workspace& workspace) {
+  ContactState& c = contact_memory(workspace).contact[element];
+  c.row = -1, c.held = 0;
+  const Condition normal = contact_->closed(element);
+  if (c.is == ContactState::open || !moves(normal, workspace.state)) return;
+  c.row = conditions_.count();
+  conditions_.add(normal);
+  if (c.is == ContactState::slides) {
+    if (contact_->all()[element].friction > 0) slides_.push_back({c.row, element, c.slip, c.slip});
+    return;
+  }
+  for (const Condition& along : contact_->sticking(element, workspace.state))
+    if (moves(along, workspace.state)) {
+      conditions_.add(along);
+      ++c.held;
+    }
+}
+
+void ActiveSet::rebuild(Workspace& workspace) {
+  conditions_ = model_.joints();
+  slides_.clear();
+  if (friction_ != nullptr) {
+    const FrictionMemory& memory = friction_memory(workspace);
+    for (std::size_t i = 0; i < memory.direction.size(); ++i)
+      if (memory.direction[i] == 0) conditions_.add(friction_->all()[i].travel.holding(workspace.state));
+  }
+  const Eigen::Index exact = conditions_.count();
+  if (contact_ != nullptr)
+    for (std::size_t i = 0; i < contact_->elements(); ++i) close(i, workspace);
+  find_condition_scale(workspace.state);
+  constexpr double share = 1e-7;  // of the inverse mass: an iteration more, and loads to 1e-9
+  compliance_ = share * condition_scale_.cwiseAbs2().cwiseInverse();
+  compliance_.head(exact).setZero();
+  workspace.solver = KktSolver(model_.pattern(), conditions_);
+}
+
+void ActiveSet::reset_slides() {
+  for (Slide& slide : slides_) slide.direction = slide.start;
+}
+
+// What has stopped or come back keeps the direction that it had: the step is cut there.
+bool ActiveSet::turn_slides(const State& end) {
+  bool any = false;
+  for (Slide& slide : slides_) {
+    const Eigen::Vector3d n = contact_->meeting(slide.element, end).normal;
+    const Eigen::Vector3d v = contact_->relative_velocity(slide.element, end), slip = v - v.dot(n) * n;
+    if (slip.dot(slide.start) <= 0) continue;
+    any = any || (slip.normalized() - slide.direction).norm() > 1e-9;
+    slide.direction = slip.normalized();
+  }
+  return any;
+}
+
+std::vector<Gradient> ActiveSet::columns(std::vector<Gradient> G, const State& state) const {
+  for (const Slide& slide : slides_) {
+    const Contact& c = contact_->all()[slide.element];
+    const Eigen::Vector3d n = contact_->meeting(slide.element, state).normal;
+    const Eigen::Vector3d along = (slide.direction - slide.direction.dot(n) * n).normalized();
+    Gradient slip = contact_->along(slide.element, along, state);
+    conditions_.keep_free(c.first, c.second, slip);
+    Gradient& column = G[static_cast<std::size_t>(slide.row)];
+    column.first -= c.friction * slip.first;
+    column.second -= c.friction * slip.second;
+  }
+  return G;
+}
+
+// The second pass takes out what the compliance of contacts has left.
+std::optional<ActiveSet::Balance> ActiveSet::balance(Workspace& workspace) const {
+  const auto G = conditions_.gradients(workspace.state), load = columns(G, workspace.state);
+  const Eigen::VectorXd r = model_.residual(workspace.state, Eigen::VectorXd::Zero(model_.modes()), workspace);
+  const Eigen::VectorXd convective = conditions_.convective(workspace.state);
+  model_.tangent(workspace.state, 1, 0, 0, workspace, workspace.matrix);
+  if (!r.allFinite() || !workspace.solver.factorise(workspace.matrix, load, G, compliance_)) return {};
+  auto [a, lambda] = workspace.solver.solve(-r, -convective);
+  const bool again = compliance_.size() > 0 && compliance_.maxCoeff() > 0;
+  for (int pass = 0; pass < (again ? 2 : 0); ++pass) {
+    Eigen::VectorXd left = -r - workspace.matrix * a;
+    conditions_.add_transposed(load, -lambda, left);
+    const auto [more_a, more_lambda] = workspace.solver.solve(left, -convective - conditions_.times(G, a));
+    a += more_a;
+    lambda += more_lambda;
+  }
+  return Balance{std::move(a), std::move(lambda)};
+}
+
+bool ActiveSet::solve_accelerations(Workspace& workspace) const {
+  auto found = balance(workspace);
+  if (!found) return false;
+  workspace.acceleration = std::move(found->acceleration);
+  workspace.multipliers = std::move(found->multipliers);
+  return true;
+}
+
+}  // namespace dynamics

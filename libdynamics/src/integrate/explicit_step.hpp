@@ -1,0 +1,14 @@
+#pragma once
+/// \file  What explicit integrators share. Not installed.
+#include "dynamics/integrate/integrator.hpp"
+
+namespace dynamics {
+
+/// Contacts need conditions on places that hold at the end of a step. \throws hydro::InputError
+void refuse_contacts(const ActiveSet& active);
+
+/// Joints closed by the least motion, then the accelerations there; the workspace ends in that state.
+/// \returns false, with the workspace as it was, if they cannot be had
+bool arrive(const Model& model, const ActiveSet& active, State end, Workspace& workspace);
+
+}  // namespace dynamics

@@ -1,0 +1,176 @@
+#include "dynamics/integrate/integrator.hpp"
+
+#include <cmath>
+
+#include "dynamics/spatial/rotation.hpp"
+#include "hydro/base/error.hpp"
+
+namespace dynamics {
+namespace {
+constexpr double closed = 1e-9;              // m, and sine of an angle: what rounding of a placed body leaves
+constexpr double change_resolution = 1e-12;  // of a step, and of a level of friction: what rounding leaves of both
+constexpr int deepest_halving = 10;          // a step is cut into 2¹⁰ pieces at most
+}  // namespace
+
+void Integrator::require_closed_joints(const State& state) const {
+  const JointSet& joints = model_.joints();
+  if (joints.count() == 0) return;
+  const Eigen::VectorXd g = joints.values(state), speed = joints.times(joints.gradients(state), state.velocity);
+  const auto name = [&](Eigen::Index i) {
+    return joints.joints()[static_cast<std::size_t>(joints.conditions()[static_cast<std::size_t>(i)].joint)].name;
+  };
+  Eigen::Index worst = 0;
+  if (g.cwiseAbs().maxCoeff(&worst) > closed)
+    throw hydro::InputError(fmt::format("joint \"{}\" does not fit where the run starts: it is off by {:.3g}",
+                                        name(worst), std::abs(g[worst])),
+                            {}, "start both its bodies where the joint is closed");
+  if (speed.cwiseAbs().maxCoeff(&worst) > closed * std::max(1.0, state.velocity.cwiseAbs().maxCoeff()))
+    throw hydro::InputError(fmt::format("the velocities at the start pull joint \"{}\" apart by {:.3g} per second",
+                                        name(worst), std::abs(speed[worst])),
+                            {}, "start both its bodies with velocities that the joint allows");
+}
+
+void Integrator::start(Workspace& workspace) {
+  require_closed_joints(workspace.state);
+  if (active_.may_change()) {
+    laws_.begin(workspace);
+    begin(workspace);
+  } else {
+    begin_anew(workspace);
+  }
+}
+
+void Integrator::begin_anew(Workspace& workspace) {
+  if (!active_.solve_accelerations(workspace))
+    throw hydro::NumericsError(fmt::format(
+        "no accelerations can be found at t = {} s: the loads or the mass matrix are not finite or singular",
+        workspace.state.time));
+  begin(workspace);
+}
+
+State Integrator::displaced(const State& now, const Eigen::VectorXd& move, Eigen::VectorXd velocity, double h) const {
+  State next{now.time + h, std::vector<Pose>(now.pose.size()), std::move(velocity)};
+  for (std::size_t i = 0; i < now.pose.size(); ++i) {
+    const auto row = 6 * static_cast<Eigen::Index>(i);
+    next.pose[i].centre = now.pose[i].centre + move.segment<3>(row);
+    next.pose[i].attitude = (rotation_exp(move.segment<3>(row + 3)) * now.pose[i].attitude).normalized();
+  }
+  return next;
+}
+
+// Friction acts against the slip at the end of a step, which is known after it: where the direction has turned, the
+// step is done again with it.
+bool Integrator::try_turned_step(Workspace& workspace, double h, StepReport& report) {
+  active_.reset_slides();
+  if (!active_.has_slides()) return try_step(workspace, h, report);
+  const Snapshot before = snapshot(workspace);
+  constexpr int most = 3;
+  for (int i = 0; i < most; ++i) {
+    if (!try_step(workspace, h, report)) return false;
+    if (!active_.turn_slides(workspace.state)) return true;
+    if (i + 1 < most) restore(workspace, before);
+  }
+  return true;
+}
+
+// Between two changes that all but coincide: conditions on places would leave their rounding, divided by the time, in
+// the velocities; a straight way is exact to rounding there.
+void Integrator::go_straight(Workspace& workspace, double h) const {
+  const Eigen::VectorXd &v = workspace.state.velocity, &a = workspace.acceleration;
+  workspace.state = displaced(workspace.state, h * v + h * h / 2 * a, v + h * a, h);
+}
+
+void Integrator::advance(Workspace& workspace, double h, int depth, StepReport& report) {
+  if (h < 1e-6 * step_) return go_straight(workspace, h);
+  if (try_turned_step(workspace, h, report)) return;
+  if (depth == deepest_halving)
+    throw hydro::NumericsError(fmt::format("the run cannot go on from t = {:.6g} s, even with a step of {:.3g} s: {}",
+                                           workspace.state.time, h, failure_));
+  ++report.halvings;
+  advance(workspace, h / 2, depth + 1, report);
+  advance(workspace, h / 2, depth + 1, report);
+}
+
+Integrator::Snapshot Integrator::snapshot(const Workspace& workspace) const {
+  return {workspace.state, workspace.acceleration, workspace.multipliers, history()};
+}
+
+void Integrator::restore(Workspace& workspace, const Snapshot& before) {
+  workspace.state = before.state;
+  workspace.acceleration = before.acceleration;
+  workspace.multipliers = before.multipliers;
+  set_history(before.history);
+}
+
+double Integrator::step_to_change(Workspace& workspace, double h, StepReport& report) {
+  const Snapshot before = snapshot(workspace);
+  const auto margin_after = [&](double way) {
+    restore(workspace, before);
+    advance(workspace, way, 0, report);
+    return laws_.least_margin(workspace).value;
+  };
+  double low = 0, high = h, at_low = laws_.least_margin(workspace).value, at_high = margin_after(h);
+  if (at_high >= 0) return h;
+  // Right after it began, a slip or a bounce has gone no way yet: go back until it has.
+  if (at_low <= change_resolution)
+    for (double way = h / 2; way > h * change_resolution; way /= 2) {
+      const double value = margin_after(way);
+      if (value > 0) {
+        low = way, at_low = value;
+        break;
+      }
+      high = way, at_high = value;
+    }
+  // False position by Illinois' rule: both ends move.
+  double at = high;
+  for (int i = 0; i < 100 && high - low > h * change_resolution; ++i) {
+    at = at_low > 0 ? (low * at_high - high * at_low) / (at_high - at_low) : (low + high) / 2;
+    const double value = margin_after(at);
+    if (value == 0) break;
+    if (value < 0) {
+      high = at, at_high = value;
+      at_low /= 2;
+    } else {
+      low = at, at_low = value;
+      at_high /= 2;
+    }
+  }
+  margin_after(at);
+  return at;
+}
+
+void Integrator::advance_to_changes(Workspace& workspace, double h, StepReport& report) {
+  constexpr std::size_t most = 1000;  // in one step: more is no motion but a mistake
+  std::size_t changes = 0;
+  for (double left = h; left > h * change_resolution;) {
+    const State before = workspace.state;
+    const Eigen::VectorXd slip = laws_.slip_power(workspace);
+    const double way = step_to_change(workspace, left, report);
+    laws_.note_work(before, slip, workspace);
+    if (way == left) return;
+    left -= way;
+    if (++changes > most)
+      throw hydro::NumericsError(fmt::format(
+          "friction or contacts change more than {} times in the step from t = {:.6g} s", most, before.time));
+    const auto events = laws_.change(workspace, laws_.least_margin(workspace), h);
+    report.events.insert(report.events.end(), events.begin(), events.end());
+    constexpr std::size_t many = 20;  // in one step: what goes on faster and faster is at its end
+    if (changes % many == 0) laws_.still(workspace, h);
+    begin(workspace);
+  }
+}
+
+StepReport Integrator::step(Workspace& workspace, double h) {
+  StepReport report;
+  step_ = h;
+  if (active_.may_change()) {
+    if (laws_.follow_rolling(workspace)) begin(workspace);
+    advance_to_changes(workspace, h, report);
+  } else {
+    advance(workspace, h, 0, report);
+  }
+  if (workspace.accept()) begin_anew(workspace);
+  return report;
+}
+
+}  // namespace dynamics

@@ -1,0 +1,111 @@
+#include "dynamics/integrate/newton_integrator.hpp"
+
+#include <cmath>
+
+#include "dynamics/spatial/rotation.hpp"
+#include "hydro/base/error.hpp"
+
+namespace dynamics {
+namespace {
+constexpr double newton_tolerance = 1e-9;  // of the last correction relative to the acceleration and velocity / step
+constexpr int most_iterations = 20;
+}  // namespace
+
+// How far a joint is open is known to rounding only; divided by ∂q/∂a that is an acceleration, the larger the shorter
+// the step, and corrections below it mean nothing.
+double NewtonIntegrator::unresolved(double h) const {
+  return active().rounding() / slopes(h).end_place * active().scale().norm();
+}
+
+void NewtonIntegrator::find_loads(Workspace& workspace, double, Trial& trial) const {
+  trial.loads_at = trial.state;
+  trial.residual = model().residual(trial.state, trial.acceleration, workspace);
+  trial.columns = active().columns(trial.gradients, trial.state);
+}
+
+NewtonIntegrator::Trial NewtonIntegrator::evaluate(Workspace& workspace, double h, Eigen::VectorXd acceleration,
+                                                   Eigen::VectorXd multipliers) const {
+  Trial out{std::move(acceleration), std::move(multipliers), {}, {}, {}, {}, {}, {}, 0};
+  out.state = end_of_step(workspace, h, out.acceleration);
+  const JointSet& conditions = active().conditions();
+  out.gradients = conditions.gradients(out.state);
+  find_loads(workspace, h, out);
+  if (conditions.count() > 0) {
+    conditions.add_transposed(out.columns, out.multipliers, out.residual);
+    // Divided by ∂q/∂a, the distance by which a joint is open is an acceleration, as large as what closes it; a speed
+    // by ∂v/∂a.
+    out.open = conditions.values(out.state) / slopes(h).end_place;
+    const Eigen::VectorXd speed = conditions.times(out.gradients, out.state.velocity) / slopes(h).end_speed;
+    for (Eigen::Index i = 0; i < out.open.size(); ++i)
+      if (conditions.is_on_velocity(i)) out.open[i] = speed[i];
+  }
+  // Without joints `open` is empty and its norm zero.
+  out.size = std::hypot(out.residual.cwiseQuotient(active().scale()).norm(),
+                        out.open.cwiseProduct(active().condition_scale()).norm());
+  return out;
+}
+
+// The step turns body i by exp(Δθ), which varies by J(Δθ) δΔθ; velocities vary by their own.
+std::vector<Gradient> NewtonIntegrator::by_step(const std::vector<Gradient>& G, const State& before,
+                                                const State& after) const {
+  std::vector<Gradient> out = G;
+  const auto turned = [&](int body, Vector6& row) {
+    const auto i = static_cast<std::size_t>(body);
+    const Eigen::Vector3d turn = rotation_log(after.pose[i].attitude * before.pose[i].attitude.conjugate());
+    row.tail<3>() = left_jacobian(turn).transpose() * row.tail<3>();
+  };
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (active().conditions().is_on_velocity(static_cast<Eigen::Index>(i))) continue;
+    const Condition& c = active().conditions().conditions()[i];
+    turned(c.first, out[i].first);
+    if (c.second) turned(*c.second, out[i].second);
+  }
+  return out;
+}
+
+bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& report) {
+  const Slopes slope = slopes(h);
+  const Eigen::VectorXd& scale = active().scale();
+  Trial now = evaluate(workspace, h, workspace.acceleration, workspace.multipliers);
+  const auto settled = [&](double move, double reach) {
+    return move <= newton_tolerance * reach || move <= unresolved(h);
+  };
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    if (!std::isfinite(now.size)) return fail("the loads are not finite");
+    ++report.newton_iterations;
+    // Leaving J out of the loads' derivatives costs Newton some speed, not the solution; joints have it, to close
+    // fully.
+    model().tangent(now.loads_at, 1, slope.load_speed, slope.load_place, workspace, workspace.matrix);
+    active().conditions().add_curvature(now.loads_at, now.multipliers, slope.load_place, workspace.matrix);
+    if (!workspace.solver.factorise(workspace.matrix, now.columns, by_step(now.gradients, workspace.state, now.state),
+                                    active().compliance()))
+      return fail("the iteration matrix is singular");
+    const auto [correction, more] = workspace.solver.solve(-now.residual, -now.open);
+    const double move = correction.cwiseProduct(scale).norm();
+    Trial trial;
+    double factor = 1;
+    for (; factor > 1e-3; factor /= 2) {
+      trial = evaluate(workspace, h, now.acceleration + factor * correction, now.multipliers + factor * more);
+      if (trial.size <= now.size) break;
+      // At round-off the residual cannot fall any more: the full correction is as good as it gets.
+      if (factor == 1 && settled(move, trial.acceleration.cwiseProduct(scale).norm())) break;
+    }
+    if (!std::isfinite(trial.size)) return fail("the loads are not finite");
+    now = std::move(trial);
+    const double reach =
+        now.acceleration.cwiseProduct(scale).norm() + now.state.velocity.cwiseProduct(scale).norm() / h;
+    if (factor == 1 && settled(move, reach)) {
+      accepted(workspace, now.acceleration);
+      workspace.state = std::move(now.state);
+      workspace.acceleration = std::move(now.acceleration);
+      workspace.multipliers = std::move(now.multipliers);
+      return true;
+    }
+  }
+  Eigen::Index worst = 0;
+  now.residual.cwiseQuotient(scale).cwiseAbs().maxCoeff(&worst);
+  return fail(fmt::format("Newton did not converge in {} iterations; worst equation: {}", most_iterations,
+                          model().mode_name(static_cast<int>(worst))));
+}
+
+}  // namespace dynamics

@@ -1,0 +1,373 @@
+#include "dynamics/integrate/set_valued.hpp"
+
+#include <cmath>
+#include <functional>
+
+#include "hydro/base/error.hpp"
+#include "impact.hpp"
+
+namespace dynamics {
+namespace {
+
+constexpr double closed = 1e-9;  // m, and of the fastest speed: what rounding of a placed body leaves
+
+}  // namespace
+
+// Speeds below it are rounding of those at hand, or of what accelerations add in a step.
+double SetValuedLaws::slow(const Workspace& workspace) const {
+  return closed *
+         std::max(workspace.state.velocity.cwiseAbs().maxCoeff(), step_ * workspace.acceleration.cwiseAbs().maxCoeff());
+}
+
+// What accelerations, and loads per mass, are known to, m/s².
+double SetValuedLaws::rounding(const ActiveSet::Balance& loads) const {
+  const Eigen::VectorXd by_mass = loads.multipliers.cwiseQuotient(active_.condition_scale().cwiseAbs2());
+  const double heaviest = by_mass.size() > 0 ? by_mass.cwiseAbs().maxCoeff() : 0;
+  return 1e-8 * std::max({loads.acceleration.cwiseAbs().maxCoeff(), heaviest, 1e-3});
+}
+
+// Rate of the gap, m/s.
+double SetValuedLaws::approach(std::size_t element, const State& state) const {
+  return active_.contact()->meeting(element, state).normal.dot(active_.contact()->relative_velocity(element, state));
+}
+
+// Second rate of the gap, m/s².
+double SetValuedLaws::pull(std::size_t element, const Workspace& workspace) const {
+  JointSet alone = model_.joints();
+  alone.reduce(std::vector<bool>(static_cast<std::size_t>(alone.count()), false));
+  alone.add(active_.contact()->closed(element));
+  const auto G = alone.gradients(workspace.state);
+  return alone.times(G, workspace.acceleration)[0] + alone.convective(workspace.state)[0];
+}
+
+void SetValuedLaws::classify_friction(Workspace& workspace) const {
+  if (active_.friction() == nullptr) return;
+  FrictionMemory& memory = active_.friction_memory(workspace);
+  for (std::size_t i = 0; i < memory.direction.size(); ++i) {
+    const double rate = active_.friction()->all()[i].travel.rate(workspace.state);
+    memory.direction[i] = std::abs(rate) <= slow(workspace) ? 0 : (rate > 0 ? 1 : -1);
+  }
+}
+
+// A contact without gap and without speed along the normal is closed, until its load says otherwise.
+void SetValuedLaws::classify_contacts(Workspace& workspace) const {
+  if (active_.contact() == nullptr) return;
+  const double slow = this->slow(workspace);
+  for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
+    ContactState& c = active_.contact_memory(workspace).contact[i];
+    const Meeting m = active_.contact()->meeting(i, workspace.state);
+    const Eigen::Vector3d v = active_.contact()->relative_velocity(i, workspace.state);
+    const Eigen::Vector3d slip = v - v.dot(m.normal) * m.normal;
+    const bool touches = m.gap <= closed && std::abs(v.dot(m.normal)) <= slow;
+    const bool holds = active_.contact()->all()[i].friction > 0 && slip.norm() <= slow;
+    c.is = !touches ? ContactState::open : holds ? ContactState::sticks : ContactState::slides;
+    if (slip.norm() > 0) c.slip = slip.normalized();
+  }
+}
+
+void SetValuedLaws::begin(Workspace& workspace) {
+  if (active_.contact() != nullptr) {
+    for (std::size_t i = 0; i < active_.contact()->elements(); ++i)
+      if (const double gap = active_.contact()->gap(i, workspace.state); gap < -closed)
+        throw hydro::InputError(fmt::format("contact \"{}\": the shapes overlap by {:.3g} m where the run starts",
+                                            active_.contact()->all()[i].name, -gap),
+                                {}, "move the bodies apart, or make the shapes smaller");
+    collide(workspace);
+    classify_contacts(workspace);
+  }
+  classify_friction(workspace);
+  settle(workspace);
+}
+
+// (D25). Joints hold in an impact; friction of joints does not, since its load is bounded and an impact takes no time.
+// \returns true if there was one.
+bool SetValuedLaws::collide(Workspace& workspace) {
+  if (active_.contact() == nullptr) return false;
+  const ContactKind& kind = *active_.contact();
+  State& state = workspace.state;
+  JointSet rows = model_.joints();
+  const auto joints = rows.gradients(state);
+  rows.reduce(std::vector<bool>(joints.size(), false));
+  std::vector<ImpactLaw> laws;
+  std::vector<std::size_t> touching;
+  bool approaching = false;
+  for (std::size_t i = 0; i < kind.elements(); ++i) {
+    if (kind.gap(i, state) > closed) continue;
+    approaching = approaching || approach(i, state) < -slow(workspace);
+    laws.push_back({rows.count(), kind.all()[i].restitution, kind.all()[i].friction});
+    touching.push_back(i);
+    rows.add(kind.closed(i));
+    if (kind.all()[i].friction > 0)
+      for (const Condition& along : kind.sticking(i, state)) rows.add(along);
+  }
+  if (!approaching) return false;
+  const Eigen::MatrixXd R = rows.dense(rows.gradients(state));
+  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(joints.size()));
+  KktSolver solver(model_.pattern(), model_.joints());
+  model_.tangent(state, 1, 0, 0, workspace, workspace.matrix);
+  if (!solver.factorise(workspace.matrix, joints, joints, nothing))
+    throw hydro::NumericsError(
+        fmt::format("no impulses can be found at t = {} s: the mass matrix is singular", state.time));
+  Eigen::MatrixXd gained(model_.modes(), R.rows());
+  for (Eigen::Index i = 0; i < R.rows(); ++i) gained.col(i) = solver.solve(R.row(i).transpose(), nothing).x;
+  const Eigen::MatrixXd W = R * gained;
+  const Eigen::VectorXd before = R * state.velocity, z = impulses((W + W.transpose()) / 2, before, laws);
+  state.velocity += gained * z;
+  const Eigen::VectorXd after = R * state.velocity;
+  for (std::size_t k = 0; k < touching.size(); ++k) {
+    ContactState& c = active_.contact_memory(workspace).contact[touching[k]];
+    const Eigen::Index row = laws[k].row, size = laws[k].friction > 0 ? 3 : 1;
+    if (z[row] > 0) ++c.impacts;
+    c.dissipated -= z.segment(row, size).dot(before.segment(row, size) + after.segment(row, size)) / 2;
+  }
+  return true;
+}
+
+// The least change of velocities, in the metric of the masses, that takes the speeds of those contacts: it can only
+// take energy.
+void SetValuedLaws::still(Workspace& workspace, double step) {
+  if (active_.contact() == nullptr) return;
+  JointSet rows = model_.joints();
+  std::vector<std::size_t> near;
+  for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
+    const double fall = std::abs(pull(i, workspace)) * step;
+    if (active_.contact()->gap(i, workspace.state) > fall * step / 2) continue;
+    if (std::abs(approach(i, workspace.state)) > fall) continue;
+    rows.add(active_.contact()->closed(i));
+    near.push_back(i);
+  }
+  if (near.empty()) return;
+  const double before = model_.kinetic_energy(workspace.state);
+  const auto G = rows.gradients(workspace.state);
+  KktSolver solver(model_.pattern(), rows);
+  Eigen::VectorXd compliance = Eigen::VectorXd::Zero(rows.count());
+  compliance.tail(static_cast<Eigen::Index>(near.size())).setConstant(1e-9 / active_.scale().cwiseAbs2().maxCoeff());
+  model_.tangent(workspace.state, 1, 0, 0, workspace, workspace.matrix);
+  if (!solver.factorise(workspace.matrix, G, G, compliance)) return;
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(model_.modes());
+  workspace.state.velocity += solver.solve(none, -rows.times(G, workspace.state.velocity)).x;
+  const double lost = before - model_.kinetic_energy(workspace.state);
+  for (const std::size_t i : near)
+    active_.contact_memory(workspace).contact[i].dissipated += lost / static_cast<double>(near.size());
+  classify_contacts(workspace);
+  classify_friction(workspace);
+  settle(workspace);
+}
+
+std::vector<SetValuedLaws::Seen> SetValuedLaws::situation(Workspace& workspace) const {
+  std::vector<Seen> out;
+  if (active_.friction() != nullptr)
+    for (const int direction : active_.friction_memory(workspace).direction) out.push_back({direction, 0});
+  if (active_.contact() != nullptr)
+    for (const ContactState& c : active_.contact_memory(workspace).contact) out.push_back({c.is, c.impacts});
+  return out;
+}
+
+// What reaches its level is let go, whatever the accelerations say: the multipliers of a step are those of its method.
+void SetValuedLaws::take_up(Workspace& workspace, const Margin& at) {
+  if (at.law == Event::Law::friction) {
+    active_.friction_memory(workspace).direction[at.element] = at.becomes;
+    return;
+  }
+  ContactState& c = active_.contact_memory(workspace).contact[at.element];
+  if (at.becomes == ContactState::sticks) {  // others may touch or stop with it
+    const bool slid = c.is == ContactState::slides;
+    classify_contacts(workspace);
+    if (slid && c.is != ContactState::open) c.is = ContactState::sticks;
+    return;
+  }
+  if (at.becomes == ContactState::slides) c.slip = direction_of_slip(at.element, workspace);
+  c.is = static_cast<ContactState::Is>(at.becomes);
+}
+
+// Against the load that it holds with.
+Eigen::Vector3d SetValuedLaws::direction_of_slip(std::size_t element, Workspace& workspace) const {
+  const ContactState& c = active_.contact_memory(workspace).contact[element];
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  for (int k = 1; k <= c.held; ++k) {
+    const Condition& along = active_.conditions().conditions()[static_cast<std::size_t>(c.row + k)];
+    direction += workspace.multipliers[c.row + k] * std::get<StickCondition>(along.what).direction;
+  }
+  return direction.normalized();
+}
+
+std::vector<Event> SetValuedLaws::change(Workspace& workspace, const Margin& at, double step) {
+  step_ = step;
+  const std::vector<Seen> was = situation(workspace);
+  if (collide(workspace)) {
+    classify_contacts(workspace);
+    classify_friction(workspace);
+  } else {
+    take_up(workspace, at);
+  }
+  settle(workspace);
+  const std::vector<Seen> is = situation(workspace);
+  const std::size_t frictions = active_.friction() == nullptr ? 0 : active_.friction()->elements();
+  std::vector<Event> events;
+  for (std::size_t i = 0; i < is.size(); ++i)
+    if (is[i] != was[i])
+      events.push_back({i < frictions ? Event::Law::friction : Event::Law::contact, workspace.state.time,
+                        i < frictions ? i : i - frictions, is[i].is});
+  return events;
+}
+
+SetValuedLaws::Margin SetValuedLaws::least_margin(Workspace& workspace) const {
+  Margin least;
+  const auto consider = [&](Event::Law law, std::size_t element, double value, int becomes) {
+    if (value < least.value) least = {law, element, value, becomes};
+  };
+  const bool holds = active_.conditions().count() > model_.joints().count();
+  const auto loads = holds ? active_.balance(workspace) : ActiveSet::Balance{workspace.acceleration, {}};
+  if (!loads)
+    throw hydro::NumericsError(fmt::format(
+        "no loads can be found at t = {} s: they are not finite or the mass is singular", workspace.state.time));
+  if (active_.friction() != nullptr) {
+    const FrictionMemory& memory = active_.friction_memory(workspace);
+    Eigen::Index row = model_.joints().count();
+    for (std::size_t i = 0; i < memory.direction.size(); ++i) {
+      const Friction& f = active_.friction()->all()[i];
+      if (memory.direction[i] != 0) {
+        consider(Event::Law::friction, i, memory.direction[i] * f.travel.rate(workspace.state), 0);
+        continue;
+      }
+      const double load = loads->multipliers[row++];
+      consider(Event::Law::friction, i, 1 - std::abs(load) / f.breakaway, load > 0 ? 1 : -1);
+    }
+  }
+  if (active_.contact() == nullptr) return least;
+  const double rounding = holds ? this->rounding(*loads) : 0;
+  for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
+    const ContactState& c = active_.contact_memory(workspace).contact[i];
+    const auto contact = [&](double value, int becomes) { consider(Event::Law::contact, i, value, becomes); };
+    if (c.is == ContactState::open)
+      contact(active_.contact()->gap(i, workspace.state) + active_.rounding(), ContactState::sticks);
+    if (c.row < 0) continue;
+    const double mass = active_.condition_scale()[c.row] * active_.condition_scale()[c.row];
+    const double load = -loads->multipliers[c.row], friction = active_.contact()->all()[i].friction;
+    contact(load / mass + rounding, ContactState::open);
+    if (c.is == ContactState::sticks)
+      contact((friction * load - loads->multipliers.segment(c.row + 1, c.held).norm()) / mass + rounding,
+              ContactState::slides);
+    else if (friction > 0)
+      contact(c.slip.dot(active_.contact()->relative_velocity(i, workspace.state)), ContactState::sticks);
+  }
+  return least;
+}
+
+// What holds with more than it can is let go, the most loaded first: the others may then hold. Half of the rounding
+// that least_margin() grants, so that what it found is let go.
+bool SetValuedLaws::release(Workspace& workspace) {
+  const double rounding = this->rounding({workspace.acceleration, workspace.multipliers});
+  double most = 0;
+  std::function<void()> let_go;
+  if (active_.friction() != nullptr) {
+    FrictionMemory& memory = active_.friction_memory(workspace);
+    Eigen::Index row = model_.joints().count();
+    for (std::size_t i = 0; i < memory.direction.size(); ++i) {
+      if (memory.direction[i] != 0) continue;
+      const double load = workspace.multipliers[row++], share = std::abs(load) / active_.friction()->all()[i].breakaway;
+      if (share - 1 <= most) continue;
+      most = share - 1;
+      let_go = [&memory, i, load] { memory.direction[i] = load > 0 ? 1 : -1; };
+    }
+  }
+  for (std::size_t i = 0; active_.contact() != nullptr && i < active_.contact()->elements(); ++i) {
+    ContactState& c = active_.contact_memory(workspace).contact[i];
+    if (c.row < 0) continue;
+    const double mass = active_.condition_scale()[c.row] * active_.condition_scale()[c.row];
+    const double load = -workspace.multipliers[c.row] / mass;
+    if (-load - rounding / 2 > most) {
+      most = -load;
+      let_go = [&c] { c.is = ContactState::open; };
+    }
+    if (c.is != ContactState::sticks) continue;
+    const double held = workspace.multipliers.segment(c.row + 1, c.held).norm() / mass;
+    const double over = held - active_.contact()->all()[i].friction * std::max(load, 0.0) - rounding / 2;
+    if (over > most) {
+      most = over;
+      let_go = [this, &c, &workspace, i] {
+        c.slip = direction_of_slip(i, workspace);
+        c.is = ContactState::slides;
+      };
+    }
+  }
+  if (let_go) let_go();
+  return static_cast<bool>(let_go);
+}
+
+bool SetValuedLaws::close_what_would_overlap(Workspace& workspace) {
+  if (active_.contact() == nullptr) return false;
+  bool any = false;
+  for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
+    ContactState& c = active_.contact_memory(workspace).contact[i];
+    if (c.is != ContactState::open || active_.contact()->gap(i, workspace.state) > closed) continue;
+    if (std::abs(approach(i, workspace.state)) > slow(workspace)) continue;
+    if (pull(i, workspace) >= -rounding({workspace.acceleration, workspace.multipliers})) continue;
+    c.is = active_.contact()->all()[i].friction > 0 ? ContactState::sticks : ContactState::slides;
+    any = true;
+  }
+  return any;
+}
+
+void SetValuedLaws::settle(Workspace& workspace) {
+  const std::size_t tries = 10 + 4 * situation(workspace).size();
+  for (std::size_t n = 0; n < tries; ++n) {
+    active_.rebuild(workspace);
+    if (!active_.solve_accelerations(workspace))
+      throw hydro::NumericsError(fmt::format(
+          "no accelerations can be found at t = {} s: the loads or the mass matrix are not finite or singular",
+          workspace.state.time));
+    if (!release(workspace) && !close_what_would_overlap(workspace)) return;
+  }
+  throw hydro::NumericsError(
+      fmt::format("at t = {:.6g} s no set of frictions that stick and contacts that are closed agrees with its loads",
+                  workspace.state.time));
+}
+
+Eigen::VectorXd SetValuedLaws::slip_power(Workspace& workspace) const {
+  if (active_.contact() == nullptr) return {};
+  Eigen::VectorXd power = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(active_.contact()->elements()));
+  for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
+    const ContactState& c = active_.contact_memory(workspace).contact[i];
+    if (c.is != ContactState::slides || c.row < 0) continue;
+    const Meeting m = active_.contact()->meeting(i, workspace.state);
+    const Eigen::Vector3d v = active_.contact()->relative_velocity(i, workspace.state);
+    power[static_cast<Eigen::Index>(i)] =
+        active_.contact()->all()[i].friction * -workspace.multipliers[c.row] * (v - v.dot(m.normal) * m.normal).norm();
+  }
+  return power;
+}
+
+void SetValuedLaws::note_work(const State& before, const Eigen::VectorXd& power_before, Workspace& workspace) const {
+  if (active_.friction() != nullptr)
+    active_.friction()->note_work(before, workspace.state, active_.friction_memory(workspace));
+  if (active_.contact() == nullptr) return;
+  const Eigen::VectorXd power = slip_power(workspace);
+  auto& contacts = active_.contact_memory(workspace).contact;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    contacts[i].dissipated += (workspace.state.time - before.time) * (power_before[at] + power[at]) / 2;
+  }
+}
+
+bool SetValuedLaws::follow_rolling(Workspace& workspace) {
+  if (active_.contact() == nullptr) return false;
+  bool any = false;
+  for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
+    ContactState& c = active_.contact_memory(workspace).contact[i];
+    if (c.is == ContactState::slides) {  // later steps begin with the direction that slip has now
+      const Meeting m = active_.contact()->meeting(i, workspace.state);
+      const Eigen::Vector3d v = active_.contact()->relative_velocity(i, workspace.state);
+      const Eigen::Vector3d slip = v - v.dot(m.normal) * m.normal;
+      if (slip.norm() > slow(workspace)) c.slip = slip.normalized();
+    }
+    any = any || (c.is != ContactState::open && active_.contact()->all()[i].friction > 0);
+  }
+  if (!any) return false;
+  active_.rebuild(workspace);
+  if (workspace.multipliers.size() == active_.conditions().count()) return false;
+  settle(workspace);
+  return true;
+}
+
+}  // namespace dynamics

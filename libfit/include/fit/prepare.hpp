@@ -1,0 +1,78 @@
+#pragma once
+/// \file  From raw channels to a record that can be fitted, in steps that are named and kept; (F23)-(F26),
+///        docs/theory/fit.md.
+///
+/// Order of the steps: even grid, outliers, calibration and zero, delay, derivatives, filters, window. A filter runs
+/// over the force and over both columns of the model alike, so it takes noise out and biases nothing.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fit/calibration.hpp"
+#include "fit/filter.hpp"
+#include "fit/morison.hpp"
+
+namespace fit {
+
+struct ForceChannel {
+  std::string name;
+  std::vector<double> values;              ///< N; V where a calibration is given
+  std::optional<Calibration> calibration;  ///< its slope, with error and hysteresis, turns volts into newtons
+  std::vector<double> zero_run = {};       ///< of the same unit, at rest: its mean is taken off. Empty: nothing is,
+                                           ///< but for the offset of the calibration
+};
+
+/// One run as it was recorded; all columns of one length, those not measured empty.
+struct RawRun {
+  std::vector<double> time;          ///< s
+  std::vector<ForceChannel> force;   ///< they carry the body together: their sum is the force
+  std::vector<double> position;      ///< m
+  std::vector<double> velocity;      ///< m/s, in place of a position
+  std::vector<double> acceleration;  ///< m/s²; empty: from velocity or position
+  /// Velocity of the water across both the force and the body's axis, m/s: a horizontal cylinder in waves feels
+  /// √(u² + w²) u. Empty: none.
+  std::vector<double> cross_velocity = {};
+};
+
+struct FilterChoice {
+  enum class Kind { butterworth, finite, notch, moving_average } kind;
+  int order = 4;       ///< Butterworth
+  double hz = 0;       ///< cutoff or centre
+  double width = 0;    ///< notch: Hz
+  double seconds = 0;  ///< moving average
+};
+
+struct WindowChoice {
+  enum class Kind { all, span, full_cycles } kind = Kind::all;
+  double from = 0, to = 0;  ///< span: s
+  int cycles = 0;           ///< the last so many of full amplitude; 0: all of them
+  double tolerance = 0.03;  ///< of a full amplitude and of a period
+};
+
+struct PrepareOptions {
+  double longest_gap_s = 0;     ///< rows that may be missing at a stretch are bridged; 0: none may
+  int outlier_half_window = 0;  ///< samples; 0: outliers are not looked for
+  double outlier_deviations = 8;
+  double delay_s = 0;                  ///< of the force behind the motion, taken off
+  double derivative_bandwidth_hz = 0;  ///< 0: five times the main frequency
+  std::vector<FilterChoice> filters = {};
+  WindowChoice window = {};
+};
+
+struct Prepared {
+  ForceRecord record;
+  std::vector<ForceError> force_errors;  ///< of calibration, hysteresis and zero
+  std::vector<std::string> steps;        ///< what was done, in order
+  std::vector<std::string> cautions;     ///< what is wrong with the sensors
+  std::vector<double> cycle_starts;      ///< s; of the window where it was cut into cycles, with the end of the last
+};
+
+/// \throws hydro::InputError: lengths differ, a column is constant, two force channels that work against each other,
+/// time with gaps longer than allowed, a window outside the record, and as the steps themselves
+Prepared prepare(const RawRun& run, const PrepareOptions& options);
+
+/// Why the force (or the motion) must have the wrong sign; empty where it need not: both drag and all inertia come out
+/// negative with their whole intervals, which no flow does; (F26).
+std::string sign_trouble(const Cylinder& cylinder, const MorisonFit& fit);
+
+}  // namespace fit

@@ -1,0 +1,184 @@
+#include "fit/decay.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "hydro/base/error.hpp"
+#include "hydro/signal/distributions.hpp"
+
+namespace fit {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Vertex of the parabola through sample j and its neighbours.
+Extreme vertex(std::span<const double> time, std::span<const double> x, std::size_t j) {
+  if (j == 0 || j + 1 == x.size()) return {time[j], x[j]};
+  const double slope = (x[j + 1] - x[j - 1]) / 2, bend = x[j + 1] - 2 * x[j] + x[j - 1];
+  const double s = bend == 0 ? 0 : std::clamp(-slope / bend, -1.0, 1.0);
+  return {time[j] + s * (time[j + 1] - time[j]), x[j] + s * slope / 2};
+}
+
+/// Rest position: extremes on both sides of it, each against the mean of its neighbours.
+double offset_of(std::span<const Extreme> e) {
+  double sum = 0;
+  for (std::size_t i = 1; i + 1 < e.size(); ++i) sum += (e[i - 1].value + 2 * e[i].value + e[i + 1].value) / 4;
+  return sum / static_cast<double>(e.size() - 2);
+}
+
+double mean_period(std::span<const Extreme> e) {
+  return 2 * (e.back().time - e.front().time) / static_cast<double>(e.size() - 1);
+}
+
+const char* const term_names[] = {"linear", "quadratic", "cubic", "coulomb"};
+std::vector<std::size_t> chosen(const DampingTerms& t) {
+  std::vector<std::size_t> out;
+  const bool on[] = {t.linear, t.quadratic, t.cubic, t.coulomb};
+  for (std::size_t k = 0; k < 4; ++k)
+    if (on[k]) out.push_back(k);
+  return out;
+}
+
+/// What each term takes from the amplitude a in half a cycle; (F35).
+double half_cycle_loss(std::size_t term, double a, double omega) {
+  switch (term) {
+    case 0:
+      return pi * a / (2 * omega);
+    case 1:
+      return 4.0 / 3 * a * a;
+    case 2:
+      return 3 * pi / 8 * omega * a * a * a;
+    default:
+      return 2 / (omega * omega);
+  }
+}
+
+/// A term that may as well be zero is not told.
+Coefficient judged(Coefficient c) {
+  if (c.value && c.interval.low <= 0 && c.interval.high >= 0) {
+    c.why_not = fmt::format("the record cannot tell it from zero ({:.3g} to {:.3g})", c.interval.low, c.interval.high);
+    c.value.reset();
+  }
+  return c;
+}
+
+}  // namespace
+
+std::vector<Extreme> find_extremes(std::span<const double> time, std::span<const double> x, double least) {  // (F34)
+  hydro::require(time.size() == x.size() && x.size() >= 16, "extremes need 16 samples at least, got {}", x.size());
+  // The rest position, roughly: the mean of the last third, where swings are small.
+  const std::size_t tail = x.size() - x.size() / 3;
+  const double rest = std::accumulate(x.begin() + static_cast<std::ptrdiff_t>(tail), x.end(), 0.0) /
+                      static_cast<double>(x.size() - tail);
+  double largest = 0;
+  for (const double v : x) largest = std::max(largest, std::abs(v - rest));
+  std::vector<Extreme> out;
+  std::size_t best = 0;
+  const auto close = [&] {
+    if (std::abs(x[best] - rest) > least * largest) out.push_back(vertex(time, x, best));
+  };
+  for (std::size_t j = 1; j < x.size(); ++j) {
+    if ((x[j] - rest) * (x[best] - rest) < 0) {
+      // A swing that begins with the record and falls from its first sample has no extreme of its own.
+      if (best > 0) close();
+      best = j;
+    } else if (std::abs(x[j] - rest) > std::abs(x[best] - rest)) {
+      best = j;
+    }
+  }
+  hydro::require(out.size() >= 2, "the record holds {} extremes; two are needed", out.size());
+  return out;
+}
+
+Decrement logarithmic_decrement(std::span<const Extreme> e) {  // (F34)
+  hydro::require(e.size() >= 3, "a decrement needs three extremes, got {}", e.size());
+  Decrement d{{}, {}, offset_of(e), mean_period(e)};
+  for (std::size_t i = 0; i + 1 < e.size(); ++i) {
+    const double a = std::abs(e[i].value - d.offset), b = std::abs(e[i + 1].value - d.offset), delta = std::log(a / b);
+    d.amplitude.push_back((a + b) / 2);
+    d.ratio.push_back(delta / std::hypot(pi, delta));
+  }
+  return d;
+}
+
+EnergyFit fit_energy(std::span<const Extreme> e, const DampingTerms& terms, double confidence) {  // (F35)
+  const auto wanted = chosen(terms);
+  hydro::require(!wanted.empty(), "there is no damping to fit");
+  hydro::require(e.size() >= wanted.size() + 3, "{} extremes cannot give {} damping terms with an error", e.size(),
+                 wanted.size());
+  const double omega = 2 * pi / mean_period(e), offset = offset_of(e);
+  const auto n = static_cast<Eigen::Index>(e.size()) - 1, p = static_cast<Eigen::Index>(wanted.size());
+  Eigen::MatrixXd a(n, p);
+  Eigen::VectorXd lost(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const double before = std::abs(e[k].value - offset), after = std::abs(e[k + 1].value - offset);
+    lost[i] = before - after;
+    for (Eigen::Index j = 0; j < p; ++j)
+      a(i, j) = half_cycle_loss(wanted[static_cast<std::size_t>(j)], (before + after) / 2, omega);
+  }
+  const Eigen::VectorXd x = a.colPivHouseholderQr().solve(lost), r = lost - a * x;
+  EnergyFit fit{{}, omega, std::sqrt(r.squaredNorm() / static_cast<double>(n))};
+  const Eigen::MatrixXd covariance = r.squaredNorm() / static_cast<double>(n - p) * (a.transpose() * a).inverse();
+  const double t = hydro::signal::student_t_quantile((1 + confidence) / 2, static_cast<double>(n - p));
+  for (Eigen::Index j = 0; j < p; ++j) {
+    Coefficient c;
+    c.name = term_names[wanted[static_cast<std::size_t>(j)]];
+    c.value = x[j];
+    c.standard_error = std::sqrt(covariance(j, j));
+    c.interval = {x[j] - t * c.standard_error, x[j] + t * c.standard_error};
+    c.white_interval = c.interval;
+    c.effective_samples = static_cast<double>(n);
+    fit.damping.push_back(c);
+  }
+  return fit;
+}
+
+DecayFit fit_decay(std::span<const Window> records, const DecayOptions& options) {
+  hydro::require(!records.empty() && records[0].values.cols() == 1, "a decay needs records of one channel");
+  const auto& first = records[0];
+  std::vector<double> time(static_cast<std::size_t>(first.values.rows()));
+  for (std::size_t j = 0; j < time.size(); ++j) time[j] = first.step * static_cast<double>(j);
+  const auto extremes = find_extremes(time, {first.values.data(), time.size()});
+  DecayFit fit{};
+  fit.energy = fit_energy(extremes, options.terms, options.confidence);
+  const auto terms = chosen(options.terms);
+
+  ShootingProblem problem{.law = options.pendulum ? MotionLaw::pendulum : MotionLaw::oscillator,
+                          .windows = {records.begin(), records.end()},
+                          .deviations = {1.0},
+                          .start = {fit.energy.omega, 0, 0, 0, 0, offset_of(extremes)},
+                          .fitted = {true, false, false, false, false, options.fit_offset},
+                          .substeps = options.substeps,
+                          .confidence = options.confidence};
+  double largest = 0;
+  for (const Extreme& e : extremes) largest = std::max(largest, std::abs(e.value - problem.start[5]));
+  problem.deviations[0] = 0.01 * largest;  // a common scale of residuals: one channel, so no weight
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    problem.fitted[1 + terms[k]] = true;
+    // What energy takes for negative would feed the motion, and the search with it.
+    problem.start[1 + terms[k]] = std::max(0.0, *fit.energy.damping[k].value);
+  }
+  fit.motion = fit_motion(problem);
+  for (const std::size_t k : terms) fit.damping.push_back(judged(fit.motion.parameters[1 + k]));
+  const Coefficient& omega = fit.motion.parameters[0];
+  fit.period = omega;
+  fit.period.name = "period";
+  fit.period.value = 2 * pi / *omega.value;
+  fit.period.standard_error = *fit.period.value * omega.standard_error / *omega.value;
+  fit.period.interval = {2 * pi / omega.interval.high, 2 * pi / omega.interval.low};
+  fit.period.white_interval = {2 * pi / omega.white_interval.high, 2 * pi / omega.white_interval.low};
+  for (const Window& w : records) fit.samples += static_cast<double>(w.values.rows());
+  // Independent samples stand for the likelihood; the variance of one is that of the residuals.
+  const double n = std::max(omega.effective_samples, 10.0), k = static_cast<double>(terms.size()) + 4;
+  const double minus2 = n * std::log(fit.motion.rms[0] * fit.motion.rms[0]);
+  fit.bic = minus2 + k * std::log(n);
+  fit.aicc = n > k + 1 ? minus2 + 2 * k + 2 * k * (k + 1) / (n - k - 1) : std::numeric_limits<double>::infinity();
+  return fit;
+}
+
+}  // namespace fit

@@ -1,0 +1,110 @@
+#include "fit/delay.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+#include "convolve.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/signal/welch.hpp"
+#include "morison_columns.hpp"
+
+namespace fit {
+namespace {
+
+std::vector<double> middle(const std::vector<double>& v, std::size_t margin) {
+  const auto cut = static_cast<std::ptrdiff_t>(margin);
+  return {v.begin() + cut, v.end() - cut};
+}
+
+/// The whole number of samples by which the force lags, from the best of all least-squares fits; (F24).
+std::ptrdiff_t nearest_lag(const Eigen::MatrixXd& columns, const std::vector<double>& force, std::size_t longest) {
+  const Eigen::Matrix2d inverse = (columns.transpose() * columns).inverse();
+  std::vector<double> b[2];
+  for (Eigen::Index i = 0; i < 2; ++i)
+    b[i] = sliding_sum(force, {columns.col(i).data(), static_cast<std::size_t>(columns.rows())});
+  double squares = 0, least = 0;
+  const std::size_t n = static_cast<std::size_t>(columns.rows());
+  for (std::size_t j = 0; j < n; ++j) squares += force[j] * force[j];
+  std::ptrdiff_t best = -1;
+  for (std::size_t k = 0; k < b[0].size(); ++k) {
+    const Eigen::Vector2d right(b[0][k], b[1][k]), x = inverse * right;
+    const double rest = squares - right.dot(x);
+    if (x[0] > 0 && (best < 0 || rest < least)) {  // drag does not push backwards
+      least = rest;
+      best = static_cast<std::ptrdiff_t>(k);
+    }
+    if (k + n < force.size()) squares += force[k + n] * force[k + n] - force[k] * force[k];
+  }
+  hydro::require(best >= 0, "at no delay up to {} samples does the drag push against the motion: look at the signs",
+                 longest);
+  return best - static_cast<std::ptrdiff_t>(longest);
+}
+
+/// −d/dt of the force that the coefficients give, by central differences; the ends repeat their neighbours.
+Eigen::VectorXd minus_rate(const Eigen::VectorXd& force, double step) {
+  const Eigen::Index n = force.size();
+  Eigen::VectorXd rate(n);
+  rate.segment(1, n - 2) = (force.head(n - 2) - force.tail(n - 2)) / (2 * step);
+  rate[0] = rate[1];
+  rate[n - 1] = rate[n - 2];
+  return rate;
+}
+
+}  // namespace
+
+// Lagrange's cubic through the two samples on each side.
+std::vector<double> later(std::span<const double> values, double lag, std::size_t margin) {  // (F24)
+  hydro::require(values.size() > 2 * margin && static_cast<double>(margin) >= std::abs(lag) + 2,
+                 "{} samples cannot be moved by {:.4g}", values.size(), lag);
+  const double whole = std::floor(lag), s = lag - whole;
+  const double w[] = {-s * (s - 1) * (s - 2) / 6, (s + 1) * (s - 1) * (s - 2) / 2, -(s + 1) * s * (s - 2) / 2,
+                      (s + 1) * s * (s - 1) / 6};
+  std::vector<double> out(values.size() - 2 * margin);
+  for (std::size_t j = 0; j < out.size(); ++j) {
+    const double* at = values.data() + static_cast<std::ptrdiff_t>(j + margin) + static_cast<std::ptrdiff_t>(whole);
+    out[j] = w[0] * at[-1] + w[1] * at[0] + w[2] * at[1] + w[3] * at[2];
+  }
+  return out;
+}
+
+DelayedFit fit_morison_and_delay(const Cylinder& cylinder, const ForceRecord& record, double longest_s,
+                                 const MorisonOptions& options) {  // (F24)
+  const double step = hydro::signal::even_step(record.time);
+  hydro::require(longest_s > 0 && std::isfinite(longest_s), "the longest delay must be positive, got {} s", longest_s);
+  const auto longest = static_cast<std::size_t>(std::ceil(longest_s / step)), margin = longest + 3;
+  hydro::require(record.time.size() > 2 * margin + 32,
+                 "a record of {} samples is too short for delays up to {} samples", record.time.size(), longest);
+  DelayedFit result;
+  ForceRecord& aligned = result.aligned;
+  aligned = {middle(record.time, margin), {}, middle(record.velocity, margin), middle(record.acceleration, margin), {}};
+  if (!record.drag_flow.empty()) aligned.drag_flow = middle(record.drag_flow, margin);
+  MorisonOptions inner = options;
+  for (ForceError& e : inner.force_errors) e.force = middle(e.force, margin);
+
+  const Eigen::MatrixXd columns = morison_columns(cylinder, aligned);
+  double lag = static_cast<double>(nearest_lag(columns, middle(record.force, 3), longest));
+  // Gauss–Newton on the delay; the coefficients are linear and follow at once.
+  for (int round = 0; round < 30; ++round) {
+    lag = std::clamp(lag, -static_cast<double>(longest), static_cast<double>(longest));
+    aligned.force = later(record.force, lag, margin);
+    Eigen::MatrixXd all(columns.rows(), 3);
+    all << columns, Eigen::VectorXd::Zero(columns.rows());
+    const Eigen::VectorXd rough = columns * columns.householderQr().solve(as_vector(aligned.force));
+    all.col(2) = minus_rate(rough, step);
+    const double change = all.householderQr().solve(as_vector(aligned.force))[2] / step;
+    if (std::abs(change) < 1e-6) break;
+    lag += std::clamp(change, -5.0, 5.0);
+  }
+  const Eigen::VectorXd rough = columns * columns.householderQr().solve(as_vector(aligned.force));
+  const Eigen::VectorXd column = minus_rate(rough, step);
+  result.fit = fit_columns(cylinder, aligned, inner, &column);
+  Coefficient& delay = *result.fit.delay;
+  const double shift = lag * step;
+  for (Interval* i : {&delay.interval, &delay.white_interval}) *i = {i->low + shift, i->high + shift};
+  if (delay.value) *delay.value += shift;
+  return result;
+}
+
+}  // namespace fit

@@ -1,0 +1,335 @@
+#include "fit/prepare.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "fit/correlated.hpp"
+#include "fit/cycles.hpp"
+#include "fit/delay.hpp"
+#include "fit/differentiate.hpp"
+#include "fit/sensor.hpp"
+#include "hydro/base/error.hpp"
+
+namespace fit {
+namespace {
+
+using hydro::InputError;
+
+double mean_of(const std::vector<double>& v) {
+  return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
+}
+
+/// A run on its way; every step keeps all columns at one length.
+struct Work {
+  RawRun run;
+  double step = 0;
+  Prepared out;
+  std::vector<double> pattern;  // position or velocity: where cycles are seen
+
+  std::vector<std::vector<double>*> columns() {
+    std::vector<std::vector<double>*> all{
+        &run.time, &run.position,         &run.velocity,    &run.acceleration,    &out.record.force,
+        &pattern,  &out.record.drag_flow, &out.record.time, &out.record.velocity, &out.record.acceleration};
+    for (ForceChannel& f : run.force) all.push_back(&f.values);
+    for (ForceError& e : out.force_errors) all.push_back(&e.force);
+    return all;
+  }
+  /// Keeps samples [from, from + count) of every column that is there.
+  void cut(std::size_t from, std::size_t count) {
+    for (auto* c : columns())
+      if (!c->empty())
+        *c = {c->begin() + static_cast<std::ptrdiff_t>(from), c->begin() + static_cast<std::ptrdiff_t>(from + count)};
+  }
+  template <class... Args>
+  void tell(fmt::format_string<Args...> text, Args&&... args) {
+    out.steps.push_back(fmt::format(text, std::forward<Args>(args)...));
+  }
+  template <class... Args>
+  void warn(fmt::format_string<Args...> text, Args&&... args) {
+    out.cautions.push_back(fmt::format(text, std::forward<Args>(args)...));
+  }
+};
+
+/// The raw columns with their names.
+std::vector<std::pair<std::string, std::vector<double>*>> measured(RawRun& run) {
+  std::vector<std::pair<std::string, std::vector<double>*>> all;
+  for (ForceChannel& f : run.force) all.push_back({f.name, &f.values});
+  for (auto& [name, column] : {std::pair{"position", &run.position},
+                               {"velocity", &run.velocity},
+                               {"acceleration", &run.acceleration},
+                               {"cross velocity", &run.cross_velocity}})
+    if (!column->empty()) all.push_back({name, column});
+  return all;
+}
+
+void check(RawRun& run) {
+  hydro::require(!run.force.empty(), "a run needs a force");
+  hydro::require(run.velocity.empty() != run.position.empty(), "a run needs a position or a velocity, and not both");
+  for (const auto& [name, column] : measured(run)) {
+    hydro::require(column->size() == run.time.size(), "{} has {} samples, time {}", name, column->size(),
+                   run.time.size());
+    const auto [low, high] = std::minmax_element(column->begin(), column->end());
+    if (!(*high > *low))
+      throw InputError(fmt::format("{} is {:.6g} throughout: the sensor gave no signal", name, *low), {},
+                       "look whether it was connected, or leave the channel out");
+  }
+}
+
+void fill_gaps(Work& w, double longest) {  // (F22)
+  const EvenGrid grid = even_grid(w.run.time, longest);
+  w.step = grid.step;
+  if (!grid.filled.empty()) {
+    for (const auto& [name, column] : measured(w.run)) *column = on_grid(grid, *column);
+    w.run.time = grid.time;
+    w.tell("gaps: {} of {} samples were missing and lie on straight lines", grid.filled.size(), grid.time.size());
+  }
+}
+
+void look_at_sensors(Work& w) {  // (F19), (F20)
+  for (const auto& [name, column] : measured(w.run)) {
+    if (const auto c = find_clipping(*column))
+      w.warn("{} stands at {} in {:.2g} % of its samples: the sensor was at its stop, and larger values are lost", name,
+             c->at_low > 0 && c->at_high > 0 ? fmt::format("{:.4g} or {:.4g}", c->low, c->high)
+                                             : fmt::format("{:.4g}", c->at_low > 0 ? c->low : c->high),
+             100.0 * static_cast<double>(c->at_low + c->at_high) / static_cast<double>(column->size()));
+    if (const auto q = find_quantisation(*column))
+      w.tell("resolution: {} knows {} levels, {:.3g} apart, which is a noise of {:.2g}", name, q->levels, q->step,
+             q->noise());
+  }
+}
+
+/// Channels that carry one body together move together.
+void compare_channels(const RawRun& run) {  // (F26)
+  for (std::size_t i = 1; i < run.force.size(); ++i) {
+    const auto &a = run.force[0].values, &b = run.force[i].values;
+    const double mean_a = mean_of(a), mean_b = mean_of(b);
+    double ab = 0, aa = 0, bb = 0;
+    for (std::size_t j = 0; j < a.size(); ++j) {
+      ab += (a[j] - mean_a) * (b[j] - mean_b);
+      aa += (a[j] - mean_a) * (a[j] - mean_a);
+      bb += (b[j] - mean_b) * (b[j] - mean_b);
+    }
+    if (ab / std::sqrt(aa * bb) < -0.5)
+      throw InputError(fmt::format("{} falls where {} rises (correlation {:.2f}): one of them has the wrong sign",
+                                   run.force[i].name, run.force[0].name, ab / std::sqrt(aa * bb)),
+                       {}, fmt::format("write \"-{}\" among the channels to turn it", run.force[i].name));
+  }
+}
+
+void take_outliers(Work& w, const PrepareOptions& options) {  // (F22)
+  if (options.outlier_half_window == 0) return;
+  for (const auto& [name, column] : measured(w.run)) {
+    const auto found = find_outliers(*column, options.outlier_half_window, options.outlier_deviations);
+    bridge(*column, found);
+    w.tell("outliers: {} of {} samples of {} were more than {:g} deviations off their {} neighbours and are bridged",
+           found.size(), column->size(), name, options.outlier_deviations, 2 * options.outlier_half_window);
+  }
+}
+
+/// Standard error of the mean of a record at rest, its memory counted (F3).
+double error_of_mean(const std::vector<double>& v, double mean) {
+  Eigen::VectorXd e = Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size())).array() - mean;
+  if (e.squaredNorm() == 0) return 0;
+  const Eigen::VectorXd gamma = fit_autoregression(e).autocovariance;
+  return std::sqrt(std::max(gamma[0], 2 * gamma.sum() - gamma[0]) / static_cast<double>(v.size()));
+}
+
+/// Volts to newtons, zero off; (F26).
+void to_force(Work& w, ForceChannel& f) {
+  const double slope = f.calibration ? f.calibration->slope : 1;
+  double zero = f.calibration ? f.calibration->offset : 0, zero_error = f.calibration ? f.calibration->offset_error : 0;
+  if (!f.zero_run.empty()) {
+    zero = mean_of(f.zero_run);
+    zero_error = error_of_mean(f.zero_run, zero);
+  }
+  for (double& v : f.values) v = (v - zero) / slope;
+  if (f.calibration)
+    w.tell("calibration: {} has {:.5g} ± {:.2g} V/N, hysteresis {:.2g} % of its range", f.name, slope,
+           f.calibration->slope_error, 100 * f.calibration->hysteresis);
+  if (!f.zero_run.empty())
+    w.tell("zero: {:.4g} N ± {:.2g} N taken off {}, the mean of {} samples at rest", zero / slope,
+           zero_error / std::abs(slope), f.name, f.zero_run.size());
+}
+
+void sum_forces(Work& w) {
+  const std::size_t n = w.run.time.size();
+  w.out.record.force.assign(n, 0.0);
+  for (ForceChannel& f : w.run.force) {
+    to_force(w, f);
+    for (std::size_t j = 0; j < n; ++j) w.out.record.force[j] += f.values[j];
+  }
+  if (w.run.force.size() > 1) w.tell("force: the sum of {} channels", w.run.force.size());
+}
+
+void take_delay(Work& w, double delay_s) {  // (F24)
+  if (delay_s == 0) return;
+  const double lag = delay_s / w.step;
+  const auto margin = static_cast<std::size_t>(std::ceil(std::abs(lag))) + 3;
+  hydro::require(w.run.time.size() > 2 * margin, "the record is shorter than twice the delay of {:.4g} s", delay_s);
+  const auto force = later(w.out.record.force, lag, margin);
+  std::vector<std::vector<double>> channels;
+  for (const ForceChannel& f : w.run.force) channels.push_back(later(f.values, lag, margin));
+  w.cut(margin, w.run.time.size() - 2 * margin);
+  w.out.record.force = force;
+  for (std::size_t i = 0; i < channels.size(); ++i) w.run.force[i].values = channels[i];
+  w.tell("delay: the force is taken {:.4g} s earlier", delay_s);
+}
+
+/// Velocity and acceleration, measured or derived; (F5), (F6).
+void add_motion(Work& w, double bandwidth_hz) {
+  const bool from_velocity = !w.run.velocity.empty();
+  w.pattern = from_velocity ? w.run.velocity : w.run.position;
+  ForceRecord& r = w.out.record;
+  r.time = w.run.time;
+  if (from_velocity && !w.run.acceleration.empty()) {
+    r.velocity = w.run.velocity;
+    r.acceleration = w.run.acceleration;
+    return;
+  }
+  const Motion m = from_velocity ? ::fit::from_velocity(w.run.velocity, w.step, bandwidth_hz)
+                                 : from_position(w.run.position, w.step, bandwidth_hz);
+  w.cut(m.first, m.velocity.size());
+  r.velocity = m.velocity;
+  r.acceleration = w.run.acceleration.empty() ? m.acceleration : w.run.acceleration;
+  w.tell(
+      "derivatives of the {} by local polynomials of degree 4 over {} samples (no delay): 1 % to {:.3g} Hz, {:.2g} % "
+      "at "
+      "the main frequency; noise of velocity {:.2g} m/s, of acceleration {:.2g} m/s^2",
+      from_velocity ? "velocity" : "position", 2 * m.half_width + 1, m.bandwidth_hz, 100 * m.gain_error_main,
+      m.noise_velocity, m.noise_acceleration);
+}
+
+/// √(u² + w²) u where the water moves across as well; (F7).
+void add_cross_flow(Work& w) {
+  if (w.run.cross_velocity.empty()) return;
+  for (std::size_t j = 0; j < w.run.time.size(); ++j)
+    w.out.record.drag_flow.push_back(std::hypot(w.out.record.velocity[j], w.run.cross_velocity[j]) *
+                                     w.out.record.velocity[j]);
+  w.tell("drag: the velocity across counts, sqrt(u^2 + w^2) u");
+}
+
+ZeroPhaseFilter made(const FilterChoice& c, double step) {
+  switch (c.kind) {
+    case FilterChoice::Kind::butterworth:
+      return ZeroPhaseFilter::butterworth(c.order, c.hz, step);
+    case FilterChoice::Kind::finite:
+      return ZeroPhaseFilter::finite(c.hz, step);
+    case FilterChoice::Kind::notch:
+      return ZeroPhaseFilter::notch(c.hz, c.width, step);
+    case FilterChoice::Kind::moving_average:
+      break;
+  }
+  return ZeroPhaseFilter::moving_average(2 * static_cast<int>(c.seconds / (2 * step)) + 1, step);
+}
+
+/// Lines of the force that are no harmonics of the motion, and what the filters leave of them; (F21).
+void tell_lines(Work& w, const std::vector<ZeroPhaseFilter>& filters) {
+  const auto [low, high] = std::minmax_element(w.pattern.begin(), w.pattern.end());
+  if (w.pattern.size() < 64 || !(*high > *low)) return;
+  const auto cycles = find_cycles(w.pattern);
+  if (cycles.empty()) return;
+  const double main_hz = 1 / ((cycles.back().end - cycles.back().start) * w.step);
+  for (const SpectralLine& line : find_lines(w.out.record.force, w.step, 10 * main_hz)) {
+    double left = 1;
+    for (const auto& f : filters) left *= f.gain(2 * std::numbers::pi * line.frequency_hz);
+    const bool mains = std::abs(line.frequency_hz - 50) < 0.5 || std::abs(line.frequency_hz - 60) < 0.5;
+    w.tell("line: {:.4g} Hz in the force, amplitude {:.2g} N{}; the filters leave {:.1g} of it", line.frequency_hz,
+           line.amplitude, mains ? ", hum of the mains" : "", left);
+  }
+}
+
+void filter_all(Work& w, const std::vector<FilterChoice>& choices) {  // (F25)
+  std::vector<ZeroPhaseFilter> filters;
+  for (const FilterChoice& c : choices) filters.push_back(made(c, w.step));
+  tell_lines(w, filters);
+  if (filters.empty()) return;
+  ForceRecord& r = w.out.record;
+  if (r.drag_flow.empty())
+    for (const double u : r.velocity) r.drag_flow.push_back(std::abs(u) * u);
+  for (const ZeroPhaseFilter& f : filters) {
+    std::vector<std::pair<std::vector<double>*, std::vector<double>>> smooth;
+    for (auto* column : {&r.force, &r.acceleration, &r.drag_flow}) smooth.push_back({column, f.apply(*column)});
+    for (ForceChannel& c : w.run.force) smooth.push_back({&c.values, f.apply(c.values)});
+    w.cut(f.settling(), r.time.size() - 2 * f.settling());
+    for (auto& [column, values] : smooth) *column = std::move(values);
+    w.tell("{} over force, acceleration and |u|u alike: 1 % to {:.3g} Hz, no delay, {:.3g} s given up at each end",
+           f.name(), f.bandwidth_hz(), static_cast<double>(f.settling()) * w.step);
+  }
+}
+
+void cut_cycles(Work& w, const WindowChoice& window) {  // (F23)
+  auto cycles = full_amplitude(find_cycles(w.pattern), window.tolerance);
+  const auto wanted = static_cast<std::size_t>(window.cycles);
+  hydro::require(cycles.size() >= wanted, "{} cycles of full amplitude are asked for, the record has {}", wanted,
+                 cycles.size());
+  if (wanted > 0) cycles.erase(cycles.begin(), cycles.end() - static_cast<std::ptrdiff_t>(wanted));
+  const double origin = w.run.time.front();
+  for (const Cycle& c : cycles) w.out.cycle_starts.push_back(origin + w.step * c.start);
+  w.out.cycle_starts.push_back(origin + w.step * cycles.back().end);
+  const auto from = static_cast<std::size_t>(std::ceil(cycles.front().start)),
+             to = static_cast<std::size_t>(std::floor(cycles.back().end));
+  w.cut(from, to - from + 1);
+  w.tell("window: {} cycles of full amplitude within {:g} %, from {:.4g} s to {:.4g} s", cycles.size(),
+         100 * window.tolerance, w.out.cycle_starts.front(), w.out.cycle_starts.back());
+}
+
+void cut_window(Work& w, const WindowChoice& window) {
+  if (window.kind == WindowChoice::Kind::full_cycles) return cut_cycles(w, window);
+  if (window.kind == WindowChoice::Kind::all) return;
+  const auto& t = w.run.time;
+  const auto from = std::lower_bound(t.begin(), t.end(), window.from),
+             to = std::upper_bound(t.begin(), t.end(), window.to);
+  hydro::require(from < to,
+                 "the window from {:.4g} s to {:.4g} s lies outside what is left of the record, {:.4g} s to {:.4g} s",
+                 window.from, window.to, t.front(), t.back());
+  w.cut(static_cast<std::size_t>(from - t.begin()), static_cast<std::size_t>(to - from));
+  w.tell("window: from {:.4g} s to {:.4g} s", w.run.time.front(), w.run.time.back());
+}
+
+/// What one standard deviation of calibration and zero does to the force; (F26).
+void add_force_errors(Work& w) {
+  const std::size_t n = w.run.time.size();
+  for (const ForceChannel& f : w.run.force) {
+    if (!f.calibration) continue;
+    const Calibration& c = *f.calibration;
+    ForceError slope{"slope of " + f.name, f.values}, loop{"hysteresis of " + f.name, std::vector<double>(n, 0.0)};
+    for (double& v : slope.force) v *= c.slope_error / std::abs(c.slope);
+    // Half the loop's width on either side of the line, even in between: a deviation of 1/√3 of the half.
+    const double half = c.hysteresis * c.range / std::abs(c.slope) / (2 * std::sqrt(3.0));
+    for (std::size_t j = 1; j < n; ++j) loop.force[j] = f.values[j] > f.values[j - 1] ? half : -half;
+    w.out.force_errors.push_back(std::move(slope));
+    w.out.force_errors.push_back(std::move(loop));
+  }
+}
+
+}  // namespace
+
+Prepared prepare(const RawRun& run, const PrepareOptions& options) {
+  Work w{.run = run, .step = 0, .out = {}, .pattern = {}};
+  check(w.run);
+  fill_gaps(w, options.longest_gap_s);
+  look_at_sensors(w);
+  compare_channels(w.run);
+  take_outliers(w, options);
+  sum_forces(w);
+  take_delay(w, options.delay_s);
+  add_motion(w, options.derivative_bandwidth_hz);
+  add_cross_flow(w);
+  filter_all(w, options.filters);
+  cut_window(w, options.window);
+  add_force_errors(w);
+  return std::move(w.out);
+}
+
+std::string sign_trouble(const Cylinder& cylinder, const MorisonFit& fit) {  // (F26)
+  const double mass = cylinder.mass_beyond_load_cells / (cylinder.density * cylinder.volume());
+  if (!(fit.cd.interval.high < 0 && fit.inertia.interval.high + mass < 0)) return {};
+  return fmt::format(
+      "drag and inertia both come out negative (cd {:.3g} at most, inertia {:.3g} at most): the force or "
+      "the motion has the wrong sign",
+      fit.cd.interval.high, fit.inertia.interval.high);
+}
+
+}  // namespace fit

@@ -1,0 +1,168 @@
+#include "fit/sensor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "hydro/base/error.hpp"
+#include "hydro/signal/welch.hpp"
+
+namespace fit {
+namespace {
+
+double median(std::vector<double>& v) {  // leaves v in another order
+  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
+  std::nth_element(v.begin(), middle, v.end());
+  return *middle;
+}
+
+/// Different values of a record and how often each occurs, in increasing order.
+struct Levels {
+  std::vector<double> value;
+  std::vector<std::size_t> count;
+};
+Levels levels_of(std::span<const double> values) {
+  std::vector<double> sorted(values.begin(), values.end());
+  for (const double x : sorted) hydro::require(std::isfinite(x), "a sample of the sensor is not finite");
+  std::sort(sorted.begin(), sorted.end());
+  Levels levels;
+  for (const double x : sorted) {
+    if (levels.value.empty() || x > levels.value.back()) {
+      levels.value.push_back(x);
+      levels.count.push_back(0);
+    }
+    ++levels.count.back();
+  }
+  return levels;
+}
+
+}  // namespace
+
+std::optional<Clipping> find_clipping(std::span<const double> values) {  // (F19)
+  const Levels l = levels_of(values);
+  if (l.value.size() < 3) return {};
+  const auto stops = [](std::size_t extreme, std::size_t next) { return extreme >= 5 && extreme > 5 * next; };
+  Clipping c{.low = l.value.front(), .high = l.value.back()};
+  if (stops(l.count.front(), l.count[1])) c.at_low = l.count.front();
+  if (stops(l.count.back(), l.count[l.count.size() - 2])) c.at_high = l.count.back();
+  if (c.at_low + c.at_high == 0) return {};
+  return c;
+}
+
+double Quantisation::noise() const { return step / std::sqrt(12.0); }
+
+std::optional<Quantisation> find_quantisation(std::span<const double> values) {  // (F20)
+  const Levels l = levels_of(values);
+  if (l.value.size() < 3) return {};
+  double least = l.value.back() - l.value.front();
+  for (std::size_t i = 1; i < l.value.size(); ++i) least = std::min(least, l.value[i] - l.value[i - 1]);
+  const double range = l.value.back() - l.value.front();
+  if (range > 999.5 * least) return {};
+  // The mean of all steps over the multiple that each is: better than one difference of two rounded numbers.
+  double multiples = 0;
+  for (std::size_t i = 1; i < l.value.size(); ++i) {
+    const double multiple = (l.value[i] - l.value[i - 1]) / least;
+    if (std::abs(multiple - std::round(multiple)) > 0.05 * std::max(1.0, multiple)) return {};
+    multiples += std::round(multiple);
+  }
+  return Quantisation{range / multiples, static_cast<std::size_t>(multiples) + 1};
+}
+
+std::vector<SpectralLine> find_lines(std::span<const double> values, double step_s, double from_hz) {  // (F21)
+  hydro::require(values.size() >= 64, "lines need a spectrum of at least 64 samples, got {}", values.size());
+  const auto w = hydro::signal::welch(values, step_s, hydro::signal::fifteen_segments(values.size()));
+  const std::vector<double>&f = w.spectrum.frequency_hz, &s = w.spectrum.density;
+  constexpr std::size_t width = 2, around = 12;  // bins that a Hann window spreads a line over; bins asked each side
+  std::vector<SpectralLine> lines;
+  for (std::size_t k = width; k + width < f.size(); ++k) {
+    if (f[k] < from_hz || s[k] < s[k - 1] || s[k] < s[k + 1]) continue;
+    std::vector<double> floor;
+    for (std::size_t j = k > around ? k - around : 1; j < std::min(k + around + 1, f.size() - 1); ++j)
+      if (j + width < k || j > k + width) floor.push_back(s[j]);
+    if (floor.size() < around || s[k] <= 30 * median(floor)) continue;
+    double variance = 0;
+    for (std::size_t j = k - width; j <= k + width; ++j) variance += s[j] * (f[1] - f[0]);
+    lines.push_back({f[k], std::sqrt(2 * variance)});
+  }
+  std::sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.amplitude > b.amplitude; });
+  if (lines.size() > 10) lines.resize(10);
+  return lines;
+}
+
+std::vector<std::size_t> find_outliers(std::span<const double> values, int half_window, double deviations) {  // (F22)
+  hydro::require(half_window >= 2 && deviations >= 3,
+                 "outliers need at least 2 neighbours on each side and 3 deviations, got {} and {}", half_window,
+                 deviations);
+  const std::ptrdiff_t n = std::ssize(values), m = half_window;
+  const double* x = values.data();
+  std::vector<double> off(values.size(), 0.0), near;
+  // Off the median of the means of pairs, one sample before and one as far behind: a slope leaves it alone.
+  for (std::ptrdiff_t j = 1; j + 1 < n; ++j) {
+    near.clear();
+    for (std::ptrdiff_t k = 1; k <= std::min({m, j, n - 1 - j}); ++k) near.push_back((x[j - k] + x[j + k]) / 2);
+    off[static_cast<std::size_t>(j)] = std::abs(x[j] - median(near));
+  }
+  std::vector<std::size_t> found;
+  for (std::ptrdiff_t j = 1; j + 1 < n; ++j) {
+    near.assign(off.begin() + std::max<std::ptrdiff_t>(0, j - m), off.begin() + std::min(n, j + m + 1));
+    const double spread = 1.4826 * median(near);
+    if (spread > 0 && off[static_cast<std::size_t>(j)] > deviations * spread)
+      found.push_back(static_cast<std::size_t>(j));
+  }
+  return found;
+}
+
+void bridge(std::vector<double>& values, std::span<const std::size_t> indices) {
+  for (std::size_t i = 0; i < indices.size();) {
+    std::size_t last = i;
+    while (last + 1 < indices.size() && indices[last + 1] == indices[last] + 1) ++last;
+    const std::size_t from = indices[i], to = indices[last];
+    hydro::require(from > 0 && to + 1 < values.size(), "the first or last sample is an outlier: cut the record there");
+    const double step = (values[to + 1] - values[from - 1]) / static_cast<double>(to - from + 2);
+    for (std::size_t j = from; j <= to; ++j) values[j] = values[from - 1] + step * static_cast<double>(j - from + 1);
+    i = last + 1;
+  }
+}
+
+EvenGrid even_grid(std::span<const double> time_s, double longest_gap_s) {  // (F22)
+  hydro::require(time_s.size() >= 3, "a record needs at least three samples, got {}", time_s.size());
+  std::vector<double> steps;
+  for (std::size_t j = 1; j < time_s.size(); ++j) steps.push_back(time_s[j] - time_s[j - 1]);
+  std::vector<double> order = steps;
+  const double rough = median(order);
+  hydro::require(rough > 0, "time does not increase");
+  EvenGrid grid{.step = rough, .time = {time_s[0]}, .filled = {}};
+  std::vector<std::size_t> index{0};
+  for (std::size_t j = 0; j < steps.size(); ++j) {
+    const double multiple = steps[j] / rough;
+    hydro::require(multiple > 0.5, "time does not increase after {:.6g} s", time_s[j]);
+    hydro::require(multiple < 1.5 || steps[j] <= longest_gap_s, "{:.4g} s are missing after {:.6g} s{}", steps[j],
+                   time_s[j], longest_gap_s > 0 ? fmt::format("; gaps may be {:.4g} s long", longest_gap_s) : "");
+    index.push_back(index.back() + static_cast<std::size_t>(std::lround(multiple)));
+  }
+  grid.step = (time_s.back() - time_s.front()) / static_cast<double>(index.back());
+  for (std::size_t j = 1; j < time_s.size(); ++j) {
+    const double off = time_s[j] - time_s[0] - grid.step * static_cast<double>(index[j]);
+    hydro::require(std::abs(off) < 0.02 * grid.step, "the sample at {:.6g} s is {:.2g} of a step off the even grid",
+                   time_s[j], off / grid.step);
+    for (std::size_t k = index[j - 1] + 1; k < index[j]; ++k) grid.filled.push_back(k);
+  }
+  grid.time.resize(index.back() + 1);
+  for (std::size_t k = 0; k < grid.time.size(); ++k) grid.time[k] = time_s[0] + grid.step * static_cast<double>(k);
+  return grid;
+}
+
+std::vector<double> on_grid(const EvenGrid& grid, std::span<const double> values) {
+  std::vector<double> out(grid.time.size());
+  std::size_t next = 0, source = 0;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    if (next < grid.filled.size() && grid.filled[next] == k)
+      ++next;
+    else
+      out[k] = values[source++];
+  }
+  bridge(out, grid.filled);
+  return out;
+}
+
+}  // namespace fit

@@ -1,0 +1,119 @@
+// Contacts of scenes: what is read, and modules that collide in steep waves.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "compile/compile.hpp"
+#include "froude/simulate.hpp"
+#include "hydro/base/error.hpp"
+#include "scene/scene.hpp"
+
+namespace {
+
+using namespace froude;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+std::string scene_text(const std::string& contact) {
+  return R"(schema = 1
+[water]
+density = "1000 kg/m^3"
+depth = "10 m"
+[[body]]
+name = "crate"
+position = "(0, 0, 3) m"
+mass = "100 kg"
+centre_of_gravity = "(0, 0, 0.25) m"
+radii_of_gyration = "(0.2, 0.2, 0.2) m"
+weight = true
+[[contact]]
+)" + contact +
+         R"([ask]
+run = { duration = "2 s", every = "0.01 s" }
+)";
+}
+scene::Scene parse(const std::string& text) { return scene::parse(text, "scene.toml"); }
+
+const std::string on_corners = R"(between = ["crate", "ground"]
+kind = "plane"
+points = "(±0.25, ±0.25, 0) m"
+at = "(0, 0, 2) m"
+normal = "z"
+restitution = 0.2
+friction = 0.5
+)";
+
+// It falls 1 m, bounces and lies on its four corners, which carry a quarter of its weight each.
+TEST(ContactInAScene, LetsACrateFallOnItsCorners) {
+  const Record run = simulate(parse(scene_text(on_corners)));
+  ASSERT_TRUE(run.stopped.empty()) << run.stopped;
+  EXPECT_NEAR(run.signal("crate.heave").back(), -1, 1e-9);
+  for (int i = 1; i <= 4; ++i) {
+    EXPECT_NEAR(run.signal(fmt::format("contact{}.gap", i)).back(), 0, 1e-9);
+    EXPECT_NEAR(run.signal(fmt::format("contact{}.force", i)).back(), 100 * 9.81 / 4, 0.01)
+        << "as even as Newton leaves it";
+    EXPECT_GT(run.signal(fmt::format("contact{}.impacts", i)).back(), 0);
+  }
+  EXPECT_NEAR(run.signal("energy.contact.dissipated").back(), 100 * 9.81, 1e-6 * 981) << "all that it fell";
+}
+
+TEST(ContactInAScene, OfABoxOrOfRodsActsWhereTheShapesAre) {
+  const auto box = compile::prepare(parse(scene_text(R"(between = ["crate", "ground"]
+kind = "box"
+points = "(0, 0, -0.5) m"
+radius = "0.5 m"
+from = "(-1, -1, 0) m"
+to = "(1, 1, 1.5) m"
+restitution = 0
+)")));
+  const dynamics::ContactKind kind(box.contacts);
+  const auto rest = dynamics::rest_state(box.bodies);
+  EXPECT_NEAR(kind.gap(0, rest), 3 - 0.5 - 0.5 - 1.5, 1e-12);
+  const auto rods = compile::prepare(parse(scene_text(R"(between = ["crate", "ground"]
+kind = "rods"
+first = { from = "(0, 0, -1) m", to = "(0, 0, 1) m", diameter = "0.4 m" }
+second = { from = "(2, -1, 3) m", to = "(2, 1, 3) m", diameter = "0.2 m" }
+restitution = 0
+)")));
+  EXPECT_NEAR(dynamics::ContactKind(rods.contacts).gap(0, rest), 2 - 0.2 - 0.1, 1e-12);
+}
+
+TEST(ContactInAScene, IsRefusedWithItsPlace) {
+  const auto expect = [](const std::string& contact, const std::string& message) {
+    EXPECT_THAT([&] { parse(scene_text(contact)); }, ThrowsMessage<hydro::InputError>(HasSubstr(message)));
+  };
+  expect(
+      "between = [\"crate\", \"crate\"]\nkind = \"plane\"\npoints = \"(0,0,0) m\"\nat = \"(0,0,0) m\"\nnormal = "
+      "\"z\"\nrestitution = 0\n",
+      "stands twice");
+  expect(
+      "between = [\"crate\", \"ground\"]\nkind = \"plane\"\npoints = \"(0,0,0) m\"\nat = \"(0,0,0) m\"\nnormal = "
+      "\"z\"\nrestitution = 1.2\n",
+      "restitution = 1.2");
+  expect(
+      "between = [\"crate\", \"ground\"]\nkind = \"box\"\npoints = \"(0,0,0) m\"\nfrom = \"(0,0,0) m\"\nto = \"(1,1,0) "
+      "m\"\nrestitution = 0\n",
+      "a box without volume");
+}
+
+// Five at once in steep waves: no gap is ever crossed, and what contact takes is in the ledger. The residual is that of
+// the step.
+TEST(ContactInAScene, KeepsFiveModulesApartInSteepWaves) {
+  const Record run = simulate(scene::read(std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/fenders.toml"));
+  ASSERT_TRUE(run.stopped.empty()) << run.stopped;
+  double impacts = 0;
+  for (int i = 1; i <= 8; ++i) {
+    const auto& gap = run.signal(fmt::format("fender{}.gap", i));
+    EXPECT_GT(*std::min_element(gap.begin(), gap.end()), -1e-9) << i;
+    impacts += run.signal(fmt::format("fender{}.impacts", i)).back();
+  }
+  EXPECT_GT(impacts, 20);
+  EXPECT_GT(run.signal("energy.contact.dissipated").back(), 0);
+  double residual = 0, turnover = 0;
+  for (const auto& [name, joules] : run.energy) {
+    if (name == "residual") residual = joules;
+    if (name == "turnover") turnover = joules;
+  }
+  EXPECT_LT(std::abs(residual), 1e-3 * turnover);
+}
+
+}  // namespace

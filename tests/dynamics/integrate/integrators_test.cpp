@@ -1,0 +1,162 @@
+// What each integrator promises: its order, what it keeps, where it gives up.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "dynamics/force/contact.hpp"
+#include "dynamics/force/restoring.hpp"
+#include "dynamics/integrate/energy_momentum.hpp"
+#include "dynamics/integrate/euler.hpp"
+#include "dynamics/integrate/explicit_pair.hpp"
+#include "dynamics/integrate/generalized_alpha.hpp"
+#include "hydro/base/error.hpp"
+#include "support/double_pendulum.hpp"
+
+namespace {
+
+using namespace dynamics;
+using froude::support::double_pendulum;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+State after(Integrator& integrator, const Model& model, State start, double h, double duration) {
+  Workspace w(model, std::move(start));
+  integrator.start(w);
+  for (int i = 0; i < std::lround(duration / h); ++i) integrator.step(w, h);
+  return w.state;
+}
+
+double distance(const State& a, const State& b) {
+  double d = (a.velocity - b.velocity).norm();
+  for (std::size_t i = 0; i < a.pose.size(); ++i) d += (a.pose[i].centre - b.pose[i].centre).norm();
+  return d;
+}
+
+class Orders : public testing::Test {
+ protected:
+  static constexpr double duration = 1.6;  // both rods have swung through
+  Model model = double_pendulum(0.4);
+  State reference() const {
+    ExplicitPair exact(model, {.tolerance = 1e-13});
+    return after(exact, model, rest_state(model.bodies()), 0.01, duration);
+  }
+  template <class Method, class... Settings>
+  double order(double h, const Settings&... settings) const {
+    const State exact = reference();
+    const auto error = [&](double step) {
+      Method method(model, settings...);
+      return distance(after(method, model, rest_state(model.bodies()), step, duration), exact);
+    };
+    return std::log2(error(h) / error(h / 2));
+  }
+};
+
+// Halving a step that is short against the motion: the order is read to a tenth where the next term is below some
+// percent.
+TEST_F(Orders, AreThoseOfTheMethods) {
+  EXPECT_NEAR(order<GeneralizedAlpha>(4e-3, GeneralizedAlpha::Settings{0.8}), 2, 0.1);
+  EXPECT_NEAR(order<EnergyMomentum>(4e-3), 2, 0.1);
+  EXPECT_NEAR(order<ImplicitEuler>(1e-3), 1, 0.1);
+  EXPECT_NEAR(order<SemiImplicitEuler>(1e-3), 1, 0.1);
+  EXPECT_NEAR(order<ExplicitPair>(0.01, ExplicitPair::Settings{infinite}), 5, 0.5);
+}
+
+TEST_F(Orders, OfThePairThatChoosesItsStepsGiveTheErrorAskedFor) {
+  const State exact = reference();
+  double last = infinite;
+  for (const double tolerance : {1e-5, 1e-7, 1e-9}) {
+    ExplicitPair pair(model, {.tolerance = tolerance});
+    const double error = distance(after(pair, model, rest_state(model.bodies()), 0.1, duration), exact);
+    EXPECT_LT(error, 100 * tolerance) << "some ten steps, velocities of some 10 m/s";
+    EXPECT_LT(error, 0.2 * last);
+    last = error;
+  }
+}
+
+// Nothing is added or taken at any step; Newton's tolerance, 1e-9 of each step's motion, leaves 1e-10 after a thousand.
+TEST(EnergyMomentumStep, KeepsTheEnergyOfADoublePendulumAtLargeSteps) {
+  const Model model = double_pendulum(0.4);
+  Workspace w(model, rest_state(model.bodies()));
+  EnergyMomentum integrator(model);
+  integrator.start(w);
+  double worst = 0, turnover = 0;
+  for (int i = 0; i < 1000; ++i) {
+    integrator.step(w, 0.03);
+    const double kinetic = model.kinetic_energy(w.state);
+    worst = std::max(worst, std::abs(kinetic + froude::support::height_energy(w.state)));
+    turnover = std::max(turnover, kinetic);
+  }
+  EXPECT_GT(turnover, 30) << "it has swung";
+  EXPECT_LT(worst, 1e-9 * turnover);
+  EXPECT_LT(model.joints().values(w.state).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(EnergyMomentumStep, KeepsEnergyAndMomentumOfATumblingBody) {
+  RigidBody body({.name = "top", .mass = 3, .inertia = Eigen::Vector3d(1, 2, 2.7).asDiagonal()});
+  const Model model({body}, {}, {});
+  State start = rest_state(model.bodies());
+  start.velocity << 0.3, -0.2, 0.5, 0.01, 3, 0.02;  // about the middle axis: it turns over and over
+  Workspace w(model, start);
+  EnergyMomentum integrator(model);
+  integrator.start(w);
+  const auto momentum = [&](const State& s) {
+    const Eigen::Matrix3d R = s.pose[0].attitude.toRotationMatrix();
+    return Eigen::Vector3d(R * body.inertia() * R.transpose() * s.velocity.tail<3>());
+  };
+  const Eigen::Vector3d L = momentum(start);
+  const double E = model.kinetic_energy(start);
+  for (int i = 0; i < 500; ++i) integrator.step(w, 0.1);
+  // What Newton leaves of 1e-9 in 500 steps, with random signs at most 2e-8.
+  EXPECT_LT((momentum(w.state) - L).norm(), 2e-8 * L.norm());
+  EXPECT_NEAR(model.kinetic_energy(w.state), E, 2e-8 * E);
+}
+
+TEST(EnergyMomentumStep, KeepsTheEnergyOfALinearSpring) {
+  RigidBody body({.name = "mass", .mass = 2, .inertia = Eigen::Matrix3d::Identity()});
+  Matrix6 K = Matrix6::Zero();
+  K(0, 0) = 50;
+  std::vector<std::unique_ptr<const ForceKind>> forces;
+  forces.push_back(
+      std::make_unique<RestoringKind>("mooring", std::vector<RigidBody>{body}, std::vector<Restoring>{{0, K}}));
+  const Model model({body}, {}, std::move(forces));
+  State start = rest_state(model.bodies());
+  start.pose[0].centre.x() = 1;
+  Workspace w(model, start);
+  EnergyMomentum integrator(model);
+  integrator.start(w);
+  for (int i = 0; i < 1000; ++i) integrator.step(w, 0.3);  // ωh = 1.5
+  const double x = w.state.pose[0].centre.x();
+  EXPECT_NEAR(model.kinetic_energy(w.state) + 25 * x * x, 25, 1e-9 * 25);
+}
+
+// A spring of 1 kHz with a step of 0.1 s is what it is not made for: it says so and leaves the last good state.
+TEST(ExplicitPairStep, GivesUpWithAReasonWhereSomethingIsStiff) {
+  RigidBody body({.name = "mass", .mass = 1, .inertia = Eigen::Matrix3d::Identity()});
+  Matrix6 K = Matrix6::Zero();
+  K(0, 0) = 1e20;
+  std::vector<std::unique_ptr<const ForceKind>> forces;
+  forces.push_back(
+      std::make_unique<RestoringKind>("mooring", std::vector<RigidBody>{body}, std::vector<Restoring>{{0, K}}));
+  const Model model({body}, {}, std::move(forces));
+  State start = rest_state(model.bodies());
+  start.pose[0].centre.x() = 1;
+  Workspace w(model, start);
+  ExplicitPair integrator(model, {});
+  integrator.start(w);
+  EXPECT_THAT([&] { integrator.step(w, 0.1); },
+              testing::ThrowsMessage<hydro::NumericsError>(testing::HasSubstr("too stiff")));
+  EXPECT_EQ(w.state.time, 0);
+}
+
+TEST(ExplicitPairStep, RefusesContacts) {
+  RigidBody body({.name = "ball", .mass = 1, .inertia = Eigen::Matrix3d::Identity()});
+  std::vector<std::unique_ptr<const ForceKind>> forces;
+  forces.push_back(std::make_unique<ContactKind>(
+      std::vector<Contact>{{"floor", 0, {}, {Ball{{0, 0, 0}, 0.1}, HalfSpace{{0, 0, -1}, {0, 0, 1}}}, 0, 0}}));
+  const Model model({body}, {}, std::move(forces));
+  EXPECT_THROW(ExplicitPair(model, {}), hydro::InputError);
+  EXPECT_THROW(EnergyMomentum{model}, hydro::InputError);
+}
+
+}  // namespace

@@ -1,0 +1,140 @@
+#include "fit/decay.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "hydro/base/error.hpp"
+#include "support/coloured_noise.hpp"
+
+namespace {
+
+using fit::MotionLaw;
+constexpr double pi = std::numbers::pi;
+
+/// θ = (ω₀, b₁, b₂, b₃, c, x₀), from rest at x₀ + 0.15.
+fit::Window decay(MotionLaw law, const std::vector<double>& theta, double step, Eigen::Index n, double noise = 0,
+                  double phi = 0, std::uint64_t stream = 1) {
+  fit::Window w{step, fit::follow(law, theta, Eigen::Vector2d(theta[5] + 0.15, 0), step, n, 8)};
+  const auto e = froude_test::ar1_noise(static_cast<std::size_t>(n), phi, 1, stream);
+  for (Eigen::Index j = 0; j < n; ++j) w.values(j, 0) += noise * e[static_cast<std::size_t>(j)];
+  return w;
+}
+
+std::vector<double> times(const fit::Window& w) {
+  std::vector<double> t;
+  for (Eigen::Index j = 0; j < w.values.rows(); ++j) t.push_back(w.step * static_cast<double>(j));
+  return t;
+}
+std::span<const double> values(const fit::Window& w) {
+  return {w.values.data(), static_cast<std::size_t>(w.values.rows())};
+}
+
+TEST(Follow, GivesTheClosedFormOfLinearDamping) {
+  const double b = 0.2, omega = 2, damped = std::sqrt(omega * omega - b * b / 4);
+  const auto w = decay(MotionLaw::oscillator, {omega, b, 0, 0, 0, 0.03}, 0.05, 400);
+  for (int j = 0; j < 400; ++j) {
+    const double t = 0.05 * j;
+    const double x = 0.15 * std::exp(-b * t / 2) * (std::cos(damped * t) + b / (2 * damped) * std::sin(damped * t));
+    // Fourth order with ωh = 0.0125: (ωh)⁴/120 of the phase after 40 rad.
+    ASSERT_NEAR(w.values(j, 0), 0.03 + x, 1e-9);
+  }
+}
+
+TEST(Follow, LosesTwoCOverOmegaSquaredInEachHalfCycleOfCoulombFriction) {
+  const double c = 0.02, omega = 2;
+  const auto w = decay(MotionLaw::oscillator, {omega, 0, 0, 0, c, 0}, 0.01, 3000);
+  for (int k = 0; k < 14; ++k) {  // half a period is π/2 s; the amplitude falls by 2c/ω² = 0.01 each
+    const double t = k * pi / omega;
+    const auto j = static_cast<Eigen::Index>(std::lround(t / 0.01));
+    const double amplitude = 0.15 - 0.01 * k;
+    EXPECT_NEAR(std::abs(w.values(j, 0)), amplitude, amplitude * std::pow(omega * 0.005, 2)) << k;
+  }
+  // It comes to rest for good where the spring is weaker than the friction, |x| <= c/ω² = 0.005.
+  EXPECT_LE(std::abs(w.values(2999, 0)), 0.005 + 1e-9);
+  EXPECT_EQ(w.values(2999, 0), w.values(2900, 0));
+}
+
+TEST(Extremes, AreReadBetweenSamples) {
+  const auto w = decay(MotionLaw::oscillator, {2, 0.1, 0, 0, 0, 0.4}, 0.1, 400);
+  const auto e = fit::find_extremes(times(w), values(w));
+  const double damped = std::sqrt(4 - 0.0025);
+  ASSERT_GT(e.size(), 8u);
+  for (std::size_t i = 0; i < e.size(); ++i)
+    EXPECT_NEAR(e[i].time, static_cast<double>(i + 1) * pi / damped,
+                2e-3);  // (ωΔt)² of a step of 0.1 s, the parabola's
+  const auto d = fit::logarithmic_decrement(e);
+  EXPECT_NEAR(d.offset, 0.4, 1e-3);
+  for (const double zeta : d.ratio) EXPECT_NEAR(zeta, 0.1 / 4, 0.003);  // b/(2ω)
+}
+
+TEST(Energy, TellsEachKindOfDampingAlone) {
+  // Half-cycle losses hold to first order in damping: a few per cent here.
+  const std::pair<fit::DampingTerms, std::vector<double>> kinds[] = {
+      {{.linear = true}, {2, 0.06, 0, 0, 0, 0}},
+      {{.linear = false, .quadratic = true}, {2, 0, 0.5, 0, 0, 0}},
+      {{.linear = false, .cubic = true}, {2, 0, 0, 2.0, 0, 0}},
+      {{.linear = false, .coulomb = true}, {2, 0, 0, 0, 0.01, 0}}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto w = decay(MotionLaw::oscillator, kinds[k].second, 0.02, 1600);
+    const auto f = fit::fit_energy(fit::find_extremes(times(w), values(w)), kinds[k].first);
+    ASSERT_EQ(f.damping.size(), 1u);
+    EXPECT_NEAR(*f.damping[0].value / kinds[k].second[k + 1], 1, 0.03) << f.damping[0].name;
+    EXPECT_NEAR(f.omega, 2, 0.002);
+  }
+}
+
+TEST(Decay, WithAllTermsIsRecoveredFromAMotionWithoutNoise) {
+  for (const bool pendulum : {false, true}) {
+    const std::vector<double> truth{2, 0.03, 0.4, 0.8, 0.004, 0.02};
+    const std::vector<fit::Window> records{
+        decay(pendulum ? MotionLaw::pendulum : MotionLaw::oscillator, truth, 0.05, 600)};
+    const auto f = fit::fit_decay(records, {.terms = {true, true, true, true}, .pendulum = pendulum, .substeps = 8});
+    for (std::size_t k = 0; k < 6; ++k)
+      EXPECT_NEAR(*f.motion.parameters[k].value, truth[k], 1e-6) << f.motion.parameters[k].name;
+    EXPECT_LT(f.motion.rms[0], 1e-8);
+  }
+}
+
+TEST(Decay, CoversItsDampingForNoiseWithAMemory) {
+  const std::vector<double> truth{2, 0.04, 0.5, 0, 0, 0};
+  int linear = 0, quadratic = 0, omega = 0;
+  constexpr int sets = 100;
+  for (std::uint64_t i = 0; i < sets; ++i) {
+    const std::vector<fit::Window> records{decay(MotionLaw::oscillator, truth, 0.05, 600, 0.002, 0.7, 50 + i)};
+    const auto f = fit::fit_decay(records, {.substeps = 2});
+    const auto holds = [&](std::size_t k) {
+      return f.motion.parameters[k].interval.low < truth[k] && truth[k] < f.motion.parameters[k].interval.high;
+    };
+    omega += holds(0);
+    linear += holds(1);
+    quadratic += holds(2);
+  }
+  for (const int count : {omega, linear, quadratic}) EXPECT_GE(count, 86);  // 95 ± 2.2; four deviations
+}
+
+TEST(Decay, SaysThatATermIsNotSeen) {
+  const std::vector<fit::Window> records{decay(MotionLaw::oscillator, {2, 0.06, 0, 0, 0, 0}, 0.05, 600, 0.003, 0.5, 9)};
+  const auto f = fit::fit_decay(records, {.terms = {.linear = true, .quadratic = true}});
+  EXPECT_TRUE(f.damping[0].value);
+  EXPECT_FALSE(f.damping[1].value);
+  EXPECT_THAT(f.damping[1].why_not, testing::HasSubstr("cannot tell it from zero"));
+}
+
+TEST(Decay, PrefersTheTermsItWasMadeWith) {
+  const std::vector<fit::Window> records{
+      decay(MotionLaw::oscillator, {2, 0.03, 0.8, 0, 0, 0}, 0.05, 600, 0.001, 0.3, 4)};
+  const double both = fit::fit_decay(records, {.terms = {.linear = true, .quadratic = true}}).aicc;
+  EXPECT_LT(both, fit::fit_decay(records, {.terms = {.linear = true}}).aicc);
+  EXPECT_LT(both, fit::fit_decay(records, {.terms = {.linear = true, .coulomb = true}}).aicc);
+}
+
+TEST(Decay, RefusesARecordThatDoesNotSwing) {
+  fit::Window w{0.05, Eigen::MatrixXd::Zero(200, 1)};
+  for (Eigen::Index j = 0; j < 200; ++j) w.values(j, 0) = std::exp(-0.05 * static_cast<double>(j));
+  EXPECT_THROW(fit::fit_decay(std::vector{w}), hydro::InputError);
+}
+
+}  // namespace

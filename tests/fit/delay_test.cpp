@@ -1,0 +1,93 @@
+#include "fit/delay.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "fit/filter.hpp"
+#include "fit/morison.hpp"
+#include "hydro/base/error.hpp"
+#include "support/coloured_noise.hpp"
+
+namespace {
+
+const fit::Cylinder cylinder{.diameter = 0.12,
+                             .length = 0.5,
+                             .density = 997,
+                             .viscosity = {},
+                             .experiment = fit::Experiment::body_moves,
+                             .mass_beyond_load_cells = 5.9};
+
+/// C_D = 1.2, C_A = 1 at period 4 s and the amplitude given, the force `delay` s late.
+fit::ForceRecord made(double amplitude, double delay, double noise, std::uint64_t stream) {
+  fit::ForceRecord r;
+  const double omega = 2 * std::numbers::pi / 4;
+  const auto error = froude_test::ar1_noise(4000, 0.9, noise, stream);
+  for (std::size_t j = 0; j < 4000; ++j) {
+    const double t = 0.01 * static_cast<double>(j), late = t - delay;
+    const auto v = [&](double at) { return amplitude * omega * std::cos(omega * at); };
+    const auto a = [&](double at) { return -amplitude * omega * omega * std::sin(omega * at); };
+    r.time.push_back(t);
+    r.velocity.push_back(v(t));
+    r.acceleration.push_back(a(t));
+    r.force.push_back(fit::morison_force(cylinder, 1.2, 1.0, v(late), a(late)) + error[j]);
+  }
+  return r;
+}
+
+TEST(Later, MovesASinusoidByAFractionOfASample) {
+  std::vector<double> x(200);
+  const double w = 0.1;  // ωΔt; the cubic's error is (3/128)·ω⁴ at most
+  for (std::size_t j = 0; j < x.size(); ++j) x[j] = std::sin(w * static_cast<double>(j));
+  for (const double lag : {0.0, 3.25, -2.5, 4.999}) {
+    const auto y = fit::later(x, lag, 7);
+    ASSERT_EQ(y.size(), 186u);
+    for (std::size_t j = 0; j < y.size(); ++j)
+      ASSERT_NEAR(y[j], std::sin(w * (static_cast<double>(j + 7) + lag)), 3e-6);
+  }
+  EXPECT_THROW(fit::later(x, 6, 7), hydro::InputError);
+}
+
+TEST(DelayOfTheForce, IsRecoveredWithoutNoise) {
+  for (const double delay : {0.73, 0.0, -0.2834}) {
+    const auto r = fit::fit_morison_and_delay(cylinder, made(0.36, delay, 0, 1), 1.0);
+    EXPECT_NEAR(r.fit.delay->value.value(), delay, 1e-6);
+    EXPECT_NEAR(r.fit.cd.value.value(), 1.2, 1e-5);
+    EXPECT_NEAR(r.fit.inertia.value.value(), 1.0, 1e-5);
+  }
+}
+
+TEST(DelayOfTheForce, ThatNobodyTookOffSpoilsTheFit) {
+  const auto late = fit::fit_morison(cylinder, made(0.36, 0.73, 0, 1));
+  // 0.73 s of 4 s: a part sin(66°) of the main harmonic is out of phase with the model.
+  EXPECT_LT(late.explained, 0.99);
+  EXPECT_FALSE(late.cd.interval.low < 1.2 && 1.2 < late.cd.interval.high && late.inertia.interval.low < 1.0 &&
+               1.0 < late.inertia.interval.high);
+}
+
+TEST(DelayOfTheForce, CoversTheTruthAndWidensTheCoefficients) {
+  int delays = 0, drags = 0;
+  constexpr int sets = 200;
+  double widths = 0;
+  for (int i = 0; i < sets; ++i) {
+    const auto r =
+        fit::fit_morison_and_delay(cylinder, made(0.36, 0.73, 2, 100 + static_cast<std::uint64_t>(i)), 0.9).fit;
+    delays += r.delay->interval.low < 0.73 && 0.73 < r.delay->interval.high;
+    drags += r.cd.interval.low < 1.2 && 1.2 < r.cd.interval.high;
+    const auto given = fit::fit_morison(cylinder, made(0.36, 0, 2, 100 + static_cast<std::uint64_t>(i)));
+    widths += (r.cd.interval.high - r.cd.interval.low) / (given.cd.interval.high - given.cd.interval.low) / sets;
+  }
+  // Binomial with p = 0.95 and 200 sets: 190 ± 3.1; four deviations below.
+  EXPECT_GE(delays, 177);
+  EXPECT_GE(drags, 177);
+  EXPECT_GT(widths, 1.0);
+}
+
+TEST(DelayOfTheForce, CannotBeToldWhereOnlyInertiaActs) {
+  const auto r = fit::fit_morison_and_delay(cylinder, made(0.01, 0.1, 0.2, 3), 0.5).fit;  // KC 0.5
+  EXPECT_FALSE(r.cd.value) << "a delay and drag are one and the same there";
+  EXPECT_FALSE(r.cd.why_not.empty());
+}
+
+}  // namespace

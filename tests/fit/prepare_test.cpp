@@ -1,0 +1,207 @@
+// The whole way from raw channels to coefficients, through what goes wrong in tanks.
+#include "fit/prepare.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "hydro/base/error.hpp"
+#include "support/coloured_noise.hpp"
+
+namespace {
+
+using fit::FilterChoice;
+using fit::PrepareOptions;
+using fit::RawRun;
+using fit::WindowChoice;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::ThrowsMessage;
+
+const fit::Cylinder cylinder{.diameter = 0.12,
+                             .length = 0.5,
+                             .density = 997,
+                             .viscosity = {},
+                             .experiment = fit::Experiment::body_moves,
+                             .mass_beyond_load_cells = 5.9};
+constexpr double step = 0.005, period = 4.0, amplitude = 0.36, truth_cd = 1.2, truth_ca = 1.0;
+
+/// Rest, three cycles of build-up, ten full, three of run-down, rest, at 200 Hz; two load cells that share the force as
+/// 0.6 and 0.4. C_D = 1.2, C_A = 1.
+RawRun clean() {
+  RawRun run;
+  run.force = {{"F1", {}, {}}, {"F2", {}, {}}};
+  const double omega = 2 * std::numbers::pi / period;
+  for (int j = 0; j < 200 * 76; ++j) {
+    const double t = step * j, cycle = t / period - 1;
+    // While the amplitude changes, its own rate is left out of velocity and force: only full cycles are consistent.
+    const double ramp = std::clamp(std::min(cycle / 3, (16 - cycle) / 3), 0.0, 1.0);
+    const double x = amplitude * ramp * std::sin(omega * t);
+    const double v = amplitude * ramp * omega * std::cos(omega * t), a = -omega * omega * x;
+    const double f = fit::morison_force(cylinder, truth_cd, truth_ca, v, a);
+    run.time.push_back(t);
+    run.position.push_back(x);
+    run.force[0].values.push_back(0.6 * f);
+    run.force[1].values.push_back(0.4 * f);
+  }
+  return run;
+}
+
+const PrepareOptions usual{.filters = {{.kind = FilterChoice::Kind::butterworth, .order = 4, .hz = 3.33}},
+                           .window = {.kind = WindowChoice::Kind::full_cycles, .cycles = 5}};
+
+fit::MorisonFit fitted(const RawRun& run, const PrepareOptions& options = usual) {
+  return fit::fit_morison(cylinder, fit::prepare(run, options).record);
+}
+
+/// The derivative of the position is 1 % off at five times the main frequency, and 1 %/625 at the main one.
+constexpr double by_derivatives = 2e-4;
+
+TEST(Prepare, GivesTheCoefficientsOfACleanRunBack) {
+  const auto fit = fitted(clean());
+  EXPECT_NEAR(*fit.cd.value, truth_cd, 5 * by_derivatives);
+  EXPECT_NEAR(*fit.inertia.value, truth_ca, 5 * by_derivatives);
+  EXPECT_EQ(fit.samples, 5 * 800 + 1u);
+}
+
+TEST(Prepare, FindsTheCyclesOfFullAmplitudeAndTellsItsSteps) {
+  const auto p = fit::prepare(clean(), {.window = {.kind = WindowChoice::Kind::full_cycles}});
+  EXPECT_NEAR(static_cast<double>(p.cycle_starts.size()) - 1, 10, 1);
+  EXPECT_THAT(p.steps, Contains(HasSubstr("cycles of full amplitude")));
+  EXPECT_THAT(p.steps, Contains(HasSubstr("sum of 2 channels")));
+  EXPECT_THAT(p.steps, Contains(HasSubstr("derivatives of the position")));
+  EXPECT_THAT(p.cautions, IsEmpty());
+}
+
+TEST(Prepare, TakesAGivenDelayOff) {
+  RawRun run = clean();
+  for (auto& f : run.force) {  // 0.73 s are 146 samples
+    f.values.insert(f.values.begin(), 146, 0.0);
+    f.values.resize(run.time.size());
+  }
+  PrepareOptions options = usual;
+  options.delay_s = 0.73;
+  const auto fit = fitted(run, options);
+  EXPECT_NEAR(*fit.cd.value, truth_cd, 5 * by_derivatives);
+  EXPECT_NEAR(*fit.inertia.value, truth_ca, 5 * by_derivatives);
+}
+
+TEST(Prepare, KeepsHumOfTheMainsOutAndNamesIt) {
+  RawRun run = clean();
+  for (std::size_t j = 0; j < run.time.size(); ++j)
+    for (auto& f : run.force) f.values[j] += 3 * std::sin(2 * std::numbers::pi * 50 * run.time[j]);
+  const auto p = fit::prepare(run, usual);
+  EXPECT_THAT(p.steps, Contains(HasSubstr("hum of the mains")));
+  const auto fit = fit::fit_morison(cylinder, p.record);
+  EXPECT_NEAR(*fit.cd.value, truth_cd, 5 * by_derivatives);
+  EXPECT_LT(fit.residual_rms, 0.05);  // of an amplitude of 6 N that came in
+}
+
+TEST(Prepare, ReadsACoarsePotentiometer) {
+  RawRun run = clean();
+  for (double& x : run.position) x = 0.005 * std::round(x / 0.005);  // 145 levels
+  const auto p = fit::prepare(run, usual);
+  EXPECT_THAT(p.steps, Contains(HasSubstr("position knows 145 levels")));
+  const auto fit = fit::fit_morison(cylinder, p.record);
+  // 1.4 mm of noise, averaged over the window of the derivative; the acceleration keeps about 1 % of itself.
+  EXPECT_NEAR(*fit.cd.value, truth_cd, 0.02);
+  EXPECT_NEAR(*fit.inertia.value, truth_ca, 0.02);
+}
+
+TEST(Prepare, SaysThatALoadCellWasAtItsStop) {
+  RawRun run = clean();
+  for (double& f : run.force[0].values) f = std::min(f, 8.0);
+  const auto p = fit::prepare(run, usual);
+  EXPECT_THAT(p.cautions, Contains(HasSubstr("F1 stands at 8 in")));
+}
+
+TEST(Prepare, RefusesAChannelThatGaveNothing) {
+  RawRun run = clean();
+  for (double& f : run.force[1].values) f = 0.013;
+  EXPECT_THAT([&] { fit::prepare(run, usual); }, ThrowsMessage<hydro::InputError>(HasSubstr("F2 is 0.013 throughout")));
+}
+
+TEST(Prepare, FindsAChannelWithTheWrongSign) {
+  RawRun run = clean();
+  for (double& f : run.force[1].values) f = -f;
+  EXPECT_THAT([&] { fit::prepare(run, usual); }, ThrowsMessage<hydro::InputError>(HasSubstr("wrong sign")));
+  for (double& f : run.force[0].values) f = -f;  // now both
+  EXPECT_THAT(fit::sign_trouble(cylinder, fitted(run)), HasSubstr("wrong sign"));
+  EXPECT_THAT(fit::sign_trouble(cylinder, fitted(clean())), IsEmpty());
+}
+
+TEST(Prepare, BridgesGapsAndSpikesWithinLimits) {
+  RawRun run = clean();
+  RawRun holes;
+  holes.force = {{"F1", {}, {}}, {"F2", {}, {}}};
+  for (std::size_t j = 0; j < run.time.size(); ++j) {
+    if (j % 997 < 6) continue;  // six rows lost now and then
+    holes.time.push_back(run.time[j]);
+    holes.position.push_back(run.position[j]);
+    for (std::size_t i = 0; i < 2; ++i)
+      holes.force[i].values.push_back(run.force[i].values[j] + (j % 1501 == 30 ? 40 : 0));
+  }
+  PrepareOptions options = usual;
+  EXPECT_THAT([&] { fit::prepare(holes, options); }, ThrowsMessage<hydro::InputError>(HasSubstr("are missing")));
+  options.longest_gap_s = 0.05;
+  options.outlier_half_window = 10;
+  const auto p = fit::prepare(holes, options);
+  EXPECT_THAT(p.steps, Contains(HasSubstr("samples were missing")));
+  const auto fit = fit::fit_morison(cylinder, p.record);
+  EXPECT_NEAR(*fit.cd.value, truth_cd, 0.005);  // straight lines over 0.035 s lose ω²τ²/8 = 4e-4 of each harmonic
+  EXPECT_NEAR(*fit.inertia.value, truth_ca, 0.005);
+}
+
+TEST(Prepare, TurnsVoltsIntoNewtonsAndKeepsTheErrorsOfTheLine) {
+  RawRun run = clean();
+  fit::Calibration line{};
+  line.slope = 0.0933;
+  line.offset = 0.4;
+  line.slope_error = 0.000933;  // 1 %
+  line.hysteresis = 0.002;
+  line.range = 15;
+  const auto rest = froude_test::ar1_noise(4000, 0.8, 0.002, 4);
+  for (auto& f : run.force) {
+    for (double& v : f.values) v = 0.55 + 0.0933 * v;  // the zero has drifted since the calibration
+    f.calibration = line;
+    for (const double e : rest) f.zero_run.push_back(0.55 + e);
+  }
+  const auto p = fit::prepare(run, usual);
+  EXPECT_THAT(p.steps, Contains(HasSubstr("F1 has 0.0933")));
+  EXPECT_THAT(p.steps, Contains(HasSubstr("zero: 5.89")));  // 0.55/0.0933 = 5.895 and the noise of the mean
+  ASSERT_EQ(p.force_errors.size(), 4u);
+  const auto fit = fit::fit_morison(cylinder, p.record, {.force_errors = p.force_errors});
+  EXPECT_NEAR(*fit.cd.value, truth_cd, 0.005);
+  ASSERT_GE(fit.budget.size(), 4u);
+  EXPECT_NEAR(fit.budget[0].cd, 0.6 * 0.01 * truth_cd, 1e-3);  // F1 carries 0.6 of the force
+  EXPECT_NEAR(fit.budget[2].cd, 0.4 * 0.01 * truth_cd, 1e-3);
+}
+
+TEST(Prepare, CountsTheVelocityAcrossInTheDragOfAHorizontalCylinder) {
+  fit::Cylinder fixed = cylinder;
+  fixed.experiment = fit::Experiment::water_moves;
+  fixed.mass_beyond_load_cells = 0;
+  RawRun run;
+  run.force = {{"F", {}, {}}};
+  const double omega = 2 * std::numbers::pi / 3;
+  for (int j = 0; j < 3000; ++j) {
+    const double t = 0.01 * j, u = 0.5 * std::cos(omega * t), w = 0.4 * std::sin(omega * t);
+    const double a = -0.5 * omega * std::sin(omega * t);
+    run.time.push_back(t);
+    run.velocity.push_back(u);
+    run.cross_velocity.push_back(w);
+    run.acceleration.push_back(a);
+    run.force[0].values.push_back(997 * fixed.volume() * 1.8 * a +
+                                  0.5 * 997 * 0.06 * 1.4 * std::sqrt(u * u + w * w) * u);
+  }
+  const auto fit = fit::fit_morison(fixed, fit::prepare(run, usual).record);
+  EXPECT_NEAR(*fit.cd.value, 1.4, 1e-6);  // the filter's settling leaves 1e-4 of 1e-4
+  EXPECT_NEAR(*fit.inertia.value, 1.8, 1e-6);
+  run.cross_velocity.clear();
+  EXPECT_GT(*fit::fit_morison(fixed, fit::prepare(run, usual).record).cd.value, 1.5);
+}
+
+}  // namespace
