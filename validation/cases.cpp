@@ -28,7 +28,7 @@ Outcome huijgen_sea(const Folders& folders);
 Outcome hulme(const Folders& folders);
 Outcome interval_coverage(const Folders& folders);
 Outcome moorings(const Folders& folders);
-Outcome oc3_line(const Folders& folders);
+Outcome oc3_line_case(const Folders& folders);
 Outcome irf_a5(const Folders& folders);
 Outcome kramers_kronig(const Folders& folders);
 Outcome morison(const Folders& folders);
@@ -89,7 +89,7 @@ const std::vector<Case>& cases() {
       {"irf-a5", irf_a5},
       {"ball-drops", ball_drops},
       {"moorings", moorings},
-      {"oc3-line", oc3_line},
+      {"oc3-line", oc3_line_case},
       {"pendulums", pendulums},
       {"roll-decay", roll_decay},
   };

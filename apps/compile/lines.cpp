@@ -22,6 +22,7 @@ dl::Segment segment(const scene::Line& l, const scene::Line::Link& link) {
   if (l.axial_stiffness) s.axial_stiffness = *l.axial_stiffness;
   s.axial_damping = l.axial_damping;
   s.pulls_only = l.pulls_only;
+  s.sags = l.sags;
   s.diameter = l.diameter;
   if (l.morison) {
     s.cd = l.morison->cd;

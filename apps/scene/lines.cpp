@@ -86,6 +86,7 @@ void build_lines(const Record& root, const std::filesystem::path& file, Names& n
     if (record.has("axial_stiffness")) line.axial_stiffness = record.si("axial_stiffness");
     line.axial_damping = number("axial_damping");
     line.pulls_only = record.has("pulls_only");
+    line.sags = record.has("sags");
     line.buoyancy = record.has("buoyancy");
     line.partial_immersion = record.has("partial_immersion");
     if (record.has("morison")) {

@@ -262,7 +262,7 @@ struct Line {
   double diameter = 0;                    ///< m
   std::optional<double> axial_stiffness;  ///< N; empty: keeps its length
   double axial_damping = 0;               ///< N s
-  bool pulls_only = false, buoyancy = false, partial_immersion = false;
+  bool pulls_only = false, sags = false, buoyancy = false, partial_immersion = false;
   std::optional<Water> morison;
   std::optional<Damping> damping;
   std::optional<Bed> bed;

@@ -118,7 +118,7 @@ const Table& line_table() {
            inner_table("bed", bed()).optional().only_beside("diameter"),
            inner_table("release", release()).optional(),
            inner_table("lead", lead()).optional()},
-      .groups = {{exactly_one, {"length", "link"}}}};
+      .groups = {{exactly_one, {"length", "link"}}, {at_most_one, {"pulls_only", "sags"}}}};
   return table;
 }
 

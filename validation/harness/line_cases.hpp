@@ -36,6 +36,7 @@ struct MooringLine {
     s.cd = cd;
     s.cd_tangential = cd_tangential;
     s.ca = ca;
+    s.sags = true;
     d.segments.assign(static_cast<std::size_t>(segments), s);
     d.held = {{.node = 0}, {.node = segments, .path = std::move(lead)}};
     d.gravity = water.gravity;
@@ -64,7 +65,7 @@ struct EndPulls {
 };
 inline EndPulls end_pulls(const MooringLine& m, const dynamics::line::State& s) {
   const dynamics::line::Line line(m.description(static_cast<int>(s.tension.size())));
-  dynamics::line::Stepper stepper(line, {});
+  dynamics::line::Stepper stepper(line, {.scheme = dynamics::line::Scheme::generalised_alpha});
   const auto balance = *stepper.balance(s);
   return {-balance.holding.rightCols<1>(), -balance.holding.leftCols<1>()};
 }

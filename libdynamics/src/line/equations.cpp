@@ -80,6 +80,7 @@ Equations::Pull Equations::pull(int j, const Stage& stage, const State& before, 
   p.law_by_T = 1 / k;
   p.law_by = -(answer.by_stretch * t1 + answer.by_damper * c * rate_by) / k;
   if (at_once) p.law_by.setZero();
+  if (s.sags) sag(j, T, p);
   return p;
 }
 
@@ -146,6 +147,7 @@ void Equations::add_pulls(const Stage& stage, const State& before, const VectorX
     residual_.col(j) -= T[j] * p.direction;
     residual_.col(j + 1) += T[j] * p.direction;
     law_[j] = p.law;
+    for (int i = 0; i < 2; ++i) residual_(2, j + i) -= p.sag.relief[i];
     if (!matrix) continue;
     const Matrix3d stiffness = stage.x_by == 0 ? Matrix3d::Zero() : Matrix3d(T[j] * p.direction_by);
     add_block(j, j, stiffness);
@@ -161,6 +163,7 @@ void Equations::add_pulls(const Stage& stage, const State& before, const VectorX
     // 1e-13 of its change chooses the least, and changes nothing where it is determined.
     matrix_(tension_index(j), tension_index(j)) =
         line_.segment(j).keeps_length() ? -undetermined * scale_ : scale_ * scale_ * p.law_by_T;
+    if (line_.segment(j).sags) add_sag_derivatives(j, p, stage);
   }
 }
 

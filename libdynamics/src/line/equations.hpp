@@ -6,6 +6,7 @@
 
 #include "band_matrix.hpp"
 #include "loads.hpp"
+#include "sag.hpp"
 
 namespace dynamics::line {
 
@@ -58,7 +59,7 @@ class Equations {
 
   Powers powers(const Stage& stage, const State& before, const Places& u, const Eigen::VectorXd& T);
   /// Stored in stretched segments, and in the bed, J.
-  double stored_in_segments(const State& state) const;
+  double stored_in_segments(const State& state);
   double stored_in_bed(const State& state) const;
   double kinetic(const Places& v) const;
 
@@ -72,7 +73,12 @@ class Equations {
     double law, law_by_T;
     Eigen::Vector3d law_by;
     double lost = 0;  ///< by its damper, W
+    Sag sag = {};     ///< of a segment that sags; by_height and by_level in the law come on top of law_by
+    Eigen::Vector3d level_by = Eigen::Vector3d::Zero();  ///< of cos² of the slope by that vector
   };
+  void add_sag_derivatives(int j, const Pull& p, const Stage& stage);
+  void sag(int j, double T, Pull& p) const;
+  double tension_of_sag(int j, const Stage& stage, const State& before) const;
   /// The bed's force up on a node, N, its derivative by the node's depth at the end of the step, and what it takes, W.
   struct Push {
     double force, by_end, lost;

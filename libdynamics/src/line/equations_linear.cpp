@@ -19,9 +19,14 @@ bool Equations::accelerations(const State& state, Places& a, VectorXd& T) {
   a = Places::Zero(3, line_.nodes());
   T = VectorXd::Zero(line_.segments());
   const Stage now = instant(state, a);
+  move(now, state, a);
+  for (int j = 0; j < line_.segments(); ++j)
+    if (line_.segment(j).sags) T[j] = tension_of_sag(j, now, state);
   assemble(now, state, a, T, true);
   const Places led = a_;  // of nodes along paths
-  if (!solve_linear(a, T)) return false;
+  VectorXd dT(line_.segments());
+  if (!solve_linear(a, dT)) return false;
+  T += dT;
   a += led;
   return true;
 }
@@ -109,11 +114,21 @@ double Equations::kinetic(const Places& v) const {
   return sum;
 }
 
-double Equations::stored_in_segments(const State& state) const {
+double Equations::stored_in_segments(const State& state) {
   double sum = 0;
+  State still = state;
+  still.velocity.setZero();
+  const Places none = Places::Zero(3, line_.nodes());
+  move(instant(still, none), still, none);
   for (int j = 0; j < line_.segments(); ++j) {
     const Segment& s = line_.segment(j);
     if (s.keeps_length()) continue;
+    if (s.sags) {
+      const double T = tension_of_sag(j, instant(still, none), still), r = (x_.col(j + 1) - x_.col(j)).norm();
+      sum += T * (r - s.length) - T * T * s.length / (2 * s.axial_stiffness) +
+             pull(j, instant(still, none), still, T).sag.stored;
+      continue;
+    }
     double stretch = (state.position.col(j + 1) - state.position.col(j)).norm() - s.length;
     if (s.pulls_only) stretch = std::max(stretch, 0.0);
     sum += s.axial_stiffness / s.length / 2 * stretch * stretch;

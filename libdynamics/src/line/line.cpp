@@ -23,6 +23,8 @@ void check(const Segment& s, std::size_t j) {
           j + 1, s.axial_damping);
   require(!(s.pulls_only && s.keeps_length()),
           "segment {} keeps its length, so it cannot go slack: give it an axial stiffness", j + 1);
+  require(!(s.sags && (s.keeps_length() || s.pulls_only)),
+          "segment {} sags, so it needs an axial stiffness and never goes slack: leave pulls_only out", j + 1);
   require(!(s.axial_damping > 0 && s.keeps_length()), "segment {} keeps its length, so its axial damping cannot act",
           j + 1);
   require(s.diameter >= 0 && s.cd >= 0 && s.cd_tangential >= 0 && s.ca >= 0,
@@ -58,7 +60,7 @@ Line::Line(Description description) : d_(std::move(description)) {
   const bool always_lifted = d_.water.wet == Wet::all && d_.water.buoyancy;
   const Eigen::Index n = nodes();
   diagonal_ = bed_area_ = Eigen::VectorXd::Zero(n);
-  between_ = Eigen::VectorXd::Zero(n - 1);
+  between_ = sag_weight_ = Eigen::VectorXd::Zero(n - 1);
   constant_ = Places::Zero(3, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const Node& node = d_.nodes[static_cast<std::size_t>(i)];
@@ -78,6 +80,8 @@ Line::Line(Description description) : d_(std::move(description)) {
     constant_(2, j) -= s.mass * d_.gravity * (1 - s.centre);
     constant_(2, j + 1) -= s.mass * d_.gravity * s.centre;
     const double lift = always_lifted ? buoyancy(s, *d_.water.field) : 0;
+    sag_weight_[j] = (s.mass * d_.gravity - lift) / s.length;
+    require(!s.sags || sag_weight_[j] > 0, "segment {} sags, but it weighs {} N/m in water", j + 1, sag_weight_[j]);
     for (const Eigen::Index i : {j, j + 1}) {
       constant_(2, i) += lift / 2;
       bed_area_[i] += s.diameter * s.length / 2;

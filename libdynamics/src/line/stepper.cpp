@@ -59,8 +59,13 @@ Stepper::Stepper(const Line& line, const Settings& settings) : work_(std::make_u
                  "rho_infinity must lie between 0 and 1, got {}", settings.rho_infinity);
   hydro::require(settings.gamma > 0 && settings.gamma <= 1, "gamma must lie above 0 and not above 1, got {}",
                  settings.gamma);
-  bool kept = false;
-  for (int j = 0; j < line.segments(); ++j) kept = kept || line.segment(j).keeps_length();
+  bool kept = false, sags = false;
+  for (int j = 0; j < line.segments(); ++j) {
+    kept = kept || line.segment(j).keeps_length();
+    sags = sags || line.segment(j).sags;
+  }
+  if (settings.scheme == Scheme::energy_momentum && sags)
+    throw hydro::InputError("energy-momentum has no means of segments that sag", {}, "step with \"generalised_alpha\"");
   if (settings.scheme == Scheme::generalised_alpha && settings.rho_infinity == 1 && kept)
     throw hydro::InputError(
         "generalised-α with rho_infinity = 1 lets the tensions of segments that keep their length grow", {},

@@ -24,7 +24,8 @@ struct Segment {
   double axial_stiffness = std::numeric_limits<double>::infinity();  ///< EA, N; ∞: keeps its length
   double axial_damping = 0;                                          ///< N per strain rate, N s
   bool pulls_only = false;                                           ///< goes slack instead of being pressed
-  double diameter = 0;                                               ///< of what the water and the bed meet, m
+  bool sags = false;    ///< hangs through between its nodes and rests on the bed in part, by its weight in water (D88)
+  double diameter = 0;  ///< of what the water and the bed meet, m
   double cd = 0, cd_tangential = 0, ca = 0;  ///< drag across the axis and of the skin πD, added mass across (D74)
 
   /// A uniform rod, or half the mass at either end.
@@ -103,6 +104,8 @@ class Line {
   /// The mass matrix (D71) is block-tridiagonal with m ⊗ 1: its diagonal, and what joins nodes j and j + 1, kg.
   double mass(int i) const { return diagonal_[i]; }
   double mass_between(int j) const { return between_[j]; }
+  /// Weight in water of a segment that sags, N/m.
+  double sag_weight(int j) const { return sag_weight_[j]; }
   /// Weight, buoyancy of what is always wet, and the given constant load of each node, N.
   const Places& constant_load() const { return constant_; }
   /// Area of bed under a node, m²: diameter times half of each segment beside it.
@@ -114,7 +117,7 @@ class Line {
   void find_held();
   Description d_;
   std::vector<int> held_;  // index into d_.held, −1: free
-  Eigen::VectorXd diagonal_, between_, bed_area_;
+  Eigen::VectorXd diagonal_, between_, bed_area_, sag_weight_;
   Places constant_;
 };
 

@@ -1,0 +1,72 @@
+#pragma once
+/// \file  What a segment's own weight does between its nodes: it hangs through, and near the bed it rests in part.
+/// (D88)
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dynamics::line {
+
+/// A segment of unstretched length ℓ and weight w per length in water, with the heights of its ends above the bed.
+struct Span {
+  double length, weight;
+  double height[2];  ///< +∞ without a bed
+  double level;      ///< cos² of its slope
+  double rounding;   ///< δ, heights below which lifting off is rounded, m
+};
+
+/// How much shorter the chord is than the line, and what of the weight the bed takes off both ends, N; with
+/// derivatives.
+struct Sag {
+  double shortening = 0, by_tension = 0, by_height[2] = {0, 0}, by_level = 0;
+  double stored = 0;  ///< S of (D88), J
+  double relief[2] = {0, 0}, relief_by_tension[2] = {0, 0}, relief_by_height[2][2] = {{0, 0}, {0, 0}};
+};
+
+inline Sag sag_of(const Span& s, double tension) {
+  const double w = s.weight, l = s.length, T = std::max(tension, 1e-3 * w * l);
+  Sag out;
+  double g[2], slope[2], q[2];
+  for (int i = 0; i < 2; ++i) {
+    if (std::isinf(s.height[i])) {
+      g[i] = q[i] = std::numeric_limits<double>::infinity();
+      slope[i] = 1;
+      continue;
+    }
+    const double root = std::hypot(s.height[i], s.rounding);
+    g[i] = (s.height[i] + root) / 2;
+    slope[i] = (1 + s.height[i] / root) / 2;
+    q[i] = std::sqrt(2 * T * g[i] / w);  // what hangs at this end
+  }
+  if (q[0] + q[1] >= l) {  // all of it hangs: w²ℓ³/24T²
+    const double sag = w * w * l * l * l / (24 * T * T);
+    out.shortening = sag * s.level;
+    out.by_tension = -2 * out.shortening / T;
+    out.by_level = sag;
+    out.stored = -T * out.shortening;
+  } else {
+    const double rise = g[1] - g[0], root = std::sqrt(w / T);
+    double sag = -rise * rise / (2 * l);
+    for (int i = 0; i < 2; ++i) {
+      const double part = root * std::pow(2 * g[i], 1.5) / 6, sign = i == 1 ? 1 : -1;
+      sag += part;
+      out.stored += 2 * T * part * s.level - w * l * g[i] / 2;
+      out.by_tension -= part / (2 * T) * s.level;
+      out.by_height[i] = (root * std::sqrt(2 * g[i]) / 2 - sign * rise / l) * slope[i] * s.level;
+      out.relief[i] = w * l / 2 - w * q[i] + sign * T * rise / l;
+      out.relief_by_tension[i] = -w * q[i] / (2 * T) + sign * rise / l;
+      out.relief_by_height[i][i] = (-w * q[i] / (2 * g[i]) + T / l) * slope[i];
+      out.relief_by_height[i][1 - i] = -T / l * slope[1 - i];
+    }
+    out.shortening = sag * s.level;
+    out.stored -= T * rise * rise / (2 * l) * s.level;
+    out.by_level = sag;
+  }
+  if (tension < T) {  // held at the least tension
+    out.by_tension = 0;
+    out.relief_by_tension[0] = out.relief_by_tension[1] = 0;
+  }
+  return out;
+}
+
+}  // namespace dynamics::line

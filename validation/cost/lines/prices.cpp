@@ -1,0 +1,220 @@
+/// \file  Writes the price list of lines: docs/cost/lines.md and its picture. See README.md.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <iostream>
+#include <numbers>
+
+#include "dynamics/line/equilibrium.hpp"
+#include "dynamics/line/stepper.hpp"
+#include "froude/plot.hpp"
+#include "harness/oc3_line.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/io/atomic_file.hpp"
+#include "hydro/waves/sea.hpp"
+#include "hydro/waves/summed_field.hpp"
+#include "support/line_models.hpp"
+
+namespace froude::cost {
+namespace {
+
+namespace dl = dynamics::line;
+constexpr double pi = std::numbers::pi;
+
+/// Milliseconds of processor time.
+class Watch {
+ public:
+  double ms() const { return 1e3 * static_cast<double>(std::clock() - begin_) / CLOCKS_PER_SEC; }
+
+ private:
+  std::clock_t begin_ = std::clock();
+};
+
+// ---- the mooring line ----
+
+struct Moored {
+  std::vector<double> tension;  ///< at the fairlead every 0.1 s from 20 to 30 s, N
+  double ms_per_s;
+};
+
+Moored moored(int segments, double h, const dl::Stepper::Settings& settings) {
+  const validation::MooringLine m = validation::oc3_line();
+  const dl::Line line(m.description(segments, std::make_shared<validation::Oc3Moved>(m.fairlead)));
+  dl::State s = m.at_rest(segments);
+  dl::Stepper stepper(line, settings);
+  stepper.start(s);
+  Moored out;
+  double working = 0;
+  const auto per_sample = static_cast<int>(std::lround(0.1 / h));
+  for (int i = 1; i <= 300; ++i) {
+    const Watch watch;
+    for (int k = 0; k < per_sample; ++k) stepper.step(s, h);
+    working += watch.ms();
+    if (i > 200) out.tension.push_back(stepper.balance(s)->holding.rightCols<1>().norm());
+  }
+  out.ms_per_s = working / 30;
+  return out;
+}
+
+/// Root mean square difference over the range of the reference.
+double difference(const Moored& a, const Moored& reference) {
+  double sum = 0, low = 1e12, high = 0;
+  for (std::size_t i = 0; i < a.tension.size(); ++i) {
+    sum += std::pow(a.tension[i] - reference.tension[i], 2);
+    low = std::min(low, reference.tension[i]);
+    high = std::max(high, reference.tension[i]);
+  }
+  return std::sqrt(sum / static_cast<double>(a.tension.size())) / (high - low);
+}
+
+std::string mooring_list(plot::Panel& panel) {
+  constexpr double exact = 911.09;  // kN, closed form
+  const std::vector<std::pair<int, const char*>> peer{{20, "0.83"}, {50, "1.4"}, {100, "3.6"}, {200, "21"}, {1000, ""}};
+  const dl::Stepper::Settings damped{.scheme = dl::Scheme::generalised_alpha, .tolerance = 1e-6},
+      keeping{.tolerance = 1e-6};
+  const Moored reference = moored(200, 0.0125, {.scheme = dl::Scheme::generalised_alpha});
+  std::string text =
+      "| segments | rest [ms] | static tension off by | step [s] | generalised-α [ms/s] | error | energy-momentum "
+      "[ms/s] | "
+      "error | explicit peer [ms/s] |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+  plot::Series one{.name = "generalised-alpha", .x = {}, .y = {}, .line = false, .marks = true},
+      two{.name = "energy-momentum", .x = {}, .y = {}, .line = false, .marks = true};
+  for (const auto& [n, theirs] : peer) {
+    const validation::MooringLine m = validation::oc3_line();
+    const Watch watch;
+    const dl::State rest = m.at_rest(n);
+    const double rest_ms = watch.ms();
+    const double off = validation::end_pulls(m, rest).fairlead.norm() / 1e3 / exact - 1;
+    hydro::require(std::abs(off) < 2e-3, "{} segments: the static tension is off by {}", n, off);
+    for (const double h : {0.1, 0.05}) {
+      if (n == 1000 && h < 0.1) continue;
+      const Moored a = moored(n, h, damped), e = moored(n, h, keeping);
+      const double error_a = difference(a, reference), error_e = difference(e, reference);
+      hydro::require(error_a < 0.1, "{} segments, step {} s: generalised-α is off by {}", n, h, error_a);
+      text += fmt::format("| {} | {:.2g} | {:.1g} % | {} | {:.3g} | {:.1g} % | {:.3g} | {:.1g} % | {} |\n", n, rest_ms,
+                          100 * off, h, a.ms_per_s, 100 * error_a, e.ms_per_s, 100 * error_e, h == 0.1 ? theirs : "");
+      std::cerr << n << " segments, step " << h << " s\n";
+      one.x.push_back(a.ms_per_s), one.y.push_back(error_a);
+      two.x.push_back(e.ms_per_s), two.y.push_back(error_e);
+    }
+  }
+  panel = {.x = {.label = "time per simulated second", .unit = "ms", .scale = plot::Scale::logarithmic},
+           .y = {.label = "rms error of the tension over its range", .scale = plot::Scale::logarithmic},
+           .series = {one, two}};
+  return text;
+}
+
+// ---- loops of links ----
+
+/// One second of a loop of n links swung across, undamped: microseconds a node and step, and the energy lost.
+std::string loop_row(int n, const dl::Stepper::Settings& settings) {
+  const dl::Line line(support::loop(n));
+  dl::State s = dl::hanging_shape(line, support::ends_at(line, {2.5, 0, 0}));
+  for (int i = 1; i < n; ++i) s.velocity(1, i) = std::sin(pi * i / n);
+  dl::Stepper stepper(line, settings);
+  stepper.start(s);
+  const double lively = stepper.energies().kinetic, h = 0.01;
+  int iterations = 0;
+  const Watch watch;
+  try {
+    for (int i = 0; i < 100; ++i) iterations += stepper.step(s, h).newton_iterations;
+  } catch (const hydro::NumericsError&) {
+    return " – | – | – |";
+  }
+  return fmt::format(" {:.3g} | {:.2f} | {:.1g} |", watch.ms() * 10 / (n + 1), iterations / 100.0,
+                     std::abs(stepper.energies().residual()) / lively);
+}
+
+std::string loop_list() {
+  std::string text =
+      "| scheme | links | µs a node and step | Newton iterations a step | energy not accounted for, of the kinetic "
+      "|\n| --- | --- | --- | --- | --- |\n";
+  struct Named {
+    const char* name;
+    dl::Stepper::Settings settings;
+  };
+  for (const Named& s :
+       {Named{"energy-momentum", {}}, Named{"generalised-α, 0.8", {.scheme = dl::Scheme::generalised_alpha}},
+        Named{"γ = 0.51", {.scheme = dl::Scheme::gamma}},
+        Named{"implicit Euler", {.scheme = dl::Scheme::gamma, .gamma = 1}},
+        Named{"semi-implicit Euler", {.scheme = dl::Scheme::semi_implicit_euler}},
+        Named{"explicit Euler", {.scheme = dl::Scheme::explicit_euler}}})
+    for (const int n : {7, 20, 100, 1000, 10000}) {
+      // What must be halved a thousand times over would take hours to say that it cannot go on.
+      if (s.settings.scheme >= dl::Scheme::semi_implicit_euler && n > 100) continue;
+      text += fmt::format("| {} | {} |{}\n", s.name, n, loop_row(n, s.settings));
+    }
+  return text;
+}
+
+// ---- the water by itself ----
+
+std::string water_list() {
+  std::string text =
+      "| waves | nodes | of the waves at all nodes once [µs] | whole step with them [µs] | without [µs] |\n| --- | --- "
+      "| --- | --- | --- |\n";
+  const hydro::Water water{.density = 1000, .gravity = 9.81, .depth = hydro::WaterDepth::from_metres(30)};
+  for (const int waves : {1, 100, 231}) {
+    std::vector<hydro::waves::GivenWave> list;
+    for (int i = 0; i < waves; ++i)
+      list.push_back({hydro::AngularFrequency::from_period_s(4 + 8.0 * i / waves),
+                      hydro::WaveAmplitude::from_metres(0.05), 0.1 * i * i, hydro::Angle::from_degrees(90)});
+    const auto field = std::make_shared<hydro::waves::SummedField>(hydro::waves::linear_field(
+        hydro::waves::Sea::of(list, water), {.stretching = hydro::waves::Stretching::vertical}));
+    dl::Description d = support::loop(18);
+    for (dl::Segment& s : d.segments) s.diameter = 0.05, s.cd = 2;
+    const auto step_us = [](const dl::Description& of) {
+      const dl::Line line(of);
+      dl::State s = dl::hanging_shape(line, support::ends_at(line, {2.5, 0, 0}));
+      dl::Stepper stepper(line, {});
+      stepper.start(s);
+      const Watch watch;
+      for (int i = 0; i < 500; ++i) stepper.step(s, 0.03);
+      return watch.ms() * 1e3 / 500;
+    };
+    const double dry = step_us(d);
+    d.water = {.field = field, .wet = dl::Wet::all};
+    std::vector<Eigen::Vector3d> points(19, Eigen::Vector3d(1, 1, -3));
+    std::vector<hydro::waves::Kinematics> out(19);
+    const Watch watch;
+    for (int i = 0; i < 2000; ++i) field->at(0.01 * i, points, out);
+    const double alone = watch.ms() * 1e3 / 2000;
+    text += fmt::format("| {} | 19 | {:.3g} | {:.3g} | {:.3g} |\n", waves, alone, step_us(d), dry);
+  }
+  return text;
+}
+
+}  // namespace
+}  // namespace froude::cost
+
+int main(int argc, char** argv) {
+  using namespace froude::cost;
+  if (argc != 2) {
+    std::cerr << "usage: price_lines FOLDER\n";
+    return 2;
+  }
+  const std::filesystem::path folder = argv[1];
+  froude::plot::Panel panel;
+  std::string text =
+      "# What lines cost\n\nWritten by `price_lines` (validation/cost/lines), one core, processor time, other work "
+      "beside it.\n\n"
+      "## The OC3 mooring line\n\n902 m of chain on a bed, its fairlead moved by 2 m and 1 m at 10 s (case oc3-line). "
+      "The error is the root mean square over the range of the tension from 20 to 30 s, against 200 segments "
+      "and a step of 12.5 ms. Times of the explicit peer are those reported for it, on another day.\n\n![error against "
+      "time](lines.svg)\n\n";
+  text += mooring_list(panel);
+  text +=
+      "\n## Loops of links\n\n17 m in n links, swung across at 1 m/s, nothing damps, step 10 ms. A dash: the scheme "
+      "could not go on.\n\n";
+  text += loop_list();
+  text +=
+      "\n## Waves at the nodes\n\nThe dropper of 18 links, step 30 ms; the waves are asked once an iteration and once "
+      "more for the ledger.\n\n";
+  text += water_list();
+  hydro::io::write_atomically(folder / "lines.md", text);
+  hydro::io::write_atomically(folder / "lines.svg",
+                              froude::plot::svg({.title = "OC3 line: error against time", .panels = {panel}}));
+  return 0;
+}
