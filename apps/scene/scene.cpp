@@ -150,7 +150,7 @@ Solve build_solve(const Record& solve) {
   out.integrator_place = integrator["name"].place;
   out.rho_infinity = integrator.si("rho_infinity");
   out.tolerance = integrator.si("tolerance");
-  const bool lines_alike = integrator.has("lines") && integrator.text("lines") == "generalised_alpha";
+  const bool lines_alike = integrator.has("lines") && integrator.text("lines") == "generalized_alpha";
   const auto only_of = [&](std::string_view key, std::string_view method) {
     if (integrator[key].defaulted || out.integrator == method) return;
     throw integrator.wrong(key, fmt::format("acts only with name = \"{}\"", method), "leave it out");

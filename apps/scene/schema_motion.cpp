@@ -474,7 +474,7 @@ const Table& integrator() {
               .or_default("1e-8", "far below any other error of a run"),
           text("lines",
                "how each [[line]] is stepped; left out: energy_momentum, which keeps energy and lengths at any step")
-              .one_of({"energy_momentum", "generalised_alpha", "gamma", "semi_implicit_euler", "explicit_euler"})
+              .one_of({"energy_momentum", "generalized_alpha", "gamma", "semi_implicit_euler", "explicit_euler"})
               .optional(),
           number("gamma", "share of the new state in a step of lines = \"gamma\"; left out: 0.51")
               .positive()

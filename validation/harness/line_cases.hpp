@@ -19,6 +19,7 @@ struct MooringLine {
   hydro::Water water;
   std::vector<dynamics::line::Bed> bed = {};
   dynamics::line::Wet wet = dynamics::line::Wet::all;
+  bool sags = true;  ///< between its nodes (D88)
 
   double weight() const {  // in water, N/m
     return (mass_per_length - water.density * std::numbers::pi / 4 * diameter * diameter) * water.gravity;
@@ -36,7 +37,7 @@ struct MooringLine {
     s.cd = cd;
     s.cd_tangential = cd_tangential;
     s.ca = ca;
-    s.sags = true;
+    s.sags = sags;
     d.segments.assign(static_cast<std::size_t>(segments), s);
     d.held = {{.node = 0}, {.node = segments, .path = std::move(lead)}};
     d.gravity = water.gravity;

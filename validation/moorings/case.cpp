@@ -130,7 +130,8 @@ MooringLine jumper() {
           .anchor = {-100, 0, -55},
           .fairlead = {0, 0, -5},
           .water = {.density = 1000, .gravity = 9.807, .depth = hydro::WaterDepth::from_metres(100)},
-          .wet = dynamics::line::Wet::below_surface};
+          .wet = dynamics::line::Wet::below_surface,
+          .sags = false};
 }
 
 class Driven final : public dynamics::line::Path {

@@ -206,58 +206,73 @@ bool Equations::solve_linear(Places& du, VectorXd& dT) {
   return du.allFinite() && dT.allFinite();
 }
 
-Equations::Outcome Equations::solve(const Stage& stage, const State& before, double tolerance, int most, Places& u,
-                                    VectorXd& T) {
+void Equations::scale_for(const Stage& stage, const VectorXd& T) {
   scale_ = std::max(stage.relax, 1e-300);
   for (int i = 0; i < line_.nodes(); ++i) scale_ = std::max(scale_, line_.mass(i) * std::abs(stage.a_by));
   for (int j = 0; j < line_.segments(); ++j) scale_ = std::max(scale_, std::abs(T[j]) / line_.segment(j).length);
-  for (const Held& h : line_.description().held)
-    u.col(h.node) = h.path ? (h.path->at(stage.end).position - before.position.col(h.node)).eval() : Vector3d::Zero();
-  Outcome out;
-  Places du(3, line_.nodes()), trial;
-  VectorXd dT(line_.segments()), trial_T;
-  out.size = assemble(stage, before, u, T, true);
-  const double extent = before.position.cwiseAbs().maxCoeff();
-  const double balanced = 4e-16 * extent * std::sqrt(static_cast<double>(rhs_.size()));  // all that doubles can tell
-  const double rounding = stage.rounding * extent;
-  for (out.iterations = 1; out.iterations <= most; ++out.iterations) {
-    if (!std::isfinite(out.size) || !solve_linear(du, dT)) {
-      out.why = "its equations are singular or not finite";
-      break;
-    }
-    const double step = du.cwiseAbs().maxCoeff(), pull = dT.cwiseAbs().maxCoeff();
-    double share = 1, size = 0;
-    for (int cut = 0; cut < 12; ++cut, share /= 2) {
-      trial = u + share * du;
-      trial_T = T + share * dT;
-      size = assemble(stage, before, trial, trial_T, true);
-      if (size <= (1 - 1e-4 * share) * out.size || step <= rounding) break;
-    }
-    const bool small = step <= std::max(tolerance * trial.cwiseAbs().maxCoeff(), rounding) &&
-                       pull <= tolerance * std::max(trial_T.cwiseAbs().maxCoeff(), scale_ * step / tolerance);
-    if (!(size <= out.size) && out.size <= balanced) {
-      out.converged = true;
-      return out;
-    }
-    if (!(size <= out.size) && !small) {
-      out.why = "no part of Newton's correction brings it nearer to balance";
-      break;
-    }
-    u = trial;
-    T = trial_T;
-    out.size = size;
-    if (small) {
-      out.converged = true;
-      return out;
-    }
+}
+
+/// As much of a correction as brings what is left over down, halved up to twelve times; its size is returned.
+double Equations::search(const Stage& stage, const State& before, const Correction& by, double size, bool enough,
+                         Places& u, VectorXd& T) {
+  constexpr int halvings = 12;
+  const Places from = u;
+  const VectorXd from_T = T;
+  double share = 1, left = 0;
+  for (int cut = 0; cut < halvings; ++cut, share /= 2) {
+    u = from + share * by.u;
+    T = from_T + share * by.T;
+    left = assemble(stage, before, u, T, true);
+    if (left <= (1 - 1e-4 * share) * size || enough) break;
   }
-  if (out.why.empty()) out.why = fmt::format("Newton did not converge in {} iterations", most);
+  return left;
+}
+
+int Equations::worst_node() const {
+  int worst = 0;
   double largest = -1;
   for (int i = 0; i < line_.nodes(); ++i)
     if (line_.held(i) == nullptr && !(residual_.col(i).norm() <= largest)) {
       largest = residual_.col(i).norm();
-      out.worst = i;
+      worst = i;
     }
+  return worst;
+}
+
+Equations::Outcome Equations::solve(const Stage& stage, const State& before, double tolerance, int most, Places& u,
+                                    VectorXd& T) {
+  scale_for(stage, T);
+  for (const Held& h : line_.description().held)
+    u.col(h.node) = h.path ? (h.path->at(stage.end).position - before.position.col(h.node)).eval() : Vector3d::Zero();
+  const double extent = before.position.cwiseAbs().maxCoeff(), rounding = stage.rounding * extent;
+  const double balanced = 4e-16 * extent * std::sqrt(static_cast<double>(rhs_.size()));  // all that doubles can tell
+  Correction by{Places(3, line_.nodes()), VectorXd(line_.segments())};
+  Outcome out;
+  out.size = assemble(stage, before, u, T, true);
+  for (out.iterations = 1; out.iterations <= most; ++out.iterations) {
+    if (!std::isfinite(out.size) || !solve_linear(by.u, by.T)) {
+      out.why = "its equations are singular or not finite";
+      break;
+    }
+    const Places last_u = u;
+    const VectorXd last_T = T;
+    const double step = by.u.cwiseAbs().maxCoeff(), pull = by.T.cwiseAbs().maxCoeff();
+    const double size = search(stage, before, by, out.size, step <= rounding, u, T);
+    const bool small = step <= std::max(tolerance * u.cwiseAbs().maxCoeff(), rounding) &&
+                       pull <= std::max(tolerance * T.cwiseAbs().maxCoeff(), scale_ * step);
+    const bool falls = size <= out.size;
+    if (!falls && (out.size <= balanced || !small)) {
+      u = last_u;
+      T = last_T;
+      out.converged = out.size <= balanced;
+      if (!out.converged) out.why = "no part of Newton's correction brings it nearer to balance";
+      break;
+    }
+    out.size = size;
+    if ((out.converged = small)) break;
+  }
+  if (!out.converged && out.why.empty()) out.why = fmt::format("Newton did not converge in {} iterations", most);
+  if (!out.converged) out.worst = worst_node();
   return out;
 }
 

@@ -96,6 +96,14 @@ class Equations {
   void add_block(int row, int column, const Eigen::Matrix3d& block);
   void set_pull(int j, const Eigen::Vector3d& direction);
   bool solve_linear(Places& u, Eigen::VectorXd& T);
+  struct Correction {
+    Places u;
+    Eigen::VectorXd T;
+  };
+  void scale_for(const Stage& stage, const Eigen::VectorXd& T);
+  double search(const Stage& stage, const State& before, const Correction& by, double size, bool enough, Places& u,
+                Eigen::VectorXd& T);
+  int worst_node() const;
   void scale_by_mass();
   void assemble_projection(const Places& along, const Places& x);
 

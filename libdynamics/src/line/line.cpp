@@ -81,6 +81,8 @@ Line::Line(Description description) : d_(std::move(description)) {
     constant_(2, j + 1) -= s.mass * d_.gravity * s.centre;
     const double lift = always_lifted ? buoyancy(s, *d_.water.field) : 0;
     sag_weight_[j] = (s.mass * d_.gravity - lift) / s.length;
+    require(!s.sags || d_.water.wet != Wet::below_surface,
+            "segment {} sags by its weight in water, which a line that is wet in part does not have", j + 1);
     require(!s.sags || sag_weight_[j] > 0, "segment {} sags, but it weighs {} N/m in water", j + 1, sag_weight_[j]);
     for (const Eigen::Index i : {j, j + 1}) {
       constant_(2, i) += lift / 2;

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double closed = 1e-9;  // of a length, and of a speed: what rounding of given places leaves
-constexpr std::array<std::string_view, 5> scheme_names{"energy_momentum", "generalised_alpha", "gamma",
+constexpr std::array<std::string_view, 5> scheme_names{"energy_momentum", "generalized_alpha", "gamma",
                                                        "semi_implicit_euler", "explicit_euler"};
 
 }  // namespace
@@ -65,7 +65,7 @@ Stepper::Stepper(const Line& line, const Settings& settings) : work_(std::make_u
     sags = sags || line.segment(j).sags;
   }
   if (settings.scheme == Scheme::energy_momentum && sags)
-    throw hydro::InputError("energy-momentum has no means of segments that sag", {}, "step with \"generalised_alpha\"");
+    throw hydro::InputError("energy-momentum has no means of segments that sag", {}, "step with \"generalized_alpha\"");
   if (settings.scheme == Scheme::generalised_alpha && settings.rho_infinity == 1 && kept)
     throw hydro::InputError(
         "generalised-α with rho_infinity = 1 lets the tensions of segments that keep their length grow", {},
