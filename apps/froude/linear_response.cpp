@@ -17,8 +17,7 @@ Eigen::MatrixXcd transfer(const compile::Prepared& prepared, const dynamics::Mod
                           const std::vector<compile::LinearProbe>& probes, const hydro::waves::Sea& sea) {
   Eigen::MatrixXcd out(static_cast<Eigen::Index>(probes.size()), static_cast<Eigen::Index>(sea.components().size()));
   std::map<double, std::vector<std::size_t>> by_heading;
-  for (std::size_t c = 0; c < sea.components().size(); ++c)
-    by_heading[sea.components()[c].heading].push_back(c);
+  for (std::size_t c = 0; c < sea.components().size(); ++c) by_heading[sea.components()[c].heading].push_back(c);
   for (const auto& [heading, components] : by_heading) {
     std::vector<double> omega;
     for (const std::size_t c : components) omega.push_back(sea.components()[c].omega);
