@@ -8,6 +8,7 @@
 
 #include "apps/compile/scenes.hpp"
 #include "compile/compile.hpp"
+#include "dynamics/line/catenary.hpp"
 #include "froude/simulate.hpp"
 #include "hydro/base/error.hpp"
 
@@ -107,6 +108,21 @@ TEST(Lines, SayWhatCannotBe) {
   refuses("schema = 1\n[water]\ndensity = \"1000 kg/m^3\"\ndepth = \"infinite\"\n" + loop +
               "diameter = \"50 mm\"\n[line.bed]\nstiffness = \"1 MPa/m\"\n" + ask,
           "infinitely deep");
+}
+
+TEST(Lines, SagWhereTheSceneSaysSo) {
+  const std::string chain =
+      "[[line]]\nname = \"c\"\nfrom = \"(30, 0, -14) m\"\nto = \"(0, 0, 0) m\"\nlength = \"36 m\"\nsegments = 6\n"
+      "mass_per_length = \"10 kg/m\"\ndiameter = \"30 mm\"\naxial_stiffness = \"1 MN\"\nsags = true\nbuoyancy = true\n"
+      "[line.bed]\nstiffness = \"3 MPa/m\"\n";
+  const std::string alike = "[solve.integrator]\nlines = \"generalized_alpha\"\n";
+  const auto record = simulate(parse(water + chain + ask + alike));
+  const double weight = (10 - 1000 * std::numbers::pi / 4 * 0.03 * 0.03) * 9.81;
+  const auto exact = dynamics::catenary({36, weight, 1e6, true}, 30, 14);
+  // Six segments; the parabola of (D88) on slopes of up to 60 degrees.
+  EXPECT_NEAR(record.signal("c.to.force").back() / exact.fairlead(), 1, 2e-2);
+  EXPECT_THAT([&] { simulate(parse(water + chain + ask)); },
+              ThrowsMessage<hydro::InputError>(HasSubstr("segments that sag")));
 }
 
 TEST(Lines, ArePlanned) {

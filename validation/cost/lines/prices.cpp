@@ -208,6 +208,10 @@ int main(int argc, char** argv) {
       "time](lines.svg)\n\n";
   text += mooring_list(panel);
   text +=
+      "\nUp to 200 segments the time is linear in their number, half a microsecond a node and iteration. At 1 000, "
+      "segments of 0.9 m touch down several at a time in a step of 0.1 s: Newton halves steps, and the time is eight "
+      "times what a line through\nthe others gives; fewer segments that sag have the same tension. The error hardly "
+      "depends on the number of segments.\n"
       "\n## Loops of links\n\n17 m in n links, swung across at 1 m/s, nothing damps, step 10 ms. A dash: the scheme "
       "could not go on.\n\n";
   text += loop_list();
