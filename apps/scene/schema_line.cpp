@@ -109,6 +109,11 @@ const Table& line_table() {
                .optional()
                .only_beside("axial_stiffness"),
            effect("pulls_only", "segments go slack instead of being pressed").optional().only_beside("axial_stiffness"),
+           effect("sags",
+                  "segments hang through between their nodes and rest on the bed in part; needs [solve] lines = "
+                  "\"generalized_alpha\"")
+               .optional()
+               .only_beside("axial_stiffness"),
            effect("buoyancy", "weight of the water that it displaces").optional().only_beside("diameter"),
            effect("partial_immersion", "only what is under the waves is wet; left out: all of it, always")
                .optional()
