@@ -33,6 +33,8 @@ Outcome irf_a5(const Folders& folders);
 Outcome kramers_kronig(const Folders& folders);
 Outcome morison(const Folders& folders);
 Outcome order(const Folders& folders);
+Outcome orszaghova_expansion(const Folders& folders);
+Outcome orszaghova_map(const Folders& folders);
 Outcome pendulums(const Folders& folders);
 Outcome rm3_decay(const Folders& folders);
 Outcome rm3_regular(const Folders& folders);
@@ -77,6 +79,8 @@ const std::vector<Case>& cases() {
       {"hulme", hulme},
       {"cylinder", cylinder},
       {"two-pole", two_pole},
+      {"orszaghova-expansion", orszaghova_expansion},
+      {"orszaghova-map", orszaghova_map},
       {"order", order},
       {"stick", stick},
       {"kramers-kronig", kramers_kronig},

@@ -403,6 +403,13 @@ dynamics::State start_state(const Scene& scene, const Prepared& p, const dynamic
 
 }  // namespace
 
+hydro::waves::Sea sea_of_run(const Scene& scene, const Prepared& prepared) {
+  if (!is_linear_sum(*scene.waves))
+    throw InputError("a linear answer needs waves that are a sum of linear ones", scene.waves->place,
+                     "take theory = \"linear\", or leave `second_order` out");
+  return run_sea(scene, band_of_data(prepared));
+}
+
 TimeModel time_model(const Scene& scene, const Prepared& prepared) {
   const double step = chosen_step(scene);
   const auto per_sample = static_cast<std::size_t>(std::llround(scene.run->every / step));

@@ -73,6 +73,9 @@ struct RunWater {
   std::shared_ptr<const hydro::waves::WaveField> field;  ///< with the ramp; still water is a field without waves
 };
 
+/// The sea of a run whose answer is linear in it. \throws hydro::InputError where the waves are no sum of linear ones
+hydro::waves::Sea sea_of_run(const scene::Scene& scene, const Prepared& prepared);
+
 /// Everything that a run needs.
 struct TimeModel {
   dynamics::Model model;

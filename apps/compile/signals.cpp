@@ -13,6 +13,4 @@ dynamics::WaveSignals signals(const hydro::waves::Sea& sea, const Eigen::MatrixX
   return {std::move(omega), amplitudes, std::move(table), grid.step, ramp};
 }
 
-std::complex<double> elevation_at_origin(const hydro::waves::Component& c) { return std::polar(c.amplitude, c.phase); }
-
 }  // namespace froude::compile

@@ -17,7 +17,4 @@ struct StepGrid {
 dynamics::WaveSignals signals(const hydro::waves::Sea& sea, const Eigen::MatrixXcd& amplitudes, const StepGrid& grid,
                               double ramp_s);
 
-/// a e^{iφ}
-std::complex<double> elevation_at_origin(const hydro::waves::Component& component);
-
 }  // namespace froude::compile

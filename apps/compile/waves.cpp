@@ -294,4 +294,6 @@ std::vector<std::string> wave_warnings(const scene::Scene& scene) {
   return out;
 }
 
+std::complex<double> elevation_at_origin(const hydro::waves::Component& c) { return std::polar(c.amplitude, c.phase); }
+
 }  // namespace froude::compile

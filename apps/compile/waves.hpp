@@ -38,6 +38,9 @@ std::unique_ptr<const hydro::waves::WaveField> make_field(const scene::Scene& sc
 /// hydro::waves::wave_limits(), seas steeper than are measured. Empty for lists, packets and tanks.
 std::vector<std::string> wave_warnings(const scene::Scene& scene);
 
+/// a e^{iφ}
+std::complex<double> elevation_at_origin(const hydro::waves::Component& component);
+
 /// Rad/s above which the sea has 5 % of its energy: what a step must resolve. The frequency of a regular wave.
 double highest_relevant_frequency(const scene::Waves& waves);
 

@@ -52,12 +52,19 @@ std::vector<::fit::ForceChannel> force_channels(const scene::FitScene& scene, co
     if (at == scene.channels.end()) return {};
     return table.column(at->second, dimension);
   };
+  std::optional<::fit::ProbeToBody> probe;
+  if (const auto& wave = scene.model.wave)
+    probe = {.water = {.density = scene.model.density, .gravity = wave->gravity, .depth = wave->depth},
+             .level = wave->level,
+             .ahead = wave->ahead};
   return {.time = channel("time", dim::time),
           .force = force_channels(scene, table),
           .position = channel("position", dim::length),
           .velocity = channel("velocity", dim::velocity),
           .acceleration = channel("acceleration", dim::acceleration),
-          .cross_velocity = channel("cross_velocity", dim::velocity)};
+          .cross_velocity = channel("cross_velocity", dim::velocity),
+          .elevation = channel("elevation", dim::length),
+          .probe = probe};
 }
 
 ::fit::FilterChoice filter_of(const scene::FitScene::Filter& f) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "fit/decay.hpp"
@@ -18,6 +19,7 @@ struct DecayRun {
   std::vector<double> time, values;
   ::fit::Decrement decrement;
   ::fit::DecayFit fit;
+  std::vector<::fit::Interval> profiles;  ///< of the terms, where asked for
 };
 
 ::fit::DampingTerms terms_of(const scene::FitScene& scene) {
@@ -39,12 +41,19 @@ DecayRun fit_one(const scene::FitScene& scene, const std::filesystem::path& file
                .values = angle ? table.column(scene.channels.at("angle"), dim::angle)
                                : table.column(scene.channels.at("position"), dim::length),
                .decrement = {},
-               .fit = {}};
+               .fit = {},
+               .profiles = {}};
   const ::fit::Window window{hydro::signal::even_step(run.time),
                              Eigen::Map<const Eigen::VectorXd>(run.values.data(), std::ssize(run.values))};
   run.decrement = ::fit::logarithmic_decrement(::fit::find_extremes(run.time, run.values));
   run.fit = ::fit::fit_decay(std::vector{window},
                              {.terms = terms_of(scene), .pendulum = scene.model.sine, .confidence = scene.confidence});
+  const auto names = ::fit::parameters_of(run.fit.problem.law);
+  for (const Coefficient& c : run.fit.damping) {
+    if (!scene.profile) break;
+    const auto at = static_cast<std::size_t>(std::find(names.begin(), names.end(), c.name) - names.begin());
+    run.profiles.push_back(::fit::profile_interval(run.fit.problem, run.fit.motion, at));
+  }
   return run;
 } catch (const hydro::InputError& e) {
   throw e.at({.file = file.string()});
@@ -72,6 +81,9 @@ void tell(const scene::FitScene& scene, const DecayRun& run, const Console& cons
                              run.decrement.amplitude.back(), angle ? "rad" : "m", m.rms[0]);
   console.out << sentence(run.fit.period, "s", scene.confidence);
   for (const Coefficient& c : run.fit.damping) console.out << sentence(c, unit_of(c.name, angle), scene.confidence);
+  for (std::size_t k = 0; k < run.profiles.size(); ++k)
+    console.out << fmt::format("  {:<10} by profile likelihood {:.5g} to {:.5g}\n", run.fit.damping[k].name,
+                               run.profiles[k].low, run.profiles[k].high);
   console.out << fmt::format(
       "  damping ratio by decrement {:.4g} in the first half cycle, {:.4g} in the last; by energy:",
       run.decrement.ratio.front(), run.decrement.ratio.back());
@@ -101,6 +113,8 @@ Json as_json_of(const DecayRun& run) {
   };
   put(run.fit.period);
   for (const Coefficient& c : run.fit.damping) put(c);
+  for (std::size_t k = 0; k < run.profiles.size(); ++k)
+    j[run.fit.damping[k].name]["profile_interval"] = {run.profiles[k].low, run.profiles[k].high};
   for (const Coefficient& c : run.fit.energy.damping) j["energy"][c.name] = *c.value;
   return j;
 }

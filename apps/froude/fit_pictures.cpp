@@ -25,6 +25,16 @@ void add_run(const FitRun& run, plot::Figure& f) {
       {.x = {"time", "s"}, .y = {"residual", "N"}, .series = {{"measured − fitted", tail(r.time), left}}});
 }
 
+/// An axis with room beside the first and last point.
+plot::Axis roomy(const std::string& label, const std::vector<double>& x) {
+  plot::Axis axis{.label = label};
+  if (x.empty()) return axis;
+  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  const double room = 0.05 * (*high > *low ? *high - *low : std::abs(*high) + 1);
+  axis.range = {{*low - room, *high + room}};
+  return axis;
+}
+
 /// One coefficient over KC with its intervals, and the law where it asks for KC alone.
 plot::Panel coefficient_panel(const std::vector<FitRun>& runs, std::size_t i, const FitLaw* law) {
   const std::string name = runs[0].asked[i].name;
@@ -40,7 +50,7 @@ plot::Panel coefficient_panel(const std::vector<FitRun>& runs, std::size_t i, co
       bars.y.push_back(y);
     }
   }
-  plot::Panel panel{.x = {"KC"}, .y = {name}, .series = {values, bars}};
+  plot::Panel panel{.x = roomy("KC", values.x), .y = {name}, .series = {values, bars}};
   if (law == nullptr || values.x.empty()) return panel;
   const auto& best = law->laws.front();
   if (best.law != ::fit::Law::kc && best.law != ::fit::Law::constant) return panel;
@@ -75,7 +85,7 @@ plot::Figure runs_figure(const scene::FitScene& scene, const std::vector<FitRun>
     map.x.push_back(run.fit.kc);
     map.y.push_back(*run.fit.re);
   }
-  if (!map.x.empty()) f.panels.push_back({.x = {"KC"}, .y = {"Re"}, .series = {map}});
+  if (!map.x.empty()) f.panels.push_back({.x = roomy("KC", map.x), .y = roomy("Re", map.y), .series = {map}});
   return f;
 }
 

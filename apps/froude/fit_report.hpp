@@ -11,7 +11,7 @@
 #include "fit/runs.hpp"
 #include "froude/commands.hpp"
 #include "froude/plot.hpp"
-#include "scene/scene.hpp"
+#include "scene/fit_scene.hpp"
 
 namespace froude {
 

@@ -28,7 +28,8 @@ void add_absent(const scene::Scene& scene, const compile::Prepared& p, std::vect
   absent(!p.buoyancy.empty(), "buoyancy", "[body.buoyancy]");
   absent(!p.hydrostatics.empty(), "hydrostatics", "hydrostatics = true");
   absent(!p.moorings.empty() || !p.lines.empty(), "mooring", "[[mooring]]");
-  absent(!p.axial.empty() || !p.bushing.empty(), "connector", "[[connector]]");
+  absent(!p.axial.empty() || !p.bushing.empty() || !p.switched.empty(), "connector", "[[connector]]");
+  absent(!p.contacts.empty(), "contact", "[[contact]]");
   absent(!p.joints.empty(), "joint", "[[joint]]");
   absent(!p.friction.empty(), "friction", "friction = { … } of a [[joint]]");
   absent(!p.ptos.empty(), "pto", "[joint.pto]");
@@ -83,7 +84,18 @@ std::string integrator_text(const scene::Solve& solve) {
   return solve.integrator;
 }
 
+Section plan_steady(const scene::Scene& scene, const compile::Prepared& p) {
+  const auto sea = compile::sea_of_run(scene, p);
+  return {
+      fmt::format("run: answered without stepping, {} unknowns", 6 * p.bodies.size()),
+      {{"waves", "transfer functions of all signals × the sea, by Fourier transform where it repeats",
+        fmt::format("{} components, {:.2g} of the energy left out", sea.components().size(), sea.fraction_left_out()),
+        true},
+       {"stepping", "the scene is linear and asks for steady motions", "", false}}};
+}
+
 Section plan_run(const scene::Scene& scene, const compile::Prepared& p, std::vector<std::string>& notes) {
+  if (scene.run->steady) return plan_steady(scene, p);
   compile::TimeModel m = compile::time_model(scene, p);
   notes = m.notes;
   const bool sparse = dynamics::BlockSolver(m.model.pattern()).is_sparse();

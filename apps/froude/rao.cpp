@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "compile/probes.hpp"
+#include "froude/linear_response.hpp"
 #include "froude/scene_result.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -24,25 +25,6 @@ Peak peak(const ComplexSignal& signal, const std::vector<double>& omega) {
       best = {std::abs(signal.values[i]), 2 * std::numbers::pi / omega[i],
               std::arg(signal.values[i]) * 180 / std::numbers::pi};
   return best;
-}
-
-std::vector<ComplexSignal> evaluate(const std::vector<compile::LinearProbe>& probes, const Eigen::MatrixXcd& xi,
-                                    const Eigen::MatrixXcd& multipliers, const std::vector<double>& omega) {
-  std::vector<ComplexSignal> out;
-  for (const auto& p : probes) {
-    ComplexSignal s{p.name, p.unit, p.long_name, {}};
-    for (std::size_t w = 0; w < omega.size(); ++w) {
-      const std::complex<double> i_omega(0, omega[w]);
-      const auto column = static_cast<Eigen::Index>(w);
-      std::complex<double> value = 0;
-      if (p.stiffness.size() > 0) value += (p.stiffness * xi.col(column)).value();
-      if (p.damping.size() > 0) value += i_omega * (p.damping * xi.col(column)).value();
-      if (p.joints.size() > 0) value += (p.joints * multipliers.col(column)).value();
-      s.values.push_back(value);
-    }
-    out.push_back(std::move(s));
-  }
-  return out;
 }
 
 void write_rao_csv(const Path& path, const std::vector<double>& omega, const std::vector<ComplexSignal>& signals) {
@@ -127,13 +109,7 @@ void rao(const SceneArguments& arguments, const Console& console) {
   hydro::io::require_writable(file);
   compile::Prepared prepared = compile::prepare(scene);
   const dynamics::Model model = compile::frequency_model(prepared);
-  if (!scene.members.empty())
-    prepared.notes.push_back(
-        "loads on members are left out, also their added mass: a linear response per metre of wave has no place for "
-        "them (a run has)");
-  if (!prepared.friction.empty())
-    prepared.notes.push_back("friction is left out: its joints move freely in a linear response");
-  if (!prepared.contacts.empty()) prepared.notes.push_back("contacts are left out: bodies are taken not to touch");
+  for (const std::string& effect : left_out_of_linear_responses(scene)) prepared.notes.push_back(effect);
   const auto all = compile::rao_probes(scene, prepared, model);
   std::vector<std::string> names;
   for (const auto& p : all) names.push_back(p.name);
@@ -143,7 +119,7 @@ void rao(const SceneArguments& arguments, const Console& console) {
       dynamics::frequency::response_amplitudes(model, prepared.groups, scene.rao->omega, scene.rao->heading.radians());
   const Eigen::MatrixXcd multipliers = dynamics::frequency::multiplier_amplitudes(
       model, prepared.groups, scene.rao->omega, scene.rao->heading.radians(), xi);
-  const auto signals = evaluate(compile::chosen(all, scene.rao->of), xi, multipliers, scene.rao->omega);
+  const auto signals = linear_responses(compile::chosen(all, scene.rao->of), xi, multipliers, scene.rao->omega);
   write_rao(file, scene.rao->omega, scene.rao->heading.radians(), signals, provenance_of(scene, prepared.notes));
   if (arguments.csv) write_rao_csv(*arguments.csv, scene.rao->omega, signals);
   if (arguments.picture)

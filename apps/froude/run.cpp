@@ -37,15 +37,20 @@ void tell(const Console& console, const scene::Scene& scene, const Record& recor
     console.out << j.dump(1) << '\n';
     return;
   }
-  console.out << fmt::format(
-      "{}: {:.6g} s in {} steps of {:.4g} s, {:.2f} Newton iterations a step{}{}, {:.2f} s of work\n",
-      scene.file.filename().string(), record.time.back(), record.steps, record.step,
-      static_cast<double>(record.newton_iterations) / static_cast<double>(std::max<std::size_t>(1, record.steps)),
-      record.halvings ? fmt::format(", {} halvings", record.halvings) : "",
-      record.events ? fmt::format(", friction or contacts change {} times", record.events) : "", record.stepping_s);
+  if (scene.run->steady)
+    console.out << fmt::format("{}: {:.6g} s without stepping, {:.2f} s of work\n", scene.file.filename().string(),
+                               record.time.back(), record.preparation_s);
+  else
+    console.out << fmt::format(
+        "{}: {:.6g} s in {} steps of {:.4g} s, {:.2f} Newton iterations a step{}{}, {:.2f} s of work\n",
+        scene.file.filename().string(), record.time.back(), record.steps, record.step,
+        static_cast<double>(record.newton_iterations) / static_cast<double>(std::max<std::size_t>(1, record.steps)),
+        record.halvings ? fmt::format(", {} halvings", record.halvings) : "",
+        record.events ? fmt::format(", friction or contacts change {} times", record.events) : "", record.stepping_s);
   console.out << series_table(record.signals);
-  console.out << fmt::format("energy that does not add up: {:.3g} J, {:.2g} of the {:.3g} J turned over\n", residual,
-                             relative, turnover);
+  if (!scene.run->steady)
+    console.out << fmt::format("energy that does not add up: {:.3g} J, {:.2g} of the {:.3g} J turned over\n", residual,
+                               relative, turnover);
   for (const auto& note : record.notes) console.out << "note: " << note << '\n';
   console.out << "wrote " << file.string() << '\n';
 }

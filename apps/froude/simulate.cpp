@@ -4,6 +4,7 @@
 
 #include "compile/integrator.hpp"
 #include "compile/probes.hpp"
+#include "froude/linear_response.hpp"
 #include "hydro/base/error.hpp"
 
 namespace froude {
@@ -115,6 +116,7 @@ const std::vector<double>& Record::signal(const std::string& name) const {
 }
 
 Record simulate(const scene::Scene& scene, const std::function<void(double)>& done) {
+  if (scene.run->steady) return steady_run(scene);
   const auto begin = Clock::now();
   Record record;
   const compile::Prepared prepared = compile::prepare(scene);

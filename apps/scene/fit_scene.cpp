@@ -6,6 +6,7 @@
 
 #include "hydro/io/atomic_file.hpp"
 #include "scene/build.hpp"
+#include "scene/fit_scene.hpp"
 
 namespace froude::scene {
 namespace {
@@ -13,8 +14,9 @@ namespace {
 namespace fs = std::filesystem;
 using hydro::InputError;
 
-const std::vector<std::string> all_channels{"time",     "force",          "angle", "velocity", "acceleration",
-                                            "position", "cross_velocity", "speed", "speed_sd", "force_sd"};
+const std::vector<std::string> all_channels{"time",         "force",    "angle",          "velocity",
+                                            "acceleration", "position", "cross_velocity", "elevation",
+                                            "speed",        "speed_sd", "force_sd"};
 constexpr double two_pi = 2 * std::numbers::pi;
 
 /// Files that fit one entry of `files`, in alphabetical order. A `*` may stand in the file's name, not in a folder's.
@@ -58,12 +60,17 @@ struct Channels {
 Channels channels_of(const std::string& kind) {
   if (kind == "towing") return {{"speed", "force", "speed_sd", "force_sd"}, {"speed", "force"}};
   if (kind == "decay") return {{"time", "position", "angle"}, {"time"}};
-  return {{"time", "force", "velocity", "acceleration", "position", "cross_velocity"}, {"time", "force"}};
+  return {{"time", "force", "velocity", "acceleration", "position", "cross_velocity", "elevation"}, {"time", "force"}};
 }
 
 /// Exactly one of the motion's channels, which others must not contradict.
 void check_motion(const Record& channels, const std::string& kind) {
   const auto has = [&](const char* role) { return channels.has(role); };
+  if (kind == "morison" && has("elevation")) {
+    for (const char* other : {"velocity", "position", "acceleration", "cross_velocity"})
+      if (has(other)) throw channels.wrong(other, "does not act beside the elevation", "keep one of the two");
+    return;
+  }
   if (kind == "morison" && !has("velocity") && !has("position"))
     throw channels.refused("needs velocity or position for a fit of kind \"morison\": drag needs the velocity",
                            "add one of them; an acceleration alone does not give it, its integral drifts");
@@ -221,6 +228,13 @@ FitScene::Model read_model(const Record& model) {
         "add mass_beyond_load_cells = \"5.9 kg\", contained water included; \"0 kg\" if it is taken off already");
   if (given) out.mass_beyond_load_cells = model.si("mass_beyond_load_cells");
   read_errors(model, out);
+  if (!model.has("wave")) return out;
+  const Record& wave = model.table("wave");
+  FitScene::Model::Wave w{.level = -wave.si("level"), .ahead = wave.si("ahead"), .gravity = wave.si("gravity")};
+  if (wave.text("depth").empty()) w.depth = hydro::WaterDepth::from_metres(wave.si("depth"));
+  if (!w.depth.is_infinite() && -w.level >= w.depth.metres())
+    throw wave.wrong("level", "lies below the bottom", "give the depth of the axis below still water");
+  out.wave = w;
   return out;
 }
 
@@ -253,6 +267,10 @@ void read_batch(const Record& root, const fs::path& file, FitScene& scene) {
   for_morison(intervals, "method");
   if (data.has("runs")) scene.run_table = {{beside(file, data.text("runs")), data["runs"].place}};
   scene.interval_method = intervals.text("method");
+  if (ask.has("profile") && scene.model.kind != "decay")
+    throw ask.wrong("profile", fmt::format("has no part in a fit of kind \"{}\"", scene.model.kind),
+                    "leave it out: that model is linear, and its intervals are those of the likelihood");
+  scene.profile = ask.has("profile");
   scene.robust = ask.has("robust");
   scene.cycles = ask.has("cycles");
   scene.sensitivity = ask.has("sensitivity");
@@ -286,6 +304,13 @@ FitScene parse_fit(std::string_view text, const fs::path& file) {
     throw root.table("data")
         .table("channels")
         .wrong("cross_velocity", "has no part where the body moves", "leave it out");
+  const bool surface = scene.channels.count("elevation") > 0;
+  if (surface != scene.model.wave.has_value())
+    throw surface ? root.table("model").refused("needs \"wave\" for the channel elevation",
+                                                "add wave = { depth = \"1.25 m\", level = \"0.48 m\" }")
+                  : root.table("model").wrong("wave", "does not act: there is no channel elevation", "leave it out");
+  if (surface && scene.model.motion == "body moves")
+    throw root.table("data").table("channels").wrong("elevation", "has no part where the body moves", "leave it out");
   scene.force = read_force(root.table("data"), scene.model.kind, file);
   if (root.table("data").has("zero")) {
     const Value& zero = root.table("data")["zero"];

@@ -69,6 +69,7 @@ AskRun read_run(const Record& run) {
   return {.duration = run.si("duration"),
           .every = run.si("every"),
           .from_equilibrium = run.text("start") == "equilibrium",
+          .steady = run.text("start") == "steady",
           .of = {},
           .of_places = {},
           .place = run.place()};

@@ -10,22 +10,25 @@ const Table& channels() {
   static const Table table{
       .title = "[data.channels]",
       .meaning = "which column of the files plays which part",
-      .keys = {text("time", "morison, decay: time").optional(),
-               texts("force",
-                     "morison, towing: measured force, positive along positive velocity: of the water on a fixed body, "
-                     "or what load "
-                     "cells carry; several columns are added up, and \"-F2\" is F2 turned round")
-                   .optional(),
-               text("velocity", "morison: of the water, or of the body, whichever moves").optional(),
-               text("acceleration", "morison: as velocity; left out: from the velocity or position").optional(),
-               text("position", "morison: as velocity, instead of it; decay: the motion").optional(),
-               text("cross_velocity",
-                    "morison, water moves: velocity across both the force and the axis: drag is then sqrt(u^2 + w^2) u")
-                   .optional(),
-               text("angle", "decay: the motion, in place of a position").optional(),
-               text("speed", "towing: speed of the carriage").optional(),
-               text("speed_sd", "towing: standard deviation of the speed").optional(),
-               text("force_sd", "towing: standard deviation of the force").optional()}};
+      .keys = {
+          text("time", "morison, decay: time").optional(),
+          texts("force",
+                "morison, towing: measured force, positive along positive velocity: of the water on a fixed body, "
+                "or what load "
+                "cells carry; several columns are added up, and \"-F2\" is F2 turned round")
+              .optional(),
+          text("velocity", "morison: of the water, or of the body, whichever moves").optional(),
+          text("acceleration", "morison: as velocity; left out: from the velocity or position").optional(),
+          text("position", "morison: as velocity, instead of it; decay: the motion").optional(),
+          text("cross_velocity",
+               "morison, water moves: velocity across both the force and the axis: drag is then sqrt(u^2 + w^2) u")
+              .optional(),
+          text("elevation", "morison, water moves: surface at a probe, in place of the velocity; needs [model] wave")
+              .optional(),
+          text("angle", "decay: the motion, in place of a position").optional(),
+          text("speed", "towing: speed of the carriage").optional(),
+          text("speed_sd", "towing: standard deviation of the speed").optional(),
+          text("force_sd", "towing: standard deviation of the force").optional()}};
   return table;
 }
 
@@ -135,6 +138,20 @@ const Table& prepare() {
   return table;
 }
 
+const Table& model_wave() {
+  static const Table table{
+      .title = "[model.wave]",
+      .meaning = "from the surface at a probe to the water at the body, by linear waves of one direction",
+      .keys = {quantity("depth", dim::length, "of the tank").one_of({"infinite"}).positive(),
+               quantity("level", dim::length, "of the body's axis below still water").positive(),
+               quantity("ahead", dim::length, "of the body in front of the probe, the way waves go")
+                   .or_default("0 m", "beside each other"),
+               quantity("gravity", dim::acceleration, "acceleration of free fall")
+                   .positive()
+                   .or_default("9.81 m/s^2", "what hydrodynamic data are mostly computed with")}};
+  return table;
+}
+
 const Table& model_errors() {
   static const Table table{
       .title = "[model.uncertainty]",
@@ -182,7 +199,7 @@ const Table& model() {
                          "body moves: all that the load cells accelerate, contained water included")
                     .within(Limit::not_negative)
                     .optional(),
-                inner_table("uncertainty", model_errors()).optional()})},
+                inner_table("wave", model_wave()).optional(), inner_table("uncertainty", model_errors()).optional()})},
           {.word = "towing", .meaning = "drag at steady speed", .keys = with_cylinder({})},
           {.word = "decay",
            .meaning = "period and damping of a body let go: x'' + b1 x' + b2 |x'| x' + b3 x'^3 + c sgn x' + w0^2 x = 0",
@@ -215,6 +232,8 @@ const Table& ask() {
               .one_of({"cd", "cm", "ca", "linear", "quadratic", "cubic", "coulomb"}),
           inner_table("intervals", intervals()).or_default("", "see its keys"),
           effect("robust", "morison: wild samples of the force pull less (Huber)").optional(),
+          effect("profile", "decay: intervals of the damping from the likelihood itself, which need not be symmetric")
+              .optional(),
           effect("cycles", "morison: coefficients of each cycle too; needs [prepare] window in full cycles").optional(),
           text("law",
                "morison: coefficients of all runs against KC, Re or beta = Re/KC, with runs that differ by chance")

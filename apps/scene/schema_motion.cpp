@@ -418,12 +418,15 @@ const Table& ask_run() {
   static const Table table{
       .title = "[ask.run]",
       .meaning = "time series",
-      .keys = {quantity("duration", dim::time, "of the run, a whole multiple of `every`").positive(),
-               quantity("every", dim::time, "between stored samples").positive(),
-               text("start", "\"as placed\", or in \"equilibrium\": where the bodies balance without waves")
-                   .one_of({"as placed", "equilibrium"})
-                   .or_default("as placed", "where the scene puts them is where they begin"),
-               asked_signals()}};
+      .keys = {
+          quantity("duration", dim::time, "of the run, a whole multiple of `every`").positive(),
+          quantity("every", dim::time, "between stored samples").positive(),
+          text("start",
+               "\"as placed\"; in \"equilibrium\": where the bodies balance without waves; or \"steady\", for linear "
+               "scenes: as if the sea had always been there, answered by transfer functions without a step")
+              .one_of({"as placed", "equilibrium", "steady"})
+              .or_default("as placed", "where the scene puts them is where they begin"),
+          asked_signals()}};
   return table;
 }
 

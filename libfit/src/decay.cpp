@@ -164,6 +164,7 @@ DecayFit fit_decay(std::span<const Window> records, const DecayOptions& options)
     problem.start[1 + terms[k]] = std::max(0.0, *fit.energy.damping[k].value);
   }
   fit.motion = fit_motion(problem);
+  fit.problem = problem;
   for (const std::size_t k : terms) fit.damping.push_back(judged(fit.motion.parameters[1 + k]));
   const Coefficient& omega = fit.motion.parameters[0];
   fit.period = omega;

@@ -29,9 +29,18 @@ struct Work {
   std::vector<double> pattern;  // position or velocity: where cycles are seen
 
   std::vector<std::vector<double>*> columns() {
-    std::vector<std::vector<double>*> all{
-        &run.time, &run.position,         &run.velocity,    &run.acceleration,    &out.record.force,
-        &pattern,  &out.record.drag_flow, &out.record.time, &out.record.velocity, &out.record.acceleration};
+    std::vector<std::vector<double>*> all{&run.time,
+                                          &run.position,
+                                          &run.velocity,
+                                          &run.acceleration,
+                                          &run.cross_velocity,
+                                          &run.elevation,
+                                          &out.record.time,
+                                          &out.record.force,
+                                          &pattern,
+                                          &out.record.drag_flow,
+                                          &out.record.velocity,
+                                          &out.record.acceleration};
     for (ForceChannel& f : run.force) all.push_back(&f.values);
     for (ForceError& e : out.force_errors) all.push_back(&e.force);
     return all;
@@ -59,14 +68,17 @@ std::vector<std::pair<std::string, std::vector<double>*>> measured(RawRun& run) 
   for (auto& [name, column] : {std::pair{"position", &run.position},
                                {"velocity", &run.velocity},
                                {"acceleration", &run.acceleration},
-                               {"cross velocity", &run.cross_velocity}})
+                               {"cross velocity", &run.cross_velocity},
+                               {"elevation", &run.elevation}})
     if (!column->empty()) all.push_back({name, column});
   return all;
 }
 
 void check(RawRun& run) {
   hydro::require(!run.force.empty(), "a run needs a force");
-  hydro::require(run.velocity.empty() != run.position.empty(), "a run needs a position or a velocity, and not both");
+  const int motions = !run.velocity.empty() + !run.position.empty() + !run.elevation.empty();
+  hydro::require(motions == 1, "a run needs one of position, velocity and surface elevation, got {} of them", motions);
+  hydro::require(run.elevation.empty() == !run.probe, "an elevation needs to know where probe and body are");
   for (const auto& [name, column] : measured(run)) {
     hydro::require(column->size() == run.time.size(), "{} has {} samples, time {}", name, column->size(),
                    run.time.size());
@@ -177,6 +189,18 @@ void take_delay(Work& w, double delay_s) {  // (F24)
   w.tell("delay: the force is taken {:.4g} s earlier", delay_s);
 }
 
+/// Motion of the water at the body from the surface at a probe.
+void add_waves(Work& w) {
+  if (w.run.elevation.empty()) return;
+  const WaterMotion m = water_motion(w.run.elevation, w.step, *w.run.probe);
+  w.cut(m.first, m.velocity.size());
+  w.run.velocity = m.velocity;
+  w.run.cross_velocity = m.rise;
+  w.run.acceleration = m.acceleration;
+  w.tell("water: linear waves up to {:.3g} Hz from the surface at the probe, {:.4g} m below and {:.4g} m ahead of it",
+         m.highest_hz, -w.run.probe->level, w.run.probe->ahead);
+}
+
 /// Velocity and acceleration, measured or derived; (F5), (F6).
 void add_motion(Work& w, double bandwidth_hz) {
   const bool from_velocity = !w.run.velocity.empty();
@@ -199,6 +223,15 @@ void add_motion(Work& w, double bandwidth_hz) {
       "the main frequency; noise of velocity {:.2g} m/s, of acceleration {:.2g} m/s^2",
       from_velocity ? "velocity" : "position", 2 * m.half_width + 1, m.bandwidth_hz, 100 * m.gain_error_main,
       m.noise_velocity, m.noise_acceleration);
+  double squares = 0;
+  for (const double a : r.acceleration) squares += a * a / static_cast<double>(r.acceleration.size());
+  const double share = m.noise_acceleration * m.noise_acceleration / squares;
+  if (w.run.acceleration.empty() && share > 0.003)  // (F6)
+    w.warn(
+        "noise is {:.2g} % of the derived acceleration's variance: unless a low pass takes it out, inertia comes out "
+        "too "
+        "small by as much; derivatives up to fewer than {:.3g} Hz have less of it",
+        100 * share, m.bandwidth_hz);
 }
 
 /// √(u² + w²) u where the water moves across as well; (F7).
@@ -315,6 +348,7 @@ Prepared prepare(const RawRun& run, const PrepareOptions& options) {
   take_outliers(w, options);
   sum_forces(w);
   take_delay(w, options.delay_s);
+  add_waves(w);
   add_motion(w, options.derivative_bandwidth_hz);
   add_cross_flow(w);
   filter_all(w, options.filters);

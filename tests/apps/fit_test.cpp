@@ -99,6 +99,19 @@ TEST_F(Fit, OfADecayHasTheTruthInItsIntervals) {
   EXPECT_THAT(hydro::io::read_text(folder / "d.svg"), HasSubstr("residual"));
 }
 
+TEST_F(Fit, OfADecayGivesProfilesWhereAsked) {
+  const auto scene = changed("decay.toml", "[ask]", "[ask]\nprofile = true");
+  const auto run = nlohmann::json::parse(told({.scene = scene}, true))["run"][0];
+  for (const char* name : {"linear", "quadratic"})
+    for (const int end : {0, 1}) {
+      const double plain = run[name]["interval"][end].get<double>(),
+                   profile = run[name]["profile_interval"][end].get<double>();
+      // Nearly linear in the damping: the two differ by a tenth of the width.
+      EXPECT_NEAR(profile, plain,
+                  0.2 * (run[name]["interval"][1].get<double>() - run[name]["interval"][0].get<double>()));
+    }
+}
+
 TEST_F(Fit, OfACampaignGivesATableAndALaw) {
   const auto j = nlohmann::json::parse(told({.scene = examples / "batch.toml"}, true));
   ASSERT_EQ(j["run"].size(), 7u);

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "hydro/base/error.hpp"
+#include "hydro/waves/dispersion.hpp"
 #include "support/coloured_noise.hpp"
 
 namespace {
@@ -202,6 +203,54 @@ TEST(Prepare, CountsTheVelocityAcrossInTheDragOfAHorizontalCylinder) {
   EXPECT_NEAR(*fit.inertia.value, 1.8, 1e-6);
   run.cross_velocity.clear();
   EXPECT_GT(*fit::fit_morison(fixed, fit::prepare(run, usual).record).cd.value, 1.5);
+}
+
+TEST(Prepare, WarnsOfNoiseInADerivedAccelerationAndOfWhatItDoes) {
+  RawRun run = clean();
+  const auto noise = froude_test::ar1_noise(run.time.size(), 0, 0.004, 12);
+  for (std::size_t j = 0; j < noise.size(); ++j) run.position[j] += noise[j];
+  PrepareOptions wide = usual;
+  wide.filters.clear();
+  wide.derivative_bandwidth_hz = 3;
+  const auto noisy = fit::prepare(run, wide);
+  EXPECT_THAT(noisy.cautions, Contains(HasSubstr("inertia comes out too small")));
+  EXPECT_LT(*fit::fit_morison(cylinder, noisy.record).inertia.value, 0.98);
+  wide.derivative_bandwidth_hz = 0.5;  // a sixth of the bandwidth: the noise's variance falls with its fifth power
+  const auto narrow = fit::prepare(run, wide);
+  EXPECT_THAT(narrow.cautions, IsEmpty());
+  EXPECT_NEAR(*fit::fit_morison(cylinder, narrow.record).inertia.value, truth_ca, 0.01);
+}
+
+TEST(Prepare, TakesTheWaterFromAProbeWhoseSignalIsLate) {
+  fit::Cylinder fixed = cylinder;
+  fixed.experiment = fit::Experiment::water_moves;
+  fixed.mass_beyond_load_cells = 0;
+  const fit::ProbeToBody probe{
+      .water = {.density = 997, .gravity = 9.81, .depth = hydro::WaterDepth::from_metres(1.25)},
+      .level = -0.48,
+      .ahead = 0.6};
+  const double omega = 2 * std::numbers::pi / 3, k = hydro::waves::wavenumber(omega, probe.water);
+  const double along = omega * 0.1 * std::cosh(k * 0.77) / std::sinh(k * 1.25),
+               up = omega * 0.1 * std::sinh(k * 0.77) / std::sinh(k * 1.25);
+  RawRun run;
+  run.force = {{"F", {}, {}}};
+  run.probe = probe;
+  for (int j = 0; j < 6000; ++j) {
+    const double t = 0.01 * j, at = omega * t - k * probe.ahead;
+    const double u = along * std::cos(at), w = -up * std::sin(at), a = -along * omega * std::sin(at);
+    run.time.push_back(t);
+    run.elevation.push_back(0.1 * std::cos(omega * (t - 0.73)));  // the probe tells it 0.73 s later
+    run.force[0].values.push_back(997 * fixed.volume() * 1.8 * a +
+                                  0.5 * 997 * 0.06 * 1.4 * std::sqrt(u * u + w * w) * u);
+  }
+  PrepareOptions options = usual;
+  options.delay_s = -0.73;  // so the force is early
+  options.window = {.kind = WindowChoice::Kind::full_cycles, .cycles = 5};
+  const auto p = fit::prepare(run, options);
+  EXPECT_THAT(p.steps, Contains(HasSubstr("from the surface at the probe")));
+  const auto fit = fit::fit_morison(fixed, p.record);
+  EXPECT_NEAR(*fit.cd.value, 1.4, 0.03);  // what the ends of the transform leave, 1e-3 of the motion, on a small drag
+  EXPECT_NEAR(*fit.inertia.value, 1.8, 0.01);
 }
 
 }  // namespace

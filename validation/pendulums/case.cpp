@@ -41,8 +41,8 @@ void single(const Folders& folders, Outcome& outcome) {
   fit::ShootingProblem p{.law = MotionLaw::pendulum,
                          .windows = {},
                          .deviations = {0.002},
-                         .start = {8, 0.06, 0, 0, 0.1, std::numbers::pi},
-                         .fitted = {true, true, false, false, true, true}};
+                         .start = {8, 0.06, 0.01, 0, 0.1, std::numbers::pi},
+                         .fitted = {true, true, true, false, true, true}};
   for (const char* name : {"id_1", "id_2", "id_3", "id_4"})
     append(p.windows, windows(read(name), theta, 0.002, 5, 2, 4));
   const auto f = fit::fit_motion(p);

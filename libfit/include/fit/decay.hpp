@@ -53,6 +53,7 @@ struct DecayOptions {
   int substeps = 4;
 };
 struct DecayFit {
+  ShootingProblem problem;           ///< as it was solved, for profile_interval()
   ShootingFit motion;                ///< parameters "omega0", "linear", "quadratic", "cubic", "coulomb", "offset"
   std::vector<Coefficient> damping;  ///< those of the terms asked for
   Coefficient period;                ///< 2π/ω₀, s

@@ -11,6 +11,7 @@
 #include "fit/calibration.hpp"
 #include "fit/filter.hpp"
 #include "fit/morison.hpp"
+#include "fit/wave_motion.hpp"
 
 namespace fit {
 
@@ -32,6 +33,9 @@ struct RawRun {
   /// Velocity of the water across both the force and the body's axis, m/s: a horizontal cylinder in waves feels
   /// √(u² + w²) u. Empty: none.
   std::vector<double> cross_velocity = {};
+  /// Of the surface at a probe, m, in place of position and velocity: the water's motion at the body follows (F40).
+  std::vector<double> elevation = {};
+  std::optional<ProbeToBody> probe = {};  ///< with an elevation
 };
 
 struct FilterChoice {

@@ -2,6 +2,7 @@
 #include <fstream>
 
 #include "apps/scene/scenes.hpp"
+#include "scene/fit_scene.hpp"
 
 namespace froude::scene {
 namespace {
@@ -161,6 +162,45 @@ uncertainty = { diameter = "0.5 mm", mass = "50 g" })");
   EXPECT_THAT(refused(with(with_steps, "cutoff = \"3.33 Hz\"", "cutoff = \"3.33 Hz\", order = 40")),
               HasSubstr("must lie between 1 and 10"));
   EXPECT_THAT(refused(with(towing, "[model]", "[prepare]\ndelay = \"1 s\"\n[model]")), HasSubstr("has no part"));
+}
+
+TEST_F(FitScenes, OfDecayKnowTheirOwnKeys) {
+  const std::string decay = R"(schema = 1
+[data]
+files = "runs/a.csv"
+channels = { time = "t", angle = "roll" }
+[model]
+kind = "decay"
+restoring = "sine"
+[ask]
+coefficients = ["linear", "coulomb"]
+profile = true
+)";
+  const FitScene scene = read(decay);
+  EXPECT_TRUE(scene.model.sine);
+  EXPECT_TRUE(scene.profile);
+  EXPECT_THAT(refused(with(decay, "angle", "velocity")), HasSubstr("has no part in a fit of kind \"decay\""));
+  EXPECT_THAT(refused(with(decay, ", angle = \"roll\"", "")), HasSubstr("needs either position or angle"));
+  EXPECT_THAT(refused(with(decay, "\"linear\"", "\"cd\"")), HasSubstr("a decay knows linear"));
+  EXPECT_THAT(refused(with(decay, "[ask]", "[prepare]\ndelay = \"1 s\"\n[ask]")), HasSubstr("has no part"));
+  EXPECT_THAT(refused(with(oscillation, "\"ca\"", "\"cubic\"")), HasSubstr("has no part in a fit of kind \"morison\""));
+}
+
+TEST_F(FitScenes, TakeTheWaterFromAProbe) {
+  const std::string waves = with(with(with(oscillation, "velocity = \"u\"", "elevation = \"eta\""),
+                                      "body moves\"\nmass_beyond_load_cells = \"5.9 kg\"",
+                                      "water moves\"\nwave = { depth = \"1.25 m\", level = \"0.48 m\" }"),
+                                 "\"ca\"", "\"cm\"");
+  const FitScene scene = read(waves);
+  ASSERT_TRUE(scene.model.wave);
+  EXPECT_EQ(scene.model.wave->level, -0.48);
+  EXPECT_EQ(scene.model.wave->depth.metres(), 1.25);
+  EXPECT_EQ(scene.model.wave->ahead, 0);
+  EXPECT_THAT(refused(with(waves, "0.48 m", "1.48 m")), HasSubstr("lies below the bottom"));
+  EXPECT_THAT(refused(with(waves, "elevation = \"eta\"", "velocity = \"u\"")),
+              HasSubstr("there is no channel elevation"));
+  EXPECT_THAT(refused(with(waves, "wave = { depth = \"1.25 m\", level = \"0.48 m\" }\n", "")),
+              HasSubstr("needs \"wave\""));
 }
 
 TEST_F(FitScenes, NeedACalibrationForEachForce) {

@@ -6,6 +6,7 @@
 #include "apps/scene/scenes.hpp"
 #include "froude/commands.hpp"
 #include "hydro/io/atomic_file.hpp"
+#include "scene/fit_scene.hpp"
 #include "scene/read_value.hpp"
 #include "scene/schema.hpp"
 

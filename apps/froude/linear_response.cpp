@@ -1,0 +1,140 @@
+#include "froude/linear_response.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+
+#include "compile/waves.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/waves/synthesis.hpp"
+
+namespace froude {
+namespace {
+
+/// Transfer functions of all signals at the components of a sea, one row a signal.
+Eigen::MatrixXcd transfer(const compile::Prepared& prepared, const dynamics::Model& model,
+                          const std::vector<compile::LinearProbe>& probes, const hydro::waves::Sea& sea) {
+  Eigen::MatrixXcd out(static_cast<Eigen::Index>(probes.size()), static_cast<Eigen::Index>(sea.components().size()));
+  std::map<double, std::vector<std::size_t>> by_heading;
+  for (std::size_t c = 0; c < sea.components().size(); ++c) by_heading[sea.components()[c].heading].push_back(c);
+  for (const auto& [heading, components] : by_heading) {
+    std::vector<double> omega;
+    for (const std::size_t c : components) omega.push_back(sea.components()[c].omega);
+    const Eigen::MatrixXcd xi = dynamics::frequency::response_amplitudes(model, prepared.groups, omega, heading);
+    const Eigen::MatrixXcd multipliers = prepared.joints.empty() ? Eigen::MatrixXcd()
+                                                                 : dynamics::frequency::multiplier_amplitudes(
+                                                                       model, prepared.groups, omega, heading, xi);
+    const auto responses = linear_responses(probes, xi, multipliers, omega);
+    for (std::size_t s = 0; s < responses.size(); ++s)
+      for (std::size_t k = 0; k < components.size(); ++k)
+        out(static_cast<Eigen::Index>(s), static_cast<Eigen::Index>(components[k])) = responses[s].values[k];
+  }
+  return out;
+}
+
+bool asked(const std::vector<std::string>& patterns, const std::string& name) {
+  return patterns.empty() || std::any_of(patterns.begin(), patterns.end(),
+                                         [&](const auto& pattern) { return scene::matches(pattern, name); });
+}
+
+void require_linear(const scene::Scene& scene) {
+  const auto effects = left_out_of_linear_responses(scene);
+  if (!effects.empty())
+    throw hydro::InputError(fmt::format("[ask.run] start = \"steady\" is for linear scenes: {}", effects.front()),
+                            scene.run->place, "step it from \"as placed\" with a ramp, or leave the effect out");
+  if (!scene.waves)
+    throw hydro::InputError("[ask.run] start = \"steady\" needs waves: without them nothing moves", scene.run->place,
+                            "add [waves]");
+  if (scene.waves->ramp > 0)
+    throw hydro::InputError("[ask.run] start = \"steady\" has no beginning for waves to grow from", scene.waves->place,
+                            "leave `ramp` out of [waves]");
+  for (const auto& body : scene.bodies)
+    if (!body.initial.empty() || !body.initial_velocity.empty())
+      throw hydro::InputError(
+          fmt::format("body \"{}\" has a place to start from, which a steady motion has not", body.name),
+          scene.run->place, "leave `initial` out, or step the run");
+}
+
+}  // namespace
+
+std::vector<ComplexSignal> linear_responses(const std::vector<compile::LinearProbe>& probes, const Eigen::MatrixXcd& xi,
+                                            const Eigen::MatrixXcd& multipliers, const std::vector<double>& omega) {
+  std::vector<ComplexSignal> out;
+  for (const auto& p : probes) {
+    ComplexSignal s{p.name, p.unit, p.long_name, {}};
+    for (std::size_t w = 0; w < omega.size(); ++w) {
+      const std::complex<double> i_omega(0, omega[w]);
+      const auto column = static_cast<Eigen::Index>(w);
+      std::complex<double> value = 0;
+      if (p.stiffness.size() > 0) value += (p.stiffness * xi.col(column)).value();
+      if (p.damping.size() > 0) value += i_omega * (p.damping * xi.col(column)).value();
+      if (p.joints.size() > 0) value += (p.joints * multipliers.col(column)).value();
+      s.values.push_back(value);
+    }
+    out.push_back(std::move(s));
+  }
+  return out;
+}
+
+std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene) {
+  std::vector<std::string> out;
+  if (!scene.members.empty())
+    out.emplace_back(
+        "loads on members are left out, also their added mass: a linear response per metre of wave has no place for "
+        "them (a run has)");
+  for (const auto& joint : scene.joints)
+    if (joint.friction) {
+      out.emplace_back("friction is left out: its joints move freely in a linear response");
+      break;
+    }
+  if (!scene.contacts.empty()) out.emplace_back("contacts are left out: bodies are taken not to touch");
+  if (!scene.chains.empty()) out.emplace_back("lines of nodes are left out");
+  return out;
+}
+
+Record steady_run(const scene::Scene& scene) {
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  require_linear(scene);
+  const compile::Prepared prepared = compile::prepare(scene);
+  const dynamics::Model model = compile::frequency_model(prepared);
+  const hydro::waves::Sea sea = compile::sea_of_run(scene, prepared);
+  auto all = compile::rao_probes(scene, prepared, model);
+  std::vector<std::string> names{"wave.elevation"};
+  for (const auto& p : all) names.push_back(p.name);
+  scene::check_patterns(scene.run->of, scene.run->of_places, names);
+  all = compile::chosen(all, scene.run->of);
+  Eigen::MatrixXcd amplitudes = transfer(prepared, model, all, sea);
+  for (Eigen::Index c = 0; c < amplitudes.cols(); ++c)
+    amplitudes.col(c) *= compile::elevation_at_origin(sea.components()[static_cast<std::size_t>(c)]);
+  Record record;
+  const auto samples = static_cast<std::size_t>(std::llround(scene.run->duration / scene.run->every)) + 1;
+  const auto series = hydro::waves::synthesise(sea, {scene.run->every, samples}, amplitudes).series;
+  for (std::size_t i = 0; i < samples; ++i) record.time.push_back(static_cast<double>(i) * scene.run->every);
+  const auto add = [&](const std::string& name, std::string unit, const std::string& long_name, auto&& values) {
+    Signal s{name, std::move(unit), long_name, std::vector<double>(samples)};
+    for (std::size_t i = 0; i < samples; ++i) s.values[i] = values(static_cast<Eigen::Index>(i));
+    record.signals.push_back(std::move(s));
+  };
+  for (std::size_t s = 0; s < all.size(); ++s)
+    add(all[s].name, all[s].unit.substr(0, all[s].unit.rfind('/')),
+        all[s].long_name.substr(0, all[s].long_name.find(" per metre")),
+        [&](Eigen::Index i) { return series(i, static_cast<Eigen::Index>(s)); });
+  if (asked(scene.run->of, "wave.elevation")) {
+    const Eigen::MatrixXcd one = Eigen::MatrixXcd::NullaryExpr(1, amplitudes.cols(), [&](Eigen::Index, Eigen::Index c) {
+      return compile::elevation_at_origin(sea.components()[static_cast<std::size_t>(c)]);
+    });
+    const auto elevation = hydro::waves::synthesise(sea, {scene.run->every, samples}, one).series;
+    add("wave.elevation", "m", "elevation of the undisturbed wave at the origin",
+        [&](Eigen::Index i) { return elevation(i, 0); });
+  }
+  record.notes = prepared.notes;
+  record.notes.push_back(fmt::format("answered without stepping: {} transfer functions at the {} components of the sea",
+                                     all.size(), sea.components().size()));
+  record.step = scene.run->every;
+  record.preparation_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  return record;
+}
+
+}  // namespace froude

@@ -1,0 +1,21 @@
+#pragma once
+/// \file  Responses per metre of wave: for `froude rao`, and for runs that need no stepping.
+#include "compile/probes.hpp"
+#include "froude/scene_result.hpp"
+#include "froude/simulate.hpp"
+
+namespace froude {
+
+/// Signals per metre of wave from displacements `xi` (6N, Nω) and multipliers (m, Nω) of joints.
+std::vector<ComplexSignal> linear_responses(const std::vector<compile::LinearProbe>& probes, const Eigen::MatrixXcd& xi,
+                                            const Eigen::MatrixXcd& multipliers, const std::vector<double>& omega);
+
+/// One sentence for each effect of the scene that a linear response has no place for.
+std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene);
+
+/// A run with start = "steady": motions as if the sea had always been there, which transfer functions × sea give
+/// without a step. Connectors and joints are linear about rest. \throws hydro::InputError where the scene names an
+/// effect that is not linear
+Record steady_run(const scene::Scene& scene);
+
+}  // namespace froude

@@ -1,0 +1,71 @@
+#pragma once
+/// \file  A scene that fits coefficients to measurements, as the user wrote it: typed, in SI, every default filled in.
+#include "scene/scene.hpp"
+
+namespace froude::scene {
+
+struct FitScene {
+  std::filesystem::path file;
+  std::string text;
+  std::string title;
+  std::vector<Located<std::filesystem::path>> files;  ///< data, absolute, in alphabetical order; `files` may hold `*`
+  std::optional<Located<std::filesystem::path>> run_table;  ///< in place of files
+  std::map<std::string, std::string> channels;  ///< role (time, velocity, acceleration, position, …) → column
+  struct ForceChannel {
+    std::string column;
+    bool turned = false;  ///< written "-F2": positive the other way
+    std::optional<Located<std::filesystem::path>> calibration;
+  };
+  std::vector<ForceChannel> force;  ///< their sum is the force
+  std::optional<Located<std::filesystem::path>> zero_run;
+  struct Model {
+    std::string kind;                      ///< "morison", "towing" or "decay"
+    double diameter = 0, length = 0;       ///< m; as what follows, but for `sine`, not of a decay
+    double density = 0;                    ///< kg/m³
+    std::optional<double> viscosity = {};  ///< m²/s, for Re
+    std::string motion =
+        {};  ///< morison only: "water moves" (waves on a fixed body) or "body moves" (forced oscillation)
+    double mass_beyond_load_cells = 0;  ///< kg, body moves only
+    /// Standard uncertainties, SI; 0 where none is stated.
+    double diameter_error = 0, length_error = 0, density_error = 0, mass_error = 0;
+    struct Wave {
+      hydro::WaterDepth depth = hydro::WaterDepth::infinite();
+      double level, ahead, gravity;  ///< z of the axis, m, negative; m; m/s²
+    };
+    std::optional<Wave> wave = {};  ///< with the channel elevation
+    bool sine = false;              ///< decay: restored by sin x
+    Place place = {};
+  } model;
+  /// Steps between the measurement and the fit; frequencies in Hz, times in s.
+  struct Filter {
+    std::string kind;  ///< "butterworth", "symmetric weights", "notch", "moving average"
+    int order = 0;
+    double hz = 0, width_hz = 0, seconds = 0;
+  };
+  struct Prepare {
+    double longest_gap = 0;
+    double outlier_window = 0, outlier_deviations = 0;  ///< 0: not looked for
+    double delay = 0, delay_error = 0;
+    std::optional<double> longest_delay;  ///< the delay is to be estimated, within this
+    double derivative_bandwidth = 0;
+    std::vector<Filter> filters;
+    std::string window = "all";  ///< "all", "span", "full cycles"
+    double from = 0, to = 0;
+    int cycles = 0;  ///< 0: as many as there are
+    double tolerance = 0.03;
+  } prepare;
+  std::vector<std::string> coefficients;  ///< among "cd", "cm", "ca"
+  double confidence = 0.95;
+  std::string interval_method = "effective samples";
+  bool profile = false, robust = false, cycles = false, sensitivity = false;
+  std::string law;  ///< "" for none
+  std::vector<Echo> echo;
+};
+
+/// True if the file has a [model] table, that is, asks for a fit.
+bool is_fit(const std::filesystem::path& file);
+/// Reads a scene of kind "fit"; the data files must be there. \throws hydro::InputError
+FitScene read_fit(const std::filesystem::path& file);
+FitScene parse_fit(std::string_view text, const std::filesystem::path& file);
+
+}  // namespace froude::scene

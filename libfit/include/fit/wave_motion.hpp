@@ -1,0 +1,35 @@
+#pragma once
+/// \file  How water moved at a body, from the surface that a probe recorded; (F40), docs/theory/fit.md.
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "hydro/base/types.hpp"
+
+namespace fit {
+
+/// Where the body is, seen from the probe.
+struct ProbeToBody {
+  hydro::Water water;  ///< gravity and depth act
+  double level;        ///< z of the body's axis, m, below still water: negative
+  double ahead = 0;    ///< of the body in front of the probe in the direction waves go, m
+  double highest_hz =
+      0;  ///< waves above are left out; 0: those whose motion at the body is above 1/1000 of the surface's
+};
+
+struct WaterMotion {
+  std::size_t first;                 ///< sample that the first values belong to; as many are given up at the end
+  std::vector<double> velocity;      ///< along the waves, m/s
+  std::vector<double> rise;          ///< upward, m/s
+  std::vector<double> acceleration;  ///< along the waves, m/s²
+  double main_period_s;
+  double highest_hz;  ///< of the waves that were taken
+};
+
+/// Linear waves of one direction: each frequency's motion at the body, summed (Fourier). The record is not periodic, so
+/// one and a half main periods are given up at each end, where the transform would join both ends.
+/// \throws hydro::InputError for a level not between the surface and the bottom, fewer than 64 samples, or a record of
+/// fewer than five main periods
+WaterMotion water_motion(std::span<const double> elevation_m, double step_s, const ProbeToBody& probe);
+
+}  // namespace fit
