@@ -1,0 +1,175 @@
+#include "compile/connections.hpp"
+
+#include <numbers>
+
+#include "dynamics/control/dominant_period.hpp"
+#include "hydro/base/error.hpp"
+
+namespace froude::compile {
+namespace {
+
+using dynamics::Matrix6;
+using hydro::InputError;
+using scene::Scene;
+
+/// The arm from a body's centre of gravity, or the point itself for the ground.
+Eigen::Vector3d arm(const Scene& scene, std::optional<int> body, const Eigen::Vector3d& end) {
+  return body ? Eigen::Vector3d(end - scene.bodies[static_cast<std::size_t>(*body)].centre_of_gravity) : end;
+}
+
+Eigen::Vector3d placed(const Scene& scene, std::optional<int> body, const Eigen::Vector3d& end) {
+  return body ? Eigen::Vector3d(scene.bodies[static_cast<std::size_t>(*body)].position + end) : end;
+}
+
+/// All connectors of one table of the scene have one controller.
+void add_switched(const scene::Connector& c, const scene::StiffnessSwitch& s, const dynamics::AxialConnector& made,
+                  Prepared& out) {
+  const bool same = !out.switched.empty() && out.switched_places.back().line == c.place.line &&
+                    out.switched_places.back().column == c.place.column;
+  if (!same) {
+    dynamics::PeriodSwitching law{
+        .signal = [body = out.bodies[static_cast<std::size_t>(s.body)], index = static_cast<std::size_t>(s.body),
+                   mode = static_cast<int>(s.mode)](
+                      const dynamics::State& state) { return motion_from_rest(body, state.pose[index], mode); },
+        .every = s.every,
+        .window = s.window,
+        .hysteresis = s.hysteresis / (2 * std::numbers::pi),
+        .dwell = s.dwell,
+        .settings = {}};
+    for (const auto& setting : s.settings) law.settings.push_back({setting.from, setting.stiffness});
+    out.switched.push_back({{}, [law] { return std::make_unique<dynamics::DominantPeriodController>(law); }});
+    out.switched_names.emplace_back();
+    out.switched_places.push_back(c.place);
+  }
+  out.switched.back().connectors.push_back(made);
+  out.switched_names.back().push_back(c.name);
+}
+
+void add_connector(const Scene& scene, const scene::Connector& c, Prepared& out) {
+  const dynamics::Ends ends{c.first, c.second, arm(scene, c.first, c.first_end), arm(scene, c.second, c.second_end)};
+  const Eigen::Vector3d offset = placed(scene, c.second, c.second_end) - placed(scene, c.first, c.first_end);
+  if (const auto* axial = std::get_if<scene::AxialConnector>(&c.kind)) {
+    if (offset.norm() < 1e-9)
+      throw InputError(fmt::format("the ends of \"{}\" coincide, so it has no direction to act along", c.name), c.place,
+                       "move an end, or use kind = \"bushing\"");
+    const dynamics::LineLaw law{.stiffness = axial->stiffness,
+                                .damping = axial->damping,
+                                .cubic = axial->cubic,
+                                .quadratic_damping = axial->quadratic_damping,
+                                .table_x = axial->elongations,
+                                .table_force = axial->tensions,
+                                .pulls_only = axial->pulls_only};
+    const dynamics::AxialConnector made{ends, law, axial->rest_length.value_or(offset.norm())};
+    if (axial->switching) {
+      add_switched(c, *axial->switching, made, out);
+      return;
+    }
+    out.axial.push_back(made);
+    out.axial_names.push_back(c.name);
+    return;
+  }
+  const auto& b = std::get<scene::BushingConnector>(c.kind);
+  out.bushing.push_back({ends, b.stiffness, b.damping, b.rotational_stiffness, b.rotational_damping, offset});
+  out.bushing_names.push_back(c.name);
+}
+
+/// libdynamics has the body first and the ground second.
+void add_joint(const scene::Joint& j, Prepared& out) {
+  const bool turned = !j.first;
+  out.joints.push_back({.name = j.name,
+                        .kind = static_cast<dynamics::JointKind>(j.kind),
+                        .first = turned ? *j.second : *j.first,
+                        .second = turned ? j.first : j.second,
+                        .place = j.at,
+                        .axis = turned && j.kind == scene::JointKind::universal ? j.second_axis : j.axis,
+                        .second_axis = turned ? j.axis : j.second_axis});
+  out.joint_sign.push_back(turned ? -1 : 1);
+  if (j.friction)
+    out.friction.push_back(
+        {j.name, dynamics::Travel(out.bodies, out.joints.back()), j.friction->breakaway, j.friction->sliding});
+}
+
+void add_mooring(const Scene& scene, const scene::Mooring& m, Prepared& out) {
+  // Given about the body's origin; the origin seen from the centre of gravity is −c.
+  const Matrix6 T = dynamics::shift_from_centre(-scene.bodies[static_cast<std::size_t>(m.body)].centre_of_gravity);
+  out.moorings.push_back(
+      {.body = m.body, .stiffness = T.transpose() * m.stiffness * T, .damping = T.transpose() * m.damping * T});
+  out.mooring_names.push_back(m.name);
+}
+
+/// What the scene lets work on the travel of joints. A joint that names the ground first counts its travel backwards.
+std::vector<dynamics::Pto> ptos(const Scene& scene, const Prepared& p) {
+  std::vector<dynamics::Pto> out;
+  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+    if (!scene.joints[j].pto) continue;
+    const scene::Pto& s = *scene.joints[j].pto;
+    dynamics::TravelLaw law{.line = {.stiffness = s.stiffness,
+                                     .damping = s.damping,
+                                     .cubic = s.cubic,
+                                     .quadratic_damping = s.quadratic_damping},
+                            .preload = s.preload,
+                            .lower = {},
+                            .upper = {}};
+    if (s.force_limit) law.force_limit = *s.force_limit;
+    if (s.stops) {
+      if (s.stops->lower) law.lower = dynamics::EndStop{*s.stops->lower, s.stops->stiffness, s.stops->damping};
+      if (s.stops->upper) law.upper = dynamics::EndStop{*s.stops->upper, s.stops->stiffness, s.stops->damping};
+    }
+    out.push_back({dynamics::Travel(p.bodies, p.joints[j]), law, p.joint_sign[j]});
+  }
+  return out;
+}
+
+dynamics::ConstantLoad constant_load(const Scene& scene, const scene::Load& l) {
+  return {l.body, arm(scene, l.body, l.at), l.force, l.moment};
+}
+
+/// The line as it hangs in water; its place is checked by solving it once, at rest.
+dynamics::CatenaryMooring catenary_mooring(const Scene& scene, const scene::CatenaryLine& l, const Prepared& p) {
+  const double displaced = scene.water.density * std::numbers::pi / 4 * l.diameter * l.diameter;
+  dynamics::CatenaryMooring out{l.body,
+                                arm(scene, l.body, l.fairlead),
+                                l.anchor,
+                                {.length = l.length,
+                                 .weight = (l.mass_per_length - displaced) * scene.water.gravity,
+                                 .axial_stiffness = l.axial_stiffness,
+                                 .on_bed = l.on_bed}};
+  try {
+    dynamics::tension_of(out, dynamics::rest_state(p.bodies));
+  } catch (const hydro::NumericsError& e) {
+    throw InputError(fmt::format("mooring \"{}\": {}", l.name, e.what()), l.place, "check `from`, `to` and `on_bed`");
+  }
+  return out;
+}
+
+dynamics::Shape as_shape(const scene::ContactRod& rod) {
+  if (rod.from == rod.to) return dynamics::Ball{rod.from, rod.radius};
+  return dynamics::Rod{rod.from, rod.to, rod.radius};
+}
+dynamics::Shape as_shape(const scene::ContactPlane& plane) { return dynamics::HalfSpace{plane.at, plane.normal}; }
+dynamics::Shape as_shape(const scene::ContactBox& box) { return dynamics::Box{box.centre, box.half}; }
+
+/// Shapes from the centres of gravity; of the ground as they are.
+dynamics::Contact contact(const Scene& scene, const scene::Contact& c) {
+  const auto from_centre = [&](const dynamics::Shape& shape, int body) {
+    return dynamics::moved(shape, Eigen::Matrix3d::Identity(),
+                           -scene.bodies[static_cast<std::size_t>(body)].centre_of_gravity);
+  };
+  dynamics::Shape second = std::visit([](const auto& shape) { return as_shape(shape); }, c.on_second);
+  if (c.second) second = from_centre(second, *c.second);
+  return {c.name, c.first, c.second, {from_centre(as_shape(c.on_first), c.first), second}, c.restitution, c.friction};
+}
+
+}  // namespace
+
+void add_connections(const Scene& scene, Prepared& out) {
+  for (const auto& m : scene.moorings) add_mooring(scene, m, out);
+  for (const auto& c : scene.connectors) add_connector(scene, c, out);
+  for (const auto& c : scene.contacts) out.contacts.push_back(contact(scene, c));
+  for (const auto& j : scene.joints) add_joint(j, out);
+  out.ptos = ptos(scene, out);
+  for (const auto& l : scene.lines) out.lines.push_back(catenary_mooring(scene, l, out));
+  for (const auto& l : scene.loads) out.loads.push_back(constant_load(scene, l));
+}
+
+}  // namespace froude::compile
