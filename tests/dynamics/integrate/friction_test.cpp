@@ -14,11 +14,13 @@
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/error.hpp"
 #include "laws/force_kind_laws.hpp"
+#include "support/motion.hpp"
 #include "support/ramp_load.hpp"
 
 namespace {
 
 using namespace dynamics;
+using froude::support::Motion;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
@@ -61,28 +63,6 @@ std::unique_ptr<const ForceKind> spring(const std::vector<RigidBody>& bodies, in
   return std::make_unique<RestoringKind>("mooring", bodies, std::vector<Restoring>{{on, K}});
 }
 
-/// A run that tells what came of it.
-struct Motion {
-  Workspace workspace;
-  GeneralizedAlpha integrator;
-  EnergyLedger ledger;
-  int events = 0;
-
-  Motion(const Model& model, State start, double rho = 0.8)
-      : workspace(model, std::move(start)), integrator(started(model, workspace, rho)), ledger(model, workspace) {}
-  static GeneralizedAlpha started(const Model& model, Workspace& w, double rho) {
-    GeneralizedAlpha out(model, {.rho_infinity = rho});
-    out.start(w);
-    return out;
-  }
-  void go(double h, int steps) {
-    for (int i = 0; i < steps; ++i) {
-      events += static_cast<int>(integrator.step(workspace, h).events.size());
-      ledger.note(workspace);
-    }
-  }
-};
-
 TEST(Friction, BringsASledgeToRestWhereItsEnergyIsSpent) {
   // v₀ = 3 m/s, T = 1.5 N: rest after v₀ m/T = 4 s and ½ m v₀²/T = 6 m, in the middle of a step.
   const Model model = with_friction({body("sledge")}, {rail(0, {})}, {{0, 2.0, 1.5}});
@@ -90,7 +70,7 @@ TEST(Friction, BringsASledgeToRestWhereItsEnergyIsSpent) {
   start.velocity[0] = 3;
   Motion run(model, start);
   run.go(0.3, 40);
-  EXPECT_EQ(run.events, 1);
+  EXPECT_EQ(run.changes(), 1);
   // The motion is a parabola, which the method follows exactly; a root is found to 1e-12 of the step.
   EXPECT_NEAR(run.workspace.state.pose[0].centre.x(), 6, 1e-11);
   EXPECT_NEAR(run.workspace.state.velocity[0], 0, 1e-11);
@@ -106,7 +86,7 @@ TEST(Friction, LetsGoWhereTheLoadReachesTheStaticLevel) {
   run.go(0.03, 246);  // 7.38 s
   EXPECT_LT(rotation_log(run.workspace.state.pose[0].attitude).norm(), 1e-14);
   run.go(0.03, 54);  // 9 s
-  EXPECT_EQ(run.events, 1);
+  EXPECT_EQ(run.changes(), 1);
   const double t = 9 - 7.4, theta = (0.7 / 2 * t * t + 0.5 / 6 * t * t * t) / mass;
   const double error = std::abs(rotation_log(run.workspace.state.pose[0].attitude).y() - theta);
   EXPECT_LT(error, 2e-4 * theta) << "second order: (h/t)² of the cubic part";
@@ -124,7 +104,7 @@ TEST(Friction, StopsASpringSwingByTheSameStretchEveryHalfPeriod) {
   start.pose[0].centre.x() = 1;
   Motion run(model, start, 1.0);
   run.go(0.02, 300);
-  EXPECT_EQ(run.events, 8) << "between two swings it stands still for no time";
+  EXPECT_EQ(run.changes(), 8) << "between two swings it stands still for no time";
   // At ρ∞ = 1 the method keeps the energy of a linear spring, and friction takes exactly T times the way.
   EXPECT_NEAR(run.workspace.state.pose[0].centre.x(), 0.04, 1e-12);
   EXPECT_NEAR(run.ledger.entries().back().dissipated, 0.5 * 50 * (1 - 0.04 * 0.04), 1e-11);
@@ -147,9 +127,9 @@ TEST(Friction, SticksAndSlipsOnABeltForEverTheSameWay) {
   std::vector<double> slips;
   const double h = 2e-3;
   for (int i = 0; i < 4000; ++i) {
-    const int before = run.events;
+    const int before = run.changes();
     run.go(h, 1);
-    if (run.events > before && (run.events - before) % 2 == 1 && run.events % 2 == 1)
+    if (run.changes() > before && (run.changes() - before) % 2 == 1 && run.changes() % 2 == 1)
       slips.push_back(run.workspace.state.time);
   }
   const double a = (breakaway - sliding) / k;
@@ -157,7 +137,7 @@ TEST(Friction, SticksAndSlipsOnABeltForEverTheSameWay) {
   EXPECT_NEAR(slips.front(), breakaway / k / v, 1.001 * h) << "the first after it was dragged to the static level";
   ASSERT_GE(slips.size(), 5u);
   EXPECT_EQ(
-      run.events,
+      run.changes(),
       static_cast<int>(2 * std::floor((8 - breakaway / k / v) / period) + 1) +
           ((std::fmod(8 - breakaway / k / v, period) > 2 * (std::numbers::pi - std::atan(a * omega / v)) / omega) ? 1
                                                                                                                   : 0));
@@ -171,7 +151,7 @@ TEST(Friction, OfManyJointsHoldsOnlyWhatItMust) {
                                     {{0, 3, 2}, {1, 50, 40}, {2, 50, 40}}, std::make_unique<support::RampLoad>(0, 1));
   Motion run(model, rest_state(model.bodies()));
   run.go(0.05, 100);
-  EXPECT_EQ(run.events, 1);
+  EXPECT_EQ(run.changes(), 1);
   for (std::size_t i : {1u, 2u})
     EXPECT_LT(run.workspace.state.pose[i].attitude.angularDistance(run.workspace.state.pose[0].attitude), 1e-12)
         << "arm " << i << " turns with the first";
