@@ -16,6 +16,14 @@ const char* motion_unit(int mode) { return mode < 3 ? "m" : "rad"; }
 const char* load_unit(int mode) { return mode < 3 ? "N" : "N m"; }
 std::string mode_name(int mode) { return std::string(hydro::mode_names[static_cast<std::size_t>(mode)]); }
 
+/// Where the kind of force that `is_it` knows stands among the model's; their number if it is not there.
+template <class IsIt>
+std::size_t index_of(const dynamics::Model& model, IsIt is_it) {
+  const auto& all = model.forces();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& kind) { return is_it(*kind); });
+  return static_cast<std::size_t>(found - all.begin());
+}
+
 void add_motions(const scene::Scene& scene, const Prepared& p, std::vector<Probe>& out) {
   for (std::size_t b = 0; b < p.bodies.size(); ++b)
     for (int mode = 0; mode < 6; ++mode)
@@ -44,8 +52,8 @@ void add_connectors(const Prepared& p, std::vector<Probe>& out) {
 
 /// Tension and stiffness of connectors that a controller rules.
 void add_switched(const Prepared& p, const dynamics::Model& model, std::vector<Probe>& out) {
-  std::size_t kind = 0;
-  while (kind < model.forces().size() && model.forces()[kind]->effect() != "connector.switched") ++kind;
+  const std::size_t kind =
+      index_of(model, [](const dynamics::ForceKind& k) { return k.effect() == "connector.switched"; });
   for (std::size_t g = 0; g < p.switched.size(); ++g)
     for (std::size_t i = 0; i < p.switched[g].connectors.size(); ++i) {
       const std::string& name = p.switched_names[g][i];
@@ -126,8 +134,7 @@ void add_travels(const Prepared& p, const dynamics::Model& model, std::vector<Pr
 
 /// Gap and load along the normal of contacts.
 void add_contacts(const Prepared& p, const dynamics::Model& model, std::vector<Probe>& out) {
-  std::size_t kind = 0;
-  while (kind < model.forces().size() && model.forces()[kind]->contact() == nullptr) ++kind;
+  const std::size_t kind = index_of(model, [](const dynamics::ForceKind& k) { return k.contact() != nullptr; });
   for (std::size_t i = 0; i < p.contacts.size(); ++i) {
     const std::string& name = p.contacts[i].name;
     out.push_back({name + ".gap", "m", "shortest way between the shapes of " + name,
@@ -148,8 +155,7 @@ void add_contacts(const Prepared& p, const dynamics::Model& model, std::vector<P
 
 /// Along the axis on the second of the joint as the scene writes it: what its friction does to it.
 void add_friction(const Prepared& p, const dynamics::Model& model, std::vector<Probe>& out) {
-  std::size_t kind = 0;
-  while (kind < model.forces().size() && model.forces()[kind]->friction() == nullptr) ++kind;
+  const std::size_t kind = index_of(model, [](const dynamics::ForceKind& k) { return k.friction() != nullptr; });
   for (std::size_t i = 0; i < p.friction.size(); ++i) {
     const std::string& name = p.friction[i].name;
     const auto joint = std::find_if(p.joints.begin(), p.joints.end(), [&](const auto& j) { return j.name == name; });

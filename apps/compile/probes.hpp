@@ -1,6 +1,7 @@
 #pragma once
 /// \file  The signals that a result can hold: motions of bodies' origins, forces of connectors and moorings, waves,
 /// energies.
+#include <algorithm>
 #include <complex>
 #include <functional>
 #include <string>
@@ -36,18 +37,19 @@ struct LinearProbe {
 };
 std::vector<LinearProbe> rao_probes(const scene::Scene& scene, const Prepared& prepared, const dynamics::Model& model);
 
+/// True if one of the patterns matches, or there are none.
+inline bool is_chosen(const std::string& name, const std::vector<std::string>& patterns) {
+  return patterns.empty() || std::any_of(patterns.begin(), patterns.end(),
+                                         [&](const auto& pattern) { return scene::matches(pattern, name); });
+}
+
 /// Those whose names match one of the patterns (`*` stands for anything); all if there are no patterns. Keeps their
 /// order.
 template <class P>
 std::vector<P> chosen(const std::vector<P>& all, const std::vector<std::string>& patterns) {
-  if (patterns.empty()) return all;
   std::vector<P> out;
   for (const P& p : all)
-    for (const auto& pattern : patterns)
-      if (scene::matches(pattern, p.name)) {
-        out.push_back(p);
-        break;
-      }
+    if (is_chosen(p.name, patterns)) out.push_back(p);
   return out;
 }
 

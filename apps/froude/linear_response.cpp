@@ -1,6 +1,5 @@
 #include "froude/linear_response.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -31,11 +30,6 @@ Eigen::MatrixXcd transfer(const compile::Prepared& prepared, const dynamics::Mod
         out(static_cast<Eigen::Index>(s), static_cast<Eigen::Index>(components[k])) = responses[s].values[k];
   }
   return out;
-}
-
-bool asked(const std::vector<std::string>& patterns, const std::string& name) {
-  return patterns.empty() || std::any_of(patterns.begin(), patterns.end(),
-                                         [&](const auto& pattern) { return scene::matches(pattern, name); });
 }
 
 void require_linear(const scene::Scene& scene) {
@@ -81,8 +75,8 @@ std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene)
   std::vector<std::string> out;
   if (!scene.members.empty())
     out.emplace_back(
-        "loads on members are left out, also their added mass: a linear response per metre of wave has no place for "
-        "them (a run has)");
+        "loads on members are left out, also their added mass: small motions about rest have no place for them (a run "
+        "has)");
   for (const auto& joint : scene.joints)
     if (joint.friction) {
       out.emplace_back("friction is left out: its joints move freely in a linear response");
@@ -121,7 +115,7 @@ Record steady_run(const scene::Scene& scene) {
     add(all[s].name, all[s].unit.substr(0, all[s].unit.rfind('/')),
         all[s].long_name.substr(0, all[s].long_name.find(" per metre")),
         [&](Eigen::Index i) { return series(i, static_cast<Eigen::Index>(s)); });
-  if (asked(scene.run->of, "wave.elevation")) {
+  if (compile::is_chosen("wave.elevation", scene.run->of)) {
     const Eigen::MatrixXcd one = Eigen::MatrixXcd::NullaryExpr(1, amplitudes.cols(), [&](Eigen::Index, Eigen::Index c) {
       return compile::elevation_at_origin(sea.components()[static_cast<std::size_t>(c)]);
     });

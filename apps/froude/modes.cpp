@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "froude/linear_response.hpp"
 #include "froude/progress.hpp"
 #include "froude/scene_result.hpp"
 #include "hydro/base/error.hpp"
@@ -164,9 +165,7 @@ void modes(const SceneArguments& arguments, const Console& console) {
   const Path file = output_path(arguments, ".modes.h5");
   hydro::io::require_writable(file);
   compile::Prepared prepared = compile::prepare(scene);
-  if (!prepared.friction.empty()) prepared.notes.push_back("friction is left out: its joints move freely");
-  if (!prepared.contacts.empty()) prepared.notes.push_back("contacts are left out: bodies are taken not to touch");
-  if (!scene.members.empty()) prepared.notes.push_back("loads on members are left out, also their added mass");
+  for (const std::string& effect : left_out_of_linear_responses(scene)) prepared.notes.push_back(effect);
   const dynamics::Model model = compile::frequency_model(prepared);
   const ModeList all = dynamics::frequency::free_motions(model, prepared.groups);
   const std::vector<Mode> shown = wanted(all, *scene.ask_modes);

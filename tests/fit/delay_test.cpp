@@ -9,15 +9,11 @@
 #include "fit/morison.hpp"
 #include "hydro/base/error.hpp"
 #include "support/coloured_noise.hpp"
+#include "support/morison_records.hpp"
 
 namespace {
 
-const fit::Cylinder cylinder{.diameter = 0.12,
-                             .length = 0.5,
-                             .density = 997,
-                             .viscosity = {},
-                             .experiment = fit::Experiment::body_moves,
-                             .mass_beyond_load_cells = 5.9};
+const fit::Cylinder& cylinder = froude_test::moved_cylinder;
 
 /// C_D = 1.2, C_A = 1 at period 4 s and the amplitude given, the force `delay` s late.
 fit::ForceRecord made(double amplitude, double delay, double noise, std::uint64_t stream) {

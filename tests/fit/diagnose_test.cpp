@@ -7,15 +7,11 @@
 
 #include "hydro/base/error.hpp"
 #include "support/coloured_noise.hpp"
+#include "support/morison_records.hpp"
 
 namespace {
 
-const fit::Cylinder cylinder{.diameter = 0.12,
-                             .length = 0.5,
-                             .density = 997,
-                             .viscosity = {},
-                             .experiment = fit::Experiment::body_moves,
-                             .mass_beyond_load_cells = 5.9};
+const fit::Cylinder& cylinder = froude_test::moved_cylinder;
 constexpr double period = 4, step = 0.02;
 
 /// C_A = 1 and a C_D that grows by `growth` from cycle to cycle.

@@ -10,6 +10,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "support/coloured_noise.hpp"
+#include "support/morison_records.hpp"
 
 namespace {
 
@@ -22,12 +23,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::ThrowsMessage;
 
-const fit::Cylinder cylinder{.diameter = 0.12,
-                             .length = 0.5,
-                             .density = 997,
-                             .viscosity = {},
-                             .experiment = fit::Experiment::body_moves,
-                             .mass_beyond_load_cells = 5.9};
+const fit::Cylinder& cylinder = froude_test::moved_cylinder;
 constexpr double step = 0.005, period = 4.0, amplitude = 0.36, truth_cd = 1.2, truth_ca = 1.0;
 
 /// Rest, three cycles of build-up, ten full, three of run-down, rest, at 200 Hz; two load cells that share the force as

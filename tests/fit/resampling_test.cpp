@@ -8,27 +8,16 @@
 
 #include "fit/morison.hpp"
 #include "hydro/base/error.hpp"
-#include "support/coloured_noise.hpp"
+#include "support/morison_records.hpp"
 
 namespace {
 
 using fit::IntervalMethod;
-const fit::Cylinder cylinder{
-    .diameter = 0.12, .length = 0.5, .density = 997, .viscosity = {}, .experiment = fit::Experiment::water_moves};
+const fit::Cylinder& cylinder = froude_test::held_cylinder;
 
 /// Fourteen cycles of 4 s at 20 Hz, C_D = 1.2 and C_M = 1.8, with AR(1) noise of 3 N.
 fit::ForceRecord record(double phi, std::uint64_t stream) {
-  fit::ForceRecord r;
-  const double omega = 2 * std::numbers::pi / 4;
-  const auto noise = froude_test::ar1_noise(1120, phi, 3, stream);
-  for (std::size_t j = 0; j < noise.size(); ++j) {
-    const double t = 0.05 * static_cast<double>(j);
-    r.time.push_back(t);
-    r.velocity.push_back(0.4 * omega * std::cos(omega * t));
-    r.acceleration.push_back(-0.4 * omega * omega * std::sin(omega * t));
-    r.force.push_back(fit::morison_force(cylinder, 1.2, 1.8, r.velocity[j], r.acceleration[j]) + noise[j]);
-  }
-  return r;
+  return froude_test::swinging_water(1120, 0.05, phi, stream);
 }
 
 struct Coverage {

@@ -5,6 +5,7 @@
 #include "fit/morison.hpp"
 #include "fit/prepare.hpp"
 #include "harness/case.hpp"
+#include "harness/hendriksen.hpp"
 #include "hydro/base/random.hpp"
 #include "hydro/io/csv.hpp"
 
@@ -60,14 +61,6 @@ double ramp(double c) {
   return run;
 }
 
-/// The source's own steps, but for the delay of its moving average: zero run, 3.33 Hz, last five full oscillations.
-::fit::MorisonFit fitted(const ::fit::RawRun& run) {
-  ::fit::PrepareOptions options;
-  options.filters = {{.kind = ::fit::FilterChoice::Kind::butterworth, .order = 4, .hz = 3.33}};
-  options.window = {.kind = ::fit::WindowChoice::Kind::full_cycles, .cycles = 5};
-  return ::fit::fit_morison(cylinder, ::fit::prepare(run, options).record);
-}
-
 bool holds(const ::fit::Interval& interval, double truth) { return interval.low <= truth && truth <= interval.high; }
 
 }  // namespace
@@ -84,7 +77,8 @@ Outcome hendriksen_oscillation(const Folders& folders) {
   for (std::size_t i = 0; i < table.rows(); ++i) {
     double half = 0;
     for (int seed = 1; seed <= seeds; ++seed) {
-      const auto f = fitted(made({amplitude[i], period[i], cd[i], cm[i], rmse[i]}, 100 * static_cast<int>(i) + seed));
+      const auto f = fitted_as_the_source(
+          cylinder, made({amplitude[i], period[i], cd[i], cm[i], rmse[i]}, 100 * static_cast<int>(i) + seed));
       covered_cd += holds(f.cd.interval, cd[i]);
       covered_cm += holds(::fit::inertia_as(f, "cm").interval, cm[i]);
       ++sets;

@@ -4,6 +4,7 @@
 
 #include "fit/prepare.hpp"
 #include "harness/case.hpp"
+#include "harness/hendriksen.hpp"
 #include "hydro/base/random.hpp"
 #include "hydro/io/csv.hpp"
 #include "hydro/waves/sea.hpp"
@@ -65,13 +66,6 @@ const ::fit::Cylinder cylinder{.diameter = diameter,
   return run;
 }
 
-::fit::MorisonFit fitted(const ::fit::RawRun& run) {
-  ::fit::PrepareOptions options;
-  options.filters = {{.kind = ::fit::FilterChoice::Kind::butterworth, .order = 4, .hz = 3.33}};
-  options.window = {.kind = ::fit::WindowChoice::Kind::full_cycles, .cycles = 5};
-  return ::fit::fit_morison(cylinder, ::fit::prepare(run, options).record);
-}
-
 /// Shares over all runs and seeds.
 struct Fits {
   double cd = 0, cm = 0, told_short = 0, told_long = 0;
@@ -85,7 +79,8 @@ Fits fit_all(const hydro::io::CsvTable& table) {
   const double short_runs = 2, long_runs = static_cast<double>(table.rows()) - short_runs;
   for (std::size_t i = 0; i < table.rows(); ++i)
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-      const auto f = fitted(made({period[i], amplitude[i], cd[i], cm[i], rmse[i]}, 100 * i + seed));
+      const auto f =
+          fitted_as_the_source(cylinder, made({period[i], amplitude[i], cd[i], cm[i], rmse[i]}, 100 * i + seed));
       const auto holds = [](const ::fit::Interval& v, double truth) { return v.low <= truth && truth <= v.high; };
       if (period[i] < 1.2) {
         out.told_short += f.cd.value.has_value() / (short_runs * seeds);

@@ -44,10 +44,11 @@ double DominantPeriodController::frequency() const {
 std::optional<double> DominantPeriodController::sample(const State& state) {
   time_.push_back(state.time);
   value_.push_back(law_.signal(state));
+  if (state.time < next_check_) return {};
   const auto old = std::lower_bound(time_.begin(), time_.end(), state.time - law_.window);
   value_.erase(value_.begin(), value_.begin() + (old - time_.begin()));
   time_.erase(time_.begin(), old);
-  if (state.time < next_check_ || time_.size() < 8) return {};
+  if (time_.size() < 8) return {};
   next_check_ += law_.every;
   const double now = frequency();
   const bool steady = last_frequency_ && std::abs(now - *last_frequency_) <= law_.hysteresis && now > 0;

@@ -29,21 +29,19 @@ EnergyFlow ContactKind::energy(const Instant& now) const {
   return flow;
 }
 
-Condition ContactKind::as_condition(std::size_t element) const {
+Condition ContactKind::closed(std::size_t element) const {
   constexpr int of_no_joint = -1;
   const Contact& c = elements_[element];
   return {of_no_joint, c.first, c.second, c.shapes};
 }
 
-Condition ContactKind::closed(std::size_t element) const { return as_condition(element); }
-
 Meeting ContactKind::meeting(std::size_t element, const State& state) const {
-  return dynamics::meeting(elements_[element].shapes, ends_of(as_condition(element), state));
+  return dynamics::meeting(elements_[element].shapes, ends_of(closed(element), state));
 }
 
-Eigen::Vector3d ContactKind::relative_velocity(std::size_t element, const State& state) const {
+ContactKind::Motion ContactKind::motion(std::size_t element, const State& state) const {
   const Contact& c = elements_[element];
-  const ConditionEnds at = ends_of(as_condition(element), state);
+  const ConditionEnds at = ends_of(closed(element), state);
   const Meeting m = dynamics::meeting(c.shapes, at);
   const auto of_point = [&](int body, const Eigen::Vector3d& centre, const Eigen::Vector3d& point) {
     const auto twist = state.twist(body);
@@ -51,11 +49,12 @@ Eigen::Vector3d ContactKind::relative_velocity(std::size_t element, const State&
   };
   Eigen::Vector3d v = -of_point(c.first, at.first_centre, m.on_first);
   if (c.second) v += of_point(*c.second, at.second_centre, m.on_second);
-  return v;
+  const double parting = v.dot(m.normal);
+  return {m, parting, v - parting * m.normal};
 }
 
 std::array<Condition, 2> ContactKind::sticking(std::size_t element, const State& state) const {
-  const Condition c = as_condition(element);
+  const Condition c = closed(element);
   const Eigen::Vector3d n = meeting(element, state).normal, t = n.unitOrthogonal();
   std::array<Condition, 2> out{c, c};
   out[0].what = StickCondition{elements_[element].shapes, t};
@@ -64,7 +63,7 @@ std::array<Condition, 2> ContactKind::sticking(std::size_t element, const State&
 }
 
 Gradient ContactKind::along(std::size_t element, const Eigen::Vector3d& direction, const State& state) const {
-  const ConditionEnds at = ends_of(as_condition(element), state);
+  const ConditionEnds at = ends_of(closed(element), state);
   const Meeting m = dynamics::meeting(elements_[element].shapes, at);
   return apart(direction, m.on_first, m.on_second, at);
 }

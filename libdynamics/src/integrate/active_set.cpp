@@ -45,10 +45,7 @@ void ActiveSet::find_condition_scale(const State& state) {
 
 /// False if its bodies cannot move that way at all.
 bool ActiveSet::moves(const Condition& condition, const State& state) const {
-  JointSet alone = model_.joints();
-  alone.reduce(std::vector<bool>(static_cast<std::size_t>(alone.count()), false));
-  alone.add(condition);
-  const Gradient g = alone.gradients(state).front();
+  const Gradient g = model_.joints().with_only(condition).gradients(state).front();
   return g.first.norm() + (condition.second ? g.second.norm() : 0) > 0;
 }
 
@@ -96,8 +93,7 @@ void ActiveSet::reset_slides() {
 bool ActiveSet::turn_slides(const State& end) {
   bool any = false;
   for (Slide& slide : slides_) {
-    const Eigen::Vector3d n = contact_->meeting(slide.element, end).normal;
-    const Eigen::Vector3d v = contact_->relative_velocity(slide.element, end), slip = v - v.dot(n) * n;
+    const Eigen::Vector3d slip = contact_->motion(slide.element, end).slip;
     if (slip.dot(slide.start) <= 0) continue;
     any = any || (slip.normalized() - slide.direction).norm() > 1e-9;
     slide.direction = slip.normalized();
@@ -144,6 +140,13 @@ bool ActiveSet::solve_accelerations(Workspace& workspace) const {
   workspace.acceleration = std::move(found->acceleration);
   workspace.multipliers = std::move(found->multipliers);
   return true;
+}
+
+void ActiveSet::require_accelerations(Workspace& workspace) const {
+  if (!solve_accelerations(workspace))
+    throw hydro::NumericsError(fmt::format(
+        "no accelerations can be found at t = {} s: the loads or the mass matrix are not finite or singular",
+        workspace.state.time));
 }
 
 }  // namespace dynamics

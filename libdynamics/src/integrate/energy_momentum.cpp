@@ -48,8 +48,9 @@ State EnergyMomentum::end_of_step(const Workspace& workspace, double h, const Ei
 void EnergyMomentum::find_loads(Workspace& workspace, double h, Trial& trial) const {
   const State& now = workspace.state;
   trial.loads_at = between(now, trial.state);
+  const State& middle = *trial.loads_at;
   const Eigen::VectorXd mean_acceleration = (trial.state.velocity - now.velocity) / h;
-  trial.residual = model().residual(trial.loads_at, mean_acceleration, workspace);
+  trial.residual = model().residual(middle, mean_acceleration, workspace);
   // In place of I α + ω × I ω at the midpoint, the gain of angular momentum over the step.
   for (std::size_t i = 0; i < now.pose.size(); ++i) {
     const auto row = 6 * static_cast<Eigen::Index>(i) + 3;
@@ -57,10 +58,10 @@ void EnergyMomentum::find_loads(Workspace& workspace, double h, Trial& trial) co
       const Eigen::Quaterniond& R = s.pose[i].attitude;
       return Eigen::Vector3d(R * (model().bodies()[i].inertia() * (R.conjugate() * s.velocity.segment<3>(row))));
     };
-    State turning = trial.loads_at;
+    State turning = middle;
     turning.velocity.segment<3>(row) = mean_acceleration.segment<3>(row);
-    const Eigen::Vector3d omega = trial.loads_at.velocity.segment<3>(row);
-    const Eigen::Vector3d at_midpoint = momentum(turning) + omega.cross(momentum(trial.loads_at));
+    const Eigen::Vector3d omega = middle.velocity.segment<3>(row);
+    const Eigen::Vector3d at_midpoint = momentum(turning) + omega.cross(momentum(middle));
     const Eigen::Vector3d exact = (momentum(trial.state) - momentum(now)) / h;
     for (int k = 0; k < 3; ++k)
       if (model().is_free(static_cast<int>(row) + k)) trial.residual[row + k] += exact[k] - at_midpoint[k];

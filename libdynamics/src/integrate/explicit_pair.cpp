@@ -73,8 +73,7 @@ std::optional<ExplicitPair::Attempt> ExplicitPair::attempt(Workspace& workspace,
 
 bool ExplicitPair::try_step(Workspace& workspace, double h, StepReport& report) {
   constexpr double shortest = 1e-7;  // of the step asked for
-  const Workspace* const kept = &workspace;
-  const State start = kept->state;
+  const State start = workspace.state;
   const Eigen::VectorXd acceleration = workspace.acceleration, multipliers = workspace.multipliers;
   double step = std::isinf(settings_.tolerance) || last_ == 0 ? h : std::min(h, last_);
   for (double done = 0; done < h * (1 - 1e-12);) {

@@ -41,10 +41,7 @@ void Integrator::start(Workspace& workspace) {
 }
 
 void Integrator::begin_anew(Workspace& workspace) {
-  if (!active_.solve_accelerations(workspace))
-    throw hydro::NumericsError(fmt::format(
-        "no accelerations can be found at t = {} s: the loads or the mass matrix are not finite or singular",
-        workspace.state.time));
+  active_.require_accelerations(workspace);
   begin(workspace);
 }
 
@@ -109,8 +106,10 @@ double Integrator::step_to_change(Workspace& workspace, double h, StepReport& re
     advance(workspace, way, 0, report);
     return laws_.least_margin(workspace).value;
   };
-  double low = 0, high = h, at_low = laws_.least_margin(workspace).value, at_high = margin_after(h);
+  double high = h, at_high = margin_after(h);
   if (at_high >= 0) return h;
+  restore(workspace, before);
+  double low = 0, at_low = laws_.least_margin(workspace).value;
   // Right after it began, a slip or a bounce has gone no way yet: go back until it has.
   if (at_low <= change_resolution)
     for (double way = h / 2; way > h * change_resolution; way /= 2) {

@@ -18,7 +18,6 @@ double NewtonIntegrator::unresolved(double h) const {
 }
 
 void NewtonIntegrator::find_loads(Workspace& workspace, double, Trial& trial) const {
-  trial.loads_at = trial.state;
   trial.residual = model().residual(trial.state, trial.acceleration, workspace);
   trial.columns = active().columns(trial.gradients, trial.state);
 }
@@ -75,8 +74,9 @@ bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& repo
     ++report.newton_iterations;
     // Leaving J out of the loads' derivatives costs Newton some speed, not the solution; joints have it, to close
     // fully.
-    model().tangent(now.loads_at, 1, slope.load_speed, slope.load_place, workspace, workspace.matrix);
-    active().conditions().add_curvature(now.loads_at, now.multipliers, slope.load_place, workspace.matrix);
+    const State& loads_at = now.loads_at ? *now.loads_at : now.state;
+    model().tangent(loads_at, 1, slope.load_speed, slope.load_place, workspace, workspace.matrix);
+    active().conditions().add_curvature(loads_at, now.multipliers, slope.load_place, workspace.matrix);
     if (!workspace.solver.factorise(workspace.matrix, now.columns, by_step(now.gradients, workspace.state, now.state),
                                     active().compliance()))
       return fail("the iteration matrix is singular");

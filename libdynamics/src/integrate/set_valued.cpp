@@ -26,16 +26,9 @@ double SetValuedLaws::rounding(const ActiveSet::Balance& loads) const {
   return 1e-8 * std::max({loads.acceleration.cwiseAbs().maxCoeff(), heaviest, 1e-3});
 }
 
-// Rate of the gap, m/s.
-double SetValuedLaws::approach(std::size_t element, const State& state) const {
-  return active_.contact()->meeting(element, state).normal.dot(active_.contact()->relative_velocity(element, state));
-}
-
 // Second rate of the gap, m/s².
 double SetValuedLaws::pull(std::size_t element, const Workspace& workspace) const {
-  JointSet alone = model_.joints();
-  alone.reduce(std::vector<bool>(static_cast<std::size_t>(alone.count()), false));
-  alone.add(active_.contact()->closed(element));
+  const JointSet alone = model_.joints().with_only(active_.contact()->closed(element));
   const auto G = alone.gradients(workspace.state);
   return alone.times(G, workspace.acceleration)[0] + alone.convective(workspace.state)[0];
 }
@@ -55,10 +48,8 @@ void SetValuedLaws::classify_contacts(Workspace& workspace) const {
   const double slow = this->slow(workspace);
   for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
     ContactState& c = active_.contact_memory(workspace).contact[i];
-    const Meeting m = active_.contact()->meeting(i, workspace.state);
-    const Eigen::Vector3d v = active_.contact()->relative_velocity(i, workspace.state);
-    const Eigen::Vector3d slip = v - v.dot(m.normal) * m.normal;
-    const bool touches = m.gap <= closed && std::abs(v.dot(m.normal)) <= slow;
+    const auto [m, parting, slip] = active_.contact()->motion(i, workspace.state);
+    const bool touches = m.gap <= closed && std::abs(parting) <= slow;
     const bool holds = active_.contact()->all()[i].friction > 0 && slip.norm() <= slow;
     c.is = !touches ? ContactState::open : holds ? ContactState::sticks : ContactState::slides;
     if (slip.norm() > 0) c.slip = slip.normalized();
@@ -85,15 +76,15 @@ bool SetValuedLaws::collide(Workspace& workspace) {
   if (active_.contact() == nullptr) return false;
   const ContactKind& kind = *active_.contact();
   State& state = workspace.state;
-  JointSet rows = model_.joints();
-  const auto joints = rows.gradients(state);
-  rows.reduce(std::vector<bool>(joints.size(), false));
+  const auto joints = model_.joints().gradients(state);
+  JointSet rows = model_.joints().with_only({});
   std::vector<ImpactLaw> laws;
   std::vector<std::size_t> touching;
   bool approaching = false;
   for (std::size_t i = 0; i < kind.elements(); ++i) {
-    if (kind.gap(i, state) > closed) continue;
-    approaching = approaching || approach(i, state) < -slow(workspace);
+    const ContactKind::Motion motion = kind.motion(i, state);
+    if (motion.meeting.gap > closed) continue;
+    approaching = approaching || motion.parting < -slow(workspace);
     laws.push_back({rows.count(), kind.all()[i].restitution, kind.all()[i].friction});
     touching.push_back(i);
     rows.add(kind.closed(i));
@@ -131,8 +122,8 @@ void SetValuedLaws::still(Workspace& workspace, double step) {
   std::vector<std::size_t> near;
   for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
     const double fall = std::abs(pull(i, workspace)) * step;
-    if (active_.contact()->gap(i, workspace.state) > fall * step / 2) continue;
-    if (std::abs(approach(i, workspace.state)) > fall) continue;
+    const ContactKind::Motion motion = active_.contact()->motion(i, workspace.state);
+    if (motion.meeting.gap > fall * step / 2 || std::abs(motion.parting) > fall) continue;
     rows.add(active_.contact()->closed(i));
     near.push_back(i);
   }
@@ -163,7 +154,7 @@ std::vector<SetValuedLaws::Seen> SetValuedLaws::situation(Workspace& workspace) 
   return out;
 }
 
-// What reaches its level is let go, whatever the accelerations say: the multipliers of a step are those of its method.
+// What has reached its level is let go at once; settle() then looks at what follows for the others.
 void SetValuedLaws::take_up(Workspace& workspace, const Margin& at) {
   if (at.law == Event::Law::friction) {
     active_.friction_memory(workspace).direction[at.element] = at.becomes;
@@ -249,7 +240,7 @@ SetValuedLaws::Margin SetValuedLaws::least_margin(Workspace& workspace) const {
       contact((friction * load - loads->multipliers.segment(c.row + 1, c.held).norm()) / mass + rounding,
               ContactState::slides);
     else if (friction > 0)
-      contact(c.slip.dot(active_.contact()->relative_velocity(i, workspace.state)), ContactState::sticks);
+      contact(c.slip.dot(active_.contact()->motion(i, workspace.state).slip), ContactState::sticks);
   }
   return least;
 }
@@ -300,8 +291,9 @@ bool SetValuedLaws::close_what_would_overlap(Workspace& workspace) {
   bool any = false;
   for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
     ContactState& c = active_.contact_memory(workspace).contact[i];
-    if (c.is != ContactState::open || active_.contact()->gap(i, workspace.state) > closed) continue;
-    if (std::abs(approach(i, workspace.state)) > slow(workspace)) continue;
+    if (c.is != ContactState::open) continue;
+    const ContactKind::Motion motion = active_.contact()->motion(i, workspace.state);
+    if (motion.meeting.gap > closed || std::abs(motion.parting) > slow(workspace)) continue;
     if (pull(i, workspace) >= -rounding({workspace.acceleration, workspace.multipliers})) continue;
     c.is = active_.contact()->all()[i].friction > 0 ? ContactState::sticks : ContactState::slides;
     any = true;
@@ -313,10 +305,7 @@ void SetValuedLaws::settle(Workspace& workspace) {
   const std::size_t tries = 10 + 4 * situation(workspace).size();
   for (std::size_t n = 0; n < tries; ++n) {
     active_.rebuild(workspace);
-    if (!active_.solve_accelerations(workspace))
-      throw hydro::NumericsError(fmt::format(
-          "no accelerations can be found at t = {} s: the loads or the mass matrix are not finite or singular",
-          workspace.state.time));
+    active_.require_accelerations(workspace);
     if (!release(workspace) && !close_what_would_overlap(workspace)) return;
   }
   throw hydro::NumericsError(
@@ -330,10 +319,8 @@ Eigen::VectorXd SetValuedLaws::slip_power(Workspace& workspace) const {
   for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
     const ContactState& c = active_.contact_memory(workspace).contact[i];
     if (c.is != ContactState::slides || c.row < 0) continue;
-    const Meeting m = active_.contact()->meeting(i, workspace.state);
-    const Eigen::Vector3d v = active_.contact()->relative_velocity(i, workspace.state);
-    power[static_cast<Eigen::Index>(i)] =
-        active_.contact()->all()[i].friction * -workspace.multipliers[c.row] * (v - v.dot(m.normal) * m.normal).norm();
+    power[static_cast<Eigen::Index>(i)] = active_.contact()->all()[i].friction * -workspace.multipliers[c.row] *
+                                          active_.contact()->motion(i, workspace.state).slip.norm();
   }
   return power;
 }
@@ -356,9 +343,7 @@ bool SetValuedLaws::follow_rolling(Workspace& workspace) {
   for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
     ContactState& c = active_.contact_memory(workspace).contact[i];
     if (c.is == ContactState::slides) {  // later steps begin with the direction that slip has now
-      const Meeting m = active_.contact()->meeting(i, workspace.state);
-      const Eigen::Vector3d v = active_.contact()->relative_velocity(i, workspace.state);
-      const Eigen::Vector3d slip = v - v.dot(m.normal) * m.normal;
+      const Eigen::Vector3d slip = active_.contact()->motion(i, workspace.state).slip;
       if (slip.norm() > slow(workspace)) c.slip = slip.normalized();
     }
     any = any || (c.is != ContactState::open && active_.contact()->all()[i].friction > 0);

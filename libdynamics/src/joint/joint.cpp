@@ -101,6 +101,13 @@ void JointSet::reduce(const std::vector<bool>& keep) {
   conditions_ = std::move(kept);
 }
 
+JointSet JointSet::with_only(std::optional<Condition> condition) const {
+  JointSet out = *this;
+  out.conditions_.clear();
+  if (condition) out.conditions_.push_back(std::move(*condition));
+  return out;
+}
+
 void JointSet::couple(BlockPattern& pattern) const {
   for (const Condition& c : conditions_)
     if (c.second) pattern.couple(c.first, *c.second);

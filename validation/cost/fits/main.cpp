@@ -11,7 +11,7 @@
 #include "fit/decay.hpp"
 #include "fit/morison.hpp"
 #include "fit/robust.hpp"
-#include "support/coloured_noise.hpp"
+#include "support/morison_records.hpp"
 
 namespace {
 
@@ -29,23 +29,10 @@ double best_of(const std::function<void()>& work) {
   return best;
 }
 
-const fit::Cylinder cylinder{
-    .diameter = 0.12, .length = 0.5, .density = 997, .viscosity = {}, .experiment = fit::Experiment::water_moves};
+const fit::Cylinder& cylinder = froude_test::held_cylinder;
 
 /// Twenty periods of 4 s, C_D = 1.2, C_M = 1.8, noise of 3 N with a memory.
-fit::ForceRecord record() {
-  fit::ForceRecord r;
-  const double omega = 2 * std::numbers::pi / 4;
-  const auto noise = froude_test::ar1_noise(samples, 0.9, 3, 1);
-  for (std::size_t j = 0; j < samples; ++j) {
-    const double t = 0.004 * static_cast<double>(j);
-    r.time.push_back(t);
-    r.velocity.push_back(0.4 * omega * std::cos(omega * t));
-    r.acceleration.push_back(-0.4 * omega * omega * std::sin(omega * t));
-    r.force.push_back(fit::morison_force(cylinder, 1.2, 1.8, r.velocity[j], r.acceleration[j]) + noise[j]);
-  }
-  return r;
-}
+fit::ForceRecord record() { return froude_test::swinging_water(samples, 0.004, 0.9, 1); }
 
 void forces() {
   const auto r = record();

@@ -55,8 +55,13 @@ class ContactKind final : public ForceKind {
   const std::vector<Contact>& all() const { return elements_; }
   Meeting meeting(std::size_t element, const State& state) const;
   double gap(std::size_t element, const State& state) const { return meeting(element, state).gap; }
-  /// Velocity of the second's point against the first's, m/s, global.
-  Eigen::Vector3d relative_velocity(std::size_t element, const State& state) const;
+  /// How the points that are closest move against each other, the second's seen from the first's.
+  struct Motion {
+    Meeting meeting;
+    double parting;        ///< along the normal, m/s: the rate of the gap
+    Eigen::Vector3d slip;  ///< across it, m/s, global
+  };
+  Motion motion(std::size_t element, const State& state) const;
   /// The condition that keeps the gap at zero.
   Condition closed(std::size_t element) const;
   /// Two conditions that keep what touches from slipping along the surface, in directions across its normal in `state`.
@@ -67,7 +72,6 @@ class ContactKind final : public ForceKind {
   double load(std::size_t element, const Memory* memory, const Eigen::VectorXd& multipliers) const;
 
  private:
-  Condition as_condition(std::size_t element) const;
   std::vector<Contact> elements_;
 };
 

@@ -41,6 +41,8 @@ class ActiveSet {
   std::optional<Balance> balance(Workspace& workspace) const;
   /// Takes them into the workspace. \returns false if they cannot be had
   bool solve_accelerations(Workspace& workspace) const;
+  /// The same. \throws hydro::NumericsError with the time if they cannot be had
+  void require_accelerations(Workspace& workspace) const;
 
   /// √ of the diagonal of mass plus added mass: makes newtons and newton metres comparable.
   const Eigen::VectorXd& scale() const { return scale_; }

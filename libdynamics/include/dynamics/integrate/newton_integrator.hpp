@@ -3,6 +3,8 @@
 /// multipliers.
 #include <Eigen/Core>
 
+#include <optional>
+
 #include "dynamics/integrate/integrator.hpp"
 
 namespace dynamics {
@@ -17,7 +19,7 @@ class NewtonIntegrator : public Integrator {
   struct Trial {
     Eigen::VectorXd acceleration, multipliers;
     State state;                               ///< at the end of the step
-    State loads_at;                            ///< where loads are taken
+    std::optional<State> loads_at = {};        ///< where loads are taken, if not there
     std::vector<Gradient> gradients, columns;  ///< of the conditions at the end, and of their loads
     Eigen::VectorXd residual, open;  ///< forces that do not balance; how far joints are open, as accelerations
     double size;                     ///< of both, scaled
@@ -30,7 +32,7 @@ class NewtonIntegrator : public Integrator {
  private:
   virtual Slopes slopes(double h) const = 0;
   virtual State end_of_step(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration) const = 0;
-  /// Fills loads_at, residual (without joints) and columns; here at the end of the step.
+  /// Fills residual (without joints) and columns, and loads_at if that is not the end of the step.
   virtual void find_loads(Workspace& workspace, double h, Trial& trial) const;
   /// The step is done; the workspace is still as before it.
   virtual void accepted(const Workspace&, const Eigen::VectorXd&) {}

@@ -57,7 +57,6 @@ class SetValuedLaws {
   bool close_what_would_overlap(Workspace& workspace);
   double slow(const Workspace& workspace) const;
   double rounding(const ActiveSet::Balance& loads) const;
-  double approach(std::size_t element, const State& state) const;
   double pull(std::size_t element, const Workspace& workspace) const;
   struct Seen {
     int is;  ///< as Event::becomes

@@ -90,6 +90,8 @@ class JointSet {
   Eigen::Index count() const { return static_cast<Eigen::Index>(conditions_.size()); }
   /// Leaves out conditions that others already hold; `keep` has one entry a condition.
   void reduce(const std::vector<bool>& keep);
+  /// The same bodies, joined by this condition alone; by nothing if there is none.
+  JointSet with_only(std::optional<Condition> condition) const;
 
   void couple(BlockPattern& pattern) const;
   /// True for a condition on velocities, G v = 0, which no g belongs to.
