@@ -1,0 +1,56 @@
+#include "dynamics/joint/independent.hpp"
+
+#include <Eigen/CholmodSupport>
+#include <Eigen/Sparse>
+#include <SuiteSparseQR.hpp>
+
+#include "hydro/base/error.hpp"
+
+namespace dynamics {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double, Eigen::ColMajor, SuiteSparse_long>;
+
+/// G of one condition a column, each of length one; a column of zeros where the bodies cannot move that way at all.
+Sparse unit_columns(const JointSet& joints, const State& state, const Eigen::VectorXd& scale) {
+  std::vector<Eigen::Triplet<double, SuiteSparse_long>> entries;
+  const auto G = joints.gradients(state);
+  for (std::size_t i = 0; i < G.size(); ++i) {
+    const Condition& c = joints.conditions()[i];
+    const Vector6 first = G[i].first.cwiseQuotient(scale.segment<6>(6 * c.first));
+    Vector6 second = Vector6::Zero();
+    if (c.second) second = G[i].second.cwiseQuotient(scale.segment<6>(6 * *c.second));
+    const double size = std::hypot(first.norm(), second.norm());
+    if (size == 0) continue;
+    for (int k = 0; k < 6; ++k) {
+      if (first[k] != 0) entries.emplace_back(6 * c.first + k, i, first[k] / size);
+      if (second[k] != 0) entries.emplace_back(6 * *c.second + k, i, second[k] / size);
+    }
+  }
+  Sparse out(scale.size(), joints.count());
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+}  // namespace
+
+std::vector<bool> independent(const JointSet& joints, const State& state, const Eigen::VectorXd& scale) {
+  constexpr double part_of_others = 1e-9;
+  Sparse columns = unit_columns(joints, state, scale);
+  cholmod_common common;
+  cholmod_l_start(&common);
+  cholmod_sparse view = Eigen::viewAsCholmod(columns), *R = nullptr;
+  SuiteSparse_long* order = nullptr;  // columns that add something, then those that do not; null: all, as given
+  const SuiteSparse_long rank =
+      SuiteSparseQR<double>(SPQR_ORDERING_FIXED, part_of_others, 0, &view, &R, &order, &common);
+  std::vector<bool> out(static_cast<std::size_t>(joints.count()), rank == joints.count());
+  for (SuiteSparse_long k = 0; rank < joints.count() && k < rank; ++k)
+    out[static_cast<std::size_t>(order == nullptr ? k : order[k])] = true;
+  cholmod_l_free_sparse(&R, &common);
+  cholmod_l_free(joints.count(), sizeof(SuiteSparse_long), order, &common);
+  cholmod_l_finish(&common);
+  hydro::ensure(rank >= 0, "sparse QR of the conditions of joints");
+  return out;
+}
+
+}  // namespace dynamics
