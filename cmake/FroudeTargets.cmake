@@ -28,6 +28,16 @@ function(froude_precompile target)
   endif()
 endfunction()
 
+# froude_merge(TARGET [APART FILE…]): compiles ten files of a target as one, which halves the time of a build: a template
+# that several use is made once. Files that name private things alike are compiled apart.
+function(froude_merge target)
+  cmake_parse_arguments(M "" "" "APART" ${ARGN})
+  if(FROUDE_MERGED_SOURCES)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 10)
+    set_source_files_properties(${M_APART} TARGET_DIRECTORY ${target} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
+endfunction()
+
 # froude_library(NAME): a library froude_NAME with alias froude::NAME and the common options, not exported with them.
 function(froude_library name)
   add_library(froude_${name})

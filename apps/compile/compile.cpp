@@ -267,9 +267,10 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
   add_springs(prepared, forces);
   std::vector<dynamics::RadiationMemory> memories;
   std::vector<PlanLine> memory_lines;
+  Radiation radiation(prepared, step, sea);
   for (std::size_t i = 0; i < prepared.groups.size(); ++i) {
     if (!prepared.groups[i].radiation) continue;
-    auto parts = radiation(prepared, i, step, sea, notes);
+    auto parts = radiation.of(i, notes);
     added_mass.push_back(std::move(parts.added_mass));
     memories.push_back(std::move(parts.memory));
     memory_lines.insert(memory_lines.end(), parts.lines.begin(), parts.lines.end());

@@ -42,6 +42,11 @@ struct Symmetric {
     for (const auto& m : c.A) A.push_back(of(m, modes));
     if (c.A_inf) A_inf = of(*c.A_inf, modes);
   }
+  bool operator==(const Symmetric& other) const {
+    const bool as_large = damping.B.front().rows() == other.damping.B.front().rows();
+    return as_large && damping.omega == other.damping.omega && damping.B == other.damping.B && A == other.A &&
+           A_inf == other.A_inf;
+  }
 
  private:
   Eigen::MatrixXd of(const Eigen::MatrixXd& whole, const std::vector<int>& modes) {
@@ -127,24 +132,45 @@ RadiationParts at_one_frequency(const dynamics::frequency::PotentialGroup& g, co
 
 }  // namespace
 
-RadiationParts radiation(const Prepared& prepared, std::size_t group, double step, const hydro::waves::Sea* sea,
-                         std::vector<std::string>& notes) {
+struct Radiation::Chosen {
+  scene::Memory asked;
+  Symmetric data;
+  ChosenMemory memory;
+};
+
+Radiation::~Radiation() = default;
+
+const Radiation::Chosen& Radiation::chosen_for(std::size_t group, const std::vector<int>& modes,
+                                               std::vector<std::string>& notes) {
   using enum scene::Memory::Method;
-  const auto& g = prepared.groups[group];
-  const auto& c = g.table.coefficients();
-  const scene::Memory& asked = prepared.memory[group];
-  const FreeModes modes = free_modes(prepared, g.bodies);
-  if (asked.method == scene::Memory::Method::constant) return at_one_frequency(g, modes, asked, step, sea);
-  const Symmetric data(c, modes.in_group);
+  const scene::Memory& asked = prepared_.memory[group];
+  const auto& c = prepared_.groups[group].table.coefficients();
+  Symmetric data(c, modes);
+  for (const auto& known : chosen_)
+    if (known->asked.method == asked.method && known->asked.tolerance == asked.tolerance &&
+        known->asked.length == asked.length && known->data == data)
+      return *known;
   hydro::radiation::MemoryDemand demand{
-      .step = step, .tolerance = asked.tolerance, .length = asked.length, .method = {}};
+      .step = step_, .tolerance = asked.tolerance, .length = asked.length, .method = {}};
   if (asked.method == direct) demand.method = hydro::radiation::Method::direct;
   if (asked.method == partitioned) demand.method = hydro::radiation::Method::partitioned;
   if (asked.method == poles) demand.method = hydro::radiation::Method::poles;
-  const ChosenMemory chosen = choose(data.damping, data.A, data.A_inf, demand);
-  note_what_was_done(c, chosen, data.asymmetry, asked.tolerance, notes);
-  RadiationParts out{
-      {g.bodies, Eigen::MatrixXd::Zero(c.modes(), c.modes())}, {modes.in_model, chosen.memory}, lines(chosen)};
+  ChosenMemory memory = choose(data.damping, data.A, data.A_inf, demand);
+  note_what_was_done(c, memory, data.asymmetry, asked.tolerance, notes);
+  chosen_.push_back(std::make_unique<const Chosen>(Chosen{asked, std::move(data), std::move(memory)}));
+  return *chosen_.back();
+}
+
+RadiationParts Radiation::of(std::size_t group, std::vector<std::string>& notes) {
+  const auto& g = prepared_.groups[group];
+  const FreeModes modes = free_modes(prepared_, g.bodies);
+  if (prepared_.memory[group].method == scene::Memory::Method::constant)
+    return at_one_frequency(g, modes, prepared_.memory[group], step_, sea_);
+  const std::size_t known = chosen_.size();
+  const ChosenMemory& chosen = chosen_for(group, modes.in_group, notes).memory;
+  const Eigen::Index n = g.table.coefficients().modes();
+  RadiationParts out{{g.bodies, Eigen::MatrixXd::Zero(n, n)}, {modes.in_model, chosen.memory}, {}};
+  if (chosen_.size() > known) out.lines = lines(chosen);
   out.added_mass.value(modes.in_group, modes.in_group) = chosen.A_inf;
   return out;
 }

@@ -13,9 +13,26 @@ struct RadiationParts {
   std::vector<PlanLine> lines;
 };
 
-/// Of group `group` of `prepared`, at the run's step. `sea`: null in calm water.
-/// \throws hydro::InputError if constant coefficients are asked for in anything but one regular wave
-RadiationParts radiation(const Prepared& prepared, std::size_t group, double step, const hydro::waves::Sea* sea,
-                         std::vector<std::string>& notes);
+/// Radiation of the groups of a scene, at the run's step. Groups with equal coefficients, such as copies that do not
+/// feel each other, share one memory method: it is weighed and fitted once.
+class Radiation {
+ public:
+  /// `sea`: null in calm water.
+  Radiation(const Prepared& prepared, double step, const hydro::waves::Sea* sea)
+      : prepared_(prepared), step_(step), sea_(sea) {}
+  ~Radiation();
+  /// What is to be noted of groups with equal coefficients is noted once.
+  /// \throws hydro::InputError if constant coefficients are asked for in anything but one regular wave
+  RadiationParts of(std::size_t group, std::vector<std::string>& notes);
+
+ private:
+  struct Chosen;
+  const Chosen& chosen_for(std::size_t group, const std::vector<int>& modes, std::vector<std::string>& notes);
+
+  const Prepared& prepared_;
+  double step_;
+  const hydro::waves::Sea* sea_;
+  std::vector<std::unique_ptr<const Chosen>> chosen_;
+};
 
 }  // namespace froude::compile

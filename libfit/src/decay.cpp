@@ -13,7 +13,7 @@
 namespace fit {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Vertex of the parabola through sample j and its neighbours.
 Extreme vertex(std::span<const double> time, std::span<const double> x, std::size_t j) {

@@ -12,7 +12,7 @@
 namespace fit {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double forgotten = 1e-4;  // of the memory, at the samples next to those given up
 
 void check_frequency(const char* what, double hz, double step_s) {

@@ -15,7 +15,7 @@ struct Symbol {
   bool takes_prefix;
 };
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 // Knot, nautical mile, bar and the conventional standard gravity are exact by definition (BIPM, SI Brochure, 9th ed.,
 // table 8 and notes).
 constexpr double standard_gravity = 9.80665;

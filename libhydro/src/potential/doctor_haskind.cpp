@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double same_angle = 1e-4;  // rad: degrees written with two decimals
 
 /// Excitation at one heading, from the data or by a mirror.

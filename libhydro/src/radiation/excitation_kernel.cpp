@@ -10,7 +10,7 @@
 namespace hydro::radiation {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 void check(const ExcitationTable& table, double step, double length) {
   require(!table.omega.empty() && table.omega.size() == table.X.size(), "the excitation table is empty or ragged");

@@ -11,7 +11,7 @@ namespace hydro::waves {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double energy(const Component& w) { return w.amplitude * w.amplitude / 2; }
 

@@ -11,7 +11,7 @@
 namespace hydro::waves {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 void require_circle(double elevation, double centre, double diameter) {
   require(std::isfinite(diameter) && diameter > 0, "the diameter of a cylinder must be finite and positive, got {} m",

@@ -11,7 +11,7 @@
 namespace hydro::waves {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // (W41): 1/∫ cos^m φ dφ over −π/2 … π/2, which is √π Γ((m+1)/2)/Γ(m/2+1).
 double cosine_power_scale(double m) {

@@ -10,7 +10,7 @@
 namespace hydro::waves {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Φ(b) − Φ(a) for a <= b, taken on the side where both are small.
 double normal_between(double a, double b) {

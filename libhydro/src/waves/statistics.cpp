@@ -10,7 +10,7 @@
 namespace hydro::waves {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 void require_waves(double hs_m, double waves) {
   require(std::isfinite(hs_m) && hs_m > 0, "significant wave height must be finite and positive, got {} m", hs_m);

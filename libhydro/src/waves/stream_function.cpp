@@ -12,7 +12,7 @@
 namespace hydro::waves {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The wave in units of 1/k₀ and √(g/k₀), k₀ its wavenumber by linear theory: coefficients E_j, B_j and four numbers.
 struct Unknowns {

@@ -10,7 +10,7 @@
 namespace hydro::waves {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // The window is fitted in extended precision: noise of 1e-16 in a polynomial of degree 22 would be 1e-10 in its second
 // derivative.

@@ -12,7 +12,7 @@ namespace {
 
 using Complex = std::complex<double>;
 constexpr Complex i(0, 1);
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 void check(const Tank& tank) {
   require(std::isfinite(tank.length_m) && tank.length_m > 0,
