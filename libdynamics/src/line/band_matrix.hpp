@@ -19,10 +19,17 @@ class BandMatrix {
   /// Gaussian elimination with row pivots; overwrites matrix and `b`, which becomes the solution. O(size).
   /// Returns false for a matrix that is singular or not finite.
   bool solve(Eigen::VectorXd& b);
+  /// The same for several right-hand sides at once, one a column.
+  using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  bool solve(Columns& b);
 
  private:
   // Row swaps fill six more diagonals above.
   static constexpr int stride = 3 * half + 2;
+  bool eliminate(double* rhs, int width);
+  bool eliminate_one(double* rhs);
+  template <int Width>
+  bool eliminate_in_place(double* rhs, int width);
   static std::size_t place(int row, int column) { return static_cast<std::size_t>(row * stride + column - row + half); }
 
   int size_;

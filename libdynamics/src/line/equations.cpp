@@ -184,22 +184,26 @@ double Equations::assemble(const Stage& stage, const State& before, const Places
   return std::sqrt(sum);
 }
 
+/// Rows of held nodes, which keep what they have, and of the tension that there is not before the first node.
+void Equations::keep_held() {
+  matrix_(0, 0) = 1;
+  const int last = static_cast<int>(rhs_.size()) - 1;
+  for (const Held& h : line_.description().held)
+    for (int r = place_index(h.node); r < place_index(h.node) + 3; ++r) {
+      for (int c = std::max(0, r - BandMatrix::half); c <= std::min(last, r + BandMatrix::half); ++c) matrix_(r, c) = 0;
+      matrix_(r, r) = scale_;
+    }
+}
+
 /// Held nodes keep what they have; then solves for the corrections.
 bool Equations::solve_linear(Places& du, VectorXd& dT) {
-  matrix_(0, 0) = 1;
   rhs_[0] = 0;
   for (int j = 0; j < line_.segments(); ++j) rhs_[tension_index(j)] = -scale_ * law_[j];
   for (int i = 0; i < line_.nodes(); ++i) {
     rhs_.segment<3>(place_index(i)) = -residual_.col(i);
-    if (line_.held(i) == nullptr) continue;
-    for (int r = place_index(i); r < place_index(i) + 3; ++r) {
-      for (int c = std::max(0, r - BandMatrix::half);
-           c <= std::min<int>(static_cast<int>(rhs_.size()) - 1, r + BandMatrix::half); ++c)
-        matrix_(r, c) = 0;
-      matrix_(r, r) = scale_;
-      rhs_[r] = 0;
-    }
+    if (line_.held(i) != nullptr) rhs_.segment<3>(place_index(i)).setZero();
   }
+  keep_held();
   if (!matrix_.solve(rhs_)) return false;
   for (int j = 0; j < line_.segments(); ++j) dT[j] = scale_ * rhs_[tension_index(j)];
   for (int i = 0; i < line_.nodes(); ++i) du.col(i) = rhs_.segment<3>(place_index(i));

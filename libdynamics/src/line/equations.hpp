@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include <string>
+#include <vector>
 
 #include "band_matrix.hpp"
 #include "loads.hpp"
@@ -29,6 +30,13 @@ struct Powers : LoadPowers {
   double held = 0;            ///< supplied by what holds nodes
 };
 
+/// The force on each led node by what leads it, N, and its derivatives by places and velocities of all of them, (3k,
+/// 3k).
+struct Response {
+  Places force;
+  Eigen::MatrixXd by_place, by_velocity;
+};
+
 /// The balance of a state with accelerations a, as a stage.
 Stage instant(const State& state, const Places& a);
 
@@ -53,6 +61,11 @@ class Equations {
   bool project_velocity(const State& state, Places& v);
   /// Moves x along the directions of `from` until lengths are kept.
   bool project_place(const Places& from, double tolerance, Places& x);
+
+  /// What led nodes need at the end of a step with places u and tensions T, and how it follows them while the rest of
+  /// the line moves as the step has it; their accelerations follow their velocities by `a_by_v`. (D90)
+  Response response(const Stage& stage, const State& before, const Places& u, const Eigen::VectorXd& T,
+                    const std::vector<int>& led, double a_by_v);
 
   /// What held nodes need besides loads and pulls, N.
   Places holding(const State& state, const Places& a, const Eigen::VectorXd& T);
@@ -87,6 +100,9 @@ class Equations {
   static int place_index(int node) { return 4 * node + 1; }
   void move(const Stage& stage, const State& before, const Places& u);
   Pull pull(int j, const Stage& stage, const State& before, double T) const;
+  BandMatrix::Columns columns_of(const std::vector<int>& led);
+  Eigen::MatrixXd rows_times(const std::vector<int>& led, const BandMatrix::Columns& y);
+  void keep_held();
   void add_mass(const Places& a);
   void add_bed(const Stage& stage, const State& before, bool matrix);
   void add_pulls(const Stage& stage, const State& before, const Eigen::VectorXd& T, bool matrix);

@@ -61,6 +61,9 @@ void Equations::assemble_projection(const Places& along, const Places& x) {
 }
 
 bool Equations::project_velocity(const State& state, Places& v) {
+  bool any = false;
+  for (int j = 0; j < line_.segments(); ++j) any = any || line_.segment(j).keeps_length();
+  if (!any) return true;
   assemble_projection(state.position, state.position);
   for (int j = 0; j < line_.segments(); ++j)
     if (line_.segment(j).keeps_length())

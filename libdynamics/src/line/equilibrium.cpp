@@ -147,6 +147,35 @@ State hanging_shape(const Line& line, const State& places) {
   return state;
 }
 
+namespace {
+
+/// Balance without velocities, by places alone.
+Stage resting(const State& at) {
+  const Places nothing = Places::Zero(3, at.position.cols());
+  return {.t = at.time,
+          .end = at.time,
+          .h = 0,
+          .x_by = 1,
+          .v_by = 0,
+          .a_by = 0,
+          .v_from = nothing,
+          .a_from = nothing,
+          .still = true,
+          .rounding = 1e-12};
+}
+
+}  // namespace
+
+RestPulls pulls_at_rest(const Line& line, const State& rest, const std::vector<int>& led) {
+  Equations equations(line);
+  Stage stage = resting(rest);
+  Places u = Places::Zero(3, line.nodes());
+  VectorXd T = rest.tension;
+  equations.solve(stage, rest, 1e-10, 30, u, T);  // sets the scale; what is left over is rounding
+  auto found = equations.response(stage, rest, Places::Zero(3, line.nodes()), rest.tension, led, 0);
+  return {std::move(found.force), std::move(found.by_place)};
+}
+
 State equilibrium(const Line& line, const State& guess, RestReport* report) {
   Equations equations(line);
   RestReport sink;
@@ -154,16 +183,7 @@ State equilibrium(const Line& line, const State& guess, RestReport* report) {
   const Places nothing = Places::Zero(3, line.nodes());
   State state = guess;
   state.velocity = nothing;
-  Stage stage{.t = guess.time,
-              .end = guess.time,
-              .h = 0,
-              .x_by = 1,
-              .v_by = 0,
-              .a_by = 0,
-              .v_from = nothing,
-              .a_from = nothing};
-  stage.still = true;
-  stage.rounding = 1e-12;
+  Stage stage = resting(guess);
   double hardest = 0, shortest = std::numeric_limits<double>::infinity();
   for (int j = 0; j < line.segments(); ++j) shortest = std::min(shortest, line.segment(j).length);
   for (int i = 0; i < line.nodes(); ++i) hardest = std::max(hardest, line.constant_load().col(i).norm());

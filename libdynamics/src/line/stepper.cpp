@@ -36,6 +36,17 @@ struct Stepper::Work {
   Places a, algorithmic;  // accelerations at the start of a step, and those that generalised-α steps with
   Energies energies;
   Powers before;  // at the start of a step
+  struct {
+    Stage stage;
+    State from;
+    Places u;
+    VectorXd T;
+  } last = {};  // step of generalised-α
+  struct {
+    Places a, algorithmic;
+    Energies energies;
+    Powers before;
+  } kept = {};
   std::string failure;
 
   Work(const Line& l, const Settings& s) : line(l), settings(s), equations(l) {}
@@ -79,6 +90,30 @@ Stepper::Stepper(const Line& line, const Settings& settings) : work_(std::make_u
 Stepper::~Stepper() = default;
 
 const Energies& Stepper::energies() const { return work_->energies; }
+
+Stepper::Flow Stepper::flow() const {
+  const Powers& p = work_->before;
+  return {p.drag_supplied + p.inertia_supplied + p.buoyancy_supplied, p.damping + p.drag_dissipated + p.axial + p.bed};
+}
+
+void Stepper::keep() {
+  const Work& w = *work_;
+  work_->kept = {w.a, w.algorithmic, w.energies, w.before};
+}
+
+void Stepper::go_back() {
+  Work& w = *work_;
+  w.a = w.kept.a;
+  w.algorithmic = w.kept.algorithmic;
+  w.energies = w.kept.energies;
+  w.before = w.kept.before;
+}
+
+Stepper::Response Stepper::response(const std::vector<int>& led, double a_by_v) {
+  Work& w = *work_;
+  auto found = w.equations.response(w.last.stage, w.last.from, w.last.u, w.last.T, led, a_by_v);
+  return {std::move(found.force), std::move(found.by_place), std::move(found.by_velocity)};
+}
 
 std::optional<Stepper::Balance> Stepper::balance(const State& state) {
   Balance out;
@@ -201,20 +236,21 @@ bool Stepper::Work::generalised_alpha(State& state, double h, StepReport& report
   const double g = 0.5 + alpha_f - alpha_m, beta = 0.25 * (g + 0.5) * (g + 0.5);
   const Places known = h * state.velocity + h * h * (0.5 - beta) * algorithmic;
   const double a_by = (1 - alpha_m) / ((1 - alpha_f) * h * h * beta);
-  const Stage stage{.t = state.time + h,
-                    .end = state.time + h,
-                    .h = h,
-                    .x_by = 1,
-                    .v_by = g / (h * beta),
-                    .a_by = a_by,
-                    .v_from = state.velocity + h * (1 - g) * algorithmic - g / (h * beta) * known,
-                    .a_from = (alpha_m * algorithmic - alpha_f * a) / (1 - alpha_f) - a_by * known};
-  Places u;
-  VectorXd T;
-  if (!solve(stage, state, u, T, report)) return false;
+  last.stage = {.t = state.time + h,
+                .end = state.time + h,
+                .h = h,
+                .x_by = 1,
+                .v_by = g / (h * beta),
+                .a_by = a_by,
+                .v_from = state.velocity + h * (1 - g) * algorithmic - g / (h * beta) * known,
+                .a_from = (alpha_m * algorithmic - alpha_f * a) / (1 - alpha_f) - a_by * known};
+  const Stage& stage = last.stage;
+  Places& u = last.u;
+  if (!solve(stage, state, u, last.T, report)) return false;
+  last.from = state;
   state.position += u;
   state.velocity = stage.v_from + stage.v_by * u;
-  state.tension = T;
+  state.tension = last.T;
   state.time = stage.end;
   a = stage.a_from + stage.a_by * u;
   algorithmic = (u - known) / (h * h * beta);

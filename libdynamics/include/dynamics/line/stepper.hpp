@@ -67,6 +67,24 @@ class Stepper {
 
   /// Of the state after the last step.
   const Energies& energies() const;
+  /// Powers in that state, W: what the water supplies, and all that is lost.
+  struct Flow {
+    double supplied = 0, dissipated = 0;
+  };
+  Flow flow() const;
+
+  /// Remembers where it is, and goes back there: for steps that are tried.
+  void keep();
+  void go_back();
+
+  /// The force on each of the nodes `led` by what leads it, at the end of the last step, N, and its derivatives by
+  /// where they were led to and by their velocities there, (3k, 3k), while the rest of the line moves with the step;
+  /// their accelerations follow the velocities by `a_by_v`. Of generalised-α alone. (D90)
+  struct Response {
+    Places force;
+    Eigen::MatrixXd by_place, by_velocity;
+  };
+  Response response(const std::vector<int>& led, double a_by_v);
 
   /// What balances a state, whatever the step did (D77); nothing if masses leave it open.
   struct Balance {

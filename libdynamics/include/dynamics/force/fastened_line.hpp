@@ -1,0 +1,73 @@
+#pragma once
+/// \file  Lines of nodes with ends on bodies, stepped together with them. (D90)-(D92)
+#include "dynamics/force/force_kind.hpp"
+#include "dynamics/integrate/integrator.hpp"
+#include "dynamics/line/driven.hpp"
+
+namespace dynamics {
+
+/// A line with one end or both on bodies.
+struct FastenedLine {
+  struct End {
+    int node;
+    int body;
+    Eigen::Vector3d at;  ///< from the centre of gravity, body axes, m
+  };
+  std::string name;
+  line::Description run;      ///< in the water of a run
+  line::Description still;    ///< without waves: what is at rest, and stiffness about rest
+  line::Places places;        ///< of held nodes that are on no body; other columns are not looked at
+  std::vector<End> ends;      ///< each a held node
+  double rho_infinity = 0.8;  ///< of the generalised-α that steps bodies and lines
+};
+
+/// The line at rest with its ends where bodies have them. \throws hydro::InputError if it cannot reach,
+/// hydro::NumericsError if it finds no rest
+line::State line_at_rest(const FastenedLine& fastened, const State& bodies);
+
+/// Lines between two accepted states of a run.
+class FastenedLineMemory final : public Memory {
+ public:
+  FastenedLineMemory(const std::vector<FastenedLine>& elements, const State& state);
+  void accept(const State& state) override;
+  /// Begins again at `state`, its lines at rest, with accelerations (3, all ends) of the points that hold them.
+  void start(const State& state, const line::Places& accelerations);
+  line::DrivenLine& line(std::size_t i) { return *lines_[i]; }
+  const line::DrivenLine& line(std::size_t i) const { return *lines_[i]; }
+
+ private:
+  const std::vector<FastenedLine>& elements_;
+  std::vector<std::unique_ptr<line::DrivenLine>> lines_;
+};
+
+/// With memory, a load is the pull of a line at the end of a step that leads its ends to where the state has the
+/// bodies: exact where bodies are stepped by the same generalised-α (D91). Without memory, lines are in their static
+/// shape, with their static stiffness: that is what equilibrium and linear analyses see (D92). What a line holds, its
+/// kinetic energy too, counts as stored.
+class FastenedLineKind final : public ForceKind {
+ public:
+  explicit FastenedLineKind(std::vector<FastenedLine> elements) : elements_(std::move(elements)) {}
+  std::string effect() const override { return "lines"; }
+  std::size_t elements() const override { return elements_.size(); }
+  std::string method() const override {
+    return "chains stepped together with their bodies: one step, one Newton iteration around both";
+  }
+  void couple(BlockPattern& pattern) const override;
+  std::unique_ptr<Memory> make_memory(const State& state) const override;
+  void add_load(const Instant& now, LoadSink& out) const override;
+  void add_jacobian(const Instant& now, JacobianSink& out) const override;
+  EnergyFlow energy(const Instant& now) const override;
+  bool linear_at_rest() const override { return true; }
+  const std::vector<FastenedLine>& all() const { return elements_; }
+
+ private:
+  std::vector<FastenedLine> elements_;
+};
+
+/// The kind among a model's; null if it has none. `index`: its place.
+const FastenedLineKind* fastened_lines(const Model& model, std::size_t* index = nullptr);
+
+/// Starts a run: as Integrator::start(), with accelerations of bodies and lines that belong together (D91).
+void start_with_lines(const Model& model, Integrator& integrator, Workspace& workspace);
+
+}  // namespace dynamics

@@ -1,0 +1,200 @@
+#include "dynamics/force/fastened_line.hpp"
+
+#include <Eigen/LU>
+
+#include "dynamics/line/equilibrium.hpp"
+#include "dynamics/spatial/rotation.hpp"
+
+namespace dynamics {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using line::DrivenLine;
+
+Vector3d arm_of(const FastenedLine::End& end, const State& state) {
+  return state.pose[static_cast<std::size_t>(end.body)].attitude * end.at;
+}
+
+/// Where bodies have the ends of a line.
+std::vector<DrivenLine::End> ends_of(const FastenedLine& l, const State& state) {
+  std::vector<DrivenLine::End> out;
+  for (const auto& end : l.ends) {
+    const Vector3d arm = arm_of(end, state), omega = state.twist(end.body).tail<3>();
+    out.push_back({state.pose[static_cast<std::size_t>(end.body)].centre + arm,
+                   state.twist(end.body).head<3>() + omega.cross(arm)});
+  }
+  return out;
+}
+
+/// Accelerations of all ends of all lines, one after the other.
+line::Places accelerations_of(const std::vector<FastenedLine>& lines, const Workspace& workspace) {
+  std::vector<Vector3d> all;
+  for (const FastenedLine& l : lines)
+    for (const auto& end : l.ends) {
+      const Vector3d arm = arm_of(end, workspace.state), omega = workspace.state.twist(end.body).tail<3>();
+      const Vector6 a = workspace.acceleration.segment<6>(6 * end.body);
+      all.push_back(a.head<3>() + a.tail<3>().cross(arm) + omega.cross(omega.cross(arm)));
+    }
+  line::Places out(3, static_cast<Eigen::Index>(all.size()));
+  for (std::size_t k = 0; k < all.size(); ++k) out.col(static_cast<Eigen::Index>(k)) = all[k];
+  return out;
+}
+
+std::vector<int> nodes_of(const FastenedLine& l) {
+  std::vector<int> out;
+  for (const auto& end : l.ends) out.push_back(end.node);
+  return out;
+}
+
+/// Pulls of a line: in its step, or at rest.
+DrivenLine::Pulls pulls_of(const FastenedLine& l, std::size_t i, const Instant& now) {
+  if (now.memory != nullptr)
+    return static_cast<FastenedLineMemory*>(now.memory)->line(i).pulls(now.state.time, ends_of(l, now.state));
+  const auto found = pulls_at_rest(line::Line(l.still), line_at_rest(l, now.state), nodes_of(l));
+  return {-found.force, -found.by_place, MatrixXd::Zero(found.by_place.rows(), found.by_place.cols())};
+}
+
+/// ∂(end's place)/∂(displacement of its body), and of its velocity by velocity: (1, −[r]×).
+Eigen::Matrix<double, 3, 6> follows(const Vector3d& arm) {
+  Eigen::Matrix<double, 3, 6> out;
+  out << Matrix3d::Identity(), -cross_matrix(arm);
+  return out;
+}
+
+/// Energy held by a line: what moves counts too, since a body cannot tell one from the other.
+EnergyFlow energy_of(const DrivenLine& l) {
+  const line::Stepper::Flow flow = l.flow();
+  return {.stored = l.energies().total(), .supplied = flow.supplied, .dissipated = flow.dissipated};
+}
+
+}  // namespace
+
+line::State line_at_rest(const FastenedLine& l, const State& bodies) {
+  const line::Line still(l.still);
+  line::State at{.time = bodies.time,
+                 .position = l.places,
+                 .velocity = line::Places::Zero(3, still.nodes()),
+                 .tension = Eigen::VectorXd::Zero(still.segments())};
+  const auto ends = ends_of(l, bodies);
+  for (std::size_t k = 0; k < ends.size(); ++k) at.position.col(l.ends[k].node) = ends[k].position;
+  return equilibrium(still, hanging_shape(still, at));
+}
+
+FastenedLineMemory::FastenedLineMemory(const std::vector<FastenedLine>& elements, const State& state)
+    : elements_(elements) {
+  Eigen::Index count = 0;
+  for (const FastenedLine& l : elements) {
+    lines_.push_back(std::make_unique<DrivenLine>(l.run, nodes_of(l), l.rho_infinity));
+    count += static_cast<Eigen::Index>(l.ends.size());
+  }
+  start(state, line::Places::Zero(3, count));
+}
+
+void FastenedLineMemory::start(const State& state, const line::Places& accelerations) {
+  Eigen::Index first = 0;
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    const auto count = static_cast<Eigen::Index>(elements_[i].ends.size());
+    lines_[i]->start(line_at_rest(elements_[i], state), ends_of(elements_[i], state),
+                     accelerations.middleCols(first, count));
+    first += count;
+  }
+}
+
+void FastenedLineMemory::accept(const State& state) {
+  for (std::size_t i = 0; i < lines_.size(); ++i) lines_[i]->accept(state.time, ends_of(elements_[i], state));
+}
+
+void FastenedLineKind::couple(BlockPattern& pattern) const {
+  for (const FastenedLine& l : elements_)
+    if (l.ends.size() == 2 && l.ends[0].body != l.ends[1].body) pattern.couple(l.ends[0].body, l.ends[1].body);
+}
+
+std::unique_ptr<Memory> FastenedLineKind::make_memory(const State& state) const {
+  return std::make_unique<FastenedLineMemory>(elements_, state);
+}
+
+void FastenedLineKind::add_load(const Instant& now, LoadSink& out) const {
+  for (std::size_t i = 0; i < elements_.size(); ++i) {
+    const DrivenLine::Pulls p = pulls_of(elements_[i], i, now);
+    for (std::size_t k = 0; k < elements_[i].ends.size(); ++k) {
+      const auto& end = elements_[i].ends[k];
+      const Vector3d force = p.force.col(static_cast<Eigen::Index>(k));
+      Vector6 load;
+      load << force, arm_of(end, now.state).cross(force);
+      out.add(end.body, load);
+    }
+  }
+}
+
+// (D90): moments turn with the arm, and a turning arm changes the velocity of its end by ω × (δθ × r).
+void FastenedLineKind::add_jacobian(const Instant& now, JacobianSink& out) const {
+  for (std::size_t i = 0; i < elements_.size(); ++i) {
+    const auto& ends = elements_[i].ends;
+    const DrivenLine::Pulls p = pulls_of(elements_[i], i, now);
+    for (std::size_t k = 0; k < ends.size(); ++k)
+      for (std::size_t m = 0; m < ends.size(); ++m) {
+        const auto row = 3 * static_cast<Eigen::Index>(k), column = 3 * static_cast<Eigen::Index>(m);
+        const Matrix3d by_x = p.by_place.block<3, 3>(row, column), by_v = p.by_velocity.block<3, 3>(row, column);
+        const Vector3d arm = arm_of(ends[k], now.state), other = arm_of(ends[m], now.state);
+        const Vector3d omega = now.state.twist(ends[m].body).tail<3>();
+        Eigen::Matrix<double, 3, 6> by_q = by_x * follows(other);
+        by_q.rightCols<3>() -= by_v * cross_matrix(omega) * cross_matrix(other);
+        const Eigen::Matrix<double, 6, 3> acts = follows(arm).transpose();
+        Matrix6 by_displacement = acts * by_q;
+        const Vector3d force = p.force.col(static_cast<Eigen::Index>(k));
+        if (k == m) by_displacement.bottomRightCorner<3, 3>() += cross_matrix(force) * cross_matrix(arm);
+        out.add(ends[k].body, ends[m].body, by_displacement, acts * by_v * follows(other));
+      }
+  }
+}
+
+EnergyFlow FastenedLineKind::energy(const Instant& now) const {
+  EnergyFlow sum;
+  if (now.memory == nullptr) return sum;
+  for (std::size_t i = 0; i < elements_.size(); ++i) {
+    const EnergyFlow one = energy_of(static_cast<FastenedLineMemory*>(now.memory)->line(i));
+    sum.stored += one.stored;
+    sum.supplied += one.supplied;
+    sum.dissipated += one.dissipated;
+  }
+  return sum;
+}
+
+const FastenedLineKind* fastened_lines(const Model& model, std::size_t* index) {
+  for (std::size_t k = 0; k < model.forces().size(); ++k)
+    if (const auto* kind = dynamic_cast<const FastenedLineKind*>(model.forces()[k].get())) {
+      if (index != nullptr) *index = k;
+      return kind;
+    }
+  return nullptr;
+}
+
+// Accelerations A of the ends make pulls, which make accelerations G + B A of the bodies' points: linear, so as many
+// trials as there are components tell B, and A = (1 − B)⁻¹ G.
+void start_with_lines(const Model& model, Integrator& integrator, Workspace& workspace) {
+  std::size_t index = 0;
+  const FastenedLineKind* kind = fastened_lines(model, &index);
+  integrator.start(workspace);
+  if (kind == nullptr) return;
+  auto& memory = static_cast<FastenedLineMemory&>(*workspace.memory[index]);
+  const line::Places free = accelerations_of(kind->all(), workspace);
+  constexpr double rest = 1e-9;  // m/s²: what equilibrium leaves
+  if (free.cwiseAbs().maxCoeff() < rest) return;
+  const Eigen::VectorXd G = free.reshaped();
+  MatrixXd left = MatrixXd::Identity(G.size(), G.size());
+  line::Places A = line::Places::Zero(3, free.cols());
+  for (Eigen::Index c = 0; c < G.size(); ++c) {
+    A.setZero();
+    A.reshaped()[c] = 1;
+    memory.start(workspace.state, A);
+    integrator.start(workspace);
+    left.col(c) -= accelerations_of(kind->all(), workspace).reshaped() - G;
+  }
+  A.reshaped() = left.partialPivLu().solve(G);
+  memory.start(workspace.state, A);
+  integrator.start(workspace);
+}
+
+}  // namespace dynamics

@@ -1,0 +1,211 @@
+#include "dynamics/line/driven.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "hydro/base/error.hpp"
+
+namespace dynamics::line {
+namespace {
+
+using Eigen::Vector3d;
+
+/// From one place, velocity and acceleration to another: the polynomial of fifth degree between, for steps that the
+/// line has to halve.
+class Way final : public Path {
+ public:
+  double from = 0, to = 0;  // s
+  Place begin{}, end{};
+
+  Place at(double t_s) const override {
+    const double h = to - from;
+    if (!(h > 0) || t_s >= to - 1e-12 * h) return end;  // but for the rounding of sums of times
+    if (t_s <= from) return begin;
+    const double s = (t_s - from) / h;
+    const Vector3d p0 = begin.position, p1 = h * begin.velocity, p2 = h * h / 2 * begin.acceleration;
+    const Vector3d x = end.position - p0 - p1 - p2, v = h * end.velocity - p1 - 2 * p2,
+                   a = h * h * end.acceleration - 2 * p2;
+    const Vector3d c3 = 10 * x - 4 * v + a / 2, c4 = -15 * x + 7 * v - a, c5 = 6 * x - 3 * v + a / 2;
+    const double s2 = s * s, s3 = s2 * s;
+    return {p0 + s * p1 + s2 * p2 + s3 * (c3 + s * (c4 + s * c5)),
+            (p1 + 2 * s * p2 + s2 * (3 * c3 + s * (4 * c4 + 5 * s * c5))) / h,
+            (2 * p2 + s * (6 * c3 + s * (12 * c4 + 20 * s * c5))) / (h * h)};
+  }
+};
+
+Description led_by(Description d, const std::vector<int>& led, const std::vector<std::shared_ptr<Way>>& ways) {
+  for (Held& h : d.held)
+    for (std::size_t k = 0; k < led.size(); ++k)
+      if (h.node == led[k]) h.path = ways[k];
+  return d;
+}
+
+std::vector<std::shared_ptr<Way>> make_ways(std::size_t count) {
+  std::vector<std::shared_ptr<Way>> out;
+  for (std::size_t k = 0; k < count; ++k) out.push_back(std::make_shared<Way>());
+  return out;
+}
+
+}  // namespace
+
+struct DrivenLine::Work {
+  std::vector<int> led;
+  std::vector<std::shared_ptr<Way>> ways;
+  Line line;
+  Stepper stepper;
+  double alpha_m, alpha_f, gamma;
+  State state;                        // accepted
+  std::vector<Path::Place> now;       // of the ends, accepted
+  std::vector<Vector3d> algorithmic;  // (D10) of the ends
+
+  struct {
+    double t = std::numeric_limits<double>::quiet_NaN();
+    std::vector<End> ends = {};
+    std::vector<Vector3d> algorithmic = {};
+    State state = {};
+    Pulls pulls = {};
+    std::string failure = {};
+  } tried = {};
+
+  Work(Description d, std::vector<int> nodes, double rho)
+      : led(std::move(nodes)),
+        ways(make_ways(led.size())),
+        line(led_by(std::move(d), led, ways)),
+        stepper(line, {.scheme = Scheme::generalised_alpha, .rho_infinity = rho}),
+        alpha_m((2 * rho - 1) / (rho + 1)),
+        alpha_f(rho / (rho + 1)),
+        gamma(0.5 + alpha_f - alpha_m) {}
+
+  bool is_now(double t) const { return t - state.time <= 1e-12 * std::max(1.0, std::abs(t)); }
+  void lead(double t, const std::vector<End>& ends);
+  void stay() const;
+  void try_step(double t);
+  void look(const std::vector<End>& ends);
+  Pulls nothing(double value) const;
+};
+
+DrivenLine::DrivenLine(Description description, std::vector<int> led, double rho_infinity)
+    : work_(std::make_unique<Work>(std::move(description), std::move(led), rho_infinity)) {
+  for (const int node : work_->led) hydro::ensure(work_->line.held(node) != nullptr, "a node that is led is held");
+}
+
+DrivenLine::~DrivenLine() = default;
+
+DrivenLine::Pulls DrivenLine::Work::nothing(double value) const {
+  const auto n = static_cast<Eigen::Index>(led.size());
+  return {Places::Constant(3, n, value), Eigen::MatrixXd::Zero(3 * n, 3 * n), Eigen::MatrixXd::Zero(3 * n, 3 * n)};
+}
+
+/// Everything stays where it was accepted.
+void DrivenLine::Work::stay() const {
+  for (std::size_t k = 0; k < led.size(); ++k) {
+    ways[k]->from = ways[k]->to = state.time;
+    ways[k]->begin = ways[k]->end = now[k];
+  }
+}
+
+void DrivenLine::start(const State& state, const std::vector<End>& ends, const Places& accelerations) {
+  Work& w = *work_;
+  w.state = state;
+  w.now.clear();
+  w.algorithmic.clear();
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    w.now.push_back({ends[k].position, ends[k].velocity, accelerations.col(static_cast<Eigen::Index>(k))});
+    w.algorithmic.push_back(w.now.back().acceleration);
+  }
+  w.tried.t = std::numeric_limits<double>::quiet_NaN();
+  w.stay();
+  w.stepper.start(w.state);
+  w.stepper.keep();
+}
+
+/// Where the ends go until t, with the accelerations that (D10) makes of their velocities.
+void DrivenLine::Work::lead(double t, const std::vector<End>& ends) {
+  const double h = t - state.time;
+  tried.algorithmic.resize(led.size());
+  for (std::size_t k = 0; k < led.size(); ++k) {
+    const Vector3d next = ((ends[k].velocity - now[k].velocity) / h - (1 - gamma) * algorithmic[k]) / gamma;
+    const Vector3d a =
+        ((1 - alpha_m) * next + alpha_m * algorithmic[k] - alpha_f * now[k].acceleration) / (1 - alpha_f);
+    tried.algorithmic[k] = next;
+    Way& way = *ways[k];
+    way.from = state.time;
+    way.to = t;
+    way.begin = now[k];
+    way.end = {ends[k].position, ends[k].velocity, a};
+  }
+}
+
+void DrivenLine::Work::try_step(double t) {
+  const double h = t - state.time;
+  stepper.go_back();
+  tried.state = state;
+  try {
+    stepper.step(tried.state, h);
+    auto found = stepper.response(led, (1 - alpha_m) / ((1 - alpha_f) * gamma * h));
+    tried.pulls = {-found.force, -found.by_place, -found.by_velocity};
+  } catch (const hydro::NumericsError& e) {
+    tried.failure = e.what();
+    tried.pulls = nothing(std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+/// Pulls of this instant, its ends moved to where they are asked for.
+void DrivenLine::Work::look(const std::vector<End>& ends) {
+  stay();
+  State at = state;
+  for (std::size_t k = 0; k < led.size(); ++k) {
+    at.position.col(led[k]) = ends[k].position;
+    at.velocity.col(led[k]) = ends[k].velocity;
+    ways[k]->end.velocity = ends[k].velocity;
+  }
+  tried.pulls = nothing(0);
+  const auto found = stepper.balance(at);
+  for (std::size_t k = 0; k < led.size(); ++k)
+    tried.pulls.force.col(static_cast<Eigen::Index>(k)) =
+        found ? Vector3d(-found->holding.col(led[k]))
+              : Vector3d(Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+}
+
+const DrivenLine::Pulls& DrivenLine::pulls(double t_s, const std::vector<End>& ends) {
+  Work& w = *work_;
+  if (w.tried.t == t_s && w.tried.ends == ends) return w.tried.pulls;
+  w.tried.t = t_s;
+  w.tried.ends = ends;
+  w.tried.failure.clear();
+  if (w.is_now(t_s)) {
+    w.look(ends);
+  } else {
+    w.lead(t_s, ends);
+    w.try_step(t_s);
+  }
+  return w.tried.pulls;
+}
+
+void DrivenLine::accept(double t_s, const std::vector<End>& ends) {
+  Work& w = *work_;
+  if (w.is_now(t_s)) return;
+  pulls(t_s, ends);
+  if (!w.tried.failure.empty()) throw hydro::NumericsError(w.tried.failure);
+  w.state = w.tried.state;
+  w.algorithmic = w.tried.algorithmic;
+  for (std::size_t k = 0; k < w.led.size(); ++k) w.now[k] = w.ways[k]->end;
+  w.tried.t = std::numeric_limits<double>::quiet_NaN();
+  w.stay();
+  w.stepper.keep();
+}
+
+const Line& DrivenLine::line() const { return work_->line; }
+const State& DrivenLine::state() const { return work_->state; }
+const Energies& DrivenLine::energies() const { return work_->stepper.energies(); }
+Stepper::Flow DrivenLine::flow() const { return work_->stepper.flow(); }
+
+Stepper::Balance DrivenLine::balance() {
+  auto found = work_->stepper.balance(work_->state);
+  hydro::ensure(found.has_value(), "a line with masses has accelerations");
+  return std::move(*found);
+}
+
+}  // namespace dynamics::line

@@ -1,0 +1,236 @@
+// Lines with ends on bodies: one system, one step. (D90)-(D92)
+#include "dynamics/line/driven.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dynamics/force/fastened_line.hpp"
+#include "dynamics/force/gravity.hpp"
+#include "dynamics/integrate/generalized_alpha.hpp"
+#include "dynamics/integrate/ledger.hpp"
+#include "dynamics/line/catenary.hpp"
+#include "dynamics/line/equilibrium.hpp"
+#include "dynamics/model/equilibrium.hpp"
+#include "hydro/waves/field.hpp"
+#include "laws/force_kind_laws.hpp"
+#include "support/line_models.hpp"
+
+namespace {
+
+using namespace support;
+using dynamics::FastenedLine;
+using dynamics::FastenedLineKind;
+using dynamics::GeneralizedAlpha;
+using dynamics::RigidBody;
+using dynamics::Workspace;
+using Eigen::Vector3d;
+
+constexpr double gravity = 9.81;
+
+/// `n` springs in a row of 5 m and 10 kg, held at both ends.
+Description springs(int n, double axial_stiffness) {
+  Description d;
+  d.nodes.assign(static_cast<std::size_t>(n) + 1, Node{.quadratic_damping = 0.5});
+  Segment s = Segment::rod(5.0 / n, 10.0 / n);
+  s.axial_stiffness = axial_stiffness;
+  s.axial_damping = 1e-3 * axial_stiffness;
+  d.segments.assign(static_cast<std::size_t>(n), s);
+  d.held = {{.node = 0}, {.node = n}};
+  d.gravity = gravity;
+  return d;
+}
+
+/// From the origin to the centre of a body.
+FastenedLine hung(const Description& d, const Vector3d& at = Vector3d::Zero()) {
+  const int n = static_cast<int>(d.segments.size());
+  return {.name = "l", .run = d, .still = d, .places = Places::Zero(3, n + 1), .ends = {{n, 0, at}}};
+}
+
+RigidBody bob(double mass, const Vector3d& place, bool turns = false) {
+  return RigidBody({.name = "bob",
+                    .mass = mass,
+                    .inertia = mass * Vector3d(0.1, 0.12, 0.15).asDiagonal(),
+                    .rest_position = {place},
+                    .free = {true, true, true, turns, turns, turns}});
+}
+
+std::vector<std::unique_ptr<const dynamics::ForceKind>> weight_and_line(const std::vector<RigidBody>& bodies,
+                                                                        std::vector<FastenedLine> lines) {
+  std::vector<std::unique_ptr<const dynamics::ForceKind>> out;
+  std::vector<int> all;
+  for (std::size_t i = 0; i < bodies.size(); ++i) all.push_back(static_cast<int>(i));
+  out.push_back(std::make_unique<dynamics::GravityKind>(bodies, gravity, all));
+  out.push_back(std::make_unique<FastenedLineKind>(std::move(lines)));
+  return out;
+}
+
+// A body without rotation is a bob of the line: stepped apart, both must be the same to what Newton leaves, whether the
+// body weighs nothing beside the line or the line nothing beside the body, and however stiff the line is.
+TEST(FastenedLine, MovesItsBodyAsABobOfItsOwn) {
+  for (const double mass : {0.05, 5.0, 5e4})
+    for (const double stiffness : {1e4, 1e9}) {
+      // The heavy body on the stiff line begins just taut: after a snap both halve their steps, each by itself.
+      const Vector3d place = mass * stiffness > 1e13 ? Vector3d(4, 1, -2.83) : Vector3d(3, 1, -2.5);
+      Description whole = springs(4, stiffness);
+      const Line held(whole);
+      whole.held.pop_back();
+      whole.nodes.back() = Node{.mass = mass, .quadratic_damping = 0.5};
+      const Line line(whole);
+      dynamics::line::State bobs = equilibrium(held, hanging_shape(held, ends_at(held, place)));
+      Stepper stepper(line, {.scheme = Scheme::generalised_alpha});
+      stepper.start(bobs);
+
+      const std::vector<RigidBody> bodies{bob(mass, place)};
+      const dynamics::Model model(bodies, {}, weight_and_line(bodies, {hung(springs(4, stiffness))}));
+      Workspace w(model, dynamics::rest_state(bodies));
+      GeneralizedAlpha integrator(model, {});
+      dynamics::start_with_lines(model, integrator, w);
+      double farthest = 0, off = 0;
+      for (int i = 0; i < 150; ++i) {
+        stepper.step(bobs, 0.02);
+        integrator.step(w, 0.02);
+        off = std::max(off, (w.state.pose[0].centre - bobs.position.col(4)).norm());
+        farthest = std::max(farthest, (w.state.pose[0].centre - place).norm());
+      }
+      EXPECT_GT(farthest, 2) << mass;
+      EXPECT_LT(off, 1e-6) << "mass " << mass << ", stiffness " << stiffness;
+    }
+}
+
+/// Two bodies that turn, joined by a line with drag and added mass in a current, and one of them to the ground.
+FastenedLineKind between_bodies() {
+  Description d = springs(5, 2e4);
+  for (Segment& s : d.segments) {
+    s.diameter = 0.1;
+    s.cd = 1.2;
+    s.cd_tangential = 0.05;
+    s.ca = 1;
+  }
+  d.water = {std::make_shared<hydro::waves::HarmonicField>(std::vector<hydro::waves::Harmonic>{}, hydro::Water{},
+                                                           hydro::waves::HarmonicField::Options{}),
+             Wet::all, true};
+  return FastenedLineKind({{.name = "between",
+                            .run = d,
+                            .still = d,
+                            .places = Places::Zero(3, 6),
+                            .ends = {{0, 0, {0.5, 0.1, -0.2}}, {5, 1, {-0.4, 0.2, 0.1}}}},
+                           hung(d, {0.3, 0.2, -0.1})});
+}
+
+/// Bodies of force_law_models.hpp where the lines are wet, a tenth of a second after they moved off.
+dynamics::State later(std::uint64_t seed) {
+  auto state = random_state(two_bodies(), seed, 0.2);
+  for (auto& pose : state.pose) pose.centre.z() -= 3;
+  state.time = 0.1;
+  return state;
+}
+
+TEST(FastenedLine, PullsAlikeHoweverOftenItIsAsked) {
+  const auto kind = between_bodies();
+  auto start = dynamics::rest_state(two_bodies());
+  for (auto& pose : start.pose) pose.centre.z() -= 3;
+  const auto memory = kind.make_memory(start);
+  laws::expect_pure(kind, later(1), later(2), memory.get());
+  EXPECT_GT(laws::load(kind, later(1), memory.get()).norm(), 100);
+}
+
+TEST(FastenedLine, HasTheDerivativesOfItsStep) {
+  const auto kind = between_bodies();
+  auto start = dynamics::rest_state(two_bodies());
+  for (auto& pose : start.pose) pose.centre.z() -= 3;
+  const auto memory = kind.make_memory(start);
+  memory->accept([&] {  // so that it moves already
+    auto s = later(3);
+    s.time = 0.05;
+    return s;
+  }());
+  for (const std::uint64_t seed : {4, 5}) laws::expect_true_jacobians(kind, later(seed), memory.get());
+}
+
+// The static stiffness of a mooring is that of its catenary, by 20 segments that sag.
+TEST(FastenedLine, AtRestHasTheStiffnessOfTheCatenary) {
+  Description d;
+  const int n = 20;
+  Segment s = Segment::rod(59.0 / n, 8 * 59.0 / n);
+  s.axial_stiffness = 30e6;
+  s.sags = true;
+  s.diameter = 0.036;
+  d.nodes.assign(n + 1, Node{});
+  d.segments.assign(n, s);
+  d.held = {{.node = 0}, {.node = n}};
+  d.gravity = gravity;
+  d.bed = {{.z = -14, .stiffness = 3e6, .damping = 0}};
+  FastenedLine l = hung(d);
+  l.places.col(0) = Vector3d(56, 0, -14);
+  const std::vector<RigidBody> bodies{bob(9088, {0, 0, -1.1})};
+  const FastenedLineKind kind({l});
+  const auto rest = dynamics::rest_state(bodies);
+  const auto exact = dynamics::catenary({59, 8 * gravity, 30e6, true}, 56, 12.9);
+  const Eigen::VectorXd load = laws::load(kind, rest, nullptr);
+  EXPECT_NEAR(load[0], exact.horizontal, 2e-3 * exact.horizontal);
+  EXPECT_NEAR(load[2], -exact.vertical, 2e-3 * exact.vertical);
+  const Eigen::MatrixXd K = -laws::jacobian(kind, rest, nullptr, 1, 0);
+  EXPECT_NEAR(K(0, 0), exact.stiffness(0, 0), 1e-2 * exact.stiffness(0, 0));
+  EXPECT_NEAR(K(2, 2), exact.stiffness(1, 1), 1e-2 * exact.stiffness(1, 1));
+  EXPECT_NEAR(K(0, 2), -exact.stiffness(0, 1), 1e-2 * exact.stiffness(0, 1));
+}
+
+// Rest first, and rest it stays: what equilibrium() finds for body and line is an equilibrium of the run too.
+TEST(FastenedLine, HangsStillWhereEquilibriumPutsIt) {
+  const std::vector<RigidBody> bodies{bob(5, {0.5, 0.2, -4.5}, true)};
+  const dynamics::Model model(bodies, {}, weight_and_line(bodies, {hung(springs(4, 1e5), {0, 0, 0.2})}));
+  Workspace w(model, dynamics::equilibrium(model, dynamics::rest_state(bodies)));
+  // 5 m stretch by (half of the own 10 kg and all of the 5 kg) over EA, and the body hangs 0.2 m below its eye.
+  const double bottom = -5 * (1 + gravity * (10.0 / 2 + 5) / 1e5) - 0.2;
+  EXPECT_NEAR(w.state.pose[0].centre.z(), bottom, 1e-9);
+  GeneralizedAlpha integrator(model, {});
+  dynamics::start_with_lines(model, integrator, w);
+  for (int i = 0; i < 50; ++i) integrator.step(w, 0.02);
+  EXPECT_NEAR(w.state.pose[0].centre.z(), bottom, 1e-8);
+  EXPECT_LT(w.state.velocity.norm(), 1e-7);
+}
+
+// A mass on a spring with a third of the spring's mass: sqrt(k/(M + m/3)), next term (m/M)²/45.
+TEST(FastenedLine, SwingsAtTheFrequencyOfAMassOnAHeavySpring) {
+  Description d = springs(8, 2e4);
+  for (Node& node : d.nodes) node.quadratic_damping = 0;
+  for (Segment& s : d.segments) s.axial_damping = 0;
+  const double M = 100, k = 2e4 / 5, omega = std::sqrt(k / (M + 10.0 / 3)), bottom = -5 - (M + 5) * gravity / k;
+  const std::vector<RigidBody> bodies{bob(M, {0, 0, bottom})};
+  const dynamics::Model model(bodies, {}, weight_and_line(bodies, {hung(d)}));
+  auto state = dynamics::rest_state(bodies);
+  state.pose[0].centre.z() += 0.01;
+  Workspace w(model, state);
+  GeneralizedAlpha integrator(model, {.rho_infinity = 0.98});
+  dynamics::start_with_lines(model, integrator, w);
+  const int steps = 2000;
+  const double h = 10 * 2 * M_PI / omega / steps;  // ten periods
+  for (int i = 0; i < steps; ++i) integrator.step(w, h);
+  // After ten periods the phase tells: a share of 1e-4 in the frequency is 63 µm of velocity over ω.
+  EXPECT_NEAR(w.state.pose[0].centre.z() - bottom, 0.01, 1e-4);
+  EXPECT_NEAR(w.state.velocity[2] / omega, 0, 2e-4);
+}
+
+// Energy of body and line add up to the error of the step: a fourth for half the step.
+TEST(FastenedLine, ClosesTheLedgerOfTheBodiesToTheOrderOfTheStep) {
+  double residual[2], turnover = 0;
+  for (int k = 0; k < 2; ++k) {
+    const std::vector<RigidBody> bodies{bob(5, {3, 1, -2.5}, true)};
+    const dynamics::Model model(bodies, {}, weight_and_line(bodies, {hung(springs(3, 2e3), {0, 0, 0.2})}));
+    Workspace w(model, dynamics::rest_state(bodies));
+    GeneralizedAlpha integrator(model, {.rho_infinity = 0.99});
+    dynamics::start_with_lines(model, integrator, w);
+    dynamics::EnergyLedger ledger(model, w);
+    for (int i = 0; i < 400 << k; ++i) {
+      integrator.step(w, 5e-3 / (1 << k));
+      ledger.note(w);
+    }
+    residual[k] = std::abs(ledger.residual());
+    turnover = ledger.turnover();
+  }
+  EXPECT_LT(residual[1], 1e-2 * turnover);
+  EXPECT_LT(residual[1], 0.4 * residual[0]);
+}
+
+}  // namespace
