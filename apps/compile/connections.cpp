@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "dynamics/control/dominant_period.hpp"
+#include "dynamics/joint/lead.hpp"
 #include "hydro/base/error.hpp"
 
 namespace froude::compile {
@@ -73,6 +74,11 @@ void add_connector(const Scene& scene, const scene::Connector& c, Prepared& out)
   out.bushing_names.push_back(c.name);
 }
 
+dynamics::Lead lead(const scene::JointLead& l) {
+  return l.time.empty() ? dynamics::led_harmonically(l.amplitude, l.omega, l.ramp)
+                        : dynamics::led_through(l.time, l.travel);
+}
+
 /// libdynamics has the body first and the ground second.
 void add_joint(const scene::Joint& j, Prepared& out) {
   const bool turned = !j.first;
@@ -84,9 +90,12 @@ void add_joint(const scene::Joint& j, Prepared& out) {
                         .axis = turned && j.kind == scene::JointKind::universal ? j.second_axis : j.axis,
                         .second_axis = turned ? j.axis : j.second_axis});
   out.joint_sign.push_back(turned ? -1 : 1);
+  if (j.lead) out.joints.back().lead = turned ? dynamics::reversed(lead(*j.lead)) : lead(*j.lead);
+  const auto travel = [&] { return dynamics::Travel(out.bodies, out.joints.back()); };
   if (j.friction)
-    out.friction.push_back(
-        {j.name, dynamics::Travel(out.bodies, out.joints.back()), j.friction->breakaway, j.friction->sliding});
+    out.friction.push_back({j.name, travel(), j.friction->breakaway, j.friction->sliding, j.friction->stribeck, {}});
+  if (j.pto && j.pto->latch)
+    out.friction.push_back({j.name, travel(), std::numeric_limits<double>::infinity(), 0, {}, j.pto->latch});
 }
 
 void add_mooring(const Scene& scene, const scene::Mooring& m, Prepared& out) {
@@ -101,7 +110,7 @@ void add_mooring(const Scene& scene, const scene::Mooring& m, Prepared& out) {
 std::vector<dynamics::Pto> ptos(const Scene& scene, const Prepared& p) {
   std::vector<dynamics::Pto> out;
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
-    if (!scene.joints[j].pto) continue;
+    if (!scene.joints[j].pto || !scene.joints[j].pto->has_force()) continue;
     const scene::Pto& s = *scene.joints[j].pto;
     dynamics::TravelLaw law{.line = {.stiffness = s.stiffness,
                                      .damping = s.damping,

@@ -160,11 +160,12 @@ void add_friction(const Prepared& p, const dynamics::Model& model, std::vector<P
     const std::string& name = p.friction[i].name;
     const auto joint = std::find_if(p.joints.begin(), p.joints.end(), [&](const auto& j) { return j.name == name; });
     const double sign = p.joint_sign[static_cast<std::size_t>(joint - p.joints.begin())];
-    out.push_back({name + ".friction", p.friction[i].travel.turns() ? "N m" : "N",
-                   fmt::format("load of the friction of {} on its second body along the axis", name),
+    const char* what = p.friction[i].hold ? "latch" : "friction";
+    out.push_back({fmt::format("{}.{}", name, what), p.friction[i].travel.turns() ? "N m" : "N",
+                   fmt::format("load of the {} of {} on its second body along the axis", what, name),
                    [&model, i, kind, sign](const Workspace& w, const EnergyLedger&) {
-                     return sign * model.forces()[kind]->friction()->load(i, w.memory[kind].get(), w.multipliers,
-                                                                          model.joints().count());
+                     return sign * model.forces()[kind]->friction()->load(i, w.state, w.memory[kind].get(),
+                                                                          w.multipliers, model.joints().count());
                    }});
   }
 }
@@ -173,7 +174,7 @@ void add_friction(const Prepared& p, const dynamics::Model& model, std::vector<P
 void add_ptos(const scene::Scene& scene, const Prepared& p, std::vector<Probe>& out) {
   std::size_t next = 0;
   for (const auto& joint : scene.joints) {
-    if (!joint.pto) continue;
+    if (!joint.pto || !joint.pto->has_force()) continue;
     const dynamics::Pto pto = p.ptos[next++];
     const bool turns = joint.kind == scene::JointKind::hinge;
     out.push_back(
@@ -203,8 +204,9 @@ void add_joint_loads(const Prepared& p, const dynamics::Model& model, std::vecto
 void add_energies(const TimeModel& m, std::vector<Probe>& out) {
   out.push_back({"energy.kinetic", "J", "kinetic energy of bodies and added mass",
                  [](const Workspace&, const EnergyLedger& l) { return l.kinetic(); }});
-  for (std::size_t k = 0; k < m.model.forces().size(); ++k) {
-    const std::string effect = m.model.forces()[k]->effect();
+  const std::vector<std::string> effects = dynamics::EnergyLedger::effects(m.model);
+  for (std::size_t k = 0; k < effects.size(); ++k) {
+    const std::string& effect = effects[k];
     const auto add = [&](const char* what, double EnergyLedger::Entry::*member) {
       out.push_back({fmt::format("energy.{}.{}", effect, what), "J", fmt::format("energy {} by {}", what, effect),
                      [k, member](const Workspace&, const EnergyLedger& l) { return l.entries()[k].*member; }});

@@ -78,8 +78,13 @@ std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene)
         "loads on members are left out, also their added mass: small motions about rest have no place for them (a run "
         "has)");
   for (const auto& joint : scene.joints)
-    if (joint.friction) {
-      out.emplace_back("friction is left out: its joints move freely in a linear response");
+    if (joint.friction || (joint.pto && joint.pto->latch)) {
+      out.emplace_back("friction and latches are left out: their joints move freely in a linear response");
+      break;
+    }
+  for (const auto& joint : scene.joints)
+    if (joint.lead) {
+      out.emplace_back("what leads joints is left out: they are held where they are placed");
       break;
     }
   if (!scene.contacts.empty()) out.emplace_back("contacts are left out: bodies are taken not to touch");

@@ -6,6 +6,10 @@
 
 #include "scene/record.hpp"
 
+namespace hydro::io {
+class CsvTable;
+}
+
 namespace froude::scene {
 
 /// Names of bodies, members, moorings and connectors: one word, one thing, because signals are called after them.
@@ -31,7 +35,7 @@ void build_lines(const Record& root, const std::filesystem::path& file, Names& n
 void build_moorings(const Record& root, Names& names, Scene& scene);
 void build_contacts(const Record& root, Names& names, Scene& scene);
 void build_connectors(const Record& root, Names& names, Scene& scene);
-void build_joints(const Record& root, Names& names, Scene& scene);
+void build_joints(const Record& root, const std::filesystem::path& file, Names& names, Scene& scene);
 void build_loads(const Record& root, Names& names, Scene& scene);
 
 Waves build_waves(const Record& waves, const Scene& scene);
@@ -56,6 +60,9 @@ int body_named(const Record& record, const Located<std::string>& name, const std
 
 /// A file beside the scene.
 std::filesystem::path beside(const std::filesystem::path& scene, const std::string& relative);
+/// Times of a recorded motion, the file of the key `file`: two or more, rising, from t = 0 or before.
+/// \throws hydro::InputError for others
+std::vector<double> rising_times(const Record& record, const hydro::io::CsvTable& table);
 
 /// Puts the numbers of included files, [coefficients] cd = 1.19 of fit.toml, in place of texts "fit.cd".
 /// \throws hydro::InputError for a file that is not there or has no such table, or a name that is not in it

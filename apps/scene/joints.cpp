@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <numbers>
+
+#include "hydro/io/csv.hpp"
 #include "scene/build.hpp"
 
 namespace froude::scene {
@@ -29,10 +32,43 @@ std::optional<JointFriction> read_friction(const Record& record) {
   if (!record.has("friction")) return std::nullopt;
   const Record& friction = record.table("friction");
   const double sliding = friction.si("dynamic");
-  if (!friction.has("static")) return JointFriction{sliding, sliding};
-  if (friction.si("static") < sliding)
+  JointFriction out{sliding, sliding};
+  if (friction.has("static")) out.breakaway = friction.si("static");
+  if (out.breakaway < sliding)
     throw friction.wrong("static", "is below the dynamic level", "what sticks holds at least as much as what slips");
-  return JointFriction{friction.si("static"), sliding};
+  if (friction.has("stribeck")) {
+    out.stribeck = friction.si("stribeck");
+    if (out.breakaway == sliding)
+      throw friction.wrong("stribeck", "changes nothing: the load of slip is the static level from the start",
+                           "give a static level above the dynamic one");
+  }
+  return out;
+}
+
+/// The sine, or the record, which must tell where the joint is from t = 0 on.
+JointLead read_lead(const Record& record, JointKind kind, const std::filesystem::path& file) {
+  JointLead out;
+  if (record.has("amplitude")) {
+    out.amplitude = record.si("amplitude");
+    out.omega = 2 * std::numbers::pi / record.si("period");
+    out.ramp = record.si("ramp");
+    return out;
+  }
+  const auto table = hydro::io::CsvTable::read(beside(file, record.text("file")));
+  out.time = rising_times(record, table);
+  out.travel = table.column("travel", kind == JointKind::hinge ? hydro::dim::angle : hydro::dim::length);
+  return out;
+}
+
+/// One travel has one master.
+void check_masters(const Record& record, const Joint& joint) {
+  const bool latched = joint.pto && joint.pto->latch;
+  if (joint.lead && joint.friction)
+    throw record.wrong("lead", "and `friction` are both of one joint: what is led neither sticks nor slips",
+                       "leave one of them out");
+  if (latched && (joint.friction || joint.lead))
+    throw record.wrong("pto", "has a latch, and the joint `lead` or `friction`: two would hold one travel",
+                       "leave one of them out");
 }
 
 /// Held modes of a body are held for its own sake, not by joints: a joint that asks it to leave its place holds it
@@ -60,8 +96,10 @@ Pto read_pto(const Record& record) {
           .quadratic_damping = number("quadratic_damping"),
           .preload = number("preload"),
           .force_limit = {},
-          .stops = {}};
+          .stops = {},
+          .latch = {}};
   if (record.has("force_limit")) out.force_limit = record.si("force_limit");
+  if (record.has("latch")) out.latch = record.table("latch").si("hold");
   if (!record.has("stops")) return out;
   const Record& stops = record.table("stops");
   out.stops.emplace();
@@ -88,7 +126,7 @@ void build_loads(const Record& root, Names& names, Scene& scene) {
   }
 }
 
-void build_joints(const Record& root, Names& names, Scene& scene) {
+void build_joints(const Record& root, const std::filesystem::path& file, Names& names, Scene& scene) {
   for (const Record& record : root.tables("joint")) {
     const auto pairs = read_between(record, scene.bodies, GroundFirst::allowed);
     const auto name = names.of(record, pairs.size());
@@ -108,6 +146,8 @@ void build_joints(const Record& root, Names& names, Scene& scene) {
       read_axes(record, joint);
       joint.friction = read_friction(record);
       if (record.has("pto")) joint.pto = read_pto(record.table("pto"));
+      if (record.has("lead")) joint.lead = read_lead(record.table("lead"), joint.kind, file);
+      check_masters(record, joint);
       check_may_turn(record, joint, scene.bodies);
       scene.joints.push_back(std::move(joint));
     }

@@ -48,15 +48,10 @@ Line::Lead read_lead(const Record& record, const Line& line, const std::filesyst
   if (!out.first && !line.to)
     throw record.wrong("end", "is free: the line has no `to`", "add `to`, or lead the end \"from\"");
   const auto table = hydro::io::CsvTable::read(beside(file, record.text("file")));
-  out.time = table.column("time", hydro::dim::time);
+  out.time = rising_times(record, table);
   const auto &x = table.column("x", hydro::dim::length), &y = table.column("y", hydro::dim::length),
              &z = table.column("z", hydro::dim::length);
   for (std::size_t i = 0; i < x.size(); ++i) out.place.emplace_back(x[i], y[i], z[i]);
-  if (out.time.size() < 2) throw record.wrong("file", "holds fewer than two places of the path");
-  for (std::size_t i = 1; i < out.time.size(); ++i)
-    if (!(out.time[i] > out.time[i - 1]))
-      throw hydro::InputError("times of a path must increase", table.place_of("time", i));
-  if (out.time.front() > 0) throw record.wrong("file", "begins after t = 0", "let the path begin at t = 0 or before");
   return out;
 }
 

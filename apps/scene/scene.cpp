@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "hydro/io/atomic_file.hpp"
+#include "hydro/io/csv.hpp"
 #include "scene/build.hpp"
 
 namespace froude::scene {
@@ -171,6 +172,15 @@ std::filesystem::path beside(const std::filesystem::path& scene, const std::stri
   return std::filesystem::absolute(scene.parent_path() / relative).lexically_normal();
 }
 
+std::vector<double> rising_times(const Record& record, const hydro::io::CsvTable& table) {
+  std::vector<double> time = table.column("time", hydro::dim::time);
+  if (time.size() < 2) throw record.wrong("file", "holds fewer than two places of the path");
+  for (std::size_t i = 1; i < time.size(); ++i)
+    if (!(time[i] > time[i - 1])) throw InputError("times of a path must increase", table.place_of("time", i));
+  if (time.front() > 0) throw record.wrong("file", "begins after t = 0", "let the path begin at t = 0 or before");
+  return time;
+}
+
 void check_version(const Node& root) {
   const auto* schema = root.find("schema");
   if (schema == nullptr)
@@ -207,7 +217,7 @@ Scene parse(std::string_view text, const std::filesystem::path& file) {
   build_moorings(root, names, scene);
   build_connectors(root, names, scene);
   build_contacts(root, names, scene);
-  build_joints(root, names, scene);
+  build_joints(root, file, names, scene);
   build_loads(root, names, scene);
   check_bodies(root, scene);
   build_ask(root.table("ask"), scene);

@@ -332,6 +332,13 @@ struct Contact {
 /// Friction of a hinge, N m, or of a slider, N.
 struct JointFriction {
   double breakaway, sliding;
+  std::optional<double> stribeck = {};  ///< rad/s or m/s
+};
+
+/// `[joint.lead]`: what the travel of a slider or the angle of a hinge is: a sine, or a record.
+struct JointLead {
+  double amplitude = 0, omega = 0, ramp = 0;  ///< m or rad, rad/s, s
+  std::vector<double> time, travel;           ///< of a record: s, m or rad
 };
 
 enum class JointKind { fixed, hinge, universal, ball, slider, planar };
@@ -345,6 +352,11 @@ struct Pto {
     double stiffness, damping;
   };
   std::optional<Stops> stops;
+  std::optional<double> latch;  ///< s: holds that long wherever it comes to rest
+  /// False if there is nothing but a latch.
+  bool has_force() const {
+    return stiffness != 0 || cubic != 0 || damping != 0 || quadratic_damping != 0 || preload != 0 || stops;
+  }
 };
 
 /// `[[load]]`: constant.
@@ -363,7 +375,8 @@ struct Joint {
   Eigen::Vector3d at;                ///< global, m
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX(), second_axis = Eigen::Vector3d::UnitY();  ///< global, any length
   std::optional<JointFriction> friction = {};
-  std::optional<Pto> pto = {};  ///< of sliders and hinges
+  std::optional<Pto> pto = {};         ///< of sliders and hinges
+  std::optional<JointLead> lead = {};  ///< of sliders and hinges
   Place place;
 };
 

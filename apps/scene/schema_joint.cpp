@@ -5,32 +5,65 @@ namespace {
 
 namespace dim = hydro::dim;
 
-Table friction_table(const std::string& joint, const hydro::Dimension& dimension, const std::string& what) {
-  return {.title = "[joint.friction] of a " + joint,
-          .meaning =
-              "Coulomb friction: the joint sticks until the static level is reached, and slips against the dynamic one",
-          .keys = {quantity("dynamic", dimension, what + " that resists while it slips").positive(),
-                   quantity("static", dimension, what + " that it holds while it sticks; left out: the dynamic one")
-                       .positive()
-                       .optional()}};
-}
-const Table& hinge_friction() {
-  static const Table table = friction_table("hinge", dim::moment, "moment");
-  return table;
-}
-const Table& slider_friction() {
-  static const Table table = friction_table("slider", dim::force, "force");
-  return table;
-}
-
-Key axis(const std::string& meaning) { return direction("axis", meaning); }
-
 /// What a kind of joint measures its travel in.
 struct Measure {
   const char* joint;
   hydro::Dimension travel, force;
 };
 const Measure of_slider{"slider", dim::length, dim::force}, of_hinge{"hinge", dim::angle, dim::moment};
+
+Table friction_table(const Measure& m, const std::string& what) {
+  return {.title = std::string("[joint.friction] of a ") + m.joint,
+          .meaning =
+              "Coulomb friction: the joint sticks until the static level is reached, and slips against the dynamic one",
+          .keys = {quantity("dynamic", m.force, what + " that resists while it slips").positive(),
+                   quantity("static", m.force, what + " that it holds while it sticks; left out: the dynamic one")
+                       .positive()
+                       .optional(),
+                   quantity("stribeck", m.travel / dim::time,
+                            "rate over which the load of slip falls from the static level to the dynamic one; left "
+                            "out: it falls at once")
+                       .positive()
+                       .optional()}};
+}
+const Table& hinge_friction() {
+  static const Table table = friction_table(of_hinge, "moment");
+  return table;
+}
+const Table& slider_friction() {
+  static const Table table = friction_table(of_slider, "force");
+  return table;
+}
+
+Key axis(const std::string& meaning) { return direction("axis", meaning); }
+
+Table lead_table(const Measure& m) {
+  return {.title = std::string("[joint.lead] of a ") + m.joint,
+          .meaning = std::string("what the travel of the ") + m.joint +
+                     " is, whatever it takes: a forced oscillation or a recorded motion",
+          .keys = {quantity("amplitude", m.travel, "of a sine that begins at rest").optional().only_beside("period"),
+                   quantity("period", dim::time, "of the sine").positive().optional().only_beside("amplitude"),
+                   quantity("ramp", dim::time, "over which the sine grows, by half a cosine")
+                       .within(Limit::not_negative)
+                       .or_default("0 s", "the sine begins at once, with its full speed"),
+                   text("file", "CSV beside the scene with time and travel; a cubic spline goes through its points")
+                       .optional()},
+          .groups = {{Group::Count::exactly_one, {"amplitude", "file"}}}};
+}
+const Table& lead_of_slider() {
+  static const Table table = lead_table(of_slider);
+  return table;
+}
+const Table& lead_of_hinge() {
+  static const Table table = lead_table(of_hinge);
+  return table;
+}
+
+Table latch_table(const Measure& m) {
+  return {.title = std::string("[joint.pto.latch] of a ") + m.joint,
+          .meaning = "holds the travel wherever it comes to rest, whatever the load, and lets it go again",
+          .keys = {quantity("hold", dim::time, "for which it holds").positive()}};
+}
 
 Table stops_table(const Measure& m) {
   return {
@@ -45,7 +78,7 @@ Table stops_table(const Measure& m) {
       .groups = {{Group::Count::at_least_one, {"lower", "upper"}}}};
 }
 
-Table pto_table(const Measure& m, const Table& stops) {
+Table pto_table(const Measure& m, const Table& stops, const Table& latch) {
   const auto rate = m.travel / dim::time;
   return {
       .title = std::string("[joint.pto] of a ") + m.joint,
@@ -61,18 +94,20 @@ Table pto_table(const Measure& m, const Table& stops) {
                quantity("force_limit", m.force, "that spring, damper and preload together cannot exceed")
                    .positive()
                    .optional(),
-               inner_table("stops", stops).optional()},
-      .groups = {
-          {Group::Count::at_least_one, {"stiffness", "cubic", "damping", "quadratic_damping", "preload", "stops"}}}};
+               inner_table("stops", stops).optional(), inner_table("latch", latch).optional()},
+      .groups = {{Group::Count::at_least_one,
+                  {"stiffness", "cubic", "damping", "quadratic_damping", "preload", "stops", "latch"}}}};
 }
 
 const Table& pto_of_slider() {
-  static const Table stops = stops_table(of_slider), table = pto_table(of_slider, stops);
+  static const Table stops = stops_table(of_slider), latch = latch_table(of_slider);
+  static const Table table = pto_table(of_slider, stops, latch);
   return table;
 }
 
 const Table& pto_of_hinge() {
-  static const Table stops = stops_table(of_hinge), table = pto_table(of_hinge, stops);
+  static const Table stops = stops_table(of_hinge), latch = latch_table(of_hinge);
+  static const Table table = pto_table(of_hinge, stops, latch);
   return table;
 }
 
@@ -109,7 +144,8 @@ const Table& joint_table() {
           {.word = "hinge",
            .meaning = "the two turn about one axis",
            .keys = {axis("about which they turn, global at rest"), inner_table("pto", pto_of_hinge()).optional(),
-                    inner_table("friction", hinge_friction()).optional()}},
+                    inner_table("friction", hinge_friction()).optional(),
+                    inner_table("lead", lead_of_hinge()).optional()}},
           {.word = "universal",
            .meaning = "the two turn about two axes across each other",
            .keys = {axis("that the first body holds, global at rest"),
@@ -119,7 +155,8 @@ const Table& joint_table() {
            .meaning = "the second slides along an axis of the first and turns about nothing",
            .keys = {axis("along which it slides, held by the first, global at rest"),
                     inner_table("pto", pto_of_slider()).optional(),
-                    inner_table("friction", slider_friction()).optional()}},
+                    inner_table("friction", slider_friction()).optional(),
+                    inner_table("lead", lead_of_slider()).optional()}},
           {.word = "planar",
            .meaning = "the second slides in a plane of the first and turns about its normal",
            .keys = {axis("across the plane, held by the first, global at rest")}}}};

@@ -2,18 +2,47 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "hydro/base/error.hpp"
+#include "travel_force.hpp"
 
 namespace dynamics {
 
 FrictionKind::FrictionKind(std::vector<Friction> elements) : elements_(std::move(elements)) {
   for (const Friction& f : elements_) {
+    if (f.hold) {
+      hydro::require(*f.hold > 0, "latch of joint \"{}\": the time it holds must be positive", f.name);
+      continue;
+    }
     hydro::require(std::isfinite(f.breakaway) && f.sliding > 0,
                    "friction of joint \"{}\": both levels must be positive", f.name);
     hydro::require(f.breakaway >= f.sliding, "friction of joint \"{}\": the static level is below the dynamic one",
                    f.name);
+    hydro::require(!f.stribeck || *f.stribeck > 0, "friction of joint \"{}\": the Stribeck rate must be positive",
+                   f.name);
   }
+}
+
+// (D32)
+double Friction::level(double rate) const {
+  if (!stribeck) return sliding;
+  const double r = rate / *stribeck;
+  return sliding + (breakaway - sliding) * std::exp(-r * r);
+}
+
+double Friction::steepness(double rate) const {
+  return stribeck ? -2 * rate / (*stribeck * *stribeck) * (level(rate) - sliding) : 0;
+}
+
+std::string FrictionKind::effect() const {
+  const bool latches = std::all_of(elements_.begin(), elements_.end(), [](const Friction& f) { return f.hold; });
+  return latches ? "latch" : "friction";
+}
+
+double FrictionKind::strain(std::size_t element, double load, const FrictionMemory& memory, double time) const {
+  const Friction& f = elements_[element];
+  return f.hold ? (time - memory.since[element]) / *f.hold : std::abs(load) / f.breakaway;
 }
 
 void FrictionKind::couple(BlockPattern& pattern) const {
@@ -25,16 +54,14 @@ std::unique_ptr<Memory> FrictionKind::make_memory(const State&) const {
   return std::make_unique<FrictionMemory>(elements_.size());
 }
 
-// −d T ∂s on both bodies (D19).
+// d T against the travel of both bodies (D19).
 void FrictionKind::add_load(const Instant& now, LoadSink& out) const {
   const auto& memory = static_cast<const FrictionMemory&>(*now.memory);
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     if (memory.direction[i] == 0) continue;
-    const Travel& s = elements_[i].travel;
-    const Gradient g = s.gradient(now.state);
-    const double load = -memory.direction[i] * elements_[i].sliding;
-    out.add(s.first(), load * g.first);
-    if (s.second()) out.add(*s.second(), load * g.second);
+    const Friction& f = elements_[i];
+    const auto m = detail::motion_of(f.travel, now.state, 1);
+    detail::add_load(f.travel, m, memory.direction[i] * f.level(m.rate), out);
   }
 }
 
@@ -42,14 +69,10 @@ void FrictionKind::add_jacobian(const Instant& now, JacobianSink& out) const {
   const auto& memory = static_cast<const FrictionMemory&>(*now.memory);
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     if (memory.direction[i] == 0) continue;
-    const Travel& s = elements_[i].travel;
-    const Matrix12 H = -memory.direction[i] * elements_[i].sliding * s.curvature(now.state);
-    const Matrix6 none = Matrix6::Zero();
-    out.add(s.first(), s.first(), H.topLeftCorner<6, 6>(), none);
-    if (!s.second()) continue;
-    out.add(s.first(), *s.second(), H.topRightCorner<6, 6>(), none);
-    out.add(*s.second(), s.first(), H.bottomLeftCorner<6, 6>(), none);
-    out.add(*s.second(), *s.second(), H.bottomRightCorner<6, 6>(), none);
+    const Friction& f = elements_[i];
+    const auto m = detail::motion_of(f.travel, now.state, 1);
+    const double d = memory.direction[i];
+    detail::add_jacobian(f.travel, m, now.state, 1, {d * f.level(m.rate), 0, d * f.steepness(m.rate)}, out);
   }
 }
 
@@ -58,17 +81,19 @@ EnergyFlow FrictionKind::energy(const Instant& now) const {
   EnergyFlow flow;
   double done = 0;
   for (std::size_t i = 0; i < elements_.size(); ++i) {
-    flow.dissipated += memory.direction[i] * elements_[i].sliding * elements_[i].travel.rate(now.state);
+    const double rate = elements_[i].travel.rate(now.state);
+    flow.dissipated += memory.direction[i] * elements_[i].level(rate) * rate;
     done += memory.work[i];
   }
   flow.dissipated_so_far = done;
   return flow;
 }
 
-double FrictionKind::load(std::size_t element, const Memory* memory, const Eigen::VectorXd& multipliers,
-                          Eigen::Index joints) const {
+double FrictionKind::load(std::size_t element, const State& state, const Memory* memory,
+                          const Eigen::VectorXd& multipliers, Eigen::Index joints) const {
   const auto& direction = static_cast<const FrictionMemory*>(memory)->direction;
-  if (direction[element] != 0) return -direction[element] * elements_[element].sliding;
+  const Friction& f = elements_[element];
+  if (direction[element] != 0) return -direction[element] * f.level(f.travel.rate(state));
   return -multipliers[joints +
                       std::count(direction.begin(), direction.begin() + static_cast<std::ptrdiff_t>(element), 0)];
 }
@@ -78,8 +103,10 @@ void FrictionKind::note_work(const State& before, const State& after, FrictionMe
     if (memory.direction[i] == 0) continue;
     const Travel& s = elements_[i].travel;
     double way = s.value(after) - s.value(before);
-    if (s.turns()) way = std::remainder(way, 2 * 3.14159265358979323846);
-    memory.work[i] += memory.direction[i] * elements_[i].sliding * way;  // the level is constant, so this is exact
+    if (s.turns()) way = std::remainder(way, 2 * std::numbers::pi);
+    // Exact where the level is constant.
+    const double level = (elements_[i].level(s.rate(before)) + elements_[i].level(s.rate(after))) / 2;
+    memory.work[i] += memory.direction[i] * level * way;
   }
 }
 

@@ -1,5 +1,6 @@
 #include "dynamics/integrate/active_set.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include "hydro/base/error.hpp"
@@ -39,8 +40,14 @@ ContactMemory& ActiveSet::contact_memory(Workspace& workspace) const {
 }
 
 void ActiveSet::find_condition_scale(const State& state) {
-  const Eigen::MatrixXd G = conditions_.dense(conditions_.gradients(state)) * scale_.cwiseInverse().asDiagonal();
-  condition_scale_ = G.rowwise().norm().cwiseInverse();
+  const auto G = conditions_.gradients(state);
+  condition_scale_.resize(conditions_.count());
+  for (std::size_t i = 0; i < G.size(); ++i) {
+    const Condition& c = conditions_.conditions()[i];
+    double size = G[i].first.cwiseQuotient(scale_.segment<6>(6 * c.first)).norm();
+    if (c.second) size = std::hypot(size, G[i].second.cwiseQuotient(scale_.segment<6>(6 * *c.second)).norm());
+    condition_scale_[static_cast<Eigen::Index>(i)] = 1 / size;
+  }
 }
 
 /// False if its bodies cannot move that way at all.

@@ -22,7 +22,7 @@ State between(const State& a, const State& b) {
 /// Means of places and of directions: what the difference of a condition that is bilinear in both is exact with.
 ConditionEnds mean(const ConditionEnds& a, const ConditionEnds& b) {
   return {(a.first_centre + b.first_centre) / 2, (a.second_centre + b.second_centre) / 2, (a.first + b.first) / 2,
-          (a.second + b.second) / 2};
+          (a.second + b.second) / 2, (a.time + b.time) / 2};
 }
 
 }  // namespace

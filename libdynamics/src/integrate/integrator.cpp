@@ -15,7 +15,8 @@ constexpr int deepest_halving = 10;          // a step is cut into 2¹⁰ pieces
 void Integrator::require_closed_joints(const State& state) const {
   const JointSet& joints = model_.joints();
   if (joints.count() == 0) return;
-  const Eigen::VectorXd g = joints.values(state), speed = joints.times(joints.gradients(state), state.velocity);
+  const Eigen::VectorXd g = joints.values(state),
+                        speed = joints.times(joints.gradients(state), state.velocity) - joints.lead_rates(state.time);
   const auto name = [&](Eigen::Index i) {
     return joints.joints()[static_cast<std::size_t>(joints.conditions()[static_cast<std::size_t>(i)].joint)].name;
   };

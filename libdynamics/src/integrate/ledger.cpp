@@ -8,11 +8,26 @@ namespace dynamics {
 EnergyLedger::EnergyLedger(const Model& model, Workspace& workspace) : model_(model), time_(workspace.state.time) {
   kinetic_ = model.kinetic_energy(workspace.state);
   initial_ = kinetic_;
-  for (std::size_t k = 0; k < model.forces().size(); ++k) {
-    before_.push_back(model.forces()[k]->energy(workspace.instant(workspace.state, k)));
-    entries_.push_back({model.forces()[k]->effect(), before_.back().stored, 0, 0});
+  for (std::string& effect : effects(model)) {
+    before_.push_back(flow(entries_.size(), workspace));
+    entries_.push_back({std::move(effect), before_.back().stored, 0, 0});
     initial_ += before_.back().stored;
   }
+}
+
+std::vector<std::string> EnergyLedger::effects(const Model& model) {
+  std::vector<std::string> out;
+  for (const auto& kind : model.forces()) out.push_back(kind->effect());
+  if (model.joints().are_led()) out.emplace_back("joint.lead");
+  return out;
+}
+
+// The load of a led joint on the bodies is −Gᵀλ, and G v = ṡ.
+EnergyFlow EnergyLedger::flow(std::size_t entry, Workspace& workspace) const {
+  const State& now = workspace.state;
+  if (entry < model_.forces().size()) return model_.forces()[entry]->energy(workspace.instant(now, entry));
+  const Eigen::VectorXd rates = model_.joints().lead_rates(now.time);
+  return {.supplied = -workspace.multipliers.head(rates.size()).dot(rates)};
 }
 
 void EnergyLedger::note(Workspace& workspace) {
@@ -20,7 +35,7 @@ void EnergyLedger::note(Workspace& workspace) {
   time_ = workspace.state.time;
   kinetic_ = model_.kinetic_energy(workspace.state);
   for (std::size_t k = 0; k < entries_.size(); ++k) {
-    const EnergyFlow now = model_.forces()[k]->energy(workspace.instant(workspace.state, k));
+    const EnergyFlow now = flow(k, workspace);
     entries_[k].stored = now.stored;
     entries_[k].supplied += h / 2 * (before_[k].supplied + now.supplied);
     entries_[k].dissipated += now.dissipated_so_far ? *now.dissipated_so_far - *before_[k].dissipated_so_far

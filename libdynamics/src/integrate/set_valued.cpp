@@ -38,7 +38,7 @@ void SetValuedLaws::classify_friction(Workspace& workspace) const {
   FrictionMemory& memory = active_.friction_memory(workspace);
   for (std::size_t i = 0; i < memory.direction.size(); ++i) {
     const double rate = active_.friction()->all()[i].travel.rate(workspace.state);
-    memory.direction[i] = std::abs(rate) <= slow(workspace) ? 0 : (rate > 0 ? 1 : -1);
+    memory.turn(i, std::abs(rate) <= slow(workspace) ? 0 : (rate > 0 ? 1 : -1), workspace.state.time);
   }
 }
 
@@ -136,7 +136,8 @@ void SetValuedLaws::still(Workspace& workspace, double step) {
   model_.tangent(workspace.state, 1, 0, 0, workspace, workspace.matrix);
   if (!solver.factorise(workspace.matrix, G, G, compliance)) return;
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(model_.modes());
-  workspace.state.velocity += solver.solve(none, -rows.times(G, workspace.state.velocity)).x;
+  workspace.state.velocity +=
+      solver.solve(none, rows.lead_rates(workspace.state.time) - rows.times(G, workspace.state.velocity)).x;
   const double lost = before - model_.kinetic_energy(workspace.state);
   for (const std::size_t i : near)
     active_.contact_memory(workspace).contact[i].dissipated += lost / static_cast<double>(near.size());
@@ -157,7 +158,7 @@ std::vector<SetValuedLaws::Seen> SetValuedLaws::situation(Workspace& workspace) 
 // What has reached its level is let go at once; settle() then looks at what follows for the others.
 void SetValuedLaws::take_up(Workspace& workspace, const Margin& at) {
   if (at.law == Event::Law::friction) {
-    active_.friction_memory(workspace).direction[at.element] = at.becomes;
+    active_.friction_memory(workspace).turn(at.element, at.becomes, workspace.state.time);
     return;
   }
   ContactState& c = active_.contact_memory(workspace).contact[at.element];
@@ -222,7 +223,8 @@ SetValuedLaws::Margin SetValuedLaws::least_margin(Workspace& workspace) const {
         continue;
       }
       const double load = loads->multipliers[row++];
-      consider(Event::Law::friction, i, 1 - std::abs(load) / f.breakaway, load > 0 ? 1 : -1);
+      consider(Event::Law::friction, i, 1 - active_.friction()->strain(i, load, memory, workspace.state.time),
+               load > 0 ? 1 : -1);
     }
   }
   if (active_.contact() == nullptr) return least;
@@ -256,9 +258,10 @@ bool SetValuedLaws::release(Workspace& workspace) {
     Eigen::Index row = model_.joints().count();
     for (std::size_t i = 0; i < memory.direction.size(); ++i) {
       if (memory.direction[i] != 0) continue;
-      const double load = workspace.multipliers[row++], share = std::abs(load) / active_.friction()->all()[i].breakaway;
-      if (share - 1 <= most) continue;
-      most = share - 1;
+      const double load = workspace.multipliers[row++];
+      const double over = active_.friction()->strain(i, load, memory, workspace.state.time) - 1;
+      if (over <= most) continue;
+      most = over;
       let_go = [&memory, i, load] { memory.direction[i] = load > 0 ? 1 : -1; };
     }
   }

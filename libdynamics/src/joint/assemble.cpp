@@ -37,7 +37,8 @@ void close_joints(const Model& model, const std::vector<bool>& placed, State& st
 
 void close_joint_velocities(const Model& model, const std::vector<bool>& given, State& state) {
   if (model.joints().count() == 0) return;
-  const Eigen::VectorXd apart = model.joints().times(model.joints().gradients(state), state.velocity);
+  const Eigen::VectorXd apart =
+      model.joints().times(model.joints().gradients(state), state.velocity) - model.joints().lead_rates(state.time);
   if (apart.cwiseAbs().maxCoeff() > 0) state.velocity += smallest_closing(model, given, state, apart);
 }
 

@@ -1,5 +1,9 @@
 #include "dynamics/joint/conditions.hpp"
 
+#include <cmath>
+#include <numbers>
+
+#include "dynamics/joint/travel.hpp"
 #include "dynamics/spatial/rotation.hpp"
 
 namespace dynamics {
@@ -21,7 +25,7 @@ struct Points {
 ConditionEnds ends_of(const Condition& condition, const State& state) {
   const Pose& first = state.pose[static_cast<std::size_t>(condition.first)];
   ConditionEnds out{first.centre, Eigen::Vector3d::Zero(), first.attitude.toRotationMatrix(),
-                    Eigen::Matrix3d::Identity()};
+                    Eigen::Matrix3d::Identity(), state.time};
   if (condition.second) {
     const Pose& second = state.pose[static_cast<std::size_t>(*condition.second)];
     out.second_centre = second.centre;
@@ -139,5 +143,14 @@ Matrix12 curvature_by_differences(const ContactCondition& c, const ConditionEnds
 
 Matrix12 curvature(const GapCondition& c, const ConditionEnds& at) { return curvature_by_differences(c, at); }
 Matrix12 curvature(const StickCondition& c, const ConditionEnds& at) { return curvature_by_differences(c, at); }
+
+// (D31)
+double value(const LeadCondition& c, const ConditionEnds& at) {
+  const double off = c.travel->value(at) - c.lead(at.time).travel;
+  return c.travel->turns() ? std::remainder(off, 2 * std::numbers::pi) : off;
+}
+
+Gradient gradient(const LeadCondition& c, const ConditionEnds& at) { return c.travel->gradient(at); }
+Matrix12 curvature(const LeadCondition& c, const ConditionEnds& at) { return c.travel->curvature(at); }
 
 }  // namespace dynamics

@@ -1,5 +1,6 @@
 #include "dynamics/joint/joint.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "dynamics/joint/conditions.hpp"
@@ -91,6 +92,11 @@ JointSet::JointSet(const std::vector<RigidBody>& bodies, std::vector<Joint> join
     place_in_.push_back({joint.place - first, joint.place - second});
     for (auto& what : conditions_of(joint, first, second))
       conditions_.push_back({static_cast<int>(j), joint.first, joint.second, std::move(what)});
+    if (!joint.lead) continue;
+    hydro::require(joint.kind == JointKind::slider || joint.kind == JointKind::hinge,
+                   "joint \"{}\" is led, but is neither slider nor hinge", joint.name);
+    conditions_.push_back({static_cast<int>(j), joint.first, joint.second,
+                           LeadCondition{std::make_shared<Travel>(bodies, joint), joint.lead}});
   }
 }
 
@@ -197,7 +203,21 @@ Eigen::VectorXd JointSet::convective(const State& state) const {
     if (c.second) v.tail<6>() = state.twist(*c.second);
     const Matrix12 H = std::visit([&](const auto& what) { return curvature(what, ends_of(c, state)); }, c.what);
     out[static_cast<Eigen::Index>(i)] = v.dot(H * v);
+    if (const auto* led = std::get_if<LeadCondition>(&c.what))
+      out[static_cast<Eigen::Index>(i)] -= led->lead(state.time).acceleration;
   }
+  return out;
+}
+
+bool JointSet::are_led() const {
+  return std::any_of(joints_.begin(), joints_.end(), [](const Joint& j) { return static_cast<bool>(j.lead); });
+}
+
+Eigen::VectorXd JointSet::lead_rates(double time) const {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(count());
+  for (std::size_t i = 0; i < conditions_.size(); ++i)
+    if (const auto* led = std::get_if<LeadCondition>(&conditions_[i].what))
+      out[static_cast<Eigen::Index>(i)] = led->lead(time).rate;
   return out;
 }
 

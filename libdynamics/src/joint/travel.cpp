@@ -31,14 +31,12 @@ Travel::Travel(const std::vector<RigidBody>& bodies, const Joint& joint)
              joint.second ? Eigen::Vector3d(joint.place - bodies[static_cast<std::size_t>(*joint.second)].rest_centre())
                           : joint.place) {}
 
-double Travel::value(const State& state) const {
-  const ConditionEnds at = ends_of({0, first_, second_, along_}, state);
+double Travel::value(const ConditionEnds& at) const {
   if (!turns_) return dynamics::value(along_, at);
   return std::atan2(dynamics::value(sine_, at), dynamics::value(cosine_, at));
 }
 
-Gradient Travel::gradient(const State& state) const {
-  const ConditionEnds at = ends_of({0, first_, second_, along_}, state);
+Gradient Travel::gradient(const ConditionEnds& at) const {
   if (!turns_) return dynamics::gradient(along_, at);
   const double c = dynamics::value(cosine_, at), s = dynamics::value(sine_, at), r2 = c * c + s * s;
   const Gradient dc = dynamics::gradient(cosine_, at), ds = dynamics::gradient(sine_, at);
@@ -46,8 +44,7 @@ Gradient Travel::gradient(const State& state) const {
 }
 
 // (D53)
-Matrix12 Travel::curvature(const State& state) const {
-  const ConditionEnds at = ends_of({0, first_, second_, along_}, state);
+Matrix12 Travel::curvature(const ConditionEnds& at) const {
   if (!turns_) return dynamics::curvature(along_, at);
   const double c = dynamics::value(cosine_, at), s = dynamics::value(sine_, at), r2 = c * c + s * s;
   const Vector12 dc = joined(dynamics::gradient(cosine_, at)), ds = joined(dynamics::gradient(sine_, at));
@@ -64,7 +61,7 @@ double Travel::rate(const State& state) const {
 // A hinge: y of the first body stays across what is its z now. A slider: the point of the second body that has come to
 // the first's place stays in the plane across the axis.
 Condition Travel::holding(const State& state) const {
-  const ConditionEnds at = ends_of({0, first_, second_, along_}, state);
+  const ConditionEnds at = ends(state);
   constexpr int of_no_joint = -1;
   if (turns_)
     return {of_no_joint, first_, second_,

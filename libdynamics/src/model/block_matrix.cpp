@@ -98,7 +98,6 @@ struct BlockSolver::Impl {
 
 BlockSolver::BlockSolver(const BlockPattern& pattern) : impl_(std::make_unique<Impl>()) {
   impl_->sparse = prefers_sparse(pattern);
-  if (impl_->sparse) impl_->analyse(pattern);
 }
 BlockSolver::~BlockSolver() = default;
 BlockSolver::BlockSolver(BlockSolver&&) noexcept = default;
@@ -112,6 +111,7 @@ bool BlockSolver::factorise(const BlockMatrix& matrix) {
     impl_->dense_lu.compute(dense);
     return impl_->dense_lu.rcond() > 1e-15;
   }
+  if (impl_->matrix.size() == 0) impl_->analyse(matrix.pattern());
   impl_->fill(matrix);
   const auto values = Eigen::Map<const Eigen::VectorXd>(impl_->matrix.valuePtr(), impl_->matrix.nonZeros());
   if (!values.allFinite()) return false;

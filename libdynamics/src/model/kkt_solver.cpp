@@ -21,7 +21,6 @@ struct KktSolver::Impl {
   BlockSolver bodies_alone;
   Eigen::PartialPivLU<Eigen::MatrixXd> dense_lu;
   Eigen::KLU<Sparse> sparse_lu;
-  bool ordered = false;
 
   // Calls f(row or column of the bodies, condition, which body's part) for all numbers of G.
   template <class Use>
@@ -58,25 +57,50 @@ struct KktSolver::Impl {
     m = m * column_scale.asDiagonal();
   }
 
-  bool factorise_sparse(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H,
-                        const Eigen::VectorXd& compliance) {
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(36 * T.pattern().blocks() + 24 * ends.size());
+  // Calls f(row, column, value) for every number of the system, always in the same order.
+  template <class Use>
+  void for_each_entry(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H,
+                      const Eigen::VectorXd& compliance, Use use) const {
+    const Eigen::Index n = 6 * T.pattern().bodies();
     for (int i = 0; i < T.pattern().bodies(); ++i)
       for (const int j : T.pattern().columns(i))
         for (int r = 0; r < 6; ++r)
-          for (int c = 0; c < 6; ++c) entries.emplace_back(6 * i + r, 6 * j + c, T.block(i, j)(r, c));
-    const Eigen::Index n = 6 * T.pattern().bodies();
-    for_each(G, [&](Eigen::Index mode, Eigen::Index i, double value) { entries.emplace_back(mode, n + i, value); });
-    for_each(H, [&](Eigen::Index mode, Eigen::Index i, double value) { entries.emplace_back(n + i, mode, value); });
-    for (Eigen::Index i = 0; i < count(); ++i) entries.emplace_back(n + i, n + i, -compliance[i]);
-    for (const auto& entry : entries)
-      if (!std::isfinite(entry.value())) return false;
-    Sparse whole(n + count(), n + count());
-    whole.setFromTriplets(entries.begin(), entries.end());
-    if (!ordered) sparse_lu.analyzePattern(whole);
-    ordered = true;
-    sparse_lu.factorize(whole);
+          for (int c = 0; c < 6; ++c) use(6 * i + r, 6 * j + c, T.block(i, j)(r, c));
+    for_each(G, [&](Eigen::Index mode, Eigen::Index i, double value) { use(mode, n + i, value); });
+    for_each(H, [&](Eigen::Index mode, Eigen::Index i, double value) { use(n + i, mode, value); });
+    for (Eigen::Index i = 0; i < count(); ++i) use(n + i, n + i, -compliance[i]);
+  }
+
+  Sparse system;
+  std::vector<std::size_t> place;  // of each number, in the order of for_each_entry(), among the values of `system`
+
+  /// Sorts once where numbers go: their places come back as values.
+  void analyse(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H,
+               const Eigen::VectorXd& compliance) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for_each_entry(T, G, H, compliance, [&](Eigen::Index row, Eigen::Index column, double) {
+      entries.emplace_back(row, column, static_cast<double>(entries.size()));
+    });
+    const Eigen::Index size = 6 * T.pattern().bodies() + count();
+    system.resize(size, size);
+    system.setFromTriplets(entries.begin(), entries.end());
+    place.resize(entries.size());
+    for (Eigen::Index k = 0; k < system.nonZeros(); ++k)
+      place[static_cast<std::size_t>(system.valuePtr()[k])] = static_cast<std::size_t>(k);
+    sparse_lu.analyzePattern(system);
+  }
+
+  bool factorise_sparse(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H,
+                        const Eigen::VectorXd& compliance) {
+    if (place.empty()) analyse(T, G, H, compliance);
+    std::size_t k = 0;
+    bool finite = true;
+    for_each_entry(T, G, H, compliance, [&](Eigen::Index, Eigen::Index, double value) {
+      system.valuePtr()[place[k++]] = value;
+      finite = finite && std::isfinite(value);
+    });
+    if (!finite) return false;
+    sparse_lu.factorize(system);
     return sparse_lu.info() == Eigen::Success;
   }
   Eigen::Index count() const { return static_cast<Eigen::Index>(ends.size()); }

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
+#include "dynamics/joint/independent.hpp"
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/types.hpp"
@@ -45,7 +46,7 @@ Model::Model(std::vector<RigidBody> bodies, std::vector<AddedMass> added_mass,
     }
   M = (M + M.transpose()) / 2;
   if (Eigen::LLT<Eigen::MatrixXd>(M).info() == Eigen::Success) {
-    leave_out_redundant(M);
+    leave_out_redundant(M.diagonal().cwiseSqrt());
     return;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(M);
@@ -56,29 +57,14 @@ Model::Model(std::vector<RigidBody> bodies, std::vector<AddedMass> added_mass,
                           {}, "check the added mass at infinite frequency with `froude bem check`");
 }
 
-// Gram and Schmidt in the order of the scene, in the metric of M⁻¹: what a condition adds to those before it, relative
-// to what it is by itself.
-void Model::leave_out_redundant(const Eigen::MatrixXd& mass) {
+void Model::leave_out_redundant(const Eigen::VectorXd& scale) {
   if (joints_.count() == 0) return;
-  const Eigen::MatrixXd G = joints_.dense(joints_.gradients(rest_state(bodies_)));
-  const Eigen::LLT<Eigen::MatrixXd> root(mass);
-  Eigen::MatrixXd basis(modes(), 0);
-  std::vector<bool> keep;
+  const std::vector<bool> keep = independent(joints_, rest_state(bodies_), scale);
   std::vector<int> lost(joints_.joints().size(), 0), of(joints_.joints().size(), 0);
-  for (Eigen::Index i = 0; i < joints_.count(); ++i) {
-    Eigen::VectorXd w = root.matrixL().solve(G.row(i).transpose());
-    const double alone = w.norm();
-    for (int twice = 0; twice < 2; ++twice) w -= basis * (basis.transpose() * w);
-    const bool adds = alone > 0 && w.norm() > 1e-9 * alone;
-    const auto joint = static_cast<std::size_t>(joints_.conditions()[static_cast<std::size_t>(i)].joint);
-    keep.push_back(adds);
+  for (std::size_t i = 0; i < keep.size(); ++i) {
+    const auto joint = static_cast<std::size_t>(joints_.conditions()[i].joint);
     ++of[joint];
-    if (adds) {
-      basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
-      basis.rightCols<1>() = w.normalized();
-    } else {
-      ++lost[joint];
-    }
+    if (!keep[i]) ++lost[joint];
   }
   for (std::size_t j = 0; j < lost.size(); ++j)
     if (lost[j] > 0)

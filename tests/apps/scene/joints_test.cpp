@@ -43,6 +43,10 @@ TEST(SceneJoints, HaveFrictionWithTwoLevels) {
   EXPECT_THAT(refusal(with_friction("{ static = \"2 N m\", dynamic = \"3 N m\" }")),
               HasSubstr("below the dynamic level"));
   EXPECT_THAT(refusal(with_friction("{ dynamic = \"3 N\" }")), HasSubstr("moment"));
+  const std::string falling = "{ static = \"3.7 N m\", dynamic = \"3 N m\", stribeck = \"6 deg/s\" }";
+  EXPECT_DOUBLE_EQ(parse(with_friction(falling), "scene.toml").joints[0].friction->stribeck.value(),
+                   std::numbers::pi / 30);
+  EXPECT_THAT(refusal(with_friction("{ dynamic = \"3 N m\", stribeck = \"6 deg/s\" }")), HasSubstr("changes nothing"));
 }
 
 TEST(SceneRun, StartsInEquilibriumOnlyIfNothingElseIsSaid) {
@@ -71,4 +75,28 @@ TEST(SceneJoints, RefuseABodyThatMayOnlyTurnAboutItsCentre) {
 }
 
 }  // namespace
+TEST(JointsOfAScene, AreLedByASineOrARecord) {
+  const auto with = [](const std::string& keys) { return jointed(hinges + keys + "\n"); };
+  const JointLead lead =
+      parse(with("lead = { amplitude = \"5 deg\", period = \"2 s\" }"), "scene.toml").joints[1].lead.value();
+  EXPECT_DOUBLE_EQ(lead.amplitude, std::numbers::pi / 36);
+  EXPECT_DOUBLE_EQ(lead.omega, std::numbers::pi);
+  EXPECT_EQ(lead.ramp, 0);
+  EXPECT_THAT(refusal(with("lead = { amplitude = \"5 deg\" }")), HasSubstr("period"));
+  EXPECT_THAT(refusal(with("lead = { period = \"5 s\" }")), HasSubstr("amplitude"));
+  EXPECT_THAT(refusal(with("lead = { amplitude = \"5 m\", period = \"2 s\" }")), HasSubstr("angle"));
+  EXPECT_THAT(refusal(with("lead = { amplitude = \"5 deg\", period = \"2 s\" }\nfriction = { dynamic = \"3 N m\" }")),
+              HasSubstr("neither sticks nor slips"));
+}
+
+TEST(JointsOfAScene, MayLatch) {
+  const auto with = [](const std::string& keys) { return jointed(hinges + keys + "\n"); };
+  const Pto pto = parse(with("pto = { latch = { hold = \"1.5 s\" } }"), "scene.toml").joints[0].pto.value();
+  EXPECT_EQ(pto.latch, 1.5);
+  EXPECT_FALSE(pto.has_force());
+  EXPECT_THAT(refusal(with("pto = { latch = { hold = \"1.5 s\" } }\nfriction = { dynamic = \"3 N m\" }")),
+              HasSubstr("two would hold one travel"));
+  EXPECT_THAT(refusal(with("pto = { latch = { hold = \"0 s\" } }")), HasSubstr("hold"));
+}
+
 }  // namespace froude::scene

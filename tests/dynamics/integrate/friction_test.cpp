@@ -144,6 +144,77 @@ TEST(Friction, SticksAndSlipsOnABeltForEverTheSameWay) {
   EXPECT_NEAR((slips[4] - slips[0]) / 4, period, h / 2) << "times are told to a step only";
 }
 
+/// A sledge on a rail with friction, or a latch, as given.
+Model sledge(const Friction& law, std::unique_ptr<const ForceKind> other = nullptr) {
+  std::vector<std::unique_ptr<const ForceKind>> forces;
+  if (other) forces.push_back(std::move(other));
+  forces.push_back(std::make_unique<FrictionKind>(std::vector{law}));
+  return Model({body("sledge")}, {}, std::move(forces), {rail(0, {})});
+}
+Travel along_rail() { return Travel({body("sledge")}, rail(0, {})); }
+
+// m v̇ = −T(v): the time to rest is ∫ m dv/T(v), by Simpson's rule, from v₀ = 2 m/s where T has fallen to its dynamic
+// level.
+TEST(Friction, OfStribeckRisesAsTheSledgeSlows) {
+  const Friction law{.name = "rail", .travel = along_rail(), .breakaway = 6, .sliding = 2, .stribeck = 0.5};
+  const double from = 2;
+  constexpr int pieces = 2000;
+  double time = 0;
+  for (int i = 0; i <= pieces; ++i)
+    time += (i == 0 || i == pieces ? 1 : i % 2 == 1 ? 4 : 2) * mass / law.level(from * i / pieces) * from / pieces / 3;
+  const Model model = sledge(law);
+  State start = rest_state(model.bodies());
+  start.velocity[0] = from;
+  Motion run(model, start);
+  run.go(0.01, 200);
+  ASSERT_EQ(run.changes(), 1);
+  EXPECT_NEAR(run.events[0].time, time, 1e-4) << "second order of the step, against 1.7 s";
+  EXPECT_NEAR(run.ledger.entries().back().dissipated, 0.5 * mass * from * from, 1e-4);
+}
+
+// A load that grows past the static level: it slips once, and since the level falls with its speed it never sticks
+// again.
+TEST(Friction, OfStribeckLetsGoOnceUnderAGrowingLoad) {
+  const Model model = sledge({.name = "rail", .travel = along_rail(), .breakaway = 6, .sliding = 2, .stribeck = 0.05},
+                             std::make_unique<support::RampLoad>(1, 0));
+  Motion run(model, rest_state(model.bodies()));
+  run.go(0.01, 800);
+  EXPECT_EQ(run.changes(), 1);
+  EXPECT_NEAR(run.events[0].time, 6, 1e-9) << "1 N/s reaches 6 N";
+}
+
+// A latch holds a swing for a while at each of its ends: amplitude stays, the period is longer by two holds.
+TEST(Friction, OfALatchHoldsASwingAtItsEnds) {
+  const double k = 50, omega = 5, hold = 0.37, far = 0.8;  // √(50 N/m / 2 kg)
+  const Friction latch{.name = "rail",
+                       .travel = along_rail(),
+                       .breakaway = std::numeric_limits<double>::infinity(),
+                       .sliding = 0,
+                       .hold = hold};
+  const Model model = sledge(latch, spring({body("sledge")}, 0, k));
+  State start = rest_state(model.bodies());
+  start.pose[0].centre.x() = far;
+  Motion run(model, start, 1.0);
+  run.go(0.005, 1200);
+  ASSERT_GE(run.changes(), 10);
+  const double half = std::numbers::pi / omega;
+  double last = 0;  // what begins at rest has been held long enough, and goes at once
+  for (int i = 0; i < 10; ++i) {
+    const auto& e = run.events[static_cast<std::size_t>(i)];
+    EXPECT_EQ(e.becomes == 0, i % 2 == 0) << "rest, release, rest, release";
+    EXPECT_NEAR(e.time - last, e.becomes == 0 ? half : hold, 2e-4) << "(ωh)²/12 of a half period";
+    last = e.time;
+  }
+  double farthest = 0;
+  for (int i = 0; i < 400; ++i) {
+    run.go(0.005, 1);
+    farthest = std::max(farthest, std::abs(run.workspace.state.pose[0].centre.x()));
+  }
+  EXPECT_NEAR(farthest, far, 1e-9) << "a latch takes no energy, and the method keeps it at ρ∞ = 1";
+  EXPECT_EQ(run.ledger.entries().back().dissipated, 0);
+  EXPECT_EQ(model.forces().back()->effect(), "latch");
+}
+
 TEST(Friction, OfManyJointsHoldsOnlyWhatItMust) {
   // A chain of three arms, torque on the first: its own pin lets go, the others hold.
   std::vector<RigidBody> bodies{body("a", {1, 0, 0}), body("b", {3, 0, 0}), body("c", {5, 0, 0})};
@@ -161,8 +232,11 @@ TEST(Friction, OfManyJointsHoldsOnlyWhatItMust) {
 TEST(Friction, ObeysTheLawsOfForcesWhileItSlips) {
   std::vector<RigidBody> bodies{body("a", {1, 0, 0}), body("b", {3, 0, 0}), body("c", {5, 0, 0})};
   Joint slider{.name = "s", .kind = JointKind::slider, .first = 0, .second = 1, .place = {2, 1, 0}, .axis = {1, 2, 3}};
-  const FrictionKind kind(
-      on_joints(bodies, {slider, pin(2, 1, {4, 0, 1}), pin(0, {})}, {{0, 4, 3}, {1, 5, 4}, {2, 2, 2}}));
+  const FrictionKind kind([&] {
+    auto all = on_joints(bodies, {slider, pin(2, 1, {4, 0, 1}), pin(0, {})}, {{0, 4, 3}, {1, 5, 4}, {2, 2, 2}});
+    all[0].stribeck = 1.2, all[1].stribeck = 0.7;
+    return all;
+  }());
   FrictionMemory memory(3);
   memory.direction = {1, -1, 1};
   State state = rest_state(bodies);

@@ -153,6 +153,19 @@ TEST(Joint, ThatOthersHoldAlreadyIsNamedAndLeftOut) {
   EXPECT_THAT(rails.redundant(), testing::ElementsAre(HasSubstr("5 of its 5")));
 }
 
+// Bodies in a plane on a pivot and a rack: of ten conditions the locked modes hold six, and what is kept is regular.
+TEST(Joint, ThatLockedModesHoldInPartKeepsTheRest) {
+  const std::array<bool, 6> plane{true, false, true, false, true, false};
+  const Model model(
+      {body("slide", {0, 0, -22}, plane), body("buoy", {0, 0, -3}, plane)}, {}, {},
+      {{.name = "pivot", .kind = JointKind::hinge, .first = 0, .second = {}, .place = {0, 0, -40}, .axis = {0, 1, 0}},
+       {.name = "rack", .kind = JointKind::slider, .first = 0, .second = 1, .place = {0, 0, 0}, .axis = {0, 0, 1}}});
+  ASSERT_EQ(model.joints().count(), 4);
+  const Eigen::MatrixXd G = model.joints().dense(model.joints().gradients(rest_state(model.bodies())));
+  const Eigen::MatrixXd gram = G * G.transpose();
+  EXPECT_GT(gram.determinant(), 1) << "arms of metres, unit directions";
+}
+
 TEST(Joint, ThatCannotBeIsRefused) {
   Joint wrong = joint(JointKind::hinge);
   wrong.axis.setZero();

@@ -9,6 +9,7 @@
 
 namespace dynamics {
 
+/// One entry for each kind of force, and "joint.lead" where joints are led: they work by their multipliers (D31).
 /// Kinetic + stored = initial + ∫(supplied − dissipated) dt + residual (D12). Powers are integrated by the trapezium
 /// rule over the steps, so the residual holds the error of the step as well as of the loads.
 class EnergyLedger {
@@ -19,6 +20,8 @@ class EnergyLedger {
   };
 
   EnergyLedger(const Model& model, Workspace& workspace);
+  /// The effects of its entries, in their order.
+  static std::vector<std::string> effects(const Model& model);
 
   /// Adds the step that ended in the state of the workspace.
   void note(Workspace& workspace);
@@ -32,6 +35,8 @@ class EnergyLedger {
  private:
   const Model& model_;
   std::vector<Entry> entries_;
+  EnergyFlow flow(std::size_t entry, Workspace& workspace) const;
+
   std::vector<EnergyFlow> before_;
   double kinetic_ = 0, initial_ = 0, time_ = 0;
 };

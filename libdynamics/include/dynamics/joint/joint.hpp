@@ -7,6 +7,8 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -28,6 +30,13 @@ enum class JointKind {
 };
 std::string name_of(JointKind kind);
 
+/// Where a joint that is led has its second body, seen from the first, at one time: m or rad, per second, per second².
+struct Led {
+  double travel, rate, acceleration;
+};
+/// Led::travel is twice differentiable, and the others are its derivatives.
+using Lead = std::function<Led(double time_s)>;
+
 /// A joint, described where the bodies are at rest.
 struct Joint {
   std::string name;
@@ -37,7 +46,10 @@ struct Joint {
   Eigen::Vector3d place;                                   ///< global, m
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();         ///< global, any length
   Eigen::Vector3d second_axis = Eigen::Vector3d::UnitY();  ///< global, across `axis`; of universal joints
+  Lead lead = {};                                          ///< of sliders and hinges whose travel is given (D31)
 };
+
+class Travel;
 
 /// A direction n that keeps d, from the first body's point to the second's, at zero: g = n·d (D13).
 struct PointCondition {
@@ -61,7 +73,13 @@ struct StickCondition {
   GapCondition shapes;
   Eigen::Vector3d direction;  ///< along the surface, global, unit
 };
-using ConditionLaw = std::variant<PointCondition, AxesCondition, GapCondition, StickCondition>;
+
+/// The travel of a slider or hinge is what it is led to be: g = s(q) − s(t) (D31).
+struct LeadCondition {
+  std::shared_ptr<const Travel> travel;
+  Lead lead;
+};
+using ConditionLaw = std::variant<PointCondition, AxesCondition, GapCondition, StickCondition, LeadCondition>;
 
 struct Condition {
   int joint, first;
@@ -82,7 +100,7 @@ class JointSet {
  public:
   JointSet() = default;
   /// \throws hydro::InputError for a body that is not there, a body joined to itself, an axis of no length, axes of a
-  /// universal joint that are not across each other
+  /// universal joint that are not across each other, a lead of a joint that is neither slider nor hinge
   JointSet(const std::vector<RigidBody>& bodies, std::vector<Joint> joints);
 
   const std::vector<Joint>& joints() const { return joints_; }
@@ -110,8 +128,11 @@ class JointSet {
   Eigen::MatrixXd dense(const std::vector<Gradient>& G) const;
   /// Adds factor · ∂(Gᵀλ)/∂q (D15).
   void add_curvature(const State& state, const Eigen::VectorXd& lambda, double factor, BlockMatrix& out) const;
-  /// Ġ v, (count): the acceleration that the conditions have without any of the bodies'.
+  /// Ġ v − s̈(t), (count): the acceleration that the conditions have without any of the bodies'.
   Eigen::VectorXd convective(const State& state) const;
+  bool are_led() const;  ///< one of them at least
+  /// ṡ(t), (count): what G v is while the joints stay closed; zero but for those that are led.
+  Eigen::VectorXd lead_rates(double time) const;
   /// Load of the joint on one of its bodies: force and moment about the joint's place in that body, in that body's
   /// axes, N and N m. What redundant conditions would carry is not in it. The second body must not be the ground.
   Vector6 load_on(int joint, End end, const State& state, const Eigen::VectorXd& lambda) const;

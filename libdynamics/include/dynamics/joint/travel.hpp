@@ -16,9 +16,12 @@ class Travel {
 
   int first() const { return first_; }
   const std::optional<int>& second() const { return second_; }
-  double value(const State& state) const;  ///< m or rad
-  Gradient gradient(const State& state) const;
-  Matrix12 curvature(const State& state) const;
+  double value(const ConditionEnds& at) const;  ///< m or rad
+  Gradient gradient(const ConditionEnds& at) const;
+  Matrix12 curvature(const ConditionEnds& at) const;
+  double value(const State& state) const { return value(ends(state)); }
+  Gradient gradient(const State& state) const { return gradient(ends(state)); }
+  Matrix12 curvature(const State& state) const { return curvature(ends(state)); }
   double rate(const State& state) const;  ///< m/s or rad/s
   /// Of a hinge: angles come back after a turn.
   bool turns() const { return turns_; }
@@ -26,6 +29,8 @@ class Travel {
   Condition holding(const State& state) const;
 
  private:
+  ConditionEnds ends(const State& state) const { return ends_of({0, first_, second_, along_}, state); }
+
   int first_;
   std::optional<int> second_;
   bool turns_;

@@ -74,7 +74,7 @@ class Model {
   JointSet joints_;
   std::vector<std::string> redundant_;
 
-  void leave_out_redundant(const Eigen::MatrixXd& mass);
+  void leave_out_redundant(const Eigen::VectorXd& scale);
   void balance(const State& still, Linear& out) const;
 };
 

@@ -1,0 +1,429 @@
+/// \file  Writes the price list of runs of bodies: docs/cost/motion.md and its picture. See README.md.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <numbers>
+
+#include "dynamics/force/friction.hpp"
+#include "dynamics/force/gravity.hpp"
+#include "dynamics/integrate/energy_momentum.hpp"
+#include "dynamics/integrate/euler.hpp"
+#include "dynamics/integrate/explicit_pair.hpp"
+#include "dynamics/integrate/generalized_alpha.hpp"
+#include "froude/linear_response.hpp"
+#include "froude/plot.hpp"
+#include "froude/simulate.hpp"
+#include "harness/scenes.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/io/atomic_file.hpp"
+#include "support/double_pendulum.hpp"
+
+namespace froude::cost {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path examples = fs::path(FROUDE_VALIDATION_SOURCE) / "../examples";
+
+/// Seconds of processor time.
+double seconds(const std::function<void()>& work) {
+  const std::clock_t begin = std::clock();
+  work();
+  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+}
+
+/// A run that went to its end, and how long its steps took.
+struct Timed {
+  Record record;
+  double stepping;  ///< s
+};
+Timed timed(const scene::Scene& scene) {
+  Record best = simulate(scene);
+  hydro::require(best.stopped.empty(), "{}: {}", scene.file.string(), best.stopped);
+  const Record again = simulate(scene);
+  return {best, std::min(best.stepping_s, again.stepping_s)};
+}
+
+/// Root mean square difference over the reference's own, of samples at the same instants.
+double off(const std::vector<double>& a, const std::vector<double>& reference) {
+  double difference = 0, size = 0;
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    difference += std::pow(a[i] - reference[i], 2);
+    size += std::pow(reference[i], 2);
+  }
+  return std::sqrt(difference / size);
+}
+
+/// With a fixed step.
+scene::Scene stepped(scene::Scene scene, double step) {
+  scene.solve.step = scene::Located<double>{step, {}};
+  return scene;
+}
+
+// ---- what others have timed ----
+
+std::string peers(const fs::path& data) {
+  struct Run {
+    const char *name, *of, *file, *needs;
+    double duration, every, step, theirs, limit;
+    const char* signal;
+  };
+  const std::vector<Run> runs{{"sphere, decay of 40 s", "sphere-decay", "scene.toml", "iea_sphere/wamit/sphere.1", 40,
+                               0.02, 0.02, 0.63, 2e-3, "sphere.heave"},
+                              {"two-body point absorber, decay of 40 s", "rm3-decay", "scene.toml", "rm3/wamit/rm3.1",
+                               39.96, 0.06, 0.03, 3.4, 2e-3, "float.heave"},
+                              {"the same, regular wave of 8 s, 120 s", "rm3-regular", "scene.toml", "rm3/wamit/rm3.1",
+                               120, 0.1, 0.1, 6.1, 2e-3, "float.heave"}};
+  std::string text =
+      "| run | step [s] | error against a step five times shorter | preparing [s] | stepping [s] | strongest peer [s] "
+      "| "
+      "ratio to stepping, to all |\n| --- | --- | --- | --- | --- | --- | --- |\n";
+  for (const Run& r : runs) {
+    const validation::Folders folders(FROUDE_VALIDATION_SOURCE, data, r.of);
+    scene::Scene scene = validation::read_scene(folders, r.needs, {}, {}, r.file);
+    scene.run->duration = r.duration;
+    scene.run->every = r.every;
+    const Timed run = timed(stepped(scene, r.step));
+    const Record fine = simulate(stepped(scene, r.step / 5));
+    const double error = off(run.record.signal(r.signal), fine.signal(r.signal));
+    hydro::require(error < r.limit, "{}: off by {}", r.name, error);
+    text += fmt::format("| {} | {} | {:.1g} | {:.2g} | {:.2g} | {} | {:.0f}, {:.0f} |\n", r.name, r.step, error,
+                        run.record.preparation_s, run.stepping, r.theirs, r.theirs / run.stepping,
+                        r.theirs / (run.stepping + run.record.preparation_s));
+  }
+  return text;
+}
+
+// ---- methods by step ----
+
+struct Point {
+  std::string method;
+  double step, ms, error;
+};
+
+std::string rows_of(const std::vector<Point>& points, plot::Panel& panel) {
+  std::string text = "| method | step [s] | time [ms/s] | error |\n| --- | --- | --- | --- |\n";
+  for (const Point& p : points) {
+    text += fmt::format("| {} | {:.4g} | {:.3g} | {:.1g} |\n", p.method, p.step, p.ms, p.error);
+    if (panel.series.empty() || panel.series.back().name != p.method)
+      panel.series.push_back({.name = p.method, .x = {}, .y = {}, .marks = true});
+    panel.series.back().x.push_back(p.ms);
+    panel.series.back().y.push_back(p.error);
+  }
+  return text;
+}
+
+/// Scenes by generalised-α and implicit Euler, error of one signal against generalised-α at a short step.
+std::string scene_methods(scene::Scene scene, const char* signal, const std::vector<double>& steps,
+                          plot::Panel& panel) {
+  const Record exact = simulate(stepped(scene, steps.back() / 4));
+  std::vector<Point> points;
+  for (const char* method : {"generalized_alpha", "implicit_euler"})
+    for (const double h : steps) {
+      scene.solve.integrator = method;
+      const Timed run = timed(stepped(scene, h));
+      points.push_back({method == std::string("implicit_euler") ? "implicit Euler" : "generalised-α", h,
+                        1e3 * run.stepping / scene.run->duration,
+                        off(run.record.signal(signal), exact.signal(signal))});
+    }
+  return rows_of(points, panel);
+}
+
+using dynamics::Integrator, dynamics::Model;
+using Make = std::function<std::unique_ptr<Integrator>(const Model&)>;
+
+/// A double pendulum whose hinges rub: heights of both rods over 8 s.
+Model rubbing_pendulum() {
+  using namespace dynamics;
+  std::vector<RigidBody> bodies;
+  std::vector<Joint> joints;
+  const Model free = support::double_pendulum(0.4);
+  for (const RigidBody& b : free.bodies()) bodies.push_back(b);
+  for (const Joint& j : free.joints().joints()) joints.push_back(j);
+  std::vector<std::unique_ptr<const ForceKind>> forces;
+  forces.push_back(std::make_unique<GravityKind>(bodies, 9.81));
+  std::vector<Friction> friction;
+  for (const Joint& j : joints) friction.push_back({j.name, Travel(bodies, j), 0.025, 0.02, {}, {}});
+  forces.push_back(std::make_unique<FrictionKind>(std::move(friction)));
+  return Model(std::move(bodies), {}, std::move(forces), std::move(joints));
+}
+
+std::string pendulum_methods(plot::Panel& panel) {
+  const Model model = rubbing_pendulum();
+  constexpr double duration = 4, every = 0.1;
+  const auto heights = [&](const Make& make, double h) {
+    dynamics::Workspace w(model, dynamics::rest_state(model.bodies()));
+    const auto integrator = make(model);
+    integrator->start(w);
+    std::vector<double> out;
+    for (int i = 1; i <= std::lround(duration / h); ++i) {
+      integrator->step(w, h);
+      if (i % std::lround(every / h) == 0)
+        for (const auto& pose : w.state.pose) out.push_back(pose.centre.z());
+    }
+    return out;
+  };
+  const auto pair = [](double tolerance) {
+    return [tolerance](const Model& m) {
+      return std::make_unique<dynamics::ExplicitPair>(m, dynamics::ExplicitPair::Settings{tolerance});
+    };
+  };
+  const std::vector<double> exact = heights(pair(1e-12), 0.01);
+  struct Method {
+    const char* name;
+    Make make;
+    std::vector<double> steps;
+  };
+  const std::vector<double> coarse{0.02, 0.01, 0.005, 0.0025}, fine{0.005, 0.0025, 0.00125};
+  const std::vector<Method> methods{
+      {"generalised-α",
+       [](const Model& m) {
+         return std::make_unique<dynamics::GeneralizedAlpha>(m, dynamics::GeneralizedAlpha::Settings{});
+       },
+       coarse},
+      {"energy–momentum", [](const Model& m) { return std::make_unique<dynamics::EnergyMomentum>(m); }, coarse},
+      {"explicit pair, its own steps at 1e-8", pair(1e-8), {0.1, 0.05}},
+      {"implicit Euler", [](const Model& m) { return std::make_unique<dynamics::ImplicitEuler>(m); }, fine},
+      {"semi-implicit Euler", [](const Model& m) { return std::make_unique<dynamics::SemiImplicitEuler>(m); }, fine}};
+  std::vector<Point> points;
+  for (const Method& m : methods)
+    for (const double h : m.steps) {
+      std::vector<double> there;
+      const double time = seconds([&] { there = heights(m.make, h); });
+      points.push_back({m.name, h, 1e3 * time / duration, off(there, exact)});
+    }
+  return rows_of(points, panel);
+}
+
+// ---- effects one at a time ----
+
+/// The five modules with hydrostatics and springs; `body` goes into [body.hydrodynamics], `rest` behind.
+scene::Scene five_modules(const std::string& body, const std::string& rest, bool waves) {
+  return scene::parse(
+      R"(schema = 1
+[water]
+density = "1000 kg/m^3"
+depth = "14 m"
+)" +
+          std::string(
+              waves ? "[waves]\nkind = \"jonswap\"\nhs = \"1 m\"\ntp = \"6 s\"\nheading = \"0 deg\"\nramp = \"30 s\"\n"
+                    : "") +
+          R"([[body]]
+name = "m"
+position = "(-26, 0, 0) m"
+copies = { count = 5, step = "(13, 0, 0) m" }
+mass = "9088 kg"
+centre_of_gravity = "(0, 0, 1.31) m"
+radii_of_gyration = "(4.6, 4.6, 6.4) m"
+initial = { surge = "0.1 m", heave = "0.1 m" }
+[body.hydrodynamics]
+file = "data/pontoon5.nc"
+hydrostatics = true
+)" + body +
+          rest + R"([ask]
+run = { duration = "60 s", every = "0.1 s", of = ["m1.*"] }
+accuracy = 1e-2
+[solve]
+step = "0.1 s"
+)",
+      examples / "test.toml");
+}
+
+std::string effects() {
+  const std::string springs = R"([[connector]]
+between = "neighbours of m"
+ends = ["(6, ±5, 0.5) m", "(-6, ±5, 0.5) m"]
+kind = "bushing"
+stiffness = "(20, 5, 5) kN/m"
+)";
+  const std::string member =
+      "[[member]]\non = \"m*\"\nfrom = \"(±5.2, ±5.2, -1.13) m\"\nto = \"(±5.2, ±5.2, 0) m\"\ndiameter = \"1.6 m\"\n";
+  const auto hinges = [](const std::string& more) {
+    return "[[joint]]\nname = \"h\"\nbetween = \"neighbours of m\"\nkind = \"hinge\"\nat = \"(-19.5, 0, 0.5) m\"\naxis "
+           "= \"y\"\n" +
+           more;
+  };
+  struct Effect {
+    const char* name;
+    std::string body, rest;
+    bool waves;
+  };
+  const std::vector<Effect> all{
+      {"hydrostatics alone", "", "", false},
+      {"bushings between them", "", springs, false},
+      {"matrix moorings", "",
+       "[[mooring]]\non = [\"m1\", \"m5\"]\nkind = \"linear\"\nstiffness = { surge = \"4280 N/m\" }\n", false},
+      {"waves: excitation", "excitation = true\n", "", true},
+      {"memory of waves, 30 × 30", "radiation = { memory_tolerance = 1e-2 }\n", "", false},
+      {"memory, each module by itself", "interaction = \"self\"\nradiation = { memory_tolerance = 1e-2 }\n", "", false},
+      {"drag on 20 members", "", member + "drag = { cd = 1.0 }\n", true},
+      {"Morison on 20 members", "", member + "morison = { cd = 1.0, ca = 0.1 }\n", true},
+      {"hinges", "", hinges(""), false},
+      {"hinges that rub", "", hinges("friction = { dynamic = \"1 kN m\" }\n"), false},
+      {"contact between neighbours", "",
+       "[[contact]]\nbetween = \"neighbours of m\"\nkind = \"plane\"\npoints = \"(6, ±5, 0.5) m\"\nradius = \"0.1 "
+       "m\"\nat = \"(-6, 0, 0) m\"\nnormal = \"(-1, 0, 0)\"\nrestitution = 0.4\nfriction = 0.3\n",
+       false}};
+  std::string text =
+      "| effect | preparing [s] | a step [µs] | more than hydrostatics alone |\n| --- | --- | --- | --- |\n";
+  double bare = 0;
+  for (const Effect& e : all) {
+    const Timed run = timed(five_modules(e.body, e.rest, e.waves));
+    const double us = 1e6 * run.stepping / static_cast<double>(run.record.steps);
+    if (bare == 0) bare = us;
+    text += fmt::format("| {} | {:.2g} | {:.3g} | {:.2f} × |\n", e.name, run.record.preparation_s, us, us / bare);
+  }
+  return text;
+}
+
+// ---- the linear shortcut ----
+
+std::string shortcut() {
+  scene::Scene scene = scene::read(examples / "steady.toml");
+  const double steady = seconds([&] { steady_run(scene); });
+  scene.run->steady = false;
+  const Timed run = timed(scene);
+  return fmt::format(
+      "| {:.0f} s of `examples/steady.toml` | time [s] |\n| --- | --- |\n| transfer functions × sea | {:.2g} |\n| "
+      "stepped, "
+      "{} steps | {:.2g} |\n| ratio | {:.0f} |\n",
+      scene.run->duration, steady, run.record.steps, run.stepping + run.record.preparation_s,
+      (run.stepping + run.record.preparation_s) / steady);
+}
+
+// ---- how it grows ----
+
+std::string modules(int columns, int rows, const std::string& joined) {
+  std::string text = R"(schema = 1
+[water]
+density = "1000 kg/m^3"
+depth = "14 m"
+[waves]
+kind = "regular"
+height = "0.5 m"
+period = "6 s"
+heading = "20 deg"
+ramp = "10 s"
+)";
+  for (int r = 0; r < rows; ++r)
+    text += fmt::format(R"([[body]]
+name = "r{0}m"
+position = "(0, {1}, 0) m"
+copies = {{ count = {2}, step = "(13, 0, 0) m" }}
+mass = "9088 kg"
+centre_of_gravity = "(0, 0, 1.31) m"
+radii_of_gyration = "(4.6, 4.6, 6.4) m"
+[body.hydrodynamics]
+file = "data/pontoon1.nc"
+excitation = true
+radiation = {{ memory_tolerance = 1e-2 }}
+hydrostatics = true
+)",
+                        r, 13 * r, columns);
+  const auto bushing = [](const std::string& between, const char* ends) {
+    return fmt::format(
+        "[[connector]]\nbetween = {}\nends = [{}]\nkind = \"bushing\"\nstiffness = \"(20, 5, 5) kN/m\"\n", between,
+        ends);
+  };
+  for (int r = 0; r < rows && columns > 1; ++r)
+    text += joined == "hinged"
+                ? fmt::format(
+                      "[[joint]]\nname = \"h{0}\"\nbetween = \"neighbours of r{0}m\"\nkind = \"hinge\"\nat = "
+                      "\"(6.5, {1}, 0.5) m\"\naxis = \"y\"\n",
+                      r, 13 * r)
+                : bushing(fmt::format("\"neighbours of r{}m\"", r), "\"(6, 0, 0.5) m\", \"(-6, 0, 0.5) m\"");
+  for (int r = 0; r + 1 < rows; ++r)
+    for (int c = 1; c <= columns; ++c)
+      text += bushing(fmt::format("[\"r{}m{}\", \"r{}m{}\"]", r, c, r + 1, c), "\"(0, 6, 0.5) m\", \"(0, -6, 0.5) m\"");
+  return text +
+         "[ask]\nrun = { duration = \"10 s\", every = \"0.1 s\", of = [\"r0m1.heave\"] }\naccuracy = "
+         "1e-2\n[solve]\nstep "
+         "= \"0.1 s\"\n";
+}
+
+std::string growth(plot::Panel& panel) {
+  std::string text =
+      "| modules | how | preparing [s] | a step [ms] | a step and module [µs] |\n| --- | --- | --- | --- | --- |\n";
+  struct Shape {
+    const char* name;
+    bool grid;
+    const char* joined;
+  };
+  for (const Shape& s : {Shape{"chain, sprung", false, "sprung"}, Shape{"chain, hinged", false, "hinged"},
+                         Shape{"grid, sprung", true, "sprung"}}) {
+    panel.series.push_back({.name = s.name, .x = {}, .y = {}, .marks = true});
+    for (const int n : {1, 4, 16, 25, 100, 400}) {
+      const int rows = s.grid ? static_cast<int>(std::lround(std::sqrt(n))) : 1;
+      if (n == 1 && s.joined == std::string("hinged")) continue;
+      const std::string text_of_scene = modules(n / rows, rows, s.joined);
+      const Record run = simulate(scene::parse(text_of_scene, examples / "test.toml"));
+      hydro::require(run.stopped.empty(), "{} of {}: {}", s.name, n, run.stopped);
+      const double ms = 1e3 * run.stepping_s / static_cast<double>(run.steps);
+      text += fmt::format("| {} | {} | {:.2g} | {:.3g} | {:.3g} |\n", n, s.name, run.preparation_s, ms, 1e3 * ms / n);
+      panel.series.back().x.push_back(n);
+      panel.series.back().y.push_back(ms);
+    }
+  }
+  return text;
+}
+
+void write(const fs::path& data, const fs::path& folder) {
+  const auto panel = [](const std::string& of) {
+    return plot::Panel{.x = {.label = "time per simulated second", .unit = "ms", .scale = plot::Scale::logarithmic},
+                       .y = {.label = "error, " + of, .scale = plot::Scale::logarithmic},
+                       .series = {}};
+  };
+  plot::Panel array = panel("five modules"), pendulum = panel("pendulum that rubs"), buoy = panel("buoy");
+  plot::Panel grown{.x = {.label = "modules", .scale = plot::Scale::logarithmic},
+                    .y = {.label = "a step", .unit = "ms", .scale = plot::Scale::logarithmic},
+                    .series = {}};
+  scene::Scene five = scene::read(examples / "pontoon5.toml"), one = scene::read(examples / "buoy.toml");
+  five.run->duration = 100;
+  five.run->every = 0.4;
+  one.run->duration = 100;
+  one.run->every = 0.8;
+  std::string text =
+      "# What runs of bodies cost\n\nWritten by `price_motion` (validation/cost/motion), one core, other work beside "
+      "it.\n\n";
+  text +=
+      "## Runs that others have timed\n\nTheirs are those reported for the strongest peer, on a machine of the same "
+      "kind, on another day.\n\n" +
+      peers(data);
+  text +=
+      "\n## Methods by step\n\n![error against time](motion.svg)\n\nFive modules of `examples/pontoon5.toml`, 100 s of "
+      "sea; the surge of the first.\n\n" +
+      scene_methods(five, "m1.heave", {0.2, 0.1, 0.05, 0.025}, array);
+  text += "\nThe buoy of `examples/buoy.toml`, 100 s; the rack's travel.\n\n" +
+          scene_methods(one, "rack.travel", {0.2, 0.1, 0.05, 0.025}, buoy);
+  text += "\nA double pendulum whose hinges rub, 4 s; heights of both rods.\n\n" + pendulum_methods(pendulum);
+  text += "\n## Effects one at a time\n\nFive modules, 30 degrees of freedom, 600 steps of 0.1 s.\n\n" + effects();
+  text += "\n## Without stepping\n\n" + shortcut();
+  text +=
+      "\n## How it grows\n\nModules that do not feel each other's waves, each with its own memory, in regular "
+      "waves.\n\n" +
+      growth(grown);
+  hydro::io::write_atomically(folder / "motion.md", text);
+  hydro::io::write_atomically(folder / "motion.svg", plot::svg({.title = "What runs of bodies cost",
+                                                                .panels = {array, buoy, pendulum, grown}}));
+}
+
+}  // namespace
+}  // namespace froude::cost
+
+int main(int count, char** argument) {
+  if (count != 3) {
+    std::cerr << "usage: price_motion REFERENCE_DATA FOLDER\n";
+    return 2;
+  }
+  try {
+    froude::cost::write(argument[1], argument[2]);
+  } catch (const std::exception& e) {
+    std::cerr << "price_motion: " << e.what() << "\n";
+    return 1;
+  }
+  return 0;
+}
