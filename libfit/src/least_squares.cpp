@@ -102,6 +102,8 @@ ceres::Solver::Options solver_options(const StopWhen& stop) {
   options.max_num_iterations = stop.iterations_reach;
   // Nearly Gauss–Newton from the start: a linear problem should not pay for damping.
   options.initial_trust_region_radius = 1e12;
+  // A simulation may fail far away; five steps in a row, the usual limit, are few where each is half of the last.
+  options.max_num_consecutive_invalid_steps = 20;
   options.logging_type = ceres::SILENT;
   return options;
 }
@@ -112,6 +114,13 @@ std::vector<double> search(const ResidualModel& model, const Eigen::VectorXd& x,
   std::vector<double> trial(x.data(), x.data() + x.size());
   ceres::Problem problem;
   problem.AddResidualBlock(new ModelCost(model), nullptr, trial.data());
+  for (std::size_t j = 0; j < trial.size(); ++j) {
+    const auto& parameter = model.parameters[j];
+    if (std::isfinite(parameter.lowest))
+      problem.SetParameterLowerBound(trial.data(), static_cast<int>(j), parameter.lowest);
+    if (std::isfinite(parameter.highest))
+      problem.SetParameterUpperBound(trial.data(), static_cast<int>(j), parameter.highest);
+  }
   ceres::Solver::Summary summary;
   ceres::Solve(solver_options(stop), &problem, &summary);
   report.iterations = static_cast<int>(summary.iterations.size()) - 1;

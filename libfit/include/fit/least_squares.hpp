@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@ struct ResidualModel {
   struct Parameter {
     std::string name;
     double scale = 1;  ///< > 0; a change of the parameter that matters, in its unit: judges what the data can see
+    double lowest = -std::numeric_limits<double>::infinity();  ///< the search stays between these two
+    double highest = std::numeric_limits<double>::infinity();
   };
   std::vector<Parameter> parameters;  ///< p of them
   Eigen::Index residuals;             ///< n

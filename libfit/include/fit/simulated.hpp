@@ -1,0 +1,71 @@
+#pragma once
+/// \file  Parameters of any simulation from a record of what it should have told: single and multiple shooting with
+///        differenced sensitivities; (F41)-(F43), docs/theory/fit.md.
+///
+/// The simulation is whatever computes samples: a scene of motion, a line, another program. It needs no derivatives.
+#include <Eigen/Core>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "fit/coefficient.hpp"
+#include "fit/least_squares.hpp"
+
+namespace fit {
+
+/// A motion that somebody else computes, in windows. A short record is one window whose start the parameters tell; a
+/// long or chaotic one is many windows, each with a start of its own.
+class Simulation {
+ public:
+  virtual ~Simulation() = default;
+  /// How many numbers describe the start of a window, each of order one per metre, radian, m/s or rad/s; all zero is
+  /// the start that hand_on() left. None: it follows from the parameters.
+  virtual Eigen::Index coordinates(std::size_t window) = 0;
+  /// The samples of a window, shape as measured. \throws hydro::NumericsError or hydro::InputError where there is no
+  /// such motion: a search then tries a shorter step
+  virtual Eigen::MatrixXd follow(std::size_t window, const Eigen::VectorXd& parameters,
+                                 const Eigen::VectorXd& start) = 0;
+  /// The end of this window becomes the start of the next, about which its coordinates count.
+  virtual void hand_on(std::size_t window, const Eigen::VectorXd& parameters, const Eigen::VectorXd& start) = 0;
+};
+
+struct SimulationParameter {
+  std::string name;
+  double first;  ///< where the search begins
+  double lowest = -std::numeric_limits<double>::infinity(), highest = std::numeric_limits<double>::infinity();
+  /// A change that matters: |first|, or a tenth of the way between bounds where that is larger, or 1.
+  double scale() const;
+};
+
+struct SimulationProblem {
+  std::vector<SimulationParameter> parameters;
+  std::vector<Eigen::MatrixXd> measured;  ///< one a window, shape (samples, channels)
+  std::vector<double> deviations;         ///< of the noise, one a channel: weighs them
+  double confidence = 0.95;
+  int iterations_reach = 30;
+};
+
+struct SimulationFit {
+  std::vector<Coefficient> parameters;
+  FitReport search;
+  std::vector<Eigen::VectorXd> starts;   ///< coordinates of each window's start, those that the data see
+  std::vector<Eigen::MatrixXd> motion;   ///< fitted, as measured
+  std::vector<double> rms;               ///< of the residuals, one a channel, in its unit
+  Eigen::Index starts_seen, starts_all;  ///< directions of all windows' starts that the data see, and all there are
+  Eigen::VectorXd
+      singular_values;          ///< of the parameters' columns over their scales once the starts are taken out (F43)
+  std::string weakest;          ///< the combination of parameters that the record tells least, and how well
+  Eigen::MatrixXd correlation;  ///< of the parameters
+  double dof;                   ///< of Student's t behind the intervals
+  std::string caution;          ///< why they may not hold; empty where nothing is known against them
+  long windows_followed;        ///< what it took
+};
+
+/// Fits parameters and starts together (F41). A parameter that ends at a bound, or whose interval is wider than ten
+/// times its scale, has no value and says why. Intervals count the memory of the residuals (F4).
+/// \throws hydro::InputError: shapes that do not fit, first values outside their bounds, what the simulation throws at
+/// the first values
+SimulationFit fit_simulation(Simulation& simulation, const SimulationProblem& problem);
+
+}  // namespace fit

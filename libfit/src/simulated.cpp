@@ -1,0 +1,369 @@
+#include "fit/simulated.hpp"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fit/correlated.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/signal/distributions.hpp"
+
+namespace fit {
+namespace {
+
+// Differences: a start moves by so much, a parameter by so much of its scale. Simulations solve to about 1e-9, so the
+// quotient of a difference of 1e-5 is good to 1e-4, and its bend adds as little.
+constexpr double start_step = 1e-5, parameter_step = 1e-4;
+// A direction counts as not seen below this singular value relative to the largest: central differences are off by
+// about the square of their step, 1e-8.
+constexpr double not_seen = 1e-6;
+
+/// One window of the problem with the directions of its start that the data see.
+struct Piece {
+  Eigen::MatrixXd seen;  // shape (coordinates, directions): orthonormal columns
+  Eigen::Index row, column;
+};
+
+class Shooting {
+ public:
+  Shooting(Simulation& simulation, const SimulationProblem& problem) : simulation_(simulation), problem_(problem) {
+    check();
+    for (std::size_t k = 0; k < problem.parameters.size(); ++k) first_.push_back(problem.parameters[k].first);
+  }
+
+  SimulationFit solve();
+
+ private:
+  Eigen::Index p() const { return std::ssize(problem_.parameters); }
+  Eigen::VectorXd first() const { return Eigen::Map<const Eigen::VectorXd>(first_.data(), p()); }
+  Eigen::VectorXd start_of(const Eigen::VectorXd& x, std::size_t w) const {
+    const Piece& piece = pieces_[w];
+    return piece.seen * x.segment(piece.column, piece.seen.cols());
+  }
+  void check() const;
+  Eigen::VectorXd residuals(std::size_t w, const Eigen::VectorXd& theta, const Eigen::VectorXd& start);
+  Eigen::MatrixXd start_columns(std::size_t w, const Eigen::VectorXd& theta, const Eigen::VectorXd& start,
+                                const Eigen::VectorXd& here, const Eigen::MatrixXd& directions);
+  void look_at_start(std::size_t w, Eigen::Index row, Eigen::Index column);
+  Eigen::VectorXd settle(std::size_t w);
+  Eigen::VectorXd find_starts();
+  void evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian);
+  Eigen::MatrixXd differences(const Eigen::VectorXd& x, const Eigen::VectorXd& r);
+  void parameter_column(Eigen::Index k, const Eigen::VectorXd& x, Eigen::MatrixXd& jacobian);
+  ResidualModel model();
+  void tell(const Eigen::VectorXd& x, SimulationFit& fit);
+  void tell_identifiability(const Eigen::MatrixXd& jacobian, double unit, SimulationFit& fit);
+  void judge(const Eigen::VectorXd& x, SimulationFit& fit) const;
+
+  Simulation& simulation_;
+  const SimulationProblem& problem_;
+  std::vector<double> first_;
+  std::vector<Piece> pieces_;
+  std::vector<bool> unseen_ = std::vector<bool>(problem_.parameters.size(), false);
+  Eigen::Index rows_ = 0, unknowns_ = 0, all_starts_ = 0;
+  long followed_ = 0;
+  struct {
+    Eigen::VectorXd x, r;
+    Eigen::MatrixXd jacobian;
+  } last_;  // a search asks for the same point several times
+};
+
+void Shooting::check() const {
+  hydro::require(!problem_.parameters.empty() && !problem_.measured.empty(),
+                 "a fit needs a parameter and a record at least");
+  for (const auto& q : problem_.parameters)
+    hydro::require(q.lowest < q.highest && q.first >= q.lowest && q.first <= q.highest && std::isfinite(q.first),
+                   "{} begins at {}, which must lie between {} and {}", q.name, q.first, q.lowest, q.highest);
+  for (const auto& m : problem_.measured)
+    hydro::require(m.rows() >= 8 && m.cols() == std::ssize(problem_.deviations) && m.allFinite(),
+                   "a window needs 8 samples at least of {} channels, all finite; got {} of {}",
+                   problem_.deviations.size(), m.rows(), m.cols());
+  for (const double d : problem_.deviations) hydro::require(d > 0, "a channel's deviation must be positive, got {}", d);
+}
+
+/// Of one window over the deviations, one channel after the other.
+Eigen::VectorXd Shooting::residuals(std::size_t w, const Eigen::VectorXd& theta, const Eigen::VectorXd& start) {
+  ++followed_;
+  Eigen::MatrixXd motion = simulation_.follow(w, theta, start);
+  const Eigen::MatrixXd& measured = problem_.measured[w];
+  hydro::require(motion.rows() == measured.rows() && motion.cols() == measured.cols(),
+                 "the simulation gave {} samples of {} channels, {} of {} were measured", motion.rows(), motion.cols(),
+                 measured.rows(), measured.cols());
+  motion -= measured;
+  for (Eigen::Index c = 0; c < motion.cols(); ++c) motion.col(c) /= problem_.deviations[static_cast<std::size_t>(c)];
+  return motion.reshaped();
+}
+
+Eigen::MatrixXd Shooting::start_columns(std::size_t w, const Eigen::VectorXd& theta, const Eigen::VectorXd& start,
+                                        const Eigen::VectorXd& here, const Eigen::MatrixXd& directions) {
+  Eigen::MatrixXd out(here.size(), directions.cols());
+  for (Eigen::Index j = 0; j < directions.cols(); ++j)
+    out.col(j) = (residuals(w, theta, start + start_step * directions.col(j)) - here) / start_step;
+  return out;
+}
+
+/// Which directions of a window's start the data see: central differences, in which a motion across the plane that is
+/// measured cancels, and singular values above 1e-6 of the largest, a hundred times their error (F42).
+void Shooting::look_at_start(std::size_t w, Eigen::Index row, Eigen::Index column) {
+  const Eigen::Index d = simulation_.coordinates(w);
+  Piece piece{Eigen::MatrixXd::Identity(d, d), row, column};
+  all_starts_ += d;
+  if (d > 0) {
+    Eigen::MatrixXd columns(problem_.measured[w].size(), d);
+    for (Eigen::Index j = 0; j < d; ++j) {
+      const Eigen::VectorXd step = start_step * Eigen::VectorXd::Unit(d, j);
+      columns.col(j) = (residuals(w, first(), step) - residuals(w, first(), -step)) / (2 * start_step);
+    }
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(columns, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    Eigen::Index seen = 0;
+    while (seen < d && svd.singularValues()[seen] > not_seen * svd.singularValues()[0]) ++seen;
+    piece.seen = svd.matrixV().leftCols(seen);
+  }
+  pieces_.push_back(std::move(piece));
+}
+
+/// The start of one window fitted alone, with the parameters at their first values.
+Eigen::VectorXd Shooting::settle(std::size_t w) {
+  const Piece& piece = pieces_[w];
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(piece.seen.cols());
+  if (z.size() == 0) return z;
+  ResidualModel alone;
+  alone.parameters.assign(static_cast<std::size_t>(z.size()), {"start"});
+  alone.residuals = problem_.measured[w].size();
+  alone.evaluate = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
+    try {
+      r = residuals(w, first(), piece.seen * at);
+      if (jacobian) *jacobian = start_columns(w, first(), piece.seen * at, r, piece.seen);
+    } catch (const hydro::NumericsError&) {
+      r.setConstant(std::numeric_limits<double>::quiet_NaN());  // Ceres then tries a shorter step
+    }
+  };
+  minimise(alone, z, {.cost_change_below = 1e-3, .gradient_below = 1e-9, .step_below = 1e-6, .iterations_reach = 6});
+  return z;
+}
+
+/// Each window begins where the one before ended, and settles on its own samples before it is handed on.
+Eigen::VectorXd Shooting::find_starts() {
+  std::vector<Eigen::VectorXd> found;
+  unknowns_ = p();
+  for (std::size_t w = 0; w < problem_.measured.size(); ++w) {
+    look_at_start(w, rows_, unknowns_);
+    found.push_back(settle(w));
+    rows_ += problem_.measured[w].size();
+    unknowns_ += found.back().size();
+    if (w + 1 < problem_.measured.size()) simulation_.hand_on(w, first(), pieces_[w].seen * found.back());
+  }
+  Eigen::VectorXd x(unknowns_);
+  x.head(p()) = first();
+  for (std::size_t w = 0; w < found.size(); ++w) x.segment(pieces_[w].column, found[w].size()) = found[w];
+  return x;
+}
+
+/// By a central difference, one-sided at a bound.
+void Shooting::parameter_column(Eigen::Index k, const Eigen::VectorXd& x, Eigen::MatrixXd& jacobian) {
+  const auto& q = problem_.parameters[static_cast<std::size_t>(k)];
+  const double step = parameter_step * q.scale();
+  Eigen::VectorXd low = x.head(p()), high = low;
+  low[k] = std::max(q.lowest, x[k] - step);
+  high[k] = std::min(q.highest, x[k] + step);
+  for (const auto* side : {&high, &low})
+    for (std::size_t w = 0; w < pieces_.size(); ++w) {
+      auto part = jacobian.block(pieces_[w].row, k, problem_.measured[w].size(), 1);
+      if (side == &high)
+        part = residuals(w, high, start_of(x, w));
+      else
+        part = (part - residuals(w, low, start_of(x, w))).eval() / (high[k] - low[k]);
+    }
+}
+
+void Shooting::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
+  if (last_.x.size() != x.size() || x != last_.x) {
+    last_ = {{}, Eigen::VectorXd(rows_), {}};
+    for (std::size_t w = 0; w < pieces_.size(); ++w)
+      last_.r.segment(pieces_[w].row, problem_.measured[w].size()) = residuals(w, x.head(p()), start_of(x, w));
+    last_.x = x;
+  }
+  r = last_.r;
+  if (!jacobian) return;
+  if (last_.jacobian.size() == 0) last_.jacobian = differences(x, r);
+  *jacobian = last_.jacobian;
+}
+
+Eigen::MatrixXd Shooting::differences(const Eigen::VectorXd& x, const Eigen::VectorXd& r) {
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows_, unknowns_);
+  for (std::size_t w = 0; w < pieces_.size(); ++w) {
+    const auto& piece = pieces_[w];
+    const Eigen::Index n = problem_.measured[w].size();
+    jacobian.block(piece.row, piece.column, n, piece.seen.cols()) =
+        start_columns(w, x.head(p()), start_of(x, w), r.segment(piece.row, n), piece.seen);
+  }
+  for (Eigen::Index k = 0; k < p(); ++k) parameter_column(k, x, jacobian);
+  return jacobian;
+}
+
+ResidualModel Shooting::model() {
+  ResidualModel m;
+  for (const auto& q : problem_.parameters) m.parameters.push_back({q.name, q.scale(), q.lowest, q.highest});
+  m.parameters.resize(static_cast<std::size_t>(unknowns_), {"start of a window"});
+  m.residuals = rows_;
+  m.evaluate = [this](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
+    try {
+      evaluate(x, r, jacobian);
+    } catch (const std::runtime_error&) {  // a motion that there is not: Ceres then tries a shorter step
+      r.setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+  };
+  return m;
+}
+
+// (F43)
+void Shooting::tell_identifiability(const Eigen::MatrixXd& jacobian, double unit, SimulationFit& fit) {
+  Eigen::MatrixXd columns = jacobian.leftCols(p());
+  for (std::size_t w = 0; w < pieces_.size(); ++w) {
+    const Piece& piece = pieces_[w];
+    if (piece.seen.cols() == 0) continue;
+    const Eigen::Index n = problem_.measured[w].size();
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> starts(
+        jacobian.block(piece.row, piece.column, n, piece.seen.cols()));
+    Eigen::MatrixXd own = columns.middleRows(piece.row, n);
+    own -= jacobian.block(piece.row, piece.column, n, piece.seen.cols()) * starts.solve(own);
+    columns.middleRows(piece.row, n) = own;
+  }
+  for (Eigen::Index k = 0; k < p(); ++k) columns.col(k) *= problem_.parameters[static_cast<std::size_t>(k)].scale();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(columns, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  fit.singular_values = svd.singularValues();
+  for (Eigen::Index i = 0; i < p(); ++i)
+    for (Eigen::Index k = 0; k < p(); ++k)
+      if (svd.singularValues()[i] < not_seen * svd.singularValues()[0] && std::abs(svd.matrixV()(k, i)) >= 0.05)
+        unseen_[static_cast<std::size_t>(k)] = true;
+  std::vector<std::string> parts;
+  for (Eigen::Index k = 0; k < p(); ++k)
+    if (const double share = svd.matrixV()(k, p() - 1); std::abs(share) >= 0.05)
+      parts.push_back(fmt::format("{:.2g} {}", share, problem_.parameters[static_cast<std::size_t>(k)].name));
+  fit.weakest = fmt::format(
+      "the record tells {} least: were the residuals independent, one standard deviation along it would be {:.2g} of "
+      "the scale",
+      fmt::join(parts, " + "), unit / svd.singularValues()[p() - 1]);
+}
+
+/// Values that the record does not tell.
+void Shooting::judge(const Eigen::VectorXd& x, SimulationFit& fit) const {
+  for (Eigen::Index k = 0; k < p(); ++k) {
+    const auto& q = problem_.parameters[static_cast<std::size_t>(k)];
+    Coefficient& c = fit.parameters[static_cast<std::size_t>(k)];
+    const double near = 1e-6 * q.scale();
+    if (x[k] - q.lowest < near || q.highest - x[k] < near) {
+      c.value.reset();
+      c.why_not = fmt::format("the search ended at its bound {:.6g}", x[k]);
+    } else if (unseen_[static_cast<std::size_t>(k)] || !fit.search.identifiable[static_cast<std::size_t>(k)]) {
+      c.value.reset();
+      c.why_not = fit.weakest;
+    } else if ((c.interval.high - c.interval.low) > 20 * q.scale()) {
+      c.value.reset();
+      c.why_not = "its interval is wider than ten times its scale to either side";
+    }
+  }
+}
+
+/// Covariance of all unknowns that the data see; the others' stays zero.
+void count_memory(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& r, const std::vector<bool>& seen,
+                  CoefficientCovariance& out) {
+  std::vector<Eigen::Index> kept;
+  for (std::size_t j = 0; j < seen.size(); ++j)
+    if (seen[j]) kept.push_back(static_cast<Eigen::Index>(j));
+  if (kept.empty()) return;
+  const auto own = correlated_covariance(jacobian(Eigen::all, kept), r, 1, LongMemory::widen);
+  out.covariance(kept, kept) = own.covariance;
+  out.white_covariance(kept, kept) = own.white_covariance;
+  out.effective_samples(kept) = own.effective_samples;
+  out.dof = own.dof;
+  out.white_dof = own.white_dof;
+  out.dof_raised = own.dof_raised;
+}
+
+void Shooting::tell(const Eigen::VectorXd& x, SimulationFit& fit) {
+  Eigen::VectorXd r(rows_);
+  Eigen::MatrixXd jacobian;
+  evaluate(x, r, &jacobian);
+  const bool perfect = r.norm() < 1e-9 * std::sqrt(static_cast<double>(rows_));
+  CoefficientCovariance u;
+  u.covariance = u.white_covariance = Eigen::MatrixXd::Zero(unknowns_, unknowns_);
+  u.effective_samples = Eigen::VectorXd::Zero(unknowns_);
+  u.dof = u.white_dof = static_cast<double>(std::max<Eigen::Index>(1, rows_ - unknowns_));
+  u.dof_raised = false;
+  if (!perfect) count_memory(jacobian, r, fit.search.identifiable, u);
+  const double t = hydro::signal::student_t_quantile((1 + problem_.confidence) / 2, u.dof);
+  const double white = hydro::signal::student_t_quantile((1 + problem_.confidence) / 2, u.white_dof);
+  for (Eigen::Index k = 0; k < p(); ++k) {
+    Coefficient c;
+    c.name = problem_.parameters[static_cast<std::size_t>(k)].name;
+    c.value = x[k];
+    c.standard_error = std::sqrt(u.covariance(k, k));
+    double half = t * c.standard_error, half_white = white * std::sqrt(u.white_covariance(k, k));
+    if (!fit.search.identifiable[static_cast<std::size_t>(k)])
+      c.standard_error = half = half_white = std::numeric_limits<double>::infinity();
+    c.interval = {x[k] - half, x[k] + half};
+    c.white_interval = {x[k] - half_white, x[k] + half_white};
+    c.effective_samples = u.effective_samples[k];
+    fit.parameters.push_back(std::move(c));
+  }
+  const Eigen::MatrixXd own = u.covariance.topLeftCorner(p(), p());
+  const Eigen::VectorXd over = own.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  fit.correlation = over.asDiagonal() * own * over.asDiagonal();
+  fit.dof = u.dof;
+  if (u.dof_raised)
+    fit.caution =
+        "what is left hardly forgets within the record: it is an error of the model more than noise, and the intervals "
+        "are as wide as two independent residuals make them";
+  const double unit = r.norm() / std::sqrt(static_cast<double>(std::max<Eigen::Index>(1, rows_ - unknowns_)));
+  tell_identifiability(jacobian, unit, fit);
+  judge(x, fit);
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(std::ssize(problem_.deviations));
+  double samples = 0;
+  for (std::size_t w = 0; w < pieces_.size(); ++w) {
+    const auto& measured = problem_.measured[w];
+    Eigen::MatrixXd left = r.segment(pieces_[w].row, measured.size()).reshaped(measured.rows(), measured.cols());
+    for (Eigen::Index c = 0; c < left.cols(); ++c) left.col(c) *= problem_.deviations[static_cast<std::size_t>(c)];
+    squares += left.cwiseAbs2().colwise().sum().transpose();
+    samples += static_cast<double>(left.rows());
+    fit.motion.emplace_back(measured + left);
+    fit.starts.push_back(start_of(x, w));
+  }
+  for (Eigen::Index c = 0; c < squares.size(); ++c) fit.rms.push_back(std::sqrt(squares[c] / samples));
+}
+
+SimulationFit Shooting::solve() {  // (F41)
+  SimulationFit fit{};
+  Eigen::VectorXd x = find_starts();
+  hydro::require(rows_ > unknowns_,
+                 "{} samples cannot give {} parameters and {} numbers of starts: take longer windows", rows_, p(),
+                 unknowns_ - p());
+  Eigen::VectorXd r(rows_);
+  evaluate(x, r, nullptr);  // what the first values cannot do is told as it is
+  fit.search = minimise(model(), x,
+                        {.cost_change_below = 1e-8,  // of the cost: a thousandth of a standard error and less
+                         .gradient_below = 1e-9,
+                         .step_below = 1e-8,
+                         .iterations_reach = problem_.iterations_reach});
+  fit.starts_seen = unknowns_ - p();
+  fit.starts_all = all_starts_;
+  tell(x, fit);
+  fit.windows_followed = followed_;
+  return fit;
+}
+
+}  // namespace
+
+double SimulationParameter::scale() const {
+  const double range = std::isfinite(highest - lowest) ? (highest - lowest) / 10 : 0;
+  const double out = std::max(std::abs(first), range);
+  return out > 0 ? out : 1;
+}
+
+SimulationFit fit_simulation(Simulation& simulation, const SimulationProblem& problem) {
+  return Shooting(simulation, problem).solve();
+}
+
+}  // namespace fit

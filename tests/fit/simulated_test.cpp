@@ -1,0 +1,170 @@
+#include "fit/simulated.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "hydro/base/error.hpp"
+#include "support/coloured_noise.hpp"
+
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// A flow ẏ = f(y; θ) by Runge–Kutta steps, sampled, its first component measured. Windows may begin anywhere.
+class Flow final : public fit::Simulation {
+ public:
+  using Rate = std::function<Eigen::VectorXd(const Eigen::VectorXd&, const Eigen::VectorXd&)>;
+  Flow(Rate rate, Eigen::VectorXd begin, double step, Eigen::Index samples, bool windows)
+      : rate_(std::move(rate)), middle_{std::move(begin)}, step_(step), samples_(samples), windows_(windows) {}
+
+  Eigen::Index coordinates(std::size_t window) override { return windows_ ? middle_.at(window).size() : 0; }
+  Eigen::MatrixXd follow(std::size_t window, const Eigen::VectorXd& theta, const Eigen::VectorXd& start) override {
+    Eigen::VectorXd y = middle_.at(windows_ ? window : 0);
+    if (windows_) y += start;
+    Eigen::MatrixXd out(samples_, 1);
+    for (Eigen::Index i = 0; i < samples_; ++i, y = stepped(y, theta)) out(i, 0) = y[0];
+    if (!out.allFinite()) throw hydro::NumericsError("the flow ran away");
+    return out;
+  }
+  void hand_on(std::size_t window, const Eigen::VectorXd& theta, const Eigen::VectorXd& start) override {
+    Eigen::VectorXd y = middle_.at(window) + start;
+    for (Eigen::Index i = 0; i < samples_; ++i) y = stepped(y, theta);
+    middle_.push_back(y);
+  }
+
+ private:
+  Eigen::VectorXd stepped(Eigen::VectorXd y, const Eigen::VectorXd& theta) const {
+    const double h = step_ / 2;
+    for (int i = 0; i < 2; ++i) {
+      const Eigen::VectorXd a = rate_(y, theta), b = rate_(y + h / 2 * a, theta), c = rate_(y + h / 2 * b, theta),
+                            d = rate_(y + h * c, theta);
+      y += h / 6 * (a + 2 * b + 2 * c + d);
+    }
+    return y;
+  }
+  Rate rate_;
+  std::vector<Eigen::VectorXd> middle_;
+  double step_;
+  Eigen::Index samples_;
+  bool windows_;
+};
+
+Eigen::VectorXd vector(std::initializer_list<double> values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.begin(), std::ssize(values));
+}
+
+/// ẍ + b₁ẋ + b₂|ẋ|ẋ + ω²x = 0; and a third state that nobody sees.
+Eigen::VectorXd swing(const Eigen::VectorXd& y, const Eigen::VectorXd& theta) {
+  return vector({y[1], -theta[0] * y[1] - theta[1] * std::abs(y[1]) * y[1] - theta[2] * y[0], -y[2]});
+}
+const Eigen::VectorXd swing_truth = vector({0.05, 0.3, 4.0});
+
+fit::SimulationProblem swing_problem(double noise, std::uint64_t stream, std::size_t windows = 1) {
+  const Eigen::Index samples = 300 / static_cast<Eigen::Index>(windows);
+  fit::SimulationProblem p{
+      .parameters = {{"linear", 0.1}, {"quadratic", 0.1}, {"restoring", 4.1}}, .measured = {}, .deviations = {0.01}};
+  const auto e = froude_test::ar1_noise(300, 0, noise, stream);
+  const Eigen::MatrixXd all = Flow(swing, vector({1, 0, 1}), 0.05, 300, false).follow(0, swing_truth, {}) +
+                              Eigen::Map<const Eigen::VectorXd>(e.data(), 300);
+  for (std::size_t w = 0; w < windows; ++w)
+    p.measured.emplace_back(all.middleRows(static_cast<Eigen::Index>(w) * samples, samples));
+  return p;
+}
+
+TEST(Simulated, FindsTheParametersOfARunWithoutNoise) {
+  Flow flow(swing, vector({1, 0, 1}), 0.05, 300, false);
+  const auto f = fit::fit_simulation(flow, swing_problem(0, 1));
+  for (std::size_t k = 0; k < 3; ++k)  // differences are good to 1e-4 of a step: the search creeps to 1e-8 of the cost
+    EXPECT_NEAR(*f.parameters[k].value, swing_truth[static_cast<Eigen::Index>(k)], 1e-5) << k;
+  EXPECT_LT(f.rms[0], 1e-5);
+}
+
+TEST(Simulated, GivesIntervalsThatHold) {
+  int held = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Flow flow(swing, vector({1, 0, 1}), 0.05, 300, false);
+    const auto f = fit::fit_simulation(flow, swing_problem(0.01, seed));
+    for (std::size_t k = 0; k < 3; ++k)
+      held += f.parameters[k].interval.low < swing_truth[static_cast<Eigen::Index>(k)] &&
+              swing_truth[static_cast<Eigen::Index>(k)] < f.parameters[k].interval.high;
+  }
+  EXPECT_GE(held, 51);  // of 60, 57 expected; three deviations of the binomial are 5
+}
+
+TEST(Simulated, FitsStartsOfWindowsAndSaysWhichNobodySees) {
+  Flow flow(swing, vector({1, 0, 1}), 0.05, 100, true);
+  const auto f = fit::fit_simulation(flow, swing_problem(0.01, 5, 3));
+  EXPECT_EQ(f.starts_all, 9);
+  EXPECT_EQ(f.starts_seen, 6);  // the third state changes nothing that is measured
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_LT(f.parameters[k].interval.low, swing_truth[static_cast<Eigen::Index>(k)]);
+    EXPECT_GT(f.parameters[k].interval.high, swing_truth[static_cast<Eigen::Index>(k)]);
+  }
+}
+
+TEST(Simulated, FollowsAChaoticFlowInWindowsWhereOneRunCannot) {
+  // Lorenz (1963): neighbours part as e^{0.9 t}, so over 20 s a start is forgotten by e^18.
+  const auto lorenz = [](const Eigen::VectorXd& y, const Eigen::VectorXd& q) {
+    return vector({q[0] * (y[1] - y[0]), y[0] * (q[1] - y[2]) - y[1], y[0] * y[1] - q[2] * y[2]});
+  };
+  const Eigen::VectorXd truth = vector({10, 28, 8.0 / 3}), begin = vector({-8, 7, 27});
+  const auto e = froude_test::ar1_noise(1000, 0, 0.1, 9);
+  const Eigen::MatrixXd all =
+      Flow(lorenz, begin, 0.02, 1000, false).follow(0, truth, {}) + Eigen::Map<const Eigen::VectorXd>(e.data(), 1000);
+  fit::SimulationProblem p{
+      .parameters = {{"sigma", 9}, {"rho", 27}, {"beta", 2.5}}, .measured = {all}, .deviations = {0.1}};
+  Flow whole(lorenz, begin, 0.02, 1000, false);
+  const auto lost = fit::fit_simulation(whole, p);
+  EXPECT_GT(lost.rms[0], 1);  // ends at a wrong minimum
+  p.measured.clear();
+  for (int w = 0; w < 20; ++w) p.measured.emplace_back(all.middleRows(50 * w, 50));
+  Flow flow(lorenz, begin, 0.02, 50, true);
+  const auto f = fit::fit_simulation(flow, p);
+  EXPECT_NEAR(f.rms[0], 0.1, 0.01);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double off = std::abs(*f.parameters[k].value - truth[static_cast<Eigen::Index>(k)]);
+    EXPECT_LT(off, 3.5 * f.parameters[k].standard_error) << k;
+    EXPECT_LT(off, 0.02 * truth[static_cast<Eigen::Index>(k)]) << k;
+  }
+}
+
+TEST(Simulated, NamesWhatTheRecordDoesNotTell) {
+  // Only the product of the two acts.
+  const auto product = [](const Eigen::VectorXd& y, const Eigen::VectorXd& q) { return vector({-q[0] * q[1] * y[0]}); };
+  fit::SimulationProblem p{.parameters = {{"mass", 1}, {"rate", 0.5}}, .measured = {}, .deviations = {0.01}};
+  Flow flow(product, vector({1}), 0.1, 60, false);
+  p.measured = {flow.follow(0, vector({1, 0.7}), {})};
+  const auto f = fit::fit_simulation(flow, p);
+  EXPECT_FALSE(f.parameters[0].value);
+  EXPECT_FALSE(f.parameters[1].value);
+  EXPECT_THAT(f.weakest, AllOf(HasSubstr("mass"), HasSubstr("rate")));
+  EXPECT_LT(f.singular_values[1], 1e-3 * f.singular_values[0]);
+}
+
+TEST(Simulated, SaysThatASearchEndedAtABound) {
+  auto p = swing_problem(0.01, 3);
+  p.parameters[1] = {"quadratic", 0.1, 0.0, 0.2};  // the truth is 0.3
+  Flow flow(swing, vector({1, 0, 1}), 0.05, 300, false);
+  const auto f = fit::fit_simulation(flow, p);
+  EXPECT_FALSE(f.parameters[1].value);
+  EXPECT_THAT(f.parameters[1].why_not, HasSubstr("bound 0.2"));
+}
+
+TEST(Simulated, RefusesWhatItCannotBeginWith) {
+  Flow flow(swing, vector({1, 0, 1}), 0.05, 300, false);
+  auto p = swing_problem(0, 1);
+  p.parameters[0].lowest = 0.2;
+  EXPECT_THAT([&] { fit::fit_simulation(flow, p); },
+              testing::ThrowsMessage<hydro::InputError>(HasSubstr("linear begins at 0.1")));
+  p = swing_problem(0, 1);
+  p.measured[0].conservativeResize(200, 1);
+  EXPECT_THAT([&] { fit::fit_simulation(flow, p); },
+              testing::ThrowsMessage<hydro::InputError>(HasSubstr("300 samples")));
+}
+
+}  // namespace
