@@ -34,6 +34,7 @@ function(froude_merge target)
   cmake_parse_arguments(M "" "" "APART" ${ARGN})
   if(FROUDE_MERGED_SOURCES)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 10)
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)  # no file of one target is a header
     set_source_files_properties(${M_APART} TARGET_DIRECTORY ${target} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   endif()
 endfunction()

@@ -8,6 +8,7 @@
 #include "froude/bem_responses.hpp"
 #include "froude/coefficient_files.hpp"
 #include "froude/commands.hpp"
+#include "froude/optional_json.hpp"
 #include "froude/progress.hpp"
 #include "hydro/base/error.hpp"
 
@@ -43,11 +44,6 @@ std::string depth_text(const Coefficients& c) {
 
 json json_point(const std::optional<Eigen::Vector3d>& p) {
   return p ? json::array({p->x(), p->y(), p->z()}) : json(nullptr);
-}
-
-template <class T>
-json json_or_null(const std::optional<T>& value) {
-  return value ? json(*value) : json(nullptr);
 }
 
 json json_info(const Path& file, const Coefficients& c) {

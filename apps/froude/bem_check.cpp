@@ -3,6 +3,7 @@
 #include <ostream>
 
 #include "froude/commands.hpp"
+#include "froude/optional_json.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/potential/check.hpp"
 
@@ -12,11 +13,6 @@ namespace {
 using hydro::potential::Finding;
 using hydro::potential::Severity;
 using nlohmann::json;
-
-template <class T>
-json json_or_null(const std::optional<T>& value) {
-  return value ? json(*value) : json(nullptr);
-}
 
 json json_finding(const Finding& f) {
   return {{"severity", to_string(f.severity)},
