@@ -291,7 +291,8 @@ void expect_derivatives(const GapCondition& c) {
   ConditionEnds at{{0.1, 0.2, 0.3},
                    {1.4, 0.1, 0.5},
                    rotation_exp({0.2, -0.1, 0.3}).toRotationMatrix(),
-                   rotation_exp({-0.3, 0.2, 0.1}).toRotationMatrix(), 0};
+                   rotation_exp({-0.3, 0.2, 0.1}).toRotationMatrix(),
+                   0};
   const Gradient G = gradient(c, at);
   for (int k = 0; k < 12; ++k) {
     const auto moved_by = [&](double way) {
