@@ -1,5 +1,6 @@
 #include "compile/connections.hpp"
 
+#include <limits>
 #include <numbers>
 
 #include "dynamics/control/dominant_period.hpp"

@@ -1,5 +1,6 @@
 #include "froude/linear_response.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -77,16 +78,11 @@ std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene)
     out.emplace_back(
         "loads on members are left out, also their added mass: small motions about rest have no place for them (a run "
         "has)");
-  for (const auto& joint : scene.joints)
-    if (joint.friction || (joint.pto && joint.pto->latch)) {
-      out.emplace_back("friction and latches are left out: their joints move freely in a linear response");
-      break;
-    }
-  for (const auto& joint : scene.joints)
-    if (joint.lead) {
-      out.emplace_back("what leads joints is left out: they are held where they are placed");
-      break;
-    }
+  const auto one_joint = [&](auto has) { return std::any_of(scene.joints.begin(), scene.joints.end(), has); };
+  if (one_joint([](const scene::Joint& j) { return j.friction || (j.pto && j.pto->latch); }))
+    out.emplace_back("friction and latches are left out: their joints move freely in a linear response");
+  if (one_joint([](const scene::Joint& j) { return j.lead.has_value(); }))
+    out.emplace_back("what leads joints is left out: they are held where they are placed");
   if (!scene.contacts.empty()) out.emplace_back("contacts are left out: bodies are taken not to touch");
   if (!scene.chains.empty()) out.emplace_back("lines of nodes are left out");
   return out;

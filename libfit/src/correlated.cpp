@@ -7,6 +7,7 @@
 
 #include "block_means.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/signal/distributions.hpp"
 
 namespace fit {
 namespace {
@@ -119,6 +120,21 @@ CoefficientCovariance correlated_covariance(const Eigen::MatrixXd& jacobian, con
   result.order = static_cast<int>(ar.coefficients.size());
   result.block = block;
   return result;
+}
+
+Coefficient with_interval(const std::string& name, double value, const CoefficientCovariance& u, Eigen::Index j,
+                          double confidence) {
+  using hydro::signal::student_t_quantile;
+  Coefficient c;
+  c.name = name;
+  c.value = value;
+  c.standard_error = std::sqrt(u.covariance(j, j));
+  const double half = student_t_quantile((1 + confidence) / 2, u.dof) * c.standard_error;
+  const double white = student_t_quantile((1 + confidence) / 2, u.white_dof) * std::sqrt(u.white_covariance(j, j));
+  c.interval = {value - half, value + half};
+  c.white_interval = {value - white, value + white};
+  c.effective_samples = u.effective_samples[j];
+  return c;
 }
 
 }  // namespace fit

@@ -168,22 +168,16 @@ CoefficientCovariance uncertainty_of(const ShootingProblem& p, const Eigen::Matr
 
 void tell_parameters(const ShootingProblem& p, const Layout& l, const Eigen::VectorXd& x,
                      const CoefficientCovariance& u, ShootingFit& fit) {
-  const double t = hydro::signal::student_t_quantile((1 + p.confidence) / 2, u.dof);
-  const double white = hydro::signal::student_t_quantile((1 + p.confidence) / 2, u.white_dof);
   const auto names = parameters_of(p.law);
   for (std::size_t k = 0; k < names.size(); ++k) {
     Coefficient c;
-    c.name = names[k];
-    const double value = l.column[k] < 0 ? p.start[k] : x[l.column[k]];
-    c.value = value;
-    c.interval = c.white_interval = {value, value};
-    if (l.column[k] >= 0) {
+    if (l.column[k] < 0) {
+      c.name = names[k];
+      c.value = p.start[k];
+      c.interval = c.white_interval = {p.start[k], p.start[k]};
+    } else {
       const Eigen::Index j = l.column[k];
-      c.standard_error = std::sqrt(u.covariance(j, j));
-      const double half = t * c.standard_error, half_white = white * std::sqrt(u.white_covariance(j, j));
-      c.interval = {value - half, value + half};
-      c.white_interval = {value - half_white, value + half_white};
-      c.effective_samples = u.effective_samples[j];
+      c = with_interval(names[k], x[j], u, j, p.confidence);
       if (!fit.search.identifiable[static_cast<std::size_t>(j)]) {
         c.value.reset();
         c.why_not = fit.search.identifiability;

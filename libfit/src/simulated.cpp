@@ -8,7 +8,6 @@
 
 #include "fit/correlated.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/signal/distributions.hpp"
 
 namespace fit {
 namespace {
@@ -294,19 +293,13 @@ void Shooting::tell(const Eigen::VectorXd& x, SimulationFit& fit) {
   u.dof = u.white_dof = static_cast<double>(std::max<Eigen::Index>(1, rows_ - unknowns_));
   u.dof_raised = false;
   if (!perfect) count_memory(jacobian, r, fit.search.identifiable, u);
-  const double t = hydro::signal::student_t_quantile((1 + problem_.confidence) / 2, u.dof);
-  const double white = hydro::signal::student_t_quantile((1 + problem_.confidence) / 2, u.white_dof);
   for (Eigen::Index k = 0; k < p(); ++k) {
-    Coefficient c;
-    c.name = problem_.parameters[static_cast<std::size_t>(k)].name;
-    c.value = x[k];
-    c.standard_error = std::sqrt(u.covariance(k, k));
-    double half = t * c.standard_error, half_white = white * std::sqrt(u.white_covariance(k, k));
-    if (!fit.search.identifiable[static_cast<std::size_t>(k)])
-      c.standard_error = half = half_white = std::numeric_limits<double>::infinity();
-    c.interval = {x[k] - half, x[k] + half};
-    c.white_interval = {x[k] - half_white, x[k] + half_white};
-    c.effective_samples = u.effective_samples[k];
+    const auto at = static_cast<std::size_t>(k);
+    Coefficient c = with_interval(problem_.parameters[at].name, x[k], u, k, problem_.confidence);
+    if (!fit.search.identifiable[at]) {
+      c.standard_error = std::numeric_limits<double>::infinity();
+      c.interval = c.white_interval = {-c.standard_error, c.standard_error};
+    }
     fit.parameters.push_back(std::move(c));
   }
   const Eigen::MatrixXd own = u.covariance.topLeftCorner(p(), p());

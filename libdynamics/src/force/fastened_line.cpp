@@ -53,7 +53,7 @@ DrivenLine::Pulls pulls_of(const FastenedLine& l, std::size_t i, const Instant& 
   if (now.memory != nullptr)
     return static_cast<FastenedLineMemory*>(now.memory)->line(i).pulls(now.state.time, ends_of(l, now.state));
   const auto found = pulls_at_rest(line::Line(l.still), line_at_rest(l, now.state), nodes_of(l));
-  return {-found.force, -found.by_place, MatrixXd::Zero(found.by_place.rows(), found.by_place.cols())};
+  return {-found.force, -found.by_place, -found.by_velocity};
 }
 
 /// ∂(end's place)/∂(displacement of its body), and of its velocity by velocity: (1, −[r]×).

@@ -72,7 +72,7 @@ void FrictionKind::add_jacobian(const Instant& now, JacobianSink& out) const {
     const Friction& f = elements_[i];
     const auto m = detail::motion_of(f.travel, now.state, 1);
     const double d = memory.direction[i];
-    detail::add_jacobian(f.travel, m, now.state, 1, {d * f.level(m.rate), 0, d * f.steepness(m.rate)}, out);
+    detail::add_jacobian(f.travel, m, now.state, {d * f.level(m.rate), 0, d * f.steepness(m.rate)}, out);
   }
 }
 

@@ -3,6 +3,7 @@
 #include "travel_force.hpp"
 
 namespace dynamics {
+
 PtoState pto_state(const Pto& pto, const State& state) {
   const detail::TravelMotion m = detail::motion_of(pto.travel, state, pto.sign);
   return {m.x, m.rate, pto.law.at(m.x, m.rate).force};
@@ -24,7 +25,7 @@ void PtoKind::add_jacobian(const Instant& now, JacobianSink& out) const {
   for (const Pto& e : elements_) {
     const auto m = detail::motion_of(e.travel, now.state, e.sign);
     const auto law = e.law.at(m.x, m.rate);
-    detail::add_jacobian(e.travel, m, now.state, e.sign, {law.force, law.by_x, law.by_rate}, out);
+    detail::add_jacobian(e.travel, m, now.state, {law.force, law.by_x, law.by_rate}, out);
   }
 }
 

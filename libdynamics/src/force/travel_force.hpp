@@ -8,12 +8,13 @@ namespace dynamics::detail {
 /// Travel with its rate, gradient and curvature, and the velocities of both bodies; counted backwards where sign is −1.
 struct TravelMotion {
   using Vector12 = Eigen::Matrix<double, 12, 1>;
-  double x, rate;
+  double sign, x, rate;
   Vector12 gradient, velocity;
 };
 
 inline TravelMotion motion_of(const Travel& travel, const State& state, double sign) {
   TravelMotion m;
+  m.sign = sign;
   const Gradient g = travel.gradient(state);
   m.gradient << g.first, g.second;
   m.gradient *= sign;
@@ -37,9 +38,9 @@ inline void add_load(const Travel& travel, const TravelMotion& m, double force, 
 }
 
 // F = −T(x, ẋ) ∇x, and ẋ = ∇x·v changes with q by Hᵀv, H = ∂∇x/∂q.
-inline void add_jacobian(const Travel& travel, const TravelMotion& m, const State& state, double sign,
-                         const TravelForce& law, JacobianSink& out) {
-  const Matrix12 H = sign * travel.curvature(state);
+inline void add_jacobian(const Travel& travel, const TravelMotion& m, const State& state, const TravelForce& law,
+                         JacobianSink& out) {
+  const Matrix12 H = m.sign * travel.curvature(state);
   const TravelMotion::Vector12 force_by_q = law.by_x * m.gradient + law.by_rate * H.transpose() * m.velocity;
   const Matrix12 by_q = -law.force * H - m.gradient * force_by_q.transpose();
   const Matrix12 by_v = -law.by_rate * m.gradient * m.gradient.transpose();

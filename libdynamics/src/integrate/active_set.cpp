@@ -1,6 +1,5 @@
 #include "dynamics/integrate/active_set.hpp"
 
-#include <cmath>
 #include <limits>
 
 #include "hydro/base/error.hpp"
@@ -40,14 +39,9 @@ ContactMemory& ActiveSet::contact_memory(Workspace& workspace) const {
 }
 
 void ActiveSet::find_condition_scale(const State& state) {
-  const auto G = conditions_.gradients(state);
+  const auto G = conditions_.over(conditions_.gradients(state), scale_);
   condition_scale_.resize(conditions_.count());
-  for (std::size_t i = 0; i < G.size(); ++i) {
-    const Condition& c = conditions_.conditions()[i];
-    double size = G[i].first.cwiseQuotient(scale_.segment<6>(6 * c.first)).norm();
-    if (c.second) size = std::hypot(size, G[i].second.cwiseQuotient(scale_.segment<6>(6 * *c.second)).norm());
-    condition_scale_[static_cast<Eigen::Index>(i)] = 1 / size;
-  }
+  for (std::size_t i = 0; i < G.size(); ++i) condition_scale_[static_cast<Eigen::Index>(i)] = 1 / norm(G[i]);
 }
 
 /// False if its bodies cannot move that way at all.

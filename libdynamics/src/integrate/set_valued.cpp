@@ -262,7 +262,7 @@ bool SetValuedLaws::release(Workspace& workspace) {
       const double over = active_.friction()->strain(i, load, memory, workspace.state.time) - 1;
       if (over <= most) continue;
       most = over;
-      let_go = [&memory, i, load] { memory.direction[i] = load > 0 ? 1 : -1; };
+      let_go = [&memory, &workspace, i, load] { memory.turn(i, load > 0 ? 1 : -1, workspace.state.time); };
     }
   }
   for (std::size_t i = 0; active_.contact() != nullptr && i < active_.contact()->elements(); ++i) {

@@ -4,7 +4,6 @@
 #include <Eigen/Sparse>
 #include <SuiteSparseQR.hpp>
 #include <algorithm>
-#include <cmath>
 
 #include "hydro/base/error.hpp"
 
@@ -16,17 +15,13 @@ using Sparse = Eigen::SparseMatrix<double, Eigen::ColMajor, SuiteSparse_long>;
 /// G of one condition a column, each of length one; a column of zeros where the bodies cannot move that way at all.
 Sparse unit_columns(const JointSet& joints, const State& state, const Eigen::VectorXd& scale) {
   std::vector<Eigen::Triplet<double, SuiteSparse_long>> entries;
-  const auto G = joints.gradients(state);
+  const auto G = joints.over(joints.gradients(state), scale);
   for (std::size_t i = 0; i < G.size(); ++i) {
     const Condition& c = joints.conditions()[i];
-    const Vector6 first = G[i].first.cwiseQuotient(scale.segment<6>(6 * c.first));
-    Vector6 second = Vector6::Zero();
-    if (c.second) second = G[i].second.cwiseQuotient(scale.segment<6>(6 * *c.second));
-    const double size = std::hypot(first.norm(), second.norm());
-    if (size == 0) continue;
+    const double size = norm(G[i]);
     for (int k = 0; k < 6; ++k) {
-      if (first[k] != 0) entries.emplace_back(6 * c.first + k, i, first[k] / size);
-      if (second[k] != 0) entries.emplace_back(6 * *c.second + k, i, second[k] / size);
+      if (G[i].first[k] != 0) entries.emplace_back(6 * c.first + k, i, G[i].first[k] / size);
+      if (G[i].second[k] != 0) entries.emplace_back(6 * *c.second + k, i, G[i].second[k] / size);
     }
   }
   Sparse out(scale.size(), joints.count());

@@ -144,6 +144,18 @@ void JointSet::keep_free(int first, std::optional<int> second, Gradient& row) co
   if (second) set_locked_to_zero(row.second, free_[static_cast<std::size_t>(*second)]);
 }
 
+double norm(const Gradient& g) { return std::hypot(g.first.norm(), g.second.norm()); }
+
+std::vector<Gradient> JointSet::over(const std::vector<Gradient>& G, const Eigen::VectorXd& scale) const {
+  std::vector<Gradient> out(G.size(), {Vector6::Zero(), Vector6::Zero()});
+  for (std::size_t i = 0; i < G.size(); ++i) {
+    const Condition& c = conditions_[i];
+    out[i].first = G[i].first.cwiseQuotient(scale.segment<6>(6 * c.first));
+    if (c.second) out[i].second = G[i].second.cwiseQuotient(scale.segment<6>(6 * *c.second));
+  }
+  return out;
+}
+
 Eigen::VectorXd JointSet::times(const std::vector<Gradient>& G, const Eigen::VectorXd& x) const {
   Eigen::VectorXd out(count());
   for (std::size_t i = 0; i < conditions_.size(); ++i) {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 #include <memory>
-#include <numbers>
 
+#include "dynamics/force/ramped_field.hpp"
 #include "dynamics/line/path.hpp"
 #include "hydro/base/error.hpp"
 
@@ -15,11 +15,9 @@ Lead led_harmonically(double amplitude, double omega, double ramp_s) {
   return [=](double t) -> Led {
     const double s = amplitude * std::sin(omega * t), c = amplitude * std::cos(omega * t);
     const Led full{s, omega * c, -omega * omega * s};
-    if (t >= ramp_s) return full;
-    const double w = std::numbers::pi / ramp_s, now = std::max(t, 0.0);
-    const double r = (1 - std::cos(w * now)) / 2, r1 = w / 2 * std::sin(w * now), r2 = w * w / 2 * std::cos(w * now);
-    return {r * full.travel, r1 * full.travel + r * full.rate,
-            r2 * full.travel + 2 * r1 * full.rate + r * full.acceleration};
+    const Ramp r = ramp(t, ramp_s);
+    return {r.value * full.travel, r.rate * full.travel + r.value * full.rate,
+            r.bend * full.travel + 2 * r.rate * full.rate + r.value * full.acceleration};
   };
 }
 

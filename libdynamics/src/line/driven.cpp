@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "dynamics/integrate/alpha_parameters.hpp"
 #include "hydro/base/error.hpp"
 
 namespace dynamics::line {
@@ -55,7 +56,7 @@ struct DrivenLine::Work {
   std::vector<std::shared_ptr<Way>> ways;
   Line line;
   Stepper stepper;
-  double alpha_m, alpha_f, gamma;
+  AlphaParameters alpha;
   State state;                        // accepted
   std::vector<Path::Place> now;       // of the ends, accepted
   std::vector<Vector3d> algorithmic;  // (D10) of the ends
@@ -74,9 +75,7 @@ struct DrivenLine::Work {
         ways(make_ways(led.size())),
         line(led_by(std::move(d), led, ways)),
         stepper(line, {.scheme = Scheme::generalised_alpha, .rho_infinity = rho}),
-        alpha_m((2 * rho - 1) / (rho + 1)),
-        alpha_f(rho / (rho + 1)),
-        gamma(0.5 + alpha_f - alpha_m) {}
+        alpha(rho) {}
 
   bool is_now(double t) const { return t - state.time <= 1e-12 * std::max(1.0, std::abs(t)); }
   void lead(double t, const std::vector<End>& ends);
@@ -124,6 +123,7 @@ void DrivenLine::start(const State& state, const std::vector<End>& ends, const P
 /// Where the ends go until t, with the accelerations that (D10) makes of their velocities.
 void DrivenLine::Work::lead(double t, const std::vector<End>& ends) {
   const double h = t - state.time;
+  const auto [alpha_m, alpha_f, gamma, beta] = alpha;
   tried.algorithmic.resize(led.size());
   for (std::size_t k = 0; k < led.size(); ++k) {
     const Vector3d next = ((ends[k].velocity - now[k].velocity) / h - (1 - gamma) * algorithmic[k]) / gamma;
@@ -144,7 +144,7 @@ void DrivenLine::Work::try_step(double t) {
   tried.state = state;
   try {
     stepper.step(tried.state, h);
-    auto found = stepper.response(led, (1 - alpha_m) / ((1 - alpha_f) * gamma * h));
+    auto found = stepper.response(led, (1 - alpha.alpha_m) / ((1 - alpha.alpha_f) * alpha.gamma * h));
     tried.pulls = {-found.force, -found.by_place, -found.by_velocity};
   } catch (const hydro::NumericsError& e) {
     tried.failure = e.what();

@@ -30,13 +30,6 @@ struct Powers : LoadPowers {
   double held = 0;            ///< supplied by what holds nodes
 };
 
-/// The force on each led node by what leads it, N, and its derivatives by places and velocities of all of them, (3k,
-/// 3k).
-struct Response {
-  Places force;
-  Eigen::MatrixXd by_place, by_velocity;
-};
-
 /// The balance of a state with accelerations a, as a stage.
 Stage instant(const State& state, const Places& a);
 

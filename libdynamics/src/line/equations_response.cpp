@@ -1,4 +1,6 @@
 /// What led nodes need, and how it follows them: the rest of the line eliminated. (D90)
+#include <limits>
+
 #include "equations.hpp"
 
 namespace dynamics::line {

@@ -166,14 +166,13 @@ Stage resting(const State& at) {
 
 }  // namespace
 
-RestPulls pulls_at_rest(const Line& line, const State& rest, const std::vector<int>& led) {
+Response pulls_at_rest(const Line& line, const State& rest, const std::vector<int>& led) {
   Equations equations(line);
   Stage stage = resting(rest);
   Places u = Places::Zero(3, line.nodes());
   VectorXd T = rest.tension;
   equations.solve(stage, rest, 1e-10, 30, u, T);  // sets the scale; what is left over is rounding
-  auto found = equations.response(stage, rest, Places::Zero(3, line.nodes()), rest.tension, led, 0);
-  return {std::move(found.force), std::move(found.by_place)};
+  return equations.response(stage, rest, Places::Zero(3, line.nodes()), rest.tension, led, 0);
 }
 
 State equilibrium(const Line& line, const State& guess, RestReport* report) {

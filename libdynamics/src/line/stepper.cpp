@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "dynamics/integrate/alpha_parameters.hpp"
 #include "equations.hpp"
 #include "hydro/base/error.hpp"
 
@@ -109,10 +110,9 @@ void Stepper::go_back() {
   w.before = w.kept.before;
 }
 
-Stepper::Response Stepper::response(const std::vector<int>& led, double a_by_v) {
+Response Stepper::response(const std::vector<int>& led, double a_by_v) {
   Work& w = *work_;
-  auto found = w.equations.response(w.last.stage, w.last.from, w.last.u, w.last.T, led, a_by_v);
-  return {std::move(found.force), std::move(found.by_place), std::move(found.by_velocity)};
+  return w.equations.response(w.last.stage, w.last.from, w.last.u, w.last.T, led, a_by_v);
 }
 
 std::optional<Stepper::Balance> Stepper::balance(const State& state) {
@@ -232,8 +232,7 @@ bool Stepper::Work::energy_momentum(State& state, double h, StepReport& report) 
 
 // (D80), with the parameters of (D11).
 bool Stepper::Work::generalised_alpha(State& state, double h, StepReport& report) {
-  const double rho = settings.rho_infinity, alpha_m = (2 * rho - 1) / (rho + 1), alpha_f = rho / (rho + 1);
-  const double g = 0.5 + alpha_f - alpha_m, beta = 0.25 * (g + 0.5) * (g + 0.5);
+  const auto [alpha_m, alpha_f, g, beta] = AlphaParameters(settings.rho_infinity);
   const Places known = h * state.velocity + h * h * (0.5 - beta) * algorithmic;
   const double a_by = (1 - alpha_m) / ((1 - alpha_f) * h * h * beta);
   last.stage = {.t = state.time + h,

@@ -91,8 +91,10 @@ struct BlockSolver::Impl {
     double* value = matrix.valuePtr();
     for (int j = 0; j < source.pattern().bodies(); ++j)
       for (int c = 0; c < 6; ++c)
-        for (const int i : source.pattern().columns(j))
-          for (int r = 0; r < 6; ++r) *value++ = source.block(i, j)(r, c);
+        for (const int i : source.pattern().columns(j)) {
+          const Matrix6& block = source.block(i, j);
+          for (int r = 0; r < 6; ++r) *value++ = block(r, c);
+        }
   }
 };
 

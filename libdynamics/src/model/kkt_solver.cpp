@@ -63,9 +63,11 @@ struct KktSolver::Impl {
                       const Eigen::VectorXd& compliance, Use use) const {
     const Eigen::Index n = 6 * T.pattern().bodies();
     for (int i = 0; i < T.pattern().bodies(); ++i)
-      for (const int j : T.pattern().columns(i))
+      for (const int j : T.pattern().columns(i)) {
+        const Matrix6& block = T.block(i, j);
         for (int r = 0; r < 6; ++r)
-          for (int c = 0; c < 6; ++c) use(6 * i + r, 6 * j + c, T.block(i, j)(r, c));
+          for (int c = 0; c < 6; ++c) use(6 * i + r, 6 * j + c, block(r, c));
+      }
     for_each(G, [&](Eigen::Index mode, Eigen::Index i, double value) { use(mode, n + i, value); });
     for_each(H, [&](Eigen::Index mode, Eigen::Index i, double value) { use(n + i, mode, value); });
     for (Eigen::Index i = 0; i < count(); ++i) use(n + i, n + i, -compliance[i]);

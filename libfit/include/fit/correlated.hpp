@@ -8,6 +8,8 @@
 
 #include <string>
 
+#include "fit/coefficient.hpp"
+
 namespace fit {
 
 /// Autocovariance of a stationary autoregressive series fitted to a record (Yule–Walker, order by BIC); (F3).
@@ -48,5 +50,9 @@ enum class LongMemory {
 /// \throws hydro::InputError if shapes disagree, J has not full rank, or the record has fewer than 8 blocks
 CoefficientCovariance correlated_covariance(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals,
                                             int block = 1, LongMemory long_memory = LongMemory::refuse);
+
+/// Coefficient number j of a fit: its value with the interval of Student's t at `confidence`.
+Coefficient with_interval(const std::string& name, double value, const CoefficientCovariance& u, Eigen::Index j,
+                          double confidence);
 
 }  // namespace fit

@@ -11,6 +11,7 @@
 #include "compile/probes.hpp"
 #include "froude/simulate.hpp"
 #include "hydro/signal/harmonics.hpp"
+#include "support/pontoons.hpp"
 
 namespace {
 
@@ -35,14 +36,7 @@ amplitude = "0.01 m"
 period = "{} s"
 heading = "45 deg"
 ramp = "100 s"
-[[body]]
-name = "m"
-position = "(-26, 0, 0) m"
-copies = {{ count = 5, step = "(13, 0, 0) m" }}
-mass = "9088 kg"
-centre_of_gravity = "(0, 0, 1.31) m"
-radii_of_gyration = "(4.6, 4.6, 6.4) m"
-[body.hydrodynamics]
+{}[body.hydrodynamics]
 file = "{}"
 excitation = true
 radiation = {{ memory_tolerance = 1e-4 }}
@@ -56,7 +50,7 @@ damping = {{ surge = "4 kN s/m", sway = "4 kN s/m", yaw = "60 kN m s/rad" }}
 run = {{ duration = "400 s", every = "0.1 s", of = ["m*"] }}
 accuracy = 1e-3
 )",
-                     setting.period, setting.file, joined);
+                     setting.period, froude::support::pontoons(5, "(-26, 0, 0) m"), setting.file, joined);
 }
 
 const std::string springs = R"([[connector]]

@@ -7,6 +7,7 @@
 #include "froude/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "scene/scene.hpp"
+#include "support/pontoons.hpp"
 
 namespace {
 
@@ -22,15 +23,7 @@ depth = "14 m"
 [waves]
 heading = "0 deg"
 )" + waves +
-         R"(
-[[body]]
-name = "m"
-position = "(-6.5, 0, 0) m"
-copies = { count = 2, step = "(13, 0, 0) m" }
-mass = "9088 kg"
-centre_of_gravity = "(0, 0, 1.31) m"
-radii_of_gyration = "(4.6, 4.6, 6.4) m"
-free = ["surge", "heave", "pitch"]
+         "\n" + froude::support::pontoons(2, "(-6.5, 0, 0) m") + R"(free = ["surge", "heave", "pitch"]
 [body.hydrodynamics]
 excitation = true
 radiation = { memory = "60 s" }

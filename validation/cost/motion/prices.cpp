@@ -22,6 +22,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "support/double_pendulum.hpp"
+#include "support/pontoons.hpp"
 
 namespace froude::cost {
 namespace {
@@ -212,14 +213,7 @@ depth = "14 m"
           std::string(
               waves ? "[waves]\nkind = \"jonswap\"\nhs = \"1 m\"\ntp = \"6 s\"\nheading = \"0 deg\"\nramp = \"30 s\"\n"
                     : "") +
-          R"([[body]]
-name = "m"
-position = "(-26, 0, 0) m"
-copies = { count = 5, step = "(13, 0, 0) m" }
-mass = "9088 kg"
-centre_of_gravity = "(0, 0, 1.31) m"
-radii_of_gyration = "(4.6, 4.6, 6.4) m"
-initial = { surge = "0.1 m", heave = "0.1 m" }
+          support::pontoons(5, "(-26, 0, 0) m") + R"(initial = { surge = "0.1 m", heave = "0.1 m" }
 [body.hydrodynamics]
 file = "data/pontoon5.nc"
 hydrostatics = true
@@ -310,20 +304,13 @@ heading = "20 deg"
 ramp = "10 s"
 )";
   for (int r = 0; r < rows; ++r)
-    text += fmt::format(R"([[body]]
-name = "r{0}m"
-position = "(0, {1}, 0) m"
-copies = {{ count = {2}, step = "(13, 0, 0) m" }}
-mass = "9088 kg"
-centre_of_gravity = "(0, 0, 1.31) m"
-radii_of_gyration = "(4.6, 4.6, 6.4) m"
-[body.hydrodynamics]
+    text += support::pontoons(columns, fmt::format("(0, {}, 0) m", 13 * r), fmt::format("r{}m", r)) +
+            R"([body.hydrodynamics]
 file = "data/pontoon1.nc"
 excitation = true
-radiation = {{ memory_tolerance = 1e-2 }}
+radiation = { memory_tolerance = 1e-2 }
 hydrostatics = true
-)",
-                        r, 13 * r, columns);
+)";
   const auto bushing = [](const std::string& between, const char* ends) {
     return fmt::format(
         "[[connector]]\nbetween = {}\nends = [{}]\nkind = \"bushing\"\nstiffness = \"(20, 5, 5) kN/m\"\n", between,

@@ -2,6 +2,7 @@
 /// \file  Time stepping by generalised-α on rotations and translations, with the guards that keep it finite.
 #include <Eigen/Core>
 
+#include "dynamics/integrate/alpha_parameters.hpp"
 #include "dynamics/integrate/newton_integrator.hpp"
 
 namespace dynamics {
@@ -35,7 +36,7 @@ class GeneralizedAlpha final : public NewtonIntegrator {
   }
   Eigen::VectorXd algorithmic_after(const Workspace& workspace, const Eigen::VectorXd& acceleration) const;
 
-  double alpha_m_, alpha_f_, beta_, gamma_;
+  AlphaParameters alpha_;
   Eigen::VectorXd algorithmic_;  // the auxiliary acceleration of Arnold & Brüls
 };
 

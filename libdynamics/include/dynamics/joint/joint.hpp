@@ -92,6 +92,9 @@ struct Gradient {
   Vector6 first, second;
 };
 
+/// Length of both rows together.
+double norm(const Gradient& g);
+
 /// One of the two bodies of a joint.
 enum class End { first, second };
 
@@ -120,6 +123,8 @@ class JointSet {
   Eigen::VectorXd values(const State& state) const;
   /// Columns of modes that are not free are zero.
   std::vector<Gradient> gradients(const State& state) const;
+  /// Rows over the numbers that belong to their modes, such as √ of masses; of the ground zero.
+  std::vector<Gradient> over(const std::vector<Gradient>& G, const Eigen::VectorXd& scale) const;
   /// G x, for x a velocity or displacement of all bodies.
   Eigen::VectorXd times(const std::vector<Gradient>& G, const Eigen::VectorXd& x) const;
   /// Adds Gᵀ λ.

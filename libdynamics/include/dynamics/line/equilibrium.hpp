@@ -21,12 +21,8 @@ struct RestReport {
 /// hydro::NumericsError with what is left over and at which node
 State equilibrium(const Line& line, const State& guess, RestReport* report = nullptr);
 
-/// The force at rest on each of the held nodes `led` by what holds it, N, and its derivative by their places, (3k, 3k),
-/// N/m: the static stiffness of the line (D90). `rest` is an equilibrium().
-struct RestPulls {
-  Places force;
-  Eigen::MatrixXd by_place;
-};
-RestPulls pulls_at_rest(const Line& line, const State& rest, const std::vector<int>& led);
+/// What the held nodes `led` need at rest; by places it follows the static stiffness of the line, by velocities not at
+/// all (D90). `rest` is an equilibrium().
+Response pulls_at_rest(const Line& line, const State& rest, const std::vector<int>& led);
 
 }  // namespace dynamics::line

@@ -84,6 +84,13 @@ struct Description {
   bool componentwise_damping = false;  ///< −b_q |v_i| v_i instead, as Huijgen 2024, eq. 4.14 with its sign put right
 };
 
+/// The force on each of k led nodes by what leads it, N, and its derivatives by places and velocities of all of them,
+/// (3k, 3k), while the rest of the line follows. (D90)
+struct Response {
+  Places force;
+  Eigen::MatrixXd by_place, by_velocity;
+};
+
 /// A line, checked, with its constant matrices. Immutable.
 class Line {
  public:

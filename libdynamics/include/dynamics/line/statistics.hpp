@@ -1,5 +1,6 @@
 #pragma once
 /// \file  What a run does to a line: slack, snaps, the largest tension, and how far it bends. (D93), (D94)
+#include <limits>
 #include <vector>
 
 #include "dynamics/line/line.hpp"

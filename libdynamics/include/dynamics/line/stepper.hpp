@@ -77,13 +77,8 @@ class Stepper {
   void keep();
   void go_back();
 
-  /// The force on each of the nodes `led` by what leads it, at the end of the last step, N, and its derivatives by
-  /// where they were led to and by their velocities there, (3k, 3k), while the rest of the line moves with the step;
-  /// their accelerations follow the velocities by `a_by_v`. Of generalised-α alone. (D90)
-  struct Response {
-    Places force;
-    Eigen::MatrixXd by_place, by_velocity;
-  };
+  /// What the nodes `led` needed at the end of the last step, while the rest of the line moves with the step; their
+  /// accelerations follow their velocities by `a_by_v`. Of generalised-α alone. (D90)
   Response response(const std::vector<int>& led, double a_by_v);
 
   /// What balances a state, whatever the step did (D77); nothing if masses leave it open.
