@@ -152,6 +152,8 @@ void start_from(const MovingState& state, TimeModel& model) {
   for (std::size_t k = 0; k < model.lines.size(); ++k) {
     model.lines[k].start = state.lines[k];
     model.lines[k].start.time = state.bodies.time;
+    // A step keeps lengths at its end, but velocities only in its mean.
+    keep_lengths(*model.lines[k].line, model.lines[k].start);
     if (!state.angles.empty()) model.lines[k].before = state.angles[k];
   }
 }

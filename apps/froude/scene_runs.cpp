@@ -86,7 +86,7 @@ std::vector<std::string> SceneRuns::units() {
   for (const auto& s : fit_.motion.signals) {
     record.signal(s.of);  // a pattern may have let pass what is no name
     for (const Signal& r : record.signals)
-      if (r.name == s.of) out.push_back(r.unit);
+      if (r.name == s.of) out.push_back(r.units);
   }
   return out;
 }
