@@ -153,8 +153,11 @@ void LineRun::look() {
                 .tension = state_.tension,
                 .holding = dl::Places::Zero(3, model_.line->nodes())};
   }
-  const bool first = angles_.empty();
+  bool first = angles_.empty();
   angles_.resize(static_cast<std::size_t>(model_.line->segments()));
+  for (std::size_t j = 0; first && j < model_.before.size(); ++j)
+    angles_[j] = {{model_.before[j].polar, model_.before[j].azimuth}, 0, 0};
+  first = first && model_.before.empty();
   for (int j = 0; j < model_.line->segments(); ++j) {
     Angles& a = angles_[static_cast<std::size_t>(j)];
     const dl::LinkAngles now = first ? dl::link_angles(state_, j) : dl::link_angles(state_, j, a);

@@ -19,6 +19,8 @@ struct LineModel {
   std::unique_ptr<const dynamics::line::Line> line;
   dynamics::line::State start;  ///< at rest without waves, with the node that is to be released still in its place
   dynamics::line::Stepper::Settings settings;
+  /// Of the links, where a run goes on from another one's end: angles follow these without jumps.
+  std::vector<dynamics::line::LinkAngles> before = {};
 };
 
 /// In the order of the scene. \throws hydro::InputError at a line that cannot hang there, hydro::NumericsError if it
