@@ -75,6 +75,7 @@ Prepared prepare(const Scene& scene) {
   add_buoyancy(scene, out);
   add_hydrodynamics(scene, out);
   add_connections(scene, out);
+  out.fastened = fastened_lines(scene, out.bodies);
   return out;
 }
 
@@ -106,6 +107,7 @@ void require_rest(const Prepared& prepared, const dynamics::Model& model) {
 dynamics::Model frequency_model(const Prepared& prepared) {
   std::vector<std::unique_ptr<const dynamics::ForceKind>> forces;
   add_springs(prepared, forces);
+  if (!prepared.fastened.empty()) forces.push_back(std::make_unique<dynamics::FastenedLineKind>(prepared.fastened));
   dynamics::Model model(prepared.bodies, {}, std::move(forces), prepared.joints);
   require_rest(prepared, model);
   return model;
@@ -265,6 +267,7 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
   std::vector<std::unique_ptr<const dynamics::ForceKind>> forces;
   std::vector<dynamics::AddedMass> added_mass;
   add_springs(prepared, forces);
+  if (auto kind = fastened_kind(scene, prepared, water)) forces.push_back(std::move(kind));
   std::vector<dynamics::RadiationMemory> memories;
   std::vector<PlanLine> memory_lines;
   Radiation radiation(prepared, step, sea);
@@ -284,6 +287,7 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
   if (!prepared.contacts.empty()) forces.push_back(std::make_unique<dynamics::ContactKind>(prepared.contacts));
 
   for (const auto& kind : forces) {
+    if (kind->effect() == "lines") continue;  // each is told by itself
     if (kind->effect() != "radiation") {
       plan.push_back({kind->effect(), kind->method(),
                       fmt::format("{} element{}", kind->elements(), kind->elements() == 1 ? "" : "s"), true});
@@ -296,9 +300,9 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
     plan.push_back({"joint", "conditions held exactly, with the loads that this takes as unknowns",
                     fmt::format("{} joints, {} conditions", prepared.joints.size(), model.joints().count()), true});
   notes.insert(notes.end(), model.redundant().begin(), model.redundant().end());
-  std::vector<LineModel> lines = line_models(scene, water);
-  for (const LineModel& line : lines) plan.push_back(plan_line(line));
   dynamics::State start = start_state(scene, prepared, model);
+  std::vector<LineModel> lines = line_models(scene, prepared, water, start);
+  for (const LineModel& line : lines) plan.push_back(plan_line(line));
   return {.model = std::move(model),
           .start = std::move(start),
           .water = std::move(water),

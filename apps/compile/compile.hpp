@@ -11,6 +11,7 @@
 #include "dynamics/force/connector.hpp"
 #include "dynamics/force/constant_load.hpp"
 #include "dynamics/force/contact.hpp"
+#include "dynamics/force/fastened_line.hpp"
 #include "dynamics/force/friction.hpp"
 #include "dynamics/force/pto.hpp"
 #include "dynamics/force/restoring.hpp"
@@ -45,6 +46,7 @@ struct Prepared {
   std::vector<dynamics::Pto> ptos;
   std::vector<dynamics::ConstantLoad> loads;
   std::vector<dynamics::CatenaryMooring> lines;
+  std::vector<dynamics::FastenedLine> fastened;  ///< [[line]] with ends on bodies, in water without waves
   std::vector<dynamics::Joint> joints;
   std::vector<dynamics::Friction> friction;
   std::vector<dynamics::Contact> contacts;

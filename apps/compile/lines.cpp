@@ -82,11 +82,14 @@ Eigen::Vector3d reached(const scene::Line& l) {
                                                                   : l.release->at;
 }
 
+std::shared_ptr<const hydro::waves::WaveField> without_waves(const Scene& scene) {
+  return std::make_shared<hydro::waves::HarmonicField>(std::vector<hydro::waves::Harmonic>{}, scene.water,
+                                                       hydro::waves::HarmonicField::Options{}, scene.current);
+}
+
 /// Rest without waves, in the current, with the node that is to be released held.
 dl::State at_rest(const Scene& scene, const scene::Line& l) {
-  const auto still = std::make_shared<hydro::waves::HarmonicField>(
-      std::vector<hydro::waves::Harmonic>{}, scene.water, hydro::waves::HarmonicField::Options{}, scene.current);
-  dl::Description d = description(scene, l, still);
+  dl::Description d = description(scene, l, without_waves(scene));
   if (l.release) d.held.push_back({.node = l.release->node});
   const dl::Line line(std::move(d));
   dl::State places{.position = dl::Places::Zero(3, line.nodes()),
@@ -98,18 +101,99 @@ dl::State at_rest(const Scene& scene, const scene::Line& l) {
   return dl::equilibrium(line, dl::hanging_shape(line, places));
 }
 
+dynamics::FastenedLine fastened_line(const Scene& scene, const scene::Line& l) {
+  dl::Description still = description(scene, l, without_waves(scene));
+  const int last = static_cast<int>(l.links.size());
+  dynamics::FastenedLine out{.name = l.name,
+                             .run = still,
+                             .still = still,
+                             .places = dl::Places::Zero(3, last + 1),
+                             .ends = {},
+                             .rho_infinity = scene.solve.rho_infinity};
+  const auto add = [&](int node, std::optional<int> body, const Eigen::Vector3d& at) {
+    out.places.col(node) = at;
+    if (body) out.ends.push_back({node, *body, at - scene.bodies[static_cast<std::size_t>(*body)].centre_of_gravity});
+  };
+  add(0, l.from_on, l.from);
+  if (l.to) add(last, l.to_on, *l.to);
+  return out;
+}
+
+/// What must step bodies that hold lines, and what must not act on them.
+void require_one_step(const Scene& scene, const scene::Line& l) {
+  if (scene.solve.integrator != "generalized_alpha")
+    throw InputError(fmt::format("[solve.integrator] name = \"{}\" cannot step a body together with line \"{}\"",
+                                 scene.solve.integrator, l.name),
+                     scene.solve.integrator_place, "take generalized_alpha");
+  const bool friction = std::any_of(scene.joints.begin(), scene.joints.end(), [](const auto& j) { return j.friction; });
+  if (friction || !scene.contacts.empty())
+    throw InputError(
+        fmt::format("line \"{}\" is on a body of a scene with {}, whose jumps of velocity it has no step for", l.name,
+                    friction ? "friction" : "contacts"),
+        l.place, "hold the line by the ground, or take a [[mooring]] of kind catenary");
+}
+
+LineModel fastened_model(const dynamics::FastenedLine& l, std::size_t at, const dynamics::State& start) {
+  return {.name = l.name,
+          .line = std::make_unique<const dl::Line>(l.run),
+          .start = dynamics::line_at_rest(l, start),
+          .settings = {.scheme = dl::Scheme::generalised_alpha, .rho_infinity = l.rho_infinity},
+          .snaps = {},
+          .fastened = at};
+}
+
 }  // namespace
 
-std::vector<LineModel> line_models(const Scene& scene, const RunWater& water) {
+std::vector<dynamics::FastenedLine> fastened_lines(const Scene& scene, const std::vector<dynamics::RigidBody>& bodies) {
+  std::vector<dynamics::FastenedLine> out;
+  for (const scene::Line& l : scene.chains) {
+    if (!l.fastened()) continue;
+    try {
+      out.push_back(fastened_line(scene, l));
+      dynamics::line_at_rest(out.back(), dynamics::rest_state(bodies));
+    } catch (const InputError& e) {
+      throw e.at(l.place);
+    } catch (const hydro::NumericsError& e) {
+      throw InputError(fmt::format("line \"{}\": {}", l.name, e.what()), l.place, "check `from`, `to` and `length`");
+    }
+  }
+  return out;
+}
+
+std::unique_ptr<const dynamics::ForceKind> fastened_kind(const Scene& scene, const Prepared& prepared,
+                                                         const RunWater& water) {
+  std::vector<dynamics::FastenedLine> lines = prepared.fastened;
+  if (lines.empty()) return nullptr;
+  auto line = lines.begin();
+  for (const scene::Line& l : scene.chains) {
+    if (!l.fastened()) continue;
+    require_one_step(scene, l);
+    line->run = description(scene, l, water.field);
+    ++line;
+  }
+  return std::make_unique<dynamics::FastenedLineKind>(std::move(lines));
+}
+
+std::vector<LineModel> line_models(const Scene& scene, const Prepared& prepared, const RunWater& water,
+                                   const dynamics::State& start) {
   std::vector<LineModel> out;
+  std::size_t fastened = 0;
   for (const scene::Line& l : scene.chains) {
     try {
+      if (l.fastened()) {
+        out.push_back(fastened_model(prepared.fastened[fastened], fastened, start));
+        ++fastened;
+        out.back().snaps = l.snaps;
+        const dl::Stepper refuses(*out.back().line, out.back().settings);
+        continue;
+      }
       LineModel m{.name = l.name,
                   .line = std::make_unique<const dl::Line>(description(scene, l, water.field)),
                   .start = at_rest(scene, l),
                   .settings = {.scheme = dl::parse_scheme(scene.solve.line_scheme),
                                .rho_infinity = scene.solve.rho_infinity,
-                               .gamma = scene.solve.gamma}};
+                               .gamma = scene.solve.gamma},
+                  .snaps = l.snaps};
       const dl::Stepper refuses(*m.line, m.settings);
       out.push_back(std::move(m));
     } catch (const InputError& e) {
@@ -118,25 +202,45 @@ std::vector<LineModel> line_models(const Scene& scene, const RunWater& water) {
       throw hydro::NumericsError(fmt::format("line \"{}\": {}", l.name, e.what()));
     }
   }
+  if (fastened > 0 && fastened == out.size() && scene.solve.line_scheme_place)
+    throw InputError("[solve.integrator] lines acts on no line: those on bodies are stepped with them",
+                     *scene.solve.line_scheme_place, "leave it out");
   return out;
 }
 
 PlanLine plan_line(const LineModel& m) {
+  if (m.fastened)
+    return {"line " + m.name, "generalized alpha, one system with its bodies",
+            fmt::format("{} segments, {} unknowns", m.line->segments(), 3 * m.line->nodes() + m.line->segments()),
+            true};
   std::string method(dl::name_of(m.settings.scheme));
   std::replace(method.begin(), method.end(), '_', ' ');
   return {"line " + m.name, method + " on a chain of its own, one band elimination an iteration",
           fmt::format("{} segments, {} unknowns", m.line->segments(), 3 * m.line->nodes() + m.line->segments()), true};
 }
 
-LineRun::LineRun(const LineModel& model) : model_(model), state_(model.start), stepper_(*model.line, model.settings) {
-  stepper_.start(state_);
+void LineRun::begin() {
   first_height_ = energies().height;
+  if (model_.snaps) snaps_.emplace(model_.line->segments(), model_.snaps->slack_below, model_.snaps->snap_above);
   look();
 }
 
+void LineRun::note(double h) {
+  if (snaps_) snaps_->note(state().time, h, state().tension);
+}
+
+LineRun::LineRun(const LineModel& model, dl::DrivenLine& driven) : model_(model), driven_(&driven) { begin(); }
+
+LineRun::LineRun(const LineModel& model)
+    : model_(model), state_(model.start), stepper_(std::make_unique<dl::Stepper>(*model.line, model.settings)) {
+  stepper_->start(state_);
+  begin();
+}
+
 dl::StepReport LineRun::step(double h) {
+  if (driven_ != nullptr) return {};
   try {
-    return stepper_.step(state_, h);
+    return stepper_->step(state_, h);
   } catch (const hydro::NumericsError& e) {
     throw hydro::NumericsError(fmt::format("line \"{}\": {}", model_.name, e.what()));
   }
@@ -146,7 +250,9 @@ void LineRun::look() {
   const dl::Energies& e = energies();
   turnover_ = std::max(
       {turnover_, e.kinetic, e.axial, std::abs(e.height - first_height_), std::abs(e.supplied()), e.dissipated()});
-  if (auto found = stepper_.balance(state_)) {
+  if (driven_ != nullptr) {
+    balance_ = driven_->balance();
+  } else if (auto found = stepper_->balance(state_)) {
     balance_ = std::move(*found);
   } else {
     balance_ = {.acceleration = dl::Places::Zero(3, model_.line->nodes()),
@@ -160,8 +266,8 @@ void LineRun::look() {
   first = first && model_.before.empty();
   for (int j = 0; j < model_.line->segments(); ++j) {
     Angles& a = angles_[static_cast<std::size_t>(j)];
-    const dl::LinkAngles now = first ? dl::link_angles(state_, j) : dl::link_angles(state_, j, a);
-    const dl::LinkAngles rate = dl::link_rates(state_, j, now);
+    const dl::LinkAngles now = first ? dl::link_angles(state(), j) : dl::link_angles(state(), j, a);
+    const dl::LinkAngles rate = dl::link_rates(state(), j, now);
     a = {{now.polar, now.azimuth}, rate.polar, rate.azimuth};
   }
 }
@@ -177,6 +283,20 @@ void add_nodes(std::size_t k, const LineModel& m, std::vector<LineProbe>& out) {
                      fmt::format("{} of node {} of {}", "xyz"[axis], i, m.name),
                      [i, axis](const LineRun& r) { return r.state().position(axis, i); }});
   }
+}
+
+void add_curvature(std::size_t k, const LineModel& m, std::vector<LineProbe>& out) {
+  for (int i = 1; i < m.line->segments(); ++i)
+    out.push_back({k, fmt::format("{}.node{}.curvature", m.name, i), "1/m",
+                   fmt::format("curvature at node {} of {}", i, m.name),
+                   [i](const LineRun& r) { return dl::curvature(r.state(), i); }});
+  if (m.line->segments() < 2) return;
+  out.push_back({k, m.name + ".largest_curvature", "1/m", "largest curvature of " + m.name,
+                 [last = m.line->segments()](const LineRun& r) {
+                   double largest = 0;
+                   for (int i = 1; i < last; ++i) largest = std::max(largest, dl::curvature(r.state(), i));
+                   return largest;
+                 }});
 }
 
 void add_links(std::size_t k, const LineModel& m, std::vector<LineProbe>& out) {
@@ -221,6 +341,7 @@ std::vector<LineProbe> line_probes(const std::vector<LineModel>& models) {
   std::vector<LineProbe> out;
   for (std::size_t k = 0; k < models.size(); ++k) {
     add_nodes(k, models[k], out);
+    add_curvature(k, models[k], out);
     add_links(k, models[k], out);
     add_whole(k, models[k], out);
   }

@@ -2,14 +2,18 @@
 /// \file  The lines of a scene, ready to be stepped, and the signals that they give.
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "dynamics/force/fastened_line.hpp"
+#include "dynamics/line/statistics.hpp"
 #include "dynamics/line/stepper.hpp"
 #include "scene/scene.hpp"
 
 namespace froude::compile {
 
+struct Prepared;
 struct RunWater;
 struct PlanLine;
 
@@ -19,13 +23,24 @@ struct LineModel {
   std::unique_ptr<const dynamics::line::Line> line;
   dynamics::line::State start;  ///< at rest without waves, with the node that is to be released still in its place
   dynamics::line::Stepper::Settings settings;
+  std::optional<scene::Line::Snaps> snaps = {};
+  std::optional<std::size_t> fastened = {};  ///< its place among the model's FastenedLine; it moves with its bodies
   /// Of the links, where a run goes on from another one's end: angles follow these without jumps.
   std::vector<dynamics::line::LinkAngles> before = {};
 };
 
-/// In the order of the scene. \throws hydro::InputError at a line that cannot hang there, hydro::NumericsError if it
-/// finds no rest
-std::vector<LineModel> line_models(const scene::Scene& scene, const RunWater& water);
+/// In the order of the scene; those on bodies where `start` has them. \throws hydro::InputError at a line that cannot
+/// hang there, hydro::NumericsError if it finds no rest
+std::vector<LineModel> line_models(const scene::Scene& scene, const Prepared& prepared, const RunWater& water,
+                                   const dynamics::State& start);
+
+/// The lines of a scene that have ends on bodies, as those feel them at rest. \throws hydro::InputError at a line that
+/// cannot hang where the scene places its bodies
+std::vector<dynamics::FastenedLine> fastened_lines(const scene::Scene& scene,
+                                                   const std::vector<dynamics::RigidBody>& bodies);
+/// The same in the water of a run. \throws hydro::InputError if the scene asks for what has no step together with lines
+std::unique_ptr<const dynamics::ForceKind> fastened_kind(const scene::Scene& scene, const Prepared& prepared,
+                                                         const RunWater& water);
 
 /// What `froude plan` tells of a line.
 PlanLine plan_line(const LineModel& model);
@@ -34,15 +49,23 @@ PlanLine plan_line(const LineModel& model);
 class LineRun {
  public:
   explicit LineRun(const LineModel& model);
+  /// Of a line that moves with its bodies.
+  LineRun(const LineModel& model, dynamics::line::DrivenLine& driven);
 
-  /// \throws hydro::NumericsError naming the line
+  /// Nothing to do for a line that moves with its bodies. \throws hydro::NumericsError naming the line
   dynamics::line::StepReport step(double h);
+  /// A step of h seconds is done: what is counted over steps.
+  void note(double h);
+  /// Null where the scene does not ask for it.
+  const dynamics::line::TensionStatistics* snaps() const { return snaps_ ? &*snaps_ : nullptr; }
   /// Brings tensions, forces and angles up to the state; before signals are read. Angles follow one another without
   /// jumps from one call to the next.
   void look();
 
-  const dynamics::line::State& state() const { return state_; }
-  const dynamics::line::Energies& energies() const { return stepper_.energies(); }
+  const dynamics::line::State& state() const { return driven_ != nullptr ? driven_->state() : state_; }
+  const dynamics::line::Energies& energies() const {
+    return driven_ != nullptr ? driven_->energies() : stepper_->energies();
+  }
   /// The largest of energy supplied, taken, and moved about: what a residual is small against.
   double turnover() const { return turnover_; }
 
@@ -53,10 +76,13 @@ class LineRun {
   const dynamics::line::Stepper::Balance& balance() const { return balance_; }
 
  private:
+  void begin();
   const LineModel& model_;
+  dynamics::line::DrivenLine* driven_ = nullptr;
   dynamics::line::State state_;
-  dynamics::line::Stepper stepper_;
+  std::unique_ptr<dynamics::line::Stepper> stepper_;
   dynamics::line::Stepper::Balance balance_;
+  std::optional<dynamics::line::TensionStatistics> snaps_;
   std::vector<Angles> angles_;
   double first_height_ = 0, turnover_ = 0;
 };

@@ -84,7 +84,10 @@ std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene)
   if (one_joint([](const scene::Joint& j) { return j.lead.has_value(); }))
     out.emplace_back("what leads joints is left out: they are held where they are placed");
   if (!scene.contacts.empty()) out.emplace_back("contacts are left out: bodies are taken not to touch");
-  if (!scene.chains.empty()) out.emplace_back("lines of nodes are left out");
+  const auto on_body = [](const scene::Line& line) { return line.fastened(); };
+  const auto count = std::count_if(scene.chains.begin(), scene.chains.end(), on_body);
+  if (count > 0) out.emplace_back("lines on bodies pull as they do at rest, with their static stiffness");
+  if (count < std::ssize(scene.chains)) out.emplace_back("lines of nodes that are on no body are left out");
   return out;
 }
 

@@ -18,6 +18,23 @@ double found(const std::vector<std::pair<std::string, double>>& entries, const s
   return 0;
 }
 
+nlohmann::json snaps_json(const Record& record) {
+  nlohmann::json out = nlohmann::json::array();
+  for (const Snaps& s : record.snaps)
+    out.push_back({{"line", s.line},
+                   {"slack_share", s.slack_share},
+                   {"snaps", s.snaps},
+                   {"largest_tension_N", s.largest_tension},
+                   {"link", s.link},
+                   {"time_s", s.at}});
+  return out;
+}
+
+std::string sentence(const Snaps& s) {
+  return fmt::format("{}: slack {:.3g} % of the time, {} snap{}, largest tension {:.5g} N in link {} at {:.5g} s",
+                     s.line, 100 * s.slack_share, s.snaps, s.snaps == 1 ? "" : "s", s.largest_tension, s.link, s.at);
+}
+
 void tell(const Console& console, const scene::Scene& scene, const Record& record, const Path& file) {
   const double turnover = found(record.energy, "turnover"), residual = found(record.energy, "residual");
   const double relative = turnover > 0 ? std::abs(residual) / turnover : 0;
@@ -33,6 +50,7 @@ void tell(const Console& console, const scene::Scene& scene, const Record& recor
                      {"energy_residual_relative", relative},
                      {"stopped", record.stopped},
                      {"notes", record.notes}};
+    if (!record.snaps.empty()) j["snaps"] = snaps_json(record);
     j["signals"] = series_json(record.signals);
     console.out << j.dump(1) << '\n';
     return;
@@ -51,6 +69,7 @@ void tell(const Console& console, const scene::Scene& scene, const Record& recor
   if (!scene.run->steady)
     console.out << fmt::format("energy that does not add up: {:.3g} J, {:.2g} of the {:.3g} J turned over\n", residual,
                                relative, turnover);
+  for (const Snaps& s : record.snaps) console.out << sentence(s) << '\n';
   for (const auto& note : record.notes) console.out << "note: " << note << '\n';
   console.out << "wrote " << file.string() << '\n';
 }
@@ -69,6 +88,7 @@ void run(const SceneArguments& arguments, const Console& console) {
   provenance.settings.emplace_back("chosen.step", fmt::format("{} s", record.step));
   for (const auto& [effect, count] : record.evaluations)
     provenance.settings.emplace_back("evaluations." + effect, std::to_string(count));
+  for (const Snaps& s : record.snaps) provenance.settings.emplace_back("snaps." + s.line, sentence(s));
   provenance.energy = record.energy;
   if (!record.stopped.empty()) provenance.notes.emplace_back("stopped", record.stopped);
   write_run(file, record.time, record.signals, provenance);

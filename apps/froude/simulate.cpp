@@ -26,11 +26,11 @@ class March {
         integrator_(compile::make_integrator(solve, m.model)) {
     for (const auto& p : probes) record_.signals.push_back({p.name, p.unit, p.long_name});
     for (const auto& p : line_probes) record_.signals.push_back({p.name, p.unit, p.long_name});
-    for (const auto& line : m.lines) lines_.push_back(std::make_unique<compile::LineRun>(line));
   }
 
   void run(const std::function<void(double)>& done) {
-    if (bodies()) integrator_->start(workspace_);
+    if (bodies()) dynamics::start_with_lines(m_.model, *integrator_, workspace_);
+    begin_lines();
     dynamics::EnergyLedger ledger(m_.model, workspace_);
     sample(ledger);
     try {
@@ -57,6 +57,14 @@ class March {
 
  private:
   bool bodies() const { return !m_.model.bodies().empty(); }
+  void begin_lines() {
+    std::size_t kind = 0;
+    const bool on_bodies = dynamics::fastened_lines(m_.model, &kind) != nullptr;
+    auto* memory = on_bodies ? static_cast<dynamics::FastenedLineMemory*>(workspace_.memory[kind].get()) : nullptr;
+    for (const auto& line : m_.lines)
+      lines_.push_back(line.fastened ? std::make_unique<compile::LineRun>(line, memory->line(*line.fastened))
+                                     : std::make_unique<compile::LineRun>(line));
+  }
   void advance(std::size_t n, dynamics::EnergyLedger& ledger) {
     for (auto& line : lines_) {
       const auto report = line->step(m_.step);
@@ -71,6 +79,7 @@ class March {
     record_.events += static_cast<int>(report.events.size());
     record_.steps = n;
     ledger.note(workspace_);
+    for (auto& line : lines_) line->note(m_.step);
   }
   void sample(const dynamics::EnergyLedger& ledger) {
     record_.time.push_back(workspace_.state.time);
@@ -89,10 +98,15 @@ class March {
       record_.energy.emplace_back(e.effect + ".supplied", e.supplied);
       record_.energy.emplace_back(e.effect + ".dissipated", e.dissipated);
     }
+    for (std::size_t k = 0; k < lines_.size(); ++k)
+      if (const auto* s = lines_[k]->snaps())
+        record_.snaps.push_back({m_.lines[k].name, s->slack_share(), s->snaps(), s->largest().tension,
+                                 s->largest().time, s->largest().segment + 1});
     double residual = ledger.residual(), turnover = ledger.turnover();
     for (std::size_t k = 0; k < lines_.size(); ++k) {
       const auto& e = lines_[k]->energies();
       const std::string& name = m_.lines[k].name;
+      if (m_.lines[k].fastened) continue;  // in the ledger of the bodies already
       record_.energy.emplace_back(name + ".kinetic", e.kinetic);
       record_.energy.emplace_back(name + ".stored", e.height + e.axial + e.bed);
       record_.energy.emplace_back(name + ".supplied", e.supplied());

@@ -11,6 +11,15 @@
 
 namespace froude {
 
+/// Slack and snaps of a line over a run.
+struct Snaps {
+  std::string line;
+  double slack_share;  ///< of the time, in which a link is slack
+  int snaps;
+  double largest_tension, at;  ///< N; s
+  int link;                    ///< counted from 1
+};
+
 /// What a run leaves behind, whole or up to where it stopped.
 struct Record {
   std::vector<double> time;     ///< s
@@ -21,6 +30,7 @@ struct Record {
   double preparation_s = 0, stepping_s = 0;                      ///< wall time
   std::vector<std::pair<std::string, std::size_t>> evaluations;  ///< of the load, by effect
   std::vector<std::pair<std::string, double>> energy;            ///< J, by effect, at the end; residual and turnover
+  std::vector<Snaps> snaps;                                      ///< of lines whose scene asks for them
   std::vector<std::string> notes;
   std::string stopped;  ///< why it ended before its time; empty if it did not
 

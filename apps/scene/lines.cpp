@@ -55,6 +55,24 @@ Line::Lead read_lead(const Record& record, const Line& line, const std::filesyst
   return out;
 }
 
+/// Ends on bodies. A line between two places that keeps its length has no step where it is drawn taut by one of them.
+void read_on(const Record& record, const Record& whole, const Scene& scene, Line& line) {
+  const auto body = [&](const char* key) {
+    return body_named(record, {record.text(key), record[key].place}, scene.bodies);
+  };
+  if (record.has("from")) line.from_on = body("from");
+  if (record.has("to")) line.to_on = body("to");
+  if (line.to_on && !line.to)
+    throw record.wrong("to", "holds no end: the line has no `to`", "add `to`, in axes of that body");
+  if (line.to && !line.axial_stiffness)
+    throw record.refused("holds a line that keeps its length between two places, which has no step once it is taut",
+                         "give the line an axial_stiffness");
+  for (const char* key : {"lead", "release"})
+    if (whole.has(key))
+      throw whole.table(key).refused("acts on a line that is on a body, which begins with it and moves with it",
+                                     "leave it out, or move the body");
+}
+
 void check_surroundings(const Record& record, const Line& line, const Scene& scene) {
   const bool wet = line.morison || line.buoyancy;
   if (line.partial_immersion && !wet)
@@ -92,6 +110,13 @@ void build_lines(const Record& root, const std::filesystem::path& file, Names& n
     if (record.has("bed")) line.bed = {record.table("bed").si("stiffness"), record.table("bed").si("damping")};
     if (record.has("release")) line.release = read_release(record.table("release"), line);
     if (record.has("lead")) line.lead = read_lead(record.table("lead"), line, file);
+    if (record.has("on")) read_on(record.table("on"), record, scene, line);
+    if (record.has("snaps")) {
+      const Record& s = record.table("snaps");
+      line.snaps = {s.si("slack_below"), s.si("snap_above")};
+      if (!(line.snaps->snap_above > line.snaps->slack_below))
+        throw s.wrong("snap_above", "is not above slack_below", "a snap is tighter than slack");
+    }
     line.place = record.place();
     check_surroundings(record, line, scene);
     scene.chains.push_back(std::move(line));

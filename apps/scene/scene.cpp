@@ -159,7 +159,10 @@ Solve build_solve(const Record& solve) {
   };
   if (!lines_alike) only_of("rho_infinity", "generalized_alpha");
   only_of("tolerance", "explicit_pair");
-  if (integrator.has("lines")) out.line_scheme = integrator.text("lines");
+  if (integrator.has("lines")) {
+    out.line_scheme = integrator.text("lines");
+    out.line_scheme_place = integrator["lines"].place;
+  }
   if (integrator.has("gamma")) {
     if (out.line_scheme != "gamma")
       throw integrator.wrong("gamma", "acts only with lines = \"gamma\"", "leave it out, or add lines = \"gamma\"");

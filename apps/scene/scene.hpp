@@ -249,14 +249,19 @@ struct Line {
     int node;
     Eigen::Vector3d at;  ///< m
   };
+  struct Snaps {
+    double slack_below, snap_above;  ///< N
+  };
   struct Lead {
     bool first;                          ///< the end `from`, else `to`
     std::vector<double> time;            ///< s
     std::vector<Eigen::Vector3d> place;  ///< m
   };
   std::string name;
-  Eigen::Vector3d from;               ///< m
-  std::optional<Eigen::Vector3d> to;  ///< m; empty: a free end
+  Eigen::Vector3d from;               ///< m; in axes of the body that holds it, if one does
+  std::optional<Eigen::Vector3d> to;  ///< m, likewise; empty: a free end
+  std::optional<int> from_on, to_on;  ///< indices into Scene::bodies
+  bool fastened() const { return from_on || to_on; }
   std::vector<Link> links;
   double node_mass = 0;                   ///< kg, at every node but held ends
   double diameter = 0;                    ///< m
@@ -268,6 +273,7 @@ struct Line {
   std::optional<Bed> bed;
   std::optional<Release> release;
   std::optional<Lead> lead;
+  std::optional<Snaps> snaps;
   Place place;
 };
 
@@ -409,6 +415,7 @@ struct Solve {
   double rho_infinity = 0.8;                    ///< spectral radius of generalised-α at infinite frequency, 0 … 1
   double tolerance = 1e-8;                      ///< of the explicit pair
   std::string line_scheme = "energy_momentum";  ///< of lines, as dynamics::line::parse_scheme() reads it
+  std::optional<Place> line_scheme_place = {};  ///< where the scene names it
   double gamma = 0.51;                          ///< of the γ-method of lines
 };
 

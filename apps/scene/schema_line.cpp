@@ -76,6 +76,26 @@ const Table& lead() {
   return table;
 }
 
+const Table& snaps() {
+  static const Table table{
+      .title = "[line.snaps]",
+      .meaning = "counts slack and snaps over the steps of a run, and tells the largest tension",
+      .keys = {
+          quantity("slack_below", dim::force, "a link with this tension or less is slack").within(Limit::not_negative),
+          quantity("snap_above", dim::force, "a link that was slack snaps when it reaches this").positive()}};
+  return table;
+}
+
+const Table& on() {
+  static const Table table{
+      .title = "[line.on]",
+      .meaning = "bodies that hold ends of the line: `from` or `to` is then in axes of that body, and both pull",
+      .keys = {text("from", "the body that holds the first node, by name").optional(),
+               text("to", "the body that holds the last node, by name").optional()},
+      .groups = {{at_least_one, {"from", "to"}}}};
+  return table;
+}
+
 }  // namespace
 
 const Table& line_table() {
@@ -84,8 +104,9 @@ const Table& line_table() {
       .meaning = "a chain of nodes and straight segments between two places: dropper, cable, pendulums; it has weight",
       .keys =
           {name_key("line", "of the line"),
-           vector("from", dim::length, "where its first node is held, global"),
-           vector("to", dim::length, "where its last node is held, global; left out: a free end").optional(),
+           vector("from", dim::length, "where its first node is held, global; of a body that holds it, in body axes"),
+           vector("to", dim::length, "where its last node is held, as `from`; left out: a free end").optional(),
+           inner_table("on", on()).optional(),
            quantity("length", dim::length, "of the line without tension").positive().optional(),
            integer("segments", "into which it is cut").within(Limit::at_least_one).optional().only_beside("length"),
            quantity("mass_per_length", dim::mass / dim::length, "of the line")
@@ -122,7 +143,8 @@ const Table& line_table() {
            inner_table("damping", damping()).optional(),
            inner_table("bed", bed()).optional().only_beside("diameter"),
            inner_table("release", release()).optional(),
-           inner_table("lead", lead()).optional()},
+           inner_table("lead", lead()).optional(),
+           inner_table("snaps", snaps()).optional()},
       .groups = {{exactly_one, {"length", "link"}}, {at_most_one, {"pulls_only", "sags"}}}};
   return table;
 }

@@ -125,6 +125,99 @@ TEST(Lines, SagWhereTheSceneSaysSo) {
               ThrowsMessage<hydro::InputError>(HasSubstr("segments that sag")));
 }
 
+/// A body that may only surge, heavy beside its two chains.
+std::string between(const std::string& chains, const std::string& more = "") {
+  return water + "[[body]]\nname = \"b\"\nmass = \"2000 t\"\nfree = [\"surge\"]\ninitial.surge = \"0.3 m\"\n" + more +
+         chains + "[ask]\nrun = { duration = \"30 s\", every = \"0.1 s\" }\n";
+}
+std::string chain_of_nodes(const std::string& name, int side, const std::string& more = "sags = true\n") {
+  return fmt::format(
+      "[[line]]\nname = \"{}\"\nfrom = \"({}, 0, 0) m\"\nto = \"({}, 0, -14) m\"\non = {{ from = \"b\" }}\n"
+      "length = \"40 m\"\nsegments = 20\nmass_per_length = \"8 kg/m\"\ndiameter = \"36 mm\"\nbuoyancy = true\n"
+      "axial_stiffness = \"30 MN\"\n{}[line.bed]\nstiffness = \"30 MPa/m\"\n",
+      name, side, side * 38, more);
+}
+
+// 640 kg of chain on a body of 2000 t that swings in half a minute: the chains' own motion is of no account, and their
+// pull is that of the catenary in its static shape.
+TEST(Lines, OnAHeavySlowBodyPullAsCatenaries) {
+  const std::string catenary =
+      "[[mooring]]\nname = \"c\"\non = \"b\"\nkind = \"catenary\"\nfrom = \"(±1, 0, 0) m\"\nto = \"(±38, 0, -14) m\"\n"
+      "length = \"40 m\"\nmass_per_length = \"8 kg/m\"\ndiameter = \"36 mm\"\naxial_stiffness = \"30 MN\"\non_bed = "
+      "true\n";
+  const auto static_shape = simulate(parse(between(catenary)));
+  const auto nodes = simulate(parse(between(chain_of_nodes("fore", 1) + chain_of_nodes("aft", -1))));
+  EXPECT_EQ(nodes.stopped, "");
+  const auto &a = static_shape.signal("b.surge"), &b = nodes.signal("b.surge");
+  EXPECT_LT(*std::min_element(a.begin(), a.end()), 0.1);                          // it does swing
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 6e-3) << i;  // segments of 2 m; mass of the chains
+}
+
+// A weight of 5 kg let go a metre above where its rope is straight falls free for half the time, then snaps.
+TEST(Lines, CountTheirSnaps) {
+  const std::string rope =
+      "[[line]]\nname = \"r\"\nfrom = \"(0, 0, 0) m\"\nto = \"(0, 0, 0) m\"\non = { to = \"w\" }\nlength = \"2 "
+      "m\"\nsegments = 1\n"
+      "mass_per_length = \"10 g/m\"\naxial_stiffness = \"20 kN\"\npulls_only = true\n"
+      "snaps = { slack_below = \"1 N\", snap_above = \"500 N\" }\n";
+  const auto record = simulate(
+      parse(water +
+            "[[body]]\nname = \"w\"\nposition = \"(0, 0, -2) m\"\nmass = \"5 kg\"\nweight = true\nfree = [\"heave\"]\n"
+            "initial.heave = \"1 m\"\n" +
+            rope + "[ask]\nrun = { duration = \"0.9 s\", every = \"2 ms\" }\n"));
+  ASSERT_EQ(record.snaps.size(), 1u);
+  const auto& s = record.snaps.front();
+  // Falls √(2/g) = 0.4515 s, is caught for half a period, √(M/k) π and a little, and flies up as long again.
+  const double k = 1e4, caught = std::numbers::pi * std::sqrt(5 / k), fall = std::sqrt(2 / 9.81);
+  EXPECT_NEAR(s.slack_share, (0.9 - caught) / 0.9, 0.01);
+  EXPECT_EQ(s.snaps, 1);
+  EXPECT_NEAR(s.at, fall + caught / 2, 4e-3);
+  EXPECT_NEAR(s.largest_tension, 5 * 9.81 + std::sqrt(5 * k * 2 * 9.81 + std::pow(5 * 9.81, 2)), 20);
+  EXPECT_EQ(s.link, 1);
+}
+
+TEST(Lines, ExampleOnAModuleFloatsAndItsEnergyAddsUp) {
+  const auto record = simulate(scene::read(std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/chained.toml"));
+  EXPECT_EQ(record.stopped, "");
+  EXPECT_EQ(record.halvings, 0);
+  const auto found = [&](const std::string& name) {
+    return std::find_if(record.energy.begin(), record.energy.end(), [&](const auto& e) { return e.first == name; })
+        ->second;
+  };
+  EXPECT_LT(std::abs(found("residual")), 2e-2 * found("turnover"));
+  // It begins where the pull is that of the catenary; 12 segments that sag have it to some 0.1 %.
+  const double weight = (8 - 1000 * std::numbers::pi / 4 * 0.036 * 0.036) * 9.81;
+  const auto at = dynamics::catenary({48, weight, 30e6, true}, 44.8, 12.9 + record.signal("module.heave").front());
+  EXPECT_NEAR(record.signal("fore.from.force").front() / at.fairlead(), 1, 5e-3);
+  ASSERT_EQ(record.snaps.size(), 1u);
+  EXPECT_EQ(record.snaps.front().line, "fore");
+  EXPECT_GT(record.snaps.front().largest_tension, record.signal("fore.from.force").front());
+}
+
+TEST(Lines, OnBodiesSayWhatCannotBe) {
+  const auto refuses = [](const std::string& text, const std::string& what) {
+    EXPECT_THAT([&] { simulate(parse(text)); }, ThrowsMessage<hydro::InputError>(HasSubstr(what))) << text;
+  };
+  const std::string one = chain_of_nodes("fore", 1);
+  std::string other = one, rigid = one;
+  other.replace(other.find("from = \"b\""), 10, "from = \"c\"");
+  refuses(between(other), "\"c\"");
+  rigid.replace(rigid.find("axial_stiffness = \"30 MN\"\nsags = true\n"), 38, "");
+  refuses(between(rigid), "axial_stiffness");
+  refuses(between(one) + "[solve.integrator]\nname = \"energy_momentum\"\n", "cannot step a body together with line");
+  refuses(between(one) + "[solve.integrator]\nlines = \"generalized_alpha\"\n", "acts on no line");
+  refuses(between(one + "[line.release]\nnode = 2\nat = \"(0, 0, -3) m\"\n"), "begins with it");
+}
+
+TEST(Lines, AreNotMadeWhereTheSceneNamesNone) {
+  const auto scene = parse(between(""));
+  const auto model = compile::time_model(scene, compile::prepare(scene));
+  EXPECT_TRUE(model.lines.empty());
+  EXPECT_EQ(dynamics::fastened_lines(model.model), nullptr);
+  const auto with = parse(between(chain_of_nodes("fore", 1)));
+  EXPECT_NE(dynamics::fastened_lines(compile::time_model(with, compile::prepare(with)).model), nullptr);
+}
+
 TEST(Lines, ArePlanned) {
   const auto scene = parse(water + loop + ask);
   const auto model = compile::time_model(scene, compile::prepare(scene));
