@@ -221,6 +221,7 @@ PlanLine plan_line(const LineModel& m) {
 
 void LineRun::begin() {
   first_height_ = energies().height;
+  for (const dl::LinkAngles& a : model_.before) angles_.push_back({a, 0, 0});
   if (model_.snaps) snaps_.emplace(model_.line->segments(), model_.snaps->slack_below, model_.snaps->snap_above);
   look();
 }
@@ -259,11 +260,8 @@ void LineRun::look() {
                 .tension = state_.tension,
                 .holding = dl::Places::Zero(3, model_.line->nodes())};
   }
-  bool first = angles_.empty();
+  const bool first = angles_.empty();
   angles_.resize(static_cast<std::size_t>(model_.line->segments()));
-  for (std::size_t j = 0; first && j < model_.before.size(); ++j)
-    angles_[j] = {{model_.before[j].polar, model_.before[j].azimuth}, 0, 0};
-  first = first && model_.before.empty();
   for (int j = 0; j < model_.line->segments(); ++j) {
     Angles& a = angles_[static_cast<std::size_t>(j)];
     const dl::LinkAngles now = first ? dl::link_angles(state(), j) : dl::link_angles(state(), j, a);
