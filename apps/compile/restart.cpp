@@ -44,6 +44,12 @@ std::vector<int> free_nodes(const dl::Line& line) {
   return out;
 }
 
+void close(const dynamics::Model& model, dynamics::State& state) {
+  const std::vector<bool> none_kept(state.pose.size(), false);
+  dynamics::close_joints(model, none_kept, state);
+  dynamics::close_joint_velocities(model, none_kept, state);
+}
+
 /// Gradients of the kept lengths by the places of the free nodes: unit vectors along the links.
 Eigen::MatrixXd length_gradients(const dl::Line& line, const dl::State& s) {
   const auto nodes = free_nodes(line);
@@ -132,9 +138,7 @@ MovingState StateChart::at(const TimeModel& model, const Eigen::VectorXd& coordi
   if (bodies.cols() > 0) {
     out.bodies = dynamics::moved(out.bodies, bodies * coordinates.head(bodies.cols()));
     out.bodies.velocity += bodies * coordinates.segment(bodies.cols(), bodies.cols());
-    const std::vector<bool> none(out.bodies.pose.size(), false);
-    dynamics::close_joints(model.model, none, out.bodies);
-    dynamics::close_joint_velocities(model.model, none, out.bodies);
+    close(model.model, out.bodies);
   }
   for (std::size_t k = 0; k < out.lines.size(); ++k) {
     const Eigen::MatrixXd& d = directions_[k + 1];
@@ -149,10 +153,11 @@ MovingState StateChart::at(const TimeModel& model, const Eigen::VectorXd& coordi
 
 void start_from(const MovingState& state, TimeModel& model) {
   model.start = state.bodies;
+  // A step keeps joints and lengths at its end, but velocities only in its mean.
+  close(model.model, model.start);
   for (std::size_t k = 0; k < model.lines.size(); ++k) {
     model.lines[k].start = state.lines[k];
     model.lines[k].start.time = state.bodies.time;
-    // A step keeps lengths at its end, but velocities only in its mean.
     keep_lengths(*model.lines[k].line, model.lines[k].start);
     if (!state.angles.empty()) model.lines[k].before = state.angles[k];
   }

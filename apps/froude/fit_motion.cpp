@@ -13,7 +13,8 @@ using ::fit::Coefficient;
 using Json = FitJson;
 
 /// The deviation of a signal's noise, SI, and the dimension of its column against that of the run.
-double deviation_of(const scene::FitScene::Motion::Signal& s, const std::string& unit, const hydro::io::CsvTable& table) {
+double deviation_of(const scene::FitScene::Motion::Signal& s, const std::string& unit,
+                    const hydro::io::CsvTable& table) {
   const hydro::Dimension needed = hydro::parse_unit(unit).dimension;
   table.column(s.column, needed);  // refuses a column of another dimension
   try {
@@ -37,7 +38,8 @@ double deviation_of(const scene::FitScene::Motion::Signal& s, const std::string&
   for (std::size_t w = 0; w < measured.first.size(); ++w)
     p.measured.emplace_back(measured.values.middleRows(measured.first[w], measured.rows(w)));
   const auto table = hydro::io::CsvTable::read(fit.files[0].value);
-  for (std::size_t c = 0; c < units.size(); ++c) p.deviations.push_back(deviation_of(fit.motion.signals[c], units[c], table));
+  for (std::size_t c = 0; c < units.size(); ++c)
+    p.deviations.push_back(deviation_of(fit.motion.signals[c], units[c], table));
   p.confidence = fit.confidence;
   return p;
 }

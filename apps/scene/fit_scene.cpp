@@ -232,11 +232,11 @@ FitScene::Motion read_motion(const Record& model, const fs::path& file) {
   for (const Record& p : model.tables("parameter")) {
     const auto written = number_at(text, out.scene.value, p.text("key"), p["key"].place);
     FitScene::Motion::Parameter q{.key = p.text("key"),
-                                 .unit = written.unit,
-                                 .first = written.value,
-                                 .lowest = {},
-                                 .highest = {},
-                                 .place = p.place()};
+                                  .unit = written.unit,
+                                  .first = written.value,
+                                  .lowest = {},
+                                  .highest = {},
+                                  .place = p.place()};
     for (const auto& other : out.parameters)
       if (other.key == q.key) throw p.wrong("key", "stands twice", "fit each number once");
     if (p.has("first")) q.first = in_unit(p, "first", q.unit);

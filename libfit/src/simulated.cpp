@@ -148,7 +148,8 @@ Eigen::VectorXd Shooting::settle(std::size_t w) {
       if (part == 1) return;
       r.reshaped(samples, r.size() / samples)(later, Eigen::all).setZero();
       if (jacobian)
-        for (auto column : jacobian->colwise()) column.reshaped(samples, r.size() / samples)(later, Eigen::all).setZero();
+        for (auto column : jacobian->colwise())
+          column.reshaped(samples, r.size() / samples)(later, Eigen::all).setZero();
     };
     minimise(alone, z, {.cost_change_below = 1e-3, .gradient_below = 1e-9, .step_below = 1e-6, .iterations_reach = 6});
   }
@@ -221,9 +222,9 @@ void Shooting::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::Mat
 /// Rounds of a search that holds its Jacobian, which takes one run of the record a step; each begins with a new one,
 /// which takes 1 + 2p + d. The round that gains next to nothing from a new one is the last. (F41)
 FitReport Shooting::search(Eigen::VectorXd& x) {
-  // A standard error changes the cost, which is half a sample's share for each sample, by one share: a step of a
-  // hundredth of it is not taken, and a new Jacobian that gains less than half of it leaves a few hundredths at most.
-  const double nothing = 1e-4 / static_cast<double>(rows_), little = 0.2 / static_cast<double>(rows_);
+  // Shares of the cost. A standard error of one unknown lowers it by one n-th: no step of a thirtieth of it is taken,
+  // and what gains less than half of one leaves a small part of that.
+  const double nothing = 1e-3 / static_cast<double>(rows_), little = 0.2 / static_cast<double>(rows_);
   FitReport all{};
   for (bool held = jacobian_.size() > 0;; held = false) {
     if (!held) jacobian_ = differences(x);

@@ -83,23 +83,22 @@ Outcome huijgen_damping(const Folders& folders) {
     else
       followed += static_cast<double>(f.windows_followed);
   }
-  return {
-      .numbers = {{"share of seeds with b_l and b_q both in their intervals of 95 %", tally.both / seeds, ""},
-                  {"share of seeds with b_l in its interval of 95 %", tally.linear / seeds, ""},
-                  {"share of seeds with b_q in its interval of 95 %", tally.quadratic / seeds, ""},
-                  {"mean half-width of the interval of b_l, of b_l", tally.half_linear / seeds, ""},
-                  {"mean half-width of the interval of b_q, of b_q", tally.half_quadratic / seeds, ""},
-                  {"mean error of b_l, of its standard error", tally.error / seeds, ""},
-                  {"seeds", seeds, ""},
-                  {"windows of 2 s followed for the fit of the first seed", static_cast<double>(first.windows_followed),
-                   ""},
-                  {"windows of 2 s followed for the fit of another seed, mean", followed / (seeds - 1), ""}},
-      .pictures = {{"estimates",
-                    "Both dampings from 100 noisy records of the same motion; the truth is at 0.002 and 0.001.",
-                    {.title = "Damping of the model dropper",
-                     .panels = {{.x = {"b_l", "kg/s"},
-                                 .y = {"b_q", "kg/m"},
-                                 .series = {tally.estimates, {"truth", {b_l}, {b_q}, false, true}}}}}}}};
+  return {.numbers = {{"share of seeds with b_l and b_q both in their intervals of 95 %", tally.both / seeds, ""},
+                      {"share of seeds with b_l in its interval of 95 %", tally.linear / seeds, ""},
+                      {"share of seeds with b_q in its interval of 95 %", tally.quadratic / seeds, ""},
+                      {"mean half-width of the interval of b_l, of b_l", tally.half_linear / seeds, ""},
+                      {"mean half-width of the interval of b_q, of b_q", tally.half_quadratic / seeds, ""},
+                      {"mean error of b_l, of its standard error", tally.error / seeds, ""},
+                      {"seeds", seeds, ""},
+                      {"windows of 2 s followed for the fit of the first seed",
+                       static_cast<double>(first.windows_followed), ""},
+                      {"windows of 2 s followed for the fit of another seed, mean", followed / (seeds - 1), ""}},
+          .pictures = {{"estimates",
+                        "Both dampings from 100 noisy records of the same motion; the truth is at 0.002 and 0.001.",
+                        {.title = "Damping of the model dropper",
+                         .panels = {{.x = {"b_l", "kg/s"},
+                                     .y = {"b_q", "kg/m"},
+                                     .series = {tally.estimates, {"truth", {b_l}, {b_q}, false, true}}}}}}}};
 }
 
 }  // namespace froude::validation

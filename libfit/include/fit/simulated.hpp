@@ -74,8 +74,8 @@ struct SimulationFit {
 
 /// Fits parameters and starts together (F41). A parameter that ends at a bound, or whose interval is wider than ten
 /// times its scale, has no value and says why. Intervals count the memory of the residuals (F4).
-/// \throws hydro::InputError: shapes that do not fit (also of `begin`), first values outside their bounds, what the simulation throws at
-/// the first values
+/// \throws hydro::InputError: shapes that do not fit (also of `begin`), first values outside their bounds, what the
+/// simulation throws at the first values
 SimulationFit fit_simulation(Simulation& simulation, const SimulationProblem& problem);
 
 }  // namespace fit
