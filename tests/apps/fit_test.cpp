@@ -192,6 +192,10 @@ TEST_F(Fit, OfASceneFindsTheDampingThatAnIndependentRecordHas) {
   EXPECT_TRUE(holds("line_damping_linear", 0.006)) << j.dump(1);  // as make_pendulums.py says
   EXPECT_TRUE(holds("line_damping_quadratic", 0.004)) << j.dump(1);
   for (const auto& s : j["signal"]) EXPECT_NEAR(s["rms"].get<double>(), 0.01, 0.0015);  // the noise, and nothing else
+  EXPECT_NEAR(j["samples_in_band"].get<double>(), 0.95, 0.03);                          // 600 samples: three deviations
+  for (const auto& s : j["signal"])
+    EXPECT_LT(s["widest_band_of_fit"].get<double>(), s["widest_band_of_sample"].get<double>());
+  EXPECT_THAT(hydro::io::read_text(folder / "p.svg"), HasSubstr("95 % band of the fit"));
   EXPECT_THAT(hydro::io::read_text(folder / "p.toml"), HasSubstr("line_damping_linear = \"0.00"));
 }
 
