@@ -23,6 +23,7 @@ Outcome huijgen_dropper_static(const Folders& folders);
 Outcome huijgen_dropper_a(const Folders& folders);
 Outcome huijgen_dropper_b(const Folders& folders);
 Outcome huijgen_dropper_c(const Folders& folders);
+Outcome huijgen_damping(const Folders& folders);
 Outcome huijgen_gamma(const Folders& folders);
 Outcome huijgen_sea(const Folders& folders);
 Outcome hulme(const Folders& folders);
@@ -67,6 +68,7 @@ const std::vector<Case>& cases() {
       {"huijgen-dropper-A", huijgen_dropper_a},
       {"huijgen-dropper-B", huijgen_dropper_b},
       {"huijgen-dropper-C", huijgen_dropper_c},
+      {"huijgen-damping", huijgen_damping},
       {"huijgen-gamma", huijgen_gamma},
       {"huijgen-sea", huijgen_sea},
       {"hendriksen-oscillation", hendriksen_oscillation},

@@ -9,6 +9,7 @@
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 #include "scene/build.hpp"
+#include "scene/override.hpp"
 
 namespace froude::scene {
 namespace {
@@ -206,10 +207,12 @@ void check_version(const Node& root) {
         schema->value.place, "write schema = 1");
 }
 
-Scene parse(std::string_view text, const std::filesystem::path& file) {
+Scene parse_with(std::string_view text, const std::filesystem::path& file,
+                 const std::vector<OverriddenNumber>& numbers) {
   Node document = parse_document(text, file.string());
   check_version(document);
   resolve_includes(document, file);
+  override_numbers(document, numbers);
   if (const auto* model = document.find("model"))
     throw InputError("this scene has a [model]: it asks for a fit, not for motion", model->place,
                      "use `froude fit`, or take the table out");
@@ -241,6 +244,8 @@ Scene parse(std::string_view text, const std::filesystem::path& file) {
   check_start(root, scene);
   return scene;
 }
+
+Scene parse(std::string_view text, const std::filesystem::path& file) { return parse_with(text, file, {}); }
 
 Scene read(const std::filesystem::path& file) { return parse(hydro::io::read_text(file), file); }
 
