@@ -57,6 +57,17 @@ void read_heading(const Record& rao, Scene& scene) {
   scene.echo.insert(before, {"ask.rao.heading", value, true});
 }
 
+std::optional<AskRao::DragIn> read_drag(const Record& rao, const Scene& scene) {
+  if (!rao.has("drag")) return std::nullopt;
+  const Record& drag = rao.table("drag");
+  if (std::none_of(scene.members.begin(), scene.members.end(), [](const Member& m) { return m.cd.has_value(); }))
+    throw drag.refused("makes drag linear, but no member names drag", "leave it out, or add a [[member]] with drag");
+  AskRao::DragIn out{.height = {}, .steepness = {}, .place = drag.place()};
+  if (drag.has("height")) out.height = drag.si("height");
+  if (drag.has("steepness")) out.steepness = drag.si("steepness");
+  return out;
+}
+
 /// `duration` of a series must be a whole multiple of `every`.
 void check_whole(const Record& asked) {
   const double every = asked.si("every"), steps = asked.si("duration") / every, whole = std::round(steps);
@@ -125,7 +136,8 @@ void build_ask(const Record& ask, Scene& scene) {
   scene.accuracy = ask.si("accuracy");
   if (ask.has("rao")) {
     const Record& rao = ask.table("rao");
-    scene.rao = AskRao{.omega = read_omega(rao), .of = {}, .of_places = {}, .place = rao.place()};
+    scene.rao = AskRao{
+        .omega = read_omega(rao), .of = {}, .of_places = {}, .drag = read_drag(rao, scene), .place = rao.place()};
     read_heading(rao, scene);
     read_of(rao, scene.rao->of, scene.rao->of_places);
   }
