@@ -6,6 +6,7 @@ namespace froude::validation {
 Outcome ball_drops(const Folders& folders);
 Outcome cylinder(const Folders& folders);
 Outcome dispersion(const Folders& folders);
+Outcome fagerbakke_arrays(const Folders& folders);
 Outcome fagerbakke_bem(const Folders& folders);
 Outcome fagerbakke_eigen(const Folders& folders);
 Outcome fagerbakke_switching(const Folders& folders);
@@ -52,6 +53,7 @@ Outcome zanten_wave_table(const Folders& folders);
 
 const std::vector<Case>& cases() {
   static const std::vector<Case> all{
+      {"fagerbakke-arrays", fagerbakke_arrays},
       {"fagerbakke-eigen", fagerbakke_eigen},
       {"fagerbakke-bem", fagerbakke_bem},
       {"fagerbakke-switching", fagerbakke_switching},
