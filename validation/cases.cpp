@@ -19,6 +19,7 @@ namespace formats { Outcome outcome(const Folders& folders); }
 namespace fpso_rao { Outcome outcome(const Folders& folders); }
 namespace hendriksen_waves { Outcome outcome(const Folders& folders); }
 namespace huijgen_cone { Outcome outcome(const Folders& folders); }
+namespace huijgen_damping { Outcome outcome(const Folders& folders); }
 namespace huijgen_double { Outcome outcome(const Folders& folders); }
 namespace huijgen_string { Outcome outcome(const Folders& folders); }
 namespace huijgen_dropper_static { Outcome outcome(const Folders& folders); }
@@ -62,6 +63,7 @@ const std::vector<Case>& cases() {
       {"zanten-wave-table", zanten_wave_table::outcome},
       {"zanten-waves", zanten_waves::outcome},
       {"huijgen-cone", huijgen_cone::outcome},
+      {"huijgen-damping", huijgen_damping::outcome},
       {"huijgen-double", huijgen_double::outcome},
       {"huijgen-string", huijgen_string::outcome},
       {"huijgen-dropper-static", huijgen_dropper_static::outcome},

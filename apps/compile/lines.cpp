@@ -221,6 +221,7 @@ PlanLine plan_line(const LineModel& m) {
 
 void LineRun::begin() {
   first_height_ = energies().height;
+  for (const dl::LinkAngles& a : model_.before) angles_.push_back({a, 0, 0});
   if (model_.snaps) snaps_.emplace(model_.line->segments(), model_.snaps->slack_below, model_.snaps->snap_above);
   look();
 }

@@ -25,6 +25,8 @@ struct LineModel {
   dynamics::line::Stepper::Settings settings;
   std::optional<scene::Line::Snaps> snaps = {};
   std::optional<std::size_t> fastened = {};  ///< its place among the model's FastenedLine; it moves with its bodies
+  /// Of the links, where a run goes on from another one's end: angles follow these without jumps.
+  std::vector<dynamics::line::LinkAngles> before = {};
 };
 
 /// In the order of the scene; those on bodies where `start` has them. \throws hydro::InputError at a line that cannot

@@ -38,16 +38,7 @@ std::unique_ptr<const dynamics::ForceKind> drag(const Scene& scene, const std::v
     throw InputError(
         "[member.drag] takes the water's velocity at the places at rest, with nothing but \"vertical\" above",
         scene.waves->place, "leave [waves.kinematics] out, or use [member.morison]");
-  std::vector<dynamics::DragPiece> pieces;
-  for (const auto& m : scene.members) {
-    if (!m.cd) continue;
-    const auto wet = dynamics::drag_pieces(bodies, m.body, m.from, m.to, m.diameter, *m.cd, scene.water.density);
-    if (wet.empty())
-      throw InputError(fmt::format("member \"{}\" is above the water at rest and feels no drag", m.name), m.place,
-                       "put it under water, or leave it out");
-    pieces.insert(pieces.end(), wet.begin(), wet.end());
-  }
-  for (auto& piece : pieces) piece.current.head<2>() = scene.current.at(dynamics::rest_position(piece, bodies).z());
+  std::vector<dynamics::DragPiece> pieces = drag_at_rest(scene, bodies);
   std::optional<dynamics::WaveSignals> moving;
   if (sea != nullptr) moving = water_at_rest(pieces, bodies, *sea, grid, scene.waves->ramp);
   return std::make_unique<dynamics::DragKind>(std::move(pieces), std::move(moving));
@@ -103,6 +94,20 @@ dynamics::SlammingMember slamming(const Scene& scene, const scene::Member& m) {
 
 bool any_drag_at_rest(const Scene& scene) {
   return std::any_of(scene.members.begin(), scene.members.end(), [](const auto& m) { return m.cd.has_value(); });
+}
+
+std::vector<dynamics::DragPiece> drag_at_rest(const Scene& scene, const std::vector<dynamics::RigidBody>& bodies) {
+  std::vector<dynamics::DragPiece> pieces;
+  for (const auto& m : scene.members) {
+    if (!m.cd) continue;
+    const auto wet = dynamics::drag_pieces(bodies, m.body, m.from, m.to, m.diameter, *m.cd, scene.water.density);
+    if (wet.empty())
+      throw InputError(fmt::format("member \"{}\" is above the water at rest and feels no drag", m.name), m.place,
+                       "put it under water, or leave it out");
+    pieces.insert(pieces.end(), wet.begin(), wet.end());
+  }
+  for (auto& piece : pieces) piece.current.head<2>() = scene.current.at(dynamics::rest_position(piece, bodies).z());
+  return pieces;
 }
 
 void add_members(const Scene& scene, const std::vector<dynamics::RigidBody>& bodies, const RunWater& water,

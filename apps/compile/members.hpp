@@ -2,11 +2,16 @@
 /// \file  Private to compile/: loads on slender members.
 #include "compile/compile.hpp"
 #include "compile/signals.hpp"
+#include "dynamics/force/drag.hpp"
 
 namespace froude::compile {
 
 /// True if a member names drag at its place at rest.
 bool any_drag_at_rest(const scene::Scene& scene);
+
+/// Pieces of the members that name drag, in the current. \throws hydro::InputError at a member that is dry at rest
+std::vector<dynamics::DragPiece> drag_at_rest(const scene::Scene& scene,
+                                              const std::vector<dynamics::RigidBody>& bodies);
 
 /// Adds the kinds of load that members name. \throws hydro::InputError at a member that is dry where it must be wet
 void add_members(const scene::Scene& scene, const std::vector<dynamics::RigidBody>& bodies, const RunWater& water,

@@ -288,6 +288,7 @@ void fit(const FitArguments& arguments, const Console& console) {
     throw hydro::InputError(fmt::format("a fit of kind \"{}\" has no table of runs", scene.model.kind), {},
                             "leave out --table");
   if (scene.model.kind == "towing") return fit_towed(scene, arguments, console);
+  if (scene.model.kind == "motion") return fit_motions(scene, arguments, console);
   if (scene.model.kind == "decay") return fit_decays(scene, arguments, console);
   const std::vector<FitRun> runs = fit_all(scene);
   const std::vector<FitLaw> laws = laws_of(scene, runs);

@@ -61,6 +61,7 @@ std::string runs_table(const std::vector<FitRun>& runs);
 
 // The other kinds of fit.
 void fit_decays(const scene::FitScene& scene, const FitArguments& arguments, const Console& console);
+void fit_motions(const scene::FitScene& scene, const FitArguments& arguments, const Console& console);
 void fit_towed(const scene::FitScene& scene, const FitArguments& arguments, const Console& console);
 
 /// Writes what the arguments ask for: TOML, picture, JSON.

@@ -4,9 +4,13 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <numbers>
 
+#include "compile/members.hpp"
 #include "compile/waves.hpp"
+#include "dynamics/frequency/linear_drag.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/waves/dispersion.hpp"
 #include "hydro/waves/synthesis.hpp"
 
 namespace froude {
@@ -51,6 +55,32 @@ void require_linear(const scene::Scene& scene) {
           scene.run->place, "leave `initial` out, or step the run");
 }
 
+/// Drag on members as [ask.rao.drag] asks, told in `notes`; none if it does not.
+std::optional<dynamics::frequency::LinearDrag> drag_of_rao(const scene::Scene& scene, const compile::Prepared& prepared,
+                                                           const dynamics::Model& model,
+                                                           std::vector<std::string>& notes) {
+  if (!scene.rao->drag) return std::nullopt;
+  const scene::AskRao& ask = *scene.rao;
+  const auto pieces = compile::drag_at_rest(scene, prepared.bodies);
+  for (const auto& piece : pieces)
+    if (!piece.current.isZero(0))
+      throw hydro::InputError("[ask.rao.drag] is for still water, but a current flows past a member", ask.drag->place,
+                              "leave it out, or step a run");
+  dynamics::frequency::DragWaves waves{scene.water, ask.heading.radians(), {}};
+  for (const double omega : ask.omega) {
+    const double length = 2 * std::numbers::pi / hydro::waves::wavenumber(omega, scene.water);
+    waves.amplitude.push_back((ask.drag->height ? *ask.drag->height : *ask.drag->steepness * length) / 2);
+  }
+  auto drag = dynamics::frequency::linearised_drag(model, prepared.groups, ask.omega, pieces, waves);
+  const Eigen::RowVectorXd all = drag.coefficient.colwise().sum();
+  notes.push_back(
+      fmt::format("drag on members is linear, as lossy as quadratic drag in waves of {}: {:.4g} to {:.4g} N s/m in all",
+                  ask.drag->height ? fmt::format("{:.4g} m height", *ask.drag->height)
+                                   : fmt::format("steepness {:.4g}", *ask.drag->steepness),
+                  all.minCoeff(), all.maxCoeff()));
+  return drag;
+}
+
 }  // namespace
 
 std::vector<ComplexSignal> linear_responses(const std::vector<compile::LinearProbe>& probes, const Eigen::MatrixXcd& xi,
@@ -72,12 +102,17 @@ std::vector<ComplexSignal> linear_responses(const std::vector<compile::LinearPro
   return out;
 }
 
-std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene) {
+std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene, bool with_drag) {
   std::vector<std::string> out;
-  if (!scene.members.empty())
+  const auto one_member = [&](auto has) { return std::any_of(scene.members.begin(), scene.members.end(), has); };
+  if (!with_drag && one_member([](const scene::Member& m) { return m.cd.has_value(); }))
     out.emplace_back(
-        "loads on members are left out, also their added mass: small motions about rest have no place for them (a run "
-        "has)");
+        "drag on members is left out: it has no response per metre of wave ([ask.rao.drag] makes it linear for waves "
+        "of "
+        "one height)");
+  if (one_member([](const scene::Member& m) { return m.morison || m.slamming; }))
+    out.emplace_back(
+        "Morison's loads and impacts on members are left out, also added mass: a run has them where the members are");
   const auto one_joint = [&](auto has) { return std::any_of(scene.joints.begin(), scene.joints.end(), has); };
   if (one_joint([](const scene::Joint& j) { return j.friction || (j.pto && j.pto->latch); }))
     out.emplace_back("friction and latches are left out: their joints move freely in a linear response");
@@ -88,6 +123,34 @@ std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene)
   const auto count = std::count_if(scene.chains.begin(), scene.chains.end(), on_body);
   if (count > 0) out.emplace_back("lines on bodies pull as they do at rest, with their static stiffness");
   if (count < std::ssize(scene.chains)) out.emplace_back("lines of nodes that are on no body are left out");
+  return out;
+}
+
+const ComplexSignal& Responses::signal(const std::string& name) const {
+  for (const ComplexSignal& s : signals)
+    if (s.name == name) return s;
+  throw hydro::InputError(fmt::format("[ask.rao] gives no signal \"{}\"", name));
+}
+
+Responses respond(const scene::Scene& scene) {
+  const compile::Prepared prepared = compile::prepare(scene);
+  const dynamics::Model model = compile::frequency_model(prepared);
+  Responses out{{}, prepared.notes};
+  for (const std::string& effect : left_out_of_linear_responses(scene, scene.rao->drag.has_value()))
+    out.notes.push_back(effect);
+  const auto all = compile::rao_probes(scene, prepared, model);
+  std::vector<std::string> names;
+  for (const auto& p : all) names.push_back(p.name);
+  scene::check_patterns(scene.rao->of, scene.rao->of_places, names);
+  const auto& omega = scene.rao->omega;
+  const double heading = scene.rao->heading.radians();
+  const auto linear = drag_of_rao(scene, prepared, model, out.notes);
+  const dynamics::frequency::LinearDrag* drag = linear ? &*linear : nullptr;
+  // The line that computes a RAO: (Q1) in libdynamics/src/frequency/rao.cpp.
+  const Eigen::MatrixXcd xi = dynamics::frequency::response_amplitudes(model, prepared.groups, omega, heading, drag);
+  const Eigen::MatrixXcd multipliers =
+      dynamics::frequency::multiplier_amplitudes(model, prepared.groups, omega, heading, xi, drag);
+  out.signals = linear_responses(compile::chosen(all, scene.rao->of), xi, multipliers, omega);
   return out;
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 /// \file  Responses per metre of wave: for `froude rao`, and for runs that need no stepping.
+#include <string>
+#include <vector>
+
 #include "compile/probes.hpp"
 #include "froude/scene_result.hpp"
 #include "froude/simulate.hpp"
@@ -10,8 +13,18 @@ namespace froude {
 std::vector<ComplexSignal> linear_responses(const std::vector<compile::LinearProbe>& probes, const Eigen::MatrixXcd& xi,
                                             const Eigen::MatrixXcd& multipliers, const std::vector<double>& omega);
 
+/// What `froude rao` writes: the signals that [ask.rao] names, per metre of wave, at its frequencies.
+struct Responses {
+  std::vector<ComplexSignal> signals;
+  std::vector<std::string> notes;
+  /// \throws hydro::InputError if there is no such signal
+  const ComplexSignal& signal(const std::string& name) const;
+};
+/// \throws hydro::InputError, hydro::NumericsError
+Responses respond(const scene::Scene& scene);
+
 /// One sentence for each effect of the scene that a linear response has no place for.
-std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene);
+std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene, bool with_drag = false);
 
 /// A run with start = "steady": motions as if the sea had always been there, which transfer functions × sea give
 /// without a step. Connectors and joints are linear about rest. \throws hydro::InputError where the scene names an

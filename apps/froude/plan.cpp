@@ -61,9 +61,14 @@ Section plan_rao(const scene::Scene& scene, const compile::Prepared& p) {
                      g.table.coefficients().omega.size(), open.added_mass, open.damping, open.excitation),
          true});
   }
-  if (!scene.members.empty())
-    s.lines.push_back(
-        {"members", "drag, Morison's loads and impact have no place in a response per metre of wave", "", false});
+  const auto one = [&](auto has) { return std::any_of(scene.members.begin(), scene.members.end(), has); };
+  if (one([](const auto& m) { return m.cd.has_value(); }))
+    s.lines.push_back({"drag",
+                       scene.rao->drag ? "linear, as lossy as the quadratic, settled at each frequency"
+                                       : "quadratic: no place in a response per metre of wave",
+                       "", scene.rao->drag.has_value()});
+  if (one([](const auto& m) { return m.morison || m.slamming; }))
+    s.lines.push_back({"members", "Morison's loads and impact: in runs only", "", false});
   return s;
 }
 

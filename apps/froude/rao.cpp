@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "compile/probes.hpp"
 #include "froude/linear_response.hpp"
 #include "froude/scene_result.hpp"
 #include "hydro/base/error.hpp"
@@ -107,24 +106,12 @@ void rao(const SceneArguments& arguments, const Console& console) {
   require_asked(scene.rao.has_value(), scene, "rao", "rao = { periods = \"2 s .. 8 s, 61 values\" }");
   const Path file = output_path(arguments, ".rao.h5");
   hydro::io::require_writable(file);
-  compile::Prepared prepared = compile::prepare(scene);
-  const dynamics::Model model = compile::frequency_model(prepared);
-  for (const std::string& effect : left_out_of_linear_responses(scene)) prepared.notes.push_back(effect);
-  const auto all = compile::rao_probes(scene, prepared, model);
-  std::vector<std::string> names;
-  for (const auto& p : all) names.push_back(p.name);
-  scene::check_patterns(scene.rao->of, scene.rao->of_places, names);
-  // The line that computes a RAO: (Q1) in libdynamics/src/frequency/rao.cpp.
-  const Eigen::MatrixXcd xi =
-      dynamics::frequency::response_amplitudes(model, prepared.groups, scene.rao->omega, scene.rao->heading.radians());
-  const Eigen::MatrixXcd multipliers = dynamics::frequency::multiplier_amplitudes(
-      model, prepared.groups, scene.rao->omega, scene.rao->heading.radians(), xi);
-  const auto signals = linear_responses(compile::chosen(all, scene.rao->of), xi, multipliers, scene.rao->omega);
-  write_rao(file, scene.rao->omega, scene.rao->heading.radians(), signals, provenance_of(scene, prepared.notes));
+  const auto [signals, notes] = respond(scene);
+  write_rao(file, scene.rao->omega, scene.rao->heading.radians(), signals, provenance_of(scene, notes));
   if (arguments.csv) write_rao_csv(*arguments.csv, scene.rao->omega, signals);
   if (arguments.picture)
     hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, scene.rao->omega, signals)));
-  tell(console, scene, scene.rao->omega, signals, file, prepared.notes);
+  tell(console, scene, scene.rao->omega, signals, file, notes);
 }
 
 }  // namespace froude

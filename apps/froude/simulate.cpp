@@ -46,6 +46,15 @@ class March {
     close(ledger);
   }
 
+  compile::MovingState end() const {
+    compile::MovingState out{workspace_.state, {}, {}};
+    for (const auto& line : lines_) {
+      out.lines.push_back(line->state());
+      out.angles.emplace_back(line->angles().begin(), line->angles().end());
+    }
+    return out;
+  }
+
  private:
   bool bodies() const { return !m_.model.bodies().empty(); }
   void begin_lines() {
@@ -63,7 +72,8 @@ class March {
       record_.halvings += report.halvings;
     }
     const auto report = bodies() ? integrator_->step(workspace_, m_.step) : dynamics::StepReport{};
-    workspace_.state.time = static_cast<double>(n) * m_.step;  // sums of steps drift, products do not
+    // Sums of steps drift, products do not.
+    workspace_.state.time = m_.start.time + static_cast<double>(n) * m_.step;
     record_.newton_iterations += report.newton_iterations;
     record_.halvings += report.halvings;
     record_.events += static_cast<int>(report.events.size());
@@ -129,12 +139,9 @@ const std::vector<double>& Record::signal(const std::string& name) const {
                           fmt::format("signals are: {}", fmt::join(names, ", ")));
 }
 
-Record simulate(const scene::Scene& scene, const std::function<void(double)>& done) {
-  if (scene.run->steady) return steady_run(scene);
-  const auto begin = Clock::now();
+Record run_model(const scene::Scene& scene, const compile::Prepared& prepared, const compile::TimeModel& model,
+                 const std::function<void(double)>& done, compile::MovingState* end) {
   Record record;
-  const compile::Prepared prepared = compile::prepare(scene);
-  const compile::TimeModel model = compile::time_model(scene, prepared);
   const auto all = compile::run_probes(scene, prepared, model);
   const auto all_of_lines = compile::line_probes(model.lines);
   std::vector<std::string> names;
@@ -145,10 +152,22 @@ Record simulate(const scene::Scene& scene, const std::function<void(double)>& do
   const auto line_probes = compile::chosen(all_of_lines, scene.run->of);
   record.step = model.step;
   record.notes = model.notes;
-  record.preparation_s = seconds_since(begin);
+  March march(model, probes, line_probes, scene.solve, record);
   const auto stepping = Clock::now();
-  March(model, probes, line_probes, scene.solve, record).run(done);
+  march.run(done);
   record.stepping_s = seconds_since(stepping);
+  if (end) *end = march.end();
+  return record;
+}
+
+Record simulate(const scene::Scene& scene, const std::function<void(double)>& done) {
+  if (scene.run->steady) return steady_run(scene);
+  const auto begin = Clock::now();
+  const compile::Prepared prepared = compile::prepare(scene);
+  const compile::TimeModel model = compile::time_model(scene, prepared);
+  const double preparation = seconds_since(begin);
+  Record record = run_model(scene, prepared, model, done);
+  record.preparation_s = preparation;
   return record;
 }
 

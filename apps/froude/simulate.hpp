@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "compile/restart.hpp"
 #include "froude/result_file.hpp"
 #include "scene/scene.hpp"
 
@@ -36,6 +37,11 @@ struct Record {
   /// \throws hydro::InputError if there is no such signal
   const std::vector<double>& signal(const std::string& name) const;
 };
+
+/// Runs a model that is compiled already, from its start and for its steps; the start may be later than 0. `end`, if it
+/// is not null, is told the last state. \throws hydro::InputError at a signal that there is not
+Record run_model(const scene::Scene& scene, const compile::Prepared& prepared, const compile::TimeModel& model,
+                 const std::function<void(double)>& done = {}, compile::MovingState* end = nullptr);
 
 /// Compiles and runs a scene that asks for a run. `done` is told the share of the steps completed.
 /// \throws hydro::InputError; numerics that give up end the record early with a reason instead

@@ -7,6 +7,7 @@
 #include "hydro/io/atomic_file.hpp"
 #include "scene/build.hpp"
 #include "scene/fit_scene.hpp"
+#include "scene/override.hpp"
 
 namespace froude::scene {
 namespace {
@@ -60,6 +61,7 @@ struct Channels {
 Channels channels_of(const std::string& kind) {
   if (kind == "towing") return {{"speed", "force", "speed_sd", "force_sd"}, {"speed", "force"}};
   if (kind == "decay") return {{"time", "position", "angle"}, {"time"}};
+  if (kind == "motion") return {{"time"}, {"time"}};
   return {{"time", "force", "velocity", "acceleration", "position", "cross_velocity", "elevation"}, {"time", "force"}};
 }
 
@@ -105,9 +107,10 @@ std::map<std::string, std::string> read_channels(const Record& channels, const s
 std::vector<FitScene::ForceChannel> read_force(const Record& data, const std::string& kind, const fs::path& scene) {
   const Record& channels = data.table("channels");
   std::vector<FitScene::ForceChannel> out;
-  if (kind == "decay" && data.has("calibration"))
-    throw data.wrong("calibration", "has no part in a fit of kind \"decay\"", "leave it out");
-  if (kind == "decay") return out;
+  const bool no_force = kind == "decay" || kind == "motion";
+  if (no_force && data.has("calibration"))
+    throw data.wrong("calibration", fmt::format("has no part in a fit of kind \"{}\"", kind), "leave it out");
+  if (no_force) return out;
   for (const auto& name : channels["force"].texts) {
     const bool turned = name.value.starts_with('-');
     const std::string column = turned ? name.value.substr(1) : name.value;
@@ -205,8 +208,65 @@ void read_errors(const Record& model, FitScene::Model& out) {
     throw e.wrong("mass", "does not act: the body does not move", "leave it out");
 }
 
+/// "0.001 kg/s" in the unit that the scene writes at that place.
+double in_unit(const Record& record, const char* key, const std::string& unit) {
+  const hydro::Unit written = hydro::parse_unit(unit);
+  try {
+    const hydro::Quantity q = hydro::parse_quantity(record.text(key));
+    if (hydro::compatible(q.dimension, written.dimension)) return q.si / written.factor;
+  } catch (const InputError& e) {
+    throw e.at(record[key].place);
+  }
+  throw record.wrong(key, fmt::format("has another dimension than the scene's {}", unit.empty() ? "number" : unit),
+                     "write it in that unit");
+}
+
+FitScene::Motion read_motion(const Record& model, const fs::path& file) {
+  FitScene::Motion out;
+  out.scene = {beside(file, model.text("scene")), model["scene"].place};
+  std::error_code unknown;
+  if (!fs::is_regular_file(out.scene.value, unknown))
+    throw model.wrong("scene", "is no file", fmt::format("looked for {}", out.scene.value.string()));
+  const std::string text = hydro::io::read_text(out.scene.value);
+  if (model.has("window")) out.window = model.si("window");
+  for (const Record& p : model.tables("parameter")) {
+    const auto written = number_at(text, out.scene.value, p.text("key"), p["key"].place);
+    FitScene::Motion::Parameter q{.key = p.text("key"),
+                                  .unit = written.unit,
+                                  .first = written.value,
+                                  .lowest = {},
+                                  .highest = {},
+                                  .place = p.place()};
+    for (const auto& other : out.parameters)
+      if (other.key == q.key) throw p.wrong("key", "stands twice", "fit each number once");
+    if (p.has("first")) q.first = in_unit(p, "first", q.unit);
+    if (p.has("lowest")) q.lowest = in_unit(p, "lowest", q.unit);
+    if (p.has("highest")) q.highest = in_unit(p, "highest", q.unit);
+    if ((q.lowest && q.first < *q.lowest) || (q.highest && q.first > *q.highest))
+      throw p.refused(fmt::format("begins at {} {}, outside its bounds", q.first, q.unit), "widen them, or give first");
+    out.parameters.push_back(std::move(q));
+  }
+  if (out.parameters.empty())
+    throw model.refused("of kind \"motion\" needs a number to fit", "add a [[model.parameter]] with its key");
+  return out;
+}
+
+std::vector<FitScene::Motion::Signal> read_signals(const Record& data, const std::string& kind) {
+  std::vector<FitScene::Motion::Signal> out;
+  for (const Record& s : data.tables("signal"))
+    out.push_back({s.text("column"), s.text("of"), {s.text("deviation"), s["deviation"].place}});
+  if (kind == "motion" && out.empty())
+    throw data.refused("needs what was measured",
+                       "add a [[data.signal]] with its column, the signal of the run, and the deviation of its noise");
+  if (kind != "motion" && !out.empty())
+    throw data.wrong("signal", fmt::format("has no part in a fit of kind \"{}\"", kind),
+                     "name [data.channels] instead");
+  return out;
+}
+
 FitScene::Model read_model(const Record& model) {
   FitScene::Model out{.kind = model.text("kind"), .place = model.place()};
+  if (out.kind == "motion") return out;
   if (out.kind == "decay") {
     out.sine = model.text("restoring") == "sine";
     return out;
@@ -240,6 +300,16 @@ FitScene::Model read_model(const Record& model) {
 
 std::vector<std::string> read_coefficients(const Record& ask, const std::string& kind) {
   std::vector<std::string> out;
+  if (kind == "motion") {
+    if (ask.has("coefficients"))
+      throw ask.wrong("coefficients", "has no part in a fit of kind \"motion\"",
+                      "leave it out: what is fitted are the [[model.parameter]]");
+    return out;
+  }
+  if (!ask.has("coefficients"))
+    throw ask.refused("needs the key \"coefficients\"", kind == "decay"
+                                                            ? "add coefficients = [\"linear\", \"quadratic\"]"
+                                                            : "add coefficients = [\"cd\"]");
   const std::vector<std::string> forces{"cd", "cm", "ca"};
   for (const auto& c : ask["coefficients"].texts) {
     const bool of_force = std::find(forces.begin(), forces.end(), c.value) != forces.end();
@@ -299,6 +369,8 @@ FitScene parse_fit(std::string_view text, const fs::path& file) {
   const Record root = read_record(document, fit_schema(), scene.echo);
   if (root.has("title")) scene.title = root.text("title");
   scene.model = read_model(root.table("model"));
+  if (scene.model.kind == "motion") scene.motion = read_motion(root.table("model"), file);
+  scene.motion.signals = read_signals(root.table("data"), scene.model.kind);
   scene.channels = read_channels(root.table("data").table("channels"), scene.model.kind);
   if (scene.channels.count("cross_velocity") > 0 && scene.model.motion == "body moves")
     throw root.table("data")

@@ -60,6 +60,24 @@ struct FitScene {
   bool profile = false, robust = false, cycles = false, sensitivity = false;
   std::string law;  ///< "" for none
   std::vector<Echo> echo;
+  /// kind "motion": the scene that is run, its numbers that are fitted, and what its run should tell.
+  struct Motion {
+    struct Parameter {
+      std::string key;   ///< as number_at() reads it
+      std::string unit;  ///< as the scene writes it; the values are in it
+      double first;
+      std::optional<double> lowest, highest;
+      Place place;
+    };
+    struct Signal {
+      std::string column, of;          ///< of the file; of the run
+      Located<std::string> deviation;  ///< of the noise, with its unit
+    };
+    Located<std::filesystem::path> scene = {};
+    double window = 0;  ///< s; 0: the record is one run from the scene's start
+    std::vector<Parameter> parameters = {};
+    std::vector<Signal> signals = {};
+  } motion;
 };
 
 /// True if the file has a [model] table, that is, asks for a fit.

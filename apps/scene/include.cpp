@@ -13,8 +13,8 @@ namespace {
 namespace fs = std::filesystem;
 using hydro::InputError;
 
-/// [coefficients] of one file as "fit.cd" → 1.19.
-void read_coefficients(const Node& name, const fs::path& scene, std::map<std::string, double>& out) {
+/// [coefficients] of one file as "fit.cd" → 1.19, or "decay.damping" → "0.002 kg/s".
+void read_coefficients(const Node& name, const fs::path& scene, std::map<std::string, Node>& out) {
   if (!name.is(Node::Type::text))
     throw InputError(fmt::format("include holds {}; a file is needed", type_name(name.type)), name.place,
                      "write include = \"fit.toml\"");
@@ -29,22 +29,24 @@ void read_coefficients(const Node& name, const fs::path& scene, std::map<std::st
     throw InputError(fmt::format("include = \"{}\" holds no table [coefficients]", name.text), name.place,
                      "a fit of one run, or with a law over all, writes it: froude fit scene.toml -o fit.toml");
   for (const auto& entry : table->value.entries) {
-    if (!entry.value.is(Node::Type::number) && !entry.value.is(Node::Type::integer))
+    if (!entry.value.is(Node::Type::number) && !entry.value.is(Node::Type::integer) &&
+        !entry.value.is(Node::Type::text))
       throw InputError(
           fmt::format("[coefficients] {} is {}; a number is needed", entry.key, type_name(entry.value.type)),
           entry.value.place);
-    out[path.stem().string() + "." + entry.key] = entry.value.number;
+    out[path.stem().string() + "." + entry.key] = entry.value;
   }
 }
 
-void replace(Node& node, const std::map<std::string, double>& numbers) {
+void replace(Node& node, const std::map<std::string, Node>& numbers) {
   for (auto& item : node.items) replace(item, numbers);
   for (auto& entry : node.entries) replace(entry.value, numbers);
   if (!node.is(Node::Type::text)) return;
   if (const auto found = numbers.find(node.text); found != numbers.end()) {
-    node.type = Node::Type::number;
-    node.number = found->second;
-    node.raw = fmt::format("{}", found->second);
+    node.type = found->second.is(Node::Type::text) ? Node::Type::text : Node::Type::number;
+    node.number = found->second.number;
+    node.text = found->second.text;
+    node.raw = found->second.raw;
     return;
   }
   // "fit.cb": of an included file, but not in it.
@@ -65,7 +67,7 @@ void replace(Node& node, const std::map<std::string, double>& numbers) {
 void resolve_includes(Node& root, const fs::path& scene) {
   const auto* include = root.find("include");
   if (include == nullptr) return;
-  std::map<std::string, double> numbers;
+  std::map<std::string, Node> numbers;
   if (include->value.is(Node::Type::list)) {
     for (const Node& item : include->value.items) read_coefficients(item, scene, numbers);
   } else {

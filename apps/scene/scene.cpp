@@ -9,6 +9,7 @@
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 #include "scene/build.hpp"
+#include "scene/override.hpp"
 
 namespace froude::scene {
 namespace {
@@ -54,6 +55,17 @@ void read_heading(const Record& rao, Scene& scene) {
       std::find_if(scene.echo.begin(), scene.echo.end(), [](const Echo& e) { return e.key == "waves.heading"; });
   const std::string value = waves->value;
   scene.echo.insert(before, {"ask.rao.heading", value, true});
+}
+
+std::optional<AskRao::DragIn> read_drag(const Record& rao, const Scene& scene) {
+  if (!rao.has("drag")) return std::nullopt;
+  const Record& drag = rao.table("drag");
+  if (std::none_of(scene.members.begin(), scene.members.end(), [](const Member& m) { return m.cd.has_value(); }))
+    throw drag.refused("makes drag linear, but no member names drag", "leave it out, or add a [[member]] with drag");
+  AskRao::DragIn out{.height = {}, .steepness = {}, .place = drag.place()};
+  if (drag.has("height")) out.height = drag.si("height");
+  if (drag.has("steepness")) out.steepness = drag.si("steepness");
+  return out;
 }
 
 /// `duration` of a series must be a whole multiple of `every`.
@@ -124,7 +136,8 @@ void build_ask(const Record& ask, Scene& scene) {
   scene.accuracy = ask.si("accuracy");
   if (ask.has("rao")) {
     const Record& rao = ask.table("rao");
-    scene.rao = AskRao{.omega = read_omega(rao), .of = {}, .of_places = {}, .place = rao.place()};
+    scene.rao = AskRao{
+        .omega = read_omega(rao), .of = {}, .of_places = {}, .drag = read_drag(rao, scene), .place = rao.place()};
     read_heading(rao, scene);
     read_of(rao, scene.rao->of, scene.rao->of_places);
   }
@@ -194,10 +207,12 @@ void check_version(const Node& root) {
         schema->value.place, "write schema = 1");
 }
 
-Scene parse(std::string_view text, const std::filesystem::path& file) {
+Scene parse_with(std::string_view text, const std::filesystem::path& file,
+                 const std::vector<OverriddenNumber>& numbers) {
   Node document = parse_document(text, file.string());
   check_version(document);
   resolve_includes(document, file);
+  override_numbers(document, numbers);
   if (const auto* model = document.find("model"))
     throw InputError("this scene has a [model]: it asks for a fit, not for motion", model->place,
                      "use `froude fit`, or take the table out");
@@ -229,6 +244,8 @@ Scene parse(std::string_view text, const std::filesystem::path& file) {
   check_start(root, scene);
   return scene;
 }
+
+Scene parse(std::string_view text, const std::filesystem::path& file) { return parse_with(text, file, {}); }
 
 Scene read(const std::filesystem::path& file) { return parse(hydro::io::read_text(file), file); }
 

@@ -387,11 +387,18 @@ struct Joint {
 };
 
 struct AskRao {
+  /// Waves for which drag on members is made linear: of one height, or of one steepness H/λ.
+  struct DragIn {
+    std::optional<double> height;     ///< m
+    std::optional<double> steepness;  ///< of waves at each frequency
+    Place place;
+  };
   std::vector<double> omega;  ///< rad/s, increasing
   hydro::Angle heading =
       hydro::Angle::from_radians(0);  ///< of the waves; that of [waves] unless the scene says otherwise
   std::vector<std::string> of;        ///< patterns such as "m*.surge", "connector*.force"; empty: everything
   std::vector<Place> of_places;       ///< one for each pattern
+  std::optional<DragIn> drag;
   Place place;
 };
 /// Free motions with periods between two.

@@ -11,7 +11,7 @@ const Table& channels() {
       .title = "[data.channels]",
       .meaning = "which column of the files plays which part",
       .keys = {
-          text("time", "morison, decay: time").optional(),
+          text("time", "morison, decay, motion: time").optional(),
           texts("force",
                 "morison, towing: measured force, positive along positive velocity: of the water on a fixed body, "
                 "or what load "
@@ -32,6 +32,16 @@ const Table& channels() {
   return table;
 }
 
+const Table& data_signal() {
+  static const Table table{
+      .title = "[[data.signal]]",
+      .meaning = "motion: a column of the files, and what of a run it should be",
+      .keys = {text("column", "of the files, with its unit"),
+               text("of", "signal of the run: \"buoy.heave\", \"dropper.link2.polar\""),
+               text("deviation", "standard deviation of the noise, \"0.5 deg\": weighs the columns")}};
+  return table;
+}
+
 const Table& data() {
   static const Table table{
       .title = "[data]",
@@ -43,7 +53,7 @@ const Table& data() {
                    "density, viscosity and mass_beyond_load_cells, which then hold for that run; other columns are "
                    "carried into the results")
                    .optional(),
-               inner_table("channels", channels()),
+               inner_table("channels", channels()), inner_tables("signal", data_signal()).optional(),
                texts("calibration",
                      "morison: one CSV for each force channel, with columns force and voltage (and cycle, where there "
                      "are several): the channel is then in volts")
@@ -174,6 +184,16 @@ const Table& model_water() {
   return table;
 }
 
+const Table& model_parameter() {
+  static const Table table{
+      .title = "[[model.parameter]]",
+      .meaning = "motion: a number of the scene that is fitted",
+      .keys = {text("key", "its path: \"line.damping.linear\", \"body[1].initial.heave\", \"load.at.x\""),
+               text("first", "where the search begins, \"0.001 kg/s\"; left out: what the scene writes").optional(),
+               text("lowest", "bound, with its unit").optional(), text("highest", "bound, with its unit").optional()}};
+  return table;
+}
+
 std::vector<Key> with_cylinder(std::vector<Key> own) {
   std::vector<Key> keys{quantity("diameter", dim::length, "of the cylinder").positive(),
                         quantity("length", dim::length, "of the cylinder in the water").positive(),
@@ -201,6 +221,15 @@ const Table& model() {
                     .optional(),
                 inner_table("wave", model_wave()).optional(), inner_table("uncertainty", model_errors()).optional()})},
           {.word = "towing", .meaning = "drag at steady speed", .keys = with_cylinder({})},
+          {.word = "motion",
+           .meaning = "numbers of a scene of motion, by running it: what its run tells against what was measured",
+           .keys = {text("scene", "the scene of motion, relative to this one"),
+                    inner_tables("parameter", model_parameter()),
+                    quantity("window", dim::time,
+                             "the record is cut into pieces so long, each with a start of its own that is fitted too: "
+                             "for long and for chaotic records; left out: one run from the scene's start")
+                        .positive()
+                        .optional()}},
           {.word = "decay",
            .meaning = "period and damping of a body let go: x'' + b1 x' + b2 |x'| x' + b3 x'^3 + c sgn x' + w0^2 x = 0",
            .keys = {text("restoring", "by x, or by sin x for a pendulum")
@@ -227,9 +256,11 @@ const Table& ask() {
       .meaning = "what is wanted of a fit",
       .keys = {
           texts("coefficients",
-                "drag cd, inertia cm, added mass ca; towing knows cd alone; decay: the damping terms that act, linear, "
+                "all but motion, where they are the parameters: drag cd, inertia cm, added mass ca; towing knows cd "
+                "alone; decay: the damping terms that act, linear, "
                 "quadratic, cubic, coulomb")
-              .one_of({"cd", "cm", "ca", "linear", "quadratic", "cubic", "coulomb"}),
+              .one_of({"cd", "cm", "ca", "linear", "quadratic", "cubic", "coulomb"})
+              .optional(),
           inner_table("intervals", intervals()).or_default("", "see its keys"),
           effect("robust", "morison: wild samples of the force pull less (Huber)").optional(),
           effect("profile", "decay: intervals of the damping from the likelihood itself, which need not be symmetric")

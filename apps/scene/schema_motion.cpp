@@ -402,6 +402,18 @@ Key asked_signals() {
       .or_default("*", "everything there is");
 }
 
+const Table& ask_rao_drag() {
+  static const Table table{
+      .title = "[ask.rao.drag]",
+      .meaning =
+          "drag of [member.drag] at each frequency, linear, losing as much energy as it does in waves this high; "
+          "left out: without drag",
+      .keys = {quantity("height", dim::length, "of the waves, at every frequency").positive().optional(),
+               number("steepness", "height over length of the waves, at every frequency").positive().optional()},
+      .groups = {{exactly_one, {"height", "steepness"}}}};
+  return table;
+}
+
 const Table& ask_rao() {
   static const Table table{
       .title = "[ask.rao]",
@@ -409,7 +421,7 @@ const Table& ask_rao() {
       .keys = {range("periods", dim::time, "wave periods").positive().optional(),
                range("omega", dim::angular_velocity, "wave frequencies").positive().optional(),
                quantity("heading", dim::angle, "where the waves go; left out: the heading of [waves]").optional(),
-               asked_signals()},
+               inner_table("drag", ask_rao_drag()).optional(), asked_signals()},
       .groups = {{exactly_one, {"periods", "omega"}}}};
   return table;
 }

@@ -48,8 +48,10 @@ class Shooting {
   void look_at_start(std::size_t w, Eigen::Index row, Eigen::Index column);
   Eigen::VectorXd settle(std::size_t w);
   Eigen::VectorXd find_starts();
+  Eigen::VectorXd go_on(const SimulationFit::End& end);
+  FitReport search(Eigen::VectorXd& x);
   void evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian);
-  Eigen::MatrixXd differences(const Eigen::VectorXd& x, const Eigen::VectorXd& r);
+  Eigen::MatrixXd differences(const Eigen::VectorXd& x);
   void parameter_column(Eigen::Index k, const Eigen::VectorXd& x, Eigen::MatrixXd& jacobian);
   ResidualModel model();
   void tell(const Eigen::VectorXd& x, SimulationFit& fit);
@@ -65,8 +67,8 @@ class Shooting {
   long followed_ = 0;
   struct {
     Eigen::VectorXd x, r;
-    Eigen::MatrixXd jacobian;
-  } last_;  // a search asks for the same point several times
+  } last_;                    // a search asks for the same point several times
+  Eigen::MatrixXd jacobian_;  // held while a round of the search goes on
 };
 
 void Shooting::check() const {
@@ -123,23 +125,34 @@ void Shooting::look_at_start(std::size_t w, Eigen::Index row, Eigen::Index colum
   pieces_.push_back(std::move(piece));
 }
 
-/// The start of one window fitted alone, with the parameters at their first values.
+/// The start of one window fitted alone, with the parameters at their first values: to its first quarter, to its first
+/// half, and to all of it, since what lies far ahead pulls a wrong start to a wrong minimum (F41).
 Eigen::VectorXd Shooting::settle(std::size_t w) {
   const Piece& piece = pieces_[w];
+  const Eigen::Index samples = problem_.measured[w].rows();
   Eigen::VectorXd z = Eigen::VectorXd::Zero(piece.seen.cols());
   if (z.size() == 0) return z;
   ResidualModel alone;
   alone.parameters.assign(static_cast<std::size_t>(z.size()), {"start"});
   alone.residuals = problem_.measured[w].size();
-  alone.evaluate = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
-    try {
-      r = residuals(w, first(), piece.seen * at);
-      if (jacobian) *jacobian = start_columns(w, first(), piece.seen * at, r, piece.seen);
-    } catch (const hydro::NumericsError&) {
-      r.setConstant(std::numeric_limits<double>::quiet_NaN());  // Ceres then tries a shorter step
-    }
-  };
-  minimise(alone, z, {.cost_change_below = 1e-3, .gradient_below = 1e-9, .step_below = 1e-6, .iterations_reach = 6});
+  for (const Eigen::Index part : {4, 2, 1}) {
+    const auto later = Eigen::seq(samples / part, samples - 1);
+    alone.evaluate = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
+      try {
+        r = residuals(w, first(), piece.seen * at);
+        if (jacobian) *jacobian = start_columns(w, first(), piece.seen * at, r, piece.seen);
+      } catch (const hydro::NumericsError&) {
+        r.setConstant(std::numeric_limits<double>::quiet_NaN());  // Ceres then tries a shorter step
+        return;
+      }
+      if (part == 1) return;
+      r.reshaped(samples, r.size() / samples)(later, Eigen::all).setZero();
+      if (jacobian)
+        for (auto column : jacobian->colwise())
+          column.reshaped(samples, r.size() / samples)(later, Eigen::all).setZero();
+    };
+    minimise(alone, z, {.cost_change_below = 1e-3, .gradient_below = 1e-9, .step_below = 1e-6, .iterations_reach = 6});
+  }
   return z;
 }
 
@@ -158,6 +171,24 @@ Eigen::VectorXd Shooting::find_starts() {
   x.head(p()) = first();
   for (std::size_t w = 0; w < found.size(); ++w) x.segment(pieces_[w].column, found[w].size()) = found[w];
   return x;
+}
+
+/// Unknowns and directions of the fit of another record.
+Eigen::VectorXd Shooting::go_on(const SimulationFit::End& end) {
+  hydro::require(end.seen.size() == problem_.measured.size() && end.unknowns.size() >= p(),
+                 "the fit to begin at has {} windows, this record {}", end.seen.size(), problem_.measured.size());
+  unknowns_ = p();
+  for (std::size_t w = 0; w < end.seen.size(); ++w) {
+    pieces_.push_back({end.seen[w], rows_, unknowns_});
+    all_starts_ += end.seen[w].rows();
+    rows_ += problem_.measured[w].size();
+    unknowns_ += end.seen[w].cols();
+  }
+  hydro::require(end.jacobian.rows() == rows_ && end.jacobian.cols() == unknowns_ && end.unknowns.size() == unknowns_,
+                 "the fit to begin at has {} samples and {} unknowns, this one {} and {}", end.jacobian.rows(),
+                 end.unknowns.size(), rows_, unknowns_);
+  jacobian_ = end.jacobian;
+  return end.unknowns;
 }
 
 /// By a central difference, one-sided at a bound.
@@ -179,18 +210,46 @@ void Shooting::parameter_column(Eigen::Index k, const Eigen::VectorXd& x, Eigen:
 
 void Shooting::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
   if (last_.x.size() != x.size() || x != last_.x) {
-    last_ = {{}, Eigen::VectorXd(rows_), {}};
+    last_ = {{}, Eigen::VectorXd(rows_)};
     for (std::size_t w = 0; w < pieces_.size(); ++w)
       last_.r.segment(pieces_[w].row, problem_.measured[w].size()) = residuals(w, x.head(p()), start_of(x, w));
     last_.x = x;
   }
   r = last_.r;
-  if (!jacobian) return;
-  if (last_.jacobian.size() == 0) last_.jacobian = differences(x, r);
-  *jacobian = last_.jacobian;
+  if (jacobian) *jacobian = jacobian_;
 }
 
-Eigen::MatrixXd Shooting::differences(const Eigen::VectorXd& x, const Eigen::VectorXd& r) {
+/// Rounds of a search that holds its Jacobian, which takes one run of the record a step; each begins with a new one,
+/// which takes 1 + 2p + d. The round that gains next to nothing from a new one is the last. (F41)
+FitReport Shooting::search(Eigen::VectorXd& x) {
+  // Shares of the cost. A standard error of one unknown lowers it by one n-th: no step of a thirtieth of it is taken,
+  // and what gains less than half of one leaves a small part of that.
+  const double nothing = 1e-3 / static_cast<double>(rows_), little = 0.2 / static_cast<double>(rows_);
+  FitReport all{};
+  for (bool held = jacobian_.size() > 0;; held = false) {
+    if (!held) jacobian_ = differences(x);
+    const int left = problem_.iterations_reach - all.iterations;
+    FitReport round = minimise(model(), x,
+                               {.cost_change_below = nothing,
+                                .gradient_below = 1e-9,
+                                .step_below = 1e-8,
+                                .iterations_reach = std::min(6, left)});
+    const bool last = !held && round.cost_first - round.cost_last <= little * round.cost_first;
+    if (all.iterations > 0) round.cost_first = all.cost_first;
+    round.iterations += all.iterations;
+    all = std::move(round);
+    if (last) {
+      all.outcome = FitReport::Outcome::converged;
+      all.why = fmt::format("a new Jacobian lowered the cost by less than {:.2g} of it", little);
+    }
+    if (last || all.outcome == FitReport::Outcome::not_finite || all.iterations >= problem_.iterations_reach)
+      return all;
+  }
+}
+
+Eigen::MatrixXd Shooting::differences(const Eigen::VectorXd& x) {
+  Eigen::VectorXd r(rows_);
+  evaluate(x, r, nullptr);
   Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows_, unknowns_);
   for (std::size_t w = 0; w < pieces_.size(); ++w) {
     const auto& piece = pieces_[w];
@@ -329,21 +388,19 @@ void Shooting::tell(const Eigen::VectorXd& x, SimulationFit& fit) {
 
 SimulationFit Shooting::solve() {  // (F41)
   SimulationFit fit{};
-  Eigen::VectorXd x = find_starts();
+  Eigen::VectorXd x = problem_.begin ? go_on(problem_.begin->end) : find_starts();
   hydro::require(rows_ > unknowns_,
                  "{} samples cannot give {} parameters and {} numbers of starts: take longer windows", rows_, p(),
                  unknowns_ - p());
   Eigen::VectorXd r(rows_);
   evaluate(x, r, nullptr);  // what the first values cannot do is told as it is
-  fit.search = minimise(model(), x,
-                        {.cost_change_below = 1e-8,  // of the cost: a thousandth of a standard error and less
-                         .gradient_below = 1e-9,
-                         .step_below = 1e-8,
-                         .iterations_reach = problem_.iterations_reach});
+  fit.search = search(x);
   fit.starts_seen = unknowns_ - p();
   fit.starts_all = all_starts_;
   tell(x, fit);
   fit.windows_followed = followed_;
+  fit.end = {std::move(x), {}, jacobian_};
+  for (const Piece& piece : pieces_) fit.end.seen.push_back(piece.seen);
   return fit;
 }
 

@@ -167,5 +167,28 @@ TEST_F(Fit, NamesTheFileAndTheColumnAtFault) {
               ThrowsMessage<InputError>(HasSubstr("a force is needed")));
 }
 
+TEST_F(Fit, OfASceneFindsTheDampingThatAnIndependentRecordHas) {
+  const auto j = nlohmann::json::parse(
+      told({.scene = examples / "pendulums.toml", .output = folder / "p.toml", .picture = folder / "p.svg"}, true));
+  const auto& parameter = j["parameter"];
+  const auto holds = [&](const char* name, double truth) {
+    const auto& interval = parameter[name]["interval"];
+    return interval[0].get<double>() < truth && truth < interval[1].get<double>();
+  };
+  EXPECT_TRUE(holds("line_damping_linear", 0.006)) << j.dump(1);  // as make_pendulums.py says
+  EXPECT_TRUE(holds("line_damping_quadratic", 0.004)) << j.dump(1);
+  for (const auto& s : j["signal"]) EXPECT_NEAR(s["rms"].get<double>(), 0.01, 0.0015);  // the noise, and nothing else
+  EXPECT_THAT(hydro::io::read_text(folder / "p.toml"), HasSubstr("line_damping_linear = \"0.00"));
+}
+
+TEST_F(Fit, OfASceneSaysWhichKeyItCannotFind) {
+  EXPECT_THAT([&] { told({.scene = changed("pendulums.toml", "damping.linear", "damping.linaer")}); },
+              ThrowsMessage<InputError>(HasSubstr("did you mean \"linear\"?")));
+  EXPECT_THAT([&] { told({.scene = changed("pendulums.toml", "chain.link2", "chain.link3")}); },
+              ThrowsMessage<InputError>(HasSubstr("chain.link3.polar")));
+  EXPECT_THAT([&] { told({.scene = changed("pendulums.toml", "0.6 deg", "0.6 m")}); },
+              ThrowsMessage<InputError>(HasSubstr("an angle is needed")));
+}
+
 }  // namespace
 }  // namespace fit_test

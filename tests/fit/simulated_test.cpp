@@ -108,6 +108,24 @@ TEST(Simulated, FitsStartsOfWindowsAndSaysWhichNobodySees) {
   }
 }
 
+TEST(Simulated, GoesOnFromTheFitOfAnotherRecordToWhereItWouldHaveComeItself) {
+  Flow flow(swing, vector({1, 0, 1}), 0.05, 100, true), same(swing, vector({1, 0, 1}), 0.05, 100, true);
+  const auto first = fit::fit_simulation(flow, swing_problem(0.01, 5, 3));
+  auto second = swing_problem(0.01, 6, 3);
+  const auto alone = fit::fit_simulation(same, second);
+  second.begin = &first;
+  const auto after = fit::fit_simulation(flow, second);
+  EXPECT_LT(after.windows_followed, alone.windows_followed / 2);
+  EXPECT_EQ(after.starts_seen, alone.starts_seen);
+  for (std::size_t k = 0; k < 3; ++k) {  // both leave a few hundredths of a standard error, (F41)
+    EXPECT_NEAR(*after.parameters[k].value, *alone.parameters[k].value, 0.05 * alone.parameters[k].standard_error);
+    EXPECT_NEAR(after.parameters[k].standard_error / alone.parameters[k].standard_error, 1, 0.01);
+  }
+  second.measured.pop_back();
+  EXPECT_THAT([&] { fit::fit_simulation(flow, second); },
+              testing::ThrowsMessage<hydro::InputError>(HasSubstr("has 3 windows, this record 2")));
+}
+
 TEST(Simulated, FollowsAChaoticFlowInWindowsWhereOneRunCannot) {
   // Lorenz (1963): neighbours part as e^{0.9 t}, so over 20 s a start is forgotten by e^18.
   const auto lorenz = [](const Eigen::VectorXd& y, const Eigen::VectorXd& q) {

@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 
 #include "hydro/base/error.hpp"
-#include "reduction.hpp"
+#include "linear_model.hpp"
 #include "scatter.hpp"
 
 namespace dynamics::frequency {
@@ -33,26 +33,48 @@ Eigen::VectorXcd excitation(const Model& model, const std::vector<PotentialGroup
   return F;
 }
 
+Eigen::VectorXcd LinearModel::response(const Eigen::MatrixXcd& Z, const Eigen::VectorXcd& X, double omega) const {
+  const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(left.matrix(Z));
+  const Eigen::VectorXcd x = lu.solve(left.vector(X));
+  // An undamped resonance met exactly has no finite answer.
+  if (!x.allFinite() || lu.rcond() < 1e-15)
+    throw hydro::NumericsError(
+        fmt::format("no response exists at {:.6g} rad/s: the equations of motion are singular there", omega));
+  return left.expanded(x);
+}
+
+namespace {
+
+/// Both sides of (Q1).
+struct Equations {
+  Eigen::MatrixXcd Z;
+  Eigen::VectorXcd X;
+};
+Equations equations(const Model& model, const Model::Linear& linear, const std::vector<PotentialGroup>& groups,
+                    double omega, double heading, const LinearDrag* drag, Eigen::Index w) {
+  Equations e{impedance(model, linear, groups, omega), excitation(model, groups, omega, heading)};
+  if (drag != nullptr) e = {drag->added_to(std::move(e.Z), w, omega), e.X + drag->excitation(w, e.X.size())};
+  return e;
+}
+
+}  // namespace
+
 Eigen::MatrixXcd response_amplitudes(const Model& model, const std::vector<PotentialGroup>& groups,
-                                     const std::vector<double>& omega, double heading) {
-  const Model::Linear linear = model.linear_at_rest();
-  const Reduction left(model, linear);
+                                     const std::vector<double>& omega, double heading, const LinearDrag* drag) {
+  const LinearModel of(model);
   Eigen::MatrixXcd xi = Eigen::MatrixXcd::Zero(model.modes(), static_cast<Eigen::Index>(omega.size()));
-  if (left.count() == 0) return xi;
-  for (std::size_t w = 0; w < omega.size(); ++w) {
-    const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(left.matrix(impedance(model, linear, groups, omega[w])));
-    const Eigen::VectorXcd x = lu.solve(left.vector(excitation(model, groups, omega[w], heading)));
-    // An undamped resonance met exactly has no finite answer.
-    if (!x.allFinite() || lu.rcond() < 1e-15)
-      throw hydro::NumericsError(
-          fmt::format("no response exists at {:.6g} rad/s: the equations of motion are singular there", omega[w]));
-    xi.col(static_cast<Eigen::Index>(w)) = left.expanded(x);  // (Q1)
+  if (of.left.count() == 0) return xi;
+  for (Eigen::Index w = 0; w < xi.cols(); ++w) {
+    const double at = omega[static_cast<std::size_t>(w)];
+    const auto [Z, X] = equations(model, of.linear, groups, at, heading, drag, w);
+    xi.col(w) = of.response(Z, X, at);  // (Q1)
   }
   return xi;
 }
 
 Eigen::MatrixXcd multiplier_amplitudes(const Model& model, const std::vector<PotentialGroup>& groups,
-                                       const std::vector<double>& omega, double heading, const Eigen::MatrixXcd& xi) {
+                                       const std::vector<double>& omega, double heading, const Eigen::MatrixXcd& xi,
+                                       const LinearDrag* drag) {
   const Model::Linear linear = model.linear_at_rest();
   Eigen::MatrixXcd lambda(linear.conditions.rows(), xi.cols());
   if (lambda.rows() == 0) return lambda;
@@ -62,12 +84,11 @@ Eigen::MatrixXcd multiplier_amplitudes(const Model& model, const std::vector<Pot
     if (!model.is_free(m)) scale[m] = 0;
   const Eigen::MatrixXd scaled = scale.asDiagonal() * linear.conditions.transpose();
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
-  for (std::size_t w = 0; w < omega.size(); ++w) {
-    const auto column = static_cast<Eigen::Index>(w);
-    const Eigen::VectorXcd rest =
-        excitation(model, groups, omega[w], heading) - impedance(model, linear, groups, omega[w]) * xi.col(column);
-    lambda.col(column).real() = qr.solve(scale.cwiseProduct(rest.real()));
-    lambda.col(column).imag() = qr.solve(scale.cwiseProduct(rest.imag()));
+  for (Eigen::Index w = 0; w < xi.cols(); ++w) {
+    const auto [Z, X] = equations(model, linear, groups, omega[static_cast<std::size_t>(w)], heading, drag, w);
+    const Eigen::VectorXcd rest = X - Z * xi.col(w);
+    lambda.col(w).real() = qr.solve(scale.cwiseProduct(rest.real()));
+    lambda.col(w).imag() = qr.solve(scale.cwiseProduct(rest.imag()));
   }
   return lambda;
 }

@@ -38,12 +38,16 @@ struct SimulationParameter {
   double scale() const;
 };
 
+struct SimulationFit;
 struct SimulationProblem {
   std::vector<SimulationParameter> parameters;
   std::vector<Eigen::MatrixXd> measured;  ///< one a window, shape (samples, channels)
   std::vector<double> deviations;         ///< of the noise, one a channel: weighs them
   double confidence = 0.95;
   int iterations_reach = 30;
+  /// The fit of another record of the same motion in the same windows, by the same simulation: the search begins where
+  /// that one ended, which spares finding starts and most sensitivities. Null: at the first values.
+  const SimulationFit* begin = nullptr;
 };
 
 struct SimulationFit {
@@ -60,12 +64,18 @@ struct SimulationFit {
   double dof;                   ///< of Student's t behind the intervals
   std::string caution;          ///< why they may not hold; empty where nothing is known against them
   long windows_followed;        ///< what it took
+  /// What SimulationProblem::begin goes on from.
+  struct End {
+    Eigen::VectorXd unknowns;           ///< parameters, then starts
+    std::vector<Eigen::MatrixXd> seen;  ///< directions of each window's start that the data see
+    Eigen::MatrixXd jacobian;
+  } end;
 };
 
 /// Fits parameters and starts together (F41). A parameter that ends at a bound, or whose interval is wider than ten
 /// times its scale, has no value and says why. Intervals count the memory of the residuals (F4).
-/// \throws hydro::InputError: shapes that do not fit, first values outside their bounds, what the simulation throws at
-/// the first values
+/// \throws hydro::InputError: shapes that do not fit (also of `begin`), first values outside their bounds, what the
+/// simulation throws at the first values
 SimulationFit fit_simulation(Simulation& simulation, const SimulationProblem& problem);
 
 }  // namespace fit

@@ -14,7 +14,7 @@ class Includes : public testing::Test {
  protected:
   Includes() {
     fs::create_directories(folder_);
-    std::ofstream(folder_ / "fit.toml") << "kind = \"morison\"\n[coefficients]\ncd = 1.19\nca = 1\n";
+    std::ofstream(folder_ / "fit.toml") << "kind = \"morison\"\n[coefficients]\ncd = 1.19\nca = 1\nspan = \"120 cm\"\n";
     std::ofstream(folder_ / "empty.toml") << "kind = \"morison\"\n";
   }
   ~Includes() override { fs::remove_all(folder_); }
@@ -46,6 +46,11 @@ TEST_F(Includes, PutTheFittedNumberWhereItsNameStands) {
   ASSERT_FALSE(scene.members.empty());
   EXPECT_EQ(scene.members[0].cd, 1.19);
   EXPECT_THAT(scene.echo, testing::Contains(testing::Field(&Echo::value, "1.19")));
+}
+
+TEST_F(Includes, PutAQuantityThereWithItsUnit) {
+  const Scene scene = read(with(with_include("fit.toml", "fit.cd"), "diameter = \"1.6 m\"", "diameter = \"fit.span\""));
+  EXPECT_DOUBLE_EQ(scene.members[0].diameter, 1.2);
 }
 
 TEST_F(Includes, NameWhatIsMissing) {

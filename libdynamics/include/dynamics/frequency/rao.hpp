@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "dynamics/force/drag.hpp"
 #include "dynamics/model/model.hpp"
 #include "hydro/potential/operations.hpp"
 
@@ -17,20 +18,34 @@ struct PotentialGroup {
   bool radiation, excitation;  ///< which effects the scene named
 };
 
+/// Linear drag on pieces of members at rest, one coefficient each at every frequency; made by linearised_drag(). (Q5)
+struct LinearDrag {
+  std::vector<DragPiece> pieces;
+  Eigen::MatrixXcd velocity;    ///< of the undisturbed water, m/s per metre of wave, (3 pieces, Nω)
+  Eigen::MatrixXd coefficient;  ///< (pieces, Nω), N s/m
+
+  /// Z and the drag's part of it, frequency number w.
+  Eigen::MatrixXcd added_to(Eigen::MatrixXcd Z, Eigen::Index w, double omega) const;
+  /// What the water's motion exerts, (modes), N and N m per metre.
+  Eigen::VectorXcd excitation(Eigen::Index w, Eigen::Index modes) const;
+};
+
 /// Complex amplitude of every body's displacement about its centre of gravity per metre of wave amplitude, (6N, Nω),
 /// m/m and rad/m, Re(ξ e^{iωt}) against a wave of zero phase at the global origin.
 ///
 /// Solves (Q1) at each frequency: [−ω²(M + A(ω)) + iω(B(ω) + D) + K] ξ = X(ω, β), K and D from every force of the model
 /// that is linear at rest, in the motions that joints leave (D17). Modes that are not free stay zero. Error: round-off,
-/// plus what FrequencyTable::openness() says of the data. \throws hydro::InputError outside the data,
-/// hydro::NumericsError naming the frequency if the matrix is singular
+/// plus what FrequencyTable::openness() says of the data. `drag`: made for the same frequencies, or none. \throws
+/// hydro::InputError outside the data, hydro::NumericsError naming the frequency if the matrix is singular
 Eigen::MatrixXcd response_amplitudes(const Model& model, const std::vector<PotentialGroup>& groups,
-                                     const std::vector<double>& omega, double heading);
+                                     const std::vector<double>& omega, double heading,
+                                     const LinearDrag* drag = nullptr);
 
 /// Complex amplitude of the multipliers λ of the joints beyond what they are at rest, (m, Nω), from the equations of
 /// motion that `xi`, of response_amplitudes(), leaves open.
 Eigen::MatrixXcd multiplier_amplitudes(const Model& model, const std::vector<PotentialGroup>& groups,
-                                       const std::vector<double>& omega, double heading, const Eigen::MatrixXcd& xi);
+                                       const std::vector<double>& omega, double heading, const Eigen::MatrixXcd& xi,
+                                       const LinearDrag* drag = nullptr);
 
 /// The matrix of (Q1) at one frequency, (6N, 6N).
 Eigen::MatrixXcd impedance(const Model& model, const Model::Linear& linear, const std::vector<PotentialGroup>& groups,

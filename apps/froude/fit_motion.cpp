@@ -1,0 +1,137 @@
+#include <algorithm>
+
+#include "fit/simulated.hpp"
+#include "froude/fit_report.hpp"
+#include "froude/scene_runs.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/io/csv.hpp"
+
+namespace froude {
+namespace {
+
+using ::fit::Coefficient;
+using Json = FitJson;
+
+/// The deviation of a signal's noise, SI, and the dimension of its column against that of the run.
+double deviation_of(const scene::FitScene::Motion::Signal& s, const std::string& unit,
+                    const hydro::io::CsvTable& table) {
+  const hydro::Dimension needed = hydro::parse_unit(unit).dimension;
+  table.column(s.column, needed);  // refuses a column of another dimension
+  try {
+    const double out = hydro::parse_si(s.deviation.value, needed);
+    hydro::require(out > 0, "the deviation of \"{}\" must be positive, got {}", s.of, out);
+    return out;
+  } catch (const hydro::InputError& e) {
+    throw e.at(s.deviation.place);
+  }
+}
+
+::fit::SimulationProblem problem_of(const scene::FitScene& fit, const MeasuredRun& measured,
+                                    const std::vector<std::string>& units) {
+  ::fit::SimulationProblem p;
+  for (const auto& q : fit.motion.parameters) {
+    ::fit::SimulationParameter one{q.key, q.first};
+    if (q.lowest) one.lowest = *q.lowest;
+    if (q.highest) one.highest = *q.highest;
+    p.parameters.push_back(std::move(one));
+  }
+  for (std::size_t w = 0; w < measured.first.size(); ++w)
+    p.measured.emplace_back(measured.values.middleRows(measured.first[w], measured.rows(w)));
+  const auto table = hydro::io::CsvTable::read(fit.files[0].value);
+  for (std::size_t c = 0; c < units.size(); ++c)
+    p.deviations.push_back(deviation_of(fit.motion.signals[c], units[c], table));
+  p.confidence = fit.confidence;
+  return p;
+}
+
+void tell(const scene::FitScene& scene, const MeasuredRun& measured, const std::vector<std::string>& units,
+          const ::fit::SimulationFit& fit, const Console& console) {
+  console.out << fmt::format("{}: {} samples of {} signals in {} window{}, {} runs of a window\n",
+                             scene.files[0].value.filename().string(), measured.values.rows(), measured.values.cols(),
+                             measured.first.size(), measured.first.size() == 1 ? "" : "s", fit.windows_followed);
+  for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
+    const Coefficient& c = fit.parameters[k];
+    const std::string unit = scene.motion.parameters[k].unit;
+    const std::string interval =
+        fmt::format("{:g} % interval {:.5g} to {:.5g}", 100 * scene.confidence, c.interval.low, c.interval.high);
+    if (c.value)
+      console.out << fmt::format("  {} {:.5g}{}{}, {} (if residuals were independent {:.5g} to {:.5g})\n", c.name,
+                                 *c.value, unit.empty() ? "" : " ", unit, interval, c.white_interval.low,
+                                 c.white_interval.high);
+    else
+      console.out << fmt::format("  {} not identifiable: {}; {}\n", c.name, c.why_not, interval);
+  }
+  for (std::size_t c = 0; c < units.size(); ++c)
+    console.out << fmt::format("  {} differs by {:.3g} {} rms\n", scene.motion.signals[c].of, fit.rms[c], units[c]);
+  if (fit.starts_all > 0)
+    console.out << fmt::format("  of {} numbers of the windows' starts the signals see {}, which are fitted too\n",
+                               fit.starts_all, fit.starts_seen);
+  console.out << fmt::format("  singular values {:.3g}; {}\n", fmt::join(fit.singular_values, ", "), fit.weakest);
+  console.out << fmt::format("  search: iterations {}, {}\n", fit.search.iterations, fit.search.why);
+  if (!fit.caution.empty()) console.out << "  caution: " << fit.caution << '\n';
+}
+
+/// "line[1].damping.linear" as a bare key of TOML.
+std::string bare(std::string key) {
+  std::replace(key.begin(), key.end(), '.', '_');
+  std::erase_if(key, [](char c) { return c == '[' || c == ']'; });
+  return key;
+}
+
+Json as_json_of(const scene::FitScene& scene, const std::vector<std::string>& units, const ::fit::SimulationFit& fit) {
+  Json j{{"scene", scene.file.filename().string()},
+         {"kind", "motion"},
+         {"confidence", scene.confidence},
+         {"of", scene.motion.scene.value.filename().string()},
+         {"search", fit.search.why},
+         {"weakest", fit.weakest},
+         {"singular_values", std::vector<double>(fit.singular_values.begin(), fit.singular_values.end())}};
+  if (!fit.caution.empty()) j["caution"] = fit.caution;
+  for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
+    const Coefficient& c = fit.parameters[k];
+    const auto& parameter = scene.motion.parameters[k];
+    if (c.value && parameter.unit.empty()) j["coefficients"][bare(c.name)] = *c.value;
+    if (c.value && !parameter.unit.empty())
+      j["coefficients"][bare(c.name)] = fmt::format("{:.10g} {}", *c.value, parameter.unit);
+    Json own = as_json(c);
+    for (const char* of_force : {"shift_per_degree", "systematic_error"}) own.erase(of_force);
+    own["key"] = parameter.key;
+    own["unit"] = parameter.unit;
+    j["parameter"][bare(c.name)] = own;
+  }
+  for (std::size_t c = 0; c < units.size(); ++c)
+    j["signal"].push_back({{"of", scene.motion.signals[c].of}, {"unit", units[c]}, {"rms", fit.rms[c]}});
+  return j;
+}
+
+plot::Figure figure(const scene::FitScene& scene, const MeasuredRun& measured, const std::vector<std::string>& units,
+                    const ::fit::SimulationFit& fit) {
+  plot::Figure f{.title = scene.title.empty() ? scene.file.filename().string() : scene.title, .panels = {}};
+  for (std::size_t c = 0; c < units.size(); ++c) {
+    const auto column = static_cast<Eigen::Index>(c);
+    std::vector<double> values(measured.values.col(column).begin(), measured.values.col(column).end()), fitted, left;
+    for (const auto& motion : fit.motion)
+      fitted.insert(fitted.end(), motion.col(column).begin(), motion.col(column).end());
+    for (std::size_t i = 0; i < fitted.size(); ++i) left.push_back(values[i] - fitted[i]);
+    f.panels.push_back(
+        {.x = {"time", "s"},
+         .y = {scene.motion.signals[c].of, units[c]},
+         .series = {{"measured", measured.time, values}, {"fitted", measured.time, fitted, true, false, true}}});
+    f.panels.push_back(
+        {.x = {"time", "s"}, .y = {"residual", units[c]}, .series = {{"measured − fitted", measured.time, left}}});
+  }
+  return f;
+}
+
+}  // namespace
+
+void fit_motions(const scene::FitScene& scene, const FitArguments& arguments, const Console& console) {
+  const MeasuredRun measured = MeasuredRun::read(scene);
+  SceneRuns runs(scene, measured);
+  const std::vector<std::string> units = runs.units();
+  const auto result = ::fit::fit_simulation(runs, problem_of(scene, measured, units));
+  if (!console.json) tell(scene, measured, units, result, console);
+  deliver(arguments, console, as_json_of(scene, units, result), figure(scene, measured, units, result));
+}
+
+}  // namespace froude

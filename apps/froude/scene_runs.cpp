@@ -1,0 +1,141 @@
+#include "froude/scene_runs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hydro/base/error.hpp"
+#include "hydro/io/atomic_file.hpp"
+#include "hydro/io/csv.hpp"
+#include "hydro/signal/welch.hpp"
+#include "scene/override.hpp"
+
+namespace froude {
+
+namespace dim = hydro::dim;
+using hydro::InputError;
+
+Eigen::Index MeasuredRun::rows(std::size_t window) const {
+  return (window + 1 < first.size() ? first[window + 1] : values.rows()) - first[window];
+}
+
+MeasuredRun MeasuredRun::of(std::vector<double> time, Eigen::MatrixXd values, double window_s) {
+  MeasuredRun out{std::move(time), std::move(values), 0, 0, {}};
+  out.step = hydro::signal::even_step(out.time);
+  const double before = out.time.front() / out.step;
+  out.before = std::lround(before);
+  hydro::require(out.before >= 0 && std::abs(before - std::round(before)) < 0.02,
+                 "the record begins at {:.6g} s, which is no whole number of its steps of {:.6g} s after the run's "
+                 "start at 0",
+                 out.time.front(), out.step);
+  const Eigen::Index length = window_s > 0 ? std::lround(window_s / out.step) : out.values.rows();
+  hydro::require(length >= 8, "a window of {} s holds {} samples, 8 are needed", window_s, length);
+  for (Eigen::Index at = 0; at == 0 || at + length <= out.values.rows(); at += length) out.first.push_back(at);
+  return out;
+}
+
+MeasuredRun MeasuredRun::read(const scene::FitScene& fit) {
+  if (fit.files.size() != 1)
+    throw InputError(fmt::format("a fit of kind \"motion\" takes one file, got {}", fit.files.size()),
+                     fit.files[1].place, "fit each record by itself");
+  const auto table = hydro::io::CsvTable::read(fit.files[0].value);
+  std::vector<double> time = table.column(fit.channels.at("time"), dim::time);
+  Eigen::MatrixXd values(std::ssize(time), std::ssize(fit.motion.signals));
+  for (std::size_t c = 0; c < fit.motion.signals.size(); ++c) {
+    const auto& column = table.column(fit.motion.signals[c].column);
+    values.col(static_cast<Eigen::Index>(c)) = Eigen::Map<const Eigen::VectorXd>(column.data(), std::ssize(column));
+  }
+  return of(std::move(time), std::move(values), fit.motion.window);
+}
+
+SceneRuns::SceneRuns(const scene::FitScene& fit, const MeasuredRun& measured)
+    : fit_(fit), measured_(measured), text_(hydro::io::read_text(fit.motion.scene.value)) {
+  compiled({});
+  if (fit.motion.window > 0) begin_windows();
+}
+
+Eigen::Index SceneRuns::coordinates(std::size_t window) {
+  return charts_.empty() ? 0 : charts_.at(window).coordinates();
+}
+
+Eigen::MatrixXd SceneRuns::follow(std::size_t window, const Eigen::VectorXd& parameters, const Eigen::VectorXd& start) {
+  compiled(parameters);
+  const bool whole = charts_.empty();
+  if (!whole) compile::start_from(charts_.at(window).at(*model_, start), *model_);
+  const Eigen::Index skipped = whole ? measured_.before : 0, rows = measured_.rows(window);
+  const Record record = run(skipped + rows - 1, nullptr);
+  Eigen::MatrixXd out(rows, std::ssize(fit_.motion.signals));
+  for (std::size_t c = 0; c < fit_.motion.signals.size(); ++c) {
+    const auto& values = record.signal(fit_.motion.signals[c].of);
+    out.col(static_cast<Eigen::Index>(c)) = Eigen::Map<const Eigen::VectorXd>(values.data() + skipped, rows);
+  }
+  return out;
+}
+
+void SceneRuns::hand_on(std::size_t window, const Eigen::VectorXd& parameters, const Eigen::VectorXd& start) {
+  hydro::ensure(charts_.size() == window + 1, "windows are handed on in their order");
+  compiled(parameters);
+  compile::start_from(charts_.back().at(*model_, start), *model_);
+  compile::MovingState end;
+  run(measured_.rows(window), &end);
+  charts_.emplace_back(*model_, std::move(end));
+}
+
+std::vector<std::string> SceneRuns::units() {
+  const Record record = run(0, nullptr);
+  std::vector<std::string> out;
+  for (const auto& s : fit_.motion.signals) {
+    record.signal(s.of);  // a pattern may have let pass what is no name
+    for (const Signal& r : record.signals)
+      if (r.name == s.of) out.push_back(r.units);
+  }
+  return out;
+}
+
+/// Compiles the scene with these numbers, unless that is what was compiled last. None: as it is written.
+void SceneRuns::compiled(const Eigen::VectorXd& parameters) {
+  if (model_ && parameters.size() == numbers_.size() && parameters == numbers_) return;
+  std::vector<scene::OverriddenNumber> numbers;
+  for (Eigen::Index k = 0; k < parameters.size(); ++k)
+    numbers.push_back({fit_.motion.parameters[static_cast<std::size_t>(k)].key, parameters[k]});
+  scene_ = scene::parse_with(text_, fit_.motion.scene.value, numbers);
+  if (!scene_.run)
+    throw InputError("the scene to be fitted asks for no run", fit_.motion.scene.place,
+                     "add [ask] run = { duration = \"60 s\", every = \"0.05 s\" } to it");
+  if (scene_.run->steady)
+    throw InputError("a steady run has no start and no decay", fit_.motion.scene.place,
+                     "take start = \"steady\" out of its [ask] run");
+  // The record says how often and how long; what the scene asks for does not matter here.
+  scene_.run->every = measured_.step;
+  scene_.run->duration = measured_.step * static_cast<double>(measured_.before + std::ssize(measured_.time) - 1);
+  // The scene's step, or the next smaller one that divides the distance of samples, which a file may have rounded.
+  if (auto& step = scene_.solve.step)
+    step->value = measured_.step / std::max(1.0, std::ceil(measured_.step / step->value - 1e-3));
+  scene_.run->of.clear();
+  scene_.run->of_places.clear();
+  for (const auto& s : fit_.motion.signals) {
+    scene_.run->of.push_back(s.of);
+    scene_.run->of_places.push_back(s.deviation.place);
+  }
+  prepared_ = compile::prepare(scene_);
+  model_.emplace(compile::time_model(scene_, prepared_));
+  numbers_ = parameters;
+}
+
+Record SceneRuns::run(Eigen::Index samples, compile::MovingState* end) {
+  model_->steps = static_cast<std::size_t>(samples) * model_->steps_per_sample;
+  Record record = run_model(scene_, prepared_, *model_, {}, end);
+  if (!record.stopped.empty()) throw hydro::NumericsError(record.stopped);
+  return record;
+}
+
+void SceneRuns::begin_windows() {
+  if (const std::string kind = compile::remembers(*model_); !kind.empty())
+    throw InputError(
+        fmt::format("a window cannot begin in the middle of this scene: {} remembers what was before", kind),
+        fit_.model.place, "leave out `window`, and fit a record that begins with the run");
+  compile::MovingState begin = compile::start_of(*model_);
+  if (measured_.before > 0) run(measured_.before, &begin);
+  charts_.emplace_back(*model_, std::move(begin));
+}
+
+}  // namespace froude

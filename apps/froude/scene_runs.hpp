@@ -1,0 +1,62 @@
+#pragma once
+/// \file  A scene of motion run with other numbers in it, whole or in windows: what a fit of kind "motion" and its
+///        validation follow. Private to apps/froude.
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compile/restart.hpp"
+#include "fit/simulated.hpp"
+#include "froude/simulate.hpp"
+#include "scene/fit_scene.hpp"
+
+namespace froude {
+
+/// What was measured, in windows.
+struct MeasuredRun {
+  std::vector<double> time;         ///< s, even
+  Eigen::MatrixXd values;           ///< one column a signal, SI
+  double step;                      ///< s
+  Eigen::Index before;              ///< samples of the run that come before the first one measured
+  std::vector<Eigen::Index> first;  ///< sample of each window
+
+  Eigen::Index rows(std::size_t window) const;
+  /// Cuts the record into windows of this length; what is left over makes the last one longer. 0: one window.
+  /// \throws hydro::InputError for fewer than 8 samples in a window, or a start between samples of the run
+  static MeasuredRun of(std::vector<double> time, Eigen::MatrixXd values, double window_s);
+  /// The file of a fit scene. \throws hydro::InputError as of(), and for more than one file
+  static MeasuredRun read(const scene::FitScene& fit);
+};
+
+/// The runs. \throws hydro::InputError, in all it does, for scenes that cannot be run, or not in windows
+class SceneRuns final : public ::fit::Simulation {
+ public:
+  /// Both are referred to and must live as long. Files need not be there: only the motion of `fit` are looked
+  /// at.
+  SceneRuns(const scene::FitScene& fit, const MeasuredRun& measured);
+
+  Eigen::Index coordinates(std::size_t window) override;
+  Eigen::MatrixXd follow(std::size_t window, const Eigen::VectorXd& parameters, const Eigen::VectorXd& start) override;
+  void hand_on(std::size_t window, const Eigen::VectorXd& parameters, const Eigen::VectorXd& start) override;
+
+  /// Units of the signals, in their order. \throws hydro::InputError at a signal that there is not
+  std::vector<std::string> units();
+
+ private:
+  void compiled(const Eigen::VectorXd& parameters);
+  Record run(Eigen::Index samples, compile::MovingState* end);
+  void begin_windows();
+
+  const scene::FitScene& fit_;
+  const MeasuredRun& measured_;
+  std::string text_;
+  scene::Scene scene_;
+  compile::Prepared prepared_;
+  std::optional<compile::TimeModel> model_;
+  Eigen::VectorXd numbers_;
+  std::vector<compile::StateChart> charts_;
+};
+
+}  // namespace froude

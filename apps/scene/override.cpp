@@ -1,0 +1,172 @@
+#include "scene/override.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+
+#include "scene/build.hpp"
+#include "scene/document.hpp"
+
+namespace froude::scene {
+namespace {
+
+using hydro::InputError;
+
+std::vector<std::string> parts_of(const std::string& path) {
+  std::vector<std::string> out;
+  for (std::size_t from = 0; from <= path.size();) {
+    const std::size_t to = std::min(path.find('.', from), path.size());
+    out.push_back(path.substr(from, to - from));
+    from = to + 1;
+  }
+  return out;
+}
+
+/// A number at the beginning of a text, and what comes after it.
+bool split(std::string_view text, double& value, std::string& rest) {
+  text = hydro::trimmed(text);
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc()) return false;
+  rest = hydro::trimmed(text.substr(static_cast<std::size_t>(end - text.data())));
+  return true;
+}
+
+/// The pieces of "(0, 0, 1.31) m".
+struct Written3 {
+  std::vector<std::string> components;
+  std::string unit;
+};
+Written3 split_vector(const std::string& text) {
+  Written3 out;
+  const std::size_t open = text.find('('), close = text.find(')');
+  if (open == std::string::npos || close == std::string::npos || close < open) return out;
+  for (std::size_t from = open + 1; from <= close;) {
+    const std::size_t to = std::min(text.find(',', from), close);
+    out.components.emplace_back(hydro::trimmed(text.substr(from, to - from)));
+    from = to + 1;
+  }
+  out.unit = hydro::trimmed(text.substr(close + 1));
+  return out;
+}
+
+/// Where a path leads: a value, and of a vector which component.
+struct Found {
+  Node* node;
+  int component = -1;
+};
+
+class Finder {
+ public:
+  Finder(const std::string& path, const Place& asked) : path_(path), parts_(parts_of(path)), asked_(asked) {}
+
+  Found find(Node& root) {
+    Node* at = &root;
+    while (next_ < parts_.size()) {
+      const int component = component_of(*at);
+      if (component >= 0) return {at, component};
+      at = step(*at);
+    }
+    return {at};
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& why, const std::string& remedy) const {
+    throw InputError(fmt::format("\"{}\" {}", path_, why), asked_, remedy);
+  }
+  int component_of(const Node& at) const {
+    const std::string& part = parts_[next_];
+    const bool last = next_ + 1 == parts_.size();
+    if (!last || part.size() != 1 || part[0] < 'x' || part[0] > 'z' || !at.is(Node::Type::text)) return -1;
+    return split_vector(at.text).components.size() == 3 ? part[0] - 'x' : -1;
+  }
+  Node* step(Node& at) {
+    std::string key = parts_[next_++];
+    std::size_t index = 0;
+    if (const std::size_t open = key.find('['); open != std::string::npos) {
+      const auto* first = key.data() + open + 1;
+      const auto* last = key.data() + key.size() - 1;
+      if (key.back() != ']' || std::from_chars(first, last, index).ptr != last || index == 0)
+        refuse(fmt::format("has \"{}\" in it", key), "count tables from 1: line[1].damping.linear");
+      key.resize(open);
+    }
+    std::vector<std::string> known;
+    for (auto& entry : at.entries) {
+      known.push_back(entry.key);
+      if (entry.key == key) return entry.value.is(Node::Type::list) ? item(entry.value, key, index) : &entry.value;
+    }
+    if (!at.is(Node::Type::table)) refuse(fmt::format("goes on after a value, with \"{}\"", key), "end it there");
+    const std::string near = hydro::nearest(key, known);
+    refuse(fmt::format("is not written in the scene: there is no \"{}\"", key),
+           near.empty() ? fmt::format("write the key there; the keys at hand are {}", fmt::join(known, ", "))
+                        : fmt::format("did you mean \"{}\"?", near));
+  }
+  Node* item(Node& list, const std::string& key, std::size_t index) {
+    if (index > 0 && index <= list.items.size()) return &list.items[index - 1];
+    if (index > 0) refuse(fmt::format("asks for {} {}, of {}", key, index, list.items.size()), "count from 1");
+    if (next_ < parts_.size())
+      for (auto& table : list.items)
+        if (const auto* name = table.find("name"); name != nullptr && name->value.text == parts_[next_])
+          return ++next_, &table;
+    if (list.items.size() == 1) return &list.items.front();
+    refuse(fmt::format("does not say which {} of {}", key, list.items.size()),
+           fmt::format("write {}[1], or its name after {}", key, key));
+  }
+
+  const std::string& path_;
+  std::vector<std::string> parts_;
+  const Place& asked_;
+  std::size_t next_ = 0;
+};
+
+WrittenNumber read_number(const Found& found, const std::string& path, const Place& asked) {
+  WrittenNumber out{};
+  const Node& node = *found.node;
+  if (found.component >= 0) {
+    const auto written = split_vector(node.text);
+    std::string rest;
+    if (split(written.components[static_cast<std::size_t>(found.component)], out.value, rest) && rest.empty())
+      return out.unit = written.unit, out;
+  } else if (node.is(Node::Type::number) || node.is(Node::Type::integer)) {
+    return {node.number, ""};
+  } else if (node.is(Node::Type::text) && split(node.text, out.value, out.unit) && !out.unit.starts_with("..")) {
+    return out;
+  }
+  throw InputError(fmt::format("\"{}\" is {} in the scene; a single number is needed", path,
+                               node.is(Node::Type::text) ? "\"" + node.text + "\"" : std::string(type_name(node.type))),
+                   asked, "of a vector name one component: load.at.x");
+}
+
+void write_number(const Found& found, double value, const std::string& unit) {
+  Node& node = *found.node;
+  if (found.component >= 0) {
+    auto written = split_vector(node.text);
+    written.components[static_cast<std::size_t>(found.component)] = fmt::format("{:.17g}", value);
+    node.text = fmt::format("({}) {}", fmt::join(written.components, ", "), written.unit);
+  } else if (node.is(Node::Type::text)) {
+    node.text = fmt::format("{:.17g} {}", value, unit);
+  } else {
+    node.type = Node::Type::number;
+    node.number = value;
+  }
+  node.raw = node.is(Node::Type::text) ? '"' + node.text + '"' : fmt::format("{}", value);
+}
+
+}  // namespace
+
+WrittenNumber number_at(std::string_view text, const std::filesystem::path& file, const std::string& path,
+                        const Place& asked) {
+  Node root = parse_document(text, file.string());
+  resolve_includes(root, file);
+  return read_number(Finder(path, asked).find(root), path, asked);
+}
+
+void override_numbers(Node& root, const std::vector<OverriddenNumber>& numbers) {
+  for (const auto& number : numbers) {
+    const Found found = Finder(number.path, root.place).find(root);
+    write_number(found, number.value, read_number(found, number.path, root.place).unit);
+  }
+}
+
+}  // namespace froude::scene

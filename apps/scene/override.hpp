@@ -1,0 +1,37 @@
+#pragma once
+/// \file  Numbers of a scene written over by others: what a fit moves.
+///
+/// A path names a key as the echo of a result does: "water.density", "line[1].damping.linear", "joint.pto.damping",
+/// "load.at.x". Of several tables with one heading the number counts from 1, or a name stands in its place:
+/// "body.buoy.initial.heave". A single one needs neither.
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace froude::scene {
+
+struct OverriddenNumber {
+  std::string path;
+  double value;  ///< in the unit that the scene writes there
+};
+
+/// What a scene writes at a path.
+struct WrittenNumber {
+  double value;
+  std::string unit;  ///< as written; empty for a number without one
+};
+/// \throws hydro::InputError at `asked` if the scene writes no number there, with the nearest key
+WrittenNumber number_at(std::string_view text, const std::filesystem::path& file, const std::string& path,
+                        const Place& asked);
+
+/// As parse(), with other numbers in these places. \throws hydro::InputError as parse() and number_at()
+Scene parse_with(std::string_view text, const std::filesystem::path& file,
+                 const std::vector<OverriddenNumber>& numbers);
+
+/// Writes the numbers into a document. \throws hydro::InputError as number_at(), at the document
+void override_numbers(struct Node& root, const std::vector<OverriddenNumber>& numbers);
+
+}  // namespace froude::scene
