@@ -9,6 +9,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/base/random.hpp"
 
+namespace differentiate_test {
 namespace {
 
 using fit::LocalPolynomial;
@@ -113,3 +114,4 @@ TEST(Differentiate, RefusesRecordsThatAreTooShortOrTooCoarse) {
 }
 
 }  // namespace
+}  // namespace differentiate_test

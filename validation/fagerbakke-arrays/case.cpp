@@ -14,7 +14,7 @@
 #include "hydro/signal/harmonics.hpp"
 #include "hydro/waves/dispersion.hpp"
 
-namespace froude::validation {
+namespace froude::validation::fagerbakke_arrays {
 namespace {
 
 constexpr double pi = std::numbers::pi, asked_steepness = 1.0 / 80, looked_at = 100;  // s, the end of each run
@@ -178,7 +178,7 @@ struct Setting {
 
 }  // namespace
 
-Outcome fagerbakke_arrays(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   Outcome out;
   double lines = 0;
   plot::Figure figure{.title = "Surge of the first module of a row, connectors S1, steepness 1/80",
@@ -230,4 +230,4 @@ Outcome fagerbakke_arrays(const Folders& folders) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::fagerbakke_arrays
