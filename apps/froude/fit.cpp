@@ -77,11 +77,15 @@ std::vector<::fit::ForceChannel> force_channels(const scene::FitScene& scene, co
 }
 
 ::fit::PrepareOptions options_of(const scene::FitScene::Prepare& p, double step) {
+  using ::fit::Derivative;
   ::fit::PrepareOptions out{.longest_gap_s = p.longest_gap,
                             .outlier_half_window = 0,
                             .outlier_deviations = p.outlier_deviations,
                             .delay_s = p.delay,
-                            .derivative_bandwidth_hz = p.derivative_bandwidth};
+                            .derivative_bandwidth_hz = p.derivative_bandwidth,
+                            .derivative = p.derivative_method == "smoothing spline" ? Derivative::smoothing_spline
+                                          : p.derivative_method == "fourier series" ? Derivative::fourier_series
+                                                                                    : Derivative::local_polynomial};
   if (p.outlier_window > 0) out.outlier_half_window = std::max(2, static_cast<int>(p.outlier_window / (2 * step)));
   for (const auto& f : p.filters) out.filters.push_back(filter_of(f));
   using Kind = ::fit::WindowChoice::Kind;

@@ -63,6 +63,8 @@ void tell(const scene::FitScene& scene, const MeasuredRun& measured, const std::
   }
   for (std::size_t c = 0; c < units.size(); ++c)
     console.out << fmt::format("  {} differs by {:.3g} {} rms\n", scene.motion.signals[c].of, fit.rms[c], units[c]);
+  console.out << fmt::format("  {:.1f} % of the samples lie in the band in which {:g} % should\n", 100 * fit.inside,
+                             100 * scene.confidence);
   if (fit.starts_all > 0)
     console.out << fmt::format("  of {} numbers of the windows' starts the signals see {}, which are fitted too\n",
                                fit.starts_all, fit.starts_seen);
@@ -78,6 +80,12 @@ std::string bare(std::string key) {
   return key;
 }
 
+double widest(const std::vector<Eigen::MatrixXd>& bands, std::size_t column) {
+  double out = 0;
+  for (const auto& band : bands) out = std::max(out, band.col(static_cast<Eigen::Index>(column)).maxCoeff());
+  return out;
+}
+
 Json as_json_of(const scene::FitScene& scene, const std::vector<std::string>& units, const ::fit::SimulationFit& fit) {
   Json j{{"scene", scene.file.filename().string()},
          {"kind", "motion"},
@@ -87,6 +95,7 @@ Json as_json_of(const scene::FitScene& scene, const std::vector<std::string>& un
          {"weakest", fit.weakest},
          {"singular_values", std::vector<double>(fit.singular_values.begin(), fit.singular_values.end())}};
   if (!fit.caution.empty()) j["caution"] = fit.caution;
+  j["samples_in_band"] = fit.inside;
   for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
     const Coefficient& c = fit.parameters[k];
     const auto& parameter = scene.motion.parameters[k];
@@ -100,25 +109,53 @@ Json as_json_of(const scene::FitScene& scene, const std::vector<std::string>& un
     j["parameter"][bare(c.name)] = own;
   }
   for (std::size_t c = 0; c < units.size(); ++c)
-    j["signal"].push_back({{"of", scene.motion.signals[c].of}, {"unit", units[c]}, {"rms", fit.rms[c]}});
+    j["signal"].push_back({{"of", scene.motion.signals[c].of},
+                           {"unit", units[c]},
+                           {"rms", fit.rms[c]},
+                           {"widest_band_of_fit", widest(fit.fit_band, c)},
+                           {"widest_band_of_sample", widest(fit.sample_band, c)}});
   return j;
+}
+
+/// A column of all windows, one after the other.
+std::vector<double> joined(const std::vector<Eigen::MatrixXd>& windows, std::size_t column) {
+  std::vector<double> out;
+  for (const auto& w : windows) {
+    const auto own = w.col(static_cast<Eigen::Index>(column));
+    out.insert(out.end(), own.begin(), own.end());
+  }
+  return out;
+}
+
+/// There along the upper edge of a band and back along the lower one: one line.
+plot::Series outline(const std::string& name, const std::vector<double>& t, const std::vector<double>& half,
+                     bool dashed) {
+  plot::Series out{name, t, half, true, false, dashed};
+  for (std::size_t i = t.size(); i-- > 0;) {
+    out.x.push_back(t[i]);
+    out.y.push_back(-half[i]);
+  }
+  return out;
 }
 
 plot::Figure figure(const scene::FitScene& scene, const MeasuredRun& measured, const std::vector<std::string>& units,
                     const ::fit::SimulationFit& fit) {
   plot::Figure f{.title = scene.title.empty() ? scene.file.filename().string() : scene.title, .panels = {}};
+  const std::string level = fmt::format("{:g} % band", 100 * scene.confidence);
+  const auto& t = measured.time;
   for (std::size_t c = 0; c < units.size(); ++c) {
-    const auto column = static_cast<Eigen::Index>(c);
-    std::vector<double> values(measured.values.col(column).begin(), measured.values.col(column).end()), fitted, left;
-    for (const auto& motion : fit.motion)
-      fitted.insert(fitted.end(), motion.col(column).begin(), motion.col(column).end());
-    for (std::size_t i = 0; i < fitted.size(); ++i) left.push_back(values[i] - fitted[i]);
-    f.panels.push_back(
-        {.x = {"time", "s"},
-         .y = {scene.motion.signals[c].of, units[c]},
-         .series = {{"measured", measured.time, values}, {"fitted", measured.time, fitted, true, false, true}}});
-    f.panels.push_back(
-        {.x = {"time", "s"}, .y = {"residual", units[c]}, .series = {{"measured − fitted", measured.time, left}}});
+    const auto column = measured.values.col(static_cast<Eigen::Index>(c));
+    const std::vector<double> values(column.begin(), column.end()), fitted = joined(fit.motion, c);
+    std::vector<double> left = values;
+    for (std::size_t i = 0; i < left.size(); ++i) left[i] -= fitted[i];
+    f.panels.push_back({.x = {"time", "s"},
+                        .y = {scene.motion.signals[c].of, units[c]},
+                        .series = {{"measured", t, values}, {"fitted", t, fitted, true, false, true}}});
+    f.panels.push_back({.x = {"time", "s"},
+                        .y = {"residual", units[c]},
+                        .series = {{"measured − fitted", t, left, false, true},
+                                   outline(level + " of a sample", t, joined(fit.sample_band, c), true),
+                                   outline(level + " of the fit", t, joined(fit.fit_band, c), false)}});
   }
   return f;
 }

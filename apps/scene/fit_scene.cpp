@@ -183,6 +183,7 @@ FitScene::Prepare read_prepare(const Record& root, const std::string& kind) {
   }
   read_delay(prepare, out);
   if (prepare.has("derivative_bandwidth")) out.derivative_bandwidth = prepare.si("derivative_bandwidth") / two_pi;
+  out.derivative_method = prepare.text("derivative_method");
   out.filters = read_filters(prepare);
   if (!prepare.has("window")) return out;
   const Record& window = prepare.table("window");

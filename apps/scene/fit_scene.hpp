@@ -48,6 +48,7 @@ struct FitScene {
     double delay = 0, delay_error = 0;
     std::optional<double> longest_delay;  ///< the delay is to be estimated, within this
     double derivative_bandwidth = 0;
+    std::string derivative_method = "local polynomial";  ///< or "smoothing spline", "fourier series"
     std::vector<Filter> filters;
     std::string window = "all";  ///< "all", "span", "full cycles"
     double from = 0, to = 0;

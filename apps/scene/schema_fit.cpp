@@ -123,28 +123,34 @@ const Table& prepare() {
   static const Table table{
       .title = "[prepare]",
       .meaning = "steps between the measurement and a fit of kind \"morison\"; each is told in the report",
-      .keys = {quantity("longest_gap", dim::time, "rows missing no longer than this are bridged").positive().optional(),
-               inner_table("outliers", outliers()).optional(),
-               quantity("delay", dim::time, "of the force behind the motion: taken off, or estimated with the fit")
-                   .one_of({"estimate"})
-                   .optional(),
-               quantity("delay_error", dim::time, "standard uncertainty of a delay that is given")
-                   .positive()
-                   .only_beside("delay")
-                   .optional(),
-               quantity("longest_delay", dim::time, "where it is estimated: searched so far either way")
-                   .positive()
-                   .only_beside("delay")
-                   .optional(),
-               quantity("derivative_bandwidth", dim::angular_velocity,
-                        "of velocity and acceleration where they are derived; left out: five times the main frequency")
-                   .positive()
-                   .optional(),
-               inner_table("low_pass", low_pass()).optional(), inner_tables("notch", notch()).optional(),
-               quantity("moving_average", dim::time, "length of a mean over neighbours; a low pass does it better")
-                   .positive()
-                   .optional(),
-               inner_table("window", window()).optional()}};
+      .keys = {
+          quantity("longest_gap", dim::time, "rows missing no longer than this are bridged").positive().optional(),
+          inner_table("outliers", outliers()).optional(),
+          quantity("delay", dim::time, "of the force behind the motion: taken off, or estimated with the fit")
+              .one_of({"estimate"})
+              .optional(),
+          quantity("delay_error", dim::time, "standard uncertainty of a delay that is given")
+              .positive()
+              .only_beside("delay")
+              .optional(),
+          quantity("longest_delay", dim::time, "where it is estimated: searched so far either way")
+              .positive()
+              .only_beside("delay")
+              .optional(),
+          quantity("derivative_bandwidth", dim::angular_velocity,
+                   "of velocity and acceleration where they are derived; left out: five times the main frequency")
+              .positive()
+              .optional(),
+          text("derivative_method",
+               "how they are derived: a spline has less noise for the same bandwidth and gives up more at the ends; "
+               "a Fourier series is for a motion that repeats from one end of the record to the other")
+              .one_of({"local polynomial", "smoothing spline", "fourier series"})
+              .or_default("local polynomial", "gives up the least where a motion does not repeat"),
+          inner_table("low_pass", low_pass()).optional(), inner_tables("notch", notch()).optional(),
+          quantity("moving_average", dim::time, "length of a mean over neighbours; a low pass does it better")
+              .positive()
+              .optional(),
+          inner_table("window", window()).optional()}};
   return table;
 }
 

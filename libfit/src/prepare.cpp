@@ -201,8 +201,31 @@ void add_waves(Work& w) {
          m.highest_hz, -w.run.probe->level, w.run.probe->ahead);
 }
 
-/// Velocity and acceleration, measured or derived; (F5), (F6).
-void add_motion(Work& w, double bandwidth_hz) {
+/// How derivatives were had, with what they are good for.
+std::string method_of(const Motion& m, Derivative method) {
+  if (method == Derivative::fourier_series)
+    return fmt::format(
+        "a Fourier series of {:.0f} harmonics of {:.4g} s, to {:.3g} Hz, which leaves {:.2g} % of it out",
+        m.bandwidth_hz * m.main_period_s, m.main_period_s, m.bandwidth_hz, 100 * m.left);
+  return fmt::format(
+      "{} over {} samples (no delay): 1 % to {:.3g} Hz, {:.2g} % at the main frequency",
+      method == Derivative::smoothing_spline ? "a smoothing spline of degree 5" : "local polynomials of degree 4",
+      2 * m.half_width + 1, m.bandwidth_hz, 100 * m.gain_error_main);
+}
+
+void warn_of_noise(Work& w, const Motion& m) {  // (F6)
+  const auto& a = w.out.record.acceleration;
+  const double squares = std::inner_product(a.begin(), a.end(), a.begin(), 0.0) / static_cast<double>(a.size());
+  const double share = m.noise_acceleration * m.noise_acceleration / squares;
+  if (share <= 0.003) return;
+  w.warn(
+      "noise is {:.2g} % of the derived acceleration's variance: unless a low pass takes it out, inertia comes out too "
+      "small by as much; derivatives up to fewer than {:.3g} Hz have less of it",
+      100 * share, m.bandwidth_hz);
+}
+
+/// Velocity and acceleration, measured or derived; (F5), (F6), (F44), (F45).
+void add_motion(Work& w, const PrepareOptions& options) {
   const bool from_velocity = !w.run.velocity.empty();
   w.pattern = from_velocity ? w.run.velocity : w.run.position;
   ForceRecord& r = w.out.record;
@@ -212,26 +235,15 @@ void add_motion(Work& w, double bandwidth_hz) {
     r.acceleration = w.run.acceleration;
     return;
   }
-  const Motion m = from_velocity ? ::fit::from_velocity(w.run.velocity, w.step, bandwidth_hz)
-                                 : from_position(w.run.position, w.step, bandwidth_hz);
+  const auto derive = from_velocity ? ::fit::from_velocity : from_position;
+  const Motion m = derive(w.pattern, w.step, options.derivative_bandwidth_hz, options.derivative);
   w.cut(m.first, m.velocity.size());
   r.velocity = m.velocity;
   r.acceleration = w.run.acceleration.empty() ? m.acceleration : w.run.acceleration;
-  w.tell(
-      "derivatives of the {} by local polynomials of degree 4 over {} samples (no delay): 1 % to {:.3g} Hz, {:.2g} % "
-      "at "
-      "the main frequency; noise of velocity {:.2g} m/s, of acceleration {:.2g} m/s^2",
-      from_velocity ? "velocity" : "position", 2 * m.half_width + 1, m.bandwidth_hz, 100 * m.gain_error_main,
-      m.noise_velocity, m.noise_acceleration);
-  double squares = 0;
-  for (const double a : r.acceleration) squares += a * a / static_cast<double>(r.acceleration.size());
-  const double share = m.noise_acceleration * m.noise_acceleration / squares;
-  if (w.run.acceleration.empty() && share > 0.003)  // (F6)
-    w.warn(
-        "noise is {:.2g} % of the derived acceleration's variance: unless a low pass takes it out, inertia comes out "
-        "too "
-        "small by as much; derivatives up to fewer than {:.3g} Hz have less of it",
-        100 * share, m.bandwidth_hz);
+  w.tell("derivatives of the {} by {}; noise of velocity {:.2g} m/s, of acceleration {:.2g} m/s^2",
+         from_velocity ? "velocity" : "position", method_of(m, options.derivative), m.noise_velocity,
+         m.noise_acceleration);
+  if (w.run.acceleration.empty()) warn_of_noise(w, m);
 }
 
 /// √(u² + w²) u where the water moves across as well; (F7).
@@ -349,7 +361,7 @@ Prepared prepare(const RawRun& run, const PrepareOptions& options) {
   sum_forces(w);
   take_delay(w, options.delay_s);
   add_waves(w);
-  add_motion(w, options.derivative_bandwidth_hz);
+  add_motion(w, options);
   add_cross_flow(w);
   filter_all(w, options.filters);
   cut_window(w, options.window);

@@ -8,6 +8,7 @@
 
 #include "fit/correlated.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/signal/distributions.hpp"
 
 namespace fit {
 namespace {
@@ -36,6 +37,7 @@ class Shooting {
 
  private:
   Eigen::Index p() const { return std::ssize(problem_.parameters); }
+  Eigen::Index channels() const { return std::ssize(problem_.deviations); }
   Eigen::VectorXd first() const { return Eigen::Map<const Eigen::VectorXd>(first_.data(), p()); }
   Eigen::VectorXd start_of(const Eigen::VectorXd& x, std::size_t w) const {
     const Piece& piece = pieces_[w];
@@ -54,7 +56,11 @@ class Shooting {
   Eigen::MatrixXd differences(const Eigen::VectorXd& x);
   void parameter_column(Eigen::Index k, const Eigen::VectorXd& x, Eigen::MatrixXd& jacobian);
   ResidualModel model();
+  CoefficientCovariance covariance(const Eigen::VectorXd& r, const std::vector<bool>& identifiable) const;
   void tell(const Eigen::VectorXd& x, SimulationFit& fit);
+  void tell_parameters(const Eigen::VectorXd& x, const CoefficientCovariance& u, SimulationFit& fit) const;
+  void tell_motion(const Eigen::VectorXd& x, const Eigen::VectorXd& r, SimulationFit& fit) const;
+  void tell_bands(const CoefficientCovariance& u, SimulationFit& fit) const;
   void tell_identifiability(const Eigen::MatrixXd& jacobian, double unit, SimulationFit& fit);
   void judge(const Eigen::VectorXd& x, SimulationFit& fit) const;
 
@@ -341,17 +347,18 @@ void count_memory(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& r, con
   out.dof_raised = own.dof_raised;
 }
 
-void Shooting::tell(const Eigen::VectorXd& x, SimulationFit& fit) {
-  Eigen::VectorXd r(rows_);
-  Eigen::MatrixXd jacobian;
-  evaluate(x, r, &jacobian);
-  const bool perfect = r.norm() < 1e-9 * std::sqrt(static_cast<double>(rows_));
+CoefficientCovariance Shooting::covariance(const Eigen::VectorXd& r, const std::vector<bool>& identifiable) const {
   CoefficientCovariance u;
   u.covariance = u.white_covariance = Eigen::MatrixXd::Zero(unknowns_, unknowns_);
   u.effective_samples = Eigen::VectorXd::Zero(unknowns_);
   u.dof = u.white_dof = static_cast<double>(std::max<Eigen::Index>(1, rows_ - unknowns_));
   u.dof_raised = false;
-  if (!perfect) count_memory(jacobian, r, fit.search.identifiable, u);
+  const bool perfect = r.norm() < 1e-9 * std::sqrt(static_cast<double>(rows_));
+  if (!perfect) count_memory(jacobian_, r, identifiable, u);
+  return u;
+}
+
+void Shooting::tell_parameters(const Eigen::VectorXd& x, const CoefficientCovariance& u, SimulationFit& fit) const {
   for (Eigen::Index k = 0; k < p(); ++k) {
     const auto at = static_cast<std::size_t>(k);
     Coefficient c = with_interval(problem_.parameters[at].name, x[k], u, k, problem_.confidence);
@@ -369,21 +376,55 @@ void Shooting::tell(const Eigen::VectorXd& x, SimulationFit& fit) {
     fit.caution =
         "what is left hardly forgets within the record: it is an error of the model more than noise, and the intervals "
         "are as wide as two independent residuals make them";
-  const double unit = r.norm() / std::sqrt(static_cast<double>(std::max<Eigen::Index>(1, rows_ - unknowns_)));
-  tell_identifiability(jacobian, unit, fit);
-  judge(x, fit);
-  Eigen::VectorXd squares = Eigen::VectorXd::Zero(std::ssize(problem_.deviations));
-  double samples = 0;
+}
+
+void Shooting::tell_motion(const Eigen::VectorXd& x, const Eigen::VectorXd& r, SimulationFit& fit) const {
+  const auto deviations = Eigen::Map<const Eigen::RowVectorXd>(problem_.deviations.data(), channels());
+  Eigen::RowVectorXd squares = Eigen::RowVectorXd::Zero(channels());
   for (std::size_t w = 0; w < pieces_.size(); ++w) {
     const auto& measured = problem_.measured[w];
-    Eigen::MatrixXd left = r.segment(pieces_[w].row, measured.size()).reshaped(measured.rows(), measured.cols());
-    for (Eigen::Index c = 0; c < left.cols(); ++c) left.col(c) *= problem_.deviations[static_cast<std::size_t>(c)];
-    squares += left.cwiseAbs2().colwise().sum().transpose();
-    samples += static_cast<double>(left.rows());
+    const Eigen::MatrixXd left =
+        r.segment(pieces_[w].row, measured.size()).reshaped(measured.rows(), channels()) * deviations.asDiagonal();
+    squares += left.cwiseAbs2().colwise().sum();
     fit.motion.emplace_back(measured + left);
     fit.starts.push_back(start_of(x, w));
   }
-  for (Eigen::Index c = 0; c < squares.size(); ++c) fit.rms.push_back(std::sqrt(squares[c] / samples));
+  for (const double s : squares)
+    fit.rms.push_back(std::sqrt(s * static_cast<double>(channels()) / static_cast<double>(rows_)));
+}
+
+/// What the fit is uncertain by at each sample, and what a new sample would scatter by beside it. (F46)
+void Shooting::tell_bands(const CoefficientCovariance& u, SimulationFit& fit) const {
+  const double quantile = hydro::signal::student_t_quantile((1 + problem_.confidence) / 2, u.dof);
+  double inside = 0;
+  for (std::size_t w = 0; w < pieces_.size(); ++w) {
+    const auto& measured = problem_.measured[w];
+    const auto rows = jacobian_.middleRows(pieces_[w].row, measured.size());
+    const Eigen::VectorXd variance = (rows * u.covariance).cwiseProduct(rows).rowwise().sum().cwiseMax(0);
+    Eigen::MatrixXd of_fit = variance.reshaped(measured.rows(), channels()), of_sample = of_fit;
+    for (Eigen::Index c = 0; c < channels(); ++c) {
+      const auto at = static_cast<std::size_t>(c);
+      of_fit.col(c) *= std::pow(problem_.deviations[at], 2);
+      of_sample.col(c) = of_fit.col(c).array() + std::pow(fit.rms[at], 2);
+    }
+    fit.fit_band.emplace_back(quantile * of_fit.cwiseSqrt());
+    fit.sample_band.emplace_back(quantile * of_sample.cwiseSqrt());
+    inside +=
+        static_cast<double>(((fit.motion[w] - measured).cwiseAbs().array() <= fit.sample_band[w].array()).count());
+  }
+  fit.inside = inside / static_cast<double>(rows_);
+}
+
+void Shooting::tell(const Eigen::VectorXd& x, SimulationFit& fit) {
+  Eigen::VectorXd r(rows_);
+  evaluate(x, r, nullptr);
+  const CoefficientCovariance u = covariance(r, fit.search.identifiable);
+  tell_parameters(x, u, fit);
+  const double unit = r.norm() / std::sqrt(static_cast<double>(std::max<Eigen::Index>(1, rows_ - unknowns_)));
+  tell_identifiability(jacobian_, unit, fit);
+  judge(x, fit);
+  tell_motion(x, r, fit);
+  tell_bands(u, fit);
 }
 
 SimulationFit Shooting::solve() {  // (F41)

@@ -160,6 +160,21 @@ TEST_F(Fit, NeedsMoreThanAnAcceleration) {
   EXPECT_THAT([&] { told({.scene = scene}); }, ThrowsMessage<InputError>(HasSubstr("drag needs the velocity")));
 }
 
+TEST_F(Fit, WithOtherDerivativesFindsTheSameCoefficients) {
+  const auto j = nlohmann::json::parse(told({.scene = examples / "steady.toml"}, true))["run"][0];
+  const auto spline = nlohmann::json::parse(
+      told({.scene = changed("steady.toml", "fourier series", "smoothing spline")}, true))["run"][0];
+  for (const auto& run : {j, spline})
+    for (const auto& [name, truth] : {std::pair{"cd", 1.2}, {"ca", 1.0}}) {  // as make_oscillation.py says
+      EXPECT_LT(run[name]["interval"][0].get<double>(), truth);
+      EXPECT_GT(run[name]["interval"][1].get<double>(), truth);
+    }
+  EXPECT_THAT(j.dump(), HasSubstr("Fourier series of 2 harmonics of 4.35 s"));
+  EXPECT_THAT(spline.dump(), HasSubstr("smoothing spline of degree 5"));
+  EXPECT_THAT([&] { told({.scene = changed("steady.toml", "0.5 Hz", "0.2 Hz")}); },
+              ThrowsMessage<InputError>(HasSubstr("has no harmonic")));
+}
+
 TEST_F(Fit, NamesTheFileAndTheColumnAtFault) {
   EXPECT_THAT([&] { told({.scene = changed("oscillation.toml", "force = \"F\"", "force = \"f\"")}); },
               ThrowsMessage<InputError>(AllOf(HasSubstr("oscillation.csv"), HasSubstr("no column \"f\""))));
@@ -178,6 +193,10 @@ TEST_F(Fit, OfASceneFindsTheDampingThatAnIndependentRecordHas) {
   EXPECT_TRUE(holds("line_damping_linear", 0.006)) << j.dump(1);  // as make_pendulums.py says
   EXPECT_TRUE(holds("line_damping_quadratic", 0.004)) << j.dump(1);
   for (const auto& s : j["signal"]) EXPECT_NEAR(s["rms"].get<double>(), 0.01, 0.0015);  // the noise, and nothing else
+  EXPECT_NEAR(j["samples_in_band"].get<double>(), 0.95, 0.03);                          // 600 samples: three deviations
+  for (const auto& s : j["signal"])
+    EXPECT_LT(s["widest_band_of_fit"].get<double>(), s["widest_band_of_sample"].get<double>());
+  EXPECT_THAT(hydro::io::read_text(folder / "p.svg"), HasSubstr("95 % band of the fit"));
   EXPECT_THAT(hydro::io::read_text(folder / "p.toml"), HasSubstr("line_damping_linear = \"0.00"));
 }
 

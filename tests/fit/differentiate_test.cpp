@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
+
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -61,6 +64,100 @@ TEST(LocalPolynomial, PassesWhiteNoiseWithItsNoiseGain) {
     // them.
     EXPECT_NEAR(std::sqrt(variance) / filter.noise_gain(), 1, 0.03);
   }
+}
+
+TEST(SmoothingSpline, DoesToASinusoidWhatItsGainSaysAndWhatItsFormulaSays) {
+  const double h = 0.02, omega = 9, w = omega * h, stiffness = 200;
+  std::vector<double> x;
+  for (int j = 0; j < 600; ++j) x.push_back(std::cos(omega * j * h));
+  const double b = (66 + 52 * std::cos(w) + 2 * std::cos(2 * w)) / 120;
+  const fit::SmoothingSpline value(0, stiffness, h), first(1, stiffness, h), second(2, stiffness, h);
+  // Weights end where 1e-8 of them is left.
+  EXPECT_NEAR(value.gain(omega), b / (b + stiffness * std::pow(2 * std::sin(w / 2), 6)), 1e-7);
+  const auto v = first.apply(x), a = second.apply(x);
+  for (std::size_t j = 0; j < v.size(); ++j) {
+    const double t = static_cast<double>(j + static_cast<std::size_t>(first.half_width())) * h;
+    EXPECT_NEAR(v[j], -omega * first.gain(omega) * std::sin(omega * t), 1e-10);
+    EXPECT_NEAR(a[j], -omega * omega * second.gain(omega) * std::cos(omega * t), 1e-9);
+  }
+  for (const fit::SmoothingSpline* s : {&value, &first, &second})  // 1 - G is about stiffness w^6 for every order
+    EXPECT_NEAR((1 - s->gain(omega)) / (stiffness * std::pow(w, 6)), 1, 0.03);
+}
+
+TEST(SmoothingSpline, IsTheLeastOfItsSumOfSquaresAndBending) {
+  // The same spline as a dense least-squares problem over B-splines, in the middle of a record much longer than
+  // weights.
+  const double stiffness = 3;
+  const int n = 301;
+  const hydro::RandomStream random(75, 0);
+  Eigen::VectorXd x(n);
+  for (int j = 0; j < n; ++j) x[j] = random.normal(static_cast<std::uint64_t>(j));
+  const std::array<double, 3> values{66 / 120.0, 26 / 120.0, 1 / 120.0};
+  const std::array<double, 3> slopes{0, -5 / 12.0, -1 / 24.0};
+  const std::array<double, 6> bending{552, -330, 0, 75, -20, -1};  // ∫B‴B‴ at distances 0 … 5, times 120
+  Eigen::MatrixXd at = Eigen::MatrixXd::Zero(n, n), penalty = at;
+  for (int j = 0; j < n; ++j)
+    for (int k = 0; k < n; ++k) {
+      const auto d = static_cast<std::size_t>(std::abs(j - k));
+      if (d < 3) at(j, k) = values[d];
+      if (d < 6) penalty(j, k) = bending[d] / 120;
+    }
+  const Eigen::VectorXd c = (at.transpose() * at + stiffness * penalty).ldlt().solve(at.transpose() * x);
+  double slope = 0;
+  for (int k = n / 2 - 2; k <= n / 2 + 2; ++k)
+    slope += c[k] * slopes[static_cast<std::size_t>(std::abs(n / 2 - k))] * (n / 2 < k ? -1 : 1);
+  const fit::SmoothingSpline first(1, stiffness, 1);
+  const auto v = first.apply({x.data(), static_cast<std::size_t>(n)});
+  EXPECT_NEAR(v[static_cast<std::size_t>(n / 2 - first.half_width())], slope, 1e-7);
+}
+
+TEST(SmoothingSpline, PassesLessNoiseThanAPolynomialOfTheSameBandwidth) {
+  const double h = 0.01;
+  std::vector<double> x;
+  const hydro::RandomStream random(76, 0);
+  for (std::size_t j = 0; j < 4000; ++j)
+    x.push_back(0.5 * std::sin(1.5 * static_cast<double>(j) * h) + 1e-3 * random.normal(j));
+  const auto polynomial = fit::from_position(x, h),
+             spline = fit::from_position(x, h, 0, fit::Derivative::smoothing_spline);
+  EXPECT_NEAR(spline.bandwidth_hz / polynomial.bandwidth_hz, 1, 0.02);
+  EXPECT_LT(spline.noise_acceleration, polynomial.noise_acceleration);
+  double error = 0;
+  for (std::size_t j = 0; j < spline.velocity.size(); ++j)
+    error +=
+        std::pow(spline.acceleration[j] + 0.5 * 2.25 * std::sin(1.5 * static_cast<double>(j + spline.first) * h), 2);
+  error = std::sqrt(error / static_cast<double>(spline.velocity.size()));
+  EXPECT_NEAR(error / spline.noise_acceleration, 1, 0.3);  // as for polynomials above
+  EXPECT_LT(spline.gain_error_main, 2e-6);                 // sixth power of 1/5, and what is cut off the weights
+}
+
+TEST(FourierSeries, GivesDerivativesOfAMotionThatRepeatsUpToTheEnds) {
+  const double h = 0.013, omega = 2.2, noise = 1e-3;  // no whole number of periods
+  const hydro::RandomStream random(77, 0);
+  std::vector<double> x;
+  for (std::size_t j = 0; j < 3000; ++j) {
+    const double t = static_cast<double>(j) * h;
+    x.push_back(0.3 + std::sin(omega * t) + 0.1 * std::cos(3 * omega * t) + noise * random.normal(j));
+  }
+  const auto m = fit::from_position(x, h, 0, fit::Derivative::fourier_series);
+  ASSERT_EQ(m.velocity.size(), x.size());
+  EXPECT_NEAR(m.main_period_s, 2 * std::numbers::pi / omega, 1e-4);
+  EXPECT_NEAR(m.bandwidth_hz * m.main_period_s, 5, 1e-9);
+  double error = 0;
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    const double t = static_cast<double>(j) * h;
+    error += std::pow(m.acceleration[j] + omega * omega * (std::sin(omega * t) + 0.9 * std::cos(3 * omega * t)), 2);
+  }
+  error = std::sqrt(error / static_cast<double>(x.size()));
+  EXPECT_NEAR(error / m.noise_acceleration, 1, 0.5);  // ten amplitudes and a frequency: chi of 11, a fifth; 2.5 of them
+  EXPECT_LT(m.noise_acceleration, fit::from_position(x, h).noise_acceleration / 3);
+  EXPECT_NEAR(m.left, noise / std::sqrt(0.505), 0.05 * noise);
+}
+
+TEST(FourierSeries, RefusesAMotionThatDoesNotRepeat) {
+  std::vector<double> x;
+  for (int j = 0; j < 2000; ++j) x.push_back(std::sin(0.05 * j) * std::min(1.0, 0.002 * j));
+  EXPECT_THAT([&] { fit::from_position(x, 0.01, 0, fit::Derivative::fourier_series); },
+              testing::ThrowsMessage<hydro::InputError>(testing::HasSubstr("does not repeat")));
 }
 
 TEST(Differentiate, GivesVelocityAndAccelerationOfANoisyPositionWithinTheErrorsItStates) {

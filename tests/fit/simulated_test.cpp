@@ -108,6 +108,24 @@ TEST(Simulated, FitsStartsOfWindowsAndSaysWhichNobodySees) {
   }
 }
 
+TEST(Simulated, GivesBandsThatHoldTheTrueMotionAndNewSamples) {
+  double motion = 0, samples = 0, inside = 0;
+  const Eigen::MatrixXd truth = Flow(swing, vector({1, 0, 1}), 0.05, 300, false).follow(0, swing_truth, {});
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Flow flow(swing, vector({1, 0, 1}), 0.05, 300, false);
+    const auto f = fit::fit_simulation(flow, swing_problem(0.01, seed));
+    const Eigen::MatrixXd anew = swing_problem(0.01, 100 + seed).measured[0];
+    motion += static_cast<double>(((f.motion[0] - truth).array().abs() <= f.fit_band[0].array()).count());
+    samples += static_cast<double>(((f.motion[0] - anew).array().abs() <= f.sample_band[0].array()).count());
+    inside += f.inside / 20;
+    EXPECT_TRUE((f.fit_band[0].array() <= f.sample_band[0].array()).all());
+  }
+  // Of the motion three numbers are uncertain, so 20 records are some 60 facts: three deviations of a share of 0.95.
+  EXPECT_NEAR(motion / 6000, 0.95, 0.085);
+  EXPECT_NEAR(samples / 6000, 0.95, 0.01);  // 6000 samples: three deviations
+  EXPECT_NEAR(inside, 0.95, 0.015);         // these the fit has seen: a hundredth of their variance less
+}
+
 TEST(Simulated, GoesOnFromTheFitOfAnotherRecordToWhereItWouldHaveComeItself) {
   Flow flow(swing, vector({1, 0, 1}), 0.05, 100, true), same(swing, vector({1, 0, 1}), 0.05, 100, true);
   const auto first = fit::fit_simulation(flow, swing_problem(0.01, 5, 3));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fit/calibration.hpp"
+#include "fit/differentiate.hpp"
 #include "fit/filter.hpp"
 #include "fit/morison.hpp"
 #include "fit/wave_motion.hpp"
@@ -59,6 +60,7 @@ struct PrepareOptions {
   double outlier_deviations = 8;
   double delay_s = 0;                  ///< of the force behind the motion, taken off
   double derivative_bandwidth_hz = 0;  ///< 0: five times the main frequency
+  Derivative derivative = Derivative::local_polynomial;
   std::vector<FilterChoice> filters = {};
   WindowChoice window = {};
 };

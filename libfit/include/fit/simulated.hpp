@@ -53,8 +53,12 @@ struct SimulationProblem {
 struct SimulationFit {
   std::vector<Coefficient> parameters;
   FitReport search;
-  std::vector<Eigen::VectorXd> starts;   ///< coordinates of each window's start, those that the data see
-  std::vector<Eigen::MatrixXd> motion;   ///< fitted, as measured
+  std::vector<Eigen::VectorXd> starts;  ///< coordinates of each window's start, those that the data see
+  std::vector<Eigen::MatrixXd> motion;  ///< fitted, as measured
+  /// Half-widths at each sample at the confidence asked for: of the fitted motion itself, and of a sample measured anew
+  /// in the same motion. Each sample for itself, not all at once. (F46)
+  std::vector<Eigen::MatrixXd> fit_band, sample_band;
+  double inside;                         ///< share of the samples within sample_band
   std::vector<double> rms;               ///< of the residuals, one a channel, in its unit
   Eigen::Index starts_seen, starts_all;  ///< directions of all windows' starts that the data see, and all there are
   Eigen::VectorXd
