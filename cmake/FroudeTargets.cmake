@@ -69,12 +69,14 @@ function(froude_library name)
   endif()
 endfunction()
 
-# froude_test(NAME SOURCES… LIBRARIES… [DATA]): one GoogleTest program; each TEST becomes a CTest entry named NAME.Suite.Test.
+# froude_test(NAME SOURCES… LIBRARIES…): one GoogleTest program; each TEST becomes a CTest entry named NAME.Suite.Test. The
+# files are compiled together, so each has a namespace of its own, named after it.
 function(froude_test name)
   cmake_parse_arguments(T "" "" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(test_${name} ${T_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${T_LIBRARIES} froude::options GTest::gmock GTest::gtest_main)
   froude_precompile(test_${name} froude_test_headers)
+  froude_merge(test_${name})
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(test_${name} PRIVATE
     FROUDE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" FROUDE_REFERENCE_DATA_DEFAULT="${PROJECT_SOURCE_DIR}/../shared/data")

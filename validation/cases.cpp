@@ -1,103 +1,106 @@
 #include "harness/case.hpp"
 
-// One function a case, in validation/<name>/case.cpp. They are listed by hand: nothing registers itself.
+// One namespace a case, in validation/<name>/case.cpp, so that its names are its own. They are listed by hand: nothing
+// registers itself.
 namespace froude::validation {
 
-Outcome ball_drops(const Folders& folders);
-Outcome cylinder(const Folders& folders);
-Outcome dispersion(const Folders& folders);
-Outcome fagerbakke_bem(const Folders& folders);
-Outcome fagerbakke_eigen(const Folders& folders);
-Outcome fagerbakke_switching(const Folders& folders);
-Outcome hendriksen_calibration(const Folders& folders);
-Outcome hendriksen_oscillation(const Folders& folders);
-Outcome hendriksen_towing(const Folders& folders);
-Outcome f3of(const Folders& folders);
-Outcome formats(const Folders& folders);
-Outcome fpso_rao(const Folders& folders);
-Outcome hendriksen_waves(const Folders& folders);
-Outcome huijgen_cone(const Folders& folders);
-Outcome huijgen_double(const Folders& folders);
-Outcome huijgen_string(const Folders& folders);
-Outcome huijgen_dropper_static(const Folders& folders);
-Outcome huijgen_dropper_a(const Folders& folders);
-Outcome huijgen_dropper_b(const Folders& folders);
-Outcome huijgen_dropper_c(const Folders& folders);
-Outcome huijgen_damping(const Folders& folders);
-Outcome huijgen_gamma(const Folders& folders);
-Outcome huijgen_sea(const Folders& folders);
-Outcome hulme(const Folders& folders);
-Outcome interval_coverage(const Folders& folders);
-Outcome moorings(const Folders& folders);
-Outcome oc3_line_case(const Folders& folders);
-Outcome irf_a5(const Folders& folders);
-Outcome kramers_kronig(const Folders& folders);
-Outcome morison(const Folders& folders);
-Outcome order(const Folders& folders);
-Outcome orszaghova_expansion(const Folders& folders);
-Outcome orszaghova_map(const Folders& folders);
-Outcome pendulums(const Folders& folders);
-Outcome rm3_decay(const Folders& folders);
-Outcome rm3_regular(const Folders& folders);
-Outcome roll_decay(const Folders& folders);
-Outcome spectra(const Folders& folders);
-Outcome sea_dat(const Folders& folders);
-Outcome sphere_decay(const Folders& folders);
-Outcome stick(const Folders& folders);
-Outcome two_pole(const Folders& folders);
-Outcome zanten_periods(const Folders& folders);
-Outcome zanten_stick_slip(const Folders& folders);
-Outcome zanten_waves(const Folders& folders);
-Outcome zanten_wave_table(const Folders& folders);
+// clang-format off
+namespace ball_drops { Outcome outcome(const Folders& folders); }
+namespace cylinder { Outcome outcome(const Folders& folders); }
+namespace dispersion { Outcome outcome(const Folders& folders); }
+namespace fagerbakke_arrays { Outcome outcome(const Folders& folders); }
+namespace fagerbakke_bem { Outcome outcome(const Folders& folders); }
+namespace fagerbakke_eigen { Outcome outcome(const Folders& folders); }
+namespace fagerbakke_switching { Outcome outcome(const Folders& folders); }
+namespace hendriksen_calibration { Outcome outcome(const Folders& folders); }
+namespace hendriksen_oscillation { Outcome outcome(const Folders& folders); }
+namespace hendriksen_towing { Outcome outcome(const Folders& folders); }
+namespace f3of { Outcome outcome(const Folders& folders); }
+namespace formats { Outcome outcome(const Folders& folders); }
+namespace fpso_rao { Outcome outcome(const Folders& folders); }
+namespace hendriksen_waves { Outcome outcome(const Folders& folders); }
+namespace huijgen_cone { Outcome outcome(const Folders& folders); }
+namespace huijgen_damping { Outcome outcome(const Folders& folders); }
+namespace huijgen_double { Outcome outcome(const Folders& folders); }
+namespace huijgen_string { Outcome outcome(const Folders& folders); }
+namespace huijgen_dropper_static { Outcome outcome(const Folders& folders); }
+namespace huijgen_dropper { Outcome of_a(const Folders& folders); Outcome of_b(const Folders& folders); Outcome of_c(const Folders& folders); }
+namespace huijgen_gamma { Outcome outcome(const Folders& folders); }
+namespace huijgen_sea { Outcome outcome(const Folders& folders); }
+namespace hulme { Outcome outcome(const Folders& folders); }
+namespace interval_coverage { Outcome outcome(const Folders& folders); }
+namespace moorings { Outcome outcome(const Folders& folders); }
+namespace oc3_line_case { Outcome outcome(const Folders& folders); }
+namespace irf_a5 { Outcome outcome(const Folders& folders); }
+namespace kramers_kronig { Outcome outcome(const Folders& folders); }
+namespace morison { Outcome outcome(const Folders& folders); }
+namespace order { Outcome outcome(const Folders& folders); }
+namespace orszaghova_expansion { Outcome outcome(const Folders& folders); }
+namespace orszaghova_map { Outcome outcome(const Folders& folders); }
+namespace pendulums { Outcome outcome(const Folders& folders); }
+namespace rm3_decay { Outcome outcome(const Folders& folders); }
+namespace rm3_regular { Outcome outcome(const Folders& folders); }
+namespace roll_decay { Outcome outcome(const Folders& folders); }
+namespace spectra { Outcome outcome(const Folders& folders); }
+namespace sea_dat { Outcome outcome(const Folders& folders); }
+namespace sphere_decay { Outcome outcome(const Folders& folders); }
+namespace stick { Outcome outcome(const Folders& folders); }
+namespace two_pole { Outcome outcome(const Folders& folders); }
+namespace zanten_periods { Outcome outcome(const Folders& folders); }
+namespace zanten_stick_slip { Outcome outcome(const Folders& folders); }
+namespace zanten_waves { Outcome outcome(const Folders& folders); }
+namespace zanten_wave_table { Outcome outcome(const Folders& folders); }
+// clang-format on
 
 const std::vector<Case>& cases() {
   static const std::vector<Case> all{
-      {"fagerbakke-eigen", fagerbakke_eigen},
-      {"fagerbakke-bem", fagerbakke_bem},
-      {"fagerbakke-switching", fagerbakke_switching},
-      {"hendriksen-towing", hendriksen_towing},
-      {"hendriksen-calibration", hendriksen_calibration},
-      {"zanten-periods", zanten_periods},
-      {"zanten-stick-slip", zanten_stick_slip},
-      {"zanten-wave-table", zanten_wave_table},
-      {"zanten-waves", zanten_waves},
-      {"huijgen-cone", huijgen_cone},
-      {"huijgen-double", huijgen_double},
-      {"huijgen-string", huijgen_string},
-      {"huijgen-dropper-static", huijgen_dropper_static},
-      {"huijgen-dropper-A", huijgen_dropper_a},
-      {"huijgen-dropper-B", huijgen_dropper_b},
-      {"huijgen-dropper-C", huijgen_dropper_c},
-      {"huijgen-damping", huijgen_damping},
-      {"huijgen-gamma", huijgen_gamma},
-      {"huijgen-sea", huijgen_sea},
-      {"hendriksen-oscillation", hendriksen_oscillation},
-      {"hendriksen-waves", hendriksen_waves},
-      {"morison", morison},
-      {"interval-coverage", interval_coverage},
-      {"sea-dat", sea_dat},
-      {"dispersion", dispersion},
-      {"spectra", spectra},
-      {"hulme", hulme},
-      {"cylinder", cylinder},
-      {"two-pole", two_pole},
-      {"orszaghova-expansion", orszaghova_expansion},
-      {"orszaghova-map", orszaghova_map},
-      {"order", order},
-      {"stick", stick},
-      {"kramers-kronig", kramers_kronig},
-      {"sphere-decay", sphere_decay},
-      {"rm3-regular", rm3_regular},
-      {"rm3-decay", rm3_decay},
-      {"f3of", f3of},
-      {"formats", formats},
-      {"fpso-rao", fpso_rao},
-      {"irf-a5", irf_a5},
-      {"ball-drops", ball_drops},
-      {"moorings", moorings},
-      {"oc3-line", oc3_line_case},
-      {"pendulums", pendulums},
-      {"roll-decay", roll_decay},
+      {"fagerbakke-arrays", fagerbakke_arrays::outcome},
+      {"fagerbakke-eigen", fagerbakke_eigen::outcome},
+      {"fagerbakke-bem", fagerbakke_bem::outcome},
+      {"fagerbakke-switching", fagerbakke_switching::outcome},
+      {"hendriksen-towing", hendriksen_towing::outcome},
+      {"hendriksen-calibration", hendriksen_calibration::outcome},
+      {"zanten-periods", zanten_periods::outcome},
+      {"zanten-stick-slip", zanten_stick_slip::outcome},
+      {"zanten-wave-table", zanten_wave_table::outcome},
+      {"zanten-waves", zanten_waves::outcome},
+      {"huijgen-cone", huijgen_cone::outcome},
+      {"huijgen-damping", huijgen_damping::outcome},
+      {"huijgen-double", huijgen_double::outcome},
+      {"huijgen-string", huijgen_string::outcome},
+      {"huijgen-dropper-static", huijgen_dropper_static::outcome},
+      {"huijgen-dropper-A", huijgen_dropper::of_a},
+      {"huijgen-dropper-B", huijgen_dropper::of_b},
+      {"huijgen-dropper-C", huijgen_dropper::of_c},
+      {"huijgen-gamma", huijgen_gamma::outcome},
+      {"huijgen-sea", huijgen_sea::outcome},
+      {"hendriksen-oscillation", hendriksen_oscillation::outcome},
+      {"hendriksen-waves", hendriksen_waves::outcome},
+      {"morison", morison::outcome},
+      {"interval-coverage", interval_coverage::outcome},
+      {"sea-dat", sea_dat::outcome},
+      {"dispersion", dispersion::outcome},
+      {"spectra", spectra::outcome},
+      {"hulme", hulme::outcome},
+      {"cylinder", cylinder::outcome},
+      {"two-pole", two_pole::outcome},
+      {"orszaghova-expansion", orszaghova_expansion::outcome},
+      {"orszaghova-map", orszaghova_map::outcome},
+      {"order", order::outcome},
+      {"stick", stick::outcome},
+      {"kramers-kronig", kramers_kronig::outcome},
+      {"sphere-decay", sphere_decay::outcome},
+      {"rm3-regular", rm3_regular::outcome},
+      {"rm3-decay", rm3_decay::outcome},
+      {"f3of", f3of::outcome},
+      {"formats", formats::outcome},
+      {"fpso-rao", fpso_rao::outcome},
+      {"irf-a5", irf_a5::outcome},
+      {"ball-drops", ball_drops::outcome},
+      {"moorings", moorings::outcome},
+      {"oc3-line", oc3_line_case::outcome},
+      {"pendulums", pendulums::outcome},
+      {"roll-decay", roll_decay::outcome},
   };
   return all;
 }

@@ -132,8 +132,9 @@ const ComplexSignal& Responses::signal(const std::string& name) const {
   throw hydro::InputError(fmt::format("[ask.rao] gives no signal \"{}\"", name));
 }
 
-Responses respond(const scene::Scene& scene) {
-  const compile::Prepared prepared = compile::prepare(scene);
+Responses respond(const scene::Scene& scene) { return respond(scene, compile::prepare(scene)); }
+
+Responses respond(const scene::Scene& scene, const compile::Prepared& prepared) {
   const dynamics::Model model = compile::frequency_model(prepared);
   Responses out{{}, prepared.notes};
   for (const std::string& effect : left_out_of_linear_responses(scene, scene.rao->drag.has_value()))

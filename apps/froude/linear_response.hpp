@@ -22,6 +22,8 @@ struct Responses {
 };
 /// \throws hydro::InputError, hydro::NumericsError
 Responses respond(const scene::Scene& scene);
+/// Of what is prepared already, for the frequencies and signals of the scene.
+Responses respond(const scene::Scene& scene, const compile::Prepared& prepared);
 
 /// One sentence for each effect of the scene that a linear response has no place for.
 std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene, bool with_drag = false);

@@ -10,6 +10,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/potential/writers.hpp"
 
+namespace bem_test {
 namespace {
 
 using froude::BemArguments;
@@ -146,3 +147,4 @@ TEST_F(Bem, RefusesWhatItCannotDo) {
 }
 
 }  // namespace
+}  // namespace bem_test

@@ -10,6 +10,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
 
+namespace fit_test {
 namespace {
 
 using hydro::InputError;
@@ -209,3 +210,4 @@ TEST_F(Fit, OfASceneSaysWhichKeyItCannotFind) {
 }
 
 }  // namespace
+}  // namespace fit_test

@@ -10,6 +10,7 @@
 
 #include "hydro/base/error.hpp"
 
+namespace plot_test {
 namespace {
 
 using froude::plot::escaped;
@@ -151,3 +152,4 @@ TEST(PlotSvg, RefusesASeriesOfUnequalLengths) {
 #endif
 
 }  // namespace
+}  // namespace plot_test

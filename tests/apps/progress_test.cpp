@@ -5,6 +5,7 @@
 
 #include <sstream>
 
+namespace progress_test {
 namespace {
 
 using froude::Progress;
@@ -35,3 +36,4 @@ TEST(Progress, IsSilentWhenNobodyWatches) {
 }
 
 }  // namespace
+}  // namespace progress_test

@@ -15,6 +15,7 @@
 #include "hydro/io/csv.hpp"
 #include "hydro/io/hdf5.hpp"
 
+namespace psd_test {
 namespace {
 
 using froude::PsdArguments;
@@ -121,3 +122,4 @@ TEST_F(Psd, SaysWhatIsWrong) {
 }
 
 }  // namespace
+}  // namespace psd_test

@@ -10,6 +10,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/io/hdf5.hpp"
 
+namespace result_file_test {
 namespace {
 
 using froude::ComplexSignal;
@@ -131,3 +132,4 @@ TEST_F(ResultFile, LeavesNothingBehindWhenItCannotBeWritten) {
 }
 
 }  // namespace
+}  // namespace result_file_test

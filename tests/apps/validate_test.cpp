@@ -12,7 +12,7 @@
 #include "harness/report.hpp"
 #include "hydro/io/atomic_file.hpp"
 
-namespace froude::validation {
+namespace froude::validation::validate_test {
 namespace {
 
 using hydro::InputError;
@@ -288,4 +288,4 @@ TEST(ShippedCases, HaveAFolderWithReadmeAndRuleAndEveryFolderHasACase) {
 }
 
 }  // namespace
-}  // namespace froude::validation
+}  // namespace froude::validation::validate_test

@@ -9,6 +9,7 @@
 #include "hydro/io/csv.hpp"
 #include "support/reference_data.hpp"
 
+namespace calibration_test {
 namespace {
 
 using testing::HasSubstr;
@@ -76,3 +77,4 @@ TEST(Calibration, OfHendriksensLoadCellsComesOutAsRecomputed) {
 }
 
 }  // namespace
+}  // namespace calibration_test

@@ -8,6 +8,7 @@
 #include "hydro/base/error.hpp"
 #include "support/coloured_noise.hpp"
 
+namespace correlated_test {
 namespace {
 
 using froude_test::ar1_noise;
@@ -92,3 +93,4 @@ TEST(CorrelatedCovariance, RefusesWhatItCannotJudge) {
 }
 
 }  // namespace
+}  // namespace correlated_test

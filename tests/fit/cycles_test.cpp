@@ -8,6 +8,7 @@
 #include "hydro/base/error.hpp"
 #include "support/coloured_noise.hpp"
 
+namespace cycles_test {
 namespace {
 
 /// Rest, three cycles that grow, `full` cycles, three that fall, rest; 100 samples a cycle.
@@ -55,3 +56,4 @@ TEST(Cycles, RefuseARecordAtRest) {
 }
 
 }  // namespace
+}  // namespace cycles_test

@@ -9,6 +9,7 @@
 #include "hydro/base/error.hpp"
 #include "support/coloured_noise.hpp"
 
+namespace decay_test {
 namespace {
 
 using fit::MotionLaw;
@@ -138,3 +139,4 @@ TEST(Decay, RefusesARecordThatDoesNotSwing) {
 }
 
 }  // namespace
+}  // namespace decay_test

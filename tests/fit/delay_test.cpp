@@ -11,6 +11,7 @@
 #include "support/coloured_noise.hpp"
 #include "support/morison_records.hpp"
 
+namespace delay_test {
 namespace {
 
 const fit::Cylinder& cylinder = froude_test::moved_cylinder;
@@ -87,3 +88,4 @@ TEST(DelayOfTheForce, CannotBeToldWhereOnlyInertiaActs) {
 }
 
 }  // namespace
+}  // namespace delay_test

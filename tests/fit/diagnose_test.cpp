@@ -9,6 +9,7 @@
 #include "support/coloured_noise.hpp"
 #include "support/morison_records.hpp"
 
+namespace diagnose_test {
 namespace {
 
 const fit::Cylinder& cylinder = froude_test::moved_cylinder;
@@ -78,3 +79,4 @@ TEST(Residuals, ThatAreWhiteAreCalledSoAtTheRightRate) {
 }
 
 }  // namespace
+}  // namespace diagnose_test

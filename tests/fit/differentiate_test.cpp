@@ -12,6 +12,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/base/random.hpp"
 
+namespace differentiate_test {
 namespace {
 
 using fit::LocalPolynomial;
@@ -210,3 +211,4 @@ TEST(Differentiate, RefusesRecordsThatAreTooShortOrTooCoarse) {
 }
 
 }  // namespace
+}  // namespace differentiate_test

@@ -9,6 +9,7 @@
 #include "hydro/base/error.hpp"
 #include "support/coloured_noise.hpp"
 
+namespace filter_test {
 namespace {
 
 using fit::ZeroPhaseFilter;
@@ -97,3 +98,4 @@ TEST(ZeroPhaseFilter, RefusesWhatCannotBeFiltered) {
 }
 
 }  // namespace
+}  // namespace filter_test

@@ -9,11 +9,12 @@
 #include "fit/prepare.hpp"
 #include "hydro/base/error.hpp"
 #include "support/coloured_noise.hpp"
+#include "support/morison_records.hpp"
 
+namespace hard_cases_test {
 namespace {
 
-const fit::Cylinder cylinder{
-    .diameter = 0.12, .length = 0.5, .density = 997, .viscosity = {}, .experiment = fit::Experiment::water_moves};
+const fit::Cylinder& cylinder = froude_test::held_cylinder;
 
 /// C_D = 1.2, C_M = 1.8 in a sinusoid, with noise of a memory of ten samples.
 fit::ForceRecord made(double amplitude, double period, double periods, double noise, std::size_t per_period = 200) {
@@ -76,3 +77,4 @@ TEST(HardCase, ARecordAtRestIsRefusedWithItsReason) {
 }
 
 }  // namespace
+}  // namespace hard_cases_test

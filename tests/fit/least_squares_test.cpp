@@ -10,6 +10,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/base/random.hpp"
 
+namespace least_squares_test {
 namespace {
 
 using fit::FitReport;
@@ -112,7 +113,8 @@ TEST(Compressed, HasTheSolutionAndTheResidualOfTheWholeProblem) {
   for (const double apart : {1.0, 1e-5}) {  // two columns well apart; nearly the same
     Eigen::MatrixXd a = Eigen::MatrixXd::Random(n, 3);
     a.col(2) = a.col(1) + apart * a.col(2);
-    const Eigen::VectorXd b = a * Eigen::Vector3d(1, -2, 3) + 0.3 * Eigen::VectorXd::Random(n);
+    Eigen::VectorXd b = a * Eigen::Vector3d(1, -2, 3);
+    b += 0.3 * Eigen::VectorXd::Random(n);
     const Eigen::VectorXd x = a.householderQr().solve(b);
     const auto small = fit::compress(a, b);
     const Eigen::VectorXd y = small.columns.triangularView<Eigen::Upper>().solve(small.target);
@@ -128,3 +130,4 @@ TEST(Compressed, KeepsAPerfectFitPerfect) {
 }
 
 }  // namespace
+}  // namespace least_squares_test

@@ -13,6 +13,7 @@
 #include "hydro/base/error.hpp"
 #include "support/coloured_noise.hpp"
 
+namespace morison_test {
 namespace {
 
 using fit::Cylinder;
@@ -360,3 +361,4 @@ TEST(MorisonFit, ThatIsRobustSolvesHubersEquations) {
 }
 
 }  // namespace
+}  // namespace morison_test

@@ -12,6 +12,7 @@
 #include "support/coloured_noise.hpp"
 #include "support/morison_records.hpp"
 
+namespace prepare_test {
 namespace {
 
 using fit::FilterChoice;
@@ -250,3 +251,4 @@ TEST(Prepare, TakesTheWaterFromAProbeWhoseSignalIsLate) {
 }
 
 }  // namespace
+}  // namespace prepare_test

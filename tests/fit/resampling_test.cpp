@@ -10,6 +10,7 @@
 #include "hydro/base/error.hpp"
 #include "support/morison_records.hpp"
 
+namespace resampling_test {
 namespace {
 
 using fit::IntervalMethod;
@@ -82,3 +83,4 @@ TEST(Resampling, NeedsCyclesAndBlocks) {
 }
 
 }  // namespace
+}  // namespace resampling_test

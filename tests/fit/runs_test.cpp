@@ -8,6 +8,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/base/random.hpp"
 
+namespace runs_test {
 namespace {
 
 using fit::Law;
@@ -103,3 +104,4 @@ TEST(Runs, RefuseWhatTheyCannotTell) {
 }
 
 }  // namespace
+}  // namespace runs_test

@@ -10,6 +10,7 @@
 #include "hydro/base/error.hpp"
 #include "support/coloured_noise.hpp"
 
+namespace sensor_test {
 namespace {
 
 using testing::ElementsAre;
@@ -98,3 +99,4 @@ TEST(EvenGrid, RefusesTimeThatStandsStillOrWanders) {
 }
 
 }  // namespace
+}  // namespace sensor_test

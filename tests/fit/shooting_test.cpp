@@ -8,6 +8,7 @@
 #include "hydro/base/error.hpp"
 #include "support/coloured_noise.hpp"
 
+namespace shooting_test {
 namespace {
 
 using fit::MotionLaw;
@@ -138,3 +139,4 @@ TEST(Shooting, SaysWhichParametersADirectionHides) {
 }
 
 }  // namespace
+}  // namespace shooting_test

@@ -10,6 +10,7 @@
 #include "hydro/base/error.hpp"
 #include "support/coloured_noise.hpp"
 
+namespace simulated_test {
 namespace {
 
 using testing::AllOf;
@@ -204,3 +205,4 @@ TEST(Simulated, RefusesWhatItCannotBeginWith) {
 }
 
 }  // namespace
+}  // namespace simulated_test

@@ -10,6 +10,7 @@
 #include "hydro/signal/distributions.hpp"
 #include "support/reference_data.hpp"
 
+namespace towing_test {
 namespace {
 
 fit::Cylinder cylinder() {
@@ -86,3 +87,4 @@ TEST(Towing, OfHendriksensDropperLineComesOutAsRecomputed) {
 }
 
 }  // namespace
+}  // namespace towing_test

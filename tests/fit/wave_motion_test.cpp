@@ -8,6 +8,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/waves/dispersion.hpp"
 
+namespace wave_motion_test {
 namespace {
 
 const hydro::Water tank{.density = 997, .gravity = 9.81, .depth = hydro::WaterDepth::from_metres(1.25)};
@@ -59,3 +60,4 @@ TEST(WaterMotion, NeedsABodyInTheWaterAndFivePeriods) {
 }
 
 }  // namespace
+}  // namespace wave_motion_test

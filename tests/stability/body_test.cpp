@@ -15,10 +15,11 @@
 #include "support/double_pendulum.hpp"
 #include "support/motion.hpp"
 
+namespace body_test {
 namespace {
 
 using namespace dynamics;
-using froude::support::Motion;
+using support::Motion;
 using Forces = std::vector<std::unique_ptr<const ForceKind>>;
 
 RigidBody block(const std::string& name, const Eigen::Vector3d& at, double mass, double radius = 1) {
@@ -31,12 +32,12 @@ double rotation_of(const State& s, std::size_t body) { return rotation_log(s.pos
 
 /// The double pendulum, let go level, with friction of this level in both hinges.
 Model rubbing(double level) {
-  const Model free = froude::support::double_pendulum(0.4);
+  const Model free = support::double_pendulum(0.4);
   std::vector<Joint> joints = free.joints().joints();
   std::vector<Friction> friction;
   for (const Joint& j : joints) friction.push_back({j.name, Travel(free.bodies(), j), 1.2 * level, level});
   Forces forces;
-  forces.push_back(std::make_unique<GravityKind>(free.bodies(), froude::support::rod_gravity));
+  forces.push_back(std::make_unique<GravityKind>(free.bodies(), support::rod_gravity));
   forces.push_back(std::make_unique<FrictionKind>(std::move(friction)));
   return Model(free.bodies(), {}, std::move(forces), std::move(joints));
 }
@@ -200,3 +201,4 @@ TEST(HardBodies, StepTenTimesTheFastestPeriod) {
 }
 
 }  // namespace
+}  // namespace body_test

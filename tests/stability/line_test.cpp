@@ -13,6 +13,7 @@
 #include "hydro/waves/summed_field.hpp"
 #include "support/line_models.hpp"
 
+namespace line_test {
 namespace {
 
 using namespace support;
@@ -192,3 +193,4 @@ TEST(HardLines, StraightTautLineBetweenItsEndsHasNoMechanismAndStillMoves) {
 }
 
 }  // namespace
+}  // namespace line_test

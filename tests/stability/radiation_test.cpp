@@ -9,6 +9,7 @@
 #include "support/random_passive.hpp"
 #include "support/two_pole_body.hpp"
 
+namespace radiation_test {
 namespace {
 
 using namespace hydro::radiation;
@@ -125,3 +126,4 @@ TEST(RadiationStability, NeitherDriftsNorGrowsInALongRun) {
 }
 
 }  // namespace
+}  // namespace radiation_test

@@ -3,7 +3,7 @@
 #include "dynamics/force/gravity.hpp"
 #include "dynamics/model/model.hpp"
 
-namespace froude::support {
+namespace support {
 
 constexpr double rod_length = 1, rod_mass = 2, rod_gravity = 9.81;
 
@@ -36,4 +36,4 @@ inline double height_energy(const dynamics::State& state) {
   return rod_mass * rod_gravity * (state.pose[0].centre.z() + state.pose[1].centre.z());
 }
 
-}  // namespace froude::support
+}  // namespace support

@@ -56,4 +56,12 @@ inline State ends_at(const Line& line, const Eigen::Vector3d& last) {
   return s;
 }
 
+/// The largest difference of a segment from its length at rest, m.
+inline double worst_length(const Line& line, const State& s) {
+  double worst = 0;
+  for (int j = 0; j < line.segments(); ++j)
+    worst = std::max(worst, std::abs((s.position.col(j + 1) - s.position.col(j)).norm() - line.segment(j).length));
+  return worst;
+}
+
 }  // namespace support

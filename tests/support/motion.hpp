@@ -3,7 +3,7 @@
 #include "dynamics/integrate/generalized_alpha.hpp"
 #include "dynamics/integrate/ledger.hpp"
 
-namespace froude::support {
+namespace support {
 
 struct Motion {
   dynamics::Workspace workspace;
@@ -30,4 +30,4 @@ struct Motion {
   }
 };
 
-}  // namespace froude::support
+}  // namespace support

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace froude::support {
+namespace support {
 
 /// A row along x, 13 m apart, named m1, m2, … unless told otherwise; keys of [[body]] may follow.
 inline std::string pontoons(int count, const std::string& first = "(0, 0, 0) m", const std::string& name = "m") {
@@ -19,4 +19,4 @@ radii_of_gyration = "(4.6, 4.6, 6.4) m"
                      name, first, count);
 }
 
-}  // namespace froude::support
+}  // namespace support

@@ -9,7 +9,7 @@ namespace support {
 
 /// K(t) = e^{−at}(cos bt − (a/b) sin bt), B(ω) = 2aω²/D, A(ω) − A∞ = (w² − ω²)/D, w² = a² + b², D = (w² − ω²)² + 4a²ω².
 struct TwoPoleBody {
-  double decay, frequency;  // a, b
+  double decay = 0.3, frequency = 1.1;  // a, b
 
   double K(double t) const {
     return std::exp(-decay * t) * (std::cos(frequency * t) - decay / frequency * std::sin(frequency * t));

@@ -7,7 +7,7 @@
 #include "harness/case.hpp"
 #include "hydro/io/csv.hpp"
 
-namespace froude::validation {
+namespace froude::validation::ball_drops {
 namespace {
 
 struct Ball {
@@ -80,7 +80,7 @@ double scale_error(const std::vector<Drop>& drops) {
 
 }  // namespace
 
-Outcome ball_drops(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   const auto drops = all_drops(folders);
   const double scale = scale_error(drops);
   double least = 9, most = -9, worst = 0, heavy = 0, heavy_unknown = 0, light_seen = 0, light = 0;
@@ -117,4 +117,4 @@ Outcome ball_drops(const Folders& folders) {
                          .panels = {{.x = {.label = "drop"}, .y = {.label = "C_D"}, .series = {values, bars}}}}}}};
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::ball_drops

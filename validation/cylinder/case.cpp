@@ -7,7 +7,7 @@
 #include "hydro/waves/dispersion.hpp"
 #include "support/bottom_mounted_cylinders.hpp"
 
-namespace froude::validation {
+namespace froude::validation::cylinder {
 namespace {
 
 using hydro::cylinders::CylinderBody;
@@ -64,7 +64,7 @@ double linton_evans_error() {
 
 }  // namespace
 
-Outcome cylinder(const Folders&) {
+Outcome outcome(const Folders&) {
   const Solution one =
       hydro::cylinders::solve({floating(0.8, 1.13, 0)}, water, frequencies(), {0.3}, {.tolerance = 1e-6});
   const Solution two = hydro::cylinders::solve({floating(1, 2, 0), floating(0.7, 1.2, 6)}, water, {0.8, 1.6, 2.4},
@@ -90,4 +90,4 @@ Outcome cylinder(const Folders&) {
                         {.title = "Truncated cylinder", .panels = {A}}}}};
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::cylinder

@@ -4,7 +4,7 @@
 #include "harness/case.hpp"
 #include "hydro/waves/dispersion.hpp"
 
-namespace froude::validation {
+namespace froude::validation::dispersion {
 namespace {
 
 constexpr double g = 9.81;
@@ -18,7 +18,7 @@ double residual(double omega, const hydro::Water& water) {
 
 }  // namespace
 
-Outcome dispersion(const Folders&) {
+Outcome outcome(const Folders&) {
   double worst = 0, worst_deep = 0;
   plot::Panel panel{.x = {.label = "kh", .scale = plot::Scale::logarithmic},
                     .y = {.label = "relative residual", .scale = plot::Scale::logarithmic},
@@ -42,4 +42,4 @@ Outcome dispersion(const Folders&) {
                         {.title = "Dispersion relation", .panels = {panel}}}}};
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::dispersion

@@ -11,7 +11,7 @@
 #include "hydro/potential/writers.hpp"
 #include "hydro/radiation/choice.hpp"
 
-namespace froude::validation {
+namespace froude::validation::f3of {
 namespace {
 
 using hydro::potential::Coefficients;
@@ -233,7 +233,7 @@ class Scratch {
 
 }  // namespace
 
-Outcome f3of(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   const Coefficients data = database(folders);
   const Scratch file(data);
   Outcome out;
@@ -265,4 +265,4 @@ Outcome f3of(const Folders& folders) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::f3of

@@ -5,7 +5,7 @@
 #include "harness/case.hpp"
 #include "hydro/cylinders/solve.hpp"
 
-namespace froude::validation {
+namespace froude::validation::fagerbakke_bem {
 namespace {
 
 using hydro::cylinders::CylinderBody;
@@ -76,7 +76,7 @@ plot::Series heave_series(const std::string& name, const Coefficients& c, bool m
 
 }  // namespace
 
-Outcome fagerbakke_bem(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   const auto panels_1 = hydro::potential::read(folders.shared("generated-bem/pontoon1/pontoon1.nc"));
   const auto panels_2 = hydro::potential::read(folders.shared("generated-bem/pontoon2/pontoon2.nc"));
   const Coefficients ours_1 = like(panels_1, {module_at(0)}),
@@ -97,4 +97,4 @@ Outcome fagerbakke_bem(const Folders& folders) {
                         {.title = "Module of four cylinders", .panels = {heave}}}}};
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::fagerbakke_bem

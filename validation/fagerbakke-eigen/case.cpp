@@ -9,7 +9,7 @@
 #include "hydro/potential/coefficients.hpp"
 #include "hydro/potential/operations.hpp"
 
-namespace froude::validation {
+namespace froude::validation::fagerbakke_eigen {
 namespace {
 
 constexpr int modules = 5;
@@ -57,7 +57,7 @@ double own_frequency(double kappa, const std::function<double(double)>& added_ma
 
 }  // namespace
 
-Outcome fagerbakke_eigen(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   const auto springs = hydro::io::CsvTable::read(folders.reference("springs.csv"));
   const auto printed = hydro::io::CsvTable::read(folders.reference("eigenperiods.csv"));
   const hydro::potential::FrequencyTable module(hydro::potential::read(folders.example("pontoon1.nc")),
@@ -87,4 +87,4 @@ Outcome fagerbakke_eigen(const Folders& folders) {
   return outcome;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::fagerbakke_eigen

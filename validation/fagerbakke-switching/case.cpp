@@ -5,7 +5,7 @@
 #include "harness/case.hpp"
 #include "hydro/signal/fft.hpp"
 
-namespace froude::validation {
+namespace froude::validation::fagerbakke_switching {
 namespace {
 
 constexpr double duration = 1200, change = 600, fade = 40, amplitude = 0.3, before = 7.5, after = 3.5,
@@ -52,7 +52,7 @@ double entry(const Record& record, const std::string& name) {
 
 }  // namespace
 
-Outcome fagerbakke_switching(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   scene::Scene with = scene::read(folders.own() / "scene.toml");
   with.waves->kind = sea();
   scene::Scene without = with;
@@ -86,4 +86,4 @@ Outcome fagerbakke_switching(const Folders& folders) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::fagerbakke_switching

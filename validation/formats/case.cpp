@@ -6,7 +6,7 @@
 #include "hydro/base/random.hpp"
 #include "hydro/potential/operations.hpp"
 
-namespace froude::validation {
+namespace froude::validation::formats {
 namespace {
 
 using hydro::potential::FrequencyTable;
@@ -94,7 +94,7 @@ plot::Figure histories(const std::vector<Body>& bodies, const std::vector<double
 
 }  // namespace
 
-Outcome formats(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   const auto file = [&](const char* name) { return folders.shared(std::string("bem_formats/ellipsoid_") + name); };
   const hydro::potential::ReadOptions water{
       .density = 1000, .gravity = 9.81, .depth = hydro::WaterDepth::infinite(), .iperout = {}};
@@ -124,4 +124,4 @@ Outcome formats(const Folders& folders) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::formats

@@ -7,7 +7,7 @@
 #include "harness/scenes.hpp"
 #include "hydro/io/atomic_file.hpp"
 
-namespace froude::validation {
+namespace froude::validation::fpso_rao {
 namespace {
 
 using Response = Eigen::Matrix<std::complex<double>, 6, 1>;
@@ -24,7 +24,7 @@ std::map<std::pair<double, double>, Response> read_motions(const std::filesystem
 
 }  // namespace
 
-Outcome fpso_rao(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   const scene::Scene scene = read_scene(folders, "mss_fpso/fpso.1");
   const auto motions = read_motions(folders.shared("mss_fpso/fpso.4"));
   const compile::Prepared p = compile::prepare(scene);
@@ -61,4 +61,4 @@ Outcome fpso_rao(const Folders& folders) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::fpso_rao

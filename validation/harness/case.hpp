@@ -2,7 +2,8 @@
 /// \file  A validation case: a question that has an answer outside this code, and the numbers that answer it.
 ///
 /// A case is a folder validation/<name>/ with README.md (question, physics, what agreement would not show), accept.toml
-/// (the limits, accept.hpp), case.cpp (a function below) and, where the data are ours, reference/ with SOURCE.md.
+/// (the limits, accept.hpp), case.cpp (a function in a namespace of its own) and, where the data are ours, reference/
+/// with SOURCE.md.
 #include <filesystem>
 #include <stdexcept>
 #include <string>

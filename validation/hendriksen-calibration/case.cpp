@@ -2,7 +2,7 @@
 #include "fit/calibration.hpp"
 #include "hydro/io/csv.hpp"
 
-namespace froude::validation {
+namespace froude::validation::hendriksen_calibration {
 namespace {
 
 // Tension (positive loads) and compression are one loading cycle each.
@@ -19,7 +19,7 @@ std::vector<fit::LoadCycle> cycles_of(const hydro::io::CsvTable& table) {
 
 }  // namespace
 
-Outcome hendriksen_calibration(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   Outcome outcome;
   plot::Panel residuals{
       .x = {.label = "force", .unit = "N"}, .y = {.label = "voltage less line", .unit = "V"}, .series = {}};
@@ -43,4 +43,4 @@ Outcome hendriksen_calibration(const Folders& folders) {
   return outcome;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::hendriksen_calibration

@@ -9,7 +9,7 @@
 #include "hydro/base/random.hpp"
 #include "hydro/io/csv.hpp"
 
-namespace froude::validation {
+namespace froude::validation::hendriksen_oscillation {
 namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi, step = 0.001;
@@ -65,7 +65,7 @@ bool holds(const ::fit::Interval& interval, double truth) { return interval.low 
 
 }  // namespace
 
-Outcome hendriksen_oscillation(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   const auto table = hydro::io::CsvTable::read(folders.reference("hendriksen_tableA2_forced_oscillation.csv"));
   const auto column = [&](const char* name) { return table.column(name); };
   const auto amplitude = column("amplitude_m"), period = column("period_s"), cd = column("cd"), cm = column("cm"),
@@ -104,4 +104,4 @@ Outcome hendriksen_oscillation(const Folders& folders) {
                          .panels = {{.x = {.label = "KC"}, .y = {.label = "C_D"}, .series = {truth, ours, bars}}}}}}};
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::hendriksen_oscillation

@@ -5,9 +5,9 @@
 #include "harness/case.hpp"
 #include "hydro/io/csv.hpp"
 
-namespace froude::validation {
+namespace froude::validation::hendriksen_towing {
 
-Outcome hendriksen_towing(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   const auto table = hydro::io::CsvTable::read(folders.reference("towing.csv"));
   const std::vector<double>&speed = table.column("velocity_mean_m_s"), &speed_sd = table.column("velocity_sd"),
         &force = table.column("force_mean_N"), &force_sd = table.column("force_sd"), &printed = table.column("cd_mean"),
@@ -49,4 +49,4 @@ Outcome hendriksen_towing(const Folders& folders) {
   return outcome;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::hendriksen_towing

@@ -9,7 +9,7 @@
 #include "hydro/io/csv.hpp"
 #include "hydro/waves/sea.hpp"
 
-namespace froude::validation {
+namespace froude::validation::hendriksen_waves {
 namespace {
 
 namespace hw = hydro::waves;
@@ -95,7 +95,7 @@ Fits fit_all(const hydro::io::CsvTable& table) {
 
 }  // namespace
 
-Outcome hendriksen_waves(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   const auto table = hydro::io::CsvTable::read(folders.reference("hendriksen_tableA3_waves.csv"));
   const auto &period = table.column("period_s"), &amplitude = table.column("amplitude_m");
   double worst_u = 0, worst_a = 0, kc_short = 0, roundest = 0;
@@ -140,4 +140,4 @@ Outcome hendriksen_waves(const Folders& folders) {
                                      .series = {kc}}}}}}};
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::hendriksen_waves

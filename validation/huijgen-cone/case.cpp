@@ -5,7 +5,7 @@
 #include "harness/case.hpp"
 #include "support/line_models.hpp"
 
-namespace froude::validation {
+namespace froude::validation::huijgen_cone {
 namespace {
 
 namespace dl = dynamics::line;
@@ -79,7 +79,7 @@ double extrapolated(double coarse, double fine) { return (4 * fine - coarse) / 3
 
 }  // namespace
 
-Outcome huijgen_cone(const Folders&) {
+Outcome outcome(const Folders&) {
   const double cone = std::sqrt(g / std::cos(polar)), rosette = std::sqrt(g * std::cos(polar));
   const Path circle = run(cone, 0.01, 40), rose = run(rosette, 0.01, 8);
   double off = 0, least = 1;
@@ -106,4 +106,4 @@ Outcome huijgen_cone(const Folders&) {
                          .panel_height = 540}}}};
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::huijgen_cone

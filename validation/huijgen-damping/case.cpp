@@ -7,7 +7,7 @@
 #include "hydro/base/random.hpp"
 #include "scene/fit_scene.hpp"
 
-namespace froude::validation {
+namespace froude::validation::huijgen_damping {
 namespace {
 
 constexpr double b_l = 0.002, b_q = 0.001;        // of dropper.toml
@@ -68,7 +68,7 @@ struct Tally {
 
 }  // namespace
 
-Outcome huijgen_damping(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   const scene::FitScene fit = scene::read_fit(folders.own() / "fit.toml");
   const MeasuredRun exact = truth(fit);
   SceneRuns runs(fit, exact);
@@ -101,4 +101,4 @@ Outcome huijgen_damping(const Folders& folders) {
                                      .series = {tally.estimates, {"truth", {b_l}, {b_q}, false, true}}}}}}}};
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::huijgen_damping

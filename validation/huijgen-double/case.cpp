@@ -7,7 +7,7 @@
 #include "support/line_models.hpp"
 #include "support/plain_spherical.hpp"
 
-namespace froude::validation {
+namespace froude::validation::huijgen_double {
 namespace {
 
 namespace dl = dynamics::line;
@@ -125,7 +125,7 @@ plot::Series seen_from_above(const std::string& name, const Run& r) {
 
 }  // namespace
 
-Outcome huijgen_double(const Folders&) {
+Outcome outcome(const Folders&) {
   const Run coarse = ours(periodic, 1e-3), fine = ours(periodic, 5e-4), exact = reference(periodic, 2e-4);
   double worst = 0, single = 0;
   for (std::size_t i = 0; i < exact.at.size(); ++i) {
@@ -160,4 +160,4 @@ Outcome huijgen_double(const Folders&) {
                      .panel_height = 420}}}};
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::huijgen_double

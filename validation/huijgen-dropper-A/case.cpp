@@ -9,7 +9,7 @@
 #include "hydro/io/atomic_file.hpp"
 #include "support/line_models.hpp"
 
-namespace froude::validation {
+namespace froude::validation::huijgen_dropper {
 namespace {
 
 namespace dl = dynamics::line;
@@ -121,14 +121,12 @@ Outcome dropper(const std::filesystem::path& table, const std::string& scenario,
 }  // namespace
 
 // The three scenarios differ in the node that was lifted; the table stands with the first.
-Outcome huijgen_dropper_a(const Folders& f) {
-  return dropper(f.reference("huijgen_E2_E3_E4_initial_angles.csv"), "A", 1);
-}
-Outcome huijgen_dropper_b(const Folders& f) {
+Outcome of_a(const Folders& f) { return dropper(f.reference("huijgen_E2_E3_E4_initial_angles.csv"), "A", 1); }
+Outcome of_b(const Folders& f) {
   return dropper(f.own().parent_path() / "huijgen-dropper-A/reference/huijgen_E2_E3_E4_initial_angles.csv", "B", 2);
 }
-Outcome huijgen_dropper_c(const Folders& f) {
+Outcome of_c(const Folders& f) {
   return dropper(f.own().parent_path() / "huijgen-dropper-A/reference/huijgen_E2_E3_E4_initial_angles.csv", "C", 3);
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::huijgen_dropper

@@ -4,7 +4,7 @@
 #include "harness/case.hpp"
 #include "support/line_models.hpp"
 
-namespace froude::validation {
+namespace froude::validation::huijgen_dropper_static {
 namespace {
 
 namespace dl = dynamics::line;
@@ -39,7 +39,7 @@ double left_over(const dl::Line& line, const dl::State& s) {
 
 }  // namespace
 
-Outcome huijgen_dropper_static(const Folders&) {
+Outcome outcome(const Folders&) {
   const dl::Line line(support::loop(links));
   const dl::State ours = dl::hanging_shape(line, support::ends_at(line, {width, 0, 0}));
   const double H = horizontal_pull();
@@ -76,4 +76,4 @@ Outcome huijgen_dropper_static(const Folders&) {
                 .panel_height = 560}}}};
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::huijgen_dropper_static

@@ -10,7 +10,7 @@
 #include "harness/case.hpp"
 #include "support/line_models.hpp"
 
-namespace froude::validation {
+namespace froude::validation::huijgen_gamma {
 namespace {
 
 namespace dl = dynamics::line;
@@ -71,7 +71,7 @@ double large_release(const dl::Stepper::Settings& settings, double h) {
 
 }  // namespace
 
-Outcome huijgen_gamma(const Folders&) {
+Outcome outcome(const Folders&) {
   const Dropper dropper;
   const std::vector<double> all_steps{0.05, 0.02, 0.01, 0.005, 0.002};
   double worst = 0, lost = 0, implicit_at_10ms = 0;
@@ -113,4 +113,4 @@ Outcome huijgen_gamma(const Folders&) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::huijgen_gamma

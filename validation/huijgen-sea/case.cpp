@@ -9,7 +9,7 @@
 #include "hydro/signal/fft.hpp"
 #include "hydro/waves/focus.hpp"
 
-namespace froude::validation {
+namespace froude::validation::huijgen_sea {
 namespace {
 
 namespace hw = hydro::waves;
@@ -120,7 +120,7 @@ void add_dropper(const Folders& folders, Outcome& out) {
 
 }  // namespace
 
-Outcome huijgen_sea(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   const auto table = hydro::io::CsvTable::read(folders.reference("huijgen_appendixG_wave_components.csv"));
   const auto &period = table.column("period_s"), &amplitude = table.column("amplitude_m"),
              &phase = table.column("phase_rad");
@@ -179,4 +179,4 @@ Outcome huijgen_sea(const Folders& folders) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::huijgen_sea

@@ -5,7 +5,7 @@
 #include "harness/case.hpp"
 #include "support/line_models.hpp"
 
-namespace froude::validation {
+namespace froude::validation::huijgen_string {
 namespace {
 
 namespace dl = dynamics::line;
@@ -70,7 +70,7 @@ double run(int n, double omega) {
 
 }  // namespace
 
-Outcome huijgen_string(const Folders&) {
+Outcome outcome(const Folders&) {
   double worst = 0;
   std::array<double, 3> longest{};
   plot::Figure figure{.title = "Frequencies of N pendulums hung one on the other",
@@ -104,4 +104,4 @@ Outcome huijgen_string(const Folders&) {
       .pictures = {{"frequencies", "From one pendulum to the hanging chain.", figure}}};
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::huijgen_string

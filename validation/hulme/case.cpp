@@ -7,7 +7,7 @@
 #include "hydro/potential/coefficients.hpp"
 #include "hydro/potential/operations.hpp"
 
-namespace froude::validation {
+namespace froude::validation::hulme {
 namespace {
 
 constexpr double radius = 5;  // m, of the panelled hemisphere
@@ -62,7 +62,7 @@ double limit_of(const std::optional<Eigen::MatrixXd>& A, hydro::Mode mode, doubl
 
 }  // namespace
 
-Outcome hulme(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   using hydro::Mode;
   const auto heave_table = hydro::io::CsvTable::read(folders.shared("hulme_hemisphere/heave.csv"));
   const auto surge_table = hydro::io::CsvTable::read(folders.shared("hulme_hemisphere/surge.csv"));
@@ -86,4 +86,4 @@ Outcome hulme(const Folders& folders) {
                         true}}};
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::hulme

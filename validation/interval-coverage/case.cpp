@@ -7,7 +7,7 @@
 #include "harness/case.hpp"
 #include "support/morison_records.hpp"
 
-namespace froude::validation {
+namespace froude::validation::interval_coverage {
 namespace {
 
 const ::fit::Cylinder& cylinder = froude_test::held_cylinder;
@@ -21,7 +21,7 @@ bool holds(const ::fit::Interval& interval, double truth) { return interval.low 
 
 }  // namespace
 
-Outcome interval_coverage(const Folders&) {
+Outcome outcome(const Folders&) {
   using Method = ::fit::IntervalMethod;
   const std::pair<Method, const char*> methods[] = {{Method::effective_samples, "effective samples"},
                                                     {Method::cycle_clusters, "cycle clusters"},
@@ -47,4 +47,4 @@ Outcome interval_coverage(const Folders&) {
   return outcome;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::interval_coverage

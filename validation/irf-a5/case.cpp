@@ -6,7 +6,7 @@
 #include "hydro/potential/coefficients.hpp"
 #include "hydro/radiation/kernel.hpp"
 
-namespace froude::validation {
+namespace froude::validation::irf_a5 {
 namespace {
 
 struct Curve {
@@ -29,7 +29,7 @@ Curve read_step_response(const std::filesystem::path& file) {
 
 }  // namespace
 
-Outcome irf_a5(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   const hydro::potential::ReadOptions options{
       .density = 1000, .gravity = 9.81, .depth = hydro::WaterDepth::infinite(), .iperout = {}};
   const auto c = hydro::potential::read(folders.shared("irf_buoy_a5/BuoyA5.1"), options);
@@ -64,4 +64,4 @@ Outcome irf_a5(const Folders& folders) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::irf_a5

@@ -6,7 +6,7 @@
 #include "hydro/radiation/rational.hpp"
 #include "hydro/radiation/tail.hpp"
 
-namespace froude::validation {
+namespace froude::validation::kramers_kronig {
 namespace {
 
 using hydro::radiation::DampingTable;
@@ -21,7 +21,7 @@ Eigen::MatrixXd one(double value) { return Eigen::MatrixXd::Constant(1, 1, value
 
 }  // namespace
 
-Outcome kramers_kronig(const Folders&) {
+Outcome outcome(const Folders&) {
   DampingTable table;
   std::vector<Eigen::MatrixXd> A;
   constexpr double last = 20;
@@ -59,4 +59,4 @@ Outcome kramers_kronig(const Folders&) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::kramers_kronig

@@ -12,7 +12,7 @@
 #include "harness/line_cases.hpp"
 #include "hydro/io/atomic_file.hpp"
 
-namespace froude::validation {
+namespace froude::validation::moorings {
 namespace {
 
 using Eigen::Vector3d;
@@ -184,7 +184,7 @@ plot::Panel tension_panel(const std::string& label) {
 
 }  // namespace
 
-Outcome moorings(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   Outcome out;
   FromCatenary worst;
   for (const Chain& c : chains) add_static(c, worst, out);
@@ -220,4 +220,4 @@ Outcome moorings(const Folders& folders) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::moorings

@@ -6,7 +6,7 @@
 #include "fit/morison.hpp"
 #include "harness/case.hpp"
 
-namespace froude::validation {
+namespace froude::validation::morison {
 namespace {
 
 /// Force and motion in closed form: five sinusoids that share no period, or one.
@@ -30,7 +30,7 @@ namespace {
 
 }  // namespace
 
-Outcome morison(const Folders&) {
+Outcome outcome(const Folders&) {
   double worst = 0, worst_delayed = 0, fourier = 0;
   for (const auto experiment : {::fit::Experiment::water_moves, ::fit::Experiment::body_moves})
     for (const bool irregular : {false, true})
@@ -55,4 +55,4 @@ Outcome morison(const Folders&) {
                       {"largest difference of C_D from the main harmonic alone", fourier, ""}}};
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::morison

@@ -4,7 +4,7 @@
 #include "harness/case.hpp"
 #include "harness/oc3_line.hpp"
 
-namespace froude::validation {
+namespace froude::validation::oc3_line_case {
 namespace {
 
 struct Peak {
@@ -25,7 +25,7 @@ Peak peak(int segments, double h) {
 
 }  // namespace
 
-Outcome oc3_line_case(const Folders&) {
+Outcome outcome(const Folders&) {
   Outcome out;
   for (const int n : {20, 50, 200}) {
     const Eigen::Vector3d pull = end_pulls(oc3_line(), oc3_line().at_rest(n)).fairlead;
@@ -48,4 +48,4 @@ Outcome oc3_line_case(const Folders&) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::oc3_line_case

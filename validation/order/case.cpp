@@ -10,7 +10,7 @@
 #include "harness/case.hpp"
 #include "support/double_pendulum.hpp"
 
-namespace froude::validation {
+namespace froude::validation::order {
 namespace {
 
 using dynamics::Integrator, dynamics::Model, dynamics::State;
@@ -72,7 +72,7 @@ double energy_drift(const Model& model) {
 
 }  // namespace
 
-Outcome order(const Folders&) {
+Outcome outcome(const Folders&) {
   const Model model = support::double_pendulum(0.4);
   const State exact = after(
       model,
@@ -100,4 +100,4 @@ Outcome order(const Folders&) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::order

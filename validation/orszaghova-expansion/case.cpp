@@ -11,7 +11,7 @@
 #include "dynamics/spatial/rotation.hpp"
 #include "harness/case.hpp"
 
-namespace froude::validation {
+namespace froude::validation::orszaghova_expansion {
 namespace {
 
 constexpr double pi = std::numbers::pi, rho = 1025, g = 9.81, L = 40, R = 4, draught = 8;
@@ -145,7 +145,7 @@ void add_hull(const Hull& hull, Outcome& out) {
 
 }  // namespace
 
-Outcome orszaghova_expansion(const Folders&) {
+Outcome outcome(const Folders&) {
   Outcome out;
   add_hull(cylinder, out);
   add_hull(sphere, out);
@@ -160,4 +160,4 @@ Outcome orszaghova_expansion(const Folders&) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::orszaghova_expansion

@@ -9,7 +9,7 @@
 #include "harness/case.hpp"
 #include "hydro/signal/harmonics.hpp"
 
-namespace froude::validation {
+namespace froude::validation::orszaghova_map {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -54,7 +54,7 @@ double natural_period(const scene::Scene& scene) {
 
 }  // namespace
 
-Outcome orszaghova_map(const Folders&) {
+Outcome outcome(const Folders&) {
   const scene::Scene scene = buoy();
   const double natural = natural_period(scene), half = natural / 2;
   std::vector<double> periods{5, 6, 6.5, 9, 10, 12, natural, 17};
@@ -101,4 +101,4 @@ Outcome orszaghova_map(const Folders&) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::orszaghova_map

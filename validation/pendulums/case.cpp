@@ -7,7 +7,7 @@
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 
-namespace froude::validation {
+namespace froude::validation::pendulums {
 namespace {
 
 using fit::MotionLaw;
@@ -111,7 +111,7 @@ void spring(const Folders& folders, Outcome& outcome) {
 
 }  // namespace
 
-Outcome pendulums(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   Outcome outcome;
   single(folders, outcome);
   twice(folders, outcome);
@@ -119,4 +119,4 @@ Outcome pendulums(const Folders& folders) {
   return outcome;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::pendulums

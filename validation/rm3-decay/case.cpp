@@ -5,7 +5,7 @@
 #include "harness/scenes.hpp"
 #include "hydro/io/atomic_file.hpp"
 
-namespace froude::validation {
+namespace froude::validation::rm3_decay {
 namespace {
 
 struct Curves {
@@ -41,7 +41,7 @@ double entry(const Record& r, const std::string& name) {
 
 }  // namespace
 
-Outcome rm3_decay(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   const Curves reference = read_curves(folders.shared("rm3/reference/wecsim_decay.txt"));
   Outcome out;
   plot::Figure picture{.title = "RM3, float let go from 0.1 m",
@@ -66,4 +66,4 @@ Outcome rm3_decay(const Folders& folders) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::rm3_decay

@@ -6,7 +6,7 @@
 #include "harness/scenes.hpp"
 #include "hydro/signal/harmonics.hpp"
 
-namespace froude::validation {
+namespace froude::validation::rm3_regular {
 namespace {
 
 constexpr double amplitude = 1.25, omega = 2 * std::numbers::pi / 8;  // m, rad/s
@@ -37,7 +37,7 @@ double steady_amplitude(const Record& r, const std::string& name) {
 
 }  // namespace
 
-Outcome rm3_regular(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   Outcome out;
   for (const bool full : {false, true}) {
     const scene::Scene scene = read_scene(folders, "rm3/wamit/rm3.1", "interaction = \"self\"",
@@ -59,4 +59,4 @@ Outcome rm3_regular(const Folders& folders) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::rm3_regular

@@ -5,9 +5,9 @@
 #include "harness/case.hpp"
 #include "hydro/io/csv.hpp"
 
-namespace froude::validation {
+namespace froude::validation::roll_decay {
 
-Outcome roll_decay(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   const auto table = hydro::io::CsvTable::read(folders.shared("ecn_roll_decay/roll_decay_experiment.csv"));
   const auto &all_time = table.column("t_fullscale_s"), &all_roll = table.column("roll_rad");
   const auto n =
@@ -46,4 +46,4 @@ Outcome roll_decay(const Folders& folders) {
                     true}}};
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::roll_decay

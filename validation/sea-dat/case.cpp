@@ -6,11 +6,11 @@
 #include "hydro/signal/welch.hpp"
 #include "hydro/signal/zero_crossings.hpp"
 
-namespace froude::validation {
+namespace froude::validation::sea_dat {
 
 namespace hs = hydro::signal;
 
-Outcome sea_dat(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   std::ifstream file(folders.shared("waves_measured/wafo/sea.dat"));
   std::vector<double> time, elevation;
   for (double t = 0, z = 0; file >> t >> z;) {
@@ -49,4 +49,4 @@ Outcome sea_dat(const Folders& folders) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::sea_dat

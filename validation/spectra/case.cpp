@@ -12,7 +12,7 @@
 #include "hydro/waves/spectrum_tabulated.hpp"
 #include "hydro/waves/spreading.hpp"
 
-namespace froude::validation {
+namespace froude::validation::spectra {
 namespace {
 
 using namespace hydro::waves;
@@ -226,7 +226,7 @@ plot::Panel picture_of(const std::vector<Given>& all, plot::Scale scale) {
 
 }  // namespace
 
-Outcome spectra(const Folders&) {
+Outcome outcome(const Folders&) {
   const std::vector<Given> all = all_spectra();
   Worst worst;
   for (const Given& given : all) compare(given, worst);
@@ -246,4 +246,4 @@ Outcome spectra(const Folders&) {
                      .panels = {picture_of(all, plot::Scale::linear), picture_of(all, plot::Scale::logarithmic)}}}}};
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::spectra

@@ -7,7 +7,7 @@
 #include "harness/scenes.hpp"
 #include "hydro/io/atomic_file.hpp"
 
-namespace froude::validation {
+namespace froude::validation::sphere_decay {
 namespace {
 
 struct Curve {
@@ -77,7 +77,7 @@ double entry(const Record& r, const std::string& name) {
 
 }  // namespace
 
-Outcome sphere_decay(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   const scene::Scene scene = read_scene(folders, "iea_sphere/wamit/sphere.1");
   const Curve inwave = read_curve(folders.shared("iea_sphere/reference/decay_1m/inwave_h.txt"));
   const Curve hydrochrono = read_curve(folders.shared("iea_sphere/reference/decay_1m/hydrochrono.txt"));
@@ -104,4 +104,4 @@ Outcome sphere_decay(const Folders& folders) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::sphere_decay

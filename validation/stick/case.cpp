@@ -9,7 +9,7 @@
 #include "dynamics/spatial/rotation.hpp"
 #include "harness/case.hpp"
 
-namespace froude::validation {
+namespace froude::validation::stick {
 namespace {
 
 using dynamics::Event;
@@ -177,7 +177,7 @@ Strikes rock(const Rocking& r) {
 
 }  // namespace
 
-Outcome stick(const Folders&) {
+Outcome outcome(const Folders&) {
   const Rocking r;
   const Strikes s = rock(r);
   const Ball b = ball();
@@ -199,4 +199,4 @@ Outcome stick(const Folders&) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::stick

@@ -4,7 +4,7 @@
 #include "harness/case.hpp"
 #include "hydro/radiation/kernel.hpp"
 
-namespace froude::validation {
+namespace froude::validation::two_pole {
 namespace {
 
 using hydro::radiation::DampingTable;
@@ -64,7 +64,7 @@ struct Given {
 
 }  // namespace
 
-Outcome two_pole(const Folders&) {
+Outcome outcome(const Folders&) {
   Outcome outcome;
   plot::Panel shape{.x = {.label = "t", .unit = "s"}, .y = {.label = "K"}, .series = {}};
   plot::Panel error{
@@ -92,4 +92,4 @@ Outcome two_pole(const Folders&) {
   return outcome;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::two_pole

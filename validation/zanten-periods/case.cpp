@@ -5,9 +5,9 @@
 #include "harness/case.hpp"
 #include "hydro/io/csv.hpp"
 
-namespace froude::validation {
+namespace froude::validation::zanten_periods {
 
-Outcome zanten_periods(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   constexpr double g = 9.81;  // m/s²: reproduces the printed restoring coefficients m g c
   const auto table = hydro::io::CsvTable::read(folders.reference("pendulums.csv"));
   const std::vector<std::string>& properties = table.text_column("property");
@@ -28,4 +28,4 @@ Outcome zanten_periods(const Folders& folders) {
   return outcome;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::zanten_periods

@@ -9,7 +9,7 @@
 #include "harness/case.hpp"
 #include "support/ramp_load.hpp"
 
-namespace froude::validation {
+namespace froude::validation::zanten_stick_slip {
 namespace {
 
 // The hinge of the experiment: 3.70 N m holds, 0.81 of it resists. A torque that grows at `rate` drags an arm that a
@@ -84,7 +84,7 @@ double latest(const Slips& s, const ClosedForm& exact) {
 
 }  // namespace
 
-Outcome zanten_stick_slip(const Folders&) {
+Outcome outcome(const Folders&) {
   const ClosedForm exact;
   std::size_t changes = 0;
   while (exact.change(changes) < duration) ++changes;
@@ -106,4 +106,4 @@ Outcome zanten_stick_slip(const Folders&) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::zanten_stick_slip

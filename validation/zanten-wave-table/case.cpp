@@ -5,7 +5,7 @@
 #include "hydro/io/csv.hpp"
 #include "hydro/waves/focus.hpp"
 
-namespace froude::validation {
+namespace froude::validation::zanten_wave_table {
 namespace {
 
 namespace hw = hydro::waves;
@@ -33,7 +33,7 @@ double stay_of(const hw::PacketField& field, double x, double around, double rea
 
 }  // namespace
 
-Outcome zanten_wave_table(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   const auto table = hydro::io::CsvTable::read(folders.reference("zanten_table3_1_wave_components.csv"));
   const hydro::Water water{.density = 1000, .gravity = 9.81, .depth = hydro::WaterDepth::from_metres(0.994)};
   const auto packets = packets_of(table);
@@ -68,4 +68,4 @@ Outcome zanten_wave_table(const Folders& folders) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::zanten_wave_table

@@ -8,7 +8,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/io/csv.hpp"
 
-namespace froude::validation {
+namespace froude::validation::zanten_waves {
 namespace {
 
 constexpr double gravity = 9.81, degree = std::numbers::pi / 180;
@@ -118,7 +118,7 @@ struct Mean {
 
 }  // namespace
 
-Outcome zanten_waves(const Folders& folders) {
+Outcome outcome(const Folders& folders) {
   const auto results = read_results(folders);
   Outcome out;
   plot::Figure figure{.title = "Energy that the pendulum takes from the group, focus 1 m ahead", .panels = {}};
@@ -151,4 +151,4 @@ Outcome zanten_waves(const Folders& folders) {
   return out;
 }
 
-}  // namespace froude::validation
+}  // namespace froude::validation::zanten_waves

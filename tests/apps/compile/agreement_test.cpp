@@ -13,6 +13,7 @@
 #include "hydro/signal/harmonics.hpp"
 #include "support/pontoons.hpp"
 
+namespace agreement_test {
 namespace {
 
 using namespace froude;
@@ -50,7 +51,7 @@ damping = {{ surge = "4 kN s/m", sway = "4 kN s/m", yaw = "60 kN m s/rad" }}
 run = {{ duration = "400 s", every = "0.1 s", of = ["m*"] }}
 accuracy = 1e-3
 )",
-                     setting.period, froude::support::pontoons(5, "(-26, 0, 0) m"), setting.file, joined);
+                     setting.period, support::pontoons(5, "(-26, 0, 0) m"), setting.file, joined);
 }
 
 const std::string springs = R"([[connector]]
@@ -148,3 +149,4 @@ INSTANTIATE_TEST_SUITE_P(Modules, Agreement,
                                          Setting{"pontoon5.nc", 7.0}));
 
 }  // namespace
+}  // namespace agreement_test

@@ -11,6 +11,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/cylinders/layout.hpp"
 
+namespace buoyancy_test {
 namespace {
 
 using namespace froude;
@@ -117,3 +118,4 @@ TEST(BuoyancyInAScene, OfAMeshTurnsTheWorkboatBackFromALargeHeelWithoutLossOfEne
 }
 
 }  // namespace
+}  // namespace buoyancy_test

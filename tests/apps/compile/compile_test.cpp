@@ -11,6 +11,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/waves/dispersion.hpp"
 
+namespace compile_test {
 namespace {
 
 using namespace froude;
@@ -225,3 +226,4 @@ TEST(Compile, GivesTheSameRunForTheSameSeed) {
 }
 
 }  // namespace
+}  // namespace compile_test

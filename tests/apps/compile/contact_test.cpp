@@ -6,10 +6,13 @@
 #include "froude/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "scene/scene.hpp"
+#include "scenes.hpp"
 
+namespace contact_test {
 namespace {
 
 using namespace froude;
+using froude_test::parse;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
@@ -31,7 +34,6 @@ weight = true
 run = { duration = "2 s", every = "0.01 s" }
 )";
 }
-scene::Scene parse(const std::string& text) { return scene::parse(text, "scene.toml"); }
 
 const std::string on_corners = R"(between = ["crate", "ground"]
 kind = "plane"
@@ -117,3 +119,4 @@ TEST(ContactInAScene, KeepsFiveModulesApartInSteepWaves) {
 }
 
 }  // namespace
+}  // namespace contact_test

@@ -9,10 +9,13 @@
 #include "compile/compile.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/cylinders/solve.hpp"
+#include "scenes.hpp"
 
+namespace cylinders_test {
 namespace {
 
 using namespace froude;
+using froude_test::parse;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
@@ -49,8 +52,6 @@ diameter = "2 m"
 draught = "1 m"
 frequencies = "1 rad/s .. 3 rad/s, 9 values"
 )";
-
-scene::Scene parse(const std::string& text) { return scene::parse(text, "scene.toml"); }
 
 TEST(CylindersInAScene, MayLieUnderWaterOrStandOnTheSeaBed) {
   const scene::Scene discs = scene::read(std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/discs.toml");
@@ -155,3 +156,4 @@ TEST(CylindersInAScene, AreRefusedAtTheirPlaceIfTheyReachTheBottom) {
 }
 
 }  // namespace
+}  // namespace cylinders_test

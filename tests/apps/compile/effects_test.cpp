@@ -8,6 +8,7 @@
 #include "froude/simulate.hpp"
 #include "scenes.hpp"
 
+namespace effects_test {
 namespace {
 
 using namespace froude;
@@ -125,3 +126,4 @@ TEST(Effects, HaveAsManyElementsAsTheSceneNames) {
 }
 
 }  // namespace
+}  // namespace effects_test

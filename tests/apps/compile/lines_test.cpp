@@ -12,6 +12,7 @@
 #include "froude/simulate.hpp"
 #include "hydro/base/error.hpp"
 
+namespace lines_test {
 namespace {
 
 using namespace froude;
@@ -227,3 +228,4 @@ TEST(Lines, ArePlanned) {
 }
 
 }  // namespace
+}  // namespace lines_test

@@ -5,7 +5,9 @@
 
 #include "froude/simulate.hpp"
 #include "hydro/base/error.hpp"
+#include "scenes.hpp"
 
+namespace members_test {
 namespace {
 
 using namespace froude;
@@ -16,7 +18,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::ThrowsMessage;
 
-const std::filesystem::path examples = std::filesystem::path(FROUDE_SOURCE_DIR) / "examples";
+using froude_test::examples;
 
 /// A pile in surge, with waves and what acts on its member.
 scene::Scene pile(const std::string& waves, const std::string& loads, const std::string& top = "-1") {
@@ -85,3 +87,4 @@ TEST(Members, ExampleOfABraceRunsAndItsEnergyAddsUp) {
 }
 
 }  // namespace
+}  // namespace members_test

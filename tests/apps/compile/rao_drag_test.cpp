@@ -11,6 +11,9 @@
 #include "scenes.hpp"
 #include "support/pontoons.hpp"
 
+namespace rao_drag_test {
+namespace {
+namespace rao_drag_test {
 namespace {
 
 using namespace froude;
@@ -100,3 +103,6 @@ TEST(RaoDrag, NeedsDragAndStillWater) {
 }
 
 }  // namespace
+}  // namespace rao_drag_test
+}  // namespace
+}  // namespace rao_drag_test

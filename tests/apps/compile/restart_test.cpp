@@ -7,6 +7,7 @@
 #include "apps/compile/scenes.hpp"
 #include "froude/simulate.hpp"
 
+namespace restart_test {
 namespace {
 
 using namespace froude;
@@ -85,3 +86,4 @@ TEST(Restart, APendulumOfABodyHasOneAngleAndOneRate) {
 }
 
 }  // namespace
+}  // namespace restart_test

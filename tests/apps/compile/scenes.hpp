@@ -14,9 +14,11 @@ density = "1000 kg/m^3"
 depth = "14 m"
 )";
 
+inline const std::filesystem::path examples = std::filesystem::path(FROUDE_SOURCE_DIR) / "examples";
+
 /// A scene that finds the files of examples/data beside it.
 inline froude::scene::Scene parse(const std::string& text) {
-  return froude::scene::parse(text, std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/data/test.toml");
+  return froude::scene::parse(text, examples / "data/test.toml");
 }
 
 }  // namespace froude_test

@@ -10,7 +10,9 @@
 #include "froude/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/harmonics.hpp"
+#include "scenes.hpp"
 
+namespace springs_test {
 namespace {
 
 using namespace froude;
@@ -18,7 +20,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-const std::filesystem::path examples = std::filesystem::path(FROUDE_SOURCE_DIR) / "examples";
+using froude_test::examples;
 
 double energy(const Record& record, const std::string& name) {
   for (const auto& [key, value] : record.energy)
@@ -146,3 +148,4 @@ TEST(Springs, RefuseWhatDoesNotHang) {
 }
 
 }  // namespace
+}  // namespace springs_test

@@ -7,11 +7,14 @@
 #include "froude/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "scene/scene.hpp"
+#include "scenes.hpp"
 #include "support/pontoons.hpp"
 
+namespace steady_test {
 namespace {
 
 using namespace froude;
+using froude_test::parse;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
@@ -23,7 +26,7 @@ depth = "14 m"
 [waves]
 heading = "0 deg"
 )" + waves +
-         "\n" + froude::support::pontoons(2, "(-6.5, 0, 0) m") + R"(free = ["surge", "heave", "pitch"]
+         "\n" + support::pontoons(2, "(-6.5, 0, 0) m") + R"(free = ["surge", "heave", "pitch"]
 [body.hydrodynamics]
 excitation = true
 radiation = { memory = "60 s" }
@@ -46,7 +49,6 @@ run = { duration = "400 s", every = "0.1 s", )" +
 accuracy = 3e-3
 )";
 }
-scene::Scene parse(const std::string& text) { return scene::parse(text, "scene.toml"); }
 
 double largest(const std::vector<double>& x, std::size_t from) {
   double out = 0;
@@ -93,3 +95,4 @@ TEST(SteadyRun, IsRefusedWhereTheSceneIsNotLinear) {
 }
 
 }  // namespace
+}  // namespace steady_test

@@ -8,7 +8,7 @@
 #include "hydro/waves/dispersion.hpp"
 #include "hydro/waves/spectrum.hpp"
 
-namespace froude::compile {
+namespace froude::compile::waves_test {
 namespace {
 
 using hydro::InputError;
@@ -166,4 +166,4 @@ TEST(WaveWarnings, TellWhatIsNearALimitWithItsNumbers) {
 }
 
 }  // namespace
-}  // namespace froude::compile
+}  // namespace froude::compile::waves_test

@@ -2,7 +2,7 @@
 
 #include "apps/scene/scenes.hpp"
 
-namespace froude::scene {
+namespace froude::scene::ask_test {
 namespace {
 
 TEST(SceneAsk, TurnsPeriodsIntoIncreasingFrequencies) {
@@ -137,4 +137,4 @@ TEST(ScenePatterns, AreCheckedAgainstTheSignalsThatExist) {
 }
 
 }  // namespace
-}  // namespace froude::scene
+}  // namespace froude::scene::ask_test

@@ -1,6 +1,6 @@
 #include "apps/scene/scenes.hpp"
 
-namespace froude::scene {
+namespace froude::scene::bodies_test {
 namespace {
 
 using hydro::Mode;
@@ -201,4 +201,4 @@ TEST(SceneHydrodynamics, ReadsWhatFilesLeaveUnsaid) {
 }
 
 }  // namespace
-}  // namespace froude::scene
+}  // namespace froude::scene::bodies_test

@@ -1,6 +1,6 @@
 #include "apps/scene/scenes.hpp"
 
-namespace froude::scene {
+namespace froude::scene::connections_test {
 namespace {
 
 std::vector<std::string> names(const Scene& scene) {
@@ -167,4 +167,4 @@ TEST(SceneConnectors, NeedStiffnessOrDamping) {
 }
 
 }  // namespace
-}  // namespace froude::scene
+}  // namespace froude::scene::connections_test

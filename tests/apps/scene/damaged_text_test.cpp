@@ -1,6 +1,6 @@
 #include "apps/scene/scenes.hpp"
 
-namespace froude::scene {
+namespace froude::scene::damaged_text_test {
 namespace {
 
 /// Reads and expects either a scene or an InputError that shows its line; anything else fails the test by escaping.
@@ -33,4 +33,4 @@ TEST(DamagedScene, CutShortIsReadOrRefusedWithItsPlace) {
 }
 
 }  // namespace
-}  // namespace froude::scene
+}  // namespace froude::scene::damaged_text_test

@@ -4,7 +4,7 @@
 #include "apps/scene/scenes.hpp"
 #include "scene/fit_scene.hpp"
 
-namespace froude::scene {
+namespace froude::scene::fit_scene_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -230,4 +230,4 @@ TEST_F(FitScenes, AreToldFromScenesOfMotion) {
 }
 
 }  // namespace
-}  // namespace froude::scene
+}  // namespace froude::scene::fit_scene_test

@@ -5,7 +5,7 @@
 #include "apps/scene/scenes.hpp"
 #include "hydro/base/error.hpp"
 
-namespace froude::scene {
+namespace froude::scene::include_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -61,4 +61,4 @@ TEST_F(Includes, NameWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace froude::scene
+}  // namespace froude::scene::include_test

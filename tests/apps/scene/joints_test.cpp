@@ -1,6 +1,6 @@
 #include "apps/scene/scenes.hpp"
 
-namespace froude::scene {
+namespace froude::scene::joints_test {
 namespace {
 
 /// The pontoons with joints in place of the connector.
@@ -99,4 +99,4 @@ TEST(JointsOfAScene, MayLatch) {
   EXPECT_THAT(refusal(with("pto = { latch = { hold = \"0 s\" } }")), HasSubstr("hold"));
 }
 
-}  // namespace froude::scene
+}  // namespace froude::scene::joints_test

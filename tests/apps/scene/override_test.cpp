@@ -4,7 +4,7 @@
 #include "apps/scene/scenes.hpp"
 #include "hydro/base/error.hpp"
 
-namespace froude::scene {
+namespace froude::scene::override_test {
 namespace {
 
 const std::string chains =
@@ -60,4 +60,4 @@ TEST(Override, IsReadLikeAnyNumberOfTheScene) {
 }
 
 }  // namespace
-}  // namespace froude::scene
+}  // namespace froude::scene::override_test

@@ -1,6 +1,6 @@
 #include "apps/scene/scenes.hpp"
 
-namespace froude::scene {
+namespace froude::scene::pontoon_test {
 namespace {
 
 TEST(PontoonScene, IsReadAsItIsMeant) {
@@ -96,4 +96,4 @@ TEST(PontoonScene, OrderOfTablesDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace froude::scene
+}  // namespace froude::scene::pontoon_test

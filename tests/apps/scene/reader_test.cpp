@@ -1,7 +1,7 @@
 #include "apps/scene/scenes.hpp"
 #include "scene/document.hpp"
 
-namespace froude::scene {
+namespace froude::scene::reader_test {
 namespace {
 
 TEST(SceneReader, PointsAtAWrongDimensionAndTellsTheRightOne) {
@@ -187,4 +187,4 @@ TEST(SceneDocument, KeepsTheOrderOfTheFile) {
 }
 
 }  // namespace
-}  // namespace froude::scene
+}  // namespace froude::scene::reader_test

@@ -10,7 +10,7 @@
 #include "scene/read_value.hpp"
 #include "scene/schema.hpp"
 
-namespace froude::scene {
+namespace froude::scene::reference_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -137,4 +137,4 @@ TEST(NewScene, PrintsTheReferenceAndKnowsItsKinds) {
 }
 
 }  // namespace
-}  // namespace froude::scene
+}  // namespace froude::scene::reference_test

@@ -5,7 +5,7 @@
 #include "apps/scene/scenes.hpp"
 #include "hydro/waves/spectra.hpp"
 
-namespace froude::scene {
+namespace froude::scene::waves_test {
 namespace {
 
 namespace hw = hydro::waves;
@@ -216,4 +216,4 @@ TEST(SceneProbes, MotionNeedsBodiesAndWavesNeedProbes) {
 }
 
 }  // namespace
-}  // namespace froude::scene
+}  // namespace froude::scene::waves_test

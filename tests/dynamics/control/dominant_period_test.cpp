@@ -11,6 +11,7 @@
 #include "dynamics/integrate/ledger.hpp"
 #include "hydro/base/error.hpp"
 
+namespace dominant_period_test {
 namespace {
 
 using namespace dynamics;
@@ -113,3 +114,4 @@ TEST(Controllers, AccountForTheEnergyOfASwitch) {
 }
 
 }  // namespace
+}  // namespace dominant_period_test

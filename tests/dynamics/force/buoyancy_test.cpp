@@ -14,6 +14,7 @@
 #include "hydro/hydrostatics/primitives.hpp"
 #include "hydro/hydrostatics/stability.hpp"
 
+namespace buoyancy_test {
 namespace {
 
 using namespace dynamics;
@@ -133,3 +134,4 @@ TEST(Buoyancy, EndsTheModelWhereWaterComesInThroughAnOpening) {
 }
 
 }  // namespace
+}  // namespace buoyancy_test

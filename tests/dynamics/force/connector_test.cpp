@@ -4,6 +4,7 @@
 
 #include "laws/force_kind_laws.hpp"
 
+namespace connector_test {
 namespace {
 
 using namespace dynamics;
@@ -63,3 +64,4 @@ TEST(Connectors, DoNotFeelARigidTurnOfTheWhole) {
 }
 
 }  // namespace
+}  // namespace connector_test

@@ -4,6 +4,7 @@
 
 #include "laws/force_kind_laws.hpp"
 
+namespace drag_test {
 namespace {
 
 using namespace dynamics;
@@ -56,3 +57,4 @@ TEST(Drag, OfARotatingMemberIsTheIntegralToAFewPerCent) {
 }
 
 }  // namespace
+}  // namespace drag_test

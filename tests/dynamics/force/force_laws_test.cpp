@@ -15,6 +15,7 @@
 #include "laws/force_kind_laws.hpp"
 #include "support/two_pole_body.hpp"
 
+namespace force_laws_test {
 namespace {
 
 using namespace dynamics;
@@ -104,7 +105,7 @@ TEST(ForceLaws, HoldForExcitation) { laws::expect_force_laws(ExcitationKind({{{1
 /// Every way of computing the memory of twelve modes, step 0.1 s.
 std::vector<std::shared_ptr<const hydro::radiation::MemoryMethod>> memory_methods() {
   using namespace hydro::radiation;
-  const support::TwoPoleBody body{.decay = 0.3, .frequency = 1.1};
+  const support::TwoPoleBody body{};
   const auto kernel = RetardationKernel::from_damping(body.damping_table(20, 400, 12), {0.1, 5});
   return {std::make_shared<DirectConvolution>(kernel), std::make_shared<PartitionedConvolution>(kernel, 8),
           std::make_shared<PoleMemory>(body.model(12), 0.1),
@@ -152,3 +153,4 @@ TEST(ForceLaws, InternalForcesCancel) {
 }
 
 }  // namespace
+}  // namespace force_laws_test

@@ -9,6 +9,7 @@
 #include "support/force_law_models.hpp"
 #include "support/small_seas.hpp"
 
+namespace member_test {
 namespace {
 
 using namespace dynamics;
@@ -105,3 +106,4 @@ TEST(RampedField, TellsTheDerivativesOfItsOwnVelocity) {
 }
 
 }  // namespace
+}  // namespace member_test

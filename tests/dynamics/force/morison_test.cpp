@@ -12,6 +12,7 @@
 #include "laws/force_kind_laws.hpp"
 #include "support/small_seas.hpp"
 
+namespace morison_test {
 namespace {
 
 using namespace dynamics;
@@ -156,3 +157,4 @@ TEST(Morison, EnergyAddsUpWhileAMemberFallsIntoTheWater) {
 }
 
 }  // namespace
+}  // namespace morison_test

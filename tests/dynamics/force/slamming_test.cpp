@@ -7,6 +7,7 @@
 #include "laws/force_kind_laws.hpp"
 #include "support/small_seas.hpp"
 
+namespace slamming_test {
 namespace {
 
 using namespace dynamics;
@@ -95,3 +96,4 @@ TEST(ForceLaws, HoldForSlammingWithinAnImpact) {
 }
 
 }  // namespace
+}  // namespace slamming_test

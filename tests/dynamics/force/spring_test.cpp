@@ -9,6 +9,7 @@
 #include "dynamics/force/pto.hpp"
 #include "laws/force_kind_laws.hpp"
 
+namespace spring_test {
 namespace {
 
 using namespace dynamics;
@@ -108,3 +109,4 @@ TEST(ForceLaws, HoldForConstantLoads) {
 }
 
 }  // namespace
+}  // namespace spring_test

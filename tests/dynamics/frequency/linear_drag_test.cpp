@@ -9,6 +9,9 @@
 #include "hydro/base/error.hpp"
 #include "hydro/waves/dispersion.hpp"
 
+namespace linear_drag_test {
+namespace {
+namespace linear_drag_test {
 namespace {
 
 using namespace dynamics;
@@ -97,3 +100,6 @@ TEST(LinearDrag, SettlesWhereItsOwnResponsePutsIt) {
 }
 
 }  // namespace
+}  // namespace linear_drag_test
+}  // namespace
+}  // namespace linear_drag_test

@@ -13,6 +13,7 @@
 #include "hydro/base/error.hpp"
 #include "support/two_pole_body.hpp"
 
+namespace modes_test {
 namespace {
 
 using namespace dynamics;
@@ -127,7 +128,7 @@ TEST(Modes, WithDampersAreTheRootsOfTheQuadratic) {
 }
 
 TEST(Modes, HaveTheAddedMassOfTheirOwnFrequency) {
-  const support::TwoPoleBody water{.decay = 0.3, .frequency = 1.1};
+  const support::TwoPoleBody water{};
   const PotentialGroup group = two_poles(water, 300);
   const auto found = free_motions(held({body("a", 0, surge_only)}, diagonal({1500, 0, 0, 0, 0, 0})), {group});
   ASSERT_EQ(found.modes.size(), 1u);
@@ -159,7 +160,7 @@ TEST(Modes, FindsAllThreeWhereTheAddedMassFallsSteeply) {
 TEST(Modes, OfARadiatingBodyDecayAsItsExactPolynomialSays) {
   // (s² (M + A∞) + c s K̂(s) + k) ((s + a)² + b²) = 0 with K̂ = s/((s + a)² + b²): four roots. What (Q3) takes of a
   // decaying motion for a steady one is of order ζ²: 4.1 to 4.4 ζ² |s| here, for ζ from 0.4 % to 5 %.
-  const support::TwoPoleBody water{.decay = 0.3, .frequency = 1.1};
+  const support::TwoPoleBody water{};
   constexpr double a = 0.3, b = 1.1, k = 2500;
   for (const double factor : {20.0, 60.0, 200.0}) {
     const PotentialGroup group = two_poles(water, factor);
@@ -182,7 +183,7 @@ TEST(Modes, OfARadiatingBodyDecayAsItsExactPolynomialSays) {
 }
 
 TEST(Modes, BelowAndAboveTheDataSaySo) {
-  const support::TwoPoleBody water{.decay = 0.3, .frequency = 1.1};
+  const support::TwoPoleBody water{};
   const PotentialGroup group = two_poles(water, 300);
   const auto slow = free_motions(held({body("a", 0, surge_only)}, diagonal({1e-3, 0, 0, 0, 0, 0})), {group});
   const auto fast = free_motions(held({body("a", 0, surge_only)}, diagonal({1e6, 0, 0, 0, 0, 0})), {group});
@@ -216,3 +217,4 @@ TEST(Modes, TellWhereMassAndAddedMassAreNotPositive) {
 }
 
 }  // namespace
+}  // namespace modes_test

@@ -11,13 +11,14 @@
 #include "hydro/waves/dispersion.hpp"
 #include "support/two_pole_body.hpp"
 
+namespace rao_test {
 namespace {
 
 using namespace dynamics;
 using frequency::PotentialGroup;
 using hydro::potential::Coefficients;
 
-const support::TwoPoleBody water{.decay = 0.3, .frequency = 1.1};
+const support::TwoPoleBody water{};
 
 /// Coefficients of bodies along x that do not feel each other: the two-pole body in every mode, excitation by the
 /// wave's phase.
@@ -149,3 +150,4 @@ TEST(Rao, SaysWhenAnUndampedResonanceIsHit) {
 }
 
 }  // namespace
+}  // namespace rao_test

@@ -14,10 +14,11 @@
 #include "hydro/base/error.hpp"
 #include "support/motion.hpp"
 
+namespace contact_test {
 namespace {
 
 using namespace dynamics;
-using froude::support::Motion;
+using support::Motion;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 constexpr double g = 9.81, pi = std::numbers::pi;
@@ -330,3 +331,4 @@ TEST(Contact, KnowsTheShortestWayOfEachPairOfShapes) {
 }
 
 }  // namespace
+}  // namespace contact_test

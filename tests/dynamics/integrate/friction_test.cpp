@@ -17,10 +17,11 @@
 #include "support/motion.hpp"
 #include "support/ramp_load.hpp"
 
+namespace friction_test {
 namespace {
 
 using namespace dynamics;
-using froude::support::Motion;
+using support::Motion;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
@@ -257,3 +258,4 @@ TEST(Friction, WantsPositiveLevelsInOrder) {
 }
 
 }  // namespace
+}  // namespace friction_test

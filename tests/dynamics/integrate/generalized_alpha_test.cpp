@@ -11,6 +11,7 @@
 #include "hydro/base/error.hpp"
 #include "support/force_law_models.hpp"
 
+namespace generalized_alpha_test {
 namespace {
 
 using namespace dynamics;
@@ -177,3 +178,4 @@ TEST(EnergyLedger, ClosesForASwingingDampedPair) {
 }
 
 }  // namespace
+}  // namespace generalized_alpha_test

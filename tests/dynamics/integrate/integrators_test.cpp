@@ -14,10 +14,11 @@
 #include "hydro/base/error.hpp"
 #include "support/double_pendulum.hpp"
 
+namespace integrators_test {
 namespace {
 
 using namespace dynamics;
-using froude::support::double_pendulum;
+using support::double_pendulum;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 State after(Integrator& integrator, const Model& model, State start, double h, double duration) {
@@ -84,7 +85,7 @@ TEST(EnergyMomentumStep, KeepsTheEnergyOfADoublePendulumAtLargeSteps) {
   for (int i = 0; i < 1000; ++i) {
     integrator.step(w, 0.03);
     const double kinetic = model.kinetic_energy(w.state);
-    worst = std::max(worst, std::abs(kinetic + froude::support::height_energy(w.state)));
+    worst = std::max(worst, std::abs(kinetic + support::height_energy(w.state)));
     turnover = std::max(turnover, kinetic);
   }
   EXPECT_GT(turnover, 30) << "it has swung";
@@ -162,3 +163,4 @@ TEST(ExplicitPairStep, RefusesContacts) {
 }
 
 }  // namespace
+}  // namespace integrators_test

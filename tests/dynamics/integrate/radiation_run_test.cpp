@@ -9,10 +9,11 @@
 #include "hydro/radiation/convolution.hpp"
 #include "support/two_pole_body.hpp"
 
+namespace radiation_run_test {
 namespace {
 
 using namespace dynamics;
-const support::TwoPoleBody water{.decay = 0.3, .frequency = 1.1};
+const support::TwoPoleBody water{};
 
 /// A floating point that only heaves, with the memory of the two-pole body scaled by `strength`.
 struct Floater {
@@ -136,3 +137,4 @@ TEST(RadiationInARun, AnswersAtHalfAStepAndLeavesTheMemoryWhole) {
 }
 
 }  // namespace
+}  // namespace radiation_run_test

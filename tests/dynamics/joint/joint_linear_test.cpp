@@ -12,6 +12,7 @@
 #include "dynamics/joint/assemble.hpp"
 #include "dynamics/spatial/rotation.hpp"
 
+namespace joint_linear_test {
 namespace {
 
 using namespace dynamics;
@@ -181,3 +182,4 @@ TEST(JointTravel, TellsTheAngleOfAHingeAndTheWayOfASlider) {
 }
 
 }  // namespace
+}  // namespace joint_linear_test

@@ -11,6 +11,7 @@
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/error.hpp"
 
+namespace joint_motion_test {
 namespace {
 
 using namespace dynamics;
@@ -251,3 +252,4 @@ TEST(JointMotion, BodiesFarFromTheOriginThatHardlyMoveAreNoReasonToGiveUp) {
 }
 
 }  // namespace
+}  // namespace joint_motion_test

@@ -12,6 +12,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/base/random.hpp"
 
+namespace joint_test {
 namespace {
 
 using namespace dynamics;
@@ -180,3 +181,4 @@ TEST(Joint, ThatCannotBeIsRefused) {
 }
 
 }  // namespace
+}  // namespace joint_test

@@ -13,10 +13,11 @@
 #include "hydro/base/error.hpp"
 #include "support/motion.hpp"
 
+namespace lead_test {
 namespace {
 
 using namespace dynamics;
-using froude::support::Motion;
+using support::Motion;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
@@ -123,3 +124,4 @@ TEST(Lead, ThatBeginsElsewhereIsAnErrorUnlessTheBodyIsThere) {
 }
 
 }  // namespace
+}  // namespace lead_test

@@ -10,6 +10,7 @@
 #include "hydro/base/error.hpp"
 #include "laws/force_kind_laws.hpp"
 
+namespace catenary_test {
 namespace {
 
 using namespace dynamics;
@@ -84,3 +85,4 @@ TEST(ForceLaws, HoldForCatenariesThatRestHangAndLieSlack) {
 }
 
 }  // namespace
+}  // namespace catenary_test

@@ -16,6 +16,7 @@
 #include "laws/force_kind_laws.hpp"
 #include "support/line_models.hpp"
 
+namespace driven_test {
 namespace {
 
 using namespace support;
@@ -234,3 +235,4 @@ TEST(FastenedLine, ClosesTheLedgerOfTheBodiesToTheOrderOfTheStep) {
 }
 
 }  // namespace
+}  // namespace driven_test

@@ -11,19 +11,13 @@
 #include "hydro/waves/sea.hpp"
 #include "support/line_models.hpp"
 
+namespace equilibrium_test {
 namespace {
 
 using namespace support;
 using Eigen::Vector3d;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-double worst_length(const Line& line, const State& s) {
-  double worst = 0;
-  for (int j = 0; j < line.segments(); ++j)
-    worst = std::max(worst, std::abs((s.position.col(j + 1) - s.position.col(j)).norm() - line.segment(j).length));
-  return worst;
-}
 
 /// The largest force that a state leaves over at free nodes, by adding up what acts.
 double unbalanced(const Line& line, const State& s) {
@@ -184,3 +178,4 @@ TEST(Equilibrium, SaysWhatFalls) {
 }
 
 }  // namespace
+}  // namespace equilibrium_test

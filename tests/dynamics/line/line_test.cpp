@@ -10,6 +10,7 @@
 #include "hydro/base/error.hpp"
 #include "support/line_models.hpp"
 
+namespace line_test {
 namespace {
 
 using namespace support;
@@ -163,3 +164,4 @@ TEST(Stepper, RefusesSettingsAndStartsThatCannotBe) {
 }
 
 }  // namespace
+}  // namespace line_test

@@ -7,6 +7,7 @@
 #include "springs.hpp"
 #include "support/line_models.hpp"
 
+namespace loads_test {
 namespace {
 
 using namespace support;
@@ -168,3 +169,4 @@ TEST(LineSprings, DerivativesAreThoseOfTheForce) {
 }
 
 }  // namespace
+}  // namespace loads_test

@@ -10,6 +10,7 @@
 #include "dynamics/line/stepper.hpp"
 #include "support/line_models.hpp"
 
+namespace sag_test {
 namespace {
 
 using namespace support;
@@ -128,3 +129,4 @@ TEST(Sag, StoresWhatItTakes) {
 }
 
 }  // namespace
+}  // namespace sag_test

@@ -8,6 +8,7 @@
 
 #include "hydro/base/error.hpp"
 
+namespace statistics_test {
 namespace {
 
 using namespace dynamics::line;
@@ -44,3 +45,4 @@ TEST(Curvature, IsExactOnAPolygonInACircle) {
 }
 
 }  // namespace
+}  // namespace statistics_test

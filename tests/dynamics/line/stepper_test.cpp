@@ -12,6 +12,7 @@
 #include "support/line_models.hpp"
 #include "support/plain_pendulums.hpp"
 
+namespace stepper_test {
 namespace {
 
 using namespace support;
@@ -31,13 +32,6 @@ StepReport run(Stepper& stepper, State& s, double duration, double h) {
     all.halvings += r.halvings;
   }
   return all;
-}
-
-double worst_length(const Line& line, const State& s) {
-  double worst = 0;
-  for (int j = 0; j < line.segments(); ++j)
-    worst = std::max(worst, std::abs((s.position.col(j + 1) - s.position.col(j)).norm() - line.segment(j).length));
-  return worst;
 }
 
 TEST(EnergyMomentum, KeepsTheEnergyOfTheDropperOverAThousandSeconds) {
@@ -332,3 +326,4 @@ TEST(Stepper, SaysWhenAndWhereItCannotGoOn) {
 }
 
 }  // namespace
+}  // namespace stepper_test

@@ -4,6 +4,7 @@
 
 #include "hydro/base/random.hpp"
 
+namespace block_matrix_test {
 namespace {
 
 using namespace dynamics;
@@ -53,3 +54,4 @@ TEST(BlockSolver, SaysSingularAndNotFinite) {
 }
 
 }  // namespace
+}  // namespace block_matrix_test

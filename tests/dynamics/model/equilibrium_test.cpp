@@ -10,6 +10,7 @@
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/error.hpp"
 
+namespace equilibrium_test {
 namespace {
 
 using namespace dynamics;
@@ -60,3 +61,4 @@ TEST(Equilibrium, NamesWhatFallsForEver) {
 }
 
 }  // namespace
+}  // namespace equilibrium_test

@@ -8,6 +8,7 @@
 #include "hydro/base/error.hpp"
 #include "support/force_law_models.hpp"
 
+namespace model_test {
 namespace {
 
 using namespace dynamics;
@@ -113,3 +114,4 @@ TEST(Model, HasNothingThatWasNotNamed) {
 }
 
 }  // namespace
+}  // namespace model_test

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+namespace rotation_test {
 namespace {
 
 using namespace dynamics;
@@ -60,3 +61,4 @@ TEST(Rotation, DerivativeOfTheTransposedInverseIsThatOfDifferences) {
 }
 
 }  // namespace
+}  // namespace rotation_test

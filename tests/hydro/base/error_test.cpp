@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+namespace error_test {
 namespace {
 
 TEST(InputError, ShowsPlaceTextAndRemedyUnderTheOffendingCharacters) {
@@ -29,3 +30,4 @@ TEST(Nearest, FindsTheWordThatWasMeantAndNothingFarAway) {
 }
 
 }  // namespace
+}  // namespace error_test

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+namespace random_test {
 namespace {
 
 using Block = std::array<std::uint32_t, 4>;
@@ -42,3 +43,4 @@ TEST(RandomStream, SeparatesSeedsAndStreams) {
 }
 
 }  // namespace
+}  // namespace random_test

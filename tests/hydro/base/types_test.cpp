@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+namespace types_test {
 namespace {
 
 using namespace hydro;
@@ -49,3 +50,4 @@ TEST(Mode, IsReadByNameAndTheNearestIsNamed) {
 }
 
 }  // namespace
+}  // namespace types_test

@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+namespace units_test {
 namespace {
 
 using namespace hydro;
@@ -85,3 +86,4 @@ TEST(Dimensions, NameThemselves) {
 }
 
 }  // namespace
+}  // namespace units_test

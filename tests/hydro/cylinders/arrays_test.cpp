@@ -8,7 +8,7 @@
 #include "layouts.hpp"
 #include "support/bottom_mounted_cylinders.hpp"
 
-namespace hydro::cylinders {
+namespace hydro::cylinders::arrays_test {
 namespace {
 
 using std::numbers::pi;
@@ -174,4 +174,4 @@ TEST(Arrays, TellTheirCostBeforehand) {
 }
 
 }  // namespace
-}  // namespace hydro::cylinders
+}  // namespace hydro::cylinders::arrays_test

@@ -6,7 +6,7 @@
 
 #include "layouts.hpp"
 
-namespace hydro::cylinders {
+namespace hydro::cylinders::bad_input_test {
 namespace {
 
 using ::testing::AllOf;
@@ -97,4 +97,4 @@ TEST(CylinderInput, RefusesAPileInInfinitelyDeepWater) {
 }
 
 }  // namespace
-}  // namespace hydro::cylinders
+}  // namespace hydro::cylinders::bad_input_test

@@ -11,7 +11,7 @@
 #include "hydro/waves/dispersion.hpp"
 #include "layouts.hpp"
 
-namespace hydro::cylinders {
+namespace hydro::cylinders::laws_test {
 namespace {
 
 const std::vector<double> omega{0.5, 1.4, 2.6};
@@ -145,4 +145,4 @@ TEST(CylinderLaws, RestoringIsThatOfTheWaterplaneAndTheCentres) {
 }
 
 }  // namespace
-}  // namespace hydro::cylinders
+}  // namespace hydro::cylinders::laws_test

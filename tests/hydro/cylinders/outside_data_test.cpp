@@ -7,7 +7,7 @@
 #include "layouts.hpp"
 #include "support/reference_data.hpp"
 
-namespace hydro::cylinders {
+namespace hydro::cylinders::outside_data_test {
 namespace {
 
 using Eigen::Index;
@@ -66,4 +66,4 @@ TEST(Cylinders, OfTwoModulesAgreeWithPanels) {
 }
 
 }  // namespace
-}  // namespace hydro::cylinders
+}  // namespace hydro::cylinders::outside_data_test

@@ -8,7 +8,7 @@
 #include "support/bottom_mounted_cylinders.hpp"
 #include "support/plain_cylinder.hpp"
 
-namespace hydro::cylinders {
+namespace hydro::cylinders::single_test {
 namespace {
 
 using std::numbers::pi;
@@ -126,4 +126,4 @@ TEST(SingleCylinder, TakesInfinitelyDeepWater) {
 }
 
 }  // namespace
-}  // namespace hydro::cylinders
+}  // namespace hydro::cylinders::single_test

@@ -9,7 +9,7 @@
 #include "layouts.hpp"
 #include "support/plain_submerged.hpp"
 
-namespace hydro::cylinders {
+namespace hydro::cylinders::submerged_test {
 namespace {
 
 using std::numbers::pi;
@@ -142,4 +142,4 @@ TEST(SubmergedCylinder, NeedsATopUnderWaterAndAboveItsBottom) {
 }
 
 }  // namespace
-}  // namespace hydro::cylinders
+}  // namespace hydro::cylinders::submerged_test

@@ -8,7 +8,7 @@
 
 #include "layouts.hpp"
 
-namespace hydro::cylinders {
+namespace hydro::cylinders::vertical_modes_test {
 namespace {
 
 using std::numbers::pi;
@@ -58,4 +58,4 @@ TEST(VerticalModes, NeedAFiniteDepth) {
 }
 
 }  // namespace
-}  // namespace hydro::cylinders
+}  // namespace hydro::cylinders::vertical_modes_test

@@ -6,7 +6,7 @@
 
 #include "hulls.hpp"
 
-namespace hydro::hydrostatics {
+namespace hydro::hydrostatics::immersion_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -178,4 +178,4 @@ TEST(Immersion, RefusesAPoseThatIsNone) {
 }
 
 }  // namespace
-}  // namespace hydro::hydrostatics
+}  // namespace hydro::hydrostatics::immersion_test

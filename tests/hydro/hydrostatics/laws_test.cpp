@@ -3,7 +3,7 @@
 
 #include "hulls.hpp"
 
-namespace hydro::hydrostatics {
+namespace hydro::hydrostatics::laws_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -160,4 +160,4 @@ TEST(HydrostaticLaws, FinerTrianglesOfTheSameHullChangeNothing) {
 }
 
 }  // namespace
-}  // namespace hydro::hydrostatics
+}  // namespace hydro::hydrostatics::laws_test

@@ -8,7 +8,7 @@
 
 #include "hulls.hpp"
 
-namespace hydro::hydrostatics {
+namespace hydro::hydrostatics::mesh_test {
 namespace {
 
 using ::testing::AllOf;
@@ -249,4 +249,4 @@ TEST(Primitives, RefuseSizesThatAreNone) {
 }
 
 }  // namespace
-}  // namespace hydro::hydrostatics
+}  // namespace hydro::hydrostatics::mesh_test

@@ -10,7 +10,7 @@
 #include "hulls.hpp"
 #include "hydro/base/random.hpp"
 
-namespace hydro::hydrostatics {
+namespace hydro::hydrostatics::shapes_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -149,4 +149,4 @@ TEST(Shapes, RefuseWhatIsNone) {
 }
 
 }  // namespace
-}  // namespace hydro::hydrostatics
+}  // namespace hydro::hydrostatics::shapes_test

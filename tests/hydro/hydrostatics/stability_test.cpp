@@ -5,7 +5,7 @@
 #include "hulls.hpp"
 #include "hydro/hydrostatics/stability.hpp"
 
-namespace hydro::hydrostatics {
+namespace hydro::hydrostatics::stability_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -171,4 +171,4 @@ TEST(Equilibrium, OfAHullInNeutralBalanceIsNotCalledStable) {
 }
 
 }  // namespace
-}  // namespace hydro::hydrostatics
+}  // namespace hydro::hydrostatics::stability_test

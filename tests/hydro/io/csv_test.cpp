@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+namespace csv_test {
 namespace {
 
 using hydro::InputError;
@@ -72,3 +73,4 @@ TEST(WriteCsv, IsReadBackToTheLastBit) {
 }
 
 }  // namespace
+}  // namespace csv_test

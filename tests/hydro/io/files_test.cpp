@@ -10,6 +10,7 @@
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/hdf5.hpp"
 
+namespace files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -95,3 +96,4 @@ TEST_F(Files, OfHdf5SayWhatIsMissingOrCut) {
 }
 
 }  // namespace
+}  // namespace files_test

@@ -10,6 +10,7 @@
 #include "smooth_body.hpp"
 #include "support/reference_data.hpp"
 
+namespace aqwa_reader_test {
 namespace {
 
 using froude_test::largest_relative_error;
@@ -285,3 +286,4 @@ TEST(AqwaLis, RefusesAFileThatIsCutAnywhere) {
 }
 
 }  // namespace
+}  // namespace aqwa_reader_test

@@ -9,6 +9,7 @@
 #include "hydro/io/hdf5.hpp"
 #include "smooth_body.hpp"
 
+namespace bemio_reader_test {
 namespace {
 
 using froude_test::largest_relative_error;
@@ -228,3 +229,4 @@ TEST(BemioReader, RefusesAnHdf5FileOfAnotherKind) {
 }
 
 }  // namespace
+}  // namespace bemio_reader_test

@@ -6,6 +6,7 @@
 #include "capytaine_file.hpp"
 #include "hydro/base/error.hpp"
 
+namespace capytaine_reader_test {
 namespace {
 
 using froude_test::CapytaineFile;
@@ -214,3 +215,4 @@ TEST(CapytaineReader, RefusesADamagedHeader) {
 }
 
 }  // namespace
+}  // namespace capytaine_reader_test

@@ -5,6 +5,7 @@
 
 #include "smooth_body.hpp"
 
+namespace check_test {
 namespace {
 
 using hydro::potential::check;
@@ -134,3 +135,4 @@ TEST(Check, MissesALimitThatIsAbsent) {
 }
 
 }  // namespace
+}  // namespace check_test

@@ -9,6 +9,7 @@
 #include "hydro/base/error.hpp"
 #include "smooth_body.hpp"
 
+namespace coefficients_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -101,3 +102,4 @@ TEST(Coefficients, AreRefusedWithTheSourceAndTheRule) {
 }
 
 }  // namespace
+}  // namespace coefficients_test

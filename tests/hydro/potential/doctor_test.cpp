@@ -7,23 +7,22 @@
 #include <numbers>
 #include <ostream>
 
+#include "example.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/cylinders/solve.hpp"
 #include "hydro/potential/check.hpp"
 #include "hydro/potential/operations.hpp"
 #include "support/reference_data.hpp"
 
+namespace doctor_test {
 namespace {
 
+using froude_test::example;
 using hydro::potential::check;
 using hydro::potential::Coefficients;
 using hydro::potential::Finding;
 using hydro::potential::Severity;
 using ::testing::HasSubstr;
-
-Coefficients example(const std::string& name) {
-  return hydro::potential::read(std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/data" / name);
-}
 
 /// Two boxes in a row along x, four headings from 0 to 90 degrees, deep water.
 const Coefficients& boxes() {
@@ -335,3 +334,4 @@ TEST(Doctor, SaysNothingAgainstExactCylinders) {
 }
 
 }  // namespace
+}  // namespace doctor_test

@@ -5,6 +5,7 @@
 #include "support/reference_data.hpp"
 #include "wamit_text.hpp"
 
+namespace hams_reader_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -228,3 +229,4 @@ TEST(WamitExcitation, OfTheEllipsoidIsTheSumOfItsParts) {
 }
 
 }  // namespace
+}  // namespace hams_reader_test

@@ -8,13 +8,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "example.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/potential/check.hpp"
 #include "smooth_body.hpp"
 #include "support/reference_data.hpp"
 
+namespace heal_test {
 namespace {
 
+using froude_test::example;
 using hydro::potential::Coefficients;
 using hydro::potential::heal;
 using hydro::potential::Healed;
@@ -24,10 +27,6 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 constexpr HealOptions none{.symmetry = false, .spikes = false, .tail = false, .passivity = false};
-
-Coefficients example(const std::string& name) {
-  return hydro::potential::read(std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/data" / name);
-}
 
 HealOptions only(bool HealOptions::*step) {
   HealOptions options = none;
@@ -205,3 +204,4 @@ TEST(Heal, CuresTheIrregularFrequenciesOfAPublishedFile) {
 }
 
 }  // namespace
+}  // namespace heal_test

@@ -9,6 +9,7 @@
 #include "hydro/io/atomic_file.hpp"
 #include "support/reference_data.hpp"
 
+namespace nemoh_reader_test {
 namespace {
 
 using froude_test::largest_relative_error;
@@ -253,3 +254,4 @@ TEST(NemohOutsideData, IsTheSameAsTheNetcdfOfTheSameRun) {
 }
 
 }  // namespace
+}  // namespace nemoh_reader_test

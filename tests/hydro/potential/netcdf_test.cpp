@@ -7,6 +7,7 @@
 #include "hydro/base/error.hpp"
 #include "smooth_body.hpp"
 
+namespace netcdf_test {
 namespace {
 
 using froude_test::TemporaryFolder;
@@ -80,3 +81,4 @@ TEST(NetcdfReader, ArrangesAxesByName) {
 }
 
 }  // namespace
+}  // namespace netcdf_test

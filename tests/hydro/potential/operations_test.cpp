@@ -11,6 +11,7 @@
 #include "hydro/base/random.hpp"
 #include "hydro/waves/dispersion.hpp"
 
+namespace operations_test {
 namespace {
 
 using namespace hydro;
@@ -169,3 +170,4 @@ TEST(FrequencyTable, TellsHowMuchATableLeavesOpen) {
 }
 
 }  // namespace
+}  // namespace operations_test

@@ -10,6 +10,7 @@
 #include "smooth_body.hpp"
 #include "support/reference_data.hpp"
 
+namespace outside_data_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -233,3 +234,4 @@ TEST(BuoyA5, HoldsTheLimitsOfItsReadme) {
 }
 
 }  // namespace
+}  // namespace outside_data_test

@@ -11,6 +11,7 @@
 #include "support/reference_data.hpp"
 #include "wamit_text.hpp"
 
+namespace responses_test {
 namespace {
 
 using froude_test::TemporaryFolder;
@@ -160,3 +161,4 @@ TEST(OddMotions, OfOneModeOfTheSecondBodyAreThatMode) {
 }
 
 }  // namespace
+}  // namespace responses_test

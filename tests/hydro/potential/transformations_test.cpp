@@ -14,6 +14,7 @@
 #include "hydro/waves/dispersion.hpp"
 #include "smooth_body.hpp"
 
+namespace transformations_test {
 namespace {
 
 using froude_test::largest_relative_error;
@@ -328,3 +329,4 @@ TEST(Transformations, RefuseNumbersThatHaveNoMeaning) {
 }
 
 }  // namespace
+}  // namespace transformations_test

@@ -12,6 +12,7 @@
 #include "smooth_body.hpp"
 #include "support/reference_data.hpp"
 
+namespace veres_hdb_test {
 namespace {
 
 using froude_test::TemporaryFolder;
@@ -407,3 +408,4 @@ TEST(HdbOutsideData, IsLiftedAndPushedByLongWavesAndLeadsByItsDamping) {
 }
 
 }  // namespace
+}  // namespace veres_hdb_test

@@ -4,6 +4,7 @@
 #include "hydro/base/error.hpp"
 #include "wamit_text.hpp"
 
+namespace wamit_reader_test {
 namespace {
 
 using froude_test::largest_relative_error;
@@ -286,3 +287,4 @@ TEST(WamitReader, NotesAPhaseThatContradictsTheParts) {
 }
 
 }  // namespace
+}  // namespace wamit_reader_test

@@ -11,6 +11,7 @@
 #include "hydro/potential/operations.hpp"
 #include "smooth_body.hpp"
 
+namespace writers_test {
 namespace {
 
 using froude_test::largest_relative_error;
@@ -271,3 +272,4 @@ TEST(Writers, RefuseCoefficientsThatAreNotSound) {
 }
 
 }  // namespace
+}  // namespace writers_test

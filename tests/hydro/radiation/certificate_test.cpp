@@ -9,6 +9,7 @@
 #include "pole_basis.hpp"
 #include "support/random_passive.hpp"
 
+namespace certificate_test {
 namespace {
 
 using namespace hydro::radiation;
@@ -107,3 +108,4 @@ TEST(Certificate, AgreesWithTheHamiltonianMatrix) {
 }
 
 }  // namespace
+}  // namespace certificate_test

@@ -8,11 +8,12 @@
 #include "hydro/base/random.hpp"
 #include "support/two_pole_body.hpp"
 
+namespace convolution_test {
 namespace {
 
 using namespace hydro::radiation;
 
-const support::TwoPoleBody body{.decay = 0.3, .frequency = 1.1};
+const support::TwoPoleBody body{};
 
 RetardationKernel kernel(double step, int modes = 1) {
   return RetardationKernel::from_damping(body.damping_table(40, 1000, modes), {step, 30});
@@ -97,3 +98,4 @@ TEST(DirectConvolution, NeverGivesEnergyToARandomMotion) {
 }
 
 }  // namespace
+}  // namespace convolution_test

@@ -7,6 +7,7 @@
 
 #include "hydro/base/error.hpp"
 
+namespace excitation_kernel_test {
 namespace {
 
 using hydro::radiation::ExcitationKernel;
@@ -69,3 +70,4 @@ TEST(ExcitationKernel, RefusesMoreThanTheFrequenciesTell) {
 }
 
 }  // namespace
+}  // namespace excitation_kernel_test

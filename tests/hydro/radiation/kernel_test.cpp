@@ -8,6 +8,7 @@
 #include "hydro/base/error.hpp"
 #include "support/two_pole_body.hpp"
 
+namespace kernel_test {
 namespace {
 
 using namespace hydro::radiation;
@@ -16,7 +17,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-const TwoPoleBody body{.decay = 0.3, .frequency = 1.1};
+const TwoPoleBody body{};
 
 TEST(RetardationKernel, RecoversATwoPoleBodyFromItsDamping) {
   const auto kernel = RetardationKernel::from_damping(body.damping_table(80, 2000), {.step = 0.05, .length = 20});
@@ -109,3 +110,4 @@ TEST(InfiniteAddedMass, FollowsFromAddedMassAndDampingByOgilvie) {
 }
 
 }  // namespace
+}  // namespace kernel_test

@@ -14,13 +14,14 @@
 #include "support/random_passive.hpp"
 #include "support/two_pole_body.hpp"
 
+namespace methods_test {
 namespace {
 
 using namespace hydro::radiation;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-const support::TwoPoleBody body{.decay = 0.3, .frequency = 1.1};
+const support::TwoPoleBody body{};
 
 Eigen::VectorXd random_velocity(std::uint64_t i, int modes) {
   const hydro::RandomStream random(2, 3);
@@ -210,3 +211,4 @@ TEST(Choice, ReportsTheErrorOfAKernelCutShort) {
 }
 
 }  // namespace
+}  // namespace methods_test

@@ -10,13 +10,14 @@
 #include "support/random_passive.hpp"
 #include "support/two_pole_body.hpp"
 
+namespace rational_test {
 namespace {
 
 using namespace hydro::radiation;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-const support::TwoPoleBody body{.decay = 0.3, .frequency = 1.1};
+const support::TwoPoleBody body{};
 
 /// Largest |K̂(model) + iω(A∞ given − A∞ fitted) − K̂(exact)| relative to √(max B_ii max B_jj), over `omegas`.
 double error(const RationalFit& fit, const PoleModel& exact, const Eigen::MatrixXd& A_inf,
@@ -136,3 +137,4 @@ TEST(RationalFit, NeedsDataThatBelongTogether) {
 }
 
 }  // namespace
+}  // namespace rational_test

@@ -11,6 +11,7 @@
 #include "hydro/io/hdf5.hpp"
 #include "support/random_passive.hpp"
 
+namespace state_space_test {
 namespace {
 
 using namespace hydro::radiation;
@@ -82,3 +83,4 @@ TEST(StateSpace, RefusesHalfABody) {
 }
 
 }  // namespace
+}  // namespace state_space_test

@@ -8,11 +8,12 @@
 #include "hydro/base/error.hpp"
 #include "support/two_pole_body.hpp"
 
+namespace tail_test {
 namespace {
 
 using namespace hydro::radiation;
 
-const support::TwoPoleBody body{.decay = 0.3, .frequency = 1.1};
+const support::TwoPoleBody body{};
 constexpr double A_inf = 7.0;
 
 std::vector<Eigen::MatrixXd> added_mass(const DampingTable& table) {
@@ -95,3 +96,4 @@ TEST(ContinuedDamping, NeedsAddedMassAtEveryFrequency) {
 }
 
 }  // namespace
+}  // namespace tail_test

@@ -6,6 +6,7 @@
 
 #include "hydro/base/error.hpp"
 
+namespace distributions_test {
 namespace {
 
 using namespace hydro::signal;
@@ -67,3 +68,4 @@ TEST(Quantiles, RefuseWhatIsNoProbability) {
 }
 
 }  // namespace
+}  // namespace distributions_test

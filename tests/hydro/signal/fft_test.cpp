@@ -9,6 +9,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/base/random.hpp"
 
+namespace fft_test {
 namespace {
 
 using hydro::signal::inverse_real_fft;
@@ -92,3 +93,4 @@ TEST(Fft, RefusesNothingAndHalvesOfAnotherLength) {
 }
 
 }  // namespace
+}  // namespace fft_test

@@ -8,6 +8,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/base/random.hpp"
 
+namespace harmonics_test {
 namespace {
 
 using hydro::signal::fit_harmonics;
@@ -81,3 +82,4 @@ TEST(Harmonics, RefuseWhatTheRecordCannotAnswer) {
 }
 
 }  // namespace
+}  // namespace harmonics_test

@@ -7,6 +7,7 @@
 
 #include "hydro/base/error.hpp"
 
+namespace spectrum_test {
 namespace {
 
 using namespace hydro::signal;
@@ -91,3 +92,4 @@ TEST(Spectrum, RefusesDisorderAndNothing) {
 }
 
 }  // namespace
+}  // namespace spectrum_test

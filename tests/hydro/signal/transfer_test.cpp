@@ -8,6 +8,7 @@
 #include "hydro/base/random.hpp"
 #include "hydro/signal/welch.hpp"
 
+namespace transfer_test {
 namespace {
 
 using namespace hydro::signal;
@@ -97,3 +98,4 @@ TEST(Transfer, HasNoAnswerWhereTheInputHasNoEnergy) {
 }
 
 }  // namespace
+}  // namespace transfer_test

@@ -9,6 +9,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/base/random.hpp"
 
+namespace welch_test {
 namespace {
 
 using namespace hydro::signal;
@@ -125,3 +126,4 @@ TEST(Welch, RefusesWhatItCannotUse) {
 }
 
 }  // namespace
+}  // namespace welch_test

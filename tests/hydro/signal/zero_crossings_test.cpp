@@ -13,6 +13,7 @@
 #include "hydro/signal/welch.hpp"
 #include "support/reference_data.hpp"
 
+namespace zero_crossings_test {
 namespace {
 
 using namespace hydro::signal;
@@ -113,3 +114,4 @@ TEST(MeasuredSea, HasTheKnownHeightsAndPeriods) {
 }
 
 }  // namespace
+}  // namespace zero_crossings_test

@@ -7,7 +7,7 @@
 
 #include "hydro/waves/dispersion.hpp"
 
-namespace hydro::waves {
+namespace hydro::waves::current_test {
 namespace {
 
 using testing::AllOf;
@@ -119,4 +119,4 @@ TEST(CurrentProfile, RefusesWhatIsNoProfile) {
 }
 
 }  // namespace
-}  // namespace hydro::waves
+}  // namespace hydro::waves::current_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hydro::waves {
+namespace hydro::waves::dispersion_test {
 namespace {
 
 using testing::HasSubstr;
@@ -97,4 +97,4 @@ TEST(Dispersion, RefusesWhatIsNoWave) {
 }
 
 }  // namespace
-}  // namespace hydro::waves
+}  // namespace hydro::waves::dispersion_test

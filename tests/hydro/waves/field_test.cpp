@@ -10,7 +10,7 @@
 #include "hydro/waves/kinematics.hpp"
 #include "hydro/waves/sea.hpp"
 
-namespace hydro::waves {
+namespace hydro::waves::field_test {
 namespace {
 
 using testing::HasSubstr;
@@ -207,4 +207,4 @@ TEST(HarmonicField, RefusesWhatHasNoMeaning) {
 }
 
 }  // namespace
-}  // namespace hydro::waves
+}  // namespace hydro::waves::field_test

@@ -8,7 +8,7 @@
 
 #include "hydro/waves/dispersion.hpp"
 
-namespace hydro::waves {
+namespace hydro::waves::focus_test {
 namespace {
 
 using testing::HasSubstr;
@@ -190,4 +190,4 @@ TEST(Focus, RefusesWhatCannotFocus) {
 }
 
 }  // namespace
-}  // namespace hydro::waves
+}  // namespace hydro::waves::focus_test

@@ -8,7 +8,7 @@
 
 #include "hydro/base/error.hpp"
 
-namespace hydro::waves {
+namespace hydro::waves::impact_test {
 namespace {
 
 using testing::HasSubstr;
@@ -144,4 +144,4 @@ TEST(Impact, RefusesWhatIsNoImpact) {
 }
 
 }  // namespace
-}  // namespace hydro::waves
+}  // namespace hydro::waves::impact_test

@@ -6,7 +6,7 @@
 
 #include "hydro/waves/dispersion.hpp"
 
-namespace hydro::waves {
+namespace hydro::waves::kinematics_test {
 namespace {
 
 using testing::HasSubstr;
@@ -124,4 +124,4 @@ TEST(WaveKinematics, RefuseAPointBelowTheBed) {
 }
 
 }  // namespace
-}  // namespace hydro::waves
+}  // namespace hydro::waves::kinematics_test

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-namespace hydro::waves {
+#include "support/fresh_waters.hpp"
+
+namespace hydro::waves::limits_test {
 namespace {
 
 using testing::Contains;
@@ -13,8 +15,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::ThrowsMessage;
 
-Water water_of(double depth) { return {.density = 1000, .gravity = 9.81, .depth = WaterDepth::from_metres(depth)}; }
-const Water deep{.density = 1000, .gravity = 9.81, .depth = WaterDepth::infinite()};
+using support::deep;
+using support::water_of;
 
 WaveLimits of(double height, double length, const Water& water) {
   return wave_limits({.height_m = height, .length = Wavelength::from_metres(length), .water = water});
@@ -68,4 +70,4 @@ TEST(WaveLimits, RefuseWhatIsNoWave) {
 }
 
 }  // namespace
-}  // namespace hydro::waves
+}  // namespace hydro::waves::limits_test

@@ -10,7 +10,7 @@
 #include "hydro/waves/dispersion.hpp"
 #include "hydro/waves/synthesis.hpp"
 
-namespace hydro::waves {
+namespace hydro::waves::sea_test {
 namespace {
 
 using testing::HasSubstr;
@@ -341,4 +341,4 @@ TEST(Sea, WantsOneAmplitudePerComponent) {
 }
 
 }  // namespace
-}  // namespace hydro::waves
+}  // namespace hydro::waves::sea_test

@@ -8,8 +8,9 @@
 
 #include "hydro/waves/dispersion.hpp"
 #include "hydro/waves/steady.hpp"
+#include "support/fresh_waters.hpp"
 
-namespace hydro::waves {
+namespace hydro::waves::second_order_test {
 namespace {
 
 using testing::HasSubstr;
@@ -18,8 +19,8 @@ using Complex = std::complex<double>;
 constexpr double pi = std::numbers::pi;
 constexpr double g = 9.81;
 
-Water water_of(double depth) { return {.density = 1000, .gravity = g, .depth = WaterDepth::from_metres(depth)}; }
-const Water deep{.density = 1000, .gravity = g, .depth = WaterDepth::infinite()};
+using support::deep;
+using support::water_of;
 
 FreeWave wave(double sigma, double heading, const Water& water) {
   const double k = wavenumber(sigma, water);
@@ -259,4 +260,4 @@ TEST(SecondOrder, RefusesWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace hydro::waves
+}  // namespace hydro::waves::second_order_test

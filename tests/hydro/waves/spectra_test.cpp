@@ -10,7 +10,7 @@
 
 #include "hydro/waves/dispersion.hpp"
 
-namespace hydro::waves {
+namespace hydro::waves::spectra_test {
 namespace {
 
 using testing::AllOf;
@@ -357,4 +357,4 @@ TEST(Spectra, RefuseWhatIsNoSea) {
 }
 
 }  // namespace
-}  // namespace hydro::waves
+}  // namespace hydro::waves::spectra_test

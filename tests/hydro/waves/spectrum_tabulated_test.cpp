@@ -11,7 +11,7 @@
 #include "hydro/waves/spectra.hpp"
 #include "support/reference_data.hpp"
 
-namespace hydro::waves {
+namespace hydro::waves::spectrum_tabulated_test {
 namespace {
 
 using testing::AllOf;
@@ -155,4 +155,4 @@ TEST(TabulatedSpectrum, OfAMeasuredSeaHasTheHeightAndPeriodsThatScipyFinds) {
 }
 
 }  // namespace
-}  // namespace hydro::waves
+}  // namespace hydro::waves::spectrum_tabulated_test

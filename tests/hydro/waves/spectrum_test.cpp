@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-namespace hydro::waves {
+namespace hydro::waves::spectrum_test {
 namespace {
 
 using testing::HasSubstr;
@@ -126,4 +126,4 @@ TEST(Spectrum, RefusesWhatIsNoSea) {
 }
 
 }  // namespace
-}  // namespace hydro::waves
+}  // namespace hydro::waves::spectrum_test

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-namespace hydro::waves {
+namespace hydro::waves::spreading_test {
 namespace {
 
 using testing::AllOf;
@@ -193,4 +193,4 @@ TEST(Spreading, RefusesWhatIsNoDistribution) {
 }
 
 }  // namespace
-}  // namespace hydro::waves
+}  // namespace hydro::waves::spreading_test

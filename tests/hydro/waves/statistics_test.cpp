@@ -9,7 +9,7 @@
 #include "hydro/base/random.hpp"
 #include "hydro/waves/spectra.hpp"
 
-namespace hydro::waves {
+namespace hydro::waves::statistics_test {
 namespace {
 
 using testing::HasSubstr;
@@ -105,4 +105,4 @@ TEST(SeaStatistics, RefuseWhatIsNoSea) {
 }
 
 }  // namespace
-}  // namespace hydro::waves
+}  // namespace hydro::waves::statistics_test

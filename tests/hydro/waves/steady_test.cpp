@@ -8,8 +8,9 @@
 
 #include "hydro/waves/dispersion.hpp"
 #include "hydro/waves/limits.hpp"
+#include "support/fresh_waters.hpp"
 
-namespace hydro::waves {
+namespace hydro::waves::steady_test {
 namespace {
 
 using testing::HasSubstr;
@@ -17,8 +18,8 @@ using testing::ThrowsMessage;
 constexpr double pi = std::numbers::pi;
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
-Water water_of(double depth) { return {.density = 1000, .gravity = 9.81, .depth = WaterDepth::from_metres(depth)}; }
-const Water deep{.density = 1000, .gravity = 9.81, .depth = WaterDepth::infinite()};
+using support::deep;
+using support::water_of;
 
 // λ = 100 m at these ratios λ/h (0: infinite depth) and shares of the highest wave: the region table.
 struct Place {
@@ -317,4 +318,4 @@ TEST(Stokes, SaysThatLongWavesAreNotItsOwn) {
 }
 
 }  // namespace
-}  // namespace hydro::waves
+}  // namespace hydro::waves::steady_test

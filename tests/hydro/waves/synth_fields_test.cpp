@@ -13,7 +13,7 @@
 #include "hydro/waves/summed_field.hpp"
 #include "hydro/waves/tabulated_field.hpp"
 
-namespace hydro::waves {
+namespace hydro::waves::synth_fields_test {
 namespace {
 
 using testing::HasSubstr;
@@ -280,4 +280,4 @@ TEST(FieldChoice, TakesATableForManyQuestionsAndASumForFew) {
 }
 
 }  // namespace
-}  // namespace hydro::waves
+}  // namespace hydro::waves::synth_fields_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hydro::waves {
+namespace hydro::waves::synth_series_test {
 namespace {
 
 using testing::AllOf;
@@ -222,4 +222,4 @@ TEST(Synthesis, RefusesWhatItCannotUse) {
 }
 
 }  // namespace
-}  // namespace hydro::waves
+}  // namespace hydro::waves::synth_series_test

@@ -7,7 +7,7 @@
 
 #include "hydro/waves/dispersion.hpp"
 
-namespace hydro::waves {
+namespace hydro::waves::tank_test {
 namespace {
 
 using testing::HasSubstr;
@@ -256,4 +256,4 @@ TEST(WaveTank, RefusesWhatIsNoTank) {
 }
 
 }  // namespace
-}  // namespace hydro::waves
+}  // namespace hydro::waves::tank_test
