@@ -64,7 +64,7 @@ dl::Description description(const Scene& scene, const scene::Line& l,
     d.nodes.back().mass = 0;
   }
   d.gravity = scene.water.gravity;
-  if (l.bed) d.bed.push_back({-scene.water.depth.metres(), l.bed->stiffness, l.bed->damping});
+  if (l.bed) d.bed.push_back({-scene.water.depth.metres(), l.bed->stiffness, l.bed->damping, l.bed->friction});
   if (l.morison || l.buoyancy)
     d.water = {std::move(field), l.partial_immersion ? dl::Wet::below_surface : dl::Wet::all, l.buoyancy};
   return d;
@@ -209,13 +209,16 @@ std::vector<LineModel> line_models(const Scene& scene, const Prepared& prepared,
 }
 
 PlanLine plan_line(const LineModel& m) {
+  std::string bed;
+  for (const dl::Bed& b : m.line->description().bed)
+    if (b.friction > 0) bed = fmt::format(", friction of the bed {:g}", b.friction);
   if (m.fastened)
-    return {"line " + m.name, "generalized alpha, one system with its bodies",
+    return {"line " + m.name, "generalized alpha, one system with its bodies" + bed,
             fmt::format("{} segments, {} unknowns", m.line->segments(), 3 * m.line->nodes() + m.line->segments()),
             true};
   std::string method(dl::name_of(m.settings.scheme));
   std::replace(method.begin(), method.end(), '_', ' ');
-  return {"line " + m.name, method + " on a chain of its own, one band elimination an iteration",
+  return {"line " + m.name, method + " on a chain of its own, one band elimination an iteration" + bed,
           fmt::format("{} segments, {} unknowns", m.line->segments(), 3 * m.line->nodes() + m.line->segments()), true};
 }
 
@@ -327,7 +330,7 @@ void add_whole(std::size_t k, const LineModel& m, std::vector<LineProbe>& out) {
                    [read](const LineRun& r) { return read(r.energies()); }});
   };
   energy("kinetic", [](const dl::Energies& e) { return e.kinetic; });
-  energy("stored", [](const dl::Energies& e) { return e.height + e.axial + e.bed; });
+  energy("stored", [](const dl::Energies& e) { return e.stored(); });
   energy("supplied", [](const dl::Energies& e) { return e.supplied(); });
   energy("dissipated", [](const dl::Energies& e) { return e.dissipated(); });
   energy("residual", [](const dl::Energies& e) { return e.residual(); });

@@ -108,7 +108,7 @@ class March {
       const std::string& name = m_.lines[k].name;
       if (m_.lines[k].fastened) continue;  // in the ledger of the bodies already
       record_.energy.emplace_back(name + ".kinetic", e.kinetic);
-      record_.energy.emplace_back(name + ".stored", e.height + e.axial + e.bed);
+      record_.energy.emplace_back(name + ".stored", e.stored());
       record_.energy.emplace_back(name + ".supplied", e.supplied());
       record_.energy.emplace_back(name + ".dissipated", e.dissipated());
       residual += e.residual();

@@ -107,7 +107,10 @@ void build_lines(const Record& root, const std::filesystem::path& file, Names& n
       line.morison = {m.si("cd"), m.si("ca"), m.si("cd_tangential")};
     }
     if (record.has("damping")) line.damping = read_damping(record.table("damping"));
-    if (record.has("bed")) line.bed = {record.table("bed").si("stiffness"), record.table("bed").si("damping")};
+    if (record.has("bed")) {
+      const Record& b = record.table("bed");
+      line.bed = {b.si("stiffness"), b.si("damping"), b.has("friction") ? b.si("friction") : 0.0};
+    }
     if (record.has("release")) line.release = read_release(record.table("release"), line);
     if (record.has("lead")) line.lead = read_lead(record.table("lead"), line, file);
     if (record.has("on")) read_on(record.table("on"), record, scene, line);

@@ -243,7 +243,7 @@ struct Line {
     bool componentwise;
   };
   struct Bed {
-    double stiffness, damping;  ///< Pa/m, Pa s/m
+    double stiffness, damping, friction;  ///< Pa/m, Pa s/m, of the weight on it
   };
   struct Release {
     int node;

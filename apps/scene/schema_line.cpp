@@ -55,7 +55,12 @@ const Table& bed() {
           quantity("stiffness", dim::pressure / dim::length, "pressure per depth, on the line's diameter").positive(),
           quantity("damping", dim::pressure / dim::velocity, "pressure per velocity; never pulls")
               .within(Limit::not_negative)
-              .or_default("0 Pa s/m", "what is not named does not act")}};
+              .or_default("0 Pa s/m", "what is not named does not act"),
+          number(
+              "friction",
+              "what lies on the bed is held by up to this times its weight on it; none at rest, before anything moves")
+              .positive()
+              .optional()}};
   return table;
 }
 

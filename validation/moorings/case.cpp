@@ -55,7 +55,7 @@ MooringLine mooring(const Chain& c) {
           .anchor = {c.span, 0, -depth},
           .fairlead = {0, 0, 0},
           .water = {.density = 1025, .gravity = 9.80665, .depth = hydro::WaterDepth::from_metres(depth)},
-          .bed = {{.z = -depth, .stiffness = 1e5, .damping = 1e4}}};
+          .bed = {{.z = -depth, .stiffness = 1e5, .damping = 1e4, .friction = 0.5}}};
 }
 
 struct Range {

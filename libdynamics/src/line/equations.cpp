@@ -28,6 +28,8 @@ Equations::Equations(const Line& line)
     : line_(line), loads_(line), matrix_(4 * line.nodes()), rhs_(4 * line.nodes()), law_(line.segments()) {
   blocks_.set_zero(line.nodes());
   x_ = v_ = a_ = force_ = residual_ = Places::Zero(3, line.nodes());
+  push_.resize(static_cast<std::size_t>(line.nodes()));
+  sag_.resize(static_cast<std::size_t>(line.segments()));
 }
 
 void Equations::move(const Stage& stage, const State& before, const Places& u) {
@@ -135,7 +137,7 @@ Equations::Push Equations::bed(int i, const Stage& stage, const State& before) c
 void Equations::add_bed(const Stage& stage, const State& before, bool matrix) {
   if (line_.description().bed.empty()) return;
   for (int i = 0; i < line_.nodes(); ++i) {
-    const Push push = bed(i, stage, before);
+    const Push& push = push_[static_cast<std::size_t>(i)] = bed(i, stage, before);
     residual_(2, i) -= push.force;
     if (matrix) matrix_(place_index(i) + 2, place_index(i) + 2) += push.by_end;
   }
@@ -147,6 +149,7 @@ void Equations::add_pulls(const Stage& stage, const State& before, const VectorX
     residual_.col(j) -= T[j] * p.direction;
     residual_.col(j + 1) += T[j] * p.direction;
     law_[j] = p.law;
+    sag_[static_cast<std::size_t>(j)] = p.sag;
     for (int i = 0; i < 2; ++i) residual_(2, j + i) -= p.sag.relief[i];
     if (!matrix) continue;
     const Matrix3d stiffness = stage.x_by == 0 ? Matrix3d::Zero() : Matrix3d(T[j] * p.direction_by);
@@ -178,6 +181,7 @@ double Equations::assemble(const Stage& stage, const State& before, const Places
   if (matrix) fill(stage.still ? 0 : stage.a_by, stage.relax);
   add_bed(stage, before, matrix);
   add_pulls(stage, before, T, matrix);
+  if (rubs() && !stage.still) add_friction(stage, before, matrix);
   double sum = law_.squaredNorm();
   for (int i = 0; i < line_.nodes(); ++i)
     if (line_.held(i) == nullptr) sum += residual_.col(i).squaredNorm() / (scale_ * scale_);

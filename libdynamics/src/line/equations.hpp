@@ -27,6 +27,7 @@ struct Stage {
 /// Powers at a stage, W; means over the step if the stage is one.
 struct Powers : LoadPowers {
   double axial = 0, bed = 0;  ///< dissipated
+  double friction = 0;        ///< taken by the bed's shear, lost or stored
   double held = 0;            ///< supplied by what holds nodes
 };
 
@@ -67,6 +68,10 @@ class Equations {
   /// Stored in stretched segments, and in the bed, J.
   double stored_in_segments(const State& state);
   double stored_in_bed(const State& state) const;
+  /// Of the bed's shear under a state, J. (D95)
+  double stored_in_shear(const State& state) const;
+  /// Where the bed holds nodes after the step that powers() looked at last. (D95)
+  void take_grip(State& state) const;
   double kinetic(const Places& v) const;
 
  private:
@@ -98,6 +103,11 @@ class Equations {
   void keep_held();
   void add_mass(const Places& a);
   void add_bed(const Stage& stage, const State& before, bool matrix);
+  bool rubs() const { return !line_.description().bed.empty() && line_.description().bed.front().friction > 0; }
+  double shear_stiffness(int i) const { return line_.description().bed.front().stiffness * line_.bed_area(i); }
+  double weight_on_bed(int i) const;
+  void add_friction(const Stage& stage, const State& before, bool matrix);
+  void add_slip_derivatives(int i, const Eigen::Vector2d& along);
   void add_pulls(const Stage& stage, const State& before, const Eigen::VectorXd& T, bool matrix);
   double assemble(const Stage& stage, const State& before, const Places& u, const Eigen::VectorXd& T, bool matrix);
   Push bed(int i, const Stage& stage, const State& before) const;
@@ -122,7 +132,10 @@ class Equations {
   Eigen::VectorXd rhs_, law_;
   Blocks blocks_;
   Places x_, v_, a_, force_, residual_;
-  double scale_ = 1;  // what makes newtons and metres comparable, N/m
+  std::vector<Push> push_;              // of the bed, each node
+  std::vector<Sag> sag_;                // each segment
+  Eigen::Matrix2Xd friction_, strain_;  // on each node, N, and what the bed has given way under it, m; empty without
+  double scale_ = 1;                    // what makes newtons and metres comparable, N/m
 };
 
 }  // namespace dynamics::line

@@ -56,6 +56,8 @@ Line::Line(Description description) : d_(std::move(description)) {
   require(d_.nodes.size() == d_.segments.size() + 1 && !d_.segments.empty(),
           "a line of {} segments has {} nodes, not {}", d_.segments.size(), d_.segments.size() + 1, d_.nodes.size());
   require(d_.bed.size() <= 1, "a line lies on one bed, not on {}", d_.bed.size());
+  for (const Bed& bed : d_.bed)
+    require(std::isfinite(bed.friction) && bed.friction >= 0, "the bed must not have the friction {}", bed.friction);
   require(d_.water.wet == Wet::nothing || d_.water.field != nullptr, "a line that is wet needs water");
   const bool always_lifted = d_.water.wet == Wet::all && d_.water.buoyancy;
   const Eigen::Index n = nodes();

@@ -94,7 +94,8 @@ const Energies& Stepper::energies() const { return work_->energies; }
 
 Stepper::Flow Stepper::flow() const {
   const Powers& p = work_->before;
-  return {p.drag_supplied + p.inertia_supplied + p.buoyancy_supplied, p.damping + p.drag_dissipated + p.axial + p.bed};
+  return {p.drag_supplied + p.inertia_supplied + p.buoyancy_supplied,
+          p.damping + p.drag_dissipated + p.axial + p.bed + p.friction};
 }
 
 void Stepper::keep() {
@@ -160,6 +161,7 @@ void Stepper::start(State& state) {
                                [](const Held& h) { return h.path != nullptr; });
   if (led) w.equations.project_velocity(state, state.velocity);
   w.require_lengths(state);
+  if (state.grip.cols() != line.nodes()) state.grip = state.position.topRows<2>();
   if (!w.settle(state) && !line.has_massless_nodes())
     throw hydro::NumericsError(fmt::format(
         "the line has no accelerations at t = {} s: masses or loads are singular or not finite", state.time));
@@ -167,6 +169,7 @@ void Stepper::start(State& state) {
   w.energies = {};
   w.before = w.equations.powers(instant(state, w.a), state, Places::Zero(3, line.nodes()), state.tension);
   w.note_state(state);
+  w.energies.lost_friction = 0;
   w.energies.at_start = w.energies.total();
 }
 
@@ -183,6 +186,9 @@ void Stepper::Work::note_state(const State& state) {
   energies.height = -line.constant_load().cwiseProduct(state.position).sum();
   energies.axial = equations.stored_in_segments(state);
   energies.bed = equations.stored_in_bed(state);
+  const double shear = equations.stored_in_shear(state);
+  energies.lost_friction -= shear - energies.shear;  // of what friction took, this is held
+  energies.shear = shear;
 }
 
 void Stepper::Work::note_powers(const Powers& mean, double h) {
@@ -194,6 +200,7 @@ void Stepper::Work::note_powers(const Powers& mean, double h) {
   energies.lost_drag += h * mean.drag_dissipated;
   energies.lost_axial += h * mean.axial;
   energies.lost_bed += h * mean.bed;
+  energies.lost_friction += h * mean.friction;
 }
 
 bool Stepper::Work::solve(const Stage& stage, const State& state, Places& u, VectorXd& T, StepReport& report) {
@@ -323,6 +330,7 @@ bool Stepper::Work::try_step(State& state, double h, StepReport& report) {
     note_powers(now, h / 2);
     before = now;
   }
+  equations.take_grip(state);
   note_state(state);
   return true;
 }

@@ -126,6 +126,22 @@ TEST(Lines, SagWhereTheSceneSaysSo) {
               ThrowsMessage<hydro::InputError>(HasSubstr("segments that sag")));
 }
 
+// Pulled aside along the bed and let go, it comes back; with friction it lies where it was put. (D95)
+TEST(Lines, LieWhereTheyArePutByFrictionOfTheBed) {
+  const auto nearest = [](const std::string& friction) {
+    const auto record = simulate(
+        parse(water + ask +
+              "[[line]]\nname = \"d\"\nfrom = \"(0, 0, -13) m\"\nto = \"(10, 0, -13) m\"\nlength = \"11 m\"\n"
+              "segments = 10\nmass_per_length = \"10 kg/m\"\ndiameter = \"50 mm\"\naxial_stiffness = \"1 MN\"\n"
+              "axial_damping = \"3 kN s\"\n[line.bed]\nstiffness = \"1 MPa/m\"\ndamping = \"0.1 MPa s/m\"\n" +
+              friction + "[line.release]\nnode = 5\nat = \"(5, 0.2, -14) m\"\n"));
+    const auto y = record.signal("d.node5.y");
+    return *std::min_element(y.begin(), y.end());
+  };
+  EXPECT_GT(nearest("friction = 1.0\n"), 0.19);
+  EXPECT_LT(nearest(""), 0.15);
+}
+
 /// A body that may only surge, heavy beside its two chains.
 std::string between(const std::string& chains, const std::string& more = "") {
   return water + "[[body]]\nname = \"b\"\nmass = \"2000 t\"\nfree = [\"surge\"]\ninitial.surge = \"0.3 m\"\n" + more +

@@ -13,8 +13,6 @@
 
 namespace rao_drag_test {
 namespace {
-namespace rao_drag_test {
-namespace {
 
 using namespace froude;
 using testing::HasSubstr, testing::ThrowsMessage;
@@ -102,7 +100,5 @@ TEST(RaoDrag, NeedsDragAndStillWater) {
               ThrowsMessage<hydro::InputError>(HasSubstr("is for still water")));
 }
 
-}  // namespace
-}  // namespace rao_drag_test
 }  // namespace
 }  // namespace rao_drag_test

@@ -11,8 +11,6 @@
 
 namespace linear_drag_test {
 namespace {
-namespace linear_drag_test {
-namespace {
 
 using namespace dynamics;
 using frequency::energy_equivalent_speed;
@@ -99,7 +97,5 @@ TEST(LinearDrag, SettlesWhereItsOwnResponsePutsIt) {
   }
 }
 
-}  // namespace
-}  // namespace linear_drag_test
 }  // namespace
 }  // namespace linear_drag_test

@@ -58,9 +58,10 @@ struct Held {
 
 /// A level bed that pushes back at nodes under it, as an area of bed under each segment's diameter. (D75)
 struct Bed {
-  double z;          ///< m
-  double stiffness;  ///< Pa per metre of depth
-  double damping;    ///< Pa per m/s
+  double z;             ///< m
+  double stiffness;     ///< Pa per metre of depth, and of shear before it slips
+  double damping;       ///< Pa per m/s, of shear too
+  double friction = 0;  ///< μ: what lies on it is held by up to μ times its weight on it (D95)
 };
 
 /// Which part of the line is taken as wet.
@@ -132,7 +133,8 @@ class Line {
 struct State {
   double time = 0;
   Places position, velocity;
-  Eigen::VectorXd tension;  ///< of each segment, N, > 0 pulls
+  Eigen::VectorXd tension;     ///< of each segment, N, > 0 pulls
+  Eigen::Matrix2Xd grip = {};  ///< x and y at which a bed with friction holds each node, m; empty: where it starts
 };
 
 /// Direction of a link as Huijgen 2024 has it (eqs. 4.3-4.5): d = ℓ (cos θ cos φ, cos θ sin φ, −sin θ).
