@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "compile/compile.hpp"
 #include "dynamics/line/equilibrium.hpp"
@@ -17,13 +18,23 @@ namespace dl = dynamics::line;
 using hydro::InputError;
 using scene::Scene;
 
-dl::Segment segment(const scene::Line& l, const scene::Line::Link& link) {
+/// A layer t around a diameter D adds ρ π t (D + t) per length, spread as the rest is. (D100)
+void grow(const scene::Line::Growth& growth, dl::Segment& s) {
+  const double before = s.mass, t = growth.thickness;
+  s.mass += growth.density * std::numbers::pi * t * (s.diameter + t) * s.length;
+  s.inertia *= s.mass / before;
+  s.diameter += 2 * t;
+}
+
+/// `middle`: of the link, along the line, m.
+dl::Segment segment(const scene::Line& l, const scene::Line::Link& link, double middle) {
   dl::Segment s{.length = link.length, .mass = link.mass, .centre = link.centre, .inertia = link.inertia};
-  if (l.axial_stiffness) s.axial_stiffness = *l.axial_stiffness;
+  if (l.axial_stiffness) s.axial_stiffness = link.axial_stiffness.value_or(*l.axial_stiffness);
   s.axial_damping = l.axial_damping;
   s.pulls_only = l.pulls_only;
   s.sags = l.sags;
-  s.diameter = l.diameter;
+  s.diameter = link.diameter.value_or(l.diameter);
+  if (l.growth && middle > l.growth->from && middle < l.growth->to) grow(*l.growth, s);
   if (l.morison) {
     s.cd = l.morison->cd;
     s.ca = l.morison->ca;
@@ -56,7 +67,11 @@ dl::Description description(const Scene& scene, const scene::Line& l,
       n.quadratic_damping = l.damping->quadratic;
     }
   d.componentwise_damping = l.damping && l.damping->componentwise;
-  for (const auto& link : l.links) d.segments.push_back(segment(l, link));
+  double along = 0;
+  for (const auto& link : l.links) {
+    d.segments.push_back(segment(l, link, along + link.length / 2));
+    along += link.length;
+  }
   d.held.push_back(end(l, 0, true));
   d.nodes.front().mass = 0;
   if (l.to) {

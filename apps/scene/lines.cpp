@@ -6,25 +6,58 @@
 namespace froude::scene {
 namespace {
 
-/// Equal segments of a line, or its links one by one.
-std::vector<Line::Link> read_links(const Record& record) {
-  std::vector<Line::Link> out;
-  if (!record.has("length")) {
-    for (const Record& link : record.tables("link")) {
-      const double length = link.si("length"), mass = link.si("mass");
-      out.push_back(
-          {length, mass, link.si("centre"), link.has("inertia") ? link.si("inertia") : mass * length * length / 12});
-    }
-    return out;
-  }
-  for (const char* key : {"segments", "mass_per_length"})
-    if (!record.has(key)) throw record.refused(fmt::format("needs the key \"{}\" beside \"length\"", key));
+/// Equal segments of a line or of one part of it; `mass_at` is the line's.
+Line::Link equal_link(const Record& record, const std::string& mass_at) {
+  const auto count = static_cast<double>(record["segments"].integer);
+  const double length = record.si("length") / count, mass = record.si("mass_per_length") * length;
+  return {length, mass, 0.5, mass * length * length / (mass_at == "nodes" ? 4 : 12)};
+}
+
+void append_equal(const Record& record, const Line::Link& link, std::vector<Line::Link>& out) {
   constexpr std::int64_t most = 1'000'000;
   const std::int64_t count = record["segments"].integer;
   if (count > most) throw record.wrong("segments", fmt::format("is more than {}", most));
-  const double length = record.si("length") / static_cast<double>(count), mass = record.si("mass_per_length") * length;
-  const double inertia = mass * length * length / (record.text("mass_at") == "nodes" ? 4 : 12);
-  out.assign(static_cast<std::size_t>(count), {length, mass, 0.5, inertia});
+  out.insert(out.end(), static_cast<std::size_t>(count), link);
+}
+
+/// Equal segments of a line, of its parts one after the other, or its links one by one.
+std::vector<Line::Link> read_links(const Record& record) {
+  std::vector<Line::Link> out;
+  if (record.has("link") && !record["mass_at"].defaulted)
+    throw record.wrong("mass_at", "acts on nothing: each link says where its mass is", "leave it out");
+  for (const Record& link : record.tables("link")) {
+    const double length = link.si("length"), mass = link.si("mass");
+    out.push_back(
+        {length, mass, link.si("centre"), link.has("inertia") ? link.si("inertia") : mass * length * length / 12});
+  }
+  for (const Record& part : record.tables("part")) {
+    Line::Link link = equal_link(part, record.text("mass_at"));
+    if (part.has("diameter")) link.diameter = part.si("diameter");
+    if (part.has("axial_stiffness")) link.axial_stiffness = part.si("axial_stiffness");
+    for (const char* key : {"diameter", "axial_stiffness"})
+      if (part.has(key) && !record.has(key))
+        throw part.wrong(key, fmt::format("is for this part, but the line has no {} for the others", key),
+                         fmt::format("give [[line]] a {} too", key));
+    append_equal(part, link, out);
+  }
+  if (!record.has("length")) return out;
+  for (const char* key : {"segments", "mass_per_length"})
+    if (!record.has(key)) throw record.refused(fmt::format("needs the key \"{}\" beside \"length\"", key));
+  append_equal(record, equal_link(record, record.text("mass_at")), out);
+  return out;
+}
+
+Line::Growth read_growth(const Record& record, const Record& whole, const Line& line) {
+  if (whole.has("link"))
+    throw record.refused("grows on links that are given one by one, each with its own mass",
+                         "leave it out, or give the line a `length` or [[line.part]]");
+  double length = 0;
+  for (const auto& link : line.links) length += link.length;
+  Line::Growth out{record.si("thickness"), record.si("density"), record.si("from"),
+                   record.has("to") ? record.si("to") : length};
+  if (!(out.to > out.from) || out.to > length * (1 + 1e-9))
+    throw record.refused(fmt::format("reaches from {} to {} m of a line of {} m", out.from, out.to, length),
+                         "count both from the line's first end");
   return out;
 }
 
@@ -111,6 +144,7 @@ void build_lines(const Record& root, const std::filesystem::path& file, Names& n
       const Record& b = record.table("bed");
       line.bed = {b.si("stiffness"), b.si("damping"), b.has("friction") ? b.si("friction") : 0.0};
     }
+    if (record.has("growth")) line.growth = read_growth(record.table("growth"), record, line);
     if (record.has("release")) line.release = read_release(record.table("release"), line);
     if (record.has("lead")) line.lead = read_lead(record.table("lead"), line, file);
     if (record.has("on")) read_on(record.table("on"), record, scene, line);

@@ -234,6 +234,11 @@ struct CatenaryLine {
 struct Line {
   struct Link {
     double length, mass, centre, inertia;  ///< m, kg, share of the length from its first node, kg m² about that
+    std::optional<double> diameter = {}, axial_stiffness = {};  ///< m, N; empty: those of the line
+  };
+  /// Marine growth on links whose middle is between two distances along the line.
+  struct Growth {
+    double thickness, density, from, to;  ///< m, kg/m³, m, m
   };
   struct Water {
     double cd, ca, cd_tangential;
@@ -274,6 +279,7 @@ struct Line {
   std::optional<Release> release;
   std::optional<Lead> lead;
   std::optional<Snaps> snaps;
+  std::optional<Growth> growth;
   Place place;
 };
 

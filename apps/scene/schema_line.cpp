@@ -91,6 +91,33 @@ const Table& snaps() {
   return table;
 }
 
+const Table& part() {
+  static const Table table{
+      .title = "[[line.part]]",
+      .meaning = "an even part of a line, in order from `from`: chain, rope, chain",
+      .keys = {quantity("length", dim::length, "of the part without tension").positive(),
+               integer("segments", "into which it is cut").within(Limit::at_least_one),
+               quantity("mass_per_length", dim::mass / dim::length, "of the part").positive(),
+               quantity("diameter", dim::length, "left out: that of the line").positive().optional(),
+               quantity("axial_stiffness", dim::force, "EA; left out: that of the line").positive().optional()}};
+  return table;
+}
+
+const Table& growth() {
+  static const Table table{
+      .title = "[line.growth]",
+      .meaning =
+          "a layer around the segments whose middle is between two distances along the line: it has mass, and "
+          "widens the diameter that water and bed meet",
+      .keys = {quantity("thickness", dim::length, "of the layer").positive(),
+               quantity("density", dim::density, "of what grows, in air").positive(),
+               quantity("from", dim::length, "distance from the line's first end")
+                   .within(Limit::not_negative)
+                   .or_default("0 m", "from there on"),
+               quantity("to", dim::length, "likewise; left out: to the other end").positive().optional()}};
+  return table;
+}
+
 const Table& on() {
   static const Table table{
       .title = "[line.on]",
@@ -120,8 +147,8 @@ const Table& line_table() {
                .only_beside("length"),
            text("mass_at", "\"nodes\": half a segment's mass at either end; \"segments\": spread along it")
                .one_of({"nodes", "segments"})
-               .or_default("segments", "as a line has it")
-               .only_beside("length"),
+               .or_default("segments", "as a line has it"),
+           inner_tables("part", part()).optional(),
            inner_tables("link", link()).optional(),
            quantity("node_mass", dim::mass, "of a bob, pin or clump at every node that is not held")
                .positive()
@@ -146,11 +173,12 @@ const Table& line_table() {
                .only_beside("diameter"),
            inner_table("morison", morison()).optional().only_beside("diameter"),
            inner_table("damping", damping()).optional(),
+           inner_table("growth", growth()).optional().only_beside("diameter"),
            inner_table("bed", bed()).optional().only_beside("diameter"),
            inner_table("release", release()).optional(),
            inner_table("lead", lead()).optional(),
            inner_table("snaps", snaps()).optional()},
-      .groups = {{exactly_one, {"length", "link"}}, {at_most_one, {"pulls_only", "sags"}}}};
+      .groups = {{exactly_one, {"length", "part", "link"}}, {at_most_one, {"pulls_only", "sags"}}}};
   return table;
 }
 

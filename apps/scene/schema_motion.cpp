@@ -1,23 +1,20 @@
 /// \file  The tables of a scene of motion: what may be written, what it means, what is filled in and why.
-#include "hydro/base/types.hpp"
 #include "hydro/potential/check.hpp"
 #include "scene/schema.hpp"
+#include "scene/schema_ask.hpp"
+#include "scene/schema_connections.hpp"
 #include "scene/schema_contact.hpp"
 #include "scene/schema_joint.hpp"
 #include "scene/schema_line.hpp"
 #include "scene/schema_members.hpp"
+#include "scene/schema_modes.hpp"
 #include "scene/schema_waves.hpp"
 
 namespace froude::scene {
 namespace {
 
 namespace dim = hydro::dim;
-using hydro::Mode;
 using enum Group::Count;
-
-bool rotates(std::size_t mode) { return hydro::is_rotation(static_cast<Mode>(mode)); }
-
-std::vector<std::string> mode_words() { return {hydro::mode_names.begin(), hydro::mode_names.end()}; }
 
 /// One key for each mode, a length or an angle over `per`.
 std::vector<Key> keys_of_modes(const hydro::Dimension& per, const std::string& what) {
@@ -30,39 +27,7 @@ std::vector<Key> keys_of_modes(const hydro::Dimension& per, const std::string& w
   return keys;
 }
 
-/// The six diagonal and fifteen other entries of a symmetric 6 × 6 matrix: surge, …, yaw, surge_sway, …, pitch_yaw.
-std::vector<Key> keys_of_matrix(const hydro::Dimension& translation, const std::string& what) {
-  std::vector<Key> keys;
-  const auto entry = [&](std::size_t i, std::size_t j) {
-    auto dimension = translation;  // N/m → N/rad → N m/rad
-    if (rotates(i) != rotates(j)) dimension = translation * dim::length / dim::angle;
-    if (rotates(i) && rotates(j)) dimension = translation * dim::area / dim::angle;
-    const std::string row(hydro::mode_names[i]), column(hydro::mode_names[j]);
-    keys.push_back(i == j ? quantity(row, dimension, "load in " + row + " per " + what + " in " + row).optional()
-                          : quantity(row + "_" + column, dimension,
-                                     "load in " + row + " per " + what + " in " + column + ", and the reverse")
-                                .optional());
-  };
-  for (std::size_t i = 0; i < 6; ++i) entry(i, i);
-  for (std::size_t i = 0; i < 6; ++i)
-    for (std::size_t j = i + 1; j < 6; ++j) entry(i, j);
-  return keys;
-}
-
-std::vector<std::string> names_of(const std::vector<Key>& keys) {
-  std::vector<std::string> names;
-  for (const Key& key : keys) names.push_back(key.name);
-  return names;
-}
-
-/// A table in which each key names one thing that acts, so an empty one is a slip.
-Table at_least_one_of(std::string title, std::string meaning, std::vector<Key> keys) {
-  auto names = names_of(keys);
-  return {.title = std::move(title),
-          .meaning = std::move(meaning),
-          .keys = std::move(keys),
-          .groups = {{at_least_one, names}}};
-}
+std::vector<std::string> mode_words() { return {hydro::mode_names.begin(), hydro::mode_names.end()}; }
 
 const Table& water() {
   static const Table table{.title = "[water]",
@@ -269,242 +234,6 @@ const Table& body() {
   return table;
 }
 
-const Table& mooring_stiffness() {
-  static const Table table = at_least_one_of("[mooring.stiffness]", "about the body's origin, at rest; symmetric",
-                                             keys_of_matrix(dim::stiffness, "displacement"));
-  return table;
-}
-
-const Table& mooring_damping() {
-  static const Table table = at_least_one_of("[mooring.damping]", "about the body's origin; symmetric",
-                                             keys_of_matrix(dim::damping, "velocity"));
-  return table;
-}
-
-const Table& mooring() {
-  static const Table table{
-      .title = "[[mooring]]",
-      .meaning = "what holds a body in place",
-      .keys = {name_key("mooring", "of the mooring"),
-               texts("on", "bodies it holds, by name; * stands for any characters"), text("kind", "of mooring")},
-      .chosen_by = "kind",
-      .variants = {
-          {.word = "linear",
-           .meaning = "load proportional to displacement and velocity",
-           .keys = {inner_table("stiffness", mooring_stiffness()).optional(),
-                    inner_table("damping", mooring_damping()).optional()},
-           .groups = {{at_least_one, {"stiffness", "damping"}}}},
-          {.word = "catenary",
-           .meaning = "elastic lines in their static shape, from each body to the ground",
-           .keys = {points("from", "fairlead, body axes; each ± makes two lines"),
-                    points("to", "anchor, global; as many as `from`, taken in pairs"),
-                    quantity("length", dim::length, "of the line without tension").positive(),
-                    quantity("mass_per_length", dim::mass / dim::length, "of the line, in air").positive(),
-                    quantity("diameter", dim::length, "of the line, by the water that it displaces").positive(),
-                    quantity("axial_stiffness", dim::force, "EA: tension per strain").positive(),
-                    effect("on_bed", "the anchor lies on a flat bed, on which the line may rest, without friction")
-                        .optional()}}}};
-  return table;
-}
-
-Key rest_length() {
-  return quantity("rest_length", dim::length, "without tension, or \"as placed\": the distance of the ends at rest")
-      .positive()
-      .one_of({"as placed"})
-      .or_default("as placed", "so that the scene is at rest where it is placed");
-}
-
-const Table& switch_setting() {
-  static const Table table{
-      .title = "[[connector.switch.settings]]",
-      .meaning = "a stiffness from some period on",
-      .keys = {quantity("from", dim::time, "period; the first is \"0 s\"").within(Limit::not_negative),
-               quantity("stiffness", dim::stiffness, "of each connector").positive()}};
-  return table;
-}
-
-const Table& connector_switch() {
-  static const Table table{
-      .title = "[connector.switch]",
-      .meaning = "sets the stiffness by the period that dominates a motion, once two checks in turn agree",
-      .keys = {text("watch", "a motion, like \"m2.surge\""),
-               quantity("every", dim::time, "from one check to the next").positive(),
-               quantity("window", dim::time, "of the motion that a check looks at; some periods").positive(),
-               quantity("hysteresis", dim::angular_velocity,
-                        "by which the frequencies of two checks in turn may differ: \"0.001 Hz\"")
-                   .positive(),
-               quantity("dwell", dim::time, "least time between two switches")
-                   .within(Limit::not_negative)
-                   .or_default("0 s", "two checks that agree are enough"),
-               inner_tables("settings", switch_setting())}};
-  return table;
-}
-
-const Table& connector() {
-  static const Table table{
-      .title = "[[connector]]",
-      .meaning = "joins a point of one body to a point of another, or to the ground",
-      .keys = {name_key("connector", "of the connector"),
-               texts("between",
-                     "[\"a\", \"b\"], [\"a\", \"ground\"], or \"neighbours of m\": m1–m2, m2–m3, … of the copies m"),
-               ends("ends",
-                    "[end on the first, end on the second], body axes (ground: global axes); ± makes several, taken in "
-                    "pairs"),
-               text("kind", "of connector")},
-      .chosen_by = "kind",
-      .variants = {
-          {.word = "axial",
-           .meaning = "a load along the line between its ends",
-           .keys = {quantity("stiffness", dim::stiffness, "tension per elongation").positive().optional(),
-                    quantity("cubic", dim::stiffness / dim::area, "tension per elongation cubed, beside stiffness")
-                        .optional()
-                        .only_beside("stiffness"),
-                    quantity("damping", dim::damping, "tension per rate of elongation").positive().optional(),
-                    quantity("quadratic_damping", dim::force / (dim::velocity * dim::velocity),
-                             "tension per rate of elongation times its size")
-                        .positive()
-                        .optional(),
-                    rest_length().only_beside("stiffness"),
-                    inner_table("switch", connector_switch()).optional().only_beside("stiffness")},
-           .groups = {{at_least_one, {"stiffness", "damping", "quadratic_damping"}}}},
-          {.word = "tabulated",
-           .meaning = "as axial, with a spring by a table",
-           .keys = {text("table",
-                         "CSV beside the scene: columns elongation [m], increasing, and tension [N], not falling; "
-                         "straight between points and beyond the ends"),
-                    quantity("damping", dim::damping, "tension per rate of elongation").positive().optional(),
-                    rest_length()},
-           .groups = {}},
-          {.word = "cable",
-           .meaning = "as axial, but it never pushes: slack where it is shorter than its rest length",
-           .keys = {quantity("stiffness", dim::stiffness, "tension per elongation").positive(),
-                    quantity("damping", dim::damping, "tension per rate of elongation, as far as the cable is tight")
-                        .positive()
-                        .optional(),
-                    rest_length()},
-           .groups = {}},
-          {.word = "bushing",
-           .meaning = "loads and moments along the axes of the first body",
-           .keys = {vector("stiffness", dim::stiffness, "along x, y, z").within(Limit::not_negative).optional(),
-                    vector("damping", dim::damping, "along x, y, z").within(Limit::not_negative).optional(),
-                    vector("rotational_stiffness", dim::rotational_stiffness, "about x, y, z")
-                        .within(Limit::not_negative)
-                        .optional(),
-                    vector("rotational_damping", dim::rotational_damping, "about x, y, z")
-                        .within(Limit::not_negative)
-                        .optional()},
-           .groups = {{at_least_one, {"stiffness", "damping", "rotational_stiffness", "rotational_damping"}}}}}};
-  return table;
-}
-
-Key asked_signals() {
-  return texts("of", "signals to give, like \"m*.surge\" or \"connector*.force\"; * stands for any characters")
-      .or_default("*", "everything there is");
-}
-
-const Table& ask_rao_drag() {
-  static const Table table{
-      .title = "[ask.rao.drag]",
-      .meaning =
-          "drag of [member.drag] at each frequency, linear, losing as much energy as it does in waves this high; "
-          "left out: without drag",
-      .keys = {quantity("height", dim::length, "of the waves, at every frequency").positive().optional(),
-               number("steepness", "height over length of the waves, at every frequency").positive().optional()},
-      .groups = {{exactly_one, {"height", "steepness"}}}};
-  return table;
-}
-
-const Table& ask_rao() {
-  static const Table table{
-      .title = "[ask.rao]",
-      .meaning = "response per metre of wave amplitude",
-      .keys = {range("periods", dim::time, "wave periods").positive().optional(),
-               range("omega", dim::angular_velocity, "wave frequencies").positive().optional(),
-               quantity("heading", dim::angle, "where the waves go; left out: the heading of [waves]").optional(),
-               inner_table("drag", ask_rao_drag()).optional(), asked_signals()},
-      .groups = {{exactly_one, {"periods", "omega"}}}};
-  return table;
-}
-
-const Table& ask_run() {
-  static const Table table{
-      .title = "[ask.run]",
-      .meaning = "time series",
-      .keys = {
-          quantity("duration", dim::time, "of the run, a whole multiple of `every`").positive(),
-          quantity("every", dim::time, "between stored samples").positive(),
-          text("start",
-               "\"as placed\"; in \"equilibrium\": where the bodies balance without waves; or \"steady\", for linear "
-               "scenes: as if the sea had always been there, answered by transfer functions without a step")
-              .one_of({"as placed", "equilibrium", "steady"})
-              .or_default("as placed", "where the scene puts them is where they begin"),
-          asked_signals()}};
-  return table;
-}
-
-const Table& ask_modes() {
-  static const Table table{
-      .title = "[ask.modes]",
-      .meaning = "free motions about rest: periods, damping, shapes",
-      .keys = {quantity("shortest", dim::time, "no mode of a shorter period").positive().optional(),
-               quantity("longest", dim::time, "no mode of a longer period").positive().optional()}};
-  return table;
-}
-
-const Table& ask() {
-  static const Table table{
-      .title = "[ask]",
-      .meaning = "what is wanted",
-      .keys = {inner_table("rao", ask_rao()).optional(), inner_table("modes", ask_modes()).optional(),
-               inner_table("run", ask_run()).optional(), inner_table("waves", ask_waves_table()).optional(),
-               number("accuracy", "relative, of what is asked")
-                   .within(Limit::open_fraction)
-                   .or_default("1e-2", "about what coefficients and measurements are good for")},
-      .groups = {{at_least_one, {"rao", "modes", "run", "waves"}}}};
-  return table;
-}
-
-const Table& integrator() {
-  static const Table table{
-      .title = "[solve.integrator]",
-      .meaning = "how time is stepped",
-      .keys = {
-          text("name",
-               "of the method: generalized_alpha; energy_momentum keeps momentum, and energy of joints and weights, "
-               "and damps "
-               "nothing; explicit_pair, of orders 5 and 4, cuts steps by its own error; implicit_euler and "
-               "semi_implicit_euler, of order 1, show what they cost")
-              .one_of(
-                  {"generalized_alpha", "energy_momentum", "explicit_pair", "implicit_euler", "semi_implicit_euler"})
-              .or_default("generalized_alpha", "second order, damps only what the step cannot resolve"),
-          number("rho_infinity",
-                 "of generalized_alpha: spectral radius at infinite frequency: 1 damps nothing, 0 all at once")
-              .within(Limit::fraction)
-              .or_default("0.8", "kills what is not resolved within some steps, leaves the rest alone"),
-          number("tolerance", "of explicit_pair: local error of a step relative to what moves in it")
-              .positive()
-              .or_default("1e-8", "far below any other error of a run"),
-          text("lines",
-               "how each [[line]] is stepped; left out: energy_momentum, which keeps energy and lengths at any step")
-              .one_of({"energy_momentum", "generalized_alpha", "gamma", "semi_implicit_euler", "explicit_euler"})
-              .optional(),
-          number("gamma", "share of the new state in a step of lines = \"gamma\"; left out: 0.51")
-              .positive()
-              .optional()}};
-  return table;
-}
-
-const Table& solve() {
-  static const Table table{.title = "[solve]",
-                           .meaning = "overrides what the program would choose; rarely needed",
-                           .keys = {quantity("step", dim::time, "time step, or \"automatic\"")
-                                        .positive()
-                                        .one_of({"automatic"})
-                                        .or_default("automatic", "chosen from the accuracy asked"),
-                                    inner_table("integrator", integrator()).or_default("", "see its keys")}};
-  return table;
-}
-
 }  // namespace
 
 const Table& motion_schema() {
@@ -519,10 +248,10 @@ const Table& motion_schema() {
                inner_table("water", water()), inner_table("waves", waves_table()).optional(),
                inner_table("current", current_table()).optional(), inner_tables("body", body()).optional(),
                inner_tables("probe", probe_table()).optional(), inner_tables("member", member_table()).optional(),
-               inner_tables("line", line_table()).optional(), inner_tables("mooring", mooring()).optional(),
-               inner_tables("connector", connector()).optional(), inner_tables("joint", joint_table()).optional(),
+               inner_tables("line", line_table()).optional(), inner_tables("mooring", mooring_table()).optional(),
+               inner_tables("connector", connector_table()).optional(), inner_tables("joint", joint_table()).optional(),
                inner_tables("load", load_table()).optional(), inner_tables("contact", contact_table()).optional(),
-               inner_table("ask", ask()), inner_table("solve", solve()).or_default("", "see its keys")}};
+               inner_table("ask", ask_table()), inner_table("solve", solve_table()).or_default("", "see its keys")}};
   return table;
 }
 

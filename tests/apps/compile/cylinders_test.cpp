@@ -133,7 +133,7 @@ TEST(CylindersInAScene, TellWhichAreSolvedTogetherOnlyIfTheyAskForTheSame) {
         const scene::Scene scene = parse(text);
         compile::plan_cylinders(scene, compile::bodies_of_cylinders(scene));
       },
-      ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("scene.toml:"), HasSubstr("different frequencies"))));
+      ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("test.toml:"), HasSubstr("different frequencies"))));
 }
 
 TEST(CylindersInAScene, AreGivenInsteadOfAFile) {
@@ -145,14 +145,14 @@ TEST(CylindersInAScene, StandAtTheHeightOfStillWater) {
   std::string lifted = cylinders;
   lifted.replace(lifted.find("-0.5"), 4, "0");
   EXPECT_THAT([&] { parse(scene_text(lifted)); },
-              ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("scene.toml:"), HasSubstr("still water is at -0.5 m"))));
+              ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("test.toml:"), HasSubstr("still water is at -0.5 m"))));
 }
 
 TEST(CylindersInAScene, AreRefusedAtTheirPlaceIfTheyReachTheBottom) {
   std::string deep = cylinders;
   deep.replace(deep.find("\"1 m\""), 5, "\"6 m\"");
   EXPECT_THAT([&] { compile::prepare(parse(scene_text(deep))); },
-              ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("scene.toml:"), HasSubstr("reaches the bottom"))));
+              ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("test.toml:"), HasSubstr("reaches the bottom"))));
 }
 
 }  // namespace

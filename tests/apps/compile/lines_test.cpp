@@ -226,6 +226,58 @@ TEST(Lines, OnBodiesSayWhatCannotBe) {
   refuses(between(one + "[line.release]\nnode = 2\nat = \"(0, 0, -3) m\"\n"), "begins with it");
 }
 
+// A line that hangs from its first end: each segment carries what is below its middle, the first end all of it.
+TEST(Lines, InPartsHangWithTheWeightOfEach) {
+  const std::string parts = R"([[line]]
+name = "d"
+from = "(0, 0, -1) m"
+axial_stiffness = "1 GN"
+diameter = "20 mm"
+buoyancy = true
+[[line.part]]
+length = "4 m"
+segments = 2
+mass_per_length = "10 kg/m"
+[[line.part]]
+length = "6 m"
+segments = 3
+mass_per_length = "3 kg/m"
+diameter = "50 mm"
+axial_stiffness = "1 MN"
+)";
+  const auto record = simulate(parse(water + parts + ask));
+  const double pi = std::numbers::pi, above = 4 * (10 - 1000 * pi / 4 * 4e-4) * 9.81,
+               below = 6 * (3 - 1000 * pi / 4 * 25e-4) * 9.81;
+  EXPECT_NEAR(record.signal("d.from.force").front(), above + below, 1e-8 * above);  // equilibrium stops at 1e-10 or so
+  EXPECT_NEAR(record.signal("d.link3.tension").front(), below * 5 / 6, 1e-8 * above);
+  // Strains: of the first part 4e-7, of the second T/EA.
+  EXPECT_NEAR(record.signal("d.node5.z").front(), -1 - 10 - below / 2 * 6 / 1e6 - (below + above / 2) * 4 / 1e9, 1e-9);
+}
+
+TEST(Lines, GrowHeavierAndWider) {
+  const std::string bare = R"([[line]]
+name = "d"
+from = "(0, 0, -1) m"
+length = "10 m"
+segments = 5
+mass_per_length = "3 kg/m"
+diameter = "50 mm"
+buoyancy = true
+)";
+  const std::string growth =
+      "[line.growth]\nthickness = \"25 mm\"\ndensity = \"1300 kg/m^3\"\nfrom = \"3.5 m\"\nto = \"8.5 m\"\n";
+  const auto top = [](const auto& record) { return record.signal("d.from.force").front(); };
+  // Middles of segments 3 and 4, at 5 and 7 m, lie inside; that of 2, at 3 m, and of 5, at 9 m, do not.
+  const double layer = std::numbers::pi / 4 * (0.1 * 0.1 - 0.05 * 0.05) * 4;
+  EXPECT_NEAR(top(simulate(parse(water + bare + growth + ask))) - top(simulate(parse(water + bare + ask))),
+              layer * (1300 - 1000) * 9.81, 1e-8);
+  const auto refuses = [&](const std::string& text, const std::string& what) {
+    EXPECT_THAT([&] { parse(water + text + ask); }, ThrowsMessage<hydro::InputError>(HasSubstr(what)));
+  };
+  refuses(bare + "[line.growth]\nthickness = \"25 mm\"\ndensity = \"1300 kg/m^3\"\nto = \"12 m\"\n",
+          "of a line of 10 m");
+}
+
 TEST(Lines, AreNotMadeWhereTheSceneNamesNone) {
   const auto scene = parse(between(""));
   const auto model = compile::time_model(scene, compile::prepare(scene));

@@ -90,7 +90,7 @@ TEST(SteadyRun, IsRefusedWhereTheSceneIsNotLinear) {
   expect(scene_text(regular, "start = \"steady\"",
                     "[[member]]\non = \"m*\"\nfrom = \"(0, 0, -1) m\"\nto = \"(0, 0, 0) m\"\ndiameter = \"1 m\"\ndrag "
                     "= { cd = 1.0 }\n"),
-         "loads on members");
+         "drag on members");
   expect(scene_text(regular + "ramp = \"10 s\"\n", "start = \"steady\""), "no beginning");
 }
 
