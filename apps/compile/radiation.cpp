@@ -138,6 +138,8 @@ struct Radiation::Chosen {
   ChosenMemory memory;
 };
 
+Radiation::Radiation(const Prepared& prepared, double step, const hydro::waves::Sea* sea)
+    : prepared_(prepared), step_(step), sea_(sea) {}
 Radiation::~Radiation() = default;
 
 const Radiation::Chosen& Radiation::chosen_for(std::size_t group, const std::vector<int>& modes,

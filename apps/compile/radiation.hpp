@@ -18,8 +18,7 @@ struct RadiationParts {
 class Radiation {
  public:
   /// `sea`: null in calm water.
-  Radiation(const Prepared& prepared, double step, const hydro::waves::Sea* sea)
-      : prepared_(prepared), step_(step), sea_(sea) {}
+  Radiation(const Prepared& prepared, double step, const hydro::waves::Sea* sea);
   ~Radiation();
   /// What is to be noted of groups with equal coefficients is noted once.
   /// \throws hydro::InputError if constant coefficients are asked for in anything but one regular wave

@@ -1,5 +1,7 @@
 #include "dynamics/line/equilibrium.hpp"
 
+#include <Eigen/Cholesky>
+
 #include <cmath>
 #include <numbers>
 
