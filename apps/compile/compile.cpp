@@ -104,13 +104,47 @@ void require_rest(const Prepared& prepared, const dynamics::Model& model) {
 
 }  // namespace
 
-dynamics::Model frequency_model(const Prepared& prepared) {
+dynamics::Model frequency_model(const Prepared& prepared, const scene::About& about) {
   std::vector<std::unique_ptr<const dynamics::ForceKind>> forces;
   add_springs(prepared, forces);
   if (!prepared.fastened.empty()) forces.push_back(std::make_unique<dynamics::FastenedLineKind>(prepared.fastened));
   dynamics::Model model(prepared.bodies, {}, std::move(forces), prepared.joints);
-  require_rest(prepared, model);
+  if (!about.equilibrium) require_rest(prepared, model);
   return model;
+}
+
+namespace {
+
+/// "m1.heave −0.12 m, m1.pitch 0.02 rad": the largest ways from where bodies are placed, metres and radians alike.
+std::string farthest(const dynamics::Model& model, const dynamics::State& state) {
+  constexpr std::size_t most = 6;
+  std::vector<std::pair<double, int>> ways;
+  for (int m = 0; m < model.modes(); ++m) {
+    const auto body = static_cast<std::size_t>(m / 6);
+    if (model.is_free(m)) ways.emplace_back(motion_from_rest(model.bodies()[body], state.pose[body], m % 6), m);
+  }
+  std::stable_sort(ways.begin(), ways.end(),
+                   [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });
+  std::string out;
+  for (std::size_t i = 0; i < std::min(most, ways.size()) && std::abs(ways[i].first) > 1e-6; ++i)
+    out += fmt::format("{}{} {:.4g} {}", out.empty() ? "" : ", ", model.mode_name(ways[i].second), ways[i].first,
+                       ways[i].second % 6 < 3 ? "m" : "rad");
+  return out.empty() ? "where the bodies are placed" : out;
+}
+
+}  // namespace
+
+dynamics::frequency::SmallMotions small_motions(const dynamics::Model& model, const scene::About& about,
+                                                std::vector<std::string>& notes) {
+  if (!about.equilibrium) return {model};
+  try {
+    dynamics::State still = dynamics::equilibrium(model, dynamics::rest_state(model.bodies()));
+    notes.push_back(fmt::format("small motions are about the equilibrium, {}; coefficients stay those as placed",
+                                farthest(model, still)));
+    return {model, std::move(still)};
+  } catch (const InputError& e) {
+    throw e.at(about.place);
+  }
 }
 
 namespace {

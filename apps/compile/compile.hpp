@@ -65,9 +65,13 @@ double motion_from_rest(const dynamics::RigidBody& body, const dynamics::Pose& p
 /// Opens the data files and places everything. \throws hydro::InputError, placed in the scene
 Prepared prepare(const scene::Scene& scene);
 
-/// Linear model about rest without radiation and excitation, which the frequency domain takes from `prepared.groups`.
-/// \throws hydro::InputError if the scene is not in equilibrium as placed
-dynamics::Model frequency_model(const Prepared& prepared);
+/// Model without radiation and excitation, which the frequency domain takes from `prepared.groups`. About: small
+/// motions. \throws hydro::InputError if they are about the bodies as placed and these are not in equilibrium there
+dynamics::Model frequency_model(const Prepared& prepared, const scene::About& about = {});
+/// The small motions of that model; where they are about an equilibrium, `notes` is told where that is.
+/// \throws hydro::InputError if there is none
+dynamics::frequency::SmallMotions small_motions(const dynamics::Model& model, const scene::About& about,
+                                                std::vector<std::string>& notes);
 
 /// The water of a run.
 struct RunWater {

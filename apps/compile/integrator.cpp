@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "dynamics/force/fastened_line.hpp"
 #include "dynamics/integrate/energy_momentum.hpp"
 #include "dynamics/integrate/euler.hpp"
 #include "dynamics/integrate/explicit_pair.hpp"
@@ -20,18 +21,37 @@ void refuse_memory(const scene::Solve& solve, const dynamics::Model& model) {
                               "take generalized_alpha or implicit_euler, or leave radiation out");
 }
 
-}  // namespace
+/// What cannot step in parts says so.
+void refuse_tolerance(const scene::Solve& solve, const dynamics::Model& model) {
+  const auto refuse = [&](const char* why, const char* remedy) {
+    throw hydro::InputError(fmt::format("[solve.integrator] tolerance cuts the steps of bodies: {}", why),
+                            solve.integrator_place, remedy);
+  };
+  if (model.bodies().empty()) refuse("the scene has none", "leave it out; lines have steps of their own");
+  if (dynamics::fastened_lines(model) != nullptr)
+    refuse("lines on bodies step whole", "leave it out, and choose [solve] step");
+}
 
-std::unique_ptr<dynamics::Integrator> make_integrator(const scene::Solve& solve, const dynamics::Model& model) {
+std::unique_ptr<dynamics::Integrator> by_name(const scene::Solve& solve, const dynamics::Model& model) {
   if (solve.integrator == "generalized_alpha")
     return std::make_unique<dynamics::GeneralizedAlpha>(model,
                                                         dynamics::GeneralizedAlpha::Settings{solve.rho_infinity});
   if (solve.integrator == "implicit_euler") return std::make_unique<dynamics::ImplicitEuler>(model);
   refuse_memory(solve, model);
+  if (solve.integrator == "energy_momentum") return std::make_unique<dynamics::EnergyMomentum>(model);
+  if (solve.integrator == "semi_implicit_euler") return std::make_unique<dynamics::SemiImplicitEuler>(model);
+  return std::make_unique<dynamics::ExplicitPair>(
+      model, dynamics::ExplicitPair::Settings{solve.tolerance.value_or(tolerance_of_pair)});
+}
+
+}  // namespace
+
+std::unique_ptr<dynamics::Integrator> make_integrator(const scene::Solve& solve, const dynamics::Model& model) {
+  if (solve.tolerance) refuse_tolerance(solve, model);
   try {
-    if (solve.integrator == "energy_momentum") return std::make_unique<dynamics::EnergyMomentum>(model);
-    if (solve.integrator == "semi_implicit_euler") return std::make_unique<dynamics::SemiImplicitEuler>(model);
-    return std::make_unique<dynamics::ExplicitPair>(model, dynamics::ExplicitPair::Settings{solve.tolerance});
+    auto out = by_name(solve, model);
+    if (solve.tolerance && solve.integrator != "explicit_pair") out->cut_steps(*solve.tolerance);
+    return out;
   } catch (const hydro::InputError& e) {
     throw e.at(solve.integrator_place);
   }

@@ -4,17 +4,13 @@
 #include <cmath>
 #include <memory>
 
-#include "dynamics/spatial/rotation.hpp"
+#include "compile/signal_names.hpp"
 
 namespace froude::compile {
 namespace {
 
 using dynamics::EnergyLedger;
 using dynamics::Workspace;
-
-const char* motion_unit(int mode) { return mode < 3 ? "m" : "rad"; }
-const char* load_unit(int mode) { return mode < 3 ? "N" : "N m"; }
-std::string mode_name(int mode) { return std::string(hydro::mode_names[static_cast<std::size_t>(mode)]); }
 
 /// Where the kind of force that `is_it` knows stands among the model's; their number if it is not there.
 template <class IsIt>
@@ -103,22 +99,6 @@ void add_moorings(const scene::Scene& scene, const Prepared& p, std::vector<Prob
     }
 }
 
-const char* joint_load(int component) {
-  constexpr const char* names[] = {"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"};
-  return names[component];
-}
-
-/// Calls f(joint, end, "hinge.top") for each body of each joint.
-template <class Do>
-void for_each_end(const Prepared& p, Do act) {
-  for (std::size_t j = 0; j < p.joints.size(); ++j)
-    for (const auto end : {dynamics::End::first, dynamics::End::second}) {
-      const std::optional<int> body = end == dynamics::End::first ? p.joints[j].first : p.joints[j].second;
-      if (body)
-        act(static_cast<int>(j), end, p.joints[j].name + "." + p.bodies[static_cast<std::size_t>(*body)].name());
-    }
-}
-
 /// "hinge" turns by an angle, "slider" goes a way; other joints have no single number.
 void add_travels(const Prepared& p, const dynamics::Model& model, std::vector<Probe>& out) {
   for (std::size_t j = 0; j < p.joints.size(); ++j) {
@@ -201,6 +181,34 @@ void add_joint_loads(const Prepared& p, const dynamics::Model& model, std::vecto
   });
 }
 
+double stored(const EnergyLedger& ledger) {
+  double sum = 0;
+  for (const auto& e : ledger.entries()) sum += e.stored;
+  return sum;
+}
+
+/// What has been lost where friction slips and in impacts: in what yields.
+double lost_in_slip(const EnergyLedger& ledger) {
+  double sum = 0;
+  for (const auto& e : ledger.entries())
+    if (e.effect == "friction" || e.effect == "contact") sum += e.dissipated;
+  return sum;
+}
+
+/// The sums by which Van Zanten (2020), table 4.1, judges a structure that yields: what swings, what it has lost for
+/// good, and both.
+void add_sums_of_energy(std::vector<Probe>& out) {
+  out.push_back({"energy.stored", "J", "potential energy of all effects",
+                 [](const Workspace&, const EnergyLedger& l) { return stored(l); }});
+  out.push_back({"energy.elastic", "J", "kinetic and potential energy: what motion can give back",
+                 [](const Workspace&, const EnergyLedger& l) { return l.kinetic() + stored(l); }});
+  out.push_back({"energy.dissipated", "J", "lost in the slip of friction and contacts, and in impacts",
+                 [](const Workspace&, const EnergyLedger& l) { return lost_in_slip(l); }});
+  out.push_back(
+      {"energy.absorbed", "J", "kinetic and potential energy and what slip has lost",
+       [](const Workspace&, const EnergyLedger& l) { return l.kinetic() + stored(l) + lost_in_slip(l); }});
+}
+
 void add_energies(const TimeModel& m, std::vector<Probe>& out) {
   out.push_back({"energy.kinetic", "J", "kinetic energy of bodies and added mass",
                  [](const Workspace&, const EnergyLedger& l) { return l.kinetic(); }});
@@ -215,6 +223,7 @@ void add_energies(const TimeModel& m, std::vector<Probe>& out) {
     add("supplied", &EnergyLedger::Entry::supplied);
     add("dissipated", &EnergyLedger::Entry::dissipated);
   }
+  add_sums_of_energy(out);
   out.push_back({"energy.residual", "J", "energy that does not add up",
                  [](const Workspace&, const EnergyLedger& l) { return l.residual(); }});
 }
@@ -268,115 +277,6 @@ std::vector<Probe> run_probes(const scene::Scene& scene, const Prepared& prepare
   add_joint_loads(prepared, model.model, out);
   if (scene.waves) add_water(scene, model.water.field, out);
   if (!prepared.bodies.empty()) add_energies(model, out);
-  return out;
-}
-
-namespace {
-
-/// Row that takes the displacement of a point fixed to a body along `direction` out of all displacements.
-void add_point(Eigen::RowVectorXd& row, int body, const Eigen::Vector3d& arm, const Eigen::Vector3d& direction,
-               double sign) {
-  row.segment<3>(6 * body) += sign * direction.transpose();
-  row.segment<3>(6 * body + 3) += sign * arm.cross(direction).transpose();  // direction · (θ × arm)
-}
-
-/// Displacement of the second end less that of the first, along `direction`; the first measured at `first_arm`.
-Eigen::RowVectorXd stretch_row(const dynamics::Ends& ends, const Eigen::Vector3d& first_arm,
-                               const Eigen::Vector3d& direction, Eigen::Index modes) {
-  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(modes);
-  add_point(row, ends.first, first_arm, direction, -1);
-  if (ends.second) add_point(row, *ends.second, ends.second_arm, direction, 1);
-  return row;
-}
-
-Eigen::Vector3d at_rest(const Prepared& p, std::optional<int> body, const Eigen::Vector3d& arm) {
-  return body ? Eigen::Vector3d(p.bodies[static_cast<std::size_t>(*body)].rest_centre() + arm) : arm;
-}
-
-}  // namespace
-
-namespace {
-
-/// Travel of sliders and hinges, and loads of all joints, beyond those at rest.
-void add_joints(const Prepared& p, const dynamics::Model& model, std::vector<LinearProbe>& out) {
-  if (p.joints.empty()) return;
-  const auto rest = dynamics::rest_state(p.bodies);
-  const Eigen::VectorXd multipliers = model.linear_at_rest().multipliers;
-  for (std::size_t j = 0; j < p.joints.size(); ++j) {
-    const auto& joint = p.joints[j];
-    const Eigen::Vector3d axis = p.joint_sign[j] * joint.axis.normalized();
-    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(model.modes());
-    if (joint.kind == dynamics::JointKind::hinge) {
-      row.segment<3>(6 * joint.first + 3) = -axis.transpose();
-      if (joint.second) row.segment<3>(6 * *joint.second + 3) = axis.transpose();
-      out.push_back({joint.name + ".angle",
-                     "rad/m",
-                     fmt::format("angle of {} per metre of wave amplitude", joint.name),
-                     row,
-                     {}});
-    } else if (joint.kind == dynamics::JointKind::slider) {
-      const auto arm = [&](int body) {
-        return Eigen::Vector3d(joint.place - p.bodies[static_cast<std::size_t>(body)].rest_centre());
-      };
-      add_point(row, joint.first, arm(joint.first), axis, -1);
-      if (joint.second) add_point(row, *joint.second, arm(*joint.second), axis, 1);
-      out.push_back({joint.name + ".travel",
-                     "m/m",
-                     fmt::format("travel of {} per metre of wave amplitude", joint.name),
-                     row,
-                     {}});
-    }
-  }
-  for_each_end(p, [&](int joint, dynamics::End end, const std::string& name) {
-    const auto variation = model.joints().load_variation(joint, end, rest, multipliers);
-    for (int i = 0; i < 6; ++i)
-      out.push_back(
-          {fmt::format("{}.{}", name, joint_load(i)),
-           std::string(load_unit(i)) + "/m",
-           fmt::format("load of the joint on {} per metre of wave amplitude, about the joint, body axes", name),
-           variation.by_motion.row(i),
-           {},
-           variation.by_multiplier.row(i)});
-  });
-}
-
-}  // namespace
-
-std::vector<LinearProbe> rao_probes(const scene::Scene& scene, const Prepared& p, const dynamics::Model& model) {
-  std::vector<LinearProbe> out;
-  const Eigen::Index modes = 6 * static_cast<Eigen::Index>(p.bodies.size());
-  const Eigen::RowVectorXd none = Eigen::RowVectorXd::Zero(modes);
-  for (std::size_t b = 0; b < p.bodies.size(); ++b) {
-    const dynamics::Matrix6 T = dynamics::shift_from_centre(-p.bodies[b].properties().centre_of_gravity.xyz);
-    for (int mode = 0; mode < 6; ++mode) {
-      if (!p.bodies[b].is_free(mode)) continue;
-      Eigen::RowVectorXd row = none;
-      row.segment<6>(6 * static_cast<Eigen::Index>(b)) = T.row(mode);
-      out.push_back({scene.bodies[b].name + "." + mode_name(mode), std::string(motion_unit(mode)) + "/m",
-                     fmt::format("{} of {} per metre of wave amplitude", mode_name(mode), scene.bodies[b].name), row,
-                     none});
-    }
-  }
-  const auto add_axial = [&](const dynamics::AxialConnector& c, const std::string& name) {
-    const Eigen::Vector3d d = at_rest(p, c.ends.second, c.ends.second_arm) - at_rest(p, c.ends.first, c.ends.first_arm);
-    const auto row = stretch_row(c.ends, c.ends.first_arm, d.normalized(), modes);
-    const auto at_rest_law = c.law.at(d.norm() - c.rest_length, 0);
-    out.push_back({name + ".force", "N/m", fmt::format("tension of {} per metre of wave amplitude", name),
-                   at_rest_law.by_x * row, at_rest_law.by_rate * row});
-  };
-  for (std::size_t i = 0; i < p.axial.size(); ++i) add_axial(p.axial[i], p.axial_names[i]);
-  for (std::size_t g = 0; g < p.switched.size(); ++g)
-    for (std::size_t i = 0; i < p.switched[g].connectors.size(); ++i)
-      add_axial(p.switched[g].connectors[i], p.switched_names[g][i]);
-  for (std::size_t i = 0; i < p.bushing.size(); ++i)
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto& c = p.bushing[i];
-      const auto row = stretch_row(c.ends, c.ends.first_arm + c.rest_offset, Eigen::Vector3d::Unit(axis), modes);
-      out.push_back({p.bushing_names[i] + ".force_" + "xyz"[axis], "N/m",
-                     fmt::format("force of {} along {} per metre of wave amplitude", p.bushing_names[i], "xyz"[axis]),
-                     c.stiffness[axis] * row, c.damping[axis] * row});
-    }
-  add_joints(p, model, out);
   return out;
 }
 

@@ -35,7 +35,8 @@ struct LinearProbe {
   std::string name, unit, long_name;
   Eigen::RowVectorXd stiffness, damping, joints = {};
 };
-std::vector<LinearProbe> rao_probes(const scene::Scene& scene, const Prepared& prepared, const dynamics::Model& model);
+std::vector<LinearProbe> rao_probes(const scene::Scene& scene, const Prepared& prepared,
+                                    const dynamics::frequency::SmallMotions& about);
 
 /// True if one of the patterns matches, or there are none.
 inline bool is_chosen(const std::string& name, const std::vector<std::string>& patterns) {

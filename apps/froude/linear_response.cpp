@@ -16,8 +16,10 @@
 namespace froude {
 namespace {
 
+using dynamics::frequency::SmallMotions;
+
 /// Transfer functions of all signals at the components of a sea, one row a signal.
-Eigen::MatrixXcd transfer(const compile::Prepared& prepared, const dynamics::Model& model,
+Eigen::MatrixXcd transfer(const compile::Prepared& prepared, const SmallMotions& about,
                           const std::vector<compile::LinearProbe>& probes, const hydro::waves::Sea& sea) {
   Eigen::MatrixXcd out(static_cast<Eigen::Index>(probes.size()), static_cast<Eigen::Index>(sea.components().size()));
   std::map<double, std::vector<std::size_t>> by_heading;
@@ -25,10 +27,10 @@ Eigen::MatrixXcd transfer(const compile::Prepared& prepared, const dynamics::Mod
   for (const auto& [heading, components] : by_heading) {
     std::vector<double> omega;
     for (const std::size_t c : components) omega.push_back(sea.components()[c].omega);
-    const Eigen::MatrixXcd xi = dynamics::frequency::response_amplitudes(model, prepared.groups, omega, heading);
+    const Eigen::MatrixXcd xi = dynamics::frequency::response_amplitudes(about, prepared.groups, omega, heading);
     const Eigen::MatrixXcd multipliers = prepared.joints.empty() ? Eigen::MatrixXcd()
                                                                  : dynamics::frequency::multiplier_amplitudes(
-                                                                       model, prepared.groups, omega, heading, xi);
+                                                                       about, prepared.groups, omega, heading, xi);
     const auto responses = linear_responses(probes, xi, multipliers, omega);
     for (std::size_t s = 0; s < responses.size(); ++s)
       for (std::size_t k = 0; k < components.size(); ++k)
@@ -57,8 +59,7 @@ void require_linear(const scene::Scene& scene) {
 
 /// Drag on members as [ask.rao.drag] asks, told in `notes`; none if it does not.
 std::optional<dynamics::frequency::LinearDrag> drag_of_rao(const scene::Scene& scene, const compile::Prepared& prepared,
-                                                           const dynamics::Model& model,
-                                                           std::vector<std::string>& notes) {
+                                                           const SmallMotions& about, std::vector<std::string>& notes) {
   if (!scene.rao->drag) return std::nullopt;
   const scene::AskRao& ask = *scene.rao;
   const auto pieces = compile::drag_at_rest(scene, prepared.bodies);
@@ -71,7 +72,7 @@ std::optional<dynamics::frequency::LinearDrag> drag_of_rao(const scene::Scene& s
     const double length = 2 * std::numbers::pi / hydro::waves::wavenumber(omega, scene.water);
     waves.amplitude.push_back((ask.drag->height ? *ask.drag->height : *ask.drag->steepness * length) / 2);
   }
-  auto drag = dynamics::frequency::linearised_drag(model, prepared.groups, ask.omega, pieces, waves);
+  auto drag = dynamics::frequency::linearised_drag(about, prepared.groups, ask.omega, pieces, waves);
   const Eigen::RowVectorXd all = drag.coefficient.colwise().sum();
   notes.push_back(
       fmt::format("drag on members is linear, as lossy as quadratic drag in waves of {}: {:.4g} to {:.4g} N s/m in all",
@@ -135,22 +136,23 @@ const ComplexSignal& Responses::signal(const std::string& name) const {
 Responses respond(const scene::Scene& scene) { return respond(scene, compile::prepare(scene)); }
 
 Responses respond(const scene::Scene& scene, const compile::Prepared& prepared) {
-  const dynamics::Model model = compile::frequency_model(prepared);
+  const dynamics::Model model = compile::frequency_model(prepared, scene.rao->about);
   Responses out{{}, prepared.notes};
+  const SmallMotions about = compile::small_motions(model, scene.rao->about, out.notes);
   for (const std::string& effect : left_out_of_linear_responses(scene, scene.rao->drag.has_value()))
     out.notes.push_back(effect);
-  const auto all = compile::rao_probes(scene, prepared, model);
+  const auto all = compile::rao_probes(scene, prepared, about);
   std::vector<std::string> names;
   for (const auto& p : all) names.push_back(p.name);
   scene::check_patterns(scene.rao->of, scene.rao->of_places, names);
   const auto& omega = scene.rao->omega;
   const double heading = scene.rao->heading.radians();
-  const auto linear = drag_of_rao(scene, prepared, model, out.notes);
+  const auto linear = drag_of_rao(scene, prepared, about, out.notes);
   const dynamics::frequency::LinearDrag* drag = linear ? &*linear : nullptr;
   // The line that computes a RAO: (Q1) in libdynamics/src/frequency/rao.cpp.
-  const Eigen::MatrixXcd xi = dynamics::frequency::response_amplitudes(model, prepared.groups, omega, heading, drag);
+  const Eigen::MatrixXcd xi = dynamics::frequency::response_amplitudes(about, prepared.groups, omega, heading, drag);
   const Eigen::MatrixXcd multipliers =
-      dynamics::frequency::multiplier_amplitudes(model, prepared.groups, omega, heading, xi, drag);
+      dynamics::frequency::multiplier_amplitudes(about, prepared.groups, omega, heading, xi, drag);
   out.signals = linear_responses(compile::chosen(all, scene.rao->of), xi, multipliers, omega);
   return out;
 }
@@ -161,13 +163,14 @@ Record steady_run(const scene::Scene& scene) {
   require_linear(scene);
   const compile::Prepared prepared = compile::prepare(scene);
   const dynamics::Model model = compile::frequency_model(prepared);
+  const SmallMotions about(model);
   const hydro::waves::Sea sea = compile::sea_of_run(scene, prepared);
-  auto all = compile::rao_probes(scene, prepared, model);
+  auto all = compile::rao_probes(scene, prepared, about);
   std::vector<std::string> names{"wave.elevation"};
   for (const auto& p : all) names.push_back(p.name);
   scene::check_patterns(scene.run->of, scene.run->of_places, names);
   all = compile::chosen(all, scene.run->of);
-  Eigen::MatrixXcd amplitudes = transfer(prepared, model, all, sea);
+  Eigen::MatrixXcd amplitudes = transfer(prepared, about, all, sea);
   for (Eigen::Index c = 0; c < amplitudes.cols(); ++c)
     amplitudes.col(c) *= compile::elevation_at_origin(sea.components()[static_cast<std::size_t>(c)]);
   Record record;

@@ -20,15 +20,16 @@ namespace {
 
 using dynamics::frequency::Mode;
 using dynamics::frequency::ModeList;
+using dynamics::frequency::SmallMotions;
 
 constexpr std::array<const char*, 6> motions{"surge", "sway", "heave", "roll", "pitch", "yaw"};
 
 double period(const Mode& mode) { return 2 * std::numbers::pi / mode.omega; }
 
 /// Shares of kinetic energy of the six motions, all bodies together.
-std::array<double, 6> shares(const Mode& mode, const dynamics::Model& model) {
+std::array<double, 6> shares(const Mode& mode, const SmallMotions& about) {
   std::array<double, 6> out{};
-  const Eigen::VectorXd share = mode.energy_share(model);
+  const Eigen::VectorXd share = mode.energy_share(about);
   for (Eigen::Index m = 0; m < share.size(); ++m) out[static_cast<std::size_t>(m % 6)] += share[m];
   return out;
 }
@@ -74,8 +75,9 @@ std::vector<std::string> notes_of(const ModeList& all, const std::vector<Mode>& 
   return notes;
 }
 
-void tell(const Console& console, const scene::Scene& scene, const dynamics::Model& model,
-          const std::vector<Mode>& modes, const std::vector<std::string>& notes, const Path& file) {
+void tell(const Console& console, const scene::Scene& scene, const SmallMotions& about, const std::vector<Mode>& modes,
+          const std::vector<std::string>& notes, const Path& file) {
+  const dynamics::Model& model = about.model;
   if (console.json) {
     nlohmann::json j{{"file", file.string()}, {"notes", notes}, {"modes", nlohmann::json::array()}};
     for (const Mode& mode : modes) {
@@ -97,7 +99,7 @@ void tell(const Console& console, const scene::Scene& scene, const dynamics::Mod
     console.out << fmt::format("{:>4} {:>10.5g}{}{:>11.5g} {:>10}", i + 1, period(mode), mode.outside_data ? "*" : " ",
                                mode.omega,
                                mode.damped ? fmt::format("{:.2f} %", 100 * mode.damped->damping_ratio()) : "none");
-    for (const double share : shares(mode, model)) console.out << fmt::format(" {:>6.0f}", 100 * share);
+    for (const double share : shares(mode, about)) console.out << fmt::format(" {:>6.0f}", 100 * share);
     console.out << "  " << describe(mode.shape, model) << '\n';
   }
   for (const auto& note : notes) console.out << "note: " << note << '\n';
@@ -120,19 +122,20 @@ void write_csv(const Path& path, const std::vector<Mode>& modes, const dynamics:
 }
 
 /// The first shapes, over the bodies: each in the motion that has most of its energy.
-plot::Figure figure(const scene::Scene& scene, const dynamics::Model& model, const std::vector<Mode>& modes) {
+plot::Figure figure(const scene::Scene& scene, const SmallMotions& about, const std::vector<Mode>& modes) {
+  const std::size_t bodies = about.model.bodies().size();
   constexpr std::size_t most = 6;
   plot::Figure f{.title = scene.title.empty() ? "Free motions" : scene.title, .panels = {}};
   for (std::size_t i = 0; i < std::min(most, modes.size()); ++i) {
-    const auto share = shares(modes[i], model);
+    const auto share = shares(modes[i], about);
     const auto main = std::max_element(share.begin(), share.end()) - share.begin();
     plot::Series series{.name = "", .x = {}, .y = {}, .line = true, .marks = true};
-    for (std::size_t b = 0; b < model.bodies().size(); ++b) {
+    for (std::size_t b = 0; b < bodies; ++b) {
       series.x.push_back(static_cast<double>(b + 1));
       series.y.push_back(modes[i].shape[6 * static_cast<Eigen::Index>(b) + main]);
     }
     f.panels.push_back({.x = {.label = fmt::format("mode {}, {:.4g} s: body", i + 1, period(modes[i])),
-                              .range = {{0.5, static_cast<double>(model.bodies().size()) + 0.5}}},
+                              .range = {{0.5, static_cast<double>(bodies) + 0.5}}},
                         .y = {.label = motions[static_cast<std::size_t>(main)],
                               .unit = main < 3 ? "m" : "rad",
                               .range = {{-1.1, 1.1}}},
@@ -166,8 +169,9 @@ void modes(const SceneArguments& arguments, const Console& console) {
   hydro::io::require_writable(file);
   compile::Prepared prepared = compile::prepare(scene);
   for (const std::string& effect : left_out_of_linear_responses(scene)) prepared.notes.push_back(effect);
-  const dynamics::Model model = compile::frequency_model(prepared);
-  const ModeList all = dynamics::frequency::free_motions(model, prepared.groups);
+  const dynamics::Model model = compile::frequency_model(prepared, scene.ask_modes->about);
+  const SmallMotions about = compile::small_motions(model, scene.ask_modes->about, prepared.notes);
+  const ModeList all = dynamics::frequency::free_motions(about, prepared.groups);
   const std::vector<Mode> shown = wanted(all, *scene.ask_modes);
   if (shown.empty())
     throw hydro::InputError(fmt::format("none of the {} free motions has a period from {} to {} s", all.modes.size(),
@@ -176,8 +180,8 @@ void modes(const SceneArguments& arguments, const Console& console) {
   const auto notes = notes_of(all, shown, model, prepared.notes);
   write_modes(file, table_of(shown, model), provenance_of(scene, notes));
   if (arguments.csv) write_csv(*arguments.csv, shown, model);
-  if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, model, shown)));
-  tell(console, scene, model, shown, notes, file);
+  if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, about, shown)));
+  tell(console, scene, about, shown, notes, file);
 }
 
 }  // namespace froude

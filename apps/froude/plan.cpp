@@ -82,11 +82,13 @@ Section plan_modes(const compile::Prepared& p) {
 }
 
 std::string integrator_text(const scene::Solve& solve) {
-  if (solve.integrator == "generalized_alpha")
-    return fmt::format("generalised-alpha rho_infinity {:.3g}", solve.rho_infinity);
   if (solve.integrator == "explicit_pair")
-    return fmt::format("explicit pair of orders 5 and 4, tolerance {:.3g}", solve.tolerance);
-  return solve.integrator;
+    return fmt::format("explicit pair of orders 5 and 4, tolerance {:.3g}",
+                       solve.tolerance.value_or(compile::tolerance_of_pair));
+  const std::string name = solve.integrator == "generalized_alpha"
+                               ? fmt::format("generalised-alpha rho_infinity {:.3g}", solve.rho_infinity)
+                               : solve.integrator;
+  return solve.tolerance ? fmt::format("{} with steps cut to a tolerance of {:.3g}", name, *solve.tolerance) : name;
 }
 
 Section plan_steady(const scene::Scene& scene, const compile::Prepared& p) {

@@ -45,6 +45,7 @@ void tell(const Console& console, const scene::Scene& scene, const Record& recor
                      {"steps", record.steps},
                      {"newton_iterations", record.newton_iterations},
                      {"halvings", record.halvings},
+                     {"parts", record.parts},
                      {"events", record.events},
                      {"wall_time_s", record.stepping_s},
                      {"energy_residual_relative", relative},
@@ -60,8 +61,9 @@ void tell(const Console& console, const scene::Scene& scene, const Record& recor
                                record.time.back(), record.preparation_s);
   else
     console.out << fmt::format(
-        "{}: {:.6g} s in {} steps of {:.4g} s, {:.2f} Newton iterations a step{}{}, {:.2f} s of work\n",
+        "{}: {:.6g} s in {} steps of {:.4g} s{}, {:.2f} Newton iterations a step{}{}, {:.2f} s of work\n",
         scene.file.filename().string(), record.time.back(), record.steps, record.step,
+        record.parts ? fmt::format(" cut into {} parts", record.parts) : "",
         static_cast<double>(record.newton_iterations) / static_cast<double>(std::max<std::size_t>(1, record.steps)),
         record.halvings ? fmt::format(", {} halvings", record.halvings) : "",
         record.events ? fmt::format(", friction or contacts change {} times", record.events) : "", record.stepping_s);

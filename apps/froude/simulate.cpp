@@ -76,6 +76,7 @@ class March {
     workspace_.state.time = m_.start.time + static_cast<double>(n) * m_.step;
     record_.newton_iterations += report.newton_iterations;
     record_.halvings += report.halvings;
+    record_.parts += static_cast<std::size_t>(report.parts);
     record_.events += static_cast<int>(report.events.size());
     record_.steps = n;
     ledger.note(workspace_);

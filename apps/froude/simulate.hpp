@@ -26,6 +26,7 @@ struct Record {
   std::vector<Signal> signals;  ///< those that the scene asks for
   double step = 0;              ///< s
   std::size_t steps = 0;        ///< completed
+  std::size_t parts = 0;        ///< into which a tolerance has cut them
   int newton_iterations = 0, halvings = 0, events = 0;
   double preparation_s = 0, stepping_s = 0;                      ///< wall time
   std::vector<std::pair<std::string, std::size_t>> evaluations;  ///< of the load, by effect

@@ -68,6 +68,8 @@ std::optional<AskRao::DragIn> read_drag(const Record& rao, const Scene& scene) {
   return out;
 }
 
+About read_about(const Record& asked) { return {asked.text("about") == "equilibrium", asked.place()}; }
+
 /// `duration` of a series must be a whole multiple of `every`.
 void check_whole(const Record& asked) {
   const double every = asked.si("every"), steps = asked.si("duration") / every, whole = std::round(steps);
@@ -136,14 +138,19 @@ void build_ask(const Record& ask, Scene& scene) {
   scene.accuracy = ask.si("accuracy");
   if (ask.has("rao")) {
     const Record& rao = ask.table("rao");
-    scene.rao = AskRao{
-        .omega = read_omega(rao), .of = {}, .of_places = {}, .drag = read_drag(rao, scene), .place = rao.place()};
+    scene.rao = AskRao{.omega = read_omega(rao),
+                       .of = {},
+                       .of_places = {},
+                       .drag = read_drag(rao, scene),
+                       .about = read_about(rao),
+                       .place = rao.place()};
     read_heading(rao, scene);
     read_of(rao, scene.rao->of, scene.rao->of_places);
   }
   if (ask.has("modes")) {
     const Record& modes = ask.table("modes");
     scene.ask_modes.emplace();
+    scene.ask_modes->about = read_about(modes);
     if (modes.has("shortest")) scene.ask_modes->shortest = modes.si("shortest");
     if (modes.has("longest")) scene.ask_modes->longest = modes.si("longest");
     if (!(scene.ask_modes->shortest < scene.ask_modes->longest))
@@ -163,14 +170,13 @@ Solve build_solve(const Record& solve) {
   out.integrator = integrator.text("name");
   out.integrator_place = integrator["name"].place;
   out.rho_infinity = integrator.si("rho_infinity");
-  out.tolerance = integrator.si("tolerance");
+  if (integrator.has("tolerance")) out.tolerance = integrator.si("tolerance");
   const bool lines_alike = integrator.has("lines") && integrator.text("lines") == "generalized_alpha";
   const auto only_of = [&](std::string_view key, std::string_view method) {
     if (integrator[key].defaulted || out.integrator == method) return;
     throw integrator.wrong(key, fmt::format("acts only with name = \"{}\"", method), "leave it out");
   };
   if (!lines_alike) only_of("rho_infinity", "generalized_alpha");
-  only_of("tolerance", "explicit_pair");
   if (integrator.has("lines")) {
     out.line_scheme = integrator.text("lines");
     out.line_scheme_place = integrator["lines"].place;

@@ -392,6 +392,11 @@ struct Joint {
   Place place;
 };
 
+/// Where the small motions of a linear answer are about.
+struct About {
+  bool equilibrium = false;  ///< where the bodies balance, not where they are placed
+  Place place = {};
+};
 struct AskRao {
   /// Waves for which drag on members is made linear: of one height, or of one steepness H/λ.
   struct DragIn {
@@ -405,11 +410,13 @@ struct AskRao {
   std::vector<std::string> of;        ///< patterns such as "m*.surge", "connector*.force"; empty: everything
   std::vector<Place> of_places;       ///< one for each pattern
   std::optional<DragIn> drag;
+  About about;
   Place place;
 };
 /// Free motions with periods between two.
 struct AskModes {
   double shortest = 0, longest = std::numeric_limits<double>::infinity();  ///< s
+  About about;
 };
 struct AskRun {
   double duration;                ///< s
@@ -426,7 +433,7 @@ struct Solve {
   std::string integrator = "generalized_alpha";
   Place integrator_place = {};
   double rho_infinity = 0.8;                    ///< spectral radius of generalised-α at infinite frequency, 0 … 1
-  double tolerance = 1e-8;                      ///< of the explicit pair
+  std::optional<double> tolerance;              ///< of the local error of steps, which are cut to meet it
   std::string line_scheme = "energy_momentum";  ///< of lines, as dynamics::line::parse_scheme() reads it
   std::optional<Place> line_scheme_place = {};  ///< where the scene names it
   double gamma = 0.51;                          ///< of the γ-method of lines

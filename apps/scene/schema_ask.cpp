@@ -14,6 +14,15 @@ Key asked_signals() {
       .or_default("*", "everything there is");
 }
 
+Key small_motions_about() {
+  return text("about",
+              "\"as placed\", where everything must be in balance; or \"equilibrium\": where the bodies balance in "
+              "still "
+              "water, coefficients being those of the bodies as placed")
+      .one_of({"as placed", "equilibrium"})
+      .or_default("as placed", "coefficients of a body hold where it was when they were computed");
+}
+
 const Table& ask_rao_drag() {
   static const Table table{
       .title = "[ask.rao.drag]",
@@ -33,7 +42,7 @@ const Table& ask_rao() {
       .keys = {range("periods", dim::time, "wave periods").positive().optional(),
                range("omega", dim::angular_velocity, "wave frequencies").positive().optional(),
                quantity("heading", dim::angle, "where the waves go; left out: the heading of [waves]").optional(),
-               inner_table("drag", ask_rao_drag()).optional(), asked_signals()},
+               inner_table("drag", ask_rao_drag()).optional(), small_motions_about(), asked_signals()},
       .groups = {{exactly_one, {"periods", "omega"}}}};
   return table;
 }
@@ -59,7 +68,8 @@ const Table& ask_modes() {
       .title = "[ask.modes]",
       .meaning = "free motions about rest: periods, damping, shapes",
       .keys = {quantity("shortest", dim::time, "no mode of a shorter period").positive().optional(),
-               quantity("longest", dim::time, "no mode of a longer period").positive().optional()}};
+               quantity("longest", dim::time, "no mode of a longer period").positive().optional(),
+               small_motions_about()}};
   return table;
 }
 
@@ -80,9 +90,11 @@ const Table& integrator() {
                  "of generalized_alpha: spectral radius at infinite frequency: 1 damps nothing, 0 all at once")
               .within(Limit::fraction)
               .or_default("0.8", "kills what is not resolved within some steps, leaves the rest alone"),
-          number("tolerance", "of explicit_pair: local error of a step relative to what moves in it")
+          number("tolerance",
+                 "of the local error of a step of bodies, relative to their speeds: steps are cut to meet it; left out: "
+                 "1e-8 for explicit_pair, whole steps for the others")
               .positive()
-              .or_default("1e-8", "far below any other error of a run"),
+              .optional(),
           text("lines",
                "how each [[line]] is stepped; left out: energy_momentum, which keeps energy and lengths at any step")
               .one_of({"energy_momentum", "generalized_alpha", "gamma", "semi_implicit_euler", "explicit_euler"})

@@ -28,7 +28,17 @@ double energy_equivalent_speed(const Vector3cd& w) {
 
 namespace {
 
-/// Across the axis of a piece at rest.
+/// Arms and axes along global axes, where bodies are still.
+std::vector<DragPiece> turned(std::vector<DragPiece> pieces, const State& still) {
+  for (DragPiece& piece : pieces) {
+    const Eigen::Quaterniond& attitude = still.pose[static_cast<std::size_t>(piece.body)].attitude;
+    piece.arm = attitude * piece.arm;
+    piece.axis = attitude * piece.axis;
+  }
+  return pieces;
+}
+
+/// Across the axis of a piece.
 Eigen::Matrix3d across(const DragPiece& piece) {
   return Eigen::Matrix3d::Identity() - piece.axis * piece.axis.transpose();
 }
@@ -91,14 +101,14 @@ VectorXcd LinearDrag::excitation(Index w, Index modes) const {
   return F;
 }
 
-LinearDrag linearised_drag(const Model& model, const std::vector<PotentialGroup>& groups,
+LinearDrag linearised_drag(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
                            const std::vector<double>& omega, const std::vector<DragPiece>& pieces,
                            const DragWaves& waves) {
   const auto frequencies = static_cast<Index>(omega.size()), count = static_cast<Index>(pieces.size());
-  LinearDrag drag{.pieces = pieces,
+  LinearDrag drag{.pieces = turned(pieces, about.still),
                   .velocity = Eigen::MatrixXcd(3 * count, frequencies),
                   .coefficient = Eigen::MatrixXd::Zero(count, frequencies)};
-  const LinearModel of(model);
+  const LinearModel of(about);
   for (Index w = 0; w < frequencies; ++w) {
     const auto at = static_cast<std::size_t>(w);
     const hydro::waves::Component wave{.omega = omega[at],
@@ -109,9 +119,9 @@ LinearDrag linearised_drag(const Model& model, const std::vector<PotentialGroup>
                                        .heading = waves.heading};
     for (Index i = 0; i < count; ++i)
       drag.velocity.block<3, 1>(3 * i, w) = hydro::waves::velocity_transfer(
-          wave, waves.water, rest_position(pieces[static_cast<std::size_t>(i)], model.bodies()));
-    settle(drag, w, of, omega[at], excitation(model, groups, omega[at], waves.heading),
-           impedance(model, of.linear, groups, omega[at]), waves.amplitude[at]);
+          wave, waves.water, rest_position(pieces[static_cast<std::size_t>(i)], about.model.bodies()));
+    settle(drag, w, of, omega[at], excitation(about.model, groups, omega[at], waves.heading),
+           impedance(about, groups, omega[at]), waves.amplitude[at]);
   }
   return drag;
 }

@@ -19,13 +19,13 @@ constexpr double slowest = 1e-6;  // rad/s: two months
 /// Matrices of the free motions.
 class FreeMotions {
  public:
-  FreeMotions(const Model& model, const std::vector<PotentialGroup>& groups, const Model::Linear& linear)
-      : groups_(groups), size_(model.modes()), reduction_(model, linear) {
-    stiffness_ = reduced(linear.stiffness);
-    damping_ = reduced(linear.damping);
-    mass_ = reduced(model.dry_mass_at_rest());
+  FreeMotions(const SmallMotions& about, const std::vector<PotentialGroup>& groups)
+      : groups_(groups), size_(about.model.modes()), reduction_(about) {
+    stiffness_ = reduced(about.linear.stiffness);
+    damping_ = reduced(about.linear.damping);
+    mass_ = reduced(about.mass);
     gyration_.resize(size_);
-    for (int m = 0; m < model.modes(); ++m) gyration_[m] = radius_of_gyration(model, m);
+    for (int m = 0; m < size_; ++m) gyration_[m] = radius_of_gyration(about.model, m);
     scale_ = mass_.diagonal().cwiseSqrt().cwiseInverse();
   }
 
@@ -192,13 +192,13 @@ void add_unrestored(const FreeMotions& system, ModeList& out) {
 
 }  // namespace
 
-Eigen::VectorXd Mode::energy_share(const Model& model) const {
-  const Eigen::VectorXd share = shape.cwiseProduct(model.dry_mass_at_rest() * shape);
+Eigen::VectorXd Mode::energy_share(const SmallMotions& about) const {
+  const Eigen::VectorXd share = shape.cwiseProduct(about.mass * shape);
   return share / share.sum();
 }
 
-ModeList free_motions(const Model& model, const std::vector<PotentialGroup>& groups) {
-  const FreeMotions system(model, groups, model.linear_at_rest());
+ModeList free_motions(const SmallMotions& about, const std::vector<PotentialGroup>& groups) {
+  const FreeMotions system(about, groups);
   ModeList out;
   if (system.count() == 0) return out;
   add_unrestored(system, out);

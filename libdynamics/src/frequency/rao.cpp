@@ -7,11 +7,10 @@
 #include "scatter.hpp"
 
 namespace dynamics::frequency {
-Eigen::MatrixXcd impedance(const Model& model, const Model::Linear& linear, const std::vector<PotentialGroup>& groups,
-                           double omega) {
+Eigen::MatrixXcd impedance(const SmallMotions& about, const std::vector<PotentialGroup>& groups, double omega) {
   const std::complex<double> i_omega(0, omega);
-  Eigen::MatrixXcd Z = linear.stiffness + i_omega * linear.damping -
-                       omega * omega * model.dry_mass_at_rest().cast<std::complex<double>>();
+  Eigen::MatrixXcd Z =
+      about.linear.stiffness + i_omega * about.linear.damping - omega * omega * about.mass.cast<std::complex<double>>();
   for (const PotentialGroup& g : groups)
     if (g.radiation)
       scatter_add(g.bodies,
@@ -50,42 +49,41 @@ struct Equations {
   Eigen::MatrixXcd Z;
   Eigen::VectorXcd X;
 };
-Equations equations(const Model& model, const Model::Linear& linear, const std::vector<PotentialGroup>& groups,
-                    double omega, double heading, const LinearDrag* drag, Eigen::Index w) {
-  Equations e{impedance(model, linear, groups, omega), excitation(model, groups, omega, heading)};
+Equations equations(const SmallMotions& about, const std::vector<PotentialGroup>& groups, double omega, double heading,
+                    const LinearDrag* drag, Eigen::Index w) {
+  Equations e{impedance(about, groups, omega), excitation(about.model, groups, omega, heading)};
   if (drag != nullptr) e = {drag->added_to(std::move(e.Z), w, omega), e.X + drag->excitation(w, e.X.size())};
   return e;
 }
 
 }  // namespace
 
-Eigen::MatrixXcd response_amplitudes(const Model& model, const std::vector<PotentialGroup>& groups,
+Eigen::MatrixXcd response_amplitudes(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
                                      const std::vector<double>& omega, double heading, const LinearDrag* drag) {
-  const LinearModel of(model);
-  Eigen::MatrixXcd xi = Eigen::MatrixXcd::Zero(model.modes(), static_cast<Eigen::Index>(omega.size()));
+  const LinearModel of(about);
+  Eigen::MatrixXcd xi = Eigen::MatrixXcd::Zero(about.model.modes(), static_cast<Eigen::Index>(omega.size()));
   if (of.left.count() == 0) return xi;
   for (Eigen::Index w = 0; w < xi.cols(); ++w) {
     const double at = omega[static_cast<std::size_t>(w)];
-    const auto [Z, X] = equations(model, of.linear, groups, at, heading, drag, w);
+    const auto [Z, X] = equations(about, groups, at, heading, drag, w);
     xi.col(w) = of.response(Z, X, at);  // (Q1)
   }
   return xi;
 }
 
-Eigen::MatrixXcd multiplier_amplitudes(const Model& model, const std::vector<PotentialGroup>& groups,
+Eigen::MatrixXcd multiplier_amplitudes(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
                                        const std::vector<double>& omega, double heading, const Eigen::MatrixXcd& xi,
                                        const LinearDrag* drag) {
-  const Model::Linear linear = model.linear_at_rest();
-  Eigen::MatrixXcd lambda(linear.conditions.rows(), xi.cols());
+  Eigen::MatrixXcd lambda(about.linear.conditions.rows(), xi.cols());
   if (lambda.rows() == 0) return lambda;
   // Only free modes have an equation, and rows are scaled so that newtons and newton metres compare.
-  Eigen::VectorXd scale = model.dry_mass_at_rest().diagonal().cwiseSqrt().cwiseInverse();
-  for (int m = 0; m < model.modes(); ++m)
-    if (!model.is_free(m)) scale[m] = 0;
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * linear.conditions.transpose();
+  Eigen::VectorXd scale = about.mass.diagonal().cwiseSqrt().cwiseInverse();
+  for (int m = 0; m < about.model.modes(); ++m)
+    if (!about.model.is_free(m)) scale[m] = 0;
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * about.linear.conditions.transpose();
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
   for (Eigen::Index w = 0; w < xi.cols(); ++w) {
-    const auto [Z, X] = equations(model, linear, groups, omega[static_cast<std::size_t>(w)], heading, drag, w);
+    const auto [Z, X] = equations(about, groups, omega[static_cast<std::size_t>(w)], heading, drag, w);
     const Eigen::VectorXcd rest = X - Z * xi.col(w);
     lambda.col(w).real() = qr.solve(scale.cwiseProduct(rest.real()));
     lambda.col(w).imag() = qr.solve(scale.cwiseProduct(rest.imag()));

@@ -3,13 +3,13 @@
 namespace dynamics::frequency {
 
 // Columns are orthogonal in the metric of the bodies' own masses: metres and radians count by what they move.
-Reduction::Reduction(const Model& model, const Model::Linear& linear)
-    : modes_(model.modes()), jointed_(linear.conditions.rows() > 0) {
-  for (int m = 0; m < model.modes(); ++m)
-    if (model.is_free(m)) free_.push_back(m);
+Reduction::Reduction(const SmallMotions& about)
+    : modes_(about.model.modes()), jointed_(about.linear.conditions.rows() > 0) {
+  for (int m = 0; m < about.model.modes(); ++m)
+    if (about.model.is_free(m)) free_.push_back(m);
   if (!jointed_) return;
-  const Eigen::VectorXd root = model.dry_mass_at_rest().diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd G = linear.conditions * root.asDiagonal();
+  const Eigen::VectorXd root = about.mass.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd G = about.linear.conditions * root.asDiagonal();
   const Eigen::MatrixXd of_free = G(Eigen::all, free_).transpose();
   const auto left = static_cast<Eigen::Index>(free_.size()) - G.rows();
   basis_ = Eigen::MatrixXd::Zero(modes_, left);

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "dynamics/model/model.hpp"
+#include "dynamics/frequency/small_motions.hpp"
 
 namespace dynamics::frequency {
 
@@ -14,7 +14,7 @@ namespace dynamics::frequency {
 /// only indices are kept.
 class Reduction {
  public:
-  Reduction(const Model& model, const Model::Linear& linear);
+  explicit Reduction(const SmallMotions& about);
 
   Eigen::Index count() const { return jointed_ ? basis_.cols() : static_cast<Eigen::Index>(free_.size()); }
 

@@ -10,6 +10,31 @@ GeneralizedAlpha::GeneralizedAlpha(const Model& model, const Settings& settings)
                  "rho_infinity must lie between 0 and 1, got {}", settings.rho_infinity);
 }
 
+const char* GeneralizedAlpha::steps_stay_whole() const {
+  if (model().joints().count() == 0 && !active().may_change()) return nullptr;
+  return "with joints, friction or contacts generalised-alpha loses its order while steps change; take "
+         "energy_momentum, "
+         "or implicit_euler with contacts";
+}
+
+Eigen::VectorXd GeneralizedAlpha::history() const {
+  Eigen::VectorXd out(algorithmic_.size() + 1);
+  out << algorithmic_, last_;
+  return out;
+}
+
+void GeneralizedAlpha::set_history(const Eigen::VectorXd& was) {
+  algorithmic_ = was.head(was.size() - 1);
+  last_ = was[was.size() - 1];
+}
+
+// (D97) What joints carry does not go straight from step to step: stretched, it would swing up.
+void GeneralizedAlpha::prepare(const Workspace& workspace, double h) {
+  if (last_ > 0 && last_ != h && active().conditions().count() == 0)
+    algorithmic_ = workspace.acceleration + h / last_ * (algorithmic_ - workspace.acceleration);
+  last_ = h;
+}
+
 NewtonIntegrator::Slopes GeneralizedAlpha::slopes(double h) const {
   const double s = (1 - alpha_.alpha_f) / (1 - alpha_.alpha_m), place = s * alpha_.beta * h * h,
                speed = s * alpha_.gamma * h;

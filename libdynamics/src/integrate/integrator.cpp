@@ -1,5 +1,6 @@
 #include "dynamics/integrate/integrator.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "dynamics/spatial/rotation.hpp"
@@ -78,15 +79,78 @@ void Integrator::go_straight(Workspace& workspace, double h) const {
   workspace.state = displaced(workspace.state, h * v + h * h / 2 * a, v + h * a, h);
 }
 
-void Integrator::advance(Workspace& workspace, double h, int depth, StepReport& report) {
+void Integrator::advance(Workspace& workspace, double h, StepReport& report) {
+  if (tolerance_)
+    advance_within(workspace, h, report);
+  else
+    advance_halving(workspace, h, 0, report);
+}
+
+void Integrator::advance_halving(Workspace& workspace, double h, int depth, StepReport& report) {
   if (h < 1e-6 * step_) return go_straight(workspace, h);
   if (try_turned_step(workspace, h, report)) return;
   if (depth == deepest_halving)
     throw hydro::NumericsError(fmt::format("the run cannot go on from t = {:.6g} s, even with a step of {:.3g} s: {}",
                                            workspace.state.time, h, failure_));
   ++report.halvings;
-  advance(workspace, h / 2, depth + 1, report);
-  advance(workspace, h / 2, depth + 1, report);
+  advance_halving(workspace, h / 2, depth + 1, report);
+  advance_halving(workspace, h / 2, depth + 1, report);
+}
+
+void Integrator::cut_steps(double tolerance) {
+  hydro::require(tolerance > 0, "the tolerance of a step must be positive, got {}", tolerance);
+  if (const char* why = steps_stay_whole())
+    throw hydro::InputError(fmt::format("steps cannot be cut to a tolerance: {}", why));
+  tolerance_ = tolerance;
+}
+
+void Integrator::note_speeds(const Workspace& workspace, double h) {
+  const auto size = [&](const Eigen::VectorXd& x) { return x.cwiseProduct(active_.scale()).norm(); };
+  speeds_ = std::max(speeds_, size(workspace.state.velocity) + h * size(workspace.acceleration));
+}
+
+// (D96) The workspace ends where two halves lead.
+double Integrator::local_error(Workspace& workspace, double h, StepReport& report) {
+  const Snapshot before = snapshot(workspace);
+  advance_halving(workspace, h, 0, report);
+  const State whole = workspace.state;
+  if (speeds_ == 0) note_speeds(workspace, h);  // bodies that begin at rest tell nothing of what is to come
+  restore(workspace, before);
+  for (int half = 0; half < 2; ++half) advance_halving(workspace, h / 2, 0, report);
+  Eigen::VectorXd places(model_.modes());
+  for (std::size_t i = 0; i < whole.pose.size(); ++i) {
+    const Pose &one = whole.pose[i], &two = workspace.state.pose[i];
+    places.segment<6>(6 * static_cast<Eigen::Index>(i)) << one.centre - two.centre,
+        rotation_log(one.attitude * two.attitude.conjugate());
+  }
+  const auto size = [&](const Eigen::VectorXd& x) { return x.cwiseProduct(active_.scale()).norm(); };
+  const double off = std::max(size(places) / h, size(whole.velocity - workspace.state.velocity));
+  return off / (std::pow(2, order()) - 1);
+}
+
+void Integrator::advance_within(Workspace& workspace, double h, StepReport& report) {
+  constexpr double shortest = 1e-5;  // of the step asked for
+  if (part_ == 0) part_ = h;
+  for (double left = h; left > h * change_resolution;) {
+    const double part = std::min(part_, left);
+    const Snapshot before = snapshot(workspace);
+    const double error = local_error(workspace, part, report), allowed = tolerance_.value() * speeds_;
+    const double better = part * (error > 0 ? std::clamp(0.9 * std::pow(allowed / error, 1.0 / order()), 0.2, 5.0) : 5);
+    if (error <= allowed) {
+      left -= part;
+      ++report.parts;
+      note_speeds(workspace, part);
+      // A part that the end of the step has cut tells only that longer ones may do.
+      part_ = part < part_ ? std::max(part_, better) : better;
+      continue;
+    }
+    restore(workspace, before);
+    part_ = better;
+    if (part_ < shortest * step_)
+      throw hydro::NumericsError(
+          fmt::format("the run cannot go on from t = {:.6g} s: its tolerance of {:.3g} asks for steps below {:.3g} s",
+                      workspace.state.time, *tolerance_, part_));
+  }
 }
 
 Integrator::Snapshot Integrator::snapshot(const Workspace& workspace) const {
@@ -104,7 +168,7 @@ double Integrator::step_to_change(Workspace& workspace, double h, StepReport& re
   const Snapshot before = snapshot(workspace);
   const auto margin_after = [&](double way) {
     restore(workspace, before);
-    advance(workspace, way, 0, report);
+    advance(workspace, way, report);
     return laws_.least_margin(workspace).value;
   };
   double high = h, at_high = margin_after(h);
@@ -167,7 +231,7 @@ StepReport Integrator::step(Workspace& workspace, double h) {
     if (laws_.follow_rolling(workspace)) begin(workspace);
     advance_to_changes(workspace, h, report);
   } else {
-    advance(workspace, h, 0, report);
+    advance(workspace, h, report);
   }
   if (workspace.accept()) begin_anew(workspace);
   return report;

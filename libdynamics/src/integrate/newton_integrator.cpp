@@ -63,6 +63,7 @@ std::vector<Gradient> NewtonIntegrator::by_step(const std::vector<Gradient>& G, 
 }
 
 bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& report) {
+  prepare(workspace, h);
   const Slopes slope = slopes(h);
   const Eigen::VectorXd& scale = active().scale();
   Trial now = evaluate(workspace, h, workspace.acceleration, workspace.multipliers);

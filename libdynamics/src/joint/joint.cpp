@@ -265,7 +265,7 @@ Vector6 JointSet::load_on(int joint, End end, const State& state, const Eigen::V
 }
 
 // Body axes turn with the body: δ(Rᵀf) = δf − θ × f where R is one (D17).
-JointSet::LoadVariation JointSet::load_variation(int joint, End end, const State& rest,
+JointSet::LoadVariation JointSet::load_variation(int joint, End end, const State& still,
                                                  const Eigen::VectorXd& lambda) const {
   const Joint& j = joints_[static_cast<std::size_t>(joint)];
   const int body = end == End::first ? j.first : j.second.value();
@@ -275,7 +275,7 @@ JointSet::LoadVariation JointSet::load_variation(int joint, End end, const State
     const Condition& c = conditions_[i];
     if (c.joint != joint) continue;
     const auto index = static_cast<Eigen::Index>(i);
-    const ConditionEnds at = ends_of(c, rest);
+    const ConditionEnds at = ends_of(c, still);
     const Vector6 p = part_of(std::visit([&](const auto& what) { return gradient(what, at); }, c.what), end);
     const Matrix12 H = std::visit([&](const auto& what) { return curvature(what, at); }, c.what);
     out.by_multiplier.col(index) -= p;
@@ -284,6 +284,10 @@ JointSet::LoadVariation JointSet::load_variation(int joint, End end, const State
     out.by_motion.block<3, 3>(0, 6 * body + 3) -= lambda[index] * cross_matrix(p.head<3>());
     out.by_motion.block<3, 3>(3, 6 * body + 3) -= lambda[index] * cross_matrix(p.tail<3>());
   }
+  // Into the body's axes, whose own turning the last two blocks told.
+  const Eigen::Matrix3d to_body = still.pose[static_cast<std::size_t>(body)].attitude.toRotationMatrix().transpose();
+  for (Eigen::MatrixXd* rows : {&out.by_motion, &out.by_multiplier})
+    for (const int row : {0, 3}) rows->middleRows<3>(row) = (to_body * rows->middleRows<3>(row)).eval();
   const Eigen::Vector3d arm = place_in_[static_cast<std::size_t>(joint)][end == End::first ? 0 : 1];
   carry(arm, out.by_motion);
   carry(arm, out.by_multiplier);

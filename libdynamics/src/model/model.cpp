@@ -94,12 +94,12 @@ void Model::add_mass(const State& state, double factor, BlockMatrix& out) const 
   for (const auto& kind : forces_) kind->add_mass(state, sink);
 }
 
-Eigen::MatrixXd Model::dry_mass_at_rest() const {
+Eigen::MatrixXd Model::dry_mass(const State& state) const {
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(modes(), modes());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const auto row = 6 * static_cast<Eigen::Index>(i);
     M.block<3, 3>(row, row).diagonal().setConstant(bodies_[i].mass());
-    M.block<3, 3>(row + 3, row + 3) = bodies_[i].inertia();
+    M.block<3, 3>(row + 3, row + 3) = inertia_in_world(bodies_[i], state.pose[i]);
   }
   return M;
 }

@@ -1,5 +1,6 @@
 #include "truncated.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -28,6 +29,22 @@ double asymptotic_argument(const GapBasis& basis) {
 
 /// (τ², cos jπτ) over 0 … 1, for real j without the sign (−1)^j.
 double square_amplitude(double j) { return 2 / (j * pi * j * pi); }
+
+/// Combinations of the functions, one a column, that a symmetric matrix tells apart, each of energy ±1. Three families
+/// of many functions are all but dependent; what rounding leaves of those that differ by less than it would go into
+/// energy and Haskind's relation, differently on every machine. A smaller set of functions keeps both.
+MatrixXd told_apart(const MatrixXd& energy) {
+  constexpr double least = 1e-14;  // of the largest: rounding of the sums, and what nine digits still need
+  const VectorXd scale = energy.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scale.asDiagonal() * energy * scale.asDiagonal());
+  const VectorXd size = eigen.eigenvalues().cwiseAbs();
+  MatrixXd out(energy.rows(), energy.rows());
+  Index count = 0;
+  for (Index i = 0; i < size.size(); ++i)
+    if (size(i) > least * size.maxCoeff())
+      out.col(count++) = scale.cwiseProduct(eigen.eigenvectors().col(i)) / std::sqrt(size(i));
+  return out.leftCols(count);
+}
 
 }  // namespace
 
@@ -126,27 +143,39 @@ MatrixXd TruncatedCylinder::inner_loads(int m) const {
   return L;
 }
 
-/// The Galerkin matrix of (C6); for m = 0 bordered by the condition on the flux through the gap.
-MatrixXcd TruncatedCylinder::system(int m, const MatrixXcd& G) const {
-  const Index P = basis_.size(), size = m == 0 ? P + 1 : P;
+/// The Galerkin matrix of (C6).
+MatrixXcd TruncatedCylinder::galerkin(int m, const MatrixXcd& G) const {
+  const Index P = basis_.size();
+  return interior_[static_cast<std::size_t>(m)].topLeftCorner(P, P) - b_ / h_ * G.topLeftCorner(P, P);
+}
+
+/// The same in the functions that are columns of Q; for m = 0 bordered by the condition on the flux through the gap.
+MatrixXcd TruncatedCylinder::system(int m, const MatrixXcd& G, const MatrixXd& Q) const {
+  const Index P = Q.cols(), size = m == 0 ? P + 1 : P;
   MatrixXcd A = MatrixXcd::Zero(size, size);
-  A.topLeftCorner(P, P) = interior_[static_cast<std::size_t>(m)].topLeftCorner(P, P) - b_ / h_ * G.topLeftCorner(P, P);
-  if (m == 0)
-    for (Index p = 0; p < P; ++p) A(p, P) = A(P, p) = basis_.mean(static_cast<int>(p));
+  A.topLeftCorner(P, P) = Q.transpose() * galerkin(m, G) * Q;
+  if (m != 0) return A;
+  VectorXd mean(basis_.size());
+  for (Index p = 0; p < mean.size(); ++p) mean(p) = basis_.mean(static_cast<int>(p));
+  A.col(P).head(P) = (Q.transpose() * mean).cast<Complex>();
+  A.row(P).head(P) = A.col(P).head(P).transpose();
   return A;
 }
 
 AzimuthalOrder TruncatedCylinder::solve(int m, const Exterior& outside, const RadialFunctions& radial,
                                         int channels) const {
-  const Index P = basis_.size(), N = channels, motions = m == 0 ? 1 : m == 1 ? 2 : 0;
+  const Index N = channels, motions = m == 0 ? 1 : m == 1 ? 2 : 0;
   const MatrixXcd G = outside.sum(m, radial);
-  const MatrixXcd A = system(m, G);
+  const MatrixXd Q = told_apart(galerkin(m, G).real());
+  const Index P = Q.cols(), all = basis_.size();
+  const MatrixXcd A = system(m, G, Q);
   const Eigen::PartialPivLU<MatrixXcd> lu(A);
-  const MatrixXd W = outside.rows().topLeftCorner(P, N);
+  const MatrixXd W = Q.transpose() * outside.rows().topLeftCorner(all, N);
 
   MatrixXcd rhs = MatrixXcd::Zero(A.rows(), motions);  // unit velocities
-  rhs.topRows(P) = forcing(m).cast<Complex>();
-  if (m == 1) rhs.topRows(P) += G.block(0, P, P, 2);
+  MatrixXcd force = forcing(m).cast<Complex>();
+  if (m == 1) force += G.block(0, all, all, 2);
+  rhs.topRows(P) = Q.transpose() * force;
   if (m == 0) rhs(P, 0) = -a_ / (2 * b_);
   MatrixXcd struck = MatrixXcd::Zero(A.rows(), N);  // unit incident amplitudes, without ψ_n
   struck.topRows(P) = W.cast<Complex>();
@@ -155,7 +184,7 @@ AzimuthalOrder TruncatedCylinder::solve(int m, const Exterior& outside, const Ra
   if (motions > 0) moved_gap = lu.solve(rhs);  // Eigen must not be asked for nothing
 
   MatrixXcd side = MatrixXcd::Zero(N, motions);  // s_n
-  if (m == 1) side = outside.rows().block(P, 0, 2, N).transpose().cast<Complex>();
+  if (m == 1) side = outside.rows().block(all, 0, 2, N).transpose().cast<Complex>();
   AzimuthalOrder o;
   o.T = b_ / h_ * (W.transpose() * struck_gap.topRows(P));
   o.R = b_ / h_ * (W.transpose() * moved_gap.topRows(P)) + side;
@@ -163,7 +192,7 @@ AzimuthalOrder TruncatedCylinder::solve(int m, const Exterior& outside, const Ra
   to_amplitudes(o, m, radial, a_);
   o.L = MatrixXcd::Zero(motions, motions);
   if (motions > 0) o.L = a_ * b_ * (rhs.transpose() * moved_gap) + inner_loads(m);
-  if (m == 1) o.L += a_ * h_ * G.block(P, P, 2, 2);
+  if (m == 1) o.L += a_ * h_ * G.block(all, all, 2, 2);
   return o;
 }
 

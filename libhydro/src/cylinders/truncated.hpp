@@ -38,7 +38,8 @@ class TruncatedCylinder {
   AzimuthalOrder solve(int m, const Exterior& outside, const RadialFunctions& radial, int channels) const;
   void build_interior(int orders);
   void add_interior_tail(int orders, int last);
-  Eigen::MatrixXcd system(int m, const Eigen::MatrixXcd& G) const;
+  Eigen::MatrixXcd galerkin(int m, const Eigen::MatrixXcd& G) const;
+  Eigen::MatrixXcd system(int m, const Eigen::MatrixXcd& G, const Eigen::MatrixXd& Q) const;
 
   double a_, d_, h_, b_;
   GapBasis basis_;

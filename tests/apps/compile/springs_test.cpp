@@ -52,7 +52,7 @@ TEST(Springs, ExampleOfAForcedOscillationGivesTheImpedanceBack) {
   const compile::Prepared prepared = compile::prepare(scene);
   const dynamics::Model model = compile::frequency_model(prepared);
   const double omegas[] = {2 * std::numbers::pi / 4};
-  const auto Z = dynamics::frequency::impedance(model, model.linear_at_rest(), prepared.groups, omegas[0])(2, 2);
+  const auto Z = dynamics::frequency::impedance(model, prepared.groups, omegas[0])(2, 2);
   const auto amplitude = [&](const char* name) {
     const auto& all = record.signal(name);
     const std::size_t periods = 1600;  // samples of 20 of them

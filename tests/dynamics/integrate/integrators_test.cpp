@@ -75,6 +75,102 @@ TEST_F(Orders, OfThePairThatChoosesItsStepsGiveTheErrorAskedFor) {
   }
 }
 
+TEST_F(Orders, OfStepsCutToATolerance) {
+  const State exact = reference();
+  const auto error_of = [&](Integrator&& method, double tolerance) {
+    method.cut_steps(tolerance);
+    return distance(after(method, model, rest_state(model.bodies()), 0.1, duration), exact);
+  };
+  double last_momentum = infinite;
+  for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
+    const double momentum = error_of(EnergyMomentum(model), tolerance);
+    // Rates are wrong by the tolerance of some 10 m/s, for 1.6 s, and the chain grows errors some ten times.
+    EXPECT_LT(momentum, 200 * tolerance);
+    EXPECT_LT(momentum, 0.3 * last_momentum);
+    last_momentum = momentum;
+  }
+}
+
+TEST_F(Orders, CutStepsAreRefusedWhereTheyWouldLoseTheOrder) {
+  EXPECT_THROW(GeneralizedAlpha(model, {0.8}).cut_steps(1e-4), hydro::InputError);
+  EXPECT_THROW(ExplicitPair(model, {}).cut_steps(1e-4), hydro::InputError);
+  EXPECT_THROW(EnergyMomentum(model).cut_steps(0), hydro::InputError);
+}
+
+/// A mass on a spring along x, pulled out by a metre.
+struct Sprung {
+  Model model;
+  State start;
+  Sprung(double mass, double stiffness, double damping = 0)
+      : model(made(mass, stiffness, damping)), start(rest_state(model.bodies())) {
+    start.pose[0].centre.x() = 1;
+  }
+  static Model made(double mass, double stiffness, double damping) {
+    const RigidBody body({.name = "mass", .mass = mass, .inertia = Eigen::Matrix3d::Identity()});
+    Matrix6 K = Matrix6::Zero(), D = Matrix6::Zero();
+    K(0, 0) = stiffness;
+    D(0, 0) = damping;
+    std::vector<std::unique_ptr<const ForceKind>> forces;
+    forces.push_back(
+        std::make_unique<RestoringKind>("mooring", std::vector<RigidBody>{body}, std::vector<Restoring>{{0, K, D}}));
+    return {{body}, {}, std::move(forces)};
+  }
+};
+
+// Steps that change each time, without joints: an auxiliary acceleration that stays where the last step put it costs an
+// order.
+TEST(GeneralizedAlphaStep, KeepsItsOrderWhileStepsChange) {
+  const Sprung sprung(2, 50);
+  const auto error = [&](double h) {
+    GeneralizedAlpha method(sprung.model, {0.2});
+    Workspace w(sprung.model, sprung.start);
+    method.start(w);
+    for (int i = 0; i < std::lround(1.6 / (4 * h)); ++i) method.step(w, 3 * h), method.step(w, h);
+    return std::hypot(w.state.pose[0].centre.x() - std::cos(5 * 1.6),
+                      (w.state.velocity[0] + 5 * std::sin(5 * 1.6)) / 5);
+  };
+  EXPECT_NEAR(std::log2(error(4e-3) / error(2e-3)), 2, 0.1);
+}
+
+TEST(GeneralizedAlphaStep, CutToAToleranceGivesTheErrorAskedFor) {
+  const Sprung sprung(2, 50);
+  double last = infinite;
+  for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
+    GeneralizedAlpha method(sprung.model, {0.8});
+    method.cut_steps(tolerance);
+    const State end = after(method, sprung.model, sprung.start, 0.1, 1.6);
+    const double error = std::abs(end.pose[0].centre.x() - std::cos(5 * 1.6));
+    // Speeds, of 5 m/s and what 25 m/s² add in 0.1 s, are wrong by the tolerance for 1.6 s, and places as much again.
+    EXPECT_LT(error, 2 * 1.6 * 7.5 * tolerance);
+    EXPECT_LT(error, 0.3 * last);
+    last = error;
+  }
+}
+
+TEST(GeneralizedAlphaStep, CutStepsAreShortWhileMotionIsFast) {
+  const Sprung creeping(2, 50, 40);  // e^(−18.7 t), then e^(−1.3 t)
+  GeneralizedAlpha method(creeping.model, {0.8});
+  method.cut_steps(1e-5);
+  Workspace w(creeping.model, creeping.start);
+  method.start(w);
+  const int first = method.step(w, 0.2).parts;
+  int last = 0;
+  for (int i = 0; i < 20; ++i) last = method.step(w, 0.2).parts;
+  EXPECT_GT(first, 5 * last);
+}
+
+TEST_F(Orders, OfGeneralizedAlphaWithJointsIsOneWhileStepsChange) {
+  const State exact = reference();
+  const auto error = [&](double h) {
+    GeneralizedAlpha method(model, {0.2});
+    Workspace w(model, rest_state(model.bodies()));
+    method.start(w);
+    for (int i = 0; i < std::lround(duration / (4 * h)); ++i) method.step(w, 3 * h), method.step(w, h);
+    return distance(w.state, exact);
+  };
+  EXPECT_NEAR(std::log2(error(2e-3) / error(1e-3)), 1, 0.1);
+}
+
 // Nothing is added or taken at any step; Newton's tolerance, 1e-9 of each step's motion, leaves 1e-10 after a thousand.
 TEST(EnergyMomentumStep, KeepsTheEnergyOfADoublePendulumAtLargeSteps) {
   const Model model = double_pendulum(0.4);
@@ -112,24 +208,6 @@ TEST(EnergyMomentumStep, KeepsEnergyAndMomentumOfATumblingBody) {
   EXPECT_LT((momentum(w.state) - L).norm(), 2e-8 * L.norm());
   EXPECT_NEAR(model.kinetic_energy(w.state), E, 2e-8 * E);
 }
-
-/// A mass on a spring along x, pulled out by a metre.
-struct Sprung {
-  Model model;
-  State start;
-  Sprung(double mass, double stiffness) : model(made(mass, stiffness)), start(rest_state(model.bodies())) {
-    start.pose[0].centre.x() = 1;
-  }
-  static Model made(double mass, double stiffness) {
-    const RigidBody body({.name = "mass", .mass = mass, .inertia = Eigen::Matrix3d::Identity()});
-    Matrix6 K = Matrix6::Zero();
-    K(0, 0) = stiffness;
-    std::vector<std::unique_ptr<const ForceKind>> forces;
-    forces.push_back(
-        std::make_unique<RestoringKind>("mooring", std::vector<RigidBody>{body}, std::vector<Restoring>{{0, K}}));
-    return {{body}, {}, std::move(forces)};
-  }
-};
 
 TEST(EnergyMomentumStep, KeepsTheEnergyOfALinearSpring) {
   const Sprung sprung(2, 50);

@@ -20,9 +20,10 @@ struct DragWaves {
   std::vector<double> amplitude;  ///< of each frequency, m, positive
 };
 
-/// (Q5): loads of pieces at rest, linear in motions and waves. `pieces` without current.
+/// (Q5): loads of pieces, linear in motions and waves: turned with their bodies where these are still, in the water
+/// that is where they are as placed, as DragKind has it. `pieces` without current.
 /// \throws hydro::NumericsError naming the frequency where no coefficient settles, or no response exists
-LinearDrag linearised_drag(const Model& model, const std::vector<PotentialGroup>& groups,
+LinearDrag linearised_drag(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
                            const std::vector<double>& omega, const std::vector<DragPiece>& pieces,
                            const DragWaves& waves);
 

@@ -1,5 +1,6 @@
 #pragma once
-/// \file  Free motions of coupled bodies about rest: eigenperiods, damping and shapes, with the added mass and damping
+/// \file  Free motions of coupled bodies about where they are still: eigenperiods, damping and shapes, with the added
+/// mass and damping
 ///        of each motion's own frequency. Equations (Q2)-(Q4), docs/theory/frequency.md.
 #include <Eigen/Core>
 
@@ -27,7 +28,7 @@ struct Mode {
       damped;  ///< empty if no swinging motion is like this mode: it creeps back, or radiation leaves nothing of it
 
   /// Share of the bodies' kinetic energy in each of the 6N motions; sum 1. The water's share is not counted.
-  Eigen::VectorXd energy_share(const Model& model) const;
+  Eigen::VectorXd energy_share(const SmallMotions& about) const;
 };
 
 struct ModeList {
@@ -38,12 +39,12 @@ struct ModeList {
                                       ///< of water between bodies
 };
 
-/// All free motions about rest: det(K − ω²(M + A(ω))) = 0 (Q2), every root above 1e-6 rad/s for which an eigenvalue of
-/// that matrix changes sign between two frequencies of the tables, and then (Q3) from each root.
+/// All free motions about where the bodies are still: det(K − ω²(M + A(ω))) = 0 (Q2), every root above 1e-6 rad/s for
+/// which an eigenvalue of that matrix changes sign between two frequencies of the tables, and then (Q3) from each root.
 ///
 /// Undamped frequencies: to round-off of the stiffest motion, ω² ± 1e-15 ω_max², beside the error of interpolating the
 /// table. The damping ratio takes A and B at the damped frequency as for a steady oscillation; what that neglects is of
 /// order ζ² (Q4). Cost O((6N)³) for each frequency of the table.
-ModeList free_motions(const Model& model, const std::vector<PotentialGroup>& groups);
+ModeList free_motions(const SmallMotions& about, const std::vector<PotentialGroup>& groups);
 
 }  // namespace dynamics::frequency

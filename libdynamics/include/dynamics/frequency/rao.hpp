@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dynamics/force/drag.hpp"
-#include "dynamics/model/model.hpp"
+#include "dynamics/frequency/small_motions.hpp"
 #include "hydro/potential/operations.hpp"
 
 namespace dynamics::frequency {
@@ -34,22 +34,22 @@ struct LinearDrag {
 /// m/m and rad/m, Re(ξ e^{iωt}) against a wave of zero phase at the global origin.
 ///
 /// Solves (Q1) at each frequency: [−ω²(M + A(ω)) + iω(B(ω) + D) + K] ξ = X(ω, β), K and D from every force of the model
-/// that is linear at rest, in the motions that joints leave (D17). Modes that are not free stay zero. Error: round-off,
-/// plus what FrequencyTable::openness() says of the data. `drag`: made for the same frequencies, or none. \throws
-/// hydro::InputError outside the data, hydro::NumericsError naming the frequency if the matrix is singular
-Eigen::MatrixXcd response_amplitudes(const Model& model, const std::vector<PotentialGroup>& groups,
+/// that is linear at rest, about where the bodies are still, in the motions that joints leave (D17). Modes that are not
+/// free stay zero. Error: round-off, plus what FrequencyTable::openness() says of the data. `drag`: made for the same
+/// frequencies, or none. \throws hydro::InputError outside the data, hydro::NumericsError naming the frequency if the
+/// matrix is singular
+Eigen::MatrixXcd response_amplitudes(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
                                      const std::vector<double>& omega, double heading,
                                      const LinearDrag* drag = nullptr);
 
-/// Complex amplitude of the multipliers λ of the joints beyond what they are at rest, (m, Nω), from the equations of
-/// motion that `xi`, of response_amplitudes(), leaves open.
-Eigen::MatrixXcd multiplier_amplitudes(const Model& model, const std::vector<PotentialGroup>& groups,
+/// Complex amplitude of the multipliers λ of the joints beyond what they are while still, (m, Nω), from the equations
+/// of motion that `xi`, of response_amplitudes(), leaves open.
+Eigen::MatrixXcd multiplier_amplitudes(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
                                        const std::vector<double>& omega, double heading, const Eigen::MatrixXcd& xi,
                                        const LinearDrag* drag = nullptr);
 
 /// The matrix of (Q1) at one frequency, (6N, 6N).
-Eigen::MatrixXcd impedance(const Model& model, const Model::Linear& linear, const std::vector<PotentialGroup>& groups,
-                           double omega);
+Eigen::MatrixXcd impedance(const SmallMotions& about, const std::vector<PotentialGroup>& groups, double omega);
 
 /// The right-hand side of (Q1), (6N).
 Eigen::VectorXcd excitation(const Model& model, const std::vector<PotentialGroup>& groups, double omega,

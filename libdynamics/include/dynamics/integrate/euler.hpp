@@ -12,6 +12,7 @@ class ImplicitEuler final : public NewtonIntegrator {
   explicit ImplicitEuler(const Model& model) : NewtonIntegrator(model) {}
 
  private:
+  int order() const override { return 1; }
   Slopes slopes(double h) const override { return {h * h, h, h * h, h}; }
   State end_of_step(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration) const override {
     const Eigen::VectorXd v = workspace.state.velocity + h * acceleration;
@@ -27,6 +28,7 @@ class SemiImplicitEuler final : public Integrator {
   explicit SemiImplicitEuler(const Model& model);
 
  private:
+  int order() const override { return 1; }
   bool try_step(Workspace& workspace, double h, StepReport& report) override;
 };
 

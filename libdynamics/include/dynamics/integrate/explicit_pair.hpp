@@ -18,6 +18,8 @@ class ExplicitPair final : public Integrator {
   ExplicitPair(const Model& model, const Settings& settings);
 
  private:
+  int order() const override { return 5; }
+  const char* steps_stay_whole() const override { return "the pair has one of its own"; }
   bool try_step(Workspace& workspace, double h, StepReport& report) override;
   /// One step of both orders: the end by order 5, and the estimated error relative to what is allowed.
   struct Attempt {

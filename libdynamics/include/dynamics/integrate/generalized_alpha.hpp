@@ -16,7 +16,8 @@ namespace dynamics {
 /// relative at ρ∞ = 1. Each step is solved by Newton with line search; a step that fails is halved.
 ///
 /// Joints are closed at the end of every step, to round-off; their multipliers are of second order too (Arnold & Brüls
-/// 2007), for ρ∞ < 1. Velocities leave the joints' directions by the order of the step's own error (D16).
+/// 2007), for ρ∞ < 1. Where steps change from one to the next the order stays two without joints and falls to one with
+/// them (D97). Velocities leave the joints' directions by the order of the step's own error (D16).
 class GeneralizedAlpha final : public NewtonIntegrator {
  public:
   struct Settings {
@@ -25,9 +26,15 @@ class GeneralizedAlpha final : public NewtonIntegrator {
   GeneralizedAlpha(const Model& model, const Settings& settings);
 
  private:
-  void begin(const Workspace& workspace) override { algorithmic_ = workspace.acceleration; }
-  Eigen::VectorXd history() const override { return algorithmic_; }
-  void set_history(const Eigen::VectorXd& was) override { algorithmic_ = was; }
+  int order() const override { return 2; }
+  const char* steps_stay_whole() const override;
+  void begin(const Workspace& workspace) override {
+    algorithmic_ = workspace.acceleration;
+    last_ = 0;
+  }
+  Eigen::VectorXd history() const override;
+  void set_history(const Eigen::VectorXd& was) override;
+  void prepare(const Workspace& workspace, double h) override;
 
   Slopes slopes(double h) const override;
   State end_of_step(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration) const override;
@@ -38,6 +45,7 @@ class GeneralizedAlpha final : public NewtonIntegrator {
 
   AlphaParameters alpha_;
   Eigen::VectorXd algorithmic_;  // the auxiliary acceleration of Arnold & Brüls
+  double last_ = 0;              // the step that led to it, s; 0 if it is the acceleration itself
 };
 
 }  // namespace dynamics

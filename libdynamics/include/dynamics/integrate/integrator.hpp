@@ -3,6 +3,7 @@
 /// friction or contacts change.
 #include <Eigen/Core>
 
+#include <optional>
 #include <string>
 
 #include "dynamics/integrate/set_valued.hpp"
@@ -14,6 +15,7 @@ namespace dynamics {
 struct StepReport {
   int newton_iterations = 0;
   int halvings = 0;  ///< how often a step had to be cut in two
+  int parts = 0;     ///< pieces into which a tolerance cut the step
   std::vector<Event> events = {};
 };
 
@@ -34,6 +36,12 @@ class Integrator {
   /// holds the last good state
   StepReport step(Workspace& workspace, double h);
 
+  /// From now on cuts each step so that its local error, estimated by doing it in one and in two (D96), stays below
+  /// `tolerance`, relative to the largest speeds of the run so far. Costs half as much again. What is kept at whole
+  /// steps only, the memory of radiated waves, does not become finer. \throws hydro::InputError unless it is positive,
+  /// or where the method cannot
+  void cut_steps(double tolerance);
+
  protected:
   explicit Integrator(const Model& model) : model_(model), active_(model) {}
   // Copies have the laws of their own conditions.
@@ -42,6 +50,10 @@ class Integrator {
 
   /// One step while nothing changes. On failure the workspace is as before and fail() has been told why.
   virtual bool try_step(Workspace& workspace, double h, StepReport& report) = 0;
+  /// Global order of the method.
+  virtual int order() const = 0;
+  /// Why steps cannot be cut to a tolerance; null if they can.
+  virtual const char* steps_stay_whole() const { return nullptr; }
   /// The accelerations of the workspace are new: at a start and after a change.
   virtual void begin(const Workspace&) {}
   /// What the method carries from step to step beside the workspace.
@@ -63,7 +75,11 @@ class Integrator {
   void restore(Workspace& workspace, const Snapshot& before);
   bool try_turned_step(Workspace& workspace, double h, StepReport& report);
   void go_straight(Workspace& workspace, double h) const;
-  void advance(Workspace& workspace, double h, int depth, StepReport& report);
+  void advance(Workspace& workspace, double h, StepReport& report);
+  void advance_halving(Workspace& workspace, double h, int depth, StepReport& report);
+  void advance_within(Workspace& workspace, double h, StepReport& report);
+  double local_error(Workspace& workspace, double h, StepReport& report);
+  void note_speeds(const Workspace& workspace, double h);
   void advance_to_changes(Workspace& workspace, double h, StepReport& report);
   double step_to_change(Workspace& workspace, double h, StepReport& report);
   void begin_anew(Workspace& workspace);
@@ -74,6 +90,9 @@ class Integrator {
   SetValuedLaws laws_{model_, active_};
   std::string failure_;
   double step_ = 0;  // the one asked for
+  std::optional<double> tolerance_;
+  double part_ = 0;    // the step that a tolerance chose last, s
+  double speeds_ = 0;  // the largest so far, in the metric of the masses
 };
 
 }  // namespace dynamics

@@ -30,6 +30,8 @@ class NewtonIntegrator : public Integrator {
   };
 
  private:
+  /// A step of h begins.
+  virtual void prepare(const Workspace&, double /*h*/) {}
   virtual Slopes slopes(double h) const = 0;
   virtual State end_of_step(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration) const = 0;
   /// Fills residual (without joints) and columns, and loads_at if that is not the end of the step.

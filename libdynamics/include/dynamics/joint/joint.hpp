@@ -141,12 +141,13 @@ class JointSet {
   /// Load of the joint on one of its bodies: force and moment about the joint's place in that body, in that body's
   /// axes, N and N m. What redundant conditions would carry is not in it. The second body must not be the ground.
   Vector6 load_on(int joint, End end, const State& state, const Eigen::VectorXd& lambda) const;
-  /// How load_on() varies about rest: with the displacements of all bodies while `lambda` acts, and with λ.
+  /// How load_on() varies where the bodies are still: with the displacements of all bodies while `lambda` acts, and
+  /// with λ.
   struct LoadVariation {
     Eigen::MatrixXd by_motion;      ///< (6, 6N)
     Eigen::MatrixXd by_multiplier;  ///< (6, count)
   };
-  LoadVariation load_variation(int joint, End end, const State& rest, const Eigen::VectorXd& lambda) const;
+  LoadVariation load_variation(int joint, End end, const State& still, const Eigen::VectorXd& lambda) const;
   /// Where the joint lets its second body (or the ground) move against the first: the travel of a slider along the
   /// axis, m, or the angle of a hinge about it, −π … π rad. Zero at rest. For sliders and hinges only.
   double travel(int joint, const State& state) const;

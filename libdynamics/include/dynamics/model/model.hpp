@@ -49,8 +49,9 @@ class Model {
   /// Adds factor · M, all of the mass in (D8); and the product of M with x.
   void add_mass(const State& state, double factor, BlockMatrix& out) const;
   Eigen::VectorXd mass_times(const State& state, const Eigen::VectorXd& x) const;
-  /// Mass of the bodies alone at rest, (6N, 6N).
-  Eigen::MatrixXd dry_mass_at_rest() const;
+  /// Mass of the bodies alone, (6N, 6N).
+  Eigen::MatrixXd dry_mass(const State& state) const;
+  Eigen::MatrixXd dry_mass_at_rest() const { return dry_mass(rest_state(bodies_)); }
   /// Kinetic energy of the bodies and of the water that moves with them, J.
   double kinetic_energy(const State& state) const;
   /// The model for small motions about a state, of the kinds that are linear at rest and the joints (D17).

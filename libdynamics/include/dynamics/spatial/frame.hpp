@@ -10,7 +10,7 @@ struct BodyAxes;  ///< axes fixed to one body, parallel to World at rest
 
 template <class Frame>
 struct Vec3 {
-  Eigen::Vector3d xyz;
+  Eigen::Vector3d xyz = Eigen::Vector3d::Zero();
 };
 
 template <class F>
@@ -24,7 +24,7 @@ Vec3<F> operator-(const Vec3<F>& a, const Vec3<F>& b) {
 
 template <class To, class From>
 struct Rotation {
-  Eigen::Matrix3d matrix;
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
   Vec3<To> operator*(const Vec3<From>& v) const { return {matrix * v.xyz}; }
 };
 
