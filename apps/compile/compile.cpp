@@ -72,6 +72,7 @@ Prepared prepare(const Scene& scene) {
     out.bodies.push_back(rigid_body(b));
   }
   out.water = scene.water;
+  out.fits = std::make_shared<RadiationFits>();
   add_buoyancy(scene, out);
   add_hydrodynamics(scene, out);
   add_connections(scene, out);

@@ -30,12 +30,16 @@ struct PlanLine {
   bool runs = true;
 };
 
+/// Poles fitted to coefficients, kept for every model that is compiled from one Prepared.
+class RadiationFits;
+
 /// What both domains share: bodies, coefficients placed about the centres of gravity, springs. In the order of the
 /// scene.
 struct Prepared {
   std::vector<dynamics::RigidBody> bodies;
   std::vector<dynamics::frequency::PotentialGroup> groups;
   std::vector<scene::Memory> memory;  ///< one a group
+  std::shared_ptr<RadiationFits> fits;
   std::vector<dynamics::Restoring> hydrostatics, moorings;
   std::vector<int> heavy;  ///< bodies that feel gravity by themselves
   std::vector<dynamics::Buoyancy> buoyancy;

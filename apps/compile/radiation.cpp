@@ -27,36 +27,6 @@ FreeModes free_modes(const Prepared& p, const std::vector<int>& bodies) {
   return out;
 }
 
-/// Coefficients of the free modes, made symmetric.
-///
-/// A and B of linear theory are symmetric. Panel codes miss that by their discretisation error, which in a run would be
-/// energy from nowhere; the frequency domain, which has no ledger to close, takes the data as they are.
-struct Symmetric {
-  hydro::radiation::DampingTable damping;
-  std::vector<Eigen::MatrixXd> A;
-  std::optional<Eigen::MatrixXd> A_inf;
-  double asymmetry = 0;  // of the largest entry
-
-  Symmetric(const hydro::potential::Coefficients& c, const std::vector<int>& modes) : damping{c.omega, {}} {
-    for (const auto& m : c.B) damping.B.push_back(of(m, modes));
-    for (const auto& m : c.A) A.push_back(of(m, modes));
-    if (c.A_inf) A_inf = of(*c.A_inf, modes);
-  }
-  bool operator==(const Symmetric& other) const {
-    const bool as_large = damping.B.front().rows() == other.damping.B.front().rows();
-    return as_large && damping.omega == other.damping.omega && damping.B == other.damping.B && A == other.A &&
-           A_inf == other.A_inf;
-  }
-
- private:
-  Eigen::MatrixXd of(const Eigen::MatrixXd& whole, const std::vector<int>& modes) {
-    const Eigen::MatrixXd m = whole(modes, modes);
-    const double largest = m.cwiseAbs().maxCoeff();
-    if (largest > 0) asymmetry = std::max(asymmetry, (m - m.transpose()).cwiseAbs().maxCoeff() / largest);
-    return (m + m.transpose()) / 2;
-  }
-};
-
 void note_what_was_done(const hydro::potential::Coefficients& c, const ChosenMemory& chosen, double asymmetry,
                         double tolerance, std::vector<std::string>& notes) {
   const auto& taken = *std::find_if(chosen.alternatives.begin(), chosen.alternatives.end(),
@@ -132,9 +102,38 @@ RadiationParts at_one_frequency(const dynamics::frequency::PotentialGroup& g, co
 
 }  // namespace
 
+SymmetricData::SymmetricData(const hydro::potential::Coefficients& c, const std::vector<int>& modes)
+    : damping{c.omega, {}} {
+  for (const auto& m : c.B) damping.B.push_back(of(m, modes));
+  for (const auto& m : c.A) A.push_back(of(m, modes));
+  if (c.A_inf) A_inf = of(*c.A_inf, modes);
+}
+
+bool SymmetricData::operator==(const SymmetricData& other) const {
+  const bool as_large = damping.B.front().rows() == other.damping.B.front().rows();
+  return as_large && damping.omega == other.damping.omega && damping.B == other.damping.B && A == other.A &&
+         A_inf == other.A_inf;
+}
+
+Eigen::MatrixXd SymmetricData::of(const Eigen::MatrixXd& whole, const std::vector<int>& modes) {
+  const Eigen::MatrixXd m = whole(modes, modes);
+  const double largest = m.cwiseAbs().maxCoeff();
+  if (largest > 0) asymmetry = std::max(asymmetry, (m - m.transpose()).cwiseAbs().maxCoeff() / largest);
+  return (m + m.transpose()) / 2;
+}
+
+const hydro::radiation::RationalFit& RadiationFits::of(const SymmetricData& data, double tolerance) {
+  const std::scoped_lock one_at_a_time(mutex_);
+  for (const auto& known : known_)
+    if (known->tolerance == tolerance && known->data == data) return known->fit;
+  auto fit = hydro::radiation::fit(data.damping, data.A, data.A_inf, {.tolerance = tolerance});
+  known_.push_back(std::make_unique<const Known>(Known{data, tolerance, std::move(fit)}));
+  return known_.back()->fit;
+}
+
 struct Radiation::Chosen {
   scene::Memory asked;
-  Symmetric data;
+  SymmetricData data;
   ChosenMemory memory;
 };
 
@@ -147,7 +146,7 @@ const Radiation::Chosen& Radiation::chosen_for(std::size_t group, const std::vec
   using enum scene::Memory::Method;
   const scene::Memory& asked = prepared_.memory[group];
   const auto& c = prepared_.groups[group].table.coefficients();
-  Symmetric data(c, modes);
+  SymmetricData data(c, modes);
   for (const auto& known : chosen_)
     if (known->asked.method == asked.method && known->asked.tolerance == asked.tolerance &&
         known->asked.length == asked.length && known->data == data)
@@ -157,7 +156,8 @@ const Radiation::Chosen& Radiation::chosen_for(std::size_t group, const std::vec
   if (asked.method == direct) demand.method = hydro::radiation::Method::direct;
   if (asked.method == partitioned) demand.method = hydro::radiation::Method::partitioned;
   if (asked.method == poles) demand.method = hydro::radiation::Method::poles;
-  ChosenMemory memory = choose(data.damping, data.A, data.A_inf, demand);
+  ChosenMemory memory =
+      choose(data.damping, data.A, data.A_inf, demand, [&] { return prepared_.fits->of(data, asked.tolerance); });
   note_what_was_done(c, memory, data.asymmetry, asked.tolerance, notes);
   chosen_.push_back(std::make_unique<const Chosen>(Chosen{asked, std::move(data), std::move(memory)}));
   return *chosen_.back();

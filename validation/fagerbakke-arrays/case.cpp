@@ -189,7 +189,7 @@ Outcome outcome(const Folders& folders) {
       {1, {{"S1", 3.5}, {"S1", 5}, {"S1", 7}}},
       {2, {{"S1", 3.5}, {"S1", 5}, {"S2", 5}, {"S3", 5}, {"S4", 5}, {"S1", 7}, {"S3", 5, 1.0 / 800}}},
       {3, {{"S1", 5}, {"S4", 7}, {"S1", 5, 1.0 / 800}}},
-      {5, {{"S1", 5}, {"S1", 7}, {"S4", 7}}}};
+      {5, {{"S1", 5}, {"S1", 7}, {"S4", 7}, {"S1", 5, 1.0 / 800}}}};
   for (const auto& [count, settings] : asked) {
     Array array(modules(folders, count));
     curves.push_back(

@@ -113,9 +113,9 @@ void weigh_convolutions(const DampingTable& damping, const std::vector<Eigen::Ma
 }
 
 void weigh_poles(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A,
-                 const std::optional<Eigen::MatrixXd>& A_inf, const MemoryDemand& demand, Weighed& w,
-                 ChosenMemory& out) {
-  w.fit = fit(damping, A, A_inf, {.tolerance = demand.tolerance});
+                 const std::optional<Eigen::MatrixXd>& A_inf, const MemoryDemand& demand, const Fitting& fitting,
+                 Weighed& w, ChosenMemory& out) {
+  w.fit = fitting ? fitting() : fit(damping, A, A_inf, {.tolerance = demand.tolerance});
   out.fit = w.fit->report;
   const auto error = error_against(damping, A, w.fit->A_inf, transforms(w.fit->model, damping.omega));
   const double n = w.fit->model.modes();
@@ -141,14 +141,14 @@ std::size_t preferred(const std::vector<Alternative>& all) {
 }  // namespace
 
 ChosenMemory choose(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A,
-                    const std::optional<Eigen::MatrixXd>& A_inf, const MemoryDemand& demand) {
+                    const std::optional<Eigen::MatrixXd>& A_inf, const MemoryDemand& demand, const Fitting& fitting) {
   require(demand.tolerance > 0 && demand.step > 0, "a memory needs a positive tolerance and step");
   require(!(demand.length && demand.method == Method::poles), "a sum of exponentials has no length of memory to fix");
   ChosenMemory out;
   Weighed w;
   const bool wants_poles = demand.method ? *demand.method == Method::poles : !demand.length;
   if (demand.method != Method::poles) weigh_convolutions(damping, A, A_inf, demand, w, out);
-  if (wants_poles && damping.omega.size() >= 4) weigh_poles(damping, A, A_inf, demand, w, out);
+  if (wants_poles && damping.omega.size() >= 4) weigh_poles(damping, A, A_inf, demand, fitting, w, out);
   require(!out.alternatives.empty(), "a rational fit needs four frequencies at least, got {}", damping.omega.size());
   for (Alternative& a : out.alternatives) a.within = a.error <= demand.tolerance;
   const Alternative& taken = out.alternatives[preferred(out.alternatives)];

@@ -209,7 +209,7 @@ RationalFit fit(const DampingTable& damping, const std::vector<Eigen::MatrixXd>&
   const double slowest = widest / 10, margin = options.tolerance / 50;
   const int most = std::min(options.largest_order, static_cast<int>(3 * damping.omega.size() / 2));
   std::optional<Attempt> best;
-  for (int order = 2; order <= most; order += order < 12 ? 2 : order < 32 ? 4 : 8) {
+  for (int order = 2; order <= most; order += order < 12 ? 2 : order < 32 ? 4 : order < 64 ? 8 : 32) {
     Attempt a = attempt(d, compressed, order, slowest);
     const bool close = a.report.error <= options.tolerance;
     if (close && options.enforce_passivity) make_passive(d, margin, a);

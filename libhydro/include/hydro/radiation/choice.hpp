@@ -2,6 +2,7 @@
 /// \file  Which way of computing the memory to take: the cheapest one whose error is within the tolerance.
 #include <Eigen/Core>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -47,10 +48,15 @@ struct ChosenMemory {
   double negative_share = 0;              ///< of the data, as RetardationKernel
 };
 
+/// How choose() comes by a fit() of its data to its tolerance; a caller that has it already hands it on.
+using Fitting = std::function<RationalFit()>;
+
 /// Weighs the methods that are allowed and takes the cheapest within the tolerance; where none is, the one with the
-/// smallest error, and of equals the cheapest. \throws InputError as fit() and RetardationKernel::from_damping
+/// smallest error, and of equals the cheapest. `fitting`: asked only if poles are weighed; left out: fit().
+/// \throws InputError as fit() and RetardationKernel::from_damping
 ChosenMemory choose(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A,
-                    const std::optional<Eigen::MatrixXd>& A_inf, const MemoryDemand& demand);
+                    const std::optional<Eigen::MatrixXd>& A_inf, const MemoryDemand& demand,
+                    const Fitting& fitting = {});
 
 /// The same yardstick for any transform K̂(iω) that goes with `A_inf`: largest error and its frequency.
 struct DataError {
