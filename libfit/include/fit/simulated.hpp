@@ -26,8 +26,8 @@ class Simulation {
   /// such motion: a search then tries a shorter step
   virtual Eigen::MatrixXd follow(std::size_t window, const Eigen::VectorXd& parameters,
                                  const Eigen::VectorXd& start) = 0;
-  /// The end of this window becomes the start of the next, about which its coordinates count. A window that is handed on
-  /// again, by another search, makes what was handed on after it void.
+  /// The end of this window becomes the start of the next, about which its coordinates count. A window that is handed
+  /// on again, by another search, makes what was handed on after it void.
   virtual void hand_on(std::size_t window, const Eigen::VectorXd& parameters, const Eigen::VectorXd& start) = 0;
 };
 
