@@ -292,8 +292,19 @@ TEST_F(Fit, OfADecayTellsAddedMassWhereTheBodyIsKnown) {
 }
 
 TEST_F(Fit, OfASceneMayBeginAtSeveralPoints) {
-  const auto scene = changed("pendulums.toml", "window = \"2 s\"", "starts = 3");
+  const auto scene = changed("pendulums.toml", "window = \"2 s\"", "window = \"2 s\"\nstarts = 2");
   EXPECT_THAT([&] { told({.scene = scene}); }, ThrowsMessage<InputError>(HasSubstr("no bounds between which")));
+  std::string text = hydro::io::read_text(scene);
+  for (const std::string unit : {"kg/s", "kg/m"}) {
+    const std::string lowest = "lowest = \"1e-6 " + unit + "\"";
+    text.replace(text.find(lowest), lowest.size(), lowest + ", highest = \"0.05 " + unit + "\"");
+  }
+  hydro::io::write_atomically(scene, text);
+  const auto j = nlohmann::json::parse(told({.scene = scene}, true));
+  EXPECT_EQ(j["starts"]["tried"], 2);
+  EXPECT_EQ(j["starts"]["agree"], 2);  // both find what the windows tell: the second search hands them on anew
+  EXPECT_LT(j["parameter"]["line_damping_linear"]["interval"][0].get<double>(), 0.006);
+  EXPECT_GT(j["parameter"]["line_damping_linear"]["interval"][1].get<double>(), 0.006);
 }
 
 }  // namespace
