@@ -110,7 +110,7 @@ TEST(RadiationMemory, HasThePolesOfTheBody) {
 
 TEST(RadiationMemory, TellsHowWellTheLimitIsKnown) {
   int held = 0;
-  constexpr int sets = 20;
+  constexpr int sets = 10;
   for (std::uint64_t k = 0; k < sets; ++k) {
     std::vector<fit::RadiationPoint> points;
     for (const double omega : {0.8, 1.4, 2.0, 2.6, 3.2, 3.9, 5.0, 6.5, 8.5, 11.0})
@@ -119,7 +119,7 @@ TEST(RadiationMemory, TellsHowWellTheLimitIsKnown) {
     ASSERT_TRUE(m.limit.value) << m.limit.why_not;
     held += m.limit.interval.low < limit && limit < m.limit.interval.high;
   }
-  EXPECT_GE(held, 15);  // 19 of 20 with a binomial deviation of 1; the rest is for what lies beyond the last point
+  EXPECT_GE(held, 8);  // of ten at 95 %: fewer come once in eighty, by chance
 }
 
 TEST(RadiationMemory, NeedsPointsEnough) {
