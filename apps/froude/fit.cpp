@@ -56,7 +56,8 @@ std::vector<::fit::ForceChannel> force_channels(const scene::FitScene& scene, co
   if (const auto& wave = scene.model.wave)
     probe = {.water = {.density = scene.model.density, .gravity = wave->gravity, .depth = wave->depth},
              .level = wave->level,
-             .ahead = wave->ahead};
+             .ahead = wave->ahead,
+             .regular = wave->regular};
   return {.time = channel("time", dim::time),
           .force = force_channels(scene, table),
           .position = channel("position", dim::length),
@@ -64,7 +65,9 @@ std::vector<::fit::ForceChannel> force_channels(const scene::FitScene& scene, co
           .acceleration = channel("acceleration", dim::acceleration),
           .cross_velocity = channel("cross_velocity", dim::velocity),
           .elevation = channel("elevation", dim::length),
-          .probe = probe};
+          .probe = probe,
+          .water_velocity = channel("water_velocity", dim::velocity),
+          .water_acceleration = channel("water_acceleration", dim::acceleration)};
 }
 
 ::fit::FilterChoice filter_of(const scene::FitScene::Filter& f) {
@@ -76,11 +79,12 @@ std::vector<::fit::ForceChannel> force_channels(const scene::FitScene& scene, co
   return {.kind = kind, .order = f.order, .hz = f.hz, .width = f.width_hz, .seconds = f.seconds};
 }
 
-::fit::PrepareOptions options_of(const scene::FitScene::Prepare& p, double step) {
+::fit::PrepareOptions options_of(const scene::FitScene::Prepare& p, bool linear_drag, double step) {
   using ::fit::Derivative;
   ::fit::PrepareOptions out{.longest_gap_s = p.longest_gap,
                             .outlier_half_window = 0,
                             .outlier_deviations = p.outlier_deviations,
+                            .resample_hz = p.resample_hz,
                             .delay_s = p.delay,
                             .derivative_bandwidth_hz = p.derivative_bandwidth,
                             .derivative = p.derivative_method == "smoothing spline" ? Derivative::smoothing_spline
@@ -96,6 +100,8 @@ std::vector<::fit::ForceChannel> force_channels(const scene::FitScene& scene, co
                 .to = p.to,
                 .cycles = p.cycles,
                 .tolerance = p.tolerance};
+  out.average_cycles = p.mean_cycle;
+  out.linear_drag = linear_drag;
   return out;
 }
 
@@ -108,9 +114,15 @@ std::vector<::fit::ForceChannel> force_channels(const scene::FitScene& scene, co
 /// Fits a prepared run, with its delay where that is to be estimated.
 void fit_prepared(const scene::FitScene& scene, FitRun& run) {
   const auto& m = scene.model;
+  std::vector<::fit::ForceLine> lines;
+  for (const auto& line : m.lines) lines.push_back({line.hz, line.multiple});
   const ::fit::MorisonOptions options{
       .confidence = scene.confidence,
       .method = method_of(scene.interval_method),
+      .force_offset = m.offset,
+      .linear_drag = m.linear_drag,
+      .lines = lines,
+      .bands = true,
       .robust = scene.robust,
       .cylinder_errors = {m.diameter_error, m.length_error, m.density_error, m.mass_error},
       .force_errors = run.prepared.force_errors,
@@ -130,12 +142,12 @@ void fit_prepared(const scene::FitScene& scene, FitRun& run) {
 }
 
 /// The fit of one raw run as the scene has it.
-FitRun fit_raw(const scene::FitScene& scene, const ::fit::RawRun& raw) {
+FitRun fit_raw(const scene::FitScene& scene, ::fit::RawRun raw) {
   FitRun run;
   run.cylinder = cylinder_of(scene);
   hydro::require(raw.time.size() >= 3, "a record needs at least three samples, got {}", raw.time.size());
   const double rough_step = (raw.time.back() - raw.time.front()) / static_cast<double>(raw.time.size() - 1);
-  run.prepared = ::fit::prepare(raw, options_of(scene.prepare, rough_step));
+  run.prepared = ::fit::prepare(std::move(raw), options_of(scene.prepare, scene.model.linear_drag, rough_step));
   fit_prepared(scene, run);
   return run;
 }
@@ -168,6 +180,7 @@ void vary(const scene::FitScene& scene, const ::fit::RawRun& raw, FitRun& run) {
   if (t.back() - t.front() < 4 * run.fit.period) return;  // two periods a half at least
   scene::FitScene half = scene;
   half.prepare.window = "span";
+  half.prepare.mean_cycle = false;  // half a window is read as it is: it may hold a cycle or two
   for (const bool first : {true, false}) {
     const double middle = (t.front() + t.back()) / 2;
     half.prepare.from = first ? t.front() : middle;
@@ -177,8 +190,8 @@ void vary(const scene::FitScene& scene, const ::fit::RawRun& raw, FitRun& run) {
 }
 
 FitRun fit_run(const scene::FitScene& scene, const std::filesystem::path& file) try {
-  const ::fit::RawRun raw = raw_run(scene, hydro::io::CsvTable::read(file));
-  FitRun run = fit_raw(scene, raw);
+  ::fit::RawRun raw = raw_run(scene, hydro::io::CsvTable::read(file));
+  FitRun run = scene.sensitivity ? fit_raw(scene, raw) : fit_raw(scene, std::move(raw));
   run.name = file.filename().string();
   const auto& r = run.prepared.record;
   Eigen::VectorXd residuals = Eigen::Map<const Eigen::VectorXd>(r.force.data(), std::ssize(r.force));
@@ -242,7 +255,9 @@ std::vector<FitRun> fit_table(const scene::FitScene& scene) {
           .length = m.length,
           .density = m.density,
           .viscosity = m.viscosity,
-          .experiment = m.motion == "water moves" ? ::fit::Experiment::water_moves : ::fit::Experiment::body_moves,
+          .experiment = m.motion == "water moves"  ? ::fit::Experiment::water_moves
+                        : m.motion == "body moves" ? ::fit::Experiment::body_moves
+                                                   : ::fit::Experiment::both_move,
           .mass_beyond_load_cells = m.mass_beyond_load_cells};
 }
 
@@ -288,12 +303,14 @@ void fit(const FitArguments& arguments, const Console& console) {
   const scene::FitScene scene = scene::read_fit(arguments.scene);
   for (const auto& path : {arguments.output, arguments.picture, arguments.table})
     if (path) hydro::io::require_writable(*path);
-  if (arguments.table && scene.model.kind != "morison")
+  if (arguments.table && scene.model.kind != "morison" && scene.model.kind != "radiation")
     throw hydro::InputError(fmt::format("a fit of kind \"{}\" has no table of runs", scene.model.kind), {},
                             "leave out --table");
   if (scene.model.kind == "towing") return fit_towed(scene, arguments, console);
   if (scene.model.kind == "motion") return fit_motions(scene, arguments, console);
   if (scene.model.kind == "decay") return fit_decays(scene, arguments, console);
+  if (scene.model.kind == "radiation") return fit_radiations(scene, arguments, console);
+  if (scene.model.kind == "friction ramp") return fit_friction_ramps(scene, arguments, console);
   const std::vector<FitRun> runs = fit_all(scene);
   const std::vector<FitLaw> laws = laws_of(scene, runs);
   if (!console.json) tell_runs(scene, runs, console);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "fit/decay.hpp"
+#include "fit/forced_radiation.hpp"
 #include "froude/fit_report.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/csv.hpp"
@@ -19,7 +20,8 @@ struct DecayRun {
   std::vector<double> time, values;
   ::fit::Decrement decrement;
   ::fit::DecayFit fit;
-  std::vector<::fit::Interval> profiles;  ///< of the terms, where asked for
+  std::vector<::fit::Interval> profiles;       ///< of the terms, where asked for
+  std::optional<::fit::AddedMass> water = {};  ///< where the body is known
 };
 
 ::fit::DampingTerms terms_of(const scene::FitScene& scene) {
@@ -48,6 +50,9 @@ DecayRun fit_one(const scene::FitScene& scene, const std::filesystem::path& file
   run.decrement = ::fit::logarithmic_decrement(::fit::find_extremes(run.time, run.values));
   run.fit = ::fit::fit_decay(std::vector{window},
                              {.terms = terms_of(scene), .pendulum = scene.model.sine, .confidence = scene.confidence});
+  if (const auto& b = scene.model.body)
+    run.water =
+        ::fit::added_mass(run.fit, {b->mass, b->stiffness, b->mass_error, b->stiffness_error}, scene.confidence);
   const auto names = ::fit::parameters_of(run.fit.problem.law);
   for (const Coefficient& c : run.fit.damping) {
     if (!scene.profile) break;
@@ -73,6 +78,22 @@ std::string sentence(const Coefficient& c, const char* unit, double confidence) 
   return fmt::format("  {:<10} {:.5g} {}, {}\n", c.name, *c.value, unit, interval);
 }
 
+/// Units of added mass and of the damping terms with the body's mass in them.
+const char* mass_unit_of(const std::string& what, bool angle) {
+  if (what == "added_mass") return angle ? "kg m^2" : "kg";
+  if (what == "linear") return angle ? "N m s/rad" : "N s/m";
+  if (what == "quadratic") return angle ? "N m s^2/rad^2" : "N s^2/m^2";
+  if (what == "cubic") return angle ? "N m s^3/rad^3" : "N s^3/m^3";
+  return angle ? "N m" : "N";
+}
+
+void tell_water(const DecayRun& run, bool angle, const Console& console, double confidence) {
+  if (!run.water) return;
+  console.out << fmt::format("  at {:.4g} rad/s, with the body's mass and stiffness:\n", run.water->omega);
+  console.out << sentence(run.water->added_mass, mass_unit_of("added_mass", angle), confidence);
+  for (const Coefficient& c : run.water->damping) console.out << sentence(c, mass_unit_of(c.name, angle), confidence);
+}
+
 void tell(const scene::FitScene& scene, const DecayRun& run, const Console& console) {
   const bool angle = scene.channels.count("angle") > 0;
   const auto& m = run.fit.motion;
@@ -81,6 +102,7 @@ void tell(const scene::FitScene& scene, const DecayRun& run, const Console& cons
                              run.decrement.amplitude.back(), angle ? "rad" : "m", m.rms[0]);
   console.out << sentence(run.fit.period, "s", scene.confidence);
   for (const Coefficient& c : run.fit.damping) console.out << sentence(c, unit_of(c.name, angle), scene.confidence);
+  tell_water(run, angle, console, scene.confidence);
   for (std::size_t k = 0; k < run.profiles.size(); ++k)
     console.out << fmt::format("  {:<10} by profile likelihood {:.5g} to {:.5g}\n", run.fit.damping[k].name,
                                run.profiles[k].low, run.profiles[k].high);
@@ -92,6 +114,9 @@ void tell(const scene::FitScene& scene, const DecayRun& run, const Console& cons
       "\n  AICc {:.1f}, BIC {:.1f} (to compare terms on this record); halving the steps changes {:.1g} % of the "
       "amplitude\n",
       run.fit.aicc, run.fit.bic, m.integration_error);
+  if (!m.fit_band.empty())
+    console.out << fmt::format("  {:.1f} % of the samples lie in the band in which {:g} % should\n", 100 * m.inside,
+                               100 * scene.confidence);
   console.out << fmt::format("  search: iterations {}, {}; {}\n", m.search.iterations, m.search.why,
                              m.search.identifiability);
   if (!m.caution.empty()) console.out << "  caution: " << m.caution << '\n';
@@ -107,6 +132,10 @@ Json as_json_of(const DecayRun& run) {
          {"identifiability", run.fit.motion.search.identifiability}};
   if (std::isfinite(run.fit.aicc)) j["aicc"] = run.fit.aicc;
   if (!run.fit.motion.caution.empty()) j["caution"] = run.fit.motion.caution;
+  if (!run.fit.motion.fit_band.empty())
+    j.update({{"samples_in_band", run.fit.motion.inside},
+              {"widest_band_of_fit", run.fit.motion.fit_band[0].maxCoeff()},
+              {"widest_band_of_sample", run.fit.motion.sample_band[0].maxCoeff()}});
   const auto put = [&](const Coefficient& c) {
     j[c.name] = as_json(c);
     for (const char* of_force : {"shift_per_degree", "systematic_error"}) j[c.name].erase(of_force);
@@ -116,6 +145,11 @@ Json as_json_of(const DecayRun& run) {
   for (std::size_t k = 0; k < run.profiles.size(); ++k)
     j[run.fit.damping[k].name]["profile_interval"] = {run.profiles[k].low, run.profiles[k].high};
   for (const Coefficient& c : run.fit.energy.damping) j["energy"][c.name] = *c.value;
+  if (!run.water) return j;
+  Json& water = j["water"];
+  water["omega_rad_s"] = run.water->omega;
+  for (Coefficient c : run.water->damping) water["damping"][c.name] = as_json(c);
+  water["added_mass"] = as_json(run.water->added_mass);
   return j;
 }
 
@@ -130,9 +164,18 @@ plot::Figure figure(const scene::FitScene& scene, const std::vector<DecayRun>& r
         {.x = {"time", "s"},
          .y = {angle ? "angle" : "position", angle ? "rad" : "m"},
          .series = {{run.name + ": measured", run.time, run.values}, {"fitted", run.time, fitted, true, false, true}}});
-    f.panels.push_back({.x = {"time", "s"},
-                        .y = {"residual", angle ? "rad" : "m"},
-                        .series = {{"measured − fitted", run.time, left}}});
+    plot::Panel residual{
+        .x = {"time", "s"}, .y = {"residual", angle ? "rad" : "m"}, .series = {{"measured − fitted", run.time, left}}};
+    if (!run.fit.motion.fit_band.empty()) {
+      const auto half = [](const Eigen::MatrixXd& band) {
+        return std::vector<double>(band.data(), band.data() + band.rows());
+      };
+      const std::string level = fmt::format("{:g} % band", 100 * scene.confidence);
+      residual.series.push_back(
+          band_outline(level + " of a sample", run.time, half(run.fit.motion.sample_band[0]), true));
+      residual.series.push_back(band_outline(level + " of the fit", run.time, half(run.fit.motion.fit_band[0]), false));
+    }
+    f.panels.push_back(std::move(residual));
   }
   return f;
 }
@@ -147,6 +190,8 @@ void fit_decays(const scene::FitScene& scene, const FitArguments& arguments, con
     if (runs[0].fit.period.value) j["coefficients"]["period"] = *runs[0].fit.period.value;
     for (const Coefficient& c : runs[0].fit.damping)
       if (c.value) j["coefficients"][c.name] = *c.value;
+    if (runs[0].water && runs[0].water->added_mass.value)
+      j["coefficients"]["added_mass"] = *runs[0].water->added_mass.value;
   }
   j["run"] = Json::array();
   for (const DecayRun& run : runs) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include "fit/simulated.hpp"
 #include "froude/fit_report.hpp"
@@ -127,17 +128,6 @@ std::vector<double> joined(const std::vector<Eigen::MatrixXd>& windows, std::siz
   return out;
 }
 
-/// There along the upper edge of a band and back along the lower one: one line.
-plot::Series outline(const std::string& name, const std::vector<double>& t, const std::vector<double>& half,
-                     bool dashed) {
-  plot::Series out{name, t, half, true, false, dashed};
-  for (std::size_t i = t.size(); i-- > 0;) {
-    out.x.push_back(t[i]);
-    out.y.push_back(-half[i]);
-  }
-  return out;
-}
-
 plot::Figure figure(const scene::FitScene& scene, const MeasuredRun& measured, const std::vector<std::string>& units,
                     const ::fit::SimulationFit& fit) {
   plot::Figure f{.title = scene.title.empty() ? scene.file.filename().string() : scene.title, .panels = {}};
@@ -154,8 +144,8 @@ plot::Figure figure(const scene::FitScene& scene, const MeasuredRun& measured, c
     f.panels.push_back({.x = {"time", "s"},
                         .y = {"residual", units[c]},
                         .series = {{"measured − fitted", t, left, false, true},
-                                   outline(level + " of a sample", t, joined(fit.sample_band, c), true),
-                                   outline(level + " of the fit", t, joined(fit.fit_band, c), false)}});
+                                   band_outline(level + " of a sample", t, joined(fit.sample_band, c), true),
+                                   band_outline(level + " of the fit", t, joined(fit.fit_band, c), false)}});
   }
   return f;
 }
@@ -166,9 +156,17 @@ void fit_motions(const scene::FitScene& scene, const FitArguments& arguments, co
   const MeasuredRun measured = MeasuredRun::read(scene);
   SceneRuns runs(scene, measured);
   const std::vector<std::string> units = runs.units();
-  const auto result = ::fit::fit_simulation(runs, problem_of(scene, measured, units));
+  const ::fit::SimulationProblem problem = problem_of(scene, measured, units);
+  std::optional<::fit::SeveralStarts> several;
+  if (scene.motion.starts > 1) several = ::fit::fit_simulation_from(runs, problem, scene.motion.starts);
+  const auto result = several ? several->best : ::fit::fit_simulation(runs, problem);
+  FitJson j = as_json_of(scene, units, result);
+  if (several) j["starts"] = {{"tried", several->tried}, {"agree", several->agree}, {"failed", several->failed}};
   if (!console.json) tell(scene, measured, units, result, console);
-  deliver(arguments, console, as_json_of(scene, units, result), figure(scene, measured, units, result));
+  if (several && !console.json)
+    console.out << fmt::format("  of {} starts {} end there, and {} had no motion to follow\n", several->tried,
+                               several->agree, several->failed);
+  deliver(arguments, console, j, figure(scene, measured, units, result));
 }
 
 }  // namespace froude

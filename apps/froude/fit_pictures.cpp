@@ -10,6 +10,25 @@ namespace {
 using ::fit::Coefficient;
 constexpr double gap = std::numeric_limits<double>::quiet_NaN();
 
+/// The mean of all cycles with its standard error, and the fit over one of them. Where the delay was estimated, cycles
+/// begin elsewhere in the record that was fitted, and the fit is left out.
+void add_mean_cycle(const FitRun& run, const ::fit::MeanForce& mean, plot::Figure& f) {
+  plot::Panel panel{.x = {"time in the cycle", "s"},
+                    .y = {"mean force", "N"},
+                    .series = {{fmt::format("mean of {} cycles", mean.cycles), mean.time, mean.force}},
+                    .bands = {{"± standard error", mean.time, mean.force, mean.force}}};
+  for (std::size_t k = 0; k < mean.force.size(); ++k) {
+    panel.bands[0].low[k] -= mean.standard_error[k];
+    panel.bands[0].high[k] += mean.standard_error[k];
+  }
+  if (!run.fit.delay) {
+    const auto& fitted = run.fit.fitted;
+    panel.series.push_back(
+        {"fitted", mean.time, {fitted.begin(), fitted.begin() + std::ssize(mean.time)}, true, false, true});
+  }
+  f.panels.push_back(std::move(panel));
+}
+
 /// Measured and fitted force and what is left, the last five periods of one run.
 void add_run(const FitRun& run, plot::Figure& f) {
   const auto& r = run.prepared.record;
@@ -21,8 +40,15 @@ void add_run(const FitRun& run, plot::Figure& f) {
                       .y = {"force", "N"},
                       .series = {{run.name + ": measured", tail(r.time), tail(r.force)},
                                  {"fitted", tail(r.time), tail(run.fit.fitted), true, false, true}}});
-  f.panels.push_back(
-      {.x = {"time", "s"}, .y = {"residual", "N"}, .series = {{"measured − fitted", tail(r.time), left}}});
+  plot::Panel residual{
+      .x = {"time", "s"}, .y = {"residual", "N"}, .series = {{"measured − fitted", tail(r.time), left}}};
+  if (!run.fit.fit_band.empty()) {
+    const std::string level = fmt::format("{:g} % band", 100 * run.fit.confidence);
+    residual.series.push_back(band_outline(level + " of a sample", tail(r.time), tail(run.fit.sample_band), true));
+    residual.series.push_back(band_outline(level + " of the fit", tail(r.time), tail(run.fit.fit_band), false));
+  }
+  f.panels.push_back(std::move(residual));
+  if (run.prepared.mean_force) add_mean_cycle(run, *run.prepared.mean_force, f);
 }
 
 /// An axis with room beside the first and last point.
@@ -69,6 +95,16 @@ plot::Panel coefficient_panel(const std::vector<FitRun>& runs, std::size_t i, co
 }
 
 }  // namespace
+
+plot::Series band_outline(const std::string& name, const std::vector<double>& t, const std::vector<double>& half,
+                          bool dashed) {
+  plot::Series out{name, t, half, true, false, dashed};
+  for (std::size_t i = t.size(); i-- > 0;) {
+    out.x.push_back(t[i]);
+    out.y.push_back(-half[i]);
+  }
+  return out;
+}
 
 plot::Figure runs_figure(const scene::FitScene& scene, const std::vector<FitRun>& runs,
                          const std::vector<FitLaw>& laws) {

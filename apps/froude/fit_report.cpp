@@ -34,6 +34,27 @@ std::vector<std::string> cautions_of(const FitRun& run) {
   return all;
 }
 
+/// What was fitted beside drag and inertia, and how wide the bands are.
+void tell_others(const FitRun& run, const Console& console) {
+  const auto& f = run.fit;
+  const auto say = [&](const Coefficient& c, const char* what, const char* unit) {
+    if (!c.value)
+      console.out << fmt::format("  {} not identifiable: {}\n", what, c.why_not);
+    else
+      console.out << fmt::format("  {} {:.4g} {}, {:g} % interval {:.4g} to {:.4g}\n", what, *c.value, unit,
+                                 100 * f.confidence, c.interval.low, c.interval.high);
+  };
+  if (f.linear_drag) say(*f.linear_drag, "linear drag", "N s/m");
+  if (f.offset) say(*f.offset, "offset", "N");
+  for (const auto& line : f.lines) say(line.amplitude, line.amplitude.name.c_str(), "N");
+  if (!f.fit_band.empty())
+    console.out << fmt::format(
+        "  bands: the fitted force within {:.3g} N, a new sample within {:.3g} N; {:.1f} % of the samples lie where "
+        "{:g} % should\n",
+        *std::max_element(f.fit_band.begin(), f.fit_band.end()),
+        *std::max_element(f.sample_band.begin(), f.sample_band.end()), 100 * f.inside, 100 * f.confidence);
+}
+
 /// Other readings of the same record: harmonics, cycles, variants.
 void tell_checks(const FitRun& run, const Console& console) {
   const auto& f = run.fit;
@@ -78,9 +99,12 @@ void tell_laws(const std::vector<FitLaw>& laws, const Console& console) {
 }
 
 void tell_runs(const scene::FitScene& scene, const std::vector<FitRun>& runs, const Console& console) {
-  const bool water = scene.model.motion == "water moves";
-  console.out << (water ? "F = cm rho V du/dt + 1/2 rho D L cd |u| u, water moving past the body; cm = 1 + ca\n"
-                        : "F = -(ca rho V + m) a - 1/2 rho D L cd |v| v, body moving in still water; cm = 1 + ca\n");
+  console.out << (scene.model.motion == "water moves"
+                      ? "F = cm rho V du/dt + 1/2 rho D L cd |u| u, water moving past the body; cm = 1 + ca\n"
+                  : scene.model.motion == "body moves"
+                      ? "F = -(ca rho V + m) a - 1/2 rho D L cd |v| v, body moving in still water; cm = 1 + ca\n"
+                      : "F = rho V du/dt - m a + ca rho V (du/dt - a) + 1/2 rho D L cd |u - v| (u - v), body moving in "
+                        "waves; cm = 1 + ca; KC and Re are those of u - v\n");
   for (const FitRun& run : runs) {
     const auto& f = run.fit;
     console.out << fmt::format(
@@ -92,6 +116,7 @@ void tell_runs(const scene::FitScene& scene, const std::vector<FitRun>& runs, co
                                f.search.singular_values[1], f.search.identifiability);
     if (scene.robust)
       console.out << fmt::format("  robust: {:.2f} % of the samples count in full\n", 100 * f.share_inside);
+    tell_others(run, console);
     tell_checks(run, console);
     if (f.delay) console.out << delay_sentence(*f.delay, f.confidence);
     for (const auto& e : f.budget)
@@ -152,6 +177,18 @@ Json run_as_json(const FitRun& run) {
   r["cautions"] = cautions_of(run);
   r.update(checks_as_json(run));
   if (f.delay) r["delay"] = as_json(*f.delay);
+  if (f.linear_drag) r["linear_drag"] = as_json(*f.linear_drag);
+  if (f.offset) r["offset"] = as_json(*f.offset);
+  if (!f.fit_band.empty())
+    r.update({{"samples_in_band", f.inside},
+              {"widest_band_of_fit_N", *std::max_element(f.fit_band.begin(), f.fit_band.end())},
+              {"widest_band_of_sample_N", *std::max_element(f.sample_band.begin(), f.sample_band.end())}});
+  for (const auto& line : f.lines) {
+    Json own{{"frequency_Hz", line.hz}, {"phase_rad", line.phase}};
+    own.update(as_json(line.amplitude));
+    for (const char* of_coefficients : {"shift_per_degree", "systematic_error"}) own.erase(of_coefficients);
+    r["line"].push_back(own);
+  }
   for (const Coefficient& c : run.asked) r[c.name] = as_json(c);
   return r;
 }

@@ -56,11 +56,16 @@ FitJson runs_as_json(const scene::FitScene& scene, const std::vector<FitRun>& ru
 /// Force and residual of each run; of three runs and more, the coefficients over KC and the map of KC and Re.
 plot::Figure runs_figure(const scene::FitScene& scene, const std::vector<FitRun>& runs,
                          const std::vector<FitLaw>& laws);
+/// There along the upper edge of a band about zero and back along the lower one: one line.
+plot::Series band_outline(const std::string& name, const std::vector<double>& t, const std::vector<double>& half,
+                          bool dashed);
 /// One row for each run, as CSV; cells of what is not identifiable are empty.
 std::string runs_table(const std::vector<FitRun>& runs);
 
 // The other kinds of fit.
 void fit_decays(const scene::FitScene& scene, const FitArguments& arguments, const Console& console);
+void fit_friction_ramps(const scene::FitScene& scene, const FitArguments& arguments, const Console& console);
+void fit_radiations(const scene::FitScene& scene, const FitArguments& arguments, const Console& console);
 void fit_motions(const scene::FitScene& scene, const FitArguments& arguments, const Console& console);
 void fit_towed(const scene::FitScene& scene, const FitArguments& arguments, const Console& console);
 

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 #include "hydro/io/atomic_file.hpp"
@@ -15,9 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 using hydro::InputError;
 
-const std::vector<std::string> all_channels{"time",         "force",    "angle",          "velocity",
-                                            "acceleration", "position", "cross_velocity", "elevation",
-                                            "speed",        "speed_sd", "force_sd"};
+const std::vector<std::string> all_channels{
+    "time",      "force", "angle",    "velocity", "acceleration",   "position",           "cross_velocity",
+    "elevation", "speed", "speed_sd", "force_sd", "water_velocity", "water_acceleration", "torque"};
 constexpr double two_pi = 2 * std::numbers::pi;
 
 /// Files that fit one entry of `files`, in alphabetical order. A `*` may stand in the file's name, not in a folder's.
@@ -62,13 +63,38 @@ Channels channels_of(const std::string& kind) {
   if (kind == "towing") return {{"speed", "force", "speed_sd", "force_sd"}, {"speed", "force"}};
   if (kind == "decay") return {{"time", "position", "angle"}, {"time"}};
   if (kind == "motion") return {{"time"}, {"time"}};
-  return {{"time", "force", "velocity", "acceleration", "position", "cross_velocity", "elevation"}, {"time", "force"}};
+  if (kind == "radiation") return {{"time", "position", "angle", "force", "torque"}, {"time"}};
+  if (kind == "friction ramp") return {{"time", "torque"}, {"time", "torque"}};
+  return {{"time", "force", "velocity", "acceleration", "position", "cross_velocity", "elevation", "water_velocity",
+           "water_acceleration"},
+          {"time", "force"}};
+}
+
+/// What only moving water, or only a moving body, has.
+void check_water(const Record& channels, const std::string& motion) {
+  const auto has = [&](const char* role) { return channels.has(role); };
+  const bool both = motion == "both move";
+  if (motion == "body moves")
+    for (const char* role : {"cross_velocity", "elevation"})
+      if (has(role)) throw channels.wrong(role, "has no part where the body moves in still water", "leave it out");
+  for (const char* role : {"water_velocity", "water_acceleration"})
+    if (has(role) && !both)
+      throw channels.wrong(role, fmt::format("has no part with motion = \"{}\"", motion),
+                           "leave it out, or set motion = \"both move\"");
+  if (!both) return;
+  if (has("elevation") == has("water_velocity"))
+    throw channels.refused("needs either water_velocity or elevation where both move",
+                           "name the column of the water's motion; velocity and position are the body's");
+  if (has("elevation"))
+    for (const char* other : {"water_acceleration", "cross_velocity"})
+      if (has(other)) throw channels.wrong(other, "does not act beside the elevation", "keep one of the two");
 }
 
 /// Exactly one of the motion's channels, which others must not contradict.
-void check_motion(const Record& channels, const std::string& kind) {
+void check_motion(const Record& channels, const std::string& kind, const std::string& motion) {
   const auto has = [&](const char* role) { return channels.has(role); };
-  if (kind == "morison" && has("elevation")) {
+  if (kind == "morison") check_water(channels, motion);
+  if (kind == "morison" && has("elevation") && motion != "both move") {
     for (const char* other : {"velocity", "position", "acceleration", "cross_velocity"})
       if (has(other)) throw channels.wrong(other, "does not act beside the elevation", "keep one of the two");
     return;
@@ -78,12 +104,15 @@ void check_motion(const Record& channels, const std::string& kind) {
                            "add one of them; an acceleration alone does not give it, its integral drifts");
   if (has("velocity") && has("position"))
     throw channels.wrong("position", "does not act beside the velocity", "keep one of the two");
-  if (kind == "decay" && has("angle") == has("position"))
-    throw channels.refused("needs either position or angle for a fit of kind \"decay\"",
+  if ((kind == "decay" || kind == "radiation") && has("angle") == has("position"))
+    throw channels.refused(fmt::format("needs either position or angle for a fit of kind \"{}\"", kind),
                            "name the column of the motion");
+  if (kind == "radiation" && (has("position") != has("force") || has("angle") != has("torque")))
+    throw channels.refused("needs force beside a position, torque beside an angle", "name what moved the body");
 }
 
-std::map<std::string, std::string> read_channels(const Record& channels, const std::string& kind) {
+std::map<std::string, std::string> read_channels(const Record& channels, const std::string& kind,
+                                                 const std::string& motion) {
   const auto [known, needed] = channels_of(kind);
   std::map<std::string, std::string> out;
   for (const std::string& role : all_channels) {
@@ -99,7 +128,7 @@ std::map<std::string, std::string> read_channels(const Record& channels, const s
     if (!channels.has(role))
       throw channels.refused(fmt::format("needs \"{}\" for a fit of kind \"{}\"", role, kind),
                              fmt::format("add {} = \"name of a column\"", role));
-  check_motion(channels, kind);
+  check_motion(channels, kind, motion);
   return out;
 }
 
@@ -107,10 +136,9 @@ std::map<std::string, std::string> read_channels(const Record& channels, const s
 std::vector<FitScene::ForceChannel> read_force(const Record& data, const std::string& kind, const fs::path& scene) {
   const Record& channels = data.table("channels");
   std::vector<FitScene::ForceChannel> out;
-  const bool no_force = kind == "decay" || kind == "motion";
-  if (no_force && data.has("calibration"))
+  if (kind != "morison" && kind != "towing" && data.has("calibration"))
     throw data.wrong("calibration", fmt::format("has no part in a fit of kind \"{}\"", kind), "leave it out");
-  if (no_force) return out;
+  if (!channels.has("force")) return out;
   for (const auto& name : channels["force"].texts) {
     const bool turned = name.value.starts_with('-');
     const std::string column = turned ? name.value.substr(1) : name.value;
@@ -120,8 +148,8 @@ std::vector<FitScene::ForceChannel> read_force(const Record& data, const std::st
     out.push_back({column, turned, {}});
   }
   if (out.empty()) throw channels.wrong("force", "is empty", "write the name of a column");
-  if (kind == "towing" && out.size() > 1)
-    throw channels.wrong("force", "may hold one column only in a fit of kind \"towing\"");
+  if (kind != "morison" && out.size() > 1)
+    throw channels.wrong("force", fmt::format("may hold one column only in a fit of kind \"{}\"", kind));
   if (!data.has("calibration")) return out;
   const auto& files = data["calibration"].texts;
   if (kind == "towing") throw data.wrong("calibration", "has no part in a fit of kind \"towing\"");
@@ -181,10 +209,14 @@ FitScene::Prepare read_prepare(const Record& root, const std::string& kind) {
     if (out.outlier_deviations < 3)
       throw prepare.table("outliers").wrong("deviations", "must be 3 at least: noise itself comes so far");
   }
+  if (prepare.has("resample")) out.resample_hz = prepare.si("resample") / two_pi;
   read_delay(prepare, out);
   if (prepare.has("derivative_bandwidth")) out.derivative_bandwidth = prepare.si("derivative_bandwidth") / two_pi;
   out.derivative_method = prepare.text("derivative_method");
   out.filters = read_filters(prepare);
+  out.mean_cycle = prepare.has("mean_cycle");
+  if (out.mean_cycle && !(prepare.has("window") && prepare.table("window").text("kind") == "full cycles"))
+    throw prepare.wrong("mean_cycle", "needs cycles", "set window = { kind = \"full cycles\" }");
   if (!prepare.has("window")) return out;
   const Record& window = prepare.table("window");
   out.window = window.text("kind");
@@ -247,6 +279,13 @@ FitScene::Motion read_motion(const Record& model, const fs::path& file) {
       throw p.refused(fmt::format("begins at {} {}, outside its bounds", q.first, q.unit), "widen them, or give first");
     out.parameters.push_back(std::move(q));
   }
+  if (model.has("starts")) out.starts = static_cast<int>(model["starts"].integer);
+  if (model.has("starts") && (out.starts < 2 || out.parameters.size() > 12))
+    throw model.wrong("starts", "must be 2 at least, for 12 parameters at most", "leave it out for one start");
+  for (const auto& q : out.parameters)
+    if (out.starts > 1 && !(q.lowest && q.highest))
+      throw InputError(fmt::format("[[model.parameter]] {} has no bounds between which a search could start", q.key),
+                       q.place, "give lowest and highest, or leave out [model] starts");
   if (out.parameters.empty())
     throw model.refused("of kind \"motion\" needs a number to fit", "add a [[model.parameter]] with its key");
   return out;
@@ -265,11 +304,35 @@ std::vector<FitScene::Motion::Signal> read_signals(const Record& data, const std
   return out;
 }
 
-FitScene::Model read_model(const Record& model) {
+/// Mass and stiffness of a translation, or inertia and rotational stiffness of a turn, as the channels have it.
+std::optional<FitScene::Model::Body> read_body(const Record& model, bool turns) {
+  if (!model.has("body")) return {};
+  const Record& body = model.table("body");
+  for (const char* other : turns ? std::array{"mass", "stiffness"} : std::array{"inertia", "rotational_stiffness"})
+    if (body.has(other))
+      throw body.wrong(other, fmt::format("does not go with the channel {}", turns ? "angle" : "position"),
+                       turns ? "give inertia and rotational_stiffness" : "give mass and stiffness");
+  const auto of = [&](const char* key) { return body.has(key) ? body.si(key) : 0.0; };
+  return FitScene::Model::Body{body.si(turns ? "inertia" : "mass"),
+                               body.si(turns ? "rotational_stiffness" : "stiffness"), of("mass_error"),
+                               of("stiffness_error")};
+}
+
+FitScene::Model read_model(const Record& model, const Record& channels) {
   FitScene::Model out{.kind = model.text("kind"), .place = model.place()};
   if (out.kind == "motion") return out;
-  if (out.kind == "decay") {
-    out.sine = model.text("restoring") == "sine";
+  if (out.kind == "decay" || out.kind == "radiation") {
+    out.sine = out.kind == "decay" && model.text("restoring") == "sine";
+    out.body = read_body(model, channels.has("angle"));
+    if (out.kind == "decay" && out.body && !(out.body->stiffness > 0))
+      throw model.table("body").refused("needs a stiffness: without one there is no natural period",
+                                        "give what brings the body back");
+    return out;
+  }
+  if (out.kind == "friction ramp") {
+    out.ramp = model.si("ramp");
+    out.slide = model.si("slide");
+    out.drop = model.si("drop");
     return out;
   }
   const Record& water = model.table("water");
@@ -279,7 +342,7 @@ FitScene::Model read_model(const Record& model) {
   if (water.has("viscosity")) out.viscosity = water.si("viscosity");
   if (out.kind != "morison") return out;
   out.motion = model.text("motion");
-  const bool given = model.has("mass_beyond_load_cells"), moves = out.motion == "body moves";
+  const bool given = model.has("mass_beyond_load_cells"), moves = out.motion != "water moves";
   if (given && !moves)
     throw model.wrong("mass_beyond_load_cells", "does not act: the body does not move",
                       "leave it out, or set motion = \"body moves\"");
@@ -288,10 +351,18 @@ FitScene::Model read_model(const Record& model) {
         "needs \"mass_beyond_load_cells\" where the body moves: its inertia is part of the measured force",
         "add mass_beyond_load_cells = \"5.9 kg\", contained water included; \"0 kg\" if it is taken off already");
   if (given) out.mass_beyond_load_cells = model.si("mass_beyond_load_cells");
+  out.linear_drag = model.has("linear_drag");
+  out.offset = model.has("offset");
+  for (const Record& line : model.tables("line"))
+    out.lines.push_back({line.has("frequency") ? line.si("frequency") / two_pi : 0.0,
+                         line.has("multiple") ? line.si("multiple") : 0.0});
   read_errors(model, out);
   if (!model.has("wave")) return out;
   const Record& wave = model.table("wave");
-  FitScene::Model::Wave w{.level = -wave.si("level"), .ahead = wave.si("ahead"), .gravity = wave.si("gravity")};
+  FitScene::Model::Wave w{.level = -wave.si("level"),
+                          .ahead = wave.si("ahead"),
+                          .gravity = wave.si("gravity"),
+                          .regular = wave.has("regular")};
   if (wave.text("depth").empty()) w.depth = hydro::WaterDepth::from_metres(wave.si("depth"));
   if (!w.depth.is_infinite() && -w.level >= w.depth.metres())
     throw wave.wrong("level", "lies below the bottom", "give the depth of the axis below still water");
@@ -301,10 +372,10 @@ FitScene::Model read_model(const Record& model) {
 
 std::vector<std::string> read_coefficients(const Record& ask, const std::string& kind) {
   std::vector<std::string> out;
-  if (kind == "motion") {
+  if (kind == "motion" || kind == "radiation" || kind == "friction ramp") {
     if (ask.has("coefficients"))
-      throw ask.wrong("coefficients", "has no part in a fit of kind \"motion\"",
-                      "leave it out: what is fitted are the [[model.parameter]]");
+      throw ask.wrong("coefficients", fmt::format("has no part in a fit of kind \"{}\"", kind),
+                      kind == "motion" ? "leave it out: what is fitted are the [[model.parameter]]" : "leave it out");
     return out;
   }
   if (!ask.has("coefficients"))
@@ -369,21 +440,15 @@ FitScene parse_fit(std::string_view text, const fs::path& file) {
   scene.text = text;
   const Record root = read_record(document, fit_schema(), scene.echo);
   if (root.has("title")) scene.title = root.text("title");
-  scene.model = read_model(root.table("model"));
+  scene.model = read_model(root.table("model"), root.table("data").table("channels"));
   if (scene.model.kind == "motion") scene.motion = read_motion(root.table("model"), file);
   scene.motion.signals = read_signals(root.table("data"), scene.model.kind);
-  scene.channels = read_channels(root.table("data").table("channels"), scene.model.kind);
-  if (scene.channels.count("cross_velocity") > 0 && scene.model.motion == "body moves")
-    throw root.table("data")
-        .table("channels")
-        .wrong("cross_velocity", "has no part where the body moves", "leave it out");
+  scene.channels = read_channels(root.table("data").table("channels"), scene.model.kind, scene.model.motion);
   const bool surface = scene.channels.count("elevation") > 0;
   if (surface != scene.model.wave.has_value())
     throw surface ? root.table("model").refused("needs \"wave\" for the channel elevation",
                                                 "add wave = { depth = \"1.25 m\", level = \"0.48 m\" }")
                   : root.table("model").wrong("wave", "does not act: there is no channel elevation", "leave it out");
-  if (surface && scene.model.motion == "body moves")
-    throw root.table("data").table("channels").wrong("elevation", "has no part where the body moves", "leave it out");
   scene.force = read_force(root.table("data"), scene.model.kind, file);
   if (root.table("data").has("zero")) {
     const Value& zero = root.table("data")["zero"];

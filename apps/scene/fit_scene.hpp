@@ -19,21 +19,33 @@ struct FitScene {
   std::vector<ForceChannel> force;  ///< their sum is the force
   std::optional<Located<std::filesystem::path>> zero_run;
   struct Model {
-    std::string kind;                      ///< "morison", "towing" or "decay"
-    double diameter = 0, length = 0;       ///< m; as what follows, but for `sine`, not of a decay
+    std::string kind;                      ///< "morison", "towing", "decay", "radiation", "friction ramp" or "motion"
+    double diameter = 0, length = 0;       ///< m; as what follows up to `wave`, of morison and towing
     double density = 0;                    ///< kg/m³
     std::optional<double> viscosity = {};  ///< m²/s, for Re
     std::string motion =
-        {};  ///< morison only: "water moves" (waves on a fixed body) or "body moves" (forced oscillation)
-    double mass_beyond_load_cells = 0;  ///< kg, body moves only
+        {};  ///< morison only: "water moves" (waves on a fixed body), "body moves" (forced oscillation), "both move"
+    double mass_beyond_load_cells = 0;         ///< kg, where the body moves
+    bool linear_drag = false, offset = false;  ///< morison: fitted beside the rest
+    struct Line {
+      double hz, multiple;  ///< one of them; the other is 0
+    };
+    std::vector<Line> lines = {};  ///< morison: forces of one frequency, fitted beside the rest
     /// Standard uncertainties, SI; 0 where none is stated.
     double diameter_error = 0, length_error = 0, density_error = 0, mass_error = 0;
     struct Wave {
       hydro::WaterDepth depth = hydro::WaterDepth::infinite();
       double level, ahead, gravity;  ///< z of the axis, m, negative; m; m/s²
+      bool regular = false;          ///< one sinusoid, fitted to the probe
     };
     std::optional<Wave> wave = {};  ///< with the channel elevation
     bool sine = false;              ///< decay: restored by sin x
+    struct Body {
+      double mass, stiffness;              ///< kg and N/m, or kg m² and N m/rad
+      double mass_error, stiffness_error;  ///< standard uncertainties, relative
+    };
+    std::optional<Body> body = {};         ///< radiation, and a decay that is to tell added mass
+    double ramp = 0, slide = 0, drop = 0;  ///< friction ramp: lengths of its pieces, s
     Place place = {};
   } model;
   /// Steps between the measurement and the fit; frequencies in Hz, times in s.
@@ -45,6 +57,7 @@ struct FitScene {
   struct Prepare {
     double longest_gap = 0;
     double outlier_window = 0, outlier_deviations = 0;  ///< 0: not looked for
+    double resample_hz = 0;                             ///< 0: left as it is
     double delay = 0, delay_error = 0;
     std::optional<double> longest_delay;  ///< the delay is to be estimated, within this
     double derivative_bandwidth = 0;
@@ -54,6 +67,7 @@ struct FitScene {
     double from = 0, to = 0;
     int cycles = 0;  ///< 0: as many as there are
     double tolerance = 0.03;
+    bool mean_cycle = false;
   } prepare;
   std::vector<std::string> coefficients;  ///< among "cd", "cm", "ca"
   double confidence = 0.95;
@@ -76,6 +90,7 @@ struct FitScene {
     };
     Located<std::filesystem::path> scene = {};
     double window = 0;  ///< s; 0: the record is one run from the scene's start
+    int starts = 1;     ///< of the search
     std::vector<Parameter> parameters = {};
     std::vector<Signal> signals = {};
   } motion;

@@ -11,21 +11,28 @@ const Table& channels() {
       .title = "[data.channels]",
       .meaning = "which column of the files plays which part",
       .keys = {
-          text("time", "morison, decay, motion: time").optional(),
+          text("time", "all but towing: time").optional(),
           texts("force",
-                "morison, towing: measured force, positive along positive velocity: of the water on a fixed body, "
+                "morison, towing, and radiation with a position: measured force, positive along positive velocity: of "
+                "the water on a fixed body, "
                 "or what load "
                 "cells carry; several columns are added up, and \"-F2\" is F2 turned round")
               .optional(),
-          text("velocity", "morison: of the water, or of the body, whichever moves").optional(),
+          text("velocity", "morison: of the water, or of the body, whichever moves; where both move, of the body")
+              .optional(),
           text("acceleration", "morison: as velocity; left out: from the velocity or position").optional(),
-          text("position", "morison: as velocity, instead of it; decay: the motion").optional(),
-          text("cross_velocity",
-               "morison, water moves: velocity across both the force and the axis: drag is then sqrt(u^2 + w^2) u")
+          text("position", "morison: as velocity, instead of it; decay, radiation: the motion").optional(),
+          text(
+              "cross_velocity",
+              "morison, where water moves: velocity across both the force and the axis: drag is then sqrt(u^2 + w^2) u")
               .optional(),
-          text("elevation", "morison, water moves: surface at a probe, in place of the velocity; needs [model] wave")
+          text("elevation",
+               "morison, where water moves: surface at a probe, in place of the water's velocity; needs [model] wave")
               .optional(),
-          text("angle", "decay: the motion, in place of a position").optional(),
+          text("water_velocity", "morison, both move: of the water where the body is").optional(),
+          text("water_acceleration", "morison, both move: as water_velocity; left out: from it").optional(),
+          text("angle", "decay, radiation: the motion, in place of a position").optional(),
+          text("torque", "friction ramp, and radiation with an angle: the measured torque").optional(),
           text("speed", "towing: speed of the carriage").optional(),
           text("speed_sd", "towing: standard deviation of the speed").optional(),
           text("force_sd", "towing: standard deviation of the force").optional()}};
@@ -72,6 +79,18 @@ const Table& outliers() {
                number("deviations", "how far off, in deviations of the neighbours (from their medians), 3 at least")
                    .positive()
                    .or_default("8", "noise alone comes so far once in 1e15 samples")}};
+  return table;
+}
+
+const Table& model_line() {
+  static const Table table{
+      .title = "[[model.line]]",
+      .meaning =
+          "morison: a force of one frequency beside drag and inertia (lift, vortices, a vibration), fitted with "
+          "them so that it widens no interval",
+      .keys = {quantity("frequency", dim::angular_velocity, "of the line").positive().optional(),
+               number("multiple", "of the main frequency of the motion: 2 for lift").positive().optional()},
+      .groups = {{Group::Count::exactly_one, {"frequency", "multiple"}}}};
   return table;
 }
 
@@ -126,6 +145,11 @@ const Table& prepare() {
       .keys = {
           quantity("longest_gap", dim::time, "rows missing no longer than this are bridged").positive().optional(),
           inner_table("outliers", outliers()).optional(),
+          quantity("resample", dim::angular_velocity,
+                   "\"50 Hz\": all channels are brought to this sampling rate, without delay; kept is what lies below "
+                   "0.3 of the lower rate")
+              .positive()
+              .optional(),
           quantity("delay", dim::time, "of the force behind the motion: taken off, or estimated with the fit")
               .one_of({"estimate"})
               .optional(),
@@ -150,7 +174,11 @@ const Table& prepare() {
           quantity("moving_average", dim::time, "length of a mean over neighbours; a low pass does it better")
               .positive()
               .optional(),
-          inner_table("window", window()).optional()}};
+          inner_table("window", window()).optional(),
+          effect("mean_cycle",
+                 "the window's cycles are laid over each other: the mean force is fitted to the mean motion; needs "
+                 "window = full cycles")
+              .optional()}};
   return table;
 }
 
@@ -158,13 +186,16 @@ const Table& model_wave() {
   static const Table table{
       .title = "[model.wave]",
       .meaning = "from the surface at a probe to the water at the body, by linear waves of one direction",
-      .keys = {quantity("depth", dim::length, "of the tank").one_of({"infinite"}).positive(),
-               quantity("level", dim::length, "of the body's axis below still water").positive(),
-               quantity("ahead", dim::length, "of the body in front of the probe, the way waves go")
-                   .or_default("0 m", "beside each other"),
-               quantity("gravity", dim::acceleration, "acceleration of free fall")
-                   .positive()
-                   .or_default("9.81 m/s^2", "what hydrodynamic data are mostly computed with")}};
+      .keys = {
+          quantity("depth", dim::length, "of the tank").one_of({"infinite"}).positive(),
+          quantity("level", dim::length, "of the body's axis below still water").positive(),
+          quantity("ahead", dim::length, "of the body in front of the probe, the way waves go")
+              .or_default("0 m", "beside each other"),
+          quantity("gravity", dim::acceleration, "acceleration of free fall")
+              .positive()
+              .or_default("9.81 m/s^2", "what hydrodynamic data are mostly computed with"),
+          effect("regular", "the surface is one sinusoid, fitted to the probe: noise averages out, no ends are lost")
+              .optional()}};
   return table;
 }
 
@@ -200,6 +231,27 @@ const Table& model_parameter() {
   return table;
 }
 
+const Table& restored_body() {
+  static const Table table{
+      .title = "[model.body]",
+      .meaning = "decay, radiation: what is known of the body, so that the water's part can be told",
+      .keys = {quantity("mass", dim::mass, "of the body, for a position").within(Limit::not_negative).optional(),
+               quantity("inertia", dim::inertia, "of the body about its axis, for an angle")
+                   .within(Limit::not_negative)
+                   .optional(),
+               quantity("stiffness", dim::stiffness, "of water and springs, for a position")
+                   .within(Limit::not_negative)
+                   .optional(),
+               quantity("rotational_stiffness", dim::rotational_stiffness, "of water and springs, for an angle")
+                   .within(Limit::not_negative)
+                   .optional(),
+               number("mass_error", "standard uncertainty of mass or inertia, relative").positive().optional(),
+               number("stiffness_error", "standard uncertainty of the stiffness, relative").positive().optional()},
+      .groups = {{Group::Count::exactly_one, {"mass", "inertia"}},
+                 {Group::Count::exactly_one, {"stiffness", "rotational_stiffness"}}}};
+  return table;
+}
+
 std::vector<Key> with_cylinder(std::vector<Key> own) {
   std::vector<Key> keys{quantity("diameter", dim::length, "of the cylinder").positive(),
                         quantity("length", dim::length, "of the cylinder in the water").positive(),
@@ -219,13 +271,17 @@ const Table& model() {
            .meaning = "drag and inertia in unsteady flow (Morison et al., 1950)",
            .keys = with_cylinder(
                {text("motion",
-                     "\"water moves\": waves on a fixed body; \"body moves\": forced oscillation in still water")
-                    .one_of({"water moves", "body moves"}),
+                     "\"water moves\": waves on a fixed body; \"body moves\": forced oscillation in still water; "
+                     "\"both move\": a body that moves in waves")
+                    .one_of({"water moves", "body moves", "both move"}),
                 quantity("mass_beyond_load_cells", dim::mass,
-                         "body moves: all that the load cells accelerate, contained water included")
+                         "where the body moves: all that the load cells accelerate, contained water included")
                     .within(Limit::not_negative)
                     .optional(),
-                inner_table("wave", model_wave()).optional(), inner_table("uncertainty", model_errors()).optional()})},
+                effect("linear_drag", "a drag that goes with the velocity is fitted as well").optional(),
+                effect("offset", "a constant force is fitted as well").optional(),
+                inner_tables("line", model_line()).optional(), inner_table("wave", model_wave()).optional(),
+                inner_table("uncertainty", model_errors()).optional()})},
           {.word = "towing", .meaning = "drag at steady speed", .keys = with_cylinder({})},
           {.word = "motion",
            .meaning = "numbers of a scene of motion, by running it: what its run tells against what was measured",
@@ -235,12 +291,30 @@ const Table& model() {
                              "the record is cut into pieces so long, each with a start of its own that is fitted too: "
                              "for long and for chaotic records; left out: one run from the scene's start")
                         .positive()
+                        .optional(),
+                    integer("starts",
+                            "the search begins at so many points between the bounds, and the best end is kept; "
+                            "left out: once")
                         .optional()}},
           {.word = "decay",
            .meaning = "period and damping of a body let go: x'' + b1 x' + b2 |x'| x' + b3 x'^3 + c sgn x' + w0^2 x = 0",
            .keys = {text("restoring", "by x, or by sin x for a pendulum")
                         .one_of({"linear", "sine"})
-                        .or_default("linear", "small angles, and all that floats")}}}};
+                        .or_default("linear", "small angles, and all that floats"),
+                    inner_table("body", restored_body()).optional()}},
+          {.word = "radiation",
+           .meaning =
+               "added mass and damping from forced oscillations in still water, one file each, and the poles of the "
+               "memory that belongs to them",
+           .keys = {inner_table("body", restored_body())}},
+          {.word = "friction ramp",
+           .meaning = "static and dynamic friction from a torque that grows until the joint slips, one test each file",
+           .keys = {
+               quantity("ramp", dim::time, "before the slip: there the torque is taken as a straight line").positive(),
+               quantity("slide", dim::time, "after it: there the torque is taken as constant").positive(),
+               quantity("drop", dim::time, "that the fall between them may take, filters counted")
+                   .within(Limit::not_negative)
+                   .or_default("0 s", "a record that was not filtered")}}}};
   return table;
 }
 

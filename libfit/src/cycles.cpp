@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "cubic.hpp"
 #include "hydro/base/error.hpp"
 
 namespace fit {
@@ -68,6 +69,44 @@ std::vector<Cycle> full_amplitude(std::span<const Cycle> cycles, double toleranc
   hydro::require(best > 0, "no cycle has the full amplitude within {:.3g} %", 100 * tolerance);
   return {cycles.begin() + static_cast<std::ptrdiff_t>(best_from),
           cycles.begin() + static_cast<std::ptrdiff_t>(best_from + best)};
+}
+
+std::vector<double> on_phases(std::span<const double> values, std::span<const Cycle> cycles,
+                              std::size_t points) {  // (F47)
+  hydro::require(values.size() >= 4 && !cycles.empty() && points >= 8,
+                 "{} samples, {} cycles and {} points of a cycle: at least 4, 1 and 8 are needed", values.size(),
+                 cycles.size(), points);
+  hydro::require(cycles.front().start >= 0 && cycles.back().end <= static_cast<double>(values.size() - 1),
+                 "the cycles reach beyond the record");
+  std::vector<double> out;
+  for (const Cycle& c : cycles)
+    for (std::size_t k = 0; k < points; ++k) {
+      const double at = c.start + (c.end - c.start) * static_cast<double>(k) / static_cast<double>(points);
+      const auto first = std::min(static_cast<std::size_t>(std::max(0.0, std::floor(at) - 1)), values.size() - 4);
+      out.push_back(cubic_between(values.data() + first + 1, at - static_cast<double>(first) - 1));
+    }
+  return out;
+}
+
+CycleMean mean_cycle(std::span<const double> laid, std::size_t points) {  // (F47)
+  hydro::require(points >= 1 && laid.size() % points == 0 && laid.size() >= 2 * points,
+                 "{} values are not two whole cycles of {} points or more", laid.size(), points);
+  const std::size_t cycles = laid.size() / points;
+  const auto n = static_cast<double>(cycles), p = static_cast<double>(points);
+  CycleMean out{std::vector<double>(points, 0.0), std::vector<double>(points, 0.0), 0};
+  for (std::size_t j = 0; j < laid.size(); ++j) out.mean[j % points] += laid[j] / n;
+  for (std::size_t j = 0; j < laid.size(); ++j)
+    out.standard_error[j % points] += std::pow(laid[j] - out.mean[j % points], 2);
+  const double level = std::accumulate(out.mean.begin(), out.mean.end(), 0.0) / p;
+  double off = 0, swing = 0;
+  for (std::size_t k = 0; k < points; ++k) {
+    off += out.standard_error[k] / (n * p);
+    swing += std::pow(out.mean[k] - level, 2) / p;
+    out.standard_error[k] = std::sqrt(out.standard_error[k] / ((n - 1) * n));
+  }
+  hydro::require(swing > 0, "the mean cycle is constant: nothing repeats");
+  out.left = std::sqrt(off / swing);
+  return out;
 }
 
 }  // namespace fit

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "convolve.hpp"
+#include "cubic.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/welch.hpp"
 #include "morison_columns.hpp"
@@ -18,19 +19,22 @@ std::vector<double> middle(const std::vector<double>& v, std::size_t margin) {
   return {v.begin() + cut, v.end() - cut};
 }
 
-/// The whole number of samples by which the force lags, from the best of all least-squares fits; (F24).
-std::ptrdiff_t nearest_lag(const Eigen::MatrixXd& columns, const std::vector<double>& force, std::size_t longest) {
+/// The whole number of samples by which the force lags, from the best of all least-squares fits; (F24). `carried` is
+/// what the load cells carry whatever the coefficients are.
+std::ptrdiff_t nearest_lag(const Eigen::MatrixXd& columns, const Eigen::VectorXd& carried,
+                           const std::vector<double>& force, std::size_t longest) {
   const Eigen::Matrix2d inverse = (columns.transpose() * columns).inverse();
-  std::vector<double> b[2];
-  for (Eigen::Index i = 0; i < 2; ++i)
-    b[i] = sliding_sum(force, {columns.col(i).data(), static_cast<std::size_t>(columns.rows())});
-  double squares = 0, least = 0;
   const std::size_t n = static_cast<std::size_t>(columns.rows());
+  const Eigen::Vector2d known = columns.transpose() * carried;
+  std::vector<double> b[2];
+  for (Eigen::Index i = 0; i < 2; ++i) b[i] = sliding_sum(force, {columns.col(i).data(), n});
+  const std::vector<double> with = sliding_sum(force, {carried.data(), n});
+  double squares = carried.squaredNorm(), least = 0;
   for (std::size_t j = 0; j < n; ++j) squares += force[j] * force[j];
   std::ptrdiff_t best = -1;
   for (std::size_t k = 0; k < b[0].size(); ++k) {
-    const Eigen::Vector2d right(b[0][k], b[1][k]), x = inverse * right;
-    const double rest = squares - right.dot(x);
+    const Eigen::Vector2d right = Eigen::Vector2d(b[0][k], b[1][k]) - known, x = inverse * right;
+    const double rest = squares - 2 * with[k] - right.dot(x);
     if (x[0] > 0 && (best < 0 || rest < least)) {  // drag does not push backwards
       least = rest;
       best = static_cast<std::ptrdiff_t>(k);
@@ -54,17 +58,14 @@ Eigen::VectorXd minus_rate(const Eigen::VectorXd& force, double step) {
 
 }  // namespace
 
-// Lagrange's cubic through the two samples on each side.
 std::vector<double> later(std::span<const double> values, double lag, std::size_t margin) {  // (F24)
   hydro::require(values.size() > 2 * margin && static_cast<double>(margin) >= std::abs(lag) + 2,
                  "{} samples cannot be moved by {:.4g}", values.size(), lag);
   const double whole = std::floor(lag), s = lag - whole;
-  const double w[] = {-s * (s - 1) * (s - 2) / 6, (s + 1) * (s - 1) * (s - 2) / 2, -(s + 1) * s * (s - 2) / 2,
-                      (s + 1) * s * (s - 1) / 6};
   std::vector<double> out(values.size() - 2 * margin);
   for (std::size_t j = 0; j < out.size(); ++j) {
-    const double* at = values.data() + static_cast<std::ptrdiff_t>(j + margin) + static_cast<std::ptrdiff_t>(whole);
-    out[j] = w[0] * at[-1] + w[1] * at[0] + w[2] * at[1] + w[3] * at[2];
+    const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(j + margin) + static_cast<std::ptrdiff_t>(whole);
+    out[j] = cubic_between(values.data() + at, s);
   }
   return out;
 }
@@ -80,25 +81,29 @@ DelayedFit fit_morison_and_delay(const Cylinder& cylinder, const ForceRecord& re
   ForceRecord& aligned = result.aligned;
   aligned = {middle(record.time, margin), {}, middle(record.velocity, margin), middle(record.acceleration, margin), {}};
   if (!record.drag_flow.empty()) aligned.drag_flow = middle(record.drag_flow, margin);
+  if (!record.water_acceleration.empty()) aligned.water_acceleration = middle(record.water_acceleration, margin);
+  if (!record.linear_flow.empty()) aligned.linear_flow = middle(record.linear_flow, margin);
   MorisonOptions inner = options;
   for (ForceError& e : inner.force_errors) e.force = middle(e.force, margin);
 
   const Eigen::MatrixXd columns = morison_columns(cylinder, aligned);
-  double lag = static_cast<double>(nearest_lag(columns, middle(record.force, 3), longest));
+  const Eigen::VectorXd carried = carried_force(cylinder, aligned);
+  const auto fitted = [&] {
+    return Eigen::VectorXd(carried + columns * columns.householderQr().solve(as_vector(aligned.force) - carried));
+  };
+  double lag = static_cast<double>(nearest_lag(columns, carried, middle(record.force, 3), longest));
   // Gauss–Newton on the delay; the coefficients are linear and follow at once.
   for (int round = 0; round < 30; ++round) {
     lag = std::clamp(lag, -static_cast<double>(longest), static_cast<double>(longest));
     aligned.force = later(record.force, lag, margin);
     Eigen::MatrixXd all(columns.rows(), 3);
     all << columns, Eigen::VectorXd::Zero(columns.rows());
-    const Eigen::VectorXd rough = columns * columns.householderQr().solve(as_vector(aligned.force));
-    all.col(2) = minus_rate(rough, step);
-    const double change = all.householderQr().solve(as_vector(aligned.force))[2] / step;
+    all.col(2) = minus_rate(fitted(), step);
+    const double change = all.householderQr().solve(as_vector(aligned.force) - carried)[2] / step;
     if (std::abs(change) < 1e-6) break;
     lag += std::clamp(change, -5.0, 5.0);
   }
-  const Eigen::VectorXd rough = columns * columns.householderQr().solve(as_vector(aligned.force));
-  const Eigen::VectorXd column = minus_rate(rough, step);
+  const Eigen::VectorXd column = minus_rate(fitted(), step);
   result.fit = fit_columns(cylinder, aligned, inner, &column);
   Coefficient& delay = *result.fit.delay;
   const double shift = lag * step;

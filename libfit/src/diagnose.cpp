@@ -18,12 +18,8 @@ namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
 
-/// The force less that of the mass that is known.
-Eigen::VectorXd target_of(const Cylinder& c, const ForceRecord& r) {
-  Eigen::VectorXd target = as_vector(r.force);
-  if (c.experiment == Experiment::body_moves) target += c.mass_beyond_load_cells * as_vector(r.acceleration);
-  return target;
-}
+/// The force less what is carried whatever the coefficients are.
+Eigen::VectorXd target_of(const Cylinder& c, const ForceRecord& r) { return as_vector(r.force) - carried_force(c, r); }
 
 std::vector<double> harmonics_of(double period_s, int highest) {
   std::vector<double> omega;

@@ -29,7 +29,7 @@ void check(const Cylinder& c, const ForceRecord& r, const MorisonOptions& option
                  c.viscosity.value_or(0));
   hydro::require(std::isfinite(c.mass_beyond_load_cells) && c.mass_beyond_load_cells >= 0,
                  "the mass beyond the load cells must not be negative, got {} kg", c.mass_beyond_load_cells);
-  hydro::require(c.experiment == Experiment::body_moves || c.mass_beyond_load_cells == 0,
+  hydro::require(c.experiment != Experiment::water_moves || c.mass_beyond_load_cells == 0,
                  "a body at rest in moving water has no inertia force: leave out the mass beyond the load cells");
   hydro::require(options.confidence > 0 && options.confidence < 1,
                  "a confidence level must lie between 0 and 1, got {}", options.confidence);
@@ -40,10 +40,16 @@ void check(const Cylinder& c, const ForceRecord& r, const MorisonOptions& option
   hydro::require(n >= 32, "a fit needs at least 32 samples, got {}", n);
   hydro::require(r.drag_flow.empty() || r.drag_flow.size() == n, "{} times but {} values of |u|u", n,
                  r.drag_flow.size());
+  hydro::require(r.linear_flow.empty() || r.linear_flow.size() == n, "{} times but {} filtered velocities", n,
+                 r.linear_flow.size());
   for (const ForceError& e : options.force_errors)
     hydro::require(e.force.size() == n, "the force error of {} has {} values for {} samples", e.source, e.force.size(),
                    n);
-  for (const auto* column : {&r.force, &r.velocity, &r.acceleration, &r.drag_flow})
+  const bool both = c.experiment == Experiment::both_move;
+  hydro::require(r.water_acceleration.size() == (both ? n : 0),
+                 "{} times and {} accelerations of the water itself: as many are needed where both move, else none", n,
+                 r.water_acceleration.size());
+  for (const auto* column : {&r.force, &r.velocity, &r.acceleration, &r.drag_flow, &r.water_acceleration})
     for (std::size_t j = 0; j < column->size(); ++j)
       hydro::require(std::isfinite((*column)[j]), "sample {} holds a value that is not finite", j + 1);
 }
@@ -116,14 +122,15 @@ Uncertainty known_scatter(Eigen::Index n, Eigen::Index p, double scatter) {
   return u;
 }
 
+/// `period_samples` of the motion, `shortest_samples` of all that the columns hold.
 Uncertainty uncertainty_of(const FitReport& search, const Eigen::MatrixXd& columns, const Eigen::VectorXd& residuals,
-                           double unit, double period_samples, const MorisonOptions& options) {
+                           double unit, double period_samples, double shortest_samples, const MorisonOptions& options) {
   if (!search.all_identifiable())
     return known_scatter(columns.rows(), columns.cols(), std::numeric_limits<double>::quiet_NaN());
   const bool perfect = residuals.squaredNorm() <= 1e-24 * unit * unit * static_cast<double>(columns.rows());
   if (perfect) return known_scatter(columns.rows(), columns.cols(), 0);
   // A fortieth of the period: the columns hardly change within, see correlated_covariance().
-  const int block = std::max(1, static_cast<int>(period_samples / 40));
+  const int block = std::max(1, static_cast<int>(shortest_samples / 40));
   Uncertainty u{covariance_by(options.method, columns, residuals, block, period_samples), {}, {}, 0, 0, 0};
   u.t = hydro::signal::student_t_quantile((1 + options.confidence) / 2, u.covariance.dof);
   u.white_t = hydro::signal::student_t_quantile((1 + options.confidence) / 2, u.covariance.white_dof);
@@ -150,30 +157,34 @@ void describe_flow(const Cylinder& cylinder, const ForceRecord& record, double s
 
 const char* inertia_name(const Cylinder& c) { return c.experiment == Experiment::water_moves ? "cm" : "ca"; }
 
-/// cd, inertia, then an offset and a delay where they are asked for.
-Eigen::MatrixXd all_columns(const Cylinder& c, const ForceRecord& r, const MorisonOptions& options,
-                            const Eigen::VectorXd* delay_column) {
-  Eigen::MatrixXd columns = morison_columns(c, r);
-  const auto append = [&](const Eigen::VectorXd& column) {
-    columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
-    columns.rightCols(1) = column;
-  };
-  if (options.force_offset) append(Eigen::VectorXd::Ones(columns.rows()));
-  if (delay_column != nullptr) append(*delay_column);
-  return columns;
+/// Frequencies of the lines, Hz.
+std::vector<double> line_frequencies(const ForceRecord& r, const MorisonOptions& options, double step, double period) {
+  std::vector<double> out;
+  double main_hz = 0;
+  for (const ForceLine& line : options.lines) {
+    hydro::require((line.hz > 0) != (line.multiple > 0), "a line has either a frequency or a multiple of the motion's");
+    if (line.multiple > 0 && main_hz == 0) main_hz = peak_frequency(r.velocity, step, period);
+    out.push_back(line.hz > 0 ? line.hz : line.multiple * main_hz);
+    hydro::require(out.back() < 0.5 / step, "a line of {:.4g} Hz lies above half the sampling rate, {:.4g} Hz",
+                   out.back(), 0.5 / step);
+  }
+  return out;
 }
 
-std::vector<ResidualModel::Parameter> parameters(const Cylinder& c, const MorisonOptions& options, bool delay,
-                                                 double unit, double period) {
+std::vector<ResidualModel::Parameter> parameters(const Cylinder& c, const MorisonOptions& options,
+                                                 const MorisonColumns& at, double unit, const MorisonFit& flow) {
   std::vector<ResidualModel::Parameter> out{{"cd", telling}, {inertia_name(c), telling}};
-  if (options.force_offset) out.push_back({"offset", unit});
-  if (delay) out.push_back({"delay", period / 360});
+  if (at.linear >= 0) out.push_back({"linear drag", unit / flow.velocity_amplitude});
+  if (at.offset >= 0) out.push_back({"offset", unit});
+  for (std::size_t k = 0; k < options.lines.size(); ++k)
+    for (const char* part : {"cosine", "sine"}) out.push_back({fmt::format("{} of line {}", part, k + 1), unit});
+  if (at.delay >= 0) out.push_back({"delay", flow.period / 360});
   return out;
 }
 
 /// Changes of the coefficients for one standard deviation of each source; (F26).
-std::vector<SystematicError> budget(const Cylinder& c, const Eigen::MatrixXd& columns, const Eigen::VectorXd& x,
-                                    const Eigen::VectorXd& shift, const MorisonFit& fit,
+std::vector<SystematicError> budget(const Cylinder& c, const ForceRecord& r, const Eigen::MatrixXd& columns,
+                                    const Eigen::VectorXd& x, const Eigen::VectorXd& shift, const MorisonFit& fit,
                                     const MorisonOptions& options) {
   std::vector<SystematicError> out;
   const auto add = [&](const std::string& source, double cd, double inertia) {
@@ -188,11 +199,21 @@ std::vector<SystematicError> budget(const Cylinder& c, const Eigen::MatrixXd& co
   const double degrees = 360 * options.delay_error_s / fit.period;
   add("delay of the force", shift[0] * degrees, shift[1] * degrees);
   const CylinderErrors& s = options.cylinder_errors;
-  // C_D ~ 1/(ρDL), C ~ 1/(ρD²L) of the force that water takes; the mass goes into C_A alone.
-  add("diameter", -x[0] * s.diameter / c.diameter, -2 * x[1] * s.diameter / c.diameter);
-  add("length", -x[0] * s.length / c.length, -x[1] * s.length / c.length);
-  add("density", -x[0] * s.density / c.density, -x[1] * s.density / c.density);
-  add("mass beyond the load cells", 0, -s.mass / (c.density * c.volume()));
+  // The force of the undisturbed water, ρV u̇, where it is carried beside the coefficients: one deviation takes a share
+  // of it off what they explain.
+  const bool both = c.experiment == Experiment::both_move;
+  Eigen::VectorXd carried = Eigen::VectorXd::Zero(x.size());
+  if (both) carried = qr.solve(-c.density * c.volume() * as_vector(r.water_acceleration));
+  // C_D ~ 1/(ρDL), C ~ 1/(ρD²L) of the force that water takes; the mass goes with the body's own acceleration.
+  const double d = s.diameter / c.diameter, l = s.length / c.length, rho = s.density / c.density;
+  add("diameter", d * (2 * carried[0] - x[0]), 2 * d * (carried[1] - x[1]));
+  add("length", l * (carried[0] - x[0]), l * (carried[1] - x[1]));
+  add("density", rho * (carried[0] - x[0]), rho * (carried[1] - x[1]));
+  if (s.mass == 0) return out;
+  Eigen::VectorXd own = as_vector(r.acceleration);
+  if (both) own = as_vector(r.water_acceleration) - own;
+  const Eigen::VectorXd change = qr.solve(own) * s.mass;
+  add("mass beyond the load cells", both ? change[0] : 0.0, change[1]);
   return out;
 }
 
@@ -202,15 +223,46 @@ Eigen::VectorXd total(const std::vector<SystematicError>& budget, Eigen::Index p
   return squares.cwiseSqrt();
 }
 
-void tell_coefficients(const Cylinder& cylinder, const MorisonOptions& options, bool delay, const Eigen::VectorXd& x,
-                       const Uncertainty& u, MorisonFit& result) {
+/// Amplitude of a line from its two parts, by propagation; told where the ellipse of both leaves zero out.
+FittedLine fitted_line(const FitReport& search, double hz, Eigen::Index j, const Eigen::VectorXd& x,
+                       const Uncertainty& u, double confidence) {  // (F50)
+  FittedLine line{hz, {}, std::atan2(x[j + 1], x[j])};
+  Coefficient& c = line.amplitude;
+  const Eigen::Vector2d parts = x.segment<2>(j);
+  const Eigen::Matrix2d own = u.covariance.covariance.block<2, 2>(j, j),
+                        white = u.covariance.white_covariance.block<2, 2>(j, j);
+  const double amplitude = parts.norm();
+  const Eigen::Vector2d along = amplitude > 0 ? Eigen::Vector2d(parts / amplitude) : Eigen::Vector2d::UnitX();
+  c.name = fmt::format("line of {:.4g} Hz", hz);
+  c.standard_error = std::sqrt(along.dot(own * along));
+  const double half = u.t * c.standard_error, white_half = u.white_t * std::sqrt(along.dot(white * along));
+  c.interval = {amplitude - half, amplitude + half};
+  c.white_interval = {amplitude - white_half, amplitude + white_half};
+  c.effective_samples = std::min(u.covariance.effective_samples[j], u.covariance.effective_samples[j + 1]);
+  // P(F_{2,ν} > f) = (1 + 2f/ν)^{−ν/2}.
+  const double nu = u.covariance.dof, limit = nu / 2 * (std::pow(1 - confidence, -2 / nu) - 1);
+  if (!search.identifiable[static_cast<std::size_t>(j)] || !search.identifiable[static_cast<std::size_t>(j) + 1])
+    c.why_not = search.identifiability;
+  else if (u.t > 0 && parts.dot(own.inverse() * parts) / 2 < limit)
+    c.why_not = fmt::format("the record cannot tell it from zero ({:.2g} N with an error of {:.2g} N)", amplitude,
+                            c.standard_error);
+  else
+    c.value = amplitude;
+  return line;
+}
+
+void tell_coefficients(const Cylinder& cylinder, const MorisonOptions& options, const MorisonColumns& at,
+                       const std::vector<double>& line_hz, const Eigen::VectorXd& x, const Uncertainty& u,
+                       MorisonFit& result) {
+  constexpr double any = std::numeric_limits<double>::infinity();
   result.cd = coefficient(result.search, "cd", 0, x[0], u);
   result.inertia = coefficient(result.search, inertia_name(cylinder), 1, x[1], u);
-  if (options.force_offset) result.offset = x[2];
-  if (delay) {
-    const Eigen::Index last = x.size() - 1;
-    result.delay = coefficient(result.search, "delay", last, x[last], u, result.period / 36);
-  }
+  if (at.linear >= 0) result.linear_drag = coefficient(result.search, "linear_drag", at.linear, x[at.linear], u, any);
+  if (at.offset >= 0) result.offset = coefficient(result.search, "offset", at.offset, x[at.offset], u, any);
+  for (std::size_t k = 0; k < line_hz.size(); ++k)
+    result.lines.push_back(
+        fitted_line(result.search, line_hz[k], at.lines + 2 * static_cast<Eigen::Index>(k), x, u, options.confidence));
+  if (at.delay >= 0) result.delay = coefficient(result.search, "delay", at.delay, x[at.delay], u, result.period / 36);
   const auto& covariance = u.covariance.covariance;
   const double variances = covariance(0, 0) * covariance(1, 1);
   result.correlation = variances > 0 ? covariance(0, 1) / std::sqrt(variances) : 0;
@@ -222,28 +274,23 @@ void tell_coefficients(const Cylinder& cylinder, const MorisonOptions& options, 
         "no interval made from scatter covers that";
 }
 
+/// Half widths about the fitted force, and about it for a new sample; (F53).
+void tell_bands(const Eigen::MatrixXd& columns, const Eigen::VectorXd& residuals, const Uncertainty& u,
+                MorisonFit& result) {
+  const Eigen::Index n = columns.rows();
+  Eigen::VectorXd squares = u.t * u.t * (columns * u.covariance.covariance).cwiseProduct(columns).rowwise().sum();
+  for (const SystematicError& e : result.budget)
+    squares += u.z * u.z * (columns.leftCols<2>() * Eigen::Vector2d(e.cd, e.inertia)).cwiseAbs2();
+  const double scatter =
+      u.t * u.t * residuals.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, n - columns.cols()));
+  const Eigen::VectorXd fit = squares.cwiseMax(0).cwiseSqrt(), sample = (squares.array() + scatter).cwiseMax(0).sqrt();
+  result.fit_band.assign(fit.begin(), fit.end());
+  result.sample_band.assign(sample.begin(), sample.end());
+  result.inside =
+      static_cast<double>((residuals.cwiseAbs().array() <= sample.array()).count()) / static_cast<double>(n);
+}
+
 }  // namespace
-
-double Cylinder::volume() const { return std::numbers::pi / 4 * diameter * diameter * length; }
-
-double morison_force(const Cylinder& c, double cd, double inertia, double velocity, double acceleration) {
-  const double drag = 0.5 * c.density * c.diameter * c.length * cd * std::abs(velocity) * velocity;
-  if (c.experiment == Experiment::water_moves) return c.density * c.volume() * inertia * acceleration + drag;  // (F7)
-  return -(inertia * c.density * c.volume() + c.mass_beyond_load_cells) * acceleration - drag;                 // (F8)
-}
-
-Eigen::MatrixXd morison_columns(const Cylinder& c, const ForceRecord& r) {  // (F7), (F8), (F25)
-  const double sign = c.experiment == Experiment::water_moves ? 1.0 : -1.0;
-  const auto u = as_vector(r.velocity).array();
-  Eigen::MatrixXd columns(u.size(), 2);
-  if (r.drag_flow.empty())
-    columns.col(0) = u.abs() * u;
-  else
-    columns.col(0) = as_vector(r.drag_flow);
-  columns.col(0) *= sign * 0.5 * c.density * c.diameter * c.length;
-  columns.col(1) = sign * c.density * c.volume() * as_vector(r.acceleration);
-  return columns;
-}
 
 MorisonFit fit_columns(const Cylinder& cylinder, const ForceRecord& record, const MorisonOptions& options,
                        const Eigen::VectorXd* delay_column) {
@@ -251,17 +298,18 @@ MorisonFit fit_columns(const Cylinder& cylinder, const ForceRecord& record, cons
   MorisonFit result;
   const double step = hydro::signal::even_step(record.time);
   describe_flow(cylinder, record, step, result);
-  const Eigen::MatrixXd columns = all_columns(cylinder, record, options, delay_column);
+  const std::vector<double> line_hz = line_frequencies(record, options, step, result.period);
+  const MorisonColumns at(options, delay_column != nullptr);
+  const Eigen::MatrixXd columns = all_columns(cylinder, record, options, line_hz, delay_column);
   const auto force = as_vector(record.force);
-  Eigen::VectorXd target = force;
-  if (cylinder.experiment == Experiment::body_moves)
-    target += cylinder.mass_beyond_load_cells * as_vector(record.acceleration);
+  const Eigen::VectorXd target = force - carried_force(cylinder, record);
   const double rows = static_cast<double>(target.size()), unit = std::sqrt(force.squaredNorm() / rows);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(columns.cols());
   result.search =
-      minimise(linear_model(compress(columns, target),
-                            parameters(cylinder, options, delay_column != nullptr, unit, result.period), unit),
-               x);
+      minimise(linear_model(compress(columns, target), parameters(cylinder, options, at, unit, result), unit), x);
+
+  if (at.count > (at.delay < 0 ? 2 : 3) && !result.search.all_identifiable())
+    throw hydro::InputError(result.search.identifiability, {}, "leave out the line, offset or linear drag among them");
 
   Eigen::VectorXd scatter;
   if (options.robust && result.search.all_identifiable()) {
@@ -274,12 +322,15 @@ MorisonFit fit_columns(const Cylinder& cylinder, const ForceRecord& record, cons
   if (scatter.size() == 0) scatter = residuals;
   result.residual_rms = std::sqrt(residuals.squaredNorm() / rows);
   result.explained = 1 - residuals.squaredNorm() / (force.array() - force.mean()).matrix().squaredNorm();
-  Uncertainty u = uncertainty_of(result.search, columns, scatter, unit, result.period / step, options);
+  double shortest = result.period;
+  for (const double hz : line_hz) shortest = std::min(shortest, 1 / hz);
+  Uncertainty u = uncertainty_of(result.search, columns, scatter, unit, result.period / step, shortest / step, options);
   u.shift = shift_per_degree(columns, record.force, step, result.period);
-  result.budget = budget(cylinder, columns, x, u.shift, result, options);
+  result.budget = budget(cylinder, record, columns, x, u.shift, result, options);
   u.systematic = total(result.budget, columns.cols());
   u.z = hydro::signal::normal_quantile((1 + options.confidence) / 2);
-  tell_coefficients(cylinder, options, delay_column != nullptr, x, u, result);
+  tell_coefficients(cylinder, options, at, line_hz, x, u, result);
+  if (options.bands && result.search.all_identifiable()) tell_bands(columns, residuals, u, result);
   const Eigen::VectorXd fitted = force - residuals;
   result.fitted.assign(fitted.data(), fitted.data() + fitted.size());
   return result;

@@ -9,6 +9,7 @@
 #include "fit/cycles.hpp"
 #include "fit/delay.hpp"
 #include "fit/differentiate.hpp"
+#include "fit/resample.hpp"
 #include "fit/sensor.hpp"
 #include "hydro/base/error.hpp"
 
@@ -35,12 +36,16 @@ struct Work {
                                           &run.acceleration,
                                           &run.cross_velocity,
                                           &run.elevation,
+                                          &run.water_velocity,
+                                          &run.water_acceleration,
                                           &out.record.time,
                                           &out.record.force,
                                           &pattern,
                                           &out.record.drag_flow,
                                           &out.record.velocity,
-                                          &out.record.acceleration};
+                                          &out.record.acceleration,
+                                          &out.record.water_acceleration,
+                                          &out.record.linear_flow};
     for (ForceChannel& f : run.force) all.push_back(&f.values);
     for (ForceError& e : out.force_errors) all.push_back(&e.force);
     return all;
@@ -69,15 +74,25 @@ std::vector<std::pair<std::string, std::vector<double>*>> measured(RawRun& run) 
                                {"velocity", &run.velocity},
                                {"acceleration", &run.acceleration},
                                {"cross velocity", &run.cross_velocity},
-                               {"elevation", &run.elevation}})
+                               {"elevation", &run.elevation},
+                               {"water velocity", &run.water_velocity},
+                               {"water acceleration", &run.water_acceleration}})
     if (!column->empty()) all.push_back({name, column});
   return all;
 }
 
+/// A motion was recorded beside that of the water.
+bool moves(const RawRun& run) { return !run.velocity.empty() || !run.position.empty(); }
+
 void check(RawRun& run) {
   hydro::require(!run.force.empty(), "a run needs a force");
-  const int motions = !run.velocity.empty() + !run.position.empty() + !run.elevation.empty();
-  hydro::require(motions == 1, "a run needs one of position, velocity and surface elevation, got {} of them", motions);
+  hydro::require(run.velocity.empty() || run.position.empty(), "a run has a position or a velocity, not both");
+  hydro::require(run.elevation.empty() || run.water_velocity.empty(),
+                 "a run has an elevation or the water's velocity, not both");
+  const bool moved = moves(run);
+  hydro::require(moved || !run.elevation.empty(), "a run needs a position, a velocity or a surface elevation");
+  hydro::require(run.water_acceleration.empty() || !run.water_velocity.empty(),
+                 "the water's acceleration needs its velocity beside it");
   hydro::require(run.elevation.empty() == !run.probe, "an elevation needs to know where probe and body are");
   for (const auto& [name, column] : measured(run)) {
     hydro::require(column->size() == run.time.size(), "{} has {} samples, time {}", name, column->size(),
@@ -140,6 +155,22 @@ void take_outliers(Work& w, const PrepareOptions& options) {  // (F22)
   }
 }
 
+void resample(Work& w, double hz) {  // (F48)
+  if (hz == 0) return;
+  hydro::require(hz > 0 && std::isfinite(hz), "a sampling rate must be positive, got {} Hz", hz);
+  const Resampler to(w.step, 1 / hz);
+  const double first = w.run.time.front() + static_cast<double>(to.settling()) * w.step;
+  for (const auto& [name, column] : measured(w.run)) *column = to.apply(*column);
+  const std::size_t n = w.run.force.front().values.size();
+  w.run.time.resize(n);
+  for (std::size_t k = 0; k < n; ++k) w.run.time[k] = first + static_cast<double>(k) / hz;
+  w.tell(
+      "resampling: from {:.5g} Hz to {:.5g} Hz, all channels alike: 0.2 % to {:.3g} Hz, closed from {:.3g} Hz, "
+      "no delay, {:.3g} s given up at each end",
+      1 / w.step, hz, to.bandwidth_hz(), to.closed_hz(), static_cast<double>(to.settling()) * w.step);
+  w.step = 1 / hz;
+}
+
 /// Standard error of the mean of a record at rest, its memory counted (F3).
 double error_of_mean(const std::vector<double>& v, double mean) {
   Eigen::VectorXd e = Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size())).array() - mean;
@@ -193,10 +224,17 @@ void take_delay(Work& w, double delay_s) {  // (F24)
 void add_waves(Work& w) {
   if (w.run.elevation.empty()) return;
   const WaterMotion m = water_motion(w.run.elevation, w.step, *w.run.probe);
+  const bool body_too = moves(w.run);
   w.cut(m.first, m.velocity.size());
-  w.run.velocity = m.velocity;
+  (body_too ? w.run.water_velocity : w.run.velocity) = m.velocity;
+  (body_too ? w.run.water_acceleration : w.run.acceleration) = m.acceleration;
   w.run.cross_velocity = m.rise;
-  w.run.acceleration = m.acceleration;
+  if (w.run.probe->regular)
+    return w.tell(
+        "water: one linear wave of {:.4g} s fitted to the probe ({:.2g} % of the surface are not in it), {:.4g} m "
+        "under "
+        "and {:.4g} m ahead of it",
+        m.main_period_s, 100 * m.left, -w.run.probe->level, w.run.probe->ahead);
   w.tell("water: linear waves up to {:.3g} Hz from the surface at the probe, {:.4g} m below and {:.4g} m ahead of it",
          m.highest_hz, -w.run.probe->level, w.run.probe->ahead);
 }
@@ -246,6 +284,26 @@ void add_motion(Work& w, const PrepareOptions& options) {
   if (w.run.acceleration.empty()) warn_of_noise(w, m);
 }
 
+/// From the body's motion to that of the water against it; (F49).
+void add_water(Work& w, const PrepareOptions& options) {
+  if (w.run.water_velocity.empty()) return;
+  if (w.run.water_acceleration.empty()) {
+    const Motion m = from_velocity(w.run.water_velocity, w.step, options.derivative_bandwidth_hz, options.derivative);
+    w.cut(m.first, m.velocity.size());
+    w.run.water_velocity = m.velocity;
+    w.run.water_acceleration = m.acceleration;
+    w.tell("acceleration of the water by {}", method_of(m, options.derivative));
+  }
+  ForceRecord& r = w.out.record;
+  for (std::size_t j = 0; j < r.time.size(); ++j) {
+    r.velocity[j] = w.run.water_velocity[j] - r.velocity[j];
+    r.acceleration[j] = w.run.water_acceleration[j] - r.acceleration[j];
+  }
+  r.water_acceleration = w.run.water_acceleration;
+  w.pattern = r.velocity;
+  w.tell("flow: velocity and acceleration of the water less those of the body");
+}
+
 /// √(u² + w²) u where the water moves across as well; (F7).
 void add_cross_flow(Work& w) {
   if (w.run.cross_velocity.empty()) return;
@@ -285,7 +343,7 @@ void tell_lines(Work& w, const std::vector<ZeroPhaseFilter>& filters) {
   }
 }
 
-void filter_all(Work& w, const std::vector<FilterChoice>& choices) {  // (F25)
+void filter_all(Work& w, const std::vector<FilterChoice>& choices, bool linear_drag) {  // (F25)
   std::vector<ZeroPhaseFilter> filters;
   for (const FilterChoice& c : choices) filters.push_back(made(c, w.step));
   tell_lines(w, filters);
@@ -293,9 +351,11 @@ void filter_all(Work& w, const std::vector<FilterChoice>& choices) {  // (F25)
   ForceRecord& r = w.out.record;
   if (r.drag_flow.empty())
     for (const double u : r.velocity) r.drag_flow.push_back(std::abs(u) * u);
+  if (linear_drag) r.linear_flow = r.velocity;
   for (const ZeroPhaseFilter& f : filters) {
     std::vector<std::pair<std::vector<double>*, std::vector<double>>> smooth;
-    for (auto* column : {&r.force, &r.acceleration, &r.drag_flow}) smooth.push_back({column, f.apply(*column)});
+    for (auto* column : {&r.force, &r.acceleration, &r.drag_flow, &r.water_acceleration, &r.linear_flow})
+      if (!column->empty()) smooth.push_back({column, f.apply(*column)});
     for (ForceChannel& c : w.run.force) smooth.push_back({&c.values, f.apply(c.values)});
     w.cut(f.settling(), r.time.size() - 2 * f.settling());
     for (auto& [column, values] : smooth) *column = std::move(values);
@@ -304,7 +364,46 @@ void filter_all(Work& w, const std::vector<FilterChoice>& choices) {  // (F25)
   }
 }
 
-void cut_cycles(Work& w, const WindowChoice& window) {  // (F23)
+std::vector<double> repeated(const std::vector<double>& cycle, std::size_t times) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < times; ++i) out.insert(out.end(), cycle.begin(), cycle.end());
+  return out;
+}
+
+/// Cycles over each other: what moves becomes its mean, repeated; forces stay each cycle's own, at the same phases.
+void lay_cycles(Work& w, const std::vector<Cycle>& cycles) {  // (F47)
+  hydro::require(cycles.size() >= 2, "a mean cycle needs two cycles of full amplitude at least, the record has {}",
+                 cycles.size());
+  ForceRecord& r = w.out.record;
+  const double length = (cycles.back().end - cycles.front().start) / static_cast<double>(cycles.size()),
+               origin = r.time.front() + w.step * cycles.front().start;
+  const auto points = static_cast<std::size_t>(std::lround(length));
+  const auto laid = [&](const std::vector<double>& v) { return on_phases(v, cycles, points); };
+  const CycleMean velocity = mean_cycle(laid(r.velocity), points);
+  hydro::require(velocity.left < 0.1, "the velocity differs from cycle to cycle by {:.2g} %: there is no mean cycle",
+                 100 * velocity.left);
+  if (r.drag_flow.empty())
+    for (const double u : r.velocity) r.drag_flow.push_back(std::abs(u) * u);
+  for (auto* column : {&r.velocity, &r.acceleration, &r.drag_flow, &r.water_acceleration, &r.linear_flow, &w.pattern})
+    if (!column->empty()) *column = repeated(mean_cycle(laid(*column), points).mean, cycles.size());
+  r.force = laid(r.force);
+  for (ForceChannel& f : w.run.force) f.values = laid(f.values);
+  const CycleMean force = mean_cycle(r.force, points);
+  w.step *= length / static_cast<double>(points);
+  r.time.resize(r.force.size());
+  for (std::size_t k = 0; k < r.time.size(); ++k) r.time[k] = origin + w.step * static_cast<double>(k);
+  w.run.time = r.time;
+  w.out.mean_force = {.time = {}, .force = force.mean, .standard_error = force.standard_error, .cycles = cycles.size()};
+  for (std::size_t k = 0; k < points; ++k) w.out.mean_force->time.push_back(w.step * static_cast<double>(k));
+  for (std::size_t g = 0; g <= cycles.size(); ++g)  // all of one length now
+    w.out.cycle_starts[g] = origin + w.step * static_cast<double>(g * points);
+  w.tell(
+      "mean cycle: {} cycles of {:.4g} s over each other at {} phases; single ones differ from their mean by {:.2g} % "
+      "of the velocity and {:.2g} % of the force",
+      cycles.size(), w.step * static_cast<double>(points), points, 100 * velocity.left, 100 * force.left);
+}
+
+void cut_cycles(Work& w, const WindowChoice& window, bool average) {  // (F23)
   auto cycles = full_amplitude(find_cycles(w.pattern), window.tolerance);
   const auto wanted = static_cast<std::size_t>(window.cycles);
   hydro::require(cycles.size() >= wanted, "{} cycles of full amplitude are asked for, the record has {}", wanted,
@@ -313,15 +412,18 @@ void cut_cycles(Work& w, const WindowChoice& window) {  // (F23)
   const double origin = w.run.time.front();
   for (const Cycle& c : cycles) w.out.cycle_starts.push_back(origin + w.step * c.start);
   w.out.cycle_starts.push_back(origin + w.step * cycles.back().end);
+  w.tell("window: {} cycles of full amplitude within {:g} %, from {:.4g} s to {:.4g} s", cycles.size(),
+         100 * window.tolerance, w.out.cycle_starts.front(), w.out.cycle_starts.back());
+  if (average) return lay_cycles(w, cycles);
   const auto from = static_cast<std::size_t>(std::ceil(cycles.front().start)),
              to = static_cast<std::size_t>(std::floor(cycles.back().end));
   w.cut(from, to - from + 1);
-  w.tell("window: {} cycles of full amplitude within {:g} %, from {:.4g} s to {:.4g} s", cycles.size(),
-         100 * window.tolerance, w.out.cycle_starts.front(), w.out.cycle_starts.back());
 }
 
-void cut_window(Work& w, const WindowChoice& window) {
-  if (window.kind == WindowChoice::Kind::full_cycles) return cut_cycles(w, window);
+void cut_window(Work& w, const WindowChoice& window, bool average) {
+  hydro::require(!average || window.kind == WindowChoice::Kind::full_cycles,
+                 "a mean cycle needs a window of full cycles");
+  if (window.kind == WindowChoice::Kind::full_cycles) return cut_cycles(w, window, average);
   if (window.kind == WindowChoice::Kind::all) return;
   const auto& t = w.run.time;
   const auto from = std::lower_bound(t.begin(), t.end(), window.from),
@@ -351,20 +453,22 @@ void add_force_errors(Work& w) {
 
 }  // namespace
 
-Prepared prepare(const RawRun& run, const PrepareOptions& options) {
-  Work w{.run = run, .step = 0, .out = {}, .pattern = {}};
+Prepared prepare(RawRun run, const PrepareOptions& options) {
+  Work w{.run = std::move(run), .step = 0, .out = {}, .pattern = {}};
   check(w.run);
   fill_gaps(w, options.longest_gap_s);
   look_at_sensors(w);
   compare_channels(w.run);
   take_outliers(w, options);
+  resample(w, options.resample_hz);
   sum_forces(w);
   take_delay(w, options.delay_s);
   add_waves(w);
   add_motion(w, options);
+  add_water(w, options);
   add_cross_flow(w);
-  filter_all(w, options.filters);
-  cut_window(w, options.window);
+  filter_all(w, options.filters, options.linear_drag);
+  cut_window(w, options.window, options.average_cycles);
   add_force_errors(w);
   return std::move(w.out);
 }

@@ -218,6 +218,33 @@ void tell_motion(const ShootingProblem& p, const Layout& l, const Eigen::VectorX
   for (Eigen::Index c = 0; c < channels; ++c) fit.rms.push_back(std::sqrt(squares[c] / samples));
 }
 
+/// What the fitted motion is uncertain by at each sample, and what a new sample would scatter by beside it.
+void tell_motion_bands(const ShootingProblem& p, const Eigen::MatrixXd& jacobian, const CoefficientCovariance& u,
+                       ShootingFit& fit) {  // (F46)
+  if (!fit.search.all_identifiable()) return;
+  const double quantile = hydro::signal::student_t_quantile((1 + p.confidence) / 2, u.dof);
+  const Eigen::VectorXd variance =
+      (jacobian * u.covariance).cwiseProduct(jacobian).rowwise().sum().cwiseMax(0) * quantile * quantile;
+  double inside = 0, samples = 0;
+  Eigen::Index at = 0;
+  for (std::size_t w = 0; w < p.windows.size(); ++w) {
+    const Eigen::MatrixXd& values = p.windows[w].values;
+    Eigen::MatrixXd of_fit = variance.segment(at, values.size()).reshaped(values.rows(), values.cols()),
+                    of_sample = of_fit;
+    for (Eigen::Index c = 0; c < values.cols(); ++c) {
+      const auto channel = static_cast<std::size_t>(c);
+      of_fit.col(c) *= std::pow(p.deviations[channel], 2);
+      of_sample.col(c) = of_fit.col(c).array() + std::pow(quantile * fit.rms[channel], 2);
+    }
+    fit.fit_band.emplace_back(of_fit.cwiseSqrt());
+    fit.sample_band.emplace_back(of_sample.cwiseSqrt());
+    inside += static_cast<double>(((fit.motion[w] - values).cwiseAbs().array() <= fit.sample_band[w].array()).count());
+    samples += static_cast<double>(values.size());
+    at += values.size();
+  }
+  fit.inside = inside / samples;
+}
+
 }  // namespace
 
 std::vector<std::string> parameters_of(MotionLaw law) {
@@ -245,19 +272,20 @@ ShootingFit fit_motion(const ShootingProblem& p) {  // (F36)
   Eigen::VectorXd r(model.residuals);
   Eigen::MatrixXd jacobian;
   model.evaluate(x, r, &jacobian);
+  CoefficientCovariance u;
   if (fit.search.all_identifiable() && r.norm() > 1e-9 * std::sqrt(static_cast<double>(r.size()))) {
-    tell_parameters(p, l, x, uncertainty_of(p, jacobian, r), fit);
+    u = uncertainty_of(p, jacobian, r);
   } else {
-    CoefficientCovariance none;
-    none.covariance = none.white_covariance = fit.search.all_identifiable()
-                                                  ? Eigen::MatrixXd(Eigen::MatrixXd::Zero(x.size(), x.size()))
-                                                  : fit.search.covariance;
-    none.effective_samples = Eigen::VectorXd::Zero(x.size());
-    none.dof_raised = false;
-    none.dof = none.white_dof = static_cast<double>(std::max<Eigen::Index>(1, r.size() - x.size()));
-    tell_parameters(p, l, x, none, fit);
+    u.covariance = u.white_covariance = fit.search.all_identifiable()
+                                            ? Eigen::MatrixXd(Eigen::MatrixXd::Zero(x.size(), x.size()))
+                                            : fit.search.covariance;
+    u.effective_samples = Eigen::VectorXd::Zero(x.size());
+    u.dof_raised = false;
+    u.dof = u.white_dof = static_cast<double>(std::max<Eigen::Index>(1, r.size() - x.size()));
   }
+  tell_parameters(p, l, x, u, fit);
   tell_motion(p, l, x, fit);
+  tell_motion_bands(p, jacobian, u, fit);
   return fit;
 }
 

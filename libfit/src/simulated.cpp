@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <iterator>
 
 #include "fit/correlated.hpp"
 #include "hydro/base/error.hpp"
@@ -445,6 +447,16 @@ SimulationFit Shooting::solve() {  // (F41)
   return fit;
 }
 
+// Of the prime number of its dimension: 1/2, 1/4, 3/4 …; 1/3, 2/3, 1/9 …
+double halton(int index, std::size_t dimension) {
+  constexpr int primes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
+  hydro::require(dimension < std::size(primes), "several starts are for {} parameters at most", std::size(primes));
+  const int base = primes[dimension];
+  double out = 0, digit = 1;
+  for (int rest = index; rest > 0; rest /= base) out += (digit /= base) * (rest % base);
+  return out;
+}
+
 }  // namespace
 
 double SimulationParameter::scale() const {
@@ -455,6 +467,42 @@ double SimulationParameter::scale() const {
 
 SimulationFit fit_simulation(Simulation& simulation, const SimulationProblem& problem) {
   return Shooting(simulation, problem).solve();
+}
+
+SeveralStarts fit_simulation_from(Simulation& simulation, const SimulationProblem& problem, int starts) {  // (F58)
+  hydro::require(starts >= 2 && problem.begin == nullptr, "several starts are two at least, got {}", starts);
+  for (const auto& q : problem.parameters)
+    hydro::require(std::isfinite(q.lowest) && std::isfinite(q.highest),
+                   "{} has no bounds on both sides, between which a search could start", q.name);
+  SeveralStarts out{{}, starts, 0, 0};
+  std::vector<double> costs;
+  std::exception_ptr failure;
+  for (int k = 0; k < starts; ++k) {
+    SimulationProblem other = problem;
+    for (std::size_t i = 0; k > 0 && i < other.parameters.size(); ++i) {
+      auto& q = other.parameters[i];
+      q.first = q.lowest + halton(k, i) * (q.highest - q.lowest);
+    }
+    try {
+      SimulationFit fit = fit_simulation(simulation, other);
+      costs.push_back(fit.search.cost_last);
+      if (costs.back() <= *std::min_element(costs.begin(), costs.end())) out.best = std::move(fit);
+    } catch (const hydro::NumericsError&) {
+      failure = std::current_exception();
+      ++out.failed;
+    } catch (const hydro::InputError&) {
+      if (k == 0) throw;  // of the problem itself; later it is a point at which there is no motion
+      ++out.failed;
+    }
+  }
+  if (costs.empty()) std::rethrow_exception(failure);
+  double rows = 0;
+  for (const auto& m : problem.measured) rows += static_cast<double>(m.size());
+  // One standard error of one unknown raises the cost by itself over n (F41).
+  const double least = *std::min_element(costs.begin(), costs.end());
+  out.agree = static_cast<int>(
+      std::count_if(costs.begin(), costs.end(), [&](double cost) { return cost - least <= least / rows; }));
+  return out;
 }
 
 }  // namespace fit

@@ -8,8 +8,10 @@
 
 #include "hydro/base/error.hpp"
 #include "hydro/signal/fft.hpp"
+#include "hydro/signal/harmonics.hpp"
 #include "hydro/signal/welch.hpp"
 #include "hydro/waves/dispersion.hpp"
+#include "morison_columns.hpp"
 
 namespace fit {
 namespace {
@@ -47,6 +49,33 @@ std::vector<double> tapered(std::span<const double> values, std::size_t over) {
   return out;
 }
 
+/// One sinusoid through the whole record.
+WaterMotion regular_motion(std::span<const double> elevation, double step, const ProbeToBody& probe,
+                           double rough_period) {  // (F57)
+  const std::size_t n = elevation.size();
+  const double omega = two_pi * peak_frequency(elevation, step, rough_period);
+  std::vector<double> time(n);
+  for (std::size_t j = 0; j < n; ++j) time[j] = step * static_cast<double>(j);
+  const auto surface = hydro::signal::fit_harmonics(time, elevation, std::vector{omega});
+  WaterMotion motion{};
+  motion.main_period_s = two_pi / omega;
+  motion.highest_hz = omega / two_pi;
+  motion.left = surface.residual_rms * std::numbers::sqrt2 / std::abs(surface.amplitude[0]);
+  hydro::require(motion.left < 0.3,
+                 "{:.2g} % of the surface are not in one sinusoid of {:.4g} s: it is no regular wave",
+                 100 * motion.left, motion.main_period_s);
+  const double k = hydro::waves::wavenumber(omega, probe.water);
+  const Profiles p = profiles(k, probe.level, probe.water);
+  const Complex there = surface.amplitude[0] * std::polar(1.0, -k * probe.ahead);
+  for (const double t : time) {
+    const Complex now = omega * there * std::polar(1.0, omega * t);
+    motion.velocity.push_back(p.along * now.real());
+    motion.rise.push_back(-p.up * now.imag());
+    motion.acceleration.push_back(-omega * p.along * now.imag());
+  }
+  return motion;
+}
+
 }  // namespace
 
 WaterMotion water_motion(std::span<const double> elevation, double step, const ProbeToBody& probe) {  // (F40)
@@ -60,6 +89,7 @@ WaterMotion water_motion(std::span<const double> elevation, double step, const P
   const auto period = static_cast<std::size_t>(std::ceil(motion.main_period_s / step));
   hydro::require(n >= 5 * period, "the surface record holds {:.2g} main periods; five are needed",
                  static_cast<double>(n) / static_cast<double>(period));
+  if (probe.regular) return regular_motion(elevation, step, probe, motion.main_period_s);
   auto spectrum = hydro::signal::real_fft(tapered(elevation, period));
   std::vector<Complex> u(spectrum.size()), w(spectrum.size()), a(spectrum.size());
   for (std::size_t i = 1; i < spectrum.size(); ++i) {

@@ -209,5 +209,103 @@ TEST_F(Fit, OfASceneSaysWhichKeyItCannotFind) {
               ThrowsMessage<InputError>(HasSubstr("an angle is needed")));
 }
 
+/// The interval of a coefficient holds the truth.
+bool holds(const nlohmann::json& c, double truth) {
+  return c["interval"][0].get<double>() < truth && truth < c["interval"][1].get<double>();
+}
+
+TEST_F(Fit, OfAMeanCycleHasTheTruthInItsIntervals) {
+  const auto run = nlohmann::json::parse(told({.scene = examples / "mean_cycle.toml"}, true))["run"][0];
+  EXPECT_TRUE(holds(run["cd"], 1.2));  // as make_oscillation.py says
+  EXPECT_TRUE(holds(run["ca"], 1.0));
+  EXPECT_THAT(run.dump(), AllOf(HasSubstr("from 50 Hz to 20 Hz"), HasSubstr("over each other")));
+  told({.scene = examples / "mean_cycle.toml", .picture = folder / "m.svg"});
+  EXPECT_THAT(hydro::io::read_text(folder / "m.svg"),
+              AllOf(HasSubstr("time in the cycle"), HasSubstr("band of the fit")));
+  EXPECT_THAT([&] { told({.scene = changed("mean_cycle.toml", "window = { kind = \"full cycles\" }\n", "")}); },
+              ThrowsMessage<InputError>(HasSubstr("needs cycles")));
+}
+
+TEST_F(Fit, OfABodyThatMovesInWavesHasTheTruthInItsIntervals) {
+  const auto run = nlohmann::json::parse(told({.scene = examples / "in_waves.toml"}, true))["run"][0];
+  EXPECT_TRUE(holds(run["cd"], 1.4)) << run.dump(1);  // as make_in_waves.py says
+  EXPECT_TRUE(holds(run["ca"], 0.8));
+  EXPECT_TRUE(holds(run["line"][0], 3.0));
+  EXPECT_NEAR(run["samples_in_band"].get<double>(), 0.95, 0.03);
+  const auto without = nlohmann::json::parse(
+      told({.scene = changed("in_waves.toml", "line = [{ frequency = \"1.1 Hz\" }]", "linear_drag = true")},
+           true))["run"][0];
+  EXPECT_GT(without["residual_rms_N"].get<double>(), 1.5 * run["residual_rms_N"].get<double>());
+  EXPECT_TRUE(without.contains("linear_drag"));
+  EXPECT_THAT([&] { told({.scene = changed("in_waves.toml", "\"both move\"", "\"body moves\"")}); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr("water_velocity"), HasSubstr("both move"))));
+  EXPECT_THAT([&] { told({.scene = changed("in_waves.toml", "water_velocity = \"u\", ", "")}); },
+              ThrowsMessage<InputError>(HasSubstr("water_velocity or elevation")));
+}
+
+TEST_F(Fit, OfABrakeGivesWhatASceneOfMotionMayInclude) {
+  const auto j = nlohmann::json::parse(
+      told({.scene = examples / "friction.toml", .output = folder / "brake.toml", .picture = folder / "f.svg"}, true));
+  ASSERT_EQ(j["run"].size(), 4u);
+  EXPECT_TRUE(holds(j["together"]["static"], 3.70));  // the means of make_friction.py
+  EXPECT_TRUE(holds(j["together"]["dynamic"], 3.00));
+  for (const auto& run : j["run"]) EXPECT_GT(run["drop"]["interval"][0].get<double>(), 0);
+  EXPECT_THAT(hydro::io::read_text(folder / "brake.toml"), AllOf(HasSubstr("static = \"3.7"), HasSubstr(" N m\"")));
+  EXPECT_THAT(hydro::io::read_text(folder / "f.svg"), HasSubstr("sliding"));
+  EXPECT_THAT(told({.scene = examples / "friction.toml"}),
+              AllOf(HasSubstr("static over 4 tests"), HasSubstr("slips at")));
+  EXPECT_THAT([&] { told({.scene = changed("friction.toml", "ramp = \"2 s\"", "ramp = \"20 s\"")}); },
+              ThrowsMessage<InputError>(HasSubstr("the record has")));
+}
+
+TEST_F(Fit, OfForcedHeaveGivesAddedMassDampingAndPoles) {
+  const auto j = nlohmann::json::parse(told({.scene = examples / "radiation.toml",
+                                             .output = folder / "r.toml",
+                                             .table = folder / "r.csv",
+                                             .picture = folder / "r.svg"},
+                                            true));
+  ASSERT_EQ(j["run"].size(), 9u);
+  int held = 0;
+  for (const auto& run : j["run"]) {  // the closed form of make_radiation.py
+    const double s = run["omega_rad_s"].get<double>(), w2 = 1.2 * 1.2 + 2.8 * 2.8,
+                 d = (w2 - s * s) * (w2 - s * s) + 4 * 1.44 * s * s;
+    held += holds(run["added_mass"], 60 + 400 * (w2 - s * s) / d) + holds(run["damping"], 2 * 1.2 * 400 * s * s / d);
+  }
+  EXPECT_GE(held, 15);  // of eighteen intervals of 95 %: fewer than 15 come once in fifty
+  EXPECT_NEAR(j["memory"]["added_mass_limit"].get<double>(), 60, 3);
+  EXPECT_THAT(hydro::io::read_text(folder / "r.csv"), HasSubstr("damping_low [N s/m]"));
+  EXPECT_THAT(hydro::io::read_text(folder / "r.svg"), AllOf(HasSubstr("poles"), HasSubstr("added mass")));
+  EXPECT_THAT(told({.scene = examples / "radiation.toml"}),
+              AllOf(HasSubstr("pole: decays by"), HasSubstr("harmonics of the force")));
+  EXPECT_THAT([&] { told({.scene = changed("radiation.toml", "mass = \"120 kg\"", "inertia = \"120 kg m^2\"")}); },
+              ThrowsMessage<InputError>(HasSubstr("does not go with the channel position")));
+}
+
+TEST_F(Fit, OfADecayTellsAddedMassWhereTheBodyIsKnown) {
+  const auto run = nlohmann::json::parse(told({.scene = examples / "decay.toml"}, true))["run"][0];
+  const double omega = 2 * 3.14159265358979 / 6.4;  // of make_decay.py; stiffness and inertia are those of decay.toml
+  EXPECT_TRUE(holds(run["water"]["added_mass"], 12000 / (omega * omega) - 9960));
+  EXPECT_TRUE(holds(run["water"]["damping"]["linear"], 0.02 * 12000 / (omega * omega)));
+  EXPECT_NEAR(run["samples_in_band"].get<double>(), 0.95, 0.03);
+  EXPECT_THAT(told({.scene = examples / "decay.toml"}),
+              AllOf(HasSubstr("kg m^2"), HasSubstr("samples lie in the band")));
+}
+
+TEST_F(Fit, OfASceneMayBeginAtSeveralPoints) {
+  const auto scene = changed("pendulums.toml", "window = \"2 s\"", "window = \"2 s\"\nstarts = 2");
+  EXPECT_THAT([&] { told({.scene = scene}); }, ThrowsMessage<InputError>(HasSubstr("no bounds between which")));
+  std::string text = hydro::io::read_text(scene);
+  for (const std::string unit : {"kg/s", "kg/m"}) {
+    const std::string lowest = "lowest = \"1e-6 " + unit + "\"";
+    text.replace(text.find(lowest), lowest.size(), lowest + ", highest = \"0.05 " + unit + "\"");
+  }
+  hydro::io::write_atomically(scene, text);
+  const auto j = nlohmann::json::parse(told({.scene = scene}, true));
+  EXPECT_EQ(j["starts"]["tried"], 2);
+  EXPECT_EQ(j["starts"]["agree"], 2);  // both find what the windows tell: the second search hands them on anew
+  EXPECT_LT(j["parameter"]["line_damping_linear"]["interval"][0].get<double>(), 0.006);
+  EXPECT_GT(j["parameter"]["line_damping_linear"]["interval"][1].get<double>(), 0.006);
+}
+
 }  // namespace
 }  // namespace fit_test

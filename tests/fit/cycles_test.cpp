@@ -55,5 +55,44 @@ TEST(Cycles, RefuseARecordAtRest) {
   EXPECT_THROW(fit::full_amplitude({}, 0.03), hydro::InputError);
 }
 
+TEST(MeanCycle, IsWhatAllCyclesHaveInCommon) {
+  // Cycles of 63.4 samples, so that no phase falls on samples twice.
+  constexpr double length = 63.4;
+  constexpr std::size_t points = 63, count = 12;
+  const auto shape = [](double phase) { return std::cos(phase) + 0.3 * std::sin(3 * phase) + 0.1; };
+  const auto noise = froude_test::ar1_noise(900, 0, 0.05, 4);
+  std::vector<double> clean, noisy;
+  for (std::size_t j = 0; j < 900; ++j) {
+    clean.push_back(shape(2 * std::numbers::pi * (static_cast<double>(j) - 20.3) / length));
+    noisy.push_back(clean[j] + noise[j]);
+  }
+  std::vector<fit::Cycle> cycles;
+  for (std::size_t i = 0; i < count; ++i)
+    cycles.push_back({20.3 + length * static_cast<double>(i), 20.3 + length * static_cast<double>(i + 1), 1});
+  const auto mean = fit::mean_cycle(fit::on_phases(clean, cycles, points), points);
+  ASSERT_EQ(mean.mean.size(), points);
+  for (std::size_t k = 0; k < points; ++k)  // the cubic: 3/128 (3·2π/63.4)⁴ of the third harmonic is 6e-5
+    EXPECT_NEAR(mean.mean[k], shape(2 * std::numbers::pi * static_cast<double>(k) / points), 1e-4);
+  EXPECT_LT(mean.left, 2e-4);
+  const auto rough = fit::mean_cycle(fit::on_phases(noisy, cycles, points), points);
+  double error = 0, stated = 0;
+  for (std::size_t k = 0; k < points; ++k) {
+    error += std::pow(rough.mean[k] - mean.mean[k], 2) / points;
+    stated += std::pow(rough.standard_error[k], 2) / points;
+  }
+  // A variance from 63 phases of 11 degrees of freedom each; the cubic passes 0.7 of white noise's variance, to both
+  // alike.
+  EXPECT_NEAR(std::sqrt(error), std::sqrt(stated), 0.3 * std::sqrt(stated));
+  EXPECT_NEAR(std::sqrt(stated), 0.05 * std::sqrt(0.75 / count), 0.003);
+}
+
+TEST(MeanCycle, NeedsTwoWholeCyclesThatSwing) {
+  const std::vector<double> level(100, 1.0);
+  EXPECT_THROW(fit::mean_cycle(level, 50), hydro::InputError);
+  EXPECT_THROW(fit::mean_cycle(level, 70), hydro::InputError);
+  EXPECT_THROW(fit::on_phases(level, std::vector<fit::Cycle>{{50, 110, 1}}, 20), hydro::InputError);
+  EXPECT_THROW(fit::on_phases(level, std::vector<fit::Cycle>{}, 20), hydro::InputError);
+}
+
 }  // namespace
 }  // namespace cycles_test

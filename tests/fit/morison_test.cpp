@@ -222,7 +222,7 @@ TEST(MorisonFit, FindsAnOffsetOfTheLoadCellsWhereAskedTo) {
   auto record = made(c, 1.2, 1.0, 0.4, 4, 900, 0.02);
   for (double& f : record.force) f += 3.5;
   const auto fit = fit::fit_morison(c, record, {.force_offset = true});
-  EXPECT_NEAR(fit.offset.value(), 3.5, 1e-9);
+  EXPECT_NEAR(fit.offset->value.value(), 3.5, 1e-9);
   EXPECT_NEAR(*fit.cd.value, 1.2, 1e-10);
   EXPECT_FALSE(fit::fit_morison(c, record).offset.has_value());
 }

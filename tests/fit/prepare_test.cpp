@@ -250,5 +250,65 @@ TEST(Prepare, TakesTheWaterFromAProbeWhoseSignalIsLate) {
   EXPECT_NEAR(*fit.inertia.value, 1.8, 0.01);
 }
 
+TEST(Prepare, BringsARecordToAnotherRateAndTellsItsBand) {
+  PrepareOptions slower = usual;
+  slower.resample_hz = 40;
+  const auto p = fit::prepare(clean(), slower);
+  EXPECT_THAT(p.steps, Contains(HasSubstr("from 200 Hz to 40 Hz")));
+  EXPECT_THAT(p.steps, Contains(HasSubstr("0.2 % to 12 Hz, closed from 20 Hz")));
+  const auto fit = fit::fit_morison(cylinder, p.record);
+  EXPECT_NEAR(static_cast<double>(fit.samples), 5 * 160, 1);
+  EXPECT_NEAR(*fit.cd.value, truth_cd, 5 * by_derivatives);
+  EXPECT_NEAR(*fit.inertia.value, truth_ca, 5 * by_derivatives);
+  // A vibration above the new band does not come back as a slow force: 90 Hz would be 10 Hz at 40 samples a second.
+  RawRun run = clean();
+  for (std::size_t j = 0; j < run.time.size(); ++j)
+    for (auto& f : run.force) f.values[j] += 5 * std::sin(2 * std::numbers::pi * 90 * run.time[j]);
+  slower.filters.clear();
+  EXPECT_LT(fit::fit_morison(cylinder, fit::prepare(run, slower).record).residual_rms, 0.1);
+}
+
+TEST(Prepare, LaysCyclesOverEachOther) {
+  RawRun run = clean();
+  const auto shake = froude_test::ar1_noise(run.time.size(), 0.9, 2, 7),
+             jitter = froude_test::ar1_noise(run.time.size(), 0, 4e-4, 8);
+  for (std::size_t j = 0; j < run.time.size(); ++j) {
+    run.force[0].values[j] += shake[j];
+    run.position[j] += jitter[j];
+  }
+  PrepareOptions options{.derivative_bandwidth_hz = 1.25,
+                         .window = {.kind = WindowChoice::Kind::full_cycles, .cycles = 8}};
+  const auto all = fit::fit_morison(cylinder, fit::prepare(run, options).record);
+  options.average_cycles = true;
+  const auto p = fit::prepare(run, options);
+  EXPECT_THAT(p.steps, Contains(HasSubstr("mean cycle: 8 cycles of 4 s")));
+  ASSERT_EQ(p.record.time.size(), 8 * 800u);
+  ASSERT_EQ(p.cycle_starts.size(), 9u);
+  EXPECT_EQ(p.mean_force->force.size(), 800u);
+  for (std::size_t j = 0; j < 800; ++j) ASSERT_EQ(p.record.velocity[j], p.record.velocity[j + 800]);
+  const auto mean = fit::fit_morison(cylinder, p.record, {.method = fit::IntervalMethod::cycle_clusters});
+  // Both are least squares over the same samples; noise of the motion, an eighth as strong, makes the difference.
+  EXPECT_NEAR(*mean.cd.value, *all.cd.value, all.cd.standard_error);
+  EXPECT_NEAR(*mean.inertia.value, *all.inertia.value, all.inertia.standard_error);
+  EXPECT_LT(mean.cd.interval.low, truth_cd);
+  EXPECT_GT(mean.cd.interval.high, truth_cd);
+  // The same as one fit of the mean force: what least squares is over columns that repeat.
+  fit::ForceRecord one{{}, p.mean_force->force, {}, {}};
+  for (std::size_t j = 0; j < 800; ++j) {
+    one.time.push_back(p.record.time[j]);
+    one.velocity.push_back(p.record.velocity[j]);
+    one.acceleration.push_back(p.record.acceleration[j]);
+    one.drag_flow.push_back(p.record.drag_flow[j]);
+  }
+  for (auto* column :
+       {&one.force, &one.velocity, &one.acceleration, &one.drag_flow})  // two periods: one is too few for the fit
+    column->insert(column->end(), column->begin(), column->begin() + 800);
+  for (std::size_t j = 0; j < 800; ++j) one.time.push_back(p.record.time[j + 800]);
+  const auto of_mean = fit::fit_morison(cylinder, one);
+  EXPECT_NEAR((of_mean.cd.interval.low + of_mean.cd.interval.high) / 2, *mean.cd.value, 1e-9);
+  options.window = {};
+  EXPECT_THAT([&] { fit::prepare(run, options); }, ThrowsMessage<hydro::InputError>(HasSubstr("full cycles")));
+}
+
 }  // namespace
 }  // namespace prepare_test

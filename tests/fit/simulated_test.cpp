@@ -35,6 +35,7 @@ class Flow final : public fit::Simulation {
   void hand_on(std::size_t window, const Eigen::VectorXd& theta, const Eigen::VectorXd& start) override {
     Eigen::VectorXd y = middle_.at(window) + start;
     for (Eigen::Index i = 0; i < samples_; ++i) y = stepped(y, theta);
+    middle_.resize(window + 1);
     middle_.push_back(y);
   }
 
@@ -202,6 +203,38 @@ TEST(Simulated, RefusesWhatItCannotBeginWith) {
   p.measured[0].conservativeResize(200, 1);
   EXPECT_THAT([&] { fit::fit_simulation(flow, p); },
               testing::ThrowsMessage<hydro::InputError>(HasSubstr("300 samples")));
+}
+
+/// cos ωt: whoever begins far from the frequency loses a swing and ends elsewhere.
+Eigen::VectorXd swing_freely(const Eigen::VectorXd& y, const Eigen::VectorXd& theta) {
+  return vector({y[1], -theta[0] * y[0]});
+}
+
+TEST(SeveralStarts, FindTheMinimumThatOneStartMisses) {
+  const auto e = froude_test::ar1_noise(300, 0, 0.05, 5);
+  const Eigen::MatrixXd measured = Flow(swing_freely, vector({1, 0}), 0.05, 300, false).follow(0, vector({9.0}), {}) +
+                                   Eigen::Map<const Eigen::VectorXd>(e.data(), 300);
+  fit::SimulationProblem p{.parameters = {{"restoring", 3.0, 1.0, 25.0}}, .measured = {measured}, .deviations = {0.05}};
+  Flow flow(swing_freely, vector({1, 0}), 0.05, 300, false);
+  const auto once = fit::fit_simulation(flow, p);
+  EXPECT_GT(once.rms[0], 0.3);  // 15 s of swings of 2 s: a start at 3.6 s has lost them
+  const auto several = fit::fit_simulation_from(flow, p, 24);
+  EXPECT_NEAR(several.best.parameters[0].value.value(), 9.0, 0.02);
+  EXPECT_NEAR(several.best.rms[0], 0.05, 0.01);
+  EXPECT_GE(several.agree, 1);
+  EXPECT_LT(several.agree, 24);
+  EXPECT_EQ(several.failed, 0);
+}
+
+TEST(SeveralStarts, NeedBoundsAndMoreThanOne) {
+  auto p = swing_problem(0, 1);
+  Flow flow(swing, vector({1, 0, 1}), 0.05, 300, false);
+  EXPECT_THAT([&] { fit::fit_simulation_from(flow, p, 3); },
+              testing::ThrowsMessage<hydro::InputError>(HasSubstr("no bounds on both sides")));
+  for (auto& q : p.parameters) q.lowest = 0, q.highest = 6;
+  EXPECT_THROW(fit::fit_simulation_from(flow, p, 1), hydro::InputError);
+  const auto several = fit::fit_simulation_from(flow, p, 3);
+  EXPECT_NEAR(several.best.parameters[2].value.value(), 4, 1e-6);
 }
 
 }  // namespace

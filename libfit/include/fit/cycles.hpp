@@ -20,4 +20,18 @@ std::vector<Cycle> find_cycles(std::span<const double> motion);
 /// hydro::InputError unless 0 < tolerance < 1, or there is no such cycle
 std::vector<Cycle> full_amplitude(std::span<const Cycle> cycles, double tolerance);
 
+/// `values` at `points` even phases of each cycle, by the cubic through four samples: error below 0.023 (ωΔt)⁴ of a
+/// sinusoid inside the record. Shape (cycles · points), one cycle after the other. \throws hydro::InputError for fewer
+/// than 4 samples, no cycle, fewer than 8 points, or a cycle that reaches beyond the record
+std::vector<double> on_phases(std::span<const double> values, std::span<const Cycle> cycles, std::size_t points);
+
+/// The mean of cycles laid over each other, and what they scatter by about it at each phase.
+struct CycleMean {
+  std::vector<double> mean, standard_error;  ///< shape (points); the error is that of the mean, s/√cycles
+  double left;  ///< rms of what single cycles differ from the mean by, over the rms of the mean's deviation from its
+                ///< own mean
+};
+/// Of what on_phases() gives; (F47). \throws hydro::InputError unless `laid` holds two whole cycles at least
+CycleMean mean_cycle(std::span<const double> laid, std::size_t points);
+
 }  // namespace fit

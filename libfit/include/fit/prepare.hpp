@@ -2,8 +2,9 @@
 /// \file  From raw channels to a record that can be fitted, in steps that are named and kept; (F23)-(F26),
 ///        docs/theory/fit.md.
 ///
-/// Order of the steps: even grid, outliers, calibration and zero, delay, derivatives, filters, window. A filter runs
-/// over the force and over both columns of the model alike, so it takes noise out and biases nothing.
+/// Order of the steps: even grid, outliers, another rate, calibration and zero, delay, water, derivatives, filters,
+/// window, mean cycle. A filter runs over the force and over both columns of the model alike, so it takes noise out and
+/// biases nothing.
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,9 @@ struct RawRun {
   /// Of the surface at a probe, m, in place of position and velocity: the water's motion at the body follows (F40).
   std::vector<double> elevation = {};
   std::optional<ProbeToBody> probe = {};  ///< with an elevation
+  /// Of a body that moves in moving water: the columns above are the body's, but for cross_velocity, and the water's
+  /// are these or an elevation (F49). Acceleration empty: from the velocity.
+  std::vector<double> water_velocity = {}, water_acceleration = {};
 };
 
 struct FilterChoice {
@@ -58,11 +62,24 @@ struct PrepareOptions {
   double longest_gap_s = 0;     ///< rows that may be missing at a stretch are bridged; 0: none may
   int outlier_half_window = 0;  ///< samples; 0: outliers are not looked for
   double outlier_deviations = 8;
+  double resample_hz = 0;              ///< all channels are brought to this rate (F48); 0: left as they are
   double delay_s = 0;                  ///< of the force behind the motion, taken off
   double derivative_bandwidth_hz = 0;  ///< 0: five times the main frequency
   Derivative derivative = Derivative::local_polynomial;
   std::vector<FilterChoice> filters = {};
+  bool linear_drag = false;  ///< will be fitted: filters run over the velocity, too
   WindowChoice window = {};
+  /// The window's cycles are laid over each other (F47): motion and columns of the model become their mean cycle, end
+  /// to end, and forces stay each cycle's own. Least squares then fits the mean force, and what cycles differ by tells
+  /// how well it is known. Needs full_cycles.
+  bool average_cycles = false;
+};
+
+/// The force over one mean cycle.
+struct MeanForce {
+  std::vector<double> time;                   ///< s, from the beginning of the cycle
+  std::vector<double> force, standard_error;  ///< N
+  std::size_t cycles;
 };
 
 struct Prepared {
@@ -71,11 +88,13 @@ struct Prepared {
   std::vector<std::string> steps;        ///< what was done, in order
   std::vector<std::string> cautions;     ///< what is wrong with the sensors
   std::vector<double> cycle_starts;      ///< s; of the window where it was cut into cycles, with the end of the last
+  std::optional<MeanForce> mean_force = {};  ///< where cycles were averaged
 };
 
 /// \throws hydro::InputError: lengths differ, a column is constant, two force channels that work against each other,
-/// time with gaps longer than allowed, a window outside the record, and as the steps themselves
-Prepared prepare(const RawRun& run, const PrepareOptions& options);
+/// time with gaps longer than allowed, a window outside the record, a mean cycle of cycles that differ by more than a
+/// tenth or without a window of full cycles, and as the steps themselves
+Prepared prepare(RawRun run, const PrepareOptions& options);
 
 /// Why the force (or the motion) must have the wrong sign; empty where it need not: both drag and all inertia come out
 /// negative with their whole intervals, which no flow does; (F26).

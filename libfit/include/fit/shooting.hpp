@@ -50,10 +50,14 @@ struct ShootingFit {
   std::vector<Eigen::VectorXd> initial;  ///< initial state of each window
   std::vector<Eigen::MatrixXd> motion;   ///< of each window, as its values
   std::vector<double> rms;               ///< per channel, over all windows
-  double integration_error;              ///< largest change of a sample if steps are halved, in deviations
-  double dof;                            ///< of Student's t behind the intervals
-  std::string caution;                   ///< why they may not hold; empty where nothing is known against them
-  Eigen::MatrixXd correlation;           ///< of the fitted parameters
+  /// Half widths of the bands at each sample, as `motion` (F46): of the fitted motion, and of a sample measured anew.
+  /// Empty where not all is identifiable.
+  std::vector<Eigen::MatrixXd> fit_band, sample_band;
+  double inside = 0;            ///< share of the samples within sample_band
+  double integration_error;     ///< largest change of a sample if steps are halved, in deviations
+  double dof;                   ///< of Student's t behind the intervals
+  std::string caution;          ///< why they may not hold; empty where nothing is known against them
+  Eigen::MatrixXd correlation;  ///< of the fitted parameters
 };
 
 /// Fits parameters and initial states together (Ceres, derivatives through the integrator). Initial states start from

@@ -26,7 +26,8 @@ class Simulation {
   /// such motion: a search then tries a shorter step
   virtual Eigen::MatrixXd follow(std::size_t window, const Eigen::VectorXd& parameters,
                                  const Eigen::VectorXd& start) = 0;
-  /// The end of this window becomes the start of the next, about which its coordinates count.
+  /// The end of this window becomes the start of the next, about which its coordinates count. A window that is handed
+  /// on again, by another search, makes what was handed on after it void.
   virtual void hand_on(std::size_t window, const Eigen::VectorXd& parameters, const Eigen::VectorXd& start) = 0;
 };
 
@@ -81,5 +82,16 @@ struct SimulationFit {
 /// \throws hydro::InputError: shapes that do not fit (also of `begin`), first values outside their bounds, what the
 /// simulation throws at the first values
 SimulationFit fit_simulation(Simulation& simulation, const SimulationProblem& problem);
+
+/// The best of several searches, and whether the others found the same.
+struct SeveralStarts {
+  SimulationFit best;
+  int tried, agree,
+      failed;  ///< `agree` ended at the cost of the best, itself counted; `failed` had no motion to follow
+};
+/// fit_simulation() from the first values and from `starts` − 1 points of a Halton sequence between the bounds, of
+/// which the least cost is kept (F58). \throws hydro::InputError for fewer than two starts, `begin`, or a parameter
+/// without both bounds, and what fit_simulation() throws where no start has a motion
+SeveralStarts fit_simulation_from(Simulation& simulation, const SimulationProblem& problem, int starts);
 
 }  // namespace fit

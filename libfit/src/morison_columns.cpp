@@ -1,0 +1,104 @@
+#include "morison_columns.hpp"
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace fit {
+namespace {
+
+/// |Σ w u e^{−iωjΔt}|² with the Hann weights w, by turning a phasor.
+double power_at(std::span<const double> motion, double step, double omega) {
+  const auto n = motion.size();
+  const std::complex<double> turn = std::polar(1.0, -omega * step),
+                             fade = std::polar(1.0, 2 * std::numbers::pi / static_cast<double>(n));
+  std::complex<double> phasor = 1, window = std::sqrt(fade), sum = 0;
+  for (std::size_t j = 0; j < n; ++j) {
+    sum += (1 - window.real()) / 2 * motion[j] * phasor;
+    phasor *= turn;
+    window *= fade;
+  }
+  return std::norm(sum);
+}
+
+}  // namespace
+
+double Cylinder::volume() const { return std::numbers::pi / 4 * diameter * diameter * length; }
+
+double morison_force(const Cylinder& c, double cd, double inertia, double velocity, double acceleration,
+                     double water_acceleration) {
+  const double drag = 0.5 * c.density * c.diameter * c.length * cd * std::abs(velocity) * velocity,
+               displaced = c.density * c.volume(), mass = c.mass_beyond_load_cells;
+  if (c.experiment == Experiment::water_moves) return displaced * inertia * acceleration + drag;           // (F7)
+  if (c.experiment == Experiment::body_moves) return -(inertia * displaced + mass) * acceleration - drag;  // (F8)
+  return displaced * (water_acceleration + inertia * acceleration) - mass * (water_acceleration - acceleration) +
+         drag;  // (F49)
+}
+
+Eigen::MatrixXd morison_columns(const Cylinder& c, const ForceRecord& r) {  // (F7), (F8), (F25), (F49)
+  const double sign = c.experiment == Experiment::body_moves ? -1.0 : 1.0;
+  const auto u = as_vector(r.velocity).array();
+  Eigen::MatrixXd columns(u.size(), 2);
+  if (r.drag_flow.empty())
+    columns.col(0) = u.abs() * u;
+  else
+    columns.col(0) = as_vector(r.drag_flow);
+  columns.col(0) *= sign * 0.5 * c.density * c.diameter * c.length;
+  columns.col(1) = sign * c.density * c.volume() * as_vector(r.acceleration);
+  return columns;
+}
+
+Eigen::VectorXd carried_force(const Cylinder& c, const ForceRecord& r) {
+  const auto a = as_vector(r.acceleration);
+  if (c.experiment == Experiment::water_moves) return Eigen::VectorXd::Zero(a.size());
+  if (c.experiment == Experiment::body_moves) return -c.mass_beyond_load_cells * a;
+  const auto water = as_vector(r.water_acceleration);
+  return c.density * c.volume() * water - c.mass_beyond_load_cells * (water - a);
+}
+
+MorisonColumns::MorisonColumns(const MorisonOptions& options, bool with_delay) {
+  if (options.linear_drag) linear = count++;
+  if (options.force_offset) offset = count++;
+  if (!options.lines.empty()) lines = count;
+  count += 2 * std::ssize(options.lines);
+  if (with_delay) delay = count++;
+}
+
+Eigen::MatrixXd all_columns(const Cylinder& c, const ForceRecord& r, const MorisonOptions& options,
+                            const std::vector<double>& line_hz, const Eigen::VectorXd* delay_column) {
+  const MorisonColumns at(options, delay_column != nullptr);
+  Eigen::MatrixXd columns = morison_columns(c, r);
+  if (at.count == 2) return columns;
+  columns.conservativeResize(Eigen::NoChange, at.count);
+  if (at.linear >= 0)  // (F51)
+    columns.col(at.linear) = (c.experiment == Experiment::body_moves ? -1 : 1) *
+                             as_vector(r.linear_flow.empty() ? r.velocity : r.linear_flow);
+  if (at.offset >= 0) columns.col(at.offset).setOnes();
+  for (std::size_t k = 0; k < line_hz.size(); ++k) {  // (F50)
+    const Eigen::ArrayXd angle = 2 * std::numbers::pi * line_hz[k] * as_vector(r.time).array();
+    columns.col(at.lines + 2 * static_cast<Eigen::Index>(k)) = angle.cos();
+    columns.col(at.lines + 2 * static_cast<Eigen::Index>(k) + 1) = -angle.sin();
+  }
+  if (at.delay >= 0) columns.col(at.delay) = *delay_column;
+  return columns;
+}
+
+double peak_frequency(std::span<const double> r, double step, double period) {  // (F50)
+  const double omega = 2 * std::numbers::pi / period, golden = (std::sqrt(5.0) - 1) / 2,
+               bin = 2 * std::numbers::pi / (step * static_cast<double>(r.size()));
+  double low = std::max(omega - bin, 0.1 * omega), high = omega + bin;
+  double left = high - golden * (high - low), right = low + golden * (high - low);
+  double at_left = power_at(r, step, left), at_right = power_at(r, step, right);
+  while (high - low > 1e-6 * bin) {
+    if (at_left > at_right) {
+      high = right, right = left, at_right = at_left;
+      at_left = power_at(r, step, left = high - golden * (high - low));
+    } else {
+      low = left, left = right, at_left = at_right;
+      at_right = power_at(r, step, right = low + golden * (high - low));
+    }
+  }
+  return (low + high) / (4 * std::numbers::pi);
+}
+
+}  // namespace fit
