@@ -61,6 +61,40 @@ Line::Growth read_growth(const Record& record, const Record& whole, const Line& 
   return out;
 }
 
+Line::CoefficientTable read_coefficients(const Record& record, const std::filesystem::path& file) {
+  const auto table = hydro::io::CsvTable::read(beside(file, record.text("file")));
+  const bool has_re = table.has("Re");
+  if (has_re != record.has("viscosity"))
+    throw has_re ? record.refused("needs a viscosity: its file has a column Re", "for example \"1.05e-6 m^2/s\"")
+                 : record.wrong("viscosity", "acts on nothing: the file has no column Re", "leave it out");
+  const auto &kc = table.column("KC"), &cd = table.column("cd"), &ca = table.column("ca");
+  Line::CoefficientTable out{.rows = {},
+                             .viscosity = has_re ? record.si("viscosity") : 1,
+                             .file = record.text("file"),
+                             .place = record.place()};
+  for (std::size_t i = 0; i < table.rows(); ++i)
+    out.rows.push_back({kc[i], has_re ? table.column("Re")[i] : 1, cd[i], ca[i]});
+  return out;
+}
+
+Line::Water read_water(const Record& record, const Scene& scene, const std::filesystem::path& file) {
+  Line::Water out{.cd = 0, .ca = 0, .cd_tangential = record.si("cd_tangential"), .table = {}};
+  if (!record.has("file")) {
+    if (!record.has("ca")) throw record.refused("needs the key \"ca\" beside \"cd\"");
+    out.cd = record.si("cd");
+    out.ca = record.si("ca");
+    return out;
+  }
+  if (!scene.waves)
+    throw record.wrong("file", "gives coefficients by KC, and nothing moves the water to and fro",
+                       "add [waves], or give cd and ca");
+  if (scene.current_place)
+    throw record.wrong("file", "gives coefficients by KC, which say nothing of waves together with a current",
+                       "leave [current] out, or give cd and ca");
+  out.table = read_coefficients(record, file);
+  return out;
+}
+
 Line::Damping read_damping(const Record& record) {
   return {record.has("linear") ? record.si("linear") : 0, record.has("quadratic") ? record.si("quadratic") : 0,
           record.has("componentwise")};
@@ -106,6 +140,13 @@ void read_on(const Record& record, const Record& whole, const Scene& scene, Line
                                      "leave it out, or move the body");
 }
 
+Line::Lyapunov read_lyapunov(const Record& record, const Line& line) {
+  if (line.fastened())
+    throw record.refused("asks for neighbours of a line that is on a body, whose own neighbours are not followed",
+                         "hold the line by the ground");
+  return {record.si("from"), record.place()};
+}
+
 void check_surroundings(const Record& record, const Line& line, const Scene& scene) {
   const bool wet = line.morison || line.buoyancy;
   if (line.partial_immersion && !wet)
@@ -135,10 +176,7 @@ void build_lines(const Record& root, const std::filesystem::path& file, Names& n
     line.sags = record.has("sags");
     line.buoyancy = record.has("buoyancy");
     line.partial_immersion = record.has("partial_immersion");
-    if (record.has("morison")) {
-      const Record& m = record.table("morison");
-      line.morison = {m.si("cd"), m.si("ca"), m.si("cd_tangential")};
-    }
+    if (record.has("morison")) line.morison = read_water(record.table("morison"), scene, file);
     if (record.has("damping")) line.damping = read_damping(record.table("damping"));
     if (record.has("bed")) {
       const Record& b = record.table("bed");
@@ -155,6 +193,7 @@ void build_lines(const Record& root, const std::filesystem::path& file, Names& n
         throw s.wrong("snap_above", "is not above slack_below", "a snap is tighter than slack");
     }
     line.place = record.place();
+    if (record.has("lyapunov")) line.lyapunov = read_lyapunov(record.table("lyapunov"), line);
     check_surroundings(record, line, scene);
     scene.chains.push_back(std::move(line));
   }

@@ -240,8 +240,19 @@ struct Line {
   struct Growth {
     double thickness, density, from, to;  ///< m, kg/m³, m, m
   };
+  /// C_D and C_A by KC and perhaps Re, from a file.
+  struct CoefficientTable {
+    struct Row {
+      double kc, re, cd, ca;
+    };
+    std::vector<Row> rows;
+    double viscosity;  ///< m²/s; 1 where the table has no Re
+    std::filesystem::path file;
+    Place place;
+  };
   struct Water {
     double cd, ca, cd_tangential;
+    std::optional<CoefficientTable> table;  ///< instead of cd and ca
   };
   struct Damping {
     double linear, quadratic;  ///< of each node, kg/s and kg/m
@@ -256,6 +267,10 @@ struct Line {
   };
   struct Snaps {
     double slack_below, snap_above;  ///< N
+  };
+  struct Lyapunov {
+    double from;  ///< s, from which on growth counts
+    Place place;
   };
   struct Lead {
     bool first;                          ///< the end `from`, else `to`
@@ -279,6 +294,7 @@ struct Line {
   std::optional<Release> release;
   std::optional<Lead> lead;
   std::optional<Snaps> snaps;
+  std::optional<Lyapunov> lyapunov;
   std::optional<Growth> growth;
   Place place;
 };

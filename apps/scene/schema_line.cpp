@@ -26,11 +26,23 @@ const Table& morison() {
   static const Table table{
       .title = "[line.morison]",
       .meaning = "drag, Froude-Krylov load and added mass of the segments where they are at each instant",
-      .keys = {number("cd", "drag coefficient across the segment").within(Limit::not_negative),
-               number("ca", "added mass over displaced mass, across the segment").within(Limit::not_negative),
+      .keys = {number("cd", "drag coefficient across the segment").within(Limit::not_negative).optional(),
+               number("ca", "added mass over displaced mass, across the segment")
+                   .within(Limit::not_negative)
+                   .optional()
+                   .only_beside("cd"),
+               text("file",
+                    "CSV beside the scene with KC, cd, ca and perhaps Re: each segment takes what belongs to the waves "
+                    "that pass it at rest")
+                   .optional(),
+               quantity("viscosity", dim::length * dim::velocity, "kinematic, of the water, for Re")
+                   .positive()
+                   .optional()
+                   .only_beside("file"),
                number("cd_tangential", "drag coefficient along the segment, of its skin pi D")
                    .within(Limit::not_negative)
-                   .or_default("0", "a smooth cylinder has some 0.01")}};
+                   .or_default("0", "a smooth cylinder has some 0.01")},
+      .groups = {{exactly_one, {"cd", "file"}}}};
   return table;
 }
 
@@ -88,6 +100,16 @@ const Table& snaps() {
       .keys = {
           quantity("slack_below", dim::force, "a link with this tension or less is slack").within(Limit::not_negative),
           quantity("snap_above", dim::force, "a link that was slack snaps when it reaches this").positive()}};
+  return table;
+}
+
+const Table& lyapunov() {
+  static const Table table{
+      .title = "[line.lyapunov]",
+      .meaning =
+          "the largest Lyapunov exponent of a run: a second line a millionth of a segment beside the first tells how "
+          "fast neighbours part",
+      .keys = {quantity("from", dim::time, "growth counts from here on, when the start is forgotten").positive()}};
   return table;
 }
 
@@ -177,7 +199,8 @@ const Table& line_table() {
            inner_table("bed", bed()).optional().only_beside("diameter"),
            inner_table("release", release()).optional(),
            inner_table("lead", lead()).optional(),
-           inner_table("snaps", snaps()).optional()},
+           inner_table("snaps", snaps()).optional(),
+           inner_table("lyapunov", lyapunov()).optional()},
       .groups = {{exactly_one, {"length", "part", "link"}}, {at_most_one, {"pulls_only", "sags"}}}};
   return table;
 }

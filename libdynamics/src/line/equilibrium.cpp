@@ -1,6 +1,7 @@
 #include "dynamics/line/equilibrium.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 
 #include <cmath>
 #include <numbers>

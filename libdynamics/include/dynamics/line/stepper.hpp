@@ -63,6 +63,10 @@ class Stepper {
   /// length is not kept, or velocities change it; hydro::NumericsError if there are no accelerations
   void start(State& state);
 
+  /// Goes on from another state of the line, which is not checked; its tensions are found. \throws
+  /// hydro::NumericsError if there are no accelerations
+  void go_on(State& state);
+
   /// One step of h seconds. \throws hydro::NumericsError naming time, node and reason when halving is of no use;
   /// `state` is then the last good one
   StepReport step(State& state, double h);
