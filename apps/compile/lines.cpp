@@ -31,6 +31,7 @@ void grow(const scene::Line::Growth& growth, dl::Segment& s) {
 dl::Segment segment(const scene::Line& l, const scene::Line::Link& link, double middle) {
   dl::Segment s{.length = link.length, .mass = link.mass, .centre = link.centre, .inertia = link.inertia};
   if (l.axial_stiffness) s.axial_stiffness = link.axial_stiffness.value_or(*l.axial_stiffness);
+  if (l.bending_stiffness) s.bending_stiffness = link.bending_stiffness.value_or(*l.bending_stiffness);
   s.axial_damping = l.axial_damping;
   s.pulls_only = l.pulls_only;
   s.sags = l.sags;
@@ -46,6 +47,7 @@ dl::Segment segment(const scene::Line& l, const scene::Line::Link& link, double 
 
 dl::Held end(const scene::Line& l, int node, bool first) {
   dl::Held out{.node = node};
+  if (const auto& clamp = first ? l.clamp_from : l.clamp_to) out.clamp = *clamp;
   if (!l.lead || l.lead->first != first) return out;
   out.path = std::make_shared<dl::SplinePath>(l.lead->time, l.lead->place);
   const Eigen::Vector3d begins = out.path->at(0).position, stands = first ? l.from : *l.to;
@@ -114,7 +116,12 @@ dl::State at_rest(const Scene& scene, const scene::Line& l) {
   places.position.col(0) = l.from;
   if (l.to) places.position.col(line.nodes() - 1) = *l.to;
   if (l.release) places.position.col(l.release->node) = reached(l);
-  return dl::equilibrium(line, dl::hanging_shape(line, places));
+  dl::State guess = dl::hanging_shape(line, places);
+  // What is clamped and free beyond stands or hangs as it does: from straight down it might not turn over.
+  if (l.clamp_from && !l.to && !l.release)
+    for (int i = 1; i < line.nodes(); ++i)
+      guess.position.col(i) = guess.position.col(i - 1) + line.segment(i - 1).length * *l.clamp_from;
+  return dl::equilibrium(line, guess);
 }
 
 /// Lowest and highest of some numbers: "1.2 to 1.9".
@@ -420,6 +427,13 @@ void add_whole(std::size_t k, const LineModel& m, std::vector<LineProbe>& out) {
   if (m.line->held(m.line->nodes() - 1) != nullptr)
     add("to.force", "N", "pull on what holds the last node",
         [](const LineRun& r) { return r.balance().holding.rightCols<1>().norm(); });
+  for (const bool first : {true, false}) {
+    const int i = first ? 0 : m.line->segments();
+    if (m.line->bending(i) > 0)
+      add(first ? "from.moment" : "to.moment", "N m",
+          first ? "moment that clamps the first node" : "moment that clamps the last node",
+          [line = m.line.get(), i](const LineRun& r) { return dl::clamping_moment(*line, r.state(), i); });
+  }
   if (m.lyapunov)
     add("parting", "1", "logarithm of how far neighbours have parted",
         [](const LineRun& r) { return r.growth()->logarithm(); });

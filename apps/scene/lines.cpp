@@ -34,7 +34,8 @@ std::vector<Line::Link> read_links(const Record& record) {
     Line::Link link = equal_link(part, record.text("mass_at"));
     if (part.has("diameter")) link.diameter = part.si("diameter");
     if (part.has("axial_stiffness")) link.axial_stiffness = part.si("axial_stiffness");
-    for (const char* key : {"diameter", "axial_stiffness"})
+    if (part.has("bending_stiffness")) link.bending_stiffness = part.si("bending_stiffness");
+    for (const char* key : {"diameter", "axial_stiffness", "bending_stiffness"})
       if (part.has(key) && !record.has(key))
         throw part.wrong(key, fmt::format("is for this part, but the line has no {} for the others", key),
                          fmt::format("give [[line]] a {} too", key));
@@ -140,6 +141,17 @@ void read_on(const Record& record, const Record& whole, const Scene& scene, Line
                                      "leave it out, or move the body");
 }
 
+/// Ends held by the ground alone: a body would have to bear the moment too.
+void read_clamp(const Record& record, Line& line) {
+  if (record.has("from")) line.clamp_from = record.vector("from").normalized();
+  if (record.has("to")) line.clamp_to = record.vector("to").normalized();
+  if (line.clamp_to && !line.to) throw record.wrong("to", "clamps a free end: the line has no `to`", "add `to`");
+  for (const char* key : {"from", "to"})
+    if (record.has(key) && (std::string_view(key) == "from" ? line.from_on : line.to_on))
+      throw record.wrong(key, "clamps an end that is on a body, which would have to bear its moment",
+                         "let the end turn freely, or hold it by the ground");
+}
+
 Line::Lyapunov read_lyapunov(const Record& record, const Line& line) {
   if (line.fastened())
     throw record.refused("asks for neighbours of a line that is on a body, whose own neighbours are not followed",
@@ -149,6 +161,9 @@ Line::Lyapunov read_lyapunov(const Record& record, const Line& line) {
 
 void check_surroundings(const Record& record, const Line& line, const Scene& scene) {
   const bool wet = line.morison || line.buoyancy;
+  if (line.sags && line.bending_stiffness)
+    throw record.wrong("bending_stiffness", "bends segments that sag, and so have no straight axis",
+                       "leave `sags` out");
   if (line.partial_immersion && !wet)
     throw record.refused("is immersed in part, but nothing of the water acts on it",
                          "add morison or buoyancy = true, or leave partial_immersion out");
@@ -171,6 +186,7 @@ void build_lines(const Record& root, const std::filesystem::path& file, Names& n
     line.node_mass = number("node_mass");
     line.diameter = number("diameter");
     if (record.has("axial_stiffness")) line.axial_stiffness = record.si("axial_stiffness");
+    if (record.has("bending_stiffness")) line.bending_stiffness = record.si("bending_stiffness");
     line.axial_damping = number("axial_damping");
     line.pulls_only = record.has("pulls_only");
     line.sags = record.has("sags");
@@ -193,6 +209,7 @@ void build_lines(const Record& root, const std::filesystem::path& file, Names& n
         throw s.wrong("snap_above", "is not above slack_below", "a snap is tighter than slack");
     }
     line.place = record.place();
+    if (record.has("clamp")) read_clamp(record.table("clamp"), line);
     if (record.has("lyapunov")) line.lyapunov = read_lyapunov(record.table("lyapunov"), line);
     check_surroundings(record, line, scene);
     scene.chains.push_back(std::move(line));

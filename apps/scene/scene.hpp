@@ -235,6 +235,7 @@ struct Line {
   struct Link {
     double length, mass, centre, inertia;  ///< m, kg, share of the length from its first node, kg m² about that
     std::optional<double> diameter = {}, axial_stiffness = {};  ///< m, N; empty: those of the line
+    std::optional<double> bending_stiffness = {};               ///< N m²; likewise
   };
   /// Marine growth on links whose middle is between two distances along the line.
   struct Growth {
@@ -283,10 +284,12 @@ struct Line {
   std::optional<int> from_on, to_on;  ///< indices into Scene::bodies
   bool fastened() const { return from_on || to_on; }
   std::vector<Link> links;
-  double node_mass = 0;                   ///< kg, at every node but held ends
-  double diameter = 0;                    ///< m
-  std::optional<double> axial_stiffness;  ///< N; empty: keeps its length
-  double axial_damping = 0;               ///< N s
+  double node_mass = 0;                                 ///< kg, at every node but held ends
+  double diameter = 0;                                  ///< m
+  std::optional<double> axial_stiffness;                ///< N; empty: keeps its length
+  double axial_damping = 0;                             ///< N s
+  std::optional<double> bending_stiffness;              ///< EI, N m²; empty: bends freely
+  std::optional<Eigen::Vector3d> clamp_from, clamp_to;  ///< directions of its ends, unit; empty: they turn freely
   bool pulls_only = false, sags = false, buoyancy = false, partial_immersion = false;
   std::optional<Water> morison;
   std::optional<Damping> damping;

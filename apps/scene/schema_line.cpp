@@ -121,7 +121,10 @@ const Table& part() {
                integer("segments", "into which it is cut").within(Limit::at_least_one),
                quantity("mass_per_length", dim::mass / dim::length, "of the part").positive(),
                quantity("diameter", dim::length, "left out: that of the line").positive().optional(),
-               quantity("axial_stiffness", dim::force, "EA; left out: that of the line").positive().optional()}};
+               quantity("axial_stiffness", dim::force, "EA; left out: that of the line").positive().optional(),
+               quantity("bending_stiffness", dim::force * dim::length * dim::length, "EI; left out: that of the line")
+                   .positive()
+                   .optional()}};
   return table;
 }
 
@@ -137,6 +140,16 @@ const Table& growth() {
                    .within(Limit::not_negative)
                    .or_default("0 m", "from there on"),
                quantity("to", dim::length, "likewise; left out: to the other end").positive().optional()}};
+  return table;
+}
+
+const Table& clamp() {
+  static const Table table{
+      .title = "[line.clamp]",
+      .meaning = "ends that do not turn: the direction in which the line goes there, from its first node to its last",
+      .keys = {direction("from", "at the first node: \"x\" or \"(1, 0, -1)\"").optional(),
+               direction("to", "at the last node, still from first to last").optional()},
+      .groups = {{at_least_one, {"from", "to"}}}};
   return table;
 }
 
@@ -183,6 +196,11 @@ const Table& line_table() {
                .positive()
                .optional()
                .only_beside("axial_stiffness"),
+           quantity("bending_stiffness", dim::force * dim::length * dim::length,
+                    "EI: moment per curvature; left out: the line bends freely")
+               .positive()
+               .optional(),
+           inner_table("clamp", clamp()).optional().only_beside("bending_stiffness"),
            effect("pulls_only", "segments go slack instead of being pressed").optional().only_beside("axial_stiffness"),
            effect("sags",
                   "segments hang through between their nodes by their weight in water, and rest on the bed in part: "

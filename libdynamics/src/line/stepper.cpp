@@ -191,6 +191,7 @@ void Stepper::Work::note_state(const State& state) {
   energies.height = -line.constant_load().cwiseProduct(state.position).sum();
   energies.axial = equations.stored_in_segments(state);
   energies.bed = equations.stored_in_bed(state);
+  energies.bending = equations.stored_in_bending(state);
   const double shear = equations.stored_in_shear(state);
   energies.lost_friction -= shear - energies.shear;  // of what friction took, this is held
   energies.shear = shear;

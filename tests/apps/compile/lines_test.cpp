@@ -126,6 +126,27 @@ TEST(Lines, SagWhereTheSceneSaysSo) {
               ThrowsMessage<hydro::InputError>(HasSubstr("segments that sag")));
 }
 
+// w L⁴/8EI of a beam clamped level, a little more than a hundredth of its length; and w L²/2 at the clamp.
+TEST(Lines, BendAsBeamsWhereTheyAreClamped) {
+  const auto beam = [](const std::string& more) {
+    return "[[line]]\nname = \"b\"\nfrom = \"(0, 0, 0) m\"\nlength = \"2 m\"\nsegments = 40\n"
+           "mass_per_length = \"1 kg/m\"\nbending_stiffness = \"1000 N m^2\"\n" +
+           more;
+  };
+  const auto record = simulate(parse(water + beam("clamp = { from = \"x\" }\n") + ask));
+  const double w = 9.81;
+  EXPECT_NEAR(record.signal("b.node40.z").back() / (-w * 16 / 8 / 1000), 1, 2e-3);
+  EXPECT_NEAR(record.signal("b.from.moment").back() / (w * 2), 1, 1e-3);
+  EXPECT_NEAR(record.signal("b.node1.curvature").back() / (w * 1.95 * 1.95 / 2 / 1000), 1, 1e-3);
+  // Without a clamp it hangs down; as a part that is not stiff it hangs down from where it begins.
+  EXPECT_NEAR(simulate(parse(water + beam("") + ask)).signal("b.node40.z").back(), -2, 1e-9);
+  const auto refuses = [&](const std::string& more, const std::string& what) {
+    EXPECT_THAT([&] { simulate(parse(water + beam(more) + ask)); }, ThrowsMessage<hydro::InputError>(HasSubstr(what)));
+  };
+  refuses("clamp = { to = \"x\" }\n", "clamps a free end");
+  refuses("diameter = \"50 mm\"\naxial_stiffness = \"1 MN\"\nsags = true\nbuoyancy = true\n", "no straight axis");
+}
+
 // A rod that is damped beyond swinging: the slower root of s² + (3b/m) s + 3g/2ℓ = 0.
 TEST(Lines, TellHowFastNeighboursPart) {
   const std::string rod =
