@@ -337,7 +337,10 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
   notes.insert(notes.end(), model.redundant().begin(), model.redundant().end());
   dynamics::State start = start_state(scene, prepared, model);
   std::vector<LineModel> lines = line_models(scene, prepared, water, start);
-  for (const LineModel& line : lines) plan.push_back(plan_line(line));
+  for (const LineModel& line : lines) {
+    plan.push_back(plan_line(line));
+    if (!line.coefficients.empty()) notes.push_back(fmt::format("line {}: {}", line.name, line.coefficients));
+  }
   return {.model = std::move(model),
           .start = std::move(start),
           .water = std::move(water),

@@ -8,6 +8,7 @@
 
 #include "compile/compile.hpp"
 #include "dynamics/line/equilibrium.hpp"
+#include "dynamics/line/exposure.hpp"
 #include "dynamics/line/path.hpp"
 #include "hydro/base/error.hpp"
 
@@ -30,6 +31,7 @@ void grow(const scene::Line::Growth& growth, dl::Segment& s) {
 dl::Segment segment(const scene::Line& l, const scene::Line::Link& link, double middle) {
   dl::Segment s{.length = link.length, .mass = link.mass, .centre = link.centre, .inertia = link.inertia};
   if (l.axial_stiffness) s.axial_stiffness = link.axial_stiffness.value_or(*l.axial_stiffness);
+  if (l.bending_stiffness) s.bending_stiffness = link.bending_stiffness.value_or(*l.bending_stiffness);
   s.axial_damping = l.axial_damping;
   s.pulls_only = l.pulls_only;
   s.sags = l.sags;
@@ -45,6 +47,7 @@ dl::Segment segment(const scene::Line& l, const scene::Line::Link& link, double 
 
 dl::Held end(const scene::Line& l, int node, bool first) {
   dl::Held out{.node = node};
+  if (const auto& clamp = first ? l.clamp_from : l.clamp_to) out.clamp = *clamp;
   if (!l.lead || l.lead->first != first) return out;
   out.path = std::make_shared<dl::SplinePath>(l.lead->time, l.lead->place);
   const Eigen::Vector3d begins = out.path->at(0).position, stands = first ? l.from : *l.to;
@@ -113,7 +116,50 @@ dl::State at_rest(const Scene& scene, const scene::Line& l) {
   places.position.col(0) = l.from;
   if (l.to) places.position.col(line.nodes() - 1) = *l.to;
   if (l.release) places.position.col(l.release->node) = reached(l);
-  return dl::equilibrium(line, dl::hanging_shape(line, places));
+  dl::State guess = dl::hanging_shape(line, places);
+  // What is clamped and free beyond stands or hangs as it does: from straight down it might not turn over.
+  if (l.clamp_from && !l.to && !l.release)
+    for (int i = 1; i < line.nodes(); ++i)
+      guess.position.col(i) = guess.position.col(i - 1) + line.segment(i - 1).length * *l.clamp_from;
+  return dl::equilibrium(line, guess);
+}
+
+/// Lowest and highest of some numbers: "1.2 to 1.9".
+std::string range(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return *low == *high ? fmt::format("{:.3g}", *low) : fmt::format("{:.3g} to {:.3g}", *low, *high);
+}
+
+/// Puts in what the table has for the waves that pass each segment in `places`, and tells it. (D104), (D105)
+std::string take_coefficients(const Scene& scene, const scene::Line& l, const RunWater& water, const dl::Places& places,
+                              dl::Description& d) {
+  if (!l.morison || !l.morison->table) return "";
+  const auto& given = *l.morison->table;
+  try {
+    std::vector<dl::CoefficientTable::Row> rows;
+    for (const auto& r : given.rows) rows.push_back({r.kc, r.re, r.cd, r.ca});
+    const dl::CoefficientTable table(std::move(rows));
+    const double ramp = scene.waves->ramp < scene.run->duration ? scene.waves->ramp : 0;
+    const auto exposures = dl::exposure(*water.field, places, ramp, scene.run->duration);
+    std::vector<double> kc, re, cd, ca;
+    for (std::size_t j = 0; j < d.segments.size(); ++j) {
+      dl::Segment& s = d.segments[j];
+      kc.push_back(exposures[j].keulegan_carpenter(s.diameter));
+      re.push_back(exposures[j].reynolds(s.diameter, given.viscosity));
+      try {
+        const auto found = table.at(kc.back(), re.back());
+        cd.push_back(s.cd = found.cd);
+        ca.push_back(s.ca = found.ca);
+      } catch (const InputError& e) {
+        throw InputError(fmt::format("segment {} of line \"{}\": {}", j + 1, l.name, e.rule()), given.place,
+                         "extend the table, or give cd and ca");
+      }
+    }
+    return fmt::format("C_D {}, C_A {} by {} at KC {}{}", range(cd), range(ca), given.file.string(), range(kc),
+                       table.knows_reynolds() ? ", Re " + range(re) : "");
+  } catch (const InputError& e) {
+    throw e.at(given.place);
+  }
 }
 
 dynamics::FastenedLine fastened_line(const Scene& scene, const scene::Line& l) {
@@ -146,6 +192,26 @@ void require_one_step(const Scene& scene, const scene::Line& l) {
         fmt::format("line \"{}\" is on a body of a scene with {}, whose jumps of velocity it has no step for", l.name,
                     friction ? "friction" : "contacts"),
         l.place, "hold the line by the ground, or take a [[mooring]] of kind catenary");
+}
+
+/// A line and its companion are stepped so closely that their distance is no matter of tolerances.
+void ask_for_neighbours(const Scene& scene, LineModel& m) {
+  const hydro::Place& place = m.lyapunov->place;
+  if (m.settings.scheme == dl::Scheme::generalised_alpha)
+    throw InputError(
+        fmt::format("line \"{}\" has no neighbours in steps of generalized_alpha, which remember more than "
+                    "places and velocities",
+                    m.name),
+        place, "leave out [solve.integrator] lines: energy_momentum");
+  if (m.line->has_massless_nodes())
+    throw InputError(fmt::format("line \"{}\" has a free node without mass, so its motions have no neighbours", m.name),
+                     place, "give every free node or link a mass");
+  constexpr int samples = 20;  // one for each block at least
+  if (scene.run && m.lyapunov->from + samples * scene.run->every > scene.run->duration)
+    throw InputError(fmt::format("growth counts from {} s on, and the run ends at {} s: fewer than {} samples between",
+                                 m.lyapunov->from, scene.run->duration, samples),
+                     place, "let it begin earlier, or the run last longer");
+  m.settings.tolerance = dl::Companion::tolerance;
 }
 
 LineModel fastened_model(const dynamics::FastenedLine& l, std::size_t at, const dynamics::State& start) {
@@ -184,6 +250,8 @@ std::unique_ptr<const dynamics::ForceKind> fastened_kind(const Scene& scene, con
     if (!l.fastened()) continue;
     require_one_step(scene, l);
     line->run = description(scene, l, water.field);
+    take_coefficients(scene, l, water, dynamics::line_at_rest(*line, dynamics::rest_state(prepared.bodies)).position,
+                      line->run);
     ++line;
   }
   return std::make_unique<dynamics::FastenedLineKind>(std::move(lines));
@@ -196,20 +264,30 @@ std::vector<LineModel> line_models(const Scene& scene, const Prepared& prepared,
   for (const scene::Line& l : scene.chains) {
     try {
       if (l.fastened()) {
-        out.push_back(fastened_model(prepared.fastened[fastened], fastened, start));
+        const dynamics::FastenedLine& held = prepared.fastened[fastened];
+        out.push_back(fastened_model(held, fastened, start));
         ++fastened;
         out.back().snaps = l.snaps;
+        dl::Description in_waves = held.run;
+        out.back().coefficients = take_coefficients(
+            scene, l, water, dynamics::line_at_rest(held, dynamics::rest_state(prepared.bodies)).position, in_waves);
         const dl::Stepper refuses(*out.back().line, out.back().settings);
         continue;
       }
+      dl::State rest = at_rest(scene, l);
+      dl::Description d = description(scene, l, water.field);
+      const std::string coefficients = take_coefficients(scene, l, water, rest.position, d);
       LineModel m{.name = l.name,
-                  .line = std::make_unique<const dl::Line>(description(scene, l, water.field)),
-                  .start = at_rest(scene, l),
+                  .line = std::make_unique<const dl::Line>(std::move(d)),
+                  .start = std::move(rest),
                   .settings = {.scheme = dl::parse_scheme(scene.solve.line_scheme),
                                .rho_infinity = scene.solve.rho_infinity,
                                .gamma = scene.solve.gamma},
-                  .snaps = l.snaps};
+                  .snaps = l.snaps,
+                  .lyapunov = l.lyapunov,
+                  .coefficients = coefficients};
       const dl::Stepper refuses(*m.line, m.settings);
+      if (m.lyapunov) ask_for_neighbours(scene, m);
       out.push_back(std::move(m));
     } catch (const InputError& e) {
       throw e.at(l.place);
@@ -224,16 +302,17 @@ std::vector<LineModel> line_models(const Scene& scene, const Prepared& prepared,
 }
 
 PlanLine plan_line(const LineModel& m) {
-  std::string bed;
+  std::string also;
   for (const dl::Bed& b : m.line->description().bed)
-    if (b.friction > 0) bed = fmt::format(", friction of the bed {:g}", b.friction);
+    if (b.friction > 0) also = fmt::format(", friction of the bed {:g}", b.friction);
+  if (!m.coefficients.empty()) also += ", " + m.coefficients;
   if (m.fastened)
-    return {"line " + m.name, "generalized alpha, one system with its bodies" + bed,
+    return {"line " + m.name, "generalized alpha, one system with its bodies" + also,
             fmt::format("{} segments, {} unknowns", m.line->segments(), 3 * m.line->nodes() + m.line->segments()),
             true};
   std::string method(dl::name_of(m.settings.scheme));
   std::replace(method.begin(), method.end(), '_', ' ');
-  return {"line " + m.name, method + " on a chain of its own, one band elimination an iteration" + bed,
+  return {"line " + m.name, method + " on a chain of its own, one band elimination an iteration" + also,
           fmt::format("{} segments, {} unknowns", m.line->segments(), 3 * m.line->nodes() + m.line->segments()), true};
 }
 
@@ -253,16 +332,24 @@ LineRun::LineRun(const LineModel& model, dl::DrivenLine& driven) : model_(model)
 LineRun::LineRun(const LineModel& model)
     : model_(model), state_(model.start), stepper_(std::make_unique<dl::Stepper>(*model.line, model.settings)) {
   stepper_->start(state_);
+  if (model.lyapunov) companion_ = std::make_unique<dl::Companion>(*model.line, model.settings, state_);
   begin();
 }
 
 dl::StepReport LineRun::step(double h) {
   if (driven_ != nullptr) return {};
   try {
-    return stepper_->step(state_, h);
+    const dl::StepReport report = stepper_->step(state_, h);
+    if (companion_) companion_->follow(state_, report, h);
+    return report;
   } catch (const hydro::NumericsError& e) {
     throw hydro::NumericsError(fmt::format("line \"{}\": {}", model_.name, e.what()));
   }
+}
+
+std::optional<dynamics::Exponent> LineRun::exponent() const {
+  if (!companion_) return std::nullopt;
+  return companion_->growth().exponent(model_.lyapunov->from);
 }
 
 void LineRun::look() {
@@ -340,6 +427,16 @@ void add_whole(std::size_t k, const LineModel& m, std::vector<LineProbe>& out) {
   if (m.line->held(m.line->nodes() - 1) != nullptr)
     add("to.force", "N", "pull on what holds the last node",
         [](const LineRun& r) { return r.balance().holding.rightCols<1>().norm(); });
+  for (const bool first : {true, false}) {
+    const int i = first ? 0 : m.line->segments();
+    if (m.line->bending(i) > 0)
+      add(first ? "from.moment" : "to.moment", "N m",
+          first ? "moment that clamps the first node" : "moment that clamps the last node",
+          [line = m.line.get(), i](const LineRun& r) { return dl::clamping_moment(*line, r.state(), i); });
+  }
+  if (m.lyapunov)
+    add("parting", "1", "logarithm of how far neighbours have parted",
+        [](const LineRun& r) { return r.growth()->logarithm(); });
   const auto energy = [&](const char* what, auto read) {
     out.push_back({k, fmt::format("energy.{}.{}", m.name, what), "J", fmt::format("energy of {}: {}", m.name, what),
                    [read](const LineRun& r) { return read(r.energies()); }});

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dynamics/force/fastened_line.hpp"
+#include "dynamics/line/companion.hpp"
 #include "dynamics/line/statistics.hpp"
 #include "dynamics/line/stepper.hpp"
 #include "scene/scene.hpp"
@@ -24,7 +25,10 @@ struct LineModel {
   dynamics::line::State start;  ///< at rest without waves, with the node that is to be released still in its place
   dynamics::line::Stepper::Settings settings;
   std::optional<scene::Line::Snaps> snaps = {};
+  std::optional<scene::Line::Lyapunov> lyapunov = {};
   std::optional<std::size_t> fastened = {};  ///< its place among the model's FastenedLine; it moves with its bodies
+  /// Which coefficients its segments took from a table, for people; empty where they were given.
+  std::string coefficients = {};
   /// Of the links, where a run goes on from another one's end: angles follow these without jumps.
   std::vector<dynamics::line::LinkAngles> before = {};
 };
@@ -58,6 +62,8 @@ class LineRun {
   void note(double h);
   /// Null where the scene does not ask for it.
   const dynamics::line::TensionStatistics* snaps() const { return snaps_ ? &*snaps_ : nullptr; }
+  /// Empty where the scene does not ask for it, or the run has not lasted long enough.
+  std::optional<dynamics::Exponent> exponent() const;
   /// Brings tensions, forces and angles up to the state; before signals are read. Angles follow one another without
   /// jumps from one call to the next.
   void look();
@@ -66,6 +72,8 @@ class LineRun {
   const dynamics::line::Energies& energies() const {
     return driven_ != nullptr ? driven_->energies() : stepper_->energies();
   }
+  /// Null where the scene does not ask for it.
+  const dynamics::Growth* growth() const { return companion_ ? &companion_->growth() : nullptr; }
   /// The largest of energy supplied, taken, and moved about: what a residual is small against.
   double turnover() const { return turnover_; }
 
@@ -83,6 +91,7 @@ class LineRun {
   std::unique_ptr<dynamics::line::Stepper> stepper_;
   dynamics::line::Stepper::Balance balance_;
   std::optional<dynamics::line::TensionStatistics> snaps_;
+  std::unique_ptr<dynamics::line::Companion> companion_;
   std::vector<Angles> angles_;
   double first_height_ = 0, turnover_ = 0;
 };

@@ -81,6 +81,21 @@ struct PsdArguments {
 };
 void psd(const PsdArguments& arguments, const Console& console);
 
+struct SectionArguments {
+  Path file;                              ///< CSV, or a result of `froude run`
+  std::string x, y;                       ///< signals of the plane
+  std::optional<std::string> at = {};     ///< signal that crosses the level
+  std::optional<std::string> level = {};  ///< e.g. "0 rad"
+  std::string through = "up";             ///< up, down or both
+  std::optional<std::string> every = {};  ///< instead: once in this period, e.g. "8 s"
+  bool wrap = false;                      ///< angles into −180° … 180°
+  std::optional<std::string> from = {};   ///< leave out what comes before; with `every` the first point
+  std::optional<Path> output = {};        ///< .csv
+  std::optional<Path> picture = {};       ///< .svg
+};
+/// A Poincaré section of a record, with the error of each point by interpolation.
+void section(const SectionArguments& arguments, const Console& console);
+
 struct FitArguments {
   Path scene;
   std::optional<Path> output = {};  ///< .toml of the estimates

@@ -392,6 +392,35 @@ void add_psd(CLI::App& app, Request& request) {
   });
 }
 
+void add_section(CLI::App& app, Request& request) {
+  auto* command = app.add_subcommand(
+      "section", "Poincare section: where two signals are when a third crosses a level, or once in a period");
+  command->footer(
+      "Examples:\n  froude section run.h5 --x chain.link2.polar --y chain.link2.polar_rate --at chain.link1.polar "
+      "--level \"90 deg\" --picture section.svg\n"
+      "  froude section run.h5 --x chain.link2.polar --y chain.link2.polar_rate --every \"8 s\" --from \"200 s\"");
+  auto arguments = std::make_shared<SectionArguments>();
+  command->add_option("file", arguments->file, "CSV with units in its header, or a result of `froude run`")->required();
+  command->add_option("--x", arguments->x, "signal along the section")->required();
+  command->add_option("--y", arguments->y, "the other one")->required();
+  command->add_option("--at", arguments->at, "signal that crosses the level");
+  command->add_option("--level", arguments->level, "which it crosses: \"90 deg\"");
+  command->add_option("--through", arguments->through, "in which direction")
+      ->check(CLI::IsMember({"up", "down", "both"}))
+      ->capture_default_str();
+  command->add_option("--every", arguments->every, "instead of --at: once in this period: \"8 s\"");
+  command->add_option("--from", arguments->from, "leave out what comes before; with --every the first point");
+  command->add_flag("--wrap", arguments->wrap, "angles between -180 and 180 deg, without their full turns");
+  command->add_option("-o,--output", arguments->output, "table (.csv)");
+  command->add_option("--picture", arguments->picture, "plot (.svg)");
+  command->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      section(*arguments, console);
+      return done;
+    };
+  });
+}
+
 void add_fit(CLI::App& app, Request& request) {
   auto* command = app.add_subcommand("fit", "force coefficients from measurements, with intervals that hold");
   command->footer("Example:\n  froude fit examples/fit/oscillation.toml -o coefficients.toml --picture fit.svg");
@@ -445,6 +474,7 @@ void describe(CLI::App& app, Request& request) {
   add_waves(app, request);
   add_hydrostatics(app, request);
   add_psd(app, request);
+  add_section(app, request);
   add_fit(app, request);
   add_scene_command(app, request, "plan", "what a scene will run, by which method, and why the rest will not", &plan,
                     false);

@@ -35,6 +35,32 @@ std::string sentence(const Snaps& s) {
                      s.line, 100 * s.slack_share, s.snaps, s.snaps == 1 ? "" : "s", s.largest_tension, s.link, s.at);
 }
 
+nlohmann::json exponents_json(const Record& record) {
+  nlohmann::json out = nlohmann::json::array();
+  for (const auto& [line, e] : record.exponents)
+    out.push_back({{"line", line},
+                   {"lyapunov_per_s", e.value},
+                   {"standard_error_per_s", e.error},
+                   {"from_s", e.from},
+                   {"to_s", e.to},
+                   {"blocks", e.blocks},
+                   {"correlation_of_blocks", e.kinship},
+                   {"of_a_regular_motion_per_s", e.regular}});
+  return out;
+}
+
+std::string sentence(const LineExponent& of) {
+  const dynamics::Exponent& e = of.exponent;
+  return fmt::format(
+      "{}: largest Lyapunov exponent {:.4g} +- {:.2g} 1/s from {:.5g} to {:.5g} s; a regular motion would show up to "
+      "{:.2g} 1/s{}",
+      of.line, e.value, e.error, e.from, e.to, e.regular,
+      e.has_lasted() ? ""
+                     : fmt::format("; the error is too small, since blocks resemble their neighbours (correlation "
+                                   "{:.2g}): let it run longer",
+                                   e.kinship));
+}
+
 void tell(const Console& console, const scene::Scene& scene, const Record& record, const Path& file) {
   const double turnover = found(record.energy, "turnover"), residual = found(record.energy, "residual");
   const double relative = turnover > 0 ? std::abs(residual) / turnover : 0;
@@ -52,6 +78,7 @@ void tell(const Console& console, const scene::Scene& scene, const Record& recor
                      {"stopped", record.stopped},
                      {"notes", record.notes}};
     if (!record.snaps.empty()) j["snaps"] = snaps_json(record);
+    if (!record.exponents.empty()) j["lyapunov"] = exponents_json(record);
     j["signals"] = series_json(record.signals);
     console.out << j.dump(1) << '\n';
     return;
@@ -72,6 +99,7 @@ void tell(const Console& console, const scene::Scene& scene, const Record& recor
     console.out << fmt::format("energy that does not add up: {:.3g} J, {:.2g} of the {:.3g} J turned over\n", residual,
                                relative, turnover);
   for (const Snaps& s : record.snaps) console.out << sentence(s) << '\n';
+  for (const LineExponent& e : record.exponents) console.out << sentence(e) << '\n';
   for (const auto& note : record.notes) console.out << "note: " << note << '\n';
   console.out << "wrote " << file.string() << '\n';
 }
@@ -91,6 +119,7 @@ void run(const SceneArguments& arguments, const Console& console) {
   for (const auto& [effect, count] : record.evaluations)
     provenance.settings.emplace_back("evaluations." + effect, std::to_string(count));
   for (const Snaps& s : record.snaps) provenance.settings.emplace_back("snaps." + s.line, sentence(s));
+  for (const LineExponent& e : record.exponents) provenance.settings.emplace_back("lyapunov." + e.line, sentence(e));
   provenance.energy = record.energy;
   if (!record.stopped.empty()) provenance.notes.emplace_back("stopped", record.stopped);
   write_run(file, record.time, record.signals, provenance);

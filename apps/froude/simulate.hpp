@@ -20,6 +20,12 @@ struct Snaps {
   int link;                    ///< counted from 1
 };
 
+/// The largest Lyapunov exponent of a line over a run.
+struct LineExponent {
+  std::string line;
+  dynamics::Exponent exponent;
+};
+
 /// What a run leaves behind, whole or up to where it stopped.
 struct Record {
   std::vector<double> time;     ///< s
@@ -32,6 +38,7 @@ struct Record {
   std::vector<std::pair<std::string, std::size_t>> evaluations;  ///< of the load, by effect
   std::vector<std::pair<std::string, double>> energy;            ///< J, by effect, at the end; residual and turnover
   std::vector<Snaps> snaps;                                      ///< of lines whose scene asks for them
+  std::vector<LineExponent> exponents;                           ///< likewise
   std::vector<std::string> notes;
   std::string stopped;  ///< why it ended before its time; empty if it did not
 

@@ -34,7 +34,8 @@ std::vector<Line::Link> read_links(const Record& record) {
     Line::Link link = equal_link(part, record.text("mass_at"));
     if (part.has("diameter")) link.diameter = part.si("diameter");
     if (part.has("axial_stiffness")) link.axial_stiffness = part.si("axial_stiffness");
-    for (const char* key : {"diameter", "axial_stiffness"})
+    if (part.has("bending_stiffness")) link.bending_stiffness = part.si("bending_stiffness");
+    for (const char* key : {"diameter", "axial_stiffness", "bending_stiffness"})
       if (part.has(key) && !record.has(key))
         throw part.wrong(key, fmt::format("is for this part, but the line has no {} for the others", key),
                          fmt::format("give [[line]] a {} too", key));
@@ -58,6 +59,40 @@ Line::Growth read_growth(const Record& record, const Record& whole, const Line& 
   if (!(out.to > out.from) || out.to > length * (1 + 1e-9))
     throw record.refused(fmt::format("reaches from {} to {} m of a line of {} m", out.from, out.to, length),
                          "count both from the line's first end");
+  return out;
+}
+
+Line::CoefficientTable read_coefficients(const Record& record, const std::filesystem::path& file) {
+  const auto table = hydro::io::CsvTable::read(beside(file, record.text("file")));
+  const bool has_re = table.has("Re");
+  if (has_re != record.has("viscosity"))
+    throw has_re ? record.refused("needs a viscosity: its file has a column Re", "for example \"1.05e-6 m^2/s\"")
+                 : record.wrong("viscosity", "acts on nothing: the file has no column Re", "leave it out");
+  const auto &kc = table.column("KC"), &cd = table.column("cd"), &ca = table.column("ca");
+  Line::CoefficientTable out{.rows = {},
+                             .viscosity = has_re ? record.si("viscosity") : 1,
+                             .file = record.text("file"),
+                             .place = record.place()};
+  for (std::size_t i = 0; i < table.rows(); ++i)
+    out.rows.push_back({kc[i], has_re ? table.column("Re")[i] : 1, cd[i], ca[i]});
+  return out;
+}
+
+Line::Water read_water(const Record& record, const Scene& scene, const std::filesystem::path& file) {
+  Line::Water out{.cd = 0, .ca = 0, .cd_tangential = record.si("cd_tangential"), .table = {}};
+  if (!record.has("file")) {
+    if (!record.has("ca")) throw record.refused("needs the key \"ca\" beside \"cd\"");
+    out.cd = record.si("cd");
+    out.ca = record.si("ca");
+    return out;
+  }
+  if (!scene.waves)
+    throw record.wrong("file", "gives coefficients by KC, and nothing moves the water to and fro",
+                       "add [waves], or give cd and ca");
+  if (scene.current_place)
+    throw record.wrong("file", "gives coefficients by KC, which say nothing of waves together with a current",
+                       "leave [current] out, or give cd and ca");
+  out.table = read_coefficients(record, file);
   return out;
 }
 
@@ -106,8 +141,29 @@ void read_on(const Record& record, const Record& whole, const Scene& scene, Line
                                      "leave it out, or move the body");
 }
 
+/// Ends held by the ground alone: a body would have to bear the moment too.
+void read_clamp(const Record& record, Line& line) {
+  if (record.has("from")) line.clamp_from = record.vector("from").normalized();
+  if (record.has("to")) line.clamp_to = record.vector("to").normalized();
+  if (line.clamp_to && !line.to) throw record.wrong("to", "clamps a free end: the line has no `to`", "add `to`");
+  for (const char* key : {"from", "to"})
+    if (record.has(key) && (std::string_view(key) == "from" ? line.from_on : line.to_on))
+      throw record.wrong(key, "clamps an end that is on a body, which would have to bear its moment",
+                         "let the end turn freely, or hold it by the ground");
+}
+
+Line::Lyapunov read_lyapunov(const Record& record, const Line& line) {
+  if (line.fastened())
+    throw record.refused("asks for neighbours of a line that is on a body, whose own neighbours are not followed",
+                         "hold the line by the ground");
+  return {record.si("from"), record.place()};
+}
+
 void check_surroundings(const Record& record, const Line& line, const Scene& scene) {
   const bool wet = line.morison || line.buoyancy;
+  if (line.sags && line.bending_stiffness)
+    throw record.wrong("bending_stiffness", "bends segments that sag, and so have no straight axis",
+                       "leave `sags` out");
   if (line.partial_immersion && !wet)
     throw record.refused("is immersed in part, but nothing of the water acts on it",
                          "add morison or buoyancy = true, or leave partial_immersion out");
@@ -130,15 +186,13 @@ void build_lines(const Record& root, const std::filesystem::path& file, Names& n
     line.node_mass = number("node_mass");
     line.diameter = number("diameter");
     if (record.has("axial_stiffness")) line.axial_stiffness = record.si("axial_stiffness");
+    if (record.has("bending_stiffness")) line.bending_stiffness = record.si("bending_stiffness");
     line.axial_damping = number("axial_damping");
     line.pulls_only = record.has("pulls_only");
     line.sags = record.has("sags");
     line.buoyancy = record.has("buoyancy");
     line.partial_immersion = record.has("partial_immersion");
-    if (record.has("morison")) {
-      const Record& m = record.table("morison");
-      line.morison = {m.si("cd"), m.si("ca"), m.si("cd_tangential")};
-    }
+    if (record.has("morison")) line.morison = read_water(record.table("morison"), scene, file);
     if (record.has("damping")) line.damping = read_damping(record.table("damping"));
     if (record.has("bed")) {
       const Record& b = record.table("bed");
@@ -155,6 +209,8 @@ void build_lines(const Record& root, const std::filesystem::path& file, Names& n
         throw s.wrong("snap_above", "is not above slack_below", "a snap is tighter than slack");
     }
     line.place = record.place();
+    if (record.has("clamp")) read_clamp(record.table("clamp"), line);
+    if (record.has("lyapunov")) line.lyapunov = read_lyapunov(record.table("lyapunov"), line);
     check_surroundings(record, line, scene);
     scene.chains.push_back(std::move(line));
   }

@@ -235,13 +235,25 @@ struct Line {
   struct Link {
     double length, mass, centre, inertia;  ///< m, kg, share of the length from its first node, kg m² about that
     std::optional<double> diameter = {}, axial_stiffness = {};  ///< m, N; empty: those of the line
+    std::optional<double> bending_stiffness = {};               ///< N m²; likewise
   };
   /// Marine growth on links whose middle is between two distances along the line.
   struct Growth {
     double thickness, density, from, to;  ///< m, kg/m³, m, m
   };
+  /// C_D and C_A by KC and perhaps Re, from a file.
+  struct CoefficientTable {
+    struct Row {
+      double kc, re, cd, ca;
+    };
+    std::vector<Row> rows;
+    double viscosity;  ///< m²/s; 1 where the table has no Re
+    std::filesystem::path file;
+    Place place;
+  };
   struct Water {
     double cd, ca, cd_tangential;
+    std::optional<CoefficientTable> table;  ///< instead of cd and ca
   };
   struct Damping {
     double linear, quadratic;  ///< of each node, kg/s and kg/m
@@ -257,6 +269,10 @@ struct Line {
   struct Snaps {
     double slack_below, snap_above;  ///< N
   };
+  struct Lyapunov {
+    double from;  ///< s, from which on growth counts
+    Place place;
+  };
   struct Lead {
     bool first;                          ///< the end `from`, else `to`
     std::vector<double> time;            ///< s
@@ -268,10 +284,12 @@ struct Line {
   std::optional<int> from_on, to_on;  ///< indices into Scene::bodies
   bool fastened() const { return from_on || to_on; }
   std::vector<Link> links;
-  double node_mass = 0;                   ///< kg, at every node but held ends
-  double diameter = 0;                    ///< m
-  std::optional<double> axial_stiffness;  ///< N; empty: keeps its length
-  double axial_damping = 0;               ///< N s
+  double node_mass = 0;                                 ///< kg, at every node but held ends
+  double diameter = 0;                                  ///< m
+  std::optional<double> axial_stiffness;                ///< N; empty: keeps its length
+  double axial_damping = 0;                             ///< N s
+  std::optional<double> bending_stiffness;              ///< EI, N m²; empty: bends freely
+  std::optional<Eigen::Vector3d> clamp_from, clamp_to;  ///< directions of its ends, unit; empty: they turn freely
   bool pulls_only = false, sags = false, buoyancy = false, partial_immersion = false;
   std::optional<Water> morison;
   std::optional<Damping> damping;
@@ -279,6 +297,7 @@ struct Line {
   std::optional<Release> release;
   std::optional<Lead> lead;
   std::optional<Snaps> snaps;
+  std::optional<Lyapunov> lyapunov;
   std::optional<Growth> growth;
   Place place;
 };

@@ -26,11 +26,23 @@ const Table& morison() {
   static const Table table{
       .title = "[line.morison]",
       .meaning = "drag, Froude-Krylov load and added mass of the segments where they are at each instant",
-      .keys = {number("cd", "drag coefficient across the segment").within(Limit::not_negative),
-               number("ca", "added mass over displaced mass, across the segment").within(Limit::not_negative),
+      .keys = {number("cd", "drag coefficient across the segment").within(Limit::not_negative).optional(),
+               number("ca", "added mass over displaced mass, across the segment")
+                   .within(Limit::not_negative)
+                   .optional()
+                   .only_beside("cd"),
+               text("file",
+                    "CSV beside the scene with KC, cd, ca and perhaps Re: each segment takes what belongs to the waves "
+                    "that pass it at rest")
+                   .optional(),
+               quantity("viscosity", dim::length * dim::velocity, "kinematic, of the water, for Re")
+                   .positive()
+                   .optional()
+                   .only_beside("file"),
                number("cd_tangential", "drag coefficient along the segment, of its skin pi D")
                    .within(Limit::not_negative)
-                   .or_default("0", "a smooth cylinder has some 0.01")}};
+                   .or_default("0", "a smooth cylinder has some 0.01")},
+      .groups = {{exactly_one, {"cd", "file"}}}};
   return table;
 }
 
@@ -91,6 +103,16 @@ const Table& snaps() {
   return table;
 }
 
+const Table& lyapunov() {
+  static const Table table{
+      .title = "[line.lyapunov]",
+      .meaning =
+          "the largest Lyapunov exponent of a run: a second line a millionth of a segment beside the first tells how "
+          "fast neighbours part",
+      .keys = {quantity("from", dim::time, "growth counts from here on, when the start is forgotten").positive()}};
+  return table;
+}
+
 const Table& part() {
   static const Table table{
       .title = "[[line.part]]",
@@ -99,7 +121,10 @@ const Table& part() {
                integer("segments", "into which it is cut").within(Limit::at_least_one),
                quantity("mass_per_length", dim::mass / dim::length, "of the part").positive(),
                quantity("diameter", dim::length, "left out: that of the line").positive().optional(),
-               quantity("axial_stiffness", dim::force, "EA; left out: that of the line").positive().optional()}};
+               quantity("axial_stiffness", dim::force, "EA; left out: that of the line").positive().optional(),
+               quantity("bending_stiffness", dim::force * dim::length * dim::length, "EI; left out: that of the line")
+                   .positive()
+                   .optional()}};
   return table;
 }
 
@@ -115,6 +140,16 @@ const Table& growth() {
                    .within(Limit::not_negative)
                    .or_default("0 m", "from there on"),
                quantity("to", dim::length, "likewise; left out: to the other end").positive().optional()}};
+  return table;
+}
+
+const Table& clamp() {
+  static const Table table{
+      .title = "[line.clamp]",
+      .meaning = "ends that do not turn: the direction in which the line goes there, from its first node to its last",
+      .keys = {direction("from", "at the first node: \"x\" or \"(1, 0, -1)\"").optional(),
+               direction("to", "at the last node, still from first to last").optional()},
+      .groups = {{at_least_one, {"from", "to"}}}};
   return table;
 }
 
@@ -161,6 +196,11 @@ const Table& line_table() {
                .positive()
                .optional()
                .only_beside("axial_stiffness"),
+           quantity("bending_stiffness", dim::force * dim::length * dim::length,
+                    "EI: moment per curvature; left out: the line bends freely")
+               .positive()
+               .optional(),
+           inner_table("clamp", clamp()).optional().only_beside("bending_stiffness"),
            effect("pulls_only", "segments go slack instead of being pressed").optional().only_beside("axial_stiffness"),
            effect("sags",
                   "segments hang through between their nodes by their weight in water, and rest on the bed in part: "
@@ -177,7 +217,8 @@ const Table& line_table() {
            inner_table("bed", bed()).optional().only_beside("diameter"),
            inner_table("release", release()).optional(),
            inner_table("lead", lead()).optional(),
-           inner_table("snaps", snaps()).optional()},
+           inner_table("snaps", snaps()).optional(),
+           inner_table("lyapunov", lyapunov()).optional()},
       .groups = {{exactly_one, {"length", "part", "link"}}, {at_most_one, {"pulls_only", "sags"}}}};
   return table;
 }

@@ -1,6 +1,7 @@
 #include "band_matrix.hpp"
 
 #include <cmath>
+#include <cstddef>
 
 // Rows are updated twelve numbers at a time: the same binary uses what the machine has.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
@@ -12,25 +13,24 @@
 namespace dynamics::line {
 namespace {
 
-constexpr int half = BandMatrix::half, right = 2 * half;
-
 /// Takes row `top` times row[0]/top[0] off `row`, both from their diagonal's column on.
-inline double take_off(double* row, const double* top) {
+template <int Half>
+[[gnu::always_inline]] inline double take_off(double* row, const double* top) {
   const double factor = row[0] / top[0];
-  for (int c = 1; c <= right; ++c) row[c] -= factor * top[c];
+  for (int c = 1; c <= 2 * Half; ++c) row[c] -= factor * top[c];
   return factor;
 }
 
-}  // namespace
-
-/// `width` right-hand sides, row by row; a Width known beforehand needs no loop.
-template <int Width>
-[[gnu::always_inline]] inline bool BandMatrix::eliminate_in_place(double* rhs, int width) {
+/// `width` right-hand sides, row by row; a Width known beforehand needs no loop. `entries` as BandMatrix has them.
+template <int Half, int Width>
+[[gnu::always_inline]] inline bool eliminate_in_place(int size, double* entries, double* rhs, int width) {
+  constexpr int right = 2 * Half, stride = 3 * Half + 2;
   if constexpr (Width > 0) width = Width;
+  double* const first = entries + Half;  // on the diagonal
   // Columns beyond the last are zero and stay so: every row has room for all its columns.
-  for (int k = 0; k < size_; ++k) {
-    const int below = std::min(half, size_ - 1 - k);
-    double *top = &entries_[place(k, k)], *own = rhs + k * width;
+  for (int k = 0; k < size; ++k) {
+    const int below = std::min(Half, size - 1 - k);
+    double *top = first + static_cast<std::ptrdiff_t>(k) * stride, *own = rhs + k * width;
     int pivot = 0;
     for (int r = 1; r <= below; ++r)
       if (std::abs(top[r * (stride - 1)]) > std::abs(top[pivot * (stride - 1)])) pivot = r;
@@ -42,13 +42,13 @@ template <int Width>
     for (int r = 1; r <= below; ++r) {
       double* row = top + r * (stride - 1);
       if (row[0] == 0) continue;
-      const double factor = take_off(row, top);
+      const double factor = take_off<Half>(row, top);
       for (int c = 0; c < width; ++c) own[r * width + c] -= factor * own[c];
     }
   }
-  for (int k = size_ - 1; k >= 0; --k) {
-    const double* row = &entries_[place(k, k)];
-    const int last = std::min(right, size_ - 1 - k);
+  for (int k = size - 1; k >= 0; --k) {
+    const double* row = first + static_cast<std::ptrdiff_t>(k) * stride;
+    const int last = std::min(right, size - 1 - k);
     for (int c = 0; c < width; ++c) {
       double sum = rhs[k * width + c];
       for (int j = 1; j <= last; ++j) sum -= row[j] * rhs[(k + j) * width + c];
@@ -58,10 +58,29 @@ template <int Width>
   return true;
 }
 
-FROUDE_EVERY_MACHINE bool BandMatrix::eliminate_one(double* rhs) { return eliminate_in_place<1>(rhs, 1); }
-FROUDE_EVERY_MACHINE bool BandMatrix::eliminate(double* rhs, int width) { return eliminate_in_place<0>(rhs, width); }
+FROUDE_EVERY_MACHINE bool narrow_one(int size, double* entries, double* rhs) {
+  return eliminate_in_place<6, 1>(size, entries, rhs, 1);
+}
+FROUDE_EVERY_MACHINE bool narrow_many(int size, double* entries, double* rhs, int width) {
+  return eliminate_in_place<6, 0>(size, entries, rhs, width);
+}
+FROUDE_EVERY_MACHINE bool wide_one(int size, double* entries, double* rhs) {
+  return eliminate_in_place<10, 1>(size, entries, rhs, 1);
+}
+FROUDE_EVERY_MACHINE bool wide_many(int size, double* entries, double* rhs, int width) {
+  return eliminate_in_place<10, 0>(size, entries, rhs, width);
+}
 
-bool BandMatrix::solve(Eigen::VectorXd& b) { return eliminate_one(b.data()); }
-bool BandMatrix::solve(Columns& b) { return eliminate(b.data(), static_cast<int>(b.cols())); }
+}  // namespace
+
+bool BandMatrix::solve(Eigen::VectorXd& b) {
+  return half_ == narrow ? narrow_one(size_, entries_.data(), b.data()) : wide_one(size_, entries_.data(), b.data());
+}
+
+bool BandMatrix::solve(Columns& b) {
+  const auto width = static_cast<int>(b.cols());
+  return half_ == narrow ? narrow_many(size_, entries_.data(), b.data(), width)
+                         : wide_many(size_, entries_.data(), b.data(), width);
+}
 
 }  // namespace dynamics::line

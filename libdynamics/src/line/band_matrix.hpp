@@ -7,14 +7,22 @@
 
 namespace dynamics::line {
 
-/// Square, with six diagonals on either side of the main one: neighbouring nodes and the tension between them.
+/// How far the equations of a node reach: to its neighbours, or by bending to theirs.
+enum class Reach { neighbours, next_neighbours };
+
+/// Square, with six diagonals on either side of the main one: neighbouring nodes and the tension between them; with ten
+/// where a node's equations hold the second next one.
 class BandMatrix {
  public:
-  static constexpr int half = 6;
-
-  explicit BandMatrix(int size) : size_(size), entries_(static_cast<std::size_t>(size) * stride) {}
+  BandMatrix(int size, Reach reach)
+      : size_(size),
+        half_(reach == Reach::neighbours ? narrow : wide),
+        entries_(static_cast<std::size_t>(size * stride_of(half_))) {}
+  int half() const { return half_; }
   void set_zero() { std::fill(entries_.begin(), entries_.end(), 0.0); }
-  double& operator()(int row, int column) { return entries_[place(row, column)]; }
+  double& operator()(int row, int column) {
+    return entries_[static_cast<std::size_t>(row * stride_of(half_) + column - row + half_)];
+  }
 
   /// Gaussian elimination with row pivots; overwrites matrix and `b`, which becomes the solution. O(size).
   /// Returns false for a matrix that is singular or not finite.
@@ -24,15 +32,11 @@ class BandMatrix {
   bool solve(Columns& b);
 
  private:
-  // Row swaps fill six more diagonals above.
-  static constexpr int stride = 3 * half + 2;
-  bool eliminate(double* rhs, int width);
-  bool eliminate_one(double* rhs);
-  template <int Width>
-  bool eliminate_in_place(double* rhs, int width);
-  static std::size_t place(int row, int column) { return static_cast<std::size_t>(row * stride + column - row + half); }
+  static constexpr int narrow = 6, wide = 10;
+  // Row swaps fill as many diagonals more above.
+  static constexpr int stride_of(int half) { return 3 * half + 2; }
 
-  int size_;
+  int size_, half_;
   std::vector<double> entries_;
 };
 

@@ -25,7 +25,11 @@ Stage instant(const State& state, const Places& a) {
 }
 
 Equations::Equations(const Line& line)
-    : line_(line), loads_(line), matrix_(4 * line.nodes()), rhs_(4 * line.nodes()), law_(line.segments()) {
+    : line_(line),
+      loads_(line),
+      matrix_(4 * line.nodes(), line.bends() ? Reach::next_neighbours : Reach::neighbours),
+      rhs_(4 * line.nodes()),
+      law_(line.segments()) {
   blocks_.set_zero(line.nodes());
   x_ = v_ = a_ = force_ = residual_ = Places::Zero(3, line.nodes());
   push_.resize(static_cast<std::size_t>(line.nodes()));
@@ -180,6 +184,7 @@ double Equations::assemble(const Stage& stage, const State& before, const Places
   if (!stage.still) add_mass(a_);
   if (matrix) fill(stage.still ? 0 : stage.a_by, stage.relax);
   add_bed(stage, before, matrix);
+  add_bending(stage, matrix);
   add_pulls(stage, before, T, matrix);
   if (rubs() && !stage.still) add_friction(stage, before, matrix);
   double sum = law_.squaredNorm();
@@ -194,7 +199,7 @@ void Equations::keep_held() {
   const int last = static_cast<int>(rhs_.size()) - 1;
   for (const Held& h : line_.description().held)
     for (int r = place_index(h.node); r < place_index(h.node) + 3; ++r) {
-      for (int c = std::max(0, r - BandMatrix::half); c <= std::min(last, r + BandMatrix::half); ++c) matrix_(r, c) = 0;
+      for (int c = std::max(0, r - matrix_.half()); c <= std::min(last, r + matrix_.half()); ++c) matrix_(r, c) = 0;
       matrix_(r, r) = scale_;
     }
 }
@@ -218,6 +223,7 @@ void Equations::scale_for(const Stage& stage, const VectorXd& T) {
   scale_ = std::max(stage.relax, 1e-300);
   for (int i = 0; i < line_.nodes(); ++i) scale_ = std::max(scale_, line_.mass(i) * std::abs(stage.a_by));
   for (int j = 0; j < line_.segments(); ++j) scale_ = std::max(scale_, std::abs(T[j]) / line_.segment(j).length);
+  scale_ = std::max(scale_, line_.hardest_bending());
 }
 
 /// As much of a correction as brings what is left over down, halved up to twelve times; its size is returned.

@@ -68,6 +68,7 @@ class Equations {
   /// Stored in stretched segments, and in the bed, J.
   double stored_in_segments(const State& state);
   double stored_in_bed(const State& state) const;
+  double stored_in_bending(const State& state) const;
   /// Of the bed's shear under a state, J. (D95)
   double stored_in_shear(const State& state) const;
   /// Where the bed holds nodes after the step that powers() looked at last. (D95)
@@ -108,6 +109,7 @@ class Equations {
   double weight_on_bed(int i) const;
   void add_friction(const Stage& stage, const State& before, bool matrix);
   void add_slip_derivatives(int i, const Eigen::Vector2d& along);
+  void add_bending(const Stage& stage, bool matrix);
   void add_pulls(const Stage& stage, const State& before, const Eigen::VectorXd& T, bool matrix);
   double assemble(const Stage& stage, const State& before, const Places& u, const Eigen::VectorXd& T, bool matrix);
   Push bed(int i, const Stage& stage, const State& before) const;

@@ -11,8 +11,8 @@ using Eigen::VectorXd;
 namespace {
 
 /// First and last index that shares an equation with this one.
-std::pair<int, int> band(int index, Eigen::Index size) {
-  return {std::max(0, index - BandMatrix::half), std::min(static_cast<int>(size) - 1, index + BandMatrix::half)};
+std::pair<int, int> band(int index, const BandMatrix& matrix, Eigen::Index size) {
+  return {std::max(0, index - matrix.half()), std::min(static_cast<int>(size) - 1, index + matrix.half())};
 }
 
 }  // namespace
@@ -22,7 +22,7 @@ BandMatrix::Columns Equations::columns_of(const std::vector<int>& led) {
   BandMatrix::Columns out = BandMatrix::Columns::Zero(rhs_.size(), 3 * static_cast<Eigen::Index>(led.size()));
   for (Eigen::Index k = 0; k < out.cols(); ++k) {
     const int column = place_index(led[static_cast<std::size_t>(k / 3)]) + static_cast<int>(k % 3);
-    const auto [first, last] = band(column, rhs_.size());
+    const auto [first, last] = band(column, matrix_, rhs_.size());
     for (int row = first; row <= last; ++row) out(row, k) = matrix_(row, column);
   }
   return out;
@@ -33,7 +33,7 @@ MatrixXd Equations::rows_times(const std::vector<int>& led, const BandMatrix::Co
   MatrixXd out = MatrixXd::Zero(3 * static_cast<Eigen::Index>(led.size()), y.cols());
   for (Eigen::Index k = 0; k < out.rows(); ++k) {
     const int row = place_index(led[static_cast<std::size_t>(k / 3)]) + static_cast<int>(k % 3);
-    const auto [first, last] = band(row, rhs_.size());
+    const auto [first, last] = band(row, matrix_, rhs_.size());
     for (int column = first; column <= last; ++column) out.row(k) += matrix_(row, column) * y.row(column);
   }
   return out;

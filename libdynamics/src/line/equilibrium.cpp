@@ -1,6 +1,7 @@
 #include "dynamics/line/equilibrium.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 
 #include <cmath>
 #include <numbers>
@@ -189,6 +190,7 @@ State equilibrium(const Line& line, const State& guess, RestReport* report) {
   for (int j = 0; j < line.segments(); ++j) shortest = std::min(shortest, line.segment(j).length);
   for (int i = 0; i < line.nodes(); ++i) hardest = std::max(hardest, line.constant_load().col(i).norm());
   hardest = std::max(hardest, state.tension.cwiseAbs().maxCoeff()) / shortest;
+  hardest = std::max(hardest, line.hardest_bending());
   if (hardest == 0) hardest = 1;
   constexpr int most = 400, iterations = 30;
   Equations::Outcome outcome;

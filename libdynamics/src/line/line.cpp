@@ -27,6 +27,9 @@ void check(const Segment& s, std::size_t j) {
           "segment {} sags, so it needs an axial stiffness and never goes slack: leave pulls_only out", j + 1);
   require(!(s.axial_damping > 0 && s.keeps_length()), "segment {} keeps its length, so its axial damping cannot act",
           j + 1);
+  require(std::isfinite(s.bending_stiffness) && s.bending_stiffness >= 0,
+          "segment {} must not have the bending stiffness {} N m^2", j + 1, s.bending_stiffness);
+  require(!(s.sags && s.bending_stiffness > 0), "segment {} sags, so it has no straight axis that bends", j + 1);
   require(s.diameter >= 0 && s.cd >= 0 && s.cd_tangential >= 0 && s.ca >= 0,
           "diameter and coefficients of segment {} must not be negative", j + 1);
 }
@@ -92,6 +95,28 @@ Line::Line(Description description) : d_(std::move(description)) {
     }
   }
   find_held();
+  find_bending();
+}
+
+// (D106), (D107)
+void Line::find_bending() {
+  bending_ = Eigen::VectorXd::Zero(nodes());
+  for (int i = 1; i < segments(); ++i) {
+    const Segment &a = segment(i - 1), &b = segment(i);
+    if (a.bending_stiffness > 0 && b.bending_stiffness > 0)
+      bending_[i] = 2 / (a.length / a.bending_stiffness + b.length / b.bending_stiffness);
+  }
+  for (const Held& h : d_.held) {
+    if (h.clamp.isZero(0)) continue;
+    require(h.node == 0 || h.node == segments(), "node {} is clamped, but is no end of the line", h.node);
+    require(std::abs(h.clamp.norm() - 1) < 1e-9, "node {} is clamped in a direction that is not of length 1", h.node);
+    const Segment& s = segment(h.node == 0 ? 0 : h.node - 1);
+    require(s.bending_stiffness > 0, "node {} is clamped, but its segment has no bending stiffness", h.node);
+    bending_[h.node] = 2 * s.bending_stiffness / s.length;
+  }
+  for (int j = 0; j < segments(); ++j)
+    hardest_bending_ =
+        std::max(hardest_bending_, std::max(bending_[j], bending_[j + 1]) / (segment(j).length * segment(j).length));
 }
 
 void Line::find_held() {

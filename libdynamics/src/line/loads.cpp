@@ -51,19 +51,18 @@ struct PointDerivatives {
 };
 
 PointDerivatives differentiate(const PerLength& c, const Point& p) {
-  const Matrix3d P = Matrix3d::Identity() - p.axis * p.axis.transpose();
+  const Matrix3d outer = p.axis * p.axis.transpose(), P = Matrix3d::Identity() - outer;
   const double along = p.axis.dot(p.relative);
   const Vector3d across = p.relative - along * p.axis;
-  const double speed = across.norm();
-  Matrix3d by_across = Matrix3d::Zero();  // |w| w is flat at w = 0
-  if (speed > 0) by_across = c.normal * (speed * Matrix3d::Identity() + across * across.transpose() / speed);
-  const double skin = c.tangential * std::abs(along);
+  const double speed = across.norm(), normal = c.normal * speed, skin = c.tangential * std::abs(along);
+  // Of normal |w| w by w, which is across the axis: its product with the axis is normal times the axis.
+  Matrix3d by_across = normal * Matrix3d::Identity();
+  if (speed > 0) by_across += (c.normal / speed) * across * across.transpose();  // flat at w = 0
   PointDerivatives d;
-  d.by_relative = by_across - (by_across * p.axis) * p.axis.transpose() + 2 * skin * p.axis * p.axis.transpose();
+  d.by_relative = by_across + (2 * skin - normal) * outer;
   d.by_inertial = P;
-  d.by_axis = -by_across * (along * Matrix3d::Identity() + p.axis * p.relative.transpose()) +
-              skin * (along * Matrix3d::Identity() + 2 * p.axis * p.relative.transpose()) -
-              p.axis.dot(p.inertial) * Matrix3d::Identity() - p.axis * p.inertial.transpose();
+  d.by_axis = (skin * along - p.axis.dot(p.inertial)) * Matrix3d::Identity() - along * by_across +
+              p.axis * ((2 * skin - normal) * p.relative - p.inertial).transpose();
   return d;
 }
 

@@ -48,7 +48,7 @@ inline Sag sag_of(const Span& s, double tension) {
     const double rise = g[1] - g[0], root = std::sqrt(w / T);
     double sag = -rise * rise / (2 * l);
     for (int i = 0; i < 2; ++i) {
-      const double part = root * std::pow(2 * g[i], 1.5) / 6, sign = i == 1 ? 1 : -1;
+      const double part = root * 2 * g[i] * std::sqrt(2 * g[i]) / 6, sign = i == 1 ? 1 : -1;
       sag += part;
       out.stored += 2 * T * part * s.level - w * l * g[i] / 2;
       out.by_tension -= part / (2 * T) * s.level;

@@ -39,6 +39,13 @@ double TensionStatistics::slack_share() const { return time_ > 0 ? any_slack_ / 
 double TensionStatistics::slack_share(int segment) const { return time_ > 0 ? slack_[segment] / time_ : 0; }
 int TensionStatistics::snaps() const { return std::accumulate(snaps_.begin(), snaps_.end(), 0); }
 
+double clamping_moment(const Line& line, const State& state, int node) {
+  if (line.held(node) == nullptr || line.bending(node) == 0) return 0;
+  const int j = node == 0 ? 0 : node - 1;
+  const Eigen::Vector3d along = (state.position.col(j + 1) - state.position.col(j)) / line.segment(j).length;
+  return line.bending(node) * (along - line.held(node)->clamp).norm();
+}
+
 double curvature(const State& state, int node) {
   const Eigen::Vector3d before = state.position.col(node) - state.position.col(node - 1),
                         after = state.position.col(node + 1) - state.position.col(node);

@@ -162,15 +162,20 @@ void Stepper::start(State& state) {
   if (led) w.equations.project_velocity(state, state.velocity);
   w.require_lengths(state);
   if (state.grip.cols() != line.nodes()) state.grip = state.position.topRows<2>();
-  if (!w.settle(state) && !line.has_massless_nodes())
-    throw hydro::NumericsError(fmt::format(
-        "the line has no accelerations at t = {} s: masses or loads are singular or not finite", state.time));
-  w.algorithmic = w.a;
+  go_on(state);
   w.energies = {};
   w.before = w.equations.powers(instant(state, w.a), state, Places::Zero(3, line.nodes()), state.tension);
   w.note_state(state);
   w.energies.lost_friction = 0;
   w.energies.at_start = w.energies.total();
+}
+
+void Stepper::go_on(State& state) {
+  Work& w = *work_;
+  if (!w.settle(state) && !w.line.has_massless_nodes())
+    throw hydro::NumericsError(fmt::format(
+        "the line has no accelerations at t = {} s: masses or loads are singular or not finite", state.time));
+  w.algorithmic = w.a;
 }
 
 /// Accelerations and tensions of the state. Where masses leave them open, tensions to begin Newton with: the weight.
@@ -186,6 +191,7 @@ void Stepper::Work::note_state(const State& state) {
   energies.height = -line.constant_load().cwiseProduct(state.position).sum();
   energies.axial = equations.stored_in_segments(state);
   energies.bed = equations.stored_in_bed(state);
+  energies.bending = equations.stored_in_bending(state);
   const double shear = equations.stored_in_shear(state);
   energies.lost_friction -= shear - energies.shear;  // of what friction took, this is held
   energies.shear = shear;

@@ -16,7 +16,7 @@ namespace {
 
 using Complex = std::complex<double>;
 using Phasors = std::span<const Complex>;
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double last_digit = std::numeric_limits<double>::epsilon();
 
 void require_one_per_component(std::size_t components, std::size_t amplitudes) {
   require(amplitudes == components, "{} complex amplitudes given for a sea of {} components", amplitudes, components);
@@ -43,7 +43,7 @@ std::optional<Repetition> repetition_of(const Sea& sea, const TimeGrid& grid) {
   if (std::isinf(sea.repetition_s()) || grid.start_s != 0) return {};
   const double steps = std::round(sea.repetition_s() / grid.dt_s);
   const double miss = std::abs(steps * grid.dt_s - sea.repetition_s());
-  if (steps < 1 || steps > std::numeric_limits<int>::max() || miss > 4 * epsilon * sea.repetition_s()) return {};
+  if (steps < 1 || steps > std::numeric_limits<int>::max() || miss > 4 * last_digit * sea.repetition_s()) return {};
   double drift = 0;  // in turns per repetition
   for (std::size_t i = 0; i < sea.components().size(); ++i) {
     const phase::Turns step = phase::of(sea.components()[i].omega, grid.dt_s);
@@ -102,12 +102,12 @@ double expected_cost(SeriesMethod method, const Size& n, double period) {
 // Bounds of |error|/Σ|c|, (W92), (W93), (W95), (W99). One rounding for each term that is added, and those of the
 // phasors.
 double error_of(SeriesMethod method, const Size& n, const std::optional<Repetition>& repetition) {
-  const double summed = 0.5 * epsilon * (n.components + 16);
+  const double summed = 0.5 * last_digit * (n.components + 16);
   switch (method) {
     case SeriesMethod::inverse_fft:
-      return 2 * epsilon * std::log2(static_cast<double>(repetition->samples) + 2) + repetition->drift;
+      return 2 * last_digit * std::log2(static_cast<double>(repetition->samples) + 2) + repetition->drift;
     case SeriesMethod::nonuniform_fft:
-      return series::nonuniform_error() + 250 * epsilon * std::sqrt(std::log2(1.5 * n.samples + 48));
+      return series::nonuniform_error() + 250 * last_digit * std::sqrt(std::log2(1.5 * n.samples + 48));
     case SeriesMethod::decimated:
       return series::decimation_error() +
              series::decimation_amplification() * error_of(coarse_method(n), n.thinned(), repetition);

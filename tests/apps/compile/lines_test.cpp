@@ -126,6 +126,93 @@ TEST(Lines, SagWhereTheSceneSaysSo) {
               ThrowsMessage<hydro::InputError>(HasSubstr("segments that sag")));
 }
 
+// w L⁴/8EI of a beam clamped level, a little more than a hundredth of its length; and w L²/2 at the clamp.
+TEST(Lines, BendAsBeamsWhereTheyAreClamped) {
+  const auto beam = [](const std::string& more) {
+    return "[[line]]\nname = \"b\"\nfrom = \"(0, 0, 0) m\"\nlength = \"2 m\"\nsegments = 40\n"
+           "mass_per_length = \"1 kg/m\"\nbending_stiffness = \"1000 N m^2\"\n" +
+           more;
+  };
+  const auto record = simulate(parse(water + beam("clamp = { from = \"x\" }\n") + ask));
+  const double w = 9.81;
+  EXPECT_NEAR(record.signal("b.node40.z").back() / (-w * 16 / 8 / 1000), 1, 2e-3);
+  EXPECT_NEAR(record.signal("b.from.moment").back() / (w * 2), 1, 1e-3);
+  EXPECT_NEAR(record.signal("b.node1.curvature").back() / (w * 1.95 * 1.95 / 2 / 1000), 1, 1e-3);
+  // Without a clamp it hangs down; as a part that is not stiff it hangs down from where it begins.
+  EXPECT_NEAR(simulate(parse(water + beam("") + ask)).signal("b.node40.z").back(), -2, 1e-9);
+  const auto refuses = [&](const std::string& more, const std::string& what) {
+    EXPECT_THAT([&] { simulate(parse(water + beam(more) + ask)); }, ThrowsMessage<hydro::InputError>(HasSubstr(what)));
+  };
+  refuses("clamp = { to = \"x\" }\n", "clamps a free end");
+  refuses("diameter = \"50 mm\"\naxial_stiffness = \"1 MN\"\nsags = true\nbuoyancy = true\n", "no straight axis");
+}
+
+// A rod that is damped beyond swinging: the slower root of s² + (3b/m) s + 3g/2ℓ = 0.
+TEST(Lines, TellHowFastNeighboursPart) {
+  const std::string rod =
+      "[[line]]\nname = \"p\"\nfrom = \"(0, 0, 0) m\"\n[[line.link]]\nlength = \"1 m\"\nmass = \"2 kg\"\n"
+      "[line.damping]\nlinear = \"8 kg/s\"\n[line.lyapunov]\nfrom = ";
+  const std::string longer = "[ask]\nrun = { duration = \"10 s\", every = \"0.02 s\" }\n[solve]\nstep = \"0.01 s\"\n";
+  const auto record = simulate(parse(water + rod + "\"4 s\"\n" + longer));
+  ASSERT_EQ(record.exponents.size(), 1u);
+  const dynamics::Exponent& e = record.exponents.front().exponent;
+  EXPECT_NEAR(e.value, -6 + std::sqrt(36 - 1.5 * 9.81), 1e-4);  // s³h²/12 of the midpoint rule
+  EXPECT_EQ(e.from, 4);
+  const auto& parting = record.signal("p.parting");
+  EXPECT_NEAR((parting.back() - parting.at(200)) / 6, e.value, 1e-9);
+  const auto refuses = [](const std::string& text, const std::string& what) {
+    EXPECT_THAT([&] { simulate(parse(text)); }, ThrowsMessage<hydro::InputError>(HasSubstr(what))) << text;
+  };
+  refuses(water + rod + "\"9.8 s\"\n" + longer, "fewer than 20 samples");
+  refuses(water + rod + "\"4 s\"\n" + longer + "[solve.integrator]\nlines = \"generalized_alpha\"\n",
+          "has no neighbours in steps of generalized_alpha");
+}
+
+class LinesByTable : public testing::Test {
+ protected:
+  LinesByTable() : folder(std::filesystem::temp_directory_path() / "froude_lines_by_table") {
+    std::filesystem::create_directories(folder);
+  }
+  ~LinesByTable() override { std::filesystem::remove_all(folder); }
+  Record run(const std::string& morison, const std::string& table, const std::string& more = "") const {
+    std::ofstream(folder / "table.csv") << table;
+    return simulate(scene::parse(water +
+                                     "[waves]\nkind = \"regular\"\nheight = \"0.4 m\"\nperiod = \"4 s\"\n"
+                                     "heading = \"0 deg\"\n" +
+                                     more + loop + "diameter = \"50 mm\"\n[line.morison]\n" + morison + ask,
+                                 folder / "scene.toml"));
+  }
+  std::filesystem::path folder;
+};
+
+TEST_F(LinesByTable, MoveAsWithTheSameNumbersGiven) {
+  const auto table = run("file = \"table.csv\"\n", "KC, cd, ca\n0.01, 1.3, 0.8\n100, 1.3, 0.8\n"),
+             given = run("cd = 1.3\nca = 0.8\n", "");
+  for (const char* name : {"d.node2.x", "d.link3.tension"})
+    EXPECT_NEAR(table.signal(name).back() / given.signal(name).back(), 1, 1e-12) << name;
+  EXPECT_GT(std::abs(table.signal("d.node2.x").back() - table.signal("d.node2.x").front()), 1e-3);
+  const auto other = run("file = \"table.csv\"\n", "KC, cd, ca\n0.01, 1.3, 0.8\n100, 2.6, 0.8\n");
+  EXPECT_GT(std::abs(other.signal("d.link3.tension").back() / given.signal("d.link3.tension").back() - 1), 1e-4);
+  EXPECT_THAT(other.notes,
+              testing::Contains(AllOf(HasSubstr("line d: C_D "), HasSubstr("C_A 0.8 by table.csv at KC "))));
+}
+
+TEST_F(LinesByTable, RefuseWhatTheTableDoesNotHold) {
+  const auto refuses = [&](const std::string& morison, const std::string& table, const std::string& what,
+                           const std::string& more = "") {
+    EXPECT_THAT([&] { run(morison, table, more); }, ThrowsMessage<hydro::InputError>(HasSubstr(what))) << what;
+  };
+  const std::string file = "file = \"table.csv\"\n", narrow = "KC, cd, ca\n20, 1.3, 0.8\n30, 1.3, 0.8\n",
+                    reynolds = "KC, Re, cd, ca\n0.1, 1e3, 1, 1\n90, 1e3, 1, 1\n0.1, 1e7, 1, 1\n90, 1e7, 1, 1\n";
+  refuses(file, narrow, "and the table goes from 20 to 30");
+  refuses(file, reynolds, "needs a viscosity");
+  refuses(file + "viscosity = \"1e-6 m^2/s\"\n", narrow, "has no column Re");
+  refuses(file + "viscosity = \"1 m^2/s\"\n", reynolds, "Re is ");
+  refuses("cd = 1\n", narrow, "needs the key \"ca\"");
+  refuses(file, narrow, "together with a current", "[current]\nvelocity = \"(1, 0, 0) m/s\"\n");
+  run(file + "viscosity = \"1e-6 m^2/s\"\n", reynolds);
+}
+
 // Pulled aside along the bed and let go, it comes back; with friction it lies where it was put. (D95)
 TEST(Lines, LieWhereTheyArePutByFrictionOfTheBed) {
   const auto nearest = [](const std::string& friction) {

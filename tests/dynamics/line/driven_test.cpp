@@ -111,9 +111,11 @@ FastenedLineKind between_bodies() {
   d.water = {std::make_shared<hydro::waves::HarmonicField>(std::vector<hydro::waves::Harmonic>{}, hydro::Water{},
                                                            hydro::waves::HarmonicField::Options{}),
              Wet::all, true};
+  Description stiff = d;
+  for (Segment& s : stiff.segments) s.bending_stiffness = 40;
   return FastenedLineKind({{.name = "between",
-                            .run = d,
-                            .still = d,
+                            .run = stiff,
+                            .still = stiff,
                             .places = Places::Zero(3, 6),
                             .ends = {{0, 0, {0.5, 0.1, -0.2}}, {5, 1, {-0.4, 0.2, 0.1}}}},
                            hung(d, {0.3, 0.2, -0.1})});

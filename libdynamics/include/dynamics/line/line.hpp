@@ -23,6 +23,7 @@ struct Segment {
   double inertia = 0;  ///< about that centre, across the axis, kg m²: mℓ²/12 of a uniform rod, mℓ²/4 of two half masses
   double axial_stiffness = std::numeric_limits<double>::infinity();  ///< EA, N; ∞: keeps its length
   double axial_damping = 0;                                          ///< N per strain rate, N s
+  double bending_stiffness = 0;                                      ///< EI, N m² (D106)
   bool pulls_only = false;                                           ///< goes slack instead of being pressed
   bool sags = false;    ///< hangs through between its nodes and rests on the bed in part, by its weight in water (D88)
   double diameter = 0;  ///< of what the water and the bed meet, m
@@ -54,6 +55,8 @@ class Path {
 struct Held {
   int node;
   std::shared_ptr<const Path> path = nullptr;
+  /// Of an end: the direction, first node to last, in which the line is clamped there; zero: it turns freely. (D107)
+  Eigen::Vector3d clamp = Eigen::Vector3d::Zero();
 };
 
 /// A level bed that pushes back at nodes under it, as an area of bed under each segment's diameter. (D75)
@@ -112,6 +115,11 @@ class Line {
   /// The mass matrix (D71) is block-tridiagonal with m ⊗ 1: its diagonal, and what joins nodes j and j + 1, kg.
   double mass(int i) const { return diagonal_[i]; }
   double mass_between(int j) const { return between_[j]; }
+  /// c of what bends at a node, N m: its moment by the change of direction there. (D106)
+  double bending(int i) const { return bending_[i]; }
+  bool bends() const { return hardest_bending_ > 0; }
+  /// Of c over squares of the lengths beside it, N/m.
+  double hardest_bending() const { return hardest_bending_; }
   /// Weight in water of a segment that sags, N/m.
   double sag_weight(int j) const { return sag_weight_[j]; }
   /// Weight, buoyancy of what is always wet, and the given constant load of each node, N.
@@ -123,9 +131,11 @@ class Line {
 
  private:
   void find_held();
+  void find_bending();
   Description d_;
   std::vector<int> held_;  // index into d_.held, −1: free
-  Eigen::VectorXd diagonal_, between_, bed_area_, sag_weight_;
+  Eigen::VectorXd diagonal_, between_, bed_area_, sag_weight_, bending_;
+  double hardest_bending_ = 0;
   Places constant_;
 };
 

@@ -36,6 +36,9 @@ class TensionStatistics {
   Largest largest_;
 };
 
+/// Size of the moment that clamps an end, N m; 0 where nothing does. (D107)
+double clamping_moment(const Line& line, const State& state, int node);
+
 /// Curvature at an inner node, 1/m: |t₂ − t₁| over the mean of the lengths beside it. (D94)
 double curvature(const State& state, int node);
 

@@ -24,11 +24,12 @@ std::string_view name_of(Scheme scheme);
 struct Energies {
   double kinetic = 0, height = 0, axial = 0, bed = 0;    ///< held; height: of weight, buoyancy, constant loads
   double shear = 0;                                      ///< held by the bed along itself
+  double bending = 0;                                    ///< held
   double held = 0, drag = 0, inertia = 0, buoyancy = 0;  ///< supplied by what leads nodes, and by the water
   double lost_damping = 0, lost_drag = 0, lost_axial = 0, lost_bed = 0, lost_friction = 0;  ///< dissipated
   double at_start = 0;
 
-  double stored() const { return height + axial + bed + shear; }
+  double stored() const { return height + axial + bed + shear + bending; }
   double total() const { return kinetic + stored(); }
   double supplied() const { return held + drag + inertia + buoyancy; }
   double dissipated() const { return lost_damping + lost_drag + lost_axial + lost_bed + lost_friction; }
@@ -62,6 +63,10 @@ class Stepper {
   /// Begins at `state`: nodes on paths are put there, tensions found. \throws hydro::InputError naming the segment if a
   /// length is not kept, or velocities change it; hydro::NumericsError if there are no accelerations
   void start(State& state);
+
+  /// Goes on from another state of the line, which is not checked; its tensions are found. \throws
+  /// hydro::NumericsError if there are no accelerations
+  void go_on(State& state);
 
   /// One step of h seconds. \throws hydro::NumericsError naming time, node and reason when halving is of no use;
   /// `state` is then the last good one

@@ -1,0 +1,73 @@
+#include "froude/record_file.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "hydro/base/error.hpp"
+#include "hydro/base/units.hpp"
+#include "hydro/io/csv.hpp"
+
+namespace froude {
+namespace {
+
+RunResult read_csv(const Path& path) {
+  const auto table = hydro::io::CsvTable::read(path);
+  RunResult record;
+  std::string time;
+  for (const std::string& name : table.names()) {
+    std::string lower = name;
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (lower == "time" || lower == "t") time = name;
+  }
+  if (time.empty())
+    throw hydro::InputError("the table has no column \"time\" or \"t\"", {.file = path.string()},
+                            fmt::format("its columns are: {}", fmt::join(table.names(), ", ")));
+  record.time = table.column(time, hydro::dim::time);
+  for (const std::string& name : table.names()) {
+    if (name == time) continue;
+    const std::string unit = table.unit_text(name);
+    // Values are in SI; a header in other units is told in SI too.
+    const bool is_si = unit.empty() || hydro::parse_unit(unit).factor == 1;
+    record.signals.push_back({name, is_si ? unit : table.dimension(name).si(), name, table.column(name)});
+  }
+  return record;
+}
+
+}  // namespace
+
+RunResult read_record(const Path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending == ".h5" || ending == ".nc") return read_run(path);
+  if (ending == ".csv" || ending == ".txt" || ending == ".dat") return read_csv(path);
+  throw hydro::InputError(fmt::format("\"{}\" is no kind of file with time series that is known here", ending),
+                          {.file = path.string()}, "give a .csv with a header, or the .h5 of `froude run`");
+}
+
+void drop_before(RunResult& record, double from, const Path& file) {
+  const auto first =
+      std::lower_bound(record.time.begin(), record.time.end(), from - 1e-9 * std::abs(from)) - record.time.begin();
+  if (first == static_cast<std::ptrdiff_t>(record.time.size()))
+    throw hydro::InputError(
+        fmt::format("the record ends at {:.6g} s, before --from {:.6g} s", record.time.back(), from),
+        {.file = file.string()});
+  record.time.erase(record.time.begin(), record.time.begin() + first);
+  for (Signal& s : record.signals) s.values.erase(s.values.begin(), s.values.begin() + first);
+}
+
+const Signal& signal_of(const RunResult& record, const std::string& name, const Path& file) {
+  std::vector<std::string> known;
+  for (const Signal& s : record.signals) {
+    if (s.name == name) return s;
+    known.push_back(s.name);
+  }
+  const std::string near = hydro::nearest(name, known);
+  throw hydro::InputError(fmt::format("no signal is called \"{}\"", name), {.file = file.string()},
+                          near.empty() ? fmt::format("signals are: {}", fmt::join(known, ", "))
+                                       : fmt::format("did you mean \"{}\"?", near));
+}
+
+}  // namespace froude

@@ -1,0 +1,20 @@
+#pragma once
+/// \file  Private to the commands that look at time series: records from results of `froude run` and from CSV files.
+#include <string>
+
+#include "froude/commands.hpp"
+#include "froude/result_file.hpp"
+
+namespace froude {
+
+/// By the ending of the name: .h5 or .nc of `froude run`; .csv, .txt or .dat with a header and a column "time" or "t".
+/// \throws hydro::InputError
+RunResult read_record(const Path& path);
+
+/// Leaves out the samples before a time, s. \throws hydro::InputError if nothing is left
+void drop_before(RunResult& record, double from, const Path& file);
+
+/// \throws hydro::InputError with the nearest name
+const Signal& signal_of(const RunResult& record, const std::string& name, const Path& file);
+
+}  // namespace froude

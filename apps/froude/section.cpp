@@ -1,0 +1,193 @@
+// `froude section`: Poincaré sections of a record.
+#include "hydro/signal/section.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "froude/commands.hpp"
+#include "froude/plot.hpp"
+#include "froude/record_file.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/base/units.hpp"
+#include "hydro/io/atomic_file.hpp"
+#include "hydro/io/csv.hpp"
+#include "hydro/signal/welch.hpp"
+
+namespace froude {
+namespace {
+
+namespace hs = hydro::signal;
+using hydro::InputError;
+
+/// What is drawn and written: both signals of the plane, and the points.
+struct Plane {
+  Signal x, y;
+  hs::Section section;
+  std::string how;  ///< "where … rises through …"
+};
+
+void require_one_way(const SectionArguments& a) {
+  if (a.at.has_value() == a.every.has_value())
+    throw InputError("a section is taken either where a signal crosses a level or once in a period",
+                     {.file = "command line"}, "give --at with --level, or --every");
+  if (a.at.has_value() != a.level.has_value())
+    throw InputError("--at needs a --level to cross, and --level a signal that does", {.file = "command line"},
+                     "give both, for example --at chain.link1.polar --level \"90 deg\"");
+}
+
+double level_of(const SectionArguments& a, const Signal& across) {
+  try {
+    return hydro::parse_si(*a.level, hydro::parse_unit(across.units.empty() ? "1" : across.units).dimension);
+  } catch (const InputError& e) {
+    throw e.at({.file = "--level"});
+  }
+}
+
+Plane plane_of(const SectionArguments& a) {
+  require_one_way(a);
+  RunResult record = read_record(a.file);
+  hydro::require(!record.time.empty(), "the record has no samples");
+  std::optional<double> from;
+  if (a.from) from.emplace(hydro::parse_si(*a.from, hydro::dim::time));
+  Plane out{signal_of(record, a.x, a.file), signal_of(record, a.y, a.file), {}, {}};
+  const auto samples = [&](double step) {
+    return hs::Samples{record.time.front(), step, {out.x.values, out.y.values}};
+  };
+  if (a.every) {
+    // Samples before the first point stay: it is interpolated from both sides.
+    const double period = hydro::parse_si(*a.every, hydro::dim::time);
+    out.section = hs::section_every(from.value_or(record.time.front()), period, samples(hs::even_step(record.time)));
+    out.how = fmt::format("once in {:.6g} s", period);
+    return out;
+  }
+  if (from) drop_before(record, *from, a.file);
+  out.x = signal_of(record, a.x, a.file);
+  out.y = signal_of(record, a.y, a.file);
+  const Signal& across = signal_of(record, *a.at, a.file);
+  const auto through = a.through == "up"     ? hs::Through::up
+                       : a.through == "down" ? hs::Through::down
+                                             : hs::Through::both;
+  out.section = hs::section_at(across.values, level_of(a, across), through, samples(hs::even_step(record.time)));
+  out.how = fmt::format("where {} {} {}", across.name,
+                        a.through == "up"     ? "rises through"
+                        : a.through == "down" ? "falls through"
+                                              : "passes",
+                        *a.level);
+  return out;
+}
+
+/// Angles without their full turns.
+void wrap(const Signal& signal, std::vector<double>& values) {
+  if (signal.units != "rad") return;
+  for (double& v : values) v = std::remainder(v, 2 * std::numbers::pi);
+}
+
+struct Spread {
+  double lowest, highest, error;  ///< the last: the largest of a point
+};
+
+Spread spread(const hs::Section& s, std::size_t i) {
+  const auto [low, high] = std::minmax_element(s.values[i].begin(), s.values[i].end());
+  return {*low, *high, *std::max_element(s.errors[i].begin(), s.errors[i].end())};
+}
+
+/// A thousandth of the way that the whole signal goes up and down: less than a point is drawn wide.
+double sharp(const Signal& signal) {
+  const auto [low, high] = std::minmax_element(signal.values.begin(), signal.values.end());
+  return 1e-3 * (*high - *low);
+}
+
+nlohmann::json as_json(const Plane& p) {
+  return {
+      {"points", p.section.time_s.size()},
+      {"left_out", p.section.left_out},
+      {"time_s", p.section.time_s},
+      {"x",
+       {{"signal", p.x.name}, {"unit", p.x.units}, {"values", p.section.values[0]}, {"errors", p.section.errors[0]}}},
+      {"y",
+       {{"signal", p.y.name}, {"unit", p.y.units}, {"values", p.section.values[1]}, {"errors", p.section.errors[1]}}}};
+}
+
+void tell(const Plane& p, const SectionArguments& a, const Console& console) {
+  console.out << fmt::format("{} points {}{}\n", p.section.time_s.size(), p.how,
+                             p.section.left_out
+                                 ? fmt::format("; {} at the ends of the record left out, with fewer than "
+                                               "three samples on a side",
+                                               p.section.left_out)
+                                 : "");
+  console.out << fmt::format("{:<24} {:>12} {:>12} {:>16} {}\n", "signal", "lowest", "highest", "largest error",
+                             "unit");
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Spread s = spread(p.section, i);
+    const Signal& signal = i == 0 ? p.x : p.y;
+    console.out << fmt::format("{:<24} {:>12.4g} {:>12.4g} {:>16.2g} {}\n", signal.name, s.lowest, s.highest, s.error,
+                               signal.units);
+    if (s.error > sharp(signal))
+      console.out << fmt::format("note: points of {} are up to {:.2g} {} off: take samples more often\n", signal.name,
+                                 s.error, signal.units);
+  }
+  if (a.output) console.out << "wrote " << a.output->string() << '\n';
+  if (a.picture) console.out << "wrote " << a.picture->string() << '\n';
+}
+
+/// The range of an axis: wide enough that one point, scattered by its error, is drawn as one.
+std::pair<double, double> range(const Spread& s) {
+  const double size = std::max(std::abs(s.lowest), std::abs(s.highest)),
+               half = std::max({0.55 * (s.highest - s.lowest), 20 * s.error, 1e-3 * size, 1e-12}),
+               middle = (s.lowest + s.highest) / 2;
+  return {middle - half, middle + half};
+}
+
+plot::Figure figure(const Plane& p, const std::string& file_name) {
+  return {.title = fmt::format("{}: {}", file_name, p.how),
+          .panels =
+              {{.x = {.label = p.x.name, .unit = p.x.units, .range = range(spread(p.section, 0))},
+                .y = {.label = p.y.name, .unit = p.y.units, .range = range(spread(p.section, 1))},
+                .series =
+                    {{.name = "", .x = p.section.values[0], .y = p.section.values[1], .line = false, .marks = true}}}},
+          .width = 700,
+          .panel_height = 560};
+}
+
+}  // namespace
+
+void section(const SectionArguments& arguments, const Console& console) {
+  if (arguments.output) hydro::io::require_writable(*arguments.output);
+  if (arguments.picture) hydro::io::require_writable(*arguments.picture);
+  Plane plane = [&] {
+    try {
+      return plane_of(arguments);
+    } catch (const InputError& e) {
+      throw e.at({.file = arguments.file.string()});
+    }
+  }();
+  hs::Section& s = plane.section;
+  if (arguments.wrap) {
+    wrap(plane.x, s.values[0]);
+    wrap(plane.y, s.values[1]);
+  }
+  if (s.time_s.empty())
+    throw InputError(fmt::format("no point of the record lies {}", plane.how), {.file = arguments.file.string()},
+                     "look at the signals' ranges: froude psd lists means");
+  if (arguments.output)
+    hydro::io::write_csv(*arguments.output,
+                         {{"time", "s", &s.time_s},
+                          {plane.x.name, plane.x.units, &s.values[0]},
+                          {plane.y.name, plane.y.units, &s.values[1]},
+                          {plane.x.name + ".error", plane.x.units, &s.errors[0]},
+                          {plane.y.name + ".error", plane.y.units, &s.errors[1]}},
+                         {"section " + plane.how});
+  if (arguments.picture)
+    hydro::io::write_atomically(*arguments.picture, plot::svg(figure(plane, arguments.file.filename().string())));
+  if (console.json) {
+    console.out << as_json(plane).dump(1) << '\n';
+    return;
+  }
+  tell(plane, arguments, console);
+}
+
+}  // namespace froude
