@@ -204,9 +204,8 @@ void add_sums_of_energy(std::vector<Probe>& out) {
                  [](const Workspace&, const EnergyLedger& l) { return l.kinetic() + stored(l); }});
   out.push_back({"energy.dissipated", "J", "lost in the slip of friction and contacts, and in impacts",
                  [](const Workspace&, const EnergyLedger& l) { return lost_in_slip(l); }});
-  out.push_back(
-      {"energy.absorbed", "J", "kinetic and potential energy and what slip has lost",
-       [](const Workspace&, const EnergyLedger& l) { return l.kinetic() + stored(l) + lost_in_slip(l); }});
+  out.push_back({"energy.absorbed", "J", "kinetic and potential energy and what slip has lost",
+                 [](const Workspace&, const EnergyLedger& l) { return l.kinetic() + stored(l) + lost_in_slip(l); }});
 }
 
 void add_energies(const TimeModel& m, std::vector<Probe>& out) {

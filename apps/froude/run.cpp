@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "compile/integrator.hpp"
 #include "froude/progress.hpp"
 #include "froude/scene_result.hpp"
 #include "froude/series.hpp"
@@ -116,6 +117,8 @@ void run(const SceneArguments& arguments, const Console& console) {
   Provenance provenance = provenance_of(scene, record.notes);
   provenance.wall_time = {{"preparation", record.preparation_s}, {"stepping", record.stepping_s}};
   provenance.settings.emplace_back("chosen.step", fmt::format("{} s", record.step));
+  if (scene.solve.integrator == "explicit_pair" && !scene.solve.tolerance)
+    provenance.settings.emplace_back("chosen.tolerance", fmt::format("{}", compile::tolerance_of_pair));
   for (const auto& [effect, count] : record.evaluations)
     provenance.settings.emplace_back("evaluations." + effect, std::to_string(count));
   for (const Snaps& s : record.snaps) provenance.settings.emplace_back("snaps." + s.line, sentence(s));

@@ -90,9 +90,10 @@ const Table& integrator() {
                  "of generalized_alpha: spectral radius at infinite frequency: 1 damps nothing, 0 all at once")
               .within(Limit::fraction)
               .or_default("0.8", "kills what is not resolved within some steps, leaves the rest alone"),
-          number("tolerance",
-                 "of the local error of a step of bodies, relative to their speeds: steps are cut to meet it; left out: "
-                 "1e-8 for explicit_pair, whole steps for the others")
+          number(
+              "tolerance",
+              "of the local error of a step of bodies, relative to their speeds: steps are cut to meet it; left out: "
+              "1e-8 for explicit_pair, whole steps for the others")
               .positive()
               .optional(),
           text("lines",

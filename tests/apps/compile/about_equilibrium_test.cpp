@@ -87,8 +87,7 @@ TEST(AboutEquilibrium, ResponsesAreThoseOfARunThatSwingsThere) {
 TEST(AboutEquilibrium, TheNotesTellWhereItIs) {
   const Responses linear = respond(froude_test::parse(scene_text("equilibrium")));
   bool told = false;
-  for (const auto& note : linear.notes)
-    told = told || note.find("about the equilibrium, module.") != std::string::npos;
+  for (const auto& note : linear.notes) told = told || note.find("about the equilibrium, module.") != std::string::npos;
   EXPECT_TRUE(told);
 }
 

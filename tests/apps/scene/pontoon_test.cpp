@@ -73,6 +73,7 @@ TEST(PontoonScene, IsEchoedWithEveryDefault) {
             "connector[1].stiffness = 29332 N/m\n"
             "connector[1].rest_length = as placed\n"
             "ask.rao.periods = 2 s .. 8 s, 61 values\n"
+            "ask.rao.about = as placed  (default)\n"
             "ask.rao.heading = 30 deg  (default)\n"
             "ask.rao.of = [m*.surge, m*.heave, connector*.force]\n"
             "ask.run.duration = 600 s\n"
@@ -82,8 +83,7 @@ TEST(PontoonScene, IsEchoedWithEveryDefault) {
             "ask.accuracy = 1e-2\n"
             "solve.step = automatic  (default)\n"
             "solve.integrator.name = generalized_alpha  (default)\n"
-            "solve.integrator.rho_infinity = 0.8  (default)\n"
-            "solve.integrator.tolerance = 1e-8  (default)\n");
+            "solve.integrator.rho_infinity = 0.8  (default)\n");
 }
 
 TEST(PontoonScene, OrderOfTablesDoesNotMatter) {

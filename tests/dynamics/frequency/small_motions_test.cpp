@@ -41,7 +41,7 @@ Model leaning_pendulum() {
             .axis = Eigen::Vector3d::UnitY()}}};
 }
 
-const double lean = std::atan2(load, mass * g), pull = std::hypot(load, mass* g);
+const double lean = std::atan2(load, mass*g), pull = std::hypot(load, mass*g);
 
 TEST(SmallMotions, OfAPendulumThatLeansAreFasterByTheLoadThatLeansIt) {
   const Model model = leaning_pendulum();
