@@ -43,7 +43,7 @@ function(froude_precompile target headers)
 endfunction()
 
 froude_common_headers(froude_library_headers PIC)
-froude_common_headers(froude_program_headers)
+froude_common_headers(froude_program_headers PIC)
 
 # froude_merge(TARGET [APART FILE…]): compiles ten files of a target as one, which halves the time of a build: a template
 # that several use is made once. Files that name private things alike are compiled apart.

@@ -152,6 +152,42 @@ dynamics::CatenaryMooring catenary_mooring(const Scene& scene, const scene::Cate
   return out;
 }
 
+/// Around the place of the fairlead at rest, on this side of the anchor and above the bed.
+dynamics::Reach reach_of(const Scene& scene, const scene::CatenaryLine& l) {
+  const Eigen::Vector3d d = scene.bodies[static_cast<std::size_t>(l.body)].position + l.fairlead - l.anchor;
+  const double x = d.head<2>().norm(), by = l.table->reach;
+  const double lowest = l.on_bed ? 0.0 : -std::numeric_limits<double>::infinity();
+  return {std::max(0.0, x - by), x + by, std::max(lowest, d.z() - by), d.z() + by};
+}
+
+bool alike(const dynamics::LineProperties& a, const dynamics::LineProperties& b) {
+  return a.length == b.length && a.weight == b.weight && a.axial_stiffness == b.axial_stiffness && a.on_bed == b.on_bed;
+}
+
+/// Lines that are alike and equally far from their anchors share a table.
+std::shared_ptr<const dynamics::CatenaryTable> catenary_table(const Scene& scene, const scene::CatenaryLine& l,
+                                                              const dynamics::LineProperties& line,
+                                                              const std::vector<dynamics::CatenaryMooring>& before) {
+  const dynamics::Reach reach = reach_of(scene, l);
+  const auto near = [&](double a, double b) { return std::abs(a - b) <= 1e-9 * l.table->reach; };
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const auto& other = before[i];
+    if (!other.table || !alike(other.line, line) || scene.lines[i].table->tolerance != l.table->tolerance) continue;
+    const dynamics::Reach& r = other.table->reach();
+    if (near(r.x_low, reach.x_low) && near(r.x_high, reach.x_high) && near(r.z_low, reach.z_low) &&
+        near(r.z_high, reach.z_high))
+      return other.table;
+  }
+  try {
+    return std::make_shared<dynamics::CatenaryTable>(line, reach, l.table->tolerance);
+  } catch (const hydro::InputError& e) {
+    throw InputError(fmt::format("mooring \"{}\": {}", l.name, e.rule()), l.table->place, e.remedy());
+  } catch (const hydro::NumericsError& e) {
+    throw InputError(fmt::format("mooring \"{}\": within its reach {}", l.name, e.what()), l.table->place,
+                     "a smaller reach");
+  }
+}
+
 dynamics::Shape as_shape(const scene::ContactRod& rod) {
   if (rod.from == rod.to) return dynamics::Ball{rod.from, rod.radius};
   return dynamics::Rod{rod.from, rod.to, rod.radius};
@@ -178,7 +214,11 @@ void add_connections(const Scene& scene, Prepared& out) {
   for (const auto& c : scene.contacts) out.contacts.push_back(contact(scene, c));
   for (const auto& j : scene.joints) add_joint(j, out);
   out.ptos = ptos(scene, out);
-  for (const auto& l : scene.lines) out.lines.push_back(catenary_mooring(scene, l, out));
+  for (const auto& l : scene.lines) {
+    auto line = catenary_mooring(scene, l, out);
+    if (l.table) line.table = catenary_table(scene, l, line.line, out.lines);
+    out.lines.push_back(std::move(line));
+  }
   for (const auto& l : scene.loads) out.loads.push_back(constant_load(scene, l));
 }
 

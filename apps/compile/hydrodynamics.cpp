@@ -289,6 +289,16 @@ void add_hydrostatics(const Scene& scene, const Coefficients& about_centres, con
   }
 }
 
+/// Modes that the scene does not let the waves excite feel nothing of them.
+void suppress(const Scene& scene, Coefficients& about_centres, const std::vector<int>& bodies) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const auto& excited = hydrodynamics(scene, bodies[i]).excited;
+    for (std::size_t mode = 0; mode < 6; ++mode)
+      if (!excited[mode])
+        for (auto& X : about_centres.X) X.row(static_cast<Eigen::Index>(6 * i + mode)).setZero();
+  }
+}
+
 }  // namespace
 
 void add_hydrodynamics(const Scene& scene, Prepared& prepared) {
@@ -306,6 +316,7 @@ void add_hydrodynamics(const Scene& scene, Prepared& prepared) {
                           prepared.notes);
       Coefficients c = placement.place();
       add_hydrostatics(scene, c, bodies, prepared);
+      suppress(scene, c, bodies);
       std::vector<Eigen::Vector3d> origins;
       for (const int b : bodies) origins.push_back(scene.bodies[static_cast<std::size_t>(b)].position);
       prepared.groups.push_back(

@@ -78,6 +78,23 @@ void add_axial(const dynamics::AxialConnector& c, const std::string& name, const
                  law.by_rate * row});
 }
 
+/// Beyond the tensions while still; the other bodies do not change them.
+void add_catenary(const dynamics::CatenaryMooring& m, const std::string& name, const SmallMotions& about,
+                  std::vector<LinearProbe>& out) {
+  const dynamics::TensionGradient gradient = dynamics::tension_gradient(m, about.still);
+  const auto add = [&](const char* signal, const char* where, const Eigen::Matrix<double, 1, 6>& by_body) {
+    RowVectorXd row = RowVectorXd::Zero(about.model.modes());
+    row.segment<6>(6 * m.body) = by_body;
+    out.push_back({fmt::format("{}.{}", name, signal),
+                   "N/m",
+                   fmt::format("tension of {} at the {} per metre of wave amplitude", name, where),
+                   row,
+                   {}});
+  };
+  add("tension", "fairlead", gradient.fairlead);
+  add("anchor_tension", "anchor", gradient.anchor);
+}
+
 /// Along axes that turn with the first body, on which the second end is seen.
 void add_bushing(const dynamics::BushingConnector& c, const std::string& name, const SmallMotions& about,
                  std::vector<LinearProbe>& out) {
@@ -132,6 +149,7 @@ std::vector<LinearProbe> rao_probes(const scene::Scene& scene, const Prepared& p
     for (std::size_t i = 0; i < p.switched[g].connectors.size(); ++i)
       add_axial(p.switched[g].connectors[i], p.switched_names[g][i], about, out);
   for (std::size_t i = 0; i < p.bushing.size(); ++i) add_bushing(p.bushing[i], p.bushing_names[i], about, out);
+  for (std::size_t i = 0; i < p.lines.size(); ++i) add_catenary(p.lines[i], scene.lines[i].name, about, out);
   add_joints(p, about, out);
   return out;
 }

@@ -137,7 +137,7 @@ Responses respond(const scene::Scene& scene) { return respond(scene, compile::pr
 
 Responses respond(const scene::Scene& scene, const compile::Prepared& prepared) {
   const dynamics::Model model = compile::frequency_model(prepared, scene.rao->about);
-  Responses out{{}, prepared.notes};
+  Responses out{scene.rao->omega, {}, prepared.notes};
   const SmallMotions about = compile::small_motions(model, scene.rao->about, out.notes);
   for (const std::string& effect : left_out_of_linear_responses(scene, scene.rao->drag.has_value()))
     out.notes.push_back(effect);

@@ -15,6 +15,7 @@ std::vector<ComplexSignal> linear_responses(const std::vector<compile::LinearPro
 
 /// What `froude rao` writes: the signals that [ask.rao] names, per metre of wave, at its frequencies.
 struct Responses {
+  std::vector<double> omega;  ///< rad/s
   std::vector<ComplexSignal> signals;
   std::vector<std::string> notes;
   /// \throws hydro::InputError if there is no such signal

@@ -106,12 +106,12 @@ void rao(const SceneArguments& arguments, const Console& console) {
   require_asked(scene.rao.has_value(), scene, "rao", "rao = { periods = \"2 s .. 8 s, 61 values\" }");
   const Path file = output_path(arguments, ".rao.h5");
   hydro::io::require_writable(file);
-  const auto [signals, notes] = respond(scene);
-  write_rao(file, scene.rao->omega, scene.rao->heading.radians(), signals, provenance_of(scene, notes));
-  if (arguments.csv) write_rao_csv(*arguments.csv, scene.rao->omega, signals);
+  const auto [omega, signals, notes] = respond(scene);
+  write_rao(file, omega, scene.rao->heading.radians(), signals, provenance_of(scene, notes));
+  if (arguments.csv) write_rao_csv(*arguments.csv, omega, signals);
   if (arguments.picture)
-    hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, scene.rao->omega, signals)));
-  tell(console, scene, scene.rao->omega, signals, file, notes);
+    hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, omega, signals)));
+  tell(console, scene, omega, signals, file, notes);
 }
 
 }  // namespace froude

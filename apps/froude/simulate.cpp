@@ -163,10 +163,17 @@ Record run_model(const scene::Scene& scene, const compile::Prepared& prepared, c
   return record;
 }
 
-Record simulate(const scene::Scene& scene, const std::function<void(double)>& done) {
-  if (scene.run->steady) return steady_run(scene);
+Record simulate(const scene::Scene& scene, const std::function<void(double)>& done,
+                const std::vector<compile::Control>& controls) {
+  if (scene.run->steady) {
+    if (!controls.empty())
+      throw hydro::InputError("[ask.run] start = \"steady\" takes no step at which a controller could decide",
+                              scene.run->place, "step the run from \"as placed\"");
+    return steady_run(scene);
+  }
   const auto begin = Clock::now();
-  const compile::Prepared prepared = compile::prepare(scene);
+  compile::Prepared prepared = compile::prepare(scene);
+  compile::set_controllers(controls, prepared);
   const compile::TimeModel model = compile::time_model(scene, prepared);
   const double preparation = seconds_since(begin);
   Record record = run_model(scene, prepared, model, done);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "compile/control.hpp"
 #include "compile/restart.hpp"
 #include "froude/result_file.hpp"
 #include "scene/scene.hpp"
@@ -51,8 +52,10 @@ struct Record {
 Record run_model(const scene::Scene& scene, const compile::Prepared& prepared, const compile::TimeModel& model,
                  const std::function<void(double)>& done = {}, compile::MovingState* end = nullptr);
 
-/// Compiles and runs a scene that asks for a run. `done` is told the share of the steps completed.
+/// Compiles and runs a scene that asks for a run. `done` is told the share of the steps completed; `controls` rule
+/// connectors.
 /// \throws hydro::InputError; numerics that give up end the record early with a reason instead
-Record simulate(const scene::Scene& scene, const std::function<void(double)>& done = {});
+Record simulate(const scene::Scene& scene, const std::function<void(double)>& done = {},
+                const std::vector<compile::Control>& controls = {});
 
 }  // namespace froude

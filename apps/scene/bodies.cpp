@@ -54,10 +54,10 @@ Eigen::Matrix3d read_inertia(const Record& record, double mass, bool needed) {
   return inertia;
 }
 
-std::array<bool, 6> read_free(const Record& record) {
-  std::array<bool, 6> free{};
-  for (const auto& word : record["free"].texts) free[static_cast<std::size_t>(hydro::parse_mode(word.value))] = true;
-  return free;
+std::array<bool, 6> read_mode_list(const Record& record, std::string_view key) {
+  std::array<bool, 6> named{};
+  for (const auto& word : record[key].texts) named[static_cast<std::size_t>(hydro::parse_mode(word.value))] = true;
+  return named;
 }
 
 std::map<Mode, double> read_modes(const Record& body, std::string_view key, const std::array<bool, 6>& free) {
@@ -134,6 +134,7 @@ Hydrodynamics read_hydrodynamics(const Record& record, const std::filesystem::pa
   if (record.has("accept"))
     for (const auto& check : record["accept"].texts) out.accept.push_back(check.value);
   out.excitation = record.has("excitation");
+  if (record.has("excitation_modes")) out.excited = read_mode_list(record, "excitation_modes");
   out.hydrostatics = record.has("hydrostatics");
   out.radiation = record.has("radiation");
   if (out.radiation) {
@@ -186,7 +187,7 @@ Body read_body(const Record& record, const std::filesystem::path& file) {
   body.place = record.place();
   body.position = record.vector("position");
   body.mass = record.si("mass");
-  body.free = read_free(record);
+  body.free = read_mode_list(record, "free");
   const bool rotates = any_rotation(body.free);
   if (rotates && !record.has("centre_of_gravity"))
     throw record.refused("may rotate and needs centre_of_gravity", "add centre_of_gravity = \"(0, 0, 1.31) m\"");

@@ -237,12 +237,17 @@ void build_lines(const Record& record, Names& names, Scene& scene) {
         "mass_per_length",
         fmt::format("is less than the {:.4g} kg/m of water that the line displaces: it floats", displaced),
         "a catenary hangs; give a heavier or a thinner line");
+  std::optional<CatenaryLine::Table> table;
+  if (record.has("table")) {
+    const Record& of = record.table("table");
+    table = {of.si("reach"), of.si("tolerance"), of.place()};
+  }
   const auto on = bodies_on(record, "on", scene.bodies);
   const auto name = names.of(record, on.size() * from.size());
   for (std::size_t b = 0, n = 0; b < on.size(); ++b)
     for (std::size_t k = 0; k < from.size(); ++k, ++n)
       scene.lines.push_back({name[n], on[b], from[k], to[k], record.si("length"), record.si("mass_per_length"),
-                             record.si("diameter"), record.si("axial_stiffness"), record.has("on_bed"),
+                             record.si("diameter"), record.si("axial_stiffness"), record.has("on_bed"), table,
                              record.place()});
 }
 

@@ -143,6 +143,7 @@ struct Hydrodynamics {
   std::optional<int> iperout;       ///< WAMIT only
   std::vector<std::string> accept;  ///< names of checks of the doctor whose errors do not stop the scene
   bool excitation = false, radiation = false, hydrostatics = false;  ///< effects named
+  std::array<bool, 6> excited{true, true, true, true, true, true};   ///< modes whose excitation acts
   Memory memory;
   bool interaction = true;  ///< interaction = "full" or "self": bodies of one file feel each other's waves
 };
@@ -227,6 +228,12 @@ struct CatenaryLine {
   Eigen::Vector3d fairlead, anchor;                           ///< body axes; global, m
   double length, mass_per_length, diameter, axial_stiffness;  ///< m, kg/m, m, N
   bool on_bed;  ///< the anchor lies on the bed, on which the line may rest
+  struct Table {
+    double reach;      ///< m, of the fairlead from rest, horizontally and vertically
+    double tolerance;  ///< of the largest pull
+    Place place;
+  };
+  std::optional<Table> table;
   Place place;
 };
 

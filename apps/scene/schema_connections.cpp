@@ -73,6 +73,17 @@ const Table& connector_switch() {
   return table;
 }
 
+const Table& catenary_table() {
+  static const Table table{
+      .title = "[mooring.table]",
+      .meaning = "the shape is looked up where the fairlead is near its place at rest, and solved elsewhere",
+      .keys = {quantity("reach", dim::length, "of the table about rest, horizontally and vertically").positive(),
+               number("tolerance", "largest error of the pull, of the largest pull in reach")
+                   .within(Limit::open_fraction)
+                   .or_default("1e-4", "far below what drag and friction on the bed, which a catenary leaves out, amount to")}};
+  return table;
+}
+
 }  // namespace
 
 const Table& mooring_table() {
@@ -97,7 +108,8 @@ const Table& mooring_table() {
                     quantity("diameter", dim::length, "of the line, by the water that it displaces").positive(),
                     quantity("axial_stiffness", dim::force, "EA: tension per strain").positive(),
                     effect("on_bed", "the anchor lies on a flat bed, on which the line may rest, without friction")
-                        .optional()}}}};
+                        .optional(),
+                    inner_table("table", catenary_table()).optional()}}}};
   return table;
 }
 

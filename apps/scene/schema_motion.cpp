@@ -135,6 +135,12 @@ const Table& hydrodynamics() {
                    .optional()
                    .only_beside("file"),
                effect("excitation", "loads of the incoming waves on the body held still"),
+               texts("excitation_modes",
+                     "of the loads about the body's centre of gravity, those that act; all, unless some shall be "
+                     "suppressed to see what they do")
+                   .one_of(mode_words())
+                   .optional()
+                   .only_beside("excitation"),
                inner_table("radiation", radiation()).optional(),
                effect("hydrostatics", "restoring loads of buoyancy and weight"),
                text("interaction",

@@ -1,5 +1,7 @@
 #include "dynamics/force/catenary_mooring.hpp"
 
+#include <fmt/format.h>
+
 #include "dynamics/spatial/rotation.hpp"
 
 namespace dynamics {
@@ -15,14 +17,14 @@ struct Pull {
   double stored;
 };
 
-struct Reach {
+struct Span {
   Vector3d arm, ahead;  // horizontal direction from anchor to fairlead
   double x, z;
 };
 
-Reach reach_of(const CatenaryMooring& m, const State& state) {
+Span span_of(const CatenaryMooring& m, const State& state) {
   const Pose& pose = state.pose[static_cast<std::size_t>(m.body)];
-  Reach r;
+  Span r;
   r.arm = pose.attitude * m.fairlead;
   const Vector3d d = pose.centre + r.arm - m.anchor;
   r.x = d.head<2>().norm();
@@ -31,13 +33,23 @@ Reach reach_of(const CatenaryMooring& m, const State& state) {
   return r;
 }
 
+LineTension tension_at(const CatenaryMooring& m, const Span& r) {
+  return m.table && m.table->reach().holds(r.x, r.z) ? m.table->at(r.x, r.z) : catenary(m.line, r.x, r.z);
+}
+
+/// Horizontal away from the anchor, and up.
+Eigen::Matrix<double, 3, 2> plane_of(const Span& r) {
+  Eigen::Matrix<double, 3, 2> plane;
+  plane << r.ahead, Vector3d::UnitZ();
+  return plane;
+}
+
 // (D63)
 Pull pull_of(const CatenaryMooring& m, const State& state) {
-  const Reach r = reach_of(m, state);
-  const LineTension t = catenary(m.line, r.x, r.z);
+  const Span r = span_of(m, state);
+  const LineTension t = tension_at(m, r);
   const Vector3d up = Vector3d::UnitZ(), aside = up.cross(r.ahead);
-  Eigen::Matrix<double, 3, 2> plane;
-  plane << r.ahead, up;
+  const auto plane = plane_of(r);
   Pull p;
   p.arm = r.arm;
   p.force = -t.horizontal * r.ahead - t.vertical * up;
@@ -50,8 +62,34 @@ Pull pull_of(const CatenaryMooring& m, const State& state) {
 }  // namespace
 
 LineTension tension_of(const CatenaryMooring& mooring, const State& state) {
-  const Reach r = reach_of(mooring, state);
-  return catenary(mooring.line, r.x, r.z);
+  return tension_at(mooring, span_of(mooring, state));
+}
+
+// T² = H² + V²; at the anchor V is smaller by the weight of the line, or zero where some of it rests.
+TensionGradient tension_gradient(const CatenaryMooring& mooring, const State& state) {
+  const Span r = span_of(mooring, state);
+  const LineTension t = tension_at(mooring, r);
+  Eigen::Matrix<double, 3, 6> fairlead_by_q;
+  fairlead_by_q << Matrix3d::Identity(), -cross_matrix(r.arm);
+  const Eigen::Matrix<double, 2, 6> pull_by_q = t.stiffness * plane_of(r).transpose() * fairlead_by_q;
+  TensionGradient out;
+  out.fairlead = Eigen::RowVector2d(t.horizontal, t.vertical) / t.fairlead() * pull_by_q;
+  out.anchor.setZero();
+  if (t.anchor() > 0) out.anchor = Eigen::RowVector2d(t.horizontal, t.anchor_vertical) / t.anchor() * pull_by_q;
+  return out;
+}
+
+std::string CatenaryMooringKind::method() const {
+  const CatenaryTable* worst = nullptr;
+  std::size_t tabled = 0;
+  for (const CatenaryMooring& m : elements_) {
+    if (!m.table) continue;
+    ++tabled;
+    if (worst == nullptr || m.table->error() > worst->error()) worst = m.table.get();
+  }
+  if (worst == nullptr) return "elastic catenary, solved where the fairlead is";
+  return fmt::format("elastic catenary; {} of {} from tables of up to {} x {} cells, within {:.2g} N; solved outside",
+                     tabled, elements_.size(), worst->cells(), worst->cells(), worst->error());
 }
 
 void CatenaryMooringKind::add_load(const Instant& now, LoadSink& out) const {

@@ -116,6 +116,31 @@ scene::Scene joined(const std::string& connector) {
 }
 
 // b flies off, the cable tightens after 1 s and throws both together: they meet at half the speed and part again.
+// Looked up, the chains pull as they do when they are solved; the table is one for four alike chains.
+TEST(Springs, ChainsFromATableAreThoseThatAreSolved) {
+  auto scene = scene::read(examples / "moored.toml");
+  scene.run->duration = 20;
+  const Record solved = simulate(scene);
+  for (auto& line : scene.lines) line.table = scene::CatenaryLine::Table{3, 1e-4, {}};
+  const compile::Prepared prepared = compile::prepare(scene);
+  for (const auto& line : prepared.lines) EXPECT_EQ(line.table, prepared.lines.front().table);
+  const Record looked_up = simulate(scene);
+  const double largest_tension = largest(solved.signal("chain1.tension"));
+  for (const char* name : {"chain1.tension", "chain4.anchor_tension"})
+    for (std::size_t i = 0; i < solved.time.size(); ++i)
+      ASSERT_NEAR(looked_up.signal(name)[i], solved.signal(name)[i], 5e-4 * largest_tension)
+          << name << ": the tolerance is of the largest pull in reach, some four times this one";
+  EXPECT_NE(looked_up.signal("chain1.tension"), solved.signal("chain1.tension")) << "the table was used";
+  EXPECT_LT(std::abs(energy(looked_up, "residual")), 1e-3 * energy(looked_up, "turnover"));
+}
+
+TEST(Springs, RefuseATableThatReachesTooFar) {
+  auto scene = scene::read(examples / "moored.toml");
+  for (auto& line : scene.lines) line.table = scene::CatenaryLine::Table{8, 1e-9, {}};
+  EXPECT_THAT([&] { compile::prepare(scene); },
+              ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("mooring \"chain1\""), HasSubstr("a smaller reach"))));
+}
+
 TEST(Springs, ACableExchangesVelocitiesOnceItTightens) {
   const auto record = simulate(joined("kind = \"cable\"\nstiffness = \"20 kN/m\"\nrest_length = \"6 m\"\n"));
   const auto& a = record.signal("a.surge");

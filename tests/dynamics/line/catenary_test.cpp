@@ -84,5 +84,77 @@ TEST(ForceLaws, HoldForCatenariesThatRestHangAndLieSlack) {
                           bodies);
 }
 
+TEST(ForceLaws, HoldForCatenariesFromTables) {
+  const auto bodies = support::two_bodies();
+  const LineProperties resting{60, 700, 1e7, true};
+  const Reach all{1, 80, 0.01, 40};
+  const auto table = std::make_shared<CatenaryTable>(resting, all, 1e-2);
+  laws::expect_force_laws(CatenaryMooringKind({{0, {1, 0.5, -1}, {50, 10, -20}, resting, table}}), bodies);
+}
+
+// The promise is checked where the table was not made to look.
+TEST(CatenaryTable, IsWithinItsToleranceOfTheCatenary) {
+  for (const double tolerance : {1e-2, 1e-3, 1e-5}) {
+    const Reach reach{838.67, 858.67, 240, 260};
+    const CatenaryTable table(oc3, reach, tolerance);
+    const double largest = catenary(oc3, reach.x_high, reach.z_high).fairlead();
+    double difference = 0;
+    for (int i = 0; i <= 97; ++i)
+      for (int k = 0; k <= 97; ++k) {
+        const double x = reach.x_low + i * 20.0 / 97, z = reach.z_low + k * 20.0 / 97;
+        const LineTension is = table.at(x, z), should = catenary(oc3, x, z);
+        difference = std::max(difference, std::hypot(is.horizontal - should.horizontal, is.vertical - should.vertical));
+        EXPECT_NEAR(is.anchor(), should.anchor(), 2 * tolerance * largest);
+        EXPECT_NEAR(is.resting, should.resting, 2 * tolerance * largest / oc3.weight);
+      }
+    EXPECT_LE(table.error(), tolerance * largest);
+    EXPECT_LE(difference, 1.5 * tolerance * largest) << "the worst points are those of a cubic, to first order";
+    EXPECT_GT(difference, 0.2 * table.error()) << "and the error that it tells is not made up";
+  }
+}
+
+// Cubic slopes are off by the third power of the cells, where the line rests everywhere: as it leaves the bed its pull
+// has a bend of its second derivative.
+TEST(CatenaryTable, HasAnErrorOfThirdOrder) {
+  const Reach reach{790, 830, 240, 260};
+  ASSERT_GT(catenary(oc3, reach.x_high, reach.z_high).resting, 0);
+  const CatenaryTable rough(oc3, reach, 1e-3), fine(oc3, reach, 1e-5);
+  ASSERT_GT(fine.cells(), rough.cells());
+  EXPECT_NEAR(std::log(rough.error() / fine.error()) / std::log(double(fine.cells()) / rough.cells()), 3, 0.5);
+}
+
+TEST(CatenaryTable, RefusesWhatItCannotHold) {
+  EXPECT_THROW(CatenaryTable(oc3, {850, 840, 240, 260}, 1e-3), hydro::InputError);
+  EXPECT_THROW(CatenaryTable(oc3, {840, 850, 240, 260}, 0), hydro::InputError);
+  EXPECT_THROW(CatenaryTable(oc3, {840, 850, -1, 260}, 1e-3), hydro::NumericsError) << "under the bed";
+  EXPECT_THROW(CatenaryTable(oc3, {1, 900, 0, 300}, 1e-9), hydro::InputError) << "too fine";
+}
+
+TEST(CatenaryMooring, HasTheGradientOfItsTensions) {
+  const auto bodies = support::two_bodies();
+  const LineProperties resting{60, 700, 1e7, true}, free{34, 300, 1e6, false};
+  for (const CatenaryMooring& m : {CatenaryMooring{0, {1, 0.5, -1}, {50, 10, -20}, resting},
+                                   CatenaryMooring{1, {0, 0, -1}, {-20, 3, -15}, free}}) {
+    const State at = rest_state(bodies);
+    const TensionGradient gradient = tension_gradient(m, at);
+    for (int mode = 0; mode < 6; ++mode) {
+      const auto moved = [&](double by) {
+        State s = at;
+        Pose& pose = s.pose[static_cast<std::size_t>(m.body)];
+        if (mode < 3)
+          pose.centre[mode] += by;
+        else
+          pose.attitude = Eigen::AngleAxisd(by, Eigen::Vector3d::Unit(mode - 3)) * pose.attitude;
+        return tension_of(m, s);
+      };
+      constexpr double step = 1e-5;  // m, rad: differences of tensions of 1e4 N to 1e-4 N/m beside their curvature
+      const LineTension more = moved(step), less = moved(-step);
+      const double scale = gradient.fairlead.norm();
+      EXPECT_NEAR(gradient.fairlead[mode], (more.fairlead() - less.fairlead()) / (2 * step), 1e-6 * scale) << mode;
+      EXPECT_NEAR(gradient.anchor[mode], (more.anchor() - less.anchor()) / (2 * step), 1e-6 * scale) << mode;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace catenary_test

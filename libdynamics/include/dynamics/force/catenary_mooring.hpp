@@ -1,7 +1,9 @@
 #pragma once
 /// \file  Mooring lines that are always in their static shape: quasi-static catenaries from bodies to the ground. (D63)
+#include <memory>
+
 #include "dynamics/force/force_kind.hpp"
-#include "dynamics/line/catenary.hpp"
+#include "dynamics/line/catenary_table.hpp"
 
 namespace dynamics {
 
@@ -10,16 +12,24 @@ struct CatenaryMooring {
   Eigen::Vector3d fairlead;  ///< from the centre of gravity, body axes, m
   Eigen::Vector3d anchor;    ///< global, m
   LineProperties line;
+  std::shared_ptr<const CatenaryTable> table = {};  ///< used where it holds the fairlead; empty: always solved
 };
 
 LineTension tension_of(const CatenaryMooring& mooring, const State& state);
+
+/// How the tensions change with the body's displacement about its centre of gravity, N/m and N.
+struct TensionGradient {
+  Eigen::Matrix<double, 1, 6> fairlead, anchor;
+};
+/// Of an anchor to which no tension comes: zero.
+TensionGradient tension_gradient(const CatenaryMooring& mooring, const State& state);
 
 class CatenaryMooringKind final : public ForceKind {
  public:
   explicit CatenaryMooringKind(std::vector<CatenaryMooring> elements) : elements_(std::move(elements)) {}
   std::string effect() const override { return "mooring.catenary"; }
   std::size_t elements() const override { return elements_.size(); }
-  std::string method() const override { return "elastic catenary, solved where the fairlead is"; }
+  std::string method() const override;
   void add_load(const Instant& now, LoadSink& out) const override;
   void add_jacobian(const Instant& now, JacobianSink& out) const override;
   EnergyFlow energy(const Instant& now) const override;
