@@ -92,12 +92,10 @@ void weigh_convolutions(const DampingTable& damping, const std::vector<Eigen::Ma
                         const std::optional<Eigen::MatrixXd>& A_inf, const MemoryDemand& demand, Weighed& w,
                         ChosenMemory& out) {
   w.whole = continued(damping, A, A_inf);
-  const double longest = RetardationKernel::longest_time(w.whole->table);
+  const MemorySurvey survey(w.whole->table);
   const double length =
-      demand.length
-          ? *demand.length
-          : std::min(longest, memory_length(w.whole->table, demand.tolerance / 2));  // half is left for the sampling
-  w.kernel = RetardationKernel::from_damping(w.whole->table, {demand.step, std::max(length, 2 * demand.step)});
+      demand.length ? *demand.length : survey.length(demand.tolerance / 2);  // half is left for the sampling
+  w.kernel = RetardationKernel::from_damping(w.whole->table, {demand.step, std::max(length, 2 * demand.step)}, survey);
   out.lags = w.kernel->samples();
   out.truncation = w.kernel->truncation();
   out.misfit = w.whole->misfit;

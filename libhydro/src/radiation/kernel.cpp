@@ -106,6 +106,23 @@ class CosineTransform {
     return K;
   }
 
+  /// K at 0, step, 2 step … The cosines of (R3) are turned on from one time to the next, and taken anew now and then:
+  /// a table of frequencies and a memory of seconds would want millions of them.
+  template <class Use>
+  void each(double step, std::size_t count, Use use) const {
+    constexpr std::size_t batch = 64;  // products of rotations are off by as many roundings
+    const Eigen::Index n = damping_.B.front().rows(), given = static_cast<Eigen::Index>(damping_.B.size());
+    Eigen::MatrixXd B(given, n * n);
+    for (Eigen::Index j = 0; j < given; ++j) B.row(j) = damping_.B[static_cast<std::size_t>(j)].reshaped().transpose();
+    for (std::size_t first = 0; first < count; first += batch) {
+      const auto size = static_cast<Eigen::Index>(std::min(batch, count - first));
+      const Eigen::MatrixXd K =
+          two_over_pi * polygon_.cosine_weights(static_cast<double>(first) * step, step, size) * B;
+      for (Eigen::Index i = 0; i < size; ++i)
+        use(first + static_cast<std::size_t>(i), Eigen::MatrixXd(K.row(i).reshaped(n, n)));
+    }
+  }
+
  private:
   const DampingTable& damping_;
   detail::Polygon polygon_;
@@ -127,10 +144,10 @@ std::vector<double> remaining_memory(const DampingTable& damping, double step) {
   std::vector<Eigen::MatrixXd> magnitude(count);
   Eigen::MatrixXd left = Eigen::MatrixXd::Zero(scale.size(), scale.size());
   const CosineTransform K(damping);
-  for (std::size_t i = 0; i < count; ++i) {
-    magnitude[i] = step * (scale.asDiagonal() * K.at(static_cast<double>(i) * step).cwiseAbs() * scale.asDiagonal());
+  K.each(step, count, [&](std::size_t i, const Eigen::MatrixXd& at) {
+    magnitude[i] = step * (scale.asDiagonal() * at.cwiseAbs() * scale.asDiagonal());
     if (i >= count - count / 4) left += magnitude[i];
-  }
+  });
   std::vector<double> out(count);
   for (std::size_t i = count; i-- > 0;) {
     out[i] = left.maxCoeff();
@@ -156,7 +173,30 @@ double RetardationKernel::longest_time(const DampingTable& damping) {
   return std::numbers::pi / widest;
 }
 
+MemorySurvey::MemorySurvey(const DampingTable& damping) {
+  check(damping);
+  step_ = survey_step(damping);
+  longest_ = RetardationKernel::longest_time(damping);
+  remaining_ = remaining_memory(damping, step_);
+}
+
+double MemorySurvey::remaining_after(double time) const {
+  return remaining_[std::min(remaining_.size() - 1, steps_in(time, step_))];
+}
+
+double MemorySurvey::length(double tolerance) const {
+  require(tolerance > 0, "a memory tolerance must be positive, got {}", tolerance);
+  for (std::size_t i = 1; i < remaining_.size(); ++i)
+    if (remaining_[i] <= tolerance) return static_cast<double>(i) * step_;
+  return longest_;
+}
+
 RetardationKernel RetardationKernel::from_damping(const DampingTable& damping, const MemoryGrid& grid) {
+  return from_damping(damping, grid, MemorySurvey(damping));
+}
+
+RetardationKernel RetardationKernel::from_damping(const DampingTable& damping, const MemoryGrid& grid,
+                                                  const MemorySurvey& survey) {
   check(damping);
   require(grid.step > 0 && grid.length > 0, "memory needs a positive step and length, got {} s and {} s", grid.step,
           grid.length);
@@ -171,12 +211,10 @@ RetardationKernel RetardationKernel::from_damping(const DampingTable& damping, c
   kernel.step_ = grid.step;
   const std::size_t last = std::max<std::size_t>(1, steps_in(grid.length, grid.step));
   const CosineTransform K(damping);
-  for (std::size_t i = 0; i <= last; ++i) kernel.K_.push_back(K.at(static_cast<double>(i) * grid.step));
+  K.each(grid.step, last + 1, [&](std::size_t, Eigen::MatrixXd at) { kernel.K_.push_back(std::move(at)); });
   kernel.error_ = missing_tail(damping) + bend(damping);
   kernel.negative_share_ = most_negative(damping);
-  const double survey = survey_step(damping);
-  const auto remaining = remaining_memory(damping, survey);
-  kernel.truncation_ = remaining[std::min(remaining.size() - 1, steps_in(kernel.length(), survey))];
+  kernel.truncation_ = survey.remaining_after(kernel.length());
   return kernel;
 }
 
@@ -194,16 +232,6 @@ RetardationKernel RetardationKernel::from_samples(std::vector<Eigen::MatrixXd> K
   return kernel;
 }
 
-double memory_length(const DampingTable& damping, double tolerance) {
-  check(damping);
-  require(tolerance > 0, "a memory tolerance must be positive, got {}", tolerance);
-  const double survey = survey_step(damping);
-  const auto remaining = remaining_memory(damping, survey);
-  for (std::size_t i = 1; i < remaining.size(); ++i)
-    if (remaining[i] <= tolerance) return static_cast<double>(i) * survey;
-  return RetardationKernel::longest_time(damping);
-}
-
 InfiniteAddedMass infinite_added_mass(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A) {
   check(damping);
   require(A.size() == damping.omega.size(), "added mass and damping have different numbers of frequencies");
@@ -212,7 +240,7 @@ InfiniteAddedMass infinite_added_mass(const DampingTable& damping, const std::ve
   const std::size_t count = steps_in(RetardationKernel::longest_time(damping), step) + 1;
   std::vector<Eigen::MatrixXd> K;
   const CosineTransform transform(damping);
-  for (std::size_t i = 0; i < count; ++i) K.push_back(transform.at(static_cast<double>(i) * step));
+  transform.each(step, count, [&](std::size_t, Eigen::MatrixXd at) { K.push_back(std::move(at)); });
   const Eigen::Index n = K.front().rows();
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n), squares = sum;
   double weight = 0;

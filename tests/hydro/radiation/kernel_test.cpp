@@ -84,7 +84,7 @@ TEST(MemoryLength, CutsWhereTheRestIsWithinTheTolerance) {
   const auto table = body.damping_table(20, 500);
   double shorter = 0;
   for (const double tolerance : {1e-1, 1e-2, 1e-3}) {
-    const double length = memory_length(table, tolerance);
+    const double length = MemorySurvey(table).length(tolerance);
     EXPECT_GT(length, shorter);
     shorter = length;
     EXPECT_LE(RetardationKernel::from_damping(table, {0.05, length + 0.05}).truncation(), tolerance);

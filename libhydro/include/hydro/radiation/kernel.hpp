@@ -19,6 +19,21 @@ struct MemoryGrid {
   double length;  ///< s, a whole number of steps is kept
 };
 
+/// How much of the memory is left after a time, looked at once for the whole of it. (R5)
+class MemorySurvey {
+ public:
+  /// \throws InputError as RetardationKernel::from_damping on a table that is not one
+  explicit MemorySurvey(const DampingTable& damping);
+  /// See RetardationKernel::truncation().
+  double remaining_after(double time_s) const;
+  /// The shortest memory that leaves no more than `tolerance`; RetardationKernel::longest_time() if none does.
+  double length(double tolerance) const;
+
+ private:
+  double step_, longest_;
+  std::vector<double> remaining_;
+};
+
 /// The retardation function K(t), sampled at t = 0, h, 2h, …, for n coupled modes.
 ///
 ///   F(t) = −A∞ a(t) − ∫₀ᵗ K(t−τ) v(τ) dτ       (R1)
@@ -34,6 +49,9 @@ class RetardationKernel {
   /// cent of its largest value (naming mode and frequency: a hull in calm water cannot be a source of power), or if
   /// `grid` asks for more than longest_time().
   static RetardationKernel from_damping(const DampingTable& damping, const MemoryGrid& grid);
+  /// The same where the survey of this table has been made.
+  static RetardationKernel from_damping(const DampingTable& damping, const MemoryGrid& grid,
+                                        const MemorySurvey& survey);
 
   /// A kernel sampled elsewhere at 0, h, 2h, …; its errors are not known here, and told as zero.
   /// \throws InputError unless step > 0 and there are two samples or more, square and of one size
@@ -68,9 +86,6 @@ class RetardationKernel {
   Eigen::MatrixXd error_;
   double truncation_ = 0, negative_share_ = 0;
 };
-
-/// The shortest memory whose truncation (R5) is within `tolerance`; longest_time() if none is.
-double memory_length(const DampingTable& damping, double tolerance);
 
 /// Most negative diagonal damping relative to its mode's largest, 0 if none is. \throws InputError as
 /// RetardationKernel::from_damping on a table that is not one
