@@ -21,6 +21,6 @@ def gap(scene, controller):
 
 
 for period in (2.5, 4.5):  # near the resonances of the stiff and of the soft springs
-    scene = froude.read(file, {"waves.period": period, "waves.height": 0.3})
+    scene = froude.read(file, {"waves.period": period, "waves.height": 0.1})
     print(f"{period} s: the gap moves {gap(scene, lambda sample: stiff):.3f} m with stiff springs, "
           f"{gap(scene, lambda sample: soft):.3f} m with soft ones, {gap(scene, decide):.3f} m with the controller")

@@ -109,8 +109,7 @@ void rao(const SceneArguments& arguments, const Console& console) {
   const auto [omega, signals, notes] = respond(scene);
   write_rao(file, omega, scene.rao->heading.radians(), signals, provenance_of(scene, notes));
   if (arguments.csv) write_rao_csv(*arguments.csv, omega, signals);
-  if (arguments.picture)
-    hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, omega, signals)));
+  if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, omega, signals)));
   tell(console, scene, omega, signals, file, notes);
 }
 

@@ -80,7 +80,8 @@ const Table& catenary_table() {
       .keys = {quantity("reach", dim::length, "of the table about rest, horizontally and vertically").positive(),
                number("tolerance", "largest error of the pull, of the largest pull in reach")
                    .within(Limit::open_fraction)
-                   .or_default("1e-4", "far below what drag and friction on the bed, which a catenary leaves out, amount to")}};
+                   .or_default("1e-4",
+                               "far below what drag and friction on the bed, which a catenary leaves out, amount to")}};
   return table;
 }
 

@@ -5,6 +5,7 @@
 
 #include "compile/compile.hpp"
 #include "dynamics/frequency/modes.hpp"
+#include "froude/linear_response.hpp"
 #include "froude/simulate.hpp"
 #include "harness/case.hpp"
 #include "hydro/signal/harmonics.hpp"
@@ -52,52 +53,105 @@ double natural_period(const scene::Scene& scene) {
   return 2 * pi / dynamics::frequency::free_motions(model, prepared.groups).modes.front().omega;
 }
 
+/// Waves push the buoy up and down alone: what the pivot does then, its own instability does.
+scene::Scene without_pivot_excitation(scene::Scene scene) {
+  scene.bodies.front().hydrodynamics->excited = {false, false, true, false, false, false};
+  return scene;
+}
+
+/// Standard deviation of the rack in waves of this height by the linear response, in which the pivot plays no part.
+std::vector<double> one_degree_of_freedom(scene::Scene scene, const std::vector<double>& periods, double height) {
+  scene.rao.emplace();
+  for (auto T = periods.rbegin(); T != periods.rend(); ++T) scene.rao->omega.push_back(2 * pi / *T);
+  scene.rao->of = {"rack.travel"};
+  const Responses responses = froude::respond(scene);
+  std::vector<double> out;
+  for (const auto& per_metre : responses.signal("rack.travel").values)
+    out.insert(out.begin(), std::abs(per_metre) * height / 2 / std::numbers::sqrt2);
+  return out;
+}
+
+std::size_t index_of(const std::vector<double>& all, double one) {
+  return static_cast<std::size_t>(std::find(all.begin(), all.end(), one) - all.begin());
+}
+
+/// All periods in waves of each height.
+struct Map {
+  std::vector<double> heights, periods;
+  std::vector<std::vector<Response>> rows;
+
+  Map(const scene::Scene& scene, std::vector<double> of_heights, const std::vector<double>& of_periods)
+      : heights(std::move(of_heights)), periods(of_periods) {
+    for (const double H : heights) {
+      rows.emplace_back();
+      for (const double T : periods) rows.back().push_back(respond(scene, T, H));
+    }
+  }
+  const Response& at(double height, double period) const {
+    return rows[index_of(heights, height)][index_of(periods, period)];
+  }
+  double doubled(double height) const {
+    const auto& row = rows[index_of(heights, height)];
+    return static_cast<double>(std::count_if(row.begin(), row.end(), [](const Response& r) { return r.doubled; }));
+  }
+  /// Panels of the pivot and of the rack.
+  std::vector<plot::Panel> panels(const std::string& what) const {
+    std::vector<plot::Panel> out{{.x = {"wave period", "s"}, .y = {"pivot, " + what, "deg"}, .series = {}},
+                                 {.x = {"wave period", "s"}, .y = {"rack, " + what, "m"}, .series = {}}};
+    for (std::size_t h = 0; h < heights.size(); ++h) {
+      plot::Series pivot{.name = fmt::format("H = {} m", heights[h]), .x = periods, .y = {}}, rack = pivot;
+      for (const Response& r : rows[h]) {
+        pivot.y.push_back(r.pivot * 180 / pi);
+        rack.y.push_back(r.rack);
+      }
+      out[0].series.push_back(std::move(pivot));
+      out[1].series.push_back(std::move(rack));
+    }
+    return out;
+  }
+};
+
 }  // namespace
 
 Outcome outcome(const Folders&) {
   const scene::Scene scene = buoy();
   const double natural = natural_period(scene), half = natural / 2;
-  std::vector<double> periods{5, 6, 6.5, 9, 10, 12, natural, 17};
+  std::vector<double> periods{4.5, 5, 6, 6.5, 9, 10, 12, 0.95 * natural, natural, 1.05 * natural, 17, 20};
   for (const double of_half : {0.93, 0.96, 1.0, 1.04, 1.08, 1.12, 1.16}) periods.push_back(of_half * half);
   std::sort(periods.begin(), periods.end());
-  const std::vector<double> heights{1, 2, 4};
-  std::vector<std::vector<Response>> map;
-  std::vector<int> doubled;
-  for (const double H : heights) {
-    map.emplace_back();
-    for (const double T : periods) map.back().push_back(respond(scene, T, H));
-    doubled.push_back(static_cast<int>(
-        std::count_if(map.back().begin(), map.back().end(), [](const Response& r) { return r.doubled; })));
-  }
-  const auto at = [&](double period) -> const Response& {
-    return map[1][static_cast<std::size_t>(std::find(periods.begin(), periods.end(), period) - periods.begin())];
-  };
-  const Response& branch = at(half);
-  const double linear_rack = 20 * respond(scene, half, 0.1).rack;  // too low for the pivot to grow
+  const Map map(scene, {0.5, 1, 2, 4}, periods), own(without_pivot_excitation(scene), {4}, periods);
+  const std::vector<double> linear = one_degree_of_freedom(scene, periods, 2);
+  const auto linear_rack = [&](double H, double T) { return linear[index_of(periods, T)] * H / 2; };
   Outcome out;
   out.numbers = {
       {"natural period of the pivot, with the added mass of its own frequency", natural, "s"},
-      {"period doubling at H = 2 m: at half the natural period", branch.doubled ? 1.0 : 0.0, ""},
-      {"period doubling at H = 2 m: at 6.5 s", at(6.5).doubled ? 1.0 : 0.0, ""},
-      {"period doubling at H = 2 m: at 9 s", at(9).doubled ? 1.0 : 0.0, ""},
-      {"standard deviation of the pivot at H = 2 m and half its natural period", branch.pivot * 180 / pi, "deg"},
-      {"rack at H = 2 m and half the natural period, over that of the linear response", branch.rack / linear_rack, ""},
-      {"periods of doubling at H = 4 m less those at H = 1 m, of those run",
-       static_cast<double>(doubled[2] - doubled[0]), ""}};
-  plot::Figure f{.title = "The moored buoy in regular waves",
-                 .panels = {{.x = {"wave period", "s"}, .y = {"pivot, standard deviation", "deg"}, .series = {}},
-                            {.x = {"wave period", "s"}, .y = {"rack, standard deviation", "m"}, .series = {}}}};
-  for (std::size_t h = 0; h < heights.size(); ++h) {
-    plot::Series pivot{.name = fmt::format("H = {} m", heights[h]), .x = periods, .y = {}}, rack = pivot;
-    for (const Response& r : map[h]) {
-      pivot.y.push_back(r.pivot * 180 / pi);
-      rack.y.push_back(r.rack);
-    }
-    f.panels[0].series.push_back(std::move(pivot));
-    f.panels[1].series.push_back(std::move(rack));
-  }
+      {"period doubling at H = 2 m: at half the natural period", map.at(2, half).doubled ? 1.0 : 0.0, ""},
+      {"period doubling at H = 2 m: at 6.5 s", map.at(2, 6.5).doubled ? 1.0 : 0.0, ""},
+      {"period doubling at H = 2 m: at 9 s", map.at(2, 9).doubled ? 1.0 : 0.0, ""},
+      {"standard deviation of the pivot at H = 2 m and half its natural period", map.at(2, half).pivot * 180 / pi,
+       "deg"},
+      {"rack at H = 2 m and half the natural period, over that of one degree of freedom",
+       map.at(2, half).rack / linear_rack(2, half), ""},
+      {"periods of doubling at H = 4 m less those at H = 1 m, of those run", map.doubled(4) - map.doubled(1), ""},
+      {"excitation of the pivot suppressed, H = 4 m: pivot at half its natural period over that at 9 s",
+       own.at(4, half).pivot / own.at(4, 9).pivot, ""},
+      {"excitation of the pivot suppressed, H = 4 m: period doubling at half its natural period",
+       own.at(4, half).doubled ? 1.0 : 0.0, ""},
+      {"excitation of the pivot suppressed, H = 4 m: pivot at its natural period over that at 12 s",
+       own.at(4, natural).pivot / own.at(4, 12).pivot, ""},
+      {"excitation of the pivot suppressed, H = 4 m: period doubling at its natural period",
+       own.at(4, natural).doubled ? 1.0 : 0.0, ""},
+      {"rack at H = 0.5 m and 5 s, over that of one degree of freedom", map.at(0.5, 5).rack / linear_rack(0.5, 5), ""}};
+  plot::Figure all{.title = "The moored buoy in regular waves", .panels = map.panels("standard deviation")};
+  all.panels[1].series.push_back({.name = "H = 2 m, one degree of freedom", .x = periods, .y = linear});
+  out.pictures.push_back({"map",
+                          "The pivot grows by itself about half its natural period, and there the rack moves less.",
+                          std::move(all)});
   out.pictures.push_back(
-      {"map", "The pivot grows by itself about half its natural period, and there the rack moves less.", f});
+      {"own",
+       "With waves that push in heave alone the two branches stand by themselves: at half the natural period and at "
+       "it.",
+       {.title = "The moored buoy, excitation of the pivot suppressed", .panels = own.panels("standard deviation")}});
   return out;
 }
 

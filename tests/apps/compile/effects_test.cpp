@@ -2,9 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 
 #include "compile/compile.hpp"
+#include "froude/linear_response.hpp"
 #include "froude/simulate.hpp"
 #include "scenes.hpp"
 
@@ -122,6 +124,33 @@ TEST(Effects, HaveAsManyElementsAsTheSceneNames) {
     ASSERT_EQ(model.model.forces().size(), 1u);
     const bool pieces = effect.kind == std::string("drag") || effect.kind == std::string("morison");
     EXPECT_TRUE(pieces || model.model.forces()[0]->elements() == 1u) << model.model.forces()[0]->elements();
+  }
+}
+
+// A module that is alike on both sides answers a push in heave with heave alone, and as much as it ever does.
+TEST(Excitation, ActsOnTheModesThatTheSceneNames) {
+  const auto responses = [](const std::string& modes) {
+    return respond(froude_test::parse(froude_test::water + R"([[body]]
+name = "m"
+mass = "9088 kg"
+centre_of_gravity = "(0, 0, 1.31) m"
+radii_of_gyration = "(4.6, 4.6, 6.4) m"
+free = ["surge", "heave", "pitch"]
+[body.hydrodynamics]
+file = "pontoon1.nc"
+excitation = true
+)" + modes + R"(radiation = {}
+hydrostatics = true
+[ask]
+rao = { periods = "3 s .. 6 s, 4 values", heading = "0 deg" }
+)"));
+  };
+  const Responses all = responses(""), heave = responses("excitation_modes = \"heave\"\n");
+  for (std::size_t i = 0; i < all.omega.size(); ++i) {
+    EXPECT_GT(std::abs(all.signal("m.surge").values[i]), 0.1);
+    // The data are symmetric to 1e-4 of their largest entries.
+    EXPECT_LT(std::abs(heave.signal("m.surge").values[i]), 1e-3);
+    EXPECT_LT(std::abs(heave.signal("m.heave").values[i] - all.signal("m.heave").values[i]), 1e-3);
   }
 }
 
