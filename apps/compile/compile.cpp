@@ -16,7 +16,7 @@
 #include "dynamics/joint/assemble.hpp"
 #include "dynamics/model/equilibrium.hpp"
 #include "dynamics/spatial/rotation.hpp"
-#include "hydro/waves/summed_field.hpp"
+#include "hydro/waves/boxed_field.hpp"
 
 namespace froude::compile {
 namespace {
@@ -211,15 +211,21 @@ hydro::waves::Sea run_sea(const Scene& scene, const std::optional<Band>& band) {
 
 /// Waves of any kind: as a sum of linear waves where they are one, and as a field. Loads by coefficients and drag at
 /// rest are linear in the waves or in their velocities, and take such a sum only.
-RunWater run_water(const Scene& scene, const Prepared& prepared) {
+RunWater run_water(const Scene& scene, const Prepared& prepared, double step) {
   const auto band = band_of_data(prepared);
   const bool needs_sum = band || any_drag_at_rest(scene);
   RunWater out;
   std::shared_ptr<const hydro::waves::WaveField> field;
   if (scene.waves && (needs_sum || is_linear_sum(*scene.waves))) {
     out.sea = run_sea(scene, band);
-    field = std::make_shared<hydro::waves::SummedField>(
-        hydro::waves::linear_field(*out.sea, {.stretching = scene.waves->stretching}));
+    const auto waves = hydro::waves::linear_field(*out.sea, {.stretching = scene.waves->stretching});
+    if (const auto use = water_of_members(scene, out.sea->hs(), step)) {
+      auto boxed = std::make_shared<hydro::waves::BoxedField>(waves, *use);
+      if (boxed->table()) out.table_bytes = boxed->table()->bytes();
+      field = std::move(boxed);
+    } else {
+      field = std::make_shared<hydro::waves::SummedField>(waves);
+    }
   } else if (scene.waves) {
     field = make_field(scene);
   } else {
@@ -231,11 +237,14 @@ RunWater run_water(const Scene& scene, const Prepared& prepared) {
   return out;
 }
 
-PlanLine waves_line(const std::optional<hydro::waves::Sea>& sea) {
+PlanLine waves_line(const RunWater& water) {
+  const auto& sea = water.sea;
   if (!sea) return {"waves", "nonlinear or made by a paddle: a field, asked where members are", "", true};
   std::string method = fmt::format("components on a grid, repeating after {:.6g} s", sea->repetition_s());
   if (std::isinf(sea->repetition_s())) method = "components that never repeat";
   if (sea->components().size() == 1) method = "one regular wave";
+  if (water.table_bytes > 0)
+    method += fmt::format("; around members from a table of {:.3g} MB", static_cast<double>(water.table_bytes) / 1e6);
   return {
       "waves", std::move(method),
       fmt::format("{} components, {:.2g} of the energy left out", sea->components().size(), sea->fraction_left_out()),
@@ -292,10 +301,10 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
   const auto steps = static_cast<std::size_t>(std::llround(scene.run->duration / scene.run->every)) * per_sample;
   std::vector<std::string> notes = prepared.notes;
   std::vector<PlanLine> plan;
-  RunWater water = run_water(scene, prepared);
+  RunWater water = run_water(scene, prepared, step);
   if (scene.waves) {
     for (const auto& warning : wave_warnings(scene)) notes.push_back(warning);
-    plan.push_back(waves_line(water.sea));
+    plan.push_back(waves_line(water));
   }
   const hydro::waves::Sea* sea = water.sea ? &*water.sea : nullptr;
 

@@ -81,6 +81,7 @@ dynamics::frequency::SmallMotions small_motions(const dynamics::Model& model, co
 struct RunWater {
   std::optional<hydro::waves::Sea> sea;                  ///< where the waves are a sum of linear ones
   std::shared_ptr<const hydro::waves::WaveField> field;  ///< with the ramp; still water is a field without waves
+  std::size_t table_bytes = 0;                           ///< of the table around members; 0 if waves are summed
 };
 
 /// The sea of a run whose answer is linear in it. \throws hydro::InputError where the waves are no sum of linear ones

@@ -3,6 +3,7 @@
 #include "compile/compile.hpp"
 #include "compile/signals.hpp"
 #include "dynamics/force/drag.hpp"
+#include "hydro/waves/field_choice.hpp"
 
 namespace froude::compile {
 
@@ -12,6 +13,9 @@ bool any_drag_at_rest(const scene::Scene& scene);
 /// Pieces of the members that name drag, in the current. \throws hydro::InputError at a member that is dry at rest
 std::vector<dynamics::DragPiece> drag_at_rest(const scene::Scene& scene,
                                               const std::vector<dynamics::RigidBody>& bodies);
+
+/// What members that move ask of the waves of a run, around their places at rest; empty if there are none.
+std::optional<hydro::waves::FieldUse> water_of_members(const scene::Scene& scene, double highest_crest, double step);
 
 /// Adds the kinds of load that members name. \throws hydro::InputError at a member that is dry where it must be wet
 void add_members(const scene::Scene& scene, const std::vector<dynamics::RigidBody>& bodies, const RunWater& water,

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "hydro/base/random.hpp"
+#include "hydro/waves/boxed_field.hpp"
 #include "hydro/waves/field_choice.hpp"
 #include "hydro/waves/sea.hpp"
 #include "hydro/waves/second_order.hpp"
@@ -277,6 +278,32 @@ TEST(FieldChoice, TakesATableForManyQuestionsAndASumForFew) {
   EXPECT_EQ(choose_field(plain, {.box = box, .instants = 1, .points = 1}, FieldMethod::harmonics).method,
             FieldMethod::harmonics);
   EXPECT_THROW(choose_field(plain, {.box = box, .instants = 0, .points = 1}), InputError);
+}
+
+// Inside the box the table answers, outside the sum; a list of points on both sides gets each from its own.
+TEST(BoxedField, IsTheSumEverywhere) {
+  const HarmonicField plain = linear_field(sea_of(deep, false, 400));
+  const BoxedField field(plain, {.box = box, .instants = 1e5, .points = 100});
+  ASSERT_NE(field.table(), nullptr);
+  std::vector<Eigen::Vector3d> points;
+  for (const Eigen::Vector4d& p : places(20)) {
+    points.push_back(p.tail<3>());
+    points.push_back(p.tail<3>() + Eigen::Vector3d(box.high.x() - box.low.x() + 1, 0, 0));
+  }
+  for (const double t : {places(1)[0][0], box.end_s + 1}) {
+    std::vector<Kinematics> all(points.size());
+    field.at(t, points, all);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Kinematics sum = plain.at(t, points[i]), one = field.at(t, points[i]);
+      const double bound = field.table()->error_bound().velocity + 1e-12;
+      EXPECT_LE(difference(sum, all[i]).velocity, bound);
+      EXPECT_LE(difference(sum, one).velocity, bound);
+      EXPECT_NEAR(field.elevation(t, points[i].x(), points[i].y()), sum.elevation,
+                  field.table()->error_bound().elevation + 1e-12);
+    }
+  }
+  const BoxedField few(plain, {.box = box, .instants = 10, .points = 1});
+  EXPECT_EQ(few.table(), nullptr);
 }
 
 }  // namespace
