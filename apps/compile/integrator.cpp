@@ -7,6 +7,9 @@
 #include "dynamics/integrate/euler.hpp"
 #include "dynamics/integrate/explicit_pair.hpp"
 #include "dynamics/integrate/generalized_alpha.hpp"
+#ifdef FROUDE_SUNDIALS
+#include "dynamics/integrate/sundials_bdf.hpp"
+#endif
 #include "hydro/base/error.hpp"
 
 namespace froude::compile {
@@ -32,6 +35,17 @@ void refuse_tolerance(const scene::Solve& solve, const dynamics::Model& model) {
     refuse("lines on bodies step whole", "leave it out, and choose [solve] step");
 }
 
+std::unique_ptr<dynamics::Integrator> sundials([[maybe_unused]] const scene::Solve& solve,
+                                               [[maybe_unused]] const dynamics::Model& model) {
+#ifdef FROUDE_SUNDIALS
+  return std::make_unique<dynamics::SundialsBdf>(
+      model, dynamics::SundialsBdf::Settings{solve.tolerance.value_or(tolerance_of_pair)});
+#else
+  throw hydro::InputError("[solve.integrator] name = \"sundials_bdf\": this froude was built without SUNDIALS", {},
+                          "install Debian's libsundials-dev and configure with -DFROUDE_SUNDIALS=ON");
+#endif
+}
+
 std::unique_ptr<dynamics::Integrator> by_name(const scene::Solve& solve, const dynamics::Model& model) {
   if (solve.integrator == "generalized_alpha")
     return std::make_unique<dynamics::GeneralizedAlpha>(model,
@@ -40,17 +54,22 @@ std::unique_ptr<dynamics::Integrator> by_name(const scene::Solve& solve, const d
   refuse_memory(solve, model);
   if (solve.integrator == "energy_momentum") return std::make_unique<dynamics::EnergyMomentum>(model);
   if (solve.integrator == "semi_implicit_euler") return std::make_unique<dynamics::SemiImplicitEuler>(model);
+  if (solve.integrator == "sundials_bdf") return sundials(solve, model);
   return std::make_unique<dynamics::ExplicitPair>(
       model, dynamics::ExplicitPair::Settings{solve.tolerance.value_or(tolerance_of_pair)});
 }
 
 }  // namespace
 
+bool has_own_tolerance(const std::string& integrator) {
+  return integrator == "explicit_pair" || integrator == "sundials_bdf";
+}
+
 std::unique_ptr<dynamics::Integrator> make_integrator(const scene::Solve& solve, const dynamics::Model& model) {
   if (solve.tolerance) refuse_tolerance(solve, model);
   try {
     auto out = by_name(solve, model);
-    if (solve.tolerance && solve.integrator != "explicit_pair") out->cut_steps(*solve.tolerance);
+    if (solve.tolerance && !has_own_tolerance(solve.integrator)) out->cut_steps(*solve.tolerance);
     return out;
   } catch (const hydro::InputError& e) {
     throw e.at(solve.integrator_place);

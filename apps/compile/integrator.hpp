@@ -7,8 +7,11 @@
 
 namespace froude::compile {
 
-/// Of the explicit pair, where a scene gives none: far below any other error of a run.
+/// Of integrators with a tolerance of their own, where a scene gives none: far below any other error of a run.
 constexpr double tolerance_of_pair = 1e-8;
+
+/// Those that cut their steps by an error of their own.
+bool has_own_tolerance(const std::string& integrator);
 
 /// \throws hydro::InputError, at its place in the scene, if the method cannot step what the scene names
 std::unique_ptr<dynamics::Integrator> make_integrator(const scene::Solve& solve, const dynamics::Model& model);

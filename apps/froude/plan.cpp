@@ -85,6 +85,9 @@ std::string integrator_text(const scene::Solve& solve) {
   if (solve.integrator == "explicit_pair")
     return fmt::format("explicit pair of orders 5 and 4, tolerance {:.3g}",
                        solve.tolerance.value_or(compile::tolerance_of_pair));
+  if (solve.integrator == "sundials_bdf")
+    return fmt::format("backward differences of CVODE, tolerance {:.3g}",
+                       solve.tolerance.value_or(compile::tolerance_of_pair));
   const std::string name = solve.integrator == "generalized_alpha"
                                ? fmt::format("generalised-alpha rho_infinity {:.3g}", solve.rho_infinity)
                                : solve.integrator;

@@ -82,9 +82,10 @@ const Table& integrator() {
                "of the method: generalized_alpha; energy_momentum keeps momentum, and energy of joints and weights, "
                "and damps "
                "nothing; explicit_pair, of orders 5 and 4, cuts steps by its own error; implicit_euler and "
-               "semi_implicit_euler, of order 1, show what they cost")
-              .one_of(
-                  {"generalized_alpha", "energy_momentum", "explicit_pair", "implicit_euler", "semi_implicit_euler"})
+               "semi_implicit_euler, of order 1, show what they cost; sundials_bdf is CVODE, in builds that have "
+               "SUNDIALS")
+              .one_of({"generalized_alpha", "energy_momentum", "explicit_pair", "implicit_euler", "semi_implicit_euler",
+                       "sundials_bdf"})
               .or_default("generalized_alpha", "second order, damps only what the step cannot resolve"),
           number("rho_infinity",
                  "of generalized_alpha: spectral radius at infinite frequency: 1 damps nothing, 0 all at once")
@@ -93,7 +94,7 @@ const Table& integrator() {
           number(
               "tolerance",
               "of the local error of a step of bodies, relative to their speeds: steps are cut to meet it; left out: "
-              "1e-8 for explicit_pair, whole steps for the others")
+              "1e-8 for explicit_pair and sundials_bdf, whole steps for the others")
               .positive()
               .optional(),
           text("lines",

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "dynamics/spatial/rotation.hpp"
 #include "explicit_step.hpp"
 #include "hydro/base/error.hpp"
 
@@ -23,14 +22,6 @@ constexpr double stage[stages][stages - 1] = {{},
                                               {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
 constexpr std::array<double, stages> difference{71.0 / 57600,      0,          -71.0 / 16695, 71.0 / 1920,
                                                 -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
-
-/// Rate of the displacement (places, and rotation vectors since the start of the step) with a velocity there.
-Eigen::VectorXd rate(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity) {
-  Eigen::VectorXd out = velocity;
-  for (Eigen::Index row = 3; row < out.size(); row += 6)
-    out.segment<3>(row) = left_jacobian(displacement.segment<3>(row)).inverse() * velocity.segment<3>(row);
-  return out;
-}
 
 }  // namespace
 
@@ -54,7 +45,7 @@ std::optional<ExplicitPair::Attempt> ExplicitPair::attempt(Workspace& workspace,
     const auto there = active().balance(workspace);
     all = there && there->acceleration.allFinite();
     if (!all) break;
-    moving[i] = rate(move, workspace.state.velocity);
+    moving[i] = displacement_rate(move, workspace.state.velocity);
     gaining[i] = there->acceleration;
   }
   Attempt out{workspace.state, 0};  // the last stage is the end by order 5

@@ -1,6 +1,9 @@
 #include "explicit_step.hpp"
 
+#include <Eigen/LU>
+
 #include "dynamics/joint/assemble.hpp"
+#include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/error.hpp"
 
 namespace dynamics {
@@ -8,6 +11,13 @@ namespace dynamics {
 void refuse_contacts(const ActiveSet& active) {
   if (active.contact() == nullptr) return;
   throw hydro::InputError("this integrator has no contacts", {}, "take generalized_alpha or implicit_euler");
+}
+
+Eigen::VectorXd displacement_rate(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity) {
+  Eigen::VectorXd out = velocity;
+  for (Eigen::Index row = 3; row < out.size(); row += 6)
+    out.segment<3>(row) = left_jacobian(displacement.segment<3>(row)).inverse() * velocity.segment<3>(row);
+  return out;
 }
 
 bool arrive(const Model& model, const ActiveSet& active, State end, Workspace& workspace) {

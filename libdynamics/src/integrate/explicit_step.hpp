@@ -7,6 +7,9 @@ namespace dynamics {
 /// Contacts need conditions on places that hold at the end of a step. \throws hydro::InputError
 void refuse_contacts(const ActiveSet& active);
 
+/// Rate of the displacement (places, and rotation vectors since the start of the step) with a velocity there.
+Eigen::VectorXd displacement_rate(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity);
+
 /// Joints closed by the least motion, then the accelerations there; the workspace ends in that state.
 /// \returns false, with the workspace as it was, if they cannot be had
 bool arrive(const Model& model, const ActiveSet& active, State end, Workspace& workspace);

@@ -54,6 +54,25 @@ TEST(Members, OfMorisonTakeWavesOfAnyKind) {
   EXPECT_GT(most, 0.05);
 }
 
+// A long run in a sea reads waves near its members from a table, a short one sums them; the water is the same.
+TEST(Members, InALongRunReadTheSeaFromATable) {
+  auto s = pile("[waves]\nkind = \"jonswap\"\nhs = \"1 m\"\ntp = \"5 s\"\nheading = \"30 deg\"\n",
+                "morison = { cd = 1, ca = 1 }");
+  const compile::Prepared prepared = compile::prepare(s);
+  const compile::RunWater summed = compile::time_model(s, prepared).water;
+  s.run->duration = 200;
+  const compile::RunWater tabled = compile::time_model(s, prepared).water;
+  EXPECT_EQ(summed.table_bytes, 0u);
+  EXPECT_GT(tabled.table_bytes, 0u);
+  for (const double x : {0.0, 2.0, 30.0})
+    for (const double t : {1.0, 7.0}) {
+      const auto a = summed.field->at(t, {x, 0.5, -3}), b = tabled.field->at(t, {x, 0.5, -3});
+      EXPECT_LT((a.velocity - b.velocity).norm(), 1e-6)
+          << "1e-8 of each of some thousand components, and their rounding";
+      EXPECT_LT((a.acceleration - b.acceleration).norm(), 1e-5);
+    }
+}
+
 TEST(Members, OfDragAtRestTakeLinearWavesOnly) {
   const auto s = pile(stream, "drag = { cd = 1 }");
   EXPECT_THAT([&] { compile::time_model(s, compile::prepare(s)); },
