@@ -1,0 +1,11 @@
+#pragma once
+/// \file  Where a network of lines hangs, from nothing but its loads and what holds it. (D112)
+#include "dynamics/line/line.hpp"
+
+namespace dynamics::line {
+
+/// Near the rest of `line`, whose held nodes stand in `places`; of the others nothing is asked. \throws
+/// hydro::InputError if nothing holds a part of it, or if lines that keep their lengths do not reach
+State network_shape(const Line& line, const State& places);
+
+}  // namespace dynamics::line
