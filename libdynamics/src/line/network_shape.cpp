@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "dynamics/line/equilibrium.hpp"
 #include "hydro/base/error.hpp"
@@ -13,63 +14,116 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// All that pulls at a network at rest, N; something for one without weight, which has no scale of its own.
-double whole_load(const Line& line) {
-  const double sum = line.constant_load().colwise().norm().sum();
-  return sum > 0 ? sum : 1;
-}
-
-/// Segments as springs without a length of their own, as stiff as the whole load stretches to theirs: linear.
-State loose_shape(const Line& line, const State& places) {
-  const int n = line.nodes();
-  const double load = whole_load(line);
-  std::vector<Eigen::Triplet<double>> entries;
-  Eigen::MatrixX3d right = line.constant_load().transpose();
-  for (int i = 0; i < n; ++i) {
-    if (line.moves(i)) continue;
-    entries.emplace_back(i, i, 1);
-    if (line.held(i) == nullptr) right.row(line.same_as(i)) += right.row(i);
-    right.row(i).setZero();
+/// Constant loads, and what floats that are wet in part lift when they are wet all.
+Places loads_at_rest(const Line& line) {
+  Places out = line.constant_load();
+  for (int i = 0; i < line.nodes(); ++i) {
+    const Sphere& s = line.node(i).sphere;
+    if (s.diameter == 0 || !s.buoyancy || s.wet != Wet::below_surface) continue;
+    const hydro::Water& water = line.description().water.field->water();
+    out(2, i) += water.density * water.gravity * std::numbers::pi / 6 * std::pow(s.diameter, 3);
   }
-  for (int j = 0; j < line.segments(); ++j) {
-    const double k = load / line.segment(j).length;
-    const int ends[2] = {line.same_as(line.first(j)), line.same_as(line.first(j) + 1)};
-    for (int e = 0; e < 2; ++e) {
-      const int here = ends[e], there = ends[1 - e];
-      if (!line.moves(here)) continue;
-      entries.emplace_back(here, here, k);
-      if (line.moves(there))
-        entries.emplace_back(here, there, -k);
-      else
-        right.row(here) += k * places.position.col(there).transpose();
-    }
-  }
-  Eigen::SparseMatrix<double> matrix(n, n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(matrix);
-  const double scale = matrix.diagonal().maxCoeff();
-  hydro::require(factors.info() == Eigen::Success && factors.vectorD().minCoeff() > 1e-13 * scale,
-                 "nothing holds a part of the lines, so it has no shape to hang in");
-  const Eigen::MatrixX3d x = factors.solve(right);
-  State out{.time = places.time,
-            .position = Places(3, n),
-            .velocity = Places::Zero(3, n),
-            .tension = Eigen::VectorXd(line.segments())};
-  for (int i = 0; i < n; ++i)
-    out.position.col(i) =
-        line.held(i) != nullptr ? Vector3d(places.position.col(i)) : Vector3d(x.row(line.same_as(i)).transpose());
-  for (int j = 0; j < line.segments(); ++j)
-    out.tension[j] =
-        load / line.segment(j).length * (out.position.col(line.first(j) + 1) - out.position.col(line.first(j))).norm();
   return out;
 }
 
-/// No segment stiffer than `stiffest`, none pressed, none bends.
+/// All that pulls, N; something for a network without weight, which has no scale of its own.
+double whole_load(const Places& load) {
+  const double sum = load.colwise().norm().sum();
+  return sum > 0 ? sum : 1;
+}
+
+/// A network of springs without a length of their own, tension = density times length: linear.
+class LooseNetwork {
+ public:
+  LooseNetwork(const Line& line, const State& places) : line_(line), places_(places), load_(loads_at_rest(line)) {}
+
+  /// Where it hangs with one density for each segment, N/m. \throws hydro::InputError if nothing holds a part of it
+  Places hang(const Eigen::VectorXd& density) {
+    const int n = line_.nodes();
+    entries_.clear();
+    Eigen::MatrixX3d right = load_.transpose();
+    for (int i = 0; i < n; ++i) {
+      if (line_.moves(i)) continue;
+      entries_.emplace_back(i, i, 1);
+      if (line_.held(i) == nullptr) right.row(line_.same_as(i)) += right.row(i);
+      right.row(i).setZero();
+    }
+    for (int j = 0; j < line_.segments(); ++j) {
+      const int first = line_.same_as(line_.first(j)), second = line_.same_as(line_.first(j) + 1);
+      join(first, second, density[j], right);
+      join(second, first, density[j], right);
+    }
+    return solve(right);
+  }
+
+ private:
+  void join(int here, int there, double density, Eigen::MatrixX3d& right) {
+    if (!line_.moves(here)) return;
+    entries_.emplace_back(here, here, density);
+    if (line_.moves(there))
+      entries_.emplace_back(here, there, -density);
+    else
+      right.row(here) += density * places_.position.col(there).transpose();
+  }
+
+  Places solve(const Eigen::MatrixX3d& right) {
+    const int n = line_.nodes();
+    matrix_.resize(n, n);
+    matrix_.setFromTriplets(entries_.begin(), entries_.end());
+    if (!ordered_) factors_.analyzePattern(matrix_);
+    ordered_ = true;
+    factors_.factorize(matrix_);
+    hydro::require(factors_.info() == Eigen::Success && factors_.vectorD().minCoeff() > 0,
+                   "nothing holds a part of the lines, so it has no shape to hang in");
+    const Eigen::MatrixX3d x = factors_.solve(right);
+    Places out(3, n);
+    for (int i = 0; i < n; ++i)
+      out.col(i) =
+          line_.held(i) != nullptr ? Vector3d(places_.position.col(i)) : Vector3d(x.row(line_.same_as(i)).transpose());
+    return out;
+  }
+
+  const Line& line_;
+  const State& places_;
+  Places load_;
+  std::vector<Eigen::Triplet<double>> entries_;
+  Eigen::SparseMatrix<double> matrix_;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
+  bool ordered_ = false;
+};
+
+/// Every part of a network must be tied or joined to something that is held.
+void require_held(const Line& line) {
+  std::vector<bool> reached(static_cast<std::size_t>(line.nodes()), false);
+  const auto at = [&](int i) { return reached[static_cast<std::size_t>(line.same_as(i))]; };
+  for (const Held& h : line.description().held) at(h.node) = true;
+  for (bool more = true; more;) {
+    more = false;
+    for (int j = 0; j < line.segments(); ++j) {
+      const int first = line.first(j);
+      if (at(first) == at(first + 1)) continue;
+      at(first) = at(first + 1) = more = true;
+    }
+    // From the other end too: chains are then passed in one go, whichever end is held.
+    for (int j = line.segments() - 1; j >= 0; --j)
+      if (at(line.first(j) + 1)) at(line.first(j)) = true;
+  }
+  for (int i = 0; i < line.nodes(); ++i)
+    hydro::require(at(i), "nothing holds a part of the lines, so it has no shape to hang in");
+}
+
+/// By how much a segment is longer than its tension makes it, relative.
+double excess(const Line& line, const Places& x, const Eigen::VectorXd& tension, int j) {
+  const Segment& s = line.segment(j);
+  const double r = (x.col(line.first(j) + 1) - x.col(line.first(j))).norm();
+  return r / (s.length * (1 + tension[j] / s.axial_stiffness)) - 1;
+}
+
+/// No segment stiffer than `stiffest`; none sags or bends.
 Line softened(const Line& line, double stiffest) {
   Description d = line.description();
   for (Segment& s : d.segments) {
     s.axial_stiffness = std::min(s.axial_stiffness, stiffest);
-    s.pulls_only = true;
     s.sags = false;
     s.axial_damping = s.bending_stiffness = 0;
   }
@@ -80,56 +134,73 @@ Line softened(const Line& line, double stiffest) {
   return Line(std::move(d));
 }
 
-struct Stretch {
-  double strain = 0;
+/// Of segments that are to keep their lengths, by how much they are too long, m; and the one that is most, relative.
+struct TooLong {
+  double sum = 0, strain = 0;
   int segment = 0;
 };
-
-/// The largest of segments that are to keep their lengths.
-Stretch largest_stretch(const Line& line, const State& state) {
-  Stretch out;
+TooLong too_long(const Line& line, const Places& x) {
+  TooLong out;
   for (int j = 0; j < line.segments(); ++j) {
     if (!line.segment(j).keeps_length()) continue;
-    const double r = (state.position.col(line.first(j) + 1) - state.position.col(line.first(j))).norm();
-    const double strain = r / line.segment(j).length - 1;
-    if (strain > out.strain) out = {strain, j};
+    const double length = line.segment(j).length,
+                 more = (x.col(line.first(j) + 1) - x.col(line.first(j))).norm() - length;
+    out.sum += std::max(more, 0.0);
+    if (more / length > out.strain) {
+      out.strain = more / length;
+      out.segment = j;
+    }
   }
   return out;
 }
 
-/// What does not grow shorter as it grows stiffer does not reach.
-void require_reach(const Line& line, const State& state, double softer) {
-  const Stretch now = largest_stretch(line, state);
-  if (now.strain < 0.5 * softer || now.strain < 1e-5) return;  // a hundred times stiffer: else a hundredth
-  double missing = 0;
+/// What is a hundred times stiffer is a hundredth as much too long, unless it does not reach.
+void require_reach(const Line& line, const TooLong& soft, const TooLong& stiff) {
+  if (stiff.strain < 0.5 * soft.strain || stiff.strain < 1e-6) return;
   int chain = 0;
-  for (int j = 0; j < line.segments(); ++j)
-    if (line.segment(j).keeps_length())
-      missing += std::max(0.0, (state.position.col(line.first(j) + 1) - state.position.col(line.first(j))).norm() -
-                                   line.segment(j).length);
-  while (line.last_of_chain(chain) <= line.first(now.segment)) ++chain;
+  while (line.last_of_chain(chain) <= line.first(stiff.segment)) ++chain;
   throw hydro::InputError(
       fmt::format("lines that meet do not reach from one end to the other: together they are {:.4g} m too short, line "
                   "{} of them most",
-                  missing, chain + 1),
+                  stiff.sum, chain + 1),
       {}, "bring their ends together, lengthen them, or give them an axial stiffness");
+}
+
+/// What is taut comes slowly to its lengths by densities, and by Newton at once.
+State tautened(const Line& line, const State& near, double load) {
+  const State soft = equilibrium(softened(line, 1e4 * load), near);
+  const State stiff = equilibrium(softened(line, 1e6 * load), soft);
+  require_reach(line, too_long(line, soft.position), too_long(line, stiff.position));
+  return stiff;
 }
 
 }  // namespace
 
+// Densities are corrected until segments have their lengths: all of them pull all the time, whatever they are.
 State network_shape(const Line& line, const State& places) {
-  const double load = whole_load(line);
-  double hardest = 0, softer = 0;
-  for (int j = 0; j < line.segments(); ++j) hardest = std::max(hardest, line.segment(j).axial_stiffness);
-  State state = loose_shape(line, places);
-  for (const double factor : {1.0, 1e2, 1e4, 1e6}) {
-    const Line soft = softened(line, factor * load);
-    state = equilibrium(soft, state);
-    if (factor == 1e6) require_reach(line, state, softer);
-    softer = largest_stretch(line, state).strain;
-    if (factor * load >= hardest) break;
+  constexpr int most = 60;                     // each takes two thirds of the error, of what is not taut
+  constexpr double near = 1e-6, least = 1e-9;  // of a length; of the whole load in a length
+  require_held(line);
+  LooseNetwork network(line, places);
+  const double load = whole_load(loads_at_rest(line));
+  State out{.time = places.time,
+            .position = {},
+            .velocity = Places::Zero(3, line.nodes()),
+            .tension = Eigen::VectorXd(line.segments())};
+  Eigen::VectorXd density(line.segments());  // T/r, N/m
+  for (int j = 0; j < line.segments(); ++j) density[j] = load / line.segment(j).length;
+  for (int i = 0; i < most; ++i) {
+    out.position = network.hang(density);
+    double worst = 0;
+    for (int j = 0; j < line.segments(); ++j) {
+      out.tension[j] = density[j] * (out.position.col(line.first(j) + 1) - out.position.col(line.first(j))).norm();
+      const double more = excess(line, out.position, out.tension, j);
+      density[j] = std::max(density[j] * (1 + more), least * load / line.segment(j).length);
+      worst = std::max(worst, std::abs(more));
+    }
+    if (worst < near) return out;
   }
-  return state;
+  return tautened(line, out, load);
 }
 
 }  // namespace dynamics::line

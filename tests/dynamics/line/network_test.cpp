@@ -76,12 +76,15 @@ struct Dense {
   MatrixXd matrix;
   BandMatrix band;
 };
-Dense random_system(const Line& line, std::uint64_t seed) {
-  const int size = 4 * line.nodes();
-  Dense out{MatrixXd::Zero(size, size), BandMatrix(size, Reach::neighbours)};
+Dense random_system(const Line& line, std::uint64_t seed, bool dense = true) {
+  const int size = 4 * line.nodes(), whole = dense ? size : 0;
+  Dense out{MatrixXd::Zero(whole, whole), BandMatrix(size, Reach::neighbours)};
   const hydro::RandomStream random(seed, 0);
   std::uint64_t k = 0;
-  const auto set = [&](int r, int c, double value) { out.matrix(r, c) = out.band(r, c) = value; };
+  const auto set = [&](int r, int c, double value) {
+    out.band(r, c) = value;
+    if (dense) out.matrix(r, c) = value;
+  };
   const auto is_held = [&](int i) { return line.held(i) != nullptr; };
   for (int i = 0; i < line.nodes(); ++i)
     for (int r = 0; r < 3; ++r) {
@@ -144,7 +147,7 @@ TEST(NetworkSolver, CostsInProportionToTheDroppers) {
   const auto entries = [](int droppers) {
     const Line line(longline(droppers));
     NetworkSolver solver(line);
-    Dense system = random_system(line, 7);
+    Dense system = random_system(line, 7, false);
     VectorXd b = VectorXd::Ones(4 * line.nodes());
     EXPECT_TRUE(solver.solve(system.band, b));
     return std::pair{static_cast<double>(solver.border()), static_cast<double>(solver.factor_entries())};
@@ -290,6 +293,45 @@ TEST(NetworkAtRest, FindsALonglineWithDroppersAndFloats) {
   for (const auto& tie : d.ties) EXPECT_EQ(s.position.col(tie[0]), s.position.col(tie[1]));
   for (const auto& tie : d.ties)  // droppers hang straight down
     EXPECT_LT((s.position.col(tie[1] + 3) - s.position.col(tie[1]) + Vector3d(0, 0, 1.5)).norm(), 1e-8);
+}
+
+// A mooring that rests on the bed in part, with segments that sag: where it is cut, in the air or on the bed, tells
+// nothing.
+TEST(NetworkAtRest, RestsOnABedAsTheUncutLine) {
+  Description d = rods(20, 59, 8 * 59, 30e6);
+  for (Segment& s : d.segments) {
+    s.sags = true;
+    s.diameter = 0.036;
+  }
+  d.held = {{.node = 0}, {.node = 20}};
+  d.bed = {{.z = -14, .stiffness = 3e6, .damping = 0, .friction = 0.5}};
+  const Line whole(d);
+  State ends = ends_at(whole, {0, 0, -1.1});
+  ends.position.col(0) << 56, 0, -14;
+  const State a = rest(whole, ends);
+  for (const int node : {3, 15}) {
+    const Line cut(cut_at(d, node));
+    State cut_ends = ends;
+    cut_ends.position = cut_at(ends.position, node);
+    const State b = rest(cut, cut_ends);
+    EXPECT_LT((a.tension - b.tension).norm(), 1e-7 * a.tension.norm()) << node;  // 1e-10 of Newton, EA ten thousand T
+    EXPECT_LT((cut_at(a.position, node) - b.position).norm(), 1e-6) << node;
+  }
+}
+
+// Legs as straight as steel draws them: tensions thousands of times the weight.
+TEST(NetworkAtRest, FindsTautLegs) {
+  for (const double stiffness : {1e5, 1e8}) {
+    Bridle y = bridle(4, stiffness);
+    y.places.position.col(0) << 4.004, 0, 0;
+    y.places.position.col(5) << -4.004, 0, 0;
+    const Line line(y.d);
+    const State s = rest(line, y.places);
+    EXPECT_LT(worst_balance(line, s), 1e-9 * s.tension.maxCoeff()) << stiffness;
+    if (stiffness > 1e6) {
+      EXPECT_NEAR(s.tension[0] / stiffness, 1e-3, 1e-5);  // (4.004 - 4)/4, and a hundredth of it by the weight
+    }
+  }
 }
 
 TEST(NetworkAtRest, SaysWhatDoesNotReachAndWhatNothingHolds) {

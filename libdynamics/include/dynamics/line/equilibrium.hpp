@@ -8,9 +8,9 @@ namespace dynamics::line {
 /// is beyond the last held node: the discrete catenary (D85), exact for segments that keep their lengths and for
 /// springs. Held nodes stand in `places` where they are; its other nodes are not looked at. Where a segment would have
 /// to be pressed (ends closer than it), the shape is near and not exact: equilibrium() goes on from there. Of a
-/// network, or a line with a float, it is near too: what rests where every segment is softer, step by step to its own
-/// stiffness, and free nodes need no place to begin at (D112). \throws hydro::InputError if a span that cannot stretch
-/// is shorter than the way between its ends, saying by how much, or if nothing holds it
+/// network, or a line with a float, it is near too, and free nodes need no place to begin at (D112). \throws
+/// hydro::InputError if a span that cannot stretch is shorter than the way between its ends, saying by how much, or if
+/// nothing holds it
 State hanging_shape(const Line& line, const State& places);
 
 /// What rest took.
