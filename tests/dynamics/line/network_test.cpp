@@ -50,15 +50,25 @@ State with_ends(const Description& d, double apart) {
   return s;
 }
 
+/// Two strands between two knots, each hung from the ground.
+Description ring() {
+  Description d = rods(6, 6, 12, stiff);
+  const int lower = append(d, rods(8, 8, 8, stiff)), left = append(d, rods(3, 3, 3, stiff)),
+            right = append(d, rods(3, 3, 3, stiff));
+  d.held = {{.node = left}, {.node = right}};
+  d.ties = {{0, lower, left + 3}, {6, lower + 8, right + 3}};
+  return d;
+}
+
 /// A Y, a longline, a ring with two tails, a ladder whose rungs are single segments.
 std::vector<Description> networks() {
   std::vector<Description> out{bridle(3, stiff).d, longline(3)};
-  Description ring = rods(5, 5, 5, stiff);
-  const int side = append(ring, rods(3, 3, 3, stiff)), up = append(ring, rods(2, 2, 2, stiff)),
-            down = append(ring, rods(1, 1, 1, stiff)), round = append(ring, rods(4, 4, 4, stiff));
-  ring.held = {{.node = up}};
-  ring.ties = {{0, side, up + 2}, {5, side + 3, down}, {down + 1, round, round + 4}};
-  out.push_back(ring);
+  Description chained = rods(5, 5, 5, stiff);
+  const int side = append(chained, rods(3, 3, 3, stiff)), up = append(chained, rods(2, 2, 2, stiff)),
+            down = append(chained, rods(1, 1, 1, stiff)), round = append(chained, rods(4, 4, 4, stiff));
+  chained.held = {{.node = up}};
+  chained.ties = {{0, side, up + 2}, {5, side + 3, down}, {down + 1, round, round + 4}};
+  out.push_back(chained);
   Description ladder = rods(6, 6, 6, stiff);
   const int other = append(ladder, rods(6, 6, 6, stiff));
   ladder.held = {{.node = 0}, {.node = other}};
@@ -264,11 +274,8 @@ TEST(NetworkAtRest, OfAYIsThatOfALineWithABobInItsMiddle) {
 
 // Between its knots each side of a ring hangs as a line between two points does.
 TEST(NetworkAtRest, OfARingIsTwoCatenariesThatBalance) {
-  Description d = rods(6, 6, 12, stiff);
-  const int lower = append(d, rods(8, 8, 8, stiff)), left = append(d, rods(3, 3, 3, stiff)),
-            right = append(d, rods(3, 3, 3, stiff));
-  d.held = {{.node = left}, {.node = right}};
-  d.ties = {{0, lower, left + 3}, {6, lower + 8, right + 3}};
+  const Description d = ring();
+  constexpr int lower = 7;
   State places = with_ends(d, 7);
   const Line line(d);
   const State s = rest(line, places);
@@ -400,6 +407,23 @@ TEST(Network, OfATreeThatNothingDampsKeepsItsEnergy) {
     }
     for (const int i : y.d.ties[0]) EXPECT_EQ(s.position.col(i), s.position.col(y.knot));
   }
+}
+
+TEST(Network, OfARingThatNothingDampsKeepsItsEnergy) {
+  const Description d = ring();
+  const Line line(d);
+  State s = swung(line, with_ends(d, 7), 1.5);
+  Stepper stepper(line, {});
+  stepper.start(s);
+  double liveliest = 0, worst = 0;
+  for (int i = 0; i < 1000; ++i) {
+    stepper.step(s, 0.01);
+    liveliest = std::max(liveliest, stepper.energies().kinetic);
+    worst = std::max(worst, std::abs(stepper.energies().residual()));
+  }
+  EXPECT_GT(liveliest, 20);
+  EXPECT_LT(worst, 1e-9 * liveliest);
+  EXPECT_LT(worst_length_of(line, s), 1e-13);
 }
 
 TEST(Network, ThatIsFreeKeepsItsMomentumAndItsSpin) {
