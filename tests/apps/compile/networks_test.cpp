@@ -85,6 +85,18 @@ TEST(Networks, MayBeOneLineWithAFloat) {
   EXPECT_NEAR(record.signal("rope.from.force").back(), 9.81 * (1000 * V - 50 - 27), 1e-6);
 }
 
+// 2 m down to where the end is tied, then a loop of 6 m, each strand of which hangs 3 m with its own weight.
+TEST(Networks, MayBeALasso) {
+  const auto record =
+      simulate(parse(water + line("lasso", "from = \"(0, 0, 0) m\"\non = { to = \"lasso.node4\" }", 8, 16) + ask));
+  EXPECT_EQ(record.stopped, "");
+  EXPECT_NEAR(record.signal("lasso.node4.z").back(), -2, 1e-8);
+  EXPECT_NEAR(record.signal("lasso.node10.z").back(), -5, 1e-8);
+  EXPECT_EQ(record.signal("lasso.node16.z"), record.signal("lasso.node4.z"));
+  EXPECT_NEAR(record.signal("lasso.link5.tension").back(), 2.75 * 2 * 9.81, 1e-5);  // to the middle of the link
+  EXPECT_NEAR(record.signal("lasso.link16.tension").back(), 2.75 * 2 * 9.81, 1e-5);
+}
+
 TEST(Networks, HoldABodyByABridle) {
   const std::string body =
       "[[body]]\nname = \"b\"\nmass = \"100 kg\"\nfree = [\"surge\", \"heave\"]\nposition = \"(0, 0, -6) m\"\nweight = "
