@@ -348,7 +348,8 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
   std::vector<LineModel> lines = line_models(scene, prepared, water, start);
   for (const LineModel& line : lines) {
     plan.push_back(plan_line(line));
-    if (!line.coefficients.empty()) notes.push_back(fmt::format("line {}: {}", line.name, line.coefficients));
+    for (const LineModel::Part& part : line.parts)
+      if (!part.coefficients.empty()) notes.push_back(fmt::format("line {}: {}", part.name, part.coefficients));
   }
   return {.model = std::move(model),
           .start = std::move(start),

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <span>
 
 #include "compile/compile.hpp"
 #include "dynamics/line/equilibrium.hpp"
@@ -59,8 +61,8 @@ dl::Held end(const scene::Line& l, int node, bool first) {
   return out;
 }
 
-dl::Description description(const Scene& scene, const scene::Line& l,
-                            std::shared_ptr<const hydro::waves::WaveField> field) {
+/// One line by itself; ends that meet something are free, and what is there is the other's.
+dl::Description chain(const Scene& scene, const scene::Line& l, std::shared_ptr<const hydro::waves::WaveField> field) {
   dl::Description d;
   const int last = static_cast<int>(l.links.size());
   d.nodes.assign(l.links.size() + 1, dl::Node{.mass = l.node_mass});
@@ -75,17 +77,114 @@ dl::Description description(const Scene& scene, const scene::Line& l,
     d.segments.push_back(segment(l, link, along + link.length / 2));
     along += link.length;
   }
-  d.held.push_back(end(l, 0, true));
   d.nodes.front().mass = 0;
+  if (!l.from_meets) d.held.push_back(end(l, 0, true));
   if (l.to) {
     d.held.push_back(end(l, last, false));
     d.nodes.back().mass = 0;
   }
+  if (l.from_meets) d.nodes.front() = {};
+  if (l.to_meets) d.nodes.back() = {};
   d.gravity = scene.water.gravity;
   if (l.bed) d.bed.push_back({-scene.water.depth.metres(), l.bed->stiffness, l.bed->damping, l.bed->friction});
   if (l.morison || l.buoyancy)
     d.water = {std::move(field), l.partial_immersion ? dl::Wet::below_surface : dl::Wet::all, l.buoyancy};
   return d;
+}
+
+/// Which nodes of a network are one place, and what is at its junctions.
+struct Meetings {
+  std::vector<std::vector<int>> ties;
+  std::vector<LineModel::Knot> knots;
+  std::vector<const scene::Junction*> junctions;  // of the knots
+};
+
+/// `first`: the node at which each line of the scene begins in the network.
+Meetings meetings(const Scene& scene, const std::vector<std::size_t>& network, const std::vector<int>& first) {
+  std::map<std::pair<std::size_t, int>, std::vector<int>> at_node;  // by line and node, which is the first
+  std::map<std::size_t, std::vector<int>> at_junction;
+  for (const std::size_t i : network)
+    for (const bool begin : {true, false}) {
+      const auto& meets = begin ? scene.chains[i].from_meets : scene.chains[i].to_meets;
+      if (!meets) continue;
+      const int own = first[i] + (begin ? 0 : static_cast<int>(scene.chains[i].links.size()));
+      if (meets->junction) {
+        at_junction[*meets->junction].push_back(own);
+        continue;
+      }
+      auto& tie = at_node[{meets->line, meets->node}];
+      if (tie.empty()) tie.push_back(first[meets->line] + meets->node);
+      tie.push_back(own);
+    }
+  Meetings out;
+  for (auto& [where, tie] : at_node) out.ties.push_back(std::move(tie));
+  for (auto& [k, tie] : at_junction) {
+    out.knots.push_back({scene.junctions[k].name, tie.front()});
+    out.junctions.push_back(&scene.junctions[k]);
+    if (tie.size() > 1) out.ties.push_back(std::move(tie));
+  }
+  return out;
+}
+
+void put_at(const scene::Junction& j, dl::Node& node) {
+  node.mass += j.mass;
+  if (j.diameter == 0) return;
+  node.sphere = {.diameter = j.diameter,
+                 .cd = j.morison ? j.morison->cd : 0,
+                 .ca = j.morison ? j.morison->ca : 0,
+                 .wet = j.partial_immersion ? dl::Wet::below_surface : dl::Wet::all,
+                 .buoyancy = j.buoyancy};
+}
+
+/// Of lines that meet, with where each begins.
+struct System {
+  dl::Description d;
+  std::vector<LineModel::Part> parts;
+  std::vector<LineModel::Knot> knots;
+};
+
+void append(const dl::Description& more, bool first, bool rests, dl::Description& d) {
+  const auto offset = static_cast<int>(d.nodes.size());
+  if (!first) d.begins.push_back(offset);
+  d.nodes.insert(d.nodes.end(), more.nodes.begin(), more.nodes.end());
+  for (dl::Segment s : more.segments) {
+    s.meets_bed = rests;
+    d.segments.push_back(s);
+  }
+  for (dl::Held h : more.held) {
+    h.node += offset;
+    d.held.push_back(h);
+  }
+  if (!more.bed.empty()) d.bed = more.bed;
+  d.componentwise_damping = d.componentwise_damping || more.componentwise_damping;
+}
+
+System description(const Scene& scene, const std::vector<std::size_t>& network,
+                   std::shared_ptr<const hydro::waves::WaveField> field) {
+  System out;
+  std::vector<int> first(scene.chains.size(), 0);
+  out.d.gravity = scene.water.gravity;
+  for (const std::size_t i : network) {
+    const scene::Line& l = scene.chains[i];
+    const dl::Description own = chain(scene, l, field);
+    first[i] = static_cast<int>(out.d.nodes.size());
+    out.parts.push_back({.name = l.name,
+                         .first_node = first[i],
+                         .nodes = static_cast<int>(own.nodes.size()),
+                         .first_segment = static_cast<int>(out.d.segments.size()),
+                         .segments = static_cast<int>(own.segments.size()),
+                         .snaps = l.snaps});
+    append(own, i == network.front(), l.bed.has_value(), out.d);
+    out.d.water = own.water;
+  }
+  Meetings meet = meetings(scene, network, first);
+  out.d.ties = std::move(meet.ties);
+  for (std::size_t k = 0; k < meet.knots.size(); ++k) {
+    put_at(*meet.junctions[k], out.d.nodes[static_cast<std::size_t>(meet.knots[k].node)]);
+    if (meet.junctions[k]->diameter > 0) out.d.water.field = field;
+  }
+  out.knots = std::move(meet.knots);
+  return out;
 }
 
 /// Where the line reaches of the place at which a node is to be held before its release: places are written with few
@@ -105,20 +204,33 @@ std::shared_ptr<const hydro::waves::WaveField> without_waves(const Scene& scene)
                                                        hydro::waves::HarmonicField::Options{}, scene.current);
 }
 
+/// Places of what holds the lines of a network, in it; zero for all others.
+dl::Places held_places(const Scene& scene, const std::vector<std::size_t>& network, const System& system) {
+  dl::Places out = dl::Places::Zero(3, std::ssize(system.d.nodes));
+  for (std::size_t k = 0; k < network.size(); ++k) {
+    const scene::Line& l = scene.chains[network[k]];
+    const LineModel::Part& part = system.parts[k];
+    out.col(part.first_node) = l.from;
+    if (l.to) out.col(part.first_node + part.nodes - 1) = *l.to;
+  }
+  return out;
+}
+
 /// Rest without waves, in the current, with the node that is to be released held.
-dl::State at_rest(const Scene& scene, const scene::Line& l) {
-  dl::Description d = description(scene, l, without_waves(scene));
-  if (l.release) d.held.push_back({.node = l.release->node});
-  const dl::Line line(std::move(d));
-  dl::State places{.position = dl::Places::Zero(3, line.nodes()),
-                   .velocity = dl::Places::Zero(3, line.nodes()),
-                   .tension = Eigen::VectorXd::Zero(line.segments())};
-  places.position.col(0) = l.from;
-  if (l.to) places.position.col(line.nodes() - 1) = *l.to;
-  if (l.release) places.position.col(l.release->node) = reached(l);
-  dl::State guess = dl::hanging_shape(line, places);
+dl::State at_rest(const Scene& scene, const std::vector<std::size_t>& network) {
+  System system = description(scene, network, without_waves(scene));
+  dl::Places places = held_places(scene, network, system);
+  const scene::Line& l = scene.chains[network.front()];
+  if (l.release) {
+    system.d.held.push_back({.node = l.release->node});
+    places.col(l.release->node) = reached(l);
+  }
+  const dl::Line line(std::move(system.d));
+  dl::State guess = dl::hanging_shape(line, {.position = std::move(places),
+                                             .velocity = dl::Places::Zero(3, line.nodes()),
+                                             .tension = Eigen::VectorXd::Zero(line.segments())});
   // What is clamped and free beyond stands or hangs as it does: from straight down it might not turn over.
-  if (l.clamp_from && !l.to && !l.release)
+  if (line.chains() == 1 && l.clamp_from && !l.to && !l.release && !l.to_meets)
     for (int i = 1; i < line.nodes(); ++i)
       guess.position.col(i) = guess.position.col(i - 1) + line.segment(i - 1).length * *l.clamp_from;
   return dl::equilibrium(line, guess);
@@ -132,7 +244,7 @@ std::string range(const std::vector<double>& values) {
 
 /// Puts in what the table has for the waves that pass each segment in `places`, and tells it. (D104), (D105)
 std::string take_coefficients(const Scene& scene, const scene::Line& l, const RunWater& water, const dl::Places& places,
-                              dl::Description& d) {
+                              std::span<dl::Segment> segments) {
   if (!l.morison || !l.morison->table) return "";
   const auto& given = *l.morison->table;
   try {
@@ -142,8 +254,8 @@ std::string take_coefficients(const Scene& scene, const scene::Line& l, const Ru
     const double ramp = scene.waves->ramp < scene.run->duration ? scene.waves->ramp : 0;
     const auto exposures = dl::exposure(*water.field, places, ramp, scene.run->duration);
     std::vector<double> kc, re, cd, ca;
-    for (std::size_t j = 0; j < d.segments.size(); ++j) {
-      dl::Segment& s = d.segments[j];
+    for (std::size_t j = 0; j < segments.size(); ++j) {
+      dl::Segment& s = segments[j];
       kc.push_back(exposures[j].keulegan_carpenter(s.diameter));
       re.push_back(exposures[j].reynolds(s.diameter, given.viscosity));
       try {
@@ -162,21 +274,39 @@ std::string take_coefficients(const Scene& scene, const scene::Line& l, const Ru
   }
 }
 
-dynamics::FastenedLine fastened_line(const Scene& scene, const scene::Line& l) {
-  dl::Description still = description(scene, l, without_waves(scene));
-  const int last = static_cast<int>(l.links.size());
-  dynamics::FastenedLine out{.name = l.name,
-                             .run = still,
-                             .still = still,
-                             .places = dl::Places::Zero(3, last + 1),
+/// The same for all lines of a network.
+void take_coefficients(const Scene& scene, const std::vector<std::size_t>& network, const RunWater& water,
+                       const dl::Places& places, System& system) {
+  for (std::size_t k = 0; k < network.size(); ++k) {
+    LineModel::Part& part = system.parts[k];
+    part.coefficients = take_coefficients(
+        scene, scene.chains[network[k]], water, places.middleCols(part.first_node, part.nodes),
+        std::span(system.d.segments)
+            .subspan(static_cast<std::size_t>(part.first_segment), static_cast<std::size_t>(part.segments)));
+  }
+}
+
+bool on_bodies(const Scene& scene, const std::vector<std::size_t>& network) {
+  return std::any_of(network.begin(), network.end(), [&](std::size_t i) { return scene.chains[i].fastened(); });
+}
+
+dynamics::FastenedLine fastened_line(const Scene& scene, const std::vector<std::size_t>& network) {
+  const System still = description(scene, network, without_waves(scene));
+  dynamics::FastenedLine out{.name = still.parts.front().name,
+                             .run = still.d,
+                             .still = still.d,
+                             .places = held_places(scene, network, still),
                              .ends = {},
                              .rho_infinity = scene.solve.rho_infinity};
-  const auto add = [&](int node, std::optional<int> body, const Eigen::Vector3d& at) {
-    out.places.col(node) = at;
-    if (body) out.ends.push_back({node, *body, at - scene.bodies[static_cast<std::size_t>(*body)].centre_of_gravity});
-  };
-  add(0, l.from_on, l.from);
-  if (l.to) add(last, l.to_on, *l.to);
+  for (std::size_t k = 0; k < network.size(); ++k) {
+    const scene::Line& l = scene.chains[network[k]];
+    const LineModel::Part& part = still.parts[k];
+    const auto add = [&](int node, std::optional<int> body, const Eigen::Vector3d& at) {
+      if (body) out.ends.push_back({node, *body, at - scene.bodies[static_cast<std::size_t>(*body)].centre_of_gravity});
+    };
+    add(part.first_node, l.from_on, l.from);
+    if (l.to) add(part.first_node + part.nodes - 1, l.to_on, *l.to);
+  }
   return out;
 }
 
@@ -214,28 +344,74 @@ void ask_for_neighbours(const Scene& scene, LineModel& m) {
   m.settings.tolerance = dl::Companion::tolerance;
 }
 
-LineModel fastened_model(const dynamics::FastenedLine& l, std::size_t at, const dynamics::State& start) {
+std::string joined(const std::vector<LineModel::Part>& parts, const char* quote) {
+  std::string out;
+  for (const auto& part : parts) out += fmt::format("{}{}{}{}", out.empty() ? "" : ", ", quote, part.name, quote);
+  return fmt::format("{} {}", parts.size() > 1 ? "lines" : "line", out);
+}
+
+/// Those of a network: one system, in which no line fails by itself.
+[[noreturn]] void blame(const Scene& scene, const std::vector<std::size_t>& network, const std::exception& e) {
+  const scene::Line& first = scene.chains[network.front()];
+  std::string names;
+  for (const std::size_t i : network) names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", scene.chains[i].name);
+  const std::string who = fmt::format("{} {}", network.size() > 1 ? "lines" : "line", names);
+  if (const auto* input = dynamic_cast<const InputError*>(&e)) {
+    if (network.size() == 1) throw input->at(first.place);
+    throw InputError(fmt::format("{}: {}", who, input->rule()), first.place, input->remedy());
+  }
+  throw hydro::NumericsError(fmt::format("{}: {}", who, e.what()));
+}
+
+LineModel fastened_model(const Scene& scene, const std::vector<std::size_t>& network, const dynamics::FastenedLine& l,
+                         const RunWater& water, const dl::Places& placed, std::size_t at,
+                         const dynamics::State& start) {
+  System system = description(scene, network, water.field);
+  take_coefficients(scene, network, water, placed, system);
   return {.name = l.name,
+          .parts = std::move(system.parts),
+          .knots = std::move(system.knots),
           .line = std::make_unique<const dl::Line>(l.run),
           .start = dynamics::line_at_rest(l, start),
           .settings = {.scheme = dl::Scheme::generalised_alpha, .rho_infinity = l.rho_infinity},
-          .snaps = {},
           .fastened = at};
+}
+
+LineModel free_model(const Scene& scene, const std::vector<std::size_t>& network, const RunWater& water) {
+  dl::State rest = at_rest(scene, network);
+  System system = description(scene, network, water.field);
+  take_coefficients(scene, network, water, rest.position, system);
+  LineModel m{.name = system.parts.front().name,
+              .parts = std::move(system.parts),
+              .knots = std::move(system.knots),
+              .line = std::make_unique<const dl::Line>(std::move(system.d)),
+              .start = std::move(rest),
+              .settings = {.scheme = dl::parse_scheme(scene.solve.line_scheme),
+                           .rho_infinity = scene.solve.rho_infinity,
+                           .gamma = scene.solve.gamma}};
+  for (const std::size_t i : network)
+    if (scene.chains[i].lyapunov) m.lyapunov = scene.chains[i].lyapunov;
+  if (m.lyapunov) ask_for_neighbours(scene, m);
+  return m;
 }
 
 }  // namespace
 
+std::string names_of(const LineModel& model) { return joined(model.parts, ""); }
+
 std::vector<dynamics::FastenedLine> fastened_lines(const Scene& scene, const std::vector<dynamics::RigidBody>& bodies) {
   std::vector<dynamics::FastenedLine> out;
-  for (const scene::Line& l : scene.chains) {
-    if (!l.fastened()) continue;
+  for (const auto& network : scene.networks) {
+    if (!on_bodies(scene, network)) continue;
     try {
-      out.push_back(fastened_line(scene, l));
+      out.push_back(fastened_line(scene, network));
       dynamics::line_at_rest(out.back(), dynamics::rest_state(bodies));
     } catch (const InputError& e) {
-      throw e.at(l.place);
+      blame(scene, network, e);
     } catch (const hydro::NumericsError& e) {
-      throw InputError(fmt::format("line \"{}\": {}", l.name, e.what()), l.place, "check `from`, `to` and `length`");
+      const scene::Line& first = scene.chains[network.front()];
+      throw InputError(fmt::format("line \"{}\": {}", first.name, e.what()), first.place,
+                       "check `from`, `to` and `length`");
     }
   }
   return out;
@@ -246,12 +422,13 @@ std::unique_ptr<const dynamics::ForceKind> fastened_kind(const Scene& scene, con
   std::vector<dynamics::FastenedLine> lines = prepared.fastened;
   if (lines.empty()) return nullptr;
   auto line = lines.begin();
-  for (const scene::Line& l : scene.chains) {
-    if (!l.fastened()) continue;
-    require_one_step(scene, l);
-    line->run = description(scene, l, water.field);
-    take_coefficients(scene, l, water, dynamics::line_at_rest(*line, dynamics::rest_state(prepared.bodies)).position,
-                      line->run);
+  for (const auto& network : scene.networks) {
+    if (!on_bodies(scene, network)) continue;
+    require_one_step(scene, scene.chains[network.front()]);
+    System system = description(scene, network, water.field);
+    take_coefficients(scene, network, water,
+                      dynamics::line_at_rest(*line, dynamics::rest_state(prepared.bodies)).position, system);
+    line->run = std::move(system.d);
     ++line;
   }
   return std::make_unique<dynamics::FastenedLineKind>(std::move(lines));
@@ -261,38 +438,21 @@ std::vector<LineModel> line_models(const Scene& scene, const Prepared& prepared,
                                    const dynamics::State& start) {
   std::vector<LineModel> out;
   std::size_t fastened = 0;
-  for (const scene::Line& l : scene.chains) {
+  for (const auto& network : scene.networks) {
     try {
-      if (l.fastened()) {
+      if (on_bodies(scene, network)) {
         const dynamics::FastenedLine& held = prepared.fastened[fastened];
-        out.push_back(fastened_model(held, fastened, start));
+        const auto placed = dynamics::line_at_rest(held, dynamics::rest_state(prepared.bodies)).position;
+        out.push_back(fastened_model(scene, network, held, water, placed, fastened, start));
         ++fastened;
-        out.back().snaps = l.snaps;
-        dl::Description in_waves = held.run;
-        out.back().coefficients = take_coefficients(
-            scene, l, water, dynamics::line_at_rest(held, dynamics::rest_state(prepared.bodies)).position, in_waves);
-        const dl::Stepper refuses(*out.back().line, out.back().settings);
-        continue;
+      } else {
+        out.push_back(free_model(scene, network, water));
       }
-      dl::State rest = at_rest(scene, l);
-      dl::Description d = description(scene, l, water.field);
-      const std::string coefficients = take_coefficients(scene, l, water, rest.position, d);
-      LineModel m{.name = l.name,
-                  .line = std::make_unique<const dl::Line>(std::move(d)),
-                  .start = std::move(rest),
-                  .settings = {.scheme = dl::parse_scheme(scene.solve.line_scheme),
-                               .rho_infinity = scene.solve.rho_infinity,
-                               .gamma = scene.solve.gamma},
-                  .snaps = l.snaps,
-                  .lyapunov = l.lyapunov,
-                  .coefficients = coefficients};
-      const dl::Stepper refuses(*m.line, m.settings);
-      if (m.lyapunov) ask_for_neighbours(scene, m);
-      out.push_back(std::move(m));
+      const dl::Stepper refuses(*out.back().line, out.back().settings);
     } catch (const InputError& e) {
-      throw e.at(l.place);
+      blame(scene, network, e);
     } catch (const hydro::NumericsError& e) {
-      throw hydro::NumericsError(fmt::format("line \"{}\": {}", l.name, e.what()));
+      blame(scene, network, e);
     }
   }
   if (fastened > 0 && fastened == out.size() && scene.solve.line_scheme_place)
@@ -305,26 +465,36 @@ PlanLine plan_line(const LineModel& m) {
   std::string also;
   for (const dl::Bed& b : m.line->description().bed)
     if (b.friction > 0) also = fmt::format(", friction of the bed {:g}", b.friction);
-  if (!m.coefficients.empty()) also += ", " + m.coefficients;
-  if (m.fastened)
-    return {"line " + m.name, "generalized alpha, one system with its bodies" + also,
-            fmt::format("{} segments, {} unknowns", m.line->segments(), 3 * m.line->nodes() + m.line->segments()),
-            true};
+  for (const LineModel::Part& part : m.parts)
+    if (!part.coefficients.empty()) also += ", " + part.coefficients;
+  const std::string size =
+      fmt::format("{} segments, {} unknowns", m.line->segments(), 3 * m.line->nodes() + m.line->segments());
+  if (m.fastened) return {names_of(m), "generalized alpha, one system with its bodies" + also, size, true};
   std::string method(dl::name_of(m.settings.scheme));
   std::replace(method.begin(), method.end(), '_', ' ');
-  return {"line " + m.name, method + " on a chain of its own, one band elimination an iteration" + also,
-          fmt::format("{} segments, {} unknowns", m.line->segments(), 3 * m.line->nodes() + m.line->segments()), true};
+  const std::string how =
+      m.line->is_network()
+          ? fmt::format(" on one system of {} chains, bands with a border of {} places where they meet",
+                        m.line->chains(), m.line->description().ties.size())
+          : " on a chain of its own, one band elimination an iteration";
+  return {names_of(m), method + how + also, size, true};
 }
 
 void LineRun::begin() {
   first_height_ = energies().height;
   for (const dl::LinkAngles& a : model_.before) angles_.push_back({a, 0, 0});
-  if (model_.snaps) snaps_.emplace(model_.line->segments(), model_.snaps->slack_below, model_.snaps->snap_above);
+  for (const LineModel::Part& part : model_.parts) {
+    snaps_.emplace_back();
+    if (part.snaps) snaps_.back().emplace(part.segments, part.snaps->slack_below, part.snaps->snap_above);
+  }
   look();
 }
 
 void LineRun::note(double h) {
-  if (snaps_) snaps_->note(state().time, h, state().tension);
+  for (std::size_t k = 0; k < snaps_.size(); ++k) {
+    const LineModel::Part& part = model_.parts[k];
+    if (snaps_[k]) snaps_[k]->note(state().time, h, state().tension.segment(part.first_segment, part.segments));
+  }
 }
 
 LineRun::LineRun(const LineModel& model, dl::DrivenLine& driven) : model_(model), driven_(&driven) { begin(); }
@@ -343,7 +513,7 @@ dl::StepReport LineRun::step(double h) {
     if (companion_) companion_->follow(state_, report, h);
     return report;
   } catch (const hydro::NumericsError& e) {
-    throw hydro::NumericsError(fmt::format("line \"{}\": {}", model_.name, e.what()));
+    throw hydro::NumericsError(fmt::format("{}: {}", joined(model_.parts, "\""), e.what()));
   }
 }
 
@@ -369,47 +539,58 @@ void LineRun::look() {
   angles_.resize(static_cast<std::size_t>(model_.line->segments()));
   for (int j = 0; j < model_.line->segments(); ++j) {
     Angles& a = angles_[static_cast<std::size_t>(j)];
-    const dl::LinkAngles now = first ? dl::link_angles(state(), j) : dl::link_angles(state(), j, a);
-    const dl::LinkAngles rate = dl::link_rates(state(), j, now);
+    const int node = model_.line->first(j);
+    const dl::LinkAngles now = first ? dl::link_angles(state(), node) : dl::link_angles(state(), node, a);
+    const dl::LinkAngles rate = dl::link_rates(state(), node, now);
     a = {{now.polar, now.azimuth}, rate.polar, rate.azimuth};
   }
 }
 
 namespace {
 
-void add_nodes(std::size_t k, const LineModel& m, std::vector<LineProbe>& out) {
-  for (int i = 0; i < m.line->nodes(); ++i) {
-    const auto* held = m.line->held(i);
+void add_nodes(std::size_t k, const LineModel& m, const LineModel::Part& part, std::vector<LineProbe>& out) {
+  for (int i = 0; i < part.nodes; ++i) {
+    const int node = part.first_node + i;
+    const auto* held = m.line->held(node);
     if (held != nullptr && !held->path) continue;
     for (int axis = 0; axis < 3; ++axis)
-      out.push_back({k, fmt::format("{}.node{}.{}", m.name, i, "xyz"[axis]), "m",
-                     fmt::format("{} of node {} of {}", "xyz"[axis], i, m.name),
-                     [i, axis](const LineRun& r) { return r.state().position(axis, i); }});
+      out.push_back({k, fmt::format("{}.node{}.{}", part.name, i, "xyz"[axis]), "m",
+                     fmt::format("{} of node {} of {}", "xyz"[axis], i, part.name),
+                     [node, axis](const LineRun& r) { return r.state().position(axis, node); }});
   }
 }
 
-void add_curvature(std::size_t k, const LineModel& m, std::vector<LineProbe>& out) {
-  for (int i = 1; i < m.line->segments(); ++i)
-    out.push_back({k, fmt::format("{}.node{}.curvature", m.name, i), "1/m",
-                   fmt::format("curvature at node {} of {}", i, m.name),
-                   [i](const LineRun& r) { return dl::curvature(r.state(), i); }});
-  if (m.line->segments() < 2) return;
-  out.push_back({k, m.name + ".largest_curvature", "1/m", "largest curvature of " + m.name,
-                 [last = m.line->segments()](const LineRun& r) {
+void add_knots(std::size_t k, const LineModel& m, std::vector<LineProbe>& out) {
+  for (const LineModel::Knot& knot : m.knots)
+    for (int axis = 0; axis < 3; ++axis)
+      out.push_back({k, fmt::format("{}.{}", knot.name, "xyz"[axis]), "m",
+                     fmt::format("{} of {}", "xyz"[axis], knot.name),
+                     [node = knot.node, axis](const LineRun& r) { return r.state().position(axis, node); }});
+}
+
+void add_curvature(std::size_t k, const LineModel::Part& part, std::vector<LineProbe>& out) {
+  for (int i = 1; i < part.segments; ++i)
+    out.push_back({k, fmt::format("{}.node{}.curvature", part.name, i), "1/m",
+                   fmt::format("curvature at node {} of {}", i, part.name),
+                   [node = part.first_node + i](const LineRun& r) { return dl::curvature(r.state(), node); }});
+  if (part.segments < 2) return;
+  out.push_back({k, part.name + ".largest_curvature", "1/m", "largest curvature of " + part.name,
+                 [from = part.first_node + 1, to = part.first_node + part.segments](const LineRun& r) {
                    double largest = 0;
-                   for (int i = 1; i < last; ++i) largest = std::max(largest, dl::curvature(r.state(), i));
+                   for (int i = from; i < to; ++i) largest = std::max(largest, dl::curvature(r.state(), i));
                    return largest;
                  }});
 }
 
-void add_links(std::size_t k, const LineModel& m, std::vector<LineProbe>& out) {
-  for (int j = 0; j < m.line->segments(); ++j) {
+void add_links(std::size_t k, const LineModel::Part& part, std::vector<LineProbe>& out) {
+  for (int j = 0; j < part.segments; ++j) {
     const auto add = [&](const char* what, const char* unit, const char* meaning, auto read) {
-      out.push_back({k, fmt::format("{}.link{}.{}", m.name, j + 1, what), unit,
-                     fmt::format("{} of link {} of {}", meaning, j + 1, m.name), read});
+      out.push_back({k, fmt::format("{}.link{}.{}", part.name, j + 1, what), unit,
+                     fmt::format("{} of link {} of {}", meaning, j + 1, part.name), read});
     };
-    const auto at = static_cast<std::size_t>(j);
-    add("tension", "N", "tension", [j](const LineRun& r) { return r.balance().tension[j]; });
+    const int segment = part.first_segment + j;
+    const auto at = static_cast<std::size_t>(segment);
+    add("tension", "N", "tension", [segment](const LineRun& r) { return r.balance().tension[segment]; });
     add("polar", "rad", "angle below the horizontal", [at](const LineRun& r) { return r.angles()[at].polar; });
     add("azimuth", "rad", "direction from x towards y", [at](const LineRun& r) { return r.angles()[at].azimuth; });
     add("polar_rate", "rad/s", "rate of the polar angle", [at](const LineRun& r) { return r.angles()[at].polar_rate; });
@@ -417,28 +598,36 @@ void add_links(std::size_t k, const LineModel& m, std::vector<LineProbe>& out) {
   }
 }
 
-void add_whole(std::size_t k, const LineModel& m, std::vector<LineProbe>& out) {
+void add_ends(std::size_t k, const LineModel& m, const LineModel::Part& part, std::vector<LineProbe>& out) {
   const auto add = [&](const std::string& what, const char* unit, const char* meaning, auto read) {
-    out.push_back({k, m.name + "." + what, unit, fmt::format("{} of {}", meaning, m.name), read});
+    out.push_back({k, part.name + "." + what, unit, fmt::format("{} of {}", meaning, part.name), read});
   };
-  add("largest_tension", "N", "largest tension", [](const LineRun& r) { return r.balance().tension.maxCoeff(); });
-  add("from.force", "N", "pull on what holds the first node",
-      [](const LineRun& r) { return r.balance().holding.leftCols<1>().norm(); });
-  if (m.line->held(m.line->nodes() - 1) != nullptr)
-    add("to.force", "N", "pull on what holds the last node",
-        [](const LineRun& r) { return r.balance().holding.rightCols<1>().norm(); });
+  add("largest_tension", "N", "largest tension", [first = part.first_segment, n = part.segments](const LineRun& r) {
+    return r.balance().tension.segment(first, n).maxCoeff();
+  });
   for (const bool first : {true, false}) {
-    const int i = first ? 0 : m.line->segments();
+    const int i = part.first_node + (first ? 0 : part.nodes - 1);
+    if (m.line->held(i) != nullptr)
+      add(first ? "from.force" : "to.force", "N",
+          first ? "pull on what holds the first node" : "pull on what holds the last node",
+          [i](const LineRun& r) { return r.balance().holding.col(i).norm(); });
+  }
+  for (const bool first : {true, false}) {
+    const int i = part.first_node + (first ? 0 : part.nodes - 1);
     if (m.line->bending(i) > 0)
       add(first ? "from.moment" : "to.moment", "N m",
           first ? "moment that clamps the first node" : "moment that clamps the last node",
           [line = m.line.get(), i](const LineRun& r) { return dl::clamping_moment(*line, r.state(), i); });
   }
+}
+
+void add_whole(std::size_t k, const LineModel& m, std::vector<LineProbe>& out) {
   if (m.lyapunov)
-    add("parting", "1", "logarithm of how far neighbours have parted",
-        [](const LineRun& r) { return r.growth()->logarithm(); });
+    out.push_back({k, m.name + ".parting", "1", "logarithm of how far neighbours have parted of " + m.name,
+                   [](const LineRun& r) { return r.growth()->logarithm(); }});
+  const std::string of = m.parts.size() > 1 ? m.name + " and of the lines that it meets" : m.name;
   const auto energy = [&](const char* what, auto read) {
-    out.push_back({k, fmt::format("energy.{}.{}", m.name, what), "J", fmt::format("energy of {}: {}", m.name, what),
+    out.push_back({k, fmt::format("energy.{}.{}", m.name, what), "J", fmt::format("energy of {}: {}", of, what),
                    [read](const LineRun& r) { return read(r.energies()); }});
   };
   energy("kinetic", [](const dl::Energies& e) { return e.kinetic; });
@@ -453,9 +642,13 @@ void add_whole(std::size_t k, const LineModel& m, std::vector<LineProbe>& out) {
 std::vector<LineProbe> line_probes(const std::vector<LineModel>& models) {
   std::vector<LineProbe> out;
   for (std::size_t k = 0; k < models.size(); ++k) {
-    add_nodes(k, models[k], out);
-    add_curvature(k, models[k], out);
-    add_links(k, models[k], out);
+    for (const LineModel::Part& part : models[k].parts) {
+      add_nodes(k, models[k], part, out);
+      add_curvature(k, part, out);
+      add_links(k, part, out);
+      add_ends(k, models[k], part, out);
+    }
+    add_knots(k, models[k], out);
     add_whole(k, models[k], out);
   }
   return out;

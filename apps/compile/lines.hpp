@@ -18,35 +18,49 @@ struct Prepared;
 struct RunWater;
 struct PlanLine;
 
-/// One line where a run begins.
+/// One line where a run begins, or several that meet: one system.
 struct LineModel {
-  std::string name;
+  /// One `[[line]]` of it.
+  struct Part {
+    std::string name;
+    int first_node, nodes, first_segment, segments;
+    std::optional<scene::Line::Snaps> snaps = {};
+    /// Which coefficients its segments took from a table, for people; empty where they were given.
+    std::string coefficients = {};
+  };
+  struct Knot {
+    std::string name;
+    int node;
+  };
+  std::string name;  ///< of its first line
+  std::vector<Part> parts;
+  std::vector<Knot> knots = {};
   std::unique_ptr<const dynamics::line::Line> line;
   dynamics::line::State start;  ///< at rest without waves, with the node that is to be released still in its place
   dynamics::line::Stepper::Settings settings;
-  std::optional<scene::Line::Snaps> snaps = {};
   std::optional<scene::Line::Lyapunov> lyapunov = {};
   std::optional<std::size_t> fastened = {};  ///< its place among the model's FastenedLine; it moves with its bodies
-  /// Which coefficients its segments took from a table, for people; empty where they were given.
-  std::string coefficients = {};
   /// Of the links, where a run goes on from another one's end: angles follow these without jumps.
   std::vector<dynamics::line::LinkAngles> before = {};
 };
 
-/// In the order of the scene; those on bodies where `start` has them. \throws hydro::InputError at a line that cannot
-/// hang there, hydro::NumericsError if it finds no rest
+/// In the order of the scene's networks; those on bodies where `start` has them. \throws hydro::InputError at a line
+/// that cannot hang there, hydro::NumericsError if it finds no rest
 std::vector<LineModel> line_models(const scene::Scene& scene, const Prepared& prepared, const RunWater& water,
                                    const dynamics::State& start);
 
-/// The lines of a scene that have ends on bodies, as those feel them at rest. \throws hydro::InputError at a line that
-/// cannot hang where the scene places its bodies
+/// The networks of lines of a scene that have ends on bodies, as those feel them at rest. \throws hydro::InputError at
+/// a line that cannot hang where the scene places its bodies
 std::vector<dynamics::FastenedLine> fastened_lines(const scene::Scene& scene,
                                                    const std::vector<dynamics::RigidBody>& bodies);
 /// The same in the water of a run. \throws hydro::InputError if the scene asks for what has no step together with lines
 std::unique_ptr<const dynamics::ForceKind> fastened_kind(const scene::Scene& scene, const Prepared& prepared,
                                                          const RunWater& water);
 
-/// What `froude plan` tells of a line.
+/// "line a", or "lines a, b, c".
+std::string names_of(const LineModel& model);
+
+/// What `froude plan` tells of a line, or of lines that meet.
 PlanLine plan_line(const LineModel& model);
 
 /// A line on its way: its stepper, and what its signals are read off.
@@ -60,8 +74,10 @@ class LineRun {
   dynamics::line::StepReport step(double h);
   /// A step of h seconds is done: what is counted over steps.
   void note(double h);
-  /// Null where the scene does not ask for it.
-  const dynamics::line::TensionStatistics* snaps() const { return snaps_ ? &*snaps_ : nullptr; }
+  /// Of one of its lines; null where the scene does not ask for it.
+  const dynamics::line::TensionStatistics* snaps(std::size_t part) const {
+    return snaps_[part] ? &*snaps_[part] : nullptr;
+  }
   /// Empty where the scene does not ask for it, or the run has not lasted long enough.
   std::optional<dynamics::Exponent> exponent() const;
   /// Brings tensions, forces and angles up to the state; before signals are read. Angles follow one another without
@@ -90,7 +106,7 @@ class LineRun {
   dynamics::line::State state_;
   std::unique_ptr<dynamics::line::Stepper> stepper_;
   dynamics::line::Stepper::Balance balance_;
-  std::optional<dynamics::line::TensionStatistics> snaps_;
+  std::vector<std::optional<dynamics::line::TensionStatistics>> snaps_;  // one a part
   std::unique_ptr<dynamics::line::Companion> companion_;
   std::vector<Angles> angles_;
   double first_height_ = 0, turnover_ = 0;

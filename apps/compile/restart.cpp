@@ -40,7 +40,7 @@ Eigen::MatrixXd body_directions(const dynamics::Model& model, const dynamics::St
 std::vector<int> free_nodes(const dl::Line& line) {
   std::vector<int> out;
   for (int i = 0; i < line.nodes(); ++i)
-    if (line.held(i) == nullptr) out.push_back(i);
+    if (line.moves(i)) out.push_back(i);
   return out;
 }
 
@@ -58,12 +58,12 @@ Eigen::MatrixXd length_gradients(const dl::Line& line, const dl::State& s) {
     if (line.segment(j).keeps_length()) kept.push_back(j);
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(std::ssize(kept), 3 * std::ssize(nodes));
   for (std::size_t r = 0; r < kept.size(); ++r) {
-    const int j = kept[r];
-    const Eigen::RowVector3d along = (s.position.col(j + 1) - s.position.col(j)).normalized().transpose();
+    const int i = line.first(kept[r]);
+    const Eigen::RowVector3d along = (s.position.col(i + 1) - s.position.col(i)).normalized().transpose();
     for (std::size_t n = 0; n < nodes.size(); ++n) {
       const auto row = static_cast<Eigen::Index>(r);
-      if (nodes[n] == j + 1) out.block<1, 3>(row, 3 * static_cast<Eigen::Index>(n)) = along;
-      if (nodes[n] == j) out.block<1, 3>(row, 3 * static_cast<Eigen::Index>(n)) = -along;
+      if (nodes[n] == line.same_as(i + 1)) out.block<1, 3>(row, 3 * static_cast<Eigen::Index>(n)) += along;
+      if (nodes[n] == line.same_as(i)) out.block<1, 3>(row, 3 * static_cast<Eigen::Index>(n)) -= along;
     }
   }
   return out;
@@ -74,8 +74,9 @@ Eigen::VectorXd length_errors(const dl::Line& line, const dl::State& s, bool rat
   std::vector<double> out;
   for (int j = 0; j < line.segments(); ++j) {
     if (!line.segment(j).keeps_length()) continue;
-    const Eigen::Vector3d way = s.position.col(j + 1) - s.position.col(j);
-    out.push_back(rates ? way.normalized().dot(s.velocity.col(j + 1) - s.velocity.col(j))
+    const int i = line.first(j);
+    const Eigen::Vector3d way = s.position.col(i + 1) - s.position.col(i);
+    out.push_back(rates ? way.normalized().dot(s.velocity.col(i + 1) - s.velocity.col(i))
                         : way.norm() - line.segment(j).length);
   }
   return Eigen::Map<const Eigen::VectorXd>(out.data(), std::ssize(out));
@@ -85,6 +86,7 @@ void add_to_free(const dl::Line& line, const Eigen::VectorXd& change, dl::Places
   const auto nodes = free_nodes(line);
   for (std::size_t n = 0; n < nodes.size(); ++n)
     places.col(nodes[n]) += change.segment<3>(3 * static_cast<Eigen::Index>(n));
+  for (int i = 0; i < line.nodes(); ++i) places.col(i) = places.col(line.same_as(i)).eval();
 }
 
 /// The smallest change of the free nodes' places that brings links to their lengths, by Newton; then of their

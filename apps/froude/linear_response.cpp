@@ -120,10 +120,12 @@ std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene,
   if (one_joint([](const scene::Joint& j) { return j.lead.has_value(); }))
     out.emplace_back("what leads joints is left out: they are held where they are placed");
   if (!scene.contacts.empty()) out.emplace_back("contacts are left out: bodies are taken not to touch");
-  const auto on_body = [](const scene::Line& line) { return line.fastened(); };
-  const auto count = std::count_if(scene.chains.begin(), scene.chains.end(), on_body);
+  const auto on_body = [&](const std::vector<std::size_t>& network) {
+    return std::any_of(network.begin(), network.end(), [&](std::size_t i) { return scene.chains[i].fastened(); });
+  };
+  const auto count = std::count_if(scene.networks.begin(), scene.networks.end(), on_body);
   if (count > 0) out.emplace_back("lines on bodies pull as they do at rest, with their static stiffness");
-  if (count < std::ssize(scene.chains)) out.emplace_back("lines of nodes that are on no body are left out");
+  if (count < std::ssize(scene.networks)) out.emplace_back("lines of nodes that are on no body are left out");
   return out;
 }
 

@@ -100,9 +100,10 @@ class March {
       record_.energy.emplace_back(e.effect + ".dissipated", e.dissipated);
     }
     for (std::size_t k = 0; k < lines_.size(); ++k)
-      if (const auto* s = lines_[k]->snaps())
-        record_.snaps.push_back({m_.lines[k].name, s->slack_share(), s->snaps(), s->largest().tension,
-                                 s->largest().time, s->largest().segment + 1});
+      for (std::size_t part = 0; part < m_.lines[k].parts.size(); ++part)
+        if (const auto* s = lines_[k]->snaps(part))
+          record_.snaps.push_back({m_.lines[k].parts[part].name, s->slack_share(), s->snaps(), s->largest().tension,
+                                   s->largest().time, s->largest().segment + 1});
     for (std::size_t k = 0; k < lines_.size(); ++k)
       if (const auto exponent = lines_[k]->exponent()) record_.exponents.push_back({m_.lines[k].name, *exponent});
     double residual = ledger.residual(), turnover = ledger.turnover();

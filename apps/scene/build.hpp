@@ -27,11 +27,21 @@ class Names {
   std::map<std::string, int> unnamed_;
 };
 
+/// An end of a line that is on what is no body.
+struct UnresolvedEnd {
+  std::size_t line;
+  bool first;  ///< of its ends
+  Located<std::string> name;
+};
+
 std::vector<Body> build_bodies(const Record& root, const std::filesystem::path& file, Names& names);
 
 // Each refers to scene.bodies, which must be there already.
 void build_members(const Record& root, Names& names, Scene& scene);
 void build_lines(const Record& root, const std::filesystem::path& file, Names& names, Scene& scene);
+/// The junctions of a scene, and what the ends of its lines meet that `unresolved` names; then which lines form
+/// networks.
+void build_networks(const Record& root, Names& names, const std::vector<UnresolvedEnd>& unresolved, Scene& scene);
 void build_moorings(const Record& root, Names& names, Scene& scene);
 void build_contacts(const Record& root, Names& names, Scene& scene);
 void build_connectors(const Record& root, Names& names, Scene& scene);

@@ -104,6 +104,9 @@ Line::Damping read_damping(const Record& record) {
 Line::Release read_release(const Record& record, const Line& line) {
   const auto last = static_cast<std::int64_t>(line.links.size());
   const std::int64_t node = record["node"].integer;
+  if (line.from_meets || line.to_meets)
+    throw record.refused("holds a node of a line that meets others, which begin with it",
+                         "leave it out, or hold the line by the ground");
   if (node > last || (node == last && line.to))
     throw record.wrong("node", fmt::format("is not a free node: the line has {} segments", last),
                        "count nodes from 0 at `from`");
@@ -113,6 +116,8 @@ Line::Release read_release(const Record& record, const Line& line) {
 /// The path begins where the end is, at t = 0 or before.
 Line::Lead read_lead(const Record& record, const Line& line, const std::filesystem::path& file) {
   Line::Lead out{.first = record.text("end") == "from", .time = {}, .place = {}};
+  if (out.first && line.from_meets)
+    throw record.wrong("end", "is not held: it meets what [line.on] names", "lead the line that holds that");
   if (!out.first && !line.to)
     throw record.wrong("end", "is free: the line has no `to`", "add `to`, or lead the end \"from\"");
   const auto table = hydro::io::CsvTable::read(beside(file, record.text("file")));
@@ -123,15 +128,32 @@ Line::Lead read_lead(const Record& record, const Line& line, const std::filesyst
   return out;
 }
 
+bool is_body(const Scene& scene, const std::string& name) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) { return b.name == name; });
+}
+
 /// Ends on bodies. A line between two places that keeps its length has no step where it is drawn taut by one of them.
-void read_on(const Record& record, const Record& whole, const Scene& scene, Line& line) {
-  const auto body = [&](const char* key) {
-    return body_named(record, {record.text(key), record[key].place}, scene.bodies);
-  };
-  if (record.has("from")) line.from_on = body("from");
-  if (record.has("to")) line.to_on = body("to");
-  if (line.to_on && !line.to)
-    throw record.wrong("to", "holds no end: the line has no `to`", "add `to`, in axes of that body");
+/// Ends on anything else are left to build_networks().
+void read_on(const Record& record, const Record& whole, const Scene& scene, Line& line,
+             std::vector<UnresolvedEnd>& unresolved) {
+  for (const bool first : {true, false}) {
+    const char* key = first ? "from" : "to";
+    if (!record.has(key)) continue;
+    const Located<std::string> name{record.text(key), record[key].place};
+    if (is_body(scene, name.value)) {
+      (first ? line.from_on : line.to_on) = body_named(record, name, scene.bodies);
+      if (!whole.has(key))
+        throw record.wrong(key, fmt::format("holds no end: the line has no `{}`", key),
+                           fmt::format("add `{}`, in axes of that body", key));
+      continue;
+    }
+    if (whole.has(key))
+      throw whole.wrong(key, fmt::format("is a place, but the end is on \"{}\", which is no body", name.value),
+                        "leave it out: the place of a junction or a node is found");
+    (first ? line.from_meets : line.to_meets).emplace();
+    unresolved.push_back({scene.chains.size(), first, name});
+  }
+  if (!line.fastened()) return;
   if (line.to && !line.axial_stiffness)
     throw record.refused("holds a line that keeps its length between two places, which has no step once it is taut",
                          "give the line an axial_stiffness");
@@ -146,6 +168,9 @@ void read_clamp(const Record& record, Line& line) {
   if (record.has("from")) line.clamp_from = record.vector("from").normalized();
   if (record.has("to")) line.clamp_to = record.vector("to").normalized();
   if (line.clamp_to && !line.to) throw record.wrong("to", "clamps a free end: the line has no `to`", "add `to`");
+  for (const char* key : {"from", "to"})
+    if (record.has(key) && std::string_view(key) == "from" && line.from_meets)
+      throw record.wrong(key, "clamps an end that meets others, and turns with nothing", "let the end turn freely");
   for (const char* key : {"from", "to"})
     if (record.has(key) && (std::string_view(key) == "from" ? line.from_on : line.to_on))
       throw record.wrong(key, "clamps an end that is on a body, which would have to bear its moment",
@@ -176,16 +201,21 @@ void check_surroundings(const Record& record, const Line& line, const Scene& sce
 }  // namespace
 
 void build_lines(const Record& root, const std::filesystem::path& file, Names& names, Scene& scene) {
+  std::vector<UnresolvedEnd> unresolved;
   for (const Record& record : root.tables("line")) {
     Line line;
     line.name = names.of(record, 1).front();
-    line.from = record.vector("from");
+    if (record.has("from")) line.from = record.vector("from");
     if (record.has("to")) line.to = record.vector("to");
+    if (record.has("axial_stiffness")) line.axial_stiffness = record.si("axial_stiffness");
+    if (record.has("on")) read_on(record.table("on"), record, scene, line, unresolved);
+    if (!record.has("from") && !line.from_meets)
+      throw record.refused("needs the key \"from\"",
+                           "give a place, or let [line.on] name the junction or node that its first end meets");
     line.links = read_links(record);
     const auto number = [&](std::string_view key) { return record.has(key) ? record.si(key) : 0.0; };
     line.node_mass = number("node_mass");
     line.diameter = number("diameter");
-    if (record.has("axial_stiffness")) line.axial_stiffness = record.si("axial_stiffness");
     if (record.has("bending_stiffness")) line.bending_stiffness = record.si("bending_stiffness");
     line.axial_damping = number("axial_damping");
     line.pulls_only = record.has("pulls_only");
@@ -201,7 +231,6 @@ void build_lines(const Record& root, const std::filesystem::path& file, Names& n
     if (record.has("growth")) line.growth = read_growth(record.table("growth"), record, line);
     if (record.has("release")) line.release = read_release(record.table("release"), line);
     if (record.has("lead")) line.lead = read_lead(record.table("lead"), line, file);
-    if (record.has("on")) read_on(record.table("on"), record, scene, line);
     if (record.has("snaps")) {
       const Record& s = record.table("snaps");
       line.snaps = {s.si("slack_below"), s.si("snap_above")};
@@ -214,6 +243,7 @@ void build_lines(const Record& root, const std::filesystem::path& file, Names& n
     check_surroundings(record, line, scene);
     scene.chains.push_back(std::move(line));
   }
+  build_networks(root, names, unresolved, scene);
 }
 
 }  // namespace froude::scene

@@ -237,8 +237,26 @@ struct CatenaryLine {
   Place place;
 };
 
+/// `[[junction]]`: a place that nothing holds, at which ends of lines meet; perhaps a float or sinker.
+struct Junction {
+  struct Water {
+    double cd, ca;
+  };
+  std::string name;
+  double mass = 0, diameter = 0;  ///< of a sphere, kg and m
+  std::optional<Water> morison;
+  bool buoyancy = false, partial_immersion = false;
+  Place place;
+};
+
 /// `[[line]]`: a chain of nodes and segments that is stepped by itself. What is named acts on it.
 struct Line {
+  /// What an end meets that no place or body holds: a junction, or a node of a line.
+  struct Meets {
+    std::optional<std::size_t> junction;  ///< index into Scene::junctions
+    std::size_t line = 0;                 ///< else into Scene::chains,
+    int node = 0;                         ///< and there
+  };
   struct Link {
     double length, mass, centre, inertia;  ///< m, kg, share of the length from its first node, kg m² about that
     std::optional<double> diameter = {}, axial_stiffness = {};  ///< m, N; empty: those of the line
@@ -286,9 +304,10 @@ struct Line {
     std::vector<Eigen::Vector3d> place;  ///< m
   };
   std::string name;
-  Eigen::Vector3d from;               ///< m; in axes of the body that holds it, if one does
-  std::optional<Eigen::Vector3d> to;  ///< m, likewise; empty: a free end
-  std::optional<int> from_on, to_on;  ///< indices into Scene::bodies
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< m; in axes of the body that holds it, if one does
+  std::optional<Eigen::Vector3d> to;               ///< m, likewise; empty: a free end, or one that meets something
+  std::optional<Meets> from_meets, to_meets;       ///< instead of `from` and `to`
+  std::optional<int> from_on, to_on;               ///< indices into Scene::bodies
   bool fastened() const { return from_on || to_on; }
   std::vector<Link> links;
   double node_mass = 0;                                 ///< kg, at every node but held ends
@@ -486,7 +505,9 @@ struct Scene {
   std::vector<Mooring> moorings;
   std::vector<CatenaryLine> lines;
   std::vector<Contact> contacts;
-  std::vector<Line> chains;  ///< [[line]]
+  std::vector<Junction> junctions;
+  std::vector<Line> chains;                        ///< [[line]]
+  std::vector<std::vector<std::size_t>> networks;  ///< of `chains`: those that meet; most are of one
   std::vector<Connector> connectors;
   std::vector<Load> loads;
   std::vector<Joint> joints;

@@ -156,14 +156,43 @@ const Table& clamp() {
 const Table& on() {
   static const Table table{
       .title = "[line.on]",
-      .meaning = "bodies that hold ends of the line: `from` or `to` is then in axes of that body, and both pull",
-      .keys = {text("from", "the body that holds the first node, by name").optional(),
-               text("to", "the body that holds the last node, by name").optional()},
+      .meaning =
+          "what ends of the line are on: a body, and `from` or `to` is then in its axes; or a junction or a node "
+          "of a line, \"main.node4\", whose place is found, so that `from` or `to` is left out",
+      .keys = {text("from", "of the first node, by name").optional(),
+               text("to", "of the last node, by name").optional()},
       .groups = {{at_least_one, {"from", "to"}}}};
   return table;
 }
 
+const Table& sphere_morison() {
+  static const Table table{.title = "[junction.morison]",
+                           .meaning = "drag, Froude-Krylov load and added mass of the sphere",
+                           .keys = {number("cd", "drag coefficient, of its section").within(Limit::not_negative),
+                                    number("ca", "added mass over displaced mass")
+                                        .within(Limit::not_negative)
+                                        .or_default("0.5", "of a sphere in unbounded water")}};
+  return table;
+}
+
 }  // namespace
+
+const Table& junction_table() {
+  static const Table table{
+      .title = "[[junction]]",
+      .meaning =
+          "a place that nothing holds, at which lines meet that name it in [line.on]; where it is follows from "
+          "them. With mass or diameter a float or sinker, on one line too",
+      .keys = {name_key("junction", "of the junction"),
+               quantity("mass", dim::mass, "of what is there besides the lines").positive().optional(),
+               quantity("diameter", dim::length, "of a sphere that the water meets").positive().optional(),
+               inner_table("morison", sphere_morison()).optional().only_beside("diameter"),
+               effect("buoyancy", "weight of the water that the sphere displaces").optional().only_beside("diameter"),
+               effect("partial_immersion", "only what is under the waves is wet; left out: all of it, always")
+                   .optional()
+                   .only_beside("diameter")}};
+  return table;
+}
 
 const Table& line_table() {
   static const Table table{
@@ -171,8 +200,12 @@ const Table& line_table() {
       .meaning = "a chain of nodes and straight segments between two places: dropper, cable, pendulums; it has weight",
       .keys =
           {name_key("line", "of the line"),
-           vector("from", dim::length, "where its first node is held, global; of a body that holds it, in body axes"),
-           vector("to", dim::length, "where its last node is held, as `from`; left out: a free end").optional(),
+           vector("from", dim::length,
+                  "where its first node is held, global; of a body that holds it, in body axes; left out: it meets "
+                  "what `on` names")
+               .optional(),
+           vector("to", dim::length, "where its last node is held, as `from`; left out: a free end, or as `from`")
+               .optional(),
            inner_table("on", on()).optional(),
            quantity("length", dim::length, "of the line without tension").positive().optional(),
            integer("segments", "into which it is cut").within(Limit::at_least_one).optional().only_beside("length"),

@@ -254,7 +254,8 @@ const Table& motion_schema() {
                inner_table("water", water()), inner_table("waves", waves_table()).optional(),
                inner_table("current", current_table()).optional(), inner_tables("body", body()).optional(),
                inner_tables("probe", probe_table()).optional(), inner_tables("member", member_table()).optional(),
-               inner_tables("line", line_table()).optional(), inner_tables("mooring", mooring_table()).optional(),
+               inner_tables("line", line_table()).optional(), inner_tables("junction", junction_table()).optional(),
+               inner_tables("mooring", mooring_table()).optional(),
                inner_tables("connector", connector_table()).optional(), inner_tables("joint", joint_table()).optional(),
                inner_tables("load", load_table()).optional(), inner_tables("contact", contact_table()).optional(),
                inner_table("ask", ask_table()), inner_table("solve", solve_table()).or_default("", "see its keys")}};

@@ -108,7 +108,9 @@ void FastenedLineMemory::accept(const State& state) {
 
 void FastenedLineKind::couple(BlockPattern& pattern) const {
   for (const FastenedLine& l : elements_)
-    if (l.ends.size() == 2 && l.ends[0].body != l.ends[1].body) pattern.couple(l.ends[0].body, l.ends[1].body);
+    for (std::size_t k = 0; k < l.ends.size(); ++k)
+      for (std::size_t m = 0; m < k; ++m)
+        if (l.ends[m].body != l.ends[k].body) pattern.couple(l.ends[m].body, l.ends[k].body);
 }
 
 std::unique_ptr<Memory> FastenedLineKind::make_memory(const State& state) const {

@@ -81,6 +81,7 @@ Companion::Companion(const Line& line, Stepper::Settings settings, const State& 
   Work& w = *work_;
   Places along = kick ? *kick : irregular(line);
   for (const Held& h : line.description().held) along.col(h.node).setZero();
+  for (int i = 0; i < line.nodes(); ++i) along.col(i) = along.col(line.same_as(i)).eval();
   if (!w.equations.project_velocity(state, along)) throw hydro::NumericsError("the line's lengths are singular");
   w.state = state;
   w.state.velocity += along;

@@ -30,10 +30,11 @@ Equations::Equations(const Line& line)
       matrix_(4 * line.nodes(), line.bends() ? Reach::next_neighbours : Reach::neighbours),
       rhs_(4 * line.nodes()),
       law_(line.segments()) {
-  blocks_.set_zero(line.nodes());
+  blocks_.set_zero(line.nodes(), line.segments());
   x_ = v_ = a_ = force_ = residual_ = Places::Zero(3, line.nodes());
   push_.resize(static_cast<std::size_t>(line.nodes()));
   sag_.resize(static_cast<std::size_t>(line.segments()));
+  if (line.is_network()) network_ = std::make_unique<NetworkSolver>(line);
 }
 
 void Equations::move(const Stage& stage, const State& before, const Places& u) {
@@ -52,8 +53,9 @@ void Equations::move(const Stage& stage, const State& before, const Places& u) {
 // (D72), (D79)
 Equations::Pull Equations::pull(int j, const Stage& stage, const State& before, double T) const {
   const Segment& s = line_.segment(j);
-  const Vector3d d0 = before.position.col(j + 1) - before.position.col(j);
-  Vector3d d1 = x_.col(j + 1) - x_.col(j);
+  const int i = line_.first(j);
+  const Vector3d d0 = before.position.col(i + 1) - before.position.col(i);
+  Vector3d d1 = x_.col(i + 1) - x_.col(i);
   if (stage.mean) d1 = 2 * d1 - d0;  // x_ is in the middle of the step
   const double r1 = d1.norm(), r0 = stage.mean ? d0.norm() : r1;
   const Vector3d t1 = r1 > 0 ? Vector3d(d1 / r1) : Vector3d::Zero();
@@ -63,12 +65,12 @@ Equations::Pull Equations::pull(int j, const Stage& stage, const State& before, 
   p.direction = stage.mean && middle > 0 ? Vector3d((d0 + d1) / (2 * middle)) : t1;
   p.direction_by.setZero();
   if (middle > 0) p.direction_by = own * (Matrix3d::Identity() - p.direction * t1.transpose()) / middle;
-  const Vector3d w = v_.col(j + 1) - v_.col(j);
+  const Vector3d w = v_.col(i + 1) - v_.col(i);
   const bool at_once = stage.x_by == 0;
   if (s.keeps_length()) {
     p.law = r1 - s.length;
     if (at_once)  // (D77): t·ẅ + |w across t|²/ℓ = 0
-      p.law = t1.dot(a_.col(j + 1) - a_.col(j)) + (w - t1 * t1.dot(w)).squaredNorm() / r1;
+      p.law = t1.dot(a_.col(i + 1) - a_.col(i)) + (w - t1 * t1.dot(w)).squaredNorm() / r1;
     p.law_by = t1;
     p.law_by_T = 0;
     return p;
@@ -97,9 +99,10 @@ void Equations::add_block(int row, int column, const Matrix3d& block) {
 
 // The columns of T_j, in units of the matrix's own scale.
 void Equations::set_pull(int j, const Vector3d& direction) {
+  const int row = place_index(line_.first(j)), column = tension_index(j);
   for (int r = 0; r < 3; ++r) {
-    matrix_(place_index(j) + r, tension_index(j)) = -scale_ * direction[r];
-    matrix_(place_index(j + 1) + r, tension_index(j)) = scale_ * direction[r];
+    matrix_(row + r, column) = -scale_ * direction[r];
+    matrix_(row + 4 + r, column) = scale_ * direction[r];
   }
 }
 
@@ -110,9 +113,10 @@ void Equations::fill(double mass_by, double relax) {
     add_block(i, i,
               (mass_by * line_.mass(i) + relax) * Matrix3d::Identity() - blocks_.diagonal[static_cast<std::size_t>(i)]);
   for (int j = 0; j < line_.segments(); ++j) {
+    const int i = line_.first(j);
     const Matrix3d joined = mass_by * line_.mass_between(j) * Matrix3d::Identity();
-    add_block(j, j + 1, joined - blocks_.upper[static_cast<std::size_t>(j)]);
-    add_block(j + 1, j, joined - blocks_.lower[static_cast<std::size_t>(j)]);
+    add_block(i, i + 1, joined - blocks_.upper[static_cast<std::size_t>(j)]);
+    add_block(i + 1, i, joined - blocks_.lower[static_cast<std::size_t>(j)]);
   }
 }
 
@@ -120,8 +124,9 @@ void Equations::fill(double mass_by, double relax) {
 void Equations::add_mass(const Places& a) {
   for (int i = 0; i < line_.nodes(); ++i) residual_.col(i) += line_.mass(i) * a.col(i);
   for (int j = 0; j < line_.segments(); ++j) {
-    residual_.col(j) += line_.mass_between(j) * a.col(j + 1);
-    residual_.col(j + 1) += line_.mass_between(j) * a.col(j);
+    const int i = line_.first(j);
+    residual_.col(i) += line_.mass_between(j) * a.col(i + 1);
+    residual_.col(i + 1) += line_.mass_between(j) * a.col(i);
   }
 }
 
@@ -150,21 +155,22 @@ void Equations::add_bed(const Stage& stage, const State& before, bool matrix) {
 void Equations::add_pulls(const Stage& stage, const State& before, const VectorXd& T, bool matrix) {
   for (int j = 0; j < line_.segments(); ++j) {
     const Pull p = pull(j, stage, before, T[j]);
-    residual_.col(j) -= T[j] * p.direction;
-    residual_.col(j + 1) += T[j] * p.direction;
+    const int first = line_.first(j), second = first + 1;
+    residual_.col(first) -= T[j] * p.direction;
+    residual_.col(second) += T[j] * p.direction;
     law_[j] = p.law;
     sag_[static_cast<std::size_t>(j)] = p.sag;
-    for (int i = 0; i < 2; ++i) residual_(2, j + i) -= p.sag.relief[i];
+    for (int i = 0; i < 2; ++i) residual_(2, first + i) -= p.sag.relief[i];
     if (!matrix) continue;
     const Matrix3d stiffness = stage.x_by == 0 ? Matrix3d::Zero() : Matrix3d(T[j] * p.direction_by);
-    add_block(j, j, stiffness);
-    add_block(j + 1, j + 1, stiffness);
-    add_block(j, j + 1, -stiffness);
-    add_block(j + 1, j, -stiffness);
+    add_block(first, first, stiffness);
+    add_block(second, second, stiffness);
+    add_block(first, second, -stiffness);
+    add_block(second, first, -stiffness);
     set_pull(j, p.direction);
     for (int c = 0; c < 3; ++c) {
-      matrix_(tension_index(j), place_index(j) + c) = -scale_ * p.law_by[c];
-      matrix_(tension_index(j), place_index(j + 1) + c) = scale_ * p.law_by[c];
+      matrix_(tension_index(j), place_index(first) + c) = -scale_ * p.law_by[c];
+      matrix_(tension_index(j), place_index(second) + c) = scale_ * p.law_by[c];
     }
     // Of a length that others keep already (both ends of a straight line held) the tension is undetermined: a share of
     // 1e-13 of its change chooses the least, and changes nothing where it is determined.
@@ -178,7 +184,7 @@ void Equations::add_pulls(const Stage& stage, const State& before, const VectorX
 double Equations::assemble(const Stage& stage, const State& before, const Places& u, const VectorXd& T, bool matrix) {
   move(stage, before, u);
   force_.setZero();
-  if (matrix) blocks_.set_zero(line_.nodes());
+  if (matrix) blocks_.set_zero(line_.nodes(), line_.segments());
   loads_.add({stage.t, x_, v_, a_}, {stage.x_by, stage.v_by, stage.a_by}, force_, matrix ? &blocks_ : nullptr);
   residual_ = -force_ + stage.relax * u;
   if (!stage.still) add_mass(a_);
@@ -187,15 +193,29 @@ double Equations::assemble(const Stage& stage, const State& before, const Places
   add_bending(stage, matrix);
   add_pulls(stage, before, T, matrix);
   if (rubs() && !stage.still) add_friction(stage, before, matrix);
+  add_up_ties();
   double sum = law_.squaredNorm();
   for (int i = 0; i < line_.nodes(); ++i)
     if (line_.held(i) == nullptr) sum += residual_.col(i).squaredNorm() / (scale_ * scale_);
   return std::sqrt(sum);
 }
 
-/// Rows of held nodes, which keep what they have, and of the tension that there is not before the first node.
+/// What is left over at nodes that are one place is that of the first; of the others nothing. (D110)
+void Equations::add_up_ties() {
+  for (const auto& tie : line_.description().ties)
+    for (std::size_t k = 1; k < tie.size(); ++k) {
+      residual_.col(tie.front()) += residual_.col(tie[k]);
+      residual_.col(tie[k]).setZero();
+    }
+}
+
+/// Rows of held nodes, which keep what they have, and of the tension that there is not before the first node of a
+/// chain.
 void Equations::keep_held() {
-  matrix_(0, 0) = 1;
+  for (int c = 0; c < line_.chains(); ++c) {
+    const int none = 4 * line_.first_of_chain(c);
+    matrix_(none, none) = 1;
+  }
   const int last = static_cast<int>(rhs_.size()) - 1;
   for (const Held& h : line_.description().held)
     for (int r = place_index(h.node); r < place_index(h.node) + 3; ++r) {
@@ -206,14 +226,14 @@ void Equations::keep_held() {
 
 /// Held nodes keep what they have; then solves for the corrections.
 bool Equations::solve_linear(Places& du, VectorXd& dT) {
-  rhs_[0] = 0;
+  for (int c = 0; c < line_.chains(); ++c) rhs_[4 * line_.first_of_chain(c)] = 0;
   for (int j = 0; j < line_.segments(); ++j) rhs_[tension_index(j)] = -scale_ * law_[j];
   for (int i = 0; i < line_.nodes(); ++i) {
     rhs_.segment<3>(place_index(i)) = -residual_.col(i);
     if (line_.held(i) != nullptr) rhs_.segment<3>(place_index(i)).setZero();
   }
   keep_held();
-  if (!matrix_.solve(rhs_)) return false;
+  if (!(network_ ? network_->solve(matrix_, rhs_) : matrix_.solve(rhs_))) return false;
   for (int j = 0; j < line_.segments(); ++j) dT[j] = scale_ * rhs_[tension_index(j)];
   for (int i = 0; i < line_.nodes(); ++i) du.col(i) = rhs_.segment<3>(place_index(i));
   return du.allFinite() && dT.allFinite();

@@ -2,11 +2,13 @@
 /// \file  The equations of a line at one instant or over one step, and Newton's method on them. (D70), (D72)-(D80)
 #include <Eigen/Core>
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "band_matrix.hpp"
 #include "loads.hpp"
+#include "network_solver.hpp"
 #include "sag.hpp"
 
 namespace dynamics::line {
@@ -95,13 +97,16 @@ class Equations {
   struct Push {
     double force, by_end, lost;
   };
-  static int tension_index(int segment) { return 4 * (segment + 1); }
+  int tension_index(int segment) const { return 4 * (line_.first(segment) + 1); }
   static int place_index(int node) { return 4 * node + 1; }
   void move(const Stage& stage, const State& before, const Places& u);
   Pull pull(int j, const Stage& stage, const State& before, double T) const;
   BandMatrix::Columns columns_of(const std::vector<int>& led);
   Eigen::MatrixXd rows_times(const std::vector<int>& led, const BandMatrix::Columns& y);
+  /// From the first to the second node of a segment, of places or velocities.
+  Eigen::Vector3d along(const Places& x, int j) const { return x.col(line_.first(j) + 1) - x.col(line_.first(j)); }
   void keep_held();
+  void add_up_ties();
   void add_mass(const Places& a);
   void add_bed(const Stage& stage, const State& before, bool matrix);
   bool rubs() const { return !line_.description().bed.empty() && line_.description().bed.front().friction > 0; }
@@ -131,6 +136,7 @@ class Equations {
   const Line& line_;
   Loads loads_;
   BandMatrix matrix_;
+  std::unique_ptr<NetworkSolver> network_;  // null for a single chain
   Eigen::VectorXd rhs_, law_;
   Blocks blocks_;
   Places x_, v_, a_, force_, residual_;

@@ -18,14 +18,14 @@ struct Bend {
 
 /// How the direction of a segment leaves a clamp at its node.
 Bend clamped(const Line& line, int i, const Vector3d& direction) {
-  const int j = i == 0 ? 0 : i - 1;
+  const int j = line.before(i) < 0 ? line.after(i) : line.before(i);
   const double l = line.segment(j).length;
-  return {.first = j, .count = 2, .b = {-1 / l, 1 / l, 0}, .c = line.bending(i), .direction = direction};
+  return {.first = line.first(j), .count = 2, .b = {-1 / l, 1 / l, 0}, .c = line.bending(i), .direction = direction};
 }
 
 /// How the directions of both segments beside a node differ.
 Bend between(const Line& line, int i) {
-  const double l1 = line.segment(i - 1).length, l2 = line.segment(i).length;
+  const double l1 = line.segment(line.before(i)).length, l2 = line.segment(line.after(i)).length;
   return {.first = i - 1, .count = 3, .b = {1 / l1, -1 / l1 - 1 / l2, 1 / l2}, .c = line.bending(i)};
 }
 
@@ -34,7 +34,7 @@ template <class Function>
 void each_bend(const Line& line, const Function& f) {
   for (int i = 0; i < line.nodes(); ++i) {
     if (line.bending(i) == 0) continue;
-    const bool end = i == 0 || i == line.nodes() - 1;
+    const bool end = line.before(i) < 0 || line.after(i) < 0;
     f(end ? clamped(line, i, line.held(i)->clamp) : between(line, i));
   }
 }

@@ -9,8 +9,8 @@ using Eigen::Vector2d;
 /// What the bed carries of the line at node i, N: its push, and what it takes off segments that rest in part.
 double Equations::weight_on_bed(int i) const {
   double sum = push_[static_cast<std::size_t>(i)].force;
-  if (i < line_.segments()) sum += sag_[static_cast<std::size_t>(i)].relief[0];
-  if (i > 0) sum += sag_[static_cast<std::size_t>(i - 1)].relief[1];
+  if (const int j = line_.after(i); j >= 0) sum += sag_[static_cast<std::size_t>(j)].relief[0];
+  if (const int j = line_.before(i); j >= 0) sum += sag_[static_cast<std::size_t>(j)].relief[1];
   return std::max(sum, 0.0);
 }
 
@@ -64,11 +64,12 @@ void Equations::add_slip_derivatives(int i, const Vector2d& along) {
     const int row = place_index(i) + r;
     matrix_(row, place_index(i) + 2) -= along[r] * push_[static_cast<std::size_t>(i)].by_end;
     for (int side = 0; side < 2; ++side) {  // the segment after the node, and that before
-      const int j = i - side;
-      if (j < 0 || j >= line_.segments()) continue;
+      const int j = side == 0 ? line_.after(i) : line_.before(i);
+      if (j < 0) continue;
       const Sag& s = sag_[static_cast<std::size_t>(j)];
       matrix_(row, tension_index(j)) += along[r] * scale_ * s.relief_by_tension[side];
-      for (int k = 0; k < 2; ++k) matrix_(row, place_index(j + k) + 2) += along[r] * s.relief_by_height[side][k];
+      for (int k = 0; k < 2; ++k)
+        matrix_(row, place_index(line_.first(j) + k) + 2) += along[r] * s.relief_by_height[side][k];
     }
   }
 }

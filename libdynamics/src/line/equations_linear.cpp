@@ -41,7 +41,7 @@ Places Equations::holding(const State& state, const Places& a, const VectorXd& T
 /// M δ + Gᵀ μ = 0 and G δ = −law_ in the matrix, G the lengths that are kept, along `along`, and their derivative at x.
 void Equations::assemble_projection(const Places& along, const Places& x) {
   scale_by_mass();
-  blocks_.set_zero(line_.nodes());
+  blocks_.set_zero(line_.nodes(), line_.segments());
   residual_.setZero();
   fill(1, 0);
   for (int j = 0; j < line_.segments(); ++j) {
@@ -51,11 +51,12 @@ void Equations::assemble_projection(const Places& along, const Places& x) {
       continue;
     }
     matrix_(tension_index(j), tension_index(j)) = -undetermined * scale_;
-    set_pull(j, (along.col(j + 1) - along.col(j)).normalized());
-    const Vector3d t = (x.col(j + 1) - x.col(j)).normalized();
+    const int i = line_.first(j);
+    set_pull(j, (along.col(i + 1) - along.col(i)).normalized());
+    const Vector3d t = (x.col(i + 1) - x.col(i)).normalized();
     for (int c = 0; c < 3; ++c) {
-      matrix_(tension_index(j), place_index(j) + c) = -scale_ * t[c];
-      matrix_(tension_index(j), place_index(j + 1) + c) = scale_ * t[c];
+      matrix_(tension_index(j), place_index(i) + c) = -scale_ * t[c];
+      matrix_(tension_index(j), place_index(i + 1) + c) = scale_ * t[c];
     }
   }
 }
@@ -66,8 +67,7 @@ bool Equations::project_velocity(const State& state, Places& v) {
   if (!any) return true;
   assemble_projection(state.position, state.position);
   for (int j = 0; j < line_.segments(); ++j)
-    if (line_.segment(j).keeps_length())
-      law_[j] = (state.position.col(j + 1) - state.position.col(j)).normalized().dot(v.col(j + 1) - v.col(j));
+    if (line_.segment(j).keeps_length()) law_[j] = along(state.position, j).normalized().dot(along(v, j));
   Places dv(3, line_.nodes());
   VectorXd impulse(line_.segments());
   if (!solve_linear(dv, impulse)) return false;
@@ -82,7 +82,7 @@ bool Equations::project_place(const Places& from, double tolerance, Places& x) {
   for (int i = 0; i < most; ++i) {
     assemble_projection(from, x);
     for (int j = 0; j < line_.segments(); ++j)
-      if (line_.segment(j).keeps_length()) law_[j] = (x.col(j + 1) - x.col(j)).norm() - line_.segment(j).length;
+      if (line_.segment(j).keeps_length()) law_[j] = along(x, j).norm() - line_.segment(j).length;
     const double open = law_.cwiseAbs().maxCoeff();
     if (!solve_linear(dx, impulse)) return false;
     x += dx;
@@ -114,7 +114,8 @@ Powers Equations::powers(const Stage& stage, const State& before, const Places& 
 double Equations::kinetic(const Places& v) const {
   double sum = 0;
   for (int i = 0; i < line_.nodes(); ++i) sum += line_.mass(i) / 2 * v.col(i).squaredNorm();
-  for (int j = 0; j < line_.segments(); ++j) sum += line_.mass_between(j) * v.col(j).dot(v.col(j + 1));
+  for (int j = 0; j < line_.segments(); ++j)
+    sum += line_.mass_between(j) * v.col(line_.first(j)).dot(v.col(line_.first(j) + 1));
   return sum;
 }
 
@@ -128,12 +129,12 @@ double Equations::stored_in_segments(const State& state) {
     const Segment& s = line_.segment(j);
     if (s.keeps_length()) continue;
     if (s.sags) {
-      const double T = tension_of_sag(j, instant(still, none), still), r = (x_.col(j + 1) - x_.col(j)).norm();
+      const double T = tension_of_sag(j, instant(still, none), still), r = along(x_, j).norm();
       sum += T * (r - s.length) - T * T * s.length / (2 * s.axial_stiffness) +
              pull(j, instant(still, none), still, T).sag.stored;
       continue;
     }
-    double stretch = (state.position.col(j + 1) - state.position.col(j)).norm() - s.length;
+    double stretch = along(state.position, j).norm() - s.length;
     if (s.pulls_only) stretch = std::max(stretch, 0.0);
     sum += s.axial_stiffness / s.length / 2 * stretch * stretch;
   }

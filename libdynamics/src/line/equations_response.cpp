@@ -75,10 +75,10 @@ Response Equations::response(const Stage& stage, const State& before, const Plac
   }
   BandMatrix::Columns y = -by;
   for (const Held& h : line_.description().held) y.middleRows<3>(place_index(h.node)).setZero();
-  y.row(0).setZero();
+  for (int c = 0; c < line_.chains(); ++c) y.row(4 * line_.first_of_chain(c)).setZero();
   const BandMatrix whole = matrix_;
   keep_held();
-  const bool solved = matrix_.solve(y);
+  const bool solved = network_ ? network_->solve(matrix_, y) : matrix_.solve(y);
   matrix_ = whole;
   const MatrixXd total = direct + rows_times(led, y);
   out.by_place = total.leftCols(count);

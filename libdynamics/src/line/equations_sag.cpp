@@ -16,10 +16,11 @@ void Equations::sag(int j, double T, Pull& p) const {
             .level = 1,
             .rounding = 0};
   for (const Bed& bed : line_.description().bed) {
-    for (int i = 0; i < 2; ++i) span.height[i] = x_(2, j + i) - bed.z;
+    if (!s.meets_bed) continue;
+    for (int i = 0; i < 2; ++i) span.height[i] = x_(2, line_.first(j) + i) - bed.z;
     span.rounding = 2 * span.weight / (bed.stiffness * s.diameter);  // twice the depth to which the line sinks
   }
-  const Vector3d d = x_.col(j + 1) - x_.col(j);
+  const Vector3d d = along(x_, j);
   const double r = d.norm(), slope = d.z() / r;
   span.level = 1 - slope * slope;
   p.sag = sag_of(span, T);
@@ -30,15 +31,16 @@ void Equations::sag(int j, double T, Pull& p) const {
 
 void Equations::add_sag_derivatives(int j, const Pull& p, const Stage& stage) {
   if (stage.x_by == 0) return;
-  const int row = tension_index(j);
+  const int row = tension_index(j), first = line_.first(j);
   for (int c = 0; c < 3; ++c) {
-    matrix_(row, place_index(j) + c) += scale_ * p.sag.by_level * p.level_by[c];
-    matrix_(row, place_index(j + 1) + c) -= scale_ * p.sag.by_level * p.level_by[c];
+    matrix_(row, place_index(first) + c) += scale_ * p.sag.by_level * p.level_by[c];
+    matrix_(row, place_index(first + 1) + c) -= scale_ * p.sag.by_level * p.level_by[c];
   }
   for (int i = 0; i < 2; ++i) {
-    matrix_(row, place_index(j + i) + 2) -= scale_ * p.sag.by_height[i];
-    matrix_(place_index(j + i) + 2, row) -= scale_ * p.sag.relief_by_tension[i];
-    for (int k = 0; k < 2; ++k) matrix_(place_index(j + i) + 2, place_index(j + k) + 2) -= p.sag.relief_by_height[i][k];
+    matrix_(row, place_index(first + i) + 2) -= scale_ * p.sag.by_height[i];
+    matrix_(place_index(first + i) + 2, row) -= scale_ * p.sag.relief_by_tension[i];
+    for (int k = 0; k < 2; ++k)
+      matrix_(place_index(first + i) + 2, place_index(first + k) + 2) -= p.sag.relief_by_height[i][k];
   }
 }
 

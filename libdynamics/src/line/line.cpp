@@ -38,6 +38,8 @@ void check(const Node& n, std::size_t i) {
   require(std::isfinite(n.mass) && n.mass >= 0, "node {} must not have the mass {} kg", i, n.mass);
   require(n.damping >= 0 && n.quadratic_damping >= 0, "the damping of node {} must not be negative", i);
   require(n.force.allFinite(), "the force on node {} is not finite", i);
+  require(n.sphere.diameter >= 0 && n.sphere.cd >= 0 && n.sphere.ca >= 0,
+          "diameter and coefficients of the sphere at node {} must not be negative", i);
 }
 
 /// Weight of the water that a segment displaces, N.
@@ -56,67 +58,108 @@ Segment Segment::bobs(double length, double mass) {
 }
 
 Line::Line(Description description) : d_(std::move(description)) {
-  require(d_.nodes.size() == d_.segments.size() + 1 && !d_.segments.empty(),
-          "a line of {} segments has {} nodes, not {}", d_.segments.size(), d_.segments.size() + 1, d_.nodes.size());
+  find_chains();
   require(d_.bed.size() <= 1, "a line lies on one bed, not on {}", d_.bed.size());
   for (const Bed& bed : d_.bed)
     require(std::isfinite(bed.friction) && bed.friction >= 0, "the bed must not have the friction {}", bed.friction);
   require(d_.water.wet == Wet::nothing || d_.water.field != nullptr, "a line that is wet needs water");
+  diagonal_ = bed_area_ = Eigen::VectorXd::Zero(nodes());
+  between_ = sag_weight_ = Eigen::VectorXd::Zero(segments());
+  constant_ = Places::Zero(3, nodes());
+  for (int i = 0; i < nodes(); ++i) add_node(i);
+  for (int j = 0; j < segments(); ++j) add_segment(j);
+  find_held();
+  find_ties();
+  find_bending();
+}
+
+void Line::add_node(int i) {
+  const Node& n = node(i);
+  check(n, static_cast<std::size_t>(i));
+  diagonal_[i] = n.mass;
+  constant_.col(i) = n.force;
+  constant_(2, i) -= n.mass * d_.gravity;
+  if (n.sphere.diameter == 0) return;
+  spheres_ = true;
+  require(d_.water.field != nullptr, "node {} has a sphere, which needs water", i);
+  const hydro::Water& water = d_.water.field->water();
+  if (n.sphere.buoyancy && n.sphere.wet == Wet::all)
+    constant_(2, i) += water.density * water.gravity * std::numbers::pi / 6 * std::pow(n.sphere.diameter, 3);
+}
+
+void Line::add_segment(int j) {
+  const Segment& s = segment(j);
+  const int i = first(j);
+  check(s, static_cast<std::size_t>(j));
+  // (D71): ∫(1 − s)² dm, ∫s(1 − s) dm, ∫s² dm of the rod.
+  const double second = s.inertia / (s.length * s.length) + s.mass * s.centre * s.centre;
+  between_[j] = s.mass * s.centre - second;
+  diagonal_[i] += s.mass - s.mass * s.centre - between_[j];
+  diagonal_[i + 1] += second;
+  constant_(2, i) -= s.mass * d_.gravity * (1 - s.centre);
+  constant_(2, i + 1) -= s.mass * d_.gravity * s.centre;
   const bool always_lifted = d_.water.wet == Wet::all && d_.water.buoyancy;
-  const Eigen::Index n = nodes();
-  diagonal_ = bed_area_ = Eigen::VectorXd::Zero(n);
-  between_ = sag_weight_ = Eigen::VectorXd::Zero(n - 1);
-  constant_ = Places::Zero(3, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Node& node = d_.nodes[static_cast<std::size_t>(i)];
-    check(node, static_cast<std::size_t>(i));
-    diagonal_[i] = node.mass;
-    constant_.col(i) = node.force;
-    constant_(2, i) -= node.mass * d_.gravity;
+  const double lift = always_lifted ? buoyancy(s, *d_.water.field) : 0;
+  sag_weight_[j] = (s.mass * d_.gravity - lift) / s.length;
+  require(!s.sags || d_.water.wet != Wet::below_surface,
+          "segment {} sags by its weight in water, which a line that is wet in part does not have", j + 1);
+  require(!s.sags || sag_weight_[j] > 0, "segment {} sags, but it weighs {} N/m in water", j + 1, sag_weight_[j]);
+  for (const int end : {i, i + 1}) {
+    constant_(2, end) += lift / 2;
+    if (s.meets_bed) bed_area_[end] += s.diameter * s.length / 2;
   }
-  for (Eigen::Index j = 0; j + 1 < n; ++j) {
-    const Segment& s = d_.segments[static_cast<std::size_t>(j)];
-    check(s, static_cast<std::size_t>(j));
-    // (D71): ∫(1 − s)² dm, ∫s(1 − s) dm, ∫s² dm of the rod.
-    const double second = s.inertia / (s.length * s.length) + s.mass * s.centre * s.centre;
-    between_[j] = s.mass * s.centre - second;
-    diagonal_[j] += s.mass - s.mass * s.centre - between_[j];
-    diagonal_[j + 1] += second;
-    constant_(2, j) -= s.mass * d_.gravity * (1 - s.centre);
-    constant_(2, j + 1) -= s.mass * d_.gravity * s.centre;
-    const double lift = always_lifted ? buoyancy(s, *d_.water.field) : 0;
-    sag_weight_[j] = (s.mass * d_.gravity - lift) / s.length;
-    require(!s.sags || d_.water.wet != Wet::below_surface,
-            "segment {} sags by its weight in water, which a line that is wet in part does not have", j + 1);
-    require(!s.sags || sag_weight_[j] > 0, "segment {} sags, but it weighs {} N/m in water", j + 1, sag_weight_[j]);
-    for (const Eigen::Index i : {j, j + 1}) {
-      constant_(2, i) += lift / 2;
-      bed_area_[i] += s.diameter * s.length / 2;
+}
+
+void Line::find_chains() {
+  require(d_.nodes.size() == d_.segments.size() + d_.begins.size() + 1 && !d_.segments.empty(),
+          "{} of {} segments has {} nodes, not {}", d_.begins.empty() ? "a line" : "a network", d_.segments.size(),
+          d_.segments.size() + d_.begins.size() + 1, d_.nodes.size());
+  after_.assign(d_.nodes.size(), -1);
+  for (int c = 0; c < chains(); ++c) {
+    require(last_of_chain(c) > first_of_chain(c), "chain {} of a network has no segment", c + 1);
+    for (int i = first_of_chain(c); i < last_of_chain(c); ++i) {
+      after_[static_cast<std::size_t>(i)] = static_cast<int>(first_.size());
+      first_.push_back(i);
     }
   }
-  find_held();
-  find_bending();
+}
+
+// (D110)
+void Line::find_ties() {
+  tie_.assign(d_.nodes.size(), -1);
+  for (std::size_t k = 0; k < d_.ties.size(); ++k)
+    for (const int i : d_.ties[k]) {
+      require(i >= 0 && i < nodes(), "a network of {} nodes has no node {}", nodes(), i);
+      require(tie(i) < 0, "node {} is tied twice", i);
+      require(held(i) == nullptr, "node {} is tied, but held: hold the nodes that it is tied to instead", i);
+      require(d_.ties[k].size() > 1, "node {} is tied to nothing", i);
+      const bool bends = before(i) >= 0 && after(i) >= 0 && segment(before(i)).bending_stiffness > 0 &&
+                         segment(after(i)).bending_stiffness > 0;
+      require(!bends, "node {} is tied in the middle of a line that resists bending there: let a chain end at it", i);
+      tie_[static_cast<std::size_t>(i)] = static_cast<int>(k);
+    }
 }
 
 // (D106), (D107)
 void Line::find_bending() {
   bending_ = Eigen::VectorXd::Zero(nodes());
-  for (int i = 1; i < segments(); ++i) {
-    const Segment &a = segment(i - 1), &b = segment(i);
+  for (int i = 0; i < nodes(); ++i) {
+    if (before(i) < 0 || after(i) < 0) continue;
+    const Segment &a = segment(before(i)), &b = segment(after(i));
     if (a.bending_stiffness > 0 && b.bending_stiffness > 0)
       bending_[i] = 2 / (a.length / a.bending_stiffness + b.length / b.bending_stiffness);
   }
   for (const Held& h : d_.held) {
     if (h.clamp.isZero(0)) continue;
-    require(h.node == 0 || h.node == segments(), "node {} is clamped, but is no end of the line", h.node);
+    require(before(h.node) < 0 || after(h.node) < 0, "node {} is clamped, but is no end of the line", h.node);
     require(std::abs(h.clamp.norm() - 1) < 1e-9, "node {} is clamped in a direction that is not of length 1", h.node);
-    const Segment& s = segment(h.node == 0 ? 0 : h.node - 1);
+    const Segment& s = segment(before(h.node) < 0 ? after(h.node) : before(h.node));
     require(s.bending_stiffness > 0, "node {} is clamped, but its segment has no bending stiffness", h.node);
     bending_[h.node] = 2 * s.bending_stiffness / s.length;
   }
   for (int j = 0; j < segments(); ++j)
-    hardest_bending_ =
-        std::max(hardest_bending_, std::max(bending_[j], bending_[j + 1]) / (segment(j).length * segment(j).length));
+    hardest_bending_ = std::max(hardest_bending_, std::max(bending_[first(j)], bending_[first(j) + 1]) /
+                                                      (segment(j).length * segment(j).length));
 }
 
 void Line::find_held() {
@@ -130,8 +173,10 @@ void Line::find_held() {
 }
 
 bool Line::has_massless_nodes() const {
+  Eigen::VectorXd whole = Eigen::VectorXd::Zero(nodes());
+  for (int i = 0; i < nodes(); ++i) whole[same_as(i)] += mass(i);
   for (int i = 0; i < nodes(); ++i)
-    if (mass(i) == 0 && held(i) == nullptr) return true;
+    if (moves(i) && whole[i] == 0) return true;
   return false;
 }
 
@@ -141,27 +186,27 @@ double Line::length() const {
   return sum;
 }
 
-LinkAngles link_angles(const State& state, int segment) {
-  const Eigen::Vector3d d = state.position.col(segment + 1) - state.position.col(segment);
+LinkAngles link_angles(const State& state, int first) {
+  const Eigen::Vector3d d = state.position.col(first + 1) - state.position.col(first);
   const double level = std::hypot(d.x(), d.y());
   return {std::atan2(-d.z(), level), level > 0 ? std::atan2(d.y(), d.x()) : 0};
 }
 
-LinkAngles link_angles(const State& state, int segment, const LinkAngles& before) {
+LinkAngles link_angles(const State& state, int first, const LinkAngles& before) {
   constexpr double pi = std::numbers::pi;
   const auto near = [](double angle, double to) { return angle + 2 * pi * std::round((to - angle) / (2 * pi)); };
   const auto distance = [&](const LinkAngles& a) {
     return std::hypot(a.polar - before.polar, a.azimuth - before.azimuth);
   };
-  const LinkAngles one = link_angles(state, segment);
-  const LinkAngles first{near(one.polar, before.polar), near(one.azimuth, before.azimuth)},
-      second{near(pi - one.polar, before.polar), near(one.azimuth + pi, before.azimuth)};
-  return distance(first) <= distance(second) ? first : second;
+  const LinkAngles one = link_angles(state, first);
+  const LinkAngles same{near(one.polar, before.polar), near(one.azimuth, before.azimuth)},
+      other{near(pi - one.polar, before.polar), near(one.azimuth + pi, before.azimuth)};
+  return distance(same) <= distance(other) ? same : other;
 }
 
-LinkAngles link_rates(const State& state, int segment, const LinkAngles& now) {
-  const Eigen::Vector3d d = state.position.col(segment + 1) - state.position.col(segment),
-                        v = state.velocity.col(segment + 1) - state.velocity.col(segment);
+LinkAngles link_rates(const State& state, int first, const LinkAngles& now) {
+  const Eigen::Vector3d d = state.position.col(first + 1) - state.position.col(first),
+                        v = state.velocity.col(first + 1) - state.velocity.col(first);
   const double level = std::hypot(d.x(), d.y());
   if (level == 0) return {0, 0};
   const double level_rate = (d.x() * v.x() + d.y() * v.y()) / level;

@@ -70,12 +70,13 @@ PointDerivatives differentiate(const PerLength& c, const Point& p) {
 std::array<Point, 2> points(const Line& line, int j, const PerLength& c, const Motion& now,
                             const std::vector<hydro::waves::Kinematics>& water) {
   const Segment& segment = line.segment(j);
-  const auto& k0 = water[static_cast<std::size_t>(j)];
-  const auto& k1 = water[static_cast<std::size_t>(j + 1)];
-  const Vector3d axis = (now.x.col(j + 1) - now.x.col(j)).normalized();
+  const int first = line.first(j), second = first + 1;
+  const Vector3d axis = (now.x.col(second) - now.x.col(first)).normalized();
+  const auto& k0 = water[static_cast<std::size_t>(first)];
+  const auto& k1 = water[static_cast<std::size_t>(second)];
   std::array<double, 2> wet{0, 1};
   if (line.description().water.wet == Wet::below_surface)
-    wet = wet_interval(k0.elevation - now.x(2, j), k1.elevation - now.x(2, j + 1));
+    wet = wet_interval(k0.elevation - now.x(2, first), k1.elevation - now.x(2, second));
   std::array<Point, 2> out;
   const double middle = (wet[0] + wet[1]) / 2, half = (wet[1] - wet[0]) / 2;
   for (std::size_t g = 0; g < 2; ++g) {
@@ -85,18 +86,18 @@ std::array<Point, 2> points(const Line& line, int j, const PerLength& c, const M
     p.axis = axis;
     const double r = 1 - p.s, s = p.s;
     p.water = r * k0.velocity + s * k1.velocity;
-    p.relative = p.water - r * now.v.col(j) - s * now.v.col(j + 1);
+    p.relative = p.water - r * now.v.col(first) - s * now.v.col(second);
     p.inertial = (c.displaced + c.added) * (r * k0.material_acceleration() + s * k1.material_acceleration()) -
-                 c.added * (r * now.a.col(j) + s * now.a.col(j + 1));
+                 c.added * (r * now.a.col(first) + s * now.a.col(second));
   }
   return out;
 }
 
 }  // namespace
 
-void Blocks::set_zero(int nodes) {
+void Blocks::set_zero(int nodes, int segments) {
   diagonal.assign(static_cast<std::size_t>(nodes), Matrix3d::Zero());
-  upper.assign(static_cast<std::size_t>(nodes - 1), Matrix3d::Zero());
+  upper.assign(static_cast<std::size_t>(segments), Matrix3d::Zero());
   lower = upper;
 }
 
@@ -116,9 +117,11 @@ void Loads::look_at_water(const Motion& now) {
 void Loads::add(const Motion& now, const By& by, Places& force, Blocks* derivative) {
   force += line_.constant_load();
   add_damping(now, by, force, derivative);
-  if (line_.description().water.wet == Wet::nothing) return;
+  const bool wet = line_.description().water.wet != Wet::nothing;
+  if (!wet && !line_.has_spheres()) return;
   look_at_water(now);
-  for (int j = 0; j < line_.segments(); ++j) add_water(j, now, by, force, derivative);
+  for (int j = 0; wet && j < line_.segments(); ++j) add_water(j, now, by, force, derivative);
+  if (line_.has_spheres()) add_spheres(now, by, force, derivative);
 }
 
 void Loads::add_damping(const Motion& now, const By& by, Places& force, Blocks* derivative) const {
@@ -144,14 +147,15 @@ void Loads::add_water(int j, const Motion& now, const By& by, Places& force, Blo
   const auto& surroundings = line_.description().water;
   const PerLength c(segment, surroundings.field->water());
   const bool lifted = surroundings.buoyancy && surroundings.wet == Wet::below_surface;
-  const double length = (now.x.col(j + 1) - now.x.col(j)).norm();
+  const int first = line_.first(j), second = first + 1;
+  const double length = (now.x.col(second) - now.x.col(first)).norm();
   for (const Point& p : points(line_, j, c, now, water_)) {
     if (p.length == 0) continue;
     Vector3d f = drag(c, p) + inertia(p);
     if (lifted) f.z() += c.lift;
     const double share[2] = {p.length * (1 - p.s), p.length * p.s};
-    force.col(j) += share[0] * f;
-    force.col(j + 1) += share[1] * f;
+    force.col(first) += share[0] * f;
+    force.col(second) += share[1] * f;
     if (derivative == nullptr) continue;
     const PointDerivatives d = differentiate(c, p);
     const double turning = length > 0 ? by.x / length : 0;
@@ -159,11 +163,11 @@ void Loads::add_water(int j, const Motion& now, const By& by, Places& force, Blo
     const Matrix3d turn = turning * (d.by_axis - along * p.axis.transpose());
     const Matrix3d follow = -by.v * d.by_relative - by.a * c.added * d.by_inertial;
     const Matrix3d by_first = (1 - p.s) * follow - turn, by_second = p.s * follow + turn;
-    const auto at = static_cast<std::size_t>(j);
-    derivative->diagonal[at] += share[0] * by_first;
+    const auto at = static_cast<std::size_t>(j), node = static_cast<std::size_t>(first);
+    derivative->diagonal[node] += share[0] * by_first;
     derivative->upper[at] += share[0] * by_second;
     derivative->lower[at] += share[1] * by_first;
-    derivative->diagonal[at + 1] += share[1] * by_second;
+    derivative->diagonal[node + 1] += share[1] * by_second;
   }
 }
 
@@ -173,10 +177,11 @@ LoadPowers Loads::powers(const Motion& now) {
   add_damping(now, {0, 0, 0}, force, nullptr);
   out.damping = -force.cwiseProduct(now.v).sum();
   const auto& surroundings = line_.description().water;
-  if (surroundings.wet == Wet::nothing) return out;
+  const bool wet = surroundings.wet != Wet::nothing;
+  if (!wet && !line_.has_spheres()) return out;
   look_at_water(now);
   const bool lifted = surroundings.buoyancy && surroundings.wet == Wet::below_surface;
-  for (int j = 0; j < line_.segments(); ++j) {
+  for (int j = 0; wet && j < line_.segments(); ++j) {
     const PerLength c(line_.segment(j), surroundings.field->water());
     for (const Point& p : points(line_, j, c, now, water_)) {
       const Vector3d resistance = p.length * drag(c, p), own = p.water - p.relative;
@@ -186,6 +191,7 @@ LoadPowers Loads::powers(const Motion& now) {
       if (lifted) out.buoyancy_supplied += p.length * c.lift * own.z();
     }
   }
+  if (line_.has_spheres()) add_sphere_powers(now, out);
   return out;
 }
 

@@ -20,11 +20,11 @@ struct By {
   double x, v, a;
 };
 
-/// 3 × 3 blocks of a matrix that joins neighbours: of node i itself, and of row j, column j + 1 and the other way
-/// round.
+/// 3 × 3 blocks of a matrix that joins neighbours: of node i itself, and of a segment in the row of its first node and
+/// the column of its second, and the other way round.
 struct Blocks {
   std::vector<Eigen::Matrix3d> diagonal, upper, lower;
-  void set_zero(int nodes);
+  void set_zero(int nodes, int segments);
 };
 
 /// Powers of these loads, W.
@@ -47,6 +47,8 @@ class Loads {
   void look_at_water(const Motion& now);
   void add_damping(const Motion& now, const By& by, Places& force, Blocks* derivative) const;
   void add_water(int j, const Motion& now, const By& by, Places& force, Blocks* derivative) const;
+  void add_spheres(const Motion& now, const By& by, Places& force, Blocks* derivative) const;
+  void add_sphere_powers(const Motion& now, LoadPowers& out) const;
 
   const Line& line_;
   std::vector<Eigen::Vector3d> points_;

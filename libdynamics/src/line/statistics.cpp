@@ -41,8 +41,8 @@ int TensionStatistics::snaps() const { return std::accumulate(snaps_.begin(), sn
 
 double clamping_moment(const Line& line, const State& state, int node) {
   if (line.held(node) == nullptr || line.bending(node) == 0) return 0;
-  const int j = node == 0 ? 0 : node - 1;
-  const Eigen::Vector3d along = (state.position.col(j + 1) - state.position.col(j)) / line.segment(j).length;
+  const int j = line.before(node) < 0 ? line.after(node) : line.before(node), i = line.first(j);
+  const Eigen::Vector3d along = (state.position.col(i + 1) - state.position.col(i)) / line.segment(j).length;
   return line.bending(node) * (along - line.held(node)->clamp).norm();
 }
 

@@ -60,6 +60,7 @@ struct Stepper::Work {
   bool solve(const Stage& stage, const State& state, Places& u, VectorXd& T, StepReport& report);
   void lead(State& state) const;
   void require_lengths(const State& state) const;
+  void require_ties(const State& state) const;
   bool settle(State& state);
   void note_powers(const Powers& mean, double h);
   void note_state(const State& state);
@@ -140,13 +141,22 @@ void Stepper::Work::require_lengths(const State& state) const {
   const double fastest = std::max(1.0, state.velocity.cwiseAbs().maxCoeff());
   for (int j = 0; j < line.segments(); ++j) {
     if (!line.segment(j).keeps_length()) continue;
-    const Vector3d d = state.position.col(j + 1) - state.position.col(j);
+    const int i = line.first(j);
+    const Vector3d d = state.position.col(i + 1) - state.position.col(i);
     hydro::require(std::abs(d.norm() - line.segment(j).length) <= closed * line.segment(j).length,
                    "segment {} keeps its length of {} m, but the line starts with its nodes {} m apart", j + 1,
                    line.segment(j).length, d.norm());
-    const double rate = d.normalized().dot(state.velocity.col(j + 1) - state.velocity.col(j));
+    const double rate = d.normalized().dot(state.velocity.col(i + 1) - state.velocity.col(i));
     hydro::require(std::abs(rate) <= closed * fastest,
                    "segment {} keeps its length, but the velocities at the start change it by {} m/s", j + 1, rate);
+  }
+}
+
+void Stepper::Work::require_ties(const State& state) const {
+  for (int i = 0; i < line.nodes(); ++i) {
+    const int one = line.same_as(i);
+    hydro::require(state.position.col(i) == state.position.col(one) && state.velocity.col(i) == state.velocity.col(one),
+                   "nodes {} and {} are tied, but start at different places or velocities", one, i);
   }
 }
 
@@ -161,6 +171,7 @@ void Stepper::start(State& state) {
                                [](const Held& h) { return h.path != nullptr; });
   if (led) w.equations.project_velocity(state, state.velocity);
   w.require_lengths(state);
+  w.require_ties(state);
   if (state.grip.cols() != line.nodes()) state.grip = state.position.topRows<2>();
   go_on(state);
   w.energies = {};

@@ -60,7 +60,7 @@ TEST(LineLoads, DerivativesAreThoseOfTheLoads) {
     const By by{.x = 0.6, .v = 1.7, .a = 2.9};
     Loads loads(line);
     Blocks blocks;
-    blocks.set_zero(5);
+    blocks.set_zero(5, 4);
     Places sink = Places::Zero(3, 5);
     loads.add({0, s.x, s.v, s.a}, by, sink, &blocks);
     constexpr double e = 1e-6, rounding = 1e-6;  // of loads of some 1000 N over 2e-6

@@ -6,7 +6,7 @@
 
 namespace dynamics {
 
-/// A line with one end or both on bodies.
+/// A line, or a network of lines, with ends on bodies.
 struct FastenedLine {
   struct End {
     int node;

@@ -7,8 +7,10 @@ namespace dynamics::line {
 /// How each span between held nodes hangs under constant loads (weight, lasting buoyancy, given forces) alone, and what
 /// is beyond the last held node: the discrete catenary (D85), exact for segments that keep their lengths and for
 /// springs. Held nodes stand in `places` where they are; its other nodes are not looked at. Where a segment would have
-/// to be pressed (ends closer than it), the shape is near and not exact: equilibrium() goes on from there. \throws
-/// hydro::InputError if a span that cannot stretch is shorter than the way between its ends, saying by how much
+/// to be pressed (ends closer than it), the shape is near and not exact: equilibrium() goes on from there. Of a
+/// network, or a line with a float, it is near too, and free nodes need no place to begin at (D112). \throws
+/// hydro::InputError if a span that cannot stretch is shorter than the way between its ends, saying by how much, or if
+/// nothing holds it
 State hanging_shape(const Line& line, const State& places);
 
 /// What rest took.

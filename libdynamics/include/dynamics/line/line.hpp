@@ -3,6 +3,8 @@
 ///
 /// Nodes have Cartesian places, so that no direction is special. A segment is a rod without torsion: it keeps its
 /// length (its tension is then what does so) or stretches by a law. n segments join n + 1 nodes, one after the other.
+/// A network is several chains, one after the other in the same numbering, some of whose nodes are tied: they are one
+/// place, and move as one. (D110)
 #include <Eigen/Core>
 
 #include <limits>
@@ -28,6 +30,7 @@ struct Segment {
   bool sags = false;    ///< hangs through between its nodes and rests on the bed in part, by its weight in water (D88)
   double diameter = 0;  ///< of what the water and the bed meet, m
   double cd = 0, cd_tangential = 0, ca = 0;  ///< drag across the axis and of the skin πD, added mass across (D74)
+  bool meets_bed = true;                     ///< false: goes through the bed, if there is one
 
   /// A uniform rod, or half the mass at either end.
   static Segment rod(double length, double mass);
@@ -35,10 +38,22 @@ struct Segment {
   bool keeps_length() const { return axial_stiffness == std::numeric_limits<double>::infinity(); }
 };
 
+/// Which part of something is taken as wet.
+enum class Wet { nothing, all, below_surface };
+
+/// A float or sinker at a node. (D113)
+struct Sphere {
+  double diameter = 0;    ///< m; 0: there is none
+  double cd = 0, ca = 0;  ///< drag by its section πD²/4, added mass by its volume
+  Wet wet = Wet::all;
+  bool buoyancy = false;
+};
+
 struct Node {
   double mass = 0;                                  ///< a bob, clump or pin besides the segments' own, kg
   double damping = 0, quadratic_damping = 0;        ///< −b_l v − b_q |v| v, kg/s and kg/m (D73)
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< constant, N
+  Sphere sphere = {};
 };
 
 /// Where a node is led, whatever pulls at it. Immutable.
@@ -67,9 +82,6 @@ struct Bed {
   double friction = 0;  ///< μ: what lies on it is held by up to μ times its weight on it (D95)
 };
 
-/// Which part of the line is taken as wet.
-enum class Wet { nothing, all, below_surface };
-
 /// The water and what of it acts.
 struct Surroundings {
   std::shared_ptr<const hydro::waves::WaveField> field = nullptr;  ///< null: no water
@@ -80,12 +92,14 @@ struct Surroundings {
 /// What is given of a line.
 struct Description {
   std::vector<Node> nodes;
-  std::vector<Segment> segments;  ///< one fewer than nodes
+  std::vector<Segment> segments;  ///< of each chain one fewer than nodes
   std::vector<Held> held;
   double gravity = 9.81;      ///< m/s²; 0: no weight
   std::vector<Bed> bed = {};  ///< none or one
   Surroundings water = {};
   bool componentwise_damping = false;  ///< −b_q |v_i| v_i instead, as Huijgen 2024, eq. 4.14 with its sign put right
+  std::vector<int> begins = {};        ///< of a network: the first node of each chain after the first
+  std::vector<std::vector<int>> ties = {};  ///< sets of free nodes that are one place each
 };
 
 /// The force on each of k led nodes by what leads it, N, and its derivatives by places and velocities of all of them,
@@ -107,6 +121,22 @@ class Line {
   const Segment& segment(int j) const { return d_.segments[static_cast<std::size_t>(j)]; }
   const Description& description() const { return d_; }
 
+  /// The node at which segment j begins; it ends at the next one.
+  int first(int j) const { return first_[static_cast<std::size_t>(j)]; }
+  /// The segment that begins at node i, or ends there; −1: none.
+  int after(int i) const { return after_[static_cast<std::size_t>(i)]; }
+  int before(int i) const { return i > 0 ? after(i - 1) : -1; }
+  int chains() const { return static_cast<int>(d_.begins.size()) + 1; }
+  int first_of_chain(int c) const { return c == 0 ? 0 : d_.begins[static_cast<std::size_t>(c - 1)]; }
+  int last_of_chain(int c) const { return c + 1 == chains() ? nodes() - 1 : first_of_chain(c + 1) - 1; }
+  /// The tie of node i; −1: it has none.
+  int tie(int i) const { return tie_[static_cast<std::size_t>(i)]; }
+  /// The first node of its tie, or the node itself.
+  int same_as(int i) const { return tie(i) < 0 ? i : d_.ties[static_cast<std::size_t>(tie(i))].front(); }
+  bool is_network() const { return !d_.ties.empty(); }
+  /// Whether a step moves node i by itself: it is not held, and of its tie the first.
+  bool moves(int i) const { return held(i) == nullptr && same_as(i) == i; }
+
   /// Null: free. Otherwise where node i is held, by its path or where it was at the start.
   const Held* held(int i) const {
     const int k = held_[static_cast<std::size_t>(i)];
@@ -124,41 +154,49 @@ class Line {
   double sag_weight(int j) const { return sag_weight_[j]; }
   /// Weight, buoyancy of what is always wet, and the given constant load of each node, N.
   const Places& constant_load() const { return constant_; }
-  /// Area of bed under a node, m²: diameter times half of each segment beside it.
+  /// Area of bed under a node, m²: diameter times half of each segment beside it that meets the bed.
   double bed_area(int i) const { return bed_area_[i]; }
+  bool has_spheres() const { return spheres_; }
   bool has_massless_nodes() const;
   double length() const;
 
  private:
+  void find_chains();
   void find_held();
+  void find_ties();
   void find_bending();
+  void add_node(int i);
+  void add_segment(int j);
   Description d_;
-  std::vector<int> held_;  // index into d_.held, −1: free
+  std::vector<int> held_;                 // index into d_.held, −1: free
+  std::vector<int> first_, after_, tie_;  // −1: none
   Eigen::VectorXd diagonal_, between_, bed_area_, sag_weight_, bending_;
   double hardest_bending_ = 0;
+  bool spheres_ = false;
   Places constant_;
 };
 
 /// Where a line is and how it moves.
 struct State {
   double time = 0;
-  Places position, velocity;
+  Places position, velocity;   ///< tied nodes each have their own columns, which are the same
   Eigen::VectorXd tension;     ///< of each segment, N, > 0 pulls
   Eigen::Matrix2Xd grip = {};  ///< x and y at which a bed with friction holds each node, m; empty: where it starts
 };
 
-/// Direction of a link as Huijgen 2024 has it (eqs. 4.3-4.5): d = ℓ (cos θ cos φ, cos θ sin φ, −sin θ).
+/// Direction of the link that begins at node `first`, as Huijgen 2024 has it (eqs. 4.3-4.5): d = ℓ (cos θ cos φ, cos θ
+/// sin φ, −sin θ).
 struct LinkAngles {
   double polar;    ///< θ from the horizontal, positive down, −π/2 … π/2
   double azimuth;  ///< φ from x towards y, −π … π; of a vertical link 0
 };
-LinkAngles link_angles(const State& state, int segment);
+LinkAngles link_angles(const State& state, int first);
 
 /// The same with the branch (θ, φ) or (π − θ, φ + π), and the turn, that is nearest to `before`: series without jumps.
-LinkAngles link_angles(const State& state, int segment, const LinkAngles& before);
+LinkAngles link_angles(const State& state, int first, const LinkAngles& before);
 
 /// Rates of those angles, rad/s, for a link whose angles are `now` (of either branch). Of a vertical link the azimuth
 /// has none: 0.
-LinkAngles link_rates(const State& state, int segment, const LinkAngles& now);
+LinkAngles link_rates(const State& state, int first, const LinkAngles& now);
 
 }  // namespace dynamics::line

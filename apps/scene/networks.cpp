@@ -1,0 +1,207 @@
+/// Lines that meet: at junctions, and at each other's nodes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <numeric>
+
+#include "scene/build.hpp"
+
+namespace froude::scene {
+namespace {
+
+Junction read_junction(const Record& record, Names& names) {
+  Junction out;
+  out.name = names.of(record, 1).front();
+  if (record.has("mass")) out.mass = record.si("mass");
+  if (record.has("diameter")) out.diameter = record.si("diameter");
+  if (record.has("morison")) {
+    const Record& m = record.table("morison");
+    out.morison = {m.si("cd"), m.si("ca")};
+  }
+  out.buoyancy = record.has("buoyancy");
+  out.partial_immersion = record.has("partial_immersion");
+  out.place = record.place();
+  if (record.has("diameter") && !out.buoyancy && !out.morison)
+    throw record.wrong("diameter", "acts on nothing here", "leave it out, or add buoyancy or morison");
+  return out;
+}
+
+/// "main.node4": the line and the node; nothing if there is no such line.
+std::optional<Line::Meets> node_named(const UnresolvedEnd& end, const Scene& scene) {
+  const std::string& text = end.name.value;
+  const std::size_t dot = text.rfind(".node");
+  if (dot == std::string::npos) return std::nullopt;
+  const std::string line = text.substr(0, dot), digits = text.substr(dot + 5);
+  const auto of = std::find_if(scene.chains.begin(), scene.chains.end(), [&](const Line& l) { return l.name == line; });
+  if (of == scene.chains.end()) return std::nullopt;
+  int node = -1;
+  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), node);
+  const auto last = static_cast<int>(of->links.size());
+  if (read.ec != std::errc{} || read.ptr != digits.data() + digits.size() || node < 0 || node > last)
+    throw hydro::InputError(
+        fmt::format("[line.on] refers to \"{}\", but line \"{}\" has the nodes 0 to {}", text, line, last),
+        end.name.place, fmt::format("write \"{}.node{}\"", line, last / 2));
+  return Line::Meets{{}, static_cast<std::size_t>(of - scene.chains.begin()), node};
+}
+
+/// A node in the middle of a line, or its free end: those which nothing else holds already.
+void require_free(const UnresolvedEnd& end, const Line::Meets& meets, const Scene& scene) {
+  const Line& of = scene.chains[meets.line];
+  const auto last = static_cast<int>(of.links.size());
+  const auto refuse = [&](const std::string& rule, const std::string& remedy) {
+    throw hydro::InputError(fmt::format("[line.on] refers to \"{}\", {}", end.name.value, rule), end.name.place,
+                            remedy);
+  };
+  if ((meets.node == 0 && !of.from_meets) || (meets.node == last && of.to))
+    refuse("which is held already", "hold this line there too: write the place instead");
+  if ((meets.node == 0 && of.from_meets) || (meets.node == last && of.to_meets))
+    refuse("an end that itself meets something", "name what it meets");
+  if (of.bending_stiffness && meets.node != 0 && meets.node != last)
+    refuse(fmt::format("in the middle of a line that resists bending"),
+           fmt::format("make two lines of \"{}\" that end there at a [[junction]]", of.name));
+  const int own = end.first ? 0 : static_cast<int>(scene.chains[end.line].links.size());
+  if (meets.line == end.line && std::abs(own - meets.node) < 2)
+    refuse("the node beside it", "a loop needs two links at least");
+}
+
+Line::Meets resolve(const UnresolvedEnd& end, const Scene& scene) {
+  std::vector<std::string> known;
+  for (std::size_t k = 0; k < scene.junctions.size(); ++k) {
+    if (scene.junctions[k].name == end.name.value) return {k};
+    known.push_back(scene.junctions[k].name);
+  }
+  if (const auto node = node_named(end, scene)) {
+    require_free(end, *node, scene);
+    return *node;
+  }
+  for (const Body& b : scene.bodies) known.push_back(b.name);
+  for (const Line& l : scene.chains) known.push_back(l.name + ".node1");
+  const std::string near = hydro::nearest(end.name.value, known);
+  throw hydro::InputError(
+      fmt::format("[line.on] refers to \"{}\", but there is no such body, junction or node of a line", end.name.value),
+      end.name.place,
+      near.empty() ? "give a [[body]] or a [[junction]] this name, or write \"main.node4\""
+                   : fmt::format("did you mean \"{}\"?", near));
+}
+
+/// How many ends are at each junction: one alone is no meeting, unless there is something.
+void require_meetings(const Scene& scene) {
+  for (std::size_t k = 0; k < scene.junctions.size(); ++k) {
+    const Junction& junction = scene.junctions[k];
+    int ends = 0;
+    for (const Line& l : scene.chains)
+      for (const auto& meets : {l.from_meets, l.to_meets}) ends += meets && meets->junction == k ? 1 : 0;
+    if (ends == 0)
+      throw hydro::InputError(
+          fmt::format("no line is on the junction \"{}\"", junction.name), junction.place,
+          fmt::format("write on = {{ to = \"{}\" }} in a [[line]], or leave it out", junction.name));
+    if (ends == 1 && junction.mass == 0 && junction.diameter == 0)
+      throw hydro::InputError(
+          fmt::format("one line alone is on the junction \"{}\", at which nothing is", junction.name), junction.place,
+          "let another line be on it too, or give it mass or diameter, or let the end be free");
+  }
+}
+
+/// Union-find over the lines.
+std::vector<std::vector<std::size_t>> find_networks(const Scene& scene) {
+  std::vector<std::size_t> root(scene.chains.size()), at_junction(scene.junctions.size(), scene.chains.size());
+  std::iota(root.begin(), root.end(), std::size_t{0});
+  const auto find = [&](std::size_t i) {
+    while (root[i] != i) i = root[i];
+    return i;
+  };
+  for (std::size_t i = 0; i < scene.chains.size(); ++i)
+    for (const auto& meets : {scene.chains[i].from_meets, scene.chains[i].to_meets}) {
+      if (!meets) continue;
+      std::size_t with = meets->line;
+      if (meets->junction) {
+        std::size_t& first = at_junction[*meets->junction];
+        if (first == scene.chains.size()) first = i;
+        with = first;
+      }
+      const std::size_t a = find(i), b = find(with);
+      root[std::max(a, b)] = std::min(a, b);
+    }
+  std::vector<std::vector<std::size_t>> out;
+  std::vector<std::size_t> place(scene.chains.size());
+  for (std::size_t i = 0; i < scene.chains.size(); ++i) {
+    if (find(i) == i) {
+      place[i] = out.size();
+      out.emplace_back();
+    }
+    out[place[find(i)]].push_back(i);
+  }
+  return out;
+}
+
+/// One system has one water and one bed.
+void require_alike(const Line& l, const Line& first) {
+  const auto differs = [&](const std::string& what, const std::string& remedy) {
+    throw hydro::InputError(fmt::format("line \"{}\" meets \"{}\", but {}", l.name, first.name, what), l.place, remedy);
+  };
+  const auto wet = [](const Line& x) { return x.morison || x.buoyancy; };
+  if (wet(l) != wet(first)) differs("the water acts on one of them alone", "give both buoyancy or morison, or neither");
+  if (l.buoyancy != first.buoyancy) differs("one of them alone has buoyancy", "give it to both or to neither");
+  if (l.partial_immersion != first.partial_immersion)
+    differs("one of them alone is immersed in part", "give partial_immersion to both or to neither");
+  const auto componentwise = [](const Line& x) { return x.damping && x.damping->componentwise; };
+  if (l.damping && first.damping && componentwise(l) != componentwise(first))
+    differs("one of them alone has its damping componentwise", "give it to both or to neither");
+}
+
+void require_one_bed(const Line& l, const Line& other) {
+  if (!l.bed || !other.bed) return;
+  if (l.bed->stiffness != other.bed->stiffness || l.bed->damping != other.bed->damping ||
+      l.bed->friction != other.bed->friction)
+    throw hydro::InputError(fmt::format("line \"{}\" meets \"{}\", but lies on another bed", l.name, other.name),
+                            l.place, "give both the same [line.bed]");
+}
+
+void require_one_system(const Scene& scene, const std::vector<std::size_t>& network) {
+  const Line& first = scene.chains[network.front()];
+  const auto fastened = [&](std::size_t i) { return scene.chains[i].fastened(); };
+  const bool on_bodies = std::any_of(network.begin(), network.end(), fastened);
+  int watched = 0;
+  for (const std::size_t i : network) {
+    const Line& l = scene.chains[i];
+    require_alike(l, first);
+    for (const std::size_t k : network) require_one_bed(l, scene.chains[k]);
+    if (l.release)
+      throw hydro::InputError(fmt::format("line \"{}\" is let go, but meets others, which begin with it", l.name),
+                              l.place, "leave [line.release] out");
+    if (on_bodies && !l.axial_stiffness)
+      throw hydro::InputError(
+          fmt::format(
+              "line \"{}\" keeps its length, and meets lines that are on a body: they have no step once they are "
+              "taut",
+              l.name),
+          l.place, "give it an axial_stiffness");
+    if (on_bodies && (l.lead || l.lyapunov))
+      throw hydro::InputError(
+          fmt::format("line \"{}\" meets lines that are on a body, with which [line.{}] does not go", l.name,
+                      l.lead ? "lead" : "lyapunov"),
+          l.place, "leave it out, or hold the lines by the ground");
+    if (l.lyapunov && ++watched > 1)
+      throw hydro::InputError(
+          fmt::format("line \"{}\" asks for the exponent of lines that meet, which another one asks for", l.name),
+          l.lyapunov->place, "leave one of them out: they are one motion");
+  }
+}
+
+}  // namespace
+
+void build_networks(const Record& root, Names& names, const std::vector<UnresolvedEnd>& unresolved, Scene& scene) {
+  for (const Record& record : root.tables("junction")) scene.junctions.push_back(read_junction(record, names));
+  for (const UnresolvedEnd& end : unresolved) {
+    Line& line = scene.chains[end.line];
+    (end.first ? line.from_meets : line.to_meets) = resolve(end, scene);
+  }
+  require_meetings(scene);
+  scene.networks = find_networks(scene);
+  for (const auto& network : scene.networks)
+    if (network.size() > 1) require_one_system(scene, network);
+}
+
+}  // namespace froude::scene
