@@ -291,6 +291,49 @@ TEST_F(Fit, OfADecayTellsAddedMassWhereTheBodyIsKnown) {
               AllOf(HasSubstr("kg m^2"), HasSubstr("samples lie in the band")));
 }
 
+TEST_F(Fit, OfSeveralDecaysTellsTheMemoryOfTheWater) {
+  const auto j = nlohmann::json::parse(told({.scene = examples / "heave_decays.toml",
+                                             .output = folder / "m.toml",
+                                             .table = folder / "m.csv",
+                                             .picture = folder / "m.svg"},
+                                            true));
+  ASSERT_EQ(j["run"].size(), 3u);
+  const auto& memory = j["together"]["memory"];
+  // The water of make_heave_decays.py: 400 N/m over 180 kg.
+  EXPECT_TRUE(holds(memory["memory_strength"], 400.0 / 180)) << memory.dump(1);
+  EXPECT_TRUE(holds(memory["memory_decay"], 1.2)) << memory.dump(1);
+  EXPECT_TRUE(holds(memory["memory_frequency"], std::hypot(1.2, 2.8))) << memory.dump(1);
+  EXPECT_TRUE(holds(memory["limit"]["added_mass"], 60)) << memory.dump(1);
+  const double s = memory["swing"]["omega_rad_s"].get<double>(), w2 = 1.2 * 1.2 + 2.8 * 2.8,
+               d = (w2 - s * s) * (w2 - s * s) + 4 * 1.44 * s * s;
+  EXPECT_TRUE(holds(memory["swing"]["added_mass"], 60 + 400 * (w2 - s * s) / d));
+  EXPECT_TRUE(holds(memory["swing"]["damping"], 2 * 1.2 * 400 * s * s / d));
+  EXPECT_GT(memory["aicc_gained"].get<double>(), 10);
+  EXPECT_THAT(hydro::io::read_text(folder / "m.csv"),
+              AllOf(HasSubstr("file,let_go_at,rest,first_amplitude [m],period [s],period_low [s]"),
+                    HasSubstr("run_2.csv,0.09,-0.002,")));
+  EXPECT_THAT(hydro::io::read_text(folder / "m.svg"), AllOf(HasSubstr("added mass"), HasSubstr("at the swing")));
+  EXPECT_THAT(hydro::io::read_text(folder / "m.toml"), HasSubstr("memory_strength = "));
+  EXPECT_THAT(told({.scene = examples / "heave_decays.toml"}),
+              AllOf(HasSubstr("3 runs with one set of coefficients"), HasSubstr("linear over 3 runs"),
+                    HasSubstr("by the memory at"), HasSubstr("singular values of the parameters over their errors")));
+}
+
+TEST_F(Fit, OfASliderHasItsFrictionInNewtons) {
+  auto scene = changed("friction.toml", "torque = \"M\"", "force = \"M\"");
+  EXPECT_THAT([&] { told({.scene = scene}); }, ThrowsMessage<InputError>(HasSubstr("a force is needed")));
+  for (const char* number : {"1", "2", "3", "4"}) {
+    const auto file = folder / (std::string("friction_") + number + ".csv");
+    std::string text = hydro::io::read_text(file);
+    text.replace(text.find("M [N m]"), 7, "M [N]");
+    hydro::io::write_atomically(file, text);
+  }
+  const auto j = nlohmann::json::parse(told({.scene = scene, .output = folder / "s.toml"}, true));
+  EXPECT_TRUE(holds(j["together"]["static"], 3.70));  // the means of make_friction.py
+  EXPECT_THAT(j["coefficients"]["dynamic"].get<std::string>(), testing::EndsWith(" N"));
+  EXPECT_THAT(told({.scene = scene}), testing::Not(HasSubstr("N m")));
+}
+
 TEST_F(Fit, OfASceneMayBeginAtSeveralPoints) {
   const auto scene = changed("pendulums.toml", "window = \"2 s\"", "window = \"2 s\"\nstarts = 2");
   EXPECT_THAT([&] { told({.scene = scene}); }, ThrowsMessage<InputError>(HasSubstr("no bounds between which")));
