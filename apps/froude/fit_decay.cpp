@@ -70,6 +70,12 @@ void fit_records(const scene::FitScene& scene, DecayRun& run) {
     run.water =
         ::fit::added_mass(run.fit, {b->mass, b->stiffness, b->mass_error, b->stiffness_error}, scene.confidence);
   if (asks_memory(scene)) add_memory(scene, windows, run);
+  // Of the model that holds what was asked for. The scale of harmonics is that of the record.
+  const Eigen::VectorXd measured = windows[0].values.col(0);
+  if (windows.size() == 1 && measured.size() >= 64 && run.fit.period.value)
+    run.left = ::fit::look_at_residuals(measured - (run.memory ? run.memory->motion : run.fit.motion).motion[0].col(0),
+                                        std::sqrt((measured.array() - measured.mean()).square().mean()),
+                                        windows[0].step, *run.fit.period.value);
   const auto names = ::fit::parameters_of(run.fit.problem.law);
   for (const Coefficient& c : run.fit.damping) {
     if (!scene.profile) break;

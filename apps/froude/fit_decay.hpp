@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fit/decay_memory.hpp"
+#include "fit/diagnose.hpp"
 #include "fit/runs.hpp"
 #include "froude/fit_report.hpp"
 
@@ -22,6 +23,7 @@ struct DecayRun {
   std::vector<DecayRecord> records;
   ::fit::Decrement decrement;  ///< of the first record
   ::fit::DecayFit fit;
+  std::optional<::fit::ResidualReport> left = {};    ///< in the residuals of one record of 64 samples and more
   std::vector<::fit::Interval> profiles = {};        ///< of the terms, where asked for
   std::optional<::fit::AddedMass> water = {};        ///< where the body is known
   std::optional<::fit::DecayMemoryFit> memory = {};  ///< where asked for

@@ -193,6 +193,11 @@ void tell_decay(const scene::FitScene& scene, const DecayRun& run, const Console
                              m.search.identifiability);
   if (!m.caution.empty()) console.out << "  caution: " << m.caution << '\n';
   tell_memory(run, angle, console, scene.confidence);
+  if (run.left)
+    console.out << fmt::format(
+        "  residuals: {:.0f} % of their variance in harmonics; neighbouring fortieths of a period correlate by {:.2f} "
+        "(white with p = {:.2g})\n",
+        100 * run.left->harmonic_share, run.left->lag_one, run.left->ljung_box_p);
 }
 
 void tell_decay_laws(const scene::FitScene& scene, const std::vector<DecayLaw>& laws, std::size_t runs,
@@ -231,6 +236,10 @@ FitJson decay_as_json(const DecayRun& run) {
   for (std::size_t k = 0; k < run.profiles.size(); ++k)
     j[run.fit.damping[k].name]["profile_interval"] = {run.profiles[k].low, run.profiles[k].high};
   for (const Coefficient& c : run.fit.energy.damping) j["energy"][c.name] = *c.value;
+  if (run.left)
+    j["residuals"] = {{"harmonic_share", run.left->harmonic_share},
+                      {"lag_one", run.left->lag_one},
+                      {"ljung_box_p", run.left->ljung_box_p}};
   if (run.memory) j["memory"] = memory_as_json(run);
   if (!run.water) return j;
   Json& water = j["water"];

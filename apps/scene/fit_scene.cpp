@@ -448,9 +448,12 @@ void read_batch(const Record& root, const fs::path& file, FitScene& scene) {
   for_morison(intervals, "method");
   if (data.has("runs")) scene.run_table = {{beside(file, data.text("runs")), data["runs"].place}};
   scene.interval_method = intervals.text("method");
-  if (ask.has("profile") && scene.model.kind != "decay")
+  if (ask.has("profile") && scene.model.kind != "decay" && scene.model.kind != "motion")
     throw ask.wrong("profile", fmt::format("has no part in a fit of kind \"{}\"", scene.model.kind),
                     "leave it out: that model is linear, and its intervals are those of the likelihood");
+  if (ask.has("profile") && scene.motion.starts > 1 && scene.motion.window > 0)
+    throw ask.wrong("profile", "cannot be had with several starts of a search in windows",
+                    "give each parameter the first value that was found, and leave out [model] starts");
   scene.profile = ask.has("profile");
   scene.robust = ask.has("robust");
   scene.cycles = ask.has("cycles");

@@ -354,7 +354,9 @@ const Table& ask() {
               .optional(),
           inner_table("intervals", intervals()).or_default("", "see its keys"),
           effect("robust", "morison: wild samples of the force pull less (Huber)").optional(),
-          effect("profile", "decay: intervals of the damping from the likelihood itself, which need not be symmetric")
+          effect("profile",
+                 "decay, motion: intervals of damping or parameters from the likelihood itself, which need not be "
+                 "symmetric")
               .optional(),
           effect(
               "together",

@@ -94,7 +94,9 @@ TEST_F(Fit, OfADecayHasTheTruthInItsIntervals) {
   EXPECT_TRUE(holds("quadratic", 0.6));
   const std::string text =
       told({.scene = examples / "decay.toml", .output = folder / "d.toml", .picture = folder / "d.svg"});
-  EXPECT_THAT(text, AllOf(HasSubstr("quadratic"), HasSubstr("1/rad"), HasSubstr("AICc")));
+  EXPECT_THAT(text, AllOf(HasSubstr("quadratic"), HasSubstr("1/rad"), HasSubstr("AICc"), HasSubstr("white with p")));
+  // Noise with a memory of three samples, of which a fortieth of the period takes two; no harmonic of the swing.
+  EXPECT_LT(run["residuals"]["harmonic_share"].get<double>(), 0.1);
   EXPECT_THAT(hydro::io::read_text(folder / "d.toml"),
               AllOf(HasSubstr("[coefficients]"), HasSubstr("[run.quadratic]")));
   EXPECT_THAT(hydro::io::read_text(folder / "d.svg"), HasSubstr("residual"));
@@ -192,12 +194,28 @@ TEST_F(Fit, OfASceneFindsTheDampingThatAnIndependentRecordHas) {
   };
   EXPECT_TRUE(holds("line_damping_linear", 0.006)) << j.dump(1);  // as make_pendulums.py says
   EXPECT_TRUE(holds("line_damping_quadratic", 0.004)) << j.dump(1);
+  for (const auto& [name, one] : parameter.items()) EXPECT_FALSE(one.contains("profile_interval")) << name;
   for (const auto& s : j["signal"]) EXPECT_NEAR(s["rms"].get<double>(), 0.01, 0.0015);  // the noise, and nothing else
   EXPECT_NEAR(j["samples_in_band"].get<double>(), 0.95, 0.03);                          // 600 samples: three deviations
   for (const auto& s : j["signal"])
     EXPECT_LT(s["widest_band_of_fit"].get<double>(), s["widest_band_of_sample"].get<double>());
   EXPECT_THAT(hydro::io::read_text(folder / "p.svg"), HasSubstr("95 % band of the fit"));
   EXPECT_THAT(hydro::io::read_text(folder / "p.toml"), HasSubstr("line_damping_linear = \"0.00"));
+}
+
+TEST_F(Fit, OfASceneGivesProfilesWhereAsked) {
+  const auto scene = changed("pendulums.toml", "[ask]", "[ask]\nprofile = true");
+  const auto j = nlohmann::json::parse(told({.scene = scene}, true));
+  for (const auto& [name, truth] : {std::pair{"line_damping_linear", 0.006}, {"line_damping_quadratic", 0.004}}) {
+    const auto &plain = j["parameter"][name]["interval"], &profile = j["parameter"][name]["profile_interval"];
+    EXPECT_LT(profile[0].get<double>(), truth);  // as make_pendulums.py says
+    EXPECT_GT(profile[1].get<double>(), truth);
+    const double width = plain[1].get<double>() - plain[0].get<double>();
+    for (const std::size_t end : {0u, 1u})  // nearly linear
+      EXPECT_NEAR(profile[end].get<double>(), plain[end].get<double>(), 0.15 * width) << name;
+  }
+  EXPECT_THAT([&] { told({.scene = changed("pendulums.toml", "[ask]", "[ask]\nprofile = true\nlaw = \"best\"")}); },
+              ThrowsMessage<InputError>(HasSubstr("has no part in a fit of kind \"motion\"")));
 }
 
 TEST_F(Fit, OfASceneSaysWhichKeyItCannotFind) {
@@ -314,9 +332,27 @@ TEST_F(Fit, OfSeveralDecaysTellsTheMemoryOfTheWater) {
                     HasSubstr("run_2.csv,0.09,-0.002,")));
   EXPECT_THAT(hydro::io::read_text(folder / "m.svg"), AllOf(HasSubstr("added mass"), HasSubstr("at the swing")));
   EXPECT_THAT(hydro::io::read_text(folder / "m.toml"), HasSubstr("memory_strength = "));
-  EXPECT_THAT(told({.scene = examples / "heave_decays.toml"}),
-              AllOf(HasSubstr("3 runs with one set of coefficients"), HasSubstr("linear over 3 runs"),
-                    HasSubstr("by the memory at"), HasSubstr("singular values of the parameters over their errors")));
+  EXPECT_GT(j["over_runs"]["linear"]["prediction"][1].get<double>(), j["over_runs"]["linear"]["value"].get<double>());
+  const auto two = changed("heave_decays.toml", "runs = \"heave_decays/runs.csv\"",
+                           "files = [\"heave_decays/run_1.csv\", \"heave_decays/run_2.csv\"]");
+  std::string text = hydro::io::read_text(two);
+  text.replace(text.find("\"memory\""), 8, "\"linear\"");
+  text.replace(text.find("start = "), text.find("body = ") - text.find("start = "), "");
+  hydro::io::write_atomically(two, text);
+  EXPECT_THAT(told({.scene = two}), AllOf(HasSubstr("run_2.csv: 10 half cycles"),
+                                          HasSubstr("2 runs with one set of coefficients"), HasSubstr("kg")));
+}
+
+TEST_F(Fit, OfOneDecayTellsTheMemoryInWords) {
+  const auto one =
+      changed("heave_decays.toml", "runs = \"heave_decays/runs.csv\"", "files = \"heave_decays/run_1.csv\"");
+  EXPECT_THAT([&] { told({.scene = one}); }, ThrowsMessage<InputError>(HasSubstr("needs two files at least")));
+  std::string text = hydro::io::read_text(one);
+  text.replace(text.find("together = true"), 15, "");
+  hydro::io::write_atomically(one, text);
+  EXPECT_THAT(told({.scene = one}),
+              AllOf(HasSubstr("by the memory at"), HasSubstr("singular values of the parameters over their errors"),
+                    HasSubstr("at infinite frequency"), HasSubstr("memory_strength 2.1")));
 }
 
 TEST_F(Fit, OfASliderHasItsFrictionInNewtons) {
