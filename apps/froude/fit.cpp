@@ -91,7 +91,7 @@ std::vector<::fit::ForceChannel> force_channels(const scene::FitScene& scene, co
                             .derivative = p.derivative_method == "smoothing spline" ? Derivative::smoothing_spline
                                           : p.derivative_method == "fourier series" ? Derivative::fourier_series
                                                                                     : Derivative::local_polynomial};
-  if (p.outlier_window > 0) out.outlier_half_window = std::max(2, static_cast<int>(p.outlier_window / (2 * step)));
+  out.outlier_half_window = outlier_half_window(p, step);
   for (const auto& f : p.filters) out.filters.push_back(filter_of(f));
   using Kind = ::fit::WindowChoice::Kind;
   out.window = {.kind = p.window == "span"          ? Kind::span
@@ -247,6 +247,10 @@ RunLabels run_labels(const hydro::io::CsvTable& table, std::size_t row, const st
       out.push_back(
           {name, table.is_text(name) ? table.text_column(name)[row] : fmt::format("{:.6g}", table.column(name)[row])});
   return out;
+}
+
+int outlier_half_window(const scene::FitScene::Prepare& p, double step) {
+  return p.outlier_window > 0 ? std::max(2, static_cast<int>(p.outlier_window / (2 * step))) : 0;
 }
 
 ::fit::Cylinder cylinder_of(const scene::FitScene& scene) {

@@ -6,6 +6,7 @@
 
 #include "fit/decay.hpp"
 #include "fit/forced_radiation.hpp"
+#include "fit/prepare.hpp"
 #include "froude/fit_report.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -36,9 +37,49 @@ bool asks_memory(const scene::FitScene& scene) {
 
 DecayRecord read_record(const scene::FitScene& scene, const std::filesystem::path& file) {
   const auto table = hydro::io::CsvTable::read(file);
-  return {file.filename().string(), table.column(scene.channels.at("time"), dim::time),
-          scene.channels.count("angle") > 0 ? table.column(scene.channels.at("angle"), dim::angle)
-                                            : table.column(scene.channels.at("position"), dim::length)};
+  const bool angle = scene.channels.count("angle") > 0;
+  const auto& time = table.column(scene.channels.at("time"), dim::time);
+  const auto& p = scene.prepare;
+  hydro::require(time.size() >= 3, "a record needs at least three samples, got {}", time.size());
+  const double rough_step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+  ::fit::PrepareOptions options{.longest_gap_s = p.longest_gap,
+                                .outlier_half_window = outlier_half_window(p, rough_step),
+                                .outlier_deviations = p.outlier_deviations};
+  if (p.window == "span") options.window = {.kind = ::fit::WindowChoice::Kind::span, .from = p.from, .to = p.to};
+  auto motion = ::fit::prepare_motion(angle ? "angle" : "position", time,
+                                      angle ? table.column(scene.channels.at("angle"), dim::angle)
+                                            : table.column(scene.channels.at("position"), dim::length),
+                                      options);
+  return {file.filename().string(), std::move(motion.time), std::move(motion.values), std::move(motion.steps),
+          std::move(motion.cautions)};
+}
+
+/// The terms that the fit without a memory has.
+::fit::DecayOptions plain_options(const scene::FitScene& scene) {
+  ::fit::DampingTerms terms = terms_of(scene);
+  if (terms.count() == 0) terms.linear = true;  // what a memory is set against
+  return {.terms = terms, .pendulum = scene.model.sine, .confidence = scene.confidence};
+}
+
+/// The same fit of each half of the record: where they differ by many errors, damping is not what the terms say.
+void vary(const scene::FitScene& scene, const ::fit::Window& whole, DecayRun& run) {
+  const Eigen::Index n = whole.values.rows(), half = n / 2;
+  for (const bool first : {true, false}) {
+    DecayVariant v{first ? "the first half of the record" : "the second half of the record", {}, {}};
+    const Eigen::MatrixXd part = whole.values.middleRows(first ? 0 : half, first ? half : n - half);
+    try {
+      const auto again = ::fit::fit_decay(std::vector{::fit::Window{whole.step, part}}, plain_options(scene));
+      const auto add = [&](const Coefficient& a, const Coefficient& b) {
+        const auto middle = [](const Coefficient& c) { return (c.interval.low + c.interval.high) / 2; };
+        v.changes.push_back((middle(a) - middle(b)) / b.standard_error);
+      };
+      add(again.period, run.fit.period);
+      for (std::size_t k = 0; k < again.damping.size(); ++k) add(again.damping[k], run.fit.damping[k]);
+    } catch (const hydro::InputError& e) {
+      v.why_not = e.rule();
+    }
+    run.variants.push_back(std::move(v));
+  }
 }
 
 /// The memory, and what it makes of the body where that is known.
@@ -63,9 +104,8 @@ void fit_records(const scene::FitScene& scene, DecayRun& run) {
     windows.push_back(
         {hydro::signal::even_step(r.time), Eigen::Map<const Eigen::VectorXd>(r.values.data(), std::ssize(r.values))});
   run.decrement = ::fit::logarithmic_decrement(::fit::find_extremes(run.records[0].time, run.records[0].values));
-  ::fit::DampingTerms terms = terms_of(scene);
-  if (terms.count() == 0) terms.linear = true;  // what a memory is set against
-  run.fit = ::fit::fit_decay(windows, {.terms = terms, .pendulum = scene.model.sine, .confidence = scene.confidence});
+  run.fit = ::fit::fit_decay(windows, plain_options(scene));
+  if (scene.sensitivity && windows.size() == 1) vary(scene, windows[0], run);
   if (const auto& b = scene.model.body)
     run.water =
         ::fit::added_mass(run.fit, {b->mass, b->stiffness, b->mass_error, b->stiffness_error}, scene.confidence);

@@ -14,6 +14,14 @@ namespace froude {
 struct DecayRecord {
   std::string name;  ///< of the file
   std::vector<double> time, values;
+  std::vector<std::string> steps, cautions;  ///< of its preparation
+};
+
+/// A fit of part of a record: what changes, in standard errors of the whole.
+struct DecayVariant {
+  std::string what;             ///< "the first half of the record"
+  std::vector<double> changes;  ///< period, then the terms; empty where it cannot be fitted
+  std::string why_not;
 };
 
 /// One file, or several fitted together.
@@ -24,6 +32,7 @@ struct DecayRun {
   ::fit::Decrement decrement;  ///< of the first record
   ::fit::DecayFit fit;
   std::optional<::fit::ResidualReport> left = {};    ///< in the residuals of one record of 64 samples and more
+  std::vector<DecayVariant> variants = {};           ///< where asked for
   std::vector<::fit::Interval> profiles = {};        ///< of the terms, where asked for
   std::optional<::fit::AddedMass> water = {};        ///< where the body is known
   std::optional<::fit::DecayMemoryFit> memory = {};  ///< where asked for

@@ -193,6 +193,18 @@ void tell_decay(const scene::FitScene& scene, const DecayRun& run, const Console
                              m.search.identifiability);
   if (!m.caution.empty()) console.out << "  caution: " << m.caution << '\n';
   tell_memory(run, angle, console, scene.confidence);
+  for (const DecayVariant& v : run.variants) {
+    console.out << fmt::format("  with {}: ", v.what);
+    if (!v.why_not.empty()) console.out << "cannot be fitted: " << v.why_not;
+    for (std::size_t k = 0; k < v.changes.size(); ++k)
+      console.out << fmt::format("{}{} {:+.1f} errors", k > 0 ? ", " : "",
+                                 k == 0 ? "period" : run.fit.damping[k - 1].name, v.changes[k]);
+    console.out << '\n';
+  }
+  if (run.records.size() == 1) {
+    for (const std::string& step : run.records[0].steps) console.out << "  " << step << '\n';
+    for (const std::string& caution : run.records[0].cautions) console.out << "  caution: " << caution << '\n';
+  }
   if (run.left)
     console.out << fmt::format(
         "  residuals: {:.0f} % of their variance in harmonics; neighbouring fortieths of a period correlate by {:.2f} "
@@ -236,6 +248,17 @@ FitJson decay_as_json(const DecayRun& run) {
   for (std::size_t k = 0; k < run.profiles.size(); ++k)
     j[run.fit.damping[k].name]["profile_interval"] = {run.profiles[k].low, run.profiles[k].high};
   for (const Coefficient& c : run.fit.energy.damping) j["energy"][c.name] = *c.value;
+  if (run.records.size() == 1) {
+    j["steps"] = run.records[0].steps;
+    j["cautions"] = run.records[0].cautions;
+  }
+  for (const DecayVariant& v : run.variants) {
+    Json one{{"with", v.what}};
+    if (!v.why_not.empty()) one["why_not"] = v.why_not;
+    for (std::size_t k = 0; k < v.changes.size(); ++k)
+      one[k == 0 ? "period" : run.fit.damping[k - 1].name] = v.changes[k];
+    j["variant"].push_back(one);
+  }
   if (run.left)
     j["residuals"] = {{"harmonic_share", run.left->harmonic_share},
                       {"lag_one", run.left->lag_one},

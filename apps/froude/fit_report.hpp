@@ -50,6 +50,8 @@ struct FitLaw {
   std::size_t runs, left_out;              ///< fitted; not identifiable
 };
 
+/// Half the window of [prepare.outliers] in samples; 0 where outliers are not looked for.
+int outlier_half_window(const scene::FitScene::Prepare& p, double step);
 ::fit::Cylinder cylinder_of(const scene::FitScene& scene);
 /// Reads, prepares and fits all runs. \throws hydro::InputError with the file's name
 std::vector<FitRun> fit_all(const scene::FitScene& scene);

@@ -202,9 +202,14 @@ FitScene::Prepare read_prepare(const Record& root, const std::string& kind) {
   FitScene::Prepare out;
   if (!root.has("prepare")) return out;
   const Record& prepare = root.table("prepare");
-  if (kind != "morison")
+  if (kind != "morison" && kind != "decay")
     throw prepare.refused(fmt::format("has no part in a fit of kind \"{}\"", kind),
-                          "leave it out: its steps are those of a force");
+                          "leave it out: its steps are those of a force, or of a decay");
+  for (const char* key : {"resample", "delay", "derivative_bandwidth", "derivative_method", "low_pass", "notch",
+                          "moving_average", "mean_cycle"})
+    if (kind == "decay" && prepare.has(key) && !prepare[key].defaulted)
+      throw prepare.wrong(key, "has no part in a fit of kind \"decay\"",
+                          "leave it out: what is fitted is the motion as it was recorded");
   if (prepare.has("longest_gap")) out.longest_gap = prepare.si("longest_gap");
   if (prepare.has("outliers")) {
     out.outlier_window = prepare.table("outliers").si("window");
@@ -223,6 +228,8 @@ FitScene::Prepare read_prepare(const Record& root, const std::string& kind) {
   if (!prepare.has("window")) return out;
   const Record& window = prepare.table("window");
   out.window = window.text("kind");
+  if (kind == "decay" && out.window != "span")
+    throw window.wrong("kind", "must be \"span\" for a decay, which has no cycles of full amplitude");
   if (window.has("last") && window["last"].integer < 1) throw window.wrong("last", "must be 1 at least");
   if (window.has("last")) out.cycles = static_cast<int>(window["last"].integer);
   if (window.has("tolerance")) out.tolerance = window.si("tolerance");
@@ -444,7 +451,8 @@ void read_batch(const Record& root, const fs::path& file, FitScene& scene) {
       throw record.wrong(key, fmt::format("has no part in a fit of kind \"{}\"", scene.model.kind), "leave it out");
   };
   if (scene.model.kind != "decay") for_morison(data, "runs");
-  for (const char* key : {"robust", "cycles", "law", "sensitivity"}) for_morison(ask, key);
+  for (const char* key : {"robust", "cycles", "law"}) for_morison(ask, key);
+  if (scene.model.kind != "decay") for_morison(ask, "sensitivity");
   for_morison(intervals, "method");
   if (data.has("runs")) scene.run_table = {{beside(file, data.text("runs")), data["runs"].place}};
   scene.interval_method = intervals.text("method");

@@ -140,7 +140,9 @@ const Table& window() {
 const Table& prepare() {
   static const Table table{
       .title = "[prepare]",
-      .meaning = "steps between the measurement and a fit of kind \"morison\"; each is told in the report",
+      .meaning =
+          "steps between the measurement and a fit of kind \"morison\"; each is told in the report. A decay has "
+          "longest_gap, outliers and a window of kind \"span\"",
       .keys = {
           quantity("longest_gap", dim::time, "rows missing no longer than this are bridged").positive().optional(),
           inner_table("outliers", outliers()).optional(),
@@ -368,7 +370,9 @@ const Table& ask() {
                "morison: coefficients of all runs against KC, Re or beta = Re/KC, with runs that differ by chance")
               .one_of({"constant", "kc", "re", "beta", "kc and re", "best"})
               .optional(),
-          effect("sensitivity", "morison: the fit repeated with other cutoffs, bandwidths and halves of the window")
+          effect("sensitivity",
+                 "morison: the fit repeated with other cutoffs, bandwidths and halves of the window; decay: with each "
+                 "half of the record")
               .optional()}};
   return table;
 }

@@ -70,7 +70,7 @@ struct Work {
 std::vector<std::pair<std::string, std::vector<double>*>> measured(RawRun& run) {
   std::vector<std::pair<std::string, std::vector<double>*>> all;
   for (ForceChannel& f : run.force) all.push_back({f.name, &f.values});
-  for (auto& [name, column] : {std::pair{"position", &run.position},
+  for (auto& [name, column] : {std::pair{run.position_name.c_str(), &run.position},
                                {"velocity", &run.velocity},
                                {"acceleration", &run.acceleration},
                                {"cross velocity", &run.cross_velocity},
@@ -490,6 +490,24 @@ Prepared prepare(RawRun run, const PrepareOptions& options) {
   cut_window(w, options.window, options.average_cycles);
   add_force_errors(w);
   return std::move(w.out);
+}
+
+PreparedMotion prepare_motion(const std::string& name, std::vector<double> time, std::vector<double> values,
+                              const PrepareOptions& options) {
+  hydro::require(time.size() == values.size() && time.size() >= 3, "{} has {} samples, time {}: three are needed", name,
+                 values.size(), time.size());
+  hydro::require(options.filters.empty() && options.resample_hz == 0 && options.delay_s == 0 &&
+                     options.window.kind != WindowChoice::Kind::full_cycles,
+                 "a motion alone is not filtered, moved in time or cut into cycles");
+  Work w;
+  w.run.time = std::move(time);
+  w.run.position = std::move(values);
+  w.run.position_name = name;
+  fill_gaps(w, options.longest_gap_s);
+  look_at_sensors(w);
+  take_outliers(w, options);
+  cut_window(w, options.window, false);
+  return {w.step, std::move(w.run.time), std::move(w.run.position), std::move(w.out.steps), std::move(w.out.cautions)};
 }
 
 std::string sign_trouble(const Cylinder& cylinder, const MorisonFit& fit) {  // (F26)

@@ -1,4 +1,5 @@
 // `froude fit` through the function that main.cpp calls.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +10,7 @@
 #include "froude/commands.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
+#include "hydro/io/csv.hpp"
 
 namespace fit_test {
 namespace {
@@ -100,6 +102,43 @@ TEST_F(Fit, OfADecayHasTheTruthInItsIntervals) {
   EXPECT_THAT(hydro::io::read_text(folder / "d.toml"),
               AllOf(HasSubstr("[coefficients]"), HasSubstr("[run.quadratic]")));
   EXPECT_THAT(hydro::io::read_text(folder / "d.svg"), HasSubstr("residual"));
+}
+
+TEST_F(Fit, OfADecayTakesItsPartOfARawRecord) {
+  // Ten seconds at rest before the body is let go, a spike, and two rows that are missing.
+  const auto scene = changed(
+      "decay.toml", "[model]",
+      "[prepare]\nlongest_gap = \"0.5 s\"\noutliers = { window = \"2 s\" }\nwindow = { kind = \"span\", from = \"10 "
+      "s\", to = \"99 s\" }\n[model]");
+  std::string text = "t [s],roll [rad]\n";
+  for (int j = 0; j < 100; ++j) text += fmt::format("{:.1f},{:.5f}\n", 0.1 * j, 0.157 + 0.0001 * (j % 3));
+  const auto table = hydro::io::CsvTable::read(examples / "decay.csv");
+  const auto &t = table.column("t"), &roll = table.column("roll");
+  for (std::size_t j = 0; j < t.size(); ++j)
+    if (j != 300 && j != 301) text += fmt::format("{:.1f},{:.5f}\n", t[j] + 10, j == 500 ? 3.0 : roll[j]);
+  hydro::io::write_atomically(folder / "decay.csv", text);
+  const auto run = nlohmann::json::parse(told({.scene = scene}, true))["run"][0];
+  for (const auto& [name, truth] : {std::pair{"period", 6.4}, {"linear", 0.02}, {"quadratic", 0.6}}) {  // make_decay.py
+    EXPECT_LT(run[name]["interval"][0].get<double>(), truth) << name;
+    EXPECT_GT(run[name]["interval"][1].get<double>(), truth) << name;
+  }
+  EXPECT_THAT(run["steps"].dump(), AllOf(HasSubstr("gaps: 2 of"), HasSubstr("outliers: 1 of"), HasSubstr("of angle"),
+                                         HasSubstr("window: from 10 s")));
+}
+
+TEST_F(Fit, OfADecayIsRepeatedWithEachHalfWhereAsked) {
+  const auto run = nlohmann::json::parse(
+      told({.scene = changed("decay.toml", "[ask]", "[ask]\nsensitivity = true")}, true))["run"][0];
+  ASSERT_EQ(run["variant"].size(), 2u);
+  // The first half holds most of what tells the damping; the model is right, so it moves by an error or two.
+  for (const char* name : {"period", "linear", "quadratic"})
+    EXPECT_LT(std::abs(run["variant"][0][name].get<double>()), 4) << name;
+  // Without the quadratic term the halves disagree about the linear one.
+  const auto wrong =
+      nlohmann::json::parse(told({.scene = changed("decay.toml", "coefficients = [\"linear\", \"quadratic\"]",
+                                                   "coefficients = [\"linear\"]\nsensitivity = true")},
+                                 true))["run"][0];
+  EXPECT_LT(wrong["variant"][1]["linear"].get<double>(), -4);  // less damping in the small swings
 }
 
 TEST_F(Fit, OfADecayGivesProfilesWhereAsked) {

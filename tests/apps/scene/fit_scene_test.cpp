@@ -183,6 +183,15 @@ profile = true
   EXPECT_THAT(refused(with(decay, ", angle = \"roll\"", "")), HasSubstr("needs either position or angle"));
   EXPECT_THAT(refused(with(decay, "\"linear\"", "\"cd\"")), HasSubstr("a decay knows linear"));
   EXPECT_THAT(refused(with(decay, "[ask]", "[prepare]\ndelay = \"1 s\"\n[ask]")), HasSubstr("has no part"));
+  EXPECT_THAT(refused(with(decay, "[ask]", "[prepare]\nderivative_method = \"smoothing spline\"\n[ask]")),
+              HasSubstr("has no part"));
+  EXPECT_THAT(refused(with(decay, "[ask]", "[prepare]\nwindow = { kind = \"full cycles\" }\n[ask]")),
+              HasSubstr("must be \"span\""));
+  const FitScene cut =
+      read(with(decay, "[ask]",
+                "[prepare]\nlongest_gap = \"1 s\"\nwindow = { kind = \"span\", from = \"3 s\", to = \"9 s\" }\n[ask]"));
+  EXPECT_EQ(cut.prepare.from, 3);
+  EXPECT_EQ(cut.prepare.longest_gap, 1);
   EXPECT_THAT(refused(with(oscillation, "\"ca\"", "\"cubic\"")), HasSubstr("has no part in a fit of kind \"morison\""));
   EXPECT_THAT(refused(with(decay, "[ask]", "[ask]\ntogether = true")), HasSubstr("needs two files at least"));
   EXPECT_THAT(refused(with(oscillation, "[ask]", "[ask]\ntogether = true")), HasSubstr("has no part"));
