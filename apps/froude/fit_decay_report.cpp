@@ -57,7 +57,7 @@ void tell_memory(const DecayRun& run, bool angle, const Console& console, double
   console.out << fmt::format(
       "  with a memory of the water in place of a constant damping: swings at {:.4g} rad/s, decays by {:.4g}/s; "
       "residual "
-      "{:.3g} rms; AICc lower by {:.4g}\n",
+      "{:.3g} rms; AICc lower by {:.4g} than without\n",
       m.omega, m.rate, m.motion.rms[0], m.gain);
   for (const auto* group : {&m.memory, &m.damping})
     for (const Coefficient& c : *group) console.out << sentence(c, unit_of(c.name, angle), confidence);

@@ -138,6 +138,11 @@ void tell_directions(DecayMemoryFit& fit) {
                             fmt::join(parts, " + "), std::sqrt(solver.eigenvalues()[p - 1]));
 }
 
+DecayOptions options_of(const DampingTerms& terms, const DecayMemoryOptions& options) {
+  return {
+      .terms = terms, .fit_offset = options.fit_offset, .confidence = options.confidence, .substeps = options.substeps};
+}
+
 double penalty(double k, double n) { return 2 * k + 2 * k * (k + 1) / (n - k - 1); }
 
 /// AICc that the memory gains over the plain fit, both with the number of independent samples that the fuller one has.
@@ -161,7 +166,10 @@ void judge(DecayMemoryFit& fit) {
     if (c.value && fit.gain < 2) {
       c.value.reset();
       c.why_not = fmt::format(
-          "a constant damping does as well: the memory lowers AICc by {:.2g}, and by 2 where it is told", fit.gain);
+          "a damping without a memory, linear or quadratic too, does as well: the memory lowers AICc by {:.2g}, and by "
+          "2 "
+          "where it is told",
+          fit.gain);
     }
     fit.memory.push_back(c);
   }
@@ -182,10 +190,7 @@ DecayMemoryFit fit_decay_memory(std::span<const Window> records, const DecayMemo
   hydro::require(!options.terms.coulomb, "a decay with a memory knows no Coulomb friction");
   DampingTerms with_linear = options.terms;
   with_linear.linear = true;
-  const DecayFit plain = fit_decay(records, {.terms = with_linear,
-                                             .fit_offset = options.fit_offset,
-                                             .confidence = options.confidence,
-                                             .substeps = options.substeps});
+  const DecayFit plain = fit_decay(records, options_of(with_linear, options));
   DecayMemoryFit fit{};
   search(records, options, plain, fit);
   const bool on[] = {options.terms.linear, options.terms.quadratic, options.terms.cubic};
@@ -196,6 +201,10 @@ DecayMemoryFit fit_decay_memory(std::span<const Window> records, const DecayMemo
   fit.rate = -swing.real();
   tell_directions(fit);
   fit.gain = gain_of(plain, fit);
+  if (!with_linear.quadratic) {  // what a quadratic damping does to a decay must not be taken for a memory
+    with_linear.quadratic = true;
+    fit.gain = std::min(fit.gain, gain_of(fit_decay(records, options_of(with_linear, options)), fit));
+  }
   judge(fit);
   return fit;
 }

@@ -147,6 +147,20 @@ TEST(DecayMemory, IsNotToldOfADecayWithoutOne) {
   EXPECT_LE(told, 1);  // AICc takes a needless term in about one case of six, and intervals must hold zero beside
 }
 
+TEST(DecayMemory, IsNotToldOfAQuadraticDamping) {
+  // Large swings lose more than small ones, which one damping cannot follow and a pair of poles can, for a while.
+  fit::Window w{0.1, fit::follow(MotionLaw::oscillator, std::vector<double>{1.6, 0.05, 1.0, 0, 0, 0},
+                                 Eigen::Vector2d(0.2, 0), 0.1, 400, 4)};
+  const auto e = froude_test::ar1_noise(400, 0.5, 1, 21);
+  for (Eigen::Index j = 0; j < 400; ++j) w.values(j, 0) += 0.0005 * e[static_cast<std::size_t>(j)];
+  for (const bool empty : {true, false}) {
+    const auto f = fit::fit_decay_memory(std::vector{w}, {.starts_empty = empty, .substeps = 2});
+    EXPECT_LT(f.gain, 2);
+    EXPECT_FALSE(f.memory[0].value);
+    EXPECT_THAT(f.memory[0].why_not, testing::AnyOf(testing::HasSubstr("quadratic"), testing::HasSubstr("zero")));
+  }
+}
+
 TEST(DecayMemory, CoversAddedMassAndDamping) {
   const Water w;
   const double swings = 600 / (w.omega0 * w.omega0);

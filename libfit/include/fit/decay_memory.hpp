@@ -40,7 +40,9 @@ struct DecayMemoryFit {
   /// first: below 2 a direction is not told. Empty where a direction is not seen at all. (F60)
   Eigen::VectorXd singular_values;
   std::string weakest;  ///< the combination of parameters that the record tells least, and how well
-  double gain;          ///< AICc of the same terms and a linear damping without a memory, less that with it
+  /// AICc of the same terms and a linear damping without a memory, or with a quadratic one beside it if that is lower,
+  /// less that with the memory.
+  double gain;
 };
 
 /// Fits the memory to one decay or to several. Three searches begin with poles below, at and above the frequency of the
