@@ -57,7 +57,8 @@ std::vector<::fit::ForceChannel> force_channels(const scene::FitScene& scene, co
     probe = {.water = {.density = scene.model.density, .gravity = wave->gravity, .depth = wave->depth},
              .level = wave->level,
              .ahead = wave->ahead,
-             .regular = wave->regular};
+             .regular = wave->regular,
+             .follow = wave->follow};
   return {.time = channel("time", dim::time),
           .force = force_channels(scene, table),
           .position = channel("position", dim::length),
@@ -90,7 +91,7 @@ std::vector<::fit::ForceChannel> force_channels(const scene::FitScene& scene, co
                             .derivative = p.derivative_method == "smoothing spline" ? Derivative::smoothing_spline
                                           : p.derivative_method == "fourier series" ? Derivative::fourier_series
                                                                                     : Derivative::local_polynomial};
-  if (p.outlier_window > 0) out.outlier_half_window = std::max(2, static_cast<int>(p.outlier_window / (2 * step)));
+  out.outlier_half_window = outlier_half_window(p, step);
   for (const auto& f : p.filters) out.filters.push_back(filter_of(f));
   using Kind = ::fit::WindowChoice::Kind;
   out.window = {.kind = p.window == "span"          ? Kind::span
@@ -225,29 +226,32 @@ scene::FitScene scene_of_row(const scene::FitScene& scene, const hydro::io::CsvT
   return one;
 }
 
-bool is_taken(const std::string& column) {
-  for (const char* known :
-       {"file", "zero", "delay", "diameter", "length", "density", "viscosity", "mass_beyond_load_cells"})
-    if (column == known) return true;
-  return false;
-}
-
 std::vector<FitRun> fit_table(const scene::FitScene& scene) {
   const auto table = hydro::io::CsvTable::read(scene.run_table->value);
   std::vector<FitRun> runs;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     runs.push_back(fit_run(scene_of_row(scene, table, row),
                            scene.run_table->value.parent_path() / table.text_column("file")[row]));
-    for (const std::string& name : table.names()) {
-      if (is_taken(name)) continue;
-      runs.back().labels.push_back(
-          {name, table.is_text(name) ? table.text_column(name)[row] : fmt::format("{:.6g}", table.column(name)[row])});
-    }
+    runs.back().labels = run_labels(
+        table, row, {"file", "zero", "delay", "diameter", "length", "density", "viscosity", "mass_beyond_load_cells"});
   }
   return runs;
 }
 
 }  // namespace
+
+RunLabels run_labels(const hydro::io::CsvTable& table, std::size_t row, const std::vector<std::string>& taken) {
+  RunLabels out;
+  for (const std::string& name : table.names())
+    if (std::find(taken.begin(), taken.end(), name) == taken.end())
+      out.push_back(
+          {name, table.is_text(name) ? table.text_column(name)[row] : fmt::format("{:.6g}", table.column(name)[row])});
+  return out;
+}
+
+int outlier_half_window(const scene::FitScene::Prepare& p, double step) {
+  return p.outlier_window > 0 ? std::max(2, static_cast<int>(p.outlier_window / (2 * step))) : 0;
+}
 
 ::fit::Cylinder cylinder_of(const scene::FitScene& scene) {
   const auto& m = scene.model;
@@ -303,7 +307,8 @@ void fit(const FitArguments& arguments, const Console& console) {
   const scene::FitScene scene = scene::read_fit(arguments.scene);
   for (const auto& path : {arguments.output, arguments.picture, arguments.table})
     if (path) hydro::io::require_writable(*path);
-  if (arguments.table && scene.model.kind != "morison" && scene.model.kind != "radiation")
+  if (arguments.table && scene.model.kind != "morison" && scene.model.kind != "radiation" &&
+      scene.model.kind != "decay")
     throw hydro::InputError(fmt::format("a fit of kind \"{}\" has no table of runs", scene.model.kind), {},
                             "leave out --table");
   if (scene.model.kind == "towing") return fit_towed(scene, arguments, console);

@@ -1,10 +1,15 @@
+#include "froude/fit_decay.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fit/decay.hpp"
 #include "fit/forced_radiation.hpp"
+#include "fit/prepare.hpp"
 #include "froude/fit_report.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 #include "hydro/signal/welch.hpp"
 
@@ -15,14 +20,9 @@ namespace dim = hydro::dim;
 using ::fit::Coefficient;
 using Json = FitJson;
 
-struct DecayRun {
-  std::string name;
-  std::vector<double> time, values;
-  ::fit::Decrement decrement;
-  ::fit::DecayFit fit;
-  std::vector<::fit::Interval> profiles;       ///< of the terms, where asked for
-  std::optional<::fit::AddedMass> water = {};  ///< where the body is known
-};
+bool asks_memory(const scene::FitScene& scene) {
+  return std::find(scene.coefficients.begin(), scene.coefficients.end(), "memory") != scene.coefficients.end();
+}
 
 ::fit::DampingTerms terms_of(const scene::FitScene& scene) {
   ::fit::DampingTerms terms{.linear = false};
@@ -35,170 +35,186 @@ struct DecayRun {
   return terms;
 }
 
-DecayRun fit_one(const scene::FitScene& scene, const std::filesystem::path& file) try {
+DecayRecord read_record(const scene::FitScene& scene, const std::filesystem::path& file) {
   const auto table = hydro::io::CsvTable::read(file);
   const bool angle = scene.channels.count("angle") > 0;
-  DecayRun run{.name = file.filename().string(),
-               .time = table.column(scene.channels.at("time"), dim::time),
-               .values = angle ? table.column(scene.channels.at("angle"), dim::angle)
-                               : table.column(scene.channels.at("position"), dim::length),
-               .decrement = {},
-               .fit = {},
-               .profiles = {}};
-  const ::fit::Window window{hydro::signal::even_step(run.time),
-                             Eigen::Map<const Eigen::VectorXd>(run.values.data(), std::ssize(run.values))};
-  run.decrement = ::fit::logarithmic_decrement(::fit::find_extremes(run.time, run.values));
-  run.fit = ::fit::fit_decay(std::vector{window},
-                             {.terms = terms_of(scene), .pendulum = scene.model.sine, .confidence = scene.confidence});
+  const auto& time = table.column(scene.channels.at("time"), dim::time);
+  const auto& p = scene.prepare;
+  hydro::require(time.size() >= 3, "a record needs at least three samples, got {}", time.size());
+  const double rough_step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+  ::fit::PrepareOptions options{.longest_gap_s = p.longest_gap,
+                                .outlier_half_window = outlier_half_window(p, rough_step),
+                                .outlier_deviations = p.outlier_deviations};
+  if (p.window == "span") options.window = {.kind = ::fit::WindowChoice::Kind::span, .from = p.from, .to = p.to};
+  auto motion = ::fit::prepare_motion(angle ? "angle" : "position", time,
+                                      angle ? table.column(scene.channels.at("angle"), dim::angle)
+                                            : table.column(scene.channels.at("position"), dim::length),
+                                      options);
+  return {file.filename().string(), std::move(motion.time), std::move(motion.values), std::move(motion.steps),
+          std::move(motion.cautions)};
+}
+
+/// The terms that the fit without a memory has.
+::fit::DecayOptions plain_options(const scene::FitScene& scene) {
+  ::fit::DampingTerms terms = terms_of(scene);
+  if (terms.count() == 0) terms.linear = true;  // what a memory is set against
+  return {.terms = terms, .pendulum = scene.model.sine, .confidence = scene.confidence};
+}
+
+/// The same fit of each half of the record: where they differ by many errors, damping is not what the terms say.
+void vary(const scene::FitScene& scene, const ::fit::Window& whole, DecayRun& run) {
+  const Eigen::Index n = whole.values.rows(), half = n / 2;
+  for (const bool first : {true, false}) {
+    DecayVariant v{first ? "the first half of the record" : "the second half of the record", {}, {}};
+    const Eigen::MatrixXd part = whole.values.middleRows(first ? 0 : half, first ? half : n - half);
+    try {
+      const auto again = ::fit::fit_decay(std::vector{::fit::Window{whole.step, part}}, plain_options(scene));
+      const auto add = [&](const Coefficient& a, const Coefficient& b) {
+        const auto middle = [](const Coefficient& c) { return (c.interval.low + c.interval.high) / 2; };
+        v.changes.push_back((middle(a) - middle(b)) / b.standard_error);
+      };
+      add(again.period, run.fit.period);
+      for (std::size_t k = 0; k < again.damping.size(); ++k) add(again.damping[k], run.fit.damping[k]);
+    } catch (const hydro::InputError& e) {
+      v.why_not = e.rule();
+    }
+    run.variants.push_back(std::move(v));
+  }
+}
+
+/// The memory, and what it makes of the body where that is known.
+void add_memory(const scene::FitScene& scene, const std::vector<::fit::Window>& windows, DecayRun& run) {
+  run.memory = ::fit::fit_decay_memory(
+      windows, {.terms = terms_of(scene), .starts_empty = scene.model.starts_empty, .confidence = scene.confidence});
+  if (!scene.model.body) return;
+  const auto& b = *scene.model.body;
+  const auto at = [&](double omega) {
+    return ::fit::radiation_of(*run.memory, {b.mass, b.stiffness, b.mass_error, b.stiffness_error}, omega,
+                               scene.confidence);
+  };
+  run.swing = at(run.memory->omega);
+  run.limit = at(std::numeric_limits<double>::infinity());
+  for (int k = 1; k <= 100; ++k) run.curve.push_back(at(0.03 * k * run.memory->omega));
+}
+
+/// Fits the records of `run` with one set of coefficients.
+void fit_records(const scene::FitScene& scene, DecayRun& run) {
+  std::vector<::fit::Window> windows;
+  for (const DecayRecord& r : run.records)
+    windows.push_back(
+        {hydro::signal::even_step(r.time), Eigen::Map<const Eigen::VectorXd>(r.values.data(), std::ssize(r.values))});
+  run.decrement = ::fit::logarithmic_decrement(::fit::find_extremes(run.records[0].time, run.records[0].values));
+  run.fit = ::fit::fit_decay(windows, plain_options(scene));
+  if (scene.sensitivity && windows.size() == 1) vary(scene, windows[0], run);
   if (const auto& b = scene.model.body)
     run.water =
         ::fit::added_mass(run.fit, {b->mass, b->stiffness, b->mass_error, b->stiffness_error}, scene.confidence);
+  if (asks_memory(scene)) add_memory(scene, windows, run);
+  // Of the model that holds what was asked for. The scale of harmonics is that of the record.
+  const Eigen::VectorXd measured = windows[0].values.col(0);
+  if (windows.size() == 1 && measured.size() >= 64 && run.fit.period.value)
+    run.left = ::fit::look_at_residuals(measured - (run.memory ? run.memory->motion : run.fit.motion).motion[0].col(0),
+                                        std::sqrt((measured.array() - measured.mean()).square().mean()),
+                                        windows[0].step, *run.fit.period.value);
   const auto names = ::fit::parameters_of(run.fit.problem.law);
   for (const Coefficient& c : run.fit.damping) {
     if (!scene.profile) break;
     const auto at = static_cast<std::size_t>(std::find(names.begin(), names.end(), c.name) - names.begin());
     run.profiles.push_back(::fit::profile_interval(run.fit.problem, run.fit.motion, at));
   }
+}
+
+DecayRun fit_file(const scene::FitScene& scene, const std::filesystem::path& file) try {
+  DecayRun run{.name = file.filename().string(), .records = {read_record(scene, file)}, .decrement = {}, .fit = {}};
+  fit_records(scene, run);
   return run;
 } catch (const hydro::InputError& e) {
   throw e.at({.file = file.string()});
 }
 
-const char* unit_of(const std::string& term, bool angle) {
-  if (term == "linear") return "1/s";
-  if (term == "quadratic") return angle ? "1/rad" : "1/m";
-  if (term == "cubic") return angle ? "s/rad^2" : "s/m^2";
-  return angle ? "rad/s^2" : "m/s^2";
+std::vector<DecayRun> fit_each(const scene::FitScene& scene) {
+  std::vector<DecayRun> runs;
+  for (const auto& file : scene.files) runs.push_back(fit_file(scene, file.value));
+  if (!scene.run_table) return runs;
+  const auto table = hydro::io::CsvTable::read(scene.run_table->value);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    runs.push_back(fit_file(scene, scene.run_table->value.parent_path() / table.text_column("file")[row]));
+    runs.back().labels = run_labels(table, row, {"file"});
+  }
+  return runs;
 }
 
-std::string sentence(const Coefficient& c, const char* unit, double confidence) {
-  const std::string interval =
-      fmt::format("{:g} % interval {:.5g} to {:.5g}", 100 * confidence, c.interval.low, c.interval.high);
-  if (!c.value) return fmt::format("  {:<10} not identifiable: {}\n", c.name, c.why_not);
-  return fmt::format("  {:<10} {:.5g} {}, {}\n", c.name, *c.value, unit, interval);
+/// (F63) All runs with one set of coefficients; each keeps the rest position that its own best fit has.
+std::optional<DecayRun> fit_together(const scene::FitScene& scene, const std::vector<DecayRun>& runs) {
+  if (!scene.together) return {};
+  hydro::require(runs.size() >= 2, "one run cannot be fitted together with others");
+  DecayRun all{.name = "together", .records = {}, .decrement = {}, .fit = {}};
+  for (const DecayRun& run : runs) {
+    DecayRecord r = run.records[0];
+    const double rest = run.memory ? run.memory->motion.ended[4] : run.fit.motion.ended[5];
+    for (double& x : r.values) x -= rest;
+    all.records.push_back(std::move(r));
+  }
+  fit_records(scene, all);
+  return all;
 }
 
-/// Units of added mass and of the damping terms with the body's mass in them.
-const char* mass_unit_of(const std::string& what, bool angle) {
-  if (what == "added_mass") return angle ? "kg m^2" : "kg";
-  if (what == "linear") return angle ? "N m s/rad" : "N s/m";
-  if (what == "quadratic") return angle ? "N m s^2/rad^2" : "N s^2/m^2";
-  if (what == "cubic") return angle ? "N m s^3/rad^3" : "N s^3/m^3";
-  return angle ? "N m" : "N";
+/// Each coefficient over three runs and more that were fitted alone, those that cannot tell it from zero among them.
+std::vector<DecayLaw> laws_of(const scene::FitScene& scene, const std::vector<DecayRun>& runs) {
+  std::vector<DecayLaw> out;
+  if (runs.size() < 3) return out;
+  const auto add = [&](const std::string& name, const auto& coefficient_of) {
+    std::vector<::fit::RunEstimate> estimates;
+    for (const DecayRun& run : runs)
+      if (const Coefficient& c = coefficient_of(run); c.standard_error > 0)
+        estimates.push_back({(c.interval.low + c.interval.high) / 2, c.standard_error, 0, 0, 0});
+    if (estimates.size() == runs.size())
+      out.push_back({name, ::fit::fit_runs(estimates, ::fit::Law::constant, scene.confidence)});
+  };
+  add("period", [](const DecayRun& run) -> const Coefficient& { return run.fit.period; });
+  for (std::size_t k = 0; k < runs[0].fit.damping.size(); ++k)
+    add(runs[0].fit.damping[k].name, [k](const DecayRun& run) -> const Coefficient& { return run.fit.damping[k]; });
+  return out;
 }
 
-void tell_water(const DecayRun& run, bool angle, const Console& console, double confidence) {
-  if (!run.water) return;
-  console.out << fmt::format("  at {:.4g} rad/s, with the body's mass and stiffness:\n", run.water->omega);
-  console.out << sentence(run.water->added_mass, mass_unit_of("added_mass", angle), confidence);
-  for (const Coefficient& c : run.water->damping) console.out << sentence(c, mass_unit_of(c.name, angle), confidence);
-}
-
-void tell(const scene::FitScene& scene, const DecayRun& run, const Console& console) {
-  const bool angle = scene.channels.count("angle") > 0;
-  const auto& m = run.fit.motion;
-  console.out << fmt::format("{}: {} half cycles from {:.4g} to {:.4g} {}, residual {:.3g} rms\n", run.name,
-                             run.decrement.amplitude.size(), run.decrement.amplitude.front(),
-                             run.decrement.amplitude.back(), angle ? "rad" : "m", m.rms[0]);
-  console.out << sentence(run.fit.period, "s", scene.confidence);
-  for (const Coefficient& c : run.fit.damping) console.out << sentence(c, unit_of(c.name, angle), scene.confidence);
-  tell_water(run, angle, console, scene.confidence);
-  for (std::size_t k = 0; k < run.profiles.size(); ++k)
-    console.out << fmt::format("  {:<10} by profile likelihood {:.5g} to {:.5g}\n", run.fit.damping[k].name,
-                               run.profiles[k].low, run.profiles[k].high);
-  console.out << fmt::format(
-      "  damping ratio by decrement {:.4g} in the first half cycle, {:.4g} in the last; by energy:",
-      run.decrement.ratio.front(), run.decrement.ratio.back());
-  for (const Coefficient& c : run.fit.energy.damping) console.out << fmt::format(" {} {:.4g}", c.name, *c.value);
-  console.out << fmt::format(
-      "\n  AICc {:.1f}, BIC {:.1f} (to compare terms on this record); halving the steps changes {:.1g} % of the "
-      "amplitude\n",
-      run.fit.aicc, run.fit.bic, m.integration_error);
-  if (!m.fit_band.empty())
-    console.out << fmt::format("  {:.1f} % of the samples lie in the band in which {:g} % should\n", 100 * m.inside,
-                               100 * scene.confidence);
-  console.out << fmt::format("  search: iterations {}, {}; {}\n", m.search.iterations, m.search.why,
-                             m.search.identifiability);
-  if (!m.caution.empty()) console.out << "  caution: " << m.caution << '\n';
-}
-
-Json as_json_of(const DecayRun& run) {
-  Json j{{"file", run.name},
-         {"residual_rms", run.fit.motion.rms[0]},
-         {"decrement_ratio", run.decrement.ratio},
-         {"decrement_amplitude", run.decrement.amplitude},
-         {"bic", run.fit.bic},
-         {"search", run.fit.motion.search.why},
-         {"identifiability", run.fit.motion.search.identifiability}};
-  if (std::isfinite(run.fit.aicc)) j["aicc"] = run.fit.aicc;
-  if (!run.fit.motion.caution.empty()) j["caution"] = run.fit.motion.caution;
-  if (!run.fit.motion.fit_band.empty())
-    j.update({{"samples_in_band", run.fit.motion.inside},
-              {"widest_band_of_fit", run.fit.motion.fit_band[0].maxCoeff()},
-              {"widest_band_of_sample", run.fit.motion.sample_band[0].maxCoeff()}});
+/// What a scene of motion may include, of one run or of all together.
+Json coefficients_of(const DecayRun& run) {
+  Json j = Json::object();
   const auto put = [&](const Coefficient& c) {
-    j[c.name] = as_json(c);
-    for (const char* of_force : {"shift_per_degree", "systematic_error"}) j[c.name].erase(of_force);
+    if (c.value) j[c.name] = *c.value;
   };
   put(run.fit.period);
   for (const Coefficient& c : run.fit.damping) put(c);
-  for (std::size_t k = 0; k < run.profiles.size(); ++k)
-    j[run.fit.damping[k].name]["profile_interval"] = {run.profiles[k].low, run.profiles[k].high};
-  for (const Coefficient& c : run.fit.energy.damping) j["energy"][c.name] = *c.value;
-  if (!run.water) return j;
-  Json& water = j["water"];
-  water["omega_rad_s"] = run.water->omega;
-  for (Coefficient c : run.water->damping) water["damping"][c.name] = as_json(c);
-  water["added_mass"] = as_json(run.water->added_mass);
+  if (run.water) put(run.water->added_mass);
+  if (!run.memory) return j;
+  for (const Coefficient& c : run.memory->memory) put(c);
   return j;
-}
-
-plot::Figure figure(const scene::FitScene& scene, const std::vector<DecayRun>& runs) {
-  const bool angle = scene.channels.count("angle") > 0;
-  plot::Figure f{.title = scene.title.empty() ? scene.file.filename().string() : scene.title, .panels = {}};
-  for (const DecayRun& run : runs) {
-    const auto& motion = run.fit.motion.motion[0];
-    std::vector<double> fitted(motion.data(), motion.data() + motion.rows()), left = run.values;
-    for (std::size_t i = 0; i < left.size(); ++i) left[i] -= fitted[i];
-    f.panels.push_back(
-        {.x = {"time", "s"},
-         .y = {angle ? "angle" : "position", angle ? "rad" : "m"},
-         .series = {{run.name + ": measured", run.time, run.values}, {"fitted", run.time, fitted, true, false, true}}});
-    plot::Panel residual{
-        .x = {"time", "s"}, .y = {"residual", angle ? "rad" : "m"}, .series = {{"measured − fitted", run.time, left}}};
-    if (!run.fit.motion.fit_band.empty()) {
-      const auto half = [](const Eigen::MatrixXd& band) {
-        return std::vector<double>(band.data(), band.data() + band.rows());
-      };
-      const std::string level = fmt::format("{:g} % band", 100 * scene.confidence);
-      residual.series.push_back(
-          band_outline(level + " of a sample", run.time, half(run.fit.motion.sample_band[0]), true));
-      residual.series.push_back(band_outline(level + " of the fit", run.time, half(run.fit.motion.fit_band[0]), false));
-    }
-    f.panels.push_back(std::move(residual));
-  }
-  return f;
 }
 
 }  // namespace
 
 void fit_decays(const scene::FitScene& scene, const FitArguments& arguments, const Console& console) {
-  std::vector<DecayRun> runs;
-  for (const auto& file : scene.files) runs.push_back(fit_one(scene, file.value));
+  const std::vector<DecayRun> runs = fit_each(scene);
+  const std::optional<DecayRun> together = fit_together(scene, runs);
+  const std::vector<DecayLaw> laws = laws_of(scene, runs);
   Json j{{"scene", scene.file.filename().string()}, {"kind", "decay"}, {"confidence", scene.confidence}};
-  if (runs.size() == 1) {
-    if (runs[0].fit.period.value) j["coefficients"]["period"] = *runs[0].fit.period.value;
-    for (const Coefficient& c : runs[0].fit.damping)
-      if (c.value) j["coefficients"][c.name] = *c.value;
-    if (runs[0].water && runs[0].water->added_mass.value)
-      j["coefficients"]["added_mass"] = *runs[0].water->added_mass.value;
+  if (together || runs.size() == 1) {
+    j["coefficients"] = coefficients_of(together ? *together : runs[0]);
+  } else {
+    for (const DecayLaw& law : laws) j["coefficients"][law.coefficient] = law.over_runs.coefficients[0];
   }
   j["run"] = Json::array();
   for (const DecayRun& run : runs) {
-    if (!console.json) tell(scene, run, console);
-    j["run"].push_back(as_json_of(run));
+    if (!console.json) tell_decay(scene, run, console);
+    j["run"].push_back(decay_as_json(run));
   }
-  deliver(arguments, console, j, figure(scene, runs));
+  if (together) j["together"] = decay_as_json(*together);
+  for (const DecayLaw& law : laws) j["over_runs"][law.coefficient] = decay_law_as_json(law);
+  if (together && !console.json) tell_decay(scene, *together, console);
+  if (!console.json) tell_decay_laws(scene, laws, runs.size(), console);
+  if (arguments.table) hydro::io::write_atomically(*arguments.table, decay_table(scene, runs));
+  if (arguments.table && !console.json) console.out << "wrote " << arguments.table->string() << '\n';
+  deliver(arguments, console, j, decay_figure(scene, together ? std::vector{*together} : runs));
 }
 
 }  // namespace froude

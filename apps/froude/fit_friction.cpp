@@ -15,7 +15,7 @@ using Json = FitJson;
 
 struct FrictionTest {
   std::string name;
-  std::vector<double> time, torque;
+  std::vector<double> time, load;  ///< torque on a hinge, force on a slider
   ::fit::FrictionRamp fit;
 };
 
@@ -25,14 +25,21 @@ struct FrictionLevel {
   std::optional<::fit::RandomEffects> together;  ///< of three tests and more
 };
 
+/// A slider has a force, a hinge a torque.
+bool slides(const scene::FitScene& scene) { return !scene.force.empty(); }
+const char* load_unit(const scene::FitScene& scene) { return slides(scene) ? "N" : "N m"; }
+
 FrictionTest fit_test(const scene::FitScene& scene, const std::filesystem::path& file) try {
   const auto table = hydro::io::CsvTable::read(file);
   FrictionTest test{.name = file.filename().string(),
                     .time = table.column(scene.channels.at("time"), dim::time),
-                    .torque = table.column(scene.channels.at("torque"), dim::moment),
+                    .load = slides(scene) ? table.column(scene.force[0].column, dim::force)
+                                          : table.column(scene.channels.at("torque"), dim::moment),
                     .fit = {}};
+  if (slides(scene) && scene.force[0].turned)
+    for (double& f : test.load) f = -f;
   const auto& m = scene.model;
-  test.fit = ::fit::fit_friction_ramp(test.time, test.torque, {m.ramp, m.slide, m.drop, scene.confidence});
+  test.fit = ::fit::fit_friction_ramp(test.time, test.load, {m.ramp, m.slide, m.drop, scene.confidence});
   return test;
 } catch (const hydro::InputError& e) {
   throw e.at({.file = file.string()});
@@ -57,27 +64,25 @@ std::vector<FrictionLevel> levels_of(const std::vector<FrictionTest>& tests, dou
   return out;
 }
 
-void tell(const FrictionTest& test, const Console& console, double confidence) {
+void tell(const FrictionTest& test, const Console& console, double confidence, const char* unit) {
   const auto& f = test.fit;
-  console.out << fmt::format("{}: slips at {:.4g} s, after growing by {:.3g} N m a second\n", test.name, f.slip_s,
-                             f.rate);
+  console.out << fmt::format("{}: slips at {:.4g} s, after growing by {:.3g} {} a second\n", test.name, f.slip_s,
+                             f.rate, unit);
   for (const Coefficient* c : {&f.static_level, &f.dynamic_level, &f.drop})
-    console.out << fmt::format("  {:<8} {:.4g} N m, {:g} % interval {:.4g} to {:.4g}\n", c->name, *c->value,
+    console.out << fmt::format("  {:<8} {:.4g} {}, {:g} % interval {:.4g} to {:.4g}\n", c->name, *c->value, unit,
                                100 * confidence, c->interval.low, c->interval.high);
-  console.out << fmt::format(
-      "  dynamic over static {:.3g}; while it slides the torque changes by {:.2g} N m a second\n",
-      *f.dynamic_level.value / *f.static_level.value, f.slide_rate);
+  console.out << fmt::format("  dynamic over static {:.3g}; while it slides the load changes by {:.2g} {} a second\n",
+                             *f.dynamic_level.value / *f.static_level.value, f.slide_rate, unit);
   if (!f.caution.empty()) console.out << "  caution: " << f.caution << '\n';
 }
 
-void tell(const FrictionLevel& level, std::size_t tests, const Console& console, double confidence) {
+void tell(const FrictionLevel& level, std::size_t tests, const Console& console, double confidence, const char* unit) {
   if (!level.together) return;
   const auto& r = *level.together;
   console.out << fmt::format(
-      "{} over {} tests: {:.4g} N m, {:g} % interval {:.4g} to {:.4g}; from test to test ±{:.2g}; the next between "
-      "{:.4g} "
-      "and {:.4g}\n",
-      level.name, tests, r.coefficients[0], 100 * confidence, r.intervals[0].low, r.intervals[0].high, r.between,
+      "{} over {} tests: {:.4g} {}, {:g} % interval {:.4g} to {:.4g}; from test to test ±{:.2g}; the next between "
+      "{:.4g} and {:.4g}\n",
+      level.name, tests, r.coefficients[0], unit, 100 * confidence, r.intervals[0].low, r.intervals[0].high, r.between,
       r.prediction.low, r.prediction.high);
 }
 
@@ -97,9 +102,10 @@ Json all_as_json(const scene::FitScene& scene, const std::vector<FrictionTest>& 
   Json j{{"scene", scene.file.filename().string()}, {"kind", "friction ramp"}, {"confidence", scene.confidence}};
   for (const FrictionLevel& level : levels) {
     if (level.together || tests.size() == 1)
-      j["coefficients"][level.name] =
-          fmt::format("{:.10g} N m", level.together ? level.together->coefficients[0]
-                                                    : std::abs(*level_of(tests[0], level.name).value));
+      j["coefficients"][level.name] = fmt::format(
+          "{:.10g} {}",
+          level.together ? level.together->coefficients[0] : std::abs(*level_of(tests[0], level.name).value),
+          load_unit(scene));
     if (!level.together) continue;
     const auto& r = *level.together;
     j["together"][level.name] = {{"value", r.coefficients[0]},
@@ -115,8 +121,8 @@ plot::Figure figure(const scene::FitScene& scene, const std::vector<FrictionTest
   plot::Figure f{.title = scene.title.empty() ? scene.file.filename().string() : scene.title, .panels = {}};
   for (const FrictionTest& test : tests)
     f.panels.push_back({.x = {"time", "s"},
-                        .y = {"torque", "N m"},
-                        .series = {{test.name + ": measured", test.time, test.torque},
+                        .y = {slides(scene) ? "force" : "torque", load_unit(scene)},
+                        .series = {{test.name + ": measured", test.time, test.load},
                                    {"growing", test.fit.line_time, test.fit.line, true, false, true},
                                    {"sliding", test.fit.slide_time, test.fit.slide, true, false, true}}});
   return f;
@@ -129,8 +135,8 @@ void fit_friction_ramps(const scene::FitScene& scene, const FitArguments& argume
   for (const auto& file : scene.files) tests.push_back(fit_test(scene, file.value));
   const auto levels = levels_of(tests, scene.confidence);
   if (!console.json) {
-    for (const FrictionTest& test : tests) tell(test, console, scene.confidence);
-    for (const FrictionLevel& level : levels) tell(level, tests.size(), console, scene.confidence);
+    for (const FrictionTest& test : tests) tell(test, console, scene.confidence, load_unit(scene));
+    for (const FrictionLevel& level : levels) tell(level, tests.size(), console, scene.confidence, load_unit(scene));
   }
   deliver(arguments, console, all_as_json(scene, tests, levels), figure(scene, tests));
 }

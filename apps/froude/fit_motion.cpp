@@ -74,6 +74,24 @@ void tell(const scene::FitScene& scene, const MeasuredRun& measured, const std::
   if (!fit.caution.empty()) console.out << "  caution: " << fit.caution << '\n';
 }
 
+/// By the likelihood, of each parameter that has a value and an error, where asked for.
+using Profiles = std::vector<std::optional<::fit::Interval>>;
+Profiles profiles_of(const scene::FitScene& scene, ::fit::Simulation& runs, const ::fit::SimulationProblem& problem,
+                     const ::fit::SimulationFit& fit) {
+  Profiles out(fit.parameters.size());
+  for (std::size_t k = 0; scene.profile && k < out.size(); ++k)
+    if (fit.parameters[k].value && fit.parameters[k].standard_error > 0)
+      out[k] = ::fit::profile_interval(runs, problem, fit, k);
+  return out;
+}
+
+void tell(const ::fit::SimulationFit& fit, const Profiles& profiles, const Console& console) {
+  for (std::size_t k = 0; k < profiles.size(); ++k)
+    if (profiles[k])
+      console.out << fmt::format("  {} by profile likelihood {:.5g} to {:.5g}\n", fit.parameters[k].name,
+                                 profiles[k]->low, profiles[k]->high);
+}
+
 /// "line[1].damping.linear" as a bare key of TOML.
 std::string bare(std::string key) {
   std::replace(key.begin(), key.end(), '.', '_');
@@ -162,7 +180,12 @@ void fit_motions(const scene::FitScene& scene, const FitArguments& arguments, co
   const auto result = several ? several->best : ::fit::fit_simulation(runs, problem);
   FitJson j = as_json_of(scene, units, result);
   if (several) j["starts"] = {{"tried", several->tried}, {"agree", several->agree}, {"failed", several->failed}};
+  const Profiles profiles = profiles_of(scene, runs, problem, result);
+  for (std::size_t k = 0; k < profiles.size(); ++k)
+    if (profiles[k])
+      j["parameter"][bare(result.parameters[k].name)]["profile_interval"] = {profiles[k]->low, profiles[k]->high};
   if (!console.json) tell(scene, measured, units, result, console);
+  if (!console.json) tell(result, profiles, console);
   if (several && !console.json)
     console.out << fmt::format("  of {} starts {} end there, and {} had no motion to follow\n", several->tried,
                                several->agree, several->failed);

@@ -11,6 +11,7 @@
 #include "fit/runs.hpp"
 #include "froude/commands.hpp"
 #include "froude/plot.hpp"
+#include "hydro/io/csv.hpp"
 #include "scene/fit_scene.hpp"
 
 namespace froude {
@@ -23,10 +24,15 @@ struct FitVariant {
   double cd, inertia;  ///< changes
 };
 
+/// Columns of a table of runs that are carried along: name and text.
+using RunLabels = std::vector<std::pair<std::string, std::string>>;
+/// Those of one row that are not `taken` by the fit.
+RunLabels run_labels(const hydro::io::CsvTable& table, std::size_t row, const std::vector<std::string>& taken);
+
 /// One file of a Morison fit.
 struct FitRun {
-  std::string name;                                         ///< of the file
-  std::vector<std::pair<std::string, std::string>> labels;  ///< columns of the table of runs that are carried along
+  std::string name;  ///< of the file
+  RunLabels labels;
   ::fit::Cylinder cylinder;
   ::fit::Prepared prepared;  ///< what was fitted, and the steps that led there
   ::fit::MorisonFit fit;
@@ -44,6 +50,8 @@ struct FitLaw {
   std::size_t runs, left_out;              ///< fitted; not identifiable
 };
 
+/// Half the window of [prepare.outliers] in samples; 0 where outliers are not looked for.
+int outlier_half_window(const scene::FitScene::Prepare& p, double step);
 ::fit::Cylinder cylinder_of(const scene::FitScene& scene);
 /// Reads, prepares and fits all runs. \throws hydro::InputError with the file's name
 std::vector<FitRun> fit_all(const scene::FitScene& scene);

@@ -64,7 +64,7 @@ Channels channels_of(const std::string& kind) {
   if (kind == "decay") return {{"time", "position", "angle"}, {"time"}};
   if (kind == "motion") return {{"time"}, {"time"}};
   if (kind == "radiation") return {{"time", "position", "angle", "force", "torque"}, {"time"}};
-  if (kind == "friction ramp") return {{"time", "torque"}, {"time", "torque"}};
+  if (kind == "friction ramp") return {{"time", "torque", "force"}, {"time"}};
   return {{"time", "force", "velocity", "acceleration", "position", "cross_velocity", "elevation", "water_velocity",
            "water_acceleration"},
           {"time", "force"}};
@@ -109,6 +109,9 @@ void check_motion(const Record& channels, const std::string& kind, const std::st
                            "name the column of the motion");
   if (kind == "radiation" && (has("position") != has("force") || has("angle") != has("torque")))
     throw channels.refused("needs force beside a position, torque beside an angle", "name what moved the body");
+  if (kind == "friction ramp" && has("torque") == has("force"))
+    throw channels.refused("needs either torque or force for a fit of kind \"friction ramp\"",
+                           "name the torque on a hinge, or the force on a slider");
 }
 
 std::map<std::string, std::string> read_channels(const Record& channels, const std::string& kind,
@@ -199,9 +202,14 @@ FitScene::Prepare read_prepare(const Record& root, const std::string& kind) {
   FitScene::Prepare out;
   if (!root.has("prepare")) return out;
   const Record& prepare = root.table("prepare");
-  if (kind != "morison")
+  if (kind != "morison" && kind != "decay")
     throw prepare.refused(fmt::format("has no part in a fit of kind \"{}\"", kind),
-                          "leave it out: its steps are those of a force");
+                          "leave it out: its steps are those of a force, or of a decay");
+  for (const char* key : {"resample", "delay", "derivative_bandwidth", "derivative_method", "low_pass", "notch",
+                          "moving_average", "mean_cycle"})
+    if (kind == "decay" && prepare.has(key) && !prepare[key].defaulted)
+      throw prepare.wrong(key, "has no part in a fit of kind \"decay\"",
+                          "leave it out: what is fitted is the motion as it was recorded");
   if (prepare.has("longest_gap")) out.longest_gap = prepare.si("longest_gap");
   if (prepare.has("outliers")) {
     out.outlier_window = prepare.table("outliers").si("window");
@@ -220,6 +228,8 @@ FitScene::Prepare read_prepare(const Record& root, const std::string& kind) {
   if (!prepare.has("window")) return out;
   const Record& window = prepare.table("window");
   out.window = window.text("kind");
+  if (kind == "decay" && out.window != "span")
+    throw window.wrong("kind", "must be \"span\" for a decay, which has no cycles of full amplitude");
   if (window.has("last") && window["last"].integer < 1) throw window.wrong("last", "must be 1 at least");
   if (window.has("last")) out.cycles = static_cast<int>(window["last"].integer);
   if (window.has("tolerance")) out.tolerance = window.si("tolerance");
@@ -323,6 +333,7 @@ FitScene::Model read_model(const Record& model, const Record& channels) {
   if (out.kind == "motion") return out;
   if (out.kind == "decay" || out.kind == "radiation") {
     out.sine = out.kind == "decay" && model.text("restoring") == "sine";
+    out.starts_empty = out.kind == "decay" && model.has("start") && model.text("start") == "let go from rest";
     out.body = read_body(model, channels.has("angle"));
     if (out.kind == "decay" && out.body && !(out.body->stiffness > 0))
       throw model.table("body").refused("needs a stiffness: without one there is no natural period",
@@ -362,7 +373,11 @@ FitScene::Model read_model(const Record& model, const Record& channels) {
   FitScene::Model::Wave w{.level = -wave.si("level"),
                           .ahead = wave.si("ahead"),
                           .gravity = wave.si("gravity"),
-                          .regular = wave.has("regular")};
+                          .regular = wave.has("regular"),
+                          .follow = wave.has("follow")};
+  if (w.follow && !(out.motion == "both move" && channels.has("position")))
+    throw wave.wrong("follow", "needs to know where the body is",
+                     "set motion = \"both move\" with the channel position, or leave it out");
   if (wave.text("depth").empty()) w.depth = hydro::WaterDepth::from_metres(wave.si("depth"));
   if (!w.depth.is_infinite() && -w.level >= w.depth.metres())
     throw wave.wrong("level", "lies below the bottom", "give the depth of the axis below still water");
@@ -386,15 +401,46 @@ std::vector<std::string> read_coefficients(const Record& ask, const std::string&
   for (const auto& c : ask["coefficients"].texts) {
     const bool of_force = std::find(forces.begin(), forces.end(), c.value) != forces.end();
     if (of_force == (kind == "decay"))
-      throw InputError(fmt::format("[ask] coefficients: \"{}\" has no part in a fit of kind \"{}\"", c.value, kind),
-                       c.place,
-                       of_force ? "a decay knows linear, quadratic, cubic and coulomb" : "ask for cd, cm or ca");
+      throw InputError(
+          fmt::format("[ask] coefficients: \"{}\" has no part in a fit of kind \"{}\"", c.value, kind), c.place,
+          of_force ? "a decay knows linear, quadratic, cubic, coulomb and memory" : "ask for cd, cm or ca");
     if (kind == "towing" && c.value != "cd")
       throw InputError(fmt::format("[ask] coefficients: \"{}\" cannot come from towing at steady speed", c.value),
                        c.place, "ask for \"cd\" alone");
     out.push_back(c.value);
   }
   return out;
+}
+
+/// What a decay with a memory, and several decays, may ask for.
+void read_decay(const Record& root, FitScene& scene) {
+  const Record &model = root.table("model"), &ask = root.table("ask"), &data = root.table("data");
+  scene.together = ask.has("together");
+  if (scene.model.kind != "decay") {
+    if (scene.together)
+      throw ask.wrong("together", fmt::format("has no part in a fit of kind \"{}\"", scene.model.kind), "leave it out");
+    return;
+  }
+  if (scene.together && data.has("files") && scene.files.size() < 2)
+    throw ask.wrong("together", "needs two files at least", "name more files, or leave it out");
+  const auto asks = [&](const char* term) {
+    return std::find(scene.coefficients.begin(), scene.coefficients.end(), term) != scene.coefficients.end();
+  };
+  if (!asks("memory")) {
+    if (model.has("start"))
+      throw model.wrong("start", "does not act without a memory",
+                        "add \"memory\" to [ask] coefficients, or leave it out");
+    return;
+  }
+  if (!model.has("start"))
+    throw model.refused("needs \"start\" for a memory: what does the water remember at the first sample?",
+                        "add start = \"let go from rest\" if the record begins there, or start = \"in motion\"");
+  if (asks("coulomb"))
+    throw ask.wrong("coefficients", "may not hold coulomb beside memory: a body at rest would not be at rest for good",
+                    "leave one of them out");
+  if (scene.model.sine)
+    throw model.wrong("restoring", "must be linear with a memory: radiation is known for small motions",
+                      "leave it out");
 }
 
 /// What concerns several runs, and how a run is looked at.
@@ -404,14 +450,18 @@ void read_batch(const Record& root, const fs::path& file, FitScene& scene) {
     if (scene.model.kind != "morison" && record.has(key) && !record[key].defaulted)
       throw record.wrong(key, fmt::format("has no part in a fit of kind \"{}\"", scene.model.kind), "leave it out");
   };
-  for_morison(data, "runs");
-  for (const char* key : {"robust", "cycles", "law", "sensitivity"}) for_morison(ask, key);
+  if (scene.model.kind != "decay") for_morison(data, "runs");
+  for (const char* key : {"robust", "cycles", "law"}) for_morison(ask, key);
+  if (scene.model.kind != "decay") for_morison(ask, "sensitivity");
   for_morison(intervals, "method");
   if (data.has("runs")) scene.run_table = {{beside(file, data.text("runs")), data["runs"].place}};
   scene.interval_method = intervals.text("method");
-  if (ask.has("profile") && scene.model.kind != "decay")
+  if (ask.has("profile") && scene.model.kind != "decay" && scene.model.kind != "motion")
     throw ask.wrong("profile", fmt::format("has no part in a fit of kind \"{}\"", scene.model.kind),
                     "leave it out: that model is linear, and its intervals are those of the likelihood");
+  if (ask.has("profile") && scene.motion.starts > 1 && scene.motion.window > 0)
+    throw ask.wrong("profile", "cannot be had with several starts of a search in windows",
+                    "give each parameter the first value that was found, and leave out [model] starts");
   scene.profile = ask.has("profile");
   scene.robust = ask.has("robust");
   scene.cycles = ask.has("cycles");
@@ -462,6 +512,7 @@ FitScene parse_fit(std::string_view text, const fs::path& file) {
   scene.confidence = root.table("ask").table("intervals").si("level");
   scene.files = read_files(root.table("data"), file);
   read_batch(root, file, scene);
+  read_decay(root, scene);
   return scene;
 }
 

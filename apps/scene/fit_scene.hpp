@@ -37,9 +37,11 @@ struct FitScene {
       hydro::WaterDepth depth = hydro::WaterDepth::infinite();
       double level, ahead, gravity;  ///< z of the axis, m, negative; m; m/s²
       bool regular = false;          ///< one sinusoid, fitted to the probe
+      bool follow = false;           ///< the water is taken where the body is
     };
     std::optional<Wave> wave = {};  ///< with the channel elevation
     bool sine = false;              ///< decay: restored by sin x
+    bool starts_empty = false;      ///< decay with a memory: let go from rest in calm water
     struct Body {
       double mass, stiffness;              ///< kg and N/m, or kg m² and N m/rad
       double mass_error, stiffness_error;  ///< standard uncertainties, relative
@@ -69,11 +71,12 @@ struct FitScene {
     double tolerance = 0.03;
     bool mean_cycle = false;
   } prepare;
-  std::vector<std::string> coefficients;  ///< among "cd", "cm", "ca"
+  std::vector<std::string> coefficients;  ///< among "cd", "cm", "ca"; of a decay its terms, and "memory"
   double confidence = 0.95;
   std::string interval_method = "effective samples";
   bool profile = false, robust = false, cycles = false, sensitivity = false;
-  std::string law;  ///< "" for none
+  bool together = false;  ///< decay: one set of coefficients for all files beside those of each
+  std::string law;        ///< "" for none
   std::vector<Echo> echo;
   /// kind "motion": the scene that is run, its numbers that are fitted, and what its run should tell.
   struct Motion {

@@ -13,10 +13,9 @@ const Table& channels() {
       .keys = {
           text("time", "all but towing: time").optional(),
           texts("force",
-                "morison, towing, and radiation with a position: measured force, positive along positive velocity: of "
-                "the water on a fixed body, "
-                "or what load "
-                "cells carry; several columns are added up, and \"-F2\" is F2 turned round")
+                "morison, towing, radiation with a position, friction ramp of a slider: measured force, positive along "
+                "positive velocity: of the water on a fixed body, or what load cells carry; several columns are added "
+                "up, and \"-F2\" is F2 turned round")
               .optional(),
           text("velocity", "morison: of the water, or of the body, whichever moves; where both move, of the body")
               .optional(),
@@ -32,7 +31,7 @@ const Table& channels() {
           text("water_velocity", "morison, both move: of the water where the body is").optional(),
           text("water_acceleration", "morison, both move: as water_velocity; left out: from it").optional(),
           text("angle", "decay, radiation: the motion, in place of a position").optional(),
-          text("torque", "friction ramp, and radiation with an angle: the measured torque").optional(),
+          text("torque", "friction ramp of a hinge, and radiation with an angle: the measured torque").optional(),
           text("speed", "towing: speed of the carriage").optional(),
           text("speed_sd", "towing: standard deviation of the speed").optional(),
           text("force_sd", "towing: standard deviation of the force").optional()}};
@@ -53,20 +52,20 @@ const Table& data() {
   static const Table table{
       .title = "[data]",
       .meaning = "the measurements",
-      .keys = {texts("files", "CSV, relative to the scene; * stands for any characters of a file's name").optional(),
-               text(
-                   "runs",
-                   "morison: CSV with one row for each run: the column file, and any of zero, delay, diameter, length, "
-                   "density, viscosity and mass_beyond_load_cells, which then hold for that run; other columns are "
-                   "carried into the results")
-                   .optional(),
-               inner_table("channels", channels()), inner_tables("signal", data_signal()).optional(),
-               texts("calibration",
-                     "morison: one CSV for each force channel, with columns force and voltage (and cycle, where there "
-                     "are several): the channel is then in volts")
-                   .optional(),
-               text("zero", "morison: CSV of a run at rest, with the same force channels: its mean is taken off")
-                   .optional()},
+      .keys =
+          {texts("files", "CSV, relative to the scene; * stands for any characters of a file's name").optional(),
+           text("runs",
+                "morison, decay: CSV with one row for each run: the column file, and of morison any of zero, delay, "
+                "diameter, length, density, viscosity and mass_beyond_load_cells, which then hold for that run; other "
+                "columns are carried into the results")
+               .optional(),
+           inner_table("channels", channels()), inner_tables("signal", data_signal()).optional(),
+           texts("calibration",
+                 "morison: one CSV for each force channel, with columns force and voltage (and cycle, where there "
+                 "are several): the channel is then in volts")
+               .optional(),
+           text("zero", "morison: CSV of a run at rest, with the same force channels: its mean is taken off")
+               .optional()},
       .groups = {{Group::Count::exactly_one, {"files", "runs"}}}};
   return table;
 }
@@ -141,7 +140,9 @@ const Table& window() {
 const Table& prepare() {
   static const Table table{
       .title = "[prepare]",
-      .meaning = "steps between the measurement and a fit of kind \"morison\"; each is told in the report",
+      .meaning =
+          "steps between the measurement and a fit of kind \"morison\"; each is told in the report. A decay has "
+          "longest_gap, outliers and a window of kind \"span\"",
       .keys = {
           quantity("longest_gap", dim::time, "rows missing no longer than this are bridged").positive().optional(),
           inner_table("outliers", outliers()).optional(),
@@ -195,6 +196,10 @@ const Table& model_wave() {
               .positive()
               .or_default("9.81 m/s^2", "what hydrodynamic data are mostly computed with"),
           effect("regular", "the surface is one sinusoid, fitted to the probe: noise averages out, no ends are lost")
+              .optional(),
+          effect("follow",
+                 "both move: the water is taken where the body is; its position counts along the waves from where "
+                 "\"ahead\" puts it; needs the channel position")
               .optional()}};
   return table;
 }
@@ -301,6 +306,12 @@ const Table& model() {
            .keys = {text("restoring", "by x, or by sin x for a pendulum")
                         .one_of({"linear", "sine"})
                         .or_default("linear", "small angles, and all that floats"),
+                    text(
+                        "start",
+                        "with memory among the coefficients: the record begins where the body was let go from rest in "
+                        "calm water, which remembers nothing yet; or in motion, and what the water remembers is fitted")
+                        .one_of({"let go from rest", "in motion"})
+                        .optional(),
                     inner_table("body", restored_body()).optional()}},
           {.word = "radiation",
            .meaning =
@@ -308,7 +319,9 @@ const Table& model() {
                "memory that belongs to them",
            .keys = {inner_table("body", restored_body())}},
           {.word = "friction ramp",
-           .meaning = "static and dynamic friction from a torque that grows until the joint slips, one test each file",
+           .meaning =
+               "static and dynamic friction from a torque, or a force on a slider, that grows until the joint slips, "
+               "one test each file",
            .keys = {
                quantity("ramp", dim::time, "before the slip: there the torque is taken as a straight line").positive(),
                quantity("slide", dim::time, "after it: there the torque is taken as constant").positive(),
@@ -338,19 +351,28 @@ const Table& ask() {
           texts("coefficients",
                 "all but motion, where they are the parameters: drag cd, inertia cm, added mass ca; towing knows cd "
                 "alone; decay: the damping terms that act, linear, "
-                "quadratic, cubic, coulomb")
-              .one_of({"cd", "cm", "ca", "linear", "quadratic", "cubic", "coulomb"})
+                "quadratic, cubic, coulomb, and memory: a pair of poles of the water's")
+              .one_of({"cd", "cm", "ca", "linear", "quadratic", "cubic", "coulomb", "memory"})
               .optional(),
           inner_table("intervals", intervals()).or_default("", "see its keys"),
           effect("robust", "morison: wild samples of the force pull less (Huber)").optional(),
-          effect("profile", "decay: intervals of the damping from the likelihood itself, which need not be symmetric")
+          effect("profile",
+                 "decay, motion: intervals of damping or parameters from the likelihood itself, which need not be "
+                 "symmetric")
+              .optional(),
+          effect(
+              "together",
+              "decay: one set of coefficients for all runs, with a start and a rest position for each, beside the fit "
+              "of each run alone")
               .optional(),
           effect("cycles", "morison: coefficients of each cycle too; needs [prepare] window in full cycles").optional(),
           text("law",
                "morison: coefficients of all runs against KC, Re or beta = Re/KC, with runs that differ by chance")
               .one_of({"constant", "kc", "re", "beta", "kc and re", "best"})
               .optional(),
-          effect("sensitivity", "morison: the fit repeated with other cutoffs, bandwidths and halves of the window")
+          effect("sensitivity",
+                 "morison: the fit repeated with other cutoffs, bandwidths and halves of the window; decay: with each "
+                 "half of the record")
               .optional()}};
   return table;
 }

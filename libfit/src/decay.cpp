@@ -9,6 +9,7 @@
 
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
+#include "restored_body.hpp"
 
 namespace fit {
 namespace {
@@ -57,7 +58,8 @@ double half_cycle_loss(std::size_t term, double a, double omega) {
   }
 }
 
-/// A term that may as well be zero is not told.
+}  // namespace
+
 Coefficient judged(Coefficient c) {
   if (c.value && c.interval.low <= 0 && c.interval.high >= 0) {
     c.why_not = fmt::format("the record cannot tell it from zero ({:.3g} to {:.3g})", c.interval.low, c.interval.high);
@@ -65,8 +67,6 @@ Coefficient judged(Coefficient c) {
   }
   return c;
 }
-
-}  // namespace
 
 std::vector<Extreme> find_extremes(std::span<const double> time, std::span<const double> x, double least) {  // (F34)
   hydro::require(time.size() == x.size() && x.size() >= 16, "extremes need 16 samples at least, got {}", x.size());

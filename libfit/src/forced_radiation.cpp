@@ -14,6 +14,7 @@
 #include "hydro/signal/distributions.hpp"
 #include "hydro/signal/welch.hpp"
 #include "morison_columns.hpp"
+#include "restored_body.hpp"
 
 namespace fit {
 namespace {
@@ -21,30 +22,9 @@ namespace {
 using RadiationComplex = std::complex<double>;
 constexpr int force_harmonics = 3;
 
-void check(const RestoredBody& body) {
-  hydro::require(body.mass >= 0 && std::isfinite(body.mass), "a mass must not be negative, got {}", body.mass);
-  hydro::require(body.stiffness >= 0 && std::isfinite(body.stiffness), "a stiffness must not be negative, got {}",
-                 body.stiffness);
-  hydro::require(body.mass_error >= 0 && body.stiffness_error >= 0, "uncertainties must not be negative, got {} and {}",
-                 body.mass_error, body.stiffness_error);
-}
-
 /// Student's t that an interval was made with.
 double quantile_of(const Coefficient& c) {
   return c.standard_error > 0 ? (c.interval.high - c.interval.low) / (2 * c.standard_error) : 0;
-}
-
-Coefficient with_parts(const std::string& name, double value, double scatter, double t, double systematic,
-                       double confidence) {
-  Coefficient c;
-  c.name = name;
-  c.value = value;
-  c.systematic_error = systematic;
-  c.standard_error = std::hypot(scatter, systematic);
-  const double half = std::hypot(t * scatter, hydro::signal::normal_quantile((1 + confidence) / 2) * systematic);
-  c.interval = {value - half, value + half};
-  c.white_interval = c.interval;
-  return c;
 }
 
 /// 1, then cos kωt and −sin kωt for k = 1 …: Re a e^{ikωt} has the parts of a as its coefficients.

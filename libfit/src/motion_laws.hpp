@@ -28,6 +28,19 @@ struct Oscillator {
   }
 };
 
+/// y = (x, ẋ, ζ, ζ̇); θ = (ω₀, b₁, b₂, b₃, x₀, κ, α, ω_p): the water's memory is a hidden oscillator ζ, driven by the
+/// motion; (F59). |ẋ| bends where ẋ changes its sign, and the step that holds it is of lower order there.
+struct Remembering {
+  static constexpr int states = 4, parameters = 8, channels = 1, turning = -1;
+  template <class T>
+  std::array<T, 4> rate(const std::array<T, 4>& y, const std::array<T, 8>& p, double) const {
+    using std::abs;
+    const T &x = y[0], &v = y[1];
+    const T resisting = p[1] * v + p[2] * abs(v) * v + p[3] * v * v * v + p[5] * y[3];
+    return {v, -resisting - p[0] * p[0] * (x - p[4]), y[3], v - 2.0 * p[6] * y[3] - p[7] * p[7] * y[2]};
+  }
+};
+
 /// y = (h, ḣ); θ = (k, g).
 struct Fall {
   static constexpr int states = 2, parameters = 2, channels = 1, turning = 1;

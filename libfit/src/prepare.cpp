@@ -70,7 +70,7 @@ struct Work {
 std::vector<std::pair<std::string, std::vector<double>*>> measured(RawRun& run) {
   std::vector<std::pair<std::string, std::vector<double>*>> all;
   for (ForceChannel& f : run.force) all.push_back({f.name, &f.values});
-  for (auto& [name, column] : {std::pair{"position", &run.position},
+  for (auto& [name, column] : {std::pair{run.position_name.c_str(), &run.position},
                                {"velocity", &run.velocity},
                                {"acceleration", &run.acceleration},
                                {"cross velocity", &run.cross_velocity},
@@ -94,6 +94,8 @@ void check(RawRun& run) {
   hydro::require(run.water_acceleration.empty() || !run.water_velocity.empty(),
                  "the water's acceleration needs its velocity beside it");
   hydro::require(run.elevation.empty() == !run.probe, "an elevation needs to know where probe and body are");
+  hydro::require(!run.probe || !run.probe->follow || !run.position.empty(),
+                 "the water is to be taken where the body is, and its position is not known");
   for (const auto& [name, column] : measured(run)) {
     hydro::require(column->size() == run.time.size(), "{} has {} samples, time {}", name, column->size(),
                    run.time.size());
@@ -220,11 +222,28 @@ void take_delay(Work& w, double delay_s) {  // (F24)
   w.tell("delay: the force is taken {:.4g} s earlier", delay_s);
 }
 
+/// The phase kx that the body's way through the waves makes; (F62).
+void tell_excursion(Work& w, const ProbeToBody& probe, double k) {
+  double furthest = 0;
+  for (const double x : w.run.position) furthest = std::max(furthest, std::abs(x));
+  if (probe.follow)
+    w.tell("water: taken where the body is, up to {:.3g} m from its place at rest: {:.2g} rad of the main wave",
+           furthest, k * furthest);
+  else if (k * furthest > 0.1)
+    w.warn(
+        "the water is taken where the body is at rest; it moves up to {:.3g} m from there, {:.2g} rad of the main "
+        "wave: "
+        "with follow = true in [model] wave it is taken where the body is",
+        furthest, k * furthest);
+}
+
 /// Motion of the water at the body from the surface at a probe.
 void add_waves(Work& w) {
   if (w.run.elevation.empty()) return;
-  const WaterMotion m = water_motion(w.run.elevation, w.step, *w.run.probe);
+  const ProbeToBody& probe = *w.run.probe;
+  const WaterMotion m = water_motion(w.run.elevation, w.step, probe, w.run.position);
   const bool body_too = moves(w.run);
+  if (!w.run.position.empty()) tell_excursion(w, probe, m.main_wavenumber);
   w.cut(m.first, m.velocity.size());
   (body_too ? w.run.water_velocity : w.run.velocity) = m.velocity;
   (body_too ? w.run.water_acceleration : w.run.acceleration) = m.acceleration;
@@ -471,6 +490,24 @@ Prepared prepare(RawRun run, const PrepareOptions& options) {
   cut_window(w, options.window, options.average_cycles);
   add_force_errors(w);
   return std::move(w.out);
+}
+
+PreparedMotion prepare_motion(const std::string& name, std::vector<double> time, std::vector<double> values,
+                              const PrepareOptions& options) {
+  hydro::require(time.size() == values.size() && time.size() >= 3, "{} has {} samples, time {}: three are needed", name,
+                 values.size(), time.size());
+  hydro::require(options.filters.empty() && options.resample_hz == 0 && options.delay_s == 0 &&
+                     options.window.kind != WindowChoice::Kind::full_cycles,
+                 "a motion alone is not filtered, moved in time or cut into cycles");
+  Work w;
+  w.run.time = std::move(time);
+  w.run.position = std::move(values);
+  w.run.position_name = name;
+  fill_gaps(w, options.longest_gap_s);
+  look_at_sensors(w);
+  take_outliers(w, options);
+  cut_window(w, options.window, false);
+  return {w.step, std::move(w.run.time), std::move(w.run.position), std::move(w.out.steps), std::move(w.out.cautions)};
 }
 
 std::string sign_trouble(const Cylinder& cylinder, const MorisonFit& fit) {  // (F26)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fit/correlated.hpp"
 #include "fit/shooting.hpp"
@@ -24,21 +25,29 @@ auto with_model(MotionLaw law, Use use) {
       return use(Oscillator<true>{});
     case MotionLaw::fall:
       return use(Fall{});
+    case MotionLaw::remembering:
+      return use(Remembering{});
     case MotionLaw::double_pendulum:
       break;
   }
   return use(DoublePendulum{});
 }
 
-/// Where things stand in the vector of unknowns: fitted parameters first, then the initial state of each window.
+int states_of(MotionLaw law) {
+  return with_model(law, [](const auto& model) { return std::decay_t<decltype(model)>::states; });
+}
+
+/// Where things stand in the vector of unknowns: fitted parameters first, then the initial state of each window, but
+/// for hidden states that begin at zero.
 struct Layout {
   std::vector<Eigen::Index> column;  // of each parameter, −1 where it is not fitted
   Eigen::Index fitted = 0, states, windows;
   Eigen::Index unknowns() const { return fitted + states * windows; }
 };
 
-Layout layout_of(const ShootingProblem& p, int states) {
-  Layout l{{}, 0, states, std::ssize(p.windows)};
+Layout layout_of(const ShootingProblem& p) {
+  const auto measured = 2 * static_cast<Eigen::Index>(channels_of(p.law).size());
+  Layout l{{}, 0, p.hidden_states_fitted ? states_of(p.law) : measured, std::ssize(p.windows)};
   for (const bool f : p.fitted) l.column.push_back(f ? l.fitted++ : -1);
   return l;
 }
@@ -55,8 +64,8 @@ bool shoot(const Model& model, const ShootingProblem& p, const Layout& l, std::s
     theta[static_cast<std::size_t>(k)] = Jet(column < 0 ? p.start[static_cast<std::size_t>(k)] : x[column], k);
   }
   std::array<Jet, S> y;
-  const Eigen::Index first = l.fitted + static_cast<Eigen::Index>(w) * S;
-  for (int i = 0; i < S; ++i) y[static_cast<std::size_t>(i)] = Jet(x[first + i], P + i);
+  const Eigen::Index first = l.fitted + static_cast<Eigen::Index>(w) * l.states;
+  for (int i = 0; i < S; ++i) y[static_cast<std::size_t>(i)] = i < l.states ? Jet(x[first + i], P + i) : Jet(0);
   Follower<Model, Jet> follower(model, y, theta);
   const Eigen::Index n = p.windows[w].values.rows();
   motion.resize(n, C);
@@ -69,7 +78,7 @@ bool shoot(const Model& model, const ShootingProblem& p, const Layout& l, std::s
       auto row = jacobian->row(c * n + j);
       for (int k = 0; k < P; ++k)
         if (l.column[static_cast<std::size_t>(k)] >= 0) row[l.column[static_cast<std::size_t>(k)]] = at.v[k];
-      for (int i = 0; i < S; ++i) row[first + i] = at.v[P + i];
+      for (int i = 0; i < l.states; ++i) row[first + i] = at.v[P + i];
     }
     for (int k = 0; k < substeps && j + 1 < n; ++k) follower.advance(p.windows[w].step / substeps);
   }
@@ -114,6 +123,8 @@ void check(const ShootingProblem& p) {
   const std::size_t wanted = parameters_of(p.law).size(), channels = channels_of(p.law).size();
   hydro::require(p.start.size() == wanted && p.fitted.size() == wanted, "the law has {} parameters, got {} starts",
                  wanted, p.start.size());
+  hydro::require(p.lowest.empty() || p.lowest.size() == wanted, "the law has {} parameters, got {} bounds", wanted,
+                 p.lowest.size());
   hydro::require(p.deviations.size() == channels, "the law has {} channels, got {} deviations", channels,
                  p.deviations.size());
   for (const double d : p.deviations) hydro::require(d > 0, "deviations must be positive, got {}", d);
@@ -127,10 +138,10 @@ void check(const ShootingProblem& p) {
 }
 
 Eigen::VectorXd start_of(const ShootingProblem& p, const Layout& l) {
-  Eigen::VectorXd x(l.unknowns());
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(l.unknowns());
   for (std::size_t k = 0; k < p.start.size(); ++k)
     if (l.column[k] >= 0) x[l.column[k]] = p.start[k];
-  const Eigen::Index channels = l.states / 2;
+  const auto channels = static_cast<Eigen::Index>(channels_of(p.law).size());
   for (std::size_t w = 0; w < p.windows.size(); ++w)
     for (Eigen::Index c = 0; c < channels; ++c) {
       const Eigen::Vector2d s = first_state(p.windows[w].values.col(c), p.windows[w].step);
@@ -146,7 +157,10 @@ ResidualModel model_of(const ShootingProblem& p, const Layout& l) {
   ResidualModel m;
   const auto names = parameters_of(p.law);
   for (std::size_t k = 0; k < names.size(); ++k)
-    if (l.column[k] >= 0) m.parameters.push_back({names[k], std::max(1e-3, std::abs(p.start[k]))});
+    if (l.column[k] >= 0)
+      m.parameters.push_back({.name = names[k],
+                              .scale = std::max(1e-3, std::abs(p.start[k])),
+                              .lowest = p.lowest.empty() ? -std::numeric_limits<double>::infinity() : p.lowest[k]});
   for (Eigen::Index i = l.fitted; i < l.unknowns(); ++i)
     m.parameters.push_back({"initial state", p.deviations[0] * 100});
   m.residuals = 0;
@@ -169,6 +183,7 @@ CoefficientCovariance uncertainty_of(const ShootingProblem& p, const Eigen::Matr
 void tell_parameters(const ShootingProblem& p, const Layout& l, const Eigen::VectorXd& x,
                      const CoefficientCovariance& u, ShootingFit& fit) {
   const auto names = parameters_of(p.law);
+  fit.ended = p.start;
   for (std::size_t k = 0; k < names.size(); ++k) {
     Coefficient c;
     if (l.column[k] < 0) {
@@ -177,6 +192,7 @@ void tell_parameters(const ShootingProblem& p, const Layout& l, const Eigen::Vec
       c.interval = c.white_interval = {p.start[k], p.start[k]};
     } else {
       const Eigen::Index j = l.column[k];
+      fit.ended[k] = x[j];
       c = with_interval(names[k], x[j], u, j, p.confidence);
       if (!fit.search.identifiable[static_cast<std::size_t>(j)]) {
         c.value.reset();
@@ -249,6 +265,8 @@ void tell_motion_bands(const ShootingProblem& p, const Eigen::MatrixXd& jacobian
 
 std::vector<std::string> parameters_of(MotionLaw law) {
   if (law == MotionLaw::fall) return {"drag", "gravity"};
+  if (law == MotionLaw::remembering)
+    return {"omega0", "linear", "quadratic", "cubic", "offset", "memory_strength", "memory_decay", "memory_frequency"};
   if (law == MotionLaw::double_pendulum)
     return {"coupling", "inertia", "gravity1", "gravity2", "friction1", "friction2"};
   return {"omega0", "linear", "quadratic", "cubic", "coulomb", "offset"};
@@ -262,7 +280,7 @@ std::vector<std::string> channels_of(MotionLaw law) {
 
 ShootingFit fit_motion(const ShootingProblem& p) {  // (F36)
   check(p);
-  const Layout l = layout_of(p, 2 * static_cast<int>(channels_of(p.law).size()));
+  const Layout l = layout_of(p);
   const ResidualModel model = model_of(p, l);
   Eigen::VectorXd x = start_of(p, l);
   ShootingFit fit{};
@@ -326,7 +344,7 @@ Interval profile_interval(const ShootingProblem& problem, const ShootingFit& fit
     if (fit.parameters[k].value) held.start[k] = *fit.parameters[k].value;
   const auto excess = [&](double at) {
     held.start[parameter] = at;
-    const Layout l = layout_of(held, 2 * static_cast<int>(channels_of(held.law).size()));
+    const Layout l = layout_of(held);
     Eigen::VectorXd x = start_of(held, l);
     for (std::size_t w = 0; w < held.windows.size(); ++w)
       x.segment(l.fitted + static_cast<Eigen::Index>(w) * l.states, l.states) = fit.initial[w];

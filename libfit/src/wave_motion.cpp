@@ -49,9 +49,63 @@ std::vector<double> tapered(std::span<const double> values, std::size_t over) {
   return out;
 }
 
+/// Motion of the water where the body rests: amplitudes over the frequencies of the transform, and their wavenumbers.
+struct WaveSeries {
+  std::size_t n;
+  std::vector<Complex> u, w, a;
+  std::vector<double> k;
+};
+struct Samples {
+  std::vector<double> u, w, a;
+};
+
+/// The motion at a place `x` further along the waves.
+Samples samples_of(const WaveSeries& s, double x) {
+  const auto there = [&](std::vector<Complex> half) {
+    if (x != 0)
+      for (std::size_t i = 1; i < half.size(); ++i) half[i] *= std::polar(1.0, -s.k[i] * x);
+    return hydro::signal::inverse_real_fft(half, s.n);
+  };
+  return {there(s.u), there(s.w), there(s.a)};
+}
+
+/// The motion at x(t_j) for every sample j, by cubics between places a distance d apart; (F62).
+Samples along_the_way(const WaveSeries& s, std::span<const double> x) {
+  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  const double highest = *std::max_element(s.k.begin(), s.k.end()), d = highest > 0 ? 0.3 / highest : 1;
+  Samples out{std::vector<double>(s.n), std::vector<double>(s.n), std::vector<double>(s.n)};
+  // Weights of place p at x: Lagrange's cubic through the places −1, 0, 1, 2 about the interval that holds x.
+  const auto weight = [](double f, int p) {
+    switch (p) {
+      case -1:
+        return -f * (f - 1) * (f - 2) / 6;
+      case 0:
+        return (f + 1) * (f - 1) * (f - 2) / 2;
+      case 1:
+        return -(f + 1) * f * (f - 2) / 2;
+      default:
+        return (f + 1) * f * (f - 1) / 6;
+    }
+  };
+  const auto last = static_cast<int>(std::floor((*high - *low) / d)) + 2;
+  for (int place = -1; place <= last; ++place) {
+    const Samples here = samples_of(s, *low + d * place);
+    for (std::size_t j = 0; j < s.n; ++j) {
+      const double from = (x[j] - *low) / d;
+      const int p = place - static_cast<int>(std::floor(from));
+      if (p < -1 || p > 2) continue;
+      const double q = weight(from - std::floor(from), p);
+      out.u[j] += q * here.u[j];
+      out.w[j] += q * here.w[j];
+      out.a[j] += q * here.a[j];
+    }
+  }
+  return out;
+}
+
 /// One sinusoid through the whole record.
 WaterMotion regular_motion(std::span<const double> elevation, double step, const ProbeToBody& probe,
-                           double rough_period) {  // (F57)
+                           double rough_period, std::span<const double> excursion) {  // (F57)
   const std::size_t n = elevation.size();
   const double omega = two_pi * peak_frequency(elevation, step, rough_period);
   std::vector<double> time(n);
@@ -67,8 +121,10 @@ WaterMotion regular_motion(std::span<const double> elevation, double step, const
   const double k = hydro::waves::wavenumber(omega, probe.water);
   const Profiles p = profiles(k, probe.level, probe.water);
   const Complex there = surface.amplitude[0] * std::polar(1.0, -k * probe.ahead);
-  for (const double t : time) {
-    const Complex now = omega * there * std::polar(1.0, omega * t);
+  motion.main_wavenumber = k;
+  for (std::size_t j = 0; j < n; ++j) {
+    const double phase = omega * time[j] - (probe.follow ? k * excursion[j] : 0);
+    const Complex now = omega * there * std::polar(1.0, phase);
     motion.velocity.push_back(p.along * now.real());
     motion.rise.push_back(-p.up * now.imag());
     motion.acceleration.push_back(-omega * p.along * now.imag());
@@ -78,20 +134,25 @@ WaterMotion regular_motion(std::span<const double> elevation, double step, const
 
 }  // namespace
 
-WaterMotion water_motion(std::span<const double> elevation, double step, const ProbeToBody& probe) {  // (F40)
+WaterMotion water_motion(std::span<const double> elevation, double step, const ProbeToBody& probe,
+                         std::span<const double> excursion) {  // (F40)
   const double bottom = probe.water.depth.is_infinite() ? -1e300 : -probe.water.depth.metres();
   hydro::require(probe.level < 0 && probe.level > bottom,
                  "the body's level must lie between surface and bottom, got {} m", probe.level);
   hydro::require(elevation.size() >= 64, "a surface record needs 64 samples at least, got {}", elevation.size());
   const std::size_t n = elevation.size();
+  hydro::require(!probe.follow || excursion.size() == n, "the surface has {} samples, the body's excursion {}", n,
+                 excursion.size());
   WaterMotion motion{};
   motion.main_period_s = main_period(elevation, step);
+  motion.main_wavenumber = hydro::waves::wavenumber(two_pi / motion.main_period_s, probe.water);
   const auto period = static_cast<std::size_t>(std::ceil(motion.main_period_s / step));
   hydro::require(n >= 5 * period, "the surface record holds {:.2g} main periods; five are needed",
                  static_cast<double>(n) / static_cast<double>(period));
-  if (probe.regular) return regular_motion(elevation, step, probe, motion.main_period_s);
+  if (probe.regular) return regular_motion(elevation, step, probe, motion.main_period_s, excursion);
   auto spectrum = hydro::signal::real_fft(tapered(elevation, period));
-  std::vector<Complex> u(spectrum.size()), w(spectrum.size()), a(spectrum.size());
+  WaveSeries at_rest{n, std::vector<Complex>(spectrum.size()), std::vector<Complex>(spectrum.size()),
+                     std::vector<Complex>(spectrum.size()), std::vector<double>(spectrum.size())};
   for (std::size_t i = 1; i < spectrum.size(); ++i) {
     const double omega = two_pi * static_cast<double>(i) / (static_cast<double>(n) * step), hz = omega / two_pi;
     const double k = hydro::waves::wavenumber(omega, probe.water);
@@ -99,19 +160,20 @@ WaterMotion water_motion(std::span<const double> elevation, double step, const P
     if (probe.highest_hz > 0 ? hz > probe.highest_hz : p.along < 1e-3) break;
     motion.highest_hz = hz;
     const Complex there = spectrum[i] / static_cast<double>(n) * std::polar(1.0, -k * probe.ahead);
-    u[i] = omega * p.along * there;
-    w[i] = Complex(0, omega) * p.up * there;
-    a[i] = Complex(0, omega) * u[i];
+    at_rest.u[i] = omega * p.along * there;
+    at_rest.w[i] = Complex(0, omega) * p.up * there;
+    at_rest.a[i] = Complex(0, omega) * at_rest.u[i];
+    at_rest.k[i] = k;
   }
   motion.first = period + period / 2;
-  const auto inside = [&](const std::vector<Complex>& half) {
-    const auto all = hydro::signal::inverse_real_fft(half, n);
+  const Samples all = probe.follow ? along_the_way(at_rest, excursion) : samples_of(at_rest, 0);
+  const auto inside = [&](const std::vector<double>& values) {
     const auto cut = static_cast<std::ptrdiff_t>(motion.first);
-    return std::vector<double>(all.begin() + cut, all.end() - cut);
+    return std::vector<double>(values.begin() + cut, values.end() - cut);
   };
-  motion.velocity = inside(u);
-  motion.rise = inside(w);
-  motion.acceleration = inside(a);
+  motion.velocity = inside(all.u);
+  motion.rise = inside(all.w);
+  motion.acceleration = inside(all.a);
   return motion;
 }
 

@@ -1,4 +1,5 @@
 // `froude fit` through the function that main.cpp calls.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +10,7 @@
 #include "froude/commands.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
+#include "hydro/io/csv.hpp"
 
 namespace fit_test {
 namespace {
@@ -94,10 +96,49 @@ TEST_F(Fit, OfADecayHasTheTruthInItsIntervals) {
   EXPECT_TRUE(holds("quadratic", 0.6));
   const std::string text =
       told({.scene = examples / "decay.toml", .output = folder / "d.toml", .picture = folder / "d.svg"});
-  EXPECT_THAT(text, AllOf(HasSubstr("quadratic"), HasSubstr("1/rad"), HasSubstr("AICc")));
+  EXPECT_THAT(text, AllOf(HasSubstr("quadratic"), HasSubstr("1/rad"), HasSubstr("AICc"), HasSubstr("white with p")));
+  // Noise with a memory of three samples, of which a fortieth of the period takes two; no harmonic of the swing.
+  EXPECT_LT(run["residuals"]["harmonic_share"].get<double>(), 0.1);
   EXPECT_THAT(hydro::io::read_text(folder / "d.toml"),
               AllOf(HasSubstr("[coefficients]"), HasSubstr("[run.quadratic]")));
   EXPECT_THAT(hydro::io::read_text(folder / "d.svg"), HasSubstr("residual"));
+}
+
+TEST_F(Fit, OfADecayTakesItsPartOfARawRecord) {
+  // Ten seconds at rest before the body is let go, a spike, and two rows that are missing.
+  const auto scene = changed(
+      "decay.toml", "[model]",
+      "[prepare]\nlongest_gap = \"0.5 s\"\noutliers = { window = \"2 s\" }\nwindow = { kind = \"span\", from = \"10 "
+      "s\", to = \"99 s\" }\n[model]");
+  std::string text = "t [s],roll [rad]\n";
+  for (int j = 0; j < 100; ++j) text += fmt::format("{:.1f},{:.5f}\n", 0.1 * j, 0.157 + 0.0001 * (j % 3));
+  const auto table = hydro::io::CsvTable::read(examples / "decay.csv");
+  const auto &t = table.column("t"), &roll = table.column("roll");
+  for (std::size_t j = 0; j < t.size(); ++j)
+    if (j != 300 && j != 301) text += fmt::format("{:.1f},{:.5f}\n", t[j] + 10, j == 500 ? 3.0 : roll[j]);
+  hydro::io::write_atomically(folder / "decay.csv", text);
+  const auto run = nlohmann::json::parse(told({.scene = scene}, true))["run"][0];
+  for (const auto& [name, truth] : {std::pair{"period", 6.4}, {"linear", 0.02}, {"quadratic", 0.6}}) {  // make_decay.py
+    EXPECT_LT(run[name]["interval"][0].get<double>(), truth) << name;
+    EXPECT_GT(run[name]["interval"][1].get<double>(), truth) << name;
+  }
+  EXPECT_THAT(run["steps"].dump(), AllOf(HasSubstr("gaps: 2 of"), HasSubstr("outliers: 1 of"), HasSubstr("of angle"),
+                                         HasSubstr("window: from 10 s")));
+}
+
+TEST_F(Fit, OfADecayIsRepeatedWithEachHalfWhereAsked) {
+  const auto run = nlohmann::json::parse(
+      told({.scene = changed("decay.toml", "[ask]", "[ask]\nsensitivity = true")}, true))["run"][0];
+  ASSERT_EQ(run["variant"].size(), 2u);
+  // The first half holds most of what tells the damping; the model is right, so it moves by an error or two.
+  for (const char* name : {"period", "linear", "quadratic"})
+    EXPECT_LT(std::abs(run["variant"][0][name].get<double>()), 4) << name;
+  // Without the quadratic term the halves disagree about the linear one.
+  const auto wrong =
+      nlohmann::json::parse(told({.scene = changed("decay.toml", "coefficients = [\"linear\", \"quadratic\"]",
+                                                   "coefficients = [\"linear\"]\nsensitivity = true")},
+                                 true))["run"][0];
+  EXPECT_LT(wrong["variant"][1]["linear"].get<double>(), -4);  // less damping in the small swings
 }
 
 TEST_F(Fit, OfADecayGivesProfilesWhereAsked) {
@@ -192,12 +233,28 @@ TEST_F(Fit, OfASceneFindsTheDampingThatAnIndependentRecordHas) {
   };
   EXPECT_TRUE(holds("line_damping_linear", 0.006)) << j.dump(1);  // as make_pendulums.py says
   EXPECT_TRUE(holds("line_damping_quadratic", 0.004)) << j.dump(1);
+  for (const auto& [name, one] : parameter.items()) EXPECT_FALSE(one.contains("profile_interval")) << name;
   for (const auto& s : j["signal"]) EXPECT_NEAR(s["rms"].get<double>(), 0.01, 0.0015);  // the noise, and nothing else
   EXPECT_NEAR(j["samples_in_band"].get<double>(), 0.95, 0.03);                          // 600 samples: three deviations
   for (const auto& s : j["signal"])
     EXPECT_LT(s["widest_band_of_fit"].get<double>(), s["widest_band_of_sample"].get<double>());
   EXPECT_THAT(hydro::io::read_text(folder / "p.svg"), HasSubstr("95 % band of the fit"));
   EXPECT_THAT(hydro::io::read_text(folder / "p.toml"), HasSubstr("line_damping_linear = \"0.00"));
+}
+
+TEST_F(Fit, OfASceneGivesProfilesWhereAsked) {
+  const auto scene = changed("pendulums.toml", "[ask]", "[ask]\nprofile = true");
+  const auto j = nlohmann::json::parse(told({.scene = scene}, true));
+  for (const auto& [name, truth] : {std::pair{"line_damping_linear", 0.006}, {"line_damping_quadratic", 0.004}}) {
+    const auto &plain = j["parameter"][name]["interval"], &profile = j["parameter"][name]["profile_interval"];
+    EXPECT_LT(profile[0].get<double>(), truth);  // as make_pendulums.py says
+    EXPECT_GT(profile[1].get<double>(), truth);
+    const double width = plain[1].get<double>() - plain[0].get<double>();
+    for (const std::size_t end : {0u, 1u})  // nearly linear
+      EXPECT_NEAR(profile[end].get<double>(), plain[end].get<double>(), 0.15 * width) << name;
+  }
+  EXPECT_THAT([&] { told({.scene = changed("pendulums.toml", "[ask]", "[ask]\nprofile = true\nlaw = \"best\"")}); },
+              ThrowsMessage<InputError>(HasSubstr("has no part in a fit of kind \"motion\"")));
 }
 
 TEST_F(Fit, OfASceneSaysWhichKeyItCannotFind) {
@@ -289,6 +346,67 @@ TEST_F(Fit, OfADecayTellsAddedMassWhereTheBodyIsKnown) {
   EXPECT_NEAR(run["samples_in_band"].get<double>(), 0.95, 0.03);
   EXPECT_THAT(told({.scene = examples / "decay.toml"}),
               AllOf(HasSubstr("kg m^2"), HasSubstr("samples lie in the band")));
+}
+
+TEST_F(Fit, OfSeveralDecaysTellsTheMemoryOfTheWater) {
+  const auto j = nlohmann::json::parse(told({.scene = examples / "heave_decays.toml",
+                                             .output = folder / "m.toml",
+                                             .table = folder / "m.csv",
+                                             .picture = folder / "m.svg"},
+                                            true));
+  ASSERT_EQ(j["run"].size(), 3u);
+  const auto& memory = j["together"]["memory"];
+  // The water of make_heave_decays.py: 400 N/m over 180 kg.
+  EXPECT_TRUE(holds(memory["memory_strength"], 400.0 / 180)) << memory.dump(1);
+  EXPECT_TRUE(holds(memory["memory_decay"], 1.2)) << memory.dump(1);
+  EXPECT_TRUE(holds(memory["memory_frequency"], std::hypot(1.2, 2.8))) << memory.dump(1);
+  EXPECT_TRUE(holds(memory["limit"]["added_mass"], 60)) << memory.dump(1);
+  const double s = memory["swing"]["omega_rad_s"].get<double>(), w2 = 1.2 * 1.2 + 2.8 * 2.8,
+               d = (w2 - s * s) * (w2 - s * s) + 4 * 1.44 * s * s;
+  EXPECT_TRUE(holds(memory["swing"]["added_mass"], 60 + 400 * (w2 - s * s) / d));
+  EXPECT_TRUE(holds(memory["swing"]["damping"], 2 * 1.2 * 400 * s * s / d));
+  EXPECT_GT(memory["aicc_gained"].get<double>(), 10);
+  EXPECT_THAT(hydro::io::read_text(folder / "m.csv"),
+              AllOf(HasSubstr("file,let_go_at,rest,first_amplitude [m],period [s],period_low [s]"),
+                    HasSubstr("run_2.csv,0.09,-0.002,")));
+  EXPECT_THAT(hydro::io::read_text(folder / "m.svg"), AllOf(HasSubstr("added mass"), HasSubstr("at the swing")));
+  EXPECT_THAT(hydro::io::read_text(folder / "m.toml"), HasSubstr("memory_strength = "));
+  EXPECT_GT(j["over_runs"]["linear"]["prediction"][1].get<double>(), j["over_runs"]["linear"]["value"].get<double>());
+  const auto two = changed("heave_decays.toml", "runs = \"heave_decays/runs.csv\"",
+                           "files = [\"heave_decays/run_1.csv\", \"heave_decays/run_2.csv\"]");
+  std::string text = hydro::io::read_text(two);
+  text.replace(text.find("\"memory\""), 8, "\"linear\"");
+  text.replace(text.find("start = "), text.find("body = ") - text.find("start = "), "");
+  hydro::io::write_atomically(two, text);
+  EXPECT_THAT(told({.scene = two}), AllOf(HasSubstr("run_2.csv: 10 half cycles"),
+                                          HasSubstr("2 runs with one set of coefficients"), HasSubstr("kg")));
+}
+
+TEST_F(Fit, OfOneDecayTellsTheMemoryInWords) {
+  const auto one =
+      changed("heave_decays.toml", "runs = \"heave_decays/runs.csv\"", "files = \"heave_decays/run_1.csv\"");
+  EXPECT_THAT([&] { told({.scene = one}); }, ThrowsMessage<InputError>(HasSubstr("needs two files at least")));
+  std::string text = hydro::io::read_text(one);
+  text.replace(text.find("together = true"), 15, "");
+  hydro::io::write_atomically(one, text);
+  EXPECT_THAT(told({.scene = one}),
+              AllOf(HasSubstr("by the memory at"), HasSubstr("singular values of the parameters over their errors"),
+                    HasSubstr("at infinite frequency"), HasSubstr("memory_strength 2.1")));
+}
+
+TEST_F(Fit, OfASliderHasItsFrictionInNewtons) {
+  auto scene = changed("friction.toml", "torque = \"M\"", "force = \"M\"");
+  EXPECT_THAT([&] { told({.scene = scene}); }, ThrowsMessage<InputError>(HasSubstr("a force is needed")));
+  for (const char* number : {"1", "2", "3", "4"}) {
+    const auto file = folder / (std::string("friction_") + number + ".csv");
+    std::string text = hydro::io::read_text(file);
+    text.replace(text.find("M [N m]"), 7, "M [N]");
+    hydro::io::write_atomically(file, text);
+  }
+  const auto j = nlohmann::json::parse(told({.scene = scene, .output = folder / "s.toml"}, true));
+  EXPECT_TRUE(holds(j["together"]["static"], 3.70));  // the means of make_friction.py
+  EXPECT_THAT(j["coefficients"]["dynamic"].get<std::string>(), testing::EndsWith(" N"));
+  EXPECT_THAT(told({.scene = scene}), testing::Not(HasSubstr("N m")));
 }
 
 TEST_F(Fit, OfASceneMayBeginAtSeveralPoints) {

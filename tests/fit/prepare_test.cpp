@@ -250,6 +250,48 @@ TEST(Prepare, TakesTheWaterFromAProbeWhoseSignalIsLate) {
   EXPECT_NEAR(*fit.inertia.value, 1.8, 0.01);
 }
 
+TEST(Prepare, TakesTheWaterWhereABodyIsThatMovesFar) {
+  fit::Cylinder both = cylinder;
+  both.experiment = fit::Experiment::both_move;
+  fit::ProbeToBody probe{.water = {.density = 997, .gravity = 9.81, .depth = hydro::WaterDepth::from_metres(1.25)},
+                         .level = -0.48,
+                         .ahead = 0.6,
+                         .regular = true,
+                         .follow = true};
+  const double omega = 2 * std::numbers::pi / 2, k = hydro::waves::wavenumber(omega, probe.water), slow = 1.1;
+  const double along = omega * 0.1 * std::cosh(k * 0.77) / std::sinh(k * 1.25),
+               up = omega * 0.1 * std::sinh(k * 0.77) / std::sinh(k * 1.25);
+  RawRun run;
+  run.force = {{"F", {}, {}}};
+  for (int j = 0; j < 6000; ++j) {
+    const double t = 0.01 * j, x = 0.5 * std::sin(slow * t), v = 0.5 * slow * std::cos(slow * t),
+                 acceleration = -slow * slow * x, at = omega * t - k * (probe.ahead + x);
+    const double u = along * std::cos(at), w = -up * std::sin(at), a = -along * omega * std::sin(at);
+    run.time.push_back(t);
+    run.position.push_back(x);
+    run.elevation.push_back(0.1 * std::cos(omega * t));
+    const double mass = 997 * both.volume();
+    run.force[0].values.push_back(mass * a - both.mass_beyond_load_cells * acceleration +
+                                  0.8 * mass * (a - acceleration) +
+                                  0.5 * 997 * 0.06 * 1.4 * std::hypot(u - v, w) * (u - v));
+  }
+  PrepareOptions options = usual;
+  options.derivative_bandwidth_hz = 0.6;
+  options.window = {};
+  const auto fitted = [&](bool follow) {
+    probe.follow = follow;
+    run.probe = probe;
+    return fit::prepare(run, options);
+  };
+  const auto p = fitted(true), still = fitted(false);
+  EXPECT_THAT(p.steps, Contains(HasSubstr("where the body is, up to 0.5 m")));
+  EXPECT_THAT(still.cautions, Contains(HasSubstr("follow = true")));
+  const auto fit = fit::fit_morison(both, p.record), without = fit::fit_morison(both, still.record);
+  EXPECT_NEAR(*fit.cd.value, 1.4, 0.01);  // the derivative's gain, 1e-3 of the body's motion at a third of its band
+  EXPECT_NEAR(*fit.inertia.value, 0.8, 0.01);
+  EXPECT_GT(without.residual_rms, 10 * fit.residual_rms);
+}
+
 TEST(Prepare, BringsARecordToAnotherRateAndTellsItsBand) {
   PrepareOptions slower = usual;
   slower.resample_hz = 40;

@@ -210,6 +210,88 @@ Eigen::VectorXd swing_freely(const Eigen::VectorXd& y, const Eigen::VectorXd& th
   return vector({y[1], -theta[0] * y[0]});
 }
 
+/// The cost where one parameter is held, all others at their best, by a dense look along the line: no search at all.
+TEST(SimulatedProfile, IsWhereTheLikelihoodHasFallen) {
+  // x(t) = a sin(bt): by a it is linear, so for b held the best a is a quotient.
+  const auto follow = [](double a, double b) {
+    Eigen::MatrixXd out(200, 1);
+    for (Eigen::Index i = 0; i < 200; ++i) out(i, 0) = a * std::sin(b * 0.05 * static_cast<double>(i));
+    return out;
+  };
+  class Sine final : public fit::Simulation {
+   public:
+    explicit Sine(std::function<Eigen::MatrixXd(double, double)> f) : f_(std::move(f)) {}
+    Eigen::Index coordinates(std::size_t) override { return 0; }
+    Eigen::MatrixXd follow(std::size_t, const Eigen::VectorXd& p, const Eigen::VectorXd&) override {
+      return f_(p[0], p[1]);
+    }
+    void hand_on(std::size_t, const Eigen::VectorXd&, const Eigen::VectorXd&) override {}
+
+   private:
+    std::function<Eigen::MatrixXd(double, double)> f_;
+  } sine(follow);
+  const auto e = froude_test::ar1_noise(200, 0, 0.8, 5);
+  const Eigen::MatrixXd measured = follow(1.0, 0.3) + Eigen::Map<const Eigen::VectorXd>(e.data(), 200);
+  fit::SimulationProblem p{.parameters = {{"a", 1.1}, {"b", 0.31}}, .measured = {measured}, .deviations = {0.5}};
+  const auto f = fit::fit_simulation(sine, p);
+  const auto profile = fit::profile_interval(sine, p, f, 1);
+  const auto cost = [&](double b) {
+    const Eigen::VectorXd shape = follow(1, b), x = measured;
+    const double a = shape.dot(x) / shape.squaredNorm();
+    return (x - a * shape).squaredNorm() / 2 / 0.25;
+  };
+  // What the cost rises by at both ends is t² s² (n/n_eff)/2, within 2·3 % and the search's own 5 % of it.
+  const double least = cost(*f.parameters[1].value);
+  EXPECT_NEAR(least, f.search.cost_last, 1e-3 * least);
+  const double low = cost(profile.low) - least, high = cost(profile.high) - least,
+               t = (f.parameters[1].interval.high - f.parameters[1].interval.low) / 2 / f.parameters[1].standard_error,
+               rise = t * t * least / f.parameters[1].effective_samples;
+  EXPECT_NEAR(low, rise, 0.12 * rise);
+  EXPECT_NEAR(high, rise, 0.12 * rise);
+  // Not symmetric: the half cycle that there is bends the likelihood.
+  const double down = *f.parameters[1].value - profile.low, up = profile.high - *f.parameters[1].value;
+  EXPECT_GT(std::abs(up - down), 0.05 * (up + down));
+  EXPECT_THROW(fit::profile_interval(sine, p, f, 2), hydro::InputError);
+}
+
+TEST(SimulatedProfile, OfOneParameterAloneAndAtABoundEndsThere) {
+  Flow flow(swing, vector({1, 0, 1}), 0.05, 300, false);
+  class One final : public fit::Simulation {
+   public:
+    explicit One(fit::Simulation& all) : all_(all) {}
+    Eigen::Index coordinates(std::size_t w) override { return all_.coordinates(w); }
+    Eigen::MatrixXd follow(std::size_t w, const Eigen::VectorXd& p, const Eigen::VectorXd& start) override {
+      return all_.follow(w, vector({0.05, p[0], 4.0}), start);
+    }
+    void hand_on(std::size_t, const Eigen::VectorXd&, const Eigen::VectorXd&) override {}
+
+   private:
+    fit::Simulation& all_;
+  } one(flow);
+  auto p = swing_problem(0.03, 4);
+  p.parameters = {{"quadratic", 0.2}};
+  const auto f = fit::fit_simulation(one, p);
+  const auto free = fit::profile_interval(one, p, f, 0);
+  const auto& plain = f.parameters[0].interval;
+  const double width = plain.high - plain.low;
+  EXPECT_NEAR(free.low, plain.low, 0.1 * width);  // nearly linear
+  EXPECT_NEAR(free.high, plain.high, 0.1 * width);
+  p.parameters[0].first = *f.parameters[0].value;
+  p.parameters[0].lowest = p.parameters[0].first - width / 8;
+  const auto bounded = fit::profile_interval(one, p, fit::fit_simulation(one, p), 0);
+  EXPECT_EQ(bounded.low, p.parameters[0].lowest);
+}
+
+TEST(SimulatedProfile, OfAMotionInWindowsFitsTheirStartsAgain) {
+  Flow flow(swing, vector({1, 0, 1}), 0.05, 100, true);
+  const auto p = swing_problem(0.01, 7, 3);
+  const auto f = fit::fit_simulation(flow, p);
+  const auto profile = fit::profile_interval(flow, p, f, 2);
+  const auto& plain = f.parameters[2].interval;
+  EXPECT_NEAR(profile.low, plain.low, 0.1 * (plain.high - plain.low));  // nearly linear in the restoring
+  EXPECT_NEAR(profile.high, plain.high, 0.1 * (plain.high - plain.low));
+}
+
 TEST(SeveralStarts, FindTheMinimumThatOneStartMisses) {
   const auto e = froude_test::ar1_noise(300, 0, 0.05, 5);
   const Eigen::MatrixXd measured = Flow(swing_freely, vector({1, 0}), 0.05, 300, false).follow(0, vector({9.0}), {}) +

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "compile/compile.hpp"
+#include "fit/decay_memory.hpp"
 #include "froude/simulate.hpp"
 #include "harness/scenes.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -69,6 +70,29 @@ double natural_period(const scene::Scene& scene) {
   return 2 * std::numbers::pi / omega;
 }
 
+/// What another code's decay tells of the water, against the data that both were made with.
+void add_fitted_memory(const scene::Scene& scene, const Curve& curve, std::vector<Number>& numbers) {
+  const compile::Prepared p = compile::prepare(scene);
+  const double mass = p.bodies.front().mass(), stiffness = p.hydrostatics.front().stiffness(2, 2);
+  const auto& table = p.groups.front().table;
+  const auto n = static_cast<Eigen::Index>(curve.heave.size());
+  const std::vector<fit::Window> record{{(curve.time.back() - curve.time.front()) / static_cast<double>(n - 1),
+                                         Eigen::Map<const Eigen::VectorXd>(curve.heave.data(), n)}};
+  const auto f = fit::fit_decay_memory(record);
+  const auto at = fit::radiation_of(f, {.mass = mass, .stiffness = stiffness}, f.omega);
+  const auto plain =
+      fit::added_mass(fit::fit_decay(record, {.terms = {.linear = true}}), {.mass = mass, .stiffness = stiffness});
+  const auto value = [](const fit::Coefficient& c) { return c.value.value_or(std::nan("")); };
+  const double damping = table.damping(f.omega)(2, 2), whole = mass + table.added_mass(f.omega)(2, 2);
+  numbers.push_back(
+      {"damping at the swing by a memory fitted to inwave_h, over the data's", value(at.damping) / damping, ""});
+  numbers.push_back(
+      {"mass and added mass at the swing by that memory, over the data's", (mass + value(at.added_mass)) / whole, ""});
+  numbers.push_back({"damping by a constant damping fitted to inwave_h, over the data's",
+                     value(plain.damping.front()) / damping, ""});
+  numbers.push_back({"AICc gained by the memory", f.gain, ""});
+}
+
 double entry(const Record& r, const std::string& name) {
   for (const auto& [key, value] : r.energy)
     if (key == name) return value;
@@ -95,6 +119,7 @@ Outcome outcome(const Folders& folders) {
                  {"rms to hydrochrono over 40 s", rms_difference(hydrochrono, record.time, heave), "m"},
                  {"energy residual relative to the turnover",
                   std::abs(entry(record, "residual")) / entry(record, "turnover"), ""}};
+  add_fitted_memory(scene, inwave, out.numbers);
   plot::Figure f{.title = "Sphere released from 1 m",
                  .panels = {{.x = {"time", "s"}, .y = {"heave", "m"}, .series = {}}}};
   f.panels[0].series = {{.name = "Froude", .x = record.time, .y = heave},

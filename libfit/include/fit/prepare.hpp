@@ -27,9 +27,10 @@ struct ForceChannel {
 
 /// One run as it was recorded; all columns of one length, those not measured empty.
 struct RawRun {
-  std::vector<double> time;          ///< s
-  std::vector<ForceChannel> force;   ///< they carry the body together: their sum is the force
-  std::vector<double> position;      ///< m
+  std::vector<double> time;         ///< s
+  std::vector<ForceChannel> force;  ///< they carry the body together: their sum is the force
+  std::vector<double> position;     ///< m
+  std::string position_name = "position";
   std::vector<double> velocity;      ///< m/s, in place of a position
   std::vector<double> acceleration;  ///< m/s²; empty: from velocity or position
   /// Velocity of the water across both the force and the body's axis, m/s: a horizontal cylinder in waves feels
@@ -95,6 +96,18 @@ struct Prepared {
 /// time with gaps longer than allowed, a window outside the record, a mean cycle of cycles that differ by more than a
 /// tenth or without a window of full cycles, and as the steps themselves
 Prepared prepare(RawRun run, const PrepareOptions& options);
+
+/// A motion alone, of a body let go.
+struct PreparedMotion {
+  double step;  ///< s
+  std::vector<double> time, values;
+  std::vector<std::string> steps, cautions;  ///< as Prepared
+};
+/// Even grid, sensors looked at, outliers, and a window: a span or all. Nothing is filtered, since what is fitted to
+/// the motion is not linear in it. `name`: of the channel, for what is told. \throws hydro::InputError as prepare(),
+/// and for other options
+PreparedMotion prepare_motion(const std::string& name, std::vector<double> time_s, std::vector<double> values,
+                              const PrepareOptions& options);
 
 /// Why the force (or the motion) must have the wrong sign; empty where it need not: both drag and all inertia come out
 /// negative with their whole intervals, which no flow does; (F26).

@@ -26,10 +26,13 @@ enum class MotionLaw {
   pendulum,         ///< the same with ω₀² sin(x − x₀)
   fall,             ///< ḧ = −g − k|ḣ|ḣ: a ball in still air
   double_pendulum,  ///< two hinged links, angles from the upright, friction in both hinges
+  remembering,  ///< ẍ + b₁ẋ + b₂|ẋ|ẋ + b₃ẋ³ + ∫k(t − τ)ẋ(τ)dτ + ω₀²(x − x₀) = 0, k of one pair of poles (F59)
 };
 /// Names of the parameters of a law, in the order of `ShootingProblem::start`: oscillator and pendulum "omega0",
 /// "linear", "quadratic", "cubic", "coulomb", "offset"; fall "drag", "gravity"; double pendulum "coupling", "inertia",
-/// "gravity1", "gravity2", "friction1", "friction2", all over the first inertia M₁₁ (F38).
+/// "gravity1", "gravity2", "friction1", "friction2", all over the first inertia M₁₁ (F38); remembering "omega0",
+/// "linear", "quadratic", "cubic", "offset", "memory_strength" κ (1/s²), "memory_decay" α (1/s), "memory_frequency" ω_p
+/// (rad/s).
 std::vector<std::string> parameters_of(MotionLaw law);
 /// Which states are measured, in the order of the channels: "x", "h", or "theta1" and "theta2".
 std::vector<std::string> channels_of(MotionLaw law);
@@ -42,12 +45,16 @@ struct ShootingProblem {
   std::vector<bool> fitted;        ///< which are fitted; none: initial states alone are
   int substeps = 4;                ///< Runge–Kutta steps per sample
   double confidence = 0.95;
+  std::vector<double> lowest = {};  ///< bounds of the parameters; empty: none
+  /// Whether states that are not measured (a memory) are fitted at each window's start; else they begin at zero.
+  bool hidden_states_fitted = true;
 };
 
 struct ShootingFit {
   std::vector<Coefficient> parameters;  ///< of all, in the law's order; those not fitted have standard error 0
+  std::vector<double> ended;            ///< where the search left them all, told or not
   FitReport search;
-  std::vector<Eigen::VectorXd> initial;  ///< initial state of each window
+  std::vector<Eigen::VectorXd> initial;  ///< initial state of each window, hidden ones where they are fitted
   std::vector<Eigen::MatrixXd> motion;   ///< of each window, as its values
   std::vector<double> rms;               ///< per channel, over all windows
   /// Half widths of the bands at each sample, as `motion` (F46): of the fitted motion, and of a sample measured anew.

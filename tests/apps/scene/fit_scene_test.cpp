@@ -183,7 +183,53 @@ profile = true
   EXPECT_THAT(refused(with(decay, ", angle = \"roll\"", "")), HasSubstr("needs either position or angle"));
   EXPECT_THAT(refused(with(decay, "\"linear\"", "\"cd\"")), HasSubstr("a decay knows linear"));
   EXPECT_THAT(refused(with(decay, "[ask]", "[prepare]\ndelay = \"1 s\"\n[ask]")), HasSubstr("has no part"));
+  EXPECT_THAT(refused(with(decay, "[ask]", "[prepare]\nderivative_method = \"smoothing spline\"\n[ask]")),
+              HasSubstr("has no part"));
+  EXPECT_THAT(refused(with(decay, "[ask]", "[prepare]\nwindow = { kind = \"full cycles\" }\n[ask]")),
+              HasSubstr("must be \"span\""));
+  const FitScene cut =
+      read(with(decay, "[ask]",
+                "[prepare]\nlongest_gap = \"1 s\"\nwindow = { kind = \"span\", from = \"3 s\", to = \"9 s\" }\n[ask]"));
+  EXPECT_EQ(cut.prepare.from, 3);
+  EXPECT_EQ(cut.prepare.longest_gap, 1);
   EXPECT_THAT(refused(with(oscillation, "\"ca\"", "\"cubic\"")), HasSubstr("has no part in a fit of kind \"morison\""));
+  EXPECT_THAT(refused(with(decay, "[ask]", "[ask]\ntogether = true")), HasSubstr("needs two files at least"));
+  EXPECT_THAT(refused(with(oscillation, "[ask]", "[ask]\ntogether = true")), HasSubstr("has no part"));
+}
+
+TEST_F(FitScenes, OfDecayKnowWhatAMemoryNeeds) {
+  const std::string memory = R"(schema = 1
+[data]
+files = "runs/a.csv"
+channels = { time = "t", position = "z" }
+[model]
+kind = "decay"
+start = "in motion"
+[ask]
+coefficients = ["memory", "quadratic"]
+)";
+  EXPECT_FALSE(read(memory).model.starts_empty);
+  EXPECT_TRUE(read(with(memory, "in motion", "let go from rest")).model.starts_empty);
+  EXPECT_THAT(refused(with(memory, "start = \"in motion\"\n", "")), HasSubstr("needs \"start\""));
+  EXPECT_THAT(refused(with(memory, "\"memory\", ", "")), HasSubstr("does not act without a memory"));
+  EXPECT_THAT(refused(with(memory, "quadratic", "coulomb")), HasSubstr("may not hold coulomb"));
+  EXPECT_THAT(refused(with(memory, "start", "restoring = \"sine\"\nstart")), HasSubstr("must be linear"));
+}
+
+TEST_F(FitScenes, OfFrictionNeedATorqueOrAForce) {
+  const std::string friction = R"(schema = 1
+[data]
+files = "runs/a.csv"
+channels = { time = "t", force = "-F" }
+[model]
+kind = "friction ramp"
+ramp = "2 s"
+slide = "2 s"
+[ask]
+)";
+  EXPECT_TRUE(read(friction).force.at(0).turned);
+  EXPECT_THAT(refused(with(friction, ", force = \"-F\"", "")), HasSubstr("either torque or force"));
+  EXPECT_THAT(refused(with(friction, "force =", "torque = \"M\", force =")), HasSubstr("either torque or force"));
 }
 
 TEST_F(FitScenes, TakeTheWaterFromAProbe) {
