@@ -5,6 +5,7 @@
 
 #include "compile/buoyancy.hpp"
 #include "compile/connections.hpp"
+#include "compile/excitation.hpp"
 #include "compile/hydrodynamics.hpp"
 #include "compile/members.hpp"
 #include "compile/radiation.hpp"
@@ -149,22 +150,6 @@ dynamics::frequency::SmallMotions small_motions(const dynamics::Model& model, co
 }
 
 namespace {
-
-std::unique_ptr<const dynamics::ForceKind> excitation(const Prepared& p, const hydro::waves::Sea& sea,
-                                                      const StepGrid& grid, double ramp) {
-  std::vector<dynamics::Excitation> elements;
-  for (const auto& g : p.groups) {
-    if (!g.excitation) continue;
-    Eigen::MatrixXcd amplitudes(6 * static_cast<Eigen::Index>(g.bodies.size()),
-                                static_cast<Eigen::Index>(sea.components().size()));
-    Eigen::Index column = 0;
-    for (const auto& c : sea.components())
-      amplitudes.col(column++) = elevation_at_origin(c) * g.table.excitation(c.omega, c.heading);
-    elements.push_back({g.bodies, signals(sea, amplitudes, grid, ramp)});
-  }
-  if (elements.empty()) return nullptr;
-  return std::make_unique<dynamics::ExcitationKind>(std::move(elements));
-}
 
 /// The step that keeps the period error of generalised-α, (ωh)²/12, a sixteenth of the accuracy asked at the highest
 /// relevant frequency, and divides the distance of samples.
@@ -323,8 +308,7 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
     memory_lines.insert(memory_lines.end(), parts.lines.begin(), parts.lines.end());
   }
   if (!memories.empty()) forces.push_back(std::make_unique<dynamics::RadiationKind>(std::move(memories)));
-  if (sea)
-    if (auto kind = excitation(prepared, *sea, {step, steps + 1}, scene.waves->ramp)) forces.push_back(std::move(kind));
+  if (sea) add_excitation(scene, prepared, *sea, {step, steps + 1}, forces);
   add_members(scene, prepared.bodies, water, {step, steps + 1}, forces);
 
   if (!prepared.friction.empty()) forces.push_back(std::make_unique<dynamics::FrictionKind>(prepared.friction));

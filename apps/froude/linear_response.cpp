@@ -119,6 +119,9 @@ std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene,
     out.emplace_back("friction and latches are left out: their joints move freely in a linear response");
   if (one_joint([](const scene::Joint& j) { return j.lead.has_value(); }))
     out.emplace_back("what leads joints is left out: they are held where they are placed");
+  if (std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                  [](const scene::Body& b) { return b.hydrodynamics && b.hydrodynamics->turning; }))
+    out.emplace_back("excitation is that of bodies as placed: their slow yaw acts in runs only");
   if (!scene.contacts.empty()) out.emplace_back("contacts are left out: bodies are taken not to touch");
   const auto on_body = [&](const std::vector<std::size_t>& network) {
     return std::any_of(network.begin(), network.end(), [&](std::size_t i) { return scene.chains[i].fastened(); });

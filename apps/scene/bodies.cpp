@@ -119,6 +119,12 @@ Cylinders read_cylinders(const Record& record, double height_of_origin) {
   return out;
 }
 
+Turning read_turning(const Record& record) {
+  Turning out{record.si("from"), record.si("to"), record.si("spacing"), record.si("slower_than"), record.place()};
+  if (!(out.from < out.to)) throw record.wrong("to", "is not beyond `from`", "from = \"-30 deg\", to = \"30 deg\"");
+  return out;
+}
+
 Hydrodynamics read_hydrodynamics(const Record& record, const std::filesystem::path& file, double height_of_origin) {
   Hydrodynamics out;
   if (record.has("file")) {
@@ -135,6 +141,7 @@ Hydrodynamics read_hydrodynamics(const Record& record, const std::filesystem::pa
     for (const auto& check : record["accept"].texts) out.accept.push_back(check.value);
   out.excitation = record.has("excitation");
   if (record.has("excitation_modes")) out.excited = read_mode_list(record, "excitation_modes");
+  if (record.has("turning")) out.turning = read_turning(record.table("turning"));
   out.hydrostatics = record.has("hydrostatics");
   out.radiation = record.has("radiation");
   if (out.radiation) {

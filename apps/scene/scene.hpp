@@ -132,6 +132,13 @@ struct Cylinders {
   std::vector<double> omega, headings;  ///< rad/s; rad, empty: those that the scene asks for
 };
 
+/// `[body.hydrodynamics.turning]`: excitation for the heading that a slow yaw leaves.
+struct Turning {
+  double from, to, spacing;  ///< rad, of the yaws that are tabled
+  double slower_than;        ///< s
+  Place place;
+};
+
 /// `[body.hydrodynamics]`: coefficients from a file, or of cylinders.
 struct Hydrodynamics {
   Located<std::filesystem::path> file;  ///< absolute; with cylinders empty, and the place is that of the cylinders
@@ -144,6 +151,7 @@ struct Hydrodynamics {
   std::vector<std::string> accept;  ///< names of checks of the doctor whose errors do not stop the scene
   bool excitation = false, radiation = false, hydrostatics = false;  ///< effects named
   std::array<bool, 6> excited{true, true, true, true, true, true};   ///< modes whose excitation acts
+  std::optional<Turning> turning;
   Memory memory;
   bool interaction = true;  ///< interaction = "full" or "self": bodies of one file feel each other's waves
 };

@@ -70,6 +70,21 @@ const Table& radiation() {
   return table;
 }
 
+const Table& turning() {
+  static const Table table{
+      .title = "[body.hydrodynamics.turning]",
+      .meaning = "excitation for the heading that a slow yaw of the body leaves, in runs",
+      .keys = {quantity("from", dim::angle, "least yaw that is tabled, from rest"),
+               quantity("to", dim::angle, "largest; a run in which the slow yaw goes beyond stops"),
+               quantity("spacing", dim::angle, "of the yaws in the table; straight between them")
+                   .positive()
+                   .or_default("5 deg", "finer than the headings of most data"),
+               quantity("slower_than", dim::time,
+                        "what counts as slow: yaw is averaged over times up to this, by a lag of this over 2π")
+                   .positive()}};
+  return table;
+}
+
 std::vector<Key> keys_of_equal_cylinders() {
   return {points("at", "axes where they meet still water, body axes; each ± makes two"),
           quantity("diameter", dim::length, "of each").positive(),
@@ -141,6 +156,7 @@ const Table& hydrodynamics() {
                    .one_of(mode_words())
                    .optional()
                    .only_beside("excitation"),
+               inner_table("turning", turning()).optional().only_beside("excitation"),
                inner_table("radiation", radiation()).optional(),
                effect("hydrostatics", "restoring loads of buoyancy and weight"),
                text("interaction",

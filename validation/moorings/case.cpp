@@ -10,6 +10,7 @@
 #include "dynamics/line/path.hpp"
 #include "harness/case.hpp"
 #include "harness/line_cases.hpp"
+#include "hydro/base/interpolation.hpp"
 #include "hydro/io/atomic_file.hpp"
 
 namespace froude::validation::moorings {
@@ -93,8 +94,12 @@ void add_static(const Chain& c, FromCatenary& worst, Outcome& out) {
                          pulls.anchor.norm() / 1e3 / c.anchor_kn, ""});
 }
 
-/// Largest deviation from one of the range of the tension over the reference's.
-double heaving(const Folders& folders, const Chain& c, const std::string& motion, plot::Panel& panel) {
+/// How a driven chain differs from the reference at its fairlead.
+struct Difference {
+  double range;    ///< of the tension, over the reference's, less one
+  double dynamic;  ///< largest of what comes on top of the static tension, over twice the reference's largest
+};
+Difference heaving(const Folders& folders, const Chain& c, const std::string& motion, plot::Panel& panel) {
   const std::string folder = "mooring_lines/moordyn/QuasiStatic/";
   std::vector<double> time;
   std::vector<Vector3d> places;
@@ -112,8 +117,18 @@ double heaving(const Folders& folders, const Chain& c, const std::string& motion
     theirs.y.push_back(row[3]);
   }
   const Range our = range(ours.y), their = range(theirs.y);
+  // As MoorDyn's test of these runs has it: both less their own static tension, at the instants of the reference.
+  const double rest = end_pulls(mooring(c), mooring(c).at_rest(c.segments)).fairlead.norm() / 1e3;
+  double difference = 0, largest = 0;
+  for (std::size_t i = 0; i < theirs.x.size() && theirs.x[i] <= ours.x.back(); ++i) {
+    const double on_top = theirs.y[i] - c.fairlead_kn;
+    const hydro::Stencil s = hydro::straight_stencil(ours.x, theirs.x[i]);
+    const double there = s.weight[0] * ours.y[s.first] + s.weight[1] * ours.y[s.first + 1];
+    difference = std::max(difference, std::abs(there - rest - on_top));
+    largest = std::max(largest, std::abs(on_top));
+  }
   panel.series = {ours, theirs};
-  return (our.high - our.low) / (their.high - their.low) - 1;
+  return {(our.high - our.low) / (their.high - their.low) - 1, difference / (2 * largest)};
 }
 
 // ---- the jumper ----
@@ -191,19 +206,20 @@ Outcome outcome(const Folders& folders) {
   out.numbers.push_back({"static fairlead tensions against the catenary, worst, relative", worst.tension, ""});
   out.numbers.push_back(
       {"static shape against the catenary, worst distance of a node, of the length", worst.place, ""});
-  double off = 0;
+  double dynamic = 0;
   plot::Figure heave{.title = "Heaving fairlead, 2 m at 10 s", .panels = {}};
   for (const Chain& c : chains)
     for (const char* motion : {"ZZP1_A1", "ZZP1_A2"}) {
       plot::Panel panel = tension_panel(fmt::format("tension, {} m", c.depth));
-      const double range_off = heaving(folders, c, motion, panel);
+      const Difference off = heaving(folders, c, motion, panel);
       out.numbers.push_back(
-          {fmt::format("heaving fairlead, {} m, {}: range over the reference's", c.depth, motion), 1 + range_off, ""});
-      off = std::max(off, std::abs(range_off));
+          {fmt::format("heaving fairlead, {} m, {}: range over the reference's", c.depth, motion), 1 + off.range, ""});
+      dynamic = std::max(dynamic, off.dynamic);
       if (motion == std::string("ZZP1_A1")) heave.panels.push_back(panel);
     }
   out.numbers.push_back(
-      {"heaving fairlead, range of the tension over the reference's, worst of six runs from 1", off, ""});
+      {"heaving fairlead, dynamic tension: largest difference over twice the reference's largest, worst of six runs",
+       dynamic, ""});
   const MooringLine line = jumper();
   const Vector3d top = end_pulls(line, line.at_rest(34)).fairlead;
   out.numbers.push_back({"jumper, static top tension, horizontal", std::hypot(top.x(), top.y()) / 1e3, "kN"});

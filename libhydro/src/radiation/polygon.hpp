@@ -71,14 +71,18 @@ class Polygon {
   /// Weights of the given values (that of B(0) = 0 is dropped), from EndWeights piece(a, b).
   template <class Piece>
   std::vector<double> gather(Piece piece) const {
-    std::vector<double> at_node(node_.size(), 0.0);
+    std::vector<double> weight(given_ + 1, 0.0);
+    const auto spread = [&](std::size_t node, double w) {
+      for (std::size_t k = 0; k < stencil_[node].weight.size(); ++k)
+        if (stencil_[node].weight[k] != 0) weight[stencil_[node].first + k] += w * stencil_[node].weight[k];
+    };
     for (std::size_t i = 0; i + 1 < node_.size(); ++i) {
       const EndWeights w = piece(node_[i], node_[i + 1]);
-      at_node[i] += w.a;
-      at_node[i + 1] += w.b;
+      spread(i, w.a);
+      spread(i + 1, w.b);
     }
-    const Eigen::RowVectorXd weight = spread(at_node);
-    return {weight.begin(), weight.end()};
+    weight.erase(weight.begin());
+    return weight;
   }
 
  private:
@@ -101,15 +105,6 @@ class Polygon {
     for (std::size_t k = 0; k < stencil_[node].weight.size(); ++k)
       if (stencil_[node].weight[k] != 0)
         out.col(static_cast<Eigen::Index>(stencil_[node].first + k)).array() += stencil_[node].weight[k] * weights;
-  }
-  /// From weights of the nodes to weights of the given values.
-  Eigen::RowVectorXd spread(const std::vector<double>& at_node) const {
-    Eigen::RowVectorXd weight = Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(given_) + 1);
-    for (std::size_t node = 0; node < at_node.size(); ++node)
-      for (std::size_t k = 0; k < stencil_[node].weight.size(); ++k)
-        if (stencil_[node].weight[k] != 0)
-          weight[static_cast<Eigen::Index>(stencil_[node].first + k)] += at_node[node] * stencil_[node].weight[k];
-    return weight.tail(static_cast<Eigen::Index>(given_));
   }
   void add_node(const std::vector<double>& omega, double at) {
     node_.push_back(at);

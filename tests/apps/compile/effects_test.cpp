@@ -30,6 +30,9 @@ const std::vector<Effect>& effects() {
   static const std::vector<Effect> all{
       {"hydrostatics", "", "", "hydrostatics = true\n", "hydrostatics"},
       {"excitation", "", "", "excitation = true\n", "excitation"},
+      {"turning excitation", "", "",
+       "excitation = true\nturning = { from = \"-5 deg\", to = \"0 deg\", slower_than = \"60 s\" }\n",
+       "excitation.turning"},
       {"radiation", "", "", "radiation = { memory_tolerance = 1e-2 }\n", "radiation"},
       {"weight", "", "weight = true\n", "", "weight"},
       {"linear mooring", "[[mooring]]\non = [\"m\"]\nkind = \"linear\"\nstiffness = { surge = \"1 kN/m\" }\n", "", "",

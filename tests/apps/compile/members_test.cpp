@@ -58,6 +58,7 @@ TEST(Members, OfMorisonTakeWavesOfAnyKind) {
 TEST(Members, InALongRunReadTheSeaFromATable) {
   auto s = pile("[waves]\nkind = \"jonswap\"\nhs = \"1 m\"\ntp = \"5 s\"\nheading = \"30 deg\"\n",
                 "morison = { cd = 1, ca = 1 }");
+  s.run->duration = 0.2;
   const compile::Prepared prepared = compile::prepare(s);
   const compile::RunWater summed = compile::time_model(s, prepared).water;
   s.run->duration = 200;

@@ -9,6 +9,9 @@
 
 #include "dynamics/line/equilibrium.hpp"
 #include "dynamics/line/stepper.hpp"
+#ifdef FROUDE_SUNDIALS
+#include "dynamics/line/sundials_reference.hpp"
+#endif
 #include "froude/plot.hpp"
 #include "harness/oc3_line.hpp"
 #include "hydro/base/error.hpp"
@@ -128,6 +131,45 @@ std::string loop_row(int n, const dl::Stepper::Settings& settings) {
                      std::abs(stepper.energies().residual()) / lively);
 }
 
+#ifdef FROUDE_SUNDIALS
+/// Places after one second by each scheme, against CVODE's at 1e-9.
+std::string against_sundials() {
+  std::string text = "| links | method | time of 1 s [ms] | places off, rms [m] |\n| --- | --- | --- | --- |\n";
+  for (const int n : {7, 20, 100}) {
+    const dl::Line line(support::loop(n));
+    dl::State begin = dl::hanging_shape(line, support::ends_at(line, {2.5, 0, 0}));
+    for (int i = 1; i < n; ++i) begin.velocity(1, i) = std::sin(pi * i / n);
+    dl::State exact = begin;
+    dl::run_by_sundials(line, exact, 1, 1e-9);
+    const auto row = [&](const std::string& name, double ms, const dl::State& end) {
+      const double off = (end.position - exact.position).norm() / std::sqrt(n + 1.0);
+      text += fmt::format("| {} | {} | {:.3g} | {:.1g} |\n", n, name, ms, off);
+    };
+    for (const double tolerance : {1e-4, 1e-6}) {
+      dl::State s = begin;
+      const Watch watch;
+      dl::run_by_sundials(line, s, 1, tolerance);
+      row(fmt::format("CVODE, {:.0e}", tolerance), watch.ms(), s);
+    }
+    for (const auto scheme :
+         {dl::Scheme::energy_momentum, dl::Scheme::generalised_alpha, dl::Scheme::semi_implicit_euler})
+      for (const double h : {0.01, 0.0025}) {
+        dl::State s = begin;
+        dl::Stepper stepper(line, {.scheme = scheme});
+        stepper.start(s);
+        const Watch watch;
+        for (int i = 0; i < static_cast<int>(std::lround(1 / h)); ++i) stepper.step(s, h);
+        row(fmt::format("{}, {} s", dl::name_of(scheme), h), watch.ms(), s);
+      }
+  }
+  return "\n## Against SUNDIALS\n\nThe same loops after 1 s, by CVODE's backward differences with dense matrices as "
+         "the reference.\n\n" +
+         text;
+}
+#else
+std::string against_sundials() { return ""; }
+#endif
+
 std::string loop_list() {
   std::string text =
       "| scheme | links | µs a node and step | Newton iterations a step | energy not accounted for, of the kinetic "
@@ -214,10 +256,12 @@ int main(int argc, char** argv) {
       "off at "
       "once at its\nfull speed: segments of 0.9 m touch down several at a time, Newton halves steps and takes up to a "
       "hundred iterations and more. From 1 s on it takes four or five a step. Fewer segments that sag have the same "
-      "tension. The error hardly\ndepends on the number of segments.\n"
+      "tension. The error hardly\ndepends on the number of segments: 20 that sag have a static tension nearer to the "
+      "catenary than 200 straight ones of the peer (0.1 % off), at a twentieth of the time.\n"
       "\n## Loops of links\n\n17 m in n links, swung across at 1 m/s, nothing damps, step 10 ms. A dash: the scheme "
       "could not go on.\n\n";
   text += loop_list();
+  text += against_sundials();
   text +=
       "\n## Waves at the nodes\n\nThe dropper of 18 links, step 30 ms; the waves are asked once an iteration and once "
       "more for the ledger.\n\n";

@@ -6,6 +6,9 @@
 #include "dynamics/integrate/integrator.hpp"
 
 namespace dynamics {
+namespace detail {
+class Cvode;
+}
 
 /// The equations of motion in places, rotation vectors within the step and velocities (D28), as for ExplicitPair, given
 /// to CVODE, which chooses order, 1 to 5, and its own steps, and makes its matrices by differences. It begins anew with
@@ -21,13 +24,12 @@ class SundialsBdf final : public Integrator {
   ~SundialsBdf() override;
 
  private:
-  struct Solver;
   int order() const override { return 5; }
   const char* steps_stay_whole() const override { return "CVODE has a tolerance of its own"; }
   bool try_step(Workspace& workspace, double h, StepReport& report) override;
 
   Settings settings_;
-  std::unique_ptr<Solver> solver_;
+  std::unique_ptr<detail::Cvode> solver_;
 };
 
 }  // namespace dynamics
