@@ -205,6 +205,7 @@ TEST_F(Harness, DrawsCurvesOfOthersOnlyIfAsked) {
 
 // ---- the command, with the cases as they are ----
 
+#ifdef FROUDE_VALIDATION_CASES
 /// A copy of two of the shipped cases in which a test may plant faults.
 class ValidateCommand : public Harness {
  protected:
@@ -268,7 +269,6 @@ TEST_F(ValidateCommand, RefusesUnknownCasesAndFolders) {
       ThrowsMessage<InputError>(HasSubstr("no such folder of reference data")));
 }
 
-#ifdef FROUDE_VALIDATION_CASES
 TEST(ShippedCases, HaveAFolderWithReadmeAndRuleAndEveryFolderHasACase) {
   const std::filesystem::path folder = std::filesystem::path(FROUDE_SOURCE_DIR) / "validation";
   std::vector<std::string> names, folders;
