@@ -43,6 +43,12 @@ double seconds(const std::function<void()>& work) {
   return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
 }
 
+#ifdef FROUDE_AUDIT
+constexpr bool with_assertions = true;
+#else
+constexpr bool with_assertions = false;
+#endif
+
 /// A run that went to its end, and how long that took: processor time, the better of two.
 struct Timed {
   Record record;
@@ -536,14 +542,15 @@ void write(const fs::path& data, const fs::path& folder) {
   one.run->every = 0.8;
   std::string text =
       "# What runs of bodies cost\n\nWritten by `price_motion` (validation/cost/motion), one core, processor time, the "
-      "better of two runs.\n\n";
+      "better of two runs" +
+      std::string(with_assertions ? "; the library with its internal assertions" : "") + ".\n\n";
   text +=
       "## Runs that others have timed\n\nTheirs are those reported for the strongest peer, on a machine of the same "
       "kind, on another day.\n\n" +
       peers(data);
   text +=
       "\n## Methods by step\n\n![error against time](motion.svg)\n\nFive modules of `examples/pontoon5.toml`, 100 s of "
-      "sea; the surge of the first.\n\n" +
+      "sea; the heave of the first.\n\n" +
       scene_methods(five, "m1.heave", {0.2, 0.1, 0.05, 0.025}, array);
   text += "\nThe buoy of `examples/buoy.toml`, 100 s; the rack's travel.\n\n" +
           scene_methods(one, "rack.travel", {0.2, 0.1, 0.05, 0.025}, buoy);
