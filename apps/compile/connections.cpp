@@ -160,10 +160,6 @@ dynamics::Reach reach_of(const Scene& scene, const scene::CatenaryLine& l) {
   return {std::max(0.0, x - by), x + by, std::max(lowest, d.z() - by), d.z() + by};
 }
 
-bool alike(const dynamics::LineProperties& a, const dynamics::LineProperties& b) {
-  return a.length == b.length && a.weight == b.weight && a.axial_stiffness == b.axial_stiffness && a.on_bed == b.on_bed;
-}
-
 /// Lines that are alike and equally far from their anchors share a table.
 std::shared_ptr<const dynamics::CatenaryTable> catenary_table(const Scene& scene, const scene::CatenaryLine& l,
                                                               const dynamics::LineProperties& line,
@@ -172,7 +168,7 @@ std::shared_ptr<const dynamics::CatenaryTable> catenary_table(const Scene& scene
   const auto near = [&](double a, double b) { return std::abs(a - b) <= 1e-9 * l.table->reach; };
   for (std::size_t i = 0; i < before.size(); ++i) {
     const auto& other = before[i];
-    if (!other.table || !alike(other.line, line) || scene.lines[i].table->tolerance != l.table->tolerance) continue;
+    if (!other.table || !(other.line == line) || scene.lines[i].table->tolerance != l.table->tolerance) continue;
     const dynamics::Reach& r = other.table->reach();
     if (near(r.x_low, reach.x_low) && near(r.x_high, reach.x_high) && near(r.z_low, reach.z_low) &&
         near(r.z_high, reach.z_high))

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "compile/waves.hpp"
 #include "dynamics/force/drag.hpp"
@@ -114,7 +113,6 @@ std::vector<dynamics::DragPiece> drag_at_rest(const Scene& scene, const std::vec
 }
 
 std::optional<hydro::waves::FieldUse> water_of_members(const Scene& scene, double highest_crest, double step) {
-  const double infinite = std::numeric_limits<double>::infinity();
   Eigen::AlignedBox3d members;
   double pieces = 0;
   for (const auto& m : scene.members) {
@@ -127,11 +125,10 @@ std::optional<hydro::waves::FieldUse> water_of_members(const Scene& scene, doubl
   if (members.isEmpty()) return {};
   // Room to move: the orbits of high waves, and some metres of drift. Beyond it waves are summed.
   const Eigen::Vector3d room(2 * highest_crest + 2, 2 * highest_crest + 2, highest_crest);
-  const double bed = scene.water.depth.is_infinite() ? -infinite : -scene.water.depth.metres();
   hydro::waves::FieldUse use{.box = {0, scene.run->duration + step, members.min() - room, members.max() + room},
                              .instants = scene.run->duration / step,
                              .points = 10 * pieces};  // iterations, and differences for their derivatives
-  use.box.low.z() = std::max(use.box.low.z(), bed);
+  use.box.low.z() = std::max(use.box.low.z(), -scene.water.depth.metres());
   use.box.high.z() = std::min(use.box.high.z(), highest_crest);
   use.tolerance = 1e-8;  // far below what pieces leave
   use.largest_bytes = std::size_t{1} << 29;

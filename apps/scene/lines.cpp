@@ -168,9 +168,8 @@ void read_clamp(const Record& record, Line& line) {
   if (record.has("from")) line.clamp_from = record.vector("from").normalized();
   if (record.has("to")) line.clamp_to = record.vector("to").normalized();
   if (line.clamp_to && !line.to) throw record.wrong("to", "clamps a free end: the line has no `to`", "add `to`");
-  for (const char* key : {"from", "to"})
-    if (record.has(key) && std::string_view(key) == "from" && line.from_meets)
-      throw record.wrong(key, "clamps an end that meets others, and turns with nothing", "let the end turn freely");
+  if (line.clamp_from && line.from_meets)
+    throw record.wrong("from", "clamps an end that meets others, and turns with nothing", "let the end turn freely");
   for (const char* key : {"from", "to"})
     if (record.has(key) && (std::string_view(key) == "from" ? line.from_on : line.to_on))
       throw record.wrong(key, "clamps an end that is on a body, which would have to bear its moment",

@@ -84,7 +84,7 @@ void Line::add_node(int i) {
   require(d_.water.field != nullptr, "node {} has a sphere, which needs water", i);
   const hydro::Water& water = d_.water.field->water();
   if (n.sphere.buoyancy && n.sphere.wet == Wet::all)
-    constant_(2, i) += water.density * water.gravity * std::numbers::pi / 6 * std::pow(n.sphere.diameter, 3);
+    constant_(2, i) += water.density * water.gravity * n.sphere.volume();
 }
 
 void Line::add_segment(int j) {

@@ -21,7 +21,7 @@ struct Floating {
            const Vector3d& v, const Vector3d& a) {
     const double D = s.diameter;
     drag = 0.5 * water.density * s.cd * std::numbers::pi / 4 * D * D;
-    displaced = water.density * std::numbers::pi / 6 * D * D * D;
+    displaced = water.density * s.volume();
     added = s.ca * displaced;
     const bool in_part = s.wet == Wet::below_surface;
     lift = s.buoyancy && in_part ? displaced * water.gravity : 0;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "dynamics/line/equilibrium.hpp"
 #include "hydro/base/error.hpp"
@@ -21,7 +20,7 @@ Places loads_at_rest(const Line& line) {
     const Sphere& s = line.node(i).sphere;
     if (s.diameter == 0 || !s.buoyancy || s.wet != Wet::below_surface) continue;
     const hydro::Water& water = line.description().water.field->water();
-    out(2, i) += water.density * water.gravity * std::numbers::pi / 6 * std::pow(s.diameter, 3);
+    out(2, i) += water.density * water.gravity * s.volume();
   }
   return out;
 }

@@ -10,6 +10,8 @@ struct LineProperties {
   double weight;           ///< w, in water, N/m, > 0
   double axial_stiffness;  ///< EA, N
   bool on_bed;             ///< the anchor lies on a flat bed without friction, on which the line may rest
+
+  bool operator==(const LineProperties&) const = default;
 };
 
 /// Tensions of a line whose fairlead is a horizontal distance x away from the anchor and z above it.

@@ -9,6 +9,7 @@
 
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include "hydro/waves/field.hpp"
@@ -47,6 +48,8 @@ struct Sphere {
   double cd = 0, ca = 0;  ///< drag by its section πD²/4, added mass by its volume
   Wet wet = Wet::all;
   bool buoyancy = false;
+
+  double volume() const { return std::numbers::pi / 6 * diameter * diameter * diameter; }  ///< m³
 };
 
 struct Node {
