@@ -60,12 +60,17 @@ class RadiationState final : public Memory {
     if (!begun_) weight_.clear();
     begun_ = true;
   }
-  /// −(integral) of one group at the time and velocity of `state`.
-  Eigen::VectorXd load(std::size_t group, const State& state) {
+  /// −(integral) of one group at the time and velocity of `state`; good until asked for another.
+  const Eigen::VectorXd& load(std::size_t group, const State& state) {
     const double fraction = fraction_of(state.time, groups_[group].method->step());
     if (fraction > 0) refresh(fraction);
     const Eigen::VectorXd& decided = fraction > 0 ? after_[group] : at_newest_[group];
-    return -(decided + weight(group, fraction) * at_modes(groups_[group].modes, state.velocity));
+    const std::vector<int>& modes = groups_[group].modes;
+    velocity_.resize(decided.size());
+    for (std::size_t i = 0; i < modes.size(); ++i) velocity_[static_cast<Eigen::Index>(i)] = state.velocity[modes[i]];
+    load_ = -decided;
+    load_.noalias() -= weight(group, fraction) * velocity_;
+    return load_;
   }
   /// What multiplies the velocity of this very moment. At the start of a run nothing has been radiated yet.
   const Eigen::MatrixXd& weight(std::size_t group, double fraction) {
@@ -100,6 +105,7 @@ class RadiationState final : public Memory {
   std::vector<std::unique_ptr<hydro::radiation::MemoryState>> past_;
   std::vector<Eigen::VectorXd> at_newest_, after_;
   std::vector<Eigen::MatrixXd> weight_;
+  Eigen::VectorXd velocity_, load_;               // kept to spare making them at each evaluation
   double newest_, known_at_ = 0, weight_at_ = 0;  // fractions for which after_ and weight_ hold; 0: none, or the newest
   bool begun_ = false;
 };
@@ -122,7 +128,7 @@ std::unique_ptr<Memory> RadiationKind::make_memory(const State& start) const {
 void RadiationKind::add_load(const Instant& now, LoadSink& out) const {
   auto& memory = static_cast<RadiationState&>(*now.memory);
   for (std::size_t g = 0; g < elements_.size(); ++g) {
-    const Eigen::VectorXd load = memory.load(g, now.state);
+    const Eigen::VectorXd& load = memory.load(g, now.state);
     const auto& modes = elements_[g].modes;
     for (std::size_t i = 0; i < modes.size(); ++i) out.add_mode(modes[i], load[static_cast<Eigen::Index>(i)]);
   }

@@ -7,7 +7,10 @@
 
 namespace dynamics {
 namespace {
-constexpr double newton_tolerance = 1e-9;  // of the last correction relative to the acceleration and velocity / step
+constexpr double newton_tolerance = 1e-9;     // of the last correction relative to the acceleration and velocity / step
+constexpr double kept_tolerance = 1e-11;      // of what is left after corrections by kept factors: these leave some
+constexpr double residual_tolerance = 1e-12;  // of the residual, relative to the same: no correction below it
+constexpr double serves = 0.1;  // factors are kept while a correction by them leaves no more of the residual
 constexpr int most_iterations = 20;
 }  // namespace
 
@@ -62,41 +65,65 @@ std::vector<Gradient> NewtonIntegrator::by_step(const std::vector<Gradient>& G, 
   return out;
 }
 
+// Leaving J out of the loads' derivatives costs Newton some speed, not the solution; joints have it, to close fully.
+bool NewtonIntegrator::factorise(Workspace& workspace, double h, const Trial& now) const {
+  const Slopes slope = slopes(h);
+  const State& loads_at = now.loads_at ? *now.loads_at : now.state;
+  model().tangent(loads_at, 1, slope.load_speed, slope.load_place, workspace, workspace.matrix);
+  active().conditions().add_curvature(loads_at, now.multipliers, slope.load_place, workspace.matrix);
+  return workspace.solver.factorise(workspace.matrix, now.columns, by_step(now.gradients, workspace.state, now.state),
+                                    active().compliance());
+}
+
+// The correction is halved until the residual falls. \returns the part that was taken
+double NewtonIntegrator::search(Workspace& workspace, double h, const Trial& now, const KktSolver::Solution& correction,
+                                double move, Trial& trial) const {
+  double part = 1;
+  for (; part > 1e-3; part /= 2) {
+    trial = evaluate(workspace, h, now.acceleration + part * correction.x, now.multipliers + part * correction.lambda);
+    if (trial.size <= now.size) break;
+    // At round-off the residual cannot fall any more: the full correction is as good as it gets.
+    const double reach = trial.acceleration.cwiseProduct(active().scale()).norm();
+    if (part == 1 && (move <= newton_tolerance * reach || move <= unresolved(h))) break;
+  }
+  return part;
+}
+
+// (D98) `kept` factors are those of an earlier iterate or step: corrections by them leave a share of the residual,
+// and are taken whole or not at all.
 bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& report) {
   prepare(workspace, h);
-  const Slopes slope = slopes(h);
   const Eigen::VectorXd& scale = active().scale();
-  Trial now = evaluate(workspace, h, workspace.acceleration, workspace.multipliers);
-  const auto settled = [&](double move, double reach) {
-    return move <= newton_tolerance * reach || move <= unresolved(h);
-  };
+  // Sliding and touching bodies change from step to step, and their changes want the steps' full accuracy.
+  const bool keeps = !active().may_change();
+  const Eigen::VectorXd& a = workspace.acceleration;
+  const bool goes_on = keeps && before_.size() == a.size();  // accelerations, in a straight line
+  Trial now = evaluate(workspace, h, goes_on ? Eigen::VectorXd(2 * a - before_) : a, workspace.multipliers);
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     if (!std::isfinite(now.size)) return fail("the loads are not finite");
     ++report.newton_iterations;
-    // Leaving J out of the loads' derivatives costs Newton some speed, not the solution; joints have it, to close
-    // fully.
-    const State& loads_at = now.loads_at ? *now.loads_at : now.state;
-    model().tangent(loads_at, 1, slope.load_speed, slope.load_place, workspace, workspace.matrix);
-    active().conditions().add_curvature(loads_at, now.multipliers, slope.load_place, workspace.matrix);
-    if (!workspace.solver.factorise(workspace.matrix, now.columns, by_step(now.gradients, workspace.state, now.state),
-                                    active().compliance()))
-      return fail("the iteration matrix is singular");
-    const auto [correction, more] = workspace.solver.solve(-now.residual, -now.open);
-    const double move = correction.cwiseProduct(scale).norm();
+    const bool kept = workspace.factors_of_step == h;
+    if (!kept && !factorise(workspace, h, now)) return fail("the iteration matrix is singular");
+    const KktSolver::Solution correction = workspace.solver.solve(-now.residual, -now.open);
+    const double move = correction.x.cwiseProduct(scale).norm();
     Trial trial;
-    double factor = 1;
-    for (; factor > 1e-3; factor /= 2) {
-      trial = evaluate(workspace, h, now.acceleration + factor * correction, now.multipliers + factor * more);
-      if (trial.size <= now.size) break;
-      // At round-off the residual cannot fall any more: the full correction is as good as it gets.
-      if (factor == 1 && settled(move, trial.acceleration.cwiseProduct(scale).norm())) break;
-    }
+    double part = 1;
+    if (kept)
+      trial = evaluate(workspace, h, now.acceleration + correction.x, now.multipliers + correction.lambda);
+    else
+      part = search(workspace, h, now, correction, move, trial);
+    const double left = trial.size / now.size;
+    workspace.factors_of_step = keeps && part == 1 && left <= serves ? h : 0;
+    if (kept && !(left <= 1 || move <= unresolved(h))) continue;
     if (!std::isfinite(trial.size)) return fail("the loads are not finite");
     now = std::move(trial);
     const double reach =
         now.acceleration.cwiseProduct(scale).norm() + now.state.velocity.cwiseProduct(scale).norm() / h;
-    if (factor == 1 && settled(move, reach)) {
+    const bool settled = keeps && now.size <= residual_tolerance * reach;
+    if (part == 1 && (settled || (!kept && move <= newton_tolerance * reach) || move <= unresolved(h))) {
+      workspace.factors_of_step = keeps ? h : 0;  // rounding, too, leaves much
       accepted(workspace, now.acceleration);
+      before_ = workspace.acceleration;
       workspace.state = std::move(now.state);
       workspace.acceleration = std::move(now.acceleration);
       workspace.multipliers = std::move(now.multipliers);

@@ -59,9 +59,9 @@ Eigen::MatrixXd BlockMatrix::dense() const {
 }
 
 namespace {
-// Dense LU of 96 unknowns takes about as long as sparse LU of a chain of 16 bodies; where more than a third of the
+// Dense LU of 48 unknowns takes about as long as sparse LU of a chain of 8 bodies; where more than a third of the
 // blocks is there, fill-in makes the sparse factor dense anyway.
-constexpr int few_bodies = 16;
+constexpr int few_bodies = 8;
 bool prefers_sparse(const BlockPattern& p) {
   const auto n = static_cast<std::size_t>(p.bodies());
   return p.bodies() > few_bodies && 3 * p.blocks() < n * n;

@@ -129,7 +129,8 @@ Eigen::VectorXd Model::residual(const State& state, const Eigen::VectorXd& accel
     forces_[k]->add_load(workspace.instant(state, k), sink);
     ++workspace.evaluations[k];
   }
-  Eigen::VectorXd r = mass_times(state, acceleration) - load;
+  Eigen::VectorXd r = mass_times(state, acceleration);
+  r -= load;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const auto row = 6 * static_cast<Eigen::Index>(i) + 3;
     const Eigen::Vector3d omega = state.velocity.segment<3>(row);

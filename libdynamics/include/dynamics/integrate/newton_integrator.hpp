@@ -10,7 +10,8 @@
 namespace dynamics {
 
 /// Joints are closed at the end of every step, to round-off. Newton ends where the last correction is 1e-9 of the
-/// acceleration and of the velocity over the step, or below what rounding leaves of places.
+/// acceleration and of the velocity over the step, or below what rounding leaves of places. Its matrix is factorised
+/// anew only where the factors of earlier iterates or steps leave more than a tenth of the residual (D98).
 class NewtonIntegrator : public Integrator {
  protected:
   using Integrator::Integrator;
@@ -43,6 +44,11 @@ class NewtonIntegrator : public Integrator {
   Trial evaluate(Workspace& workspace, double h, Eigen::VectorXd acceleration, Eigen::VectorXd multipliers) const;
   std::vector<Gradient> by_step(const std::vector<Gradient>& G, const State& before, const State& after) const;
   double unresolved(double h) const;
+  bool factorise(Workspace& workspace, double h, const Trial& now) const;
+  double search(Workspace& workspace, double h, const Trial& now, const KktSolver::Solution& correction, double move,
+                Trial& trial) const;
+
+  Eigen::VectorXd before_;  // acceleration at the begin of the step before, for a first guess
 };
 
 }  // namespace dynamics

@@ -25,7 +25,8 @@ class Travel {
   double rate(const State& state) const;  ///< m/s or rad/s
   /// Of a hinge: angles come back after a turn.
   bool turns() const { return turns_; }
-  /// A condition that holds the travel where it is in `state`, with gradient() as its gradient there; of no joint.
+  /// A condition that holds the travel where it is in `state`, where the joint is closed with gradient() as its
+  /// gradient; of no joint.
   Condition holding(const State& state) const;
 
  private:
