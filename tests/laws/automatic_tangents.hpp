@@ -17,6 +17,9 @@ using Jet = ceres::Jet<double, 24>;
 using JetVector = Eigen::Matrix<Jet, 3, 1>;
 using JetMatrix = Eigen::Matrix<Jet, 3, 3>;
 
+inline JetVector jets(const Eigen::Vector3d& v) { return v.cast<Jet>(); }
+inline Jet length(const JetVector& v) { return sqrt(v.dot(v)); }
+
 /// A body's pose and motion; displacements are translations and small global rotations.
 struct JetBody {
   JetVector centre, velocity, omega;

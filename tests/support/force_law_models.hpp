@@ -1,5 +1,8 @@
 #pragma once
 /// \file  Bodies and random states on which the laws of forces are tried.
+#include <complex>
+
+#include "dynamics/force/wave_signals.hpp"
 #include "dynamics/model/model.hpp"
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/random.hpp"
@@ -35,5 +38,29 @@ inline dynamics::State random_state(const std::vector<dynamics::RigidBody>& bodi
   for (Eigen::Index i = 0; i < s.velocity.size(); ++i) s.velocity[i] = random.normal(n++);
   return s;
 }
+
+/// Signals of a sea of two components.
+struct TwoWaves {
+  std::vector<double> omega{0.7, 1.3};
+  Eigen::MatrixXcd amplitudes;  ///< (rows, 2)
+
+  explicit TwoWaves(Eigen::Index rows) {
+    const hydro::RandomStream random(2, 6);
+    std::uint64_t n = 0;
+    amplitudes = Eigen::MatrixXcd::NullaryExpr(rows, 2, [&] {
+      const double re = random.normal(n++), im = random.normal(n++);
+      return std::complex<double>(re, im);
+    });
+  }
+  /// With a table of three steps of 0.1 s.
+  dynamics::WaveSignals signals(double ramp_s = 0) const {
+    Eigen::MatrixXd table(amplitudes.rows(), 3);
+    for (int i = 0; i < 3; ++i)
+      table.col(i) =
+          (amplitudes * Eigen::Vector2cd(std::polar(1.0, omega[0] * 0.1 * i), std::polar(1.0, omega[1] * 0.1 * i)))
+              .real();
+    return {omega, amplitudes, table, 0.1, ramp_s};
+  }
+};
 
 }  // namespace support

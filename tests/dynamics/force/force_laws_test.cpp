@@ -28,20 +28,6 @@ Matrix6 random_spd(std::uint64_t seed) {
   return 100 * m * m.transpose();
 }
 
-WaveSignals wave_signals(Eigen::Index rows) {
-  const hydro::RandomStream random(2, 6);
-  std::uint64_t n = 0;
-  const std::vector<double> omega{0.7, 1.3};
-  const Eigen::MatrixXcd a = Eigen::MatrixXcd::NullaryExpr(rows, 2, [&] {
-    const double re = random.normal(n++), im = random.normal(n++);
-    return std::complex<double>(re, im);
-  });
-  Eigen::MatrixXd table(rows, 3);
-  for (int i = 0; i < 3; ++i)
-    table.col(i) = (a * Eigen::Vector2cd(std::polar(1.0, 0.7 * 0.1 * i), std::polar(1.0, 1.3 * 0.1 * i))).real();
-  return {omega, a, table, 0.1, 0};
-}
-
 TEST(ForceLaws, HoldForRestoring) {
   laws::expect_force_laws(
       RestoringKind("mooring", bodies, {{0, random_spd(1), random_spd(2)}, {1, random_spd(3), Matrix6::Zero(), 700}}),
@@ -97,10 +83,12 @@ TEST(ForceLaws, HoldForDragInMovingAndStillWater) {
       drag_pieces(bodies, 1, Eigen::Vector3d(-1, 0.3, -2), Eigen::Vector3d(1, -0.2, -0.5), 0.4, 1.1, 1025);
   ASSERT_EQ(pieces.size(), 3u);
   laws::expect_force_laws(DragKind(pieces, std::nullopt), bodies);
-  laws::expect_force_laws(DragKind(pieces, wave_signals(9)), bodies);
+  laws::expect_force_laws(DragKind(pieces, support::TwoWaves(9).signals()), bodies);
 }
 
-TEST(ForceLaws, HoldForExcitation) { laws::expect_force_laws(ExcitationKind({{{1, 0}, wave_signals(12)}}), bodies); }
+TEST(ForceLaws, HoldForExcitation) {
+  laws::expect_force_laws(ExcitationKind({{{1, 0}, support::TwoWaves(12).signals()}}), bodies);
+}
 
 /// Every way of computing the memory of twelve modes, step 0.1 s.
 std::vector<std::shared_ptr<const hydro::radiation::MemoryMethod>> memory_methods() {

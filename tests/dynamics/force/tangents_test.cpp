@@ -1,8 +1,8 @@
-// Every law of force that depends on where bodies are and how they move, written a second time from its formula and
-// differentiated by machine. What has no such law: excitation and weight (no derivative at all), radiation (linear in
-// velocity, where central differences of force_laws_test.cpp are exact), contact (no load of its own), lines of nodes
-// (tests/dynamics/line), slamming, whose direction and instant are frozen at the impact by definition, and the closed
-// form of a tilted cylinder's buoyancy (differences in force_laws_test.cpp).
+// Laws of force that depend on where bodies are and how they move, written a second time from their formulas and
+// differentiated by machine. Loads of waves and of weight, slamming, cylinders in closed form, lines from tables, and
+// the conditions of joints and contacts are in more_tangents_test.cpp. What remains without such a law: lines of nodes
+// (tests/dynamics/line), Morison members in stretched or nonlinear waves (differences in morison_test.cpp), leads
+// through points (lead_test.cpp), and parallel rods that touch, whose gap has no derivative.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -33,13 +33,13 @@ using laws::Jet;
 using laws::JetBody;
 using laws::JetLoads;
 using laws::JetMatrix;
+using laws::jets;
 using laws::JetVector;
+using laws::length;
 using std::numbers::pi;
 
 const auto bodies = support::two_bodies();
 
-JetVector jets(const Eigen::Vector3d& v) { return v.cast<Jet>(); }
-Jet length(const JetVector& v) { return sqrt(v.dot(v)); }
 JetMatrix cross(const JetVector& v) {
   JetMatrix m;
   m << Jet(0), -v[2], v[1], v[2], Jet(0), -v[0], -v[1], v[0], Jet(0);
@@ -400,9 +400,13 @@ struct JetWater {
   JetVector velocity, acceleration;
 };
 
+struct StillSurface {
+  Jet operator()(const JetVector&) const { return Jet(0); }
+};
+
 /// (D43) on a member.
-template <class Water>
-JetLoads morison(const MorisonMember& m, const JetBody& body, Water water_at) {
+template <class Water, class Surface = StillSurface>
+JetLoads morison(const MorisonMember& m, const JetBody& body, Water water_at, Surface surface_at = {}) {
   const double D = m.line.diameter, displaced = 1000 * pi / 4 * D * D;
   const JetVector from = body.arm(m.line.from), along = body.arm(m.line.to - m.line.from);
   const double whole = (m.line.to - m.line.from).norm();
@@ -412,8 +416,12 @@ JetLoads morison(const MorisonMember& m, const JetBody& body, Water water_at) {
   for (int i = 0; i < m.line.pieces; ++i) {
     const double f0 = static_cast<double>(i) / m.line.pieces, part = 1.0 / m.line.pieces;
     Jet share(1), place(0.5);
-    if (m.line.immersion == Immersion::still_water) {
-      const Jet g0 = -(body.centre[2] + from[2] + along[2] * f0), g1 = g0 - along[2] * part, d = g1 - g0;
+    if (m.line.immersion != Immersion::whole) {
+      const auto height = [&](double f) {
+        const JetVector at = body.centre + from + along * Jet(f);
+        return surface_at(at) - at[2];
+      };
+      const Jet g0 = height(f0), g1 = height(f0 + part), d = g1 - g0;
       share = (wet_once(g1, rise) - wet_once(g0, rise)) / d;
       if (share.a <= 0) continue;
       place = (wet_once(g1, rise) / d - (wet_twice(g1, rise) - wet_twice(g0, rise)) / (d * d)) / share;
@@ -439,10 +447,13 @@ JetWater straight_current(const JetVector& at, const Eigen::Vector3d& u0, const 
 }
 
 /// The linear wave of support::steep_wave() (Airy), η = a cos(ωt − ks + ψ), s along 20 degrees.
+const Eigen::Vector3d ahead(std::cos(20 * pi / 180), std::sin(20 * pi / 180), 0);
+constexpr double omega = 2 * pi / 4;
+double airy_wavenumber() { return hydro::waves::wavenumber(omega, support::fresh_water); }
+Jet airy_phase(const JetVector& at, double t) { return omega * t + 0.3 - airy_wavenumber() * jets(ahead).dot(at); }
 JetWater airy(const JetVector& at, double t, double amplitude) {
-  const double omega = 2 * pi / 4, h = 20, k = hydro::waves::wavenumber(omega, support::fresh_water);
-  const Eigen::Vector3d ahead(std::cos(20 * pi / 180), std::sin(20 * pi / 180), 0);
-  const Jet theta = omega * t + 0.3 - k * jets(ahead).dot(at), up = k * (at[2] + h);
+  const double h = 20, k = airy_wavenumber();
+  const Jet theta = airy_phase(at, t), up = k * (at[2] + h);
   const double A = amplitude * omega / std::sinh(k * h);
   const Jet C = A * cosh(up) * cos(theta), S = A * sinh(up) * sin(theta);  // u and −w
   const Jet c = A * cosh(up) * sin(theta), s = A * sinh(up) * cos(theta);  // −u̇/ω and −ẇ/ω
@@ -467,6 +478,23 @@ TEST(Tangents, OfMorisonMembersInAWaveFollowFromItsPotential) {
     laws::expect_automatic_tangents(kind, s, nullptr,
                                     [&](const JetBody& a, const JetBody&, double t) {
                                       return morison(m, a, [&](const JetVector& at) { return airy(at, t, 0.6); });
+                                    },
+                                    {.load = 1e-11, .tangent = 1e-6});
+  }
+}
+
+// The slope of the surface is such a difference too.
+TEST(Tangents, OfMorisonMembersThroughAWaveFollowFromItsSurface) {
+  const MorisonMember m = member(Immersion::surface, {1, -0.2, 0.8});
+  const MorisonKind kind({m}, support::steep_wave(hydro::waves::Stretching::none));
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    State s = support::random_state(bodies, seed, 0.3);
+    s.time = 0.7 * static_cast<double>(seed);
+    laws::expect_automatic_tangents(kind, s, nullptr,
+                                    [&](const JetBody& a, const JetBody&, double t) {
+                                      return morison(
+                                          m, a, [&](const JetVector& at) { return airy(at, t, 0.6); },
+                                          [&](const JetVector& at) { return 0.6 * cos(airy_phase(at, t)); });
                                     },
                                     {.load = 1e-11, .tangent = 1e-6});
   }
