@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "corners.hpp"
 #include "hydro/base/error.hpp"
 #include "polygon.hpp"
 
@@ -106,24 +107,53 @@ class CosineTransform {
     return K;
   }
 
-  /// K at 0, step, 2 step … The cosines of (R3) are turned on from one time to the next, and taken anew now and then:
-  /// a table of frequencies and a memory of seconds would want millions of them.
+  /// K at 0, step, 2 step … by the corners of B (R23).
   template <class Use>
   void each(double step, std::size_t count, Use use) const {
+    const detail::Corners B = corners();
+    const Eigen::MatrixXd jumps = B.jumps();
+    const Eigen::Index n = damping_.B.front().rows(), last = B.at.size() - 1;
+    const Eigen::ArrayXd turn_c = (B.at * step).cos(), turn_s = (B.at * step).sin();
     constexpr std::size_t batch = 64;  // products of rotations are off by as many roundings
-    const Eigen::Index n = damping_.B.front().rows(), given = static_cast<Eigen::Index>(damping_.B.size());
-    Eigen::MatrixXd B(given, n * n);
-    for (Eigen::Index j = 0; j < given; ++j) B.row(j) = damping_.B[static_cast<std::size_t>(j)].reshaped().transpose();
+    Eigen::MatrixXd cosines(B.at.size(), static_cast<Eigen::Index>(batch)), K;
+    Eigen::RowVectorXd end(static_cast<Eigen::Index>(batch));
     for (std::size_t first = 0; first < count; first += batch) {
       const auto size = static_cast<Eigen::Index>(std::min(batch, count - first));
-      const Eigen::MatrixXd K =
-          two_over_pi * polygon_.cosine_weights(static_cast<double>(first) * step, step, size) * B;
-      for (Eigen::Index i = 0; i < size; ++i)
-        use(first + static_cast<std::size_t>(i), Eigen::MatrixXd(K.row(i).reshaped(n, n)));
+      Eigen::ArrayXd c = (B.at * (static_cast<double>(first) * step)).cos(),
+                     s = (B.at * (static_cast<double>(first) * step)).sin(), on;
+      for (Eigen::Index i = 0; i < size; ++i) {
+        cosines.col(i) = c.matrix();
+        end[i] = s[last];
+        on = turn_c * c - turn_s * s;
+        s = turn_s * c + turn_c * s;
+        c.swap(on);
+      }
+      K.noalias() = jumps.transpose() * cosines.leftCols(size);
+      for (Eigen::Index i = 0; i < size; ++i) {
+        const double t = static_cast<double>(first + static_cast<std::size_t>(i)) * step;
+        if (t * B.at[last] < late)
+          use(first + static_cast<std::size_t>(i), at(t));
+        else
+          use(first + static_cast<std::size_t>(i),
+              Eigen::MatrixXd(two_over_pi / t *
+                              (end[i] * B.value.row(last).transpose() - K.col(i) / t).reshaped(n, n)));
+      }
     }
   }
 
  private:
+  static constexpr double late = 4;  // rad: before it the sum over corners loses digits to cancellation
+
+  detail::Corners corners() const {
+    const Eigen::Index n = damping_.B.front().rows(), given = static_cast<Eigen::Index>(damping_.B.size());
+    Eigen::MatrixXd B(given, n * n);
+    for (Eigen::Index j = 0; j < given; ++j) B.row(j) = damping_.B[static_cast<std::size_t>(j)].reshaped().transpose();
+    const auto& node = polygon_.nodes();
+    const detail::Corners all{Eigen::Map<const Eigen::ArrayXd>(node.data(), static_cast<Eigen::Index>(node.size())),
+                              polygon_.values(B)};
+    return all.needed(1e-13);
+  }
+
   const DampingTable& damping_;
   detail::Polygon polygon_;
 };

@@ -47,25 +47,16 @@ class Polygon {
 
   const std::vector<double>& nodes() const { return node_; }
 
-  /// Weights of ∫ B cos ωt dω at `count` times from `first`, a row each, as gather() of oscillating_weights().
-  Eigen::MatrixXd cosine_weights(double first, double step, Eigen::Index count) const {
-    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(count, static_cast<Eigen::Index>(given_) + 1);
-    Eigen::ArrayXd from(count), to(count), cos(count), sin(count), j0(count), j1(count);
-    for (std::size_t i = 0; i + 1 < node_.size(); ++i) {
-      const double h = node_[i + 1] - node_[i];
-      if (i % pieces == 0)  // the pieces of an interval are equally long
-        for (Eigen::Index t = 0; t < count; ++t) {
-          const Bessel of((first + static_cast<double>(t) * step) * h / 2);
-          j0[t] = of.j0;
-          j1[t] = of.j1;
-        }
-      turning(first, step, node_[i] + h / 2, cos, sin);
-      from = h / 2 * (j0 * cos + j1 * sin);
-      to = h / 2 * (j0 * cos - j1 * sin);
-      add(i, from, out);
-      add(i + 1, to, out);
-    }
-    return out.rightCols(static_cast<Eigen::Index>(given_));
+  /// B at the nodes, a row each, from the given values, a row each.
+  Eigen::MatrixXd values(const Eigen::MatrixXd& given) const {
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(node_.size()), given.cols());
+    for (std::size_t i = 0; i < node_.size(); ++i)
+      for (std::size_t k = 0; k < stencil_[i].weight.size(); ++k) {
+        const auto from = static_cast<Eigen::Index>(stencil_[i].first + k) - 1;
+        if (from >= 0 && stencil_[i].weight[k] != 0)  // B(0) = 0
+          out.row(static_cast<Eigen::Index>(i)) += stencil_[i].weight[k] * given.row(from);
+      }
+    return out;
   }
 
   /// Weights of the given values (that of B(0) = 0 is dropped), from EndWeights piece(a, b).
@@ -88,24 +79,6 @@ class Polygon {
  private:
   static constexpr std::size_t pieces = 4;
 
-  /// cos ωt and sin ωt at t = first, first + step …: each from the one before, turned on by one rotation.
-  static void turning(double first, double step, double omega, Eigen::ArrayXd& cos, Eigen::ArrayXd& sin) {
-    const double c = std::cos(omega * step), s = std::sin(omega * step);
-    double x = std::cos(omega * first), y = std::sin(omega * first);
-    for (Eigen::Index t = 0; t < cos.size(); ++t) {
-      cos[t] = x;
-      sin[t] = y;
-      const double on = c * x - s * y;
-      y = s * x + c * y;
-      x = on;
-    }
-  }
-  /// A node's weights at all times, to the given values that it hangs on.
-  void add(std::size_t node, const Eigen::ArrayXd& weights, Eigen::MatrixXd& out) const {
-    for (std::size_t k = 0; k < stencil_[node].weight.size(); ++k)
-      if (stencil_[node].weight[k] != 0)
-        out.col(static_cast<Eigen::Index>(stencil_[node].first + k)).array() += stencil_[node].weight[k] * weights;
-  }
   void add_node(const std::vector<double>& omega, double at) {
     node_.push_back(at);
     stencil_.push_back(cubic_stencil(omega, at));

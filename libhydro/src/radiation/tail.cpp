@@ -21,13 +21,34 @@ constexpr double two_over_pi = 2 / std::numbers::pi;
 constexpr std::array<double, 7> corners{1, 1.15, 1.35, 1.6, 2, 2.7, 4};
 constexpr Eigen::Index free_corners = corners.size() - 2;
 
-/// Principal value of (2/π) ∫_a^b f(ν)/(ν² − ω²) dν for f straight, ω not a or b. (R10)
-EndWeights added_mass_weights(double a, double b, double omega) {
-  const auto L = [&](double v) { return std::log(std::abs((v - omega) / (v + omega))) / (2 * omega); };
-  const auto Q = [&](double v) { return std::log(std::abs(v * v - omega * omega)) / 2; };
-  const double dL = L(b) - L(a), dQ = Q(b) - Q(a), h = b - a;
-  return {two_over_pi * (b * dL - dQ) / h, two_over_pi * (dQ - a * dL) / h};
-}
+/// Principal value of (2/π) ∫_a^b f(ν)/(ν² − ω²) dν for f straight, ω not a or b. (R10) Its logarithms are kept from
+/// one end to the next begin: pieces that follow each other share them.
+class AddedMassWeights {
+ public:
+  explicit AddedMassWeights(double omega) : omega_(omega) {}
+
+  EndWeights operator()(double a, double b) {
+    const Ends at_a = a == at_ ? logarithms_ : at(a);
+    logarithms_ = at(b);
+    at_ = b;
+    const double dL = logarithms_.L - at_a.L, dQ = logarithms_.Q - at_a.Q, h = b - a;
+    return {two_over_pi * (b * dL - dQ) / h, two_over_pi * (dQ - a * dL) / h};
+  }
+
+ private:
+  struct Ends {
+    double L, Q;
+  };
+  Ends at(double v) const {
+    return {std::log(std::abs((v - omega_) / (v + omega_))) / (2 * omega_),
+            std::log(std::abs(v * v - omega_ * omega_)) / 2};
+  }
+
+  double omega_, at_ = -1;
+  Ends logarithms_{};
+};
+
+EndWeights added_mass_weights(double a, double b, double omega) { return AddedMassWeights(omega)(a, b); }
 
 /// Added mass at ω of a unit corner of the tail.
 double corner_weight(std::size_t corner, double last, double omega) {
@@ -68,7 +89,7 @@ Problem problem(const DampingTable& damping, const std::vector<Eigen::MatrixXd>&
   const Eigen::MatrixXd all_A = flattened(A), all_B = flattened(damping.B);
   for (Eigen::Index r = 0; r < rows; ++r) {
     const double omega = p.omega[static_cast<std::size_t>(r)];
-    std::vector<double> known = polygon.gather([&](double a, double b) { return added_mass_weights(a, b, omega); });
+    std::vector<double> known = polygon.gather(AddedMassWeights(omega));
     known.back() += corner_weight(0, last, omega);
     const Eigen::RowVectorXd at_omega = combined(cubic_stencil(damping.omega, omega), A.size(), [&](std::size_t i) {
       return Eigen::RowVectorXd(all_A.row(static_cast<Eigen::Index>(i)));
@@ -125,7 +146,7 @@ Eigen::MatrixXd added_mass_above_limit(const DampingTable& damping, double omega
   const double aside = nearest < 1e-7 * omega ? 1e-6 * omega : 0;
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(damping.B.front().rows(), damping.B.front().cols());
   for (const double at : {omega - aside, omega + aside}) {
-    const auto weight = polygon.gather([&](double a, double b) { return added_mass_weights(a, b, at); });
+    const auto weight = polygon.gather(AddedMassWeights(at));
     for (std::size_t j = 0; j < weight.size(); ++j) sum += weight[j] / 2 * damping.B[j];
   }
   return sum;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "hydro/base/error.hpp"
+#include "hydro/radiation/tail.hpp"
 #include "support/two_pole_body.hpp"
 
 namespace kernel_test {
@@ -50,6 +51,35 @@ TEST(RetardationKernel, TakesUnevenFrequencies) {
   }
   EXPECT_NEAR(retardation(table, 1.0)(0, 0), body.K(1.0), 0.006);  // the tail as above
   EXPECT_NEAR(retardation(table, 3.0)(0, 0), body.K(3.0), 0.006);
+}
+
+/// Samples of a kernel, all of them, against the integral piece by piece.
+void expect_the_same(const DampingTable& table, const MemoryGrid& grid) {
+  const auto kernel = RetardationKernel::from_damping(table, grid);
+  const double size = kernel.at(0).cwiseAbs().maxCoeff();
+  for (std::size_t i = 0; i < kernel.samples(); ++i) {
+    const Eigen::MatrixXd by_pieces = retardation(table, grid.step * static_cast<double>(i));
+    // Rounding of N terms of the size of a slope's jump over t², t > 4/ω_N: 1e-12 is seen.
+    ASSERT_LT((kernel.at(i) - by_pieces).cwiseAbs().maxCoeff(), 1e-11 * size) << "sample " << i;
+  }
+}
+
+TEST(RetardationKernel, IsTheSameByItsCorners) {  // (R23)
+  expect_the_same(body.damping_table(8, 80), {.step = 0.1, .length = 30});
+  DampingTable uneven;  // two modes, unlike in size, on frequencies that spread
+  for (double omega = 0.1; omega < 9; omega *= 1.06) {
+    uneven.omega.push_back(omega);
+    const double b = body.B(omega);
+    uneven.B.push_back((Eigen::Matrix2d() << 1e6 * b, 300 * b, 300 * b, b * b).finished());
+  }
+  expect_the_same(uneven, {.step = 0.05, .length = 6});
+}
+
+TEST(RetardationKernel, IsTheSameWithATail) {  // (R23), (R11)
+  const auto damping = body.damping_table(8, 160);
+  const auto whole = continued(damping, body.added_mass(damping, 5), std::nullopt);
+  ASSERT_GT(whole.table.omega.size(), 3 * damping.omega.size());
+  expect_the_same(whole.table, {.step = 0.05, .length = 40});
 }
 
 TEST(RetardationKernel, RefusesAHullThatGivesPowerToItsOwnMotion) {
