@@ -94,16 +94,19 @@ double NewtonIntegrator::search(Workspace& workspace, double h, const Trial& now
 bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& report) {
   prepare(workspace, h);
   const Eigen::VectorXd& scale = active().scale();
-  // Sliding and touching bodies change from step to step, and their changes want the steps' full accuracy.
-  const bool keeps = !active().may_change();
+  // Contacts that share a load by their compliance want it to the last digit.
+  const bool keeps = (active().compliance().array() == 0).all();
   const Eigen::VectorXd& a = workspace.acceleration;
-  const bool goes_on = keeps && before_.size() == a.size();  // accelerations, in a straight line
+  const bool goes_on = before_.size() == a.size();  // in a straight line
   Trial now = evaluate(workspace, h, goes_on ? Eigen::VectorXd(2 * a - before_) : a, workspace.multipliers);
+  before_.resize(0);
+  bool anew = false;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     if (!std::isfinite(now.size)) return fail("the loads are not finite");
     ++report.newton_iterations;
     const bool kept = workspace.factors_of_step == h;
     if (!kept && !factorise(workspace, h, now)) return fail("the iteration matrix is singular");
+    anew = anew || !kept;
     const KktSolver::Solution correction = workspace.solver.solve(-now.residual, -now.open);
     const double move = correction.x.cwiseProduct(scale).norm();
     Trial trial;
@@ -123,7 +126,7 @@ bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& repo
     if (part == 1 && (settled || (!kept && move <= newton_tolerance * reach) || move <= unresolved(h))) {
       workspace.factors_of_step = keeps ? h : 0;  // rounding, too, leaves much
       accepted(workspace, now.acceleration);
-      before_ = workspace.acceleration;
+      if (!anew) before_ = workspace.acceleration;
       workspace.state = std::move(now.state);
       workspace.acceleration = std::move(now.acceleration);
       workspace.multipliers = std::move(now.multipliers);

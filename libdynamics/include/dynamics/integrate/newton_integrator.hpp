@@ -48,7 +48,8 @@ class NewtonIntegrator : public Integrator {
   double search(Workspace& workspace, double h, const Trial& now, const KktSolver::Solution& correction, double move,
                 Trial& trial) const;
 
-  Eigen::VectorXd before_;  // acceleration at the begin of the step before, for a first guess
+  // Acceleration at the begin of the step before, for a first guess; empty if factors did not serve all through it.
+  Eigen::VectorXd before_;
 };
 
 }  // namespace dynamics
