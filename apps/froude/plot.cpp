@@ -262,15 +262,19 @@ std::vector<double> logarithmic_ticks(double low, double high, int wanted) {
   const double first = std::floor(std::log10(low)), last = std::ceil(std::log10(high));
   const double decades = std::log10(high) - std::log10(low);
   const double stride = std::max(1.0, std::ceil(decades / wanted));
-  std::vector<double> out;
-  for (double n = std::ceil(first / stride) * stride; n <= last; n += stride)
-    for (const double factor : {1.0, 2.0, 5.0}) {
-      const double value = factor * std::pow(10, n);
-      if ((factor == 1 || decades < 2) && value >= low * (1 - slack) && value <= high * (1 + slack))
-        out.push_back(value);
-    }
+  const auto by = [&](const std::vector<double>& factors) {
+    std::vector<double> out;
+    for (double n = std::ceil(first / stride) * stride; n <= last; n += stride)
+      for (const double factor : factors)
+        if (const double value = factor * std::pow(10, n); value >= low * (1 - slack) && value <= high * (1 + slack))
+          out.push_back(value);
+    return out;
+  };
+  constexpr std::size_t few = 3;
+  std::vector<double> out = by({1});
+  if (out.size() < few) out = by({1, 2, 5});
   // Within a fraction of a decade, round steps tell more than powers of ten.
-  return out.size() >= 3 ? out : linear_ticks(low, high, wanted);
+  return out.size() >= few ? out : linear_ticks(low, high, wanted);
 }
 
 }  // namespace

@@ -62,6 +62,9 @@ TEST(PlotTicks, AreRoundNumbersInsideTheRange) {
 TEST(PlotTicks, OnALogarithmicAxisArePowersOfTenAndThinOutOverManyDecades) {
   EXPECT_THAT(ticks(1, 1000, Scale::logarithmic), Pointwise(DoubleNear(1e-9), std::vector<double>{1, 10, 100, 1000}));
   EXPECT_THAT(ticks(1, 20, Scale::logarithmic), Pointwise(DoubleNear(1e-9), std::vector<double>{1, 2, 5, 10, 20}));
+  EXPECT_THAT(ticks(0.006, 0.8, Scale::logarithmic),
+              Pointwise(DoubleNear(1e-9), std::vector<double>{0.01, 0.02, 0.05, 0.1, 0.2, 0.5}))
+      << "two decades with two powers of ten between";
   EXPECT_LE(ticks(1e-20, 1e20, Scale::logarithmic, 6).size(), 7u);
 }
 
