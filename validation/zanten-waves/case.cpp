@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -45,6 +46,29 @@ Quantities read_pendulum(const Folders& folders, const std::string& name) {
   Quantities out;
   for (std::size_t i = 0; i < property.size(); ++i) out[property[i]] = table.column(name)[i];
   return out;
+}
+
+/// Highest water at the pendulum in metres, for each focus: the mean over the torques of the long pendulum's medians.
+std::map<double, double> measured_crests(const std::map<Condition, Measured>& results) {
+  std::map<double, double> sum, count;
+  for (const auto& [condition, reference] : results)
+    if (condition.pendulum == "long") {
+      sum[condition.focus] += reference.median.at("eta_max") / 1000;
+      ++count[condition.focus];
+    }
+  for (auto& [focus, crest] : sum) crest /= count.at(focus);
+  return sum;
+}
+
+/// Amplitudes of all packets times one factor, so that the highest water at the pendulum is that of the gauge there.
+void set_crest(scene::Scene& scene, double crest) {
+  scene::Scene looking = scene;
+  looking.run->of.push_back("wave.elevation");
+  const Record run = simulate(looking);
+  const auto& elevation = run.signal("wave.elevation");
+  const double factor = crest / *std::max_element(elevation.begin(), elevation.end());
+  for (hydro::waves::Packet& packet : std::get<scene::FocusedPackets>(scene.waves->kind).packets)
+    packet.amplitude = hydro::WaveAmplitude::from_metres(factor * packet.amplitude.metres());
 }
 
 /// The scene of one condition. Bodies: top, bottom; joints: upper, lower.
@@ -120,6 +144,7 @@ struct Mean {
 
 Outcome outcome(const Folders& folders) {
   const auto results = read_results(folders);
+  const auto crests = measured_crests(results);
   Outcome out;
   plot::Figure figure{.title = "Energy that the pendulum takes from the group, focus 1 m ahead", .panels = {}};
   for (const std::string pendulum : {"long", "medium", "short"}) {
@@ -129,7 +154,9 @@ Outcome outcome(const Folders& folders) {
         measured{.name = "measured", .x = {}, .y = {}, .dashed = true};
     for (const auto& [condition, reference] : results) {
       if (condition.pendulum != pendulum) continue;
-      const Quantities here = simulated(p, scene_of(folders, p, condition));
+      scene::Scene scene = scene_of(folders, p, condition);
+      set_crest(scene, crests.at(condition.focus));
+      const Quantities here = simulated(p, scene);
       for (const std::string& q : quantities) {
         if (!counts(q, condition.torque)) continue;
         ours[q].add(here.at(q), reference.median.at(q));
