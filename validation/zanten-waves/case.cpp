@@ -60,15 +60,12 @@ std::map<double, double> measured_crests(const std::map<Condition, Measured>& re
   return sum;
 }
 
-/// Amplitudes of all packets times one factor, so that the highest water at the pendulum is that of the gauge there.
-void set_crest(scene::Scene& scene, double crest) {
-  scene::Scene looking = scene;
-  looking.run->of.push_back("wave.elevation");
-  const Record run = simulate(looking);
+/// Highest water at the pendulum that the packets of a scene make, m.
+double crest_of(scene::Scene scene) {
+  scene.run->of.push_back("wave.elevation");
+  const Record run = simulate(scene);
   const auto& elevation = run.signal("wave.elevation");
-  const double factor = crest / *std::max_element(elevation.begin(), elevation.end());
-  for (hydro::waves::Packet& packet : std::get<scene::FocusedPackets>(scene.waves->kind).packets)
-    packet.amplitude = hydro::WaveAmplitude::from_metres(factor * packet.amplitude.metres());
+  return *std::max_element(elevation.begin(), elevation.end());
 }
 
 /// The scene of one condition. Bodies: top, bottom; joints: upper, lower.
@@ -87,6 +84,19 @@ scene::Scene scene_of(const Folders& folders, const Quantities& p, const Conditi
   if (c.torque > 0) scene.joints.at(1).friction = scene::JointFriction{c.torque, 0.81 * c.torque};
   std::get<scene::FocusedPackets>(scene.waves->kind).focus.x_m = c.focus - pendulum_at;
   return scene;
+}
+
+/// For each focus, the factor on all packets that makes them as high at the pendulum as the gauge there told.
+std::map<double, double> packet_factors(const Folders& folders, const std::map<Condition, Measured>& results) {
+  const Quantities p = read_pendulum(folders, "long");
+  std::map<double, double> out = measured_crests(results);
+  for (auto& [focus, factor] : out) factor /= crest_of(scene_of(folders, p, {"long", focus, 0}));
+  return out;
+}
+
+void multiply_packets(scene::Scene& scene, double factor) {
+  for (hydro::waves::Packet& packet : std::get<scene::FocusedPackets>(scene.waves->kind).packets)
+    packet.amplitude = hydro::WaveAmplitude::from_metres(factor * packet.amplitude.metres());
 }
 
 /// Kinetic and potential energy of both parts, Van Zanten (2020) eqs. 4.1 and 4.2 with the misprints put right.
@@ -144,7 +154,7 @@ struct Mean {
 
 Outcome outcome(const Folders& folders) {
   const auto results = read_results(folders);
-  const auto crests = measured_crests(results);
+  const auto factors = packet_factors(folders, results);
   Outcome out;
   plot::Figure figure{.title = "Energy that the pendulum takes from the group, focus 1 m ahead", .panels = {}};
   for (const std::string pendulum : {"long", "medium", "short"}) {
@@ -155,7 +165,7 @@ Outcome outcome(const Folders& folders) {
     for (const auto& [condition, reference] : results) {
       if (condition.pendulum != pendulum) continue;
       scene::Scene scene = scene_of(folders, p, condition);
-      set_crest(scene, crests.at(condition.focus));
+      multiply_packets(scene, factors.at(condition.focus));
       const Quantities here = simulated(p, scene);
       for (const std::string& q : quantities) {
         if (!counts(q, condition.torque)) continue;

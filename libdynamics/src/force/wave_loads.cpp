@@ -65,9 +65,7 @@ class RadiationState final : public Memory {
     const double fraction = fraction_of(state.time, groups_[group].method->step());
     if (fraction > 0) refresh(fraction);
     const Eigen::VectorXd& decided = fraction > 0 ? after_[group] : at_newest_[group];
-    const std::vector<int>& modes = groups_[group].modes;
-    velocity_.resize(decided.size());
-    for (std::size_t i = 0; i < modes.size(); ++i) velocity_[static_cast<Eigen::Index>(i)] = state.velocity[modes[i]];
+    velocity_ = state.velocity(groups_[group].modes);
     load_ = -decided;
     load_.noalias() -= weight(group, fraction) * velocity_;
     return load_;

@@ -84,7 +84,6 @@ void ActiveSet::rebuild(Workspace& workspace) {
   compliance_ = share * condition_scale_.cwiseAbs2().cwiseInverse();
   compliance_.head(exact).setZero();
   workspace.solver = KktSolver(model_.pattern(), conditions_);
-  workspace.factors_of_step = 0;
 }
 
 void ActiveSet::reset_slides() {
@@ -123,7 +122,6 @@ std::optional<ActiveSet::Balance> ActiveSet::balance(Workspace& workspace) const
   const Eigen::VectorXd r = model_.residual(workspace.state, Eigen::VectorXd::Zero(model_.modes()), workspace);
   const Eigen::VectorXd convective = conditions_.convective(workspace.state);
   model_.tangent(workspace.state, 1, 0, 0, workspace, workspace.matrix);
-  workspace.factors_of_step = 0;
   if (!r.allFinite() || !workspace.solver.factorise(workspace.matrix, load, G, compliance_)) return {};
   auto [a, lambda] = workspace.solver.solve(-r, -convective);
   const bool again = compliance_.size() > 0 && compliance_.maxCoeff() > 0;

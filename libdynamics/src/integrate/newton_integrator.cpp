@@ -8,7 +8,6 @@
 namespace dynamics {
 namespace {
 constexpr double newton_tolerance = 1e-9;     // of the last correction relative to the acceleration and velocity / step
-constexpr double kept_tolerance = 1e-11;      // of what is left after corrections by kept factors: these leave some
 constexpr double residual_tolerance = 1e-12;  // of the residual, relative to the same: no correction below it
 constexpr double serves = 0.1;  // factors are kept while a correction by them leaves no more of the residual
 constexpr int most_iterations = 20;
@@ -104,7 +103,7 @@ bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& repo
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     if (!std::isfinite(now.size)) return fail("the loads are not finite");
     ++report.newton_iterations;
-    const bool kept = workspace.factors_of_step == h;
+    const bool kept = workspace.solver.of_step == h;
     if (!kept && !factorise(workspace, h, now)) return fail("the iteration matrix is singular");
     anew = anew || !kept;
     const KktSolver::Solution correction = workspace.solver.solve(-now.residual, -now.open);
@@ -116,7 +115,7 @@ bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& repo
     else
       part = search(workspace, h, now, correction, move, trial);
     const double left = trial.size / now.size;
-    workspace.factors_of_step = keeps && part == 1 && left <= serves ? h : 0;
+    workspace.solver.of_step = keeps && part == 1 && left <= serves ? h : 0;
     if (kept && !(left <= 1 || move <= unresolved(h))) continue;
     if (!std::isfinite(trial.size)) return fail("the loads are not finite");
     now = std::move(trial);
@@ -124,7 +123,7 @@ bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& repo
         now.acceleration.cwiseProduct(scale).norm() + now.state.velocity.cwiseProduct(scale).norm() / h;
     const bool settled = keeps && now.size <= residual_tolerance * reach;
     if (part == 1 && (settled || (!kept && move <= newton_tolerance * reach) || move <= unresolved(h))) {
-      workspace.factors_of_step = keeps ? h : 0;  // rounding, too, leaves much
+      workspace.solver.of_step = keeps ? h : 0;  // rounding, too, leaves much
       accepted(workspace, now.acceleration);
       if (!anew) before_ = workspace.acceleration;
       workspace.state = std::move(now.state);

@@ -118,6 +118,7 @@ bool KktSolver::is_sparse() const { return impl_->bodies_alone.is_sparse(); }
 
 bool KktSolver::factorise(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H,
                           const Eigen::VectorXd& compliance) {
+  of_step = 0;
   if (impl_->count() == 0) return impl_->bodies_alone.factorise(T);
   return is_sparse() ? impl_->factorise_sparse(T, G, H, compliance) : impl_->factorise_dense(T, G, H, compliance);
 }

@@ -130,13 +130,14 @@ class CosineTransform {
       }
       K.noalias() = jumps.transpose() * cosines.leftCols(size);
       for (Eigen::Index i = 0; i < size; ++i) {
-        const double t = static_cast<double>(first + static_cast<std::size_t>(i)) * step;
-        if (t * B.at[last] < late)
-          use(first + static_cast<std::size_t>(i), at(t));
-        else
-          use(first + static_cast<std::size_t>(i),
-              Eigen::MatrixXd(two_over_pi / t *
-                              (end[i] * B.value.row(last).transpose() - K.col(i) / t).reshaped(n, n)));
+        const std::size_t sample = first + static_cast<std::size_t>(i);
+        const double t = static_cast<double>(sample) * step;
+        if (t * B.at[last] < late) {
+          use(sample, at(t));
+          continue;
+        }
+        const Eigen::VectorXd by_parts = two_over_pi / t * (end[i] * B.value.row(last).transpose() - K.col(i) / t);
+        use(sample, Eigen::MatrixXd(by_parts.reshaped(n, n)));
       }
     }
   }
@@ -145,12 +146,9 @@ class CosineTransform {
   static constexpr double late = 4;  // rad: before it the sum over corners loses digits to cancellation
 
   detail::Corners corners() const {
-    const Eigen::Index n = damping_.B.front().rows(), given = static_cast<Eigen::Index>(damping_.B.size());
-    Eigen::MatrixXd B(given, n * n);
-    for (Eigen::Index j = 0; j < given; ++j) B.row(j) = damping_.B[static_cast<std::size_t>(j)].reshaped().transpose();
     const auto& node = polygon_.nodes();
     const detail::Corners all{Eigen::Map<const Eigen::ArrayXd>(node.data(), static_cast<Eigen::Index>(node.size())),
-                              polygon_.values(B)};
+                              polygon_.values(detail::flattened(damping_.B))};
     return all.needed(1e-13);
   }
 

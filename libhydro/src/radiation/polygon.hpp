@@ -32,6 +32,14 @@ inline EndWeights oscillating_weights(double a, double b, double t, double phase
   return {even + odd, even - odd};
 }
 
+/// One matrix a row.
+inline Eigen::MatrixXd flattened(const std::vector<Eigen::MatrixXd>& matrices) {
+  Eigen::MatrixXd out(static_cast<Eigen::Index>(matrices.size()), matrices.front().size());
+  for (std::size_t i = 0; i < matrices.size(); ++i)
+    out.row(static_cast<Eigen::Index>(i)) = matrices[i].reshaped().transpose();
+  return out;
+}
+
 /// B on the cubic of (P6) between the given frequencies and from ω = 0, where B = 0, cut into four straight pieces an
 /// interval. Everything is linear in B, so the pieces only gather weights, and each B is touched once an integral.
 class Polygon {

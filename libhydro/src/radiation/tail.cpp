@@ -15,6 +15,7 @@ namespace hydro::radiation {
 namespace {
 
 using detail::EndWeights;
+using detail::flattened;
 
 constexpr double two_over_pi = 2 / std::numbers::pi;
 /// Corners of the tail in units of the last frequency; the first has the table's last value, the last is zero.
@@ -57,14 +58,6 @@ double corner_weight(std::size_t corner, double last, double omega) {
   if (corner + 1 < corners.size())
     sum += added_mass_weights(corners[corner] * last, corners[corner + 1] * last, omega).a;
   return sum;
-}
-
-/// One matrix a row, flattened.
-Eigen::MatrixXd flattened(const std::vector<Eigen::MatrixXd>& matrices) {
-  Eigen::MatrixXd out(static_cast<Eigen::Index>(matrices.size()), matrices.front().size());
-  for (std::size_t i = 0; i < matrices.size(); ++i)
-    out.row(static_cast<Eigen::Index>(i)) = matrices[i].reshaped().transpose();
-  return out;
 }
 
 /// The fit of (R11) for all pairs at once: they share the design matrix.

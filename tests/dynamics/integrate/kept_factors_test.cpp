@@ -85,14 +85,14 @@ Outcome run(const Model& model, const State& start, int steps, Factors factors) 
   method.start(w);
   Outcome out;
   for (int i = 0; i < steps; ++i) {
-    if (factors == Factors::new_each_step) w.factors_of_step = 0;
+    if (factors == Factors::new_each_step) w.solver.of_step = 0;
     if (factors == Factors::of_a_heavier_model) {
       model.tangent(w.state, 3, 0, 0, w, w.matrix);
       const auto G = model.joints().gradients(w.state);
       EXPECT_TRUE(w.solver.factorise(w.matrix, G, G, Eigen::VectorXd::Zero(model.joints().count())));
-      w.factors_of_step = h;
+      w.solver.of_step = h;
     }
-    out.kept += w.factors_of_step == h ? 1 : 0;
+    out.kept += w.solver.of_step == h ? 1 : 0;
     out.iterations += method.step(w, h).newton_iterations;
   }
   out.state = w.state;
@@ -144,11 +144,11 @@ TEST(KeptFactors, AreThoseOfStepsOfTheirLength) {
   Workspace w(model, thrown(model, Joined::by_springs));
   GeneralizedAlpha method(model, {.rho_infinity = 0.8});
   method.start(w);
-  EXPECT_EQ(w.factors_of_step, 0) << "those of the masses, for the first accelerations";
+  EXPECT_EQ(w.solver.of_step, 0) << "those of the masses, for the first accelerations";
   method.step(w, 0.02);
-  EXPECT_EQ(w.factors_of_step, 0.02);
+  EXPECT_EQ(w.solver.of_step, 0.02);
   method.step(w, 0.01);
-  EXPECT_EQ(w.factors_of_step, 0.01);
+  EXPECT_EQ(w.solver.of_step, 0.01);
 }
 
 }  // namespace

@@ -21,13 +21,15 @@ class KktSolver {
   KktSolver& operator=(KktSolver&&) noexcept;
   bool is_sparse() const;
   /// `compliance` c, one a condition, >= 0, puts −c on the diagonal of the lower right block.
-  /// False if the matrix is singular to working precision or not finite.
+  /// False if the matrix is singular to working precision or not finite. Forgets `of_step`.
   bool factorise(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H,
                  const Eigen::VectorXd& compliance);
   struct Solution {
     Eigen::VectorXd x, lambda;
   };
   Solution solve(const Eigen::VectorXd& b, const Eigen::VectorXd& c) const;
+
+  double of_step = 0;  ///< s: the factors are those of the iteration matrix of such a step (D98); 0: of something else
 
  private:
   struct Impl;

@@ -91,7 +91,6 @@ class Workspace {
   std::vector<std::size_t> evaluations;         ///< of the load, one a kind: what a scene pays for
   BlockMatrix matrix;
   KktSolver solver;
-  double factors_of_step = 0;  ///< s: `solver` holds those of the iteration matrix of such a step; 0: others
 
   Instant instant(const State& at, std::size_t kind) { return {at, memory[kind].get()}; }
   /// A full step has been completed: memory moves on. \returns true if loads jumped by it
