@@ -1,9 +1,7 @@
 #include "compile/restart.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
-
 #include "dynamics/joint/assemble.hpp"
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 
 namespace froude::compile {
@@ -14,11 +12,10 @@ namespace dl = dynamics::line;
 /// Orthonormal columns x with `conditions` x = 0.
 Eigen::MatrixXd free_directions(const Eigen::MatrixXd& conditions, Eigen::Index unknowns) {
   if (conditions.rows() == 0 || unknowns == 0) return Eigen::MatrixXd::Identity(unknowns, unknowns);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(Eigen::MatrixXd(conditions.transpose() * conditions),
-                                              Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const auto svd = hydro::dense::svd(conditions.transpose() * conditions);
   Eigen::Index rank = 0;
-  while (rank < unknowns && svd.singularValues()[rank] > 1e-12 * svd.singularValues()[0]) ++rank;
-  return svd.matrixV().rightCols(unknowns - rank);
+  while (rank < unknowns && svd.values[rank] > 1e-12 * svd.values[0]) ++rank;
+  return svd.V.rightCols(unknowns - rank);
 }
 
 /// Of all bodies, rows of modes that are not free zero.

@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-
 #include <cmath>
 
+#include "hydro/base/dense.hpp"
 #include "scene/build.hpp"
 
 namespace froude::scene {
@@ -17,7 +16,7 @@ constexpr double inertia_rounding = 1e-3;
 /// A rigid body's principal moments are positive and none exceeds the sum of the other two, because
 /// I₁ + I₂ − I₃ = 2 ∫ x₃² dm >= 0 (derived in docs/guide/scenes.md).
 void check_inertia(const Record& record, std::string_view key, const Eigen::Matrix3d& inertia) {
-  const Eigen::Vector3d principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues();
+  const Eigen::Vector3d principal = hydro::dense::symmetric_eigenvalues(inertia);
   if (!(principal[0] > 1e-12 * principal[2]))  // round-off of the eigenvalues
     throw record.wrong(key, fmt::format("gives a principal moment of inertia of {:.6g} kg m^2", principal[0]),
                        "a rigid body has three positive ones; check the products of inertia");

@@ -1,11 +1,10 @@
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "hydro/base/dense.hpp"
 #include "hydro/io/csv.hpp"
 #include "scene/build.hpp"
 
@@ -154,7 +153,7 @@ void check_dissipates(const Record& mooring, const Matrix6& damping) {
       const double scale = std::sqrt(damping(i, i) * damping(j, j));
       if (scale > 0) scaled(i, j) /= scale;
     }
-  const double least = Eigen::SelfAdjointEigenSolver<Matrix6>(scaled).eigenvalues()[0];
+  const double least = hydro::dense::symmetric_eigenvalues(scaled)[0];
   if (least < -1e-9)  // round-off of numbers of order one
     throw mooring.table("damping").refused(
         "gives power to some motion",

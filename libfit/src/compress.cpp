@@ -1,7 +1,6 @@
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 
 #include "fit/least_squares.hpp"
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 
 namespace fit {
@@ -25,10 +24,9 @@ Eigen::MatrixXd gram(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
 
 Compressed by_householder(const Eigen::MatrixXd& columns, const Eigen::VectorXd& target) {
   const Eigen::Index p = columns.cols();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
-  const Eigen::VectorXd rotated = qr.householderQ().transpose() * target;
-  return {qr.matrixQR().topRows(p).triangularView<Eigen::Upper>(), rotated.head(p),
-          rotated.tail(target.size() - p).norm()};
+  const hydro::dense::HouseholderQr qr(columns);
+  const Eigen::VectorXd rotated = qr.rotated(target);
+  return {qr.R(), rotated.head(p), rotated.tail(target.size() - p).norm()};
 }
 
 }  // namespace
@@ -44,10 +42,10 @@ Compressed compress(const Eigen::MatrixXd& columns, const Eigen::VectorXd& targe
   if (!(length.minCoeff() > 0)) return by_householder(columns, target);
   const Eigen::MatrixXd unit =
       length.cwiseInverse().asDiagonal() * g.topLeftCorner(p, p) * length.cwiseInverse().asDiagonal();
-  const Eigen::LLT<Eigen::MatrixXd> cholesky(unit);
-  if (cholesky.info() != Eigen::Success || cholesky.matrixLLT().diagonal().minCoeff() < 0.01)
-    return by_householder(columns, target);
-  const Eigen::MatrixXd lower = cholesky.matrixL();
+  const hydro::dense::Cholesky cholesky(unit);
+  if (!cholesky) return by_householder(columns, target);
+  const Eigen::MatrixXd lower = cholesky.L();
+  if (lower.diagonal().minCoeff() < 0.01) return by_householder(columns, target);
   const Eigen::VectorXd scaled = length.cwiseInverse().cwiseProduct(g.row(p).head(p).transpose());
   const Eigen::VectorXd rotated = lower.triangularView<Eigen::Lower>().solve(scaled);
   const double left = g(p, p) - rotated.squaredNorm();

@@ -1,11 +1,12 @@
 #include "fit/correlated.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
 
 #include "block_means.hpp"
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
 
@@ -84,16 +85,16 @@ CoefficientCovariance correlated_covariance(const Eigen::MatrixXd& jacobian, con
   hydro::require(residuals.size() == n, "{} residuals but a Jacobian of {} rows", residuals.size(), n);
   hydro::require(block >= 1 && n / block >= 8 && n > p, "{} samples in blocks of {} are too few for an uncertainty", n,
                  block);
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(jacobian);
+  const hydro::dense::PivotedQr qr(jacobian);
   hydro::require(qr.rank() == p, "the coefficients cannot be told apart: the Jacobian has rank {} of {}", qr.rank(), p);
-  const Eigen::MatrixXd inverse = (jacobian.transpose() * jacobian).inverse();
+  const Eigen::MatrixXd inverse = hydro::dense::inverse(jacobian.transpose() * jacobian);
 
   const Eigen::MatrixXd means = block_means(jacobian, block);
   const Eigen::VectorXd residual_means = block_means(residuals, block);
   const auto ar = fit_autoregression(residual_means);
   const auto blocks = static_cast<double>(means.rows());
   const double covered = static_cast<double>(n) / (blocks * block);  // samples after the last whole block count as well
-  const Eigen::MatrixXd block_inverse = (means.transpose() * means).inverse();
+  const Eigen::MatrixXd block_inverse = hydro::dense::inverse(means.transpose() * means);
   Eigen::MatrixXd meat = toeplitz_form(means, ar.autocovariance);
   // The fit took tr(P Σ) out of the residuals' sum of squares (for white residuals: p σ²); put it back.
   double lost = (block_inverse * meat).trace() / (blocks * ar.autocovariance[0]);

@@ -1,12 +1,13 @@
 #include "fit/decay.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
 #include "restored_body.hpp"
@@ -121,9 +122,10 @@ EnergyFit fit_energy(std::span<const Extreme> e, const DampingTerms& terms, doub
     for (Eigen::Index j = 0; j < p; ++j)
       a(i, j) = half_cycle_loss(wanted[static_cast<std::size_t>(j)], (before + after) / 2, omega);
   }
-  const Eigen::VectorXd x = a.colPivHouseholderQr().solve(lost), r = lost - a * x;
+  const Eigen::VectorXd x = hydro::dense::PivotedQr(a).solve(lost), r = lost - a * x;
   EnergyFit fit{{}, omega, std::sqrt(r.squaredNorm() / static_cast<double>(n))};
-  const Eigen::MatrixXd covariance = r.squaredNorm() / static_cast<double>(n - p) * (a.transpose() * a).inverse();
+  const Eigen::MatrixXd covariance =
+      r.squaredNorm() / static_cast<double>(n - p) * hydro::dense::inverse(a.transpose() * a);
   const double t = hydro::signal::student_t_quantile((1 + confidence) / 2, static_cast<double>(n - p));
   for (Eigen::Index j = 0; j < p; ++j) {
     Coefficient c;

@@ -1,6 +1,6 @@
 #include "fit/decay_memory.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
 #include "restored_body.hpp"
@@ -89,7 +90,7 @@ std::complex<double> swing_of(const Parameters& q, double omega) {
   Eigen::Matrix4d a;
   a << 0, 1, 0, 0, -q[omega0] * q[omega0], -q[linear], 0, -q[strength], 0, 0, 0, 1, 0, 1, -q[frequency] * q[frequency],
       -2 * q[decay];
-  const Eigen::Vector4cd values = a.eigenvalues();
+  const Eigen::Vector4cd values = hydro::dense::eigenvalues(a);
   std::complex<double> best = values[0];
   for (const auto& v : values)
     if (std::abs(v - std::complex<double>(0, omega)) < std::abs(best - std::complex<double>(0, omega))) best = v;
@@ -126,16 +127,16 @@ void tell_directions(DecayMemoryFit& fit) {
       relative(i, j) = all(a, b) / (theta[a] * theta[b]);
     }
   if (p == 0 || !relative.allFinite() || relative.isZero(0)) return;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(relative);
+  const auto [values, vectors] = hydro::dense::symmetric_eigen(relative);
   // Rounding may make the smallest of them negative: that direction is known to rounding.
-  fit.singular_values = solver.eigenvalues().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
+  fit.singular_values = values.cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
   std::vector<std::string> parts;
   for (Eigen::Index k = 0; k < p; ++k)
-    if (const double share = solver.eigenvectors()(k, p - 1); std::abs(share) >= 0.05)
+    if (const double share = vectors(k, p - 1); std::abs(share) >= 0.05)
       parts.push_back(
           fmt::format("{:.2g} {}", share, names[static_cast<std::size_t>(own[static_cast<std::size_t>(k)])]));
   fit.weakest = fmt::format("the record tells {} least, over their values: one standard deviation along it is {:.2g}",
-                            fmt::join(parts, " + "), std::sqrt(solver.eigenvalues()[p - 1]));
+                            fmt::join(parts, " + "), std::sqrt(values[p - 1]));
 }
 
 DecayOptions options_of(const DampingTerms& terms, const DecayMemoryOptions& options) {

@@ -1,12 +1,14 @@
 #include "fit/delay.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 
 #include "convolve.hpp"
 #include "cubic.hpp"
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/welch.hpp"
 #include "morison_columns.hpp"
@@ -89,7 +91,8 @@ DelayedFit fit_morison_and_delay(const Cylinder& cylinder, const ForceRecord& re
   const Eigen::MatrixXd columns = morison_columns(cylinder, aligned);
   const Eigen::VectorXd carried = carried_force(cylinder, aligned);
   const auto fitted = [&] {
-    return Eigen::VectorXd(carried + columns * columns.householderQr().solve(as_vector(aligned.force) - carried));
+    return Eigen::VectorXd(carried +
+                           columns * hydro::dense::HouseholderQr(columns).solve(as_vector(aligned.force) - carried));
   };
   double lag = static_cast<double>(nearest_lag(columns, carried, middle(record.force, 3), longest));
   // Gauss–Newton on the delay; the coefficients are linear and follow at once.
@@ -99,7 +102,7 @@ DelayedFit fit_morison_and_delay(const Cylinder& cylinder, const ForceRecord& re
     Eigen::MatrixXd all(columns.rows(), 3);
     all << columns, Eigen::VectorXd::Zero(columns.rows());
     all.col(2) = minus_rate(fitted(), step);
-    const double change = all.householderQr().solve(as_vector(aligned.force) - carried)[2] / step;
+    const double change = hydro::dense::HouseholderQr(all).solve(as_vector(aligned.force) - carried)[2] / step;
     if (std::abs(change) < 1e-6) break;
     lag += std::clamp(change, -5.0, 5.0);
   }

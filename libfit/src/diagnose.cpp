@@ -1,12 +1,14 @@
 #include "fit/diagnose.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "block_means.hpp"
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
 #include "hydro/signal/harmonics.hpp"
@@ -40,7 +42,8 @@ std::vector<CycleFit> fit_cycles(const Cylinder& cylinder, const ForceRecord& re
     const Eigen::Index from = at(starts[i]), rows = at(starts[i + 1]) - from;
     hydro::require(rows >= 8, "the cycle from {:.4g} s to {:.4g} s has {} samples; eight are needed", starts[i],
                    starts[i + 1], rows);
-    const Eigen::Vector2d x = columns.middleRows(from, rows).householderQr().solve(target.segment(from, rows));
+    const Eigen::Vector2d x =
+        hydro::dense::HouseholderQr(columns.middleRows(from, rows)).solve(target.segment(from, rows));
     out.push_back({starts[i], starts[i + 1], x[0], x[1]});
   }
   return out;

@@ -1,6 +1,6 @@
 #include "fit/differentiate.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "convolve.hpp"
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/harmonics.hpp"
 #include "hydro/signal/welch.hpp"
@@ -86,10 +87,8 @@ LocalPolynomial::LocalPolynomial(int order, int half_width, double step_s)
   Eigen::VectorXd pick = Eigen::VectorXd::Zero(degree + 1);
   pick[order] = (order == 2 ? 2.0 : 1.0) / std::pow(half_width * step_s, order);
   // w = P (PᵀP)⁻¹ pick by QR: P = QR gives w = Q R⁻ᵀ pick.
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(powers);
-  const Eigen::MatrixXd thin = qr.householderQ() * Eigen::MatrixXd::Identity(powers.rows(), degree + 1);
-  const Eigen::MatrixXd r = qr.matrixQR().topRows(degree + 1).triangularView<Eigen::Upper>();
-  const Eigen::VectorXd w = thin * r.transpose().triangularView<Eigen::Lower>().solve(pick);
+  const hydro::dense::HouseholderQr qr(powers);
+  const Eigen::VectorXd w = qr.thin_Q() * qr.R().transpose().triangularView<Eigen::Lower>().solve(pick);
   weights_.assign(w.data(), w.data() + w.size());
 }
 

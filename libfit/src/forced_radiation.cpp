@@ -1,6 +1,6 @@
 #include "fit/forced_radiation.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "fit/correlated.hpp"
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/random.hpp"
 #include "hydro/signal/distributions.hpp"
@@ -52,7 +53,7 @@ HarmonicFit fit_series(const Eigen::VectorXd& time, const Eigen::VectorXd& value
                        double step) {
   const Eigen::MatrixXd columns = harmonic_columns(time, omega, highest);
   HarmonicFit fit;
-  fit.x = columns.colPivHouseholderQr().solve(values);
+  fit.x = hydro::dense::PivotedQr(columns).solve(values);
   fit.fitted = columns * fit.x;
   const Eigen::VectorXd left = values - fit.fitted;
   const auto n = static_cast<double>(values.size());

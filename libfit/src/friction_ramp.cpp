@@ -1,13 +1,12 @@
 #include "fit/friction_ramp.hpp"
 
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "convolve.hpp"
 #include "fit/correlated.hpp"
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
 #include "hydro/signal/welch.hpp"
@@ -92,7 +91,7 @@ Eigen::MatrixXd line_columns(const Eigen::VectorXd& time) {
 
 RampPiece fit_piece(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values) {
   RampPiece piece;
-  piece.x = columns.colPivHouseholderQr().solve(values);
+  piece.x = hydro::dense::PivotedQr(columns).solve(values);
   piece.fitted = columns * piece.x;
   const Eigen::VectorXd left = values - piece.fitted;
   if (left.squaredNorm() > 1e-24 * values.squaredNorm()) {

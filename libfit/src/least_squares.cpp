@@ -2,11 +2,10 @@
 
 #include <ceres/ceres.h>
 
-#include <Eigen/SVD>
-
 #include <cmath>
 #include <limits>
 
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 
 namespace fit {
@@ -69,12 +68,12 @@ void judge(const ResidualModel& model, const Eigen::MatrixXd& jacobian, FitRepor
   Eigen::VectorXd scale(p);
   for (Eigen::Index j = 0; j < p; ++j) scale[j] = model.parameters[static_cast<std::size_t>(j)].scale;
   const Eigen::MatrixXd scaled = jacobian * scale.asDiagonal();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  report.singular_values = svd.singularValues();
+  const auto svd = hydro::dense::svd(scaled);
+  report.singular_values = svd.values;
   report.identifiable.assign(static_cast<std::size_t>(p), true);
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(p, p);
   for (Eigen::Index i = 0; i < p; ++i) {
-    const Eigen::VectorXd v = svd.matrixV().col(i);
+    const Eigen::VectorXd v = svd.V.col(i);
     const double s = report.singular_values[i];
     if (s > not_seen * report.singular_values[0]) {
       covariance += v * v.transpose() / (s * s);

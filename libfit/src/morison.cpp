@@ -1,6 +1,6 @@
 #include "fit/morison.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,7 @@
 #include "fit/correlated.hpp"
 #include "fit/resampling.hpp"
 #include "fit/robust.hpp"
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
 #include "hydro/signal/welch.hpp"
@@ -68,7 +69,7 @@ Eigen::VectorXd shift_per_degree(const Eigen::MatrixXd& columns, const std::vect
   for (Eigen::Index j = 1; j + 1 < n; ++j)
     later[j] =
         -(force[static_cast<std::size_t>(j) + 1] - force[static_cast<std::size_t>(j) - 1]) / (2 * step) * period / 360;
-  return columns.colPivHouseholderQr().solve(later);
+  return hydro::dense::PivotedQr(columns).solve(later);
 }
 
 struct Uncertainty {
@@ -191,7 +192,7 @@ std::vector<SystematicError> budget(const Cylinder& c, const ForceRecord& r, con
     if (cd != 0 || inertia != 0) out.push_back({source, cd, inertia});
   };
   if (!fit.search.all_identifiable()) return out;
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
+  const hydro::dense::HouseholderQr qr(columns);
   for (const ForceError& e : options.force_errors) {
     const Eigen::VectorXd change = qr.solve(as_vector(e.force));
     add(e.source, change[0], change[1]);

@@ -1,11 +1,12 @@
 #include "fit/resampling.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
 
 #include "block_means.hpp"
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/random.hpp"
 
@@ -19,7 +20,7 @@ struct Outer {
 };
 Outer outer(const Eigen::MatrixXd& jacobian, Eigen::Index blocks, int block) {
   const double covered = static_cast<double>(jacobian.rows()) / static_cast<double>(blocks * block);
-  return {(jacobian.transpose() * jacobian).inverse(), block * block * covered};
+  return {hydro::dense::inverse(jacobian.transpose() * jacobian), block * block * covered};
 }
 
 }  // namespace
@@ -39,7 +40,7 @@ CoefficientCovariance cluster_covariance(const Eigen::MatrixXd& jacobian, const 
     middle += sum * sum.transpose();
   }
   const auto g = static_cast<double>(clusters);
-  const Eigen::MatrixXd inverse = (jacobian.transpose() * jacobian).inverse();
+  const Eigen::MatrixXd inverse = hydro::dense::inverse(jacobian.transpose() * jacobian);
   result.covariance = g / (g - static_cast<double>(p)) * inverse * middle * inverse;
   result.effective_samples =
       static_cast<double>(n) * result.white_covariance.diagonal().cwiseQuotient(result.covariance.diagonal());

@@ -1,12 +1,13 @@
 #include "fit/runs.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
 
@@ -62,7 +63,7 @@ Design design(std::span<const RunEstimate> runs, Law law) {  // (F31)
                    wanted[static_cast<std::size_t>(k) - 1].name);
     d.terms.push_back(fmt::format("ln({}/{:.4g})", wanted[static_cast<std::size_t>(k) - 1].name, std::exp(middle)));
   }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(d.x);
+  const hydro::dense::PivotedQr qr(d.x);
   hydro::require(qr.rank() == d.x.cols(), "the runs cannot tell the terms of this law apart");
   return d;
 }
@@ -74,7 +75,7 @@ struct Weighted {
 Weighted solve(const Design& d, double between_squared) {
   Weighted w;
   w.weights = (d.own.array() + between_squared).inverse();
-  w.inverse = (d.x.transpose() * w.weights.asDiagonal() * d.x).inverse();
+  w.inverse = hydro::dense::inverse(d.x.transpose() * w.weights.asDiagonal() * d.x);
   w.coefficients = w.inverse * d.x.transpose() * w.weights.cwiseProduct(d.y);
   w.residuals = d.y - d.x * w.coefficients;
   return w;

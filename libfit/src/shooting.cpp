@@ -1,6 +1,6 @@
 #include "shooting.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 
 #include "fit/correlated.hpp"
 #include "fit/shooting.hpp"
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
 #include "motion_laws.hpp"
@@ -115,7 +116,7 @@ Eigen::Vector2d first_state(const Eigen::VectorXd& values, double step) {
   Eigen::MatrixXd powers(n, 4);
   for (Eigen::Index j = 0; j < n; ++j)
     for (Eigen::Index k = 0; k < 4; ++k) powers(j, k) = std::pow(static_cast<double>(j), k);
-  const Eigen::VectorXd c = powers.householderQr().solve(values.head(n));
+  const Eigen::VectorXd c = hydro::dense::HouseholderQr(powers).solve(values.head(n));
   return {c[0], c[1] / step};
 }
 

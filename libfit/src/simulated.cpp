@@ -1,14 +1,12 @@
 #include "fit/simulated.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
-
 #include <algorithm>
 #include <cmath>
 #include <exception>
 #include <iterator>
 
 #include "fit/correlated.hpp"
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
 
@@ -125,10 +123,10 @@ void Shooting::look_at_start(std::size_t w, Eigen::Index row, Eigen::Index colum
       const Eigen::VectorXd step = start_step * Eigen::VectorXd::Unit(d, j);
       columns.col(j) = (residuals(w, first(), step) - residuals(w, first(), -step)) / (2 * start_step);
     }
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(columns, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    const auto svd = hydro::dense::svd(columns);
     Eigen::Index seen = 0;
-    while (seen < d && svd.singularValues()[seen] > not_seen * svd.singularValues()[0]) ++seen;
-    piece.seen = svd.matrixV().leftCols(seen);
+    while (seen < d && svd.values[seen] > not_seen * svd.values[0]) ++seen;
+    piece.seen = svd.V.leftCols(seen);
   }
   pieces_.push_back(std::move(piece));
 }
@@ -291,27 +289,26 @@ void Shooting::tell_identifiability(const Eigen::MatrixXd& jacobian, double unit
     const Piece& piece = pieces_[w];
     if (piece.seen.cols() == 0) continue;
     const Eigen::Index n = problem_.measured[w].size();
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> starts(
-        jacobian.block(piece.row, piece.column, n, piece.seen.cols()));
+    const hydro::dense::PivotedQr starts(jacobian.block(piece.row, piece.column, n, piece.seen.cols()));
     Eigen::MatrixXd own = columns.middleRows(piece.row, n);
     own -= jacobian.block(piece.row, piece.column, n, piece.seen.cols()) * starts.solve(own);
     columns.middleRows(piece.row, n) = own;
   }
   for (Eigen::Index k = 0; k < p(); ++k) columns.col(k) *= problem_.parameters[static_cast<std::size_t>(k)].scale();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(columns, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  fit.singular_values = svd.singularValues();
+  const auto svd = hydro::dense::svd(columns);
+  fit.singular_values = svd.values;
   for (Eigen::Index i = 0; i < p(); ++i)
     for (Eigen::Index k = 0; k < p(); ++k)
-      if (svd.singularValues()[i] < not_seen * svd.singularValues()[0] && std::abs(svd.matrixV()(k, i)) >= 0.05)
+      if (svd.values[i] < not_seen * svd.values[0] && std::abs(svd.V(k, i)) >= 0.05)
         unseen_[static_cast<std::size_t>(k)] = true;
   std::vector<std::string> parts;
   for (Eigen::Index k = 0; k < p(); ++k)
-    if (const double share = svd.matrixV()(k, p() - 1); std::abs(share) >= 0.05)
+    if (const double share = svd.V(k, p() - 1); std::abs(share) >= 0.05)
       parts.push_back(fmt::format("{:.2g} {}", share, problem_.parameters[static_cast<std::size_t>(k)].name));
   fit.weakest = fmt::format(
       "the record tells {} least: were the residuals independent, one standard deviation along it would be {:.2g} of "
       "the scale",
-      fmt::join(parts, " + "), unit / svd.singularValues()[p() - 1]);
+      fmt::join(parts, " + "), unit / svd.values[p() - 1]);
 }
 
 /// Values that the record does not tell.

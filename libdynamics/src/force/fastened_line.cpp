@@ -1,9 +1,8 @@
 #include "dynamics/force/fastened_line.hpp"
 
-#include <Eigen/LU>
-
 #include "dynamics/line/equilibrium.hpp"
 #include "dynamics/spatial/rotation.hpp"
+#include "hydro/base/dense.hpp"
 
 namespace dynamics {
 namespace {
@@ -194,7 +193,7 @@ void start_with_lines(const Model& model, Integrator& integrator, Workspace& wor
     integrator.start(workspace);
     left.col(c) -= accelerations_of(kind->all(), workspace).reshaped() - G;
   }
-  A.reshaped() = left.partialPivLu().solve(G);
+  A.reshaped() = hydro::dense::Lu(left).solve(G);
   memory.start(workspace.state, A);
   integrator.start(workspace);
 }

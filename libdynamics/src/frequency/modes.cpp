@@ -1,12 +1,10 @@
 #include "dynamics/frequency/modes.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "hydro/base/dense.hpp"
 #include "reduction.hpp"
 #include "scatter.hpp"
 
@@ -35,11 +33,7 @@ class FreeMotions {
   Eigen::MatrixXd scaled(const Eigen::MatrixXd& m) const { return scale_.asDiagonal() * m * scale_.asDiagonal(); }
   Eigen::VectorXd unscaled(const Eigen::VectorXd& x) const { return scale_.cwiseProduct(x); }
   /// The smallest eigenvalue of the scaled M + A(ω).
-  double lightest(double omega) const {
-    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled(mass(omega)), Eigen::EigenvaluesOnly)
-        .eigenvalues()
-        .minCoeff();
-  }
+  double lightest(double omega) const { return hydro::dense::symmetric_eigenvalues(scaled(mass(omega))).minCoeff(); }
 
   /// Frequencies at which any table has a row.
   std::vector<double> frequencies() const {
@@ -107,14 +101,13 @@ class FreeMotions {
   Eigen::MatrixXd stiffness_, damping_, mass_;
 };
 
-/// μ_1 ≤ … ≤ μ_n of K − ω²(M + A(ω)), in motions scaled so that each body's own mass is one, and its vectors.
-Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solve(const FreeMotions& system, double omega, int options) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
-      system.scaled(system.stiffness() - omega * omega * system.mass(omega)), options);
+/// K − ω²(M + A(ω)), in motions scaled so that each body's own mass is one; its eigenvalues are μ_1 ≤ … ≤ μ_n.
+Eigen::MatrixXd dynamic_stiffness(const FreeMotions& system, double omega) {
+  return system.scaled(system.stiffness() - omega * omega * system.mass(omega));
 }
 
 Eigen::VectorXd eigenvalues(const FreeMotions& system, double omega) {
-  return solve(system, omega, Eigen::EigenvaluesOnly).eigenvalues();
+  return hydro::dense::symmetric_eigenvalues(dynamic_stiffness(system, omega));
 }
 
 struct Bracket {
@@ -165,7 +158,7 @@ std::optional<DampedMode> damped(const FreeMotions& system, double omega, const 
     s = next;
     // One step of inverse iteration towards the shape; F is near singular on purpose, its rounding lies along x.
     const Eigen::MatrixXcd F = s * s * m + s * c + system.stiffness();
-    const Eigen::VectorXcd y = F.partialPivLu().solve((2.0 * s * m + c) * x);
+    const Eigen::VectorXcd y = hydro::dense::ComplexLu(F).solve((2.0 * s * m + c) * x);
     if (y.allFinite() && y.norm() > 0) x = y / y.norm();
     if (!settled || i < 3) continue;
     // The iteration may end at another motion. |s| = ω whatever the damping, but for A that changes with frequency; and
@@ -177,17 +170,18 @@ std::optional<DampedMode> damped(const FreeMotions& system, double omega, const 
 }
 
 Mode mode_at(const FreeMotions& system, Eigen::Index k, double omega) {
-  const Eigen::VectorXd x = system.unscaled(solve(system, omega, Eigen::ComputeEigenvectors).eigenvectors().col(k));
+  const Eigen::VectorXd x =
+      system.unscaled(hydro::dense::symmetric_eigen(dynamic_stiffness(system, omega)).vectors.col(k));
   return {omega, system.shape(x), !system.inside_data(omega), damped(system, omega, x)};
 }
 
 /// Motions with no stiffness, or less than none.
 void add_unrestored(const FreeMotions& system, ModeList& out) {
-  const auto K = solve(system, 0, Eigen::ComputeEigenvectors);
-  const double none = 1e-9 * K.eigenvalues().cwiseAbs().maxCoeff();
-  for (Eigen::Index k = 0; k < system.count() && K.eigenvalues()[k] <= none; ++k)
-    (K.eigenvalues()[k] < -none ? out.toppling : out.adrift)
-        .push_back(system.shape(Eigen::VectorXd(system.unscaled(K.eigenvectors().col(k)))));
+  const auto K = hydro::dense::symmetric_eigen(dynamic_stiffness(system, 0));
+  const double none = 1e-9 * K.values.cwiseAbs().maxCoeff();
+  for (Eigen::Index k = 0; k < system.count() && K.values[k] <= none; ++k)
+    (K.values[k] < -none ? out.toppling : out.adrift)
+        .push_back(system.shape(Eigen::VectorXd(system.unscaled(K.vectors.col(k)))));
 }
 
 }  // namespace
@@ -204,7 +198,7 @@ ModeList free_motions(const SmallMotions& about, const std::vector<PotentialGrou
   add_unrestored(system, out);
   std::vector<double> nodes = system.frequencies();
   for (const double omega : nodes)
-    if (Eigen::LLT<Eigen::MatrixXd>(system.mass(omega)).info() != Eigen::Success) out.indefinite_at.push_back(omega);
+    if (!hydro::dense::Cholesky(system.mass(omega))) out.indefinite_at.push_back(omega);
   // Beyond either end of the tables the added mass no longer changes, so the roots there can be bounded.
   const double lightest = system.lightest(nodes.empty() ? 1 : nodes.back());
   const double stiffest = eigenvalues(system, 0).maxCoeff();

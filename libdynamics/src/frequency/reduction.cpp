@@ -1,4 +1,5 @@
 #include "reduction.hpp"
+#include "hydro/base/dense.hpp"
 
 namespace dynamics::frequency {
 
@@ -14,8 +15,7 @@ Reduction::Reduction(const SmallMotions& about)
   const auto left = static_cast<Eigen::Index>(free_.size()) - G.rows();
   basis_ = Eigen::MatrixXd::Zero(modes_, left);
   // Gᵀ = Q (R, 0): the last columns of Q are across all conditions.
-  const Eigen::MatrixXd Q = of_free.householderQr().householderQ();
-  basis_(free_, Eigen::all) = Q.rightCols(left);
+  basis_(free_, Eigen::all) = hydro::dense::HouseholderQr(of_free).full_Q().rightCols(left);
   basis_ = root.asDiagonal() * basis_;
 }
 

@@ -1,9 +1,8 @@
 #include "impact.hpp"
 
-#include <Eigen/QR>
-
 #include <algorithm>
 
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 
 namespace dynamics {
@@ -31,9 +30,7 @@ Eigen::VectorXd evenly_shared(const Eigen::MatrixXd& W, const Eigen::VectorXd& b
                               const std::vector<ImpactLaw>& laws) {
   Eigen::VectorXd change = -before;
   for (const ImpactLaw& law : laws) change[law.row] -= law.restitution * std::min(before[law.row], 0.0);
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors;
-  factors.setThreshold(1e-10);
-  Eigen::VectorXd z = factors.compute(W).solve(change);
+  Eigen::VectorXd z = hydro::dense::CompleteQr(W, 1e-10).solve(change);
   for (const ImpactLaw& law : laws) z[law.row] = std::max(0.0, z[law.row]);
   return z;
 }

@@ -1,11 +1,10 @@
 #include "dynamics/line/exposure.hpp"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/interpolation.hpp"
 
@@ -30,9 +29,9 @@ struct Squares {
 
 // (D104)
 Exposure exposure_of(const Squares& s, int instants) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(s.velocity / instants);
-  const Vector3d most = principal.eigenvectors().col(2);
-  const double velocity = std::sqrt(std::max(principal.eigenvalues()[2], 0.0)),
+  const auto [squares, axes] = hydro::dense::symmetric_eigen(s.velocity / instants);
+  const Vector3d most = axes.col(2);
+  const double velocity = std::sqrt(std::max(squares[2], 0.0)),
                acceleration = std::sqrt(most.dot(s.acceleration * most) / instants);
   return {std::numbers::sqrt2 * velocity, 2 * std::numbers::pi * velocity / acceleration};
 }

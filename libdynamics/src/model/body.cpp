@@ -1,10 +1,9 @@
 #include "dynamics/model/body.hpp"
 
-#include <Eigen/Eigenvalues>
-
 #include <cmath>
 
 #include "dynamics/spatial/rotation.hpp"
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 
 namespace dynamics {
@@ -21,8 +20,7 @@ RigidBody::RigidBody(Properties properties) : p_(std::move(properties)) {
       turning.col(i).setZero();
       turning(i, i) = 1;
     }
-  const Eigen::Vector3d principal =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(turning, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::Vector3d principal = hydro::dense::symmetric_eigenvalues(turning);
   hydro::require(principal.minCoeff() > 0,
                  "body \"{}\": the inertia is not positive definite, principal moments {:.6g}, {:.6g}, {:.6g} kg m²",
                  p_.name, principal[0], principal[1], principal[2]);

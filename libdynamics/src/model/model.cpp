@@ -1,11 +1,8 @@
 #include "dynamics/model/model.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-
 #include "dynamics/joint/independent.hpp"
 #include "dynamics/spatial/rotation.hpp"
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/types.hpp"
 
@@ -45,15 +42,15 @@ Model::Model(std::vector<RigidBody> bodies, std::vector<AddedMass> added_mass,
       M(i, i) = 1;
     }
   M = (M + M.transpose()) / 2;
-  if (Eigen::LLT<Eigen::MatrixXd>(M).info() == Eigen::Success) {
+  if (hydro::dense::Cholesky(M)) {
     leave_out_redundant(M.diagonal().cwiseSqrt());
     return;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(M);
+  const auto [values, vectors] = hydro::dense::symmetric_eigen(M);
   Eigen::Index worst = 0;
-  eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&worst);
+  vectors.col(0).cwiseAbs().maxCoeff(&worst);
   throw hydro::InputError(fmt::format("mass plus added mass is not positive definite: eigenvalue {:.4g}, mostly {}",
-                                      eigen.eigenvalues()[0], mode_name(static_cast<int>(worst))),
+                                      values[0], mode_name(static_cast<int>(worst))),
                           {}, "check the added mass at infinite frequency with `froude bem check`");
 }
 
@@ -198,7 +195,7 @@ void Model::balance(const State& still, Linear& out) const {
   out.conditions = joints_.dense(joints_.gradients(still));
   const Eigen::VectorXd root = dry_mass_at_rest().diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = root.asDiagonal() * out.conditions.transpose();
-  out.multipliers = scaled.colPivHouseholderQr().solve(root.cwiseProduct(out.unbalanced));
+  out.multipliers = hydro::dense::PivotedQr(scaled).solve(root.cwiseProduct(out.unbalanced));
   out.unbalanced -= out.conditions.transpose() * out.multipliers;
 }
 

@@ -1,6 +1,5 @@
 #include "array.hpp"
 
-#include <Eigen/LU>
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <numbers>
 
 #include "bessel.hpp"
+#include "hydro/base/dense.hpp"
 #include "radial.hpp"
 
 namespace hydro::cylinders {
@@ -263,7 +263,7 @@ MatrixXcd Array::moved() const {
 MatrixXcd Array::incident(const MatrixXcd& from_outside) const {
   if (cylinders_.size() == 1) return from_outside;
   const auto G = translations();
-  const MatrixXcd y = system(G).partialPivLu().solve(received(from_outside));
+  const MatrixXcd y = dense::ComplexLu(system(G)).solve(received(from_outside));
   return from_outside + translated(G, sent(y));
 }
 

@@ -1,11 +1,11 @@
 #include "groups.hpp"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
+
+#include "hydro/base/dense.hpp"
 
 namespace hydro::cylinders {
 namespace {
@@ -228,7 +228,7 @@ Response Groups::respond(const std::vector<double>& heading, const MatrixXd& mot
                                    groups_.members.size(), most_steps),
                        {}, "ask for direct equations, or leave the choice to the program");
     const auto eliminated = [&](const Between& all) -> Amplitudes {
-      return all.system(groups_).partialPivLu().solve(MatrixXcd(a));
+      return dense::ComplexLu(all.system(groups_)).solve(a);
     };
     if (found) {
       out.steps = found->steps;

@@ -1,7 +1,5 @@
 #include "submerged.hpp"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <numbers>
 
 #include "bessel.hpp"
+#include "hydro/base/dense.hpp"
 #include "row_tail.hpp"
 
 namespace hydro::cylinders {
@@ -268,7 +267,7 @@ AzimuthalOrder SubmergedCylinder::solve(int m, const Outside& outside, const Col
   const Index V = openings(), N = channels, motions = motions_of(m);
   const MatrixXcd G = outside.sum(m, radial);
   const MatrixXcd A = system(m, above, G);
-  const Eigen::PartialPivLU<MatrixXcd> lu(A);
+  const dense::ComplexLu lu(A);
   const MatrixXd X = outside.X.topLeftCorner(V, N);
   MatrixXcd rhs = forcing(m, above).cast<Complex>();  // unit velocities
   if (m == 1) rhs.topRows(V) += G.block(0, V, V, 2);

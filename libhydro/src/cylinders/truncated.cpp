@@ -1,14 +1,12 @@
 #include "truncated.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "bessel.hpp"
 #include "exterior.hpp"
+#include "hydro/base/dense.hpp"
 #include "tails.hpp"
 
 namespace hydro::cylinders {
@@ -36,13 +34,12 @@ double square_amplitude(double j) { return 2 / (j * pi * j * pi); }
 MatrixXd told_apart(const MatrixXd& energy) {
   constexpr double least = 1e-14;  // of the largest: rounding of the sums, and what nine digits still need
   const VectorXd scale = energy.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scale.asDiagonal() * energy * scale.asDiagonal());
-  const VectorXd size = eigen.eigenvalues().cwiseAbs();
+  const auto [values, vectors] = dense::symmetric_eigen(scale.asDiagonal() * energy * scale.asDiagonal());
+  const VectorXd size = values.cwiseAbs();
   MatrixXd out(energy.rows(), energy.rows());
   Index count = 0;
   for (Index i = 0; i < size.size(); ++i)
-    if (size(i) > least * size.maxCoeff())
-      out.col(count++) = scale.cwiseProduct(eigen.eigenvectors().col(i)) / std::sqrt(size(i));
+    if (size(i) > least * size.maxCoeff()) out.col(count++) = scale.cwiseProduct(vectors.col(i)) / std::sqrt(size(i));
   return out.leftCols(count);
 }
 
@@ -169,7 +166,7 @@ AzimuthalOrder TruncatedCylinder::solve(int m, const Exterior& outside, const Ra
   const MatrixXd Q = told_apart(galerkin(m, G).real());
   const Index P = Q.cols(), all = basis_.size();
   const MatrixXcd A = system(m, G, Q);
-  const Eigen::PartialPivLU<MatrixXcd> lu(A);
+  const dense::ComplexLu lu(A);
   const MatrixXd W = Q.transpose() * outside.rows().topLeftCorner(all, N);
 
   MatrixXcd rhs = MatrixXcd::Zero(A.rows(), motions);  // unit velocities

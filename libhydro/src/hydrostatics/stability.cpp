@@ -1,9 +1,9 @@
 #include "hydro/hydrostatics/stability.hpp"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
+
+#include "hydro/base/dense.hpp"
 
 namespace hydro::hydrostatics {
 namespace {
@@ -81,10 +81,10 @@ Turn turned(const Matrix3d& attitude, const std::vector<int>& axes, const Vector
 
 /// Newton's step with every curvature taken as positive, so that it leads downhill; at most 0.3 rad.
 VectorXd downhill_step(const Balance& b, double scale) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen((b.K + b.K.transpose()) / 2);
-  VectorXd step = eigen.eigenvectors().transpose() * b.moment;
-  for (Index i = 0; i < step.size(); ++i) step[i] /= std::max(std::abs(eigen.eigenvalues()[i]), 1e-9 * scale);
-  step = eigen.eigenvectors() * step;
+  const auto [values, vectors] = dense::symmetric_eigen((b.K + b.K.transpose()) / 2);
+  VectorXd step = vectors.transpose() * b.moment;
+  for (Index i = 0; i < step.size(); ++i) step[i] /= std::max(std::abs(values[i]), 1e-9 * scale);
+  step = vectors * step;
   const double size = step.norm();
   return size > 0.3 ? VectorXd(step * (0.3 / size)) : step;
 }
@@ -116,8 +116,8 @@ Equilibrium descend(const Hull& hull, const MassPoint& body, const Water& water,
     }
     if (!moved) break;
   }
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen((b.K + b.K.transpose()) / 2);
-  e.stable = e.converged && b.heave_stiffness > 0 && eigen.eigenvalues().minCoeff() > 1e-9 * scale;
+  const VectorXd curvatures = dense::symmetric_eigenvalues((b.K + b.K.transpose()) / 2);
+  e.stable = e.converged && b.heave_stiffness > 0 && curvatures.minCoeff() > 1e-9 * scale;
   e.pose = b.pose;
   e.arm = b.arm;
   e.heel = now.heel;
@@ -176,7 +176,7 @@ Metacentre metacentre(const Immersion& im, const Vector3d& G) {
   require(im.centre_of_buoyancy && im.waterplane, "the hull does not pierce the surface: it has no metacentre");
   const Eigen::Matrix2d I = im.waterplane->second_moment;
   const double BG = im.centre_of_buoyancy->z() - G.z(), bm_t = I(1, 1) / im.volume, bm_l = I(0, 0) / im.volume;
-  const double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(I).eigenvalues().minCoeff() / im.volume;
+  const double least = dense::symmetric_eigenvalues(I).minCoeff() / im.volume;
   return {bm_t, bm_l, bm_t + BG, bm_l + BG, least + BG};  // (H11)
 }
 

@@ -1,11 +1,11 @@
 // What A and B are by themselves: symmetric, B passive, A(∞) a kinetic energy. (P60), (P61)
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "doctor.hpp"
+#include "hydro/base/dense.hpp"
 
 namespace hydro::potential::doctor {
 namespace {
@@ -99,7 +99,7 @@ double smallest_eigenvalue(const Eigen::MatrixXd& M, const Eigen::VectorXd& s) {
   const Eigen::Index n = s.size();
   const Eigen::MatrixXd scaled = Eigen::MatrixXd::NullaryExpr(
       n, n, [&](Eigen::Index i, Eigen::Index j) { return (M(i, j) + M(j, i)) / (2 * size_of_entry(s, i, j)); });
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues()(0);
+  return dense::symmetric_eigenvalues(scaled)(0);
 }
 
 }  // namespace

@@ -1,11 +1,10 @@
 #include "hydro/potential/heal.hpp"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 
 #include "doctor.hpp"
+#include "hydro/base/dense.hpp"
 #include "hydro/radiation/tail.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "readers.hpp"
@@ -160,11 +159,11 @@ HealStep make_passive(Coefficients& c, const VectorXd& s) {
   for (auto& B : c.B) {
     const MatrixXd scaled =
         scale.cwiseInverse().asDiagonal() * ((B + B.transpose()) / 2) * scale.cwiseInverse().asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scaled);
-    if (eigen.eigenvalues()(0) >= 0) continue;
+    const auto [values, vectors] = dense::symmetric_eigen(scaled);
+    if (values(0) >= 0) continue;
     const MatrixXd skew = (B - B.transpose()) / 2;  // does no work, and is another step's business
-    const MatrixXd passive = scale.asDiagonal() * eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
-                             eigen.eigenvectors().transpose() * scale.asDiagonal();
+    const MatrixXd passive =
+        scale.asDiagonal() * vectors * values.cwiseMax(0).asDiagonal() * vectors.transpose() * scale.asDiagonal();
     largest = std::max(largest, replace(B, passive + skew, s));
     ++changed;
   }

@@ -1,14 +1,11 @@
 #include "passivity.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
+#include "hydro/base/dense.hpp"
 #include "pole_basis.hpp"
 
 namespace hydro::radiation::detail {
@@ -20,7 +17,7 @@ constexpr double quarter_turn = std::numbers::pi / 2;
 bool positive(const Eigen::MatrixXd& Q, double margin) {
   Eigen::MatrixXd shifted = Q;
   shifted.diagonal().array() -= margin;
-  return shifted.allFinite() && shifted.llt().info() == Eigen::Success;
+  return shifted.allFinite() && static_cast<bool>(dense::Cholesky(shifted));
 }
 
 /// ‖(C − iS)/2‖ of each pole, Frobenius: an upper bound of the spectral norm of its residue.
@@ -154,9 +151,7 @@ Eigen::MatrixXd rows_at(const WeightedDamping& weighted, const std::vector<doubl
 /// Smallest eigenvalue of each row's matrix.
 Eigen::VectorXd smallest(const Eigen::MatrixXd& Q, Eigen::Index n) {
   Eigen::VectorXd out(Q.rows());
-  for (Eigen::Index i = 0; i < Q.rows(); ++i)
-    out[i] =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(unpacked(Q.row(i), n), Eigen::EigenvaluesOnly).eigenvalues()[0];
+  for (Eigen::Index i = 0; i < Q.rows(); ++i) out[i] = dense::symmetric_eigenvalues(unpacked(Q.row(i), n))[0];
   return out;
 }
 
@@ -166,10 +161,9 @@ Eigen::MatrixXd raised(Eigen::MatrixXd Q, Eigen::Index n, double floor, double& 
   for (Eigen::Index i = 0; i < Q.rows(); ++i) {
     const Eigen::MatrixXd m = unpacked(Q.row(i), n);
     if (positive(m, floor)) continue;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(m);
-    lowest = std::min(lowest, eigen.eigenvalues()[0]);
-    Q.row(i) = packed(eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(floor).asDiagonal() *
-                      eigen.eigenvectors().transpose());
+    const auto [values, vectors] = dense::symmetric_eigen(m);
+    lowest = std::min(lowest, values[0]);
+    Q.row(i) = packed(vectors * values.cwiseMax(floor).asDiagonal() * vectors.transpose());
   }
   return Q;
 }
@@ -179,8 +173,7 @@ Eigen::VectorXd least_lift(const Eigen::MatrixXd& design, const Eigen::MatrixXd&
   const Eigen::Index n = design.cols();
   Eigen::MatrixXd M = design.transpose() * design;
   M.diagonal().array() += 1e-8 * M.trace() / static_cast<double>(n);
-  const Eigen::LLT<Eigen::MatrixXd> llt(M);
-  const Eigen::MatrixXd toward = llt.solve(rows.transpose());  // (n, rows)
+  const Eigen::MatrixXd toward = dense::Cholesky(M).solve(rows.transpose());  // (n, rows)
   const Eigen::MatrixXd dual = rows * toward;
   Eigen::VectorXd multiplier = Eigen::VectorXd::Zero(rows.rows()), slack = -least;
   constexpr int sweeps = 3000;
@@ -221,7 +214,7 @@ Eigen::MatrixXd approached(const Fitting& fitting, const Eigen::MatrixXd& rows, 
   Eigen::MatrixXd design(fitting.design.rows() + rows.rows(), fitting.design.cols());
   design << fitting.design, weight * importance.asDiagonal() * rows, Eigen::MatrixXd::Zero(rows.rows(), fitting.extra);
   const Eigen::VectorXd scale = design.colwise().norm().cwiseMax(1e-300).cwiseInverse();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(design * scale.asDiagonal());
+  const dense::HouseholderQr qr(design * scale.asDiagonal());
   Eigen::MatrixXd right(design.rows(), fitting.right.cols());
   right.topRows(fitting.right.rows()) = fitting.right;
   Eigen::MatrixXd x = least_squares(fitting.design, fitting.right);
@@ -240,7 +233,7 @@ Eigen::MatrixXd approached(const Fitting& fitting, const Eigen::MatrixXd& rows, 
 
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& design, const Eigen::MatrixXd& right) {
   const Eigen::VectorXd scale = design.colwise().norm().cwiseMax(1e-300).cwiseInverse();
-  return scale.asDiagonal() * Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(design * scale.asDiagonal()).solve(right);
+  return scale.asDiagonal() * dense::PivotedQr(design * scale.asDiagonal()).solve(right);
 }
 
 Enforced enforce(const WeightedDamping& weighted, const Eigen::MatrixXd& null, const Fitting& fitting, Eigen::Index n,

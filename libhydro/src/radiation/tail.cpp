@@ -1,13 +1,11 @@
 #include "hydro/radiation/tail.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "polygon.hpp"
 
@@ -123,9 +121,8 @@ void prefer_straightness(Problem& p, const Eigen::RowVectorXd& last_B) {
 Eigen::MatrixXd passive(const Eigen::MatrixXd& B, const Eigen::VectorXd& size) {
   const Eigen::MatrixXd scaled =
       size.cwiseInverse().asDiagonal() * ((B + B.transpose()) / 2) * size.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
-  return size.asDiagonal() * eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
-         eigen.eigenvectors().transpose() * size.asDiagonal();
+  const auto [values, vectors] = dense::symmetric_eigen(scaled);
+  return size.asDiagonal() * vectors * values.cwiseMax(0).asDiagonal() * vectors.transpose() * size.asDiagonal();
 }
 
 }  // namespace
@@ -168,7 +165,7 @@ ContinuedDamping continued(const DampingTable& damping, const std::vector<Eigen:
   Problem p = problem(damping, A, A_inf);
   const Eigen::Index rows = p.design.rows();
   prefer_straightness(p, damping.B.back().reshaped().transpose());
-  Eigen::MatrixXd found = p.design.colPivHouseholderQr().solve(p.right);
+  Eigen::MatrixXd found = dense::PivotedQr(p.design).solve(p.right);
 
   ContinuedDamping out;
   out.table = damping;

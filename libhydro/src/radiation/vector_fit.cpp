@@ -1,11 +1,9 @@
 #include "vector_fit.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <cmath>
 
+#include "hydro/base/dense.hpp"
 #include "pole_basis.hpp"
 
 namespace hydro::radiation::detail {
@@ -49,10 +47,10 @@ std::vector<Pole> zeros(const std::vector<Pole>& poles, const Eigen::VectorXd& c
     }
     ++at;
   }
-  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(A - b * out.transpose() / d, false);
+  const Eigen::VectorXcd zeros_of = dense::eigenvalues(A - b * out.transpose() / d);
   std::vector<Pole> found;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const auto z = eigen.eigenvalues()[i];
+    const auto z = zeros_of[i];
     if (z.imag() < 0) continue;
     // A zero in the right half plane is mirrored: the modulus on the axis, which the data see, stays.
     found.push_back({std::max(std::abs(z.real()), slowest), z.imag() > 0 ? z.imag() : 0});
@@ -70,8 +68,7 @@ std::vector<Pole> relocated(const Samples& s, const std::vector<Pole>& poles, do
   Eigen::MatrixXd F = stacked(s.weight.asDiagonal() * numerator);
   const Eigen::VectorXd sizes = F.colwise().norm().cwiseInverse();
   F = F * sizes.asDiagonal();
-  const Eigen::MatrixXd Q =
-      Eigen::HouseholderQR<Eigen::MatrixXd>(F).householderQ() * Eigen::MatrixXd::Identity(2 * rows, n);
+  const Eigen::MatrixXd Q = dense::HouseholderQr(F).thin_Q();
   Eigen::MatrixXcd sigma(rows, n + 1);
   sigma << phi, Eigen::VectorXcd::Ones(rows);
   // Each function's own coefficients are projected out; what is left of it asks something of σ alone.
@@ -79,8 +76,7 @@ std::vector<Pole> relocated(const Samples& s, const std::vector<Pole>& poles, do
   for (Eigen::Index f = 0; f < functions; ++f) {
     Eigen::MatrixXd X = stacked((s.weight.array() * s.values.col(f).array()).matrix().asDiagonal() * sigma);
     X -= Q * (Q.transpose() * X);
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(X);
-    system.middleRows(f * (n + 1), n + 1) = qr.matrixQR().topRows(n + 1).triangularView<Eigen::Upper>();
+    system.middleRows(f * (n + 1), n + 1) = dense::HouseholderQr(X).R();
   }
   // Relaxed: the mean of Re σ is one, rather than its value at infinity, so that σ is not pulled by the start.
   const double size = (s.weight.asDiagonal() * s.values).norm() / static_cast<double>(rows);
@@ -88,8 +84,7 @@ std::vector<Pole> relocated(const Samples& s, const std::vector<Pole>& poles, do
   Eigen::VectorXd right = Eigen::VectorXd::Zero(system.rows());
   right[system.rows() - 1] = size * static_cast<double>(rows);
   const Eigen::VectorXd scale = system.colwise().norm().cwiseMax(1e-300).cwiseInverse();
-  const Eigen::VectorXd x =
-      scale.asDiagonal() * Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(system * scale.asDiagonal()).solve(right);
+  const Eigen::VectorXd x = scale.asDiagonal() * dense::PivotedQr(system * scale.asDiagonal()).solve(right);
   const double d = std::abs(x[n]) > 1e-8 ? x[n] : std::copysign(1e-8, x[n]);
   return zeros(poles, x.head(n), d, slowest);
 }
@@ -99,17 +94,16 @@ std::vector<Pole> relocated(const Samples& s, const std::vector<Pole>& poles, do
 Eigen::MatrixXd vanishing_at_rest(const std::vector<Pole>& poles) {
   const Eigen::VectorXd at_rest = basis_at(poles, 0).real().transpose();
   const Eigen::Index n = at_rest.size();
-  const Eigen::MatrixXd Q = Eigen::HouseholderQR<Eigen::MatrixXd>(at_rest).householderQ();
-  return Q.rightCols(n - 1);
+  return dense::HouseholderQr(at_rest).full_Q().rightCols(n - 1);
 }
 
 Samples compressed(const Samples& s, double relative) {
   const Eigen::MatrixXd Y = stacked(s.weight.asDiagonal() * s.values);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Y * Y.transpose());
-  const Eigen::VectorXd size = eigen.eigenvalues().cwiseMax(0).cwiseSqrt();
+  const auto [values, vectors] = dense::symmetric_eigen(Y * Y.transpose());
+  const Eigen::VectorXd size = values.cwiseMax(0).cwiseSqrt();
   const Eigen::Index n = size.size(), rows = n / 2;
   const auto kept = std::max<Eigen::Index>(1, (size.array() > relative * size[n - 1]).count());
-  const Eigen::MatrixXd U = eigen.eigenvectors().rightCols(kept) * size.tail(kept).asDiagonal();
+  const Eigen::MatrixXd U = vectors.rightCols(kept) * size.tail(kept).asDiagonal();
   Samples out{s.omega, s.weight, Eigen::MatrixXcd(rows, kept)};
   out.values.real() = s.weight.cwiseInverse().asDiagonal() * U.topRows(rows);
   out.values.imag() = s.weight.cwiseInverse().asDiagonal() * U.bottomRows(rows);

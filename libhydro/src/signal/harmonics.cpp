@@ -1,10 +1,11 @@
 #include "hydro/signal/harmonics.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
 
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 
 namespace hydro::signal {
@@ -47,10 +48,8 @@ Harmonics fit_harmonics(std::span<const double> time_s, std::span<const double> 
     }
   }
   const Eigen::Map<const Eigen::VectorXd> x(values.data(), n);
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(basis);
-  const auto singular = Eigen::JacobiSVD<Eigen::MatrixXd>(
-                            qr.matrixR().topRows(2 * m + 1).template triangularView<Eigen::Upper>().toDenseMatrix())
-                            .singularValues();
+  const dense::PivotedQr qr(basis);
+  const Eigen::VectorXd singular = dense::singular_values(qr.R());
   require(singular.minCoeff() * max_condition > singular.maxCoeff(),
           "a record of {:.6g} s with {} samples cannot tell the {} frequencies and the mean apart",
           n > 0 ? time_s.back() - time_s.front() : 0.0, values.size(), omega.size());

@@ -1,4 +1,3 @@
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <array>
@@ -6,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "hydro/base/dense.hpp"
 #include "hydro/waves/limits.hpp"
 #include "steady_common.hpp"
 
@@ -132,9 +132,7 @@ bool solve(Unknowns& v, const Conditions& is, double height, double good_enough,
     if (!s.residual.allFinite() || !s.jacobian.allFinite()) return false;
     const Eigen::VectorXd scale = s.jacobian.colwise().norm();
     s.jacobian.array().rowwise() /= scale.transpose().array();
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr;
-    qr.setThreshold(1e-14);
-    qr.compute(s.jacobian);
+    const dense::CompleteQr qr(s.jacobian, 1e-14);
     const Eigen::VectorXd step = (-qr.solve(s.residual)).cwiseQuotient(scale);
     v.step(step);
     if (!(v.k > 0) || !(v.U > 0)) return false;
