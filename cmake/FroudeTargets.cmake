@@ -15,35 +15,10 @@ if(FROUDE_SANITIZE)
   target_compile_definitions(froude_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 
-# froude_common_headers(NAME LIBRARIES… [HEADERS…] [PIC]): reads what nearly every file includes once for all targets that
-# take it by froude_precompile(TARGET NAME). Half the time of a build is reading Eigen; a build for users does without, so
-# that a file that forgets an include is found there.
-function(froude_common_headers name)
-  cmake_parse_arguments(H "PIC" "" "LIBRARIES;HEADERS" ${ARGN})
-  if(FROUDE_PRECOMPILED_HEADERS)
-    set(empty ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
-    file(CONFIGURE OUTPUT ${empty} CONTENT "")
-    add_library(${name} OBJECT ${empty})
-    set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ${H_PIC})
-    target_link_libraries(${name} PRIVATE froude_options Eigen3::Eigen fmt::fmt ${H_LIBRARIES})
-    target_precompile_headers(${name} PRIVATE <Eigen/Dense> <fmt/format.h> <fmt/ranges.h> <filesystem> <map> <memory>
-      <optional> <string> <variant> <vector> ${H_HEADERS})
-    target_compile_options(${name} PRIVATE ${froude_precompiled_options})
-  endif()
-endfunction()
-# -fpch-preprocess lets ccache see through the header (it wants CCACHE_SLOPPINESS=pch_defines,time_macros too). The
-# warnings are those that GCC 12 gives of its own std::string once it comes from such a header (GCC PR 105651).
-set(froude_precompiled_options -fpch-preprocess -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
-
-function(froude_precompile target headers)
-  if(FROUDE_PRECOMPILED_HEADERS)
-    target_precompile_headers(${target} REUSE_FROM ${headers})
-    target_compile_options(${target} PRIVATE ${froude_precompiled_options})
-  endif()
-endfunction()
-
-froude_common_headers(froude_library_headers PIC)
-froude_common_headers(froude_program_headers PIC)
+include(FroudePrecompile)
+if(FROUDE_PRECOMPILED_HEADERS)
+  froude_common_headers(froude_library_headers PIC HEADERS Eigen/Core fmt/format.h)
+endif()
 
 # froude_merge(TARGET [APART FILE…]): compiles ten files of a target as one, which halves the time of a build: a template
 # that several use is made once. Files that name private things alike are compiled apart.
@@ -74,11 +49,9 @@ endfunction()
 function(froude_test name)
   cmake_parse_arguments(T "" "" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(test_${name} ${T_SOURCES})
-  target_link_libraries(test_${name} PRIVATE ${T_LIBRARIES} froude::options GTest::gmock GTest::gtest_main)
+  target_link_libraries(test_${name} PRIVATE ${T_LIBRARIES} froude_test_folders froude::options GTest::gmock GTest::gtest_main)
   froude_precompile(test_${name} froude_test_headers)
   froude_merge(test_${name})
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-  target_compile_definitions(test_${name} PRIVATE
-    FROUDE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" FROUDE_REFERENCE_DATA_DEFAULT="${PROJECT_SOURCE_DIR}/../shared/data")
   gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
 endfunction()

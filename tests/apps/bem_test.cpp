@@ -9,6 +9,7 @@
 #include "froude/commands.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/potential/writers.hpp"
+#include "support/source_dir.hpp"
 
 namespace bem_test {
 namespace {
@@ -23,7 +24,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-const Path examples = Path(FROUDE_SOURCE_DIR) / "examples/data";
+const Path examples = froude_test::source_dir() / "examples/data";
 
 /// What a command wrote, and a folder for its files.
 class Bem : public ::testing::Test {

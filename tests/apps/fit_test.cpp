@@ -11,6 +11,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
+#include "support/source_dir.hpp"
 
 namespace fit_test {
 namespace {
@@ -20,7 +21,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-const std::filesystem::path examples = std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/fit";
+const std::filesystem::path examples = froude_test::source_dir() / "examples/fit";
 
 class Fit : public testing::Test {
  protected:

@@ -9,6 +9,7 @@
 
 #include "hydro/base/error.hpp"
 #include "hydro/io/hdf5.hpp"
+#include "support/source_dir.hpp"
 
 namespace result_file_test {
 namespace {
@@ -108,8 +109,8 @@ TEST_F(ResultFile, OpensInXarrayWithDimensionsCoordinatesAndUnits) {
     GTEST_SKIP() << "skipped, no xarray with netCDF4 under /usr/bin/python3";
   write_sample_run(folder_ / "run.h5");
   write_sample_rao(folder_ / "rao.h5");
-  const std::string command =
-      "/usr/bin/python3 " FROUDE_SOURCE_DIR "/tests/apps/open_with_xarray.py '" + folder_.string() + "'";
+  const std::string command = "/usr/bin/python3 " + froude_test::source_dir().string() +
+                              "/tests/apps/open_with_xarray.py '" + folder_.string() + "'";
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 

@@ -11,6 +11,7 @@
 #include "froude/commands.hpp"
 #include "harness/report.hpp"
 #include "hydro/io/atomic_file.hpp"
+#include "support/source_dir.hpp"
 
 namespace froude::validation::validate_test {
 namespace {
@@ -212,7 +213,7 @@ class ValidateCommand : public Harness {
   void SetUp() override {
     Harness::SetUp();
     for (const std::string name : {"dispersion", "hulme"})
-      std::filesystem::copy(std::filesystem::path(FROUDE_SOURCE_DIR) / "validation" / name, folder_ / name,
+      std::filesystem::copy(froude_test::source_dir() / "validation" / name, folder_ / name,
                             std::filesystem::copy_options::recursive);
     std::filesystem::create_directories(folder_ / "no_data");
   }
@@ -270,7 +271,7 @@ TEST_F(ValidateCommand, RefusesUnknownCasesAndFolders) {
 }
 
 TEST(ShippedCases, HaveAFolderWithReadmeAndRuleAndEveryFolderHasACase) {
-  const std::filesystem::path folder = std::filesystem::path(FROUDE_SOURCE_DIR) / "validation";
+  const std::filesystem::path folder = froude_test::source_dir() / "validation";
   std::vector<std::string> names, folders;
   for (const Case& c : cases()) {
     names.push_back(c.name);

@@ -4,12 +4,14 @@
 #include <filesystem>
 #include <string>
 
+#include "support/source_dir.hpp"
+
 namespace froude_test {
 
-/// The file below FROUDE_REFERENCE_DATA, or below the folder fixed when the tests were configured. It may not exist.
+/// The file below FROUDE_REFERENCE_DATA, or below ../shared/data beside the project. It may not exist.
 inline std::filesystem::path reference_data(const std::string& relative) {
   const char* folder = std::getenv("FROUDE_REFERENCE_DATA");
-  return std::filesystem::path(folder != nullptr ? folder : FROUDE_REFERENCE_DATA_DEFAULT) / relative;
+  return (folder != nullptr ? std::filesystem::path(folder) : source_dir() / "../shared/data") / relative;
 }
 
 }  // namespace froude_test

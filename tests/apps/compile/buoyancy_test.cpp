@@ -10,6 +10,7 @@
 #include "froude/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/cylinders/layout.hpp"
+#include "support/source_dir.hpp"
 
 namespace buoyancy_test {
 namespace {
@@ -97,7 +98,7 @@ TEST(BuoyancyInAScene, RefusesAMeshThatIsNotThereAtItsPlace) {
 }
 
 TEST(BuoyancyInAScene, OfAMeshTurnsTheWorkboatBackFromALargeHeelWithoutLossOfEnergy) {
-  const auto scene = scene::read(std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/roll.toml");
+  const auto scene = scene::read(froude_test::source_dir() / "examples/roll.toml");
   EXPECT_NO_THROW(compile::frequency_model(compile::prepare(scene)));  // it floats as placed
   const Record run = simulate(scene);
   ASSERT_EQ(run.stopped, "");

@@ -7,6 +7,7 @@
 #include "hydro/base/error.hpp"
 #include "scene/scene.hpp"
 #include "scenes.hpp"
+#include "support/source_dir.hpp"
 
 namespace contact_test {
 namespace {
@@ -100,7 +101,7 @@ TEST(ContactInAScene, IsRefusedWithItsPlace) {
 // Five at once in steep waves: no gap is ever crossed, and what contact takes is in the ledger. The residual is that of
 // the step: 0.0005 to 0.0025 of the turnover as the waves change by a thousandth, 0.0003 at a quarter of the step.
 TEST(ContactInAScene, KeepsFiveModulesApartInSteepWaves) {
-  const Record run = simulate(scene::read(std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/fenders.toml"));
+  const Record run = simulate(scene::read(froude_test::source_dir() / "examples/fenders.toml"));
   ASSERT_TRUE(run.stopped.empty()) << run.stopped;
   double impacts = 0;
   for (int i = 1; i <= 8; ++i) {

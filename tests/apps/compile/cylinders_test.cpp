@@ -10,6 +10,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/cylinders/solve.hpp"
 #include "scenes.hpp"
+#include "support/source_dir.hpp"
 
 namespace cylinders_test {
 namespace {
@@ -54,7 +55,7 @@ frequencies = "1 rad/s .. 3 rad/s, 9 values"
 )";
 
 TEST(CylindersInAScene, MayLieUnderWaterOrStandOnTheSeaBed) {
-  const scene::Scene discs = scene::read(std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/discs.toml");
+  const scene::Scene discs = scene::read(froude_test::source_dir() / "examples/discs.toml");
   const auto prepared = compile::prepare(discs);
   ASSERT_EQ(prepared.groups.size(), 1u);
   const auto& c = prepared.groups[0].table.coefficients();

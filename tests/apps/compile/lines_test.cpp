@@ -11,6 +11,7 @@
 #include "dynamics/line/catenary.hpp"
 #include "froude/simulate.hpp"
 #include "hydro/base/error.hpp"
+#include "support/source_dir.hpp"
 
 namespace lines_test {
 namespace {
@@ -28,7 +29,7 @@ const std::string loop =
     "mass_per_length = \"10 kg/m\"\n";
 
 TEST(Lines, ExampleOfTheDropperComesThroughItsGroupAndItsEnergyAddsUp) {
-  const auto record = simulate(scene::read(std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/dropper.toml"));
+  const auto record = simulate(scene::read(froude_test::source_dir() / "examples/dropper.toml"));
   EXPECT_EQ(record.stopped, "");
   EXPECT_EQ(record.halvings, 0);
   const double supplied = record.signal("energy.dropper.supplied").back();
@@ -281,7 +282,7 @@ TEST(Lines, CountTheirSnaps) {
 }
 
 TEST(Lines, ExampleOnAModuleFloatsAndItsEnergyAddsUp) {
-  const auto record = simulate(scene::read(std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/chained.toml"));
+  const auto record = simulate(scene::read(froude_test::source_dir() / "examples/chained.toml"));
   EXPECT_EQ(record.stopped, "");
   EXPECT_EQ(record.halvings, 0);
   const auto found = [&](const std::string& name) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "scene/scene.hpp"
+#include "support/source_dir.hpp"
 
 namespace froude_test {
 
@@ -14,7 +15,7 @@ density = "1000 kg/m^3"
 depth = "14 m"
 )";
 
-inline const std::filesystem::path examples = std::filesystem::path(FROUDE_SOURCE_DIR) / "examples";
+inline const std::filesystem::path examples = froude_test::source_dir() / "examples";
 
 /// A scene that finds the files of examples/data beside it.
 inline froude::scene::Scene parse(const std::string& text) {

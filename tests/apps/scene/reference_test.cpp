@@ -9,6 +9,7 @@
 #include "scene/fit_scene.hpp"
 #include "scene/read_value.hpp"
 #include "scene/schema.hpp"
+#include "support/source_dir.hpp"
 
 namespace froude::scene::reference_test {
 namespace {
@@ -55,7 +56,7 @@ TEST(KeyReference, MentionsEveryKeyWithItsMeaning) {
 }
 
 TEST(KeyReference, IsWhatTheGuideHolds) {
-  EXPECT_EQ(hydro::io::read_text(FROUDE_SOURCE_DIR "/docs/guide/scene-keys.md"), key_reference())
+  EXPECT_EQ(hydro::io::read_text(froude_test::source_dir() / "docs/guide/scene-keys.md"), key_reference())
       << "write it anew: froude new --keys > docs/guide/scene-keys.md";
 }
 
@@ -71,7 +72,7 @@ std::vector<std::string> scenes_of(const std::string& page) {
 TEST(SceneGuide, HoldsScenesThatCanBeRead) {
   const Folder folder;
   std::ofstream(folder.path / "runs" / "a.csv") << "t,F,u\n";
-  const auto scenes = scenes_of(hydro::io::read_text(FROUDE_SOURCE_DIR "/docs/guide/scenes.md"));
+  const auto scenes = scenes_of(hydro::io::read_text(froude_test::source_dir() / "docs/guide/scenes.md"));
   ASSERT_EQ(scenes.size(), 2u);
   EXPECT_EQ(parse(scenes[0], folder.path / "scene.toml").connectors.size(), 8u);
   EXPECT_EQ(parse_fit(scenes[1], folder.path / "fit.toml").files.size(), 1u);

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "hulls.hpp"
+#include "support/source_dir.hpp"
 
 namespace hydro::hydrostatics::immersion_test {
 namespace {
@@ -141,7 +142,7 @@ TEST(Immersion, AgreesWithThePanelCodeBehindTheExampleData) {
   const Immersion im = immersion(hull, {});
   const Vector3d O = Vector3d::Zero();
   const Matrix6 C = buoyancy_stiffness(im, water, O) + gravity_stiffness(rho_g * im.volume, {0, 0, -2}, O);
-  std::ifstream file(FROUDE_SOURCE_DIR "/examples/data/hemisphere_r5.hst");
+  std::ifstream file(froude_test::source_dir() / "examples/data/hemisphere_r5.hst");
   ASSERT_TRUE(file.good());
   int i = 0, j = 0, seen = 0;
   for (double value = 0; file >> i >> j >> value;) {

@@ -4,11 +4,12 @@
 #include <string>
 
 #include "hydro/potential/coefficients.hpp"
+#include "support/source_dir.hpp"
 
 namespace froude_test {
 
 inline hydro::potential::Coefficients example(const std::string& name) {
-  return hydro::potential::read(std::filesystem::path(FROUDE_SOURCE_DIR) / "examples/data" / name);
+  return hydro::potential::read(froude_test::source_dir() / "examples/data" / name);
 }
 
 }  // namespace froude_test

@@ -9,6 +9,7 @@
 #include "hydro/potential/operations.hpp"
 #include "smooth_body.hpp"
 #include "support/reference_data.hpp"
+#include "support/source_dir.hpp"
 
 namespace outside_data_test {
 namespace {
@@ -53,7 +54,7 @@ void expect_same_data_in_both_formats(const fs::path& stem, WaterDepth depth) {
   EXPECT_LT(largest_relative_error(listed(text.C), listed(nc.C)), digits);
 }
 
-fs::path example(const char* name) { return fs::path(FROUDE_SOURCE_DIR) / "examples/data" / name; }
+fs::path example(const char* name) { return froude_test::source_dir() / "examples/data" / name; }
 
 TEST(ExampleData, IsTheSameFromNetcdfAndWamitText) {
   expect_same_data_in_both_formats(example("pontoon1"), WaterDepth::from_metres(14));

@@ -1,0 +1,103 @@
+#!/usr/bin/python3
+"""Compiles every source of the product by itself.
+
+    alone.py SOURCE_DIR SCRATCH_DIR
+
+The build that users get compiles several files as one, which would hide an include that a file forgets. Here each file is
+read alone (-fsyntax-only), by the compile commands of a build that merges nothing. A function that is declared inline and
+defined nowhere, such as Eigen's inverse() without <Eigen/LU>, is an error too: it would not link. A file whose text, headers
+and command are as in the last run is not read again. Python's standard library only.
+"""
+import hashlib
+import json
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+
+INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
+TARGETS = ("libhydro", "libdynamics", "libfit", "apps", "python")
+
+
+def configured(source, scratch):
+    """The commands of a build without merged sources, by file; its precompiled headers are built."""
+    subprocess.run(["cmake", "-S", source, "-B", scratch, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                    "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", "-DFROUDE_MERGED_SOURCES=OFF", "-DFROUDE_BUILD_TESTS=OFF",
+                    "-DFROUDE_VALIDATION_CASES=OFF"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["cmake", "--build", scratch, "--target", "froude_library_headers", "froude_program_headers"],
+                   check=True, stdout=subprocess.DEVNULL)
+    return {entry["file"]: entry["command"] for entry in json.loads((scratch / "compile_commands.json").read_text())}
+
+
+def alone(command, source):
+    """The command that only reads `source`: without output, and with the one warning that says what would not link."""
+    words, out = iter(shlex.split(command)), []
+    for word in words:
+        if word in ("-o", "-MF", "-MT", "-c"):
+            next(words)
+        elif not word.startswith("-W") and word != "-MD":
+            out.append(word)
+    return out + ["-Wsystem-headers", "-fsyntax-only", str(source)]
+
+
+def complaints(command, source, folder):
+    """What is wrong with the file when it is read alone; [] if nothing is."""
+    ran = subprocess.run(alone(command, source), cwd=folder, capture_output=True, text=True)
+    lines = ran.stderr.splitlines()
+    if ran.returncode != 0:
+        return [line for line in lines if " error: " in line] or lines[:3]
+    return [line for line in lines if "used but never defined" in line]
+
+
+def fingerprint(path, command, directories, seen):
+    """A hash of the command, the file and all headers of this project below it."""
+    seen.add(path)
+    text = path.read_text()
+    digest = hashlib.sha256((command + text).encode())
+    for name in INCLUDE.findall(text):
+        for folder in [path.parent, *directories]:
+            header = (folder / name).resolve()
+            if header.is_file():
+                if header not in seen:
+                    digest.update(fingerprint(header, "", directories, seen))
+                break
+    return digest.digest()
+
+
+def refuses_planted_faults(command, scratch):
+    """The check is itself tried: a header that is missing, and a function without its definition."""
+    for name, text in (("no_header", "hydro::InputError error(\"\");\n"),
+                       ("no_definition", "#include <Eigen/Core>\ndouble f(const Eigen::Matrix2d& m) "
+                                         "{ return m.inverse()(0, 0); }\n")):
+        file = scratch / f"{name}.cpp"
+        file.write_text(text)
+        if not complaints(re.sub(r"-include \S+", "", command), file, scratch):
+            sys.exit(f"the check passes a planted fault: {file}")
+
+
+def main():
+    source, scratch = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
+    commands = configured(source, scratch)
+    files = sorted(pathlib.Path(f) for f in commands if pathlib.Path(f).relative_to(source).parts[0] in TARGETS
+                   if source in pathlib.Path(f).parents and scratch not in pathlib.Path(f).parents)
+    refuses_planted_faults(commands[str(files[0])], scratch)
+    directories = [source / d for d in ("libhydro/include", "libdynamics/include", "libfit/include", "apps")]
+    record = scratch / "alone.json"
+    known = json.loads(record.read_text()) if record.is_file() else {}
+    faults = 0
+    for file in files:
+        now = fingerprint(file, commands[str(file)], directories, set()).hex()
+        if known.get(str(file)) == now:
+            continue
+        found = complaints(commands[str(file)], file, scratch)
+        print("\n".join(found), end="\n" if found else "")
+        faults += bool(found)
+        if not found:
+            known[str(file)] = now
+    record.write_text(json.dumps(known))
+    print(f"{len(files)} files were read alone, {faults} of them cannot be")
+    sys.exit(faults > 0)
+
+
+main()

@@ -1,0 +1,20 @@
+# A file reads the precompiled header only if it includes all of it: froude_included() must find each way of doing so, and
+# nothing that is not there.
+include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/FroudePrecompile.cmake)
+file(REMOVE_RECURSE ${SCRATCH})
+file(WRITE ${SCRATCH}/include/base/types.hpp "#pragma once\n#include <Eigen/Core>\n")
+file(WRITE ${SCRATCH}/include/base/error.hpp "#pragma once\n#include \"base/types.hpp\"\n#include <fmt/format.h>\n")
+file(WRITE ${SCRATCH}/src/own.hpp "#include \"other.hpp\"\n#include <vector>\n")
+file(WRITE ${SCRATCH}/src/other.hpp "#include \"own.hpp\"\n#include <string>\n")
+file(WRITE ${SCRATCH}/src/through_headers.cpp "#include \"base/error.hpp\"  // through another\n#include \"own.hpp\"\n")
+file(WRITE ${SCRATCH}/src/lacking.cpp "#include \"base/types.hpp\"\n// #include <fmt/format.h>\n")
+
+function(expect file wanted)
+  froude_included(found ${SCRATCH}/src/${file} ${SCRATCH}/include)
+  list(SORT found)
+  if(NOT found STREQUAL wanted)
+    message(FATAL_ERROR "${file} includes ${wanted}, found ${found}")
+  endif()
+endfunction()
+expect(through_headers.cpp "Eigen/Core;fmt/format.h;string;vector")
+expect(lacking.cpp "Eigen/Core")
