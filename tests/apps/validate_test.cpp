@@ -8,8 +8,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "froude/commands.hpp"
 #include "harness/report.hpp"
+#include "harness/validate.hpp"
 #include "hydro/io/atomic_file.hpp"
 
 namespace froude::validation::validate_test {
@@ -216,11 +216,12 @@ class ValidateCommand : public Harness {
                             std::filesystem::copy_options::recursive);
     std::filesystem::create_directories(folder_ / "no_data");
   }
-  int validate_copy(const std::vector<std::string>& cases, bool json = false) {
+  int validate_copy(const std::vector<std::string>& names, bool json = false) {
     out_.str("");
     const Console console{.out = out_, .err = err_, .json = json};
     return validate(
-        {.cases = cases, .folder = folder_, .data = folder_ / "no_data", .page = {}, .reference_curves = false},
+        cases(),
+        {.names = names, .folder = folder_, .data = folder_ / "no_data", .page = {}, .reference_curves = false},
         console);
   }
   std::ostringstream out_, err_;
@@ -257,13 +258,15 @@ TEST_F(ValidateCommand, RefusesUnknownCasesAndFolders) {
   const Console console{.out = out_, .err = err_};
   EXPECT_THAT(
       [&] {
-        validate({.cases = {}, .folder = folder_ / "nowhere", .data = {}, .page = {}, .reference_curves = false},
+        validate(cases(),
+                 {.names = {}, .folder = folder_ / "nowhere", .data = {}, .page = {}, .reference_curves = false},
                  console);
       },
       ThrowsMessage<InputError>(HasSubstr("no such folder of cases")));
   EXPECT_THAT(
       [&] {
-        validate({.cases = {}, .folder = folder_, .data = folder_ / "nowhere", .page = {}, .reference_curves = false},
+        validate(cases(),
+                 {.names = {}, .folder = folder_, .data = folder_ / "nowhere", .page = {}, .reference_curves = false},
                  console);
       },
       ThrowsMessage<InputError>(HasSubstr("no such folder of reference data")));

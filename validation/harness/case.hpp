@@ -62,7 +62,7 @@ struct Case {
   Outcome (*run)(const Folders&);
 };
 
-/// Every case that is built in, in the order of the report (cases.cpp).
+/// Every case, in the order of the report (cases.cpp); only in builds with FROUDE_VALIDATION_CASES.
 const std::vector<Case>& cases();
 
 }  // namespace froude::validation
