@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""`froude validate` seen from outside: the hand-over to froude-validate, the exit status.
+"""`froude validate` seen from outside: the hand-over to froude-validate, the list of cases, the exit status.
 
     validate_test.py FROUDE SOURCE [FROUDE_VALIDATE]
 
@@ -17,6 +17,7 @@ from pathlib import Path
 FROUDE = Path(sys.argv[1]).resolve()
 SOURCE = Path(sys.argv[2]).resolve()
 CASES_ARE_BUILT = len(sys.argv) > 3 and sys.argv[3] != ""
+NAMES = {file.parent.name for file in (SOURCE / "validation").glob("*/accept.toml")}
 
 
 class Validate(unittest.TestCase):
@@ -51,7 +52,7 @@ class HandOver(Validate):
         result = self.froude("validate", "dispersion", program=alone)
         self.refuses(result, str(self.folder / "froude-validate"), "No such file", "install froude-validate", "build the target")
         self.assertEqual(result.stdout, "")
-        for arguments in (["--json", "validate"], ["validate", "--json"]):
+        for arguments in (["--json", "validate"], ["validate", "--list", "--json"]):
             result = self.froude(*arguments, program=alone)
             self.refuses(result)
             self.assertIn("install froude-validate", json.loads(result.stdout)["error"]["remedy"])
@@ -69,13 +70,42 @@ class HandOver(Validate):
 
 
 @unittest.skipUnless(CASES_ARE_BUILT, "built without the cases")
+class List(Validate):
+    def test_names_every_case_with_its_question_one_a_line(self):
+        lines = self.answer("validate", "--list", "--data", "no_data").splitlines()
+        self.assertEqual({line.split()[0] for line in lines}, NAMES)
+        self.assertEqual(len(lines), len(NAMES))
+        for line in lines:
+            self.assertRegex(line, r"^\S+  +[A-Z].*\?( \(reference data are absent: [\w, -]+\))?$")
+
+    def test_tells_which_reference_data_are_absent(self):
+        wanted = ["validate", "--list", "hulme", "dispersion", "--data"]
+        lines = self.answer(*wanted, "no_data").splitlines()
+        self.assertTrue(lines[0].endswith("hemisphere? (reference data are absent: hulme_hemisphere)"), lines[0])
+        self.assertNotIn("absent", lines[1])
+        (self.folder / "data" / "hulme_hemisphere").mkdir(parents=True)
+        self.assertNotIn("absent", self.answer(*wanted, "data"))
+
+    def test_speaks_json(self):
+        cases = json.loads(self.answer("validate", "--list", "--json", "--data", "no_data"))["cases"]
+        self.assertEqual({case["case"] for case in cases}, NAMES)
+        hulme = next(case for case in cases if case["case"] == "hulme")
+        self.assertTrue(hulme["question"].startswith("Do coefficients read from a panel code"))
+        self.assertEqual((hulme["reference_data"], hulme["reference_data_absent"]), (["hulme_hemisphere"],) * 2)
+
+    def test_refuses_unknown_cases_and_a_page_of_nothing(self):
+        self.refuses(self.froude("validate", "--list", "hulm"), 'did you mean "hulme"?')
+        self.refuses(self.froude("validate", "--list", "--page", "page.md"), "--list", "--page")
+
+
+@unittest.skipUnless(CASES_ARE_BUILT, "built without the cases")
 class Run(Validate):
     def test_help_is_that_of_validate(self):
         for arguments in (["validate", "-h"], ["-h", "validate"]):
             text = self.answer(*arguments)
             self.assertIn("Usage: froude validate", text)
             self.assertIn("froude validate ", text.split("Example")[1])
-            for option in ("--folder", "--data", "--page", "--reference-curves", "--json", "--quiet"):
+            for option in ("--list", "--folder", "--data", "--page", "--reference-curves", "--json", "--quiet"):
                 self.assertIn(option, text)
 
     def test_status_is_zero_within_the_limits_and_one_outside(self):

@@ -60,6 +60,7 @@ class Folders {
 struct Case {
   std::string name;  ///< of the folder
   Outcome (*run)(const Folders&);
+  std::vector<std::string> reference_data = {};  ///< folders from which it takes files by Folders::shared()
 };
 
 /// Every case, in the order of the report (cases.cpp); only in builds with FROUDE_VALIDATION_CASES.

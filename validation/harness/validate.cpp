@@ -85,6 +85,47 @@ nlohmann::json json_of(const std::vector<CaseReport>& reports) {
           {"cases_broken", sum.cases_broken}};
 }
 
+/// The paragraph of a README.md that asks, in one line.
+std::string question_of(const Path& file) {
+  const std::string readme = hydro::io::read_text(file), mark = "**Question.** ";
+  const std::size_t start = readme.find(mark);
+  if (start == std::string::npos)
+    throw hydro::InputError("the case asks no question", {.file = file.string()},
+                            "begin a paragraph with \"" + mark + "\"");
+  const std::size_t end = std::min(readme.find("\n\n", start), readme.size());
+  std::string question = readme.substr(start + mark.size(), end - start - mark.size());
+  std::replace(question.begin(), question.end(), '\n', ' ');
+  return question.substr(0, question.find_last_not_of(' ') + 1);
+}
+
+/// What `list` tells of one case.
+struct Entry {
+  Case the_case;
+  std::string question;
+  std::vector<std::string> absent;  ///< of the_case.reference_data
+};
+
+std::string as_text(const std::vector<Entry>& entries) {
+  std::size_t longest = 0;
+  for (const Entry& entry : entries) longest = std::max(longest, entry.the_case.name.size());
+  std::string text;
+  for (const Entry& entry : entries)
+    text += fmt::format(
+        "{:{}}  {}{}\n", entry.the_case.name, longest, entry.question,
+        entry.absent.empty() ? "" : fmt::format(" (reference data are absent: {})", fmt::join(entry.absent, ", ")));
+  return text;
+}
+
+nlohmann::json json_of(const std::vector<Entry>& entries) {
+  nlohmann::json cases = nlohmann::json::array();
+  for (const Entry& entry : entries)
+    cases.push_back({{"case", entry.the_case.name},
+                     {"question", entry.question},
+                     {"reference_data", entry.the_case.reference_data},
+                     {"reference_data_absent", entry.absent}});
+  return {{"cases", std::move(cases)}};
+}
+
 }  // namespace
 
 int validate(const std::vector<Case>& cases, const ValidateArguments& arguments, const Console& console) {
@@ -107,6 +148,17 @@ int validate(const std::vector<Case>& cases, const ValidateArguments& arguments,
     write_page(reports, *arguments.page,
                arguments.reference_curves ? ReferenceCurves::drawn : ReferenceCurves::left_out);
   return sum.good() ? 0 : 1;
+}
+
+void list(const std::vector<Case>& cases, const ValidateArguments& arguments, const Console& console) {
+  const Path folder = folder_of_cases(arguments), data = folder_of_data(arguments, folder);
+  std::vector<Entry> entries;
+  for (const Case& c : wanted_cases(cases, arguments.names)) {
+    entries.push_back({c, question_of(folder / c.name / "README.md"), {}});
+    for (const std::string& needed : c.reference_data)
+      if (!std::filesystem::exists(data / needed)) entries.back().absent.push_back(needed);
+  }
+  console.out << (console.json ? json_of(entries).dump(2) + "\n" : as_text(entries));
 }
 
 }  // namespace froude::validation

@@ -21,4 +21,8 @@ struct ValidateArguments {
 /// Returns 0 if every one of `cases` that is wanted and could run is within its limits, else 1.
 int validate(const std::vector<Case>& cases, const ValidateArguments& arguments, const Console& console);
 
+/// Tells name and question of each case that is wanted, and which reference data it needs that are absent; runs
+/// nothing. \throws hydro::InputError if a README.md is missing or asks no question
+void list(const std::vector<Case>& cases, const ValidateArguments& arguments, const Console& console);
+
 }  // namespace froude::validation
