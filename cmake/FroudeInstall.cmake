@@ -1,4 +1,4 @@
-# `cmake --install` puts libraries, public headers, the program and a package that find_package(Froude) finds.
+# `cmake --install` puts libraries, public headers, the programs and a package that find_package(Froude) finds.
 include(CMakePackageConfigHelpers)
 set(froude_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Froude)
 
@@ -6,6 +6,9 @@ install(TARGETS froude_hydro froude_dynamics froude_fit EXPORT FroudeTargets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS froude RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(TARGET froude-validate)
+  install(TARGETS froude-validate RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
 install(EXPORT FroudeTargets NAMESPACE froude:: DESTINATION ${froude_package_dir})
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/FroudeConfig.cmake.in ${PROJECT_BINARY_DIR}/FroudeConfig.cmake
@@ -14,7 +17,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/FroudeConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/FroudeConfig.cmake ${PROJECT_BINARY_DIR}/FroudeConfigVersion.cmake
   ${CMAKE_CURRENT_LIST_DIR}/FroudeDependencies.cmake DESTINATION ${froude_package_dir})
 
-# What the program reads at run time, and what a person wants beside it.
+# What the programs read at run time, and what a person wants beside it.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/validation ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/froude
   PATTERN CMakeLists.txt EXCLUDE PATTERN "*.cpp" EXCLUDE PATTERN "*.hpp" EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/LICENSE

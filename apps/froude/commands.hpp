@@ -145,14 +145,8 @@ void waves_make(const SceneArguments& arguments, const Console& console);
 /// Writes a commented starter scene. With `keys`, prints the reference of all scene keys instead.
 void new_scene(const std::string& kind, const std::optional<Path>& output, bool keys, const Console& console);
 
-struct ValidateArguments {
-  std::vector<std::string> cases;  ///< empty: all
-  std::optional<Path> folder;      ///< of the cases; default: installed or source
-  std::optional<Path> data;        ///< reference data; default FROUDE_REFERENCE_DATA, then ../shared/data
-  std::optional<Path> page;        ///< writes the page with pictures here
-  bool reference_curves = false;   ///< also the pictures that show curves of others
-};
-/// Returns 0 if every case that could run is within its limits, else 1.
-int validate(const ValidateArguments& arguments, const Console& console);
+/// Becomes the program froude-validate, which stands beside the one that is running, with these arguments.
+/// \throws hydro::InputError if it is not there
+[[noreturn]] void validate(std::vector<std::string> arguments);
 
 }  // namespace froude

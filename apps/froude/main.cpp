@@ -1,30 +1,13 @@
-// The command line of froude: words in, calls of commands.hpp out, errors told in one style, exit status set.
-#include <unistd.h>
-
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
-
+// The command line of froude: words in, calls of commands.hpp out.
 #include <algorithm>
-#include <csignal>
-#include <functional>
-#include <iostream>
 #include <memory>
-#include <sstream>
 
-#include "froude/commands.hpp"
+#include "froude/command_line.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
 
 namespace froude {
 namespace {
-
-enum ExitStatus : int { done = 0, check_failed = 1, input_wrong = 2, numerics_gave_up = 3, our_fault = 4 };
-
-/// What the command line asked for; `call` runs it and returns the exit status.
-struct Request {
-  bool json = false, quiet = false;
-  std::function<int(const Console&)> call;
-};
 
 /// Units are read when the command runs, so that a wrong one is told like any other wrong input.
 struct BemOptionTexts {
@@ -438,19 +421,10 @@ void add_fit(CLI::App& app, Request& request) {
   });
 }
 
-void add_validate(CLI::App& app, Request& request) {
-  auto* command = app.add_subcommand(
-      "validate", "compares with closed forms, experiments and other codes; status 1 if a limit is broken");
-  command->footer("Example:\n  froude validate sphere-decay --data ../shared/data");
-  auto arguments = std::make_shared<ValidateArguments>();
-  command->add_option("cases", arguments->cases, "names of cases; default: all");
-  command->add_option("--folder", arguments->folder, "of the cases");
-  command->add_option("--data", arguments->data, "folder of reference data; default: FROUDE_REFERENCE_DATA");
-  command->add_option("--page", arguments->page, "write the table with pictures here (.md)");
-  command->add_flag("--reference-curves", arguments->reference_curves,
-                    "also draw the pictures that show curves of others");
-  command->callback(
-      [=, &request] { request.call = [=](const Console& console) { return validate(*arguments, console); }; });
+/// Stands in the help only: main_program() hands over to another program before the options of a command are read.
+void add_validate(CLI::App& app) {
+  app.add_subcommand("validate",
+                     "compares with closed forms, experiments and other codes; status 1 if a limit is broken");
 }
 
 void describe(CLI::App& app, Request& request) {
@@ -461,9 +435,7 @@ void describe(CLI::App& app, Request& request) {
       "Exit status: 0 done, 1 a check failed, 2 the input is wrong, 3 the numerics gave up, 4 a fault of froude.");
   app.fallthrough();
   app.require_subcommand(1);
-  app.set_version_flag("--version", "froude " FROUDE_VERSION);
-  app.add_flag("--json", request.json, "one JSON document on standard output");
-  app.add_flag("--quiet", request.quiet, "no progress and no tables: files, errors and the exit status only");
+  add_common_flags(app, request);
   add_new(app, request);
   add_bem(app, request);
   add_scene_command(app, request, "rao", "response amplitude operators of a scene, in the frequency domain", &rao,
@@ -478,91 +450,30 @@ void describe(CLI::App& app, Request& request) {
   add_fit(app, request);
   add_scene_command(app, request, "plan", "what a scene will run, by which method, and why the rest will not", &plan,
                     false);
-  add_validate(app, request);
+  add_validate(app);
 }
 
-int tell(const hydro::InputError& error, bool json, ExitStatus status) {
-  std::cerr << error.what() << '\n';
-  if (json) {
-    const auto& where = error.where();
-    const nlohmann::json document{{"error",
-                                   {{"rule", error.rule()},
-                                    {"file", where.file},
-                                    {"line", where.line},
-                                    {"column", where.column},
-                                    {"text", where.text},
-                                    {"remedy", error.remedy()}}}};
-    std::cout << document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
-  }
-  return status;
-}
-
-/// Runs the request. Results reach standard output only when all went well, so JSON readers never see half a document.
-int carry_out(const Request& request) {
-  std::ostringstream json_text;
-  std::ostream nowhere(nullptr);
-  std::ostream& out = request.json ? json_text : request.quiet ? nowhere : std::cout;
-  const Console console{out, std::cerr, request.json, isatty(STDERR_FILENO) != 0 && !request.quiet};
-  const int status = request.call(console);
-  std::cout << json_text.str() << std::flush;
-  hydro::require(std::cout.good(), "cannot write to standard output; results are incomplete");
-  return status;
-}
-
-int guarded(const Request& request) {
-  try {
-    return carry_out(request);
-  } catch (const hydro::InputError& error) {
-    return tell(error, request.json, input_wrong);
-  } catch (const hydro::NumericsError& error) {
-    return tell(hydro::InputError(std::string("the numerics gave up: ") + error.what()), request.json,
-                numerics_gave_up);
-  } catch (const std::bad_alloc&) {
-    return tell(hydro::InputError("out of memory; if the task is a small one, please report it"), request.json,
-                our_fault);
-  } catch (const std::exception& error) {
-    return tell(hydro::InputError(fmt::format("a fault inside froude, please report it: {}", error.what())),
-                request.json, our_fault);
-  }
-}
-
-/// What is wrong with the command line, told by the command it went wrong in.
-hydro::InputError usage_error(const CLI::App& app, const CLI::ParseError& error) {
-  std::string command = "froude";
-  const CLI::App* deepest = &app;
-  for (auto chosen = app.get_subcommands(); !chosen.empty(); chosen = deepest->get_subcommands()) {
-    deepest = chosen.front();
-    command += " " + deepest->get_name();
-  }
-  const hydro::Place place{.file = "command line"};
-  std::vector<std::string> known;
-  for (const CLI::App* sub : deepest->get_subcommands([](const CLI::App*) { return true; }))
-    known.push_back(sub->get_name());
-  const auto left = app.remaining(true);
-  if (known.empty() || left.empty() || left.front().starts_with('-'))
-    return hydro::InputError(error.what(), place, "see " + command + " --help");
-  const std::string meant = hydro::nearest(left.front(), known);
-  return hydro::InputError(
-      fmt::format("{} has no command \"{}\"", command, left.front()), place,
-      (meant.empty() ? "" : fmt::format("did you mean \"{}\"? ", meant)) + "see " + command + " --help");
+/// What follows `validate`, together with what stands before it: only flags do, and they belong to every command.
+std::optional<std::vector<std::string>> arguments_of_validate(int argc, char** argv) {
+  std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+  const auto command = std::find_if_not(arguments.begin(), arguments.end(),
+                                        [](const std::string& argument) { return argument.starts_with('-'); });
+  if (command == arguments.end() || *command != "validate") return std::nullopt;
+  arguments.erase(command);
+  return arguments;
 }
 
 int main_program(int argc, char** argv) {
-  // A full disk under a size limit is then an ordinary error of write(), with a message, instead of a signal.
-  std::signal(SIGXFSZ, SIG_IGN);
   Request request;
+  if (const auto arguments = arguments_of_validate(argc, argv)) {
+    request.json = std::find(arguments->begin(), arguments->end(), "--json") != arguments->end();
+    request.call = [&](const Console&) -> int { validate(*arguments); };
+    return carry_out(request);
+  }
   CLI::App app;
   app.name("froude");
   describe(app, request);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& help_or_version) {
-    return app.exit(help_or_version);
-  } catch (const CLI::ParseError& error) {
-    const bool json = std::find(argv, argv + argc, std::string_view("--json")) != argv + argc;
-    return tell(usage_error(app, error), json, input_wrong);
-  }
-  return guarded(request);
+  return carry_out(app, request, argc, argv);
 }
 
 }  // namespace

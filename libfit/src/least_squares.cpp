@@ -7,6 +7,7 @@
 
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
+#include "quiet_logging.hpp"
 
 namespace fit {
 namespace {
@@ -121,7 +122,10 @@ std::vector<double> search(const ResidualModel& model, const Eigen::VectorXd& x,
       problem.SetParameterUpperBound(trial.data(), static_cast<int>(j), parameter.highest);
   }
   ceres::Solver::Summary summary;
-  ceres::Solve(solver_options(stop), &problem, &summary);
+  {
+    const QuietLogging quiet;
+    ceres::Solve(solver_options(stop), &problem, &summary);
+  }
   report.iterations = static_cast<int>(summary.iterations.size()) - 1;
   report.cost_first = summary.initial_cost;
   report.cost_last = summary.final_cost;
@@ -149,7 +153,7 @@ FitReport minimise(const ResidualModel& model, Eigen::VectorXd& x, const StopWhe
   Eigen::VectorXd r(model.residuals);
   Eigen::MatrixXd jacobian(model.residuals, x.size());
   model.evaluate(x, r, &jacobian);
-  if (!r.allFinite() || !jacobian.allFinite()) {  // Ceres would say so on stderr
+  if (!r.allFinite() || !jacobian.allFinite()) {  // Ceres would end without a first cost
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     report.outcome = FitReport::Outcome::not_finite;
     report.cost_first = report.cost_last = report.gradient_norm = nan;

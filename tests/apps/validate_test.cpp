@@ -8,8 +8,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "froude/commands.hpp"
 #include "harness/report.hpp"
+#include "harness/validate.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "support/source_dir.hpp"
 
@@ -53,6 +53,14 @@ class Harness : public testing::Test {
   void accept(const std::string& text) { write("accept.toml", text); }
   CaseReport run(Outcome (*function)(const Folders&) = period_of_two_seconds) {
     return run_case({"swing", function}, Folders(folder_, folder_ / "data", "swing"));
+  }
+  std::string listed(const std::vector<std::string>& names) {
+    std::filesystem::create_directories(folder_ / "data");
+    std::ostringstream out, err;
+    list({{"swing", period_of_two_seconds}, {"pool", needs_a_tank, {"tank"}}},
+         {.names = names, .folder = folder_, .data = folder_ / "data", .page = {}, .reference_curves = false},
+         Console{.out = out, .err = err});
+    return out.str();
   }
 
   std::filesystem::path folder_;
@@ -204,6 +212,22 @@ TEST_F(Harness, DrawsCurvesOfOthersOnlyIfAsked) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "validation" / "swing-swing.svg"));
 }
 
+TEST_F(Harness, ListsTheQuestionInOneLineAndAbsentData) {
+  write("README.md", "# A swing\n\n**Question.** Does it\nswing? \n\n**Physics in play.** Gravity.\n");
+  std::filesystem::copy(folder_ / "swing", folder_ / "pool");
+  EXPECT_EQ(listed({}),
+            "swing  Does it swing?\n"
+            "pool   Does it swing? (reference data are absent: tank)\n");
+  std::filesystem::create_directories(folder_ / "data" / "tank");
+  EXPECT_EQ(listed({"pool"}), "pool  Does it swing?\n");
+}
+
+TEST_F(Harness, RefusesToListACaseThatAsksNothing) {
+  EXPECT_THAT([&] { listed({"swing"}); },
+              ThrowsMessage<InputError>(
+                  AllOf(HasSubstr("README.md"), HasSubstr("asks no question"), HasSubstr("**Question.**"))));
+}
+
 // ---- the command, with the cases as they are ----
 
 #ifdef FROUDE_VALIDATION_CASES
@@ -217,11 +241,12 @@ class ValidateCommand : public Harness {
                             std::filesystem::copy_options::recursive);
     std::filesystem::create_directories(folder_ / "no_data");
   }
-  int validate_copy(const std::vector<std::string>& cases, bool json = false) {
+  int validate_copy(const std::vector<std::string>& names, bool json = false) {
     out_.str("");
     const Console console{.out = out_, .err = err_, .json = json};
     return validate(
-        {.cases = cases, .folder = folder_, .data = folder_ / "no_data", .page = {}, .reference_curves = false},
+        cases(),
+        {.names = names, .folder = folder_, .data = folder_ / "no_data", .page = {}, .reference_curves = false},
         console);
   }
   std::ostringstream out_, err_;
@@ -258,13 +283,15 @@ TEST_F(ValidateCommand, RefusesUnknownCasesAndFolders) {
   const Console console{.out = out_, .err = err_};
   EXPECT_THAT(
       [&] {
-        validate({.cases = {}, .folder = folder_ / "nowhere", .data = {}, .page = {}, .reference_curves = false},
+        validate(cases(),
+                 {.names = {}, .folder = folder_ / "nowhere", .data = {}, .page = {}, .reference_curves = false},
                  console);
       },
       ThrowsMessage<InputError>(HasSubstr("no such folder of cases")));
   EXPECT_THAT(
       [&] {
-        validate({.cases = {}, .folder = folder_, .data = folder_ / "nowhere", .page = {}, .reference_curves = false},
+        validate(cases(),
+                 {.names = {}, .folder = folder_, .data = folder_ / "nowhere", .page = {}, .reference_curves = false},
                  console);
       },
       ThrowsMessage<InputError>(HasSubstr("no such folder of reference data")));
@@ -287,6 +314,18 @@ TEST(ShippedCases, HaveAFolderWithReadmeAndRuleAndEveryFolderHasACase) {
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (std::filesystem::exists(entry.path() / "accept.toml")) folders.push_back(entry.path().filename().string());
   EXPECT_THAT(names, testing::UnorderedElementsAreArray(folders));
+}
+
+TEST(ShippedCases, SayWhichReferenceDataTheyTake) {
+  for (const Case& c : cases()) {
+    const auto file = std::filesystem::path(FROUDE_SOURCE_DIR) / "validation" / c.name / "case.cpp";
+    if (!std::filesystem::exists(file)) continue;  // shares the file of another case
+    const std::string code = hydro::io::read_text(file);
+    const bool takes =
+        code.find("folders.shared(") != std::string::npos || code.find("read_scene(") != std::string::npos;
+    EXPECT_EQ(takes, !c.reference_data.empty()) << c.name;
+    for (const std::string& folder : c.reference_data) EXPECT_THAT(code, HasSubstr('"' + folder + '/')) << c.name;
+  }
 }
 #endif
 

@@ -16,5 +16,7 @@ answer=$("$work/build/consumer" "8 s" "14 m")
 echo "$answer"
 [ "$answer" = "wavelength 79.98 m" ]
 "$work/prefix/bin/froude" --version
+# The cases are a program of their own; installed beside froude it finds their folders in share/.
+if [ -x "$work/prefix/bin/froude-validate" ]; then "$work/prefix/bin/froude" validate --list | grep '^dispersion '; fi
 # Private files stay private.
 if find "$work/prefix/include" -name '*.cpp' | grep -q .; then echo "sources were installed as headers"; exit 1; fi

@@ -87,14 +87,21 @@ def check_tags(root):
     return complaints + list(missing_paths(root))
 
 
-# What each library may include, by the first folder of the include.
+# What each part may include, by the first folder of the include. The plain reference solutions of tests/support are for what
+# judges the product, tests and validation; nothing of either may be in the product.
+PRODUCT = {"hydro", "dynamics", "fit", "froude", "scene", "compile"}
 MAY_INCLUDE = {
     "libhydro": {"hydro"},
     "libdynamics": {"hydro", "dynamics"},
     "libfit": {"hydro", "dynamics", "fit"},
-    "apps": {"hydro", "dynamics", "fit", "froude", "scene", "compile"},
+    "apps": PRODUCT,
+    "python": PRODUCT,
+    "validation": PRODUCT | {"harness", "support"},
+    "tests": PRODUCT | {"harness", "support", "laws"},
 }
-LIBRARIES = {"hydro": "libhydro", "dynamics": "libdynamics", "fit": "libfit", "froude": "apps", "scene": "apps", "compile": "apps"}
+# The part that an include belongs to, by its first folder.
+PART = {"hydro": "libhydro", "dynamics": "libdynamics", "fit": "libfit", "froude": "apps", "scene": "apps", "compile": "apps",
+        "harness": "validation", "validation": "validation", "support": "tests", "laws": "tests", "tests": "tests"}
 
 
 def check_includes(root):
@@ -108,11 +115,11 @@ def check_includes(root):
                 continue
             name, place = include.group(1), f"{relative}:{number}"
             first = name.split("/")[0]
-            if first in LIBRARIES and first not in MAY_INCLUDE[relative.parts[0]]:
+            if first in PART and first not in MAY_INCLUDE[relative.parts[0]]:
                 complaints.append(f"{place}: {relative.parts[0]} may not include {name}")
             elif ".." in name.split("/") or "src" in name.split("/"):
                 complaints.append(f"{place}: {name} reaches into private files by path")
-            elif public and not (root / LIBRARIES.get(first, "?") / "include" / name).exists():
+            elif public and not (root / PART.get(first, "?") / "include" / name).exists():
                 complaints.append(f"{place}: the public header includes {name}, which is not a public header")
     return complaints
 

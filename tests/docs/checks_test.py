@@ -66,6 +66,18 @@ class Includes(ChecksCase):
                      "libhydro/src/a.cpp:2", "may not include dynamics/m.hpp")
         self.refuses("includes", {"libfit/src/a.cpp": '#include "froude/commands.hpp"\n'}, "may not include")
 
+    def test_refuses_a_product_that_holds_what_judges_it(self):
+        for part in ("libhydro/src", "libdynamics/include/dynamics", "libfit/src", "apps/froude", "apps/scene", "python"):
+            for name in ("harness/report.hpp", "support/plain.hpp", "laws/kinds.hpp", "validation/hulme/case.hpp"):
+                self.refuses("includes", {f"{part}/a.cpp": f'#include "{name}"\n'}, f"{part}/a.cpp:1", f"may not include {name}")
+
+    def test_accepts_reference_solutions_in_tests_and_validation(self):
+        text = '#include "froude/plot.hpp"\n#include "harness/case.hpp"\n#include "support/plain.hpp"\n'
+        self.accepts("includes", {"validation/hulme/case.cpp": text, "tests/apps/a_test.cpp": text})
+
+    def test_refuses_laws_of_tests_in_a_case(self):
+        self.refuses("includes", {"validation/hulme/case.cpp": '#include "laws/kinds.hpp"\n'}, "validation may not include laws/kinds.hpp")
+
     def test_refuses_a_public_header_that_needs_a_private_one(self):
         self.refuses("includes", self.HYDRO | {"libhydro/include/hydro/base/b.hpp": '#include "base/private.hpp"\n'},
                      "not a public header")

@@ -38,6 +38,9 @@ class MissingData : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The folder of the cases in the source tree that this build was made from.
+std::filesystem::path source_folder();
+
 /// Where a case finds its files.
 class Folders {
  public:
@@ -60,9 +63,10 @@ class Folders {
 struct Case {
   std::string name;  ///< of the folder
   Outcome (*run)(const Folders&);
+  std::vector<std::string> reference_data = {};  ///< folders from which it takes files by Folders::shared()
 };
 
-/// Every case that is built in, in the order of the report (cases.cpp).
+/// Every case, in the order of the report (cases.cpp); only in builds with FROUDE_VALIDATION_CASES.
 const std::vector<Case>& cases();
 
 }  // namespace froude::validation

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-scene::Scene buoy() { return scene::read(std::filesystem::path(FROUDE_VALIDATION_SOURCE) / "../examples/buoy.toml"); }
+scene::Scene buoy() { return scene::read(source_folder() / "../examples/buoy.toml"); }
 
 /// The last third of a run in one regular wave.
 struct Response {

@@ -49,7 +49,9 @@ struct FitReport {
 
 /// Minimises ½‖r(x)‖² from the start x (Ceres: Levenberg–Marquardt, dense QR). `x` is replaced only if the cost fell.
 /// A direction counts as not seen if its singular value is below 1e-10 of the largest (rounding of r alone would move
-/// it freely). \throws hydro::InputError if x has another length, n < p, or a scale is not positive
+/// it freely). Ceres writes nothing to standard error: unless the program has initialised glog, messages of glog that
+/// are not fatal are dropped while the search runs. \throws hydro::InputError if x has another length, n < p, or a
+/// scale is not positive
 FitReport minimise(const ResidualModel& model, Eigen::VectorXd& x, const StopWhen& stop = {});
 
 /// The same least-squares problem with few rows; (F1).

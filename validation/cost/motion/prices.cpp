@@ -34,7 +34,7 @@ namespace froude::cost {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path examples = fs::path(FROUDE_VALIDATION_SOURCE) / "../examples";
+const fs::path examples = validation::source_folder() / "../examples";
 
 /// Seconds of processor time.
 double seconds(const std::function<void()>& work) {
@@ -89,7 +89,7 @@ scene::Scene stepped(scene::Scene scene, double step) {
 
 /// A sea instead of the regular wave: what the peer ran for 180 s with 512 components.
 scene::Scene in_a_sea(const fs::path& data) {
-  const validation::Folders folders(FROUDE_VALIDATION_SOURCE, data, "rm3-regular");
+  const validation::Folders folders(validation::source_folder(), data, "rm3-regular");
   scene::Scene scene = validation::read_scene(
       folders, "rm3/wamit/rm3.1", "kind = \"regular\"\nheight = \"2.5 m\"\nperiod = \"8 s\"",
       "kind = \"pierson-moskowitz\"\nhs = \"2.5 m\"\ntp = \"8 s\"\ncomponents = { equal_energy = 512 }");
@@ -131,7 +131,7 @@ std::string peers(const fs::path& data) {
     const char* signal;
   };
   const auto of_case = [&](const char* name, const char* needs, double duration, double every) {
-    scene::Scene scene = validation::read_scene(validation::Folders(FROUDE_VALIDATION_SOURCE, data, name), needs);
+    scene::Scene scene = validation::read_scene(validation::Folders(validation::source_folder(), data, name), needs);
     scene.run->duration = duration;
     scene.run->every = every;
     return scene;

@@ -1,0 +1,30 @@
+#pragma once
+/// \file  What the programs `froude` and `froude-validate` share: common flags, one style of telling errors, exit
+/// status.
+#include <CLI/CLI.hpp>
+
+#include <functional>
+
+#include "froude/commands.hpp"
+
+namespace froude {
+
+enum ExitStatus : int { done = 0, check_failed = 1, input_wrong = 2, numerics_gave_up = 3, our_fault = 4 };
+
+/// What the command line asked for; `call` runs it and returns the exit status.
+struct Request {
+  bool json = false, quiet = false;
+  std::function<int(const Console&)> call;
+};
+
+/// Adds --version, --json and --quiet.
+void add_common_flags(CLI::App& app, Request& request);
+
+/// Runs the request. What it throws is told on standard error, with `json` also as an object on standard output.
+/// \return the exit status
+int carry_out(const Request& request);
+
+/// Reads the command line, whose callbacks set `request.call`, and runs the request.
+int carry_out(CLI::App& app, Request& request, int argc, char** argv);
+
+}  // namespace froude
