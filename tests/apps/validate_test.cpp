@@ -318,7 +318,7 @@ TEST(ShippedCases, HaveAFolderWithReadmeAndRuleAndEveryFolderHasACase) {
 
 TEST(ShippedCases, SayWhichReferenceDataTheyTake) {
   for (const Case& c : cases()) {
-    const auto file = std::filesystem::path(FROUDE_SOURCE_DIR) / "validation" / c.name / "case.cpp";
+    const auto file = froude_test::source_dir() / "validation" / c.name / "case.cpp";
     if (!std::filesystem::exists(file)) continue;  // shares the file of another case
     const std::string code = hydro::io::read_text(file);
     const bool takes =
