@@ -57,12 +57,21 @@ scene::Scene read(const std::filesystem::path& file, const std::map<std::string,
   return scene::parse_with(text.str(), std::filesystem::absolute(file), others);
 }
 
-/// The numbers of `owner` as an array that cannot be written and keeps it alive.
+/// The numbers of `owner` as an array of one length, or of rows of one length, that cannot be written and keeps it
+/// alive.
 template <class T>
-py::array_t<T> view(const std::vector<T>& values, const py::handle& owner) {
-  py::array_t<T> out(static_cast<py::ssize_t>(values.size()), values.data(), owner);
+py::array_t<T> view(const std::vector<T>& values, const py::handle& owner, std::vector<std::size_t> shape = {}) {
+  if (shape.empty()) shape = {values.size()};
+  py::array_t<T> out(std::vector<py::ssize_t>(shape.begin(), shape.end()), values.data(), owner);
   out.attr("flags").attr("writeable") = false;
   return out;
+}
+
+/// A signal is a series in a run, and in responses to several headings one row for each of them.
+std::vector<std::size_t> shape_of(const Record& run) { return {run.time.size()}; }
+std::vector<std::size_t> shape_of(const Responses& r) {
+  if (r.heading.size() == 1) return {r.omega.size()};
+  return {r.heading.size(), r.omega.size()};
 }
 
 template <class Result>
@@ -91,7 +100,8 @@ void add_signals(py::class_<Result>& type) {
       .def(
           "__getitem__",
           [](const py::object& self, const std::string& name) {
-            return view(signal_of(self.cast<const Result&>(), name).values, self);
+            const auto& result = self.cast<const Result&>();
+            return view(signal_of(result, name).values, self, shape_of(result));
           },
           "Values of one signal, SI.")
       .def(
@@ -126,10 +136,13 @@ void add_rao(py::module_& m) {
   py::class_<Responses> type(
       m, "Rao",
       "Responses per metre of wave amplitude, complex: |rao[\"m1.heave\"]| in m/m, phases against the crest at "
-      "the global origin, e^{i omega t}.");
+      "the global origin, e^{i omega t}. Of several headings a signal has one row each.");
   add_signals(type);
   type.def_property_readonly(
-      "omega", [](const py::object& self) { return view(self.cast<const Responses&>().omega, self); }, "rad/s");
+          "omega", [](const py::object& self) { return view(self.cast<const Responses&>().omega, self); }, "rad/s")
+      .def_property_readonly(
+          "heading", [](const py::object& self) { return view(self.cast<const Responses&>().heading, self); },
+          "rad, where the waves go; an array, also of one.");
 }
 
 }  // namespace

@@ -69,6 +69,10 @@ double motion_from_rest(const dynamics::RigidBody& body, const dynamics::Pose& p
 /// Opens the data files and places everything. \throws hydro::InputError, placed in the scene
 Prepared prepare(const scene::Scene& scene);
 
+/// The waves of [ask.rao] must go where every file has excitation.
+/// \throws hydro::InputError at its headings, with those of the file
+void check_headings(const scene::Scene& scene, const Prepared& prepared);
+
 /// Model without radiation and excitation, which the frequency domain takes from `prepared.groups`. About: small
 /// motions. \throws hydro::InputError if they are about the bodies as placed and these are not in equilibrium there
 dynamics::Model frequency_model(const Prepared& prepared, const scene::About& about = {});

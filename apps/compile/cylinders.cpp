@@ -19,16 +19,17 @@ hydro::cylinders::CylinderBody as_cylinders(const scene::Body& body) {
   return out;
 }
 
-/// Where waves go in this scene.
+/// Where waves go in this scene, each heading once: those that differ by the rounding of a unit are one.
 std::vector<double> headings_asked(const Scene& scene) {
   std::vector<double> headings;
-  if (scene.rao) headings.push_back(scene.rao->heading.radians());
+  if (scene.rao) headings = scene.rao->headings;
   if (scene.waves) headings.push_back(scene.waves->heading.radians());
   if (scene.waves)
     if (const auto* sea = std::get_if<scene::RandomSea>(&scene.waves->kind))
       for (const scene::WaveSystem& system : sea->systems) headings.push_back(system.heading.radians());
   std::sort(headings.begin(), headings.end());
-  headings.erase(std::unique(headings.begin(), headings.end()), headings.end());
+  const auto same = [](double a, double b) { return b - a < 1e-9; };
+  headings.erase(std::unique(headings.begin(), headings.end(), same), headings.end());
   return headings;
 }
 

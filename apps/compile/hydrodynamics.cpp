@@ -326,4 +326,17 @@ void add_hydrodynamics(const Scene& scene, Prepared& prepared) {
   }
 }
 
+void check_headings(const Scene& scene, const Prepared& prepared) {
+  for (const auto& group : prepared.groups) {
+    if (!group.excitation) continue;
+    for (const double heading : scene.rao->headings) {
+      try {
+        group.table.excitation(group.table.lowest(), heading);
+      } catch (const InputError& e) {
+        throw e.at(scene.rao->headings_place);
+      }
+    }
+  }
+}
+
 }  // namespace froude::compile

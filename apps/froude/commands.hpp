@@ -74,6 +74,7 @@ struct PsdArguments {
   std::vector<std::string> signals = {};    ///< empty: all (with a time column), `*` allowed
   std::optional<std::string> segment = {};  ///< length of a Welch segment, e.g. "100 s"
   std::optional<std::string> from = {};     ///< leave out what comes before, e.g. "60 s"
+  std::optional<std::string> to = {};       ///< leave out what comes after, e.g. "360 s"
   double confidence = 0.95;
   std::optional<std::string> input = {};  ///< signal to take as input: H1, H2 and coherence of the others against it
   std::optional<Path> output = {};        ///< .csv or .h5

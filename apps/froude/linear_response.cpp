@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -16,7 +17,7 @@
 namespace froude {
 namespace {
 
-using dynamics::frequency::SmallMotions;
+using dynamics::frequency::LinearDrag, dynamics::frequency::SmallMotions;
 
 /// Transfer functions of all signals at the components of a sea, one row a signal.
 Eigen::MatrixXcd transfer(const compile::Prepared& prepared, const SmallMotions& about,
@@ -57,29 +58,81 @@ void require_linear(const scene::Scene& scene) {
           scene.run->place, "leave `initial` out, or step the run");
 }
 
-/// Drag on members as [ask.rao.drag] asks, told in `notes`; none if it does not.
-std::optional<dynamics::frequency::LinearDrag> drag_of_rao(const scene::Scene& scene, const compile::Prepared& prepared,
-                                                           const SmallMotions& about, std::vector<std::string>& notes) {
-  if (!scene.rao->drag) return std::nullopt;
+/// What `notes` tell of linear drag.
+std::string note_on(const std::vector<LinearDrag>& drags, const scene::AskRao::DragIn& waves) {
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (const LinearDrag& drag : drags) {
+    const Eigen::RowVectorXd all = drag.coefficient.colwise().sum();
+    least = std::min(least, all.minCoeff());
+    most = std::max(most, all.maxCoeff());
+  }
+  return fmt::format(
+      "drag on members is linear, as lossy as quadratic drag in waves of {}: {:.4g} to {:.4g} N s/m in all{}",
+      waves.height ? fmt::format("{:.4g} m height", *waves.height) : fmt::format("steepness {:.4g}", *waves.steepness),
+      least, most,
+      drags.size() == 1 ? ""
+                        : fmt::format("; it depends on the heading, so each of the {} was found by iteration with "
+                                      "factors of its own",
+                                      drags.size()));
+}
+
+/// Drag on members as [ask.rao.drag] asks, one a heading, told in `notes`; none if it does not.
+std::vector<LinearDrag> drag_of_rao(const scene::Scene& scene, const compile::Prepared& prepared,
+                                    const SmallMotions& about, std::vector<std::string>& notes) {
+  if (!scene.rao->drag) return {};
   const scene::AskRao& ask = *scene.rao;
   const auto pieces = compile::drag_at_rest(scene, prepared.bodies);
   for (const auto& piece : pieces)
     if (!piece.current.isZero(0))
       throw hydro::InputError("[ask.rao.drag] is for still water, but a current flows past a member", ask.drag->place,
                               "leave it out, or step a run");
-  dynamics::frequency::DragWaves waves{scene.water, ask.heading.radians(), {}};
+  dynamics::frequency::DragWaves waves{.water = scene.water, .heading = 0, .amplitude = {}};
   for (const double omega : ask.omega) {
     const double length = 2 * std::numbers::pi / hydro::waves::wavenumber(omega, scene.water);
     waves.amplitude.push_back((ask.drag->height ? *ask.drag->height : *ask.drag->steepness * length) / 2);
   }
-  auto drag = dynamics::frequency::linearised_drag(about, prepared.groups, ask.omega, pieces, waves);
-  const Eigen::RowVectorXd all = drag.coefficient.colwise().sum();
-  notes.push_back(
-      fmt::format("drag on members is linear, as lossy as quadratic drag in waves of {}: {:.4g} to {:.4g} N s/m in all",
-                  ask.drag->height ? fmt::format("{:.4g} m height", *ask.drag->height)
-                                   : fmt::format("steepness {:.4g}", *ask.drag->steepness),
-                  all.minCoeff(), all.maxCoeff()));
-  return drag;
+  std::vector<LinearDrag> drags;
+  for (const double heading : ask.headings) {
+    waves.heading = heading;
+    drags.push_back(dynamics::frequency::linearised_drag(about, prepared.groups, ask.omega, pieces, waves));
+  }
+  notes.push_back(note_on(drags, *ask.drag));
+  return drags;
+}
+
+/// What (Q1) gives, one matrix a heading: displacements (6N, Nω) and multipliers of joints (m, Nω).
+struct Amplitudes {
+  std::vector<Eigen::MatrixXcd> xi, multipliers;
+};
+
+/// The lines that compute a RAO: (Q1) in libdynamics/src/frequency/rao.cpp.
+Amplitudes amplitudes_of_rao(const scene::AskRao& ask, const compile::Prepared& prepared, const SmallMotions& about,
+                             const std::vector<LinearDrag>& drags) {
+  using namespace dynamics::frequency;
+  const auto& groups = prepared.groups;
+  Amplitudes out;
+  if (drags.empty() && ask.headings.size() > 1) {
+    out.xi = response_amplitudes(about, groups, ask.omega, ask.headings).xi;
+    out.multipliers = multiplier_amplitudes(about, groups, ask.omega, ask.headings, out.xi);
+    return out;
+  }
+  for (std::size_t h = 0; h < ask.headings.size(); ++h) {
+    const LinearDrag* drag = drags.empty() ? nullptr : &drags[h];
+    out.xi.push_back(response_amplitudes(about, groups, ask.omega, ask.headings[h], drag));
+    out.multipliers.push_back(multiplier_amplitudes(about, groups, ask.omega, ask.headings[h], out.xi.back(), drag));
+  }
+  return out;
+}
+
+std::vector<ComplexSignal> heading_by_heading(const std::vector<compile::LinearProbe>& probes, const Amplitudes& found,
+                                              const std::vector<double>& omega) {
+  std::vector<ComplexSignal> out = linear_responses(probes, found.xi.front(), found.multipliers.front(), omega);
+  for (std::size_t h = 1; h < found.xi.size(); ++h) {
+    const auto next = linear_responses(probes, found.xi[h], found.multipliers[h], omega);
+    for (std::size_t s = 0; s < out.size(); ++s)
+      out[s].values.insert(out[s].values.end(), next[s].values.begin(), next[s].values.end());
+  }
+  return out;
 }
 
 }  // namespace
@@ -141,8 +194,9 @@ const ComplexSignal& Responses::signal(const std::string& name) const {
 Responses respond(const scene::Scene& scene) { return respond(scene, compile::prepare(scene)); }
 
 Responses respond(const scene::Scene& scene, const compile::Prepared& prepared) {
+  compile::check_headings(scene, prepared);
   const dynamics::Model model = compile::frequency_model(prepared, scene.rao->about);
-  Responses out{scene.rao->omega, {}, prepared.notes};
+  Responses out{scene.rao->omega, scene.rao->headings, {}, prepared.notes};
   const SmallMotions about = compile::small_motions(model, scene.rao->about, out.notes);
   for (const std::string& effect : left_out_of_linear_responses(scene, scene.rao->drag.has_value()))
     out.notes.push_back(effect);
@@ -150,15 +204,9 @@ Responses respond(const scene::Scene& scene, const compile::Prepared& prepared) 
   std::vector<std::string> names;
   for (const auto& p : all) names.push_back(p.name);
   scene::check_patterns(scene.rao->of, scene.rao->of_places, names);
-  const auto& omega = scene.rao->omega;
-  const double heading = scene.rao->heading.radians();
-  const auto linear = drag_of_rao(scene, prepared, about, out.notes);
-  const dynamics::frequency::LinearDrag* drag = linear ? &*linear : nullptr;
-  // The line that computes a RAO: (Q1) in libdynamics/src/frequency/rao.cpp.
-  const Eigen::MatrixXcd xi = dynamics::frequency::response_amplitudes(about, prepared.groups, omega, heading, drag);
-  const Eigen::MatrixXcd multipliers =
-      dynamics::frequency::multiplier_amplitudes(about, prepared.groups, omega, heading, xi, drag);
-  out.signals = linear_responses(compile::chosen(all, scene.rao->of), xi, multipliers, omega);
+  const auto drags = drag_of_rao(scene, prepared, about, out.notes);
+  const Amplitudes found = amplitudes_of_rao(*scene.rao, prepared, about, drags);
+  out.signals = heading_by_heading(compile::chosen(all, scene.rao->of), found, out.omega);
   return out;
 }
 

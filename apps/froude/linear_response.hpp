@@ -13,10 +13,11 @@ namespace froude {
 std::vector<ComplexSignal> linear_responses(const std::vector<compile::LinearProbe>& probes, const Eigen::MatrixXcd& xi,
                                             const Eigen::MatrixXcd& multipliers, const std::vector<double>& omega);
 
-/// What `froude rao` writes: the signals that [ask.rao] names, per metre of wave, at its frequencies.
+/// What `froude rao` writes: the signals that [ask.rao] names, per metre of wave, at its frequencies and headings.
 struct Responses {
-  std::vector<double> omega;  ///< rad/s
-  std::vector<ComplexSignal> signals;
+  std::vector<double> omega;           ///< rad/s
+  std::vector<double> heading;         ///< rad, where the waves go; in the order asked
+  std::vector<ComplexSignal> signals;  ///< heading by heading: value of heading h, frequency w at h Nω + w
   std::vector<std::string> notes;
   /// \throws hydro::InputError if there is no such signal
   const ComplexSignal& signal(const std::string& name) const;

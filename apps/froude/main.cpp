@@ -362,6 +362,7 @@ void add_psd(CLI::App& app, Request& request) {
   command->add_option("-s,--signal", arguments->signals, "signals to take; * stands for any text; default: all");
   command->add_option("--segment", arguments->segment, "length of a Welch segment: \"100 s\"");
   command->add_option("--from", arguments->from, "leave out what comes before: \"60 s\"");
+  command->add_option("--to", arguments->to, "leave out what comes after: \"360 s\"");
   command->add_option("--confidence", arguments->confidence, "level of the interval")->capture_default_str();
   command->add_option("--input", arguments->input,
                       "signal that drives the others: adds transfer function and coherence");

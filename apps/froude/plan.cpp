@@ -50,9 +50,16 @@ struct Section {
 };
 
 Section plan_rao(const scene::Scene& scene, const compile::Prepared& p) {
-  Section s{fmt::format("rao: {} frequencies, {} unknowns, complex dense solves", scene.rao->omega.size(),
-                        6 * p.bodies.size()),
+  compile::check_headings(scene, p);
+  const std::size_t headings = scene.rao->headings.size();
+  Section s{fmt::format("rao: {} frequencies{}, {} unknowns, complex dense solves", scene.rao->omega.size(),
+                        headings == 1 ? "" : fmt::format(", {} headings", headings), 6 * p.bodies.size()),
             {}};
+  if (headings > 1)
+    s.lines.push_back({"headings",
+                       scene.rao->drag ? "each by itself, with factors of its own: linear drag depends on it"
+                                       : "one factorisation at each frequency serves all",
+                       "", true});
   for (const auto& g : p.groups) {
     const auto open = g.table.openness();
     s.lines.push_back(

@@ -65,11 +65,31 @@ Estimate estimate(const Signal& signal, const RunResult& record, const Analysis&
   return e;
 }
 
+/// A time of the command line, s.
+std::optional<double> time_of(const char* option, const std::optional<std::string>& text) {
+  if (!text) return std::nullopt;
+  try {
+    return hydro::parse_si(*text, hydro::dim::time);
+  } catch (const hydro::InputError& e) {
+    throw e.at({.file = option});
+  }
+}
+
+/// Leaves the part of the record from --from to --to, both included.
+void cut_out(RunResult& record, const PsdArguments& arguments) {
+  const auto from = time_of("--from", arguments.from), to = time_of("--to", arguments.to);
+  if (from && to && !(*to > *from))
+    throw hydro::InputError(fmt::format("--to {:.6g} s is not after --from {:.6g} s", *to, *from),
+                            {.file = "command line"}, "exchange the two, or leave one out");
+  if (from) drop_before(record, *from, arguments.file);
+  if (to) drop_after(record, *to, arguments.file);
+}
+
 Analysis analyse(const PsdArguments& arguments) {
   RunResult record = read_record(arguments.file);
   record.signals = chosen(record, arguments);
   hydro::require(!record.time.empty(), "the record has no samples");
-  if (arguments.from) drop_before(record, hydro::parse_si(*arguments.from, hydro::dim::time), arguments.file);
+  cut_out(record, arguments);
   Analysis a{.samples = record.time.size(),
              .step = 0,
              .options = {},

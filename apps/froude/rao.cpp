@@ -1,48 +1,77 @@
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "froude/linear_response.hpp"
 #include "froude/scene_result.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/base/types.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 
 namespace froude {
 namespace {
 
+double degrees(double radians) { return hydro::Angle::from_radians(radians).degrees(); }
+
+std::vector<double> periods_of(const Responses& r) {
+  std::vector<double> period;
+  for (const double w : r.omega) period.push_back(2 * std::numbers::pi / w);
+  return period;
+}
+
+/// A signal in waves of heading number h.
+std::span<const std::complex<double>> of_heading(const ComplexSignal& signal, const Responses& r, std::size_t h) {
+  return std::span(signal.values).subspan(h * r.omega.size(), r.omega.size());
+}
+
+template <class Values>
+std::vector<double> amplitudes_of(const Values& values) {
+  std::vector<double> out;
+  for (const auto& v : values) out.push_back(std::abs(v));
+  return out;
+}
+template <class Values>
+std::vector<double> phases_of(const Values& values) {
+  std::vector<double> out;
+  for (const auto& v : values) out.push_back(std::arg(v));
+  return out;
+}
+
 /// The highest point of a response and where it is.
 struct Peak {
   double amplitude = 0, period = 0, phase = 0;
 };
 
-Peak peak(const ComplexSignal& signal, const std::vector<double>& omega) {
+Peak peak(std::span<const std::complex<double>> values, const std::vector<double>& omega) {
   Peak best;
   for (std::size_t i = 0; i < omega.size(); ++i)
-    if (std::abs(signal.values[i]) >= best.amplitude)
-      best = {std::abs(signal.values[i]), 2 * std::numbers::pi / omega[i],
-              std::arg(signal.values[i]) * 180 / std::numbers::pi};
+    if (std::abs(values[i]) >= best.amplitude)
+      best = {std::abs(values[i]), 2 * std::numbers::pi / omega[i], degrees(std::arg(values[i]))};
   return best;
 }
 
-void write_rao_csv(const Path& path, const std::vector<double>& omega, const std::vector<ComplexSignal>& signals) {
-  std::vector<std::vector<double>> numbers;
-  std::vector<double> period;
+/// One row a frequency; of several headings one after the other, with a column that tells which.
+void write_rao_csv(const Path& path, const Responses& r) {
+  std::vector<double> heading, omega, period;
+  for (const double h : r.heading) {
+    heading.insert(heading.end(), r.omega.size(), h);
+    omega.insert(omega.end(), r.omega.begin(), r.omega.end());
+  }
   for (const double w : omega) period.push_back(2 * std::numbers::pi / w);
-  for (const auto& s : signals) {
-    std::vector<double> amplitude, phase;
-    for (const auto& v : s.values) {
-      amplitude.push_back(std::abs(v));
-      phase.push_back(std::arg(v));
-    }
-    numbers.push_back(std::move(amplitude));
-    numbers.push_back(std::move(phase));
+  std::vector<std::vector<double>> numbers;
+  for (const auto& s : r.signals) {
+    numbers.push_back(amplitudes_of(s.values));
+    numbers.push_back(phases_of(s.values));
   }
   std::vector<hydro::io::CsvColumn> columns{{"omega", "rad/s", &omega}, {"period", "s", &period}};
-  for (std::size_t i = 0; i < signals.size(); ++i) {
-    columns.push_back({signals[i].name + " amplitude", signals[i].units, &numbers[2 * i]});
-    columns.push_back({signals[i].name + " phase", "deg", &numbers[2 * i + 1]});
+  if (r.heading.size() > 1) columns.insert(columns.begin(), {"heading", "deg", &heading});
+  for (std::size_t i = 0; i < r.signals.size(); ++i) {
+    columns.push_back({r.signals[i].name + " amplitude", r.signals[i].units, &numbers[2 * i]});
+    columns.push_back({r.signals[i].name + " phase", "deg", &numbers[2 * i + 1]});
   }
   hydro::io::write_csv(
       path, columns,
@@ -50,52 +79,75 @@ void write_rao_csv(const Path& path, const std::vector<double>& omega, const std
 }
 
 /// One panel for each unit, so that metres and newtons do not share an axis.
-plot::Figure figure(const scene::Scene& scene, const std::vector<double>& omega,
-                    const std::vector<ComplexSignal>& signals) {
-  plot::Figure f{.title = scene.title.empty() ? "Response amplitude operators" : scene.title, .panels = {}};
-  std::vector<double> period;
-  for (const double w : omega) period.push_back(2 * std::numbers::pi / w);
-  std::vector<std::string> units;
-  for (const auto& s : signals) {
-    auto at = std::find(units.begin(), units.end(), s.units);
-    if (at == units.end()) {
-      units.push_back(s.units);
-      f.panels.push_back({.x = {"wave period", "s"}, .y = {"amplitude", s.units}, .series = {}});
-      at = units.end() - 1;
-    }
-    plot::Series line{s.name, period, {}};
-    for (const auto& v : s.values) line.y.push_back(std::abs(v));
-    f.panels[static_cast<std::size_t>(at - units.begin())].series.push_back(std::move(line));
+std::vector<plot::Panel> panels_by_unit(const Responses& r) {
+  std::vector<plot::Panel> panels;
+  for (const auto& s : r.signals) {
+    auto at = std::find_if(panels.begin(), panels.end(), [&](const auto& p) { return p.y.unit == s.units; });
+    if (at == panels.end())
+      at = panels.insert(at, {.x = {"wave period", "s"}, .y = {"amplitude", s.units}, .series = {}});
+    at->series.push_back({s.name, periods_of(r), amplitudes_of(s.values)});
   }
-  return f;
+  return panels;
 }
 
-void tell(const Console& console, const scene::Scene& scene, const std::vector<double>& omega,
-          const std::vector<ComplexSignal>& signals, const Path& file, const std::vector<std::string>& notes) {
-  if (console.json) {
-    nlohmann::json j{{"file", file.string()}, {"omega_rad_per_s", omega}, {"notes", notes}};
-    for (const auto& s : signals) {
-      nlohmann::json amplitude = nlohmann::json::array(), phase = nlohmann::json::array();
-      for (const auto& v : s.values) {
-        amplitude.push_back(std::abs(v));
-        phase.push_back(std::arg(v));
-      }
-      j["signals"][s.name] = {{"unit", s.units}, {"amplitude", amplitude}, {"phase_rad", phase}};
+/// One panel for each signal, one curve for each heading.
+std::vector<plot::Panel> panels_by_signal(const Responses& r) {
+  std::vector<plot::Panel> panels;
+  for (const auto& s : r.signals) {
+    panels.push_back({.x = {"wave period", "s"}, .y = {s.name, s.units}, .series = {}});
+    for (std::size_t h = 0; h < r.heading.size(); ++h)
+      panels.back().series.push_back(
+          {fmt::format("{:.4g} deg", degrees(r.heading[h])), periods_of(r), amplitudes_of(of_heading(s, r, h))});
+  }
+  return panels;
+}
+
+plot::Figure figure(const scene::Scene& scene, const Responses& r) {
+  return {.title = scene.title.empty() ? "Response amplitude operators" : scene.title,
+          .panels = r.heading.size() == 1 ? panels_by_unit(r) : panels_by_signal(r)};
+}
+
+/// Amplitudes and phases have one list a heading where there are several.
+nlohmann::json as_json(const Responses& r, const Path& file) {
+  nlohmann::json j{{"file", file.string()}, {"omega_rad_per_s", r.omega}, {"notes", r.notes}};
+  if (r.heading.size() > 1) j["heading_rad"] = r.heading;
+  for (const auto& s : r.signals) {
+    nlohmann::json amplitude = nlohmann::json::array(), phase = nlohmann::json::array();
+    for (std::size_t h = 0; h < r.heading.size(); ++h) {
+      amplitude.push_back(amplitudes_of(of_heading(s, r, h)));
+      phase.push_back(phases_of(of_heading(s, r, h)));
     }
-    console.out << j.dump(1) << '\n';
+    const bool one = r.heading.size() == 1;
+    j["signals"][s.name] = {
+        {"unit", s.units}, {"amplitude", one ? amplitude[0] : amplitude}, {"phase_rad", one ? phase[0] : phase}};
+  }
+  return j;
+}
+
+void tell_peaks(const Console& console, const Responses& r) {
+  const bool several = r.heading.size() > 1;
+  console.out << fmt::format("{:<24} {}{:>12} {:<7} {:>10} {:>10}\n", "signal", several ? "heading [deg] " : "",
+                             "largest", "unit", "at T [s]", "phase [deg]");
+  for (const auto& s : r.signals)
+    for (std::size_t h = 0; h < r.heading.size(); ++h) {
+      const Peak p = peak(of_heading(s, r, h), r.omega);
+      console.out << fmt::format("{:<24} {}{:>12.5g} {:<7} {:>10.4g} {:>10.1f}\n", s.name,
+                                 several ? fmt::format("{:>13.4g} ", degrees(r.heading[h])) : "", p.amplitude, s.units,
+                                 p.period, p.phase);
+    }
+}
+
+void tell(const Console& console, const scene::Scene& scene, const Responses& r, const Path& file) {
+  if (console.json) {
+    console.out << as_json(r, file).dump(1) << '\n';
     return;
   }
-  console.out << fmt::format("{}: {} signals at {} frequencies, periods {:.4g} to {:.4g} s\n",
-                             scene.file.filename().string(), signals.size(), omega.size(),
-                             2 * std::numbers::pi / omega.back(), 2 * std::numbers::pi / omega.front());
-  console.out << fmt::format("{:<24} {:>12} {:<7} {:>10} {:>10}\n", "signal", "largest", "unit", "at T [s]",
-                             "phase [deg]");
-  for (const auto& s : signals) {
-    const Peak p = peak(s, omega);
-    console.out << fmt::format("{:<24} {:>12.5g} {:<7} {:>10.4g} {:>10.1f}\n", s.name, p.amplitude, s.units, p.period,
-                               p.phase);
-  }
-  for (const auto& note : notes) console.out << "note: " << note << '\n';
+  console.out << fmt::format("{}: {} signals at {} frequencies{}, periods {:.4g} to {:.4g} s\n",
+                             scene.file.filename().string(), r.signals.size(), r.omega.size(),
+                             r.heading.size() > 1 ? fmt::format(" and {} headings", r.heading.size()) : "",
+                             2 * std::numbers::pi / r.omega.back(), 2 * std::numbers::pi / r.omega.front());
+  tell_peaks(console, r);
+  for (const auto& note : r.notes) console.out << "note: " << note << '\n';
   console.out << "wrote " << file.string() << '\n';
 }
 
@@ -106,11 +158,11 @@ void rao(const SceneArguments& arguments, const Console& console) {
   require_asked(scene.rao.has_value(), scene, "rao", "rao = { periods = \"2 s .. 8 s, 61 values\" }");
   const Path file = output_path(arguments, ".rao.h5");
   hydro::io::require_writable(file);
-  const auto [omega, signals, notes] = respond(scene);
-  write_rao(file, omega, scene.rao->heading.radians(), signals, provenance_of(scene, notes));
-  if (arguments.csv) write_rao_csv(*arguments.csv, omega, signals);
-  if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, omega, signals)));
-  tell(console, scene, omega, signals, file, notes);
+  const Responses r = respond(scene);
+  write_rao(file, r.omega, r.heading, r.signals, provenance_of(scene, r.notes));
+  if (arguments.csv) write_rao_csv(*arguments.csv, r);
+  if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, r)));
+  tell(console, scene, r, file);
 }
 
 }  // namespace froude

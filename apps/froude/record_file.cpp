@@ -53,9 +53,23 @@ void drop_before(RunResult& record, double from, const Path& file) {
   if (first == static_cast<std::ptrdiff_t>(record.time.size()))
     throw hydro::InputError(
         fmt::format("the record ends at {:.6g} s, before --from {:.6g} s", record.time.back(), from),
-        {.file = file.string()});
+        {.file = file.string()}, "give a time within the record, or leave --from out");
   record.time.erase(record.time.begin(), record.time.begin() + first);
   for (Signal& s : record.signals) s.values.erase(s.values.begin(), s.values.begin() + first);
+}
+
+void drop_after(RunResult& record, double to, const Path& file) {
+  const double slack = 1e-9 * std::abs(to);
+  if (record.time.back() < to - slack)
+    throw hydro::InputError(fmt::format("the record ends at {:.6g} s, before --to {:.6g} s", record.time.back(), to),
+                            {.file = file.string()}, "give a time within the record, or leave --to out");
+  const auto end = std::upper_bound(record.time.begin(), record.time.end(), to + slack) - record.time.begin();
+  if (end == 0)
+    throw hydro::InputError(
+        fmt::format("no sample is left: the first is at {:.6g} s, after --to {:.6g} s", record.time.front(), to),
+        {.file = file.string()}, "give a later end, or leave --to out");
+  record.time.resize(static_cast<std::size_t>(end));
+  for (Signal& s : record.signals) s.values.resize(static_cast<std::size_t>(end));
 }
 
 const Signal& signal_of(const RunResult& record, const std::string& name, const Path& file) {

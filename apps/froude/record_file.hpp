@@ -14,6 +14,9 @@ RunResult read_record(const Path& path);
 /// Leaves out the samples before a time, s. \throws hydro::InputError if nothing is left
 void drop_before(RunResult& record, double from, const Path& file);
 
+/// Leaves out the samples after a time, s. \throws hydro::InputError if the record ends before it, or nothing is left
+void drop_after(RunResult& record, double to, const Path& file);
+
 /// \throws hydro::InputError with the nearest name
 const Signal& signal_of(const RunResult& record, const std::string& name, const Path& file);
 

@@ -74,8 +74,10 @@ void write_run(const std::filesystem::path& path, const std::vector<double>& tim
   file.save(path);
 }
 
-void write_rao(const std::filesystem::path& path, const std::vector<double>& omega, double heading_rad,
+void write_rao(const std::filesystem::path& path, const std::vector<double>& omega, const std::vector<double>& heading,
                const std::vector<ComplexSignal>& signals, const Provenance& provenance) {
+  constexpr const char* meaning = "direction the wave propagates towards, from +x towards +y";
+  const bool several = heading.size() != 1;
   Hdf5Writer file;
   write_provenance(file, rao_kind, provenance);
   file.attribute("/", "phase", "Re(amplitude exp(+i omega t)), of a wave with its crest at the origin at t = 0");
@@ -83,16 +85,25 @@ void write_rao(const std::filesystem::path& path, const std::vector<double>& ome
   const std::array<std::string, 2> parts{"re", "im"};
   file.write_texts("/complex", parts);
   file.make_dimension("/complex");
-  file.write_scalar("/heading", heading_rad);
-  describe(file, "/heading", "rad", "direction the wave propagates towards, from +x towards +y");
+  if (several) {
+    write_dimension(file, "/heading", heading, "rad", meaning);
+  } else {
+    file.write_scalar("/heading", heading.front());
+    describe(file, "/heading", "rad", meaning);
+  }
+  std::vector<std::string> dimensions{"/omega", "/complex"};
+  std::vector<std::size_t> shape{omega.size(), parts.size()};
+  if (several) {
+    dimensions.insert(dimensions.begin(), "/heading");
+    shape.insert(shape.begin(), heading.size());
+  }
   for (const ComplexSignal& signal : signals) {
     const std::string dataset = root_path(signal.name);
     std::vector<double> flat;
     flat.reserve(2 * signal.values.size());
     for (const auto& value : signal.values) flat.insert(flat.end(), {value.real(), value.imag()});
-    file.write(dataset, flat, {omega.size(), 2});
-    file.attach_dimension(dataset, 0, "/omega");
-    file.attach_dimension(dataset, 1, "/complex");
+    file.write(dataset, flat, shape);
+    for (std::size_t d = 0; d < dimensions.size(); ++d) file.attach_dimension(dataset, d, dimensions[d]);
     describe(file, dataset, signal.units, signal.long_name);
   }
   file.save(path);

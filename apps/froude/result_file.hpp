@@ -19,7 +19,7 @@ struct Signal {
   std::vector<double> values = {};
 };
 
-/// A complex amplitude per frequency, phase as (P1) and (P2).
+/// A complex amplitude per frequency, of one heading after the other, phase as (P1) and (P2).
 struct ComplexSignal {
   std::string name;
   std::string units;  ///< "m/m", "rad/m", "N/m": per metre of wave amplitude
@@ -42,9 +42,9 @@ struct Provenance {
 void write_run(const std::filesystem::path& path, const std::vector<double>& time, const std::vector<Signal>& signals,
                const Provenance& provenance);
 
-/// Response amplitude operators: dimensions `omega` in rad/s and `complex`; scalar coordinate `heading` in rad.
-/// \throws hydro::InputError if the file cannot be written
-void write_rao(const std::filesystem::path& path, const std::vector<double>& omega, double heading_rad,
+/// Response amplitude operators: dimensions `omega` in rad/s and `complex`. `heading` in rad: a scalar where there is
+/// one, the first dimension where there are several. \throws hydro::InputError if the file cannot be written
+void write_rao(const std::filesystem::path& path, const std::vector<double>& omega, const std::vector<double>& heading,
                const std::vector<ComplexSignal>& signals, const Provenance& provenance);
 
 /// Free motions. Shapes: one row a mode, one column a motion.

@@ -57,6 +57,8 @@ std::string what_is_needed(const Key& key) {
       return "a direction";
     case Holds::range:
       return "a range of values";
+    case Holds::values:
+      return "a range of values, or a list of quantities,";
     case Holds::table:
       return "a table";
     case Holds::tables:
@@ -157,9 +159,29 @@ void read_range(const Site& at, Value& value) {
     value.range = hydro::parse_range(at.node.text, at.key.dimension);
   } catch (const InputError& why) {
     const std::string unit = si_unit(at.key.dimension);
-    at.refuse(why, fmt::format("write it like \"2 {} .. 8 {}, 61 values\"", unit, unit));
+    const std::string list =
+        at.key.holds == Holds::values ? fmt::format(", or as a list like [\"{}\"]", at.key.dimension.example()) : "";
+    at.refuse(why, fmt::format("write it like \"2 {} .. 8 {}, 61 values\"{}", unit, unit, list));
   }
   for (const double v : value.range) check_limit(at, v);
+}
+
+/// What a list of quantities may not hold twice: numbers that differ by the rounding of another unit only.
+bool are_same(double a, double b) { return std::abs(a - b) <= 1e-6 * std::max(std::abs(a), std::abs(b)); }
+
+void read_values(const Site& at, Value& value) {
+  if (at.node.is(Node::Type::text)) return read_range(at, value);
+  if (!at.node.is(Node::Type::list)) refuse_type(at);
+  for (std::size_t i = 0; i < at.node.items.size(); ++i) {
+    const Site here{at.node.items[i], at.key, at.title};
+    Value item;
+    read_quantity(here, item);
+    for (std::size_t earlier = 0; earlier < i; ++earlier)
+      if (are_same(value.range[earlier], item.number))
+        here.refuse(fmt::format("stands twice in this list, first as {}", at.node.items[earlier].raw), "keep one");
+    value.range.push_back(item.number);
+  }
+  if (value.range.empty()) at.refuse("is empty", "write at least one, or leave the key out");
 }
 
 void read_texts(const Site& at, Value& value) {
@@ -237,6 +259,9 @@ Value read_value(const Node& node, const Key& key, const std::string& title) {
       break;
     case Holds::range:
       read_range(at, value);
+      break;
+    case Holds::values:
+      read_values(at, value);
       break;
     case Holds::table:
     case Holds::tables:
@@ -324,6 +349,8 @@ std::string example(const Key& key) {
       return fmt::format("{} = [\"(6, ±5, 0) m\", \"(-6, ±5, 0) m\"]", key.name);
     case Holds::range:
       return fmt::format("{} = \"2 {} .. 8 {}, 61 values\"", key.name, unit, unit);
+    case Holds::values:
+      return fmt::format("{} = [\"{}\"]", key.name, key.dimension.example());
     case Holds::table: {
       const bool may_be_empty =
           key.inner->groups.empty() || key.inner->groups.front().count == Group::Count::at_most_one;

@@ -25,7 +25,7 @@ struct Value {
   double number = 0;  ///< number and quantity, SI
   std::int64_t integer = 0;
   std::vector<std::vector<Eigen::Vector3d>> points;  ///< vector: [0][0]; points: [0]; ends: [0] and [1]
-  std::vector<double> range;
+  std::vector<double> range;                         ///< range and values, SI
   std::vector<Located<std::string>> texts;
   std::vector<Record> records;  ///< table: one; tables: as many as there are
 };

@@ -40,6 +40,8 @@ std::string form_of(const Key& key) {
       return listed + ", or a vector without unit";
     case Holds::range:
       return "range, " + unit;
+    case Holds::values:
+      return "range, or list of quantities, " + unit;
     case Holds::table:
     case Holds::tables:
       return fmt::format("table `{}`", key.inner->title);

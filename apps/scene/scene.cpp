@@ -40,15 +40,18 @@ std::vector<double> read_omega(const Record& rao) {
 }
 
 /// The heading that an RAO takes over from [waves] is echoed like any other value that was filled in.
-void read_heading(const Record& rao, Scene& scene) {
-  if (rao.has("heading")) {
-    scene.rao->heading = hydro::Angle::from_radians(rao.si("heading"));
+void read_headings(const Record& rao, Scene& scene) {
+  const char* key = rao.has("headings") ? "headings" : "heading";
+  if (rao.has(key)) {
+    scene.rao->headings = rao.has("headings") ? rao[key].range : std::vector{rao.si(key)};
+    scene.rao->headings_place = rao[key].place;
     return;
   }
   if (!scene.waves)
     throw rao.refused("needs a heading, as there is no [waves] to take it from",
                       "add heading = \"0 deg\" to [ask.rao]");
-  scene.rao->heading = scene.waves->heading;
+  scene.rao->headings = {scene.waves->heading.radians()};
+  scene.rao->headings_place = scene.waves->place;
   const auto before =
       std::find_if(scene.echo.begin(), scene.echo.end(), [](const Echo& e) { return e.key == "ask.rao.of"; });
   const auto waves =
@@ -139,12 +142,14 @@ void build_ask(const Record& ask, Scene& scene) {
   if (ask.has("rao")) {
     const Record& rao = ask.table("rao");
     scene.rao = AskRao{.omega = read_omega(rao),
+                       .headings = {},
+                       .headings_place = {},
                        .of = {},
                        .of_places = {},
                        .drag = read_drag(rao, scene),
                        .about = read_about(rao),
                        .place = rao.place()};
-    read_heading(rao, scene);
+    read_headings(rao, scene);
     read_of(rao, scene.rao->of, scene.rao->of_places);
   }
   if (ask.has("modes")) {

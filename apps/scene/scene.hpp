@@ -457,11 +457,11 @@ struct AskRao {
     std::optional<double> steepness;  ///< of waves at each frequency
     Place place;
   };
-  std::vector<double> omega;  ///< rad/s, increasing
-  hydro::Angle heading =
-      hydro::Angle::from_radians(0);  ///< of the waves; that of [waves] unless the scene says otherwise
-  std::vector<std::string> of;        ///< patterns such as "m*.surge", "connector*.force"; empty: everything
-  std::vector<Place> of_places;       ///< one for each pattern
+  std::vector<double> omega;     ///< rad/s, increasing
+  std::vector<double> headings;  ///< rad, of the waves, as asked; that of [waves] unless the scene says otherwise
+  Place headings_place;          ///< of what names them
+  std::vector<std::string> of;   ///< patterns such as "m*.surge", "connector*.force"; empty: everything
+  std::vector<Place> of_places;  ///< one for each pattern
   std::optional<DragIn> drag;
   About about;
   Place place;

@@ -46,6 +46,9 @@ Key direction(std::string name, std::string meaning) {
 Key range(std::string name, const hydro::Dimension& dimension, std::string meaning) {
   return {.name = std::move(name), .holds = Holds::range, .dimension = dimension, .meaning = std::move(meaning)};
 }
+Key values(std::string name, const hydro::Dimension& dimension, std::string meaning) {
+  return {.name = std::move(name), .holds = Holds::values, .dimension = dimension, .meaning = std::move(meaning)};
+}
 Key inner_table(std::string name, const Table& inner) {
   return {.name = std::move(name), .holds = Holds::table, .meaning = inner.meaning, .inner = &inner};
 }

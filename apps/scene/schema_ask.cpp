@@ -42,8 +42,13 @@ const Table& ask_rao() {
       .keys = {range("periods", dim::time, "wave periods").positive().optional(),
                range("omega", dim::angular_velocity, "wave frequencies").positive().optional(),
                quantity("heading", dim::angle, "where the waves go; left out: the heading of [waves]").optional(),
+               values(
+                   "headings", dim::angle,
+                   "where the waves go, several at once: \"0 deg .. 180 deg, 13 values\" or [\"0 deg\", \"30 deg\"]; "
+                   "results gain a dimension")
+                   .optional(),
                inner_table("drag", ask_rao_drag()).optional(), small_motions_about(), asked_signals()},
-      .groups = {{exactly_one, {"periods", "omega"}}}};
+      .groups = {{exactly_one, {"periods", "omega"}}, {at_most_one, {"heading", "headings"}}}};
   return table;
 }
 

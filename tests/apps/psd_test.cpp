@@ -105,6 +105,34 @@ TEST_F(Psd, ReadsAResultOfARunAndWritesTablesAndAPicture) {
   EXPECT_EQ(hydro::io::Hdf5Reader(folder / "p.h5").text_attribute("/m1.heave.density", "units"), "m^2/Hz");
 }
 
+// The same numbers as of a file that holds no more than the part.
+TEST_F(Psd, AnalysesAPartOfTheRecordAsIfThereWereNoMore) {
+  const auto part = json({.file = csv(), .signals = {"wave"}, .segment = "80 s", .from = "40 s", .to = "400 s"});
+  EXPECT_EQ(part["samples"], 1801);  // both ends count
+  for (auto* values : {&time, &wave, &heave}) *values = {values->begin() + 200, values->begin() + 2001};
+  const auto alone = json({.file = csv(), .signals = {"wave"}, .segment = "80 s"});
+  EXPECT_EQ(part["signals"]["wave"], alone["signals"]["wave"]);
+  EXPECT_EQ(json({.file = csv(), .segment = "80 s", .to = "400 s"})["samples"], 1801) << "up to the very end";
+}
+
+TEST_F(Psd, RefusesAnEndThatIsNone) {
+  const auto run = [&](const PsdArguments& arguments) { return [this, arguments] { text(arguments); }; };
+  using testing::AllOf;
+  EXPECT_THAT(run({.file = csv(), .from = "60 s", .to = "60 s"}),
+              ThrowsMessage<InputError>(AllOf(HasSubstr("command line: error: --to 60 s is not after --from 60 s"),
+                                              HasSubstr("exchange the two"))));
+  EXPECT_THAT(run({.file = csv(), .to = "10.1 min"}),
+              ThrowsMessage<InputError>(AllOf(HasSubstr("r.csv: error: the record ends at 599.8 s, before --to 606 s"),
+                                              HasSubstr("leave --to out"))));
+  EXPECT_THAT(run({.file = csv(), .to = "-1 s"}),
+              ThrowsMessage<InputError>(AllOf(HasSubstr("the first is at 0 s, after --to -1 s"), HasSubstr("later"))));
+  EXPECT_THAT(run({.file = csv(), .from = "1.05 s", .to = "1.15 s"}), ThrowsMessage<InputError>(HasSubstr("at 1.2 s")));
+  EXPECT_THAT(run({.file = csv(), .to = "400"}),
+              ThrowsMessage<InputError>(AllOf(HasSubstr("--to: error: "), HasSubstr("has no unit"))));
+  EXPECT_THAT(run({.file = csv(), .from = "60 m"}),
+              ThrowsMessage<InputError>(AllOf(HasSubstr("--from: error: "), HasSubstr("is a length"))));
+}
+
 TEST_F(Psd, SaysWhatIsWrong) {
   const auto run = [&](const PsdArguments& arguments) { return [this, arguments] { text(arguments); }; };
   EXPECT_THAT(run({.file = csv(), .signals = {"heeve"}}), ThrowsMessage<InputError>(HasSubstr("heeve")));

@@ -68,7 +68,14 @@ void write_sample_run(const fs::path& path) {
 }
 
 void write_sample_rao(const fs::path& path) {
-  froude::write_rao(path, {0.5, 1.0, 1.5}, 0.25, {{"m1.heave", "m/m", "heave of m1", {{1, 2}, {3, 4}, {5, 6}}}},
+  froude::write_rao(path, {0.5, 1.0, 1.5}, {0.25}, {{"m1.heave", "m/m", "heave of m1", {{1, 2}, {3, 4}, {5, 6}}}},
+                    provenance());
+}
+
+/// Two headings, not in rising order, with three frequencies each.
+void write_sample_headings(const fs::path& path) {
+  froude::write_rao(path, {0.5, 1.0, 1.5}, {1.25, 0.25},
+                    {{"m1.heave", "m/m", "heave of m1", {{1, 2}, {3, 4}, {5, 6}, {7, 8}, {9, 10}, {11, 12}}}},
                     provenance());
 }
 
@@ -104,11 +111,22 @@ TEST_F(ResultFile, StoresAComplexAmplitudeAsRealAndImaginaryPart) {
   EXPECT_EQ(file.scalar("/heading"), 0.25);
 }
 
+TEST_F(ResultFile, StoresSeveralHeadingsAsTheFirstDimension) {
+  write_sample_headings(folder_ / "headings.h5");
+  const hydro::io::Hdf5Reader file(folder_ / "headings.h5");
+  const auto array = file.numbers("/m1.heave");
+  EXPECT_THAT(array.shape, ElementsAre(2, 3, 2));
+  EXPECT_THAT(array.values, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12));
+  EXPECT_THAT(file.numbers("/heading").values, ElementsAre(1.25, 0.25));
+  EXPECT_EQ(file.text_attribute("/heading", "units"), "rad");
+}
+
 TEST_F(ResultFile, OpensInXarrayWithDimensionsCoordinatesAndUnits) {
   if (std::system("/usr/bin/python3 -c 'import xarray, netCDF4' >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "skipped, no xarray with netCDF4 under /usr/bin/python3";
   write_sample_run(folder_ / "run.h5");
   write_sample_rao(folder_ / "rao.h5");
+  write_sample_headings(folder_ / "headings.h5");
   const std::string command = "/usr/bin/python3 " + froude_test::source_dir().string() +
                               "/tests/apps/open_with_xarray.py '" + folder_.string() + "'";
   EXPECT_EQ(std::system(command.c_str()), 0);

@@ -156,6 +156,92 @@ class Success(CommandLine):
         self.assertEqual(self.froude("rao", "there/scene.toml", "-o", "rao.h5").returncode, 0)
 
 
+class Headings(CommandLine):
+    """Responses to waves of several headings: the same numbers in every form, and those of one heading by itself."""
+
+    def rao(self, heading, *options):
+        self.write("scene.toml", SCENE.replace("rao = {", f"rao = {{ {heading},"))
+        result = self.froude("rao", "scene.toml", "-o", "rao.h5", *options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout
+
+    def test_json_has_a_list_for_each(self):
+        several = json.loads(self.rao('headings = ["90 deg", "0 deg"]', "--json"))
+        self.assertEqual([round(math.degrees(h), 9) for h in several["heading_rad"]], [90, 0])
+        for number, heading in enumerate(("90 deg", "0 deg")):
+            one = json.loads(self.rao(f'heading = "{heading}"', "--json"))
+            self.assertNotIn("heading_rad", one)
+            for name, signal in one["signals"].items():
+                both = several["signals"][name]
+                self.assertEqual(len(both["amplitude"]), 2)
+                size = max(map(max, both["amplitude"]))  # surge in beam waves is nothing but rounding
+                for got, alone in zip(both["amplitude"][number], signal["amplitude"], strict=True):
+                    self.assertAlmostEqual(got, alone, delta=1e-11 * size)
+                self.assertEqual(len(both["phase_rad"][number]), len(signal["phase_rad"]))
+
+    def test_a_list_of_one_is_one_heading(self):
+        texts = {self.rao(heading, "--json") for heading in ('heading = "45 deg"', 'headings = ["45 deg"]')}
+        self.assertEqual(len(texts), 1)
+
+    def test_the_table_has_a_row_and_the_csv_rows_for_each(self):
+        told = self.rao('headings = "0 deg .. 90 deg, 4 values"', "--csv", "rao.csv", "--picture", "rao.svg")
+        self.assertIn("2 signals at 6 frequencies and 4 headings", told)
+        rows = [line.split() for line in told.splitlines() if line.startswith("m.")]
+        self.assertEqual([row[:2] for row in rows], [[name, angle] for name in ("m.surge", "m.heave") for angle in ("0", "30", "60", "90")])
+        lines = [line for line in (self.folder / "rao.csv").read_text().splitlines() if not line.startswith("#")]
+        self.assertTrue(lines[0].startswith("heading [deg],omega [rad/s],period [s],m.surge amplitude [m/m],"), lines[0])
+        self.assertEqual([round(float(line.split(",")[0]), 9) for line in lines[1:]], [h for h in (0, 30, 60, 90) for _ in range(6)])
+        self.assertEqual(len({line.split(",")[1] for line in lines[1:]}), 6)
+        picture = (self.folder / "rao.svg").read_text()
+        for part in ("m.surge", "m.heave", "30 deg", "90 deg"):
+            self.assertIn(part, picture)
+
+    def test_one_heading_is_told_as_ever(self):
+        told = self.rao('heading = "0 deg"', "--csv", "rao.csv")
+        self.assertIn("2 signals at 6 frequencies, periods 3 to 8 s", told)
+        self.assertNotIn("heading", told)
+        self.assertNotIn("heading", (self.folder / "rao.csv").read_text())
+
+    def test_the_plan_says_who_shares_factors(self):
+        self.write("scene.toml", SCENE.replace("rao = {", 'rao = { headings = "0 deg .. 90 deg, 4 values",'))
+        told = self.froude("plan", "scene.toml").stdout
+        self.assertIn("6 frequencies, 4 headings, 6 unknowns", told)
+        self.assertIn("one factorisation at each frequency serves all", told)
+
+    def test_headings_that_cannot_be_are_refused_where_they_stand(self):
+        def refuses(value, *words):
+            self.refuses_scene("rao = {", f"rao = {{ headings = {value},", *words, command="rao")
+
+        refuses("[]", "headings = [] is empty", "write at least one")
+        refuses('["0 deg", "0 deg"]', "stands twice", "keep one")
+        refuses('["0 deg", "30"]', "has no unit", "an angle is needed")
+        refuses('"0 deg .. 180 deg, 13 values"', "heading 105 deg is asked for", "from 0 to 90 deg", "--symmetric")
+        text = SCENE.replace("rao = {", 'rao = { headings = ["0 deg", "90 deg"],').replace("excitation = true\n", "")
+        self.write("scene.toml", text)
+        self.refuses(self.froude("rao", "scene.toml", "-o", "result.h5"), "scene.toml:", "no body names excitation", "add excitation = true")
+
+
+class PartOfARecord(CommandLine):
+    def setUp(self):
+        super().setUp()
+        self.write("table.csv", "time [s], force [N]\n" + "".join(f"{0.1 * i:.1f}, {math.sin(0.3 * i):.6f}\n" for i in range(1000)))
+
+    def test_is_what_psd_analyses(self):
+        told = self.froude("psd", "table.csv", "--from", "20 s", "--to", "1 min", "--segment", "10 s")
+        self.assertEqual(told.returncode, 0, told.stderr)
+        self.assertIn("401 samples", told.stdout)
+        self.assertIn("--to", self.froude("psd", "--help").stdout)
+
+    def test_that_is_none_is_refused(self):
+        def refuses(options, *words):
+            self.refuses(self.froude("psd", "table.csv", *options), *words)
+
+        refuses(["--from", "20 s", "--to", "10 s"], "command line", "--to 10 s is not after --from 20 s", "exchange the two")
+        refuses(["--to", "100 s"], "table.csv", "the record ends at 99.9 s, before --to 100 s", "leave --to out")
+        refuses(["--to", "60"], "--to: error", "has no unit; a time is needed")
+        refuses(["--from", "200 s"], "table.csv", "the record ends at 99.9 s, before --from 200 s", "leave --from out")
+
+
 class WrongCommandLine(CommandLine):
     def test_an_unknown_command_with_the_nearest_one(self):
         self.refuses(self.froude("rum", "scene.toml"), '"rum"', '"run"', "froude --help")

@@ -70,6 +70,19 @@ class Module(unittest.TestCase):
         for name in rao.signals:
             np.testing.assert_array_equal(rao[name], file[name] @ [1, 1j])
 
+    def test_a_response_to_several_headings_has_a_row_for_each(self):
+        rao, file = froude.rao(froude.read(examples / "headings.toml")), result_of("rao", "headings.toml")
+        np.testing.assert_array_equal(rao.heading, file["heading"])
+        np.testing.assert_allclose(np.degrees(rao.heading), np.linspace(0, 180, 13), rtol=0, atol=1e-12)
+        for name in rao.signals:
+            self.assertEqual(rao[name].shape, (13, len(rao.omega)))
+            np.testing.assert_array_equal(rao[name], file[name] @ [1, 1j])
+        with self.assertRaises(ValueError):
+            rao["float.heave"][0, 0] = 1
+        one = froude.rao(froude.read(examples / "moored.toml"))
+        np.testing.assert_allclose(one.heading, [np.radians(20)], rtol=1e-15)
+        self.assertEqual(one["module.heave"].shape, one.omega.shape)
+
     def test_signals_have_units_and_cannot_be_written(self):
         run = froude.run(scene_of(spring))
         self.assertEqual(run.unit("m.surge"), "m")

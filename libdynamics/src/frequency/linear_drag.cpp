@@ -63,13 +63,14 @@ Eigen::VectorXd coefficients(const LinearDrag& drag, Index w, double omega, cons
 }
 
 /// Where response depends on drag alone it goes as its inverse, for which the mean of old and new is exact.
-void settle(LinearDrag& drag, Index w, const LinearModel& of, double omega, const VectorXcd& X,
-            const Eigen::MatrixXcd& Z, double a) {
+void settle(LinearDrag& drag, Index w, LinearModel& of, double omega, const VectorXcd& X, const Eigen::MatrixXcd& Z,
+            double a) {
   constexpr int most = 100;
   constexpr double enough = 1e-6;  // of the largest coefficient: far below what a drag coefficient is known to
   drag.coefficient.col(w) = coefficients(drag, w, omega, VectorXcd::Zero(X.size()), a);
   for (int i = 0; i < most; ++i) {
-    const VectorXcd xi = of.response(drag.added_to(Z, w, omega), X + drag.excitation(w, X.size()), omega);
+    const VectorXcd load = X + drag.excitation(w, X.size());
+    const VectorXcd xi = of.response(drag.added_to(Z, w, omega), load, omega);
     const Eigen::VectorXd found = coefficients(drag, w, omega, xi, a);
     const double change = (found - drag.coefficient.col(w)).lpNorm<Eigen::Infinity>();
     drag.coefficient.col(w) = (found + drag.coefficient.col(w)) / 2;
@@ -108,7 +109,7 @@ LinearDrag linearised_drag(const SmallMotions& about, const std::vector<Potentia
   LinearDrag drag{.pieces = turned(pieces, about.still),
                   .velocity = Eigen::MatrixXcd(3 * count, frequencies),
                   .coefficient = Eigen::MatrixXd::Zero(count, frequencies)};
-  const LinearModel of(about);
+  LinearModel of(about);
   for (Index w = 0; w < frequencies; ++w) {
     const auto at = static_cast<std::size_t>(w);
     const hydro::waves::Component wave{.omega = omega[at],

@@ -1,8 +1,7 @@
 #include "dynamics/frequency/rao.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/QR>
 
-#include "hydro/base/error.hpp"
 #include "linear_model.hpp"
 #include "scatter.hpp"
 
@@ -32,16 +31,6 @@ Eigen::VectorXcd excitation(const Model& model, const std::vector<PotentialGroup
   return F;
 }
 
-Eigen::VectorXcd LinearModel::response(const Eigen::MatrixXcd& Z, const Eigen::VectorXcd& X, double omega) const {
-  const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(left.matrix(Z));
-  const Eigen::VectorXcd x = lu.solve(left.vector(X));
-  // An undamped resonance met exactly has no finite answer.
-  if (!x.allFinite() || lu.rcond() < 1e-15)
-    throw hydro::NumericsError(
-        fmt::format("no response exists at {:.6g} rad/s: the equations of motion are singular there", omega));
-  return left.expanded(x);
-}
-
 namespace {
 
 /// Both sides of (Q1).
@@ -56,11 +45,54 @@ Equations equations(const SmallMotions& about, const std::vector<PotentialGroup>
   return e;
 }
 
+/// The right-hand sides of (Q1), one column a heading, (6N, Nβ).
+Eigen::MatrixXcd excitations(const Model& model, const std::vector<PotentialGroup>& groups, double omega,
+                             const std::vector<double>& headings) {
+  Eigen::MatrixXcd X(model.modes(), static_cast<Eigen::Index>(headings.size()));
+  for (Eigen::Index h = 0; h < X.cols(); ++h)
+    X.col(h) = excitation(model, groups, omega, headings[static_cast<std::size_t>(h)]);
+  return X;
+}
+
+/// The multipliers of joints, from what motions leave open of the equations of motion.
+class OpenEquations {
+ public:
+  explicit OpenEquations(const SmallMotions& about) : scale_(about.mass.diagonal().cwiseSqrt().cwiseInverse()) {
+    // Only free modes have an equation, and rows are scaled so that newtons and newton metres compare.
+    for (int m = 0; m < about.model.modes(); ++m)
+      if (!about.model.is_free(m)) scale_[m] = 0;
+    qr_.compute(scale_.asDiagonal() * about.linear.conditions.transpose());
+  }
+
+  /// λ by X − Z ξ, of a vector or of each column.
+  template <class Loads>
+  Loads multipliers(const Loads& rest) const {
+    Loads lambda(qr_.cols(), rest.cols());
+    lambda.real() = qr_.solve(scale_.asDiagonal() * rest.real());
+    lambda.imag() = qr_.solve(scale_.asDiagonal() * rest.imag());
+    return lambda;
+  }
+
+ private:
+  Eigen::VectorXd scale_;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
+};
+
+/// Column w of the matrix of each heading, side by side; and back.
+Eigen::MatrixXcd columns_at(const std::vector<Eigen::MatrixXcd>& by_heading, Eigen::Index w) {
+  Eigen::MatrixXcd out(by_heading.front().rows(), static_cast<Eigen::Index>(by_heading.size()));
+  for (Eigen::Index h = 0; h < out.cols(); ++h) out.col(h) = by_heading[static_cast<std::size_t>(h)].col(w);
+  return out;
+}
+void set_columns(const Eigen::MatrixXcd& columns, Eigen::Index w, std::vector<Eigen::MatrixXcd>& by_heading) {
+  for (Eigen::Index h = 0; h < columns.cols(); ++h) by_heading[static_cast<std::size_t>(h)].col(w) = columns.col(h);
+}
+
 }  // namespace
 
 Eigen::MatrixXcd response_amplitudes(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
                                      const std::vector<double>& omega, double heading, const LinearDrag* drag) {
-  const LinearModel of(about);
+  LinearModel of(about);
   Eigen::MatrixXcd xi = Eigen::MatrixXcd::Zero(about.model.modes(), static_cast<Eigen::Index>(omega.size()));
   if (of.left.count() == 0) return xi;
   for (Eigen::Index w = 0; w < xi.cols(); ++w) {
@@ -71,22 +103,48 @@ Eigen::MatrixXcd response_amplitudes(const SmallMotions& about, const std::vecto
   return xi;
 }
 
+HeadingAmplitudes response_amplitudes(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
+                                      const std::vector<double>& omega, const std::vector<double>& headings) {
+  LinearModel of(about);
+  const auto frequencies = static_cast<Eigen::Index>(omega.size());
+  HeadingAmplitudes out;
+  out.xi.assign(headings.size(), Eigen::MatrixXcd::Zero(about.model.modes(), frequencies));
+  if (of.left.count() == 0) return out;
+  for (Eigen::Index w = 0; w < frequencies; ++w) {
+    const double at = omega[static_cast<std::size_t>(w)];
+    const Eigen::MatrixXcd X = excitations(about.model, groups, at, headings);
+    set_columns(of.response(impedance(about, groups, at), X, at), w, out.xi);  // (Q1), all headings
+  }
+  out.factorisations = of.factorisations;
+  return out;
+}
+
 Eigen::MatrixXcd multiplier_amplitudes(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
                                        const std::vector<double>& omega, double heading, const Eigen::MatrixXcd& xi,
                                        const LinearDrag* drag) {
   Eigen::MatrixXcd lambda(about.linear.conditions.rows(), xi.cols());
   if (lambda.rows() == 0) return lambda;
-  // Only free modes have an equation, and rows are scaled so that newtons and newton metres compare.
-  Eigen::VectorXd scale = about.mass.diagonal().cwiseSqrt().cwiseInverse();
-  for (int m = 0; m < about.model.modes(); ++m)
-    if (!about.model.is_free(m)) scale[m] = 0;
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * about.linear.conditions.transpose();
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
+  const OpenEquations open(about);
   for (Eigen::Index w = 0; w < xi.cols(); ++w) {
     const auto [Z, X] = equations(about, groups, omega[static_cast<std::size_t>(w)], heading, drag, w);
-    const Eigen::VectorXcd rest = X - Z * xi.col(w);
-    lambda.col(w).real() = qr.solve(scale.cwiseProduct(rest.real()));
-    lambda.col(w).imag() = qr.solve(scale.cwiseProduct(rest.imag()));
+    lambda.col(w) = open.multipliers(Eigen::VectorXcd(X - Z * xi.col(w)));
+  }
+  return lambda;
+}
+
+std::vector<Eigen::MatrixXcd> multiplier_amplitudes(const SmallMotions& about,
+                                                    const std::vector<PotentialGroup>& groups,
+                                                    const std::vector<double>& omega,
+                                                    const std::vector<double>& headings,
+                                                    const std::vector<Eigen::MatrixXcd>& xi) {
+  const auto frequencies = static_cast<Eigen::Index>(omega.size());
+  std::vector<Eigen::MatrixXcd> lambda(headings.size(), Eigen::MatrixXcd(about.linear.conditions.rows(), frequencies));
+  if (about.linear.conditions.rows() == 0 || headings.empty()) return lambda;
+  const OpenEquations open(about);
+  for (Eigen::Index w = 0; w < frequencies; ++w) {
+    const double at = omega[static_cast<std::size_t>(w)];
+    const Eigen::MatrixXcd X = excitations(about.model, groups, at, headings);
+    set_columns(open.multipliers(Eigen::MatrixXcd(X - impedance(about, groups, at) * columns_at(xi, w))), w, lambda);
   }
   return lambda;
 }

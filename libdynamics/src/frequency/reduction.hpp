@@ -25,18 +25,18 @@ class Reduction {
     const Matrix N = basis_.cast<typename Matrix::Scalar>();
     return N.transpose() * whole * N;
   }
-  /// Nᵀ f.
+  /// Nᵀ f, of a vector or of each column.
   template <class Vector>
   Vector vector(const Vector& whole) const {
-    if (!jointed_) return whole(free_);
+    if (!jointed_) return whole(free_, Eigen::all);
     return basis_.transpose().cast<typename Vector::Scalar>() * whole;
   }
-  /// N x.
+  /// N x, of a vector or of each column.
   template <class Vector>
   Vector expanded(const Vector& x) const {
     if (jointed_) return basis_.cast<typename Vector::Scalar>() * x;
-    Vector out = Vector::Zero(modes_);
-    out(free_) = x;
+    Vector out = Vector::Zero(modes_, x.cols());
+    out(free_, Eigen::all) = x;
     return out;
   }
 

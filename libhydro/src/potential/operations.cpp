@@ -127,7 +127,9 @@ Eigen::VectorXcd FrequencyTable::excitation(double omega, double heading) const 
         fmt::format("{}: heading {:.6g} deg is asked for, but excitation is given from {:.6g} to {:.6g} deg", c_.source,
                     heading * 180 / std::numbers::pi, c_.heading.front() * 180 / std::numbers::pi,
                     c_.heading.back() * 180 / std::numbers::pi),
-        {}, "compute the excitation for this heading, or choose one inside the data");
+        {},
+        "choose headings inside the data, compute the excitation for this one, or mirror that of symmetric bodies: "
+        "`froude bem convert --symmetric`");
   const double inside = std::clamp(heading, c_.heading.front(), c_.heading.back());
   const Stencil by_heading = straight_stencil(c_.heading, inside), by_omega = cubic_stencil(c_.omega, omega);
   Eigen::VectorXcd X = combined(by_heading, c_.heading.size(), [&](std::size_t h) {

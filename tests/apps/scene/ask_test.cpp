@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numbers>
 
 #include "apps/scene/scenes.hpp"
@@ -34,14 +35,60 @@ TEST(SceneAsk, RefusesRangesThatAreNone) {
 
 TEST(SceneAsk, TakesTheHeadingOfTheWavesForAnRao) {
   const Scene scene = parse(pontoons, "scene.toml");
-  EXPECT_NEAR(scene.rao->heading.degrees(), 30, 1e-12);  // round-off of a conversion there and back
+  ASSERT_EQ(scene.rao->headings.size(), 1u);
+  EXPECT_DOUBLE_EQ(scene.rao->headings[0], std::numbers::pi / 6);
   const auto own = parse(with(pontoons, "rao = {", "rao = { heading = \"45 deg\","), "scene.toml");
-  EXPECT_NEAR(own.rao->heading.degrees(), 45, 1e-12);
+  EXPECT_DOUBLE_EQ(own.rao->headings.at(0), std::numbers::pi / 4);
   const auto from = pontoons.find("[waves]"), to = pontoons.find("[[body]]"), run = pontoons.find("run = ");
   const std::string calm = pontoons.substr(0, from) + pontoons.substr(to, run - to);
   EXPECT_THAT(refusal(calm),
               AllOf(StartsWith("scene.toml:35:7: error: [ask.rao] needs a heading"), HasSubstr("add heading")));
   EXPECT_NO_THROW(parse(with(calm, "rao = {", "rao = { heading = \"45 deg\","), "scene.toml"));
+}
+
+/// The pontoons with these headings in [ask.rao].
+std::string with_headings(const std::string& value) {
+  return with(pontoons, "rao = {", "rao = { headings = " + value + ",");
+}
+
+TEST(SceneAsk, TakesHeadingsAsARangeOrAList) {
+  const double degree = std::numbers::pi / 180;
+  const AskRao range = *parse(with_headings("\"0 deg .. 180 deg, 13 values\""), "scene.toml").rao;
+  ASSERT_EQ(range.headings.size(), 13u);
+  for (std::size_t h = 0; h < 13; ++h) EXPECT_NEAR(range.headings[h], 15 * degree * static_cast<double>(h), 1e-15);
+  EXPECT_EQ(range.headings_place.line, 40);
+  const Scene list = parse(with_headings("[\"90 deg\", \"-0.5 rad\", \"0 deg\"]"), "scene.toml");
+  EXPECT_THAT(list.rao->headings, testing::ElementsAre(testing::DoubleEq(90 * degree), -0.5, 0)) << "as asked";
+  const auto told = std::find_if(list.echo.begin(), list.echo.end(),
+                                 [](const Echo& e) { return e.key.starts_with("ask.rao.heading"); });
+  ASSERT_NE(told, list.echo.end());
+  EXPECT_EQ(told->key + " = " + told->value, "ask.rao.headings = [90 deg, -0.5 rad, 0 deg]");
+  const std::string table = "[ask.rao]\nperiods = \"2 s .. 8 s, 4 values\"\nheadings = [\"10 deg\"]\n";
+  const std::string inline_rao =
+      pontoons.substr(pontoons.find("rao = {"), pontoons.find("run = {") - pontoons.find("rao = {"));
+  EXPECT_EQ(parse(with(pontoons, inline_rao, "") + table, "scene.toml").rao->headings.size(), 1u);
+}
+
+TEST(SceneAsk, RefusesHeadingsThatAreNone) {
+  EXPECT_THAT(refusal(with_headings("[]")),
+              AllOf(StartsWith("scene.toml:40:20: error: [ask.rao] headings = [] is empty"),
+                    HasSubstr("write at least one, or leave the key out")));
+  EXPECT_THAT(refusal(with_headings("[\"0 deg\", \"90 deg\", \"1.5707963 rad\"]")),
+              AllOf(StartsWith("scene.toml:40:40: error: [ask.rao] headings = \"1.5707963 rad\" stands twice"),
+                    HasSubstr("first as \"90 deg\""), HasSubstr("keep one")));
+  EXPECT_THAT(refusal(with_headings("[\"0 deg\", \"0 rad\"]")), HasSubstr("stands twice"));
+  EXPECT_THAT(refusal(with_headings("[\"0 deg\", 90]")), HasSubstr("90 has no unit; an angle is needed"));
+  EXPECT_THAT(refusal(with_headings("\"45 deg\"")),
+              AllOf(HasSubstr("is not a range of values"), HasSubstr("or as a list like [\"22.5 deg\"]")));
+  EXPECT_THAT(refusal(with_headings("45")), HasSubstr("is an integer; a range of values, or a list of quantities"));
+  EXPECT_THAT(refusal(with_headings("\"90 deg .. 0 deg, 4 values\"")), HasSubstr("does not increase"));
+  EXPECT_THAT(refusal(with_headings("\"0 m .. 90 m, 4 values\"")),
+              HasSubstr("\"0 m\" is a length; an angle is needed"));
+  EXPECT_THAT(refusal(with_headings("[\"0 deg\"], heading = \"0 deg\"")),
+              HasSubstr("may hold only one of heading, headings"));
+  EXPECT_THAT(refusal(with(with_headings("[\"0 deg\", \"90 deg\"]"), "excitation = true\n", "")),
+              AllOf(StartsWith("scene.toml:39:7: error: [ask.rao] asks how bodies answer waves"),
+                    HasSubstr("excitation = true")));
 }
 
 TEST(SceneAsk, WantsWavesForExcitationInARun) {

@@ -133,6 +133,49 @@ TEST(Rao, BalancesThePowerOfTheWaves) {
   }
 }
 
+/// The same bodies in waves from several sides, whose excitation differs in size and phase from mode to mode.
+Coefficients from_sides(Coefficients c, const std::vector<double>& headings) {
+  const Eigen::MatrixXcd ahead = c.X.front();
+  c.heading = headings;
+  c.X.clear();
+  for (const double beta : headings) {
+    Eigen::MatrixXcd& X = c.X.emplace_back(ahead);
+    for (Eigen::Index m = 0; m < X.rows(); ++m)
+      X.row(m) *= std::polar(1 + 0.5 * std::cos(beta + double(m)), 0.3 * beta);
+  }
+  return c;
+}
+
+// The same factors on more columns: the sums are those of one heading, in another order.
+TEST(RaoHeadings, AreThoseOfOneByOneFromOneFactorisationAFrequency) {
+  const std::vector<RigidBody> bodies{body("a", 0), body("b", 10)};
+  const Ends ends{0, 1, Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(-1, 0, 0)};
+  const Model model =
+      sprung(bodies, 2500, 40,
+             std::make_unique<AxialConnectorKind>(std::vector<AxialConnector>{{ends, {800, 60}, std::sqrt(65.0)}}));
+  const std::vector<double> data{-0.5, 0.1, 0.8, 2.0}, omega{0.5, 1.23, 1.4, 3.0}, asked{2.0, -0.5, 0.3};
+  const std::vector<PotentialGroup> groups{group(from_sides(coefficients({0, 10}), data), {0, 10})};
+  const auto together = frequency::response_amplitudes(model, groups, omega, asked);
+  EXPECT_EQ(together.factorisations, 4) << "one at each of four frequencies, for three headings";
+  ASSERT_EQ(together.xi.size(), asked.size());
+  for (std::size_t h = 0; h < asked.size(); ++h) {
+    const Eigen::MatrixXcd alone = frequency::response_amplitudes(model, groups, omega, asked[h]);
+    EXPECT_LT((together.xi[h] - alone).norm(), 1e-13 * alone.norm()) << asked[h];
+  }
+  EXPECT_GT((together.xi[0] - together.xi[1]).norm(), 0.1 * together.xi[0].norm()) << "headings differ";
+}
+
+TEST(RaoHeadings, AreAllRefusedAtAnUndampedResonance) {
+  const std::vector<RigidBody> bodies{body("a", 0)};
+  auto g = group(from_sides(coefficients({0}), {0, 1}), {0});
+  g.radiation = false;
+  EXPECT_THAT(
+      [&] {
+        frequency::response_amplitudes(sprung(bodies, 1000, 0), {g}, {1.0}, std::vector<double>{0, 1});
+      },
+      testing::ThrowsMessage<hydro::NumericsError>(testing::HasSubstr("at 1 rad/s")));
+}
+
 TEST(Rao, NamesTheRangeOfTheDataWhenAskedOutside) {
   const std::vector<RigidBody> bodies{body("a", 0)};
   EXPECT_THAT(

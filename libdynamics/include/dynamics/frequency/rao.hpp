@@ -42,11 +42,30 @@ Eigen::MatrixXcd response_amplitudes(const SmallMotions& about, const std::vecto
                                      const std::vector<double>& omega, double heading,
                                      const LinearDrag* drag = nullptr);
 
+/// Responses to waves of several headings.
+struct HeadingAmplitudes {
+  std::vector<Eigen::MatrixXcd> xi;  ///< one a heading, in the order asked: (6N, Nω), m/m and rad/m
+  int factorisations = 0;            ///< of the matrix of (Q1): one a frequency, however many headings
+};
+
+/// response_amplitudes() of each of `headings`, rad. The matrix of (Q1) does not know where the waves go, so it is
+/// factored once at each frequency, O((6N)³), and each heading is one more column on the right, O((6N)²). Linear drag
+/// depends on the heading and has no place here: with it, each heading is solved by itself (Q5).
+/// Error and \throws: those of one heading
+HeadingAmplitudes response_amplitudes(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
+                                      const std::vector<double>& omega, const std::vector<double>& headings);
+
 /// Complex amplitude of the multipliers λ of the joints beyond what they are while still, (m, Nω), from the equations
 /// of motion that `xi`, of response_amplitudes(), leaves open.
 Eigen::MatrixXcd multiplier_amplitudes(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
                                        const std::vector<double>& omega, double heading, const Eigen::MatrixXcd& xi,
                                        const LinearDrag* drag = nullptr);
+/// The same for several headings, without drag; `xi` is HeadingAmplitudes::xi.
+std::vector<Eigen::MatrixXcd> multiplier_amplitudes(const SmallMotions& about,
+                                                    const std::vector<PotentialGroup>& groups,
+                                                    const std::vector<double>& omega,
+                                                    const std::vector<double>& headings,
+                                                    const std::vector<Eigen::MatrixXcd>& xi);
 
 /// The matrix of (Q1) at one frequency, (6N, 6N).
 Eigen::MatrixXcd impedance(const SmallMotions& about, const std::vector<PotentialGroup>& groups, double omega);
