@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "froude/outputs.hpp"
 #include "froude/psd_report.hpp"
 #include "froude/record_file.hpp"
 #include "hydro/base/error.hpp"
@@ -94,8 +95,8 @@ Analysis analyse(const PsdArguments& arguments) {
 }  // namespace
 
 void psd(const PsdArguments& arguments, const Console& console) {
-  if (arguments.output) hydro::io::require_writable(*arguments.output);
-  if (arguments.picture) hydro::io::require_writable(*arguments.picture);
+  require_outputs(named({{"-o", arguments.output}, {"--picture", arguments.picture}}),
+                  {{"the record", arguments.file}});
   const Analysis analysis = analyse(arguments);
   if (arguments.output) spectra::write_table(*arguments.output, analysis);
   if (arguments.picture)
