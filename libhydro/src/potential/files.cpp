@@ -22,7 +22,7 @@ fs::path run_folder(const fs::path& path) {
   fs::path at = fs::absolute(path).lexically_normal();
   if (!fs::is_directory(at) && !ends_in(at, run_endings)) return {};
   for (int up = 0; up <= 3; ++up, at = at.parent_path())  // HAMS: Output/Wamit_format/buoy.1
-    if (fs::exists(at / "Nemoh.cal") || fs::exists(at / "Input" / "ControlFile.in")) return at;
+    if (!entry_of(at, "Nemoh.cal").empty() || fs::exists(at / "Input" / "ControlFile.in")) return at;
   return {};
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <numeric>
@@ -66,7 +67,7 @@ std::string head_of(const fs::path& path) {
 
 TextKind kind_of_text(const fs::path& path) {
   if (fs::is_directory(path)) {
-    if (fs::exists(path / "Nemoh.cal")) return TextKind::nemoh;
+    if (!entry_of(path, "Nemoh.cal").empty()) return TextKind::nemoh;
     if (fs::exists(path / "Input" / "ControlFile.in")) return TextKind::hams;
     throw InputError(fmt::format("\"{}\" is a folder", path.string()), {},
                      "give a file in it; only folders of NEMOH (with Nemoh.cal) and HAMS (with Input/ControlFile.in) "
@@ -127,6 +128,19 @@ void note_differing_water(Coefficients& c, const ReadOptions& options) {
 }
 
 }  // namespace
+
+fs::path entry_of(const fs::path& folder, const std::string& name) {
+  if (fs::exists(folder / name)) return folder / name;
+  const auto lower = [](std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+  };
+  std::error_code failed;
+  for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed))
+    if (lower(at->path().filename().string()) == lower(name)) return at->path();
+  return {};
+}
 
 std::optional<fs::path> hams_run_around(const fs::path& path) {
   const fs::path folder = fs::absolute(path).parent_path();
