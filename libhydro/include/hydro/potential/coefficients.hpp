@@ -80,8 +80,4 @@ struct ReadOptions {
 /// \throws InputError with file, line and remedy
 Coefficients read(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// The files that read(path) may open, of those that are there: `path` itself unless it is a folder, the others of a
-/// set of WAMIT or VERES, and what belongs to a run of NEMOH or HAMS. Looks at names only.
-std::vector<std::filesystem::path> files_behind(const std::filesystem::path& path);
-
 }  // namespace hydro::potential
