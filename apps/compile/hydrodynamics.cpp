@@ -5,6 +5,7 @@
 #include <map>
 
 #include "compile/cylinders.hpp"
+#include "compile/findings.hpp"
 #include "hydro/potential/check.hpp"
 #include "hydro/potential/operations.hpp"
 
@@ -123,6 +124,17 @@ Coefficients used(const Scene& scene, const Use& use) {
   return c;
 }
 
+/// A rotation about the centre of gravity moves the point that the data are about, so it needs the translations too.
+TakenCoefficients taken_by(const Scene& scene, const Use& use) {
+  TakenCoefficients out{use.file_body, {}, hydrodynamics(scene, use.bodies.front()).radiation};
+  for (const int b : use.bodies) {
+    std::array<bool, 6> modes = scene.bodies[static_cast<std::size_t>(b)].free;
+    if (modes[3] || modes[4] || modes[5]) std::fill_n(modes.begin(), 3, true);
+    out.modes.push_back(modes);
+  }
+  return out;
+}
+
 /// Lets the doctor look at a file: an error stops the scene unless it is accepted, and what is accepted is recorded.
 void examine(const Scene& scene, const Use& use, std::vector<std::string>& notes) {
   const Hydrodynamics& h = hydrodynamics(scene, use.bodies.front());
@@ -131,7 +143,7 @@ void examine(const Scene& scene, const Use& use, std::vector<std::string>& notes
   for (const int b : use.bodies)
     for (const auto& name : hydrodynamics(scene, b).accept)
       if (std::find(accepted.begin(), accepted.end(), name) == accepted.end()) accepted.push_back(name);
-  const auto findings = hydro::potential::check(used(scene, use));
+  const auto findings = findings_in(used(scene, use), taken_by(scene, use));
   const std::string file = h.file.value.filename().string();
   if (const auto refused = hydro::potential::refused(findings, accepted); !refused.empty()) {
     std::vector<std::string> names;
@@ -182,10 +194,27 @@ bool is_jointed(const Scene& scene, int body) {
 }
 
 /// Buoyancy less weight at rest: zero for a body that floats by itself; joints carry it where it hangs on others.
+/// \throws InputError if it hangs on others and nobody says what it displaces
 double lift(const Scene& scene, int body, const hydro::potential::BodyData& facts) {
-  if (!facts.displaced_volume || !is_jointed(scene, body)) return 0;
-  const double mass = scene.bodies[static_cast<std::size_t>(body)].mass;
-  return scene.water.gravity * (scene.water.density * *facts.displaced_volume - mass);
+  if (!is_jointed(scene, body)) return 0;
+  const scene::Body& b = scene.bodies[static_cast<std::size_t>(body)];
+  if (!facts.displaced_volume)
+    throw InputError(
+        fmt::format("body \"{}\" is on joints, which carry what its buoyancy and weight differ by, and the "
+                    "data do not say what it displaces",
+                    b.name),
+        b.hydrodynamics->file.place,
+        "add displaced_volume = \"28 m^3\" and centre_of_buoyancy = \"(0, 0, -1) m\" to "
+        "[body.hydrodynamics]");
+  return scene.water.gravity * (scene.water.density * *facts.displaced_volume - b.mass);
+}
+
+/// Moment of buoyancy about the centre of gravity at rest, of a body on joints; one that floats by itself has none.
+Eigen::Vector3d moment_of_buoyancy(const Scene& scene, int body, const hydro::potential::BodyData& facts) {
+  if (!is_jointed(scene, body) || !facts.displaced_volume || !facts.centre_of_buoyancy) return Eigen::Vector3d::Zero();
+  const scene::Body& b = scene.bodies[static_cast<std::size_t>(body)];
+  const double buoyancy = scene.water.density * scene.water.gravity * *facts.displaced_volume;
+  return (*facts.centre_of_buoyancy - b.position - b.centre_of_gravity).cross(buoyancy * Eigen::Vector3d::UnitZ());
 }
 
 /// Puts one set of interacting bodies in its place and about the scene's centres of gravity.
@@ -197,6 +226,7 @@ class Placement {
 
   Coefficients place() {
     find_reference_points();
+    complete_facts();
     correct_gravity();
     std::vector<Eigen::Vector3d> centres;
     for (const int b : bodies_) centres.push_back(body(b).position + body(b).centre_of_gravity);
@@ -234,6 +264,29 @@ class Placement {
                                      b.name, b.position.x(), b.position.y(), stated->x(), stated->y(), first.name),
                          b.place, "bodies that interact must stand as they stood when the coefficients were computed");
       points_.push_back(stated ? *stated : given.value_or(b.position));
+    }
+  }
+
+  /// Volume and centre of buoyancy of files that lack them are those of the scene.
+  void complete_facts() {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const auto& b = body(bodies_[i]);
+      const Hydrodynamics& h = *b.hydrodynamics;
+      auto& facts = c_.body[i];
+      constexpr double same = 1e-3;
+      const auto refuse = [&](const char* key) {
+        throw InputError(fmt::format("the file has another {} of body \"{}\" than the scene", key, b.name),
+                         h.file.place, fmt::format("leave out {}", key));
+      };
+      if (h.displaced_volume) {
+        if (facts.displaced_volume && std::abs(*facts.displaced_volume / *h.displaced_volume - 1) > same)
+          refuse("displaced_volume");
+        facts.displaced_volume = h.displaced_volume;
+      }
+      if (!h.centre_of_buoyancy) continue;
+      const Eigen::Vector3d given = b.position + *h.centre_of_buoyancy;
+      if (facts.centre_of_buoyancy && (*facts.centre_of_buoyancy - given).norm() > same) refuse("centre_of_buoyancy");
+      facts.centre_of_buoyancy = given;
     }
   }
 
@@ -285,7 +338,8 @@ void add_hydrostatics(const Scene& scene, const Coefficients& about_centres, con
     const dynamics::Matrix6 C = about_centres.C->block<6, 6>(row, row);
     prepared.hydrostatics.push_back({.body = bodies[i],
                                      .stiffness = (C + C.transpose()) / 2,
-                                     .lift = lift(scene, bodies[i], about_centres.body[i])});
+                                     .lift = lift(scene, bodies[i], about_centres.body[i]),
+                                     .moment = moment_of_buoyancy(scene, bodies[i], about_centres.body[i])});
   }
 }
 

@@ -77,6 +77,19 @@ std::vector<PlanLine> lines(const ChosenMemory& chosen) {
   return out;
 }
 
+/// Damping below zero serves for responses, where `accept` lets it pass; as a memory it would feed a motion.
+/// \throws InputError where the scene asks for the memory
+void require_no_source(const hydro::radiation::DampingTable& damping, const hydro::potential::Coefficients& c,
+                       const hydro::Place& place) {
+  try {
+    hydro::radiation::negative_share(damping);
+  } catch (const InputError& error) {
+    throw InputError(
+        fmt::format("{}: {}; a run cannot take that, even where the finding is accepted", c.source, error.rule()),
+        place, "heal the data and name the new file: froude bem heal FILE --passivity -o healed.h5");
+  }
+}
+
 /// A and B at the frequency of the one wave there is.
 RadiationParts at_one_frequency(const dynamics::frequency::PotentialGroup& g, const FreeModes& modes,
                                 const scene::Memory& asked, double step, const hydro::waves::Sea* sea) {
@@ -156,6 +169,7 @@ const Radiation::Chosen& Radiation::chosen_for(std::size_t group, const std::vec
   if (asked.method == direct) demand.method = hydro::radiation::Method::direct;
   if (asked.method == partitioned) demand.method = hydro::radiation::Method::partitioned;
   if (asked.method == poles) demand.method = hydro::radiation::Method::poles;
+  require_no_source(data.damping, c, asked.place);
   ChosenMemory memory =
       choose(data.damping, data.A, data.A_inf, demand, [&] { return prepared_.fits->of(data, asked.tolerance); });
   note_what_was_done(c, memory, data.asymmetry, asked.tolerance, notes);

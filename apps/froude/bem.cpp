@@ -154,6 +154,7 @@ void bem_info(const BemArguments& arguments, const Console& console) {
 void bem_solve(const Path& file, const Path& output, const std::string& format, const Console& console) {
   const CoefficientFormat target = format_of(output, format);
   const scene::Scene scene = scene::read(file);
+  require_outputs(files_to_write(target, output), files_of_scene(file));
   const std::vector<int> bodies = compile::bodies_of_cylinders(scene);
   if (bodies.empty())
     throw hydro::InputError("no body of the scene has cylinders", {.file = file.string()},

@@ -111,6 +111,7 @@ Coefficients changed(Coefficients c, const BemConvertArguments& a) {
 void bem_convert(const BemConvertArguments& arguments, const Console& console) {
   hydro::require(!arguments.bem.files.empty(), "no file is given; give at least one file of coefficients");
   const CoefficientFormat target = format_of(arguments.output, arguments.format);
+  require_outputs(files_to_write(target, arguments.output), files_of_coefficients(arguments.bem.files));
   const Coefficients original = read_all(arguments), c = changed(original, arguments);
   const std::vector<std::string> done(c.notes.begin() + static_cast<std::ptrdiff_t>(original.notes.size()),
                                       c.notes.end());

@@ -14,21 +14,6 @@ using hydro::potential::HealStep;
 using hydro::potential::Severity;
 using nlohmann::json;
 
-/// What was read must not be replaced: a healed file is no longer what its program computed.
-void require_other_file(const Path& input, const Path& output, CoefficientFormat format) {
-  std::vector<Path> replaced{output};
-  if (format == CoefficientFormat::wamit) {
-    const Path stem = output.extension() == ".1" ? Path(output).replace_extension() : output;
-    for (const char* ending : {".1", ".3", ".hst"}) replaced.emplace_back(stem.string() + ending);
-  }
-  std::error_code is_absent;
-  for (const Path& file : replaced)
-    for (const Path& read : {input, Path(input.string() + ".1")})  // a set may be given by its stem
-      if (std::filesystem::equivalent(file, read, is_absent))
-        throw hydro::InputError(fmt::format("\"{}\" would be replaced by what was healed", file.string()), {},
-                                "write to another name with -o");
-}
-
 struct Counts {
   std::size_t errors = 0, warnings = 0;
 };
@@ -50,7 +35,7 @@ void bem_heal(const BemHealArguments& arguments, const Console& console) {
   const auto& files = arguments.bem.files;
   hydro::require(files.size() == 1, "one file can be healed at a time; {} are given", files.size());
   const CoefficientFormat format = format_of(arguments.output, arguments.format);
-  require_other_file(files.front(), arguments.output, format);
+  require_outputs(files_to_write(format, arguments.output), files_of_coefficients(files));
   const auto before = hydro::potential::read(files.front(), arguments.bem.options);
   const auto healed = hydro::potential::heal(before, arguments.steps);
   const Counts was = counts(before), is = counts(healed.coefficients);

@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "froude/commands.hpp"
+#include "froude/outputs.hpp"
 #include "froude/plot.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/types.hpp"
@@ -160,6 +161,8 @@ void bem_irf(const BemIrfArguments& arguments, const Console& console) {
   hydro::require(arguments.tolerance > 0 && arguments.tolerance < 1, "a tolerance lies between 0 and 1, got {}",
                  arguments.tolerance);
   const Path& file = arguments.bem.files.front();
+  require_outputs(named({{"-o", arguments.output}, {"--picture", arguments.picture}}),
+                  files_of_coefficients(arguments.bem.files));
   const Coefficients c = hydro::potential::read(file, arguments.bem.options);
   const Analysis a = analyse(c, arguments.tolerance);
   if (console.json)

@@ -6,6 +6,15 @@
 #include "hydro/potential/writers.hpp"
 
 namespace froude {
+namespace {
+
+std::string wamit_stem(const Path& output) {
+  std::string stem = output.string();
+  if (stem.ends_with(".1")) stem.resize(stem.size() - 2);
+  return stem;
+}
+
+}  // namespace
 
 CoefficientFormat format_of(const Path& output, const std::string& format) {
   const std::vector<std::string> known{"froude", "bemio", "wamit", "capytaine"};
@@ -26,12 +35,18 @@ CoefficientFormat format_of(const Path& output, const std::string& format) {
       "end it with .h5 (Froude), .bemio.h5 (BEMIO), .nc (Capytaine) or .1 (WAMIT set), or state --format");
 }
 
+std::vector<NamedFile> files_to_write(CoefficientFormat format, const Path& output, const std::string& use) {
+  if (format != CoefficientFormat::wamit) return {{use, output}};
+  std::vector<NamedFile> out;
+  for (const char* ending : {".1", ".3", ".hst"}) out.push_back({use, wamit_stem(output) + ending});
+  return out;
+}
+
 WrittenCoefficients write_as(CoefficientFormat format, const hydro::potential::Coefficients& c, const Path& output) {
   if (format == CoefficientFormat::froude) return {{output.string()}, hydro::potential::write_froude(c, output)};
   if (format == CoefficientFormat::bemio) return {{output.string()}, hydro::potential::write_bemio(c, output)};
   if (format == CoefficientFormat::capytaine) return {{output.string()}, hydro::potential::write_capytaine(c, output)};
-  std::string stem = output.string();
-  if (stem.ends_with(".1")) stem.resize(stem.size() - 2);
+  const std::string stem = wamit_stem(output);
   WrittenCoefficients w{{stem + ".1"}, hydro::potential::write_wamit(c, stem)};
   if (!c.X.empty()) w.files.push_back(stem + ".3");
   if (c.C) w.files.push_back(stem + ".hst");

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "froude/commands.hpp"
+#include "froude/outputs.hpp"
 
 namespace froude {
 
@@ -11,6 +12,9 @@ enum class CoefficientFormat { froude, bemio, wamit, capytaine };
 
 /// From `format` if it is not empty, else from the end of the name. \throws InputError
 CoefficientFormat format_of(const Path& output, const std::string& format);
+
+/// The files that write_as() may write, each to be told as `use`.
+std::vector<NamedFile> files_to_write(CoefficientFormat format, const Path& output, const std::string& use = "-o");
 
 /// The files that were written, and a sentence for each thing that the format cannot hold.
 struct WrittenCoefficients {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "froude/fit_report.hpp"
+#include "froude/outputs.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
@@ -305,8 +306,8 @@ std::vector<FitLaw> laws_of(const scene::FitScene& scene, const std::vector<FitR
 
 void fit(const FitArguments& arguments, const Console& console) {
   const scene::FitScene scene = scene::read_fit(arguments.scene);
-  for (const auto& path : {arguments.output, arguments.picture, arguments.table})
-    if (path) hydro::io::require_writable(*path);
+  require_outputs(named({{"-o", arguments.output}, {"--table", arguments.table}, {"--picture", arguments.picture}}),
+                  files_of_scene(arguments.scene));
   if (arguments.table && scene.model.kind != "morison" && scene.model.kind != "radiation" &&
       scene.model.kind != "decay")
     throw hydro::InputError(fmt::format("a fit of kind \"{}\" has no table of runs", scene.model.kind), {},

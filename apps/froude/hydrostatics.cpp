@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "froude/commands.hpp"
+#include "froude/outputs.hpp"
 #include "froude/plot.hpp"
 #include "hydro/hydrostatics/stability.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -236,7 +237,7 @@ void check(const HydrostaticsArguments& a) {
                  "--heave and --mass exclude each other: a hull with a mass finds its own draught");
   hydro::require(!a.picture || a.centre_of_gravity, "--picture draws the righting arms, which need --cog");
   hydro::require(!a.heels.empty(), "--gz has no heels");
-  if (a.picture) hydro::io::require_writable(*a.picture);
+  require_outputs(named({{"--picture", a.picture}}), {{"the mesh", a.mesh}});
 }
 
 }  // namespace

@@ -165,8 +165,7 @@ ModeTable table_of(const std::vector<Mode>& modes, const dynamics::Model& model)
 void modes(const SceneArguments& arguments, const Console& console) {
   const scene::Scene scene = scene::read(arguments.scene);
   require_asked(scene.ask_modes.has_value(), scene, "modes", "modes = { longest = \"60 s\" }");
-  const Path file = output_path(arguments, ".modes.h5");
-  hydro::io::require_writable(file);
+  const Path file = checked_output(arguments, ".modes.h5");
   compile::Prepared prepared = compile::prepare(scene);
   for (const std::string& effect : left_out_of_linear_responses(scene)) prepared.notes.push_back(effect);
   const dynamics::Model model = compile::frequency_model(prepared, scene.ask_modes->about);

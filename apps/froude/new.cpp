@@ -128,7 +128,7 @@ std::string starter(const std::string& kind) {
 void new_scene(const std::string& kind, const std::optional<Path>& output, bool keys, const Console& console) {
   const std::string text = keys ? scene::key_reference() : starter(kind);
   if (output) {
-    if (std::filesystem::exists(*output))
+    if (std::filesystem::is_regular_file(*output))
       throw hydro::InputError(fmt::format("\"{}\" is there already", output->string()), {},
                               "choose another name; nothing was written");
     hydro::io::write_atomically(*output, text);

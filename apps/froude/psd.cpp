@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "froude/outputs.hpp"
 #include "froude/psd_report.hpp"
 #include "froude/record_file.hpp"
 #include "hydro/base/error.hpp"
@@ -38,6 +39,22 @@ std::vector<Signal> chosen(const RunResult& record, const PsdArguments& argument
 
 // ---- computing ----
 
+/// What a record that drifts does to its single waves: a straight line is taken off, of anything else is told.
+std::string drift_of(const hs::Trend& trend, double duration, const std::optional<hs::WaveStatistics>& waves,
+                     double tm02) {
+  if (trend.is_drift())
+    return fmt::format(
+        "drifts by {:.4g} over the record, {:.2g} of its variance: its waves are counted about that line",
+        trend.slope * duration, trend.share);
+  constexpr double usual = 1.5;  // Tz of a broad sea is near Tm02, which its own tail shortens
+  if (waves && waves->mean_period > usual * tm02)
+    return fmt::format(
+        "has waves of {:.4g} s from one crossing of the mean to the next, where its spectrum has {:.4g} s: "
+        "it drifts slowly, so that waves miss the mean; take the drift off first",
+        waves->mean_period, tm02);
+  return "";
+}
+
 hs::WelchOptions welch_options(const PsdArguments& arguments, std::size_t samples, double step) {
   if (!arguments.segment) return hs::fifteen_segments(samples);
   const double length = hydro::parse_si(*arguments.segment, hydro::dim::time);
@@ -52,6 +69,7 @@ Estimate estimate(const Signal& signal, const RunResult& record, const Analysis&
              .moments = {},
              .peak = {},
              .statistics = {},
+             .drift = {},
              .transfer = {}};
   // Rounding of a large mean is no motion.
   if (e.welch.variance <= 1e-28 * e.welch.mean * e.welch.mean) return e;
@@ -60,8 +78,11 @@ Estimate estimate(const Signal& signal, const RunResult& record, const Analysis&
   const auto waves = hs::single_waves(record.time, signal.values);
   e.waves = waves.size();
   if (e.waves >= 3) e.statistics = hs::wave_statistics(waves);
+  e.drift = drift_of(hs::trend_of(record.time, signal.values), record.time.back() - record.time.front(), e.statistics,
+                     e.moments->tm02());
   if (input != nullptr && input->name != signal.name)
     e.transfer = hs::transfer(input->values, signal.values, analysis.step, analysis.options);
+  if (e.transfer) e.transfer->coherence_threshold = hs::coherence_threshold(e.transfer->averages, analysis.confidence);
   return e;
 }
 
@@ -114,8 +135,8 @@ Analysis analyse(const PsdArguments& arguments) {
 }  // namespace
 
 void psd(const PsdArguments& arguments, const Console& console) {
-  if (arguments.output) hydro::io::require_writable(*arguments.output);
-  if (arguments.picture) hydro::io::require_writable(*arguments.picture);
+  require_outputs(named({{"-o", arguments.output}, {"--picture", arguments.picture}}),
+                  {{"the record", arguments.file}});
   const Analysis analysis = analyse(arguments);
   if (arguments.output) spectra::write_table(*arguments.output, analysis);
   if (arguments.picture)

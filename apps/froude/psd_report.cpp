@@ -79,6 +79,7 @@ void tell_text(const Analysis& a, const Console& console) {
           "note: {} is strongest at an end of its spectrum, {:.4g} Hz: no peak, or one that needs longer segments "
           "(--segment)\n",
           e.signal.name, e.peak->frequency_hz);
+    if (!e.drift.empty()) console.out << fmt::format("note: {} {}\n", e.signal.name, e.drift);
     if (e.moments && !e.statistics)
       console.out << fmt::format("note: {} has {} complete waves: too few for H1/3\n", e.signal.name, e.waves);
   }
@@ -97,10 +98,11 @@ void tell_transfer(const Analysis& a, const Console& console) {
     if (e.transfer)
       console.out << fmt::format(
           "{:<24} |H1| {:.4g} +- {:.2g} {}, |H2| {:.4g}, phase {:.1f} deg, coherence {:.3f} (unrelated signals stay "
-          "below {:.2f})\n",
+          "below {:.2f} at {:g} % of the frequencies)\n",
           e.signal.name, std::abs(e.transfer->h1[k]), std::abs(e.transfer->h1[k]) * e.transfer->gain_relative_error[k],
           gain_unit(e.signal.units, input->signal.units), std::abs(e.transfer->h2[k]),
-          std::arg(e.transfer->h1[k]) / degree, e.transfer->coherence[k], e.transfer->coherence_threshold);
+          std::arg(e.transfer->h1[k]) / degree, e.transfer->coherence[k], e.transfer->coherence_threshold,
+          100 * a.confidence);
 }
 
 /// One column of results along frequency, SI: densities here are per hertz, and a file's unit says so.
@@ -187,6 +189,7 @@ nlohmann::json as_json(const Analysis& a) {
                 {"tp_s", e.peak->period_s()},
                 {"peak_at_edge", e.peak->at_edge}});
     }
+    if (!e.drift.empty()) s["drift"] = e.drift;
     if (e.statistics)
       s.update({{"tz_s", e.statistics->mean_period},
                 {"h13", e.statistics->h13},

@@ -23,6 +23,7 @@ struct Estimate {
   std::optional<hs::Peak> peak;
   std::size_t waves = 0;
   std::optional<hs::WaveStatistics> statistics;
+  std::string drift;                             ///< a sentence where the record drifts; else empty
   std::optional<hs::TransferEstimate> transfer;  ///< from the input to this signal
 };
 

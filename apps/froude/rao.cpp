@@ -156,8 +156,7 @@ void tell(const Console& console, const scene::Scene& scene, const Responses& r,
 void rao(const SceneArguments& arguments, const Console& console) {
   const scene::Scene scene = scene::read(arguments.scene);
   require_asked(scene.rao.has_value(), scene, "rao", "rao = { periods = \"2 s .. 8 s, 61 values\" }");
-  const Path file = output_path(arguments, ".rao.h5");
-  hydro::io::require_writable(file);
+  const Path file = checked_output(arguments, ".rao.h5");
   const Responses r = respond(scene);
   write_rao(file, r.omega, r.heading, r.signals, provenance_of(scene, r.notes));
   if (arguments.csv) write_rao_csv(*arguments.csv, r);

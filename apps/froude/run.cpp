@@ -110,8 +110,7 @@ void tell(const Console& console, const scene::Scene& scene, const Record& recor
 void run(const SceneArguments& arguments, const Console& console) {
   const scene::Scene scene = scene::read(arguments.scene);
   require_asked(scene.run.has_value(), scene, "run", "run = { duration = \"600 s\", every = \"0.05 s\" }");
-  const Path file = output_path(arguments, ".run.h5");
-  hydro::io::require_writable(file);
+  const Path file = checked_output(arguments, ".run.h5");
   Progress progress(console.err, "run", console.show_progress);
   const Record record = simulate(scene, [&](double done) { progress.update(done); });
   Provenance provenance = provenance_of(scene, record.notes);

@@ -1,15 +1,20 @@
 #include "froude/scene_result.hpp"
 
+#include "froude/outputs.hpp"
 #include "hydro/base/error.hpp"
 
 namespace froude {
 
-Path output_path(const SceneArguments& arguments, const std::string& ending) {
+Path checked_output(const SceneArguments& arguments, const std::string& ending) {
   const Path file = arguments.output.value_or(arguments.scene.stem().string() + ending);
   if (file.extension() != ".h5" && file.extension() != ".nc")
     throw hydro::InputError(
         fmt::format("a result is HDF5, so its file cannot end in \"{}\"", file.extension().string()),
         {.file = file.string()}, "end it in .h5 or .nc; --csv FILE writes a table as well");
+  require_outputs(
+      named(
+          {{arguments.output ? "-o" : "the result", file}, {"--csv", arguments.csv}, {"--picture", arguments.picture}}),
+      files_of_scene(arguments.scene));
   return file;
 }
 

@@ -10,8 +10,9 @@
 
 namespace froude {
 
-/// The path asked for, or the scene's name with `ending` in the current folder.
-Path output_path(const SceneArguments& arguments, const std::string& ending);
+/// The path of the result asked for, or the scene's name with `ending` in the current folder. All that the command will
+/// write is checked before it computes (outputs.hpp). \throws hydro::InputError
+Path checked_output(const SceneArguments& arguments, const std::string& ending);
 
 /// Scene text, echo and notes; wall times and energies are added by the caller.
 Provenance provenance_of(const scene::Scene& scene, const std::vector<std::string>& notes);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "froude/commands.hpp"
+#include "froude/outputs.hpp"
 #include "froude/plot.hpp"
 #include "froude/record_file.hpp"
 #include "hydro/base/error.hpp"
@@ -156,8 +157,8 @@ plot::Figure figure(const Plane& p, const std::string& file_name) {
 }  // namespace
 
 void section(const SectionArguments& arguments, const Console& console) {
-  if (arguments.output) hydro::io::require_writable(*arguments.output);
-  if (arguments.picture) hydro::io::require_writable(*arguments.picture);
+  require_outputs(named({{"-o", arguments.output}, {"--picture", arguments.picture}}),
+                  {{"the record", arguments.file}});
   Plane plane = [&] {
     try {
       return plane_of(arguments);

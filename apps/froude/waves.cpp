@@ -190,8 +190,7 @@ bool is_synthesised(const scene::Scene& scene) {
 void waves_make(const SceneArguments& arguments, const Console& console) {
   const scene::Scene scene = scene::read(arguments.scene);
   require_asked(scene.ask_waves.has_value(), scene, "waves", "waves = { duration = \"600 s\", every = \"0.1 s\" }");
-  const Path file = output_path(arguments, ".waves.h5");
-  hydro::io::require_writable(file);
+  const Path file = checked_output(arguments, ".waves.h5");
   Progress progress(console.err, "waves", console.show_progress);
   const Series series = series_of(scene, [&](double done) { progress.update(done); });
   Provenance provenance = provenance_of(scene, series.notes);

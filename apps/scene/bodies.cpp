@@ -135,6 +135,8 @@ Hydrodynamics read_hydrodynamics(const Record& record, const std::filesystem::pa
   }
   if (record.has("body")) out.body = {small_integer(record, "body", 100'000), record["body"].place};
   if (record.has("reference_point")) out.reference_point = record.vector("reference_point");
+  if (record.has("displaced_volume")) out.displaced_volume = record.si("displaced_volume");
+  if (record.has("centre_of_buoyancy")) out.centre_of_buoyancy = record.vector("centre_of_buoyancy");
   if (record.has("iperout")) out.iperout = small_integer(record, "iperout", 4);
   if (record.has("accept"))
     for (const auto& check : record["accept"].texts) out.accept.push_back(check.value);

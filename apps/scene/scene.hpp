@@ -145,9 +145,11 @@ struct Hydrodynamics {
   std::optional<Cylinders> cylinders;
   std::optional<Located<int>> body;  ///< which body of the file, from 1, as written: copies take the following ones
   std::optional<Eigen::Vector3d>
-      reference_point;              ///< global, m: the point the coefficients are about, if the file does not say
-  std::optional<double> ulen;       ///< m; WAMIT only
-  std::optional<int> iperout;       ///< WAMIT only
+      reference_point;  ///< global, m: the point the coefficients are about, if the file does not say
+  std::optional<double> displaced_volume;             ///< m³, if the file does not say
+  std::optional<Eigen::Vector3d> centre_of_buoyancy;  ///< body axes, m, if the file does not say
+  std::optional<double> ulen;                         ///< m; WAMIT only
+  std::optional<int> iperout;                         ///< WAMIT only
   std::vector<std::string> accept;  ///< names of checks of the doctor whose errors do not stop the scene
   bool excitation = false, radiation = false, hydrostatics = false;  ///< effects named
   std::array<bool, 6> excited{true, true, true, true, true, true};   ///< modes whose excitation acts

@@ -121,49 +121,58 @@ const Table& hydrodynamics() {
   static const Table table{
       .title = "[body.hydrodynamics]",
       .meaning = "linear potential theory, with coefficients from a file or of cylinders; each effect is named",
-      .keys = {text("file", "of coefficients, relative to the scene: any format of `froude bem info`").optional(),
-               inner_table("cylinders", cylinders()).optional(),
-               integer("body",
-                       "which body of the file, from 1 (copies take the following ones); needed where the scene takes "
-                       "fewer than the file holds")
-                   .within(Limit::at_least_one)
-                   .optional()
-                   .only_beside("file"),
-               vector("reference_point", dim::length,
-                      "global, what the coefficients are about, if the file does not say")
-                   .optional()
-                   .only_beside("file"),
-               quantity(
-                   "ulen", dim::length,
-                   "WAMIT's ULEN; only for WAMIT files, where it is 1 m unless this or the .out file says otherwise")
-                   .positive()
-                   .optional()
-                   .only_beside("file"),
-               integer("iperout", "WAMIT's IPEROUT, 1 to 4; only for WAMIT files")
-                   .within(Limit::at_least_one)
-                   .optional()
-                   .only_beside("file"),
-               texts("accept",
-                     "findings of the doctor (`froude bem check`) that are known and shall not stop the scene; the "
-                     "result records them")
-                   .one_of(hydro::potential::check_names())
-                   .optional()
-                   .only_beside("file"),
-               effect("excitation", "loads of the incoming waves on the body held still"),
-               texts("excitation_modes",
-                     "of the loads about the body's centre of gravity, those that act; all, unless some shall be "
-                     "suppressed to see what they do")
-                   .one_of(mode_words())
-                   .optional()
-                   .only_beside("excitation"),
-               inner_table("turning", turning()).optional().only_beside("excitation"),
-               inner_table("radiation", radiation()).optional(),
-               effect("hydrostatics", "restoring loads of buoyancy and weight"),
-               text("interaction",
-                    "\"full\": bodies of one file feel each other's radiated waves; \"self\": only their own")
-                   .one_of({"full", "self"})
-                   .or_default("full", "leaving it out would be an approximation")
-                   .only_beside("radiation")},
+      .keys =
+          {text("file", "of coefficients, relative to the scene: any format of `froude bem info`").optional(),
+           inner_table("cylinders", cylinders()).optional(),
+           integer("body",
+                   "which body of the file, from 1 (copies take the following ones); needed where the scene takes "
+                   "fewer than the file holds")
+               .within(Limit::at_least_one)
+               .optional()
+               .only_beside("file"),
+           vector("reference_point", dim::length, "global, what the coefficients are about, if the file does not say")
+               .optional()
+               .only_beside("file"),
+           quantity("displaced_volume", dim::volume,
+                    "of the body at rest, if the file does not say; a body on joints needs it, since they carry what "
+                    "buoyancy and weight differ by")
+               .positive()
+               .optional()
+               .only_beside("file"),
+           vector("centre_of_buoyancy", dim::length,
+                  "of the body at rest, body axes, if the file does not say; of a body on joints buoyancy acts here")
+               .optional()
+               .only_beside("file"),
+           quantity("ulen", dim::length,
+                    "WAMIT's ULEN; only for WAMIT files, where it is 1 m unless this or the .out file says otherwise")
+               .positive()
+               .optional()
+               .only_beside("file"),
+           integer("iperout", "WAMIT's IPEROUT, 1 to 4; only for WAMIT files")
+               .within(Limit::at_least_one)
+               .optional()
+               .only_beside("file"),
+           texts("accept",
+                 "findings of the doctor (`froude bem check`) that are known and shall not stop the scene; the "
+                 "result records them")
+               .one_of(hydro::potential::check_names())
+               .optional()
+               .only_beside("file"),
+           effect("excitation", "loads of the incoming waves on the body held still"),
+           texts("excitation_modes",
+                 "of the loads about the body's centre of gravity, those that act; all, unless some shall be "
+                 "suppressed to see what they do")
+               .one_of(mode_words())
+               .optional()
+               .only_beside("excitation"),
+           inner_table("turning", turning()).optional().only_beside("excitation"),
+           inner_table("radiation", radiation()).optional(),
+           effect("hydrostatics", "restoring loads of buoyancy and weight"),
+           text("interaction",
+                "\"full\": bodies of one file feel each other's radiated waves; \"self\": only their own")
+               .one_of({"full", "self"})
+               .or_default("full", "leaving it out would be an approximation")
+               .only_beside("radiation")},
       .groups = {{exactly_one, {"file", "cylinders"}}, {at_least_one, {"excitation", "radiation", "hydrostatics"}}}};
   return table;
 }

@@ -233,11 +233,26 @@ double series_noise(const std::vector<double>& omega, int order, std::size_t sam
   return std::sqrt(2 * sum / static_cast<double>(samples));
 }
 
+/// At two samples a period a harmonic and its mirror beyond the Nyquist frequency are the same numbers, and near it
+/// noise decides between them: (F45) takes three.
+void require_resolved(double highest_hz, double step_s) {
+  constexpr double least = 3;
+  const double samples = 1 / (highest_hz * step_s);
+  if (samples >= least * (1 - 1e-9)) return;
+  throw hydro::InputError(
+      fmt::format(
+          "the highest harmonic of the series, {:.4g} Hz, has {:.3g} samples a period; {} are needed to tell it "
+          "from what is faster",
+          highest_hz, samples, least),
+      {}, fmt::format("narrow derivative_bandwidth to {:.4g} Hz at most, or sample faster", 1 / (least * step_s)));
+}
+
 Motion by_series(std::span<const double> values, double step_s, double f, double bandwidth_hz, bool from_velocity) {
   std::vector<double> time(values.size());
   for (std::size_t j = 0; j < time.size(); ++j) time[j] = static_cast<double>(j) * step_s;
   const int count = static_cast<int>(std::floor(bandwidth_hz / f * (1 + 1e-3) + 1e-3));
   hydro::require(count >= 1, "a series up to {:.4g} Hz has no harmonic of {:.4g} Hz", bandwidth_hz, f);
+  require_resolved(count * f, step_s);
   const auto harmonics = [&](double hz) {
     std::vector<double> out;
     for (int k = 1; k <= count; ++k) out.push_back(two_pi * hz * k);

@@ -160,6 +160,18 @@ TEST(FourierSeries, RefusesAMotionThatDoesNotRepeat) {
               testing::ThrowsMessage<hydro::InputError>(testing::HasSubstr("does not repeat")));
 }
 
+// Near the Nyquist frequency the numbers fit as well as anywhere, and say nothing of what was between the samples.
+TEST(FourierSeries, RefusesFewSamplesAPeriodOfItsHighestHarmonic) {
+  const double h = 0.1, f = 1;  // ten samples a period
+  std::vector<double> x;
+  for (int j = 0; j < 400; ++j) x.push_back(std::sin(2 * std::numbers::pi * f * j * h));
+  EXPECT_THAT([&] { fit::from_position(x, h, 5 * f, fit::Derivative::fourier_series); },
+              testing::ThrowsMessage<hydro::InputError>(
+                  testing::AllOf(testing::HasSubstr("samples a period"), testing::HasSubstr("derivative_bandwidth"))));
+  const auto m = fit::from_position(x, h, 3 * f, fit::Derivative::fourier_series);
+  EXPECT_NEAR(m.acceleration[2], -std::pow(2 * std::numbers::pi, 2) * std::sin(0.4 * std::numbers::pi), 1e-3);
+}
+
 TEST(Differentiate, GivesVelocityAndAccelerationOfANoisyPositionWithinTheErrorsItStates) {
   const double h = 0.01, omega = 2 * std::numbers::pi / 4, amplitude = 0.5, noise = 1e-3;
   const hydro::RandomStream random(72, 0);

@@ -8,8 +8,10 @@ read alone (-fsyntax-only), by the compile commands of a build that merges nothi
 defined nowhere, such as Eigen's inverse() without <Eigen/LU>, is an error too: it would not link. A file whose text, headers
 and command are as in the last run is not read again. Python's standard library only.
 """
+import concurrent.futures
 import hashlib
 import json
+import os
 import pathlib
 import re
 import shlex
@@ -85,17 +87,17 @@ def main():
     directories = [source / d for d in ("libhydro/include", "libdynamics/include", "libfit/include", "apps")]
     record = scratch / "alone.json"
     known = json.loads(record.read_text()) if record.is_file() else {}
+    prints = {file: fingerprint(file, commands[str(file)], directories, set()).hex() for file in files}
+    changed = [file for file in files if known.get(str(file)) != prints[file]]
     faults = 0
-    for file in files:
-        now = fingerprint(file, commands[str(file)], directories, set()).hex()
-        if known.get(str(file)) == now:
-            continue
-        found = complaints(commands[str(file)], file, scratch)
-        print("\n".join(found), end="\n" if found else "")
-        faults += bool(found)
-        if not found:
-            known[str(file)] = now
-    record.write_text(json.dumps(known))
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as readers:
+        for file, found in zip(changed, readers.map(lambda f: complaints(commands[str(f)], f, scratch), changed)):
+            if found:
+                faults += 1
+                print("\n".join(found), flush=True)
+            else:
+                known[str(file)] = prints[file]
+                record.write_text(json.dumps(known))
     print(f"{len(files)} files were read alone, {faults} of them cannot be")
     sys.exit(faults > 0)
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <ostream>
 
+#include "froude/outputs.hpp"
 #include "froude/progress.hpp"
 #include "harness/report.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -131,7 +132,7 @@ nlohmann::json json_of(const std::vector<Entry>& entries) {
 int validate(const std::vector<Case>& cases, const ValidateArguments& arguments, const Console& console) {
   const Path folder = folder_of_cases(arguments), data = folder_of_data(arguments, folder);
   const std::vector<Case> wanted = wanted_cases(cases, arguments.names);
-  if (arguments.page) hydro::io::require_writable(*arguments.page);
+  if (arguments.page) require_outputs({{"--page", *arguments.page}}, files_below("a file of the cases", folder));
   std::vector<CaseReport> reports;
   Progress progress(console.err, "validate", console.show_progress);
   for (const Case& c : wanted) {

@@ -15,6 +15,7 @@ Vector6 displacement(const Pose& pose, const Eigen::Vector3d& rest_centre) {
 
 Vector6 restoring_load(const Restoring& element, const Vector6& displacement, const Vector6& velocity) {
   Vector6 generalised = element.stiffness * displacement;
+  generalised.tail<3>() -= element.moment;
   const Eigen::Vector3d phi = displacement.tail<3>(), m = generalised.tail<3>();
   generalised.tail<3>() = left_jacobian_inverse(phi).transpose() * m;
   return -generalised - element.damping * velocity;
@@ -39,7 +40,7 @@ void RestoringKind::add_jacobian(const Instant& now, JacobianSink& out) const {
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     const Restoring& e = elements_[i];
     const Vector6 d = displacement(now.state.pose[static_cast<std::size_t>(e.body)], rest_centre_[i]);
-    const Eigen::Vector3d phi = d.tail<3>(), m = (e.stiffness * d).tail<3>();
+    const Eigen::Vector3d phi = d.tail<3>(), m = (e.stiffness * d).tail<3>() - e.moment;
     Matrix6 G = Matrix6::Identity();
     G.bottomRightCorner<3, 3>() = left_jacobian_inverse(phi);
     Matrix6 K = -G.transpose() * e.stiffness * G;
@@ -54,7 +55,7 @@ EnergyFlow RestoringKind::energy(const Instant& now) const {
     const Restoring& e = elements_[i];
     const Vector6 d = displacement(now.state.pose[static_cast<std::size_t>(e.body)], rest_centre_[i]);
     const Vector6 v = now.state.twist(e.body);
-    flow.stored += 0.5 * d.dot(e.stiffness * d) - e.lift * d.z();
+    flow.stored += 0.5 * d.dot(e.stiffness * d) - e.lift * d.z() - e.moment.dot(d.tail<3>());
     flow.dissipated += v.dot(e.damping * v);
   }
   return flow;

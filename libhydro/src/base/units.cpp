@@ -46,6 +46,7 @@ constexpr Symbol symbols[] = {
     {"nmi", 1852, dim::length, false},
     {"ft", 0.3048, dim::length, false},
     {"in", 0.0254, dim::length, false},
+    {"gn", standard_gravity, dim::acceleration, false},  // "g" is the gram
     {"kgf", standard_gravity, dim::force, false},
     {"tf", 1e3 * standard_gravity, dim::force, false},
     {"tonne", 1e3, dim::mass, false},

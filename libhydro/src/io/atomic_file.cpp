@@ -4,8 +4,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -30,11 +32,62 @@ std::string reason(int error) { return std::generic_category().message(error); }
 
 fs::path temporary_name(const fs::path& path) { return path.string() + fmt::format(".{}.froude.tmp", ::getpid()); }
 
+/// Where the bytes for a path go.
+struct Target {
+  fs::path path;           ///< a link is followed: it stays, and the file that it points to is replaced
+  bool is_stream = false;  ///< a device, a FIFO or an open file: written into, since it cannot be replaced
+  int descriptor = -1;     ///< of the open file, if it is one of ours: /dev/stdout, /proc/self/fd/3
+};
+
+/// The number N of "/proc/…/fd/N". A file opened by this name would be written from its start, over what stands there.
+std::optional<int> descriptor_of(const fs::path& path) {
+  std::error_code unknown;
+  if (fs::canonical(path.parent_path(), unknown) != fs::canonical("/proc/self/fd", unknown) || unknown) return {};
+  const std::string name = path.filename().string();
+  int number = 0;
+  const auto [end, code] = std::from_chars(name.data(), name.data() + name.size(), number);
+  return code == std::errc{} && end == name.data() + name.size() ? std::optional(number) : std::nullopt;
+}
+
+Target target_of(const fs::path& path) {
+  std::error_code unknown;
+  if (fs::is_directory(path, unknown)) refuse(path, "write", EISDIR);
+  fs::path at = path;
+  constexpr int most_links = 40;  // as the kernel follows
+  for (int links = 0; links <= most_links; ++links) {
+    if (const auto number = descriptor_of(at)) return {path, true, *number};
+    if (!fs::is_symlink(at, unknown)) return {at, fs::exists(at, unknown) && !fs::is_regular_file(at, unknown)};
+    at = at.parent_path() / fs::read_symlink(at);
+  }
+  refuse(path, "write", ELOOP);
+}
+
+void write_all(int file, const fs::path& named, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(file, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) refuse(named, "write", errno);
+    bytes = bytes.subspan(static_cast<std::size_t>(n));
+  }
+}
+
+void write_stream(const Target& target, std::span<const std::byte> bytes) {
+  const int file = target.descriptor >= 0 ? ::fcntl(target.descriptor, F_DUPFD_CLOEXEC, 0)
+                                          : ::open(target.path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file < 0) refuse(target.path, "write", errno);
+  try {
+    write_all(file, target.path, bytes);
+  } catch (...) {
+    ::close(file);
+    throw;
+  }
+  if (::close(file) != 0) refuse(target.path, "write", errno);
+}
+
 /// An open file that is closed and removed unless it was renamed into place.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& target) : target_(target), name_(temporary_name(target)) {
-    if (fs::is_directory(target_)) refuse(target_, "write", EISDIR);
     file_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
     if (file_ < 0) refuse(target_, "write", errno);
   }
@@ -45,14 +98,7 @@ class TemporaryFile {
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-  void write(std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-      const ssize_t n = ::write(file_, bytes.data(), bytes.size());
-      if (n < 0 && errno == EINTR) continue;
-      if (n < 0) refuse(target_, "write", errno);
-      bytes = bytes.subspan(static_cast<std::size_t>(n));
-    }
-  }
+  void write(std::span<const std::byte> bytes) { write_all(file_, target_, bytes); }
   void keep() {
     if (::fsync(file_) != 0) refuse(target_, "write", errno);
     if (::close(std::exchange(file_, -1)) != 0) refuse(target_, "write", errno);
@@ -69,7 +115,9 @@ class TemporaryFile {
 }  // namespace
 
 void write_atomically(const fs::path& path, std::span<const std::byte> bytes) {
-  TemporaryFile file(path);
+  const Target target = target_of(path);
+  if (target.is_stream) return write_stream(target, bytes);
+  TemporaryFile file(target.path);
   file.write(bytes);
   file.keep();
 }
@@ -78,7 +126,28 @@ void write_atomically(const fs::path& path, std::string_view text) {
   write_atomically(path, std::as_bytes(std::span(text.data(), text.size())));
 }
 
-void require_writable(const fs::path& path) { TemporaryFile probe(path); }
+void require_writable(const fs::path& path) {
+  const Target target = target_of(path);
+  if (!target.is_stream) {
+    TemporaryFile probe(target.path);
+    return;
+  }
+  // A FIFO must not be opened before there is something to write: that waits for its reader.
+  if (target.descriptor < 0 && ::access(target.path.c_str(), W_OK) != 0) refuse(path, "write", errno);
+}
+
+bool same_file(const fs::path& a, const fs::path& b) {
+  std::error_code unknown;
+  const auto file_of = [](const fs::path& path) -> std::optional<fs::path> {
+    const Target target = target_of(path);
+    return target.is_stream ? std::nullopt : std::optional(target.path);
+  };
+  if (fs::is_directory(a, unknown) || fs::is_directory(b, unknown)) return false;
+  const auto first = file_of(a), second = file_of(b);
+  if (!first || !second) return false;
+  if (fs::exists(*first, unknown) && fs::exists(*second, unknown)) return fs::equivalent(*first, *second, unknown);
+  return fs::weakly_canonical(*first, unknown) == fs::weakly_canonical(*second, unknown);
+}
 
 std::string read_text(const fs::path& path) {
   if (fs::is_directory(path)) refuse(path, "read", EISDIR);

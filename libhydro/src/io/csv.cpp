@@ -51,6 +51,16 @@ std::optional<double> number(std::string_view cell, char separator) {
   return value;
 }
 
+/// Accelerometers are read in multiples of gravity, balances in grams, and both write g. \throws InputError
+void refuse_ambiguous(const std::string& unit, const Place& place) {
+  if (unit == "g" || unit == "mg")
+    throw InputError(fmt::format("the unit \"{0}\" may be {1} or {2}the standard gravity", unit,
+                                 unit == "g" ? "grams" : "milligrams", unit == "g" ? "" : "thousandths of "),
+                     place,
+                     unit == "g" ? "write [gn] for an acceleration in multiples of 9.80665 m/s^2, or a mass in [kg]"
+                                 : "write an acceleration in [m/s^2] or [gn], or a mass in [kg]");
+}
+
 struct Line {
   std::string_view text;
   int number = 0;
@@ -99,6 +109,7 @@ CsvTable CsvTable::parse(std::string_view text, const std::string& file_name) {
       const auto close = cell.text.find_first_of("])", open);
       if (close == std::string_view::npos) throw InputError("the unit has no closing bracket", place(*header, cell));
       column.unit_text = trimmed(cell.text.substr(open + 1, close - open - 1));
+      refuse_ambiguous(column.unit_text, place(*header, cell));
       try {
         column.unit = parse_unit(column.unit_text);
       } catch (const InputError& e) {

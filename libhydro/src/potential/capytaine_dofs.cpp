@@ -38,7 +38,7 @@ CapytaineDofs order_dofs(const std::vector<std::string>& labels, const std::file
     const auto mode = std::find(mode_names.begin(), mode_names.end(), label.mode);
     if (mode == mode_names.end())
       throw InputError(
-          fmt::format("\"{}\" in {} is no rigid-body mode", labels[k], axis), place,
+          fmt::format("\"{}\" in {} is no rigid-body mode but a generalised (flexible) one", labels[k], axis), place,
           "Froude reads surge, sway, heave, roll, pitch and yaw; compute without other degrees of freedom");
     auto body = std::find(dofs.body.begin(), dofs.body.end(), label.body);
     if (body == dofs.body.end()) {

@@ -82,11 +82,13 @@ bool is_of_revolution(const Patient& p) {
   Eigen::MatrixXd turn = Eigen::MatrixXd::Identity(6, 6);
   const double s = std::sqrt(0.5);
   for (const Index i : {0, 3}) turn.block<2, 2>(i, i) << s, -s, s, s;
-  double yaw = 0, heave = 0;
-  for (const auto& A : p.c.A) {
-    yaw = std::max(yaw, std::abs(A(5, 5)));
-    heave = std::max(heave, std::abs(A(2, 2)));
-  }
+  // Medians, since a spike in heave would make the body so large that any yaw is small beside it.
+  const auto usual = [&](Index i) {
+    std::vector<double> values;
+    for (const auto& A : p.c.A) values.push_back(std::abs(A(i, i)));
+    return quantile(std::move(values), 0.5);
+  };
+  const double yaw = usual(5), heave = usual(2);
   const double length = std::cbrt(heave / p.c.water.density);
   return yaw < 1e-3 * heave * length * length && is_symmetric_under(turn, p);
 }

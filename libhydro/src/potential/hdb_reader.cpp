@@ -64,9 +64,9 @@ HdbFile read_sections(const fs::path& path) {
   Sections* coupling = nullptr;  // nodes of a map stay where they are
   for (int line = 1; line <= file.text.count(); ++line) {
     const std::string& text = file.text.line(line);
-    const auto end = text.find(']');
-    if (text.empty() || text.front() != '[' || end == std::string::npos) continue;
-    const std::string name = text.substr(1, end - 1);
+    const auto begin = text.find_first_not_of(" \t"), end = text.find(']');
+    if (begin == std::string::npos || text[begin] != '[' || end == std::string::npos) continue;
+    const std::string name = text.substr(begin + 1, end - begin - 1);
     const bool begins_structure = name.starts_with(structure_mark);
     if (begins_structure || name == coupling_mark) {
       Sections& part = part_begun(file, line, name);
@@ -108,7 +108,17 @@ Eigen::Vector3d read_point(const HdbFile& file, const Sections& part, const std:
   return {file.number(part, name, 1, "x"), file.number(part, name, 2, "y"), file.number(part, name, 3, "z")};
 }
 
-void read_bodies(Coefficients& c, const HdbFile& file) {
+/// AQUA+ writes one structure, whose sections stand in the head, and says neither where it is nor what it displaces.
+void read_only_body(Coefficients& c, HdbFile& file) {
+  file.structure.emplace_back();
+  c.body.emplace_back().name = "body1";
+  c.notes.push_back(
+      "the file tells neither volume nor centres of its structure, nor the point that its moments are about: state "
+      "reference_point");
+}
+
+void read_bodies(Coefficients& c, HdbFile& file) {
+  if (!file.head.contains("STRUCTURES_NUMBER") && file.structure.empty()) return read_only_body(c, file);
   const int count = file.line_of(file.head, "STRUCTURES_NUMBER");
   const auto n = static_cast<std::size_t>(file.text.whole(count, 1, "the number of structures", 1));
   if (file.structure.size() != n)
@@ -185,6 +195,12 @@ void fill_radiation(Coefficients& c, const HdbFile& file) {
 
 /// X = |F| e^{−i(φ + π/2)}: the file has e^{−iωt}, with sin in the place of cos (P27).
 void fill_excitation(Coefficients& c, const HdbFile& file) {
+  for (const char* part : {"FROUDE-KRYLOV_FORCES_AND_MOMENTS", "DIFFRACTION_FORCES_AND_MOMENTS"})
+    if (file.head.contains(part) && !file.head.contains("EXCITATION_FORCES_AND_MOMENTS")) {
+      // AQUA+ writes the parts under one name each heading, with phases whose origin no file at hand tells.
+      c.notes.push_back(fmt::format("no excitation: the file has [{}], a part whose phases are not explained", part));
+      return;
+    }
   std::vector<double> heading;
   for (const double degrees : read_list(file, "List_calculated_headings", "HEADINGS_NUMBER"))
     heading.push_back(Angle::from_degrees(degrees).radians());

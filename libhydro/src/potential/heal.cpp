@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "doctor.hpp"
 #include "hydro/base/dense.hpp"
+#include "hydro/radiation/kernel.hpp"
 #include "hydro/radiation/tail.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "readers.hpp"
@@ -134,8 +136,10 @@ HealStep extend(Coefficients& c) {
   // At the end of the table the kink of B spoils A from B; what it misses there is let go as A − A(∞) does, as ω⁻².
   const double last = c.omega.back();
   const MatrixXd missed = c.A.back() - found.A_inf - radiation::added_mass_above_limit(found.table, last);
-  const double spacing = last - c.omega[given - 2];
-  const auto stride = static_cast<std::size_t>(std::max(1.0, std::round(0.05 * last / spacing)));
+  // No wider apart than the frequencies of the table: the widest gap limits how long a memory the damping tells.
+  const double widest = std::numbers::pi / radiation::RetardationKernel::longest_time({c.omega, c.B});
+  const double added = found.table.omega[given] - last;
+  const auto stride = static_cast<std::size_t>(std::max(1.0, std::floor(widest / added * (1 + 1e-9))));
   for (std::size_t w = given + stride - 1; w < found.table.omega.size(); w += stride) {
     const double omega = found.table.omega[w];
     append_excitation(c, found.table.B[w], omega, c.B.back(), c.omega.back());

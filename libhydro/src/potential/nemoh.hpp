@@ -45,7 +45,7 @@ struct NemohTable {
 /// announce
 NemohTable read_nemoh_table(const std::filesystem::path& path, std::size_t values_in_row);
 
-/// The file of this name in one of the folders, or an empty path. Upper and lower case of folders both occur.
+/// The file of this name in one of the folders, or an empty path. Names are taken in any case.
 std::filesystem::path find_nemoh_file(const NemohCase& nemoh, const std::vector<const char*>& folders,
                                       const std::string& name);
 

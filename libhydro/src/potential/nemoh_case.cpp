@@ -15,7 +15,10 @@ Eigen::Vector3d read_modes(const TextLines& text, int& line, const char* what) {
   const int count = text.whole(count_line, 0, fmt::format("the number of {}", what), 0);
   constexpr const char* remedy =
       "Froude reads rigid bodies: surge, sway, heave, roll, pitch, yaw in this order, rotations about one point";
-  if (count != 6) text.refuse(count_line, fmt::format("there are {} {}; six are needed", count, what), remedy);
+  if (count > 6)
+    text.refuse(count_line, fmt::format("there are {} {}: generalised (flexible) modes beside the six", count, what),
+                remedy);
+  if (count < 6) text.refuse(count_line, fmt::format("there are {} {}; six are needed", count, what), remedy);
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   for (int mode = 0; mode < 6; ++mode, ++line) {
     const auto v = text.numbers(line, 7, what);
@@ -66,8 +69,10 @@ NemohCase read_nemoh_case(const fs::path& cal) {
 }
 
 fs::path find_nemoh_file(const NemohCase& nemoh, const std::vector<const char*>& folders, const std::string& name) {
-  for (const char* folder : folders)
-    if (const fs::path path = nemoh.folder / folder / name; fs::exists(path)) return path;
+  for (const char* folder : folders) {
+    const fs::path there = *folder == '\0' ? nemoh.folder : entry_of(nemoh.folder, folder);
+    if (const fs::path path = there.empty() ? fs::path() : entry_of(there, name); !path.empty()) return path;
+  }
   return {};
 }
 
@@ -102,16 +107,19 @@ Matrix6 read_restoring(const fs::path& path) {
 
 void fill_nemoh_hydrostatics(Coefficients& c, const NemohCase& nemoh) {
   const auto file = [&](const char* kind, int b) {
-    const fs::path numbered = find_nemoh_file(nemoh, {"Mesh", "mesh", ""}, fmt::format("{}_{}.dat", kind, b));
-    return numbered.empty() && c.bodies() == 1
-               ? find_nemoh_file(nemoh, {"Mesh", "mesh", ""}, fmt::format("{}.dat", kind))
-               : numbered;
+    const fs::path numbered = find_nemoh_file(nemoh, {"Mesh", ""}, fmt::format("{}_{}.dat", kind, b));
+    return numbered.empty() && c.bodies() == 1 ? find_nemoh_file(nemoh, {"Mesh", ""}, fmt::format("{}.dat", kind))
+                                               : numbered;
   };
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(c.modes(), c.modes());
   bool is_complete = true;
   for (int b = 0; b < c.bodies(); ++b) {
     BodyData& body = c.body[static_cast<std::size_t>(b)];
-    if (const fs::path path = file("Hydrostatics", b); !path.empty()) fill_centres(body, path);
+    if (const fs::path path = file("Hydrostatics", b); !path.empty())
+      fill_centres(body, path);
+    else
+      c.notes.push_back(
+          fmt::format("no volume and centres of {}: there is no Mesh/Hydrostatics.dat for it", body.name));
     const fs::path path = file("KH", b);
     is_complete = is_complete && !path.empty();
     if (!is_complete) continue;

@@ -217,7 +217,7 @@ void add_force(Coefficients& c, const NemohCase& nemoh, const fs::path& path, co
 }
 
 void fill_excitation(Coefficients& c, const NemohCase& nemoh, const FrequencyOrder& order) {
-  const auto result = [&](const char* name) { return find_nemoh_file(nemoh, {"Results", "results", ""}, name); };
+  const auto result = [&](const char* name) { return find_nemoh_file(nemoh, {"Results", ""}, name); };
   if (const fs::path path = result("ExcitationForce.tec"); !path.empty()) return add_force(c, nemoh, path, order);
   const fs::path diffraction = result("DiffractionForce.tec"), krylov = result("FKForce.tec");
   if (diffraction.empty() || krylov.empty()) {
@@ -234,7 +234,7 @@ fs::path find_cal(const fs::path& path) {
   if (!fs::is_directory(path) && path.extension() == ".cal") return path;
   const fs::path start = fs::is_directory(path) ? path : fs::absolute(path).parent_path();
   for (const fs::path& folder : {start, start.parent_path()})
-    if (fs::exists(folder / "Nemoh.cal")) return folder / "Nemoh.cal";
+    if (const fs::path cal = entry_of(folder, "Nemoh.cal"); !cal.empty()) return cal;
   throw InputError(fmt::format("there is no Nemoh.cal for \"{}\"", path.string()), {},
                    "the water and the points of the bodies are in it: put it into the folder above the results");
 }
@@ -252,7 +252,7 @@ Coefficients read_nemoh(const fs::path& path) {
     c.body.back().name = fmt::format("body{}", b + 1);
     c.body.back().reference_point = nemoh.reference_point[b];
   }
-  const fs::path radiation = find_nemoh_file(nemoh, {"Results", "results", ""}, "RadiationCoefficients.tec");
+  const fs::path radiation = find_nemoh_file(nemoh, {"Results", ""}, "RadiationCoefficients.tec");
   if (radiation.empty())
     throw InputError("there is no RadiationCoefficients.tec in the folder \"Results\" beside Nemoh.cal",
                      {.file = cal.string()}, "run NEMOH's postprocessor, or put the file there");

@@ -20,6 +20,10 @@ Coefficients read_froude(const std::filesystem::path& path);
 Coefficients read_veres(const std::filesystem::path& path, const ReadOptions& options);  ///< .re7, and .re8 beside it
 Coefficients read_hdb(const std::filesystem::path& path, const ReadOptions& options);    ///< one structure
 
+/// The entry of `folder` of this name, in whatever case its letters are; as written first. An empty path if there is
+/// none.
+std::filesystem::path entry_of(const std::filesystem::path& folder, const std::string& name);
+
 /// The control file of the HAMS run whose output is in the folder of `path`, if there is one.
 std::optional<std::filesystem::path> hams_run_around(const std::filesystem::path& path);
 

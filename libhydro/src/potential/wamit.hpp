@@ -59,12 +59,17 @@ struct WamitFiles {
 /// The set of files, from any of them or from the stem. \throws InputError if there is no .1 file
 WamitFiles find_wamit_files(const std::filesystem::path& path);
 
+/// The bodies whose modes stand in these columns, from 1; `told` by the .out file, where there is one.
+/// \throws InputError naming generalised modes if the modes are not six a body
+int count_bodies(const WamitTable& table, const std::vector<std::size_t>& columns, std::optional<int> told);
+
 /// Everything that the numeric files leave unsaid.
 struct WamitRun {
   Water water;
   FirstColumn column = FirstColumn::period;
   double ulen = 1;
   TimeFactor time_factor = TimeFactor::plus_i_omega_t;
+  std::optional<int> bodies = {};  ///< as the .out file tells
 };
 
 /// Radiation, excitation and restoring of a set of numeric files, whoever wrote them.

@@ -29,6 +29,16 @@ Eigen::Vector3d last_three(const TextLines& text, int line, const std::string& w
   return {text.number(line, words - 3, what), text.number(line, words - 2, what), text.number(line, words - 1, what)};
 }
 
+/// Of the numbers behind the label there are three, or the height alone: then the body floats at rest, so that its
+/// weight is above its buoyancy.
+Eigen::Vector3d read_centre_of_gravity(const TextLines& text, int line, const Eigen::Vector3d& buoyancy,
+                                       bool& is_height_alone) {
+  const auto behind = words_of(std::string_view(text.line(line)).substr(text.line(line).find(':') + 1));
+  is_height_alone = behind.size() == 1;
+  if (!is_height_alone) return last_three(text, line, "the centre of gravity");
+  return {buoyancy.x(), buoyancy.y(), number_behind(text, line, ":")};
+}
+
 int line_of(const TextLines& text, std::string_view label, int from) {
   const int line = text.find(label, from);
   if (line == 0)
@@ -37,7 +47,7 @@ int line_of(const TextLines& text, std::string_view label, int from) {
   return line;
 }
 
-BodyData read_body(const TextLines& text, int line, double ulen) {
+BodyData read_body(const TextLines& text, int line, double ulen, std::vector<std::string>& notes) {
   BodyData body;
   const Eigen::Vector3d origin(number_behind(text, line, "XBODY ="), number_behind(text, line, "YBODY ="),
                                number_behind(text, line, "ZBODY ="));
@@ -51,10 +61,17 @@ BodyData read_body(const TextLines& text, int line, double ulen) {
   std::sort(volume.begin(), volume.end());
   body.displaced_volume = volume(1);  // WAMIT itself works with the median of the three
   // Both centres are written in the body's system, whose origin is XBODY.
-  body.centre_of_buoyancy =
-      origin + last_three(text, line_of(text, "Center of Buoyancy (Xb,Yb,Zb):", line), "the centre of buoyancy");
+  const Eigen::Vector3d buoyancy =
+      last_three(text, line_of(text, "Center of Buoyancy (Xb,Yb,Zb):", line), "the centre of buoyancy");
+  bool is_height_alone = false;
+  body.centre_of_buoyancy = origin + buoyancy;
   body.centre_of_gravity =
-      origin + last_three(text, line_of(text, "Center of Gravity  (Xg,Yg,Zg):", line), "the centre of gravity");
+      origin + read_centre_of_gravity(text, line_of(text, "Center of Gravity", line), buoyancy, is_height_alone);
+  if (is_height_alone)
+    notes.push_back(
+        "the .out file tells the height alone of a centre of gravity; it is taken to be above the centre of buoyancy, "
+        "as "
+        "in a body that floats at rest");
   return body;
 }
 
@@ -75,7 +92,7 @@ WamitOut read_wamit_out(const std::filesystem::path& path) {
     if (!(*out.density > 0)) text.refuse(depth, "the density must be positive");
   }
   for (int line = text.find("XBODY =", depth); line != 0; line = text.find("XBODY =", line + 1)) {
-    out.body.push_back(read_body(text, line, out.ulen));
+    out.body.push_back(read_body(text, line, out.ulen, out.notes));
     out.body.back().name = fmt::format("body{}", out.body.size());
   }
   if (out.body.empty()) line_of(text, "XBODY =", depth);

@@ -58,12 +58,42 @@ WamitFiles find_wamit_files(const fs::path& path) {
                    "a VERES .re7, a .hdb, or a WAMIT .1 file (or the stem of its set)");
 }
 
+constexpr const char* rigid_bodies_only =
+    "Froude reads rigid bodies, six modes each: run WAMIT without generalised modes (NEWMDS = 0)";
+
+int count_bodies(const WamitTable& table, const std::vector<std::size_t>& columns, std::optional<int> told) {
+  int highest = 0, highest_of_first = 0;
+  WamitTable::Row where;
+  for (const auto& row : table.rows())
+    for (const std::size_t column : columns) {
+      const int mode = table.mode(row, column);
+      if (mode > highest) where = row;
+      highest = std::max(highest, mode);
+      if (mode <= 6) highest_of_first = std::max(highest_of_first, mode);
+    }
+  const int bodies = (highest + 5) / 6, of_last = highest - 6 * (bodies - 1);
+  if (told && bodies > *told)
+    throw InputError(fmt::format("mode {} is one too many for the {} rigid {} that the .out file tells of: the modes "
+                                 "from {} on are generalised (flexible) ones",
+                                 highest, *told, *told == 1 ? "body" : "bodies", 6 * *told + 1),
+                     table.place(where), rigid_bodies_only);
+  // Modes that a body lacks by symmetry may be absent, so six are not always there; but a last body that lacks what the
+  // first one has is none.
+  if (!told && bodies > 1 && of_last < highest_of_first && of_last < 6)
+    throw InputError(fmt::format("the modes end with {}, which is not six a body: those from {} on look like "
+                                 "generalised (flexible) modes",
+                                 highest, 6 * (bodies - 1) + 1),
+                     table.place(where),
+                     fmt::format("{}; if they are of a rigid body {}, put the .out file beside, or add a row of zeros "
+                                 "for mode {}",
+                                 rigid_bodies_only, bodies, 6 * bodies));
+  return bodies;
+}
+
 namespace {
 
-std::vector<RadiationBlock> blocks_of(const WamitTable& table) {
-  int highest = 0;
-  for (const auto& row : table.rows()) highest = std::max({highest, table.mode(row, 1), table.mode(row, 2)});
-  const Eigen::Index n = (highest + 5) / 6 * 6;
+std::vector<RadiationBlock> blocks_of(const WamitTable& table, std::optional<int> bodies) {
+  const Eigen::Index n = 6 * count_bodies(table, {1, 2}, bodies);
   std::vector<RadiationBlock> blocks;
   std::map<double, std::size_t> index_of;
   for (const auto& row : table.rows()) {
@@ -133,7 +163,7 @@ Eigen::MatrixXd dimensional(const Eigen::MatrixXd& m, double factor, double ulen
 /// A = ρ Ā L^k, B = ρ ω B̄ L^k  (P8). Returns the values of PER in the order of c.omega.
 std::vector<double> fill_radiation(Coefficients& c, const WamitTable& table, const WamitRun& run) {
   const double ulen = run.ulen;
-  const auto blocks = blocks_of(table);
+  const auto blocks = blocks_of(table, run.bodies);
   require_same_entries(blocks, table);
   const SortedBlocks s = sorted(blocks, run, table);
   const double rho = c.water.density;
@@ -161,6 +191,21 @@ std::vector<double> fill_radiation(Coefficients& c, const WamitTable& table, con
   return per;
 }
 
+/// Still water does not hold a rigid body in surge and sway, and what another body does changes nothing.
+void require_rigid(const Eigen::MatrixXd& C, const Eigen::MatrixXi& line, const WamitTable& table) {
+  constexpr double round_off = 1e-6;  // of seven printed digits
+  const double largest = C.cwiseAbs().maxCoeff();
+  for (Eigen::Index i = 0; i < C.rows(); ++i)
+    for (Eigen::Index j = 0; j < C.cols(); ++j) {
+      const bool is_other_body = i / 6 != j / 6, is_horizontal = i >= 6 && i == j && i % 6 < 2;
+      if ((is_other_body || is_horizontal) && std::abs(C(i, j)) > round_off * largest)
+        throw InputError(fmt::format("restoring ({}, {}) is not zero, as it is for rigid bodies: the modes from 7 on "
+                                     "look like generalised (flexible) ones",
+                                     i + 1, j + 1),
+                         table.text_place(line(i, j)), rigid_bodies_only);
+    }
+}
+
 /// C = ρ g C̄ L^k  (P8).
 void fill_restoring(Coefficients& c, const WamitTable& table, double ulen) {
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(c.modes(), c.modes());
@@ -178,6 +223,7 @@ void fill_restoring(Coefficients& c, const WamitTable& table, double ulen) {
     line(i, j) = row.line;
     C(i, j) = row.value[2] * c.water.density * c.water.gravity * restoring_scale(i, j, ulen);
   }
+  require_rigid(C, line, table);
   for (Eigen::Index b = 0; b < c.bodies(); ++b)
     if (line.middleRows(6 * b, 6).isZero() && !c.A.front().middleRows(6 * b, 6).isZero(0))
       throw InputError(fmt::format("there is no row of body {}; the .1 file has {} bodies", b + 1, c.bodies()),

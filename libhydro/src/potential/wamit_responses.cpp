@@ -99,6 +99,7 @@ ResponseFile open_file(const fs::path& path, const Layout& layout, const ReadOpt
                     .column_of_per = {},
                     .omega = {},
                     .notes = std::move(notes)};
+  count_bodies(file.table, {layout.mode()}, run.bodies);
   find_axes(file);
   if (!options.iperout)
     file.notes.push_back("IPEROUT is not stated: the first column is taken for periods in seconds (IPEROUT = 1)");

@@ -101,6 +101,7 @@ WamitRun run_of(const ReadOptions& options, const std::optional<WamitOut>& out, 
       stated("gravity", options.gravity, found([](const WamitOut& o) { return o.gravity; }), usual.gravity, notes),
       std::isinf(h) ? WaterDepth::infinite() : WaterDepth::from_metres(h)};
   run.column = static_cast<FirstColumn>(options.iperout.value_or(1));
+  if (out) run.bodies = static_cast<int>(out->body.size());
   run.ulen = stated("ULEN", options.ulen, found([](const WamitOut& o) { return o.ulen; }), 1, notes);
   return run;
 }

@@ -31,6 +31,7 @@ class WamitTable {
 
   /// The line of a row, with the word of `column` marked.
   Place place(const Row& row, std::size_t column) const;
+  Place text_place(int line) const { return text_.place(line); }
   Place place(const Row& row) const;
 
  private:

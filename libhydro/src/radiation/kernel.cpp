@@ -56,7 +56,7 @@ void check(const DampingTable& damping) {
             fmt::format("radiation damping of mode {} is negative, {:.4g} at {:.4g} rad/s: a hull at rest in calm "
                         "water cannot be a source of power",
                         mode, damping.B[i](mode, mode), damping.omega[i]),
-            {}, "look at the data with `froude bem check`");
+            {}, "look at the data with `froude bem check`, or put them right with `froude bem heal --passivity`");
   }
 }
 

@@ -133,6 +133,12 @@ BandFactors confidence_band(double dof, double level) {  // (S7)
   return {dof / chi_square_quantile((1 + level) / 2, dof), dof / chi_square_quantile((1 - level) / 2, dof)};
 }
 
+double coherence_threshold(double averages, double level) {  // (S10)
+  require(level > 0 && level < 1, "a confidence level must lie between 0 and 1, got {}", level);
+  require(averages > 1, "the coherence of {} averages tells nothing; two segments are needed", averages);
+  return 1 - std::pow(1 - level, 1 / (averages - 1));
+}
+
 TransferEstimate transfer(std::span<const double> input, std::span<const double> output, double step_s,
                           const WelchOptions& options) {
   require(input.size() == output.size(), "the input has {} samples, the output {}", input.size(), output.size());
@@ -167,7 +173,7 @@ TransferEstimate transfer(std::span<const double> input, std::span<const double>
     t.gain_relative_error.push_back(cross > 0 ? std::sqrt((1 - coherence) / (2 * coherence * t.averages))
                                               : nan);  // (S9)
   }
-  t.coherence_threshold = 1 - std::pow(0.05, 1 / (t.averages - 1));  // (S10)
+  t.coherence_threshold = coherence_threshold(t.averages, 0.95);
   return t;
 }
 

@@ -21,18 +21,36 @@ void check(std::span<const double> time_s, std::span<const double> values) {
 
 }  // namespace
 
-std::vector<SingleWave> single_waves(std::span<const double> time_s, std::span<const double> values) {  // (S11)
+Trend trend_of(std::span<const double> time_s, std::span<const double> values) {
   check(time_s, values);
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  const double n = static_cast<double>(values.size());
+  Trend out{.mean = std::accumulate(values.begin(), values.end(), 0.0) / n,
+            .middle_s = std::accumulate(time_s.begin(), time_s.end(), 0.0) / n,
+            .slope = 0,
+            .share = 0};
+  double tt = 0, tx = 0, xx = 0;
+  for (std::size_t j = 0; j < values.size(); ++j) {
+    const double t = time_s[j] - out.middle_s, x = values[j] - out.mean;
+    tt += t * t;
+    tx += t * x;
+    xx += x * x;
+  }
+  out.slope = tx / tt;
+  out.share = xx > 0 ? out.slope * tx / xx : 0;
+  return out;
+}
+
+std::vector<SingleWave> single_waves(std::span<const double> time_s, std::span<const double> values) {  // (S11)
+  const Trend trend = trend_of(time_s, values);
   std::vector<SingleWave> waves;
   constexpr auto none = static_cast<std::size_t>(-1);
-  std::size_t below = none;  // the last sample under the mean, as long as none above it has followed
+  std::size_t below = none;  // the last sample under the level, as long as none above it has followed
   SingleWave now{};
   bool inside = false;
   for (std::size_t j = 0; j < values.size(); ++j) {
-    const double x = values[j] - mean;
+    const double x = values[j] - trend.level(time_s[j]);
     if (x > 0 && below != none) {
-      const double before = values[below] - mean;
+      const double before = values[below] - trend.level(time_s[below]);
       const double crossing = time_s[below] + (time_s[j] - time_s[below]) * before / (before - x);
       if (inside) {
         now.period = crossing - now.start_s;

@@ -16,8 +16,8 @@ double longest_tangent(Stretching stretching, const FieldBox& box, double crest)
 
 }  // namespace
 
-Band band_of(const HarmonicField& field) {
-  Band out;
+BinBand band_of(const HarmonicField& field) {
+  BinBand out;
   for (const Harmonic& w : field.harmonics()) {
     out.omega = std::max(out.omega, std::abs(w.omega));
     if (const double k = std::hypot(w.kx, w.ky); k > out.kappa) {
@@ -65,7 +65,7 @@ double rms_elevation(const HarmonicField& field) {
   return std::sqrt(sum);
 }
 
-VerticalBasis vertical_basis(const HarmonicField& field, const FieldBox& box, const Band& band, double crest,
+VerticalBasis vertical_basis(const HarmonicField& field, const FieldBox& box, const BinBand& band, double crest,
                              double tolerance) {
   const auto [bottom, top] = profile_heights(field, box, crest, band.kappa);
   const Stretching stretching = field.options().stretching;
@@ -83,7 +83,7 @@ FieldError elevation_bound(const HarmonicField& field, double relative) {
 }
 
 // (W98)
-FieldError bounds(const HarmonicField& field, const Band& band, double top, double relative, const FieldBox& box,
+FieldError bounds(const HarmonicField& field, const BinBand& band, double top, double relative, const FieldBox& box,
                   double crest) {
   const double depth = field.water().depth.metres(), rho = field.water().density;
   double potential = 0, current = 0;

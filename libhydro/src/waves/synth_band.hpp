@@ -8,12 +8,12 @@
 namespace hydro::waves {
 
 /// Largest frequency and wavenumber of a field, and the one direction of its waves if they have one.
-struct Band {
+struct BinBand {
   double omega = 0, kappa = 0;
   bool long_crested = true;
   Eigen::Vector2d along{1, 0};
 };
-Band band_of(const HarmonicField& field);
+BinBand band_of(const HarmonicField& field);
 
 /// \throws InputError if the box is empty, not finite or reaches below the bed
 void require_box(const FieldBox& box, double depth);
@@ -24,12 +24,12 @@ double rms_elevation(const HarmonicField& field);
 
 /// Polynomials for all heights at which the profile may be read for points in the box, when no crest is higher than
 /// `crest`.
-VerticalBasis vertical_basis(const HarmonicField& field, const FieldBox& box, const Band& band, double crest,
+VerticalBasis vertical_basis(const HarmonicField& field, const FieldBox& box, const BinBand& band, double crest,
                              double tolerance);
 
 /// Bounds of a field whose components have this relative error. The first leaves all but the elevation NaN.
 FieldError elevation_bound(const HarmonicField& field, double relative);
-FieldError bounds(const HarmonicField& field, const Band& band, double top, double relative, const FieldBox& box,
+FieldError bounds(const HarmonicField& field, const BinBand& band, double top, double relative, const FieldBox& box,
                   double crest);
 
 /// Heights [bottom, top] of vertical_basis.

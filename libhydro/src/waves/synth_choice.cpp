@@ -23,7 +23,7 @@ double expected_sum(const HarmonicField& field, const FieldUse& use, bool vector
 double expected_table(const HarmonicField& field, const FieldUse& use) {
   const TabulatedField::Options options{use.tolerance, use.largest_bytes, use.elevation_only};
   const auto waves = static_cast<double>(field.harmonics().size());
-  const Band band = band_of(field);
+  const BinBand band = band_of(field);
   double bytes;
   try {
     bytes = TabulatedField::expected_bytes(field, use.box, options);
@@ -45,7 +45,7 @@ std::array<double, 3> costs(const HarmonicField& field, const FieldUse& use) {
 
 // (W92), with the rounding of κ|x|, as a relative error of each component.
 FieldError summed_bound(const HarmonicField& field, const FieldUse& use) {
-  const Band band = band_of(field);
+  const BinBand band = band_of(field);
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   const double reach = std::hypot(std::max(std::abs(use.box.low.x()), std::abs(use.box.high.x())),
                                   std::max(std::abs(use.box.low.y()), std::abs(use.box.high.y())));

@@ -23,7 +23,7 @@ struct Axes {
   Axis time, a, b;
 };
 
-Axes axes_of(const Window& window, const Band& band, const FieldBox& box) {
+Axes axes_of(const Window& window, const BinBand& band, const FieldBox& box) {
   Axes out;
   out.time = Axis::along(window, box.start_s, box.end_s, band.omega);
   double low = box.low.y(), high = box.high.y();
@@ -39,8 +39,8 @@ Axes axes_of(const Window& window, const Band& band, const FieldBox& box) {
 }
 
 // Projections of the wave vector onto the axes.
-double along_a(const Harmonic& w, const Band& band) { return band.long_crested ? 0 : w.kx; }
-double along_b(const Harmonic& w, const Band& band) {
+double along_a(const Harmonic& w, const BinBand& band) { return band.long_crested ? 0 : w.kx; }
+double along_b(const Harmonic& w, const BinBand& band) {
   return band.long_crested ? w.kx * band.along.x() + w.ky * band.along.y() : w.ky;
 }
 
@@ -50,7 +50,7 @@ struct TabulatedField::Content {
   struct Scratch;
   Surroundings around;
   FieldBox box;
-  Band band;
+  BinBand band;
   Window window;
   Axes axes;
   std::optional<VerticalBasis> vertical;
@@ -94,7 +94,7 @@ struct Prepared {
   }
 };
 
-Prepared prepared(const HarmonicField& field, const Band& band, const Axes& axes, Complex Harmonic::*member) {
+Prepared prepared(const HarmonicField& field, const BinBand& band, const Axes& axes, Complex Harmonic::*member) {
   const auto count = static_cast<Eigen::Index>(field.harmonics().size());
   Prepared out{Eigen::VectorXcd(count), Eigen::ArrayXd(count), Eigen::ArrayXd(count)};
   for (Eigen::Index j = 0; j < count; ++j) {
@@ -114,7 +114,8 @@ std::vector<double> frequencies(const HarmonicField& field) {
 }
 
 // Shape (time, a, row).
-std::vector<double> elevation_table(const HarmonicField& field, const Band& band, const Axes& axes, std::size_t row) {
+std::vector<double> elevation_table(const HarmonicField& field, const BinBand& band, const Axes& axes,
+                                    std::size_t row) {
   const auto omega = frequencies(field);
   std::vector<double> out(axes.time.count * axes.a.count * row, 0.0);
   const Prepared waves = prepared(field, band, axes, &Harmonic::elevation);
@@ -131,7 +132,7 @@ std::vector<double> elevation_table(const HarmonicField& field, const Band& band
 }
 
 // Shape (time, a, b, levels): Chebyshev coefficients of the potential.
-std::vector<double> potential_table(const HarmonicField& field, const Band& band, const Axes& axes,
+std::vector<double> potential_table(const HarmonicField& field, const BinBand& band, const Axes& axes,
                                     const VerticalBasis& vertical) {
   const auto omega = frequencies(field);
   const auto levels = static_cast<Eigen::Index>(vertical.count()), waves = static_cast<Eigen::Index>(omega.size());
@@ -200,7 +201,7 @@ void require_memory(const Axes& axes, std::size_t row, std::size_t levels, std::
 
 double TabulatedField::expected_bytes(const HarmonicField& field, const FieldBox& box, const Options& options) {
   require_box(box, field.water().depth.metres());
-  const Band band = band_of(field);
+  const BinBand band = band_of(field);
   const Window window = Window::of_tolerance(options.tolerance / 4, oversampling);
   const Axes axes = axes_of(window, band, box);
   const double crest = std::min(sum_of(field, &Harmonic::elevation), 8 * rms_elevation(field));

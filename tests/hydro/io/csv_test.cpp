@@ -36,6 +36,17 @@ TEST(CsvTable, KeepsColumnsOfText) {
   EXPECT_THROW(t.column("spring"), InputError);
 }
 
+// Grams to a balance, gravity to an accelerometer: taken for grams, an acceleration would be 9807 times too small.
+TEST(CsvTable, AsksWhatTheUnitGMeans) {
+  for (const char* header : {"t [s],a (g)", "t [s],a [mg]"})
+    EXPECT_THAT(
+        [&] { CsvTable::parse(std::string(header) + "\n0,1\n", "a.csv"); },
+        ThrowsMessage<InputError>(AllOf(HasSubstr("a.csv:1:7"), HasSubstr("standard gravity"), HasSubstr("[gn]"))))
+        << header;
+  const auto t = CsvTable::parse("a [gn],m [kg]\n-1,2\n", "a.csv");
+  EXPECT_THAT(t.column("a", dim::acceleration), ElementsAre(-9.80665));
+}
+
 TEST(CsvTable, PointsAtTheCellThatIsWrong) {
   EXPECT_THAT([] { CsvTable::parse("t [s],x [m]\n0,1\n1,nan\n", "a.csv"); },
               ThrowsMessage<InputError>(AllOf(HasSubstr("a.csv:3:3"), HasSubstr("not a finite number"))));

@@ -1,10 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <numeric>
+#include <thread>
 
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -49,6 +52,65 @@ TEST_F(Files, AreRefusedWithTheReasonAndLeaveNothing) {
   EXPECT_THAT([&] { read_text(folder / "none.txt"); }, ThrowsMessage<InputError>(HasSubstr("cannot read")));
   require_writable(folder / "new.txt");
   EXPECT_EQ(entries(), 0u);
+}
+
+TEST_F(Files, ThatALinkPointsToAreReplacedAndTheLinkStays) {
+  fs::create_directory(folder / "elsewhere");
+  write_atomically(folder / "elsewhere" / "a.txt", "old");
+  fs::create_symlink("elsewhere/a.txt", folder / "link");
+  fs::create_symlink("link", folder / "link_to_link");
+  fs::create_symlink("elsewhere/new.txt", folder / "dangling");
+  write_atomically(folder / "link_to_link", "new");
+  write_atomically(folder / "dangling", "made");
+  EXPECT_TRUE(fs::is_symlink(folder / "link_to_link"));
+  EXPECT_TRUE(fs::is_symlink(folder / "link"));
+  EXPECT_TRUE(fs::is_symlink(folder / "dangling"));
+  EXPECT_EQ(read_text(folder / "elsewhere" / "a.txt"), "new");
+  EXPECT_EQ(read_text(folder / "elsewhere" / "new.txt"), "made");
+  fs::create_symlink("circle", folder / "circle");
+  EXPECT_THROW(write_atomically(folder / "circle", "x"), InputError);
+}
+
+TEST_F(Files, ThatAreDevicesOrFifosAreWrittenInto) {
+  ASSERT_EQ(::mkfifo((folder / "fifo").c_str(), 0600), 0);
+  require_writable(folder / "fifo");  // returns at once, though nobody reads
+  std::string read;
+  std::thread reader([&] { read = read_text(folder / "fifo"); });
+  write_atomically(folder / "fifo", "through the pipe");
+  reader.join();
+  EXPECT_EQ(read, "through the pipe");
+  EXPECT_TRUE(fs::is_fifo(folder / "fifo"));
+  fs::create_symlink("/dev/null", folder / "null");
+  write_atomically(folder / "null", "x");
+  EXPECT_TRUE(fs::is_symlink(folder / "null"));
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+/// What was written before and what comes later both stay: the descriptor is shared, the file is not opened anew.
+TEST_F(Files, ThatAreOpenAlreadyAreWrittenOnWhereTheyStand) {
+  std::FILE* file = std::fopen((folder / "a.txt").c_str(), "w");
+  ASSERT_NE(file, nullptr);
+  std::fputs("before, ", file);
+  std::fflush(file);
+  write_atomically("/dev/fd/" + std::to_string(::fileno(file)), "between, ");
+  std::fputs("after", file);
+  std::fclose(file);
+  EXPECT_EQ(read_text(folder / "a.txt"), "before, between, after");
+}
+
+TEST_F(Files, AreTheSameByLinkByHardLinkAndByAnotherSpelling) {
+  write_atomically(folder / "a.txt", "x");
+  write_atomically(folder / "b.txt", "x");
+  fs::create_symlink("a.txt", folder / "soft");
+  fs::create_hard_link(folder / "a.txt", folder / "hard");
+  fs::create_symlink("none.txt", folder / "dangling");
+  EXPECT_TRUE(same_file(folder / "a.txt", folder / "." / "soft"));
+  EXPECT_TRUE(same_file(folder / "hard", folder / "soft"));
+  EXPECT_TRUE(same_file(folder / "none.txt", folder / "dangling"));
+  EXPECT_FALSE(same_file(folder / "a.txt", folder / "b.txt"));
+  EXPECT_FALSE(same_file(folder / "a.txt", folder / "none.txt"));
+  EXPECT_FALSE(same_file("/dev/null", "/dev/null"));
+  EXPECT_FALSE(same_file(folder, folder));
 }
 
 TEST_F(Files, OfHdf5ComeBackToTheLastBit) {

@@ -308,6 +308,21 @@ TEST(Doctor, KnowsTheSecondTermOfLongWaves) {
 }
 
 /// (P64) on data without a mesh: what remains is the solver's tolerance, at any depth.
+// A spike makes heave huge, and yaw small beside it: that a body is round has to be seen in the usual frequencies.
+TEST(Doctor, DoesNotTakeASquareBodyForARoundOneAtASpike) {
+  Coefficients c = example("pontoon1.nc");
+  c.heading.resize(1);
+  c.X.resize(1);
+  const auto told = [&] {
+    for (const Finding& f : check(c))
+      if (f.check == "Haskind relation") return f.message;
+    return std::string();
+  };
+  ASSERT_THAT(told(), HasSubstr("do not cover the circle"));
+  c.A[20](2, 2) *= 1000;
+  EXPECT_THAT(told(), testing::Not(HasSubstr("8 headings")));
+}
+
 TEST(Doctor, FindsHaskindsRelationInExactData) {
   const hydro::cylinders::CylinderBody body{"buoy", {0, 0, -0.5}, Eigen::Vector3d(0, 0, -1), {{{0, 0}, 1.0, 1.5}}};
   const hydro::Water water{.depth = hydro::WaterDepth::from_metres(3)};

@@ -11,6 +11,7 @@
 #include "example.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/potential/check.hpp"
+#include "hydro/radiation/kernel.hpp"
 #include "smooth_body.hpp"
 #include "support/reference_data.hpp"
 
@@ -164,6 +165,20 @@ TEST(Heal, JoinsTheTailToTheLastValue) {
   const Healed healed = heal(c, only(&HealOptions::tail));
   const double last = c.A.back()(0, 0), next = healed.coefficients.A[c.omega.size()](0, 0);
   EXPECT_NEAR(next, last, 0.05 * c.A.front()(0, 0));
+}
+
+// What the table tells of the memory ends at π over its widest gap: healing must not widen one.
+TEST(Heal, LeavesTheMemoryAsLongAsItWas) {
+  using hydro::radiation::RetardationKernel;
+  for (const char* name : {"pontoon1.nc", "hemisphere_r5.nc", "box2.nc"}) {
+    const Coefficients c = example(name), healed = heal(c, only(&HealOptions::tail)).coefficients;
+    ASSERT_GT(healed.omega.size(), c.omega.size()) << name;
+    // The added frequencies share the way to their end evenly, which rounds their distance by one part in their number.
+    const double rounding = 1 - 1.0 / static_cast<double>(c.omega.size());
+    EXPECT_GE(RetardationKernel::longest_time({healed.omega, healed.B}),
+              rounding * RetardationKernel::longest_time({c.omega, c.B}))
+        << name;
+  }
 }
 
 TEST(Heal, AddsTheLimitThatIsAbsent) {

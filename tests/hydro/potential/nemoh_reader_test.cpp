@@ -175,6 +175,8 @@ TEST(NemohReader, RefusesACaseThatIsNotOfRigidBodies) {
   const auto with = [&](const char* what, const char* by) {
     folder.write("Nemoh.cal", replaced(text.cal(), what, by));
   };
+  with("6\t! Number of degrees", "8\t! Number of degrees");
+  expect_refusal(folder, "8 degrees of freedom: generalised (flexible) modes");
   with("6\t! Number of degrees", "5\t! Number of degrees");
   expect_refusal(folder, "there are 5 degrees of freedom");
   with("1 0. 1. 0.", "1 0. 2. 0.");
@@ -187,6 +189,27 @@ TEST(NemohReader, RefusesACaseThatIsNotOfRigidBodies) {
   expect_refusal(folder, "0 for infinite depth");
   folder.write("Nemoh.cal", text.cal().substr(0, 300));
   EXPECT_THROW(read(folder / ""), InputError);
+}
+
+TEST(NemohReader, FindsFilesInWhateverCaseTheirNamesAre) {
+  TemporaryFolder folder;
+  const NemohText text;
+  const auto write = [&](const char* cal, const char* mesh, const char* results, const char* hydrostatics) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "")) std::filesystem::remove_all(entry);
+    for (const char* name : {mesh, results}) std::filesystem::create_directory(folder / name);
+    folder.write(cal, text.cal());
+    folder.write(std::string(results) + "/RadiationCoefficients.tec", text.radiation());
+    folder.write(std::string(mesh) + "/" + hydrostatics,
+                 "XF = 0.1 - XG = 0.2\nYF = 0 - YG = 0\nZF = -1 - ZG = -0.5\nDisplacement = 12.5\n");
+  };
+  for (const char* name : {"Hydrostatics.dat", "hydrostatics_0.dat", "HYDROSTATICS_0.DAT"}) {
+    write("Nemoh.cal", "Mesh", "Results", name);
+    EXPECT_EQ(read(folder / "").body[0].displaced_volume, 12.5) << name;
+  }
+  write("nemoh.cal", "MESH", "RESULTS", "Hydrostatics_0.dat");
+  EXPECT_EQ(read(folder / "").body[0].displaced_volume, 12.5);
+  write("Nemoh.cal", "Mesh", "Results", "else.dat");
+  EXPECT_THAT(read(folder / "").notes, ::testing::Contains(HasSubstr("no volume and centres of body1")));
 }
 
 TEST(NemohReader, RefusesNumbersThatAreNone) {

@@ -373,6 +373,43 @@ TEST(HdbReader, RefusesStructuresOfWhichItCannotTellPlaceOrCoupling) {
   refused(gap, "stands where structure 2 should");
 }
 
+/// As AQUA+ writes it: blanks before the names, one structure in the head, parts of the excitation under one name each.
+std::string by_aqua(const HdbText& text) {
+  std::string all = text.text();
+  const auto cut = [&](const std::string& from, const std::string& to) {
+    all.erase(all.find(from), all.find(to) - all.find(from));
+  };
+  cut("[STRUCTURES_NUMBER]", "[Hydrostatic_matrix]");
+  cut("[EXCITATION", "[ADDED_MASS_LINE_1]");
+  all += "[FROUDE-KRYLOV_FORCES_AND_MOMENTS]\n[INCIDENCE_EFM_MOD_001] 0.0\n[INCIDENCE_EFM_MOD_001] 90.0\n";
+  std::string out;
+  for (const char character : all) out += character == '[' ? std::string(" [") : std::string(1, character);
+  return out;
+}
+
+TEST(HdbReader, ReadsTheOneStructureOfAquaPlus) {
+  TemporaryFolder folder;
+  const HdbText text;
+  const Coefficients c = read(folder.write("a.hdb", by_aqua(text)), sea);
+  const auto expected =
+      text.body.coefficients({1025, 9.81, WaterDepth::from_metres(60)},
+                             {2 * std::numbers::pi / 16, 2 * std::numbers::pi / 8, 2 * std::numbers::pi / 4}, {});
+  EXPECT_EQ(froude_test::largest_relative_error(c.A, expected.A), 0);
+  EXPECT_EQ(froude_test::largest_relative_error(c.B, expected.B), 0);
+  EXPECT_EQ(froude_test::largest_relative_error(std::vector{*c.C}, std::vector{*expected.C}), 0);
+  EXPECT_TRUE(c.X.empty());
+  EXPECT_FALSE(c.body[0].displaced_volume || c.body[0].reference_point);
+  EXPECT_THAT(c.notes, testing::Contains(HasSubstr("no excitation: the file has [FROUDE-KRYLOV")));
+}
+
+TEST(HdbOutsideData, OfAquaPlusHasTheRollPeriodThatWasMeasured) {
+  FROUDE_REQUIRE_DATA(file, "ecn_roll_decay/test_ship.hdb");
+  const Coefficients c = read(file, sea);
+  ASSERT_EQ(c.omega.size(), 6u);
+  EXPECT_NEAR((*c.C)(3, 3), 1.786686e6, 1);
+  EXPECT_NEAR(c.A[0](3, 3), 3.189e5, 50);  // at 4 s, as the readme of the data has it
+}
+
 TEST(HdbReader, RefusesWhatItDoesNotKnow) {
   TemporaryFolder folder;
   const auto refused = [&](const std::string& text, const ReadOptions& options, const char* what) {

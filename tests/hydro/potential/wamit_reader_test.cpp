@@ -244,6 +244,70 @@ INSTANTIATE_TEST_SUITE_P(
         BadSet{"ADuplicateRestoring", "6 1 1 1 1\n", "", "3 3 1\n3 3 1\n", {"b.hst:2", "line 1 already"}}),
     [](const auto& test) { return test.param.name; });
 
+/// Diagonal rows of `modes` modes of one body, as a run with generalised modes writes them.
+std::string rows_of_modes(int modes) {
+  std::string text;
+  for (const double per : {6.0, 5.0})
+    for (int i = 1; i <= modes; ++i) text += fmt::format("{} {} {} 1 1\n", per, i, i);
+  return text;
+}
+
+/// The part of a .out file that tells of water and bodies.
+std::string out_file(int bodies, const std::string& centre_of_gravity) {
+  std::string text =
+      " Gravity:     9.81000                Length scale:        1.00000\n Water depth:        infinite\n";
+  for (int b = 1; b <= bodies; ++b)
+    text += fmt::format(
+        " Body number: N= {}\n XBODY =   {}.0000 YBODY =    0.0000 ZBODY =   0.0000 PHIBODY =   0.0\n"
+        " Volumes (VOLX,VOLY,VOLZ):           725.0      725.0      725.0\n"
+        " Center of Buoyancy (Xb,Yb,Zb):     0.250000     0.000000    -1.500000\n"
+        " Center of Gravity  (Xg,Yg,Zg):     {}\n",
+        b, 10 * b, centre_of_gravity);
+  return text;
+}
+
+const hydro::potential::ReadOptions deep{1000, 9.81, hydro::WaterDepth::infinite(), 1, 1};
+
+TEST(WamitReader, RefusesGeneralisedModesByName) {
+  TemporaryFolder folder;
+  const auto refused = [&](const std::string& place) {
+    EXPECT_THAT([&] { read(folder / "g.1", deep); },
+                ThrowsMessage<InputError>(AllOf(HasSubstr(place), HasSubstr("generalised"))));
+  };
+  folder.write("g.1", rows_of_modes(10));
+  refused("g.1:10");
+  // Twelve modes may be those of two bodies; the restoring matrix, or the .out file, tells that they are not.
+  folder.write("g.1", rows_of_modes(12));
+  EXPECT_EQ(read(folder / "g.1", deep).bodies(), 2);
+  folder.write("g.hst", "3 3 1\n3 9 0.5\n9 9 1\n");
+  refused("g.hst:2");
+  folder.write("g.hst", "3 3 1\n7 7 0.5\n9 9 1\n");
+  refused("g.hst:2");
+  std::filesystem::remove(folder / "g.hst");
+  folder.write("g.out", out_file(1, "0 0 -1"));
+  refused("g.1:12");
+}
+
+TEST(WamitReader, TakesBodiesThatLackModesBySymmetry) {
+  TemporaryFolder folder;
+  folder.write("g.1", "6 3 3 1 1\n6 9 9 1 1\n");  // heave alone of two bodies
+  EXPECT_EQ(read(folder / "g.1", deep).bodies(), 2);
+  folder.write("g.1", rows_of_modes(11));  // the second is round, so that its yaw makes no waves
+  folder.write("g.out", out_file(2, "0 0 -1"));
+  EXPECT_EQ(read(folder / "g.1", deep).bodies(), 2);
+}
+
+TEST(WamitReader, TakesTheHeightAloneOfACentreOfGravity) {
+  TemporaryFolder folder;
+  folder.write("g.1", rows_of_modes(6));
+  folder.write("g.out", out_file(1, "-0.750000"));
+  const auto c = read(folder / "g.1", deep);
+  EXPECT_EQ(*c.body[0].centre_of_gravity, Eigen::Vector3d(10.25, 0, -0.75)) << "above the centre of buoyancy";
+  EXPECT_THAT(c.notes, Contains(HasSubstr("the height alone")));
+  folder.write("g.out", out_file(1, "0.100000 0.200000 -0.750000"));
+  EXPECT_EQ(*read(folder / "g.1", deep).body[0].centre_of_gravity, Eigen::Vector3d(10.1, 0.2, -0.75));
+}
+
 TEST(WamitReader, AsksForWaterThatTheFilesDoNotHold) {
   TemporaryFolder folder;
   const auto path = WamitText{}.write(folder);

@@ -83,6 +83,12 @@ TEST(Transfer, KeepsUnrelatedSignalsBelowTheCoherenceThreshold) {
   EXPECT_NEAR(static_cast<double>(below) / total, 0.95, 0.01);
 }
 
+TEST(Transfer, HasAThresholdOfCoherenceForTheConfidenceThatIsAskedFor) {
+  EXPECT_NEAR(coherence_threshold(11, 0.95), 1 - std::pow(0.05, 0.1), 1e-15);  // (S10)
+  EXPECT_NEAR(coherence_threshold(11, 0.99), 1 - std::pow(0.01, 0.1), 1e-15);
+  EXPECT_THROW(coherence_threshold(11, 1), hydro::InputError);
+}
+
 TEST(Transfer, RefusesASingleSegmentAndUnequalRecords) {
   const auto x = white(128, 0);
   EXPECT_THROW(transfer(x, x, 1, {.segment = 128}), hydro::InputError);

@@ -56,6 +56,19 @@ TEST(SingleWaves, AreCutOnceWhereASampleIsExactlyZeroAndNotWhereTheMeanIsOnlyTou
   EXPECT_EQ(single_waves(t, touching).size(), 1u);
 }
 
+// Rising by six amplitudes, a record crosses its mean in a third of its waves only.
+TEST(SingleWaves, OfARecordThatDriftsAreCountedAboutItsLine) {
+  auto r = sine(8, 40, 75, -0.3);
+  for (std::size_t j = 0; j < r.time.size(); ++j) r.values[j] += 6 * r.time[j] / r.time.back();
+  const Trend trend = trend_of(r.time, r.values);
+  EXPECT_TRUE(trend.is_drift());
+  EXPECT_NEAR(trend.slope, 6 / r.time.back(), 0.01 * 6 / r.time.back());
+  const auto waves = single_waves(r.time, r.values);
+  EXPECT_EQ(waves.size(), 74u);
+  EXPECT_NEAR(wave_statistics(waves).h13, 2, 0.02);
+  EXPECT_FALSE(trend_of(sine(8, 40, 3, 0).time, sine(8, 40, 3, 0).values).is_drift());
+}
+
 TEST(WaveStatistics, OfANarrowBandGaussianSignalFollowRayleigh) {
   // A Gaussian signal from 3 % of bandwidth around one frequency: 2^19 samples, 32 per wave, some 16 000 waves.
   constexpr std::size_t n = 1u << 19;

@@ -12,6 +12,8 @@ struct Restoring {
   Matrix6 damping = Matrix6::Zero();  ///< D about the centre of gravity
   double lift = 0;  ///< N, a constant force upwards at the centre of gravity: buoyancy less weight of a body that
                     ///< others hold at its draught
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< N m at rest about the centre of gravity, of a constant force
+                                                     ///< that acts beside it; its potential is −moment·φ
 };
 
 /// Load of one element. Rotations: |φ| < π.

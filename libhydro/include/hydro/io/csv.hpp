@@ -17,7 +17,8 @@ namespace hydro::io {
 class CsvTable {
  public:
   /// \throws InputError with line and column: unreadable file, no header, ragged row, a cell that is empty, NaN,
-  /// infinite or no number, a unit that is not known, two columns of one name.
+  /// infinite or no number, a unit that is not known or means two things ("g": grams or gravity), two columns of one
+  /// name.
   static CsvTable read(const std::filesystem::path& path);
   static CsvTable parse(std::string_view text, const std::string& file_name);
 

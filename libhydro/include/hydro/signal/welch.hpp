@@ -57,6 +57,10 @@ struct BandFactors {
 };
 BandFactors confidence_band(double dof, double level);  ///< \throws InputError unless 0 < level < 1
 
+/// γ² that unrelated signals stay below at a share `level` of the frequencies, of so many averages; (S10).
+/// \throws InputError unless 0 < level < 1 and averages > 1
+double coherence_threshold(double averages, double level);
+
 /// What one signal does to another, frequency by frequency; kernel e^{−iωt}, so phases are those of Re(a e^{+iωt}).
 struct TransferEstimate {
   std::vector<double> frequency_hz;
