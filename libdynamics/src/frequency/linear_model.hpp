@@ -1,7 +1,6 @@
 #pragma once
 /// \file  Private: small motions and those of them that are left, for responses at any frequency.
-#include <Eigen/LU>
-
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "reduction.hpp"
 
@@ -17,7 +16,7 @@ struct LinearModel {
   /// the one factorisation of Z. \throws hydro::NumericsError if Z is singular there
   template <class Loads>
   Loads response(const Eigen::MatrixXcd& Z, const Loads& X, double omega) {
-    const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(left.matrix(Z));
+    const hydro::dense::ComplexLu lu(left.matrix(Z));
     ++factorisations;
     const Loads x = lu.solve(left.vector(X));
     // An undamped resonance met exactly has no finite answer.

@@ -1,7 +1,6 @@
 #include "dynamics/frequency/rao.hpp"
 
-#include <Eigen/QR>
-
+#include "hydro/base/dense.hpp"
 #include "linear_model.hpp"
 #include "scatter.hpp"
 
@@ -57,25 +56,31 @@ Eigen::MatrixXcd excitations(const Model& model, const std::vector<PotentialGrou
 /// The multipliers of joints, from what motions leave open of the equations of motion.
 class OpenEquations {
  public:
-  explicit OpenEquations(const SmallMotions& about) : scale_(about.mass.diagonal().cwiseSqrt().cwiseInverse()) {
-    // Only free modes have an equation, and rows are scaled so that newtons and newton metres compare.
-    for (int m = 0; m < about.model.modes(); ++m)
-      if (!about.model.is_free(m)) scale_[m] = 0;
-    qr_.compute(scale_.asDiagonal() * about.linear.conditions.transpose());
-  }
+  explicit OpenEquations(const SmallMotions& about)
+      : scale_(scale_of(about)), qr_(scale_.asDiagonal() * about.linear.conditions.transpose()) {}
 
   /// λ by X − Z ξ, of a vector or of each column.
   template <class Loads>
   Loads multipliers(const Loads& rest) const {
-    Loads lambda(qr_.cols(), rest.cols());
-    lambda.real() = qr_.solve(scale_.asDiagonal() * rest.real());
-    lambda.imag() = qr_.solve(scale_.asDiagonal() * rest.imag());
+    const auto real = qr_.solve(scale_.asDiagonal() * rest.real()),
+               imaginary = qr_.solve(scale_.asDiagonal() * rest.imag());
+    Loads lambda(real.rows(), rest.cols());
+    lambda.real() = real;
+    lambda.imag() = imaginary;
     return lambda;
   }
 
  private:
+  /// Only free modes have an equation, and rows are scaled so that newtons and newton metres compare.
+  static Eigen::VectorXd scale_of(const SmallMotions& about) {
+    Eigen::VectorXd scale = about.mass.diagonal().cwiseSqrt().cwiseInverse();
+    for (int m = 0; m < about.model.modes(); ++m)
+      if (!about.model.is_free(m)) scale[m] = 0;
+    return scale;
+  }
+
   Eigen::VectorXd scale_;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
+  hydro::dense::PivotedQr qr_;
 };
 
 /// Column w of the matrix of each heading, side by side; and back.
