@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "hydro/waves/current.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "hydro/waves/focus.hpp"
 #include "hydro/waves/limits.hpp"
@@ -19,6 +20,7 @@ namespace froude::compile {
 namespace {
 
 namespace hw = hydro::waves;
+using hydro::Angle;
 using hydro::InputError;
 using hydro::Place;
 
@@ -60,9 +62,10 @@ void check_height(double height, double period, double length, const hydro::Wate
         place, "make the waves lower, or longer");
 }
 
-/// As check_height(), with the length of linear theory.
-void check_breaking(double height, double omega, const hydro::Water& water, const Place& place, const char* what) {
-  check_height(height, two_pi / omega, two_pi / hw::wavenumber(omega, water), water, place, what);
+/// As check_height(), with the length of linear theory on the current: against it waves are shorter.
+void check_breaking(double height, double omega, const scene::Scene& scene, Angle heading, const char* what) {
+  check_height(height, two_pi / omega, two_pi / wavenumber_in(scene, omega, heading), scene.water, scene.waves->place,
+               what);
 }
 
 // ---- random seas ----
@@ -104,7 +107,7 @@ hw::Sea random_sea(const scene::Scene& scene, const scene::RandomSea& sea, const
   std::vector<hw::Sea> systems;
   for (std::size_t i = 0; i < sea.systems.size(); ++i) {
     const auto& system = sea.systems[i];
-    check_breaking(system.spectrum->hs(), system.spectrum->peak_omega(), scene.water, place,
+    check_breaking(system.spectrum->hs(), system.spectrum->peak_omega(), scene, system.heading,
                    "a significant wave height");
     const Band band = band_of(sea, *system.spectrum, data, scene.accuracy);
     check_left_out(sea, *system.spectrum, band, data, scene.accuracy, place);
@@ -236,7 +239,7 @@ hw::Sea free_waves(const scene::Scene& scene, const std::optional<Band>& data) {
     if (const auto* list = std::get_if<scene::WaveList>(&waves.kind))
       return hw::Sea::of(list->waves, scene.water, scene.current);
     const auto& regular = std::get<scene::RegularWave>(waves.kind);
-    check_breaking(2 * regular.amplitude, two_pi / regular.period, scene.water, waves.place, "a wave height");
+    check_breaking(2 * regular.amplitude, two_pi / regular.period, scene, waves.heading, "a wave height");
     return hw::Sea::regular(hydro::WaveAmplitude::from_metres(regular.amplitude),
                             hydro::AngularFrequency::from_period_s(regular.period), waves.heading, scene.water, 0,
                             scene.current);
@@ -273,11 +276,8 @@ double limiting_steepness(double tp) { return 1.0 / 15 + (1.0 / 25 - 1.0 / 15) *
 std::vector<std::string> wave_warnings(const scene::Scene& scene) {
   const scene::Waves& waves = *scene.waves;
   if (const auto* regular = std::get_if<scene::RegularWave>(&waves.kind)) {
-    const double k = regular->theory == scene::RegularTheory::linear
-                         ? hw::wavenumber(two_pi / regular->period, scene.water)
-                         : steady_wave(scene, *regular).k;
     return hw::wave_limits({.height_m = 2 * regular->amplitude,
-                            .length = hw::Wavelength::from_metres(two_pi / k),
+                            .length = hw::Wavelength::from_metres(wavelength_of(scene, *regular)),
                             .water = scene.water})
         .warnings;
   }
@@ -292,6 +292,21 @@ std::vector<std::string> wave_warnings(const scene::Scene& scene) {
             steepness, limit, hs, tp));
     }
   return out;
+}
+
+double wavenumber_in(const scene::Scene& scene, double omega, Angle heading) {
+  if (scene.current.is_none()) return hw::wavenumber(omega, scene.water);
+  try {
+    return hw::doppler(omega, heading, scene.current, scene.water).k;
+  } catch (const InputError& e) {
+    throw e.at(scene.waves->place);
+  }
+}
+
+double wavelength_of(const scene::Scene& scene, const scene::RegularWave& wave) {
+  return two_pi / (wave.theory == scene::RegularTheory::linear
+                       ? wavenumber_in(scene, two_pi / wave.period, scene.waves->heading)
+                       : steady_wave(scene, wave).k);
 }
 
 std::complex<double> elevation_at_origin(const hydro::waves::Component& c) { return std::polar(c.amplitude, c.phase); }

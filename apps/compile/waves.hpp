@@ -38,6 +38,13 @@ std::unique_ptr<const hydro::waves::WaveField> make_field(const scene::Scene& sc
 /// hydro::waves::wave_limits(), seas steeper than are measured. Empty for lists, packets and tanks.
 std::vector<std::string> wave_warnings(const scene::Scene& scene);
 
+/// Of a wave of this frequency in the water and the current of the scene, by linear theory, rad/m.
+/// \throws hydro::InputError if the current stops such waves
+double wavenumber_in(const scene::Scene& scene, double omega, hydro::Angle heading);
+
+/// The length that a regular wave has by its theory, in the current of the scene, m. \throws hydro::InputError
+double wavelength_of(const scene::Scene& scene, const scene::RegularWave& wave);
+
 /// a e^{iφ}
 std::complex<double> elevation_at_origin(const hydro::waves::Component& component);
 

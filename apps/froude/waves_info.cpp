@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <optional>
 #include <sstream>
 
 #include "compile/waves.hpp"
@@ -49,11 +51,26 @@ void add(Info& info, const char* key, double value, const char* unit, const std:
 
 // ---- what all kinds have in common ----
 
+/// How long a wave of a period is, and by what.
+struct Length {
+  double metres;
+  std::string by = {};  ///< " on the current"
+};
+
+Length in_still_water(double period, const hydro::Water& water) {
+  return {two_pi / hw::wavenumber(two_pi / period, water)};
+}
+
+Length in_scene(double period, const scene::Scene& scene, hydro::Angle heading) {
+  return {two_pi / compile::wavenumber_in(scene, two_pi / period, heading),
+          scene.current.is_none() ? "" : " on the current"};
+}
+
 /// Steepness, depth and breaking of a sea of this height and period.
-void add_shape(Info& info, double height, double period, const hydro::Water& water) {
-  const double k = hw::wavenumber(two_pi / period, water), length = two_pi / k;
+void add_shape(Info& info, double height, double period, const hydro::Water& water, const Length& of_period) {
+  const double length = of_period.metres, k = two_pi / length;
   const double highest = hw::highest_wave(length, water.depth);
-  add(info, "wavelength", length, "m", fmt::format("length of a wave of {:.4g} s", period));
+  add(info, "wavelength", length, "m", fmt::format("length of a wave of {:.4g} s{}", period, of_period.by));
   add(info, "steepness", height / length, "", "height over that length");
   if (!water.depth.is_infinite()) {
     const double h = water.depth.metres();
@@ -72,7 +89,7 @@ void add_shape(Info& info, double height, double period, const hydro::Water& wat
                                        height / highest, highest));
 }
 
-void add_spectrum(Info& info, const hw::Spectrum& s, const hydro::Water& water) {
+void add_spectrum(Info& info, const hw::Spectrum& s, const hydro::Water& water, const Length& of_peak) {
   add(info, "hs", s.hs(), "m", "significant height 4 √m0");
   add(info, "tp", s.tp(), "s", "peak period");
   add(info, "tz", s.tz(), "s", "mean period of up-crossings 2π √(m0/m2)");
@@ -82,7 +99,7 @@ void add_spectrum(Info& info, const hw::Spectrum& s, const hydro::Water& water) 
   if (std::isfinite(s.tail_power()))
     info.remarks.push_back(fmt::format("at high frequency the spectrum falls as omega^-{:.3g}{}", s.tail_power(),
                                        s.tail_power() <= 5 ? ", so its m4 is infinite" : ""));
-  add_shape(info, s.hs(), s.tp(), water);
+  add_shape(info, s.hs(), s.tp(), water, of_peak);
 }
 
 // ---- components ----
@@ -96,21 +113,34 @@ double sum_of(const hw::Sea& sea, int n) {
 /// A tenth of a per cent: what chance does in one record of a thousand is called a focus.
 constexpr double chance = 1e-3;
 
-void add_focus(Info& info, const hw::Sea& sea, double reach, bool put_in = false) {
-  const hw::FocusFound f = hw::find_focus(sea, 0, 0, -reach, reach);
+/// A crest that was put into a sea, and the sea that it was put into, by whose energy its chance goes.
+struct PutIn {
+  hw::Sea before;
+  hw::Focus focus;
+};
+
+/// Looks at the place of a crest that was put in, else at x = y = 0.
+void add_focus(Info& info, const hw::Sea& sea, double reach, const std::optional<PutIn>& put_in = {}) {
+  const hw::Focus at = put_in ? put_in->focus : hw::Focus{};
+  hw::FocusFound f = hw::find_focus(sea, at.x_m, at.y_m, -reach, reach);
+  if (put_in) f.probability = hw::chance_of_crest(put_in->before, f.crest_m, 2 * reach);
+  const double hs = put_in ? put_in->before.hs() : sea.hs();
+  const std::string place =
+      at.x_m == 0 && at.y_m == 0 ? "x = y = 0" : fmt::format("x = {:.4g} m, y = {:.4g} m", at.x_m, at.y_m);
   double all = 0;
   for (const auto& w : sea.components()) all += w.amplitude;
   add(info, "sum_of_amplitudes", all, "m", "height if all were in phase");
-  add(info, "focus_time", f.t_s, "s", fmt::format("greatest envelope at x = y = 0 within ±{:.4g} s", reach));
+  add(info, "focus_time", f.t_s, "s", fmt::format("greatest envelope at {} within ±{:.4g} s", place, reach));
   add(info, "focus_envelope", f.envelope_m, "m", "envelope then");
   add(info, "focus_share", f.share, "", "of the sum of amplitudes");
   add(info, "highest_crest", f.crest_m, "m", "in the same time");
   add(info, "highest_crest_time", f.crest_t_s, "s", "when");
-  add(info, "chance_of_crest", f.probability, "", "of such a crest in a Gaussian sea of the same energy");
+  add(info, "chance_of_crest", f.probability, "",
+      put_in ? "of such a crest in the sea without it" : "of such a crest in a Gaussian sea of the same energy");
   if (put_in) {
-    info.remarks.push_back(
-        fmt::format("a crest is put in; in a random sea one of {:.3g} Hs has a chance of {:.2g} in that time",
-                    f.crest_m / sea.hs(), f.probability));
+    info.remarks.push_back(fmt::format(
+        "a crest is put in at {}; in the sea without it one of {:.3g} Hs has a chance of {:.2g} in that time", place,
+        f.crest_m / hs, f.probability));
     return;
   }
   info.remarks.push_back(
@@ -123,7 +153,11 @@ void add_focus(Info& info, const hw::Sea& sea, double reach, bool put_in = false
                 f.crest_m / sea.hs(), f.probability));
 }
 
-Info of_components(const hw::Sea& sea, const std::string& what) {
+/// s around t = 0 that are searched for a crest that was put in.
+double reach_of(const hw::Focus& focus) { return std::max(100.0, 1.5 * std::abs(focus.t_s)); }
+
+Info of_components(const hw::Sea& sea, const std::string& what, const std::function<Length(double)>& length_of,
+                   const std::optional<PutIn>& put_in = {}) {
   Info info{.what = what, .facts = {}, .remarks = {}};
   const auto [shortest, longest] = std::minmax_element(sea.components().begin(), sea.components().end(),
                                                        [](const auto& a, const auto& b) { return a.omega > b.omega; });
@@ -136,8 +170,9 @@ Info of_components(const hw::Sea& sea, const std::string& what) {
   add(info, "tz", tz, "s", "mean period of up-crossings 2π √(m0/m2)");
   add(info, "tm01", two_pi * m0 / sum_of(sea, 1), "s", "mean period 2π m0/m1");
   add(info, "te", two_pi * sum_of(sea, -1) / m0, "s", "energy period 2π m-1/m0");
-  add_shape(info, sea.hs(), two_pi * sum_of(sea, -1) / m0, sea.water());
-  add_focus(info, sea, 10 * two_pi / longest->omega);
+  const double te = two_pi * sum_of(sea, -1) / m0, usual_reach = 10 * two_pi / longest->omega;
+  add_shape(info, sea.hs(), te, sea.water(), length_of(te));
+  add_focus(info, sea, put_in ? reach_of(put_in->focus) : usual_reach, put_in);
   return info;
 }
 
@@ -181,7 +216,7 @@ Info of_record(const std::vector<double>& time, const std::vector<double>& eleva
                     "with a chance of {:.2g}",
                     probability < chance ? "focused" : "not focused", crest / (4 * std::sqrt(m0)), probability));
   }
-  add_shape(info, 4 * std::sqrt(m0), m.te(), water);
+  add_shape(info, 4 * std::sqrt(m0), m.te(), water, in_still_water(m.te(), water));
   return info;
 }
 
@@ -192,29 +227,43 @@ Info of_regular(const scene::Scene& scene, const scene::RegularWave& wave) {
   add(info, "height", 2 * wave.amplitude, "m", "from trough to crest");
   add(info, "period", wave.period, "s", "at a fixed point");
   // Region and warnings by the length that the period has in linear theory: that is how the chart is read.
-  const hw::WaveLimits limits = hw::wave_limits({.height_m = 2 * wave.amplitude,
-                                                 .length = hydro::AngularFrequency::from_period_s(wave.period),
-                                                 .water = scene.water});
-  add_shape(info, 2 * wave.amplitude, wave.period, scene.water);
+  const Length linear = in_scene(wave.period, scene, scene.waves->heading);
+  const hw::WaveLimits limits = hw::wave_limits(
+      {.height_m = 2 * wave.amplitude, .length = hw::Wavelength::from_metres(linear.metres), .water = scene.water});
+  const bool is_linear = wave.theory == scene::RegularTheory::linear;
+  if (!is_linear) add(info, "linear_wavelength", linear.metres, "m", "by linear theory" + linear.by);
+  add_shape(info, 2 * wave.amplitude, wave.period, scene.water,
+            is_linear ? linear : Length{compile::wavelength_of(scene, wave), " by its theory" + linear.by});
   info.remarks.push_back(fmt::format("the theory for it is {}", hw::name(limits.region)));
   for (const auto& warning : limits.warnings) info.remarks.push_back(warning);
   return info;
 }
 
+/// The sea of the scene as it was before a crest was put in, if one is.
+std::optional<PutIn> put_in_of(const scene::Scene& scene, const scene::RandomSea& random) {
+  if (!random.crest) return {};
+  scene::Scene before = scene;
+  std::get<scene::RandomSea>(before.waves->kind).crest.reset();
+  return PutIn{compile::free_waves(before), random.crest->focus};
+}
+
 Info of_random(const scene::Scene& scene, const scene::RandomSea& random) {
   const hw::Sea sea = compile::free_waves(scene);
+  const auto put_in = put_in_of(scene, random);
+  const auto length_of = [&](double period) { return in_scene(period, scene, random.systems.front().heading); };
   Info info{.what = fmt::format("a random sea of kind {}, {} components", random.systems.front().kind,
                                 sea.components().size()),
             .facts = {},
             .remarks = {}};
   if (random.systems.size() > 1) {
     info = of_components(
-        sea, fmt::format("{} random seas at once, {} components", random.systems.size(), sea.components().size()));
+        sea, fmt::format("{} random seas at once, {} components", random.systems.size(), sea.components().size()),
+        length_of, put_in);
   } else {
     const hw::Spectrum& spectrum = *random.systems.front().spectrum;
-    add_spectrum(info, spectrum, scene.water);
-    if (random.crest) {
-      add_focus(info, sea, std::max(100.0, 1.5 * std::abs(random.crest->focus.t_s)), true);
+    add_spectrum(info, spectrum, scene.water, length_of(spectrum.tp()));
+    if (put_in) {
+      add_focus(info, sea, reach_of(put_in->focus), put_in);
     } else {
       const auto [low, high] = std::minmax_element(sea.components().begin(), sea.components().end(),
                                                    [](const auto& a, const auto& b) { return a.omega < b.omega; });
@@ -244,7 +293,7 @@ Info of_packets(const scene::Scene& scene, const scene::FocusedPackets& packets)
   add(info, "focus_time", packets.focus.t_s, "s", "when they meet");
   add(info, "shortest_period", shortest, "s", "of a packet");
   add(info, "longest_period", longest, "s", "of a packet");
-  add_shape(info, 2 * all, longest, scene.water);
+  add_shape(info, 2 * all, longest, scene.water, in_still_water(longest, scene.water));
   return info;
 }
 
@@ -257,7 +306,8 @@ Info of_scene(const Path& file) {
   if (const auto* packets = std::get_if<scene::FocusedPackets>(&kind)) return of_packets(scene, *packets);
   if (std::holds_alternative<scene::WaveList>(kind)) {
     const hw::Sea sea = compile::free_waves(scene);
-    return of_components(sea, fmt::format("{} regular waves from a list", sea.components().size()));
+    return of_components(sea, fmt::format("{} regular waves from a list", sea.components().size()),
+                         [&](double period) { return in_scene(period, scene, scene.waves->heading); });
   }
   throw hydro::InputError("what a tank's waves are is told by its series", scene.waves->place,
                           "use `froude waves make`, then `froude waves info` of a record it writes");
@@ -271,11 +321,13 @@ Info of_csv(const WavesInfoArguments& arguments, const hydro::Water& water) {
   const auto table = hydro::io::CsvTable::read(arguments.file);
   if (any_of(table, {"phase", "phase_rad", "phase_deg"})) {
     const auto list = scene::read_wave_list(arguments.file, hydro::Angle::from_radians(0), arguments.phase_of_kx);
-    return of_components(hw::Sea::of(list, water), fmt::format("{} regular waves from a list", list.size()));
+    return of_components(hw::Sea::of(list, water), fmt::format("{} regular waves from a list", list.size()),
+                         [&](double period) { return in_still_water(period, water); });
   }
   if (table.has("density")) {
     Info info{.what = "a table of a spectrum", .facts = {}, .remarks = {}};
-    add_spectrum(info, hw::TabulatedSpectrum::read(arguments.file), water);
+    const hw::TabulatedSpectrum spectrum = hw::TabulatedSpectrum::read(arguments.file);
+    add_spectrum(info, spectrum, water, in_still_water(spectrum.tp(), water));
     return info;
   }
   const std::string column = arguments.column.value_or("elevation");

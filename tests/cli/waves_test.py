@@ -89,6 +89,55 @@ class Waves(unittest.TestCase):
         self.assertIn("focused: the waves meet", told)
         self.assertNotIn("not focused", told)
 
+    def facts(self, text):
+        told = json.loads(self.froude("--json", "waves", "info", self.scene(text)).stdout)
+        return {key: fact["value"] for key, fact in told["facts"].items()}, told["remarks"]
+
+    def test_the_chance_of_a_crest_that_was_put_in_is_that_of_the_sea_without_it(self):
+        crest = SEA.replace("components =", 'crest = { height = "4.5 m", position = "(40, 0, 0) m", time = "20 s" }\ncomponents =')
+        facts, remarks = self.facts(crest)
+        self.assertAlmostEqual(facts["highest_crest"], 4.5, delta=0.02)
+        self.assertTrue(any("1.5 Hs" in remark for remark in remarks), remarks)
+        # Rayleigh: exp(-8 (1.5)^2) for one crest, some 27 crests in 200 s at Tz of 7.2 s.
+        self.assertAlmostEqual(facts["chance_of_crest"] / (200 / 7.2 * math.exp(-8 * 1.5 ** 2)), 1, delta=0.2)
+
+    REGULAR = """\
+schema = 1
+[water]
+density = "1025 kg/m^3"
+gravity = "9.81 m/s^2"
+depth = "infinite"
+[waves]
+kind = "regular"
+height = "{height}"
+period = "4 s"
+heading = "0 deg"
+{theory}
+{current}
+[[probe]]
+name = "gauge"
+at = "(0, 0, 0) m"
+[ask]
+waves = {{ duration = "60 s", every = "0.25 s" }}
+"""
+
+    def test_waves_against_a_current_are_shorter_and_break_earlier(self):
+        against = '[current]\nvelocity = "(-1.5, 0, 0) m/s"'
+        facts, _ = self.facts(self.REGULAR.format(height="0.5 m", theory="", current=against))
+        # omega = sqrt(g k) - 1.5 k at omega = 2 pi/4
+        root = (math.sqrt(9.81) - math.sqrt(9.81 - 6 * math.pi / 2)) / 3
+        self.assertAlmostEqual(facts["wavelength"], 2 * math.pi / root ** 2, places=3)
+        self.refused(self.REGULAR.format(height="2 m", theory="", current=against), "beyond breaking")
+        still, _ = self.facts(self.REGULAR.format(height="2 m", theory="", current=""))
+        self.assertAlmostEqual(still["wavelength"], 9.81 * 16 / (2 * math.pi), places=3)
+
+    def test_nonlinear_waves_have_the_length_of_their_theory(self):
+        facts, _ = self.facts(self.REGULAR.format(height="2 m", theory='theory = "stokes5"', current=""))
+        linear = 9.81 * 16 / (2 * math.pi)
+        self.assertAlmostEqual(facts["linear_wavelength"], linear, places=3)
+        # Deep water, third order: k is lower by (kH/2)^2.
+        self.assertAlmostEqual(facts["wavelength"] / linear - 1, (math.pi * 2 / linear) ** 2, delta=0.01)
+
     def test_a_made_record_has_the_height_that_was_asked_for(self):
         self.froude("waves", "make", self.scene(SEA.replace("600 s", "1799.5 s")), "-o", "sea.h5", "--csv", "sea.csv")
         for record in ("sea.h5", "sea.csv"):

@@ -150,17 +150,27 @@ PacketField::Stay PacketField::stay(double distance_m) const {
   return out;
 }
 
+double chance_of_crest(const Sea& sea, double crest_m, double duration_s) {
+  double m0 = 0, m2 = 0;
+  for (const Component& w : sea.components()) {
+    m0 += energy(w);
+    m2 += energy(w) * w.omega * w.omega;
+  }
+  if (m0 == 0) return crest_m > 0 ? 0 : 1;
+  // Rayleigh crests, one a mean up-crossing period.
+  const double waves = std::max(1.0, duration_s * std::sqrt(m2 / m0) / (2 * pi)), crest = std::max(0.0, crest_m);
+  return -std::expm1(waves * std::log1p(-std::exp(-crest * crest / (2 * m0))));
+}
+
 FocusFound find_focus(const Sea& sea, double x_m, double y_m, double from_s, double to_s) {
   require(std::isfinite(from_s) && std::isfinite(to_s) && from_s < to_s,
           "a focus is searched between two times, the first before the second; got {} s and {} s", from_s, to_s);
-  double highest = 0, all = 0, m0 = 0, m2 = 0;
+  double highest = 0, all = 0;
   std::vector<Complex> at_place;
   for (const Component& w : sea.components()) {
     at_place.push_back(std::polar(w.amplitude, w.phase) * elevation_transfer(w, x_m, y_m));
     highest = std::max(highest, w.omega);
     all += w.amplitude;
-    m0 += energy(w);
-    m2 += energy(w) * w.omega * w.omega;
   }
   const auto sum_at_time = [&](double t) {
     Complex sum = 0;
@@ -177,12 +187,9 @@ FocusFound find_focus(const Sea& sea, double x_m, double y_m, double from_s, dou
     if (std::abs(sum) > out.envelope_m) out.t_s = t, out.envelope_m = std::abs(sum);
     if (sum.real() > out.crest_m) out.crest_t_s = t, out.crest_m = sum.real();
   }
-  if (m0 == 0) return out;
+  if (all == 0) return out;
   out.share = out.envelope_m / all;
-  // (W28): Rayleigh crests, one a mean up-crossing period.
-  const double waves = std::max(1.0, (to_s - from_s) * std::sqrt(m2 / m0) / (2 * pi));
-  const double exceeded = std::exp(-std::max(0.0, out.crest_m) * std::max(0.0, out.crest_m) / (2 * m0));
-  out.probability = -std::expm1(waves * std::log1p(-exceeded));
+  out.probability = chance_of_crest(sea, out.crest_m, to_s - from_s);
   return out;
 }
 

@@ -76,6 +76,9 @@ struct Envelope {
 };
 Envelope packet_envelope(double s);
 
+/// The chance that a Gaussian sea with these components has a crest as high at one place within this time (W28).
+double chance_of_crest(const Sea& sea, double crest_m, double duration_s);
+
 /// How far the waves of a sea come together at one place (W28).
 struct FocusFound {
   double t_s;         ///< when the envelope is greatest
