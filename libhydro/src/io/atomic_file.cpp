@@ -146,7 +146,8 @@ bool same_file(const fs::path& a, const fs::path& b) {
   const auto first = file_of(a), second = file_of(b);
   if (!first || !second) return false;
   if (fs::exists(*first, unknown) && fs::exists(*second, unknown)) return fs::equivalent(*first, *second, unknown);
-  return fs::weakly_canonical(*first, unknown) == fs::weakly_canonical(*second, unknown);
+  // A name that does not exist yet stays relative in weakly_canonical(), where its folder is not named.
+  return fs::weakly_canonical(fs::absolute(*first), unknown) == fs::weakly_canonical(fs::absolute(*second), unknown);
 }
 
 std::string read_text(const fs::path& path) {

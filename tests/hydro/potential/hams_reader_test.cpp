@@ -191,7 +191,7 @@ TEST(WamitOut, IsRefusedIfItDoesNotFit) {
     EXPECT_THAT([&] { read(path, {1025, {}, {}, 1, 1}); }, ThrowsMessage<InputError>(HasSubstr(message)));
   };
   const std::string whole = out_file(12, {0, 0, 0});
-  expect(whole, "describes 1 bodies, but the .1 file has 2");
+  expect(whole, "mode 12 is one too many for the 1 rigid body that the .out file tells of");
   expect(out_file(12, {0, 0, 0}, 30), "turned by 30 degrees");
   for (const char* label : {"Gravity:", "Water depth:", "XBODY =", "ZBODY =", "Volumes", "Center of Gravity"})
     expect(whole.substr(0, whole.find(label)), label);

@@ -150,7 +150,11 @@ inline hydro::potential::Coefficients random_coefficients(std::uint64_t seed) {
   }
   if (chance()) c.A_zero = matrix();
   if (chance()) c.A_inf = matrix();
-  if (chance()) c.C = matrix();
+  if (chance()) {
+    c.C = Eigen::MatrixXd::Zero(n, n);  // the water restores each rigid body by itself
+    const Eigen::MatrixXd all = matrix();
+    for (int b = 0; b < n; b += 6) c.C->block<6, 6>(b, b) = all.block<6, 6>(b, b);
+  }
   double beta = -4;
   for (int h = chance() ? count(4) : 0; h > 0; --h) c.heading.push_back(beta += 0.01 + uniform());
   for (std::size_t h = 0; h < c.heading.size(); ++h)
