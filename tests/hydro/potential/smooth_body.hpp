@@ -153,7 +153,10 @@ inline hydro::potential::Coefficients random_coefficients(std::uint64_t seed) {
   if (chance()) {
     c.C = Eigen::MatrixXd::Zero(n, n);  // the water restores each rigid body by itself
     const Eigen::MatrixXd all = matrix();
-    for (int b = 0; b < n; b += 6) c.C->block<6, 6>(b, b) = all.block<6, 6>(b, b);
+    for (int b = 0; b < n; b += 6) {
+      c.C->block<6, 6>(b, b) = all.block<6, 6>(b, b);
+      c.C->diagonal().segment<2>(b).setZero();  // and holds none in surge and sway
+    }
   }
   double beta = -4;
   for (int h = chance() ? count(4) : 0; h > 0; --h) c.heading.push_back(beta += 0.01 + uniform());
