@@ -63,6 +63,7 @@ scene::Scene without_pivot_excitation(scene::Scene scene) {
 std::vector<double> one_degree_of_freedom(scene::Scene scene, const std::vector<double>& periods, double height) {
   scene.rao.emplace();
   for (auto T = periods.rbegin(); T != periods.rend(); ++T) scene.rao->omega.push_back(2 * pi / *T);
+  scene.rao->headings = {0};  // as the waves of the runs
   scene.rao->of = {"rack.travel"};
   const Responses responses = froude::respond(scene);
   std::vector<double> out;
