@@ -13,10 +13,10 @@ namespace {
 namespace fs = std::filesystem;
 using scene::Node;
 
-/// Files that a text of a scene in `folder` leads to; none for a text that is no path.
-std::vector<Path> files_of_text(const std::string& text, const Path& folder) {
-  const Path path = folder / text;
-  if (text.find('*') == std::string::npos) return hydro::potential::files_behind(path);
+/// Files that a text of a scene leads to; none for a text that is no path. Records alone are named with `*`, which in
+/// other keys stands in names of bodies and signals.
+std::vector<Path> files_of_text(const std::string& key, const Path& path) {
+  if (key != "data.files") return hydro::potential::files_behind(path);
   std::vector<Path> out;
   std::error_code failed;
   for (fs::directory_iterator at(path.parent_path(), failed), end; !failed && at != end; at.increment(failed))
@@ -40,7 +40,7 @@ class SceneFiles {
     for (const Node::Entry& entry : node.entries) add(entry.value, (key.empty() ? "" : key + ".") + entry.key, scene);
     constexpr std::size_t longest_path = 4096;  // a longer text is no name of a file
     if (node.is(Node::Type::text) && !node.text.empty() && node.text.size() < longest_path)
-      for (const Path& file : files_of_text(node.text, scene.parent_path())) add_file(key, file);
+      for (const Path& file : files_of_text(key, fs::absolute(scene).parent_path() / node.text)) add_file(key, file);
   }
   void add_file(const std::string& key, const Path& file) {
     if (key == "model.scene") return add_scene("the scene of the key " + key, file);

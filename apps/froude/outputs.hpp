@@ -24,8 +24,8 @@ std::vector<NamedFile> named(const std::vector<std::pair<std::string, std::optio
 void require_outputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs);
 
 /// A scene of motion or a fit, and every file that it names: each text in it that leads to a file counts, so no key can
-/// be forgotten; with `*` all that match; of coefficients the whole set; of a scene and of a table of runs the files
-/// that they name in turn. \throws hydro::InputError if the scene is no TOML
+/// be forgotten; of records all that match a `*`; of coefficients the whole set; of a scene and of a table of runs the
+/// files that they name in turn. \throws hydro::InputError if the scene is no TOML
 std::vector<NamedFile> files_of_scene(const Path& scene);
 
 /// The files of coefficients that are given to a command, and what belongs to them.

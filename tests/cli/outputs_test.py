@@ -144,6 +144,12 @@ class Outputs(unittest.TestCase):
         self.refuses("run", "s.toml", "-o", "x.h5", "--csv", "x.h5", words=("-o", "--csv"))
         self.refuses("psd", "m.csv", "-o", "x.csv", "--picture", "./x.csv")
 
+    def test_a_text_that_is_no_name_of_a_file_is_no_input(self):
+        for title in ("long " * 100, "x" * 300 + ".1", ".", "*", "x*"):
+            self.write("s.toml", SCENE.replace("schema = 1", f'schema = 1\ntitle = "{title}"'))
+            result = self.froude("waves", "make", "s.toml", "-o", "x.h5")
+            self.assertEqual(result.returncode, 0, title + result.stderr)
+
     def test_every_output_is_tried_before_the_work(self):
         self.refuses("run", "s.toml", "-o", "x.h5", "--csv", "none/x.csv", words=("none/x.csv",))
 

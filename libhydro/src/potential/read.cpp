@@ -141,9 +141,10 @@ bool ends_in(const fs::path& path, const Endings& endings) {
 /// The folder of a run of NEMOH or HAMS of which `path` is the whole or a part, or an empty path.
 fs::path run_folder(const fs::path& path) {
   fs::path at = fs::absolute(path).lexically_normal();
-  if (!fs::is_directory(at) && !ends_in(at, run_endings)) return {};
+  std::error_code unknown;  // of names that are too long to be any file's
+  if (!fs::is_directory(at, unknown) && !ends_in(at, run_endings)) return {};
   for (int up = 0; up <= 3; ++up, at = at.parent_path())  // HAMS: Output/Wamit_format/buoy.1
-    if (!entry_of(at, "Nemoh.cal").empty() || fs::exists(at / "Input" / "ControlFile.in")) return at;
+    if (!entry_of(at, "Nemoh.cal").empty() || fs::exists(at / "Input" / "ControlFile.in", unknown)) return at;
   return {};
 }
 
@@ -169,7 +170,8 @@ std::vector<fs::path> files_behind(const fs::path& path) {
 }
 
 fs::path entry_of(const fs::path& folder, const std::string& name) {
-  if (fs::exists(folder / name)) return folder / name;
+  std::error_code unknown;
+  if (fs::exists(folder / name, unknown)) return folder / name;
   const auto lower = [](std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
