@@ -10,6 +10,7 @@
 #include "compile/members.hpp"
 #include "compile/radiation.hpp"
 #include "compile/signals.hpp"
+#include "compile/step.hpp"
 #include "compile/waves.hpp"
 #include "dynamics/force/gravity.hpp"
 #include "dynamics/force/ramped_field.hpp"
@@ -38,7 +39,14 @@ dynamics::RigidBody rigid_body(const scene::Body& b) {
   }
 }
 
-/// Springs and dampers, in the order in which a plan lists them.
+/// Yaw about z, pitch about the new y, roll about the newest x: R = Rz(yaw) Ry(pitch) Rx(roll).
+Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& q) {
+  const Eigen::Matrix3d R = q.toRotationMatrix();
+  return {std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)), std::atan2(R(1, 0), R(0, 0))};
+}
+
+}  // namespace
+
 void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::ForceKind>>& forces) {
   if (!p.heavy.empty()) forces.push_back(std::make_unique<dynamics::GravityKind>(p.bodies, p.water.gravity, p.heavy));
   if (!p.buoyancy.empty()) forces.push_back(std::make_unique<dynamics::BuoyancyKind>(p.bodies, p.buoyancy, p.water));
@@ -52,14 +60,6 @@ void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::
   if (!p.ptos.empty()) forces.push_back(std::make_unique<dynamics::PtoKind>(p.ptos));
   if (!p.loads.empty()) forces.push_back(std::make_unique<dynamics::ConstantLoadKind>(p.loads));
 }
-
-/// Yaw about z, pitch about the new y, roll about the newest x: R = Rz(yaw) Ry(pitch) Rx(roll).
-Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& q) {
-  const Eigen::Matrix3d R = q.toRotationMatrix();
-  return {std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)), std::atan2(R(1, 0), R(0, 0))};
-}
-
-}  // namespace
 
 double motion_from_rest(const dynamics::RigidBody& body, const dynamics::Pose& pose, int mode) {
   if (mode >= 3) return roll_pitch_yaw(pose.attitude)[mode - 3];
@@ -151,23 +151,6 @@ dynamics::frequency::SmallMotions small_motions(const dynamics::Model& model, co
 
 namespace {
 
-/// The step that keeps the period error of generalised-α, (ωh)²/12, a sixteenth of the accuracy asked at the highest
-/// relevant frequency, and divides the distance of samples.
-double chosen_step(const Scene& scene) {
-  const double every = scene.run->every;
-  if (scene.solve.step) {
-    const double ratio = every / scene.solve.step->value;
-    if (std::abs(ratio - std::round(ratio)) > 1e-9 * ratio || ratio < 1 - 1e-9)
-      throw InputError(
-          fmt::format("a step of {} s does not divide the distance of samples, {} s", scene.solve.step->value, every),
-          scene.solve.step->place, fmt::format("use \"{:.6g} s\"", every / std::max(1.0, std::ceil(ratio))));
-    return every / std::round(ratio);
-  }
-  const double omega = scene.waves ? highest_relevant_frequency(*scene.waves) : 0;
-  const double largest = omega > 0 ? std::sqrt(12 * scene.accuracy) / 4 / omega : every;
-  return every / std::max(1.0, std::ceil(every / largest - 1e-9));
-}
-
 /// The band where every group that feels the waves has coefficients; none if no group does.
 std::optional<Band> band_of_data(const Prepared& prepared) {
   std::optional<Band> band;
@@ -247,8 +230,9 @@ dynamics::State in_equilibrium(const Scene& scene, const dynamics::Model& model,
   }
 }
 
-/// Where the scene puts bodies at t = 0; joints carry along those that it says nothing of.
-dynamics::State start_state(const Scene& scene, const Prepared& p, const dynamics::Model& model) {
+}  // namespace
+
+dynamics::State placed_state(const Scene& scene, const Prepared& p, const dynamics::Model& model) {
   dynamics::State state = dynamics::rest_state(p.bodies);
   std::vector<bool> placed, given;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -265,13 +249,11 @@ dynamics::State start_state(const Scene& scene, const Prepared& p, const dynamic
     placed.push_back(!b.initial.empty());
     given.push_back(!b.initial_velocity.empty());
   }
-  if (scene.run->from_equilibrium) return in_equilibrium(scene, model, std::move(state));
+  if (scene.run->from_equilibrium) return state;
   dynamics::close_joints(model, placed, state);
   dynamics::close_joint_velocities(model, given, state);
   return state;
 }
-
-}  // namespace
 
 hydro::waves::Sea sea_of_run(const Scene& scene, const Prepared& prepared) {
   if (!is_linear_sum(*scene.waves))
@@ -281,11 +263,13 @@ hydro::waves::Sea sea_of_run(const Scene& scene, const Prepared& prepared) {
 }
 
 TimeModel time_model(const Scene& scene, const Prepared& prepared) {
-  const double step = chosen_step(scene);
+  const ChosenStep chosen = choose_step(scene, prepared);
+  const double step = chosen.value;
   const auto per_sample = static_cast<std::size_t>(std::llround(scene.run->every / step));
   const auto steps = static_cast<std::size_t>(std::llround(scene.run->duration / scene.run->every)) * per_sample;
   std::vector<std::string> notes = prepared.notes;
-  std::vector<PlanLine> plan;
+  if (!chosen.note.empty()) notes.push_back(chosen.note);
+  std::vector<PlanLine> plan{chosen.plan};
   RunWater water = run_water(scene, prepared, step);
   if (scene.waves) {
     for (const auto& warning : wave_warnings(scene)) notes.push_back(warning);
@@ -328,7 +312,8 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
     plan.push_back({"joint", "conditions held exactly, with the loads that this takes as unknowns",
                     fmt::format("{} joints, {} conditions", prepared.joints.size(), model.joints().count()), true});
   notes.insert(notes.end(), model.redundant().begin(), model.redundant().end());
-  dynamics::State start = start_state(scene, prepared, model);
+  dynamics::State start = placed_state(scene, prepared, model);
+  if (scene.run->from_equilibrium) start = in_equilibrium(scene, model, std::move(start));
   std::vector<LineModel> lines = line_models(scene, prepared, water, start);
   for (const LineModel& line : lines) {
     plan.push_back(plan_line(line));

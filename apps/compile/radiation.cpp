@@ -1,6 +1,7 @@
 #include "compile/radiation.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "hydro/radiation/choice.hpp"
 #include "hydro/radiation/constant_memory.hpp"
@@ -27,15 +28,43 @@ FreeModes free_modes(const Prepared& p, const std::vector<int>& bodies) {
   return out;
 }
 
+const hydro::radiation::Alternative& taken_of(const ChosenMemory& chosen) {
+  return *std::find_if(chosen.alternatives.begin(), chosen.alternatives.end(),
+                       [&](const auto& a) { return a.method == chosen.method; });
+}
+
+/// The number, rounded up to two digits: what a scene may write to let it pass.
+double rounded_up(double x) {
+  const double unit = std::pow(10, std::floor(std::log10(x)) - 1);
+  return std::ceil(x / unit * (1 - 1e-12)) * unit;
+}
+
+/// \throws InputError if the memory misses its tolerance and the scene does not accept by how much
+void require_within(const hydro::potential::Coefficients& c, const ChosenMemory& chosen, const scene::Memory& asked) {
+  const auto& taken = taken_of(chosen);
+  if (taken.within || taken.error <= asked.accepted_error) return;
+  std::string others;
+  for (const auto& a : chosen.alternatives)
+    if (a.method != chosen.method) others += fmt::format(", {} by {:.2g}", name_of(a.method), a.error);
+  throw InputError(
+      fmt::format(
+          "{}: no memory of the radiated waves is within {:.2g} of these coefficients: {} misses them by {:.2g} of "
+          "the largest damping, at {:.3g} rad/s{}",
+          c.source, asked.tolerance, name_of(chosen.method), taken.error, taken.at_omega, others),
+      asked.place,
+      fmt::format(
+          "compute them at more and higher frequencies, or take the error by name: radiation = {{ accept_error = "
+          "{:.2g} }}",
+          rounded_up(taken.error)));
+}
+
 void note_what_was_done(const hydro::potential::Coefficients& c, const ChosenMemory& chosen, double asymmetry,
-                        double tolerance, std::vector<std::string>& notes) {
-  const auto& taken = *std::find_if(chosen.alternatives.begin(), chosen.alternatives.end(),
-                                    [&](const auto& a) { return a.method == chosen.method; });
-  if (!taken.within)
+                        const scene::Memory& asked, std::vector<std::string>& notes) {
+  if (const auto& taken = taken_of(chosen); !taken.within)
     notes.push_back(fmt::format(
         "{}: the memory ({}) differs from the data by up to {:.2g} of the largest damping, at {:.3g} rad/s (tolerance "
-        "{:.2g})",
-        c.source, name_of(chosen.method), taken.error, taken.at_omega, tolerance));
+        "{:.2g}; accept_error = {:.2g})",
+        c.source, name_of(chosen.method), taken.error, taken.at_omega, asked.tolerance, asked.accepted_error));
   if (chosen.method == hydro::radiation::Method::poles) {
     const auto& fit = *chosen.fit;
     notes.push_back(fmt::format(
@@ -162,7 +191,8 @@ const Radiation::Chosen& Radiation::chosen_for(std::size_t group, const std::vec
   SymmetricData data(c, modes);
   for (const auto& known : chosen_)
     if (known->asked.method == asked.method && known->asked.tolerance == asked.tolerance &&
-        known->asked.length == asked.length && known->data == data)
+        known->asked.length == asked.length && known->asked.accepted_error == asked.accepted_error &&
+        known->data == data)
       return *known;
   hydro::radiation::MemoryDemand demand{
       .step = step_, .tolerance = asked.tolerance, .length = asked.length, .method = {}};
@@ -172,7 +202,8 @@ const Radiation::Chosen& Radiation::chosen_for(std::size_t group, const std::vec
   require_no_source(data.damping, c, asked.place);
   ChosenMemory memory =
       choose(data.damping, data.A, data.A_inf, demand, [&] { return prepared_.fits->of(data, asked.tolerance); });
-  note_what_was_done(c, memory, data.asymmetry, asked.tolerance, notes);
+  require_within(c, memory, asked);
+  note_what_was_done(c, memory, data.asymmetry, asked, notes);
   chosen_.push_back(std::make_unique<const Chosen>(Chosen{asked, std::move(data), std::move(memory)}));
   return *chosen_.back();
 }

@@ -122,11 +122,6 @@ Section plan_run(const scene::Scene& scene, const compile::Prepared& p, std::vec
                              : fmt::format("{}, {} unknowns, {}, {} factors", title, m.model.modes(),
                                            integrator_text(scene.solve), sparse ? "sparse" : "dense"),
             std::move(m.plan)};
-  if (scene.waves) {
-    const double wh = compile::highest_relevant_frequency(*scene.waves) * m.step;
-    s.lines.push_back({"step", "period error (omega h)^2 / 12 at the highest relevant frequency",
-                       fmt::format("{:.2g}", wh * wh / 12), true});
-  }
   return s;
 }
 

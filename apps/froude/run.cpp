@@ -62,8 +62,22 @@ std::string sentence(const LineExponent& of) {
                                    e.kinship));
 }
 
+/// More of the energy turned over than sound runs leave open; a motion whose energies are that far off is no answer.
+constexpr double leaves_open = 0.02;
+
+std::vector<std::string> warnings(const Record& record) {
+  const double turnover = found(record.energy, "turnover");
+  const auto& [residual, at] = record.worst_residual;
+  if (std::abs(residual) <= leaves_open * turnover) return {};
+  return {fmt::format(
+      "warning: {:.2g} of the energy turned over does not add up at {:.5g} s: the step of {:.4g} s is too long for "
+      "what moves; compare with a run of half the step, [solve] step = \"{:.6g} s\"",
+      std::abs(residual) / turnover, at, record.step, record.step / 2)};
+}
+
 void tell(const Console& console, const scene::Scene& scene, const Record& record, const Path& file) {
-  const double turnover = found(record.energy, "turnover"), residual = found(record.energy, "residual");
+  const double turnover = found(record.energy, "turnover");
+  const auto& [residual, at] = record.worst_residual;
   const double relative = turnover > 0 ? std::abs(residual) / turnover : 0;
   if (console.json) {
     nlohmann::json j{{"file", file.string()},
@@ -76,8 +90,10 @@ void tell(const Console& console, const scene::Scene& scene, const Record& recor
                      {"events", record.events},
                      {"wall_time_s", record.stepping_s},
                      {"energy_residual_relative", relative},
+                     {"energy_residual_at_s", at},
                      {"stopped", record.stopped},
-                     {"notes", record.notes}};
+                     {"notes", record.notes},
+                     {"warnings", warnings(record)}};
     if (!record.snaps.empty()) j["snaps"] = snaps_json(record);
     if (!record.exponents.empty()) j["lyapunov"] = exponents_json(record);
     j["signals"] = series_json(record.signals);
@@ -97,11 +113,15 @@ void tell(const Console& console, const scene::Scene& scene, const Record& recor
         record.events ? fmt::format(", friction or contacts change {} times", record.events) : "", record.stepping_s);
   console.out << series_table(record.signals);
   if (!scene.run->steady)
-    console.out << fmt::format("energy that does not add up: {:.3g} J, {:.2g} of the {:.3g} J turned over\n", residual,
-                               relative, turnover);
+    console.out << fmt::format(
+        "energy that does not add up: at most {:.3g} J, at {:.5g} s, {:.2g} of the {:.3g} J turned over (this tells "
+        "how well "
+        "energy is kept, not how accurate the motion is)\n",
+        residual, at, relative, turnover);
   for (const Snaps& s : record.snaps) console.out << sentence(s) << '\n';
   for (const LineExponent& e : record.exponents) console.out << sentence(e) << '\n';
   for (const auto& note : record.notes) console.out << "note: " << note << '\n';
+  for (const auto& warning : warnings(record)) console.out << warning << '\n';
   console.out << "wrote " << file.string() << '\n';
 }
 
@@ -122,6 +142,7 @@ void run(const SceneArguments& arguments, const Console& console) {
     provenance.settings.emplace_back("evaluations." + effect, std::to_string(count));
   for (const Snaps& s : record.snaps) provenance.settings.emplace_back("snaps." + s.line, sentence(s));
   for (const LineExponent& e : record.exponents) provenance.settings.emplace_back("lyapunov." + e.line, sentence(e));
+  for (const auto& warning : warnings(record)) provenance.notes.emplace_back("warning", warning);
   provenance.energy = record.energy;
   if (!record.stopped.empty()) provenance.notes.emplace_back("stopped", record.stopped);
   write_run(file, record.time, record.signals, provenance);

@@ -1,6 +1,7 @@
 #include "froude/simulate.hpp"
 
 #include <chrono>
+#include <cmath>
 
 #include "compile/integrator.hpp"
 #include "compile/probes.hpp"
@@ -13,6 +14,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
+/// What rounding leaves of the energies of bodies: that of lifting them by a nanometre, J.
+double rounding_of(const dynamics::Model& model) {
+  constexpr double gravity = 9.81, lift = 1e-9;
+  double mass = 0;
+  for (const auto& body : model.bodies()) mass += body.mass();
+  return mass * gravity * lift;
+}
+
 /// One run on its way: stepping, book-keeping of energy, samples.
 class March {
  public:
@@ -23,7 +32,8 @@ class March {
         line_probes_(line_probes),
         record_(record),
         workspace_(m.model, m.start),
-        integrator_(compile::make_integrator(solve, m.model)) {
+        integrator_(compile::make_integrator(solve, m.model)),
+        rounding_(rounding_of(m.model)) {
     for (const auto& p : probes) record_.signals.push_back({p.name, p.unit, p.long_name});
     for (const auto& p : line_probes) record_.signals.push_back({p.name, p.unit, p.long_name});
   }
@@ -81,6 +91,34 @@ class March {
     record_.steps = n;
     ledger.note(workspace_);
     for (auto& line : lines_) line->note(m_.step);
+    watch(n, balance(ledger));
+  }
+  struct Balance {
+    double residual, turnover, rounding;  // J, of bodies and lines together
+  };
+  Balance balance(const dynamics::EnergyLedger& ledger) const {
+    Balance out{ledger.residual(), ledger.turnover(), rounding_};
+    for (std::size_t k = 0; k < lines_.size(); ++k) {
+      if (m_.lines[k].fastened) continue;  // in the ledger of the bodies already
+      const auto& e = lines_[k]->energies();
+      out.residual += e.residual();
+      out.turnover += lines_[k]->turnover();
+      out.rounding += 1e-9 * (e.kinetic + std::abs(e.stored()));
+    }
+    return out;
+  }
+  /// Energy that comes from nowhere is a motion that has gone wrong; how much of it there was at most is told.
+  void watch(std::size_t n, const Balance& now) {
+    constexpr std::size_t first = 20;  // steps: in the first few little has been turned over
+    constexpr double most = 0.25;      // of what was turned over; sound runs stay below a fiftieth
+    if (std::abs(now.residual) <= now.rounding) return;
+    if (std::abs(now.residual) > std::abs(record_.worst_residual.energy))
+      record_.worst_residual = {now.residual, workspace_.state.time};
+    if (n < first || now.residual <= most * now.turnover) return;
+    throw hydro::NumericsError(fmt::format(
+        "energy comes from nowhere: by t = {:.6g} s {:.3g} J that nothing has supplied, of {:.3g} J turned over; "
+        "the step of {:.4g} s is too long for this motion: give a shorter one, [solve] step = \"{:.6g} s\"",
+        workspace_.state.time, now.residual, now.turnover, m_.step, m_.step / 4));
   }
   void sample(const dynamics::EnergyLedger& ledger) {
     record_.time.push_back(workspace_.state.time);
@@ -106,7 +144,6 @@ class March {
                                    s->largest().time, s->largest().segment + 1});
     for (std::size_t k = 0; k < lines_.size(); ++k)
       if (const auto exponent = lines_[k]->exponent()) record_.exponents.push_back({m_.lines[k].name, *exponent});
-    double residual = ledger.residual(), turnover = ledger.turnover();
     for (std::size_t k = 0; k < lines_.size(); ++k) {
       const auto& e = lines_[k]->energies();
       const std::string& name = m_.lines[k].name;
@@ -115,11 +152,11 @@ class March {
       record_.energy.emplace_back(name + ".stored", e.stored());
       record_.energy.emplace_back(name + ".supplied", e.supplied());
       record_.energy.emplace_back(name + ".dissipated", e.dissipated());
-      residual += e.residual();
-      turnover += lines_[k]->turnover();
     }
-    record_.energy.emplace_back("residual", residual);
-    record_.energy.emplace_back("turnover", turnover);
+    const Balance whole = balance(ledger);
+    record_.energy.emplace_back("residual", whole.residual);
+    record_.energy.emplace_back("largest_residual", record_.worst_residual.energy);
+    record_.energy.emplace_back("turnover", whole.turnover);
   }
 
   const compile::TimeModel& m_;
@@ -129,6 +166,7 @@ class March {
   Record& record_;
   dynamics::Workspace workspace_;
   std::unique_ptr<dynamics::Integrator> integrator_;
+  double rounding_;  // J
 };
 
 }  // namespace

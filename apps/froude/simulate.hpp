@@ -38,8 +38,12 @@ struct Record {
   double preparation_s = 0, stepping_s = 0;                      ///< wall time
   std::vector<std::pair<std::string, std::size_t>> evaluations;  ///< of the load, by effect
   std::vector<std::pair<std::string, double>> energy;            ///< J, by effect, at the end; residual and turnover
-  std::vector<Snaps> snaps;                                      ///< of lines whose scene asks for them
-  std::vector<LineExponent> exponents;                           ///< likewise
+  struct Unexplained {
+    double energy = 0, time = 0;  ///< J, s
+  };
+  Unexplained worst_residual;           ///< the energy that did not add up when it was most
+  std::vector<Snaps> snaps;             ///< of lines whose scene asks for them
+  std::vector<LineExponent> exponents;  ///< likewise
   std::vector<std::string> notes;
   std::string stopped;  ///< why it ended before its time; empty if it did not
 

@@ -90,6 +90,7 @@ Memory read_memory(const Record& radiation) {
   out.place = radiation["method"].place;
   if (radiation.has("memory_tolerance")) out.tolerance = radiation.si("memory_tolerance");
   if (radiation.has("memory")) out.length = radiation.si("memory");
+  if (radiation.has("accept_error")) out.accepted_error = radiation.si("accept_error");
   if (out.length && (out.method == poles || out.method == constant))
     throw radiation.wrong("method", "has no length of memory", "leave out `memory`, or take a convolution");
   return out;

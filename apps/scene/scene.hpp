@@ -117,6 +117,7 @@ struct Memory {
   Method method = Method::automatic;
   double tolerance = 1e-3;       ///< relative force
   std::optional<double> length;  ///< s, where the scene fixes it
+  double accepted_error = 0;     ///< relative force that the scene takes where no method is within the tolerance
   Place place;                   ///< of the method
 };
 

@@ -61,6 +61,12 @@ const Table& radiation() {
                quantity("memory", dim::time, "length of the memory of a convolution, where you want to fix it")
                    .positive()
                    .optional(),
+               number(
+                   "accept_error",
+                   "error of that force, relative, that you take where no memory is within the tolerance; without it "
+                   "such a run is refused")
+                   .positive()
+                   .optional(),
                text("method",
                     "\"direct\" or \"partitioned\" convolution, \"poles\" (sum of exponentials), or, in one regular "
                     "wave and once the motion is steady, \"constant\" added mass and damping")

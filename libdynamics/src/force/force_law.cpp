@@ -41,6 +41,18 @@ Answer spring(const LineLaw& law, double x) {
 
 }  // namespace
 
+double LineLaw::stiffest() const {
+  if (table_x.empty()) return stiffness;
+  double out = 0;
+  for (std::size_t i = 0; i + 1 < table_x.size(); ++i)
+    out = std::max(out, (table_force[i + 1] - table_force[i]) / (table_x[i + 1] - table_x[i]));
+  return out;
+}
+
+double TravelLaw::stiffest() const {
+  return line.stiffest() + std::max(lower ? lower->stiffness : 0, upper ? upper->stiffness : 0);
+}
+
 Answer LineLaw::at(double x, double rate) const {
   if (pulls_only && x <= 0) return {};
   Answer out = spring(*this, x);

@@ -11,8 +11,10 @@ EnergyLedger::EnergyLedger(const Model& model, Workspace& workspace) : model_(mo
   for (std::string& effect : effects(model)) {
     before_.push_back(flow(entries_.size(), workspace));
     entries_.push_back({std::move(effect), before_.back().stored, 0, 0});
+    stored_at_start_.push_back(before_.back().stored);
     initial_ += before_.back().stored;
   }
+  note_turnover();
 }
 
 std::vector<std::string> EnergyLedger::effects(const Model& model) {
@@ -42,6 +44,7 @@ void EnergyLedger::note(Workspace& workspace) {
                                                     : h / 2 * (before_[k].dissipated + now.dissipated);
     before_[k] = now;
   }
+  note_turnover();
 }
 
 double EnergyLedger::residual() const {
@@ -50,14 +53,15 @@ double EnergyLedger::residual() const {
   return r;
 }
 
-double EnergyLedger::turnover() const {
-  double supplied = 0, dissipated = 0, held = kinetic_;
-  for (const Entry& e : entries_) {
-    supplied += std::abs(e.supplied);
-    dissipated += std::abs(e.dissipated);
-    held += std::abs(e.stored);
+// Stored energy has no zero of its own: weight is as heavy anywhere. What counts is how much of it has moved.
+void EnergyLedger::note_turnover() {
+  double supplied = 0, dissipated = 0, moved = kinetic_;
+  for (std::size_t k = 0; k < entries_.size(); ++k) {
+    supplied += std::abs(entries_[k].supplied);
+    dissipated += std::abs(entries_[k].dissipated);
+    moved += std::abs(entries_[k].stored - stored_at_start_[k]);
   }
-  return std::max({supplied, dissipated, held, std::abs(initial_)});
+  turnover_ = std::max({turnover_, supplied, dissipated, moved});
 }
 
 }  // namespace dynamics

@@ -141,10 +141,10 @@ bool ends_in(const fs::path& path, const Endings& endings) {
 /// The folder of a run of NEMOH or HAMS of which `path` is the whole or a part, or an empty path.
 fs::path run_folder(const fs::path& path) {
   fs::path at = fs::absolute(path).lexically_normal();
-  std::error_code unknown;  // of names that are too long to be any file's
-  if (!fs::is_directory(at, unknown) && !ends_in(at, run_endings)) return {};
+  std::error_code failure;  // of names that are too long to be any file's
+  if (!fs::is_directory(at, failure) && !ends_in(at, run_endings)) return {};
   for (int up = 0; up <= 3; ++up, at = at.parent_path())  // HAMS: Output/Wamit_format/buoy.1
-    if (!entry_of(at, "Nemoh.cal").empty() || fs::exists(at / "Input" / "ControlFile.in", unknown)) return at;
+    if (!entry_of(at, "Nemoh.cal").empty() || fs::exists(at / "Input" / "ControlFile.in", failure)) return at;
   return {};
 }
 

@@ -42,27 +42,9 @@ DataError error_against(const DampingTable& damping, const std::vector<Eigen::Ma
 
 namespace {
 
-/// Transform of the sampled kernel at each frequency: K straight between samples, its oscillation integrated exactly.
-std::vector<Eigen::MatrixXcd> transforms(const RetardationKernel& kernel, const std::vector<double>& omega) {
-  const Eigen::Index n = kernel.modes();
+std::vector<Eigen::MatrixXcd> transforms(const MemorySurvey& survey, double length, const std::vector<double>& omega) {
   std::vector<Eigen::MatrixXcd> out;
-  for (const double w : omega) {
-    const double x = w * kernel.step(), sinc = std::sin(x / 2) / (x / 2);
-    // ∫ of a hat of width 2h times e^{−iωt} is h sinc²(ωh/2) at every sample but the first, which has half a hat.
-    const std::complex<double> i(0, 1), half_hat = (1.0 - i * x - std::exp(-i * x)) / (x * x) * kernel.step();
-    const std::complex<double> turn = std::exp(-i * x);
-    Eigen::MatrixXd real = Eigen::MatrixXd::Zero(n, n), imaginary = real;
-    std::complex<double> phase = turn;
-    for (std::size_t j = 1; j < kernel.samples(); ++j) {
-      real += phase.real() * kernel.at(j);
-      imaginary += phase.imag() * kernel.at(j);
-      phase = j % 64 == 0 ? std::polar(1.0, -x * static_cast<double>(j + 1)) : phase * turn;
-    }
-    Eigen::MatrixXcd K(n, n);
-    K.real() = kernel.step() * sinc * sinc * real;
-    K.imag() = kernel.step() * sinc * sinc * imaginary;
-    out.push_back(K + half_hat * kernel.at(0));
-  }
+  for (const double w : omega) out.push_back(survey.transform(w, length));
   return out;
 }
 
@@ -94,13 +76,13 @@ void weigh_convolutions(const DampingTable& damping, const std::vector<Eigen::Ma
   w.whole = continued(damping, A, A_inf);
   const MemorySurvey survey(w.whole->table);
   const double length =
-      demand.length ? *demand.length : survey.length(demand.tolerance / 2);  // half is left for the sampling
-  w.kernel = RetardationKernel::from_damping(w.whole->table, {demand.step, std::max(length, 2 * demand.step)}, survey);
+      demand.length ? *demand.length : survey.length(demand.tolerance / 2);  // half is left for the tail
+  w.kernel = RetardationKernel::averaged(w.whole->table, {demand.step, std::max(length, 2 * demand.step)}, survey);
   out.lags = w.kernel->samples();
   out.truncation = w.kernel->truncation();
   out.misfit = w.whole->misfit;
   out.shift = w.whole->shift;
-  const auto error = error_against(damping, A, w.whole->A_inf, transforms(*w.kernel, damping.omega));
+  const auto error = error_against(damping, A, w.whole->A_inf, transforms(survey, w.kernel->length(), damping.omega));
   const double n = w.kernel->modes(), lags = static_cast<double>(w.kernel->samples());
   if (demand.method.value_or(Method::direct) == Method::direct)
     out.alternatives.push_back({Method::direct, error.value, error.at_omega, direct_cost(n, lags), false});

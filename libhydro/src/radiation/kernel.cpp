@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
+#include "averaged.hpp"
 #include "corners.hpp"
 #include "hydro/base/error.hpp"
 #include "polygon.hpp"
@@ -98,7 +100,9 @@ Eigen::MatrixXd bend(const DampingTable& damping) {
 /// K(t) of a table by (R3).
 class CosineTransform {
  public:
-  explicit CosineTransform(const DampingTable& damping) : damping_(damping), polygon_(damping.omega) {}
+  /// `share`: places at which B bends less than this share of its largest value are left out of each().
+  explicit CosineTransform(const DampingTable& damping, double share = 1e-13)
+      : damping_(damping), polygon_(damping.omega), share_(share) {}
 
   Eigen::MatrixXd at(double t) const {
     const auto weight = polygon_.gather([t](double a, double b) { return cosine_weights(a, b, t); });
@@ -149,11 +153,12 @@ class CosineTransform {
     const auto& node = polygon_.nodes();
     const detail::Corners all{Eigen::Map<const Eigen::ArrayXd>(node.data(), static_cast<Eigen::Index>(node.size())),
                               polygon_.values(detail::flattened(damping_.B))};
-    return all.needed(1e-13);
+    return all.needed(share_);
   }
 
   const DampingTable& damping_;
   detail::Polygon polygon_;
+  double share_;
 };
 
 std::size_t steps_in(double length, double step) { return static_cast<std::size_t>(std::floor(length / step + 1e-9)); }
@@ -161,27 +166,37 @@ std::size_t steps_in(double length, double step) { return static_cast<std::size_
 /// Step for looking at the whole kernel: eight samples in the shortest period that the table holds.
 double survey_step(const DampingTable& damping) { return 2 * std::numbers::pi / damping.omega.back() / 8; }
 
-/// ∫_t^∞ |K_ij| dt / √(max B_ii max B_jj), its largest entry, at each survey sample; decreasing in t. Beyond the
-/// longest time nothing is known; what follows is taken to be no more than the last quarter before it. (R5)
-std::vector<double> remaining_memory(const DampingTable& damping, double step) {
-  const std::size_t count = steps_in(RetardationKernel::longest_time(damping), step) + 1;
+/// ∫_t^∞ |K_ij| dt / √(max B_ii max B_jj), its largest entry, at each sample of K; decreasing in t. Beyond the longest
+/// time nothing is known; what follows is taken to be no more than the last quarter before it. (R5)
+std::vector<double> remaining_memory(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& K, double step) {
   const Eigen::VectorXd damped = largest_diagonal(damping);
   Eigen::VectorXd scale = Eigen::VectorXd::Zero(damped.size());  // a mode without damping has no memory to cut
   for (Eigen::Index i = 0; i < damped.size(); ++i)
     if (damped[i] > 1e-6 * damped.maxCoeff()) scale[i] = 1 / std::sqrt(damped[i]);
-  std::vector<Eigen::MatrixXd> magnitude(count);
+  const auto magnitude = [&](std::size_t i) -> Eigen::MatrixXd {
+    return step * (scale.asDiagonal() * K[i].cwiseAbs() * scale.asDiagonal());
+  };
   Eigen::MatrixXd left = Eigen::MatrixXd::Zero(scale.size(), scale.size());
-  const CosineTransform K(damping);
-  K.each(step, count, [&](std::size_t i, const Eigen::MatrixXd& at) {
-    magnitude[i] = step * (scale.asDiagonal() * at.cwiseAbs() * scale.asDiagonal());
-    if (i >= count - count / 4) left += magnitude[i];
-  });
-  std::vector<double> out(count);
-  for (std::size_t i = count; i-- > 0;) {
+  for (std::size_t i = K.size() - K.size() / 4; i < K.size(); ++i) left += magnitude(i);
+  std::vector<double> out(K.size());
+  for (std::size_t i = K.size(); i-- > 0;) {
     out[i] = left.maxCoeff();
-    left += magnitude[i];
+    left += magnitude(i);
   }
   return out;
+}
+
+/// \throws InputError if the table does not tell a memory of this length
+void require_told(const DampingTable& damping, const MemoryGrid& grid) {
+  require(grid.step > 0 && grid.length > 0, "memory needs a positive step and length, got {} s and {} s", grid.step,
+          grid.length);
+  const double longest = RetardationKernel::longest_time(damping);
+  if (grid.length > longest * (1 + 1e-9))
+    throw InputError(
+        fmt::format(
+            "a memory of {:.4g} s is asked for, but frequencies {:.4g} rad/s apart tell the memory up to {:.4g} s only",
+            grid.length, std::numbers::pi / longest, longest),
+        {}, "compute the coefficients at more frequencies, or ask for a shorter memory");
 }
 
 }  // namespace
@@ -205,7 +220,9 @@ MemorySurvey::MemorySurvey(const DampingTable& damping) {
   check(damping);
   step_ = survey_step(damping);
   longest_ = RetardationKernel::longest_time(damping);
-  remaining_ = remaining_memory(damping, step_);
+  const CosineTransform K(damping);
+  K.each(step_, steps_in(longest_, step_) + 1, [&](std::size_t, Eigen::MatrixXd at) { K_.push_back(std::move(at)); });
+  remaining_ = remaining_memory(damping, K_, step_);
 }
 
 double MemorySurvey::remaining_after(double time) const {
@@ -219,6 +236,24 @@ double MemorySurvey::length(double tolerance) const {
   return longest_;
 }
 
+// By the trapezium rule with its correction (h²/12) d/dt [K e^{−iωt}] at t = 0, where K is level: the next one is of
+// order (ωh)⁴/720, 2e-6 at the end of the table.
+Eigen::MatrixXcd MemorySurvey::transform(double omega, double length) const {
+  const double x = omega * step_;
+  const std::complex<double> turn = std::polar(1.0, -x);
+  std::complex<double> phase = turn;
+  Eigen::MatrixXd real = K_.front() / 2, imaginary = -x / 12 * K_.front();
+  for (std::size_t j = 1; j < std::min(K_.size(), steps_in(length, step_) + 1); ++j) {
+    real += phase.real() * K_[j];
+    imaginary += phase.imag() * K_[j];
+    phase = j % 64 == 0 ? std::polar(1.0, -x * static_cast<double>(j + 1)) : phase * turn;
+  }
+  Eigen::MatrixXcd out(real.rows(), real.cols());
+  out.real() = step_ * real;
+  out.imag() = step_ * imaginary;
+  return out;
+}
+
 RetardationKernel RetardationKernel::from_damping(const DampingTable& damping, const MemoryGrid& grid) {
   return from_damping(damping, grid, MemorySurvey(damping));
 }
@@ -226,19 +261,24 @@ RetardationKernel RetardationKernel::from_damping(const DampingTable& damping, c
 RetardationKernel RetardationKernel::from_damping(const DampingTable& damping, const MemoryGrid& grid,
                                                   const MemorySurvey& survey) {
   check(damping);
-  require(grid.step > 0 && grid.length > 0, "memory needs a positive step and length, got {} s and {} s", grid.step,
-          grid.length);
-  const double longest = longest_time(damping);
-  if (grid.length > longest * (1 + 1e-9))
-    throw InputError(
-        fmt::format(
-            "a memory of {:.4g} s is asked for, but frequencies {:.4g} rad/s apart tell the memory up to {:.4g} s only",
-            grid.length, std::numbers::pi / longest, longest),
-        {}, "compute the coefficients at more frequencies, or ask for a shorter memory");
+  require_told(damping, grid);
+  return sampled(CosineTransform(damping), damping, grid, survey);
+}
+
+RetardationKernel RetardationKernel::averaged(const DampingTable& damping, const MemoryGrid& grid,
+                                              const MemorySurvey& survey) {
+  check(damping);
+  require_told(damping, grid);
+  const DampingTable mean = averaged_over_steps(damping, grid.step);
+  return sampled(CosineTransform(mean, averaged_share), damping, grid, survey);
+}
+
+template <class Transform>
+RetardationKernel RetardationKernel::sampled(const Transform& K, const DampingTable& damping, const MemoryGrid& grid,
+                                             const MemorySurvey& survey) {
   RetardationKernel kernel;
   kernel.step_ = grid.step;
   const std::size_t last = std::max<std::size_t>(1, steps_in(grid.length, grid.step));
-  const CosineTransform K(damping);
   K.each(grid.step, last + 1, [&](std::size_t, Eigen::MatrixXd at) { kernel.K_.push_back(std::move(at)); });
   kernel.error_ = missing_tail(damping) + bend(damping);
   kernel.negative_share_ = most_negative(damping);

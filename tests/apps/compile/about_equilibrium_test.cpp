@@ -31,7 +31,7 @@ radii_of_gyration = "(4.6, 4.6, 6.4) m"
 [body.hydrodynamics]
 file = "pontoon1.nc"
 excitation = true
-radiation = { memory_tolerance = 1e-4 }
+radiation = { memory_tolerance = 1e-4, accept_error = 0.02 }
 hydrostatics = true
 [[mooring]]
 name = "damper"

@@ -40,7 +40,7 @@ ramp = "100 s"
 {}[body.hydrodynamics]
 file = "{}"
 excitation = true
-radiation = {{ memory_tolerance = 1e-4 }}
+radiation = {{ memory_tolerance = 1e-4, accept_error = 0.5 }}
 hydrostatics = true
 [[mooring]]
 on = ["m*"]

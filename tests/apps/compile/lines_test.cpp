@@ -378,9 +378,10 @@ TEST(Lines, AreNotMadeWhereTheSceneNamesNone) {
 TEST(Lines, ArePlanned) {
   const auto scene = parse(water + loop + ask);
   const auto model = compile::time_model(scene, compile::prepare(scene));
-  ASSERT_EQ(model.plan.size(), 1u);
-  EXPECT_EQ(model.plan[0].effect, "line d");
-  EXPECT_THAT(model.plan[0].size, HasSubstr("5 segments"));
+  ASSERT_EQ(model.plan.size(), 2u);
+  EXPECT_EQ(model.plan[0].effect, "step");
+  EXPECT_EQ(model.plan[1].effect, "line d");
+  EXPECT_THAT(model.plan[1].size, HasSubstr("5 segments"));
 }
 
 }  // namespace

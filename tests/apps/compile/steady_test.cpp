@@ -29,7 +29,7 @@ heading = "0 deg"
          "\n" + support::pontoons(2, "(-6.5, 0, 0) m") + R"(free = ["surge", "heave", "pitch"]
 [body.hydrodynamics]
 excitation = true
-radiation = { memory = "60 s" }
+radiation = { memory = "60 s", accept_error = 2 }
 hydrostatics = true
 [body.hydrodynamics.cylinders]
 at = "(±5.2, ±5.2, 0) m"

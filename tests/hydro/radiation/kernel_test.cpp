@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 
 #include "hydro/base/error.hpp"
 #include "hydro/radiation/tail.hpp"
@@ -80,6 +81,43 @@ TEST(RetardationKernel, IsTheSameWithATail) {  // (R23), (R11)
   const auto whole = continued(damping, body.added_mass(damping, 5), std::nullopt);
   ASSERT_GT(whole.table.omega.size(), 3 * damping.omega.size());
   expect_the_same(whole.table, {.step = 0.05, .length = 40});
+}
+
+/// The mean of the exact kernel over a step to either side, weighted with a triangle, by Simpson's rule on either.
+double averaged_exactly(double t, double h) {
+  constexpr int pieces = 2000;
+  double sum = 0;
+  for (const double side : {-1.0, 1.0})
+    for (int i = 0; i <= pieces; ++i) {
+      const double s = static_cast<double>(i) / pieces, weight = i == 0 || i == pieces ? 1 : i % 2 == 1 ? 4 : 2;
+      sum += weight / (3.0 * pieces) * body.K(std::abs(t + side * s * h)) * (1 - s);
+    }
+  return sum;
+}
+
+TEST(RetardationKernel, IsAveragedOverSteps) {  // (R24)
+  const auto damping = body.damping_table(80, 2000);
+  const MemorySurvey survey(damping);
+  for (const double h : {0.05, 0.5, 3.0}) {
+    const auto kernel = RetardationKernel::averaged(damping, {.step = h, .length = 30}, survey);
+    for (std::size_t i = 0; i < kernel.samples(); ++i)
+      // B sinc² straight between its places is off by 1.3e-5; beyond 80 rad/s (2/π) 2a · 2/h² / (3 · 80³) of it are
+      // left, 2e-4 at h = 0.05.
+      EXPECT_NEAR(kernel.at(i)(0, 0), averaged_exactly(h * static_cast<double>(i), h), 2.3e-4)
+          << "step " << h << ", sample " << i;
+  }
+}
+
+TEST(MemorySurvey, HasTheTransformOfTheBody) {
+  const auto damping = body.damping_table(40, 1000);
+  const MemorySurvey survey(damping);
+  for (const double omega : {0.1, 1.1, 5.0, 30.0}) {
+    const std::complex<double> ours = survey.transform(omega, 60)(0, 0);
+    // What lies beyond 40 rad/s, (2/π) ∫ B/ν² dν = (2/π) 2a/(3 · 40³) = 2e-6 of mass, times ω; e^{−18} is cut off; B at
+    // 40 rad/s, 4e-4, ends in a step, which rings at its neighbours.
+    EXPECT_NEAR(ours.real(), body.B(omega), 1e-3) << omega;
+    EXPECT_NEAR(ours.imag(), omega * body.A_minus_A_inf(omega), 1e-3) << omega;
+  }
 }
 
 TEST(RetardationKernel, RefusesAHullThatGivesPowerToItsOwnMotion) {

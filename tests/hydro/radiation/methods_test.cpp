@@ -117,6 +117,59 @@ TEST(PoleMemory, IsExactForStraightVelocitiesAtAnyStep) {
   }
 }
 
+// (R7), (R24): the same of a sum over steps. \returns the largest difference, load over load
+double off_for_straight_velocities(const RetardationKernel& kernel, double h) {
+  const DirectConvolution memory(kernel);
+  std::vector<double> v{0};  // the first velocity has half its weight
+  for (std::uint64_t i = 1; i < 14; ++i) v.push_back(random_velocity(i, 1)[0]);
+  const auto state = memory.start(Eigen::VectorXd::Constant(1, v[0]));
+  double off = 0, size = 0;
+  for (std::size_t i = 1; i < 13; ++i) {
+    const double exact = exact_load(v, h, i, 0);
+    const double ours = state->decided(1)[0] + memory.instantaneous(1)(0, 0) * v[i];
+    off = std::max(off, std::abs(ours - exact));
+    size = std::max(size, std::abs(exact));
+    state->accept(Eigen::VectorXd::Constant(1, v[i]));
+  }
+  return off / size;
+}
+
+TEST(DirectConvolution, IsExactForStraightVelocitiesAtAnyStep) {
+  const auto damping = body.damping_table(80, 2000);
+  const MemorySurvey survey(damping);
+  for (const double h : {0.05, 0.7, 2.0}) {
+    // The averages are good to 1e-4 and less (IsAveragedOverSteps), and the memory is cut at e^{−9}.
+    EXPECT_LT(off_for_straight_velocities(RetardationKernel::averaged(damping, {h, 30}, survey), h), 3e-4) << h;
+    if (h > 0.5)  // the samples themselves are nowhere near
+      EXPECT_GT(off_for_straight_velocities(RetardationKernel::from_damping(damping, {h, 30}, survey), h), 0.01) << h;
+  }
+}
+
+// Damping that lasts to 80 rad/s, as a tail continued far beyond its table, and a slow motion in steps of 0.1 s, which
+// show 31 rad/s at most: the load is B v + ω(A − A∞) of the slow motion, nothing of what is fast.
+TEST(DirectConvolution, DoesNotFoldWhatIsFasterThanItsSteps) {
+  DampingTable damping;
+  for (double omega = 0.1; omega < 80.05; omega += 0.1) {
+    damping.omega.push_back(omega);
+    damping.B.push_back(Eigen::MatrixXd::Constant(1, 1, omega < 50 ? omega / 50 : (80 - omega) / 30 + 1e-9));
+  }
+  constexpr double h = 0.1, slow = 0.5;
+  const MemorySurvey survey(damping);
+  const auto load = [&](const RetardationKernel& kernel) {
+    const DirectConvolution memory(kernel);
+    auto history = memory.make_history();
+    const auto v = [&](int i) { return Eigen::VectorXd::Constant(1, std::cos(slow * h * (i - 600))); };
+    for (int i = 0; i < 600; ++i) history.push(v(i));
+    return (memory.decided(history, 1) + memory.instantaneous(1) * v(600))[0];
+  };
+  const double exact = 0.01;  // B(0.5), in phase with the velocity
+  // Straight velocities lose sinc² = 1 − (ωh)²/12 = 2e-4; the echo of corners at 50 rad/s at the end of 30 s: 2/(π 50
+  // 30²)·…, 1e-4.
+  EXPECT_NEAR(load(RetardationKernel::averaged(damping, {h, 30}, survey)), exact, 5e-4);
+  EXPECT_GT(std::abs(load(RetardationKernel::from_damping(damping, {h, 30}, survey)) - exact), 50 * exact)
+      << "samples lay B of 63 rad/s upon it";
+}
+
 TEST(PoleMemory, CarriesSlowPolesWithoutLossOfDigits) {
   const PoleModel slow{{{1e-7, 0}}, {Eigen::MatrixXd::Ones(1, 1)}, {Eigen::MatrixXd::Zero(1, 1)}};
   const auto c = PoleMemory(slow, 0.01).carried_over(0.01).front();

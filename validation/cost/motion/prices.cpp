@@ -114,7 +114,7 @@ radii_of_gyration = "(0.6, 0.6, 0.8) m"
 initial = {{ heave = "0.1 m" }}
 [body.hydrodynamics]
 file = "{}"
-radiation = {{}}
+radiation = {{ accept_error = 0.01 }}
 hydrostatics = true
 [ask]
 run = {{ duration = "40 s", every = "0.1 s", of = ["box1.heave"] }}

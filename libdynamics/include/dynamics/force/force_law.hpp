@@ -22,6 +22,8 @@ struct LineLaw {
   bool pulls_only = false;     ///< nothing at x <= 0, and never a push: cables, end stops (D51)
 
   Answer at(double x, double rate) const;
+  /// The steepest slope of the spring: of its table, or at x = 0 where it pulls.
+  double stiffest() const;
 };
 
 /// A stop that a travel runs into: nothing before `at`, a spring with a damper that never pulls behind it.
@@ -42,6 +44,8 @@ struct TravelLaw {
     double supplied = 0;  ///< W, where a limit keeps the force below what spring and damper would give
   };
   Working at(double x, double rate) const;
+  /// The steepest slope of the spring and either stop together.
+  double stiffest() const;
 };
 
 }  // namespace dynamics

@@ -29,16 +29,20 @@ class EnergyLedger {
   double kinetic() const { return kinetic_; }
   const std::vector<Entry>& entries() const { return entries_; }
   double residual() const;
-  /// The largest of energy supplied, taken and held: what a residual is small against.
-  double turnover() const;
+  /// What a residual is small against: the most that was supplied, taken, or, since the start, moved from where it was
+  /// held, at any step so far.
+  double turnover() const { return turnover_; }
 
  private:
   const Model& model_;
   std::vector<Entry> entries_;
   EnergyFlow flow(std::size_t entry, Workspace& workspace) const;
 
+  void note_turnover();
+
   std::vector<EnergyFlow> before_;
-  double kinetic_ = 0, initial_ = 0, time_ = 0;
+  std::vector<double> stored_at_start_;
+  double kinetic_ = 0, initial_ = 0, time_ = 0, turnover_ = 0;
 };
 
 }  // namespace dynamics

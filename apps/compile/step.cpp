@@ -1,0 +1,135 @@
+#include "compile/step.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "compile/integrator.hpp"
+#include "compile/waves.hpp"
+#include "dynamics/frequency/fastest.hpp"
+#include "hydro/base/error.hpp"
+
+namespace froude::compile {
+namespace {
+
+using hydro::InputError;
+using scene::Scene;
+
+/// Something that moves, and how fast.
+struct Mover {
+  double omega = 0;  // rad/s
+  std::string what;
+};
+
+/// A spring as stiff as it ever becomes; slack lines are taken where they are drawn taut.
+void stiffen(dynamics::AxialConnector& c, const dynamics::State& at) {
+  const double length = dynamics::axial_state(c, at).length, x = length - c.rest_length;
+  const double most = c.law.stiffest(), now = c.law.at(x, 0).by_x;
+  if (most <= now) return;
+  c.law = {.stiffness = most};
+  c.rest_length = length;
+}
+
+Prepared at_its_stiffest(Prepared p, const dynamics::State& at) {
+  for (auto& c : p.axial) stiffen(c, at);
+  for (auto& group : p.switched)
+    for (auto& c : group.connectors) stiffen(c, at);
+  for (auto& pto : p.ptos) {
+    const double x = dynamics::pto_state(pto, at).travel, most = pto.law.stiffest();
+    if (most > pto.law.at(x, 0).by_x) pto.law = {.line = {.stiffness = most}, .lower = {}, .upper = {}};
+  }
+  return p;
+}
+
+/// Added mass at infinite frequency of each group that radiates, or what its file has that is nearest to it.
+std::vector<dynamics::AddedMass> added_mass(const Prepared& p) {
+  std::vector<dynamics::AddedMass> out;
+  for (const auto& g : p.groups) {
+    if (!g.radiation) continue;
+    const auto& c = g.table.coefficients();
+    const Eigen::MatrixXd A = c.A_inf ? *c.A_inf : c.A.back();
+    out.push_back({g.bodies, (A + A.transpose()) / 2});
+  }
+  return out;
+}
+
+dynamics::Model model_of_springs(const Prepared& p) {
+  std::vector<std::unique_ptr<const dynamics::ForceKind>> forces;
+  add_springs(p, forces);
+  if (!p.fastened.empty()) forces.push_back(std::make_unique<dynamics::FastenedLineKind>(p.fastened));
+  return {p.bodies, added_mass(p), std::move(forces), p.joints};
+}
+
+/// The bodies' own motions about one state.
+Mover own_motion(const Prepared& prepared, const dynamics::State& about) {
+  const dynamics::Model model = model_of_springs(at_its_stiffest(prepared, about));
+  const auto fastest = dynamics::frequency::fastest_motion(model, about);
+  return {fastest.omega, fmt::format("the bodies' own motion of {1:.4g} s, mostly {0}", model.mode_name(fastest.mode),
+                                     2 * std::numbers::pi / fastest.omega)};
+}
+
+Mover turning(const Prepared& p, const dynamics::State& start) {
+  Mover out;
+  for (std::size_t i = 0; i < p.bodies.size(); ++i)
+    if (const double rate = start.twist(static_cast<int>(i)).tail<3>().norm(); rate > out.omega)
+      out = {rate, fmt::format("{}, which starts turning at {:.4g} rad/s", p.bodies[i].name(), rate)};
+  return out;
+}
+
+Mover fastest_mover(const Scene& scene, const Prepared& p) {
+  Mover out;
+  const auto compare = [&](Mover other) {
+    if (other.omega > out.omega) out = std::move(other);
+  };
+  if (scene.waves)
+    if (const double omega = highest_relevant_frequency(*scene.waves); omega > 0)
+      compare({omega, fmt::format("waves of {:.4g} s, the shortest that matter", 2 * std::numbers::pi / omega)});
+  if (p.bodies.empty()) return out;
+  const dynamics::Model model = model_of_springs(p);
+  const dynamics::State start = placed_state(scene, p, model);
+  compare(own_motion(p, dynamics::rest_state(p.bodies)));
+  compare(own_motion(p, start));
+  compare(turning(p, start));
+  return out;
+}
+
+/// \throws InputError unless the scene's step divides the distance of samples
+double given_step(const Scene& scene) {
+  const double every = scene.run->every, ratio = every / scene.solve.step->value;
+  if (std::abs(ratio - std::round(ratio)) > 1e-9 * ratio || ratio < 1 - 1e-9)
+    throw InputError(
+        fmt::format("a step of {} s does not divide the distance of samples, {} s", scene.solve.step->value, every),
+        scene.solve.step->place, fmt::format("use \"{:.6g} s\"", every / std::max(1.0, std::ceil(ratio))));
+  return every / std::round(ratio);
+}
+
+}  // namespace
+
+ChosenStep choose_step(const Scene& scene, const Prepared& prepared) {
+  const Mover fastest = fastest_mover(scene, prepared);
+  const double every = scene.run->every;
+  const double longest = fastest.omega > 0 ? std::sqrt(12 * scene.accuracy) / 4 / fastest.omega : every;
+  const std::string follows =
+      fastest.omega > 0 ? "fastest: " + fastest.what : "no body swings by itself, and there are no waves";
+  const auto size = [&](double step) {
+    return fmt::format("{:.4g} s, period error (omega h)^2 / 12 of {:.2g}", step,
+                       std::pow(fastest.omega * step, 2) / 12);
+  };
+  if (!scene.solve.step) {
+    const double step = every / std::max(1.0, std::ceil(every / longest - 1e-9));
+    return {step, {"step", follows, size(step), true}, {}};
+  }
+  const double step = given_step(scene);
+  ChosenStep out{step, {"step", "as the scene gives it; " + follows, size(step), true}, {}};
+  const bool cuts = scene.solve.tolerance || has_own_tolerance(scene.solve.integrator);
+  if (step > longest * (1 + 1e-9) && !cuts)
+    out.note = fmt::format(
+        "the step that the scene gives, {:.4g} s, is longer than the {:.4g} s that an accuracy of {:.2g} asks for; "
+        "fastest: {}",
+        step, longest, scene.accuracy, fastest.what);
+  return out;
+}
+
+}  // namespace froude::compile
