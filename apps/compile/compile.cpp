@@ -151,6 +151,27 @@ dynamics::frequency::SmallMotions small_motions(const dynamics::Model& model, co
 
 namespace {
 
+/// √(k/m) of what bodies and a cable or line do that is drawn taut at once, m of what both of its ends move (D132).
+double highest_snap_frequency(const Scene& scene) {
+  double highest = 0;
+  const auto consider = [&](double stiffness, std::optional<int> first, std::optional<int> second) {
+    double mobility = 0;
+    for (const auto& body : {first, second})
+      if (body) mobility += 1 / scene.bodies[static_cast<std::size_t>(*body)].mass;
+    highest = std::max(highest, std::sqrt(stiffness * mobility));
+  };
+  for (const scene::Connector& c : scene.connectors)
+    if (const auto* law = std::get_if<scene::AxialConnector>(&c.kind); law != nullptr && law->pulls_only)
+      consider(law->stiffness, c.first, c.second);
+  for (const scene::Line& l : scene.chains) {
+    if (!l.pulls_only || !l.fastened()) continue;
+    double compliance = 0;
+    for (const auto& link : l.links) compliance += link.length / link.axial_stiffness.value_or(*l.axial_stiffness);
+    consider(1 / compliance, l.from_on, l.to_on);
+  }
+  return highest;
+}
+
 /// The step that keeps the period error of generalised-α, (ωh)²/12, a sixteenth of the accuracy asked at the highest
 /// relevant frequency, and divides the distance of samples.
 double chosen_step(const Scene& scene) {
@@ -163,7 +184,8 @@ double chosen_step(const Scene& scene) {
           scene.solve.step->place, fmt::format("use \"{:.6g} s\"", every / std::max(1.0, std::ceil(ratio))));
     return every / std::round(ratio);
   }
-  const double omega = scene.waves ? highest_relevant_frequency(*scene.waves) : 0;
+  const double omega =
+      std::max(scene.waves ? highest_relevant_frequency(*scene.waves) : 0, highest_snap_frequency(scene));
   const double largest = omega > 0 ? std::sqrt(12 * scene.accuracy) / 4 / omega : every;
   return every / std::max(1.0, std::ceil(every / largest - 1e-9));
 }
@@ -291,6 +313,11 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
     for (const auto& warning : wave_warnings(scene)) notes.push_back(warning);
     plan.push_back(waves_line(water));
   }
+  if (scene.solve.integrator == "generalized_alpha" && scene.solve.rho_infinity > 0 && scene::acts_one_way(scene))
+    notes.push_back(fmt::format(
+        "rho_infinity = {:.3g} with what acts one way only (cables, tables, stops, lines that go slack): a snap that "
+        "the step does not resolve comes back with more energy than it had; 0 keeps it",
+        scene.solve.rho_infinity));
   const hydro::waves::Sea* sea = water.sea ? &*water.sea : nullptr;
 
   std::vector<std::unique_ptr<const dynamics::ForceKind>> forces;
