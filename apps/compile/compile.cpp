@@ -275,6 +275,11 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
     for (const auto& warning : wave_warnings(scene)) notes.push_back(warning);
     plan.push_back(waves_line(water));
   }
+  if (scene.solve.integrator == "generalized_alpha" && scene.solve.rho_infinity > 0 && scene::acts_one_way(scene))
+    notes.push_back(fmt::format(
+        "rho_infinity = {:.3g} with what acts one way only (cables, tables, stops, lines that go slack): a snap that "
+        "the step does not resolve comes back with more energy than it had; 0 keeps it",
+        scene.solve.rho_infinity));
   const hydro::waves::Sea* sea = water.sea ? &*water.sea : nullptr;
 
   std::vector<std::unique_ptr<const dynamics::ForceKind>> forces;

@@ -78,6 +78,21 @@ Mover turning(const Prepared& p, const dynamics::State& start) {
   return out;
 }
 
+/// What bodies and a line of the kind that goes slack do that is drawn taut at once, √(k/m), m of what both of its ends move.
+Mover snap(const Scene& scene) {
+  Mover out;
+  for (const scene::Line& l : scene.chains) {
+    if (!l.pulls_only || !l.fastened()) continue;
+    double compliance = 0, mobility = 0;
+    for (const auto& link : l.links) compliance += link.length / link.axial_stiffness.value_or(*l.axial_stiffness);
+    for (const auto& body : {l.from_on, l.to_on})
+      if (body) mobility += 1 / scene.bodies[static_cast<std::size_t>(*body)].mass;
+    if (const double omega = std::sqrt(mobility / compliance); omega > out.omega)
+      out = {omega, fmt::format("line {} where it is drawn taut, {:.4g} s", l.name, 2 * std::numbers::pi / omega)};
+  }
+  return out;
+}
+
 Mover fastest_mover(const Scene& scene, const Prepared& p) {
   Mover out;
   const auto compare = [&](Mover other) {
@@ -92,6 +107,7 @@ Mover fastest_mover(const Scene& scene, const Prepared& p) {
   compare(own_motion(p, dynamics::rest_state(p.bodies)));
   compare(own_motion(p, start));
   compare(turning(p, start));
+  compare(snap(scene));
   return out;
 }
 

@@ -136,6 +136,8 @@ void run(const SceneArguments& arguments, const Console& console) {
   Provenance provenance = provenance_of(scene, record.notes);
   provenance.wall_time = {{"preparation", record.preparation_s}, {"stepping", record.stepping_s}};
   provenance.settings.emplace_back("chosen.step", fmt::format("{} s", record.step));
+  if (scene.solve.integrator == "generalized_alpha")
+    provenance.settings.emplace_back("chosen.rho_infinity", fmt::format("{}", scene.solve.rho_infinity));
   if (compile::has_own_tolerance(scene.solve.integrator) && !scene.solve.tolerance)
     provenance.settings.emplace_back("chosen.tolerance", fmt::format("{}", compile::tolerance_of_pair));
   for (const auto& [effect, count] : record.evaluations)

@@ -168,17 +168,31 @@ void build_ask(const Record& ask, Scene& scene) {
   if (ask.has("waves")) scene.ask_waves = read_ask_waves(ask.table("waves"), scene);
 }
 
+// (D132)
+bool acts_one_way(const Scene& scene) {
+  const auto axial = [](const Connector& c) {
+    const auto* law = std::get_if<AxialConnector>(&c.kind);
+    return law != nullptr && (law->pulls_only || !law->elongations.empty());
+  };
+  const auto line = [&](const Line& l) {
+    return l.pulls_only && (l.fastened() || scene.solve.line_scheme == "generalized_alpha");
+  };
+  return std::any_of(scene.connectors.begin(), scene.connectors.end(), axial) ||
+         std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& j) { return j.pto && j.pto->stops; }) ||
+         std::any_of(scene.chains.begin(), scene.chains.end(), line);
+}
+
 Solve build_solve(const Record& solve) {
   Solve out;
   if (solve.text("step").empty()) out.step = {solve.si("step"), solve["step"].place};
   const Record& integrator = solve.table("integrator");
   out.integrator = integrator.text("name");
   out.integrator_place = integrator["name"].place;
-  out.rho_infinity = integrator.si("rho_infinity");
+  if (integrator.has("rho_infinity")) out.rho_infinity = integrator.si("rho_infinity");
   if (integrator.has("tolerance")) out.tolerance = integrator.si("tolerance");
   const bool lines_alike = integrator.has("lines") && integrator.text("lines") == "generalized_alpha";
   const auto only_of = [&](std::string_view key, std::string_view method) {
-    if (integrator[key].defaulted || out.integrator == method) return;
+    if (!integrator.has(key) || out.integrator == method) return;
     throw integrator.wrong(key, fmt::format("acts only with name = \"{}\"", method), "leave it out");
   };
   if (!lines_alike) only_of("rho_infinity", "generalized_alpha");
@@ -251,6 +265,7 @@ Scene parse_with(std::string_view text, const std::filesystem::path& file,
   check_bodies(root, scene);
   build_ask(root.table("ask"), scene);
   scene.solve = build_solve(root.table("solve"));
+  if (!root.table("solve").table("integrator").has("rho_infinity") && acts_one_way(scene)) scene.solve.rho_infinity = 0;
   check_excitation(root, scene);
   check_start(root, scene);
   return scene;

@@ -488,7 +488,8 @@ struct Solve {
   std::optional<Located<double>> step;  ///< s; empty: chosen from the accuracy asked
   std::string integrator = "generalized_alpha";
   Place integrator_place = {};
-  double rho_infinity = 0.8;                    ///< spectral radius of generalised-α at infinite frequency, 0 … 1
+  double rho_infinity = 0.8;                    ///< spectral radius of generalised-α at infinite frequency, 0 … 1;
+                                                ///< 0 if the scene gives none and acts_one_way()
   std::optional<double> tolerance;              ///< of the local error of steps, which are cut to meet it
   std::string line_scheme = "energy_momentum";  ///< of lines, as dynamics::line::parse_scheme() reads it
   std::optional<Place> line_scheme_place = {};  ///< where the scene names it
@@ -551,6 +552,10 @@ void check_patterns(const std::vector<std::string>& of, const std::vector<Place>
                     const std::vector<std::string>& known);
 /// The same for all that the scene asks.
 void check_patterns(const Scene& scene, const std::vector<std::string>& known);
+
+/// True if a force of the scene jumps in stiffness where it begins to act, and generalised-α steps it: cables, tables,
+/// end stops, lines whose segments go slack (D132).
+bool acts_one_way(const Scene& scene);
 
 /// The reference of all keys, generated from the very tables that the reader uses (Markdown).
 std::string key_reference();

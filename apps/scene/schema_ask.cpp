@@ -92,10 +92,13 @@ const Table& integrator() {
               .one_of({"generalized_alpha", "energy_momentum", "explicit_pair", "implicit_euler", "semi_implicit_euler",
                        "sundials_bdf"})
               .or_default("generalized_alpha", "second order, damps only what the step cannot resolve"),
-          number("rho_infinity",
-                 "of generalized_alpha: spectral radius at infinite frequency: 1 damps nothing, 0 all at once")
+          number(
+              "rho_infinity",
+              "of generalized_alpha: spectral radius at infinite frequency: 1 damps nothing, 0 all at once; left out: "
+              "0.8, which kills what is not resolved within some steps and leaves the rest alone, and 0 where "
+              "something acts one way only: cables, tables, end stops, lines with `pulls_only` that it steps")
               .within(Limit::fraction)
-              .or_default("0.8", "kills what is not resolved within some steps, leaves the rest alone"),
+              .optional(),
           number(
               "tolerance",
               "of the local error of a step of bodies, relative to their speeds: steps are cut to meet it; left out: "

@@ -1,10 +1,41 @@
 #include "dynamics/force/contact.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "hydro/base/error.hpp"
 
 namespace dynamics {
+namespace {
+
+/// How a centre goes through a step: the cubic by its places and velocities at both ends.
+struct Course {
+  Eigen::Vector3d from, to, start, end;  // places; velocities times the step
+
+  Eigen::Vector3d at(double s) const {
+    const Eigen::Vector3d way = to - from, c = 3 * way - 2 * start - end, d = start + end - 2 * way;
+    return from + s * (start + s * (c + s * d));
+  }
+  /// Its length at most: the rate of a cubic lies between the three numbers that make it.
+  double length() const {
+    return std::max({start.norm(), end.norm(), Eigen::Vector3d(3 * (to - from) - start - end).norm()});
+  }
+};
+
+/// Of the centre of a body, or of the ground, which stays.
+Course course_of(std::optional<int> body, const State& before, const State& after) {
+  if (!body) return {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  const auto i = static_cast<std::size_t>(*body);
+  const double h = after.time - before.time;
+  return {before.pose[i].centre, after.pose[i].centre, h * before.twist(*body).head<3>(),
+          h * after.twist(*body).head<3>()};
+}
+
+Eigen::Quaterniond turn_of(std::optional<int> body, const State& state) {
+  return body ? state.pose[static_cast<std::size_t>(*body)].attitude : Eigen::Quaterniond::Identity();
+}
+
+}  // namespace
 
 ContactKind::ContactKind(std::vector<Contact> elements) : elements_(std::move(elements)) {
   for (const Contact& c : elements_) {
@@ -13,6 +44,9 @@ ContactKind::ContactKind(std::vector<Contact> elements) : elements_(std::move(el
     hydro::require(std::isfinite(c.friction) && c.friction >= 0, "contact \"{}\": friction must not be negative",
                    c.name);
     meet(c.shapes.first, c.shapes.second);  // has no law: throws
+    hydro::require(half_thickness(c.shapes.first) + half_thickness(c.shapes.second) > 0,
+                   "contact \"{}\": neither of its shapes has a thickness, so they would never be seen to meet",
+                   c.name);
   }
 }
 
@@ -51,6 +85,33 @@ ContactKind::Motion ContactKind::motion(std::size_t element, const State& state)
   if (c.second) v += of_point(*c.second, at.second_centre, m.on_second);
   const double parting = v.dot(m.normal);
   return {m, parting, v - parting * m.normal};
+}
+
+// (D131) The gap changes by no more than points move, so as long as it is large the next look may be far away; a
+// quarter of what is thinnest is close enough not to miss what goes through its middle.
+std::optional<double> ContactKind::passing(std::size_t element, const State& before, const State& after) const {
+  const Contact& c = elements_[element];
+  const double thick = half_thickness(c.shapes.first) + half_thickness(c.shapes.second);
+  if (std::isinf(thick)) return {};  // out of a half-space nothing comes on the other side
+  const Course one = course_of(c.first, before, after), other = course_of(c.second, before, after);
+  const Course against{other.from - one.from, other.to - one.to, other.start - one.start, other.end - one.end};
+  const auto turned = [&](std::optional<int> body, const Shape& shape) {
+    return body ? turn_of(body, before).angularDistance(turn_of(body, after)) * reach(shape) : 0.0;
+  };
+  const double way = against.length() + turned(c.first, c.shapes.first) + turned(c.second, c.shapes.second);
+  const double apart_before = gap(element, before);
+  if (way <= thick || apart_before + gap(element, after) >= way) return {};
+  for (double s = std::max(apart_before, thick / 4) / way; s < 1;) {
+    const auto attitude = [&](std::optional<int> body) {
+      return turn_of(body, before).slerp(s, turn_of(body, after)).toRotationMatrix();
+    };
+    const ConditionEnds there{one.at(s), other.at(s), attitude(c.first), attitude(c.second),
+                              before.time + s * (after.time - before.time)};
+    const double apart = dynamics::meeting(c.shapes, there).gap;
+    if (apart < 0) return s;
+    s += std::max(apart, thick / 4) / way;
+  }
+  return {};
 }
 
 std::array<Condition, 2> ContactKind::sticking(std::size_t element, const State& state) const {

@@ -1,22 +1,26 @@
 #pragma once
-/// \file  Impulses of contacts that close at one instant (D25). Not installed.
+/// \file  What contacts do together: impulses of those that close at one instant (D25), loads of those that touch
+///        (D130). Not installed.
 #include <Eigen/Core>
 
+#include <optional>
 #include <vector>
 
 namespace dynamics {
 
-/// One contact in the equations of an impact: its rows are that of the normal and, with friction, two along the
-/// surface.
+/// One contact in the equations of an impact, or of the loads at an instant: its rows are that of the normal and, with
+/// friction, two along the surface.
 struct ImpactLaw {
   Eigen::Index row;
   double restitution, friction;
+  std::optional<Eigen::Vector2d> slip = {};  ///< the direction in which it slides already: friction is against it
 };
 
 /// Impulses z with u⁺ = u⁻ + W z such that, for each contact, 0 <= z_n ⟂ u_n⁺ + e min(u_n⁻, 0) >= 0, and the impulse
 /// along the surface is at most μ z_n, against the slip where that is left. W: velocity gained for each impulse,
-/// symmetric, not negative. By relaxation contact by contact, to rounding. \throws hydro::NumericsError if that does
-/// not settle
+/// symmetric, not negative. With accelerations in place of velocities, and e = 0, z are loads. By relaxation contact by
+/// contact, until a sweep changes speeds by no more than the rounding of their own sums. \throws hydro::NumericsError
+/// if that is never so
 Eigen::VectorXd impulses(const Eigen::MatrixXd& W, const Eigen::VectorXd& before, const std::vector<ImpactLaw>& laws);
 
 }  // namespace dynamics

@@ -164,7 +164,7 @@ void Integrator::restore(Workspace& workspace, const Snapshot& before) {
   set_history(before.history);
 }
 
-double Integrator::step_to_change(Workspace& workspace, double h, StepReport& report) {
+Integrator::Way Integrator::go_to_change(Workspace& workspace, double h, StepReport& report) {
   const Snapshot before = snapshot(workspace);
   const auto margin_after = [&](double way) {
     restore(workspace, before);
@@ -172,7 +172,12 @@ double Integrator::step_to_change(Workspace& workspace, double h, StepReport& re
     return laws_.least_margin(workspace).value;
   };
   double high = h, at_high = margin_after(h);
-  if (at_high >= 0) return h;
+  if (at_high >= 0) {
+    const auto passing = laws_.passing(before.state, workspace);
+    if (!passing) return {h, false};
+    high = *passing * h, at_high = margin_after(high);
+    if (at_high >= 0) return {high, false};  // it goes by closely: from here on its course is known better
+  }
   restore(workspace, before);
   double low = 0, at_low = laws_.least_margin(workspace).value;
   // Right after it began, a slip or a bounce has gone no way yet: go back until it has.
@@ -200,7 +205,7 @@ double Integrator::step_to_change(Workspace& workspace, double h, StepReport& re
     }
   }
   margin_after(at);
-  return at;
+  return {at, true};
 }
 
 void Integrator::advance_to_changes(Workspace& workspace, double h, StepReport& report) {
@@ -209,10 +214,11 @@ void Integrator::advance_to_changes(Workspace& workspace, double h, StepReport& 
   for (double left = h; left > h * change_resolution;) {
     const State before = workspace.state;
     const Eigen::VectorXd slip = laws_.slip_power(workspace);
-    const double way = step_to_change(workspace, left, report);
+    const Way way = go_to_change(workspace, left, report);
+    laws_.share_loads(workspace);
     laws_.note_work(before, slip, workspace);
-    if (way == left) return;
-    left -= way;
+    left -= way.time;
+    if (!way.changes) continue;
     if (++changes > most)
       throw hydro::NumericsError(fmt::format(
           "friction or contacts change more than {} times in the step from t = {:.6g} s", most, before.time));

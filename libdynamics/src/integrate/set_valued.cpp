@@ -4,15 +4,8 @@
 #include <functional>
 
 #include "hydro/base/error.hpp"
-#include "impact.hpp"
 
 namespace dynamics {
-namespace {
-
-constexpr double closed = 1e-9;  // m, and of the fastest speed: what rounding of a placed body leaves
-
-}  // namespace
-
 // Speeds below it are rounding of those at hand, or of what accelerations add in a step.
 double SetValuedLaws::slow(const Workspace& workspace) const {
   return closed *
@@ -70,50 +63,6 @@ void SetValuedLaws::begin(Workspace& workspace) {
   settle(workspace);
 }
 
-// (D25). Joints hold in an impact; friction of joints does not, since its load is bounded and an impact takes no time.
-// \returns true if there was one.
-bool SetValuedLaws::collide(Workspace& workspace) {
-  if (active_.contact() == nullptr) return false;
-  const ContactKind& kind = *active_.contact();
-  State& state = workspace.state;
-  const auto joints = model_.joints().gradients(state);
-  JointSet rows = model_.joints().with_only({});
-  std::vector<ImpactLaw> laws;
-  std::vector<std::size_t> touching;
-  bool approaching = false;
-  for (std::size_t i = 0; i < kind.elements(); ++i) {
-    const ContactKind::Motion motion = kind.motion(i, state);
-    if (motion.meeting.gap > closed) continue;
-    approaching = approaching || motion.parting < -slow(workspace);
-    laws.push_back({rows.count(), kind.all()[i].restitution, kind.all()[i].friction});
-    touching.push_back(i);
-    rows.add(kind.closed(i));
-    if (kind.all()[i].friction > 0)
-      for (const Condition& along : kind.sticking(i, state)) rows.add(along);
-  }
-  if (!approaching) return false;
-  const Eigen::MatrixXd R = rows.dense(rows.gradients(state));
-  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(joints.size()));
-  KktSolver solver(model_.pattern(), model_.joints());
-  model_.tangent(state, 1, 0, 0, workspace, workspace.matrix);
-  if (!solver.factorise(workspace.matrix, joints, joints, nothing))
-    throw hydro::NumericsError(
-        fmt::format("no impulses can be found at t = {} s: the mass matrix is singular", state.time));
-  Eigen::MatrixXd gained(model_.modes(), R.rows());
-  for (Eigen::Index i = 0; i < R.rows(); ++i) gained.col(i) = solver.solve(R.row(i).transpose(), nothing).x;
-  const Eigen::MatrixXd W = R * gained;
-  const Eigen::VectorXd before = R * state.velocity, z = impulses((W + W.transpose()) / 2, before, laws);
-  state.velocity += gained * z;
-  const Eigen::VectorXd after = R * state.velocity;
-  for (std::size_t k = 0; k < touching.size(); ++k) {
-    ContactState& c = active_.contact_memory(workspace).contact[touching[k]];
-    const Eigen::Index row = laws[k].row, size = laws[k].friction > 0 ? 3 : 1;
-    if (z[row] > 0) ++c.impacts;
-    c.dissipated -= z.segment(row, size).dot(before.segment(row, size) + after.segment(row, size)) / 2;
-  }
-  return true;
-}
-
 // The least change of velocities, in the metric of the masses, that takes the speeds of those contacts: it can only
 // take energy.
 void SetValuedLaws::still(Workspace& workspace, double step) {
@@ -161,6 +110,7 @@ void SetValuedLaws::take_up(Workspace& workspace, const Margin& at) {
     active_.friction_memory(workspace).turn(at.element, at.becomes, workspace.state.time);
     return;
   }
+  if (at.together) return;  // settle() sees which
   ContactState& c = active_.contact_memory(workspace).contact[at.element];
   if (at.becomes == ContactState::sticks) {  // others may touch or stop with it
     const bool slid = c.is == ContactState::slides;
@@ -168,17 +118,18 @@ void SetValuedLaws::take_up(Workspace& workspace, const Margin& at) {
     if (slid && c.is != ContactState::open) c.is = ContactState::sticks;
     return;
   }
-  if (at.becomes == ContactState::slides) c.slip = direction_of_slip(at.element, workspace);
+  if (at.becomes == ContactState::slides) c.slip = direction_of_slip(at.element, workspace.multipliers, workspace);
   c.is = static_cast<ContactState::Is>(at.becomes);
 }
 
 // Against the load that it holds with.
-Eigen::Vector3d SetValuedLaws::direction_of_slip(std::size_t element, Workspace& workspace) const {
+Eigen::Vector3d SetValuedLaws::direction_of_slip(std::size_t element, const Eigen::VectorXd& multipliers,
+                                                 Workspace& workspace) const {
   const ContactState& c = active_.contact_memory(workspace).contact[element];
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   for (int k = 1; k <= c.held; ++k) {
     const Condition& along = active_.conditions().conditions()[static_cast<std::size_t>(c.row + k)];
-    direction += workspace.multipliers[c.row + k] * std::get<StickCondition>(along.what).direction;
+    direction += multipliers[c.row + k] * std::get<StickCondition>(along.what).direction;
   }
   return direction.normalized();
 }
@@ -229,6 +180,10 @@ SetValuedLaws::Margin SetValuedLaws::least_margin(Workspace& workspace) const {
   }
   if (active_.contact() == nullptr) return least;
   const double rounding = holds ? this->rounding(*loads) : 0;
+  Margin borne;  // of the loads of contacts
+  const auto bears = [&](std::size_t element, double value, int becomes) {
+    if (value < borne.value) borne = {Event::Law::contact, element, value, becomes};
+  };
   for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
     const ContactState& c = active_.contact_memory(workspace).contact[i];
     const auto contact = [&](double value, int becomes) { consider(Event::Law::contact, i, value, becomes); };
@@ -237,14 +192,26 @@ SetValuedLaws::Margin SetValuedLaws::least_margin(Workspace& workspace) const {
     if (c.row < 0) continue;
     const double mass = active_.condition_scale()[c.row] * active_.condition_scale()[c.row];
     const double load = -loads->multipliers[c.row], friction = active_.contact()->all()[i].friction;
-    contact(load / mass + rounding, ContactState::open);
+    bears(i, load / mass + rounding, ContactState::open);
     if (c.is == ContactState::sticks)
-      contact((friction * load - loads->multipliers.segment(c.row + 1, c.held).norm()) / mass + rounding,
-              ContactState::slides);
+      bears(i, (friction * load - loads->multipliers.segment(c.row + 1, c.held).norm()) / mass + rounding,
+            ContactState::slides);
     else if (friction > 0)
       contact(c.slip.dot(active_.contact()->motion(i, workspace.state).slip), ContactState::sticks);
   }
+  if (borne.value < 0) borne = margin_of_share(borne, loads->multipliers, rounding, workspace);
+  if (borne.value < least.value) least = borne;
   return least;
+}
+
+std::optional<double> SetValuedLaws::passing(const State& before, Workspace& workspace) const {
+  std::optional<double> first;
+  for (std::size_t i = 0; active_.contact() != nullptr && i < active_.contact()->elements(); ++i) {
+    if (active_.contact_memory(workspace).contact[i].is != ContactState::open) continue;
+    const auto share = active_.contact()->passing(i, before, workspace.state);
+    if (share && (!first || *share < *first)) first = share;
+  }
+  return first;
 }
 
 // What holds with more than it can is let go, the most loaded first: the others may then hold. Half of the rounding
@@ -265,26 +232,28 @@ bool SetValuedLaws::release(Workspace& workspace) {
       let_go = [&memory, &workspace, i, load] { memory.turn(i, load > 0 ? 1 : -1, workspace.state.time); };
     }
   }
+  bool contact = false;
+  const auto exceeds = [&](double over) {
+    if (over <= most) return false;
+    most = over;
+    return contact = true;
+  };
   for (std::size_t i = 0; active_.contact() != nullptr && i < active_.contact()->elements(); ++i) {
     ContactState& c = active_.contact_memory(workspace).contact[i];
     if (c.row < 0) continue;
     const double mass = active_.condition_scale()[c.row] * active_.condition_scale()[c.row];
     const double load = -workspace.multipliers[c.row] / mass;
-    if (-load - rounding / 2 > most) {
-      most = -load;
-      let_go = [&c] { c.is = ContactState::open; };
-    }
+    if (exceeds(-load - rounding / 2)) let_go = [&c] { c.is = ContactState::open; };
     if (c.is != ContactState::sticks) continue;
     const double held = workspace.multipliers.segment(c.row + 1, c.held).norm() / mass;
-    const double over = held - active_.contact()->all()[i].friction * std::max(load, 0.0) - rounding / 2;
-    if (over > most) {
-      most = over;
+    if (exceeds(held - active_.contact()->all()[i].friction * std::max(load, 0.0) - rounding / 2))
       let_go = [this, &c, &workspace, i] {
-        c.slip = direction_of_slip(i, workspace);
+        c.slip = direction_of_slip(i, workspace.multipliers, workspace);
         c.is = ContactState::slides;
       };
-    }
   }
+  if (contact)
+    if (const auto together = release_together(rounding / 2, workspace)) return *together;
   if (let_go) let_go();
   return static_cast<bool>(let_go);
 }

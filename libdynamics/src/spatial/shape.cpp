@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "hydro/base/error.hpp"
@@ -23,6 +24,18 @@ Shape moved_shape(const HalfSpace& s, const Eigen::Matrix3d& R, const Vector3d& 
 Shape moved_shape(const Box& s, const Eigen::Matrix3d& R, const Vector3d& d) {
   return Box{R * s.centre + d, s.half, R * s.axes};
 }
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+
+double half_thickness_of(const Ball& s) { return s.radius; }
+double half_thickness_of(const Rod& s) { return s.radius; }
+double half_thickness_of(const HalfSpace&) { return endless; }
+double half_thickness_of(const Box& s) { return s.half.minCoeff(); }
+
+double reach_of(const Ball& s) { return s.centre.norm() + s.radius; }
+double reach_of(const Rod& s) { return std::max(s.from.norm(), s.to.norm()) + s.radius; }
+double reach_of(const HalfSpace&) { return endless; }
+double reach_of(const Box& s) { return s.centre.norm() + s.half.norm(); }
 
 Meeting reversed(Meeting m) {
   std::swap(m.on_first, m.on_second);
@@ -82,6 +95,14 @@ Meeting between(const Rod& a, const Rod& b) {
 
 Shape moved(const Shape& shape, const Eigen::Matrix3d& turn, const Vector3d& way) {
   return std::visit([&](const auto& s) { return moved_shape(s, turn, way); }, shape);
+}
+
+double half_thickness(const Shape& shape) {
+  return std::visit([](const auto& s) { return half_thickness_of(s); }, shape);
+}
+
+double reach(const Shape& shape) {
+  return std::visit([](const auto& s) { return reach_of(s); }, shape);
 }
 
 Meeting meet(const Shape& first, const Shape& second) {

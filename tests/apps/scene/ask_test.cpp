@@ -140,6 +140,8 @@ TEST(SceneSolve, ChoosesUnlessOverridden) {
   EXPECT_EQ(given.step->value, 0.01);
   EXPECT_EQ(given.step->place.line, 23);
   EXPECT_EQ(given.rho_infinity, 1);
+  EXPECT_TRUE(acts_one_way(parse(stops, "scene.toml")));
+  EXPECT_EQ(parse(stops, "scene.toml").solve.rho_infinity, 0) << "what acts one way only comes back as fast (D132)";
   EXPECT_THAT(refusal(sphere + "[solve]\nstep = \"0 s\"\n"),
               AllOf(StartsWith("scene.toml:23:8: "), HasSubstr("must be positive")));
   EXPECT_THAT(refusal(sphere + "[solve]\nintegrator = { rho_infinity = 1.1 }\n"), HasSubstr("must lie from 0 to 1"));

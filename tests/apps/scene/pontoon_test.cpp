@@ -82,8 +82,7 @@ TEST(PontoonScene, IsEchoedWithEveryDefault) {
             "ask.run.of = [*]  (default)\n"
             "ask.accuracy = 1e-2\n"
             "solve.step = automatic  (default)\n"
-            "solve.integrator.name = generalized_alpha  (default)\n"
-            "solve.integrator.rho_infinity = 0.8  (default)\n");
+            "solve.integrator.name = generalized_alpha  (default)\n");
 }
 
 TEST(PontoonScene, OrderOfTablesDoesNotMatter) {

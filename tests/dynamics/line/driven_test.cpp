@@ -99,6 +99,87 @@ TEST(FastenedLine, MovesItsBodyAsABobOfItsOwn) {
     }
 }
 
+/// A body thrown up from where it hangs on a line that goes slack; what holds it again is the line alone.
+struct Thrown {
+  double mass, speed = 5, stiffness = 1e4;  // N/m of the whole line
+  int segments = 1;
+  double line_mass = 1e-3;  // of the body's
+
+  dynamics::Model model() const {
+    Description d;
+    d.nodes.assign(static_cast<std::size_t>(segments) + 1, Node{});
+    Segment s = Segment::rod(10.0 / segments, line_mass * mass / segments);
+    s.axial_stiffness = stiffness * 10;
+    s.pulls_only = true;
+    d.segments.assign(static_cast<std::size_t>(segments), s);
+    d.held = {{.node = 0}, {.node = segments}};
+    d.gravity = gravity;
+    FastenedLine line = hung(d);
+    line.rho_infinity = 0;
+    RigidBody body({.name = "bob",
+                    .mass = mass,
+                    .inertia = Eigen::Matrix3d::Identity(),
+                    .rest_position = {Vector3d(0, 0, -10)},
+                    .free = {false, false, true, false, false, false}});
+    return dynamics::Model({body}, {}, weight_and_line({body}, {std::move(line)}));
+  }
+};
+
+// (D132) However coarse the step is against the snap, and however light the line, nothing comes back with more energy
+// than it went with: that of the start is never exceeded.
+TEST(FastenedLine, ThatGoesSlackGainsNoEnergyInASnap) {
+  for (const double mass : {0.5, 10.0, 1000.0})
+    for (const int segments : {1, 6})
+      for (const double h : {0.05, 0.01, 0.002}) {
+        const dynamics::Model model = Thrown{.mass = mass, .segments = segments}.model();
+        dynamics::State start = dynamics::rest_state(model.bodies());
+        start.velocity[2] = 5;
+        Workspace w(model, start);
+        GeneralizedAlpha integrator(model, {.rho_infinity = 0});
+        dynamics::start_with_lines(model, integrator, w);
+        const auto energy = [&] {
+          return model.kinetic_energy(w.state) + mass * gravity * (w.state.pose[0].centre.z() + 10) +
+                 model.forces()[1]->energy(w.instant(w.state, 1)).stored;
+        };
+        const double at_start = energy();
+        double most = at_start, highest = 0;
+        for (int i = 0; i < std::lround(6 / h); ++i) {
+          integrator.step(w, h);
+          most = std::max(most, energy());
+          highest = std::max(highest, w.state.pose[0].centre.z() + 10);
+        }
+        const double thrown = mass * 12.5;
+        EXPECT_LE(most - at_start, 2e-2 * thrown) << mass << " kg, " << segments << " segments, steps of " << h
+                                                  << " s: a line of a thousandth of the mass, which falls in folds";
+        EXPECT_NEAR(highest, 12.5 / gravity, 0.05);
+      }
+}
+
+// A bob of mass m that comes down at v on a spring k: mg + √((mg)² + k m v²), to the (ωh)² that ρ∞ = 0 takes.
+TEST(FastenedLine, ThatGoesSlackSnapsAsASpringDoes) {
+  for (const double mass : {0.5, 10.0, 1000.0}) {
+    const Thrown thrown{.mass = mass, .line_mass = 1e-6};
+    const dynamics::Model model = thrown.model();
+    dynamics::State start = dynamics::rest_state(model.bodies());
+    start.velocity[2] = 5;
+    const double omega = std::sqrt(thrown.stiffness / mass), weight = mass * gravity;
+    // Where it begins, the line is taut by nothing: it comes back to there at the speed that it had.
+    const double peak = weight + std::sqrt(weight * weight + thrown.stiffness * mass * 25);
+    for (const double fine : {0.1, 0.05}) {
+      Workspace w(model, start);
+      GeneralizedAlpha integrator(model, {.rho_infinity = 0});
+      dynamics::start_with_lines(model, integrator, w);
+      double most = 0;
+      const double h = fine / omega;
+      for (int i = 0; i < std::lround(1.5 / h); ++i) {
+        integrator.step(w, h);
+        most = std::max(most, -thrown.stiffness * (w.state.pose[0].centre.z() + 10));
+      }
+      EXPECT_NEAR(most, peak, 1.2 * fine * fine * peak) << mass << " kg, ωh = " << fine;
+    }
+  }
+}
+
 /// Two bodies that turn, joined by a line with drag and added mass in a current, and one of them to the ground.
 FastenedLineKind between_bodies() {
   Description d = springs(5, 2e4);

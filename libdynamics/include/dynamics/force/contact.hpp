@@ -62,6 +62,9 @@ class ContactKind final : public ForceKind {
     Eigen::Vector3d slip;  ///< across it, m/s, global
   };
   Motion motion(std::size_t element, const State& state) const;
+  /// Shapes that are apart at both ends of a step but were not between: the share of the step at which they are first
+  /// seen to overlap (D131). Nothing if they did not, or moved against each other by less than half their thickness.
+  std::optional<double> passing(std::size_t element, const State& before, const State& after) const;
   /// The condition that keeps the gap at zero.
   Condition closed(std::size_t element) const;
   /// Two conditions that keep what touches from slipping along the surface, in directions across its normal in `state`.

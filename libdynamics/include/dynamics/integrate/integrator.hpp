@@ -81,7 +81,11 @@ class Integrator {
   double local_error(Workspace& workspace, double h, StepReport& report);
   void note_speeds(const Workspace& workspace, double h);
   void advance_to_changes(Workspace& workspace, double h, StepReport& report);
-  double step_to_change(Workspace& workspace, double h, StepReport& report);
+  struct Way {
+    double time;   ///< s
+    bool changes;  ///< at its end something does
+  };
+  Way go_to_change(Workspace& workspace, double h, StepReport& report);
   void begin_anew(Workspace& workspace);
   void require_closed_joints(const State& state) const;
 

@@ -26,10 +26,14 @@ class SetValuedLaws {
   struct Margin {
     Event::Law law = Event::Law::friction;
     std::size_t element = 0;
-    double value = 1;  ///< a share, a speed in m/s, a length in m
-    int becomes = 0;   ///< as in Event
+    double value = 1;       ///< a share, a speed in m/s, a length in m
+    int becomes = 0;        ///< as in Event
+    bool together = false;  ///< contacts that share their loads are at their limit, not this one alone (D130)
   };
   Margin least_margin(Workspace& workspace) const;
+  /// Of what is open at both ends of a step, `before` and the workspace's state, and was not all through it: the share
+  /// of the step at which the first is seen to overlap (D131).
+  std::optional<double> passing(const State& before, Workspace& workspace) const;
 
   /// Carries out what least_margin() found where it is zero, and whatever follows at that instant: impacts, slip,
   /// stick. `step`: of the run, s, what rounding of speeds is seen against.
@@ -37,6 +41,10 @@ class SetValuedLaws {
   /// Ends what goes on in ever shorter times, bounces and rocking: contacts that could close within a step have no more
   /// speed along their normals (D26).
   void still(Workspace& workspace, double step);
+
+  /// Where contacts are more than bodies need, the multipliers of a step may ask of one what it cannot bear: they
+  /// become those of the share nearest to even that all can bear (D130).
+  void share_loads(Workspace& workspace);
 
   /// Power of the slip of each contact, W, in the workspace's state.
   Eigen::VectorXd slip_power(Workspace& workspace) const;
@@ -47,13 +55,26 @@ class SetValuedLaws {
   bool follow_rolling(Workspace& workspace);
 
  private:
+  static constexpr double closed = 1e-9;  // m, and of the fastest speed: what rounding of a placed body leaves
   bool collide(Workspace& workspace);
   void classify_contacts(Workspace& workspace) const;
   void classify_friction(Workspace& workspace) const;
   void take_up(Workspace& workspace, const Margin& at);
-  Eigen::Vector3d direction_of_slip(std::size_t element, Workspace& workspace) const;
+  Eigen::Vector3d direction_of_slip(std::size_t element, const Eigen::VectorXd& multipliers,
+                                    Workspace& workspace) const;
   void settle(Workspace& workspace);
   bool release(Workspace& workspace);
+  struct Shared;
+  std::optional<Shared> shared(Workspace& workspace) const;
+  Eigen::VectorXd even_loads(const Shared& shared, const Eigen::VectorXd& multipliers) const;
+  Margin margin_of_share(const Margin& even, const Eigen::VectorXd& multipliers, double rounding,
+                         Workspace& workspace) const;
+  std::optional<bool> release_together(double rounding, Workspace& workspace);
+  bool give_way(const Shared& shared, const Eigen::VectorXd& loads, Workspace& workspace) const;
+  struct Touching;
+  Touching touching(const JointSet& held, std::vector<std::size_t> elements, Workspace& workspace) const;
+  Touching touching_now(Workspace& workspace) const;
+  bool decide_together(Workspace& workspace) const;
   bool close_what_would_overlap(Workspace& workspace);
   double slow(const Workspace& workspace) const;
   double rounding(const ActiveSet::Balance& loads) const;
@@ -68,6 +89,7 @@ class SetValuedLaws {
   const Model& model_;
   ActiveSet& active_;
   double step_ = 0;
+  bool shares_ = false;  // the multipliers are no longer those of equal pads
 };
 
 }  // namespace dynamics

@@ -28,6 +28,11 @@ using Shape = std::variant<Ball, Rod, HalfSpace, Box>;
 /// The shape after it has turned about the origin and then moved.
 Shape moved(const Shape& shape, const Eigen::Matrix3d& turn, const Eigen::Vector3d& way);
 
+/// How far into the shape its middle is from its surface, m: half the thinnest of it; infinite for a half-space.
+double half_thickness(const Shape& shape);
+/// Of the farthest point of the shape from the origin, m; infinite for a half-space.
+double reach(const Shape& shape);
+
 /// The shortest way between two shapes.
 struct Meeting {
   double gap;                           ///< m; negative where they overlap

@@ -1,0 +1,149 @@
+/// What contacts do together at one instant: impulses of those that close (D25), loads of those that touch (D130).
+#include <cmath>
+
+#include "dynamics/integrate/set_valued.hpp"
+#include "hydro/base/error.hpp"
+#include "impact.hpp"
+
+namespace dynamics {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Contacts that touch, and what each of their loads does to all, among bodies that joints hold.
+struct SetValuedLaws::Touching {
+  std::vector<std::size_t> element;
+  std::vector<ImpactLaw> laws;
+  JointSet rows;
+  MatrixXd R;       // what rows see of velocities
+  MatrixXd gained;  // velocities for each impulse
+  MatrixXd W;       // what rows see of those
+  KktSolver held;   // of the bodies with what holds them
+  VectorXd own;     // what rows see of accelerations without loads of contacts
+
+  Index size(std::size_t k) const { return laws[k].friction > 0 ? 3 : 1; }
+  /// The two directions along the surface of a rough one.
+  Eigen::Matrix<double, 3, 2> along(std::size_t k) const {
+    const auto direction = [&](Index row) {
+      return std::get<StickCondition>(rows.conditions()[static_cast<std::size_t>(row)].what).direction;
+    };
+    Eigen::Matrix<double, 3, 2> out;
+    out << direction(laws[k].row + 1), direction(laws[k].row + 2);
+    return out;
+  }
+};
+
+SetValuedLaws::Touching SetValuedLaws::touching(const JointSet& held, std::vector<std::size_t> elements,
+                                                Workspace& workspace) const {
+  const ContactKind& kind = *active_.contact();
+  const State& state = workspace.state;
+  Touching out{std::move(elements), {}, held.with_only({}), {}, {}, {}, KktSolver(model_.pattern(), held), {}};
+  for (const std::size_t i : out.element) {
+    out.laws.push_back({out.rows.count(), kind.all()[i].restitution, kind.all()[i].friction});
+    out.rows.add(kind.closed(i));
+    if (kind.all()[i].friction > 0)
+      for (const Condition& along : kind.sticking(i, state)) out.rows.add(along);
+  }
+  out.R = out.rows.dense(out.rows.gradients(state));
+  const auto G = held.gradients(state);
+  const VectorXd nothing = VectorXd::Zero(held.count());
+  model_.tangent(state, 1, 0, 0, workspace, workspace.matrix);
+  if (!out.held.factorise(workspace.matrix, G, G, nothing))
+    throw hydro::NumericsError(
+        fmt::format("no impulses can be found at t = {} s: the mass matrix is singular", state.time));
+  out.gained.resize(model_.modes(), out.R.rows());
+  for (Index i = 0; i < out.R.rows(); ++i) out.gained.col(i) = out.held.solve(out.R.row(i).transpose(), nothing).x;
+  const MatrixXd W = out.R * out.gained;
+  out.W = (W + W.transpose()) / 2;
+  return out;
+}
+
+// (D25). Joints hold in an impact; friction of joints does not, since its load is bounded and an impact takes no time.
+// \returns true if there was one.
+bool SetValuedLaws::collide(Workspace& workspace) {
+  if (active_.contact() == nullptr) return false;
+  State& state = workspace.state;
+  std::vector<std::size_t> elements;
+  bool approaching = false;
+  for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
+    const ContactKind::Motion motion = active_.contact()->motion(i, state);
+    if (motion.meeting.gap > closed) continue;
+    approaching = approaching || motion.parting < -slow(workspace);
+    elements.push_back(i);
+  }
+  if (!approaching) return false;
+  const Touching all = touching(model_.joints(), std::move(elements), workspace);
+  const VectorXd before = all.R * state.velocity, z = impulses(all.W, before, all.laws);
+  state.velocity += all.gained * z;
+  const VectorXd after = all.R * state.velocity;
+  for (std::size_t k = 0; k < all.element.size(); ++k) {
+    ContactState& c = active_.contact_memory(workspace).contact[all.element[k]];
+    const Index row = all.laws[k].row, size = all.size(k);
+    if (z[row] > 0) ++c.impacts;
+    c.dissipated -= z.segment(row, size).dot(before.segment(row, size) + after.segment(row, size)) / 2;
+  }
+  return true;
+}
+
+namespace {
+
+/// What a contact does that has the load and the acceleration `a` along its normal (and along the surface in `slip`),
+/// where those below `still` are none.
+ContactState::Is becomes(double load, double parting, double slip, bool slides, bool rough, double still) {
+  if (load <= 0 && parting > still) return ContactState::open;
+  return slides || slip > still || !rough ? ContactState::slides : ContactState::sticks;
+}
+
+}  // namespace
+
+/// What touches and does not part, among bodies that joints and frictions hold. What slips already goes on so.
+SetValuedLaws::Touching SetValuedLaws::touching_now(Workspace& workspace) const {
+  const ContactKind& kind = *active_.contact();
+  const State& state = workspace.state;
+  JointSet held = model_.joints();
+  for (std::size_t i = 0; active_.friction() != nullptr && i < active_.friction()->elements(); ++i)
+    if (active_.friction_memory(workspace).direction[i] == 0)
+      held.add(active_.friction()->all()[i].travel.holding(state));
+  std::vector<std::size_t> elements;
+  std::vector<Eigen::Vector3d> slips;
+  for (std::size_t i = 0; i < kind.elements(); ++i) {
+    const ContactKind::Motion motion = kind.motion(i, state);
+    if (motion.meeting.gap > closed || std::abs(motion.parting) > slow(workspace)) continue;
+    elements.push_back(i);
+    slips.push_back(motion.slip);
+  }
+  Touching out = touching(held, std::move(elements), workspace);
+  for (std::size_t k = 0; k < slips.size(); ++k)
+    if (out.laws[k].friction > 0 && slips[k].norm() > slow(workspace))
+      out.laws[k].slip = out.along(k).transpose() * slips[k].normalized();
+  const VectorXd loads = model_.residual(state, VectorXd::Zero(model_.modes()), workspace);
+  out.own = out.R * out.held.solve(-loads, -held.convective(state)).x + out.rows.convective(state);
+  return out;
+}
+
+// (D130) The law of contact with accelerations in place of velocities. \returns true if that changes what any does
+bool SetValuedLaws::decide_together(Workspace& workspace) const {
+  const Touching all = touching_now(workspace);
+  const VectorXd z = impulses(all.W, all.own, all.laws), a = all.own + all.W * z;
+  constexpr double rounding = 1e-6;  // of the fastest: what relaxation leaves to those that do not move is far less
+  const double still = rounding * a.cwiseAbs().maxCoeff();
+  bool any = false;
+  for (std::size_t k = 0; k < all.element.size(); ++k) {
+    ContactState& c = active_.contact_memory(workspace).contact[all.element[k]];
+    const Index row = all.laws[k].row;
+    const bool rough = all.laws[k].friction > 0, slides = all.laws[k].slip.has_value();
+    const Eigen::Vector3d slip =
+        rough ? Eigen::Vector3d(all.along(k) * a.segment<2>(row + 1)) : Eigen::Vector3d::Zero();
+    const ContactState::Is is = becomes(z[row], a[row], slip.norm(), slides, rough, still);
+    if (is == ContactState::slides && rough && !slides) {
+      any = any || c.is != is || (c.slip - slip.normalized()).norm() > rounding;
+      c.slip = slip.normalized();
+    }
+    any = any || c.is != is;
+    c.is = is;
+  }
+  return any;
+}
+
+}  // namespace dynamics
