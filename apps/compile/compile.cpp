@@ -53,16 +53,10 @@ void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::
   if (!p.loads.empty()) forces.push_back(std::make_unique<dynamics::ConstantLoadKind>(p.loads));
 }
 
-/// Yaw about z, pitch about the new y, roll about the newest x: R = Rz(yaw) Ry(pitch) Rx(roll).
-Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& q) {
-  const Eigen::Matrix3d R = q.toRotationMatrix();
-  return {std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)), std::atan2(R(1, 0), R(0, 0))};
-}
-
 }  // namespace
 
 double motion_from_rest(const dynamics::RigidBody& body, const dynamics::Pose& pose, int mode) {
-  if (mode >= 3) return roll_pitch_yaw(pose.attitude)[mode - 3];
+  if (mode >= 3) return pose.roll_pitch_yaw()[mode - 3];
   return (pose.point(body, {Eigen::Vector3d::Zero()}).xyz - body.properties().rest_position.xyz)[mode];
 }
 
@@ -194,6 +188,12 @@ hydro::waves::Sea run_sea(const Scene& scene, const std::optional<Band>& band) {
   return sea;
 }
 
+std::optional<double> lowest_of(const hydro::waves::Sea& sea) {
+  std::optional<double> out;
+  for (const auto& c : sea.components()) out = std::min(c.omega, out.value_or(c.omega));
+  return out;
+}
+
 /// Waves of any kind: as a sum of linear waves where they are one, and as a field. Loads by coefficients and drag at
 /// rest are linear in the waves or in their velocities, and take such a sum only.
 RunWater run_water(const Scene& scene, const Prepared& prepared, double step) {
@@ -247,37 +247,96 @@ dynamics::State in_equilibrium(const Scene& scene, const dynamics::Model& model,
   }
 }
 
+dynamics::Vector6 by_mode(const std::map<hydro::Mode, double>& values) {
+  dynamics::Vector6 out = dynamics::Vector6::Zero();
+  for (const auto& [mode, value] : values) out[static_cast<int>(mode)] = value;
+  return out;
+}
+
+/// Puts the body where a share of its `initial` has brought it: R = Rz(yaw) Ry(pitch) Rx(roll), as angles are told.
+void place(const scene::Body& b, double share, dynamics::Pose& pose) {
+  const dynamics::Vector6 moved = share * by_mode(b.initial);
+  pose.attitude = dynamics::attitude_of(moved.tail<3>());
+  pose.counted = moved.tail<3>();
+  pose.centre = b.position + moved.head<3>() + pose.attitude * b.centre_of_gravity;
+}
+
+/// Into as many stages bodies are turned to where they begin that a hinge between two of them turns by less than half
+/// a turn in each: so what is wound by whole turns is counted, and what hangs on it is wound with it.
+int stages_of(const Scene& scene) {
+  constexpr double largest = 0.5;  // rad: three angles of two bodies are 3 rad
+  double farthest = 0;
+  for (const auto& b : scene.bodies) farthest = std::max(farthest, by_mode(b.initial).tail<3>().cwiseAbs().maxCoeff());
+  return std::max(1, static_cast<int>(std::ceil(farthest / largest)));
+}
+
+std::string told(double off, bool of_angle, const char* per) {
+  return fmt::format("{:.3g} {}{}", off, of_angle ? "rad" : "m", per);
+}
+
+/// Joints that the digits of the scene leave open are closed among all bodies, and it is told; more is refused.
+void close_what_digits_leave(const Scene& scene, const dynamics::Model& model, dynamics::State& state,
+                             std::vector<std::string>& notes) {
+  constexpr double rounding = 1e-3;  // of what is allowed: not worth telling
+  const std::vector<bool> none_kept(state.pose.size(), false);
+  const auto check = [&](const std::optional<dynamics::Misfit>& off, const char* what, const char* per,
+                         const char* remedy) {
+    if (!off) return;
+    const scene::Joint& joint = scene.joints[static_cast<std::size_t>(off->joint)];
+    const std::string by = told(off->off, off->of_angle, per);
+    if (off->off > off->allowed)
+      throw InputError(fmt::format("{} joint \"{}\" by {}, more than the {} that digits leave", what, joint.name, by,
+                                   told(off->allowed, off->of_angle, per)),
+                       joint.place, remedy);
+    if (off->off > rounding * off->allowed)
+      notes.push_back(
+          fmt::format("{} joint \"{}\" by {}, which the least motion of all bodies has closed", what, joint.name, by));
+  };
+  check(dynamics::worst_misfit(model, state), "where the run starts, bodies open", "",
+        "start both its bodies where the joint is closed, or leave `initial` of one of them out: it is carried along");
+  dynamics::close_joints(model, none_kept, state);
+  check(dynamics::worst_misfit_of_velocities(model, state), "where the run starts, velocities pull at", "/s",
+        "give both its bodies velocities that the joint allows, or leave `initial_velocity` of one of them out");
+  dynamics::close_joint_velocities(model, none_kept, state);
+}
+
 /// Where the scene puts bodies at t = 0; joints carry along those that it says nothing of.
-dynamics::State start_state(const Scene& scene, const Prepared& p, const dynamics::Model& model) {
+dynamics::State start_state(const Scene& scene, const Prepared& p, const dynamics::Model& model,
+                            std::vector<std::string>& notes) {
   dynamics::State state = dynamics::rest_state(p.bodies);
   std::vector<bool> placed, given;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const auto& b = scene.bodies[i];
-    Eigen::Matrix<double, 6, 1> moved = Eigen::Matrix<double, 6, 1>::Zero(), velocity = moved;
-    for (const auto& [mode, value] : b.initial) moved[static_cast<int>(mode)] = value;
-    for (const auto& [mode, value] : b.initial_velocity) velocity[static_cast<int>(mode)] = value;
-    auto& pose = state.pose[i];
-    pose.attitude = dynamics::rotation_exp(moved.tail<3>());
-    const Eigen::Vector3d to_centre = pose.attitude * b.centre_of_gravity;
-    pose.centre = b.position + moved.head<3>() + to_centre;
-    velocity.head<3>() += velocity.tail<3>().cross(to_centre);
-    state.velocity.segment<6>(6 * static_cast<Eigen::Index>(i)) = velocity;
+  for (const auto& b : scene.bodies) {
     placed.push_back(!b.initial.empty());
     given.push_back(!b.initial_velocity.empty());
   }
+  const int stages = stages_of(scene);
+  for (int stage = 1; stage <= stages; ++stage) {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+      if (placed[i]) place(scene.bodies[i], static_cast<double>(stage) / stages, state.pose[i]);
+    dynamics::close_joints(model, placed, state);
+    model.joints().count_turns(state);
+  }
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const auto& b = scene.bodies[i];
+    dynamics::Vector6 velocity = by_mode(b.initial_velocity);
+    velocity.head<3>() += velocity.tail<3>().cross(state.pose[i].attitude * b.centre_of_gravity);
+    state.velocity.segment<6>(6 * static_cast<Eigen::Index>(i)) = velocity;
+  }
   if (scene.run->from_equilibrium) return in_equilibrium(scene, model, std::move(state));
-  dynamics::close_joints(model, placed, state);
   dynamics::close_joint_velocities(model, given, state);
+  close_what_digits_leave(scene, model, state, notes);
   return state;
 }
 
 }  // namespace
 
-hydro::waves::Sea sea_of_run(const Scene& scene, const Prepared& prepared) {
+hydro::waves::Sea sea_of_run(const Scene& scene, const Prepared& prepared, std::vector<std::string>& notes) {
   if (!is_linear_sum(*scene.waves))
     throw InputError("a linear answer needs waves that are a sum of linear ones", scene.waves->place,
                      "take theory = \"linear\", or leave `second_order` out");
-  return run_sea(scene, band_of_data(prepared));
+  hydro::waves::Sea sea = run_sea(scene, band_of_data(prepared));
+  note_other_depths(scene, prepared, used_by_run(scene, prepared, lowest_of(sea)), notes);
+  return sea;
 }
 
 TimeModel time_model(const Scene& scene, const Prepared& prepared) {
@@ -292,6 +351,7 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
     plan.push_back(waves_line(water));
   }
   const hydro::waves::Sea* sea = water.sea ? &*water.sea : nullptr;
+  note_other_depths(scene, prepared, used_by_run(scene, prepared, sea ? lowest_of(*sea) : std::nullopt), notes);
 
   std::vector<std::unique_ptr<const dynamics::ForceKind>> forces;
   std::vector<dynamics::AddedMass> added_mass;
@@ -328,12 +388,13 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
     plan.push_back({"joint", "conditions held exactly, with the loads that this takes as unknowns",
                     fmt::format("{} joints, {} conditions", prepared.joints.size(), model.joints().count()), true});
   notes.insert(notes.end(), model.redundant().begin(), model.redundant().end());
-  dynamics::State start = start_state(scene, prepared, model);
+  dynamics::State start = start_state(scene, prepared, model, notes);
   std::vector<LineModel> lines = line_models(scene, prepared, water, start);
   for (const LineModel& line : lines) {
     plan.push_back(plan_line(line));
     for (const LineModel::Part& part : line.parts)
-      if (!part.coefficients.empty()) notes.push_back(fmt::format("line {}: {}", part.name, part.coefficients));
+      for (const std::string* told : {&part.coefficients, &part.released})
+        if (!told->empty()) notes.push_back(fmt::format("line {}: {}", part.name, *told));
   }
   return {.model = std::move(model),
           .start = std::move(start),
