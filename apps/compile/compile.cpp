@@ -15,9 +15,7 @@
 #include "dynamics/force/gravity.hpp"
 #include "dynamics/force/ramped_field.hpp"
 #include "dynamics/force/wave_loads.hpp"
-#include "dynamics/joint/assemble.hpp"
 #include "dynamics/model/equilibrium.hpp"
-#include "dynamics/spatial/rotation.hpp"
 #include "hydro/waves/boxed_field.hpp"
 
 namespace froude::compile {
@@ -39,12 +37,6 @@ dynamics::RigidBody rigid_body(const scene::Body& b) {
   }
 }
 
-/// Yaw about z, pitch about the new y, roll about the newest x: R = Rz(yaw) Ry(pitch) Rx(roll).
-Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& q) {
-  const Eigen::Matrix3d R = q.toRotationMatrix();
-  return {std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)), std::atan2(R(1, 0), R(0, 0))};
-}
-
 }  // namespace
 
 void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::ForceKind>>& forces) {
@@ -62,7 +54,7 @@ void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::
 }
 
 double motion_from_rest(const dynamics::RigidBody& body, const dynamics::Pose& pose, int mode) {
-  if (mode >= 3) return roll_pitch_yaw(pose.attitude)[mode - 3];
+  if (mode >= 3) return pose.roll_pitch_yaw()[mode - 3];
   return (pose.point(body, {Eigen::Vector3d::Zero()}).xyz - body.properties().rest_position.xyz)[mode];
 }
 
@@ -177,6 +169,12 @@ hydro::waves::Sea run_sea(const Scene& scene, const std::optional<Band>& band) {
   return sea;
 }
 
+std::optional<double> lowest_of(const hydro::waves::Sea& sea) {
+  std::optional<double> out;
+  for (const auto& c : sea.components()) out = std::min(c.omega, out.value_or(c.omega));
+  return out;
+}
+
 /// Waves of any kind: as a sum of linear waves where they are one, and as a field. Loads by coefficients and drag at
 /// rest are linear in the waves or in their velocities, and take such a sum only.
 RunWater run_water(const Scene& scene, const Prepared& prepared, double step) {
@@ -232,34 +230,13 @@ dynamics::State in_equilibrium(const Scene& scene, const dynamics::Model& model,
 
 }  // namespace
 
-dynamics::State placed_state(const Scene& scene, const Prepared& p, const dynamics::Model& model) {
-  dynamics::State state = dynamics::rest_state(p.bodies);
-  std::vector<bool> placed, given;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const auto& b = scene.bodies[i];
-    Eigen::Matrix<double, 6, 1> moved = Eigen::Matrix<double, 6, 1>::Zero(), velocity = moved;
-    for (const auto& [mode, value] : b.initial) moved[static_cast<int>(mode)] = value;
-    for (const auto& [mode, value] : b.initial_velocity) velocity[static_cast<int>(mode)] = value;
-    auto& pose = state.pose[i];
-    pose.attitude = dynamics::rotation_exp(moved.tail<3>());
-    const Eigen::Vector3d to_centre = pose.attitude * b.centre_of_gravity;
-    pose.centre = b.position + moved.head<3>() + to_centre;
-    velocity.head<3>() += velocity.tail<3>().cross(to_centre);
-    state.velocity.segment<6>(6 * static_cast<Eigen::Index>(i)) = velocity;
-    placed.push_back(!b.initial.empty());
-    given.push_back(!b.initial_velocity.empty());
-  }
-  if (scene.run->from_equilibrium) return state;
-  dynamics::close_joints(model, placed, state);
-  dynamics::close_joint_velocities(model, given, state);
-  return state;
-}
-
-hydro::waves::Sea sea_of_run(const Scene& scene, const Prepared& prepared) {
+hydro::waves::Sea sea_of_run(const Scene& scene, const Prepared& prepared, std::vector<std::string>& notes) {
   if (!is_linear_sum(*scene.waves))
     throw InputError("a linear answer needs waves that are a sum of linear ones", scene.waves->place,
                      "take theory = \"linear\", or leave `second_order` out");
-  return run_sea(scene, band_of_data(prepared));
+  hydro::waves::Sea sea = run_sea(scene, band_of_data(prepared));
+  note_other_depths(scene, prepared, used_by_run(scene, prepared, lowest_of(sea)), notes);
+  return sea;
 }
 
 TimeModel time_model(const Scene& scene, const Prepared& prepared) {
@@ -281,6 +258,7 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
         "the step does not resolve comes back with more energy than it had; 0 keeps it",
         scene.solve.rho_infinity));
   const hydro::waves::Sea* sea = water.sea ? &*water.sea : nullptr;
+  note_other_depths(scene, prepared, used_by_run(scene, prepared, sea ? lowest_of(*sea) : std::nullopt), notes);
 
   std::vector<std::unique_ptr<const dynamics::ForceKind>> forces;
   std::vector<dynamics::AddedMass> added_mass;
@@ -317,13 +295,14 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
     plan.push_back({"joint", "conditions held exactly, with the loads that this takes as unknowns",
                     fmt::format("{} joints, {} conditions", prepared.joints.size(), model.joints().count()), true});
   notes.insert(notes.end(), model.redundant().begin(), model.redundant().end());
-  dynamics::State start = placed_state(scene, prepared, model);
+  dynamics::State start = placed_state(scene, prepared, model, notes);
   if (scene.run->from_equilibrium) start = in_equilibrium(scene, model, std::move(start));
   std::vector<LineModel> lines = line_models(scene, prepared, water, start);
   for (const LineModel& line : lines) {
     plan.push_back(plan_line(line));
     for (const LineModel::Part& part : line.parts)
-      if (!part.coefficients.empty()) notes.push_back(fmt::format("line {}: {}", part.name, part.coefficients));
+      for (const std::string* told : {&part.coefficients, &part.released})
+        if (!told->empty()) notes.push_back(fmt::format("line {}: {}", part.name, *told));
   }
   return {.model = std::move(model),
           .start = std::move(start),

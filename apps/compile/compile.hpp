@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "compile/depth.hpp"
 #include "compile/lines.hpp"
 #include "dynamics/force/buoyancy.hpp"
 #include "dynamics/force/catenary_mooring.hpp"
@@ -59,19 +60,21 @@ struct Prepared {
   std::vector<std::vector<std::string>> switched_names;
   std::vector<scene::Place> switched_places;
   std::vector<std::string> axial_names, bushing_names, mooring_names;
-  std::vector<std::string> notes;  ///< what had to be decided, for the result and the plan
+  std::vector<OtherDepth> other_depths;  ///< of coefficients that are not for the scene's
+  std::vector<std::string> notes;        ///< what had to be decided, for the result and the plan
 };
 
 /// Motion of a body's origin from rest, m or rad: rotations are yaw about z, then pitch about the new y, then roll
-/// about the newest x.
+/// about the newest x, and run on from those that the pose has counted (D130).
 double motion_from_rest(const dynamics::RigidBody& body, const dynamics::Pose& pose, int mode);
 
 /// Opens the data files and places everything. \throws hydro::InputError, placed in the scene
 Prepared prepare(const scene::Scene& scene);
 
-/// The waves of [ask.rao] must go where every file has excitation.
-/// \throws hydro::InputError at its headings, with those of the file
-void check_headings(const scene::Scene& scene, const Prepared& prepared);
+/// The waves of [ask.rao] must go where every file has excitation, and be short enough for coefficients of another
+/// depth, whose error `notes` are told. \throws hydro::InputError at its headings with those of the file, or at the
+/// file
+void check_waves_of_rao(const scene::Scene& scene, const Prepared& prepared, std::vector<std::string>& notes);
 
 /// Model without radiation and excitation, which the frequency domain takes from `prepared.groups`. About: small
 /// motions. \throws hydro::InputError if they are about the bodies as placed and these are not in equilibrium there
@@ -88,8 +91,9 @@ struct RunWater {
   std::size_t table_bytes = 0;                           ///< of the table around members; 0 if waves are summed
 };
 
-/// The sea of a run whose answer is linear in it. \throws hydro::InputError where the waves are no sum of linear ones
-hydro::waves::Sea sea_of_run(const scene::Scene& scene, const Prepared& prepared);
+/// The sea of a run whose answer is linear in it; `notes` are told what coefficients of another depth leave wrong in
+/// it. \throws hydro::InputError where the waves are no sum of linear ones
+hydro::waves::Sea sea_of_run(const scene::Scene& scene, const Prepared& prepared, std::vector<std::string>& notes);
 
 /// Everything that a run needs.
 struct TimeModel {

@@ -125,7 +125,7 @@ std::vector<dynamics::Pto> ptos(const Scene& scene, const Prepared& p) {
       if (s.stops->lower) law.lower = dynamics::EndStop{*s.stops->lower, s.stops->stiffness, s.stops->damping};
       if (s.stops->upper) law.upper = dynamics::EndStop{*s.stops->upper, s.stops->stiffness, s.stops->damping};
     }
-    out.push_back({dynamics::Travel(p.bodies, p.joints[j]), law, p.joint_sign[j]});
+    out.push_back({dynamics::Travel(p.bodies, p.joints[j], static_cast<int>(j)), law, p.joint_sign[j]});
   }
   return out;
 }

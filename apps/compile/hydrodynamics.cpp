@@ -44,17 +44,14 @@ Coefficients read(const Scene& scene, const Hydrodynamics& h) {
   }
 }
 
-/// Density, gravity and depth of the data must be those of the scene; a file that states none was read with the
-/// scene's.
+/// Density and gravity of the data must be those of the scene; a file that states none was read with the scene's.
 void require_same_water(const Scene& scene, const Coefficients& data, const hydro::Place& place) {
   const auto differs = [](double a, double b) { return a != b && !(std::abs(a - b) <= 1e-3 * std::abs(b)); };
   const auto& w = scene.water;
-  if (differs(data.water.density, w.density) || differs(data.water.gravity, w.gravity) ||
-      differs(data.water.depth.metres(), w.depth.metres()))
-    throw InputError(fmt::format("the coefficients are for ρ = {:.6g} kg/m³, g = {:.6g} m/s², depth {:.6g} m; the "
-                                 "scene has {:.6g}, {:.6g}, {:.6g}",
-                                 data.water.density, data.water.gravity, data.water.depth.metres(), w.density,
-                                 w.gravity, w.depth.metres()),
+  if (differs(data.water.density, w.density) || differs(data.water.gravity, w.gravity))
+    throw InputError(fmt::format("the coefficients are for ρ = {:.6g} kg/m³ and g = {:.6g} m/s²; the scene has {:.6g} "
+                                 "and {:.6g}",
+                                 data.water.density, data.water.gravity, w.density, w.gravity),
                      place, "make [water] agree with the data, or compute the coefficients for this water");
 }
 
@@ -165,6 +162,28 @@ void examine(const Scene& scene, const Use& use, std::vector<std::string>& notes
   if (warnings > 0)
     notes.push_back(fmt::format("{}: the doctor warns of {} thing{}: `froude bem check` tells", file, warnings,
                                 warnings == 1 ? "" : "s"));
+}
+
+/// What the data's depth leaves wrong in the scene's, if they differ. From here on waves have the scene's length, so
+/// that those that arrive at bodies elsewhere are those of its sea.
+void take_depth(const Scene& scene, Use& use, std::vector<OtherDepth>& other_depths) {
+  const Hydrodynamics& h = hydrodynamics(scene, use.bodies.front());
+  if (!are_apart(use.data.water.depth, scene.water.depth)) return;
+  if (h.radiation || h.excitation) {
+    // Copies of the one body of a file do not feel each other: each is as the first.
+    const std::size_t count = use.data.bodies() == 1 ? 1 : use.bodies.size();
+    const Coefficients taken = hydro::potential::select(
+        use.data, std::vector(use.file_body.begin(), use.file_body.begin() + static_cast<std::ptrdiff_t>(count)));
+    std::vector<double> volumes;
+    std::vector<Eigen::Vector3d> places;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto& body = scene.bodies[static_cast<std::size_t>(use.bodies[i])];
+      volumes.push_back(taken.body[i].displaced_volume.value_or(body.mass / scene.water.density));
+      places.push_back(body.position);
+    }
+    other_depths.push_back(other_depth(scene, taken, volumes, places, h.file.place));
+  }
+  use.data.water.depth = scene.water.depth;
 }
 
 /// Bodies that radiate onto each other: all of a use, or each by itself if the file has one body or the scene wants no
@@ -356,8 +375,9 @@ void suppress(const Scene& scene, Coefficients& about_centres, const std::vector
 }  // namespace
 
 void add_hydrodynamics(const Scene& scene, Prepared& prepared) {
-  for (const Use& use : uses(scene)) {
+  for (Use& use : uses(scene)) {
     examine(scene, use, prepared.notes);
+    take_depth(scene, use, prepared.other_depths);
     for (const auto& note : use.data.notes) prepared.notes.push_back(note);
     for (const auto& set : interacting(scene, use)) {
       std::vector<int> bodies, of_file;
@@ -380,7 +400,9 @@ void add_hydrodynamics(const Scene& scene, Prepared& prepared) {
   }
 }
 
-void check_headings(const Scene& scene, const Prepared& prepared) {
+void check_waves_of_rao(const Scene& scene, const Prepared& prepared, std::vector<std::string>& notes) {
+  const double lowest = *std::min_element(scene.rao->omega.begin(), scene.rao->omega.end());
+  note_other_depths(scene, prepared, {{lowest, 1, "the longest waves asked for"}}, notes);
   for (const auto& group : prepared.groups) {
     if (!group.excitation) continue;
     for (const double heading : scene.rao->headings) {

@@ -199,6 +199,14 @@ Eigen::Vector3d reached(const scene::Line& l) {
                                                                   : l.release->at;
 }
 
+std::string brought(const scene::Line& l) {
+  constexpr double digits = 1e-6;  // of the way: not worth telling
+  const double by = (reached(l) - l.release->at).norm();
+  return by > digits * (l.release->at - l.from).norm()
+             ? fmt::format("the place of its release was brought by {:.2g} m to where its links reach", by)
+             : "";
+}
+
 std::shared_ptr<const hydro::waves::WaveField> without_waves(const Scene& scene) {
   return std::make_shared<hydro::waves::HarmonicField>(std::vector<hydro::waves::Harmonic>{}, scene.water,
                                                        hydro::waves::HarmonicField::Options{}, scene.current);
@@ -395,6 +403,7 @@ LineModel free_model(const Scene& scene, const std::vector<std::size_t>& network
               .settings = {.scheme = dl::parse_scheme(scene.solve.line_scheme),
                            .rho_infinity = scene.solve.rho_infinity,
                            .gamma = scene.solve.gamma}};
+  if (const scene::Line& l = scene.chains[network.front()]; l.release) m.parts.front().released = brought(l);
   for (const std::size_t i : network)
     if (scene.chains[i].lyapunov) m.lyapunov = scene.chains[i].lyapunov;
   if (m.lyapunov) ask_for_neighbours(scene, m);
@@ -546,7 +555,7 @@ void LineRun::look() {
   for (int j = 0; j < model_.line->segments(); ++j) {
     Angles& a = angles_[static_cast<std::size_t>(j)];
     const int node = model_.line->first(j);
-    const dl::LinkAngles now = first ? dl::link_angles(state(), node) : dl::link_angles(state(), node, a);
+    const dl::LinkAngles now = first ? dl::first_link_angles(state(), node) : dl::link_angles(state(), node, a);
     const dl::LinkAngles rate = dl::link_rates(state(), node, now);
     a = {{now.polar, now.azimuth}, rate.polar, rate.azimuth};
   }

@@ -27,6 +27,8 @@ struct LineModel {
     std::optional<scene::Line::Snaps> snaps = {};
     /// Which coefficients its segments took from a table, for people; empty where they were given.
     std::string coefficients = {};
+    /// How far the place of its release was brought to where its links reach, for people; empty if it was not.
+    std::string released = {};
   };
   struct Knot {
     std::string name;

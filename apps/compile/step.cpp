@@ -103,7 +103,8 @@ Mover fastest_mover(const Scene& scene, const Prepared& p) {
       compare({omega, fmt::format("waves of {:.4g} s, the shortest that matter", 2 * std::numbers::pi / omega)});
   if (p.bodies.empty()) return out;
   const dynamics::Model model = model_of_springs(p);
-  const dynamics::State start = placed_state(scene, p, model);
+  std::vector<std::string> told_with_the_run;
+  const dynamics::State start = placed_state(scene, p, model, told_with_the_run);
   compare(own_motion(p, dynamics::rest_state(p.bodies)));
   compare(own_motion(p, start));
   compare(turning(p, start));

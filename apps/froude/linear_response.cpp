@@ -194,9 +194,9 @@ const ComplexSignal& Responses::signal(const std::string& name) const {
 Responses respond(const scene::Scene& scene) { return respond(scene, compile::prepare(scene)); }
 
 Responses respond(const scene::Scene& scene, const compile::Prepared& prepared) {
-  compile::check_headings(scene, prepared);
-  const dynamics::Model model = compile::frequency_model(prepared, scene.rao->about);
   Responses out{scene.rao->omega, scene.rao->headings, {}, prepared.notes};
+  compile::check_waves_of_rao(scene, prepared, out.notes);
+  const dynamics::Model model = compile::frequency_model(prepared, scene.rao->about);
   const SmallMotions about = compile::small_motions(model, scene.rao->about, out.notes);
   for (const std::string& effect : left_out_of_linear_responses(scene, scene.rao->drag.has_value()))
     out.notes.push_back(effect);
@@ -217,7 +217,9 @@ Record steady_run(const scene::Scene& scene) {
   const compile::Prepared prepared = compile::prepare(scene);
   const dynamics::Model model = compile::frequency_model(prepared);
   const SmallMotions about(model);
-  const hydro::waves::Sea sea = compile::sea_of_run(scene, prepared);
+  Record record;
+  record.notes = prepared.notes;
+  const hydro::waves::Sea sea = compile::sea_of_run(scene, prepared, record.notes);
   auto all = compile::rao_probes(scene, prepared, about);
   std::vector<std::string> names{"wave.elevation"};
   for (const auto& p : all) names.push_back(p.name);
@@ -226,7 +228,6 @@ Record steady_run(const scene::Scene& scene) {
   Eigen::MatrixXcd amplitudes = transfer(prepared, about, all, sea);
   for (Eigen::Index c = 0; c < amplitudes.cols(); ++c)
     amplitudes.col(c) *= compile::elevation_at_origin(sea.components()[static_cast<std::size_t>(c)]);
-  Record record;
   const auto samples = static_cast<std::size_t>(std::llround(scene.run->duration / scene.run->every)) + 1;
   const auto series = hydro::waves::synthesise(sea, {scene.run->every, samples}, amplitudes).series;
   for (std::size_t i = 0; i < samples; ++i) record.time.push_back(static_cast<double>(i) * scene.run->every);
@@ -247,7 +248,6 @@ Record steady_run(const scene::Scene& scene) {
     add("wave.elevation", "m", "elevation of the undisturbed wave at the origin",
         [&](Eigen::Index i) { return elevation(i, 0); });
   }
-  record.notes = prepared.notes;
   record.notes.push_back(fmt::format("answered without stepping: {} transfer functions at the {} components of the sea",
                                      all.size(), sea.components().size()));
   record.step = scene.run->every;

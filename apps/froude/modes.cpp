@@ -171,6 +171,7 @@ void modes(const SceneArguments& arguments, const Console& console) {
   const dynamics::Model model = compile::frequency_model(prepared, scene.ask_modes->about);
   const SmallMotions about = compile::small_motions(model, scene.ask_modes->about, prepared.notes);
   const ModeList all = dynamics::frequency::free_motions(about, prepared.groups);
+  compile::note_other_depths(scene, prepared, compile::used_by(all), prepared.notes);
   const std::vector<Mode> shown = wanted(all, *scene.ask_modes);
   if (shown.empty())
     throw hydro::InputError(fmt::format("none of the {} free motions has a period from {} to {} s", all.modes.size(),

@@ -49,8 +49,8 @@ struct Section {
   std::vector<PlanLine> lines;
 };
 
-Section plan_rao(const scene::Scene& scene, const compile::Prepared& p) {
-  compile::check_headings(scene, p);
+Section plan_rao(const scene::Scene& scene, const compile::Prepared& p, std::vector<std::string>& notes) {
+  compile::check_waves_of_rao(scene, p, notes);
   const std::size_t headings = scene.rao->headings.size();
   Section s{fmt::format("rao: {} frequencies{}, {} unknowns, complex dense solves", scene.rao->omega.size(),
                         headings == 1 ? "" : fmt::format(", {} headings", headings), 6 * p.bodies.size()),
@@ -101,8 +101,8 @@ std::string integrator_text(const scene::Solve& solve) {
   return solve.tolerance ? fmt::format("{} with steps cut to a tolerance of {:.3g}", name, *solve.tolerance) : name;
 }
 
-Section plan_steady(const scene::Scene& scene, const compile::Prepared& p) {
-  const auto sea = compile::sea_of_run(scene, p);
+Section plan_steady(const scene::Scene& scene, const compile::Prepared& p, std::vector<std::string>& notes) {
+  const auto sea = compile::sea_of_run(scene, p, notes);
   return {
       fmt::format("run: answered without stepping, {} unknowns", 6 * p.bodies.size()),
       {{"waves", "transfer functions of all signals × the sea, by Fourier transform where it repeats",
@@ -112,9 +112,9 @@ Section plan_steady(const scene::Scene& scene, const compile::Prepared& p) {
 }
 
 Section plan_run(const scene::Scene& scene, const compile::Prepared& p, std::vector<std::string>& notes) {
-  if (scene.run->steady) return plan_steady(scene, p);
+  if (scene.run->steady) return plan_steady(scene, p, notes);
   compile::TimeModel m = compile::time_model(scene, p);
-  notes = m.notes;
+  notes.insert(notes.end(), m.notes.begin() + std::ssize(p.notes), m.notes.end());  // those of `p` it begins with
   const bool sparse = dynamics::BlockSolver(m.model.pattern()).is_sparse();
   const std::string title = fmt::format("run: {} steps of {:.4g} s", m.steps, m.step);
   compile::make_integrator(scene.solve, m.model);  // tells now what it could not step
@@ -192,9 +192,9 @@ void plan(const SceneArguments& arguments, const Console& console) {
                    "them with `froude bem solve`, name the file in the scene, and plan again"});
   }
   const compile::Prepared prepared = compile::prepare(scene);
-  if (scene.rao) sections.push_back(plan_rao(scene, prepared));
-  if (scene.ask_modes) sections.push_back(plan_modes(prepared));
   std::vector<std::string> notes = prepared.notes;
+  if (scene.rao) sections.push_back(plan_rao(scene, prepared, notes));
+  if (scene.ask_modes) sections.push_back(plan_modes(prepared));
   if (scene.run) sections.push_back(plan_run(scene, prepared, notes));
   if (scene.ask_waves) sections.push_back(plan_waves(scene));
   if (scene.bodies.empty()) return tell(console, sections, notes);

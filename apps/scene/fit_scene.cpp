@@ -333,6 +333,9 @@ FitScene::Model read_model(const Record& model, const Record& channels) {
   if (out.kind == "motion") return out;
   if (out.kind == "decay" || out.kind == "radiation") {
     out.sine = out.kind == "decay" && model.text("restoring") == "sine";
+    if (out.sine && channels.has("position"))
+      throw model.wrong("restoring", "is by the sine of an angle, and the channel position is a length",
+                        "name the channel angle, or take restoring = \"linear\"");
     out.starts_empty = out.kind == "decay" && model.has("start") && model.text("start") == "let go from rest";
     out.body = read_body(model, channels.has("angle"));
     if (out.kind == "decay" && out.body && !(out.body->stiffness > 0))

@@ -62,7 +62,9 @@ const Table& connector_switch() {
       .meaning = "sets the stiffness by the period that dominates a motion, once two checks in turn agree",
       .keys = {text("watch", "a motion, like \"m2.surge\""),
                quantity("every", dim::time, "from one check to the next").positive(),
-               quantity("window", dim::time, "of the motion that a check looks at; some periods").positive(),
+               quantity("window", dim::time,
+                        "of the motion that a check looks at; some periods; the first check is when it is full")
+                   .positive(),
                quantity("hysteresis", dim::angular_velocity,
                         "by which the frequencies of two checks in turn may differ: \"0.001 Hz\"")
                    .positive(),

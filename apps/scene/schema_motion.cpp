@@ -224,13 +224,17 @@ const Table& buoyancy() {
 }
 
 const Table& initial() {
-  static const Table table = at_least_one_of("[body.initial]", "displacement from rest at t = 0, of the body's origin",
+  static const Table table = at_least_one_of("[body.initial]",
+                                             "displacement from rest at t = 0, of the body's origin; turned by yaw "
+                                             "first, then pitch, then roll, as records tell it",
                                              keys_of_modes(dim::none, "displacement"));
   return table;
 }
 
 const Table& initial_velocity() {
-  static const Table table = at_least_one_of("[body.initial_velocity]", "velocity at t = 0, of the body's origin",
+  static const Table table = at_least_one_of("[body.initial_velocity]",
+                                             "velocity at t = 0, of the body's origin; angular velocity along global "
+                                             "axes",
                                              keys_of_modes(dim::time, "velocity"));
   return table;
 }

@@ -50,6 +50,9 @@ std::optional<double> DominantPeriodController::sample(const State& state) {
   time_.erase(time_.begin(), old);
   if (time_.size() < 8) return {};
   next_check_ += law_.every;
+  // A sample stands for the step before it. What begins tells nothing of the period yet: there is no check.
+  const double span = time_.back() - time_.front(), looked_at = span + span / static_cast<double>(time_.size() - 1);
+  if (looked_at < law_.window * (1 - 1e-9)) return {};
   const double now = frequency();
   const bool steady = last_frequency_ && std::abs(now - *last_frequency_) <= law_.hysteresis && now > 0;
   last_frequency_ = now;

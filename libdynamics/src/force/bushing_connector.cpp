@@ -104,6 +104,13 @@ void BushingConnectorKind::add_jacobian(const Instant& now, JacobianSink& out) c
   }
 }
 
+std::string BushingConnectorKind::breaks_off(const State& before, const State& after) const {
+  for (const auto& e : elements_)
+    if (!e.rotational_stiffness.isZero(0) && jumps(strain(e, before).turn, strain(e, after).turn))
+      return "a bushing is wound by more than half a turn, where its law ends";
+  return {};
+}
+
 EnergyFlow BushingConnectorKind::energy(const Instant& now) const {
   EnergyFlow flow;
   for (const auto& e : elements_) {

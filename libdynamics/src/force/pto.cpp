@@ -1,8 +1,14 @@
 #include "dynamics/force/pto.hpp"
 
+#include "hydro/base/error.hpp"
 #include "travel_force.hpp"
 
 namespace dynamics {
+
+PtoKind::PtoKind(std::vector<Pto> elements) : elements_(std::move(elements)) {
+  for (const Pto& e : elements_)
+    hydro::ensure(e.travel.is_continuous(), "a take-off on a hinge whose turns are not counted: it would jump at ±π");
+}
 
 PtoState pto_state(const Pto& pto, const State& state) {
   const detail::TravelMotion m = detail::motion_of(pto.travel, state, pto.sign);

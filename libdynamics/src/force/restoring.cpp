@@ -1,5 +1,7 @@
 #include "dynamics/force/restoring.hpp"
 
+#include <fmt/format.h>
+
 #include "dynamics/spatial/rotation.hpp"
 
 namespace dynamics {
@@ -47,6 +49,17 @@ void RestoringKind::add_jacobian(const Instant& now, JacobianSink& out) const {
     K.bottomRightCorner<3, 3>() -= left_jacobian_inverse_transpose_derivative(phi, m) * G.bottomRightCorner<3, 3>();
     out.add(e.body, e.body, K, -e.damping);
   }
+}
+
+std::string RestoringKind::breaks_off(const State& before, const State& after) const {
+  for (const Restoring& e : elements_) {
+    if (e.stiffness.rightCols<3>().isZero(0) && e.moment.isZero(0)) continue;
+    const auto body = static_cast<std::size_t>(e.body);
+    if (jumps(rotation_log(before.pose[body].attitude), rotation_log(after.pose[body].attitude)))
+      return fmt::format("a body of \"{}\" has turned by more than half a turn from rest, where that law ends",
+                         effect_);
+  }
+  return {};
 }
 
 EnergyFlow RestoringKind::energy(const Instant& now) const {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/error.hpp"
 
 namespace dynamics {
@@ -29,7 +30,7 @@ Vector6 load_of(const TurningExcitation& e, double yaw, double t) {
 
 double yaw_of(const Pose& pose) {
   const Eigen::Vector3d ahead = pose.attitude * Eigen::Vector3d::UnitX();
-  return std::atan2(ahead.y(), ahead.x());
+  return nearest_turn(std::atan2(ahead.y(), ahead.x()), pose.counted.z());
 }
 
 SlowYaw::SlowYaw(const std::vector<TurningExcitation>& elements, const State& start)

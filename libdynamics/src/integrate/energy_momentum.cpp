@@ -11,7 +11,9 @@ Eigen::Quaterniond cayley(const Eigen::Vector3d& theta) {
 }
 
 State between(const State& a, const State& b) {
-  State out{(a.time + b.time) / 2, a.pose, (a.velocity + b.velocity) / 2};
+  State out = a;
+  out.time = (a.time + b.time) / 2;
+  out.velocity = (a.velocity + b.velocity) / 2;
   for (std::size_t i = 0; i < out.pose.size(); ++i) {
     out.pose[i].centre = (a.pose[i].centre + b.pose[i].centre) / 2;
     out.pose[i].attitude = a.pose[i].attitude.slerp(0.5, b.pose[i].attitude);
@@ -32,7 +34,9 @@ EnergyMomentum::EnergyMomentum(const Model& model) : NewtonIntegrator(model) { r
 // In body axes W₁ = W₀ + h R₀ᵀα, and the body turns by h(W₀ + W₁)/2 about itself.
 State EnergyMomentum::end_of_step(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration) const {
   const State& now = workspace.state;
-  State end{now.time + h, now.pose, now.velocity + h * acceleration};
+  State end = now;
+  end.time += h;
+  end.velocity += h * acceleration;
   for (std::size_t i = 0; i < now.pose.size(); ++i) {
     const auto row = 6 * static_cast<Eigen::Index>(i);
     const Eigen::Quaterniond& R = now.pose[i].attitude;

@@ -48,12 +48,9 @@ void Integrator::begin_anew(Workspace& workspace) {
 }
 
 State Integrator::displaced(const State& now, const Eigen::VectorXd& move, Eigen::VectorXd velocity, double h) const {
-  State next{now.time + h, std::vector<Pose>(now.pose.size()), std::move(velocity)};
-  for (std::size_t i = 0; i < now.pose.size(); ++i) {
-    const auto row = 6 * static_cast<Eigen::Index>(i);
-    next.pose[i].centre = now.pose[i].centre + move.segment<3>(row);
-    next.pose[i].attitude = (rotation_exp(move.segment<3>(row + 3)) * now.pose[i].attitude).normalized();
-  }
+  State next = moved(now, move);
+  next.time += h;
+  next.velocity = std::move(velocity);
   return next;
 }
 
@@ -77,6 +74,26 @@ bool Integrator::try_turned_step(Workspace& workspace, double h, StepReport& rep
 void Integrator::go_straight(Workspace& workspace, double h) const {
   const Eigen::VectorXd &v = workspace.state.velocity, &a = workspace.acceleration;
   workspace.state = displaced(workspace.state, h * v + h * h / 2 * a, v + h * a, h);
+  model_.joints().count_turns(workspace.state);
+}
+
+// Angles are counted on where a part of a step is done; what turns by half a turn or more in it cannot be.
+bool Integrator::try_counted_step(Workspace& workspace, double h, StepReport& report) {
+  const Snapshot before = snapshot(workspace);
+  if (!try_turned_step(workspace, h, report)) return false;
+  if (const auto hinge = model_.joints().turns_too_fast(workspace.state, h)) {
+    restore(workspace, before);
+    return fail(
+        fmt::format("hinge \"{}\" turns by more than half a turn in the step, so that its angle cannot be counted",
+                    model_.joints().joints()[static_cast<std::size_t>(*hinge)].name));
+  }
+  for (const auto& kind : model_.forces())
+    if (const std::string why = kind->breaks_off(before.state, workspace.state); !why.empty()) {
+      restore(workspace, before);
+      throw hydro::NumericsError(fmt::format("the run cannot go on from t = {:.6g} s: {}", before.state.time, why));
+    }
+  model_.joints().count_turns(workspace.state);
+  return true;
 }
 
 void Integrator::advance(Workspace& workspace, double h, StepReport& report) {
@@ -88,7 +105,7 @@ void Integrator::advance(Workspace& workspace, double h, StepReport& report) {
 
 void Integrator::advance_halving(Workspace& workspace, double h, int depth, StepReport& report) {
   if (h < 1e-6 * step_) return go_straight(workspace, h);
-  if (try_turned_step(workspace, h, report)) return;
+  if (try_counted_step(workspace, h, report)) return;
   if (depth == deepest_halving)
     throw hydro::NumericsError(fmt::format("the run cannot go on from t = {:.6g} s, even with a step of {:.3g} s: {}",
                                            workspace.state.time, h, failure_));

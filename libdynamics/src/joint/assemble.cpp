@@ -2,6 +2,10 @@
 
 #include <Eigen/QR>
 
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/joint/travel.hpp"
 #include "dynamics/spatial/rotation.hpp"
 
 namespace dynamics {
@@ -23,9 +27,11 @@ Eigen::VectorXd smallest_closing(const Model& model, const std::vector<bool>& he
 
 void close_joints(const Model& model, const std::vector<bool>& placed, State& state) {
   constexpr int steps = 50;  // quadratic once near; far away each step takes a part of a turn
+  double extent = 1;         // m
+  for (const Pose& pose : state.pose) extent = std::max(extent, pose.centre.cwiseAbs().maxCoeff());
   for (int i = 0; i < steps && model.joints().count() > 0; ++i) {
     const Eigen::VectorXd open = model.joints().values(state);
-    if (open.cwiseAbs().maxCoeff() < 1e-14) return;
+    if (open.cwiseAbs().maxCoeff() < 1e-14 * extent) return;
     const Eigen::VectorXd x = smallest_closing(model, placed, state, open);
     for (std::size_t b = 0; b < state.pose.size(); ++b) {
       const auto row = 6 * static_cast<Eigen::Index>(b);
@@ -40,6 +46,49 @@ void close_joint_velocities(const Model& model, const std::vector<bool>& given, 
   const Eigen::VectorXd apart =
       model.joints().times(model.joints().gradients(state), state.velocity) - model.joints().lead_rates(state.time);
   if (apart.cwiseAbs().maxCoeff() > 0) state.velocity += smallest_closing(model, given, state, apart);
+}
+
+namespace {
+
+constexpr double digits = 1e-6;  // six significant ones of a place, an angle or a speed are not taken for a mistake
+
+/// The farthest that a condition on places lies from the centres of its bodies, m.
+double reach(const ConditionLaw& what) {
+  const auto* point = std::get_if<PointCondition>(&what);
+  return point ? std::max(point->first_arm.norm(), point->second_arm.norm()) : 0;
+}
+
+bool is_of_angle(const ConditionLaw& what) {
+  if (const auto* led = std::get_if<LeadCondition>(&what)) return led->travel->turns();
+  return std::holds_alternative<AxesCondition>(what);
+}
+
+/// `off` and what is allowed of it, one a condition.
+std::optional<Misfit> worst(const JointSet& joints, const Eigen::VectorXd& off, const Eigen::VectorXd& allowed) {
+  if (joints.count() == 0) return std::nullopt;
+  Eigen::Index i = 0;
+  off.cwiseAbs().cwiseQuotient(allowed).maxCoeff(&i);
+  const Condition& c = joints.conditions()[static_cast<std::size_t>(i)];
+  return Misfit{c.joint, std::abs(off[i]), is_of_angle(c.what), allowed[i]};
+}
+
+}  // namespace
+
+std::optional<Misfit> worst_misfit(const Model& model, const State& state) {
+  const JointSet& joints = model.joints();
+  Eigen::VectorXd allowed(joints.count());
+  for (Eigen::Index i = 0; i < joints.count(); ++i)
+    allowed[i] = digits * std::max(1.0, reach(joints.conditions()[static_cast<std::size_t>(i)].what));
+  return worst(joints, joints.values(state), allowed);
+}
+
+std::optional<Misfit> worst_misfit_of_velocities(const Model& model, const State& state) {
+  constexpr double least = 1e-12;  // per second: bodies that stand still leave no speed to compare with
+  const JointSet& joints = model.joints();
+  const auto G = joints.gradients(state);
+  const Eigen::VectorXd led = joints.lead_rates(state.time);
+  const Eigen::VectorXd speeds = joints.dense(G).cwiseAbs() * state.velocity.cwiseAbs() + led.cwiseAbs();
+  return worst(joints, joints.times(G, state.velocity) - led, (digits * speeds).cwiseMax(least));
 }
 
 }  // namespace dynamics

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "dynamics/joint/conditions.hpp"
 #include "dynamics/joint/travel.hpp"
@@ -294,9 +295,30 @@ JointSet::LoadVariation JointSet::load_variation(int joint, End end, const State
   return out;
 }
 
-double JointSet::travel(int joint, const State& state) const {
+Travel JointSet::travel_of(int joint) const {
   const auto& place = place_in_[static_cast<std::size_t>(joint)];
-  return Travel(joints_[static_cast<std::size_t>(joint)], place[0], place[1]).value(state);
+  return {joints_[static_cast<std::size_t>(joint)], place[0], place[1], joint};
+}
+
+double JointSet::travel(int joint, const State& state) const { return travel_of(joint).value(state); }
+
+// (D130)
+void JointSet::count_turns(State& state) const {
+  for (Pose& pose : state.pose) pose.counted = pose.roll_pitch_yaw();
+  state.hinge_angle.resize(joints_.size(), 0);
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    if (joints_[j].kind != JointKind::hinge) continue;
+    if (joints_[j].lead) state.hinge_angle[j] = joints_[j].lead(state.time).travel;
+    state.hinge_angle[j] = travel(static_cast<int>(j), state);
+  }
+}
+
+std::optional<int> JointSet::turns_too_fast(const State& state, double h) const {
+  for (int j = 0; j < std::ssize(joints_); ++j)
+    if (joints_[static_cast<std::size_t>(j)].kind == JointKind::hinge &&
+        std::abs(travel_of(j).rate(state)) * h >= std::numbers::pi)
+      return j;
+  return std::nullopt;
 }
 
 }  // namespace dynamics

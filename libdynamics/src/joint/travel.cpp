@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/error.hpp"
 
 namespace dynamics {
@@ -17,8 +18,9 @@ Vector12 joined(const Gradient& g) {
 
 }  // namespace
 
-Travel::Travel(const Joint& joint, const Eigen::Vector3d& first_arm, const Eigen::Vector3d& second_arm)
-    : first_(joint.first), second_(joint.second), turns_(joint.kind == JointKind::hinge) {
+Travel::Travel(const Joint& joint, const Eigen::Vector3d& first_arm, const Eigen::Vector3d& second_arm,
+               std::optional<int> counted_as)
+    : first_(joint.first), second_(joint.second), turns_(joint.kind == JointKind::hinge), counted_as_(counted_as) {
   hydro::ensure(turns_ || joint.kind == JointKind::slider, "travel of a joint that is neither slider nor hinge");
   const Eigen::Matrix3d frame = frame_of(joint);
   along_ = {first_arm, second_arm, frame.col(0), true};
@@ -26,14 +28,23 @@ Travel::Travel(const Joint& joint, const Eigen::Vector3d& first_arm, const Eigen
   sine_ = {frame.col(2), frame.col(1)};
 }
 
-Travel::Travel(const std::vector<RigidBody>& bodies, const Joint& joint)
+Travel::Travel(const std::vector<RigidBody>& bodies, const Joint& joint, std::optional<int> counted_as)
     : Travel(joint, joint.place - bodies[static_cast<std::size_t>(joint.first)].rest_centre(),
              joint.second ? Eigen::Vector3d(joint.place - bodies[static_cast<std::size_t>(*joint.second)].rest_centre())
-                          : joint.place) {}
+                          : joint.place,
+             counted_as) {}
 
 double Travel::value(const ConditionEnds& at) const {
   if (!turns_) return dynamics::value(along_, at);
   return std::atan2(dynamics::value(sine_, at), dynamics::value(cosine_, at));
+}
+
+// (D130)
+double Travel::value(const State& state) const {
+  const double within = value(ends(state));
+  if (!turns_ || !counted_as_) return within;
+  const auto j = static_cast<std::size_t>(*counted_as_);
+  return nearest_turn(within, j < state.hinge_angle.size() ? state.hinge_angle[j] : 0);
 }
 
 Gradient Travel::gradient(const ConditionEnds& at) const {

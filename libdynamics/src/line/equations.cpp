@@ -227,7 +227,8 @@ void Equations::keep_held() {
 /// Held nodes keep what they have; then solves for the corrections.
 bool Equations::solve_linear(Places& du, VectorXd& dT) {
   for (int c = 0; c < line_.chains(); ++c) rhs_[4 * line_.first_of_chain(c)] = 0;
-  for (int j = 0; j < line_.segments(); ++j) rhs_[tension_index(j)] = -scale_ * law_[j];
+  for (int j = 0; j < line_.segments(); ++j)
+    rhs_[tension_index(j)] = std::abs(law_[j]) > met_ || !line_.segment(j).keeps_length() ? -scale_ * law_[j] : 0;
   for (int i = 0; i < line_.nodes(); ++i) {
     rhs_.segment<3>(place_index(i)) = -residual_.col(i);
     if (line_.held(i) != nullptr) rhs_.segment<3>(place_index(i)).setZero();
@@ -280,6 +281,8 @@ Equations::Outcome Equations::solve(const Stage& stage, const State& before, dou
     u.col(h.node) = h.path ? (h.path->at(stage.end).position - before.position.col(h.node)).eval() : Vector3d::Zero();
   const double extent = before.position.cwiseAbs().maxCoeff(), rounding = stage.rounding * extent;
   const double balanced = 4e-16 * extent * std::sqrt(static_cast<double>(rhs_.size()));  // all that doubles can tell
+  // At rest a straight line between two places has a length that nothing can change: its rounding asks for no tension.
+  met_ = stage.still ? 4e-16 * extent : 0;
   Correction by{Places(3, line_.nodes()), VectorXd(line_.segments())};
   Outcome out;
   out.size = assemble(stage, before, u, T, true);

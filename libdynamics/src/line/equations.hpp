@@ -144,6 +144,7 @@ class Equations {
   std::vector<Sag> sag_;                // each segment
   Eigen::Matrix2Xd friction_, strain_;  // on each node, N, and what the bed has given way under it, m; empty without
   double scale_ = 1;                    // what makes newtons and metres comparable, N/m
+  double met_ = 0;                      // m: what is left of a kept length and asks for no correction
 };
 
 }  // namespace dynamics::line

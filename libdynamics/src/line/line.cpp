@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/error.hpp"
 
 namespace dynamics::line {
@@ -192,27 +193,34 @@ LinkAngles link_angles(const State& state, int first) {
   return {std::atan2(-d.z(), level), level > 0 ? std::atan2(d.y(), d.x()) : 0};
 }
 
+LinkAngles first_link_angles(const State& state, int first) {
+  constexpr double quarter = std::numbers::pi / 2, rounding = 1e-9;
+  const LinkAngles one = link_angles(state, first);
+  if (std::abs(one.azimuth) <= quarter + rounding) return one;
+  return link_angles(state, first, {one.polar > -rounding ? 2 * quarter : -2 * quarter, 0});
+}
+
 LinkAngles link_angles(const State& state, int first, const LinkAngles& before) {
   constexpr double pi = std::numbers::pi;
-  const auto near = [](double angle, double to) { return angle + 2 * pi * std::round((to - angle) / (2 * pi)); };
   const auto distance = [&](const LinkAngles& a) {
     return std::hypot(a.polar - before.polar, a.azimuth - before.azimuth);
   };
-  const LinkAngles one = link_angles(state, first);
-  const LinkAngles same{near(one.polar, before.polar), near(one.azimuth, before.azimuth)},
-      other{near(pi - one.polar, before.polar), near(one.azimuth + pi, before.azimuth)};
+  LinkAngles one = link_angles(state, first);
+  constexpr double vertical = 1e-10;  // rounding is all that is left of the azimuth
+  if (std::cos(one.polar) < vertical) one.azimuth = before.azimuth;
+  const LinkAngles same{nearest_turn(one.polar, before.polar), nearest_turn(one.azimuth, before.azimuth)},
+      other{nearest_turn(pi - one.polar, before.polar), nearest_turn(one.azimuth + pi, before.azimuth)};
   return distance(same) <= distance(other) ? same : other;
 }
 
 LinkAngles link_rates(const State& state, int first, const LinkAngles& now) {
   const Eigen::Vector3d d = state.position.col(first + 1) - state.position.col(first),
                         v = state.velocity.col(first + 1) - state.velocity.col(first);
-  const double level = std::hypot(d.x(), d.y());
-  if (level == 0) return {0, 0};
-  const double level_rate = (d.x() * v.x() + d.y() * v.y()) / level;
-  const double polar_rate = (d.z() * level_rate - level * v.z()) / d.squaredNorm();
-  // On the branch (π − θ, φ + π) the polar angle runs the other way.
-  return {std::cos(now.polar) < 0 ? -polar_rate : polar_rate, (d.x() * v.y() - d.y() * v.x()) / (level * level)};
+  // Along the azimuth and across it; on the branch (π − θ, φ + π) the link goes against it.
+  const double c = std::cos(now.azimuth), s = std::sin(now.azimuth);
+  const double along = c * d.x() + s * d.y();
+  const double polar_rate = (d.z() * (c * v.x() + s * v.y()) - along * v.z()) / d.squaredNorm();
+  return {polar_rate, along != 0 ? (c * v.y() - s * v.x()) / along : 0};
 }
 
 }  // namespace dynamics::line

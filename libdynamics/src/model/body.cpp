@@ -32,6 +32,8 @@ Vector6 Pose::displacement(const RigidBody& body) const {
   return d;
 }
 
+Eigen::Vector3d Pose::roll_pitch_yaw() const { return dynamics::roll_pitch_yaw(attitude, counted); }
+
 Vec3<World> Pose::point(const RigidBody& body, const Vec3<BodyAxes>& from_origin) const {
   const Rotation<World, BodyAxes> R{attitude.toRotationMatrix()};
   return Vec3<World>{centre} + R * (from_origin - body.properties().centre_of_gravity);
@@ -49,7 +51,7 @@ State moved(State state, const Eigen::VectorXd& displacement) {
 
 State rest_state(const std::vector<RigidBody>& bodies) {
   State state;
-  for (const RigidBody& body : bodies) state.pose.push_back({body.rest_centre(), Eigen::Quaterniond::Identity()});
+  for (const RigidBody& body : bodies) state.pose.push_back({.centre = body.rest_centre()});
   state.velocity = Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(bodies.size()));
   return state;
 }

@@ -58,6 +58,7 @@ double allowed(const Eigen::VectorXd& move) { return std::min(1.0, longest(move)
 State displaced(const Model& model, const State& from, const Eigen::VectorXd& move) {
   State out = moved(from, move);
   close_joints(model, std::vector<bool>(out.pose.size(), false), out);
+  model.joints().count_turns(out);
   return out;
 }
 

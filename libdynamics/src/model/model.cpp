@@ -206,6 +206,7 @@ Workspace::Workspace(const Model& model, State start)
       evaluations(model.forces().size(), 0),
       matrix(model.pattern()),
       solver(model.pattern(), model.joints()) {
+  model.joints().count_turns(state);
   for (const auto& kind : model.forces()) memory.push_back(kind->make_memory(state));
 }
 

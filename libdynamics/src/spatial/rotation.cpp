@@ -1,6 +1,7 @@
 #include "dynamics/spatial/rotation.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace dynamics {
 namespace {
@@ -27,6 +28,36 @@ Eigen::Vector3d rotation_log(const Eigen::Quaterniond& q) {
   const double per_sine = s < small_angle ? 2 / std::abs(q.w()) * (1 - s * s / (3 * q.w() * q.w()))
                                           : 2 * std::atan2(s, std::abs(q.w())) / s;
   return sign * per_sine * q.vec();
+}
+
+Eigen::Quaterniond attitude_of(const Eigen::Vector3d& roll_pitch_yaw) {
+  using Eigen::AngleAxisd, Eigen::Vector3d;
+  return AngleAxisd(roll_pitch_yaw.z(), Vector3d::UnitZ()) * AngleAxisd(roll_pitch_yaw.y(), Vector3d::UnitY()) *
+         AngleAxisd(roll_pitch_yaw.x(), Vector3d::UnitX());
+}
+
+double nearest_turn(double angle, double near) {
+  constexpr double turn = 2 * std::numbers::pi;
+  return angle + turn * std::round((near - angle) / turn);
+}
+
+// (D130)
+Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& q, const Eigen::Vector3d& near) {
+  constexpr double pi = std::numbers::pi, locked = 1e-7;  // rounding in q is 1e-9 in angles there
+  const Eigen::Matrix3d R = q.toRotationMatrix();
+  const double cosine = std::hypot(R(2, 1), R(2, 2));
+  Eigen::Vector3d angles(std::atan2(R(2, 1), R(2, 2)), std::atan2(-R(2, 0), cosine), std::atan2(R(1, 0), R(0, 0)));
+  if (cosine < locked) {
+    const double up = R(2, 0) > 0 ? -1 : 1;
+    const double gone = std::remainder(std::atan2(up * R(0, 1), R(1, 1)) - (near.x() - up * near.z()), 2 * pi);
+    angles.x() = near.x() + gone / 2;
+    angles.z() = near.z() - up * gone / 2;
+  }
+  const auto turned = [&](const Eigen::Vector3d& a) {
+    return Eigen::Vector3d(nearest_turn(a.x(), near.x()), nearest_turn(a.y(), near.y()), nearest_turn(a.z(), near.z()));
+  };
+  const Eigen::Vector3d same = turned(angles), other = turned({angles.x() + pi, pi - angles.y(), angles.z() + pi});
+  return (same - near).squaredNorm() <= (other - near).squaredNorm() ? same : other;
 }
 
 Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& phi) {

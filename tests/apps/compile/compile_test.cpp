@@ -110,8 +110,10 @@ TEST(Compile, RefusesDataOfAnotherDepth) {
   std::string text =
       water + waves + module_text("m", "(0, 0, 0) m", "file = \"pontoon1.nc\"\nexcitation = true") + run_ask;
   text.replace(text.find("14 m"), 4, "20 m");
-  EXPECT_THAT([&] { compile::prepare(parse(text)); },
-              ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("depth 14 m"), HasSubstr("[water]"))));
+  const auto scene = parse(text);
+  EXPECT_THAT([&] { compile::time_model(scene, compile::prepare(scene)); },
+              ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("for 14 m of water in 20 m of water"),
+                                                     HasSubstr("compute the coefficients for 20 m"))));
 }
 
 TEST(Compile, RefusesBodiesThatStandElsewhereThanInTheData) {

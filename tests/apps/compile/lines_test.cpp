@@ -69,6 +69,29 @@ TEST(Lines, AreLetGoFromWhereTheyAreHeld) {
   EXPECT_NEAR(record.signal("p.node1.x").back(), 0.01 * std::cos(2 * omega), 2e-5);  // (ωh)²/12 of 8 rad
 }
 
+// The place is brought to the length of the link, from which rounding, 1e-17 m, must not keep it.
+TEST(Lines, AreLetGoFromWhereverALinkReaches) {
+  for (int i = 1; i < 60; ++i) {
+    const double angle = 0.05 * i;
+    const auto record = simulate(
+        parse(water + "[[line]]\nname = \"p\"\nfrom = \"(0.3, 0.1, 2) m\"\n[[line.link]]\nlength = \"1.1 m\"\n" +
+              fmt::format("mass = \"2 kg\"\n[line.release]\nnode = 1\nat = \"({:.6f}, 0.1, {:.6f}) m\"\n",
+                          0.3 + 1.1 * std::cos(angle), 2 - 1.1 * std::sin(angle)) +
+              "[ask]\nrun = { duration = \"0.02 s\", every = \"0.01 s\" }\n"));
+    EXPECT_EQ(record.stopped, "") << angle;
+    EXPECT_NEAR(record.signal("p.link1.polar").front(), angle, 2e-6) << "not mirrored where the link goes towards -x";
+  }
+}
+
+TEST(Lines, TellWhereAPlaceOfReleaseWasBrought) {
+  const auto record = simulate(
+      parse(water +
+            "[[line]]\nname = \"p\"\nfrom = \"(0, 0, 0) m\"\n[[line.link]]\nlength = \"1 m\"\nmass = \"2 kg\"\n"
+            "[line.release]\nnode = 1\nat = \"(0.9995, 0, 0) m\"\n" +
+            ask));
+  EXPECT_THAT(record.notes, testing::Contains(testing::AllOf(HasSubstr("line p"), HasSubstr("0.0005 m"))));
+}
+
 TEST(Lines, FollowAPathAtTheirEnd) {
   const auto folder = std::filesystem::temp_directory_path() / "froude_lines_test";
   std::filesystem::create_directories(folder);

@@ -58,6 +58,23 @@ TEST(Restart, GoesOnWhereARunEnded) {
   }
 }
 
+TEST(Restart, KeepsTheTurnsOfAHinge) {
+  const std::string wound =
+      "[[body]]\nname = \"wheel\"\ncentre_of_gravity = \"(0, 0, 0) m\"\nmass = \"2 kg\"\n"
+      "radii_of_gyration = \"(0.5, 0.5, 0.5) m\"\ninitial = { pitch = \"400 deg\" }\n"
+      "[[joint]]\nname = \"hub\"\nkind = \"hinge\"\nbetween = [\"ground\", \"wheel\"]\nat = \"(0, 0, 0) m\"\n"
+      "axis = \"y\"\npto = { stiffness = \"0.1 N m/rad\" }\n";
+  Ready first(begin + wound + ask), second(begin + wound + ask);
+  compile::MovingState middle;
+  const Record before = first.run(20, &middle);
+  const compile::StateChart chart(second.model, middle);
+  compile::start_from(chart.at(second.model, Eigen::VectorXd::Zero(chart.coordinates())), second.model);
+  const Record after = second.run(20);
+  for (const char* name : {"hub.angle", "wheel.pitch", "hub.pto_moment"})
+    EXPECT_NEAR(after.signal(name).front(), before.signal(name).back(), 1e-12) << name;
+  EXPECT_GT(after.signal("hub.angle").front(), 6.9);
+}
+
 TEST(Restart, NumbersOfAStartKeepLengthsAndJoints) {
   Ready r(begin + chain + ask);
   const compile::MovingState middle = compile::start_of(r.model);

@@ -181,6 +181,9 @@ profile = true
   EXPECT_TRUE(scene.profile);
   EXPECT_THAT(refused(with(decay, "angle", "velocity")), HasSubstr("has no part in a fit of kind \"decay\""));
   EXPECT_THAT(refused(with(decay, ", angle = \"roll\"", "")), HasSubstr("needs either position or angle"));
+  EXPECT_THAT(refused(with(decay, "angle = \"roll\"", "position = \"z\"")),
+              AllOf(HasSubstr("restoring = \"sine\" is by the sine of an angle, and the channel position is a length"),
+                    HasSubstr(":7:"), HasSubstr("take restoring = \"linear\"")));
   EXPECT_THAT(refused(with(decay, "\"linear\"", "\"cd\"")), HasSubstr("a decay knows linear"));
   EXPECT_THAT(refused(with(decay, "[ask]", "[prepare]\ndelay = \"1 s\"\n[ask]")), HasSubstr("has no part"));
   EXPECT_THAT(refused(with(decay, "[ask]", "[prepare]\nderivative_method = \"smoothing spline\"\n[ask]")),
@@ -213,7 +216,8 @@ coefficients = ["memory", "quadratic"]
   EXPECT_THAT(refused(with(memory, "start = \"in motion\"\n", "")), HasSubstr("needs \"start\""));
   EXPECT_THAT(refused(with(memory, "\"memory\", ", "")), HasSubstr("does not act without a memory"));
   EXPECT_THAT(refused(with(memory, "quadratic", "coulomb")), HasSubstr("may not hold coulomb"));
-  EXPECT_THAT(refused(with(memory, "start", "restoring = \"sine\"\nstart")), HasSubstr("must be linear"));
+  EXPECT_THAT(refused(with(with(memory, "start", "restoring = \"sine\"\nstart"), "position", "angle")),
+              HasSubstr("must be linear"));
 }
 
 TEST_F(FitScenes, OfFrictionNeedATorqueOrAForce) {

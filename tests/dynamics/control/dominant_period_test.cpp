@@ -61,11 +61,21 @@ std::vector<std::pair<double, double>> settings_of(PeriodSwitching with, double 
 TEST(DominantPeriod, IsTakenOnceTwoChecksAgree) {
   const auto set = settings_of(law(), 7.5, 3.5, 600);
   ASSERT_EQ(set.size(), 2u) << "one for the first waves, one for the second";
-  EXPECT_NEAR(set[0].first, 50, 1e-9) << "the second check";
+  EXPECT_NEAR(set[0].first, 125, 1e-9) << "the second check of a window that is full";
   EXPECT_EQ(set[0].second, 3000);
   EXPECT_GT(set[1].first, 600);
   EXPECT_LE(set[1].first, 600 + 100 + 2 * 25) << "when the window is full of the new waves";
   EXPECT_EQ(set[1].second, 1000);
+}
+
+// A window that is not full shows a swing of 30 s as one of its own length, twice in turn.
+TEST(DominantPeriod, DecidesNothingBeforeItsWindowIsFull) {
+  PeriodSwitching with = law();
+  with.every = 1;
+  with.hysteresis = 1;
+  EXPECT_NEAR(settings_of(with, 7.5, 7.5, 0).at(0).first, 101, 1e-9) << "a check at 100 s, and one that agrees";
+  with.every = 300;
+  EXPECT_NEAR(settings_of(with, 7.5, 7.5, 0).at(0).first, 600, 1e-9) << "full at the first check already";
 }
 
 TEST(DominantPeriod, WaitsForTheDwellTime) {

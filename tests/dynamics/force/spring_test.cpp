@@ -88,14 +88,15 @@ TEST(ForceLaws, HoldForPowerTakeOffOnSlidersAndHinges) {
   for (const JointKind kind : {JointKind::slider, JointKind::hinge})
     for (const TravelLaw& law : {plain, bounded})
       laws::expect_force_laws(
-          PtoKind({{Travel(bodies, joint(kind)), law}, {Travel(bodies, joint(kind, std::nullopt)), law, -1}}), bodies);
+          PtoKind({{Travel(bodies, joint(kind), 0), law}, {Travel(bodies, joint(kind, std::nullopt), 1), law, -1}}),
+          bodies);
 }
 
 TEST(Pto, OfAHingeTurnsTheSecondBodyBackAndTheFirstForth) {
   State s = rest_state(bodies);
   s.pose[1].attitude = rotation_exp(0.1 * Eigen::Vector3d(0.2, 1, 0.4).normalized());
   const PtoKind kind(
-      {{Travel(bodies, joint(JointKind::hinge)), {.line = {.stiffness = 500}, .lower = {}, .upper = {}}}});
+      {{Travel(bodies, joint(JointKind::hinge), 0), {.line = {.stiffness = 500}, .lower = {}, .upper = {}}}});
   const Eigen::VectorXd F = laws::load(kind, s, nullptr);
   const Eigen::Vector3d moment = 50 * Eigen::Vector3d(0.2, 1, 0.4).normalized();
   EXPECT_LT((F.segment<3>(9) + moment).norm(), 1e-10);

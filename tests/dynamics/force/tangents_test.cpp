@@ -238,7 +238,7 @@ TEST(Tangents, OfPowerTakeOffFollowFromTheTravel) {
                       .upper = {}};
   for (const JointKind of : {JointKind::slider, JointKind::hinge})
     laws::expect_automatic_tangents_everywhere(
-        PtoKind({{Travel(bodies, joint(of)), law}}), bodies, [&](const JetBody& a, const JetBody& b, double) {
+        PtoKind({{Travel(bodies, joint(of), 0), law}}), bodies, [&](const JetBody& a, const JetBody& b, double) {
           return against_travel(joint(of), a, b, [](const Jet& x, const Jet& rate) {
             return 40.0 + 200.0 * x + 50.0 * x * x * x + 30.0 * rate + 12.0 * abs(rate) * rate;
           });
@@ -257,7 +257,7 @@ TEST(Tangents, OfPowerTakeOffKeepToItsLimitAndItsStops) {  // (D51), (D52)
   };
   for (const JointKind of : {JointKind::slider, JointKind::hinge})
     laws::expect_automatic_tangents_everywhere(
-        PtoKind({{Travel(bodies, joint(of)), law}}), bodies, [&](const JetBody& a, const JetBody& b, double) {
+        PtoKind({{Travel(bodies, joint(of), 0), law}}), bodies, [&](const JetBody& a, const JetBody& b, double) {
           return against_travel(joint(of), a, b, [&](const Jet& x, const Jet& rate) {
             const Jet T = 40.0 + 200.0 * x + 30.0 * rate;
             const Jet held = T.a > 150 ? Jet(150) : T.a < -150 ? Jet(-150) : T;

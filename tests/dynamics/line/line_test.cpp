@@ -95,6 +95,34 @@ TEST(LinkAngles, FollowALinkOverThePoleWithoutAJump) {
   }
 }
 
+// A link in the plane of x and z has one angle all the way round: 0 towards +x, π/2 straight down, π towards −x.
+TEST(LinkAngles, BeginAlikeForLinksOfOnePlane) {
+  constexpr double pi = std::numbers::pi;
+  const Line line(pendulums(1));
+  for (const double polar : {-3.0, -1.6, -0.5, 0.0, 0.5, 1.5, pi / 2, 1.6, 3.0, pi}) {
+    const LinkAngles found = first_link_angles(in_plane(line, {polar}), 0);
+    EXPECT_NEAR(found.polar, polar, 1e-13);
+    EXPECT_NEAR(found.azimuth, 0, 1e-13) << polar;
+  }
+  State s = in_plane(line, {0});
+  for (const double side : {1.0, -1.0})
+    for (const double noise : {1e-17, -1e-17}) {
+      s.position.col(1) = s.position.col(0) + Eigen::Vector3d(noise, side, -0.2);
+      EXPECT_NEAR(first_link_angles(s, 0).azimuth, side * pi / 2, 1e-13) << "across the plane";
+    }
+}
+
+TEST(LinkAngles, KeepTheAzimuthAndThePolarRateWhereTheLinkIsVertical) {
+  const Line line(pendulums(1));
+  State s = in_plane(line, {std::numbers::pi / 2});
+  const Eigen::Vector3d aside(std::cos(1.0), std::sin(1.0), 0);
+  s.position.col(1) = s.position.col(0) + Eigen::Vector3d(1e-17, 0, -2);
+  s.velocity.col(1) = s.velocity.col(0) - 3 * aside;  // 2 m and 3 m/s: 1.5 rad/s beyond straight down
+  const LinkAngles now = link_angles(s, 0, {1.5, 1.0});
+  EXPECT_EQ(now.azimuth, 1.0);
+  EXPECT_NEAR(link_rates(s, 0, now).polar, 1.5, 1e-12);
+}
+
 TEST(LinkAngles, HaveTheRatesOfTheirChange) {
   const Line line(pendulums(1));
   State s = in_plane(line, {0});

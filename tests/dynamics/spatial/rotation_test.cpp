@@ -60,5 +60,32 @@ TEST(Rotation, DerivativeOfTheTransposedInverseIsThatOfDifferences) {
     }
 }
 
+TEST(Rotation, AnglesOfAnAttitudeGiveItBack) {
+  for (const double yaw : {0.0, 1.0, -2.5})
+    for (const double roll : {0.0, -0.4, 3.0})
+      for (const double pitch :
+           {0.0, 1.2, std::numbers::pi / 2, -std::numbers::pi / 2, std::numbers::pi / 2 - 1e-9, 2.9})
+        for (const Vector3d& near : {Vector3d(0, 0, 0), Vector3d(roll, pitch, yaw), Vector3d(7, -8, 9)}) {
+          const Eigen::Quaterniond q = attitude_of({roll, pitch, yaw});
+          const Vector3d found = roll_pitch_yaw(q, near);
+          EXPECT_LT(q.angularDistance(attitude_of(found)), 1e-8) << "1e-9 from the pole roll and yaw are one angle";
+          const Vector3d given(roll, pitch, yaw);
+          EXPECT_LE((found - near).norm(), (given - near).norm() + 1e-7) << "given, or nearer: " << found.transpose();
+        }
+}
+
+TEST(Rotation, AnglesOfAnAttitudeRunOnThroughQuarterAndWholeTurns) {
+  const Vector3d held(0.3, 0, -0.7);
+  for (int mode = 0; mode < 3; ++mode) {
+    Vector3d last = held;
+    for (int i = 1; i <= 1000; ++i) {
+      Vector3d now = held;
+      now[mode] += 2 * std::numbers::pi * i / 100;  // meets the poles, and every quarter of ten turns
+      last = roll_pitch_yaw(attitude_of(now), last);
+      ASSERT_LT((last - now).norm(), 1e-9) << mode << " at " << now.transpose();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace rotation_test

@@ -26,7 +26,8 @@ struct PeriodSwitching {
 /// oscillation. 0 where nothing moves.
 double dominant_frequency(const std::vector<double>& values, double step_s);
 
-/// Checks every so often what period dominates, and takes its setting once two checks in turn agree.
+/// Checks every so often what period dominates, from when the window is full of motion, and takes its setting once two
+/// checks in turn agree.
 class DominantPeriodController final : public Controller {
  public:
   /// \throws hydro::InputError for times that are not positive, a window that holds no two checks' worth of samples,

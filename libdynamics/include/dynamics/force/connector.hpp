@@ -69,6 +69,8 @@ class BushingConnectorKind final : public ForceKind {
   void add_jacobian(const Instant& now, JacobianSink& out) const override;
   EnergyFlow energy(const Instant& now) const override;
   bool linear_at_rest() const override { return true; }
+  /// The rotation vector ends where one body has turned by half a turn against the other.
+  std::string breaks_off(const State& before, const State& after) const override;
   const std::vector<BushingConnector>& all() const { return elements_; }
 
  private:

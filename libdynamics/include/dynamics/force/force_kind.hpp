@@ -125,6 +125,9 @@ class ForceKind {
   /// from add_jacobian(). Excitation and radiation have their own place there; quadratic drag has none.
   virtual bool linear_at_rest() const { return false; }
 
+  /// Why this kind has no load for what happened between two states that follow each other; empty if it has.
+  virtual std::string breaks_off(const State& /*before*/, const State& /*after*/) const { return {}; }
+
   /// The set-valued laws of this kind, which an integrator must see; null if it has none.
   virtual const FrictionKind* friction() const { return nullptr; }
   virtual const ContactKind* contact() const { return nullptr; }

@@ -21,7 +21,8 @@ PtoState pto_state(const Pto& pto, const State& state);
 
 class PtoKind final : public ForceKind {
  public:
-  explicit PtoKind(std::vector<Pto> elements) : elements_(std::move(elements)) {}
+  /// Angles of hinges must be counted: see Travel.
+  explicit PtoKind(std::vector<Pto> elements);
   std::string effect() const override { return "pto"; }
   std::size_t elements() const override { return elements_.size(); }
   std::string method() const override { return "spring, damper, limit and end stops on the travel of a joint"; }

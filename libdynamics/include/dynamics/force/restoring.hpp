@@ -31,6 +31,8 @@ class RestoringKind final : public ForceKind {
   void add_jacobian(const Instant& now, JacobianSink& out) const override;
   EnergyFlow energy(const Instant& now) const override;
   bool linear_at_rest() const override { return true; }
+  /// The rotation vector ends at half a turn from rest: beyond it the moment would act the other way.
+  std::string breaks_off(const State& before, const State& after) const override;
 
  private:
   std::string effect_;

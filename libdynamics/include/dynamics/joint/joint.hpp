@@ -149,14 +149,21 @@ class JointSet {
   };
   LoadVariation load_variation(int joint, End end, const State& still, const Eigen::VectorXd& lambda) const;
   /// Where the joint lets its second body (or the ground) move against the first: the travel of a slider along the
-  /// axis, m, or the angle of a hinge about it, −π … π rad. Zero at rest. For sliders and hinges only.
+  /// axis, m, or the angle of a hinge about it, rad, whole turns counted (D130). Zero at rest. For sliders and hinges
+  /// only.
   double travel(int joint, const State& state) const;
+  /// Counts on: the angles of hinges and of bodies in `state`, less than half a turn from those that it has counted
+  /// last; those of hinges that are led, from where they are led.
+  void count_turns(State& state) const;
+  /// The hinge whose angle changes too fast to be counted after h seconds, half a turn or more; empty if all can be.
+  std::optional<int> turns_too_fast(const State& state, double h) const;
   /// Sets to zero what stands in modes that are not free.
   void keep_free(int first, std::optional<int> second, Gradient& row) const;
   /// Adds a condition that belongs to no joint's own.
   void add(Condition condition) { conditions_.push_back(std::move(condition)); }
 
  private:
+  Travel travel_of(int joint) const;
   std::vector<Joint> joints_;
   std::vector<Condition> conditions_;
   std::vector<std::array<Eigen::Vector3d, 2>> place_in_;  // from the bodies' centres, body axes; of the ground: global

@@ -45,7 +45,11 @@ class RigidBody {
 struct Pose {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();
+  /// Roll, pitch and yaw where they were counted last, by JointSet::count_turns(), rad.
+  Eigen::Vector3d counted = Eigen::Vector3d::Zero();
 
+  /// Roll, pitch and yaw, the nearest to those counted last: they run on through half and whole turns (D130).
+  Eigen::Vector3d roll_pitch_yaw() const;
   /// Displacement from rest: translation of the centre of gravity, and the rotation vector (global axes).
   Vector6 displacement(const RigidBody& body) const;
   /// Global position of a point given from the body's origin in body axes.
@@ -58,6 +62,9 @@ struct State {
   double time = 0;
   std::vector<Pose> pose;
   Eigen::VectorXd velocity;
+  /// Angles of hinges where they were counted last, by JointSet::count_turns(), rad; one a joint of the model, of
+  /// others 0. Empty: none was.
+  std::vector<double> hinge_angle = {};
 
   auto twist(int body) const { return velocity.segment<6>(6 * body); }
 };

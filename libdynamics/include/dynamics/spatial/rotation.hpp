@@ -24,6 +24,23 @@ Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& phi);
 /// J(φ)⁻¹, for |φ| < 2π.
 Eigen::Matrix3d left_jacobian_inverse(const Eigen::Vector3d& phi);
 
+/// Rz(ψ) Ry(θ) Rx(φ) of roll, pitch and yaw (φ, θ, ψ): yaw about z, pitch about the new y, roll about the newest x.
+Eigen::Quaterniond attitude_of(const Eigen::Vector3d& roll_pitch_yaw);
+
+/// Turned round: of all triples that stand for the attitude q, which are (φ, θ, ψ), (φ + π, π − θ, ψ + π) and both with
+/// whole turns added to each angle, the one nearest to `near` (D130). So angles that are followed run on through half
+/// and whole turns. Where θ is within 1e-7 of ±π/2, φ ∓ ψ alone is told by q, and what it differs by from `near` is
+/// shared between both.
+Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& q, const Eigen::Vector3d& near);
+
+/// True if the rotation vectors of two attitudes that follow each other lie on either side of half a turn.
+inline bool jumps(const Eigen::Vector3d& before, const Eigen::Vector3d& after) {
+  return before.dot(after) < 0 && (after - before).norm() > 3;  // 2π, less what a step turns by
+}
+
+/// The angle less or more whole turns that is nearest to `near`, rad.
+double nearest_turn(double angle, double near);
+
 /// ∂(J(φ)⁻ᵀ m)/∂φ for a constant m, for |φ| < 2π.
 Eigen::Matrix3d left_jacobian_inverse_transpose_derivative(const Eigen::Vector3d& phi, const Eigen::Vector3d& m);
 
