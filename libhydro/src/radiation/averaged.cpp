@@ -10,7 +10,7 @@ namespace {
 
 /// Largest ωh between neighbouring places. Cut into four straight pieces, as any table is, sinc² is off by
 /// (0.1/4)²/48 = 1.3e-5 between them.
-constexpr double widest = 0.1;
+constexpr double farthest_apart = 0.1;
 
 double sinc_squared(double x) {
   const double sinc = x == 0 ? 1 : std::sin(x) / x;
@@ -34,7 +34,7 @@ DampingTable averaged_over_steps(const DampingTable& damping, double step) {
   omega.insert(omega.end(), damping.omega.begin(), damping.omega.end());
   DampingTable out;
   for (std::size_t i = 1; i < omega.size(); ++i) {
-    const double gap = omega[i] - omega[i - 1], parts = std::max(1.0, std::ceil(gap * step / widest));
+    const double gap = omega[i] - omega[i - 1], parts = std::max(1.0, std::ceil(gap * step / farthest_apart));
     for (double part = 1; part <= parts; ++part) {
       const double at = part == parts ? omega[i] : omega[i - 1] + gap * part / parts;
       out.omega.push_back(at);
