@@ -39,7 +39,8 @@ class RadiationFits;
 struct Prepared {
   std::vector<dynamics::RigidBody> bodies;
   std::vector<dynamics::frequency::PotentialGroup> groups;
-  std::vector<scene::Memory> memory;  ///< one a group
+  std::vector<scene::Memory> memory;            ///< one a group
+  std::vector<std::vector<int>> sharing_waves;  ///< bodies that make waves, in sets within which they reach each other
   std::shared_ptr<RadiationFits> fits;
   std::vector<dynamics::Restoring> hydrostatics, moorings;
   std::vector<int> heavy;  ///< bodies that feel gravity by themselves

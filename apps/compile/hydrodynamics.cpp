@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "compile/cylinders.hpp"
 #include "compile/findings.hpp"
@@ -15,6 +16,7 @@ namespace {
 using hydro::InputError;
 using hydro::potential::Coefficients;
 using scene::Hydrodynamics;
+using scene::Interaction;
 using scene::Scene;
 
 /// Scene bodies that take their coefficients from one reading of one file, and which of its bodies each is.
@@ -97,7 +99,7 @@ std::vector<Use> uses(const Scene& scene) {
     if (!h) continue;
     const std::string key =
         fmt::format("{}|{}|{}|{}|{}{}{}", h->file.value.string(), h->ulen.value_or(0), h->iperout.value_or(0),
-                    h->interaction, h->radiation, h->excitation, h->hydrostatics);
+                    h->interaction != Interaction::self, h->radiation, h->excitation, h->hydrostatics);
     const auto [at, is_new] = known.try_emplace(key, out.size());
     if (is_new) {
       out.push_back({read(scene, *h), {}, {}});
@@ -189,13 +191,104 @@ void take_depth(const Scene& scene, Use& use, std::vector<OtherDepth>& other_dep
 /// Bodies that radiate onto each other: all of a use, or each by itself if the file has one body or the scene wants no
 /// interaction.
 std::vector<std::vector<std::size_t>> interacting(const Scene& scene, const Use& use) {
-  const bool apart = use.data.bodies() == 1 || !hydrodynamics(scene, use.bodies.front()).interaction;
+  const bool apart =
+      use.data.bodies() == 1 || hydrodynamics(scene, use.bodies.front()).interaction == Interaction::self;
   std::vector<std::vector<std::size_t>> sets;
   for (std::size_t i = 0; i < use.bodies.size(); ++i) {
     if (sets.empty() || apart) sets.emplace_back();
     sets.back().push_back(i);
   }
   return sets;
+}
+
+/// Waves of one body of the file reach the other, in the data: copies that were put side by side have no such blocks.
+bool coupled(const Coefficients& data, int i, int j) {
+  const auto reaches = [i, j](const Eigen::MatrixXd& m) { return !m.block<6, 6>(6 * i, 6 * j).isZero(0); };
+  return std::any_of(data.A.begin(), data.A.end(), reaches) || std::any_of(data.B.begin(), data.B.end(), reaches);
+}
+
+/// Bodies that make waves, in sets within which those of one reach the others, each set in the order of the scene.
+std::vector<std::vector<int>> sharing_waves(const Scene& scene, const std::vector<Use>& uses) {
+  std::vector<std::vector<int>> out;
+  for (const Use& use : uses) {
+    if (!hydrodynamics(scene, use.bodies.front()).makes_waves()) continue;
+    for (const auto& set : interacting(scene, use)) {
+      std::vector<std::vector<std::size_t>> parts;
+      for (const std::size_t i : set) {
+        std::vector<std::size_t> joined;
+        std::erase_if(parts, [&](const std::vector<std::size_t>& part) {
+          if (std::none_of(part.begin(), part.end(),
+                           [&](std::size_t j) { return coupled(use.data, use.file_body[i], use.file_body[j]); }))
+            return false;
+          joined.insert(joined.end(), part.begin(), part.end());
+          return true;
+        });
+        joined.push_back(i);
+        parts.push_back(std::move(joined));
+      }
+      for (const auto& part : parts) {
+        out.emplace_back();
+        for (const std::size_t i : part) out.back().push_back(use.bodies[i]);
+        std::sort(out.back().begin(), out.back().end());
+      }
+    }
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+/// Why no waves pass between two bodies, neither of which says so.
+std::string why_apart(const Scene& scene, int a, int b) {
+  const auto name = [&](int body) {
+    const Hydrodynamics& h = hydrodynamics(scene, body);
+    return h.cylinders ? std::string("its cylinders") : fmt::format("\"{}\"", h.file.value.filename().string());
+  };
+  const Hydrodynamics &first = hydrodynamics(scene, a), &second = hydrodynamics(scene, b);
+  if (first.file.value != second.file.value)
+    return fmt::format("{} has its coefficients from {}, {} from {}, computed one without the other",
+                       scene.bodies[static_cast<std::size_t>(a)].name, name(a),
+                       scene.bodies[static_cast<std::size_t>(b)].name, name(b));
+  const auto keys = [](const Hydrodynamics& h) {
+    return std::tuple(h.radiation, h.excitation, h.hydrostatics, h.ulen, h.iperout);
+  };
+  if (keys(first) != keys(second)) return fmt::format("they take {} by different keys", name(a));
+  return fmt::format("{} holds no coupling of the two", name(a));
+}
+
+/// A scene says so where waves of one body do not reach another: that is an approximation, and not one to make in
+/// silence.
+void require_said(const Scene& scene, const std::vector<std::vector<int>>& sets) {
+  const auto full = [&](int body) { return hydrodynamics(scene, body).interaction == Interaction::full; };
+  const auto& bodies = scene.bodies;
+  int first = -1;
+  for (const auto& set : sets) {
+    const auto one = std::find_if(set.begin(), set.end(), full);
+    if (one == set.end()) continue;
+    if (first >= 0)
+      throw InputError(
+          fmt::format("no waves pass between {} and {}, which interaction = \"full\", the default, asks for: {}",
+                      bodies[static_cast<std::size_t>(first)].name, bodies[static_cast<std::size_t>(*one)].name,
+                      why_apart(scene, first, *one)),
+          hydrodynamics(scene, *one).interaction_place,
+          "compute them together (`froude bem solve` does so for cylinders) and name that file for both, with body = 1 "
+          "and body = 2; or say that they do not feel each other: interaction = \"self\", or \"file\" for bodies that "
+          "feel those of their own file alone");
+    first = *one;
+  }
+}
+
+/// What the result records where waves do not pass between all.
+void note_sets(const Scene& scene, const std::vector<std::vector<int>>& sets, std::vector<std::string>& notes) {
+  if (sets.size() < 2) return;
+  std::vector<int> all;
+  std::vector<std::string> together;
+  for (const auto& set : sets) {
+    all.push_back(set.front());
+    if (set.size() > 1) together.push_back(listed_bodies(scene, set));
+  }
+  notes.push_back(
+      fmt::format("no waves pass between {}, as the scene says{}", listed_bodies(scene, all),
+                  together.empty() ? "" : fmt::format("; they do among {}", fmt::join(together, "; among "))));
 }
 
 /// Gravity's part of the restoring matrix about the reference point, for a weight W at `c` from it (P12).
@@ -374,8 +467,23 @@ void suppress(const Scene& scene, Coefficients& about_centres, const std::vector
 
 }  // namespace
 
+std::string listed_bodies(const Scene& scene, const std::vector<int>& set) {
+  constexpr std::size_t most = 6;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::min(most, set.size()); ++i)
+    names.push_back(scene.bodies[static_cast<std::size_t>(set[i])].name);
+  if (set.size() > most) names.push_back(fmt::format("{} more", set.size() - most));
+  const std::string last = names.back();
+  names.pop_back();
+  return names.empty() ? last : fmt::format("{} and {}", fmt::join(names, ", "), last);
+}
+
 void add_hydrodynamics(const Scene& scene, Prepared& prepared) {
-  for (Use& use : uses(scene)) {
+  std::vector<Use> all = uses(scene);
+  prepared.sharing_waves = sharing_waves(scene, all);
+  require_said(scene, prepared.sharing_waves);
+  note_sets(scene, prepared.sharing_waves, prepared.notes);
+  for (Use& use : all) {
     examine(scene, use, prepared.notes);
     take_depth(scene, use, prepared.other_depths);
     for (const auto& note : use.data.notes) prepared.notes.push_back(note);

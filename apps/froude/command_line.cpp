@@ -76,6 +76,8 @@ int carry_out(const Request& request) {
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     return called(request);
+  } catch (const CheckFailed& error) {
+    return tell(error.told(), request.json, check_failed);
   } catch (const hydro::InputError& error) {
     return tell(error, request.json, input_wrong);
   } catch (const hydro::NumericsError& error) {

@@ -1,12 +1,16 @@
 #pragma once
 /// \file  The subcommands of `froude` as plain functions; main.cpp turns the command line into these arguments.
-/// Errors are thrown (hydro::InputError, hydro::NumericsError); main.cpp prints them and sets the exit status.
+/// Errors are thrown (hydro::InputError, hydro::NumericsError, CheckFailed); main.cpp prints them and sets the exit
+/// status.
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "hydro/base/error.hpp"
 #include "hydro/hydrostatics/mesh.hpp"
 #include "hydro/potential/coefficients.hpp"
 #include "hydro/potential/heal.hpp"
@@ -21,6 +25,17 @@ struct Console {
   std::ostream& err;           ///< progress and warnings
   bool json = false;           ///< one JSON document on `out`, nothing else
   bool show_progress = false;  ///< `err` is a terminal and nobody asked for quiet
+};
+
+/// Input and numerics are right, and what came of them may not be told: a check of the result failed; exit status 1. It
+/// is no InputError, whose handlers would make it one of the input.
+class CheckFailed : public std::runtime_error {
+ public:
+  explicit CheckFailed(hydro::InputError told) : std::runtime_error(told.what()), told_(std::move(told)) {}
+  const hydro::InputError& told() const noexcept { return told_; }  ///< rule, place and remedy
+
+ private:
+  hydro::InputError told_;
 };
 
 struct BemArguments {

@@ -7,6 +7,7 @@
 #include "fit/decay.hpp"
 #include "fit/forced_radiation.hpp"
 #include "fit/prepare.hpp"
+#include "fit/verdict.hpp"
 #include "froude/fit_report.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -77,15 +78,33 @@ void vary(const scene::FitScene& scene, const ::fit::Window& whole, DecayRun& ru
       for (std::size_t k = 0; k < again.damping.size(); ++k) add(again.damping[k], run.fit.damping[k]);
     } catch (const hydro::InputError& e) {
       v.why_not = e.rule();
+    } catch (const hydro::NumericsError& e) {
+      v.why_not = e.what();
     }
     run.variants.push_back(std::move(v));
   }
+}
+
+/// (F67) Nobody has stated how large residuals of a decay may be; larger than what is explained is too large.
+void require_explained(const scene::FitScene& scene, const DecayRun& run, const ::fit::ShootingFit& motion) {
+  if (motion.explained[0] >= ::fit::least_explained || scene.accept_residuals) return;
+  const char* unit = scene.channels.count("angle") > 0 ? "rad" : "m";
+  throw CheckFailed(hydro::InputError(
+      fmt::format("no value is told: the motion fitted differs by {:.3g} {} rms from {} and explains {:.3g} % of its "
+                  "variance; {:g} % are the least",
+                  motion.rms[0], unit, run.records.size() == 1 ? run.name : "the records together",
+                  100 * motion.explained[0], 100 * ::fit::least_explained),
+      scene.model.place,
+      "take the part of the record that swings (window of [prepare]), or other terms; to have values all the same: "
+      "[ask] "
+      "accept = [\"residuals\"]"));
 }
 
 /// The memory, and what it makes of the body where that is known.
 void add_memory(const scene::FitScene& scene, const std::vector<::fit::Window>& windows, DecayRun& run) {
   run.memory = ::fit::fit_decay_memory(
       windows, {.terms = terms_of(scene), .starts_empty = scene.model.starts_empty, .confidence = scene.confidence});
+  require_explained(scene, run, run.memory->motion);
   if (!scene.model.body) return;
   const auto& b = *scene.model.body;
   const auto at = [&](double omega) {
@@ -105,6 +124,7 @@ void fit_records(const scene::FitScene& scene, DecayRun& run) {
         {hydro::signal::even_step(r.time), Eigen::Map<const Eigen::VectorXd>(r.values.data(), std::ssize(r.values))});
   run.decrement = ::fit::logarithmic_decrement(::fit::find_extremes(run.records[0].time, run.records[0].values));
   run.fit = ::fit::fit_decay(windows, plain_options(scene));
+  require_explained(scene, run, run.fit.motion);
   if (scene.sensitivity && windows.size() == 1) vary(scene, windows[0], run);
   if (const auto& b = scene.model.body)
     run.water =
@@ -130,6 +150,11 @@ DecayRun fit_file(const scene::FitScene& scene, const std::filesystem::path& fil
   return run;
 } catch (const hydro::InputError& e) {
   throw e.at({.file = file.string()});
+} catch (const ::fit::SearchFailed& e) {
+  throw hydro::NumericsError(
+      fmt::format("{}: no value is told: {}. Take the part of the record that swings (window of [prepare]), or other "
+                  "terms",
+                  file.string(), e.what()));
 }
 
 std::vector<DecayRun> fit_each(const scene::FitScene& scene) {

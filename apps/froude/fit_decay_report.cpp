@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fit/verdict.hpp"
 #include "froude/fit_decay.hpp"
 
 namespace froude {
@@ -163,12 +164,18 @@ void tell_decay(const scene::FitScene& scene, const DecayRun& run, const Console
   const bool angle = turns(scene);
   const auto& m = run.fit.motion;
   if (run.records.size() == 1)
-    console.out << fmt::format("{}: {} half cycles from {:.4g} to {:.4g} {}, residual {:.3g} rms\n", run.name,
+    console.out << fmt::format("{}: {} half cycles from {:.4g} to {:.4g} {}, residual {:.3g} rms", run.name,
                                run.decrement.amplitude.size(), run.decrement.amplitude.front(),
                                run.decrement.amplitude.back(), angle ? "rad" : "m", m.rms[0]);
   else
-    console.out << fmt::format("{} runs with one set of coefficients: residual {:.3g} rms\n", run.records.size(),
+    console.out << fmt::format("{} runs with one set of coefficients: residual {:.3g} rms", run.records.size(),
                                m.rms[0]);
+  console.out << fmt::format(", {:.4g} % of the variance explained\n", 100 * m.explained[0]);
+  if (m.explained[0] < ::fit::least_explained)
+    console.out << fmt::format(
+        "  accepted: less than {:g} % is explained; intervals are made from what is left, and an error of the model is "
+        "in none of them\n",
+        100 * ::fit::least_explained);
   console.out << sentence(run.fit.period, "s", scene.confidence);
   for (const Coefficient& c : run.fit.damping) console.out << sentence(c, unit_of(c.name, angle), scene.confidence);
   tell_water(run, angle, console, scene.confidence);
@@ -227,6 +234,7 @@ void tell_decay_laws(const scene::FitScene& scene, const std::vector<DecayLaw>& 
 FitJson decay_as_json(const DecayRun& run) {
   Json j{{"file", run.name},
          {"residual_rms", run.fit.motion.rms[0]},
+         {"explained", run.fit.motion.explained[0]},
          {"bic", run.fit.bic},
          {"search", run.fit.motion.search.why},
          {"identifiability", run.fit.motion.search.identifiability}};

@@ -66,8 +66,8 @@ std::vector<FrictionLevel> levels_of(const std::vector<FrictionTest>& tests, dou
 
 void tell(const FrictionTest& test, const Console& console, double confidence, const char* unit) {
   const auto& f = test.fit;
-  console.out << fmt::format("{}: slips at {:.4g} s, after growing by {:.3g} {} a second\n", test.name, f.slip_s,
-                             f.rate, unit);
+  console.out << fmt::format("{}: slips at {:.4g} s, after growing by {:.3g} {} a second; residual {:.3g} {} rms\n",
+                             test.name, f.slip_s, f.rate, unit, f.residual_rms, unit);
   for (const Coefficient* c : {&f.static_level, &f.dynamic_level, &f.drop})
     console.out << fmt::format("  {:<8} {:.4g} {}, {:g} % interval {:.4g} to {:.4g}\n", c->name, *c->value, unit,
                                100 * confidence, c->interval.low, c->interval.high);
@@ -88,7 +88,11 @@ void tell(const FrictionLevel& level, std::size_t tests, const Console& console,
 
 Json as_json_of(const FrictionTest& test) {
   const auto& f = test.fit;
-  Json j{{"file", test.name}, {"slip_s", f.slip_s}, {"rate", f.rate}, {"slide_rate", f.slide_rate}};
+  Json j{{"file", test.name},
+         {"slip_s", f.slip_s},
+         {"rate", f.rate},
+         {"slide_rate", f.slide_rate},
+         {"residual_rms", f.residual_rms}};
   if (!f.caution.empty()) j["caution"] = f.caution;
   for (const Coefficient* c : {&f.static_level, &f.dynamic_level, &f.drop}) {
     j[c->name] = as_json(*c);

@@ -2,9 +2,11 @@
 #include <optional>
 
 #include "fit/simulated.hpp"
+#include "fit/verdict.hpp"
 #include "froude/fit_report.hpp"
 #include "froude/scene_runs.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 
 namespace froude {
@@ -42,14 +44,12 @@ double deviation_of(const scene::FitScene::Motion::Signal& s, const std::string&
   for (std::size_t c = 0; c < units.size(); ++c)
     p.deviations.push_back(deviation_of(fit.motion.signals[c], units[c], table));
   p.confidence = fit.confidence;
+  p.iterations_reach = fit.motion.iterations;
+  p.accept_residuals = fit.accept_residuals;
   return p;
 }
 
-void tell(const scene::FitScene& scene, const MeasuredRun& measured, const std::vector<std::string>& units,
-          const ::fit::SimulationFit& fit, const Console& console) {
-  console.out << fmt::format("{}: {} samples of {} signals in {} window{}, {} runs of a window\n",
-                             scene.files[0].value.filename().string(), measured.values.rows(), measured.values.cols(),
-                             measured.first.size(), measured.first.size() == 1 ? "" : "s", fit.windows_followed);
+void tell_values(const scene::FitScene& scene, const ::fit::SimulationFit& fit, const Console& console) {
   for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
     const Coefficient& c = fit.parameters[k];
     const std::string unit = scene.motion.parameters[k].unit;
@@ -62,14 +62,46 @@ void tell(const scene::FitScene& scene, const MeasuredRun& measured, const std::
     else
       console.out << fmt::format("  {} not identifiable: {}; {}\n", c.name, c.why_not, interval);
   }
+}
+
+/// "x differs by 0.057 m rms; its deviation is stated as 0.002 m, which allows 0.0026 m"
+std::string difference(const scene::FitScene& scene, const std::vector<std::string>& units,
+                       const ::fit::SimulationFit& fit, std::size_t c) {
+  const auto& s = fit.stated[c];
+  return fmt::format("{} differs by {:.3g} {} rms; its deviation is stated as {:.3g} {}, which allows {:.3g} {}",
+                     scene.motion.signals[c].of, fit.rms[c], units[c], s.stated, units[c], s.allowed, units[c]);
+}
+
+/// What is too large and was accepted; values are told all the same.
+std::vector<std::string> accepted(const scene::FitScene& scene, const std::vector<std::string>& units,
+                                  const ::fit::SimulationFit& fit) {
+  std::vector<std::string> out;
   for (std::size_t c = 0; c < units.size(); ++c)
-    console.out << fmt::format("  {} differs by {:.3g} {} rms\n", scene.motion.signals[c].of, fit.rms[c], units[c]);
-  console.out << fmt::format("  {:.1f} % of the samples lie in the band in which {:g} % should\n", 100 * fit.inside,
-                             100 * scene.confidence);
+    if (const auto& s = fit.stated[c]; !s.hold())
+      out.push_back(
+          fmt::format("{}; intervals are made from these residuals, {:.3g} times what is stated, and an error of the "
+                      "model is in none of them",
+                      difference(scene, units, fit, c), s.rms / s.stated));
+  return out;
+}
+
+void tell(const scene::FitScene& scene, const MeasuredRun& measured, const std::vector<std::string>& units,
+          const ::fit::SimulationFit& fit, const Console& console) {
+  console.out << fmt::format("{}: {} samples of {} signals in {} window{}, {} runs of a window\n",
+                             scene.files[0].value.filename().string(), measured.values.rows(), measured.values.cols(),
+                             measured.first.size(), measured.first.size() == 1 ? "" : "s", fit.windows_followed);
+  if (fit.refused.empty()) tell_values(scene, fit, console);
+  for (std::size_t c = 0; c < units.size(); ++c) console.out << "  " << difference(scene, units, fit, c) << '\n';
+  if (fit.refused.empty()) {
+    console.out << fmt::format("  {:.1f} % of the samples lie in the band in which {:g} % should\n", 100 * fit.inside,
+                               100 * scene.confidence);
+    for (const std::string& a : accepted(scene, units, fit)) console.out << "  accepted: " << a << '\n';
+  }
   if (fit.starts_all > 0)
     console.out << fmt::format("  of {} numbers of the windows' starts the signals see {}, which are fitted too\n",
                                fit.starts_all, fit.starts_seen);
-  console.out << fmt::format("  singular values {:.3g}; {}\n", fmt::join(fit.singular_values, ", "), fit.weakest);
+  if (fit.refused.empty())
+    console.out << fmt::format("  singular values {:.3g}; {}\n", fmt::join(fit.singular_values, ", "), fit.weakest);
   console.out << fmt::format("  search: iterations {}, {}\n", fit.search.iterations, fit.search.why);
   if (!fit.caution.empty()) console.out << "  caution: " << fit.caution << '\n';
 }
@@ -111,6 +143,7 @@ Json as_json_of(const scene::FitScene& scene, const std::vector<std::string>& un
          {"confidence", scene.confidence},
          {"of", scene.motion.scene.value.filename().string()},
          {"search", fit.search.why},
+         {"accepted", accepted(scene, units, fit)},
          {"weakest", fit.weakest},
          {"singular_values", std::vector<double>(fit.singular_values.begin(), fit.singular_values.end())}};
   if (!fit.caution.empty()) j["caution"] = fit.caution;
@@ -131,6 +164,8 @@ Json as_json_of(const scene::FitScene& scene, const std::vector<std::string>& un
     j["signal"].push_back({{"of", scene.motion.signals[c].of},
                            {"unit", units[c]},
                            {"rms", fit.rms[c]},
+                           {"deviation", fit.stated[c].stated},
+                           {"rms_allowed", fit.stated[c].allowed},
                            {"widest_band_of_fit", widest(fit.fit_band, c)},
                            {"widest_band_of_sample", widest(fit.sample_band, c)}});
   return j;
@@ -149,6 +184,7 @@ std::vector<double> joined(const std::vector<Eigen::MatrixXd>& windows, std::siz
 plot::Figure figure(const scene::FitScene& scene, const MeasuredRun& measured, const std::vector<std::string>& units,
                     const ::fit::SimulationFit& fit) {
   plot::Figure f{.title = scene.title.empty() ? scene.file.filename().string() : scene.title, .panels = {}};
+  if (!fit.refused.empty()) f.title += ": no fit";
   const std::string level = fmt::format("{:g} % band", 100 * scene.confidence);
   const auto& t = measured.time;
   for (std::size_t c = 0; c < units.size(); ++c) {
@@ -159,13 +195,36 @@ plot::Figure figure(const scene::FitScene& scene, const MeasuredRun& measured, c
     f.panels.push_back({.x = {"time", "s"},
                         .y = {scene.motion.signals[c].of, units[c]},
                         .series = {{"measured", t, values}, {"fitted", t, fitted, true, false, true}}});
-    f.panels.push_back({.x = {"time", "s"},
-                        .y = {"residual", units[c]},
-                        .series = {{"measured − fitted", t, left, false, true},
-                                   band_outline(level + " of a sample", t, joined(fit.sample_band, c), true),
-                                   band_outline(level + " of the fit", t, joined(fit.fit_band, c), false)}});
+    plot::Panel residual{
+        .x = {"time", "s"}, .y = {"residual", units[c]}, .series = {{"measured − fitted", t, left, false, true}}};
+    if (fit.refused.empty()) {
+      residual.series.push_back(band_outline(level + " of a sample", t, joined(fit.sample_band, c), true));
+      residual.series.push_back(band_outline(level + " of the fit", t, joined(fit.fit_band, c), false));
+    }
+    f.panels.push_back(std::move(residual));
   }
   return f;
+}
+
+/// (F65), (F66) Nothing is told but what stands against it: the picture alone is written.
+[[noreturn]] void refuse_values(const scene::FitScene& scene, const std::vector<std::string>& units,
+                                const ::fit::SimulationFit& fit) {
+  std::string signals;
+  for (std::size_t c = 0; c < units.size(); ++c)
+    if (!fit.stated[c].hold()) signals += "; " + difference(scene, units, fit, c);
+  if (!fit.search.ended())
+    throw hydro::NumericsError(fmt::format(
+        "no value is told: the search has no end: {}{}. Begin elsewhere (first of a [[model.parameter]]) or "
+        "at several points ([model] starts), let it take more steps ([model] iterations, now {}), or change "
+        "the model",
+        ::fit::why_unended(fit.search), signals, scene.motion.iterations));
+  const auto bad = static_cast<std::size_t>(
+      std::find_if(fit.stated.begin(), fit.stated.end(), [](const auto& s) { return !s.hold(); }) - fit.stated.begin());
+  throw CheckFailed(hydro::InputError(
+      fmt::format("no value is told: the search ended, but not at the motion that was measured{}", signals),
+      scene.motion.signals[bad].deviation.place,
+      "begin elsewhere (first) or at several points (starts), change the model, or state the deviation that the noise "
+      "has; to have values all the same: [ask] accept = [\"residuals\"]"));
 }
 
 }  // namespace
@@ -178,17 +237,26 @@ void fit_motions(const scene::FitScene& scene, const FitArguments& arguments, co
   std::optional<::fit::SeveralStarts> several;
   if (scene.motion.starts > 1) several = ::fit::fit_simulation_from(runs, problem, scene.motion.starts);
   const auto result = several ? several->best : ::fit::fit_simulation(runs, problem);
+  if (!console.json) tell(scene, measured, units, result, console);
+  if (several && !console.json)
+    console.out << fmt::format("  of {} starts {} came there, {} had no motion to follow, {} came to no end\n",
+                               several->tried, several->agree, several->failed, several->unended);
+  if (!result.refused.empty()) {
+    if (arguments.picture)
+      hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, measured, units, result)));
+    refuse_values(scene, units, result);
+  }
   FitJson j = as_json_of(scene, units, result);
-  if (several) j["starts"] = {{"tried", several->tried}, {"agree", several->agree}, {"failed", several->failed}};
+  if (several)
+    j["starts"] = {{"tried", several->tried},
+                   {"agree", several->agree},
+                   {"failed", several->failed},
+                   {"unended", several->unended}};
   const Profiles profiles = profiles_of(scene, runs, problem, result);
   for (std::size_t k = 0; k < profiles.size(); ++k)
     if (profiles[k])
       j["parameter"][bare(result.parameters[k].name)]["profile_interval"] = {profiles[k]->low, profiles[k]->high};
-  if (!console.json) tell(scene, measured, units, result, console);
   if (!console.json) tell(result, profiles, console);
-  if (several && !console.json)
-    console.out << fmt::format("  of {} starts {} end there, and {} had no motion to follow\n", several->tried,
-                               several->agree, several->failed);
   deliver(arguments, console, j, figure(scene, measured, units, result));
 }
 

@@ -64,10 +64,15 @@ void tell(const RadiationRun& run, const RadiationUnits& unit, double confidence
   for (const auto& [c, in] : {std::pair{&p.added_mass, unit.added_mass}, {&p.damping, unit.damping}})
     console.out << fmt::format("  {:<10} {:.5g} {}, {:g} % interval {:.5g} to {:.5g}\n", c->name, *c->value, in,
                                100 * confidence, c->interval.low, c->interval.high);
+  if (!p.caution.empty()) console.out << "  caution: " << p.caution << '\n';
 }
 
 void tell(const ::fit::RadiationMemory& m, const RadiationUnits& unit, double confidence, const Console& console) {
   const auto& r = m.poles.report;
+  if (!m.refused.empty()) {
+    console.out << fmt::format("memory: none: {}\n", m.refused);
+    return;
+  }
   console.out << fmt::format(
       "memory: order {}, {}; differs from the points by {:.2g} of the largest damping, they are known to {:.2g}; {}\n",
       r.order, r.why, r.error, m.tolerance, r.passive ? "passive" : "not certified passive");
@@ -92,7 +97,8 @@ Json as_json_of(const scene::FitScene& scene, const std::vector<RadiationRun>& r
   };
   if (runs.size() == 1)
     j["coefficients"] = {{"added_mass", *runs[0].point.added_mass.value}, {"damping", *runs[0].point.damping.value}};
-  if (memory) {
+  if (memory && !memory->refused.empty()) j["memory"] = {{"why_not", memory->refused}};
+  if (memory && memory->refused.empty()) {
     const auto& m = memory->poles;
     j["memory"] = {{"order", m.report.order},     {"error", m.report.error},           {"known_to", memory->tolerance},
                    {"passive", m.report.passive}, {"added_mass_limit", m.A_inf(0, 0)}, {"why", m.report.why}};
@@ -111,6 +117,7 @@ Json as_json_of(const scene::FitScene& scene, const std::vector<RadiationRun>& r
            {"second_harmonic", run.point.second_harmonic},
            {"third_harmonic", run.point.third_harmonic},
            {"residual_rms", run.point.residual_rms}};
+    if (!run.point.caution.empty()) r["caution"] = run.point.caution;
     put(r, run.point.added_mass);
     put(r, run.point.damping);
     j["run"].push_back(r);
@@ -149,7 +156,7 @@ plot::Panel panel_of(const std::vector<RadiationRun>& runs, const std::optional<
   }
   plot::Panel panel{
       .x = {"frequency", "rad/s"}, .y = {damping ? "damping" : "added mass", unit}, .series = {points, bars}};
-  if (!memory) return panel;
+  if (!memory || !memory->refused.empty()) return panel;
   plot::Series curve{"poles", {}, {}, true, false, true};
   for (int k = 1; k <= 200; ++k) {
     const double omega = 1.2 * highest * k / 200;

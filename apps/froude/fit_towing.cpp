@@ -3,6 +3,7 @@
 
 #include "fit/towing.hpp"
 #include "froude/fit_report.hpp"
+#include "hydro/base/error.hpp"
 #include "hydro/io/csv.hpp"
 
 namespace froude {
@@ -28,7 +29,25 @@ std::vector<::fit::TowingRun> towing_runs(const scene::FitScene& scene) {
   return runs;
 }
 
-void tell(const ::fit::TowingFit& fit, std::span<const ::fit::TowingRun> runs, const Console& console) {
+bool is_refused(const scene::FitScene& scene, const ::fit::TowingFit& fit) {
+  return fit.scatter > fit.allowed && !scene.accept_residuals;
+}
+
+/// (F66) Runs that differ by more than their deviations allow have no drag coefficient in common.
+[[noreturn]] void refuse_mean(const scene::FitScene& scene, const ::fit::TowingFit& fit) {
+  throw CheckFailed(hydro::InputError(
+      fmt::format(
+          "no cd of all runs together is told: they scatter {:.3g} times as much as their deviations say, which "
+          "allow {:.3g} times",
+          fit.scatter, fit.allowed),
+      scene.model.place,
+      "cd may depend on speed: fit fewer runs, or state the deviations that they have; to have their mean all the "
+      "same: "
+      "[ask] accept = [\"residuals\"]"));
+}
+
+void tell(const scene::FitScene& scene, const ::fit::TowingFit& fit, std::span<const ::fit::TowingRun> runs,
+          const Console& console) {
   console.out << fmt::format("C_D = F/(1/2 rho U^2 D L)\n{:>10} {:>10} {:>10} {:>8} {:>8}\n", "U [m/s]", "F [N]", "Re",
                              "cd", "+-");
   for (std::size_t i = 0; i < runs.size(); ++i)
@@ -36,10 +55,12 @@ void tell(const ::fit::TowingFit& fit, std::span<const ::fit::TowingRun> runs, c
         "{:>10.4g} {:>10.4g} {:>10} {:>8.3f} {:>8}\n", runs[i].speed, runs[i].force,
         fit.points[i].re ? fmt::format("{:.3g}", *fit.points[i].re) : "-", fit.points[i].cd,
         fit.points[i].cd_deviation > 0 ? fmt::format("{:.3f}", fit.points[i].cd_deviation) : "-");
+  if (is_refused(scene, fit)) return;
   console.out << fmt::format("together: cd {:.4f}, {:g} % interval {:.4f} to {:.4f}\n", *fit.cd.value,
                              100 * fit.confidence, fit.cd.interval.low, fit.cd.interval.high);
   if (std::isfinite(fit.scatter))
-    console.out << fmt::format("the runs scatter {:.2f} times as much as their deviations say{}\n", fit.scatter,
+    console.out << fmt::format("{}the runs scatter {:.2f} times as much as their deviations say{}\n",
+                               fit.scatter > fit.allowed ? "accepted: " : "", fit.scatter,
                                fit.scatter > 1 ? "; the interval is widened by as much" : "");
 }
 
@@ -54,6 +75,7 @@ Json towed_as_json(const scene::FitScene& scene, const ::fit::TowingFit& fit, st
          {"cd", cd},
          {"run", Json::array()}};
   if (std::isfinite(fit.scatter)) j.update({{"chi_square", fit.chi_square}, {"scatter", fit.scatter}});
+  if (std::isfinite(fit.allowed)) j["scatter_allowed"] = fit.allowed;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     Json r{{"speed", runs[i].speed},
            {"force", runs[i].force},
@@ -88,7 +110,8 @@ plot::Figure figure(const scene::FitScene& scene, const ::fit::TowingFit& fit, s
 void fit_towed(const scene::FitScene& scene, const FitArguments& arguments, const Console& console) {
   const auto runs = towing_runs(scene);
   const auto result = ::fit::fit_towing(cylinder_of(scene), runs, scene.confidence);
-  if (!console.json) tell(result, runs, console);
+  if (!console.json) tell(scene, result, runs, console);
+  if (is_refused(scene, result)) refuse_mean(scene, result);
   deliver(arguments, console, towed_as_json(scene, result, runs), figure(scene, result, runs));
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <stdexcept>
 
 #include "compile/members.hpp"
 #include "compile/waves.hpp"
@@ -194,6 +195,8 @@ const ComplexSignal& Responses::signal(const std::string& name) const {
 Responses respond(const scene::Scene& scene) { return respond(scene, compile::prepare(scene)); }
 
 Responses respond(const scene::Scene& scene, const compile::Prepared& prepared) {
+  if (!scene.rao || scene.rao->headings.empty())
+    throw std::logic_error("a response is asked for without a heading: a scene that no reader has made must state one");
   Responses out{scene.rao->omega, scene.rao->headings, {}, prepared.notes};
   compile::check_waves_of_rao(scene, prepared, out.notes);
   const dynamics::Model model = compile::frequency_model(prepared, scene.rao->about);

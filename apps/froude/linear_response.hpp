@@ -22,7 +22,8 @@ struct Responses {
   /// \throws hydro::InputError if there is no such signal
   const ComplexSignal& signal(const std::string& name) const;
 };
-/// \throws hydro::InputError, hydro::NumericsError
+/// \throws hydro::InputError, hydro::NumericsError; std::logic_error for a scene that asks for no RAO, or for one
+/// without a heading, which no reader makes
 Responses respond(const scene::Scene& scene);
 /// Of what is prepared already, for the frequencies and signals of the scene.
 Responses respond(const scene::Scene& scene, const compile::Prepared& prepared);

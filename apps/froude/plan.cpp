@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "compile/cylinders.hpp"
+#include "compile/hydrodynamics.hpp"
 #include "compile/integrator.hpp"
 #include "compile/waves.hpp"
 #include "froude/scene_result.hpp"
@@ -48,6 +49,20 @@ struct Section {
   std::string title;
   std::vector<PlanLine> lines;
 };
+
+/// Whose waves reach whom, of several bodies that make waves.
+Section plan_sharing(const scene::Scene& scene, const compile::Prepared& p) {
+  Section s{"waves that bodies make:", {}};
+  std::vector<int> alone;
+  for (const auto& set : p.sharing_waves)
+    if (set.size() > 1)
+      s.lines.push_back({"shared", compile::listed_bodies(scene, set) + " feel each other's", "", true});
+    else
+      alone.push_back(set.front());
+  if (!alone.empty())
+    s.lines.push_back({"by itself", compile::listed_bodies(scene, alone) + ": no other's waves reach it", "", true});
+  return s;
+}
 
 Section plan_rao(const scene::Scene& scene, const compile::Prepared& p, std::vector<std::string>& notes) {
   compile::check_waves_of_rao(scene, p, notes);
@@ -192,6 +207,8 @@ void plan(const SceneArguments& arguments, const Console& console) {
                    "them with `froude bem solve`, name the file in the scene, and plan again"});
   }
   const compile::Prepared prepared = compile::prepare(scene);
+  if (prepared.sharing_waves.size() > 1 || (!prepared.sharing_waves.empty() && prepared.sharing_waves[0].size() > 1))
+    sections.push_back(plan_sharing(scene, prepared));
   std::vector<std::string> notes = prepared.notes;
   if (scene.rao) sections.push_back(plan_rao(scene, prepared, notes));
   if (scene.ask_modes) sections.push_back(plan_modes(prepared));

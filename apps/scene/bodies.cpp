@@ -149,7 +149,12 @@ Hydrodynamics read_hydrodynamics(const Record& record, const std::filesystem::pa
   if (out.radiation) {
     const Record& radiation = record.table("radiation");
     out.memory = read_memory(radiation);
-    out.interaction = record.text("interaction") == "full";
+  }
+  out.interaction_place = out.file.place;
+  if (out.makes_waves()) {
+    const std::string& word = record.text("interaction");
+    out.interaction = word == "full" ? Interaction::full : word == "file" ? Interaction::file : Interaction::self;
+    if (!record["interaction"].defaulted) out.interaction_place = record["interaction"].place;
   }
   return out;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <numbers>
 
 #include "hydro/io/atomic_file.hpp"
@@ -292,6 +293,10 @@ FitScene::Motion read_motion(const Record& model, const fs::path& file) {
   if (model.has("starts")) out.starts = static_cast<int>(model["starts"].integer);
   if (model.has("starts") && (out.starts < 2 || out.parameters.size() > 12))
     throw model.wrong("starts", "must be 2 at least, for 12 parameters at most", "leave it out for one start");
+  constexpr std::int64_t most_iterations = 100'000;
+  if (model["iterations"].integer > most_iterations)
+    throw model.wrong("iterations", fmt::format("may be {} at most", most_iterations), "most need five to twenty");
+  out.iterations = static_cast<int>(model["iterations"].integer);
   for (const auto& q : out.parameters)
     if (out.starts > 1 && !(q.lowest && q.highest))
       throw InputError(fmt::format("[[model.parameter]] {} has no bounds between which a search could start", q.key),
@@ -465,6 +470,10 @@ void read_batch(const Record& root, const fs::path& file, FitScene& scene) {
   if (ask.has("profile") && scene.motion.starts > 1 && scene.motion.window > 0)
     throw ask.wrong("profile", "cannot be had with several starts of a search in windows",
                     "give each parameter the first value that was found, and leave out [model] starts");
+  if (ask.has("accept") && scene.model.kind != "motion" && scene.model.kind != "towing" && scene.model.kind != "decay")
+    throw ask.wrong("accept", fmt::format("has no part in a fit of kind \"{}\"", scene.model.kind),
+                    "leave it out: nothing is kept back there for its residuals");
+  scene.accept_residuals = ask.has("accept");
   scene.profile = ask.has("profile");
   scene.robust = ask.has("robust");
   scene.cycles = ask.has("cycles");

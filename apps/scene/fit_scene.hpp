@@ -75,8 +75,9 @@ struct FitScene {
   double confidence = 0.95;
   std::string interval_method = "effective samples";
   bool profile = false, robust = false, cycles = false, sensitivity = false;
-  bool together = false;  ///< decay: one set of coefficients for all files beside those of each
-  std::string law;        ///< "" for none
+  bool accept_residuals = false;  ///< accept = ["residuals"]: values are told though residuals are too large
+  bool together = false;          ///< decay: one set of coefficients for all files beside those of each
+  std::string law;                ///< "" for none
   std::vector<Echo> echo;
   /// kind "motion": the scene that is run, its numbers that are fitted, and what its run should tell.
   struct Motion {
@@ -94,6 +95,7 @@ struct FitScene {
     Located<std::filesystem::path> scene = {};
     double window = 0;  ///< s; 0: the record is one run from the scene's start
     int starts = 1;     ///< of the search
+    int iterations = 60;
     std::vector<Parameter> parameters = {};
     std::vector<Signal> signals = {};
   } motion;

@@ -122,10 +122,14 @@ class TableReader {
 
   void read_key(const Key& key) {
     const auto* entry = node_.find(key.name);
-    const bool acts = key.beside.empty() || node_.find(key.beside) != nullptr;
-    if (entry != nullptr && !acts)
-      throw InputError(fmt::format("{} {} acts only beside \"{}\"", title(), key.name, key.beside), entry->place,
-                       fmt::format("leave it out, or add \"{}\"", key.beside));
+    const bool acts =
+        key.beside.empty() || std::any_of(key.beside.begin(), key.beside.end(),
+                                          [&](const std::string& other) { return node_.find(other) != nullptr; });
+    if (entry != nullptr && !acts) {
+      const std::string others = fmt::format("\"{}\"", fmt::join(key.beside, "\" or \""));
+      throw InputError(fmt::format("{} {} acts only beside {}", title(), key.name, others), entry->place,
+                       fmt::format("leave it out, or add {}", others));
+    }
     if (entry != nullptr) {
       store(key, entry->value, false);
     } else if (key.need == Need::required) {

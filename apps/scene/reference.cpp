@@ -60,7 +60,7 @@ std::string presence_of(const Key& key) {
   std::string out = "optional";
   if (key.need == Need::required) out = "needed";
   if (key.need == Need::defaulted && key.inner == nullptr) out = fmt::format("`{}`: {}", key.fallback, key.because);
-  if (!key.beside.empty()) out += fmt::format("; only beside `{}`", key.beside);
+  if (!key.beside.empty()) out += fmt::format("; only beside `{}`", fmt::join(key.beside, "` or `"));
   return out;
 }
 

@@ -140,6 +140,9 @@ struct Turning {
   Place place;
 };
 
+/// Whose waves a body feels: those of all bodies that make waves; of those of its own file; its own alone.
+enum class Interaction { full, file, self };
+
 /// `[body.hydrodynamics]`: coefficients from a file, or of cylinders.
 struct Hydrodynamics {
   Located<std::filesystem::path> file;  ///< absolute; with cylinders empty, and the place is that of the cylinders
@@ -156,7 +159,9 @@ struct Hydrodynamics {
   std::array<bool, 6> excited{true, true, true, true, true, true};   ///< modes whose excitation acts
   std::optional<Turning> turning;
   Memory memory;
-  bool interaction = true;  ///< interaction = "full" or "self": bodies of one file feel each other's waves
+  Interaction interaction = Interaction::full;
+  Place interaction_place;  ///< where it is written, else of the file
+  bool makes_waves() const { return excitation || radiation; }
 };
 
 /// `[body.buoyancy]`: what the body shows the water, in body axes.
@@ -461,7 +466,7 @@ struct AskRao {
     Place place;
   };
   std::vector<double> omega;     ///< rad/s, increasing
-  std::vector<double> headings;  ///< rad, of the waves, as asked; that of [waves] unless the scene says otherwise
+  std::vector<double> headings;  ///< rad, of the waves, as asked, one at least; of [waves] unless the scene says more
   Place headings_place;          ///< of what names them
   std::vector<std::string> of;   ///< patterns such as "m*.surge", "connector*.force"; empty: everything
   std::vector<Place> of_places;  ///< one for each pattern

@@ -47,9 +47,9 @@ struct Key {
   std::string fallback = {};  ///< the default as the file would hold it, without quotes
   std::string because = {};   ///< why it is the default
   Limit limit = Limit::none;
-  std::vector<std::string> words = {};  ///< texts allowed; for a quantity: texts that may stand instead
-  const Table* inner = nullptr;         ///< of Holds::table and Holds::tables
-  std::string beside = {};              ///< acts, and is accepted, only where this other key is given
+  std::vector<std::string> words = {};   ///< texts allowed; for a quantity: texts that may stand instead
+  const Table* inner = nullptr;          ///< of Holds::table and Holds::tables
+  std::vector<std::string> beside = {};  ///< acts, and is accepted, only where one of these other keys is given
 
   // The declarations read as sentences: quantity("mass", dim::mass, "…").positive()
   Key& optional() { return need = Need::optional, *this; }
@@ -59,7 +59,8 @@ struct Key {
   Key& within(Limit bound) { return limit = bound, *this; }
   Key& positive() { return within(Limit::positive); }
   Key& one_of(std::vector<std::string> texts) { return words = std::move(texts), *this; }
-  Key& only_beside(std::string other) { return beside = std::move(other), *this; }
+  Key& only_beside(std::string other) { return beside = {std::move(other)}, *this; }
+  Key& only_beside_one_of(std::vector<std::string> others) { return beside = std::move(others), *this; }
 };
 
 /// Keys of which a certain number must be given.

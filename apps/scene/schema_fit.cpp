@@ -300,7 +300,10 @@ const Table& model() {
                     integer("starts",
                             "the search begins at so many points between the bounds, and the best end is kept; "
                             "left out: once")
-                        .optional()}},
+                        .optional(),
+                    integer("iterations", "steps of a search; one that has used them up tells no value")
+                        .within(Limit::at_least_one)
+                        .or_default("60", "most need five to twenty")}},
           {.word = "decay",
            .meaning = "period and damping of a body let go: x'' + b1 x' + b2 |x'| x' + b3 x'^3 + c sgn x' + w0^2 x = 0",
            .keys = {text("restoring", "by x, or by sin x for a pendulum")
@@ -355,6 +358,13 @@ const Table& ask() {
               .one_of({"cd", "cm", "ca", "linear", "quadratic", "cubic", "coulomb", "memory"})
               .optional(),
           inner_table("intervals", intervals()).or_default("", "see its keys"),
+          texts(
+              "accept",
+              "motion, towing, decay: checks whose failure shall not keep values back. \"residuals\": larger than the "
+              "stated deviations allow, or of a decay than half of its variance; intervals are then as wide as the "
+              "residuals make them, and the report says by how much")
+              .one_of({"residuals"})
+              .optional(),
           effect("robust", "morison: wild samples of the force pull less (Huber)").optional(),
           effect("profile",
                  "decay, motion: intervals of damping or parameters from the likelihood itself, which need not be "

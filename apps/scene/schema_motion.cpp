@@ -174,11 +174,13 @@ const Table& hydrodynamics() {
            inner_table("turning", turning()).optional().only_beside("excitation"),
            inner_table("radiation", radiation()).optional(),
            effect("hydrostatics", "restoring loads of buoyancy and weight"),
-           text("interaction",
-                "\"full\": bodies of one file feel each other's radiated waves; \"self\": only their own")
-               .one_of({"full", "self"})
-               .or_default("full", "leaving it out would be an approximation")
-               .only_beside("radiation")},
+           text(
+               "interaction",
+               "whose waves the body feels: \"full\": those of all bodies that make waves, which one file must hold or "
+               "the program compute together; \"file\": of the bodies of its own file; \"self\": only its own")
+               .one_of({"full", "file", "self"})
+               .or_default("full", "leaving it out would be an approximation; where no waves can pass it is refused")
+               .only_beside_one_of({"radiation", "excitation"})},
       .groups = {{exactly_one, {"file", "cylinders"}}, {at_least_one, {"excitation", "radiation", "hydrostatics"}}}};
   return table;
 }

@@ -7,7 +7,9 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <optional>
 
+#include "fit/verdict.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
@@ -66,6 +68,7 @@ void search(std::span<const Window> records, const DecayMemoryOptions& options, 
   const double omega = *plain.motion.parameters[0].value,
                b = std::max(plain.motion.parameters[1].value.value_or(0), 1e-3 * omega);
   bool found = false;
+  std::optional<SearchFailed> unended;                  // the lowest of them
   const double share = options.terms.linear ? 0.5 : 1;  // of the damping that is the memory's at first
   for (const double factor : {0.6, 1.0, 1.8}) {
     ShootingProblem p =
@@ -77,9 +80,13 @@ void search(std::span<const Window> records, const DecayMemoryOptions& options, 
       fit.motion = std::move(motion);
       fit.problem = p;
       found = true;
+    } catch (const SearchFailed& e) {
+      if (!unended || e.cost() < unended->cost()) unended = e;
     } catch (const hydro::NumericsError&) {  // this start's motion runs away; the others may not
     }
   }
+  // What came to an end above the place where another was still under way is not the least.
+  if (unended && !(found && fit.motion.search.cost_last <= unended->cost())) throw SearchFailed(*unended);
   if (!found) throw hydro::NumericsError("a decay with a memory runs away from all its starts");
 }
 

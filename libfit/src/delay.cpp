@@ -8,6 +8,8 @@
 
 #include "convolve.hpp"
 #include "cubic.hpp"
+#include "fit/morison.hpp"
+#include "fit/verdict.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/welch.hpp"
@@ -58,6 +60,20 @@ Eigen::VectorXd minus_rate(const Eigen::VectorXd& force, double step) {
   return rate;
 }
 
+/// A delay that lies beyond the longest, and all that goes with it.
+void withhold_beyond(double delay_s, MorisonFit& fit) {
+  const std::string why = fmt::format(
+      "the force is told best by a delay of {:.4g} s or beyond, and no longer one is looked for (longest_delay)",
+      delay_s);
+  withhold(fit.cd, why);
+  withhold(fit.inertia, why);
+  for (auto* c : {&fit.linear_drag, &fit.offset, &fit.delay})
+    if (*c) withhold(**c, why);
+  for (FittedLine& line : fit.lines) withhold(line.amplitude, why);
+  fit.fit_band.clear();
+  fit.sample_band.clear();
+}
+
 }  // namespace
 
 std::vector<double> later(std::span<const double> values, double lag, std::size_t margin) {  // (F24)
@@ -96,9 +112,17 @@ DelayedFit fit_morison_and_delay(const Cylinder& cylinder, const ForceRecord& re
   };
   double lag = static_cast<double>(nearest_lag(columns, carried, middle(record.force, 3), longest));
   // Gauss–Newton on the delay; the coefficients are linear and follow at once.
-  for (int round = 0; round < 30; ++round) {
-    lag = std::clamp(lag, -static_cast<double>(longest), static_cast<double>(longest));
+  constexpr int most_rounds = 30;
+  bool beyond = false;
+  for (int round = 0;; ++round) {
+    const double bounded = std::clamp(lag, -static_cast<double>(longest), static_cast<double>(longest));
+    beyond = lag != bounded;
+    lag = bounded;
+    if (round == most_rounds && !beyond)
+      throw SearchFailed(
+          fmt::format("the search for the delay has no end: its steps do not settle about {:.4g} s", lag * step), 0);
     aligned.force = later(record.force, lag, margin);
+    if (round == most_rounds) break;
     Eigen::MatrixXd all(columns.rows(), 3);
     all << columns, Eigen::VectorXd::Zero(columns.rows());
     all.col(2) = minus_rate(fitted(), step);
@@ -112,6 +136,7 @@ DelayedFit fit_morison_and_delay(const Cylinder& cylinder, const ForceRecord& re
   const double shift = lag * step;
   for (Interval* i : {&delay.interval, &delay.white_interval}) *i = {i->low + shift, i->high + shift};
   if (delay.value) *delay.value += shift;
+  if (beyond) withhold_beyond(shift, result.fit);
   return result;
 }
 

@@ -44,6 +44,7 @@ struct HarmonicFit {
   Eigen::VectorXd x, fitted;
   Eigen::MatrixXd covariance;
   double dof, rms;
+  bool repeats = false;  // what is left hardly forgets within the record
   RadiationComplex amplitude(int k) const { return {x[2 * k - 1], x[2 * k]}; }
   /// Standard error of one part of the first amplitude, the mean of both.
   double error() const { return std::sqrt((covariance(1, 1) + covariance(2, 2)) / 2); }
@@ -66,6 +67,7 @@ HarmonicFit fit_series(const Eigen::VectorXd& time, const Eigen::VectorXd& value
   const auto u = correlated_covariance(columns, left, block, LongMemory::widen);
   fit.covariance = u.covariance;
   fit.dof = u.dof;
+  fit.repeats = u.dof_raised;
   return fit;
 }
 
@@ -162,6 +164,10 @@ RadiationPoint fit_radiation(std::span<const double> time, std::span<const doubl
                    .second_harmonic = std::abs(carried.amplitude(2) / f1),
                    .third_harmonic = std::abs(carried.amplitude(3) / f1),
                    .residual_rms = carried.rms,
+                   .caution = carried.repeats || moved.repeats
+                                  ? "what is left hardly forgets within the record, or repeats: it is an error of the "
+                                    "model more than noise, which no interval made from scatter covers"
+                                  : "",
                    .fitted = {carried.fitted.begin(), carried.fitted.end()}};
   const double scatter = std::hypot(carried.error() / amplitude, std::abs(d) * moved.error() / amplitude),
                q = hydro::signal::student_t_quantile((1 + confidence) / 2, std::min(carried.dof, moved.dof)),
@@ -188,9 +194,16 @@ RadiationMemory fit_radiation_memory(std::span<const RadiationPoint> points, dou
     largest = std::max(largest, *p.damping.value);
     error = std::max({error, scatter_of(p.damping), p.omega * scatter_of(p.added_mass)});
   }
-  RadiationMemory out{{}, std::max(1e-3, 2 * error / largest), {}};
+  RadiationMemory out{{}, std::max(1e-3, 2 * error / largest), {}, {}};
   const auto fitted = [&](const Shift& shift) { return poles_of(sorted, out.tolerance, shift); };
   out.poles = fitted([](std::size_t) { return Eigen::Vector2d(0, 0); });
+  // Four errors, which one table of ten points in a thousand leaves by chance.
+  if (const auto& r = out.poles.report; r.error > 2 * out.tolerance) {
+    out.refused = out.limit.why_not =
+        fmt::format("{} poles differ from the points by {:.2g} of the largest damping, which are known to {:.2g}: {}",
+                    r.order, r.error, out.tolerance, r.why);
+    return out;
+  }
   const double limit = out.poles.A_inf(0, 0);
   if (error > 0.016 * largest) {  // three deviations stay within the 5 % below zero that a table of damping may have
     out.limit.name = "added_mass_limit";

@@ -81,6 +81,7 @@ struct RampPiece {
   Eigen::VectorXd x;  // level at the origin, rate in 1/s
   CoefficientCovariance u;
   Eigen::VectorXd fitted;
+  double squares;  // left over
 };
 
 Eigen::MatrixXd line_columns(const Eigen::VectorXd& time) {
@@ -94,6 +95,7 @@ RampPiece fit_piece(const Eigen::MatrixXd& columns, const Eigen::VectorXd& value
   piece.x = hydro::dense::PivotedQr(columns).solve(values);
   piece.fitted = columns * piece.x;
   const Eigen::VectorXd left = values - piece.fitted;
+  piece.squares = left.squaredNorm();
   if (left.squaredNorm() > 1e-24 * values.squaredNorm()) {
     piece.u = correlated_covariance(columns, left, 1, LongMemory::widen);
     return piece;
@@ -102,6 +104,7 @@ RampPiece fit_piece(const Eigen::MatrixXd& columns, const Eigen::VectorXd& value
   piece.u.covariance = piece.u.white_covariance = Eigen::MatrixXd::Zero(p, p);
   piece.u.effective_samples = Eigen::VectorXd::Constant(p, static_cast<double>(values.size()));
   piece.u.dof = piece.u.white_dof = static_cast<double>(values.size() - p);
+  piece.u.dof_raised = false;
   return piece;
 }
 
@@ -185,6 +188,11 @@ FrictionRamp fit_friction_ramp(std::span<const double> time, std::span<const dou
       "slipped, or both levels are one",
       result.slip_s, *result.drop.value, result.drop.standard_error);
   const double t = hydro::signal::student_t_quantile((1 + options.confidence) / 2, trend.u.dof);
+  result.residual_rms = std::sqrt((ramp.squares + slide.squares) / static_cast<double>(p.ramp + p.slide));
+  if (ramp.u.dof_raised || slide.u.dof_raised)
+    result.caution =
+        "what a piece leaves over hardly forgets within it: it is no straight line, or no constant, more than noise, "
+        "which no interval made from scatter covers";
   if (std::abs(trend.x[1]) > t * std::sqrt(trend.u.covariance(1, 1)) &&
       std::abs(trend.x[1]) * options.slide_s > 0.05 * std::abs(slide.x[0]))
     result.caution = fmt::format(

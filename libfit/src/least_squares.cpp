@@ -2,8 +2,11 @@
 
 #include <ceres/ceres.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
@@ -11,6 +14,9 @@
 
 namespace fit {
 namespace {
+
+// Of residuals of order one: rounding of what they are differences of, and no residual at all.
+constexpr double perfect_residual = 1e-9;
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -62,6 +68,30 @@ std::string direction_name(const ResidualModel& model, const Eigen::VectorXd& v,
   return parts.size() == 1 ? model.parameters[last].name : fmt::format("{}", fmt::join(parts, " + "));
 }
 
+/// Parameters that stand at a bound and would go beyond it.
+std::vector<int> held_at_bounds(const ResidualModel& model, const Eigen::VectorXd& x, const Eigen::VectorXd& r,
+                                const Eigen::MatrixXd& jacobian) {
+  std::vector<int> out;
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    const auto& q = model.parameters[static_cast<std::size_t>(j)];
+    const double slope = jacobian.col(j).dot(r);
+    if ((x[j] <= q.lowest && slope > 0) || (x[j] >= q.highest && slope < 0)) out.push_back(static_cast<int>(j));
+  }
+  return out;
+}
+
+/// (F65) ‖P r‖²/‖r‖², P the projection onto what the columns span; 0 where the fit is perfect. Derivatives that are
+/// differences are good to 1e-4: a direction that is weaker than that promises errors of its own, and is left out.
+double promised_share(const std::vector<int>& held, const Eigen::VectorXd& r, const Eigen::MatrixXd& jacobian) {
+  if (r.norm() <= perfect_residual * std::sqrt(static_cast<double>(r.size()))) return 0;
+  Eigen::MatrixXd columns = jacobian;
+  for (const int j : held) columns.col(j).setZero();
+  for (auto column : columns.colwise())
+    if (const double norm = column.norm(); norm > 0) column /= norm;
+  if (columns.isZero(0)) return 0;
+  return (columns * hydro::dense::CompleteQr(columns, 1e-4).solve(r)).squaredNorm() / r.squaredNorm();
+}
+
 // (F2)
 void judge(const ResidualModel& model, const Eigen::MatrixXd& jacobian, FitReport& report) {
   constexpr double not_seen = 1e-10;
@@ -100,20 +130,23 @@ ceres::Solver::Options solver_options(const StopWhen& stop) {
   options.gradient_tolerance = stop.gradient_below;
   options.parameter_tolerance = stop.step_below;
   options.max_num_iterations = stop.iterations_reach;
-  // Nearly Gauss–Newton from the start: a linear problem should not pay for damping.
-  options.initial_trust_region_radius = 1e12;
+  options.initial_trust_region_radius = stop.trust_radius;
   // A simulation may fail far away; five steps in a row, the usual limit, are few where each is half of the last.
   options.max_num_consecutive_invalid_steps = 20;
   options.logging_type = ceres::SILENT;
   return options;
 }
 
-/// Runs Ceres from x and fills the first half of the report. \return where it ended
-std::vector<double> search(const ResidualModel& model, const Eigen::VectorXd& x, const StopWhen& stop,
-                           FitReport& report) {
+/// Runs Ceres from x, some parameters held, and fills the first half of the report. \return where it ended
+std::vector<double> search(const ResidualModel& model, const Eigen::VectorXd& x, const std::vector<int>& held,
+                           const StopWhen& stop, FitReport& report) {
   std::vector<double> trial(x.data(), x.data() + x.size());
   ceres::Problem problem;
   problem.AddResidualBlock(new ModelCost(model), nullptr, trial.data());
+  if (held.size() == trial.size())
+    problem.SetParameterBlockConstant(trial.data());
+  else if (!held.empty())
+    problem.SetManifold(trial.data(), new ceres::SubsetManifold(static_cast<int>(trial.size()), held));
   for (std::size_t j = 0; j < trial.size(); ++j) {
     const auto& parameter = model.parameters[j];
     if (std::isfinite(parameter.lowest))
@@ -126,10 +159,12 @@ std::vector<double> search(const ResidualModel& model, const Eigen::VectorXd& x,
     const QuietLogging quiet;
     ceres::Solve(solver_options(stop), &problem, &summary);
   }
-  report.iterations = static_cast<int>(summary.iterations.size()) - 1;
+  // Where every parameter is held there is nothing to iterate.
+  report.iterations = std::max(0, static_cast<int>(summary.iterations.size()) - 1);
   report.cost_first = summary.initial_cost;
   report.cost_last = summary.final_cost;
-  report.gradient_norm = summary.iterations.back().gradient_max_norm;
+  report.gradient_norm = summary.iterations.empty() ? 0 : summary.iterations.back().gradient_max_norm;
+  report.trust_radius = summary.iterations.empty() ? stop.trust_radius : summary.iterations.back().trust_region_radius;
   report.why = summary.message;
   switch (summary.termination_type) {
     case ceres::CONVERGENCE:
@@ -145,6 +180,33 @@ std::vector<double> search(const ResidualModel& model, const Eigen::VectorXd& x,
   return trial;
 }
 
+/// Ceres cuts its steps off at bounds, and the other parameters then go to where they would be without them. So what
+/// stands at a bound and would cross it is held there, and the others are searched for alone, until no more come or go.
+/// Residuals and Jacobian are those of x, before and after. \return what is held in the end
+std::vector<int> search_with_bounds(const ResidualModel& model, StopWhen stop, Eigen::VectorXd& x, Eigen::VectorXd& r,
+                                    Eigen::MatrixXd& jacobian, FitReport& report) {
+  const double cost_first = r.squaredNorm() / 2;
+  int iterations = 0;
+  std::vector<int> held = held_at_bounds(model, x, r, jacobian);
+  while (true) {
+    const std::vector<double> best = search(model, x, held, stop, report);
+    if (report.cost_last < report.cost_first)
+      x = Eigen::Map<const Eigen::VectorXd>(best.data(), static_cast<Eigen::Index>(best.size()));
+    model.evaluate(x, r, &jacobian);
+    iterations += report.iterations;
+    stop.iterations_reach -= std::max(1, report.iterations);
+    const std::vector<int> now = held_at_bounds(model, x, r, jacobian);
+    const bool settled = now == held;
+    held = now;
+    if (!settled && report.ended() && stop.iterations_reach <= 0)
+      report.outcome = FitReport::Outcome::out_of_iterations;
+    if (settled || !report.ended()) break;
+  }
+  report.cost_first = cost_first;
+  report.iterations = iterations;
+  return held;
+}
+
 }  // namespace
 
 FitReport minimise(const ResidualModel& model, Eigen::VectorXd& x, const StopWhen& stop) {  // (F1)
@@ -156,7 +218,8 @@ FitReport minimise(const ResidualModel& model, Eigen::VectorXd& x, const StopWhe
   if (!r.allFinite() || !jacobian.allFinite()) {  // Ceres would end without a first cost
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     report.outcome = FitReport::Outcome::not_finite;
-    report.cost_first = report.cost_last = report.gradient_norm = nan;
+    report.cost_first = report.cost_last = report.gradient_norm = report.promised = nan;
+    report.trust_radius = stop.trust_radius;
     report.why = "residuals or Jacobian are not finite at the start";
     report.identifiable.assign(model.parameters.size(), false);
     report.identifiability = report.why;
@@ -164,10 +227,10 @@ FitReport minimise(const ResidualModel& model, Eigen::VectorXd& x, const StopWhe
     report.singular_values = Eigen::VectorXd::Constant(x.size(), nan);
     return report;
   }
-  const std::vector<double> best = search(model, x, stop, report);
-  if (report.cost_last < report.cost_first)
-    x = Eigen::Map<const Eigen::VectorXd>(best.data(), static_cast<Eigen::Index>(best.size()));
-  model.evaluate(x, r, &jacobian);
+  const std::vector<int> held = search_with_bounds(model, stop, x, r, jacobian, report);
+  report.promised = promised_share(held, r, jacobian);
+  if (report.ended() && report.promised * static_cast<double>(model.residuals) > 1)
+    report.outcome = FitReport::Outcome::stuck;
   judge(model, jacobian, report);
   return report;
 }

@@ -10,6 +10,7 @@
 #include "fit/correlated.hpp"
 #include "fit/resampling.hpp"
 #include "fit/robust.hpp"
+#include "fit/verdict.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
@@ -309,6 +310,7 @@ MorisonFit fit_columns(const Cylinder& cylinder, const ForceRecord& record, cons
   result.search =
       minimise(linear_model(compress(columns, target), parameters(cylinder, options, at, unit, result), unit), x);
 
+  if (result.search.all_identifiable()) require_ended(result.search, "the coefficients");
   if (at.count > (at.delay < 0 ? 2 : 3) && !result.search.all_identifiable())
     throw hydro::InputError(result.search.identifiability, {}, "leave out the line, offset or linear drag among them");
 

@@ -94,7 +94,7 @@ double between_runs(const Design& d, bool restricted) {
     if (std::abs(next - squared) <= 1e-12 * (next + d.own.minCoeff())) return next;
     squared = next;
   }
-  return squared;
+  throw hydro::NumericsError("the search for what runs differ by has no end: 200 steps of it do not settle");
 }
 
 /// Each run from the others: rms of what is missed.

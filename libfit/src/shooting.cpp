@@ -8,6 +8,7 @@
 
 #include "fit/correlated.hpp"
 #include "fit/shooting.hpp"
+#include "fit/verdict.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
@@ -217,6 +218,7 @@ void tell_parameters(const ShootingProblem& p, const Layout& l, const Eigen::Vec
 void tell_motion(const ShootingProblem& p, const Layout& l, const Eigen::VectorXd& x, ShootingFit& fit) {
   const auto channels = p.windows[0].values.cols();
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(channels);
+  Eigen::RowVectorXd about_mean = Eigen::RowVectorXd::Zero(channels);
   double samples = 0;
   for (std::size_t w = 0; w < p.windows.size(); ++w) {
     Eigen::MatrixXd motion, finer;
@@ -228,11 +230,15 @@ void tell_motion(const ShootingProblem& p, const Layout& l, const Eigen::VectorX
       fit.integration_error = std::max(fit.integration_error, (motion - finer).col(c).cwiseAbs().maxCoeff() /
                                                                   p.deviations[static_cast<std::size_t>(c)]);
     squares += (motion - p.windows[w].values).cwiseAbs2().colwise().sum().transpose();
+    about_mean += (p.windows[w].values.rowwise() - p.windows[w].values.colwise().mean()).cwiseAbs2().colwise().sum();
     samples += static_cast<double>(motion.rows());
     fit.initial.push_back(x.segment(l.fitted + static_cast<Eigen::Index>(w) * l.states, l.states));
     fit.motion.push_back(std::move(motion));
   }
-  for (Eigen::Index c = 0; c < channels; ++c) fit.rms.push_back(std::sqrt(squares[c] / samples));
+  for (Eigen::Index c = 0; c < channels; ++c) {
+    fit.rms.push_back(std::sqrt(squares[c] / samples));
+    fit.explained.push_back(about_mean[c] > 0 ? 1 - squares[c] / about_mean[c] : 1.0);
+  }
 }
 
 /// What the fitted motion is uncertain by at each sample, and what a new sample would scatter by beside it.
@@ -288,6 +294,7 @@ ShootingFit fit_motion(const ShootingProblem& p) {  // (F36)
   fit.search = minimise(model, x, {.cost_change_below = 1e-12, .gradient_below = 1e-12, .step_below = 1e-12});
   if (fit.search.outcome == FitReport::Outcome::not_finite)
     throw hydro::NumericsError(fmt::format("the motion runs away from its start: {}", fit.search.why));
+  require_ended(fit.search, "the motion");
   Eigen::VectorXd r(model.residuals);
   Eigen::MatrixXd jacobian;
   model.evaluate(x, r, &jacobian);
@@ -349,9 +356,12 @@ Interval profile_interval(const ShootingProblem& problem, const ShootingFit& fit
     Eigen::VectorXd x = start_of(held, l);
     for (std::size_t w = 0; w < held.windows.size(); ++w)
       x.segment(l.fitted + static_cast<Eigen::Index>(w) * l.states, l.states) = fit.initial[w];
-    return minimise(model_of(held, l), x, {.cost_change_below = 1e-12, .gradient_below = 1e-12, .step_below = 1e-12})
-               .cost_last -
-           fit.search.cost_last - rise;
+    const FitReport search =
+        minimise(model_of(held, l), x, {.cost_change_below = 1e-12, .gradient_below = 1e-12, .step_below = 1e-12});
+    // Where a motion runs away the end lies before.
+    if (search.outcome == FitReport::Outcome::not_finite) return std::numeric_limits<double>::infinity();
+    require_ended(search, "all else at a value of the profile");
+    return search.cost_last - fit.search.cost_last - rise;
   };
   const auto end = [&](double sign) {
     double inside = value, outside = value + sign * t * c.standard_error;

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "fit/correlated.hpp"
+#include "fit/verdict.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
@@ -64,6 +65,8 @@ class Shooting {
   void tell_bands(const CoefficientCovariance& u, SimulationFit& fit) const;
   void tell_identifiability(const Eigen::MatrixXd& jacobian, double unit, SimulationFit& fit);
   void judge(const Eigen::VectorXd& x, SimulationFit& fit) const;
+  void compare_with_stated(const Eigen::VectorXd& r, SimulationFit& fit) const;
+  void refuse(SimulationFit& fit) const;
 
   Simulation& simulation_;
   const SimulationProblem& problem_;
@@ -226,30 +229,45 @@ void Shooting::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::Mat
 }
 
 /// Rounds of a search that holds its Jacobian, which takes one run of the record a step; each begins with a new one,
-/// which takes 1 + 2p + d. The round that gains next to nothing from a new one is the last. (F41)
+/// which takes 1 + 2p + d, unless it is where the last one was. The round that gains next to nothing from a new one,
+/// and is promised no more, is the last: where steps are promised and none is found, the next round takes shorter ones.
+/// (F41), (F65)
 FitReport Shooting::search(Eigen::VectorXd& x) {
   // Shares of the cost. A standard error of one unknown lowers it by one n-th: no step of a thirtieth of it is taken,
   // and what gains less than half of one leaves a small part of that.
   const double nothing = 1e-3 / static_cast<double>(rows_), little = 0.2 / static_cast<double>(rows_);
+  using Outcome = FitReport::Outcome;
   FitReport all{};
+  Eigen::VectorXd at;  // of the Jacobian
+  double radius = StopWhen{}.trust_radius;
   for (bool held = jacobian_.size() > 0;; held = false) {
-    if (!held) jacobian_ = differences(x);
+    if (!held && (at.size() == 0 || at != x)) jacobian_ = differences(at = x);
     const int left = problem_.iterations_reach - all.iterations;
     FitReport round = minimise(model(), x,
                                {.cost_change_below = nothing,
                                 .gradient_below = 1e-9,
                                 .step_below = 1e-8,
-                                .iterations_reach = std::min(6, left)});
-    const bool last = !held && round.cost_first - round.cost_last <= little * round.cost_first;
+                                .iterations_reach = std::min(6, left),
+                                .trust_radius = radius});
+    const bool gained = round.cost_first - round.cost_last > little * round.cost_first,
+               promised = round.promised * static_cast<double>(rows_) > 1,
+               // Less than a ten-thousandth of the noise stated: there is nothing left to find.
+        perfect = 2 * round.cost_last <= 1e-8 * static_cast<double>(rows_),
+               last = !held && (perfect || (!gained && (!promised || round.outcome == Outcome::stuck)));
+    // After a step of full length that failed, one of half that length and less.
+    if (!held) radius = gained ? round.trust_radius : std::min(1.0, round.trust_radius);
     if (all.iterations > 0) round.cost_first = all.cost_first;
     round.iterations += all.iterations;
     all = std::move(round);
-    if (last) {
-      all.outcome = FitReport::Outcome::converged;
-      all.why = fmt::format("a new Jacobian lowered the cost by less than {:.2g} of it", little);
+    if (last && (perfect || !promised)) {
+      all.outcome = Outcome::converged;
+      all.why = perfect ? "residuals of a ten-thousandth of the deviations stated"
+                        : fmt::format("a new Jacobian lowered the cost by less than {:.2g} of it", little);
     }
-    if (last || all.outcome == FitReport::Outcome::not_finite || all.iterations >= problem_.iterations_reach)
-      return all;
+    if (last || all.outcome == Outcome::not_finite) return all;
+    if (all.iterations < problem_.iterations_reach) continue;
+    all.outcome = Outcome::out_of_iterations;  // whatever the last round ended by
+    return all;
   }
 }
 
@@ -423,7 +441,38 @@ void Shooting::tell(const Eigen::VectorXd& x, SimulationFit& fit) {
   tell_identifiability(jacobian_, unit, fit);
   judge(x, fit);
   tell_motion(x, r, fit);
-  tell_bands(u, fit);
+  compare_with_stated(r, fit);
+  if (fit.refused.empty())
+    tell_bands(u, fit);
+  else
+    refuse(fit);
+}
+
+/// (F65), (F66)
+void Shooting::compare_with_stated(const Eigen::VectorXd& r, SimulationFit& fit) const {
+  const double taken = static_cast<double>(unknowns_) / static_cast<double>(rows_);
+  for (Eigen::Index c = 0; c < channels(); ++c) {
+    Eigen::VectorXd own(rows_ / channels());
+    Eigen::Index filled = 0;
+    for (std::size_t w = 0; w < pieces_.size(); ++w) {
+      const Eigen::Index n = problem_.measured[w].rows();
+      own.segment(filled, n) = r.segment(pieces_[w].row + c * n, n);
+      filled += n;
+    }
+    const double deviation = problem_.deviations[static_cast<std::size_t>(c)];
+    fit.stated.push_back(against_stated(own * deviation, deviation, taken));
+  }
+  fit.refused = why_unended(fit.search);
+  if (!fit.refused.empty() || problem_.accept_residuals) return;
+  for (std::size_t c = 0; c < fit.stated.size(); ++c)
+    if (const auto& s = fit.stated[c]; fit.refused.empty() && !s.hold())
+      fit.refused =
+          fmt::format("channel {} differs by {:.3g} rms; its deviation is stated as {:.3g}, which allows {:.3g}", c + 1,
+                      s.rms, s.stated, s.allowed);
+}
+
+void Shooting::refuse(SimulationFit& fit) const {
+  for (Coefficient& c : fit.parameters) withhold(c, fit.refused);
 }
 
 SimulationFit Shooting::solve() {  // (F41)
@@ -446,7 +495,11 @@ SimulationFit Shooting::solve() {  // (F41)
 
 double Shooting::least_cost() {
   Eigen::VectorXd x = problem_.begin ? go_on(problem_.begin->end) : find_starts();
-  if (unknowns_ > 0) return search(x).cost_last;
+  if (unknowns_ > 0) {
+    const FitReport report = search(x);
+    if (report.outcome != FitReport::Outcome::not_finite) require_ended(report, "all else at a value of the profile");
+    return report.cost_last;
+  }
   double squares = 0;
   for (std::size_t w = 0; w < pieces_.size(); ++w) squares += residuals(w, x, start_of(x, w)).squaredNorm();
   return squares / 2;
@@ -531,6 +584,8 @@ Interval profile_interval(Simulation& simulation, const SimulationProblem& probl
     try {
       const double cost = Shooting(held, others).least_cost() - fit.search.cost_last;
       return std::isfinite(cost) ? std::sqrt(std::max(0.0, cost) / rise) : std::numeric_limits<double>::infinity();
+    } catch (const SearchFailed&) {
+      throw;
     } catch (const hydro::NumericsError&) {
       return std::numeric_limits<double>::infinity();  // no motion there: the end lies before
     }
@@ -566,7 +621,7 @@ SeveralStarts fit_simulation_from(Simulation& simulation, const SimulationProble
   for (const auto& q : problem.parameters)
     hydro::require(std::isfinite(q.lowest) && std::isfinite(q.highest),
                    "{} has no bounds on both sides, between which a search could start", q.name);
-  SeveralStarts out{{}, starts, 0, 0};
+  SeveralStarts out{{}, starts, 0, 0, 0};
   std::vector<double> costs;
   std::exception_ptr failure;
   for (int k = 0; k < starts; ++k) {
@@ -578,6 +633,7 @@ SeveralStarts fit_simulation_from(Simulation& simulation, const SimulationProble
     try {
       SimulationFit fit = fit_simulation(simulation, other);
       costs.push_back(fit.search.cost_last);
+      out.unended += !fit.search.ended();
       if (costs.back() <= *std::min_element(costs.begin(), costs.end())) out.best = std::move(fit);
     } catch (const hydro::NumericsError&) {
       failure = std::current_exception();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fit/verdict.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
 
@@ -69,6 +70,7 @@ TowingFit fit_towing(const Cylinder& cylinder, std::span<const TowingRun> runs, 
       scattered ? own * scatter * hydro::signal::student_t_quantile((1 + confidence) / 2, n - 1) : normal;
   fit.chi_square = stated ? squares : std::numeric_limits<double>::quiet_NaN();
   fit.scatter = stated ? scatter : std::numeric_limits<double>::quiet_NaN();
+  fit.allowed = stated && n > 1 ? allowed_ratio(n - 1) : std::numeric_limits<double>::quiet_NaN();
   fit.cd.name = "cd";
   fit.cd.value = mean;
   fit.cd.standard_error = scattered ? own * scatter : own;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -265,6 +266,87 @@ TEST_F(Fit, OfASceneSaysWhichKeyItCannotFind) {
               ThrowsMessage<InputError>(HasSubstr("chain.link3.polar")));
   EXPECT_THAT([&] { told({.scene = changed("pendulums.toml", "0.6 deg", "0.6 m")}); },
               ThrowsMessage<InputError>(HasSubstr("an angle is needed")));
+}
+
+TEST_F(Fit, OfASceneWhoseSearchHasNoEndTellsNothing) {
+  const auto scene = changed("pendulums.toml", "window = \"2 s\"", "window = \"2 s\"\niterations = 1");
+  std::ostringstream out, err;
+  const froude::FitArguments arguments{.scene = scene, .output = folder / "p.toml", .picture = folder / "p.svg"};
+  EXPECT_THAT(
+      [&] {
+        froude::fit(arguments, {out, err, false});
+      },
+      ThrowsMessage<hydro::NumericsError>(AllOf(HasSubstr("no value is told"),
+                                                HasSubstr("all 1 of its iterations are used up"),
+                                                HasSubstr("iterations, now 1"), HasSubstr("starts"))));
+  EXPECT_THAT(out.str(), AllOf(HasSubstr("differs by"), testing::Not(HasSubstr("interval"))));
+  EXPECT_FALSE(std::filesystem::exists(folder / "p.toml"));
+  EXPECT_THAT(hydro::io::read_text(folder / "p.svg"), AllOf(HasSubstr("no fit"), testing::Not(HasSubstr("band"))));
+}
+
+TEST_F(Fit, OfASceneWhoseResidualsContradictTheStatedDeviationTellsNothing) {
+  // The noise is 0.01 rad.
+  const auto scene = changed("pendulums.toml", "\"chain.link2.polar\", deviation = \"0.6 deg\"",
+                             "\"chain.link2.polar\", deviation = \"0.003 rad\"");
+  try {
+    told({.scene = scene, .output = folder / "p.toml"}, true);
+    ADD_FAILURE() << "values were told";
+  } catch (const froude::CheckFailed& e) {
+    EXPECT_THAT(e.told().rule(),
+                AllOf(HasSubstr("chain.link2.polar differs by 0.01"), HasSubstr("stated as 0.003 rad")));
+    EXPECT_EQ(e.told().where().line, 9);  // that of the deviation
+    EXPECT_THAT(e.told().remedy(), AllOf(HasSubstr("state the deviation"), HasSubstr("accept = [\"residuals\"]")));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "p.toml"));
+  std::string text = hydro::io::read_text(scene);
+  text.replace(text.find("[ask]"), 5, "[ask]\naccept = [\"residuals\"]");
+  hydro::io::write_atomically(scene, text);
+  const auto j = nlohmann::json::parse(told({.scene = scene}, true));
+  ASSERT_EQ(j["accepted"].size(), 1u);
+  EXPECT_THAT(j["accepted"][0].get<std::string>(), HasSubstr("made from these residuals, 3."));
+  EXPECT_LT(j["parameter"]["line_damping_linear"]["interval"][0].get<double>(), 0.006);  // as make_pendulums.py says
+  EXPECT_GT(j["parameter"]["line_damping_linear"]["interval"][1].get<double>(), 0.006);
+  EXPECT_THAT(told({.scene = scene}), HasSubstr("accepted: chain.link2.polar"));
+  EXPECT_THAT([&] { told({.scene = changed("oscillation.toml", "[ask]", "[ask]\naccept = [\"residuals\"]")}); },
+              ThrowsMessage<InputError>(HasSubstr("has no part in a fit of kind \"morison\"")));
+}
+
+TEST_F(Fit, OfADecayThatIsNoneTellsNothing) {
+  const auto scene = changed("decay.toml", "[ask]", "[ask]");
+  const auto measured = [&](const auto& roll) {
+    std::string text = "t [s],roll [rad]\n";
+    for (int j = 0; j < 900; ++j) text += fmt::format("{:.1f},{:.5f}\n", 0.1 * j, roll(0.1 * j));
+    hydro::io::write_atomically(folder / "decay.csv", text);
+  };
+  // Three swings as large as each other: one of them is a third of the whole.
+  measured([](double t) { return 0.1 * (std::cos(0.8 * t) + std::cos(t) + std::cos(1.25 * t)); });
+  EXPECT_THAT(
+      [&] { told({.scene = scene}, true); },
+      ThrowsMessage<froude::CheckFailed>(AllOf(HasSubstr("rad rms from decay.csv"), HasSubstr("50 % are the least"),
+                                               HasSubstr("accept = [\"residuals\"]"))));
+  // A swing whose period halves, of which the search finds no end.
+  measured([](double t) { return 0.2 * std::cos(0.8 * t + 0.004 * t * t); });
+  EXPECT_THAT(
+      [&] { told({.scene = scene}, true); },
+      ThrowsMessage<hydro::NumericsError>(AllOf(HasSubstr("decay.csv: no value is told"), HasSubstr("no end"))));
+}
+
+TEST_F(Fit, OfTowingRunsThatContradictTheirDeviationsTellsNoMean) {
+  const auto scene = changed("towing.toml", "[ask]", "[ask]");
+  std::string text = hydro::io::read_text(folder / "towing.csv");
+  text.replace(text.find("25.32,0.24"), 10, "20.32,0.24");
+  hydro::io::write_atomically(folder / "towing.csv", text);
+  std::ostringstream out, err;
+  EXPECT_THAT(
+      [&] {
+        froude::fit({.scene = scene}, {out, err, false});
+      },
+      ThrowsMessage<froude::CheckFailed>(AllOf(HasSubstr("they scatter"), HasSubstr("allow 2.69 times"))));
+  EXPECT_THAT(out.str(), AllOf(HasSubstr("0.843"), testing::Not(HasSubstr("together"))));
+  text = hydro::io::read_text(scene);
+  text.replace(text.find("[ask]"), 5, "[ask]\naccept = [\"residuals\"]");
+  hydro::io::write_atomically(scene, text);
+  EXPECT_THAT(told({.scene = scene}), AllOf(HasSubstr("together: cd"), HasSubstr("accepted: the runs scatter")));
 }
 
 /// The interval of a coefficient holds the truth.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "fit/filter.hpp"
 #include "fit/morison.hpp"
@@ -79,6 +80,14 @@ TEST(DelayOfTheForce, CoversTheTruthAndWidensTheCoefficients) {
   EXPECT_GE(delays, 177);
   EXPECT_GE(drags, 177);
   EXPECT_GT(widths, 1.0);
+}
+
+TEST(DelayOfTheForce, BeyondTheLongestIsNotToldNorWhatGoesWithIt) {
+  const auto r = fit::fit_morison_and_delay(cylinder, made(0.36, 0.73, 0.1, 5), 0.4).fit;
+  EXPECT_FALSE(r.delay->value);
+  EXPECT_FALSE(r.cd.value);
+  EXPECT_FALSE(r.inertia.value);
+  EXPECT_NE(r.delay->why_not.find("0.4 s or beyond"), std::string::npos) << r.delay->why_not;
 }
 
 TEST(DelayOfTheForce, CannotBeToldWhereOnlyInertiaActs) {

@@ -88,6 +88,33 @@ TEST(LeastSquares, SaysWhenItRanOutOfIterations) {
   EXPECT_FALSE(report.why.empty());
 }
 
+TEST(LeastSquares, SaysThatItIsStuckWhereTheDerivativesAreWrong) {
+  // Their sign is: every step goes the wrong way, and is cut until it is no step. That is no minimum.
+  const Eigen::MatrixXd a = random_matrix(50, 2, 4);
+  const Eigen::VectorXd b = a * Eigen::Vector2d(1, -2) + random_matrix(50, 1, 5);
+  ResidualModel model = linear(a, b);
+  model.evaluate = [a, b](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
+    r = a * x - b;
+    if (jacobian != nullptr) *jacobian = -a;
+  };
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(2);
+  const auto report = fit::minimise(model, x);
+  EXPECT_EQ(report.outcome, FitReport::Outcome::stuck) << report.why;
+  const double least = (a * (a.transpose() * a).inverse() * a.transpose() * b).squaredNorm();
+  EXPECT_NEAR(report.promised, least / b.squaredNorm(), 1e-9);  // of the way to the minimum that there is
+}
+
+TEST(LeastSquares, HasAnEndAtABoundThatHoldsItBack) {
+  const Eigen::MatrixXd a = random_matrix(50, 2, 6);
+  ResidualModel model = linear(a, a * Eigen::Vector2d(1, -2) + random_matrix(50, 1, 7));
+  model.parameters[0].highest = 0.5;
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(2);
+  const auto report = fit::minimise(model, x);
+  EXPECT_EQ(report.outcome, FitReport::Outcome::converged) << report.why;
+  EXPECT_NEAR(x[0], 0.5, 1e-12);
+  EXPECT_LT(report.promised, 1e-12);
+}
+
 TEST(LeastSquares, LeavesTheStartAloneWhereTheModelIsNotFinite) {
   ResidualModel model{{{"x", 1}}, 1, [](const Eigen::VectorXd&, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
                         r[0] = std::nan("");

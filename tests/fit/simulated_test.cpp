@@ -193,6 +193,75 @@ TEST(Simulated, SaysThatASearchEndedAtABound) {
   EXPECT_THAT(f.parameters[1].why_not, HasSubstr("bound 0.2"));
 }
 
+TEST(Simulated, TellsNothingOfASearchThatUsedUpItsIterations) {
+  auto p = swing_problem(0.01, 3);
+  p.iterations_reach = 1;
+  Flow flow(swing, vector({1, 0, 1}), 0.05, 300, false);
+  const auto f = fit::fit_simulation(flow, p);
+  EXPECT_EQ(f.search.outcome, fit::FitReport::Outcome::out_of_iterations);
+  EXPECT_THAT(f.refused, HasSubstr("all 1 of its iterations are used up"));
+  for (const auto& c : f.parameters) {
+    EXPECT_FALSE(c.value);
+    EXPECT_TRUE(std::isinf(c.interval.low) && std::isinf(c.interval.high));
+  }
+  EXPECT_TRUE(f.fit_band.empty() && f.sample_band.empty());
+  p.accept_residuals = true;  // which is no acceptance of a search without an end
+  EXPECT_FALSE(fit::fit_simulation(flow, p).parameters[0].value);
+}
+
+TEST(Simulated, TellsNothingWhereResidualsExceedWhatIsStated) {
+  auto p = swing_problem(0.01, 3);
+  p.parameters = {{"linear", 0.1}, {"restoring", 4.1}};  // without the quadratic damping that acts
+  class Linear final : public fit::Simulation {
+   public:
+    Linear() : flow_(swing, vector({1, 0, 1}), 0.05, 300, false) {}
+    Eigen::Index coordinates(std::size_t) override { return 0; }
+    Eigen::MatrixXd follow(std::size_t w, const Eigen::VectorXd& q, const Eigen::VectorXd& start) override {
+      return flow_.follow(w, vector({q[0], 0, q[1]}), start);
+    }
+    void hand_on(std::size_t, const Eigen::VectorXd&, const Eigen::VectorXd&) override {}
+
+   private:
+    Flow flow_;
+  } linear;
+  const auto f = fit::fit_simulation(linear, p);
+  EXPECT_TRUE(f.search.ended());
+  EXPECT_GT(f.stated[0].rms, f.stated[0].allowed);
+  EXPECT_THAT(f.refused, AllOf(HasSubstr("stated as 0.01"), HasSubstr("which allows")));
+  EXPECT_FALSE(f.parameters[0].value);
+  p.accept_residuals = true;
+  const auto taken = fit::fit_simulation(linear, p);
+  ASSERT_TRUE(taken.parameters[0].value);
+  EXPECT_EQ(taken.refused, "");
+  // Intervals are made from the residuals: at the least as much wider than those of the deviation stated.
+  p.deviations[0] = taken.stated[0].rms;
+  const auto restated = fit::fit_simulation(linear, p);
+  EXPECT_NEAR(taken.parameters[0].standard_error / restated.parameters[0].standard_error, 1, 1e-3);
+}
+
+TEST(Simulated, GoesOnWithShorterStepsWhereOnesOfFullLengthFail) {
+  // x_i = c_i arctan θ, from θ = 10: a full step goes to −90, where the residuals are larger, and so does half of it.
+  class Arctan final : public fit::Simulation {
+   public:
+    Eigen::Index coordinates(std::size_t) override { return 0; }
+    Eigen::MatrixXd follow(std::size_t, const Eigen::VectorXd& p, const Eigen::VectorXd&) override {
+      Eigen::MatrixXd out(200, 1);
+      for (Eigen::Index i = 0; i < 200; ++i) out(i, 0) = (1 + std::sin(0.1 * static_cast<double>(i))) * std::atan(p[0]);
+      return out;
+    }
+    void hand_on(std::size_t, const Eigen::VectorXd&, const Eigen::VectorXd&) override {}
+  } arctan;
+  const auto e = froude_test::ar1_noise(200, 0, 1, 5);
+  const Eigen::MatrixXd measured =
+      arctan.follow(0, vector({0.5}), {}) + Eigen::Map<const Eigen::VectorXd>(e.data(), 200);
+  const auto f =
+      fit::fit_simulation(arctan, {.parameters = {{"theta", 10}}, .measured = {measured}, .deviations = {1.0}});
+  EXPECT_TRUE(f.search.ended()) << f.search.why;
+  ASSERT_TRUE(f.parameters[0].value) << f.refused;
+  EXPECT_LT(f.parameters[0].interval.low, 0.5);
+  EXPECT_GT(f.parameters[0].interval.high, 0.5);
+}
+
 TEST(Simulated, RefusesWhatItCannotBeginWith) {
   Flow flow(swing, vector({1, 0, 1}), 0.05, 300, false);
   auto p = swing_problem(0, 1);
@@ -232,13 +301,13 @@ TEST(SimulatedProfile, IsWhereTheLikelihoodHasFallen) {
   } sine(follow);
   const auto e = froude_test::ar1_noise(200, 0, 0.8, 5);
   const Eigen::MatrixXd measured = follow(1.0, 0.3) + Eigen::Map<const Eigen::VectorXd>(e.data(), 200);
-  fit::SimulationProblem p{.parameters = {{"a", 1.1}, {"b", 0.31}}, .measured = {measured}, .deviations = {0.5}};
+  fit::SimulationProblem p{.parameters = {{"a", 1.1}, {"b", 0.31}}, .measured = {measured}, .deviations = {0.8}};
   const auto f = fit::fit_simulation(sine, p);
   const auto profile = fit::profile_interval(sine, p, f, 1);
   const auto cost = [&](double b) {
     const Eigen::VectorXd shape = follow(1, b), x = measured;
     const double a = shape.dot(x) / shape.squaredNorm();
-    return (x - a * shape).squaredNorm() / 2 / 0.25;
+    return (x - a * shape).squaredNorm() / 2 / 0.64;
   };
   // What the cost rises by at both ends is t² s² (n/n_eff)/2, within 2·3 % and the search's own 5 % of it.
   const double least = cost(*f.parameters[1].value);
@@ -269,6 +338,7 @@ TEST(SimulatedProfile, OfOneParameterAloneAndAtABoundEndsThere) {
     fit::Simulation& all_;
   } one(flow);
   auto p = swing_problem(0.03, 4);
+  p.deviations = {0.03};
   p.parameters = {{"quadratic", 0.2}};
   const auto f = fit::fit_simulation(one, p);
   const auto free = fit::profile_interval(one, p, f, 0);
@@ -300,6 +370,8 @@ TEST(SeveralStarts, FindTheMinimumThatOneStartMisses) {
   Flow flow(swing_freely, vector({1, 0}), 0.05, 300, false);
   const auto once = fit::fit_simulation(flow, p);
   EXPECT_GT(once.rms[0], 0.3);  // 15 s of swings of 2 s: a start at 3.6 s has lost them
+  EXPECT_FALSE(once.parameters[0].value);
+  EXPECT_THAT(once.refused, HasSubstr("stated as 0.05"));
   const auto several = fit::fit_simulation_from(flow, p, 24);
   EXPECT_NEAR(several.best.parameters[0].value.value(), 9.0, 0.02);
   EXPECT_NEAR(several.best.rms[0], 0.05, 0.01);

@@ -38,6 +38,7 @@ struct RadiationPoint {
   double second_harmonic;  ///< of the force, over its first: what is not linear
   double third_harmonic;
   double residual_rms;         ///< N or N m, of what is in none of the three harmonics
+  std::string caution;         ///< why the intervals may not hold; empty where nothing is known against them
   std::vector<double> fitted;  ///< force at the samples given
 };
 
@@ -57,6 +58,7 @@ struct RadiationMemory {
   hydro::radiation::RationalFit poles;
   double tolerance;  ///< asked of the poles: twice the largest error from scatter of A and B among the points, relative
                      ///< to max B, as the largest of several errors is
+  std::string refused;  ///< why the poles may not be told: they differ from the points by twice `tolerance` (F67)
   Coefficient limit;  ///< A∞ that belongs to them, "added_mass_limit"; without a value where points are known so badly
                       ///< that their redraws would have a damping below zero
 };

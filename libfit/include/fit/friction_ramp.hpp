@@ -23,6 +23,7 @@ struct FrictionRamp {
   double slip_s;              ///< when it slipped, s; known to half of drop_s and one sample
   double rate;                ///< of the torque before, N m/s
   double slide_rate;          ///< of the torque after, N m/s
+  double residual_rms;        ///< N m, of what both pieces leave over
   std::string caution;        ///< why a level may not hold; empty where nothing is known against them
   std::vector<double> line_time, line, slide_time, slide;  ///< both pieces as fitted, for a picture
 };

@@ -30,18 +30,24 @@ struct StopWhen {
   double gradient_below = 1e-14;     ///< max |∂cost/∂x_i| <= this: a perfect fit of residuals of order one
   double step_below = 1e-14;         ///< ‖Δx‖ <= this · ‖x‖: rounding of x
   int iterations_reach = 100;        ///< a linear problem takes five to ten
+  /// Levenberg–Marquardt damps by one over this at first: nearly Gauss–Newton, so that a linear problem pays nothing.
+  double trust_radius = 1e12;
 };
 
 struct FitReport {
-  enum class Outcome { converged, out_of_iterations, not_finite } outcome;
+  /// `stuck`: no step lowers the cost, yet the Jacobian promises that one would: it jumps there, or is wrong. (F65)
+  enum class Outcome { converged, stuck, out_of_iterations, not_finite } outcome;
   int iterations;
   double cost_first, cost_last;     ///< ½‖r‖²
   double gradient_norm;             ///< max |∂cost/∂x_i| at the end
+  double promised;                  ///< share of the cost that a Gauss–Newton step from the end would take off; (F65)
+  double trust_radius;              ///< at the end
   std::string why;                  ///< one sentence, fit for a log
   Eigen::VectorXd singular_values;  ///< of J·diag(scale) at the end, largest first, shape (p); (F2)
   std::vector<bool> identifiable;   ///< per parameter; false where a direction that the data do not see involves it
   std::string identifiability;      ///< one sentence per direction not seen, naming its parameters
   Eigen::MatrixXd covariance;  ///< (JᵀJ)⁻¹, shape (p, p), times σ² for white residuals; NaN where not identifiable
+  bool ended() const { return outcome == Outcome::converged; }
   bool all_identifiable() const {
     return std::find(identifiable.begin(), identifiable.end(), false) == identifiable.end();
   }

@@ -57,6 +57,7 @@ struct ShootingFit {
   std::vector<Eigen::VectorXd> initial;  ///< initial state of each window, hidden ones where they are fitted
   std::vector<Eigen::MatrixXd> motion;   ///< of each window, as its values
   std::vector<double> rms;               ///< per channel, over all windows
+  std::vector<double> explained;         ///< share of the variance about each window's mean, per channel
   /// Half widths of the bands at each sample, as `motion` (F46): of the fitted motion, and of a sample measured anew.
   /// Empty where not all is identifiable.
   std::vector<Eigen::MatrixXd> fit_band, sample_band;
@@ -71,7 +72,8 @@ struct ShootingFit {
 /// local polynomials of the first samples. Intervals count the memory of residuals within the windows (F4).
 /// A parameter known no better than to its own size and to `tell` is not marked: that is the caller's judgement.
 /// \throws hydro::InputError: shapes that do not fit, a window of fewer than 8 samples, values that are not
-/// finite; hydro::NumericsError if the motion runs away from every start
+/// finite; hydro::NumericsError if the motion runs away from every start, and SearchFailed (verdict.hpp) if the search
+/// has no end
 ShootingFit fit_motion(const ShootingProblem& problem);
 
 /// The motion of given parameters and initial state, shape (n, channels). \throws as above
@@ -81,7 +83,7 @@ Eigen::MatrixXd follow(MotionLaw law, std::span<const double> parameters, const 
 /// Interval of one parameter from the likelihood itself: the parameter is held at trial values, everything else is
 /// fitted again, and the ends are where the cost has risen by half the square of the quantile, over the inflation that
 /// correlated residuals ask for (F37). Unlike `parameters[j].interval` it need not be symmetric.
-/// \throws hydro::NumericsError if an end is not found within 30 standard errors
+/// \throws hydro::NumericsError if an end is not found within 30 standard errors, or a search for it has none
 Interval profile_interval(const ShootingProblem& problem, const ShootingFit& fit, std::size_t parameter);
 
 }  // namespace fit

@@ -11,6 +11,7 @@
 
 #include "fit/coefficient.hpp"
 #include "fit/least_squares.hpp"
+#include "fit/verdict.hpp"
 
 namespace fit {
 
@@ -45,7 +46,8 @@ struct SimulationProblem {
   std::vector<Eigen::MatrixXd> measured;  ///< one a window, shape (samples, channels)
   std::vector<double> deviations;         ///< of the noise, one a channel: weighs them
   double confidence = 0.95;
-  int iterations_reach = 30;
+  int iterations_reach = 60;
+  bool accept_residuals = false;  ///< values are told though residuals exceed what the deviations allow
   /// The fit of another record of the same motion in the same windows, by the same simulation: the search begins where
   /// that one ended, which spares finding starts and most sensitivities. Null: at the first values.
   const SimulationFit* begin = nullptr;
@@ -54,6 +56,10 @@ struct SimulationProblem {
 struct SimulationFit {
   std::vector<Coefficient> parameters;
   FitReport search;
+  std::vector<StatedResiduals> stated;  ///< residuals against their deviations, one a channel
+  /// Why no parameter has a value or an interval, and the motion no bands: a search without an end, or residuals that
+  /// the deviations do not allow and nobody accepted. Empty where they may be told. (F65), (F66)
+  std::string refused;
   std::vector<Eigen::VectorXd> starts;  ///< coordinates of each window's start, those that the data see
   std::vector<Eigen::MatrixXd> motion;  ///< fitted, as measured
   /// Half-widths at each sample at the confidence asked for: of the fitted motion itself, and of a sample measured anew
@@ -78,7 +84,8 @@ struct SimulationFit {
 };
 
 /// Fits parameters and starts together (F41). A parameter that ends at a bound, or whose interval is wider than ten
-/// times its scale, has no value and says why. Intervals count the memory of the residuals (F4).
+/// times its scale, has no value and says why; where `refused` says so, none has. Intervals count the memory of the
+/// residuals (F4).
 /// \throws hydro::InputError: shapes that do not fit (also of `begin`), first values outside their bounds, what the
 /// simulation throws at the first values
 SimulationFit fit_simulation(Simulation& simulation, const SimulationProblem& problem);
@@ -96,7 +103,8 @@ Interval profile_interval(Simulation& simulation, const SimulationProblem& probl
 struct SeveralStarts {
   SimulationFit best;
   int tried, agree,
-      failed;  ///< `agree` ended at the cost of the best, itself counted; `failed` had no motion to follow
+      failed;   ///< `agree` came to the cost of the best, itself counted; `failed` had no motion to follow
+  int unended;  ///< came to no end; where one of these lies lowest, it is the best, and refused
 };
 /// fit_simulation() from the first values and from `starts` − 1 points of a Halton sequence between the bounds, of
 /// which the least cost is kept (F58). \throws hydro::InputError for fewer than two starts, `begin`, or a parameter

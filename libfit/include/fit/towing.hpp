@@ -29,6 +29,7 @@ struct TowingFit {
   Coefficient cd;     ///< weighted mean of the runs; `white_interval` is that of the stated deviations alone
   double chi_square;  ///< Σ((C_i − C̄)/σ_i)², n − 1 degrees of freedom; NaN where deviations are not known
   double scatter;     ///< √(χ²/(n − 1)): above 1 the runs differ by more than their deviations explain; NaN …
+  double allowed;     ///< the largest scatter that the deviations allow (F66): beyond it there is no one C_D; NaN …
   double confidence;
 };
 

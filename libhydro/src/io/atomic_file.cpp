@@ -42,11 +42,13 @@ struct Target {
 /// The number N of "/proc/…/fd/N". A file opened by this name would be written from its start, over what stands there.
 std::optional<int> descriptor_of(const fs::path& path) {
   std::error_code unknown;
-  if (fs::canonical(path.parent_path(), unknown) != fs::canonical("/proc/self/fd", unknown) || unknown) return {};
+  if (fs::canonical(path.parent_path(), unknown) != fs::canonical("/proc/self/fd", unknown) || unknown)
+    return std::nullopt;
   const std::string name = path.filename().string();
   int number = 0;
   const auto [end, code] = std::from_chars(name.data(), name.data() + name.size(), number);
-  return code == std::errc{} && end == name.data() + name.size() ? std::optional(number) : std::nullopt;
+  if (code != std::errc{} || end != name.data() + name.size()) return std::nullopt;
+  return number;
 }
 
 Target target_of(const fs::path& path) {

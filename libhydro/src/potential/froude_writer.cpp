@@ -8,7 +8,7 @@
 namespace hydro::potential {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_stated = std::numeric_limits<double>::quiet_NaN();
 
 constexpr const char* mass_units = "kg, kg m, kg m2";
 constexpr const char* damping_units = "kg/s, kg m/s, kg m2/s";
@@ -67,14 +67,14 @@ void write_bodies(NetcdfOutput& out, const Coefficients& c) {
   std::vector<double> volume;
   for (const BodyData& body : c.body) {
     names.push_back(body.name);
-    volume.push_back(body.displaced_volume.value_or(unknown));
+    volume.push_back(body.displaced_volume.value_or(not_stated));
   }
   out.texts("/body_name", names, "/body");
   out.table("/displaced_volume", volume, {"/body"}, {n}, "m3", "displaced volume; NaN: unknown");
   const auto points = [&](const char* name, std::optional<Eigen::Vector3d> BodyData::*member, const char* what) {
     std::vector<double> values;
     for (const BodyData& body : c.body)
-      for (Eigen::Index i = 0; i < 3; ++i) values.push_back(body.*member ? (*(body.*member))(i) : unknown);
+      for (Eigen::Index i = 0; i < 3; ++i) values.push_back(body.*member ? (*(body.*member))(i) : not_stated);
     out.table(name, values, {"/body", "/axis"}, {n, 3}, "m", what);
   };
   points("/reference_point", &BodyData::reference_point, "reference point, global frame; NaN: unknown");

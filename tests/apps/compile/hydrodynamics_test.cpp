@@ -1,6 +1,10 @@
 // What a scene takes of coefficients, and what it has to say where their file does not.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <filesystem>
 
 #include "apps/compile/scenes.hpp"
 #include "compile/compile.hpp"
@@ -8,6 +12,7 @@
 #include "froude/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/potential/operations.hpp"
+#include "hydro/potential/writers.hpp"
 
 namespace hydrodynamics_test {
 namespace {
@@ -72,6 +77,89 @@ TEST(Hydrodynamics, RefuseAVolumeThatContradictsTheFile) {
   text.replace(text.find("260"), 3, "300");
   EXPECT_THAT([&] { compile::prepare(froude_test::parse(text)); },
               ThrowsMessage<InputError>(HasSubstr("leave out displaced_volume")));
+}
+
+/// A module of the pontoons' coefficients at x, with what its hydrodynamics say.
+std::string module(const std::string& name, int x, const std::string& hydrodynamics) {
+  return fmt::format(
+      "[[body]]\nname = \"{}\"\nposition = \"({}, 0, 0) m\"\nmass = \"9088 kg\"\ncentre_of_gravity = \"(0, 0, 1.31) "
+      "m\"\nradii_of_gyration = \"(4.6, 4.6, 6.4) m\"\n[body.hydrodynamics]\n{}\n",
+      name, x, hydrodynamics);
+}
+std::string from(const std::string& file, const std::string& more = "") {
+  return fmt::format("file = \"{}\"\nexcitation = true\nradiation = {{}}\n{}", file, more);
+}
+compile::Prepared prepared_of(const std::string& bodies) {
+  return compile::prepare(
+      froude_test::parse(froude_test::water + bodies + "[ask]\nmodes = { shortest = \"1 s\", longest = \"20 s\" }\n"));
+}
+using Sets = std::vector<std::vector<int>>;
+
+TEST(Interaction, IsRefusedWhereNoWavesCanPass) {
+  // One body's file for three bodies: nothing in it says what one does to another.
+  const auto three = [](const std::string& more) {
+    return module("a", 0, from("pontoon1.nc", more)) + module("b", 13, from("pontoon1.nc", more)) +
+           module("c", 26, from("pontoon1.nc", more));
+  };
+  EXPECT_THAT([&] { prepared_of(three("")); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr("test.toml:23:"), HasSubstr("no waves pass between a and b"),
+                                              HasSubstr("\"pontoon1.nc\" holds no coupling of the two"),
+                                              HasSubstr("froude bem solve"), HasSubstr("interaction = \"self\""))));
+  EXPECT_THAT([&] { prepared_of(three("interaction = \"full\"")); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr("test.toml:26:"), HasSubstr("interaction = \"full\""))));
+  const auto said = prepared_of(three("interaction = \"self\""));
+  EXPECT_EQ(said.sharing_waves, (Sets{{0}, {1}, {2}}));
+  EXPECT_THAT(said.notes, testing::Contains("no waves pass between a, b and c, as the scene says"));
+}
+
+TEST(Interaction, IsRefusedBetweenFilesThatDoNotKnowEachOther) {
+  const auto scene = [](const std::string& of_pair, const std::string& of_other) {
+    return module("a", 0, from("pontoon5.nc", "body = 1\n" + of_pair)) +
+           module("b", 13, from("pontoon5.nc", "body = 2\n" + of_pair)) +
+           module("c", 39, from("pontoon1.nc", of_other));
+  };
+  EXPECT_THAT([&] { prepared_of(scene("", "")); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr("no waves pass between a and c"), HasSubstr("pontoon5.nc"),
+                                              HasSubstr("pontoon1.nc"), HasSubstr("computed one without the other"))));
+  // Either side may say it: those of one file go on feeling each other.
+  for (const auto& [of_pair, of_other] : {std::pair{"", "interaction = \"self\""}, {"interaction = \"file\"", ""}}) {
+    const auto said = prepared_of(scene(of_pair, of_other));
+    EXPECT_EQ(said.sharing_waves, (Sets{{0, 1}, {2}})) << of_pair << of_other;
+    EXPECT_THAT(said.notes,
+                testing::Contains("no waves pass between a and c, as the scene says; they do among a and b"));
+    EXPECT_EQ(said.groups.size(), 2u);
+  }
+}
+
+TEST(Interaction, IsThereWhereAFileHoldsItAndNeedsNoWord) {
+  const auto prepared =
+      prepared_of(module("a", 0, from("pontoon5.nc", "body = 1")) + module("b", 13, from("pontoon5.nc", "body = 2")));
+  EXPECT_EQ(prepared.sharing_waves, (Sets{{0, 1}}));
+  for (const auto& note : prepared.notes) EXPECT_THAT(note, testing::Not(HasSubstr("no waves pass")));
+  // A file of several bodies without blocks between them, as `froude bem convert --array` makes, holds none.
+  std::string name = (std::filesystem::temp_directory_path() / "froude-test-XXXXXX").string();
+  const std::filesystem::path folder = ::mkdtemp(name.data());
+  const auto five = hydro::potential::read(froude_test::examples / "data/pontoon5.nc", {});
+  const std::string file = (folder / "array.h5").string();
+  hydro::potential::write_froude(hydro::potential::without_interaction(five), file);
+  EXPECT_THAT([&] { prepared_of(module("a", 0, from(file, "body = 1")) + module("b", 13, from(file, "body = 2"))); },
+              ThrowsMessage<InputError>(HasSubstr("\"array.h5\" holds no coupling of the two")));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Interaction, OfBodiesThatNameOtherEffectsOfOneFileIsNone) {
+  const auto scene = [](const std::string& more) {
+    return module("a", 0, from("pontoon5.nc", "body = 1")) +
+           module("b", 13, "file = \"pontoon5.nc\"\nbody = 2\nradiation = {}\n" + more);
+  };
+  EXPECT_THAT([&] { prepared_of(scene("")); },
+              ThrowsMessage<InputError>(HasSubstr("they take \"pontoon5.nc\" by different keys")));
+  EXPECT_EQ(prepared_of(scene("interaction = \"self\"")).sharing_waves, (Sets{{0}, {1}}));
+  // A body that makes no waves has none to share.
+  EXPECT_EQ(
+      prepared_of(module("a", 0, from("pontoon1.nc")) + module("b", 13, "file = \"pontoon1.nc\"\nhydrostatics = true"))
+          .sharing_waves,
+      (Sets{{0}}));
 }
 
 Severity gravest(const std::vector<Finding>& findings, const std::string& check) {

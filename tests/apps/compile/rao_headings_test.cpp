@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 
 #include "froude/linear_response.hpp"
 #include "hydro/base/error.hpp"
@@ -173,6 +175,16 @@ TEST(RaoHeadings, OutsideTheDataAreRefusedWhereTheyAreAsked) {
                                                        HasSubstr("from 0 to 90 deg"),
                                                        HasSubstr("froude bem convert --symmetric"))))
         << asked;
+}
+
+TEST(RaoHeadings, OfAQuestionMadeByHandMustBeStated) {
+  std::string text = with_drag;
+  text.replace(text.find("HEADINGS"), 8, "heading = \"0 deg\"");
+  scene::Scene scene = froude_test::parse(text);
+  scene.rao->headings.clear();
+  EXPECT_THAT([&] { respond(scene); }, ThrowsMessage<std::logic_error>(HasSubstr("without a heading")));
+  scene.rao.reset();
+  EXPECT_THROW(respond(scene), std::logic_error);
 }
 
 }  // namespace

@@ -145,7 +145,7 @@ TEST(SceneHydrodynamics, NamesTheEffects) {
   const Hydrodynamics all = *parse(sphere, "/somewhere/scene.toml").bodies[0].hydrodynamics;
   EXPECT_EQ(all.file.value, "/somewhere/sphere.nc");
   EXPECT_EQ(all.file.place.line, 16);
-  EXPECT_TRUE(all.excitation && all.radiation && all.hydrostatics && all.interaction);
+  EXPECT_TRUE(all.excitation && all.radiation && all.hydrostatics && all.interaction == Interaction::full);
   EXPECT_EQ(all.memory.tolerance, 1e-3);
   const auto some =
       *parse(with(sphere, "excitation = true\nradiation = {}\n", ""), "scene.toml").bodies[0].hydrodynamics;
@@ -194,10 +194,13 @@ TEST(SceneHydrodynamics, ReadsWhatFilesLeaveUnsaid) {
   EXPECT_EQ(*h.reference_point, Eigen::Vector3d(0, 0, -2));
   EXPECT_EQ(h.ulen, 5);
   EXPECT_EQ(h.iperout, 3);
-  EXPECT_FALSE(h.interaction);
+  EXPECT_EQ(h.interaction, Interaction::self);
+  EXPECT_EQ(h.interaction_place.line, 21);
   EXPECT_THAT(refusal(with(text, "iperout = 3", "iperout = 5")), HasSubstr("is more than 4"));
-  EXPECT_THAT(refusal(with(text, "radiation = {}\n", "")),
-              AllOf(StartsWith("scene.toml:21:1: "), HasSubstr("interaction acts only beside \"radiation\"")));
+  EXPECT_NO_THROW(parse(with(text, "radiation = {}\n", ""), "scene.toml"));  // waves that are scattered
+  EXPECT_THAT(refusal(with(with(text, "radiation = {}\n", ""), "excitation = true\n", "")),
+              AllOf(StartsWith("scene.toml:21:1: "),
+                    HasSubstr("interaction acts only beside \"radiation\" or \"excitation\"")));
 }
 
 }  // namespace
