@@ -66,7 +66,7 @@ struct Prepared {
 };
 
 /// Motion of a body's origin from rest, m or rad: rotations are yaw about z, then pitch about the new y, then roll
-/// about the newest x, and run on from those that the pose has counted (D130).
+/// about the newest x, and run on from those that the pose has counted (D133).
 double motion_from_rest(const dynamics::RigidBody& body, const dynamics::Pose& pose, int mode);
 
 /// Opens the data files and places everything. \throws hydro::InputError, placed in the scene

@@ -302,7 +302,7 @@ Travel JointSet::travel_of(int joint) const {
 
 double JointSet::travel(int joint, const State& state) const { return travel_of(joint).value(state); }
 
-// (D130)
+// (D133)
 void JointSet::count_turns(State& state) const {
   for (Pose& pose : state.pose) pose.counted = pose.roll_pitch_yaw();
   state.hinge_angle.resize(joints_.size(), 0);

@@ -39,7 +39,7 @@ double Travel::value(const ConditionEnds& at) const {
   return std::atan2(dynamics::value(sine_, at), dynamics::value(cosine_, at));
 }
 
-// (D130)
+// (D133)
 double Travel::value(const State& state) const {
   const double within = value(ends(state));
   if (!turns_ || !counted_as_) return within;

@@ -41,7 +41,7 @@ double nearest_turn(double angle, double near) {
   return angle + turn * std::round((near - angle) / turn);
 }
 
-// (D130)
+// (D133)
 Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& q, const Eigen::Vector3d& near) {
   constexpr double pi = std::numbers::pi, locked = 1e-7;  // rounding in q is 1e-9 in angles there
   const Eigen::Matrix3d R = q.toRotationMatrix();

@@ -149,7 +149,7 @@ class JointSet {
   };
   LoadVariation load_variation(int joint, End end, const State& still, const Eigen::VectorXd& lambda) const;
   /// Where the joint lets its second body (or the ground) move against the first: the travel of a slider along the
-  /// axis, m, or the angle of a hinge about it, rad, whole turns counted (D130). Zero at rest. For sliders and hinges
+  /// axis, m, or the angle of a hinge about it, rad, whole turns counted (D133). Zero at rest. For sliders and hinges
   /// only.
   double travel(int joint, const State& state) const;
   /// Counts on: the angles of hinges and of bodies in `state`, less than half a turn from those that it has counted

@@ -7,7 +7,7 @@
 namespace dynamics {
 
 /// Zero at rest. The angle of a hinge is the nearest to the one that a State has counted last under the joint's place
-/// among the model's joints (D130); without such a place it lies within half a turn, −π … π.
+/// among the model's joints (D133); without such a place it lies within half a turn, −π … π.
 class Travel {
  public:
   /// `joint`: a slider or hinge, as JointSet takes it; `counted_as`: its place there.

@@ -196,11 +196,11 @@ struct LinkAngles {
 LinkAngles link_angles(const State& state, int first);
 
 /// The same where a record begins: with the azimuth within ±π/2, so that links of one plane are counted alike. Towards
-/// −x the polar angle lies beyond ±π/2: π towards −x itself (D131).
+/// −x the polar angle lies beyond ±π/2: π towards −x itself (D134).
 LinkAngles first_link_angles(const State& state, int first);
 
 /// The same with the branch (θ, φ) or (π − θ, φ + π), and the turn, that is nearest to `before`: series without jumps
-/// (D131). Of a vertical link the azimuth stays.
+/// (D134). Of a vertical link the azimuth stays.
 LinkAngles link_angles(const State& state, int first, const LinkAngles& before);
 
 /// Rates of those angles, rad/s, for a link whose angles are `now` (of either branch). Of a vertical link the polar

@@ -48,7 +48,7 @@ struct Pose {
   /// Roll, pitch and yaw where they were counted last, by JointSet::count_turns(), rad.
   Eigen::Vector3d counted = Eigen::Vector3d::Zero();
 
-  /// Roll, pitch and yaw, the nearest to those counted last: they run on through half and whole turns (D130).
+  /// Roll, pitch and yaw, the nearest to those counted last: they run on through half and whole turns (D133).
   Eigen::Vector3d roll_pitch_yaw() const;
   /// Displacement from rest: translation of the centre of gravity, and the rotation vector (global axes).
   Vector6 displacement(const RigidBody& body) const;

@@ -28,7 +28,7 @@ Eigen::Matrix3d left_jacobian_inverse(const Eigen::Vector3d& phi);
 Eigen::Quaterniond attitude_of(const Eigen::Vector3d& roll_pitch_yaw);
 
 /// Turned round: of all triples that stand for the attitude q, which are (φ, θ, ψ), (φ + π, π − θ, ψ + π) and both with
-/// whole turns added to each angle, the one nearest to `near` (D130). So angles that are followed run on through half
+/// whole turns added to each angle, the one nearest to `near` (D133). So angles that are followed run on through half
 /// and whole turns. Where θ is within 1e-7 of ±π/2, φ ∓ ψ alone is told by q, and what it differs by from `near` is
 /// shared between both.
 Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& q, const Eigen::Vector3d& near);
