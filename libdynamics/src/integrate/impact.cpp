@@ -53,15 +53,19 @@ double largest_sum(const Eigen::MatrixXd& W, const Eigen::VectorXd& before, cons
   return (before.cwiseAbs() + W.cwiseAbs() * z.cwiseAbs()).maxCoeff();
 }
 
+/// What a round may still change of the largest sum. A sum of n products rounds 2n times, by half of ε, in the speed
+/// that asks for a correction and in the next. Four corners of a rigid body that want speeds which it cannot have, by a
+/// share δ, hand their loads on by δ a round until one of them is left without: what is so small that this takes for
+/// ever is left, first what counts as no speed at all (1e-9), then what no coefficient of restitution is known to.
+double enough(int sweep, Eigen::Index size) {
+  if (sweep < 1000) return 2 * static_cast<double>(size) * std::numeric_limits<double>::epsilon();
+  return sweep < 10'000 ? 1e-9 : 1e-6;
+}
+
 }  // namespace
 
 double relax(const Eigen::MatrixXd& W, const Eigen::VectorXd& before, const std::vector<ImpactLaw>& laws,
              Eigen::VectorXd& z, int most) {
-  // A sum of n products rounds 2n times, by half of ε, in the speed that asks for a correction and in the next. What is
-  // still on its way after many rounds is good enough a thousandth of what counts as no speed, 1e-9 of the largest.
-  const double rounding = 2 * static_cast<double>(before.size()) * std::numeric_limits<double>::epsilon();
-  constexpr double good_enough = 1e-12;
-  constexpr int many = 1000;
   const Eigen::VectorXd gain = W.diagonal();
   z = evenly_shared(W, before, laws);
   double change = 0;
@@ -69,7 +73,7 @@ double relax(const Eigen::MatrixXd& W, const Eigen::VectorXd& before, const std:
     const Eigen::VectorXd was = z;
     for (const ImpactLaw& law : laws) relax(law, W, before, z);
     change = (z - was).cwiseProduct(gain).cwiseAbs().maxCoeff() / largest_sum(W, before, z);
-    if (!(change > (sweep < many ? rounding : good_enough))) return 0;
+    if (!(change > enough(sweep, before.size()))) return 0;
   }
   return change;
 }
