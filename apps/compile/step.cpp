@@ -78,7 +78,8 @@ Mover turning(const Prepared& p, const dynamics::State& start) {
   return out;
 }
 
-/// What bodies and a line of the kind that goes slack do that is drawn taut at once, √(k/m), m of what both of its ends move.
+/// What bodies and a line of the kind that goes slack do that is drawn taut at once, √(k/m), m of what both of its ends
+/// move.
 Mover snap(const Scene& scene) {
   Mover out;
   for (const scene::Line& l : scene.chains) {

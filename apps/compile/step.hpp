@@ -21,8 +21,9 @@ ChosenStep choose_step(const scene::Scene& scene, const Prepared& prepared);
 /// Springs and dampers, in the order in which a plan lists them.
 void add_springs(const Prepared& prepared, std::vector<std::unique_ptr<const dynamics::ForceKind>>& forces);
 
-/// Where the scene puts bodies at t = 0, before an equilibrium is looked for; joints carry along those that it says nothing of.
-/// `notes` are told what of joints the digits of the scene left open. \throws hydro::InputError where that is too much
+/// Where the scene puts bodies at t = 0, before an equilibrium is looked for; joints carry along those that it says
+/// nothing of. `notes` are told what of joints the digits of the scene left open. \throws hydro::InputError where that
+/// is too much
 dynamics::State placed_state(const scene::Scene& scene, const Prepared& prepared, const dynamics::Model& model,
                              std::vector<std::string>& notes);
 

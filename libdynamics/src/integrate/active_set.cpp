@@ -58,7 +58,7 @@ void ActiveSet::close(std::size_t element, Workspace& workspace) {
   c.row = conditions_.count();
   conditions_.add(normal);
   if (c.is == ContactState::slides) {
-    if (contact_->all()[element].friction > 0) slides_.push_back({c.row, element, c.slip, c.slip});
+    if (contact_->all()[element].friction > 0) slides_.push_back({c.row, element, c.slip});
     return;
   }
   for (const Condition& along : contact_->sticking(element, workspace.state))
@@ -86,27 +86,18 @@ void ActiveSet::rebuild(Workspace& workspace) {
   workspace.solver = KktSolver(model_.pattern(), conditions_);
 }
 
-void ActiveSet::reset_slides() {
-  for (Slide& slide : slides_) slide.direction = slide.start;
-}
-
 // What has stopped or come back keeps the direction that it had: the step is cut there.
-bool ActiveSet::turn_slides(const State& end) {
-  bool any = false;
-  for (Slide& slide : slides_) {
-    const Eigen::Vector3d slip = contact_->motion(slide.element, end).slip;
-    if (slip.dot(slide.start) <= 0) continue;
-    any = any || (slip.normalized() - slide.direction).norm() > 1e-9;
-    slide.direction = slip.normalized();
-  }
-  return any;
+Eigen::Vector3d ActiveSet::direction(const Slide& slide, const State& state) const {
+  constexpr double still = 1e-12;  // m/s, below which it is rounding that has a direction
+  const Eigen::Vector3d slip = contact_->motion(slide.element, state).slip;
+  return slip.dot(slide.start) > still ? slip.normalized() : slide.start;
 }
 
 std::vector<Gradient> ActiveSet::columns(std::vector<Gradient> G, const State& state) const {
   for (const Slide& slide : slides_) {
     const Contact& c = contact_->all()[slide.element];
-    const Eigen::Vector3d n = contact_->meeting(slide.element, state).normal;
-    const Eigen::Vector3d along = (slide.direction - slide.direction.dot(n) * n).normalized();
+    const Eigen::Vector3d n = contact_->meeting(slide.element, state).normal, to = direction(slide, state);
+    const Eigen::Vector3d along = (to - to.dot(n) * n).normalized();
     Gradient slip = contact_->along(slide.element, along, state);
     conditions_.keep_free(c.first, c.second, slip);
     Gradient& column = G[static_cast<std::size_t>(slide.row)];
@@ -114,6 +105,26 @@ std::vector<Gradient> ActiveSet::columns(std::vector<Gradient> G, const State& s
     column.second -= c.friction * slip.second;
   }
   return G;
+}
+
+// Across the slip u friction resists as a damper of μp/|u|: the slower the slip, the easier it turns.
+void ActiveSet::add_turning(const State& state, const Eigen::VectorXd& multipliers, double by_speed,
+                            BlockMatrix& out) const {
+  for (const Slide& slide : slides_) {
+    const Contact& c = contact_->all()[slide.element];
+    const ContactKind::Motion motion = contact_->motion(slide.element, state);
+    const double load = -multipliers[slide.row];
+    if (load <= 0 || motion.slip.dot(slide.start) <= 0) continue;
+    const Eigen::Vector3d across = motion.meeting.normal.cross(motion.slip).normalized();
+    Gradient g = contact_->along(slide.element, across, state);
+    conditions_.keep_free(c.first, c.second, g);
+    const double damping = by_speed * c.friction * load / motion.slip.norm();
+    out.block(c.first, c.first) += damping * g.first * g.first.transpose();
+    if (!c.second) continue;
+    out.block(*c.second, *c.second) += damping * g.second * g.second.transpose();
+    out.block(c.first, *c.second) += damping * g.first * g.second.transpose();
+    out.block(*c.second, c.first) += damping * g.second * g.first.transpose();
+  }
 }
 
 // The second pass takes out what the compliance of contacts has left.

@@ -54,21 +54,6 @@ State Integrator::displaced(const State& now, const Eigen::VectorXd& move, Eigen
   return next;
 }
 
-// Friction acts against the slip at the end of a step, which is known after it: where the direction has turned, the
-// step is done again with it.
-bool Integrator::try_turned_step(Workspace& workspace, double h, StepReport& report) {
-  active_.reset_slides();
-  if (!active_.has_slides()) return try_step(workspace, h, report);
-  const Snapshot before = snapshot(workspace);
-  constexpr int most = 3;
-  for (int i = 0; i < most; ++i) {
-    if (!try_step(workspace, h, report)) return false;
-    if (!active_.turn_slides(workspace.state)) return true;
-    if (i + 1 < most) restore(workspace, before);
-  }
-  return true;
-}
-
 // Between two changes that all but coincide: conditions on places would leave their rounding, divided by the time, in
 // the velocities; a straight way is exact to rounding there.
 void Integrator::go_straight(Workspace& workspace, double h) const {
@@ -80,7 +65,7 @@ void Integrator::go_straight(Workspace& workspace, double h) const {
 // Angles are counted on where a part of a step is done; what turns by half a turn or more in it cannot be.
 bool Integrator::try_counted_step(Workspace& workspace, double h, StepReport& report) {
   const Snapshot before = snapshot(workspace);
-  if (!try_turned_step(workspace, h, report)) return false;
+  if (!try_step(workspace, h, report)) return false;
   if (const auto hinge = model_.joints().turns_too_fast(workspace.state, h)) {
     restore(workspace, before);
     return fail(
@@ -199,7 +184,7 @@ Integrator::Way Integrator::go_to_change(Workspace& workspace, double h, StepRep
   double low = 0, at_low = laws_.least_margin(workspace).value;
   // Right after it began, a slip or a bounce has gone no way yet: go back until it has.
   if (at_low <= change_resolution)
-    for (double way = h / 2; way > h * change_resolution; way /= 2) {
+    for (double way = high / 2; way > h * change_resolution; way /= 2) {
       const double value = margin_after(way);
       if (value > 0) {
         low = way, at_low = value;

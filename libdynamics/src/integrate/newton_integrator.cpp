@@ -70,6 +70,7 @@ bool NewtonIntegrator::factorise(Workspace& workspace, double h, const Trial& no
   const State& loads_at = now.loads_at ? *now.loads_at : now.state;
   model().tangent(loads_at, 1, slope.load_speed, slope.load_place, workspace, workspace.matrix);
   active().conditions().add_curvature(loads_at, now.multipliers, slope.load_place, workspace.matrix);
+  active().add_turning(loads_at, now.multipliers, slope.load_speed, workspace.matrix);
   return workspace.solver.factorise(workspace.matrix, now.columns, by_step(now.gradients, workspace.state, now.state),
                                     active().compliance());
 }

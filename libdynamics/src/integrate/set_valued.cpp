@@ -6,6 +6,7 @@
 #include "hydro/base/error.hpp"
 
 namespace dynamics {
+
 // Speeds below it are rounding of those at hand, or of what accelerations add in a step.
 double SetValuedLaws::slow(const Workspace& workspace) const {
   return closed *
@@ -232,6 +233,7 @@ bool SetValuedLaws::release(Workspace& workspace) {
       let_go = [&memory, &workspace, i, load] { memory.turn(i, load > 0 ? 1 : -1, workspace.state.time); };
     }
   }
+  const std::function<void()> joint_slips = let_go;
   bool contact = false;
   const auto exceeds = [&](double over) {
     if (over <= most) return false;
@@ -253,7 +255,10 @@ bool SetValuedLaws::release(Workspace& workspace) {
       };
   }
   if (contact)
-    if (const auto together = release_together(rounding / 2, workspace)) return *together;
+    if (const auto together = release_together(rounding / 2, workspace)) {
+      if (*together) return true;
+      let_go = joint_slips;
+    }
   if (let_go) let_go();
   return static_cast<bool>(let_go);
 }

@@ -94,8 +94,8 @@ std::optional<bool> SetValuedLaws::release_together(double rounding, Workspace& 
   const double spare = least_spare(all->bearings, best);
   if (spare >= -rounding) return false;
   constexpr double limit = 1e-5;  // of the largest load: nearer, accelerations are too small to tell directions
-  if (spare > -limit * best.cwiseAbs().maxCoeff()) return give_way(*all, best, workspace);
-  return decide_together(workspace);
+  const bool at_limit = spare > -limit * best.cwiseAbs().maxCoeff();
+  return (!at_limit && decide_together(workspace)) || give_way(*all, best, workspace);
 }
 
 bool SetValuedLaws::give_way(const Shared& shared, const VectorXd& loads, Workspace& workspace) const {

@@ -125,7 +125,10 @@ SetValuedLaws::Touching SetValuedLaws::touching_now(Workspace& workspace) const 
 // (D130) The law of contact with accelerations in place of velocities. \returns true if that changes what any does
 bool SetValuedLaws::decide_together(Workspace& workspace) const {
   const Touching all = touching_now(workspace);
-  const VectorXd z = impulses(all.W, all.own, all.laws), a = all.own + all.W * z;
+  constexpr int enough = 10'000;  // rounds; where more are needed, what gives way at the limit is as near
+  VectorXd z;
+  if (relax(all.W, all.own, all.laws, z, enough) > 0) return false;
+  const VectorXd a = all.own + all.W * z;
   constexpr double rounding = 1e-6;  // of the fastest: what relaxation leaves to those that do not move is far less
   const double still = rounding * a.cwiseAbs().maxCoeff();
   bool any = false;

@@ -171,7 +171,7 @@ TEST(FastenedLine, ThatGoesSlackSnapsAsASpringDoes) {
       dynamics::start_with_lines(model, integrator, w);
       double most = 0;
       const double h = fine / omega;
-      for (int i = 0; i < std::lround(1.5 / h); ++i) {
+      for (int i = 0; i < std::lround((1.2 + 4 / omega) / h); ++i) {
         integrator.step(w, h);
         most = std::max(most, -thrown.stiffness * (w.state.pose[0].centre.z() + 10));
       }

@@ -140,8 +140,8 @@ TEST(DirectConvolution, IsExactForStraightVelocitiesAtAnyStep) {
   for (const double h : {0.05, 0.7, 2.0}) {
     // The averages are good to 1e-4 and less (IsAveragedOverSteps), and the memory is cut at e^{−9}.
     EXPECT_LT(off_for_straight_velocities(RetardationKernel::averaged(damping, {h, 30}, survey), h), 3e-4) << h;
-    if (h > 0.5)  // the samples themselves are nowhere near
-      EXPECT_GT(off_for_straight_velocities(RetardationKernel::from_damping(damping, {h, 30}, survey), h), 0.01) << h;
+    if (h < 0.5) continue;  // the samples themselves are nowhere near
+    EXPECT_GT(off_for_straight_velocities(RetardationKernel::from_damping(damping, {h, 30}, survey), h), 0.01) << h;
   }
 }
 

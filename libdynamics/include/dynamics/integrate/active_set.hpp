@@ -26,13 +26,11 @@ class ActiveSet {
   /// Takes up what the memories say, where the bodies are now; the workspace's solver with it.
   void rebuild(Workspace& workspace);
   const JointSet& conditions() const { return conditions_; }
-  /// Loads are −columns · λ: G, and friction along with the normal of a contact that slides (D24).
+  /// Loads are −columns · λ: G, and friction along with the normal of a contact that slides, against its slip in
+  /// `state` (D24).
   std::vector<Gradient> columns(std::vector<Gradient> G, const State& state) const;
-  /// Directions of slip are those where a step begins, until turn_slides() takes those of its end.
-  bool has_slides() const { return !slides_.empty(); }
-  void reset_slides();
-  /// \returns true if one has turned by more than 1e-9
-  bool turn_slides(const State& end);
+  /// Adds by_speed times the derivative of that friction by the velocities that turn its direction.
+  void add_turning(const State& state, const Eigen::VectorXd& multipliers, double by_speed, BlockMatrix& out) const;
   /// Accelerations and multipliers in a state: G a = −Ġ v (D16).
   struct Balance {
     Eigen::VectorXd acceleration, multipliers;
@@ -62,8 +60,9 @@ class ActiveSet {
   struct Slide {
     Eigen::Index row;  ///< of the normal
     std::size_t element;
-    Eigen::Vector3d start, direction;  ///< of slip, global
+    Eigen::Vector3d start;  ///< direction of slip where the step begins, global
   };
+  Eigen::Vector3d direction(const Slide& slide, const State& state) const;
   const Model& model_;
   const FrictionKind* friction_ = nullptr;
   const ContactKind* contact_ = nullptr;

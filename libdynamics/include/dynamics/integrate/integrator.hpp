@@ -74,7 +74,6 @@ class Integrator {
   Snapshot snapshot(const Workspace& workspace) const;
   void restore(Workspace& workspace, const Snapshot& before);
   bool try_counted_step(Workspace& workspace, double h, StepReport& report);
-  bool try_turned_step(Workspace& workspace, double h, StepReport& report);
   void go_straight(Workspace& workspace, double h) const;
   void advance(Workspace& workspace, double h, StepReport& report);
   void advance_halving(Workspace& workspace, double h, int depth, StepReport& report);
