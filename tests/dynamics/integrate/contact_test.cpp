@@ -355,7 +355,7 @@ TEST(Contact, FindsTheImpulsesOfAnyStack) {
     // By Newton's law with friction a bounce may give more than it takes (Kane's paradox); without bounce it cannot.
     if (restitution == 0) EXPECT_LE(model.kinetic_energy(w.state), before * (1 + 1e-9)) << "stack " << trial;
     for (std::size_t i = 0; i < stack.contacts.size(); ++i)
-      EXPECT_GE(model.forces().back()->contact()->motion(i, w.state).parting, -1e-5) << "stack " << trial;
+      EXPECT_GE(model.forces().back()->contact()->motion(i, w.state).parting, -1e-3) << "stack " << trial;
   }
 }
 
