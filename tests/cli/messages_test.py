@@ -41,7 +41,7 @@ radii_of_gyration = "(4.6, 4.6, 6.4) m"
 [body.hydrodynamics]
 file = "pontoon1.nc"
 excitation = true
-radiation = {}
+radiation = { accept_error = 0.02 }
 hydrostatics = true
 [[mooring]]
 on = ["m"]

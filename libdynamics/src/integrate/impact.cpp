@@ -57,9 +57,11 @@ double largest_sum(const Eigen::MatrixXd& W, const Eigen::VectorXd& before, cons
 /// that asks for a correction and in the next. Four corners of a rigid body that want speeds which it cannot have, by a
 /// share δ, hand their loads on by δ a round until one of them is left without: what is so small that this takes for
 /// ever is left, first what counts as no speed at all (1e-9), then what no coefficient of restitution is known to.
+/// Friction that hands loads round among corners does so too.
 double enough(int sweep, Eigen::Index size) {
   if (sweep < 1000) return 2 * static_cast<double>(size) * std::numeric_limits<double>::epsilon();
-  return sweep < 10'000 ? 1e-9 : 1e-6;
+  if (sweep < 10'000) return 1e-9;
+  return sweep < 20'000 ? 1e-6 : 1e-5;
 }
 
 }  // namespace

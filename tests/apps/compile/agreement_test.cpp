@@ -40,7 +40,7 @@ ramp = "100 s"
 {}[body.hydrodynamics]
 file = "{}"
 excitation = true
-radiation = {{ memory_tolerance = 1e-4, accept_error = 0.5 }}
+{}radiation = {{ memory_tolerance = 1e-4, accept_error = 0.5 }}
 hydrostatics = true
 [[mooring]]
 on = ["m*"]
@@ -51,7 +51,8 @@ damping = {{ surge = "4 kN s/m", sway = "4 kN s/m", yaw = "60 kN m s/rad" }}
 run = {{ duration = "400 s", every = "0.1 s", of = ["m*"] }}
 accuracy = 1e-3
 )",
-                     setting.period, support::pontoons(5, "(-26, 0, 0) m"), setting.file, joined);
+                     setting.period, support::pontoons(5, "(-26, 0, 0) m"), setting.file,
+                     std::string(setting.file) == "pontoon1.nc" ? "interaction = \"self\"\n" : "", joined);
 }
 
 const std::string springs = R"([[connector]]

@@ -368,6 +368,7 @@ ramp = "10 s"
     text += support::pontoons(columns, fmt::format("(0, {}, 0) m", 13 * r), fmt::format("r{}m", r)) +
             R"([body.hydrodynamics]
 file = "data/pontoon1.nc"
+interaction = "self"
 excitation = true
 radiation = { memory_tolerance = 1e-2 }
 hydrostatics = true
