@@ -213,6 +213,7 @@ Integrator::Way Integrator::go_to_change(Workspace& workspace, double h, StepRep
 void Integrator::advance_to_changes(Workspace& workspace, double h, StepReport& report) {
   constexpr std::size_t most = 1000;  // in one step: more is no motion but a mistake
   std::size_t changes = 0;
+  laws_.begin_step();
   for (double left = h; left > h * change_resolution;) {
     const State before = workspace.state;
     const Eigen::VectorXd slip = laws_.slip_power(workspace);

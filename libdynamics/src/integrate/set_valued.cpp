@@ -67,6 +67,7 @@ void SetValuedLaws::begin(Workspace& workspace) {
 // The least change of velocities, in the metric of the masses, that takes the speeds of those contacts: it can only
 // take energy.
 void SetValuedLaws::still(Workspace& workspace, double step) {
+  bounces_spent_ = true;
   if (active_.contact() == nullptr) return;
   JointSet rows = model_.joints();
   std::vector<std::size_t> near;

@@ -40,7 +40,7 @@ SetValuedLaws::Touching SetValuedLaws::touching(const JointSet& held, std::vecto
   const State& state = workspace.state;
   Touching out{std::move(elements), {}, held.with_only({}), {}, {}, {}, KktSolver(model_.pattern(), held), {}};
   for (const std::size_t i : out.element) {
-    out.laws.push_back({out.rows.count(), kind.all()[i].restitution, kind.all()[i].friction});
+    out.laws.push_back({out.rows.count(), bounces_spent_ ? 0 : kind.all()[i].restitution, kind.all()[i].friction});
     out.rows.add(kind.closed(i));
     if (kind.all()[i].friction > 0)
       for (const Condition& along : kind.sticking(i, state)) out.rows.add(along);

@@ -317,7 +317,7 @@ struct Stack {
 // floor at √(2gh): the energy goes as the ledger has it, and it comes to rest where it began.
 TEST(Contact, LetsAStackOfThreeSettle) {
   for (const double restitution : {0.0, 0.3, 0.6}) {
-    Stack stack(restitution, restitution == 0 ? 0.5 : 0);
+    Stack stack(restitution, 0.5);
     stack.put(30, {0.5, 0.4, 0.2});
     stack.put(20, {0.4, 0.3, 0.15});
     stack.put(10, {0.3, 0.2, 0.1});
@@ -325,7 +325,7 @@ TEST(Contact, LetsAStackOfThreeSettle) {
     State start = rest_state(model.bodies());
     for (Pose& pose : start.pose) pose.centre.z() += 0.05;
     Motion run(model, start);
-    run.go(0.01, 200);
+    ASSERT_NO_THROW(run.go(0.01, 200)) << restitution;
     EXPECT_LT(run.workspace.state.velocity.norm(), 1e-9) << restitution;
     for (std::size_t i = 0; i < 3; ++i)
       EXPECT_NEAR(run.workspace.state.pose[i].centre.z(), model.bodies()[i].rest_centre().z(), 1e-8);

@@ -38,8 +38,10 @@ class SetValuedLaws {
   /// Carries out what least_margin() found where it is zero, and whatever follows at that instant: impacts, slip,
   /// stick. `step`: of the run, s, what rounding of speeds is seen against.
   std::vector<Event> change(Workspace& workspace, const Margin& at, double step);
+  /// Bounces count anew from here: a step begins.
+  void begin_step() { bounces_spent_ = false; }
   /// Ends what goes on in ever shorter times, bounces and rocking: contacts that could close within a step have no more
-  /// speed along their normals (D26).
+  /// speed along their normals, and what closes in the rest of the step does so without restitution (D26).
   void still(Workspace& workspace, double step);
 
   /// Where contacts are more than bodies need, the multipliers of a step may ask of one what it cannot bear: they
@@ -55,6 +57,7 @@ class SetValuedLaws {
   bool follow_rolling(Workspace& workspace);
 
  private:
+  bool bounces_spent_ = false;
   static constexpr double closed = 1e-9;  // m, and of the fastest speed: what rounding of a placed body leaves
   bool collide(Workspace& workspace);
   void classify_contacts(Workspace& workspace) const;
