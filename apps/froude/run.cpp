@@ -114,9 +114,8 @@ void tell(const Console& console, const scene::Scene& scene, const Record& recor
   console.out << series_table(record.signals);
   if (!scene.run->steady)
     console.out << fmt::format(
-        "energy that does not add up: at most {:.3g} J, at {:.5g} s, {:.2g} of the {:.3g} J turned over (this tells "
-        "how well "
-        "energy is kept, not how accurate the motion is)\n",
+        "energy that does not add up: at most {:.3g} J, at {:.5g} s, {:.2g} of the {:.3g} J turned over "
+        "(this tells how well energy is kept, not how accurate the motion is)\n",
         residual, at, relative, turnover);
   for (const Snaps& s : record.snaps) console.out << sentence(s) << '\n';
   for (const LineExponent& e : record.exponents) console.out << sentence(e) << '\n';
