@@ -23,24 +23,31 @@ struct Mover {
   std::string what;
 };
 
-/// A spring as stiff as it ever becomes; slack lines are taken where they are drawn taut.
-void stiffen(dynamics::AxialConnector& c, const dynamics::State& at) {
-  const double length = dynamics::axial_state(c, at).length, x = length - c.rest_length;
-  const double most = c.law.stiffest(), now = c.law.at(x, 0).by_x;
-  if (most <= now) return;
-  c.law = {.stiffness = most};
-  c.rest_length = length;
-}
-
-Prepared at_its_stiffest(Prepared p, const dynamics::State& at) {
-  for (auto& c : p.axial) stiffen(c, at);
-  for (auto& group : p.switched)
-    for (auto& c : group.connectors) stiffen(c, at);
-  for (auto& pto : p.ptos) {
-    const double x = dynamics::pto_state(pto, at).travel, most = pto.law.stiffest();
-    if (most > pto.law.at(x, 0).by_x) pto.law = {.line = {.stiffness = most}, .lower = {}, .upper = {}};
+/// What springs may still gain in stiffness, with no load where the bodies are: slack lines drawn taut, tables at their
+/// steepest, stops run into.
+void add_stiffening(const Prepared& p, const dynamics::State& at,
+                    std::vector<std::unique_ptr<const dynamics::ForceKind>>& forces) {
+  std::vector<dynamics::AxialConnector> taut;
+  const auto consider = [&](dynamics::AxialConnector c) {
+    const double length = dynamics::axial_state(c, at).length;
+    const double more = c.law.stiffest() - c.law.at(length - c.rest_length, 0).by_x;
+    if (more <= 0) return;
+    c.law = {.stiffness = more};
+    c.rest_length = length;
+    taut.push_back(std::move(c));
+  };
+  for (const auto& c : p.axial) consider(c);
+  for (const auto& group : p.switched)
+    for (const auto& c : group.connectors) consider(c);
+  std::vector<dynamics::Pto> stops;
+  for (dynamics::Pto pto : p.ptos) {
+    const double x = dynamics::pto_state(pto, at).travel, more = pto.law.stiffest() - pto.law.at(x, 0).by_x;
+    if (more <= 0) continue;
+    pto.law = {.line = {.stiffness = more}, .preload = -more * x, .lower = {}, .upper = {}};
+    stops.push_back(std::move(pto));
   }
-  return p;
+  if (!taut.empty()) forces.push_back(std::make_unique<dynamics::AxialConnectorKind>(std::move(taut)));
+  if (!stops.empty()) forces.push_back(std::make_unique<dynamics::PtoKind>(std::move(stops)));
 }
 
 /// Added mass at infinite frequency of each group that radiates, or what its file has that is nearest to it.
@@ -55,16 +62,17 @@ std::vector<dynamics::AddedMass> added_mass(const Prepared& p) {
   return out;
 }
 
-dynamics::Model model_of_springs(const Prepared& p) {
+/// Bodies on their springs, which are as stiff about `at` as they ever become.
+dynamics::Model model_of_springs(const Prepared& p, const dynamics::State& at) {
   std::vector<std::unique_ptr<const dynamics::ForceKind>> forces;
   add_springs(p, forces);
+  add_stiffening(p, at, forces);
   if (!p.fastened.empty()) forces.push_back(std::make_unique<dynamics::FastenedLineKind>(p.fastened));
   return {p.bodies, added_mass(p), std::move(forces), p.joints};
 }
 
 /// The bodies' own motions about one state.
-Mover own_motion(const Prepared& prepared, const dynamics::State& about) {
-  const dynamics::Model model = model_of_springs(at_its_stiffest(prepared, about));
+Mover own_motion(const dynamics::Model& model, const dynamics::State& about) {
   const auto fastest = dynamics::frequency::fastest_motion(model, about);
   return {fastest.omega, fmt::format("the bodies' own motion of {1:.4g} s, mostly {0}", model.mode_name(fastest.mode),
                                      2 * std::numbers::pi / fastest.omega)};
@@ -103,11 +111,13 @@ Mover fastest_mover(const Scene& scene, const Prepared& p) {
     if (const double omega = highest_relevant_frequency(*scene.waves); omega > 0)
       compare({omega, fmt::format("waves of {:.4g} s, the shortest that matter", 2 * std::numbers::pi / omega)});
   if (p.bodies.empty()) return out;
-  const dynamics::Model model = model_of_springs(p);
+  const dynamics::State rest = dynamics::rest_state(p.bodies);
+  const dynamics::Model model = model_of_springs(p, rest);
+  compare(own_motion(model, rest));
   std::vector<std::string> told_with_the_run;
   const dynamics::State start = placed_state(scene, p, model, told_with_the_run);
-  compare(own_motion(p, dynamics::rest_state(p.bodies)));
-  compare(own_motion(p, start));
+  if (std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const auto& b) { return !b.initial.empty(); }))
+    compare(own_motion(model_of_springs(p, start), start));
   compare(turning(p, start));
   compare(snap(scene));
   return out;
