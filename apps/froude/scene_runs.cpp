@@ -111,6 +111,8 @@ void SceneRuns::compiled(const Eigen::VectorXd& parameters) {
   // The scene's step, or the next smaller one that divides the distance of samples, which a file may have rounded.
   if (auto& step = scene_.solve.step)
     step->value = measured_.step / std::max(1.0, std::ceil(measured_.step / step->value - 1e-3));
+  else if (chosen_step_)
+    step = {*chosen_step_, {}};
   scene_.run->of.clear();
   scene_.run->of_places.clear();
   for (const auto& s : fit_.motion.signals) {
@@ -119,6 +121,7 @@ void SceneRuns::compiled(const Eigen::VectorXd& parameters) {
   }
   prepared_ = compile::prepare(scene_);
   model_.emplace(compile::time_model(scene_, prepared_));
+  if (!chosen_step_) chosen_step_ = model_->step;
   numbers_ = parameters;
 }
 

@@ -57,6 +57,9 @@ class SceneRuns final : public ::fit::Simulation {
   std::optional<compile::TimeModel> model_;
   Eigen::VectorXd numbers_;
   std::vector<compile::StateChart> charts_;
+  /// s, where the scene gives none: that of the numbers as it has them. It is held while they are searched for, since
+  /// motions jump by the error of a step where that changes.
+  std::optional<double> chosen_step_;
 };
 
 }  // namespace froude

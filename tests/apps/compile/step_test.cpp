@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <numbers>
 
 #include "compile/compile.hpp"
+#include "froude/scene_runs.hpp"
 #include "froude/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/potential/writers.hpp"
@@ -157,6 +159,36 @@ TEST(StepOfARun, FollowsASpringOfOneSecond) {
   // takes a few thousandths of the height.
   for (std::size_t i = 0; i < run.time.size(); ++i)
     EXPECT_NEAR(run.signal("m.surge")[i], 0.1 * (i % 2 == 0 ? 1 : -1), 1e-3) << run.time[i];
+}
+
+// A fit runs the scene with many numbers. Were the step chosen anew with each, motions would jump where one more step
+// fits between samples, and no search ends on a jump.
+TEST(StepOfARun, StaysWhileAFitSearchesForAStiffness) {
+  const double k = 100 * 4 * std::numbers::pi * std::numbers::pi;
+  const auto path = std::filesystem::path(testing::TempDir()) / "searched.toml";
+  std::ofstream(path) << spring(
+      fmt::format("[[mooring]]\non = \"m\"\nkind = \"linear\"\nstiffness = {{ surge = \"{:.12g} N/m\" }}\n", k),
+      "0.5 s", "[body.initial]\nsurge = \"0.1 m\"\n");
+  scene::FitScene fit;
+  fit.motion.scene.value = path;
+  fit.motion.parameters.push_back(
+      {.key = "mooring.stiffness.surge", .unit = "N/m", .first = k, .lowest = {}, .highest = {}, .place = {}});
+  fit.motion.signals.push_back({"x", "m.surge", {"1 mm", {}}});
+  std::vector<double> time;
+  for (int i = 0; i <= 20; ++i) time.push_back(0.5 * i);
+  const MeasuredRun measured = MeasuredRun::of(time, Eigen::MatrixXd::Zero(21, 1), 0);
+  SceneRuns runs(fit, measured);
+  runs.units();                // compiles the scene with the numbers that it has
+  constexpr int trials = 400;  // up to a tenth stiffer: the phase at the end goes on by 0.008 a trial
+  std::vector<double> last;
+  for (int i = 0; i < trials; ++i)
+    last.push_back(runs.follow(0, Eigen::VectorXd::Constant(1, k * (1 + 0.1 * i / trials)), {})(20, 0));
+  double by_trial = 0, bend = 0;
+  for (std::size_t i = 1; i + 1 < last.size(); ++i) {
+    by_trial = std::max(by_trial, std::abs(last[i + 1] - last[i]));
+    bend = std::max(bend, std::abs(last[i + 1] - 2 * last[i] + last[i - 1]));
+  }
+  EXPECT_LT(bend, 0.02 * by_trial) << "0.008 of a cosine; a step more between samples moves it by a quarter of a trial";
 }
 
 const std::string rod = froude_test::water + R"([[body]]
