@@ -110,6 +110,10 @@ Mover fastest_mover(const Scene& scene, const Prepared& p) {
   if (scene.waves)
     if (const double omega = highest_relevant_frequency(*scene.waves); omega > 0)
       compare({omega, fmt::format("waves of {:.4g} s, the shortest that matter", 2 * std::numbers::pi / omega)});
+  for (const auto& joint : scene.joints)
+    if (joint.lead && joint.lead->omega > 0)
+      compare({joint.lead->omega,
+               fmt::format("what leads joint {}, {:.4g} s", joint.name, 2 * std::numbers::pi / joint.lead->omega)});
   if (p.bodies.empty()) return out;
   const dynamics::State rest = dynamics::rest_state(p.bodies);
   const dynamics::Model model = model_of_springs(p, rest);
