@@ -53,11 +53,6 @@ void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::
   if (!p.loads.empty()) forces.push_back(std::make_unique<dynamics::ConstantLoadKind>(p.loads));
 }
 
-double motion_from_rest(const dynamics::RigidBody& body, const dynamics::Pose& pose, int mode) {
-  if (mode >= 3) return pose.roll_pitch_yaw()[mode - 3];
-  return (pose.point(body, {Eigen::Vector3d::Zero()}).xyz - body.properties().rest_position.xyz)[mode];
-}
-
 Prepared prepare(const Scene& scene) {
   Prepared out;
   for (const auto& b : scene.bodies) {
@@ -115,7 +110,8 @@ std::string farthest(const dynamics::Model& model, const dynamics::State& state)
   std::vector<std::pair<double, int>> ways;
   for (int m = 0; m < model.modes(); ++m) {
     const auto body = static_cast<std::size_t>(m / 6);
-    if (model.is_free(m)) ways.emplace_back(motion_from_rest(model.bodies()[body], state.pose[body], m % 6), m);
+    if (model.is_free(m))
+      ways.emplace_back(dynamics::motion_from_rest(model.bodies()[body], state.pose[body], m % 6), m);
   }
   std::stable_sort(ways.begin(), ways.end(),
                    [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });

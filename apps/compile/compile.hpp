@@ -56,18 +56,10 @@ struct Prepared {
   std::vector<dynamics::Joint> joints;
   std::vector<dynamics::Friction> friction;
   std::vector<dynamics::Contact> contacts;
-  std::vector<double>
-      joint_sign;  ///< −1 where the scene wrote the ground first: travel is the second's against the first
-  std::vector<std::vector<std::string>> switched_names;
   std::vector<scene::Place> switched_places;
-  std::vector<std::string> axial_names, bushing_names, mooring_names;
   std::vector<OtherDepth> other_depths;  ///< of coefficients that are not for the scene's
   std::vector<std::string> notes;        ///< what had to be decided, for the result and the plan
 };
-
-/// Motion of a body's origin from rest, m or rad: rotations are yaw about z, then pitch about the new y, then roll
-/// about the newest x, and run on from those that the pose has counted (D133).
-double motion_from_rest(const dynamics::RigidBody& body, const dynamics::Pose& pose, int mode);
 
 /// Opens the data files and places everything. \throws hydro::InputError, placed in the scene
 Prepared prepare(const scene::Scene& scene);

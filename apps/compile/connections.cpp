@@ -30,9 +30,11 @@ void add_switched(const scene::Connector& c, const scene::StiffnessSwitch& s, co
                     out.switched_places.back().column == c.place.column;
   if (!same) {
     dynamics::PeriodSwitching law{
-        .signal = [body = out.bodies[static_cast<std::size_t>(s.body)], index = static_cast<std::size_t>(s.body),
-                   mode = static_cast<int>(s.mode)](
-                      const dynamics::State& state) { return motion_from_rest(body, state.pose[index], mode); },
+        .signal =
+            [body = out.bodies[static_cast<std::size_t>(s.body)], index = static_cast<std::size_t>(s.body),
+             mode = static_cast<int>(s.mode)](const dynamics::State& state) {
+              return dynamics::motion_from_rest(body, state.pose[index], mode);
+            },
         .every = s.every,
         .window = s.window,
         .hysteresis = s.hysteresis / (2 * std::numbers::pi),
@@ -40,11 +42,9 @@ void add_switched(const scene::Connector& c, const scene::StiffnessSwitch& s, co
         .settings = {}};
     for (const auto& setting : s.settings) law.settings.push_back({setting.from, setting.stiffness});
     out.switched.push_back({{}, [law] { return std::make_unique<dynamics::DominantPeriodController>(law); }});
-    out.switched_names.emplace_back();
     out.switched_places.push_back(c.place);
   }
   out.switched.back().connectors.push_back(made);
-  out.switched_names.back().push_back(c.name);
 }
 
 void add_connector(const Scene& scene, const scene::Connector& c, Prepared& out) {
@@ -61,18 +61,16 @@ void add_connector(const Scene& scene, const scene::Connector& c, Prepared& out)
                                 .table_x = axial->elongations,
                                 .table_force = axial->tensions,
                                 .pulls_only = axial->pulls_only};
-    const dynamics::AxialConnector made{ends, law, axial->rest_length.value_or(offset.norm())};
+    const dynamics::AxialConnector made{ends, law, axial->rest_length.value_or(offset.norm()), c.name};
     if (axial->switching) {
       add_switched(c, *axial->switching, made, out);
       return;
     }
     out.axial.push_back(made);
-    out.axial_names.push_back(c.name);
     return;
   }
   const auto& b = std::get<scene::BushingConnector>(c.kind);
-  out.bushing.push_back({ends, b.stiffness, b.damping, b.rotational_stiffness, b.rotational_damping, offset});
-  out.bushing_names.push_back(c.name);
+  out.bushing.push_back({ends, b.stiffness, b.damping, b.rotational_stiffness, b.rotational_damping, offset, c.name});
 }
 
 dynamics::Lead lead(const scene::JointLead& l) {
@@ -89,22 +87,34 @@ void add_joint(const scene::Joint& j, Prepared& out) {
                         .second = turned ? j.first : j.second,
                         .place = j.at,
                         .axis = turned && j.kind == scene::JointKind::universal ? j.second_axis : j.axis,
-                        .second_axis = turned ? j.axis : j.second_axis});
-  out.joint_sign.push_back(turned ? -1 : 1);
+                        .second_axis = turned ? j.axis : j.second_axis,
+                        .sign = turned ? -1.0 : 1.0});
   if (j.lead) out.joints.back().lead = turned ? dynamics::reversed(lead(*j.lead)) : lead(*j.lead);
   const auto travel = [&] { return dynamics::Travel(out.bodies, out.joints.back()); };
   if (j.friction)
-    out.friction.push_back({j.name, travel(), j.friction->breakaway, j.friction->sliding, j.friction->stribeck, {}});
+    out.friction.push_back({j.name,
+                            travel(),
+                            j.friction->breakaway,
+                            j.friction->sliding,
+                            j.friction->stribeck,
+                            {},
+                            out.joints.back().sign});
   if (j.pto && j.pto->latch)
-    out.friction.push_back({j.name, travel(), std::numeric_limits<double>::infinity(), 0, {}, j.pto->latch});
+    out.friction.push_back(
+        {j.name, travel(), std::numeric_limits<double>::infinity(), 0, {}, j.pto->latch, out.joints.back().sign});
 }
 
 void add_mooring(const Scene& scene, const scene::Mooring& m, Prepared& out) {
   // Given about the body's origin; the origin seen from the centre of gravity is −c.
   const Matrix6 T = dynamics::shift_from_centre(-scene.bodies[static_cast<std::size_t>(m.body)].centre_of_gravity);
-  out.moorings.push_back(
-      {.body = m.body, .stiffness = T.transpose() * m.stiffness * T, .damping = T.transpose() * m.damping * T});
-  out.mooring_names.push_back(m.name);
+  std::array<bool, 6> told{};
+  for (int mode = 0; mode < 6; ++mode)
+    told[static_cast<std::size_t>(mode)] = !m.stiffness.row(mode).isZero() || !m.damping.row(mode).isZero();
+  out.moorings.push_back({.body = m.body,
+                          .stiffness = T.transpose() * m.stiffness * T,
+                          .damping = T.transpose() * m.damping * T,
+                          .name = m.name,
+                          .told = told});
 }
 
 /// What the scene lets work on the travel of joints. A joint that names the ground first counts its travel backwards.
@@ -125,7 +135,8 @@ std::vector<dynamics::Pto> ptos(const Scene& scene, const Prepared& p) {
       if (s.stops->lower) law.lower = dynamics::EndStop{*s.stops->lower, s.stops->stiffness, s.stops->damping};
       if (s.stops->upper) law.upper = dynamics::EndStop{*s.stops->upper, s.stops->stiffness, s.stops->damping};
     }
-    out.push_back({dynamics::Travel(p.bodies, p.joints[j], static_cast<int>(j)), law, p.joint_sign[j]});
+    out.push_back(
+        {dynamics::Travel(p.bodies, p.joints[j], static_cast<int>(j)), law, p.joints[j].sign, p.joints[j].name});
   }
   return out;
 }
@@ -143,7 +154,9 @@ dynamics::CatenaryMooring catenary_mooring(const Scene& scene, const scene::Cate
                                 {.length = l.length,
                                  .weight = (l.mass_per_length - displaced) * scene.water.gravity,
                                  .axial_stiffness = l.axial_stiffness,
-                                 .on_bed = l.on_bed}};
+                                 .on_bed = l.on_bed},
+                                {},
+                                l.name};
   try {
     dynamics::tension_of(out, dynamics::rest_state(p.bodies));
   } catch (const hydro::NumericsError& e) {

@@ -2,6 +2,7 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "dynamics/control/controller.hpp"
@@ -10,27 +11,20 @@
 namespace froude::compile {
 namespace {
 
-/// Takes the connectors whose names match out of two lists that run beside each other.
+/// Takes the connectors whose names match out of a list.
 void take(const std::string& pattern, std::vector<dynamics::AxialConnector>& connectors,
-          std::vector<std::string>& names, dynamics::SwitchedConnectors& group, std::vector<std::string>& group_names) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < connectors.size(); ++i) {
-    const bool taken = scene::matches(pattern, names[i]);
-    if (taken) {
-      group.connectors.push_back(connectors[i]);
-      group_names.push_back(names[i]);
-    } else {
-      connectors[kept] = connectors[i];
-      names[kept++] = names[i];
-    }
-  }
-  connectors.resize(kept);
-  names.resize(kept);
+          dynamics::SwitchedConnectors& group) {
+  const auto left = std::stable_partition(connectors.begin(), connectors.end(),
+                                          [&](const auto& c) { return !scene::matches(pattern, c.name); });
+  group.connectors.insert(group.connectors.end(), left, connectors.end());
+  connectors.erase(left, connectors.end());
 }
 
 hydro::InputError no_such(const std::string& pattern, const Prepared& p) {
-  std::vector<std::string> names = p.axial_names;
-  for (const auto& group : p.switched_names) names.insert(names.end(), group.begin(), group.end());
+  std::vector<std::string> names;
+  for (const auto& c : p.axial) names.push_back(c.name);
+  for (const auto& group : p.switched)
+    for (const auto& c : group.connectors) names.push_back(c.name);
   return hydro::InputError(
       fmt::format("no axial connector \"{}\" is left for a controller", pattern), {},
       names.empty() ? "the scene has none" : fmt::format("connectors are: {}", fmt::join(names, ", ")));
@@ -81,7 +75,8 @@ double Sample::motion(const std::string& name) const {
   if (dot == std::string::npos)
     throw hydro::InputError(fmt::format("\"{}\" is no motion", name), {}, "motions are called like \"m1.heave\"");
   const auto b = static_cast<std::size_t>(index(name.substr(0, dot)));
-  return motion_from_rest((*bodies_)[b], state_.pose[b], static_cast<int>(hydro::parse_mode(name.substr(dot + 1))));
+  return dynamics::motion_from_rest((*bodies_)[b], state_.pose[b],
+                                    static_cast<int>(hydro::parse_mode(name.substr(dot + 1))));
 }
 
 dynamics::Vector6 Sample::velocity(const std::string& body) const { return state_.twist(index(body)); }
@@ -89,25 +84,17 @@ dynamics::Vector6 Sample::velocity(const std::string& body) const { return state
 void set_controllers(const std::vector<Control>& controls, Prepared& p) {
   const auto bodies = std::make_shared<const std::vector<dynamics::RigidBody>>(p.bodies);
   std::vector<dynamics::SwitchedConnectors> ruled;
-  std::vector<std::vector<std::string>> ruled_names;
   for (const Control& control : controls) {
     dynamics::SwitchedConnectors group{{}, controller(bodies, control)};
-    std::vector<std::string> names;
-    take(control.connectors, p.axial, p.axial_names, group, names);
-    for (std::size_t g = 0; g < p.switched.size(); ++g)
-      take(control.connectors, p.switched[g].connectors, p.switched_names[g], group, names);
+    take(control.connectors, p.axial, group);
+    for (auto& other : p.switched) take(control.connectors, other.connectors, group);
     if (group.connectors.empty()) throw no_such(control.connectors, p);
     check(control.connectors, group);
     ruled.push_back(std::move(group));
-    ruled_names.push_back(std::move(names));
   }
-  for (std::size_t g = 0; g < p.switched.size(); ++g) {
-    if (p.switched[g].connectors.empty()) continue;
-    ruled.push_back(std::move(p.switched[g]));
-    ruled_names.push_back(std::move(p.switched_names[g]));
-  }
+  for (auto& group : p.switched)
+    if (!group.connectors.empty()) ruled.push_back(std::move(group));
   p.switched = std::move(ruled);
-  p.switched_names = std::move(ruled_names);
 }
 
 }  // namespace froude::compile

@@ -173,6 +173,8 @@ System description(const Scene& scene, const std::vector<std::size_t>& network,
                          .nodes = static_cast<int>(own.nodes.size()),
                          .first_segment = static_cast<int>(out.d.segments.size()),
                          .segments = static_cast<int>(own.segments.size()),
+                         .from_on_body = l.from_on.has_value(),
+                         .to_on_body = l.to_on.has_value(),
                          .snaps = l.snaps});
     append(own, i == network.front(), l.bed.has_value(), out.d);
     out.d.water = own.water;
@@ -309,11 +311,13 @@ dynamics::FastenedLine fastened_line(const Scene& scene, const std::vector<std::
   for (std::size_t k = 0; k < network.size(); ++k) {
     const scene::Line& l = scene.chains[network[k]];
     const LineModel::Part& part = still.parts[k];
-    const auto add = [&](int node, std::optional<int> body, const Eigen::Vector3d& at) {
-      if (body) out.ends.push_back({node, *body, at - scene.bodies[static_cast<std::size_t>(*body)].centre_of_gravity});
+    const auto add = [&](int node, std::optional<int> body, const Eigen::Vector3d& at, const char* end) {
+      if (body)
+        out.ends.push_back({node, *body, at - scene.bodies[static_cast<std::size_t>(*body)].centre_of_gravity,
+                            fmt::format("{}.{}", l.name, end)});
     };
-    add(part.first_node, l.from_on, l.from);
-    if (l.to) add(part.first_node + part.nodes - 1, l.to_on, *l.to);
+    add(part.first_node, l.from_on, l.from, "from");
+    if (l.to) add(part.first_node + part.nodes - 1, l.to_on, *l.to, "to");
   }
   return out;
 }
@@ -473,6 +477,24 @@ std::vector<LineModel> line_models(const Scene& scene, const Prepared& prepared,
   if (fastened > 0 && fastened == out.size() && scene.solve.line_scheme_place)
     throw InputError("[solve.integrator] lines acts on no line: those on bodies are stepped with them",
                      *scene.solve.line_scheme_place, "leave it out");
+  return out;
+}
+
+std::vector<LineModel> lines_as_placed(const Scene& scene) {
+  std::vector<LineModel> out;
+  std::size_t fastened = 0;
+  for (const auto& network : scene.networks) {
+    System system = description(scene, network, without_waves(scene));
+    out.push_back({.name = system.parts.front().name,
+                   .parts = std::move(system.parts),
+                   .knots = std::move(system.knots),
+                   .line = std::make_unique<const dl::Line>(std::move(system.d)),
+                   .start = {},
+                   .settings = {}});
+    if (on_bodies(scene, network)) out.back().fastened = fastened++;
+    for (const std::size_t i : network)
+      if (scene.chains[i].lyapunov) out.back().lyapunov = scene.chains[i].lyapunov;
+  }
   return out;
 }
 

@@ -17,6 +17,7 @@ namespace froude::compile {
 struct Prepared;
 struct RunWater;
 struct PlanLine;
+struct Signal;
 
 /// One line where a run begins, or several that meet: one system.
 struct LineModel {
@@ -24,6 +25,7 @@ struct LineModel {
   struct Part {
     std::string name;
     int first_node, nodes, first_segment, segments;
+    bool from_on_body = false, to_on_body = false;  ///< pulls there are signals of the model's
     std::optional<scene::Line::Snaps> snaps = {};
     /// Which coefficients its segments took from a table, for people; empty where they were given.
     std::string coefficients = {};
@@ -50,6 +52,9 @@ struct LineModel {
 /// that cannot hang there, hydro::NumericsError if it finds no rest
 std::vector<LineModel> line_models(const scene::Scene& scene, const Prepared& prepared, const RunWater& water,
                                    const dynamics::State& start);
+
+/// The same without a run, for what they are and tell: they have no start.
+std::vector<LineModel> lines_as_placed(const scene::Scene& scene);
 
 /// The networks of lines of a scene that have ends on bodies, as those feel them at rest. \throws hydro::InputError at
 /// a line that cannot hang where the scene places its bodies
@@ -114,12 +119,7 @@ class LineRun {
   double first_height_ = 0, turnover_ = 0;
 };
 
-/// A number that can be read off a line after look().
-struct LineProbe {
-  std::size_t line;
-  std::string name, unit, long_name;
-  std::function<double(const LineRun&)> read;
-};
-std::vector<LineProbe> line_probes(const std::vector<LineModel>& models);
+/// What lines tell of themselves, read off after look(). \return beside what the model tells of pulls on bodies
+void add_line_signals(const std::vector<LineModel>& models, std::vector<Signal>& out);
 
 }  // namespace froude::compile

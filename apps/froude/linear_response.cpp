@@ -22,8 +22,8 @@ using dynamics::frequency::LinearDrag, dynamics::frequency::SmallMotions;
 
 /// Transfer functions of all signals at the components of a sea, one row a signal.
 Eigen::MatrixXcd transfer(const compile::Prepared& prepared, const SmallMotions& about,
-                          const std::vector<compile::LinearProbe>& probes, const hydro::waves::Sea& sea) {
-  Eigen::MatrixXcd out(static_cast<Eigen::Index>(probes.size()), static_cast<Eigen::Index>(sea.components().size()));
+                          const std::vector<compile::Signal>& signals, const hydro::waves::Sea& sea) {
+  Eigen::MatrixXcd out(static_cast<Eigen::Index>(signals.size()), static_cast<Eigen::Index>(sea.components().size()));
   std::map<double, std::vector<std::size_t>> by_heading;
   for (std::size_t c = 0; c < sea.components().size(); ++c) by_heading[sea.components()[c].heading].push_back(c);
   for (const auto& [heading, components] : by_heading) {
@@ -33,7 +33,7 @@ Eigen::MatrixXcd transfer(const compile::Prepared& prepared, const SmallMotions&
     const Eigen::MatrixXcd multipliers = prepared.joints.empty() ? Eigen::MatrixXcd()
                                                                  : dynamics::frequency::multiplier_amplitudes(
                                                                        about, prepared.groups, omega, heading, xi);
-    const auto responses = linear_responses(probes, xi, multipliers, omega);
+    const auto responses = linear_responses(signals, about, xi, multipliers, omega, heading);
     for (std::size_t s = 0; s < responses.size(); ++s)
       for (std::size_t k = 0; k < components.size(); ++k)
         out(static_cast<Eigen::Index>(s), static_cast<Eigen::Index>(components[k])) = responses[s].values[k];
@@ -125,32 +125,36 @@ Amplitudes amplitudes_of_rao(const scene::AskRao& ask, const compile::Prepared& 
   return out;
 }
 
-std::vector<ComplexSignal> heading_by_heading(const std::vector<compile::LinearProbe>& probes, const Amplitudes& found,
-                                              const std::vector<double>& omega) {
-  std::vector<ComplexSignal> out = linear_responses(probes, found.xi.front(), found.multipliers.front(), omega);
-  for (std::size_t h = 1; h < found.xi.size(); ++h) {
-    const auto next = linear_responses(probes, found.xi[h], found.multipliers[h], omega);
-    for (std::size_t s = 0; s < out.size(); ++s)
-      out[s].values.insert(out[s].values.end(), next[s].values.begin(), next[s].values.end());
+std::vector<ComplexSignal> heading_by_heading(const std::vector<compile::Signal>& signals, const SmallMotions& about,
+                                              const Amplitudes& found, const scene::AskRao& ask) {
+  std::vector<ComplexSignal> out;
+  for (std::size_t h = 0; h < found.xi.size(); ++h) {
+    auto next = linear_responses(signals, about, found.xi[h], found.multipliers[h], ask.omega, ask.headings[h]);
+    if (h == 0) out.resize(next.size());
+    for (std::size_t s = 0; s < out.size(); ++s) {
+      if (h == 0)
+        out[s] = std::move(next[s]);
+      else
+        out[s].values.insert(out[s].values.end(), next[s].values.begin(), next[s].values.end());
+    }
   }
   return out;
 }
 
 }  // namespace
 
-std::vector<ComplexSignal> linear_responses(const std::vector<compile::LinearProbe>& probes, const Eigen::MatrixXcd& xi,
-                                            const Eigen::MatrixXcd& multipliers, const std::vector<double>& omega) {
+std::vector<ComplexSignal> linear_responses(const std::vector<compile::Signal>& signals, const SmallMotions& about,
+                                            const Eigen::MatrixXcd& xi, const Eigen::MatrixXcd& multipliers,
+                                            const std::vector<double>& omega, double heading) {
+  const Eigen::VectorXcd none;
   std::vector<ComplexSignal> out;
-  for (const auto& p : probes) {
-    ComplexSignal s{p.name, p.unit, p.long_name, {}};
+  for (const auto& signal : signals) {
+    const dynamics::Variation variation = signal.variation({about.still, about.linear.multipliers});
+    ComplexSignal s{signal.name, signal.unit + "/m", signal.meaning + " per metre of wave amplitude", {}};
     for (std::size_t w = 0; w < omega.size(); ++w) {
-      const std::complex<double> i_omega(0, omega[w]);
       const auto column = static_cast<Eigen::Index>(w);
-      std::complex<double> value = 0;
-      if (p.stiffness.size() > 0) value += (p.stiffness * xi.col(column)).value();
-      if (p.damping.size() > 0) value += i_omega * (p.damping * xi.col(column)).value();
-      if (p.joints.size() > 0) value += (p.joints * multipliers.col(column)).value();
-      s.values.push_back(value);
+      const Eigen::VectorXcd lambda = multipliers.cols() > 0 ? Eigen::VectorXcd(multipliers.col(column)) : none;
+      s.values.push_back(dynamics::amplitude(variation, xi.col(column), lambda, omega[w], heading));
     }
     out.push_back(std::move(s));
   }
@@ -203,13 +207,11 @@ Responses respond(const scene::Scene& scene, const compile::Prepared& prepared) 
   const SmallMotions about = compile::small_motions(model, scene.rao->about, out.notes);
   for (const std::string& effect : left_out_of_linear_responses(scene, scene.rao->drag.has_value()))
     out.notes.push_back(effect);
-  const auto all = compile::rao_probes(scene, prepared, about);
-  std::vector<std::string> names;
-  for (const auto& p : all) names.push_back(p.name);
-  scene::check_patterns(scene.rao->of, scene.rao->of_places, names);
+  const auto signals = compile::chosen_responses(compile::signal_list(scene, prepared, model), scene.rao->of,
+                                                 scene.rao->of_places, out.notes);
   const auto drags = drag_of_rao(scene, prepared, about, out.notes);
   const Amplitudes found = amplitudes_of_rao(*scene.rao, prepared, about, drags);
-  out.signals = heading_by_heading(compile::chosen(all, scene.rao->of), found, out.omega);
+  out.signals = heading_by_heading(signals, about, found, *scene.rao);
   return out;
 }
 
@@ -223,36 +225,20 @@ Record steady_run(const scene::Scene& scene) {
   Record record;
   record.notes = prepared.notes;
   const hydro::waves::Sea sea = compile::sea_of_run(scene, prepared, record.notes);
-  auto all = compile::rao_probes(scene, prepared, about);
-  std::vector<std::string> names{"wave.elevation"};
-  for (const auto& p : all) names.push_back(p.name);
-  scene::check_patterns(scene.run->of, scene.run->of_places, names);
-  all = compile::chosen(all, scene.run->of);
-  Eigen::MatrixXcd amplitudes = transfer(prepared, about, all, sea);
+  const auto signals = compile::chosen_responses(compile::signal_list(scene, prepared, model), scene.run->of,
+                                                 scene.run->of_places, record.notes);
+  Eigen::MatrixXcd amplitudes = transfer(prepared, about, signals, sea);
   for (Eigen::Index c = 0; c < amplitudes.cols(); ++c)
     amplitudes.col(c) *= compile::elevation_at_origin(sea.components()[static_cast<std::size_t>(c)]);
   const auto samples = static_cast<std::size_t>(std::llround(scene.run->duration / scene.run->every)) + 1;
   const auto series = hydro::waves::synthesise(sea, {scene.run->every, samples}, amplitudes).series;
   for (std::size_t i = 0; i < samples; ++i) record.time.push_back(static_cast<double>(i) * scene.run->every);
-  const auto add = [&](const std::string& name, std::string unit, const std::string& long_name, auto&& values) {
-    Signal s{name, std::move(unit), long_name, std::vector<double>(samples)};
-    for (std::size_t i = 0; i < samples; ++i) s.values[i] = values(static_cast<Eigen::Index>(i));
-    record.signals.push_back(std::move(s));
-  };
-  for (std::size_t s = 0; s < all.size(); ++s)
-    add(all[s].name, all[s].unit.substr(0, all[s].unit.rfind('/')),
-        all[s].long_name.substr(0, all[s].long_name.find(" per metre")),
-        [&](Eigen::Index i) { return series(i, static_cast<Eigen::Index>(s)); });
-  if (compile::is_chosen("wave.elevation", scene.run->of)) {
-    const Eigen::MatrixXcd one = Eigen::MatrixXcd::NullaryExpr(1, amplitudes.cols(), [&](Eigen::Index, Eigen::Index c) {
-      return compile::elevation_at_origin(sea.components()[static_cast<std::size_t>(c)]);
-    });
-    const auto elevation = hydro::waves::synthesise(sea, {scene.run->every, samples}, one).series;
-    add("wave.elevation", "m", "elevation of the undisturbed wave at the origin",
-        [&](Eigen::Index i) { return elevation(i, 0); });
+  for (std::size_t s = 0; s < signals.size(); ++s) {
+    const auto values = series.col(static_cast<Eigen::Index>(s));
+    record.signals.push_back({signals[s].name, signals[s].unit, signals[s].meaning, {values.begin(), values.end()}});
   }
   record.notes.push_back(fmt::format("answered without stepping: {} transfer functions at the {} components of the sea",
-                                     all.size(), sea.components().size()));
+                                     signals.size(), sea.components().size()));
   record.step = scene.run->every;
   record.preparation_s = std::chrono::duration<double>(Clock::now() - begin).count();
   return record;

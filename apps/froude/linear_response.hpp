@@ -3,15 +3,18 @@
 #include <string>
 #include <vector>
 
-#include "compile/probes.hpp"
+#include "compile/signal_list.hpp"
 #include "froude/scene_result.hpp"
 #include "froude/simulate.hpp"
 
 namespace froude {
 
-/// Signals per metre of wave from displacements `xi` (6N, Nω) and multipliers (m, Nω) of joints.
-std::vector<ComplexSignal> linear_responses(const std::vector<compile::LinearProbe>& probes, const Eigen::MatrixXcd& xi,
-                                            const Eigen::MatrixXcd& multipliers, const std::vector<double>& omega);
+/// Signals per metre of wave along `heading`, rad, about where the bodies are still, from displacements `xi` (6N, Nω)
+/// and multipliers (m, Nω) of joints, which may be of no size.
+std::vector<ComplexSignal> linear_responses(const std::vector<compile::Signal>& signals,
+                                            const dynamics::frequency::SmallMotions& about, const Eigen::MatrixXcd& xi,
+                                            const Eigen::MatrixXcd& multipliers, const std::vector<double>& omega,
+                                            double heading);
 
 /// What `froude rao` writes: the signals that [ask.rao] names, per metre of wave, at its frequencies and headings.
 struct Responses {

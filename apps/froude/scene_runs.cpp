@@ -127,7 +127,7 @@ void SceneRuns::compiled(const Eigen::VectorXd& parameters) {
 
 Record SceneRuns::run(Eigen::Index samples, compile::MovingState* end) {
   model_->steps = static_cast<std::size_t>(samples) * model_->steps_per_sample;
-  Record record = run_model(scene_, prepared_, *model_, {}, end);
+  Record record = run_model(scene_, *model_, {}, end);
   if (!record.stopped.empty()) throw hydro::NumericsError(record.stopped);
   return record;
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "compile/integrator.hpp"
-#include "compile/probes.hpp"
+#include "compile/signal_list.hpp"
 #include "froude/linear_response.hpp"
 #include "hydro/base/error.hpp"
 
@@ -25,17 +25,15 @@ double rounding_of(const dynamics::Model& model) {
 /// One run on its way: stepping, book-keeping of energy, samples.
 class March {
  public:
-  March(const compile::TimeModel& m, const std::vector<compile::Probe>& probes,
-        const std::vector<compile::LineProbe>& line_probes, const scene::Solve& solve, Record& record)
+  March(const compile::TimeModel& m, const std::vector<compile::Signal>& signals, const scene::Solve& solve,
+        Record& record)
       : m_(m),
-        probes_(probes),
-        line_probes_(line_probes),
+        signals_(signals),
         record_(record),
         workspace_(m.model, m.start),
         integrator_(compile::make_integrator(solve, m.model)),
         rounding_(rounding_of(m.model)) {
-    for (const auto& p : probes) record_.signals.push_back({p.name, p.unit, p.long_name});
-    for (const auto& p : line_probes) record_.signals.push_back({p.name, p.unit, p.long_name});
+    for (const auto& s : signals) record_.signals.push_back({s.name, s.unit, s.meaning});
   }
 
   void run(const std::function<void(double)>& done) {
@@ -122,11 +120,9 @@ class March {
   }
   void sample(const dynamics::EnergyLedger& ledger) {
     record_.time.push_back(workspace_.state.time);
-    for (std::size_t i = 0; i < probes_.size(); ++i)
-      record_.signals[i].values.push_back(probes_[i].read(workspace_, ledger));
     for (auto& line : lines_) line->look();
-    for (std::size_t i = 0; i < line_probes_.size(); ++i)
-      record_.signals[probes_.size() + i].values.push_back(line_probes_[i].read(*lines_[line_probes_[i].line]));
+    const compile::Moment now{m_.model, workspace_, ledger, lines_};
+    for (std::size_t i = 0; i < signals_.size(); ++i) record_.signals[i].values.push_back(signals_[i].value(now));
   }
   void close(const dynamics::EnergyLedger& ledger) {
     for (std::size_t k = 0; k < workspace_.evaluations.size(); ++k)
@@ -160,8 +156,7 @@ class March {
   }
 
   const compile::TimeModel& m_;
-  const std::vector<compile::Probe>& probes_;
-  const std::vector<compile::LineProbe>& line_probes_;
+  const std::vector<compile::Signal>& signals_;
   std::vector<std::unique_ptr<compile::LineRun>> lines_;
   Record& record_;
   dynamics::Workspace workspace_;
@@ -181,20 +176,13 @@ const std::vector<double>& Record::signal(const std::string& name) const {
                           fmt::format("signals are: {}", fmt::join(names, ", ")));
 }
 
-Record run_model(const scene::Scene& scene, const compile::Prepared& prepared, const compile::TimeModel& model,
-                 const std::function<void(double)>& done, compile::MovingState* end) {
+Record run_model(const scene::Scene& scene, const compile::TimeModel& model, const std::function<void(double)>& done,
+                 compile::MovingState* end) {
   Record record;
-  const auto all = compile::run_probes(scene, prepared, model);
-  const auto all_of_lines = compile::line_probes(model.lines);
-  std::vector<std::string> names;
-  for (const auto& p : all) names.push_back(p.name);
-  for (const auto& p : all_of_lines) names.push_back(p.name);
-  scene::check_patterns(scene.run->of, scene.run->of_places, names);
-  const auto probes = compile::chosen(all, scene.run->of);
-  const auto line_probes = compile::chosen(all_of_lines, scene.run->of);
+  const auto signals = compile::chosen(compile::signal_list(scene, model), scene.run->of, scene.run->of_places);
   record.step = model.step;
   record.notes = model.notes;
-  March march(model, probes, line_probes, scene.solve, record);
+  March march(model, signals, scene.solve, record);
   const auto stepping = Clock::now();
   march.run(done);
   record.stepping_s = seconds_since(stepping);
@@ -215,7 +203,7 @@ Record simulate(const scene::Scene& scene, const std::function<void(double)>& do
   compile::set_controllers(controls, prepared);
   const compile::TimeModel model = compile::time_model(scene, prepared);
   const double preparation = seconds_since(begin);
-  Record record = run_model(scene, prepared, model, done);
+  Record record = run_model(scene, model, done);
   record.preparation_s = preparation;
   return record;
 }

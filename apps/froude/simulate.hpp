@@ -53,7 +53,7 @@ struct Record {
 
 /// Runs a model that is compiled already, from its start and for its steps; the start may be later than 0. `end`, if it
 /// is not null, is told the last state. \throws hydro::InputError at a signal that there is not
-Record run_model(const scene::Scene& scene, const compile::Prepared& prepared, const compile::TimeModel& model,
+Record run_model(const scene::Scene& scene, const compile::TimeModel& model,
                  const std::function<void(double)>& done = {}, compile::MovingState* end = nullptr);
 
 /// Compiles and runs a scene that asks for a run. `done` is told the share of the steps completed; `controls` rule

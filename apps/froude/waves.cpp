@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "compile/probes.hpp"
+#include "compile/signal_list.hpp"
 #include "compile/waves.hpp"
 #include "froude/progress.hpp"
 #include "froude/scene_result.hpp"

@@ -212,6 +212,7 @@ Body read_body(const Record& record, const std::filesystem::path& file) {
   body.initial_velocity = read_modes(record, "initial_velocity", body.free);
   if (record.has("hydrodynamics"))
     body.hydrodynamics = read_hydrodynamics(record.table("hydrodynamics"), file, body.position.z());
+  body.net_load = record.has("net_load");
   body.weight = record.has("weight");
   if (record.has("buoyancy")) body.buoyancy = read_buoyancy(record.table("buoyancy"), file);
   require_nothing_twice(record, body);

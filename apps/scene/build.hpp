@@ -37,6 +37,7 @@ struct UnresolvedEnd {
 std::vector<Body> build_bodies(const Record& root, const std::filesystem::path& file, Names& names);
 
 // Each refers to scene.bodies, which must be there already.
+void build_signals(const Record& root, Names& names, Scene& scene);
 void build_members(const Record& root, Names& names, Scene& scene);
 void build_lines(const Record& root, const std::filesystem::path& file, Names& names, Scene& scene);
 /// The junctions of a scene, and what the ends of its lines meet that `unresolved` names; then which lines form

@@ -255,6 +255,7 @@ Scene parse_with(std::string_view text, const std::filesystem::path& file,
   Names names;
   scene.probes = build_probes(root, names);
   scene.bodies = build_bodies(root, file, names);
+  build_signals(root, names, scene);
   build_members(root, names, scene);
   build_lines(root, file, names, scene);
   build_moorings(root, names, scene);

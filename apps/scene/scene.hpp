@@ -106,6 +106,22 @@ struct Probe {
   Place place;
 };
 
+/// `[[point]]`: a point of a body, and what is told of it.
+struct Point {
+  std::string name;
+  int body;            ///< index into Scene::bodies
+  Eigen::Vector3d at;  ///< body axes, m
+  bool position = false, velocity = false, acceleration = false, air_gap = false;
+};
+
+/// `[[relative_motion]]`: of two points of bodies, or of one and the ground.
+struct RelativeMotion {
+  std::string name;
+  int first;                              ///< index of a body
+  std::optional<int> second;              ///< index of a body; empty: the ground
+  Eigen::Vector3d first_end, second_end;  ///< body axes; global axes for the ground
+};
+
 struct AskWaves {
   double from, duration, every;  ///< s
   Place place;
@@ -195,6 +211,7 @@ struct Body {
   std::map<hydro::Mode, double> initial;           ///< displacement of the origin from rest at t = 0, m or rad
   std::map<hydro::Mode, double> initial_velocity;  ///< m/s or rad/s
   bool weight = false;                             ///< feels gravity; linear hydrostatics hold it already
+  bool net_load = false;                           ///< all loads together are signals
   std::optional<Buoyancy> buoyancy;
   std::optional<Hydrodynamics> hydrodynamics;
   Place place;
@@ -518,6 +535,8 @@ struct Scene {
   std::optional<Place> current_place;  ///< where the scene names a current
   std::vector<Probe> probes;
   std::vector<Body> bodies;
+  std::vector<Point> points;
+  std::vector<RelativeMotion> relative_motions;
   std::vector<Member> members;
   std::vector<Mooring> moorings;
   std::vector<CatenaryLine> lines;

@@ -8,6 +8,7 @@
 #include "scene/schema_line.hpp"
 #include "scene/schema_members.hpp"
 #include "scene/schema_modes.hpp"
+#include "scene/schema_signals.hpp"
 #include "scene/schema_waves.hpp"
 
 namespace froude::scene {
@@ -266,6 +267,9 @@ const Table& body() {
                effect("weight",
                       "gravity pulls at the centre of gravity; for a body whose hydrostatics are not linear (those "
                       "hold the weight already)"),
+               effect("net_load",
+                      "all loads on the body together are signals: net_force_x to net_moment_z, about its origin along "
+                      "global axes"),
                texts("free", "modes that may move; the others are held")
                    .one_of(mode_words())
                    .or_default("surge, sway, heave, roll, pitch, yaw", "a body is free unless something holds it"),
@@ -283,19 +287,29 @@ const Table& motion_schema() {
   static const Table table{
       .title = "a scene",
       .meaning = "floating bodies in waves",
-      .keys = {integer("schema", "version of this grammar, 1"), text("title", "for people").optional(),
+      .keys = {integer("schema", "version of this grammar, 1"),
+               text("title", "for people").optional(),
                texts("include",
                      "results of `froude fit -o`: with \"fit.toml\", a text \"fit.cd\" stands for the number cd of its "
                      "[coefficients]")
                    .optional(),
-               inner_table("water", water()), inner_table("waves", waves_table()).optional(),
-               inner_table("current", current_table()).optional(), inner_tables("body", body()).optional(),
-               inner_tables("probe", probe_table()).optional(), inner_tables("member", member_table()).optional(),
-               inner_tables("line", line_table()).optional(), inner_tables("junction", junction_table()).optional(),
+               inner_table("water", water()),
+               inner_table("waves", waves_table()).optional(),
+               inner_table("current", current_table()).optional(),
+               inner_tables("body", body()).optional(),
+               inner_tables("probe", probe_table()).optional(),
+               inner_tables("point", point_table()).optional(),
+               inner_tables("relative_motion", relative_motion_table()).optional(),
+               inner_tables("member", member_table()).optional(),
+               inner_tables("line", line_table()).optional(),
+               inner_tables("junction", junction_table()).optional(),
                inner_tables("mooring", mooring_table()).optional(),
-               inner_tables("connector", connector_table()).optional(), inner_tables("joint", joint_table()).optional(),
-               inner_tables("load", load_table()).optional(), inner_tables("contact", contact_table()).optional(),
-               inner_table("ask", ask_table()), inner_table("solve", solve_table()).or_default("", "see its keys")}};
+               inner_tables("connector", connector_table()).optional(),
+               inner_tables("joint", joint_table()).optional(),
+               inner_tables("load", load_table()).optional(),
+               inner_tables("contact", contact_table()).optional(),
+               inner_table("ask", ask_table()),
+               inner_table("solve", solve_table()).or_default("", "see its keys")}};
   return table;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "dynamics/force/force_kind.hpp"
+#include "laws/signal_laws.hpp"
 #include "support/force_law_models.hpp"
 
 namespace laws {
@@ -110,6 +111,8 @@ inline void expect_force_laws(const ForceKind& kind, const std::vector<dynamics:
     expect_true_jacobians(kind, state, memory.get());
     expect_energy_balance(kind, state, memory.get());
     expect_true_mass(kind, state);
+    state.velocity.setZero();
+    expect_true_variations(kind.signals(), state);
   }
 }
 

@@ -88,7 +88,7 @@ class Array {
   }
   /// The last hundred seconds.
   Record run() const {
-    Record r = run_model(scene_, prepared_, compile::time_model(scene_, prepared_));
+    Record r = run_model(scene_, compile::time_model(scene_, prepared_));
     hydro::require(r.stopped.empty(), "modules in waves of {} s: {}", period_, r.stopped);
     const auto first = r.time.size() - static_cast<std::size_t>(std::lround(looked_at / scene_.run->every));
     r.time.erase(r.time.begin(), r.time.begin() + static_cast<std::ptrdiff_t>(first));

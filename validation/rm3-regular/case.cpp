@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "compile/probes.hpp"
+#include "compile/signal_list.hpp"
 #include "froude/simulate.hpp"
 #include "harness/scenes.hpp"
 #include "hydro/signal/harmonics.hpp"

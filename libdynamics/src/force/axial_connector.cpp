@@ -55,6 +55,32 @@ AxialState axial_state(const AxialConnector& connector, const State& state) {
   return {s.length, s.answer.force};
 }
 
+namespace {
+
+/// How the tension varies where the ends are still.
+Variation tension_variation(const AxialConnector& c, const State& still) {
+  const Stretch s = stretch(c, still);
+  const Eigen::Matrix<double, 1, 12> by_q = s.direction.transpose() * detail::relative_position_derivative(s.a, s.b);
+  return detail::variation_of(c.ends, s.answer.by_x * by_q, s.answer.by_rate * by_q);
+}
+
+}  // namespace
+
+std::vector<Signal> axial_signals(const std::string& name, std::function<AxialConnector(const Memory*)> of) {
+  return {{.name = name + ".force",
+           .unit = "N",
+           .meaning = "tension of " + name,
+           .value = [of](const Reading& r) { return axial_state(of(r.memory), r.state).tension; },
+           .variation = [of](const Still& still) { return tension_variation(of(nullptr), still.state); }}};
+}
+
+std::vector<Signal> AxialConnectorKind::signals() const {
+  std::vector<Signal> out;
+  for (const AxialConnector& e : elements_)
+    for (Signal& s : axial_signals(e.name, [e](const Memory*) { return e; })) out.push_back(std::move(s));
+  return out;
+}
+
 void AxialConnectorKind::couple(BlockPattern& pattern) const {
   for (const auto& e : elements_)
     if (e.ends.second) pattern.couple(e.ends.first, *e.ends.second);

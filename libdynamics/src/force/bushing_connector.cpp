@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "dynamics/force/connector.hpp"
 #include "pair.hpp"
 
@@ -42,6 +44,14 @@ detail::PairLoad pair_load(const BushingConnector& c, const Strain& s) {
   return p;
 }
 
+/// How the shift varies with displacements, global axes: as the distance of the ends, less its turning with the first
+/// body.
+detail::Matrix3x12 shift_derivative(const Strain& s) {
+  detail::Matrix3x12 out = detail::relative_position_derivative(s.a, s.b);
+  out.middleCols<3>(3) += cross_matrix(s.arm_to_second - s.a.arm);
+  return out;
+}
+
 /// Adds the derivatives to a load. Turning the first body by θ₁ turns the axes along which everything is measured.
 void differentiate(const BushingConnector& c, const Strain& s, detail::PairLoad& p) {
   using detail::Matrix3x12;
@@ -49,9 +59,7 @@ void differentiate(const BushingConnector& c, const Strain& s, detail::PairLoad&
   const auto turned = [&](const Eigen::Vector3d& diagonal) {
     return Eigen::Matrix3d(R * diagonal.asDiagonal() * R.transpose());
   };
-  Matrix3x12 end_by_q = detail::relative_position_derivative(s.a, s.b);
-  Matrix3x12 shift_by_q = end_by_q;  // of the distance, less its turning with the first body
-  shift_by_q.middleCols<3>(3) += cross_matrix(s.arm_to_second - s.a.arm);
+  const Matrix3x12 shift_by_q = shift_derivative(s);
   Matrix3x12 rate_by_q = detail::relative_velocity_derivative(s.a, s.b);
   rate_by_q.leftCols<3>() = cross_matrix(s.a.omega);
   rate_by_q.middleCols<3>(3) = cross_matrix(s.relative_velocity);
@@ -80,7 +88,47 @@ void differentiate(const BushingConnector& c, const Strain& s, detail::PairLoad&
   p.second_arm_by_q = detail::arm_derivative(1, s.b.arm);
 }
 
+/// How the force along one axis of the first body varies where both are still.
+Variation force_variation(const BushingConnector& c, const State& still, int axis) {
+  const Strain s = strain(c, still);
+  const Eigen::Matrix<double, 1, 12> by_q = s.a.rotation.col(axis).transpose() * shift_derivative(s);
+  return detail::variation_of(c.ends, c.stiffness[axis] * by_q, c.damping[axis] * by_q);
+}
+
 }  // namespace
+
+std::vector<Signal> relative_motion_signals(const std::string& name, const Ends& ends,
+                                            const Eigen::Vector3d& rest_offset) {
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  const BushingConnector between{ends, none, none, none, none, rest_offset};
+  std::vector<Signal> out;
+  for (int axis = 0; axis < 3; ++axis)
+    out.push_back(
+        {.name = fmt::format("{}.{}", name, "xyz"[axis]),
+         .unit = "m",
+         .meaning = fmt::format("second end of {} seen from its first body along that body's {}, from as placed", name,
+                                "xyz"[axis]),
+         .value = [between, axis](const Reading& r) { return strain(between, r.state).shift[axis]; },
+         .variation =
+             [between, axis](const Still& still) {
+               const Strain s = strain(between, still.state);
+               const Eigen::Matrix<double, 1, 12> by_q = s.a.rotation.col(axis).transpose() * shift_derivative(s);
+               return detail::variation_of(between.ends, by_q, Eigen::Matrix<double, 1, 12>::Zero());
+             }});
+  return out;
+}
+
+std::vector<Signal> BushingConnectorKind::signals() const {
+  std::vector<Signal> out;
+  for (const BushingConnector& e : elements_)
+    for (int axis = 0; axis < 3; ++axis)
+      out.push_back({.name = e.name + ".force_" + "xyz"[axis],
+                     .unit = "N",
+                     .meaning = fmt::format("force of {} on its first body along that body's {}", e.name, "xyz"[axis]),
+                     .value = [e, axis](const Reading& r) { return bushing_force(e, r.state)[axis]; },
+                     .variation = [e, axis](const Still& still) { return force_variation(e, still.state, axis); }});
+  return out;
+}
 
 Eigen::Vector3d bushing_force(const BushingConnector& connector, const State& state) {
   return strain(connector, state).force;

@@ -79,6 +79,27 @@ TensionGradient tension_gradient(const CatenaryMooring& mooring, const State& st
   return out;
 }
 
+std::vector<Signal> CatenaryMooringKind::signals() const {
+  std::vector<Signal> out;
+  for (const CatenaryMooring& m : elements_) {
+    const auto add = [&](const char* what, const char* where, double (LineTension::*tension)() const,
+                         Variation::Row TensionGradient::*gradient) {
+      out.push_back({.name = fmt::format("{}.{}", m.name, what),
+                     .unit = "N",
+                     .meaning = fmt::format("tension of {} at the {}", m.name, where),
+                     .value = [m, tension](const Reading& r) { return (tension_of(m, r.state).*tension)(); },
+                     .variation =
+                         [m, gradient](const Still& still) {
+                           return Variation{
+                               .parts = {{.body = m.body, .by_motion = tension_gradient(m, still.state).*gradient}}};
+                         }});
+    };
+    add("tension", "fairlead", &LineTension::fairlead, &TensionGradient::fairlead);
+    add("anchor_tension", "anchor", &LineTension::anchor, &TensionGradient::anchor);
+  }
+  return out;
+}
+
 std::string CatenaryMooringKind::method() const {
   const CatenaryTable* worst = nullptr;
   std::size_t tabled = 0;

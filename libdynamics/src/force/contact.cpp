@@ -1,5 +1,7 @@
 #include "dynamics/force/contact.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -67,6 +69,39 @@ Condition ContactKind::closed(std::size_t element) const {
   constexpr int of_no_joint = -1;
   const Contact& c = elements_[element];
   return {of_no_joint, c.first, c.second, c.shapes};
+}
+
+std::vector<Signal> ContactKind::signals() const {
+  const std::string apart = "contacts are left out of small motions: bodies are taken not to touch";
+  std::vector<Signal> out;
+  for (std::size_t i = 0; i < elements_.size(); ++i) {
+    const Contact& c = elements_[i];
+    out.push_back({.name = c.name + ".gap",
+                   .unit = "m",
+                   .meaning = "shortest way between the shapes of " + c.name,
+                   .value = [this, i](const Reading& r) { return gap(i, r.state); },
+                   .variation =
+                       [c](const Still& still) {
+                         const Gradient g = gradient(c.shapes, ends_of({-1, c.first, c.second, c.shapes}, still.state));
+                         Variation gap{.parts = {{.body = c.first, .by_motion = g.first.transpose()}}};
+                         if (c.second) gap.parts.push_back({.body = *c.second, .by_motion = g.second.transpose()});
+                         return gap;
+                       }});
+    out.push_back({.name = c.name + ".force",
+                   .unit = "N",
+                   .meaning = "load along the normal of " + c.name + " while it is closed",
+                   .value = [this, i](const Reading& r) { return load(i, r.memory, r.multipliers); },
+                   .no_variation = apart});
+    out.push_back({.name = c.name + ".impacts",
+                   .unit = "1",
+                   .meaning = "impacts of " + c.name + " since the start",
+                   .value =
+                       [i](const Reading& r) {
+                         return static_cast<double>(static_cast<const ContactMemory*>(r.memory)->contact[i].impacts);
+                       },
+                   .no_variation = apart});
+  }
+  return out;
 }
 
 Meeting ContactKind::meeting(std::size_t element, const State& state) const {

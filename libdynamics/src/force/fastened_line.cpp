@@ -1,5 +1,7 @@
 #include "dynamics/force/fastened_line.hpp"
 
+#include <fmt/format.h>
+
 #include "dynamics/line/equilibrium.hpp"
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/dense.hpp"
@@ -161,6 +163,43 @@ EnergyFlow FastenedLineKind::energy(const Instant& now) const {
     sum.dissipated += one.dissipated;
   }
   return sum;
+}
+
+namespace {
+
+/// How the pull on one end varies about rest: as its direction goes, with the static stiffness.
+Variation pull_variation(const FastenedLine& l, std::size_t k, const State& still) {
+  const DrivenLine::Pulls p = pulls_of(l, 0, {still, nullptr});
+  const Vector3d along = p.force.col(static_cast<Eigen::Index>(k)).normalized();
+  Variation out;
+  for (std::size_t m = 0; m < l.ends.size(); ++m) {
+    const auto row = 3 * static_cast<Eigen::Index>(k), column = 3 * static_cast<Eigen::Index>(m);
+    const Matrix3d by_x = p.by_place.block<3, 3>(row, column), by_v = p.by_velocity.block<3, 3>(row, column);
+    const Eigen::Matrix<double, 3, 6> follow = follows(arm_of(l.ends[m], still));
+    out.parts.push_back({.body = l.ends[m].body,
+                         .by_motion = along.transpose() * by_x * follow,
+                         .by_velocity = along.transpose() * by_v * follow});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Signal> FastenedLineKind::signals() const {
+  std::vector<Signal> out;
+  for (std::size_t i = 0; i < elements_.size(); ++i)
+    for (std::size_t k = 0; k < elements_[i].ends.size(); ++k)
+      out.push_back(
+          {.name = elements_[i].ends[k].name + ".force",
+           .unit = "N",
+           .meaning = fmt::format("pull of {} on its body", elements_[i].ends[k].name),
+           .value =
+               [this, i, k](const Reading& r) {
+                 const auto pulls = pulls_of(elements_[i], i, {r.state, r.memory});
+                 return pulls.force.col(static_cast<Eigen::Index>(k)).norm();
+               },
+           .variation = [this, i, k](const Still& still) { return pull_variation(elements_[i], k, still.state); }});
+  return out;
 }
 
 const FastenedLineKind* fastened_lines(const Model& model, std::size_t* index) {

@@ -1,5 +1,7 @@
 #include "dynamics/force/friction.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -96,6 +98,23 @@ double FrictionKind::load(std::size_t element, const State& state, const Memory*
   if (direction[element] != 0) return -direction[element] * f.level(f.travel.rate(state));
   return -multipliers[joints +
                       std::count(direction.begin(), direction.begin() + static_cast<std::ptrdiff_t>(element), 0)];
+}
+
+std::vector<Signal> FrictionKind::signals() const {
+  std::vector<Signal> out;
+  for (std::size_t i = 0; i < elements_.size(); ++i) {
+    const Friction& f = elements_[i];
+    const char* what = f.hold ? "latch" : "friction";
+    out.push_back({.name = fmt::format("{}.{}", f.name, what),
+                   .unit = f.travel.turns() ? "N m" : "N",
+                   .meaning = fmt::format("load of the {} of {} on its second body along the axis", what, f.name),
+                   .value =
+                       [this, i](const Reading& r) {
+                         return elements_[i].sign * load(i, r.state, r.memory, r.multipliers, r.of_joints);
+                       },
+                   .no_variation = "friction and latches are left out of small motions: their joints move freely"});
+  }
+  return out;
 }
 
 void FrictionKind::note_work(const State& before, const State& after, FrictionMemory& memory) const {

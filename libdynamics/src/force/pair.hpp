@@ -74,6 +74,15 @@ inline void add_jacobian(const Ends& ends, const PairLoad& p, JacobianSink& out)
       out.add(body[i], body[j], by_q.block<6, 6>(6 * i, 6 * j), by_v.block<6, 6>(6 * i, 6 * j));
 }
 
+/// The variation of a number that changes by these rows with the displacements and velocities of (first, second).
+inline Variation variation_of(const Ends& ends, const Eigen::Matrix<double, 1, 12>& by_q,
+                              const Eigen::Matrix<double, 1, 12>& by_v) {
+  Variation out{.parts = {{.body = ends.first, .by_motion = by_q.head<6>(), .by_velocity = by_v.head<6>()}}};
+  if (ends.second)
+    out.parts.push_back({.body = *ends.second, .by_motion = by_q.tail<6>(), .by_velocity = by_v.tail<6>()});
+  return out;
+}
+
 /// Derivative of an arm fixed to the first (0) or second (1) body by displacement.
 inline Matrix3x12 arm_derivative(int which, const Eigen::Vector3d& arm) {
   Matrix3x12 m = Matrix3x12::Zero();

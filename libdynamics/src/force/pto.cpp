@@ -1,5 +1,7 @@
 #include "dynamics/force/pto.hpp"
 
+#include <fmt/format.h>
+
 #include "hydro/base/error.hpp"
 #include "travel_force.hpp"
 
@@ -13,6 +15,40 @@ PtoKind::PtoKind(std::vector<Pto> elements) : elements_(std::move(elements)) {
 PtoState pto_state(const Pto& pto, const State& state) {
   const detail::TravelMotion m = detail::motion_of(pto.travel, state, pto.sign);
   return {m.x, m.rate, pto.law.at(m.x, m.rate).force};
+}
+
+namespace {
+
+/// How the force against the travel varies where the joint is still.
+Variation force_variation(const Pto& pto, const State& still) {
+  const detail::TravelMotion m = detail::motion_of(pto.travel, still, pto.sign);
+  const TravelLaw::Working law = pto.law.at(m.x, m.rate);
+  return detail::variation_of(pto.travel, law.by_x * m.gradient, law.by_rate * m.gradient);
+}
+
+}  // namespace
+
+std::vector<Signal> PtoKind::signals() const {
+  std::vector<Signal> out;
+  for (const Pto& e : elements_) {
+    const bool turns = e.travel.turns();
+    out.push_back({.name = e.name + (turns ? ".pto_moment" : ".pto_force"),
+                   .unit = turns ? "N m" : "N",
+                   .meaning = fmt::format("{} of the power take-off against the travel of {}",
+                                          turns ? "moment" : "force", e.name),
+                   .value = [e](const Reading& r) { return pto_state(e, r.state).force; },
+                   .variation = [e](const Still& still) { return force_variation(e, still.state); }});
+    out.push_back({.name = e.name + ".pto_power",
+                   .unit = "W",
+                   .meaning = fmt::format("power that the power take-off takes from {}, springs included", e.name),
+                   .value =
+                       [e](const Reading& r) {
+                         const PtoState s = pto_state(e, r.state);
+                         return s.force * s.rate;
+                       },
+                   .no_variation = "power is of second order in the motions"});
+  }
+  return out;
 }
 
 void PtoKind::couple(BlockPattern& pattern) const {

@@ -3,14 +3,43 @@
 #include <fmt/format.h>
 
 #include "dynamics/spatial/rotation.hpp"
+#include "hydro/base/types.hpp"
 
 namespace dynamics {
 namespace {
 
-Vector6 displacement(const Pose& pose, const Eigen::Vector3d& rest_centre) {
-  Vector6 d;
-  d << pose.centre - rest_centre, rotation_log(pose.attitude);
-  return d;
+/// ∂load/∂(displacement and small global rotation) in a state that is displaced by `d`.
+Matrix6 by_displacement(const Restoring& e, const Vector6& d) {
+  const Eigen::Vector3d phi = d.tail<3>(), m = (e.stiffness * d).tail<3>() - e.moment;
+  Matrix6 G = Matrix6::Identity();
+  G.bottomRightCorner<3, 3>() = left_jacobian_inverse(phi);
+  Matrix6 K = -G.transpose() * e.stiffness * G;
+  K.bottomRightCorner<3, 3>() -= left_jacobian_inverse_transpose_derivative(phi, m) * G.bottomRightCorner<3, 3>();
+  return K;
+}
+
+/// A load about the centre of gravity, or how it varies, one a column, seen from the body's origin at −`arm`.
+template <int columns>
+Eigen::Matrix<double, 6, columns> about_origin(Eigen::Matrix<double, 6, columns> load, const Eigen::Vector3d& arm) {
+  load.template bottomRows<3>() += cross_matrix(arm) * load.template topRows<3>();
+  return load;
+}
+
+Vector6 load_about_origin(const Restoring& e, const RigidBody& body, const State& state) {
+  const Pose& pose = state.pose[static_cast<std::size_t>(e.body)];
+  return about_origin<1>(restoring_load(e, pose.displacement(body), state.twist(e.body)),
+                         pose.attitude * body.properties().centre_of_gravity.xyz);
+}
+
+/// The arm turns with the body: δ(r × F) = r × δF + F × (r × θ).
+Variation origin_variation(const Restoring& e, const RigidBody& body, const State& still, int mode) {
+  const Pose& pose = still.pose[static_cast<std::size_t>(e.body)];
+  const Vector6 d = pose.displacement(body), load = restoring_load(e, d, Vector6::Zero());
+  const Eigen::Vector3d arm = pose.attitude * body.properties().centre_of_gravity.xyz;
+  Matrix6 by_q = about_origin<6>(by_displacement(e, d), arm);
+  by_q.bottomRightCorner<3, 3>() += cross_matrix(load.head<3>()) * cross_matrix(arm);
+  const Matrix6 by_v = about_origin<6>(-e.damping, arm);
+  return {.parts = {{.body = e.body, .by_motion = by_q.row(mode), .by_velocity = by_v.row(mode)}}};
 }
 
 }  // namespace
@@ -25,14 +54,32 @@ Vector6 restoring_load(const Restoring& element, const Vector6& displacement, co
 
 RestoringKind::RestoringKind(std::string effect, const std::vector<RigidBody>& bodies, std::vector<Restoring> elements)
     : effect_(std::move(effect)), elements_(std::move(elements)) {
-  for (const Restoring& e : elements_) rest_centre_.push_back(bodies[static_cast<std::size_t>(e.body)].rest_centre());
+  for (const Restoring& e : elements_) body_.push_back(bodies[static_cast<std::size_t>(e.body)]);
+}
+
+std::vector<Signal> RestoringKind::signals() const {
+  std::vector<Signal> out;
+  for (std::size_t i = 0; i < elements_.size(); ++i)
+    for (int mode = 0; mode < 6; ++mode) {
+      const Restoring& e = elements_[i];
+      if (!e.told[static_cast<std::size_t>(mode)]) continue;
+      const std::string name(hydro::mode_names[static_cast<std::size_t>(mode)]);
+      out.push_back(
+          {.name = e.name + "." + name,
+           .unit = load_unit(mode),
+           .meaning = fmt::format("{} load of {} on {} about its origin", name, e.name, body_[i].name()),
+           .value = [e, b = body_[i], mode](const Reading& r) { return load_about_origin(e, b, r.state)[mode]; },
+           .variation = [e, b = body_[i],
+                         mode](const Still& still) { return origin_variation(e, b, still.state, mode); }});
+    }
+  return out;
 }
 
 void RestoringKind::add_load(const Instant& now, LoadSink& out) const {
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     const Restoring& e = elements_[i];
     const Pose& pose = now.state.pose[static_cast<std::size_t>(e.body)];
-    Vector6 load = restoring_load(e, displacement(pose, rest_centre_[i]), now.state.twist(e.body));
+    Vector6 load = restoring_load(e, pose.displacement(body_[i]), now.state.twist(e.body));
     load.z() += e.lift;
     out.add(e.body, load);
   }
@@ -41,13 +88,8 @@ void RestoringKind::add_load(const Instant& now, LoadSink& out) const {
 void RestoringKind::add_jacobian(const Instant& now, JacobianSink& out) const {
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     const Restoring& e = elements_[i];
-    const Vector6 d = displacement(now.state.pose[static_cast<std::size_t>(e.body)], rest_centre_[i]);
-    const Eigen::Vector3d phi = d.tail<3>(), m = (e.stiffness * d).tail<3>() - e.moment;
-    Matrix6 G = Matrix6::Identity();
-    G.bottomRightCorner<3, 3>() = left_jacobian_inverse(phi);
-    Matrix6 K = -G.transpose() * e.stiffness * G;
-    K.bottomRightCorner<3, 3>() -= left_jacobian_inverse_transpose_derivative(phi, m) * G.bottomRightCorner<3, 3>();
-    out.add(e.body, e.body, K, -e.damping);
+    const Vector6 d = now.state.pose[static_cast<std::size_t>(e.body)].displacement(body_[i]);
+    out.add(e.body, e.body, by_displacement(e, d), -e.damping);
   }
 }
 
@@ -66,7 +108,7 @@ EnergyFlow RestoringKind::energy(const Instant& now) const {
   EnergyFlow flow;
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     const Restoring& e = elements_[i];
-    const Vector6 d = displacement(now.state.pose[static_cast<std::size_t>(e.body)], rest_centre_[i]);
+    const Vector6 d = now.state.pose[static_cast<std::size_t>(e.body)].displacement(body_[i]);
     const Vector6 v = now.state.twist(e.body);
     flow.stored += 0.5 * d.dot(e.stiffness * d) - e.lift * d.z() - e.moment.dot(d.tail<3>());
     flow.dissipated += v.dot(e.damping * v);

@@ -57,6 +57,25 @@ void SwitchMemory::accept(const State& state) {
   power_ = after.dissipated;
 }
 
+std::vector<Signal> SwitchedConnectorKind::signals() const {
+  std::vector<Signal> out;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const auto stiffness = [g](const Memory* memory) { return static_cast<const SwitchMemory*>(memory)->stiffness[g]; };
+    for (const AxialConnector& c : groups_[g].connectors) {
+      const auto now = [c, stiffness](const Memory* memory) {
+        return memory == nullptr ? c : with_stiffness(c, stiffness(memory));
+      };
+      for (Signal& s : axial_signals(c.name, now)) out.push_back(std::move(s));
+      out.push_back({.name = c.name + ".stiffness",
+                     .unit = "N/m",
+                     .meaning = "stiffness of " + c.name + " as its controller has set it",
+                     .value = [stiffness](const Reading& r) { return stiffness(r.memory); },
+                     .no_variation = "small motions have the stiffness that connectors begin with"});
+    }
+  }
+  return out;
+}
+
 std::size_t SwitchedConnectorKind::elements() const {
   std::size_t count = 0;
   for (const auto& group : groups_) count += group.connectors.size();

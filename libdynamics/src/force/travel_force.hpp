@@ -26,6 +26,18 @@ inline TravelMotion motion_of(const Travel& travel, const State& state, double s
   return m;
 }
 
+/// The variation of a number that changes by these with the displacements and velocities of the travel's two bodies.
+inline Variation variation_of(const Travel& travel, const TravelMotion::Vector12& by_q,
+                              const TravelMotion::Vector12& by_v) {
+  Variation out{.parts = {{.body = travel.first(),
+                           .by_motion = by_q.head<6>().transpose(),
+                           .by_velocity = by_v.head<6>().transpose()}}};
+  if (travel.second())
+    out.parts.push_back(
+        {.body = *travel.second(), .by_motion = by_q.tail<6>().transpose(), .by_velocity = by_v.tail<6>().transpose()});
+  return out;
+}
+
 /// A force T(x, ẋ) against the travel and its derivatives.
 struct TravelForce {
   double force, by_x, by_rate;

@@ -1,5 +1,7 @@
 #include "dynamics/joint/joint.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -292,6 +294,72 @@ JointSet::LoadVariation JointSet::load_variation(int joint, End end, const State
   const Eigen::Vector3d arm = place_in_[static_cast<std::size_t>(joint)][end == End::first ? 0 : 1];
   carry(arm, out.by_motion);
   carry(arm, out.by_multiplier);
+  return out;
+}
+
+namespace {
+
+/// The part of rows over all modes that stand in those of one body.
+Variation::Part part_of_body(const Eigen::MatrixXd& by_motion, int row, int body) {
+  return {.body = body, .by_motion = by_motion.block<1, 6>(row, 6 * body)};
+}
+
+}  // namespace
+
+Signal JointSet::travel_signal(int joint) const {
+  const Joint& j = joints_[static_cast<std::size_t>(joint)];
+  const bool turns = j.kind == JointKind::hinge;
+  return {.name = j.name + (turns ? ".angle" : ".travel"),
+          .unit = turns ? "rad" : "m",
+          .meaning = fmt::format("{} of {}, the second against the first", turns ? "angle" : "travel", j.name),
+          .value = [along = travel_of(joint), sign = j.sign](const Reading& r) { return sign * along.value(r.state); },
+          .variation =
+              [along = travel_of(joint), sign = j.sign](const Still& still) {
+                const Gradient g = along.gradient(still.state);
+                Variation out{.parts = {{.body = along.first(), .by_motion = sign * g.first.transpose()}}};
+                if (along.second())
+                  out.parts.push_back({.body = *along.second(), .by_motion = sign * g.second.transpose()});
+                return out;
+              }};
+}
+
+std::vector<Signal> JointSet::load_signals(int joint, End end, const std::string& body) const {
+  constexpr const char* component[] = {"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"};
+  const std::string on = joints_[static_cast<std::size_t>(joint)].name + "." + body;
+  std::vector<Signal> out;
+  for (int i = 0; i < 6; ++i)
+    out.push_back(
+        {.name = fmt::format("{}.{}", on, component[i]),
+         .unit = load_unit(i),
+         .meaning = fmt::format("load of the joint on {}, about the joint, body axes", on),
+         .value = [this, joint, end, i](const Reading& r) { return load_on(joint, end, r.state, r.multipliers)[i]; },
+         .variation =
+             [this, joint, end, i](const Still& still) {
+               const Joint& j = joints_[static_cast<std::size_t>(joint)];
+               const LoadVariation v = load_variation(joint, end, still.state, still.multipliers);
+               Variation load{.parts = {part_of_body(v.by_motion, i, j.first)}};
+               if (j.second) load.parts.push_back(part_of_body(v.by_motion, i, *j.second));
+               for (Eigen::Index c = 0; c < count(); ++c)
+                 if (conditions_[static_cast<std::size_t>(c)].joint == joint)
+                   load.by_multiplier.emplace_back(c, v.by_multiplier(i, c));
+               return load;
+             }});
+  return out;
+}
+
+std::vector<Signal> JointSet::signals(const std::vector<RigidBody>& bodies) const {
+  std::vector<Signal> out;
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const Joint& joint = joints_[j];
+    const int index = static_cast<int>(j);
+    if (joint.kind == JointKind::hinge || joint.kind == JointKind::slider) out.push_back(travel_signal(index));
+    const auto add_loads = [&](End end, int body) {
+      for (Signal& s : load_signals(index, end, bodies[static_cast<std::size_t>(body)].name()))
+        out.push_back(std::move(s));
+    };
+    add_loads(End::first, joint.first);
+    if (joint.second) add_loads(End::second, *joint.second);
+  }
   return out;
 }
 

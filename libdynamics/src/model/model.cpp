@@ -70,6 +70,17 @@ void Model::leave_out_redundant(const Eigen::VectorXd& scale) {
   joints_.reduce(keep);
 }
 
+std::vector<Signal> Model::signals() const {
+  std::vector<Signal> out = motion_signals(bodies_);
+  for (std::size_t k = 0; k < forces_.size(); ++k)
+    for (Signal& s : forces_[k]->signals()) {
+      s.kind = k;
+      out.push_back(std::move(s));
+    }
+  for (Signal& s : joints_.signals(bodies_)) out.push_back(std::move(s));
+  return out;
+}
+
 std::string Model::mode_name(int mode) const {
   return bodies_[static_cast<std::size_t>(mode / 6)].name() + "." +
          std::string(hydro::mode_names[static_cast<std::size_t>(mode % 6)]);

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "apps/compile/scenes.hpp"
-#include "compile/probes.hpp"
+#include "compile/signal_list.hpp"
 #include "froude/simulate.hpp"
 #include "hydro/signal/harmonics.hpp"
 #include "support/pontoons.hpp"
@@ -88,13 +88,15 @@ TEST_P(Agreement, OfTimeAndFrequencyDomainInEveryDegreeOfFreedom) {
   time.assign(run.time.begin() + static_cast<std::ptrdiff_t>(begin), run.time.end());
   double largest[2] = {0, 0};  // translations, rotations
   std::vector<std::complex<double>> from_run, from_rao;
-  for (const auto& probe : compile::rao_probes(scene, prepared, model)) {
+  const double heading = scene.waves->heading.radians();
+  const dynamics::frequency::SmallMotions about(model);
+  for (const auto& probe : compile::signal_list(scene, prepared, model)) {
     if (!probe.name.starts_with("m")) continue;
     if (probe.name.starts_with("mooring")) continue;
     const auto& all = run.signal(probe.name);
     values.assign(all.begin() + static_cast<std::ptrdiff_t>(begin), all.end());
     from_run.push_back(hydro::signal::fit_harmonics(time, values, omegas).amplitude.at(0) / 0.01);
-    from_rao.push_back(probe.stiffness.cast<std::complex<double>>() * xi.col(0));
+    from_rao.push_back(linear_responses({probe}, about, xi, {}, {omegas[0]}, heading).front().values.front());
     double& l = largest[(from_rao.size() - 1) % 6 / 3];
     l = std::max(l, std::abs(from_rao.back()));
   }
@@ -128,10 +130,10 @@ TEST(HingeAgreement, OfTimeAndFrequencyDomainInHinges) {
   const std::vector<double> time(run.time.begin() + begin, run.time.end());
   std::map<std::string, double> largest;  // by unit
   std::vector<std::tuple<std::string, std::string, std::complex<double>, std::complex<double>>> pairs;
-  for (const auto& probe : compile::rao_probes(scene, prepared, model)) {
+  const dynamics::frequency::SmallMotions about(model);
+  for (const auto& probe : compile::signal_list(scene, prepared, model)) {
     if (!probe.name.starts_with("m_hinge")) continue;
-    std::complex<double> of_rao = (probe.stiffness * xi).value();
-    if (probe.joints.size() > 0) of_rao += (probe.joints * lambda).value();
+    const auto of_rao = linear_responses({probe}, about, xi, lambda, omegas, heading).front().values.front();
     const auto& all = run.signal(probe.name);
     const std::vector<double> values(all.begin() + begin, all.end());
     const auto of_run = hydro::signal::fit_harmonics(time, values, omegas).amplitude.at(0) / 0.01;

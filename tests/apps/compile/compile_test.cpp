@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "apps/compile/scenes.hpp"
-#include "compile/probes.hpp"
+#include "compile/signal_list.hpp"
 #include "froude/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/waves/dispersion.hpp"

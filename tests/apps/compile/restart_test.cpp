@@ -35,7 +35,7 @@ struct Ready {
       : scene(parse(text)), prepared(compile::prepare(scene)), model(compile::time_model(scene, prepared)) {}
   Record run(std::size_t steps, compile::MovingState* end = nullptr) {
     model.steps = steps * model.steps_per_sample;
-    return run_model(scene, prepared, model, {}, end);
+    return run_model(scene, model, {}, end);
   }
 };
 

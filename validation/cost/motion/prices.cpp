@@ -63,7 +63,7 @@ Timed timed(const scene::Scene& scene) {
                                 prepared = compile::prepare(scene);
                                 model.emplace(compile::time_model(scene, *prepared));
                               }));
-    best.stepping = std::min(best.stepping, seconds([&] { best.record = run_model(scene, *prepared, *model); }));
+    best.stepping = std::min(best.stepping, seconds([&] { best.record = run_model(scene, *model); }));
     hydro::require(best.record.stopped.empty(), "{}: {}", scene.file.string(), best.record.stopped);
   }
   return best;

@@ -1,6 +1,7 @@
 #pragma once
 /// \file  Mooring lines that are always in their static shape: quasi-static catenaries from bodies to the ground. (D63)
 #include <memory>
+#include <string>
 
 #include "dynamics/force/force_kind.hpp"
 #include "dynamics/line/catenary_table.hpp"
@@ -13,6 +14,7 @@ struct CatenaryMooring {
   Eigen::Vector3d anchor;    ///< global, m
   LineProperties line;
   std::shared_ptr<const CatenaryTable> table = {};  ///< used where it holds the fairlead; empty: always solved
+  std::string name = {};
 };
 
 LineTension tension_of(const CatenaryMooring& mooring, const State& state);
@@ -34,6 +36,7 @@ class CatenaryMooringKind final : public ForceKind {
   void add_jacobian(const Instant& now, JacobianSink& out) const override;
   EnergyFlow energy(const Instant& now) const override;
   bool linear_at_rest() const override { return true; }
+  std::vector<Signal> signals() const override;
 
  private:
   std::vector<CatenaryMooring> elements_;

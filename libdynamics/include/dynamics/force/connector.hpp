@@ -1,6 +1,7 @@
 #pragma once
 /// \file  Connectors between a point of one body and a point of another, or of the ground.
 #include <optional>
+#include <string>
 
 #include "dynamics/force/force_kind.hpp"
 #include "dynamics/force/force_law.hpp"
@@ -20,6 +21,7 @@ struct AxialConnector {
   Ends ends;
   LineLaw law;
   double rest_length;  ///< L₀, m
+  std::string name = {};
 };
 
 /// Springs and dampers along three axes fixed to the first body, and about them (D4). The force acts on both bodies at
@@ -30,6 +32,7 @@ struct BushingConnector {
   Eigen::Vector3d stiffness, damping;                        ///< N/m, N s/m
   Eigen::Vector3d rotational_stiffness, rotational_damping;  ///< N m/rad, N m s/rad
   Eigen::Vector3d rest_offset;  ///< of the second end from the first at rest, first body's axes, m
+  std::string name = {};
 };
 
 /// What an axial connector does at one instant.
@@ -37,6 +40,13 @@ struct AxialState {
   double length, tension;  ///< m, N
 };
 AxialState axial_state(const AxialConnector& connector, const State& state);
+
+/// The signals of a connector whose law may change with the memory of its kind: as `of` tells it.
+std::vector<Signal> axial_signals(const std::string& name, std::function<AxialConnector(const Memory*)> of);
+
+/// The second end seen from the first body, less `rest_offset`, along that body's axes: "gap.x" … "gap.z", m.
+std::vector<Signal> relative_motion_signals(const std::string& name, const Ends& ends,
+                                            const Eigen::Vector3d& rest_offset);
 
 /// Force on the first body, along its own axes, N.
 Eigen::Vector3d bushing_force(const BushingConnector& connector, const State& state);
@@ -52,6 +62,7 @@ class AxialConnectorKind final : public ForceKind {
   void add_jacobian(const Instant& now, JacobianSink& out) const override;
   EnergyFlow energy(const Instant& now) const override;
   bool linear_at_rest() const override { return true; }
+  std::vector<Signal> signals() const override;
   const std::vector<AxialConnector>& all() const { return elements_; }
 
  private:
@@ -69,6 +80,7 @@ class BushingConnectorKind final : public ForceKind {
   void add_jacobian(const Instant& now, JacobianSink& out) const override;
   EnergyFlow energy(const Instant& now) const override;
   bool linear_at_rest() const override { return true; }
+  std::vector<Signal> signals() const override;
   /// The rotation vector ends where one body has turned by half a turn against the other.
   std::string breaks_off(const State& before, const State& after) const override;
   const std::vector<BushingConnector>& all() const { return elements_; }

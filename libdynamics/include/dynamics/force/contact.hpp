@@ -51,6 +51,7 @@ class ContactKind final : public ForceKind {
   void add_jacobian(const Instant&, JacobianSink&) const override {}
   EnergyFlow energy(const Instant& now) const override;
   const ContactKind* contact() const override { return this; }
+  std::vector<Signal> signals() const override;
 
   const std::vector<Contact>& all() const { return elements_; }
   Meeting meeting(std::size_t element, const State& state) const;

@@ -11,7 +11,8 @@ struct FastenedLine {
   struct End {
     int node;
     int body;
-    Eigen::Vector3d at;  ///< from the centre of gravity, body axes, m
+    Eigen::Vector3d at;     ///< from the centre of gravity, body axes, m
+    std::string name = {};  ///< "a.to" of line a
   };
   std::string name;
   line::Description run;      ///< in the water of a run
@@ -58,6 +59,7 @@ class FastenedLineKind final : public ForceKind {
   void add_jacobian(const Instant& now, JacobianSink& out) const override;
   EnergyFlow energy(const Instant& now) const override;
   bool linear_at_rest() const override { return true; }
+  std::vector<Signal> signals() const override;
   const std::vector<FastenedLine>& all() const { return elements_; }
 
  private:

@@ -18,6 +18,7 @@
 
 #include "dynamics/model/block_matrix.hpp"
 #include "dynamics/model/body.hpp"
+#include "dynamics/model/signal.hpp"
 
 namespace dynamics {
 
@@ -124,6 +125,9 @@ class ForceKind {
   /// True if the load is, for small motions about rest, stiffness and damping that a frequency-domain analysis takes
   /// from add_jacobian(). Excitation and radiation have their own place there; quadratic drag has none.
   virtual bool linear_at_rest() const { return false; }
+
+  /// What its elements tell of themselves, called after them: forces, strokes, powers. Energies belong to the ledger.
+  virtual std::vector<Signal> signals() const { return {}; }
 
   /// Why this kind has no load for what happened between two states that follow each other; empty if it has.
   virtual std::string breaks_off(const State& /*before*/, const State& /*after*/) const { return {}; }

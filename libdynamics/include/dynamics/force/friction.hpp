@@ -17,6 +17,7 @@ struct Friction {
   double sliding;                       ///< dynamic level, > 0; of latches 0
   std::optional<double> stribeck = {};  ///< rad/s or m/s, > 0
   std::optional<double> hold = {};      ///< s, > 0
+  double sign = 1;                      ///< −1 where its signal is told along the axis turned round
   double level(double rate) const;      ///< against the slip, N m or N
   double steepness(double rate) const;  ///< its derivative by the rate
 };
@@ -53,6 +54,7 @@ class FrictionKind final : public ForceKind {
   void add_jacobian(const Instant& now, JacobianSink& out) const override;
   EnergyFlow energy(const Instant& now) const override;
   const FrictionKind* friction() const override { return this; }
+  std::vector<Signal> signals() const override;
 
   const std::vector<Friction>& all() const { return elements_; }
   /// Of one that sticks and carries `load`: the share of what it can hold, or, of a latch, of its time.

@@ -1,5 +1,7 @@
 #pragma once
 /// \file  Power take-off and other work on the travel of a slider or the angle of a hinge. (D52), (D53)
+#include <string>
+
 #include "dynamics/force/force_kind.hpp"
 #include "dynamics/force/force_law.hpp"
 #include "dynamics/joint/travel.hpp"
@@ -10,7 +12,8 @@ namespace dynamics {
 struct Pto {
   Travel travel;
   TravelLaw law;
-  double sign = 1;  ///< −1 where the law counts the travel the other way
+  double sign = 1;        ///< −1 where the law counts the travel the other way
+  std::string name = {};  ///< of the joint
 };
 
 /// Travel, its rate, and the force against it, as the law counts them: m, m/s, N or rad, rad/s, N m.
@@ -31,6 +34,7 @@ class PtoKind final : public ForceKind {
   void add_jacobian(const Instant& now, JacobianSink& out) const override;
   EnergyFlow energy(const Instant& now) const override;
   bool linear_at_rest() const override { return true; }
+  std::vector<Signal> signals() const override;
 
  private:
   std::vector<Pto> elements_;

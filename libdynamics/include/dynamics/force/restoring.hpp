@@ -1,5 +1,8 @@
 #pragma once
 /// \file  Linear stiffness and damping of single bodies about their rest positions: hydrostatics, moorings as a matrix.
+#include <array>
+#include <string>
+
 #include "dynamics/force/force_kind.hpp"
 
 namespace dynamics {
@@ -14,6 +17,9 @@ struct Restoring {
                     ///< others hold at its draught
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< N m at rest about the centre of gravity, of a constant force
                                                      ///< that acts beside it; its potential is −moment·φ
+  /// Where the load is a signal of a mooring's: its name, and the modes that it tells.
+  std::string name = {};
+  std::array<bool, 6> told = {};
 };
 
 /// Load of one element. Rotations: |φ| < π.
@@ -31,13 +37,14 @@ class RestoringKind final : public ForceKind {
   void add_jacobian(const Instant& now, JacobianSink& out) const override;
   EnergyFlow energy(const Instant& now) const override;
   bool linear_at_rest() const override { return true; }
+  std::vector<Signal> signals() const override;
   /// The rotation vector ends at half a turn from rest: beyond it the moment would act the other way.
   std::string breaks_off(const State& before, const State& after) const override;
 
  private:
   std::string effect_;
   std::vector<Restoring> elements_;
-  std::vector<Eigen::Vector3d> rest_centre_;  // one an element
+  std::vector<RigidBody> body_;  // one an element
 };
 
 }  // namespace dynamics

@@ -48,6 +48,7 @@ class SwitchedConnectorKind final : public ForceKind {
   EnergyFlow energy(const Instant& now) const override;
   /// About rest it has the stiffness that it begins with.
   bool linear_at_rest() const override { return true; }
+  std::vector<Signal> signals() const override;
   const std::vector<SwitchedConnectors>& all() const { return groups_; }
 
  private:

@@ -16,6 +16,7 @@
 
 #include "dynamics/model/block_matrix.hpp"
 #include "dynamics/model/body.hpp"
+#include "dynamics/model/signal.hpp"
 #include "dynamics/spatial/shape.hpp"
 
 namespace dynamics {
@@ -47,6 +48,7 @@ struct Joint {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();         ///< global, any length
   Eigen::Vector3d second_axis = Eigen::Vector3d::UnitY();  ///< global, across `axis`; of universal joints
   Lead lead = {};                                          ///< of sliders and hinges whose travel is given (D31)
+  double sign = 1;  ///< −1 where its signals count the travel of the first against the second
 };
 
 class Travel;
@@ -152,6 +154,9 @@ class JointSet {
   /// axis, m, or the angle of a hinge about it, rad, whole turns counted (D133). Zero at rest. For sliders and hinges
   /// only.
   double travel(int joint, const State& state) const;
+  /// Travel of sliders and hinges, "hinge.angle", and loads on each body, "hinge.m1.force_x"; `bodies`: those that it
+  /// was made of. For as long as the set stays where it is.
+  std::vector<Signal> signals(const std::vector<RigidBody>& bodies) const;
   /// Counts on: the angles of hinges and of bodies in `state`, less than half a turn from those that it has counted
   /// last; those of hinges that are led, from where they are led.
   void count_turns(State& state) const;
@@ -164,6 +169,8 @@ class JointSet {
 
  private:
   Travel travel_of(int joint) const;
+  Signal travel_signal(int joint) const;
+  std::vector<Signal> load_signals(int joint, End end, const std::string& body) const;
   std::vector<Joint> joints_;
   std::vector<Condition> conditions_;
   std::vector<std::array<Eigen::Vector3d, 2>> place_in_;  // from the bodies' centres, body axes; of the ground: global

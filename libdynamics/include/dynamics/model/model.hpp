@@ -64,6 +64,9 @@ class Model {
   Linear linear_at_rest() const { return linear_at(rest_state(bodies_)); }
   /// The same about any state without velocities: `multipliers` balance what they can there.
   Linear linear_at(const State& still) const;
+  /// What its elements tell: motions of bodies, then each kind of force, then joints. For as long as the model stays
+  /// where it is.
+  std::vector<Signal> signals() const;
   /// "m1.heave": for messages.
   std::string mode_name(int mode) const;
 
@@ -93,6 +96,11 @@ class Workspace {
   KktSolver solver;
 
   Instant instant(const State& at, std::size_t kind) { return {at, memory[kind].get()}; }
+  /// A signal of `model`, read now.
+  double read(const Signal& signal, const Model& model) const {
+    Memory* own = signal.kind ? memory[*signal.kind].get() : nullptr;
+    return signal.value({state, acceleration, multipliers, model.joints().count(), own});
+  }
   /// A full step has been completed: memory moves on. \returns true if loads jumped by it
   bool accept();
 };
