@@ -1,7 +1,7 @@
-# Precompiled headers that can hide nothing. Half the time of a build is reading Eigen and fmt, so what nearly every file
-# includes is read once a target. A file takes the precompiled header only if it includes all of it itself, directly or
-# through this project's own headers: then it compiles without it too, and an include that is missing is an error in
-# every build. Which files do is looked up here, when CMake configures.
+# Precompiled headers. Half the time of a build is reading Eigen and fmt, so what nearly every file includes is read once
+# for all. Where sources are merged they could hide an include anyway, so every file takes a wide header. Where they are
+# not, as in the tests of what files include, the header can hide nothing: it is narrow, and a file takes it only if it
+# includes all of it itself, directly or through this project's own headers. Which do is looked up when CMake configures.
 # froude_included(OUT FILE DIRECTORIES…): the headers outside this project that a file includes, as they are written.
 function(froude_included out file)
   get_property(known GLOBAL PROPERTY "froude_included ${file}" SET)
@@ -38,24 +38,47 @@ function(froude_included out file)
   set(${out} "${found}" PARENT_SCOPE)
 endfunction()
 
-# froude_common_headers(NAME LIBRARIES… HEADERS…): a set of headers, compiled once for all targets that take it.
+# froude_common_headers(NAME LIBRARIES… HEADERS… MERGED…): a set of headers, compiled once for all targets that take it;
+# those after MERGED only where sources are merged.
 # -fpch-preprocess lets ccache see through it (it wants CCACHE_SLOPPINESS=pch_defines,time_macros too). The warnings are
 # those that GCC 12 gives of its own std::string once it comes from such a header (GCC PR 105651).
 set(froude_precompiled_options -fpch-preprocess -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
 function(froude_common_headers name)
-  cmake_parse_arguments(H "PIC" "" "LIBRARIES;HEADERS" ${ARGN})
+  cmake_parse_arguments(H "PIC" "" "LIBRARIES;HEADERS;MERGED" ${ARGN})
+  set(wide FALSE)
+  if(FROUDE_MERGED_SOURCES AND H_MERGED)
+    list(APPEND H_HEADERS ${H_MERGED})
+    set(wide TRUE)
+  endif()
   set(empty ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
   file(CONFIGURE OUTPUT ${empty} CONTENT "")
   add_library(${name} OBJECT ${empty})
-  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ${H_PIC} EXCLUDE_FROM_ALL ON FROUDE_HEADERS "${H_HEADERS}")
+  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ${H_PIC} EXCLUDE_FROM_ALL ON
+    FROUDE_HEADERS "${H_HEADERS}" FROUDE_WIDE ${wide})
   target_link_libraries(${name} PRIVATE froude_options Eigen3::Eigen fmt::fmt ${H_LIBRARIES})
   list(TRANSFORM H_HEADERS REPLACE "(.+)" "<\\1>")
   target_precompile_headers(${name} PRIVATE ${H_HEADERS})
   target_compile_options(${name} PRIVATE ${froude_precompiled_options})
 endfunction()
 
-# froude_precompile(TARGET NAME): the files of TARGET that include all headers of the set NAME read it precompiled. Put off
-# to the end of the folder, when all files of the target are known.
+# froude_without(OUT FOLDER SOURCES HEADERS): those of the sources that do not include all of the headers themselves.
+function(froude_without out folder sources headers)
+  set(skipped)
+  foreach(source IN LISTS sources)
+    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder} NORMALIZE)
+    froude_included(included "${source}" ${PROJECT_SOURCE_DIR}/libhydro/include ${PROJECT_SOURCE_DIR}/libdynamics/include
+      ${PROJECT_SOURCE_DIR}/libfit/include ${PROJECT_SOURCE_DIR}/apps ${PROJECT_SOURCE_DIR}/validation ${PROJECT_SOURCE_DIR}/tests)
+    set(lacking ${headers})
+    list(REMOVE_ITEM lacking ${included})
+    if(lacking)
+      list(APPEND skipped "${source}")
+    endif()
+  endforeach()
+  set(${out} "${skipped}" PARENT_SCOPE)
+endfunction()
+
+# froude_precompile(TARGET NAME): the files of TARGET read the set NAME precompiled: all of them if it is a wide one, else those
+# that include it themselves. Put off to the end of the folder, when all files of the target are known.
 function(froude_precompile target name)
   if(FROUDE_PRECOMPILED_HEADERS)
     cmake_language(EVAL CODE "cmake_language(DEFER CALL froude_precompile_now ${target} ${name})")
@@ -68,16 +91,10 @@ function(froude_precompile_now target name)
   get_target_property(sources ${target} SOURCES)
   list(FILTER sources INCLUDE REGEX "\\.cpp$")
   set(skipped)
-  foreach(source IN LISTS sources)
-    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder} NORMALIZE)
-    froude_included(included "${source}" ${PROJECT_SOURCE_DIR}/libhydro/include ${PROJECT_SOURCE_DIR}/libdynamics/include
-      ${PROJECT_SOURCE_DIR}/libfit/include ${PROJECT_SOURCE_DIR}/apps ${PROJECT_SOURCE_DIR}/validation ${PROJECT_SOURCE_DIR}/tests)
-    set(lacking ${headers})
-    list(REMOVE_ITEM lacking ${included})
-    if(lacking)
-      list(APPEND skipped "${source}")
-    endif()
-  endforeach()
+  get_target_property(wide ${name} FROUDE_WIDE)
+  if(NOT wide)
+    froude_without(skipped "${folder}" "${sources}" "${headers}")
+  endif()
   list(LENGTH skipped without)
   list(LENGTH sources all)
   if(without EQUAL all)

@@ -29,15 +29,21 @@ endif()
 
 include(FroudePrecompile)
 if(FROUDE_PRECOMPILED_HEADERS)
-  froude_common_headers(froude_library_headers PIC HEADERS Eigen/Core fmt/format.h)
+  # What the standard library and Eigen bring to most files.
+  set(froude_wide_headers algorithm array chrono cmath complex filesystem functional limits map memory numbers optional span
+    string variant vector Eigen/Geometry)
+  froude_common_headers(froude_library_headers PIC HEADERS Eigen/Core fmt/format.h MERGED ${froude_wide_headers})
 endif()
 
-# froude_merge(TARGET [APART FILE…]): compiles ten files of a target as one, which halves the time of a build: a template
-# that several use is made once. Files that name private things alike are compiled apart.
+# froude_merge(TARGET [BATCH COUNT] [APART FILE…]): compiles ten files of a target, or COUNT, as one, which halves the time of a
+# build: a template that several use is made once. Files that name private things alike are compiled apart.
 function(froude_merge target)
-  cmake_parse_arguments(M "" "" "APART" ${ARGN})
+  cmake_parse_arguments(M "" "BATCH" "APART" ${ARGN})
+  if(NOT M_BATCH)
+    set(M_BATCH 10)
+  endif()
   if(FROUDE_MERGED_SOURCES)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 10)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${M_BATCH})
     target_compile_options(${target} PRIVATE -Wno-subobject-linkage)  # no file of one target is a header
     set_source_files_properties(${M_APART} TARGET_DIRECTORY ${target} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   endif()

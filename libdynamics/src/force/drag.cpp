@@ -9,13 +9,13 @@
 namespace dynamics {
 namespace {
 
-struct Flow {
+struct DragFlow {
   Eigen::Vector3d arm, axis, omega, water, relative,
       across;  // global; relative = u − v, across: its part across the axis
 };
 
-Flow flow_past(const DragPiece& piece, const State& state, const Eigen::Vector3d& water) {
-  Flow f;
+DragFlow flow_past(const DragPiece& piece, const State& state, const Eigen::Vector3d& water) {
+  DragFlow f;
   const Eigen::Matrix3d R = state.pose[static_cast<std::size_t>(piece.body)].attitude.toRotationMatrix();
   f.arm = R * piece.arm;
   f.axis = R * piece.axis;
@@ -67,7 +67,7 @@ void for_each_flow(const std::vector<DragPiece>& pieces, const std::optional<Wav
 }  // namespace
 
 void DragKind::add_load(const Instant& now, LoadSink& out) const {
-  for_each_flow(pieces_, water_, now.state, [&](const DragPiece& piece, const Flow& f) {
+  for_each_flow(pieces_, water_, now.state, [&](const DragPiece& piece, const DragFlow& f) {
     const Eigen::Vector3d force = piece.factor * f.across.norm() * f.across;
     Vector6 load;
     load << force, f.arm.cross(force);
@@ -76,7 +76,7 @@ void DragKind::add_load(const Instant& now, LoadSink& out) const {
 }
 
 void DragKind::add_jacobian(const Instant& now, JacobianSink& out) const {
-  for_each_flow(pieces_, water_, now.state, [&](const DragPiece& piece, const Flow& f) {
+  for_each_flow(pieces_, water_, now.state, [&](const DragPiece& piece, const DragFlow& f) {
     const double speed = f.across.norm();
     if (speed == 0) return;  // |w| w is flat there
     const Eigen::Vector3d force = piece.factor * speed * f.across;
@@ -100,7 +100,7 @@ void DragKind::add_jacobian(const Instant& now, JacobianSink& out) const {
 
 EnergyFlow DragKind::energy(const Instant& now) const {
   EnergyFlow flow;
-  for_each_flow(pieces_, water_, now.state, [&](const DragPiece& piece, const Flow& f) {
+  for_each_flow(pieces_, water_, now.state, [&](const DragPiece& piece, const DragFlow& f) {
     const Eigen::Vector3d force = piece.factor * f.across.norm() * f.across;
     flow.supplied += force.dot(f.water);
     flow.dissipated += force.dot(f.relative);

@@ -6,7 +6,7 @@
 namespace hydro::cylinders {
 namespace {
 
-constexpr double sizes = 60;        // in these depths the bottom is felt by (size/h)³
+constexpr double deep_sizes = 60;   // in these depths the bottom is felt by (size/h)³
 constexpr double most_sizes = 400;  // beyond, the gap under the cylinder is too long for its edge
 constexpr double wave_depths = 20;  // Kh at which the error is some 1e-6 …
 constexpr double least_depths = 8;  // … and 6e-5
@@ -31,7 +31,7 @@ Water effective_water(const std::vector<CylinderBody>& bodies, const Water& wate
                      fmt::format("state the depth, or ask for frequencies from {:.4g} rad/s",
                                  std::sqrt(least_depths / most * water.gravity)));
   Water finite = water;
-  finite.depth = WaterDepth::from_metres(std::max({sizes * size, 2 * across, std::min(wave_depths / K, most)}));
+  finite.depth = WaterDepth::from_metres(std::max({deep_sizes * size, 2 * across, std::min(wave_depths / K, most)}));
   return finite;
 }
 

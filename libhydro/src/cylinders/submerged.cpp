@@ -268,11 +268,11 @@ AzimuthalOrder SubmergedCylinder::solve(int m, const Outside& outside, const Col
   const MatrixXcd G = outside.sum(m, radial);
   const MatrixXcd A = system(m, above, G);
   const dense::ComplexLu lu(A);
-  const MatrixXd X = outside.X.topLeftCorner(V, N);
+  const MatrixXcd X = outside.X.topLeftCorner(V, N).cast<Complex>();
   MatrixXcd rhs = forcing(m, above).cast<Complex>();  // unit velocities
   if (m == 1) rhs.topRows(V) += G.block(0, V, V, 2);
   MatrixXcd struck = MatrixXcd::Zero(A.rows(), N);  // unit incident amplitudes, without ψ_n
-  struck.topRows(V) = X.cast<Complex>();
+  struck.topRows(V) = X;
   const MatrixXcd struck_velocity = lu.solve(struck);
   MatrixXcd moved_velocity(A.rows(), motions);
   if (motions > 0) moved_velocity = lu.solve(rhs);  // Eigen must not be asked for nothing

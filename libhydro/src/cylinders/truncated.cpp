@@ -150,7 +150,8 @@ MatrixXcd TruncatedCylinder::galerkin(int m, const MatrixXcd& G) const {
 MatrixXcd TruncatedCylinder::system(int m, const MatrixXcd& G, const MatrixXd& Q) const {
   const Index P = Q.cols(), size = m == 0 ? P + 1 : P;
   MatrixXcd A = MatrixXcd::Zero(size, size);
-  A.topLeftCorner(P, P) = Q.transpose() * galerkin(m, G) * Q;
+  const MatrixXcd complex_Q = Q.cast<Complex>();
+  A.topLeftCorner(P, P) = complex_Q.transpose() * galerkin(m, G) * complex_Q;
   if (m != 0) return A;
   VectorXd mean(basis_.size());
   for (Index p = 0; p < mean.size(); ++p) mean(p) = basis_.mean(static_cast<int>(p));
@@ -167,15 +168,15 @@ AzimuthalOrder TruncatedCylinder::solve(int m, const Exterior& outside, const Ra
   const Index P = Q.cols(), all = basis_.size();
   const MatrixXcd A = system(m, G, Q);
   const dense::ComplexLu lu(A);
-  const MatrixXd W = Q.transpose() * outside.rows().topLeftCorner(all, N);
+  const MatrixXcd W = (Q.transpose() * outside.rows().topLeftCorner(all, N)).cast<Complex>();
 
   MatrixXcd rhs = MatrixXcd::Zero(A.rows(), motions);  // unit velocities
   MatrixXcd force = forcing(m).cast<Complex>();
   if (m == 1) force += G.block(0, all, all, 2);
-  rhs.topRows(P) = Q.transpose() * force;
+  rhs.topRows(P) = Q.cast<Complex>().transpose() * force;
   if (m == 0) rhs(P, 0) = -a_ / (2 * b_);
   MatrixXcd struck = MatrixXcd::Zero(A.rows(), N);  // unit incident amplitudes, without ψ_n
-  struck.topRows(P) = W.cast<Complex>();
+  struck.topRows(P) = W;
   const MatrixXcd struck_gap = lu.solve(struck);
   MatrixXcd moved_gap(A.rows(), motions);
   if (motions > 0) moved_gap = lu.solve(rhs);  // Eigen must not be asked for nothing

@@ -4,7 +4,7 @@ namespace hydro::waves {
 namespace {
 
 constexpr double sigma_below = 0.07, sigma_above = 0.09;
-constexpr double reach = 10;  // in σ: beyond, r < 2e-22
+constexpr double peak_reach = 10;  // in σ: beyond, r < 2e-22
 
 // Edges are `step` apart in ln u at most, and the exponent (p/q) u^−q changes by 10 at most from one to the next.
 double next_edge(double u, double w, double q, double step) {
@@ -40,7 +40,7 @@ double peaked_value(const PeakShape& shape, double u) {
 
 std::vector<double> peaked_edges(const PeakShape& shape, double omega_p) {
   const double w = shape.p / shape.q, step = std::min(0.2, 4 / shape.p);
-  const double peak_from = 1 - reach * sigma_below, peak_to = 1 + reach * sigma_above;
+  const double peak_from = 1 - peak_reach * sigma_below, peak_to = 1 + peak_reach * sigma_above;
   const double last = std::max(peak_to, std::pow(1e3 * w, 1 / shape.q));
   std::vector<double> edges;
   double u = std::pow((300 + w) / w, -1 / shape.q);  // e^{−300} of the peak's e^{−w}

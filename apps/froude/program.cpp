@@ -1,0 +1,482 @@
+// The command line of froude: words in, calls of commands.hpp out.
+#include <algorithm>
+#include <memory>
+
+#include "froude/command_line.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/base/units.hpp"
+
+namespace froude {
+namespace {
+
+/// Units are read when the command runs, so that a wrong one is told like any other wrong input.
+struct BemOptionTexts {
+  std::string density, gravity, depth, ulen;
+  int iperout = 0;
+};
+
+std::optional<double> parsed(const std::string& option, const std::string& text, const hydro::Dimension& needed) {
+  if (text.empty()) return std::nullopt;
+  try {
+    return hydro::parse_si(text, needed);
+  } catch (const hydro::InputError& error) {
+    throw error.at({.file = option});
+  }
+}
+
+hydro::potential::ReadOptions read_options(const BemOptionTexts& texts) {
+  hydro::potential::ReadOptions options;
+  options.density = parsed("--density", texts.density, hydro::dim::density);
+  options.gravity = parsed("--gravity", texts.gravity, hydro::dim::acceleration);
+  if (texts.depth == "infinite") {
+    options.depth = hydro::WaterDepth::infinite();
+  } else if (const auto depth = parsed("--depth", texts.depth, hydro::dim::length)) {
+    options.depth = hydro::WaterDepth::from_metres(*depth);
+  }
+  if (const auto ulen = parsed("--ulen", texts.ulen, hydro::dim::length)) {
+    hydro::require(*ulen > 0, "--ulen must be positive, got {} m", *ulen);
+    options.ulen = *ulen;
+  }
+  if (texts.iperout > 0) options.iperout = texts.iperout;
+  return options;
+}
+
+/// The options shared by all `froude bem …`; the values live as long as the returned pointer is held by a callback.
+std::shared_ptr<BemOptionTexts> add_bem_options(CLI::App& command, const std::shared_ptr<BemArguments>& arguments) {
+  auto texts = std::make_shared<BemOptionTexts>();
+  command
+      .add_option(
+          "files", arguments->files,
+          "data files: WAMIT .1 or stem, Capytaine .nc, NEMOH folder, AQWA .AH1, HAMS ControlFile.in, VERES .re7, "
+          ".hdb, BEMIO .h5, Froude .h5")
+      ->required();
+  command.add_option("--density", texts->density, "of the water, where the file does not say: \"1025 kg/m^3\"");
+  command.add_option("--gravity", texts->gravity, "where the file does not say: \"9.81 m/s^2\"");
+  command.add_option("--depth", texts->depth, "of the water, where the file does not say: \"14 m\" or infinite");
+  command.add_option("--ulen", texts->ulen, "WAMIT's length scale ULEN: \"1 m\"");
+  command.add_option("--iperout", texts->iperout, "WAMIT's IPEROUT: 1 period, 2 omega, 3 KL, 4 nu L")
+      ->check(CLI::Range(1, 4));
+  return texts;
+}
+
+void add_bem_info(CLI::App& bem, Request& request) {
+  auto* info = bem.add_subcommand("info", "what a file of coefficients holds, after conversion to one convention");
+  info->footer("Example:\n  froude bem info examples/data/pontoon1.nc");
+  auto arguments = std::make_shared<BemArguments>();
+  auto texts = add_bem_options(*info, arguments);
+  info->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      arguments->options = read_options(*texts);
+      bem_info(*arguments, console);
+      return done;
+    };
+  });
+}
+
+void add_bem_check(CLI::App& bem, Request& request) {
+  auto* check = bem.add_subcommand("check", "symmetry, damping sign, causality and more; status 1 if a check fails");
+  check->footer(
+      "Example:\n  froude bem check buoy.1 --density \"1025 kg/m^3\" --gravity \"9.81 m/s^2\" --depth infinite");
+  auto arguments = std::make_shared<BemArguments>();
+  auto texts = add_bem_options(*check, arguments);
+  auto strict = std::make_shared<bool>(false);
+  check->add_flag("--strict", *strict, "status 1 for a warning too");
+  check->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      arguments->options = read_options(*texts);
+      return bem_check(*arguments, console, *strict);
+    };
+  });
+}
+
+void add_bem_heal(CLI::App& bem, Request& request) {
+  auto* heal = bem.add_subcommand("heal", "puts right what theory demands: symmetry, spikes, tail, passivity");
+  heal->footer(
+      "Examples:\n  froude bem heal examples/data/pontoon1.nc -o pontoon1.healed.h5\n"
+      "  froude bem heal buoy.nc --symmetry --passivity -o buoy.healed.h5");
+  auto arguments = std::make_shared<BemArguments>();
+  auto all = std::make_shared<BemHealArguments>();
+  auto chosen = std::make_shared<hydro::potential::HealOptions>(
+      hydro::potential::HealOptions{.symmetry = false, .spikes = false, .tail = false, .passivity = false});
+  auto texts = add_bem_options(*heal, arguments);
+  heal->add_option("-o,--output", all->output, "file to write, not the one that is read; its name tells the format")
+      ->required();
+  heal->add_option("--format", all->format, "of the output, where its name does not tell")
+      ->check(CLI::IsMember({"froude", "bemio", "wamit", "capytaine"}));
+  heal->add_flag("--symmetry", chosen->symmetry, "A and B become the means of themselves and their transposes");
+  heal->add_flag("--spikes", chosen->spikes,
+                 "irregular frequencies and wrong numbers are put between their neighbours");
+  heal->add_flag("--tail", chosen->tail, "frequencies beyond the end are added, with the damping that A tells");
+  heal->add_flag("--passivity", chosen->passivity, "B becomes the nearest matrix without negative eigenvalues");
+  heal->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      all->bem = *arguments;
+      all->bem.options = read_options(*texts);
+      // Named steps are taken and no others; none named means all.
+      if (chosen->symmetry || chosen->spikes || chosen->tail || chosen->passivity) all->steps = *chosen;
+      bem_heal(*all, console);
+      return done;
+    };
+  });
+}
+
+/// The options of changes; the order of the guide, in which they are made.
+void add_changes(CLI::App& convert, BemConvertArguments& a) {
+  convert.add_flag("--merge", a.merge, "the files are runs of the same bodies at different frequencies");
+  convert
+      .add_option("--symmetric", a.symmetric,
+                  "complete the headings: y if port and starboard are alike, x fore and aft")
+      ->check(CLI::IsMember({"y", "x"}));
+  convert.add_option("--about", a.about, "other reference points: cog, or \"(0, 0, -1.5) m\" for each body");
+  convert.add_option("--carry", a.carry, "all bodies along the water: \"(30, 0, 0) m\"");
+  convert.add_option("--turn", a.turn, "all bodies about the vertical through the origin: \"30 deg\"");
+  convert.add_option("--array", a.array, "copies of one body without interaction: \"(±20, ±20, 0) m\"");
+  convert.add_option("--scale", a.scale, "ratio of lengths, by Froude's law");
+  convert.add_option("--density-ratio", a.density_ratio, "ratio of densities, by Froude's law");
+  convert.add_option("--frequencies", a.frequencies, "interpolated: \"0.2 rad/s .. 3 rad/s, 57 values\"");
+}
+
+void add_bem_convert(CLI::App& bem, Request& request) {
+  auto* convert = bem.add_subcommand(
+      "convert",
+      "from any format that froude reads to Froude .h5, BEMIO .h5, Capytaine .nc or WAMIT; turned, scaled, …");
+  convert->footer(
+      "Examples:\n  froude bem convert examples/data/pontoon1.nc -o pontoon1.bemio.h5\n"
+      "  froude bem convert examples/data/pontoon1.nc --scale 25 --density-ratio 1.025 -o full_scale.h5");
+  auto arguments = std::make_shared<BemArguments>();
+  auto all = std::make_shared<BemConvertArguments>();
+  auto texts = add_bem_options(*convert, arguments);
+  convert->add_option("-o,--output", all->output, "file to write; its name tells the format")->required();
+  convert->add_option("--format", all->format, "of the output, where its name does not tell")
+      ->check(CLI::IsMember({"froude", "bemio", "wamit", "capytaine"}));
+  add_changes(*convert, *all);
+  convert->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      all->bem = *arguments;
+      all->bem.options = read_options(*texts);
+      bem_convert(*all, console);
+      return done;
+    };
+  });
+}
+
+void add_bem_solve(CLI::App& bem, Request& request) {
+  auto* solve = bem.add_subcommand("solve", "compute the coefficients of the cylinders of a scene, exactly");
+  solve->footer("Example:\n  froude bem solve examples/cylinders.toml -o module.h5");
+  auto scene = std::make_shared<Path>(), output = std::make_shared<Path>();
+  auto format = std::make_shared<std::string>();
+  solve->add_option("scene", *scene, "scene with cylinders in [body.hydrodynamics]")->required();
+  solve->add_option("-o,--output", *output, "file to write; its name tells the format")->required();
+  solve->add_option("--format", *format, "of the output, where its name does not tell")
+      ->check(CLI::IsMember({"froude", "bemio", "wamit", "capytaine"}));
+  solve->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      bem_solve(*scene, *output, *format, console);
+      return done;
+    };
+  });
+}
+
+void add_bem_irf(CLI::App& bem, Request& request) {
+  auto* irf = bem.add_subcommand("irf", "radiation in time: kernels as sums of exponentials, certified passive");
+  irf->footer("Example:\n  froude bem irf examples/data/hemisphere_r5.nc -o hemisphere.ss --picture irf.svg");
+  auto arguments = std::make_shared<BemArguments>();
+  auto irf_arguments = std::make_shared<BemIrfArguments>();
+  auto texts = add_bem_options(*irf, arguments);
+  irf->add_option("--tolerance", irf_arguments->tolerance, "of the fit: error of the force, relative")
+      ->capture_default_str();
+  irf->add_option("-o,--output", irf_arguments->output, "state space: .ss (OpenFAST) or .h5 (BEMIO groups)");
+  irf->add_option("--picture", irf_arguments->picture, "SVG of kernels and damping of the first body");
+  irf->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      irf_arguments->bem = *arguments;
+      irf_arguments->bem.options = read_options(*texts);
+      bem_irf(*irf_arguments, console);
+      return done;
+    };
+  });
+}
+
+void add_bem(CLI::App& app, Request& request) {
+  auto* bem =
+      app.add_subcommand("bem", "hydrodynamic coefficients: info, check, heal, convert, irf; solve for cylinders");
+  bem->require_subcommand(1);
+  add_bem_info(*bem, request);
+  add_bem_check(*bem, request);
+  add_bem_heal(*bem, request);
+  add_bem_convert(*bem, request);
+  add_bem_irf(*bem, request);
+  add_bem_solve(*bem, request);
+}
+
+void add_new(CLI::App& app, Request& request) {
+  auto* command = app.add_subcommand("new", "writes a commented starter scene, or prints the reference of all keys");
+  command->footer("Examples:\n  froude new motion -o scene.toml\n  froude new --keys");
+  auto kind = std::make_shared<std::string>();
+  auto output = std::make_shared<std::optional<Path>>();
+  auto keys = std::make_shared<bool>(false);
+  command->add_option("kind", *kind, "of scene: motion, waves or fit; motion if left out");
+  command->add_option("-o,--output", *output, "file to write; standard output if left out");
+  command->add_flag("--keys", *keys, "print every key that a scene may hold, as Markdown");
+  command->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      new_scene(*kind, *output, *keys, console);
+      return done;
+    };
+  });
+}
+
+/// `rao`, `run` and `plan` take the same words.
+CLI::App* add_scene_command(CLI::App& app, Request& request, const std::string& name, const std::string& what,
+                            void (*function)(const SceneArguments&, const Console&), bool has_outputs) {
+  auto* command = app.add_subcommand(name, what);
+  command->footer("Example:\n  froude " + name + " examples/pontoon5.toml" +
+                  (has_outputs ? " -o " + name + ".h5 --picture " + name + ".svg" : ""));
+  auto arguments = std::make_shared<SceneArguments>();
+  command->add_option("scene", arguments->scene, "scene file (.toml)")->required();
+  if (has_outputs) {
+    command->add_option("-o,--output", arguments->output,
+                        "result, HDF5 and netCDF-4; default: SCENE." + name + ".h5 here");
+    command->add_option("--csv", arguments->csv, "the same numbers as a CSV table");
+    command->add_option("--picture", arguments->picture, "plot (.svg)");
+  }
+  command->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      function(*arguments, console);
+      return done;
+    };
+  });
+  return command;
+}
+
+void add_waves(CLI::App& app, Request& request) {
+  auto* waves = app.add_subcommand("waves", "seas: what they are, and series of the water's motion");
+  waves->require_subcommand(1);
+  auto* info = waves->add_subcommand("info", "heights, periods, steepness, breaking and focus of a sea");
+  info->footer(
+      "Examples:\n  froude waves info examples/storm.toml\n  froude waves info components.csv --depth \"30 m\"\n"
+      "  froude waves info record.csv --column gauge1");
+  auto arguments = std::make_shared<WavesInfoArguments>();
+  auto depth = std::make_shared<std::string>("infinite"), gravity = std::make_shared<std::string>("9.81 m/s^2");
+  auto phase_of = std::make_shared<std::string>("omega t - k x");
+  info->add_option("file", arguments->file,
+                   "scene (.toml); CSV of components, of a spectrum or of a record; result of `froude waves make`")
+      ->required();
+  info->add_option("--depth", *depth, "of the water, where the file is no scene: \"30 m\" or infinite")
+      ->capture_default_str();
+  info->add_option("--gravity", *gravity, "where the file is no scene")->capture_default_str();
+  info->add_option("--column", arguments->column, "of a record; default: elevation");
+  info->add_option("--phase-of", *phase_of, "what the phases of a list are added to")
+      ->check(CLI::IsMember({"omega t - k x", "k x - omega t"}))
+      ->capture_default_str();
+  info->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      if (*depth != "infinite")
+        arguments->depth = hydro::WaterDepth::from_metres(*parsed("--depth", *depth, hydro::dim::length));
+      arguments->gravity = *parsed("--gravity", *gravity, hydro::dim::acceleration);
+      arguments->phase_of_kx = *phase_of == "k x - omega t";
+      waves_info(*arguments, console);
+      return done;
+    };
+  });
+  add_scene_command(*waves, request, "make", "time series of the water at the probes of a scene", &waves_make, true)
+      ->footer("Example:\n  froude waves make examples/storm.toml -o storm.h5 --csv storm.csv --picture storm.svg");
+}
+
+/// Options of `froude hydrostatics` as they were written.
+struct HydrostaticsTexts {
+  std::string density, gravity = "9.81 m/s^2", unit, freeboard, mass, cog, reference, heave, heel = "0 deg",
+                       trim = "0 deg", heels = "0 deg .. 80 deg, 17 values";
+};
+
+void read_hydrostatics(const HydrostaticsTexts& texts, HydrostaticsArguments& arguments) {
+  namespace dim = hydro::dim;
+  const auto vector = [](const std::string& option, const std::string& text) -> std::optional<Eigen::Vector3d> {
+    if (text.empty()) return std::nullopt;
+    try {
+      return hydro::parse_vector(text, dim::length);
+    } catch (const hydro::InputError& error) {
+      throw error.at({.file = option});
+    }
+  };
+  arguments.water.density = *parsed("--density", texts.density, dim::density);
+  arguments.water.gravity = *parsed("--gravity", texts.gravity, dim::acceleration);
+  hydro::require(arguments.water.density > 0 && arguments.water.gravity > 0,
+                 "--density and --gravity must be positive");
+  if (!texts.unit.empty()) arguments.options.unit = parsed("--unit", "1 " + texts.unit, dim::length);
+  arguments.freeboard = parsed("--freeboard", texts.freeboard, dim::length);
+  arguments.mass = parsed("--mass", texts.mass, dim::mass);
+  arguments.centre_of_gravity = vector("--cog", texts.cog);
+  arguments.reference = vector("--reference", texts.reference);
+  arguments.heave = parsed("--heave", texts.heave, dim::length);
+  arguments.heel = hydro::Angle::from_radians(*parsed("--heel", texts.heel, dim::angle));
+  arguments.trim = hydro::Angle::from_radians(*parsed("--trim", texts.trim, dim::angle));
+  try {
+    arguments.heels = hydro::parse_range(texts.heels, dim::angle);
+  } catch (const hydro::InputError& error) {
+    throw error.at({.file = "--gz"});
+  }
+}
+
+void add_hydrostatics(CLI::App& app, Request& request) {
+  auto* command = app.add_subcommand(
+      "hydrostatics", "volume, centres, waterplane, restoring matrix, GM and righting arms of a hull given as a mesh");
+  command->footer(
+      "Example:\n  froude hydrostatics examples/data/workboat.obj --density \"1025 kg/m^3\" --mass \"50 t\"\n"
+      "    --cog \"(-0.75, 0, 0.2) m\" --free-trim --picture gz.svg");
+  auto arguments = std::make_shared<HydrostaticsArguments>();
+  auto texts = std::make_shared<HydrostaticsTexts>();
+  command->add_option("mesh", arguments->mesh, "the hull: .stl, .obj or .gdf; z up, z = 0 the water as it is drawn")
+      ->required();
+  command->add_option("--density", texts->density, "of the water: \"1025 kg/m^3\"")->required();
+  command->add_option("--gravity", texts->gravity, "of the place")->capture_default_str();
+  command->add_option("--mass", texts->mass, "\"50 t\": the hull floats where it wants to; left out: it is as drawn");
+  command->add_option("--cog", texts->cog, "centre of gravity as drawn: \"(-0.75, 0, 0.2) m\"; for GM and GZ");
+  command->add_option("--unit", texts->unit, "of the numbers of the mesh: mm, cm, in, ft; metres if left out");
+  command->add_flag("--reverse", arguments->options.reverse, "turn the faces of the mesh inside out");
+  command->add_option("--freeboard", texts->freeboard,
+                      "draw walls and a deck above a hull that ends at the water: \"2 m\"");
+  command->add_option("--reference", texts->reference, "point of C, global; the origin if left out");
+  command->add_option("--heave", texts->heave, "lift of the drawn hull, without --mass");
+  command->add_option("--heel", texts->heel, "starboard down; with --mass where the search begins")
+      ->capture_default_str();
+  command->add_option("--trim", texts->trim, "bow down; with --mass where the search begins")->capture_default_str();
+  command->add_option("--gz", texts->heels, "heels of the righting arms")->capture_default_str();
+  command->add_flag("--free-trim", arguments->free_trim, "let the hull trim as it heels");
+  command->add_option("--picture", arguments->picture, "plot of the righting arms (.svg)");
+  command->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      read_hydrostatics(*texts, *arguments);
+      hydrostatics(*arguments, console);
+      return done;
+    };
+  });
+}
+
+void add_psd(CLI::App& app, Request& request) {
+  auto* command = app.add_subcommand("psd", "power spectra with confidence intervals, transfer functions, coherence");
+  command->footer(
+      "Example:\n  froude psd run.h5 --signal m3.heave --segment \"100 s\" --from \"60 s\" --picture psd.svg");
+  auto arguments = std::make_shared<PsdArguments>();
+  command->add_option("file", arguments->file, "CSV with units in its header, or a result of `froude run`")->required();
+  command->add_option("-s,--signal", arguments->signals, "signals to take; * stands for any text; default: all");
+  command->add_option("--segment", arguments->segment, "length of a Welch segment: \"100 s\"");
+  command->add_option("--from", arguments->from, "leave out what comes before: \"60 s\"");
+  command->add_option("--to", arguments->to, "leave out what comes after: \"360 s\"");
+  command->add_option("--confidence", arguments->confidence, "level of the interval")->capture_default_str();
+  command->add_option("--input", arguments->input,
+                      "signal that drives the others: adds transfer function and coherence");
+  command->add_option("-o,--output", arguments->output, "table (.csv) or result (.h5)");
+  command->add_option("--picture", arguments->picture, "plot (.svg)");
+  command->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      psd(*arguments, console);
+      return done;
+    };
+  });
+}
+
+void add_section(CLI::App& app, Request& request) {
+  auto* command = app.add_subcommand(
+      "section", "Poincare section: where two signals are when a third crosses a level, or once in a period");
+  command->footer(
+      "Examples:\n  froude section run.h5 --x chain.link2.polar --y chain.link2.polar_rate --at chain.link1.polar "
+      "--level \"90 deg\" --picture section.svg\n"
+      "  froude section run.h5 --x chain.link2.polar --y chain.link2.polar_rate --every \"8 s\" --from \"200 s\"");
+  auto arguments = std::make_shared<SectionArguments>();
+  command->add_option("file", arguments->file, "CSV with units in its header, or a result of `froude run`")->required();
+  command->add_option("--x", arguments->x, "signal along the section")->required();
+  command->add_option("--y", arguments->y, "the other one")->required();
+  command->add_option("--at", arguments->at, "signal that crosses the level");
+  command->add_option("--level", arguments->level, "which it crosses: \"90 deg\"");
+  command->add_option("--through", arguments->through, "in which direction")
+      ->check(CLI::IsMember({"up", "down", "both"}))
+      ->capture_default_str();
+  command->add_option("--every", arguments->every, "instead of --at: once in this period: \"8 s\"");
+  command->add_option("--from", arguments->from, "leave out what comes before; with --every the first point");
+  command->add_flag("--wrap", arguments->wrap, "angles between -180 and 180 deg, without their full turns");
+  command->add_option("-o,--output", arguments->output, "table (.csv)");
+  command->add_option("--picture", arguments->picture, "plot (.svg)");
+  command->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      section(*arguments, console);
+      return done;
+    };
+  });
+}
+
+void add_fit(CLI::App& app, Request& request) {
+  auto* command = app.add_subcommand("fit", "force coefficients from measurements, with intervals that hold");
+  command->footer("Example:\n  froude fit examples/fit/oscillation.toml -o coefficients.toml --picture fit.svg");
+  auto arguments = std::make_shared<FitArguments>();
+  command->add_option("scene", arguments->scene, "fit scene (.toml)")->required();
+  command->add_option("-o,--output", arguments->output, "the estimates (.toml)");
+  command->add_option("--table", arguments->table,
+                      "one row for each run: KC, Re, beta, coefficients, intervals (.csv)");
+  command->add_option("--picture", arguments->picture, "plot (.svg)");
+  command->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      fit(*arguments, console);
+      return done;
+    };
+  });
+}
+
+/// Stands in the help only: main_program() hands over to another program before the options of a command are read.
+void add_validate(CLI::App& app) {
+  app.add_subcommand("validate",
+                     "compares with closed forms, experiments and other codes; status 1 if a limit is broken");
+}
+
+void describe(CLI::App& app, Request& request) {
+  app.description("Floating and submerged structures in waves: RAOs, time series, spectra, fitted coefficients.");
+  app.footer(
+      "Examples:\n  froude new -o scene.toml\n  froude rao scene.toml --picture rao.svg\n  froude run scene.toml -o "
+      "run.h5\n"
+      "Exit status: 0 done, 1 a check failed, 2 the input is wrong, 3 the numerics gave up, 4 a fault of froude.");
+  app.fallthrough();
+  app.require_subcommand(1);
+  add_common_flags(app, request);
+  add_new(app, request);
+  add_bem(app, request);
+  add_scene_command(app, request, "rao", "response amplitude operators of a scene, in the frequency domain", &rao,
+                    true);
+  add_scene_command(app, request, "modes", "free motions of a scene about rest: periods, damping, shapes", &modes,
+                    true);
+  add_scene_command(app, request, "run", "time series of a scene", &run, true);
+  add_waves(app, request);
+  add_hydrostatics(app, request);
+  add_psd(app, request);
+  add_section(app, request);
+  add_fit(app, request);
+  add_scene_command(app, request, "plan", "what a scene will run, by which method, and why the rest will not", &plan,
+                    false);
+  add_validate(app);
+}
+
+/// What follows `validate`, together with what stands before it: only flags do, and they belong to every command.
+std::optional<std::vector<std::string>> arguments_of_validate(int argc, char** argv) {
+  std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+  const auto command = std::find_if_not(arguments.begin(), arguments.end(),
+                                        [](const std::string& argument) { return argument.starts_with('-'); });
+  if (command == arguments.end() || *command != "validate") return std::nullopt;
+  arguments.erase(command);
+  return arguments;
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) {
+  Request request;
+  if (const auto arguments = arguments_of_validate(argc, argv)) {
+    request.json = std::find(arguments->begin(), arguments->end(), "--json") != arguments->end();
+    request.call = [&](const Console&) -> int { validate(*arguments); };
+    return carry_out(request);
+  }
+  CLI::App app;
+  app.name("froude");
+  describe(app, request);
+  return carry_out(app, request, argc, argv);
+}
+
+}  // namespace froude
