@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/model/block_matrix.hpp"
-#include "dynamics/model/body.hpp"
+#include "dynamics/state/block_matrix.hpp"
+#include "dynamics/state/body.hpp"
 
 namespace dynamics {
 

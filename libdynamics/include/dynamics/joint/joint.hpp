@@ -14,9 +14,9 @@
 #include <variant>
 #include <vector>
 
-#include "dynamics/model/block_matrix.hpp"
-#include "dynamics/model/body.hpp"
 #include "dynamics/spatial/shape.hpp"
+#include "dynamics/state/block_matrix.hpp"
+#include "dynamics/state/body.hpp"
 
 namespace dynamics {
 

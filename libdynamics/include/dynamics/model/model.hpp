@@ -8,9 +8,9 @@
 
 #include "dynamics/force/force_kind.hpp"
 #include "dynamics/joint/joint.hpp"
-#include "dynamics/model/block_matrix.hpp"
-#include "dynamics/model/body.hpp"
 #include "dynamics/model/kkt_solver.hpp"
+#include "dynamics/state/block_matrix.hpp"
+#include "dynamics/state/body.hpp"
 
 namespace dynamics {
 
