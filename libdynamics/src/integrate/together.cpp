@@ -36,13 +36,13 @@ struct SetValuedLaws::Touching {
 
 SetValuedLaws::Touching SetValuedLaws::touching(const JointSet& held, std::vector<std::size_t> elements,
                                                 Workspace& workspace) const {
-  const ContactKind& kind = *active_.contact();
+  const ContactLaw& kind = *active_.contact();
   const State& state = workspace.state;
   Touching out{std::move(elements), {}, held.with_only({}), {}, {}, {}, KktSolver(model_.pattern(), held), {}};
   for (const std::size_t i : out.element) {
-    out.laws.push_back({out.rows.count(), bounces_spent_ ? 0 : kind.all()[i].restitution, kind.all()[i].friction});
+    out.laws.push_back({out.rows.count(), bounces_spent_ ? 0 : kind.element(i).restitution, kind.element(i).friction});
     out.rows.add(kind.closed(i));
-    if (kind.all()[i].friction > 0)
+    if (kind.element(i).friction > 0)
       for (const Condition& along : kind.sticking(i, state)) out.rows.add(along);
   }
   out.R = out.rows.dense(out.rows.gradients(state));
@@ -67,7 +67,7 @@ bool SetValuedLaws::collide(Workspace& workspace) {
   std::vector<std::size_t> elements;
   bool approaching = false;
   for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
-    const ContactKind::Motion motion = active_.contact()->motion(i, state);
+    const ContactLaw::Motion motion = active_.contact()->motion(i, state);
     if (motion.meeting.gap > closed) continue;
     approaching = approaching || motion.parting < -slow(workspace);
     elements.push_back(i);
@@ -99,16 +99,15 @@ ContactState::Is becomes(double load, double parting, double slip, bool slides, 
 
 /// What touches and does not part, among bodies that joints and frictions hold. What slips already goes on so.
 SetValuedLaws::Touching SetValuedLaws::touching_now(Workspace& workspace) const {
-  const ContactKind& kind = *active_.contact();
+  const ContactLaw& kind = *active_.contact();
   const State& state = workspace.state;
   JointSet held = model_.joints();
   for (std::size_t i = 0; active_.friction() != nullptr && i < active_.friction()->elements(); ++i)
-    if (active_.friction_memory(workspace).direction[i] == 0)
-      held.add(active_.friction()->all()[i].travel.holding(state));
+    if (active_.friction_memory(workspace).direction[i] == 0) held.add(active_.friction()->holding(i, state));
   std::vector<std::size_t> elements;
   std::vector<Eigen::Vector3d> slips;
   for (std::size_t i = 0; i < kind.elements(); ++i) {
-    const ContactKind::Motion motion = kind.motion(i, state);
+    const ContactLaw::Motion motion = kind.motion(i, state);
     if (motion.meeting.gap > closed || std::abs(motion.parting) > slow(workspace)) continue;
     elements.push_back(i);
     slips.push_back(motion.slip);

@@ -100,8 +100,8 @@ struct EnergyFlow {
   std::optional<double> dissipated_so_far = {};  ///< J since the start, of kinds that know it exactly
 };
 
-class FrictionKind;
-class ContactKind;
+class FrictionLaw;
+class ContactLaw;
 
 class ForceKind {
  public:
@@ -129,8 +129,8 @@ class ForceKind {
   virtual std::string breaks_off(const State& /*before*/, const State& /*after*/) const { return {}; }
 
   /// The set-valued laws of this kind, which an integrator must see; null if it has none.
-  virtual const FrictionKind* friction() const { return nullptr; }
-  virtual const ContactKind* contact() const { return nullptr; }
+  virtual const FrictionLaw* friction() const { return nullptr; }
+  virtual const ContactLaw* contact() const { return nullptr; }
 };
 
 /// ½ vᵀ (dM/dt) v of a kind's own mass along the motion, W (D40): by central differences over ± 10 µs, error of about
