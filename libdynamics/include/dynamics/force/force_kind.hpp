@@ -128,6 +128,11 @@ class ForceKind {
   /// Why this kind has no load for what happened between two states that follow each other; empty if it has.
   virtual std::string breaks_off(const State& /*before*/, const State& /*after*/) const { return {}; }
 
+  /// True if the memory takes up states at the ends of steps only: a method that looks between them misses the newest.
+  virtual bool remembers_whole_steps() const { return false; }
+  /// Why a step cannot be cut in parts to a tolerance; null if it can.
+  virtual const char* steps_stay_whole() const { return nullptr; }
+
   /// The set-valued laws of this kind, which an integrator must see; null if it has none.
   virtual const FrictionLaw* friction() const { return nullptr; }
   virtual const ContactLaw* contact() const { return nullptr; }

@@ -92,6 +92,13 @@ class Workspace {
   BlockMatrix matrix;
   KktSolver solver;
 
+  /// The memory of that type; null if no kind has one.
+  template <class OfKind>
+  OfKind* find_memory() const {
+    for (const auto& m : memory)
+      if (auto* found = dynamic_cast<OfKind*>(m.get())) return found;
+    return nullptr;
+  }
   Instant instant(const State& at, std::size_t kind) { return {at, memory[kind].get()}; }
   /// A full step has been completed: memory moves on. \returns true if loads jumped by it
   bool accept();
