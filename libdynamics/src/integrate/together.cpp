@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "dynamics/integrate/set_valued.hpp"
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "impact.hpp"
 
@@ -54,8 +55,7 @@ SetValuedLaws::Touching SetValuedLaws::touching(const JointSet& held, std::vecto
         fmt::format("no impulses can be found at t = {} s: the mass matrix is singular", state.time));
   out.gained.resize(model_.modes(), out.R.rows());
   for (Index i = 0; i < out.R.rows(); ++i) out.gained.col(i) = out.held.solve(out.R.row(i).transpose(), nothing).x;
-  const MatrixXd W = out.R * out.gained;
-  out.W = (W + W.transpose()) / 2;
+  out.W = hydro::dense::symmetric_part(out.R * out.gained);
   return out;
 }
 
