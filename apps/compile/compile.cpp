@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "compile/buoyancy.hpp"
 #include "compile/connections.hpp"
@@ -224,6 +225,20 @@ dynamics::State in_equilibrium(const Scene& scene, const dynamics::Model& model,
   }
 }
 
+/// The lines of a plan for kinds of force that one line would not tell.
+using ToldInParts = std::map<const dynamics::ForceKind*, std::vector<PlanLine>>;
+
+void plan_forces(const std::vector<std::unique_ptr<const dynamics::ForceKind>>& forces,
+                 const ToldInParts& told_in_parts, std::vector<PlanLine>& plan) {
+  for (const auto& kind : forces) {
+    if (const auto parts = told_in_parts.find(kind.get()); parts != told_in_parts.end())
+      plan.insert(plan.end(), parts->second.begin(), parts->second.end());
+    else
+      plan.push_back({kind->effect(), kind->method(),
+                      fmt::format("{} element{}", kind->elements(), kind->elements() == 1 ? "" : "s"), true});
+  }
+}
+
 }  // namespace
 
 hydro::waves::Sea sea_of_run(const Scene& scene, const Prepared& prepared, std::vector<std::string>& notes) {
@@ -259,7 +274,11 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
   std::vector<std::unique_ptr<const dynamics::ForceKind>> forces;
   std::vector<dynamics::AddedMass> added_mass;
   add_springs(prepared, forces);
-  if (auto kind = fastened_kind(scene, prepared, water)) forces.push_back(std::move(kind));
+  ToldInParts told_in_parts;
+  if (auto kind = fastened_kind(scene, prepared, water)) {
+    told_in_parts[kind.get()] = {};  // each line is told by itself, below
+    forces.push_back(std::move(kind));
+  }
   std::vector<dynamics::RadiationMemory> memories;
   std::vector<PlanLine> memory_lines;
   Radiation radiation(prepared, step, sea);
@@ -270,22 +289,17 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
     memories.push_back(std::move(parts.memory));
     memory_lines.insert(memory_lines.end(), parts.lines.begin(), parts.lines.end());
   }
-  if (!memories.empty()) forces.push_back(std::make_unique<dynamics::RadiationKind>(std::move(memories)));
+  if (!memories.empty()) {
+    forces.push_back(std::make_unique<dynamics::RadiationKind>(std::move(memories)));
+    told_in_parts[forces.back().get()] = std::move(memory_lines);
+  }
   if (sea) add_excitation(scene, prepared, *sea, {step, steps + 1}, forces);
   add_members(scene, prepared.bodies, water, {step, steps + 1}, forces);
 
   if (!prepared.friction.empty()) forces.push_back(std::make_unique<dynamics::FrictionKind>(prepared.friction));
   if (!prepared.contacts.empty()) forces.push_back(std::make_unique<dynamics::ContactKind>(prepared.contacts));
 
-  for (const auto& kind : forces) {
-    if (kind->effect() == "lines") continue;  // each is told by itself
-    if (kind->effect() != "radiation") {
-      plan.push_back({kind->effect(), kind->method(),
-                      fmt::format("{} element{}", kind->elements(), kind->elements() == 1 ? "" : "s"), true});
-      continue;
-    }
-    plan.insert(plan.end(), memory_lines.begin(), memory_lines.end());
-  }
+  plan_forces(forces, told_in_parts, plan);
   dynamics::Model model(prepared.bodies, std::move(added_mass), std::move(forces), prepared.joints);
   if (!prepared.joints.empty())
     plan.push_back({"joint", "conditions held exactly, with the loads that this takes as unknowns",

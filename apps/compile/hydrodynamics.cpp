@@ -7,6 +7,7 @@
 
 #include "compile/cylinders.hpp"
 #include "compile/findings.hpp"
+#include "hydro/base/dense.hpp"
 #include "hydro/potential/check.hpp"
 #include "hydro/potential/operations.hpp"
 
@@ -449,7 +450,7 @@ void add_hydrostatics(const Scene& scene, const Coefficients& about_centres, con
     const auto row = 6 * static_cast<Eigen::Index>(i);
     const dynamics::Matrix6 C = about_centres.C->block<6, 6>(row, row);
     prepared.hydrostatics.push_back({.body = bodies[i],
-                                     .stiffness = (C + C.transpose()) / 2,
+                                     .stiffness = hydro::dense::symmetric_part(C),
                                      .lift = lift(scene, bodies[i], about_centres.body[i]),
                                      .moment = moment_of_buoyancy(scene, bodies[i], about_centres.body[i])});
   }

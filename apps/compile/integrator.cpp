@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "dynamics/force/fastened_line.hpp"
 #include "dynamics/integrate/energy_momentum.hpp"
 #include "dynamics/integrate/euler.hpp"
 #include "dynamics/integrate/explicit_pair.hpp"
@@ -18,10 +17,11 @@ namespace {
 /// Memory of the water is kept at the ends of steps: methods that look between them would miss its newest part.
 void refuse_memory(const scene::Solve& solve, const dynamics::Model& model) {
   for (const auto& kind : model.forces())
-    if (kind->effect() == "radiation")
-      throw hydro::InputError(fmt::format("[solve.integrator] name = \"{}\" cannot step radiation", solve.integrator),
-                              solve.integrator_place,
-                              "take generalized_alpha or implicit_euler, or leave radiation out");
+    if (kind->remembers_whole_steps())
+      throw hydro::InputError(
+          fmt::format("[solve.integrator] name = \"{}\" cannot step {}", solve.integrator, kind->effect()),
+          solve.integrator_place,
+          fmt::format("take generalized_alpha or implicit_euler, or leave {} out", kind->effect()));
 }
 
 /// What cannot step in parts says so.
@@ -31,8 +31,8 @@ void refuse_tolerance(const scene::Solve& solve, const dynamics::Model& model) {
                             solve.integrator_place, remedy);
   };
   if (model.bodies().empty()) refuse("the scene has none", "leave it out; lines have steps of their own");
-  if (dynamics::fastened_lines(model) != nullptr)
-    refuse("lines on bodies step whole", "leave it out, and choose [solve] step");
+  for (const auto& kind : model.forces())
+    if (const char* why = kind->steps_stay_whole()) refuse(why, "leave it out, and choose [solve] step");
 }
 
 std::unique_ptr<dynamics::Integrator> sundials([[maybe_unused]] const scene::Solve& solve,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hydro/base/dense.hpp"
 #include "hydro/radiation/choice.hpp"
 #include "hydro/radiation/constant_memory.hpp"
 
@@ -127,8 +128,7 @@ RadiationParts at_one_frequency(const dynamics::frequency::PotentialGroup& g, co
                      "leave out `method`, or make [waves] regular");
   const double omega = sea->components().front().omega;
   const auto symmetric = [&](const Eigen::MatrixXd& whole) {
-    const Eigen::MatrixXd m = whole(modes.in_group, modes.in_group);
-    return Eigen::MatrixXd((m + m.transpose()) / 2);
+    return hydro::dense::symmetric_part(whole(modes.in_group, modes.in_group));
   };
   const Eigen::Index n = g.table.coefficients().modes();
   RadiationParts out;
@@ -161,7 +161,7 @@ Eigen::MatrixXd SymmetricData::of(const Eigen::MatrixXd& whole, const std::vecto
   const Eigen::MatrixXd m = whole(modes, modes);
   const double largest = m.cwiseAbs().maxCoeff();
   if (largest > 0) asymmetry = std::max(asymmetry, (m - m.transpose()).cwiseAbs().maxCoeff() / largest);
-  return (m + m.transpose()) / 2;
+  return hydro::dense::symmetric_part(m);
 }
 
 const hydro::radiation::RationalFit& RadiationFits::of(const SymmetricData& data, double tolerance) {

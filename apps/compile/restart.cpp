@@ -1,6 +1,6 @@
 #include "compile/restart.hpp"
 
-#include "dynamics/joint/assemble.hpp"
+#include "dynamics/model/assemble.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "compile/compile.hpp"
 #include "dynamics/integrate/ledger.hpp"
-#include "dynamics/model/signal.hpp"
+#include "dynamics/state/signal.hpp"
 
 namespace froude::compile {
 

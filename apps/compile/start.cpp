@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "compile/step.hpp"
-#include "dynamics/joint/assemble.hpp"
+#include "dynamics/model/assemble.hpp"
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/error.hpp"
 

@@ -9,6 +9,7 @@
 #include "compile/integrator.hpp"
 #include "compile/waves.hpp"
 #include "dynamics/frequency/fastest.hpp"
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 
 namespace froude::compile {
@@ -57,7 +58,7 @@ std::vector<dynamics::AddedMass> added_mass(const Prepared& p) {
     if (!g.radiation) continue;
     const auto& c = g.table.coefficients();
     const Eigen::MatrixXd A = c.A_inf ? *c.A_inf : c.A.back();
-    out.push_back({g.bodies, (A + A.transpose()) / 2});
+    out.push_back({g.bodies, hydro::dense::symmetric_part(A)});
   }
   return out;
 }

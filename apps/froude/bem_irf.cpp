@@ -7,6 +7,7 @@
 #include "froude/commands.hpp"
 #include "froude/outputs.hpp"
 #include "froude/plot.hpp"
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/types.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -17,6 +18,7 @@
 namespace froude {
 namespace {
 
+using hydro::dense::symmetric_part;
 using hydro::potential::Coefficients;
 using hydro::radiation::DampingTable;
 using hydro::radiation::RationalFit;
@@ -31,14 +33,12 @@ struct Analysis {
   RationalFit fit;
 };
 
-Eigen::MatrixXd symmetric(const Eigen::MatrixXd& m) { return (m + m.transpose()) / 2; }
-
 Analysis analyse(const Coefficients& c, double tolerance) {
   Analysis a{{c.omega, {}}, {}, {}, {}, {}};
-  for (const auto& B : c.B) a.damping.B.push_back(symmetric(B));
-  for (const auto& A : c.A) a.A.push_back(symmetric(A));
+  for (const auto& B : c.B) a.damping.B.push_back(symmetric_part(B));
+  for (const auto& A : c.A) a.A.push_back(symmetric_part(A));
   std::optional<Eigen::MatrixXd> A_inf;
-  if (c.A_inf) A_inf = symmetric(*c.A_inf);
+  if (c.A_inf) A_inf = symmetric_part(*c.A_inf);
   a.continued = hydro::radiation::continued(a.damping, a.A, A_inf);
   a.ogilvie = hydro::radiation::infinite_added_mass(a.damping, a.A);
   a.fit = hydro::radiation::fit(a.damping, a.A, A_inf, {.tolerance = tolerance});

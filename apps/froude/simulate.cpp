@@ -5,6 +5,8 @@
 
 #include "compile/integrator.hpp"
 #include "compile/signal_list.hpp"
+#include "dynamics/force/fastened_line.hpp"
+#include "dynamics/integrate/start_with_lines.hpp"
 #include "froude/linear_response.hpp"
 #include "hydro/base/error.hpp"
 
@@ -37,7 +39,7 @@ class March {
   }
 
   void run(const std::function<void(double)>& done) {
-    if (bodies()) dynamics::start_with_lines(m_.model, *integrator_, workspace_);
+    if (bodies()) dynamics::start_with_lines(*integrator_, workspace_);
     begin_lines();
     dynamics::EnergyLedger ledger(m_.model, workspace_);
     sample(ledger);
@@ -66,9 +68,7 @@ class March {
  private:
   bool bodies() const { return !m_.model.bodies().empty(); }
   void begin_lines() {
-    std::size_t kind = 0;
-    const bool on_bodies = dynamics::fastened_lines(m_.model, &kind) != nullptr;
-    auto* memory = on_bodies ? static_cast<dynamics::FastenedLineMemory*>(workspace_.memory[kind].get()) : nullptr;
+    auto* memory = workspace_.find_memory<dynamics::FastenedLineMemory>();
     for (const auto& line : m_.lines)
       lines_.push_back(line.fastened ? std::make_unique<compile::LineRun>(line, memory->line(*line.fastened))
                                      : std::make_unique<compile::LineRun>(line));

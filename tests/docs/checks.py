@@ -87,41 +87,177 @@ def check_tags(root):
     return complaints + list(missing_paths(root))
 
 
-# What each part may include, by the first folder of the include. The plain reference solutions of tests/support are for what
-# judges the product, tests and validation; nothing of either may be in the product.
-PRODUCT = {"hydro", "dynamics", "fit", "froude", "scene", "compile"}
-MAY_INCLUDE = {
-    "libhydro": {"hydro"},
-    "libdynamics": {"hydro", "dynamics"},
-    "libfit": {"hydro", "dynamics", "fit"},
+# What each part may use. The plain reference solutions of tests/support are for what judges the product, tests and
+# validation; nothing of either may be in the product.
+PRODUCT = {"libhydro", "libdynamics", "libfit", "apps"}
+MAY_USE = {
+    "libhydro": {"libhydro"},
+    "libdynamics": {"libhydro", "libdynamics"},
+    "libfit": {"libhydro", "libdynamics", "libfit"},
     "apps": PRODUCT,
-    "python": PRODUCT,
-    "validation": PRODUCT | {"harness", "support"},
-    "tests": PRODUCT | {"harness", "support", "laws"},
+    "python": PRODUCT | {"python"},
+    "validation": PRODUCT | {"validation", "tests"},
+    "tests": PRODUCT | {"validation", "tests"},
+}
+# What judges the product may use of each other's parts these folders alone.
+MAY_USE_OF = {("validation", "tests"): {"support"}, ("tests", "validation"): {"harness"}}
+# The floors of each part, lowest first: a folder uses itself and those before it. "*" are all other folders, none of which
+# uses another; files that are in no folder may use all. docs/design.md draws the same.
+FLOORS = {
+    "libhydro": ("base", "io", "signal", "waves", "radiation", "hydrostatics", "potential", "cylinders"),
+    "libdynamics": ("spatial", "time", "line", "state", "control", "joint", "force", "model", "integrate", "frequency"),
+    "apps": ("scene", "compile", "froude"),
+    "validation": ("harness", "*"),
+    "tests": ("support", "laws", "*"),
 }
 # The part that an include belongs to, by its first folder.
 PART = {"hydro": "libhydro", "dynamics": "libdynamics", "fit": "libfit", "froude": "apps", "scene": "apps", "compile": "apps",
         "harness": "validation", "validation": "validation", "support": "tests", "laws": "tests", "tests": "tests"}
 
 
-def check_includes(root):
-    complaints = []
-    for path in files_below(root, MAY_INCLUDE, {".hpp", ".cpp"}):
-        relative = path.relative_to(root)
-        public = relative.parts[1] == "include"
+def folder_of(path):
+    """The part and its folder that a path of the repository lies in; what is public and what is private count as one."""
+    part, *rest = path.parts
+    if part.startswith("lib"):
+        rest = rest[{"include": 2, "src": 1}.get(rest[0], 0):]
+    return part, rest[0] if len(rest) > 1 else ""
+
+
+def included(root, path, name):
+    """The file that an include of `path` leads to, as a path of the repository; none if it is another project's."""
+    part = path.parts[0]
+    for folder in (path.parent, "libhydro/include", "libdynamics/include", "libfit/include", "apps", "validation", "tests", f"{part}/src"):
+        if (root / folder / name).exists():
+            return (root / folder / name).resolve().relative_to(root)
+    first, *rest = name.split("/")
+    if first not in PART:
+        return None
+    part = PART[first]
+    return Path(part, "include", name) if part.startswith("lib") else Path(part, *rest) if first == part else Path(part, name)
+
+
+def shortest_circle(edges):
+    """The nodes of the shortest way along edges, pairs (from, to), that ends where it began; the last is the first again."""
+    onward, best = {}, []
+    for begin, end in sorted(edges):
+        onward.setdefault(begin, []).append(end)
+    for begin in sorted(onward):
+        came_from, queue = {}, [begin]
+        for node in queue:
+            for end in onward.get(node, ()):
+                if end not in came_from:
+                    came_from[end] = node
+                    queue.append(end)
+        if begin in came_from:
+            way = [begin, came_from[begin]]
+            while way[-1] != begin:
+                way.append(came_from[way[-1]])
+            if not best or len(way) < len(best):
+                best = way[::-1]
+    return best
+
+
+def circle_complaint(edges):
+    """One line on the shortest circle of edges {(from, to): place}, if there is one."""
+    way = shortest_circle(edges)
+    steps = [f"{a} → {b} at {edges[a, b]}" for a, b in zip(way, way[1:])]
+    return ["a circle: " + ", ".join(steps)] if steps else []
+
+
+def floor_complaint(part, folder, used):
+    """Why a folder may not use another of the same part; none if it may."""
+    floors = FLOORS.get(part)
+    if folder in ("", used) or floors is None:
+        return None
+    for name in (folder, used):
+        if name not in floors and "*" not in floors:
+            return f"{part}/{name} has no floor in tests/docs/checks.py"
+    level = [floors.index(name if name in floors else "*") if name else len(floors) for name in (folder, used)]
+    if level[0] > level[1]:
+        return None
+    return f"{part}/{folder} may not include {part}/{used}, which is " + ("above it" if level[0] < level[1] else "beside it")
+
+
+def include_complaint(root, path, name):
+    """Why `path` may not include `name`; none if it may."""
+    part, folder = folder_of(path)
+    aim = included(root, path, name)
+    if ".." in name.split("/") or "src" in name.split("/"):
+        return f"{name} reaches into private files by path"
+    if aim is None:
+        return f"the public header includes {name}, which is not a public header" if path.parts[1] == "include" else None
+    used_part, used = folder_of(aim)
+    if used_part not in MAY_USE[part] or used not in MAY_USE_OF.get((part, used_part), {used}):
+        return f"{part} may not include {name}"
+    if path.parts[1] == "include" and (aim.parts[1] != "include" or not (root / aim).exists()):
+        return f"the public header includes {name}, which is not a public header"
+    return floor_complaint(part, folder, used) if used_part == part else None
+
+
+def own_includes(root):
+    """Every include of a file of this repository that names one of its files, as (path, line number, name)."""
+    for path in files_below(root, MAY_USE, {".hpp", ".cpp"}):
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
-            include = re.match(r'\s*#\s*include\s*"([^"]+)"', line)
-            if not include:
+            include = re.match(r'\s*#\s*include\s*(["<])([^">]+)[">]', line)
+            if include and (include.group(1) == '"' or include.group(2).split("/")[0] in PART):
+                yield path.relative_to(root), number, include.group(2)
+
+
+def check_folders(root):
+    complaints, edges = [], {}
+    for path, number, name in own_includes(root):
+        place = f"{path}:{number}"
+        complaint = include_complaint(root, path, name)
+        if complaint:
+            complaints.append(f"{place}: {complaint}")
+        aim = included(root, path, name)
+        if aim is not None and folder_of(aim) != folder_of(path):
+            edges.setdefault(("/".join(folder_of(path)), "/".join(folder_of(aim))), place)
+    return complaints + circle_complaint(edges)
+
+
+# Commands that make a target, and its name by their first argument.
+MAKES_TARGET = {"add_library": "{}", "add_executable": "{}", "pybind11_add_module": "{}", "froude_library": "froude_{}",
+                "froude_test": "test_{}"}
+
+
+def targets(root):
+    """The targets that CMake builds, {name: part}, and what they link, {(from, to): place}."""
+    parts, links = {}, {}
+    for path in sorted(root.rglob("CMakeLists.txt")):
+        relative = path.relative_to(root)
+        if SKIPPED_FOLDERS & set(relative.parts) or relative.parts[0] not in MAY_USE:
+            continue
+        text = re.sub(r"#[^\n]*", "", path.read_text(encoding="utf-8"))
+        for call in re.finditer(r"\b(\w+)\s*\(([^()]*)\)", text):
+            command, words = call.group(1), re.findall(r"[\w-]+(?:::[\w-]+)*", call.group(2).replace("froude::", "froude_"))
+            if command not in MAKES_TARGET and command != "target_link_libraries" or "ALIAS" in words:
                 continue
-            name, place = include.group(1), f"{relative}:{number}"
-            first = name.split("/")[0]
-            if first in PART and first not in MAY_INCLUDE[relative.parts[0]]:
-                complaints.append(f"{place}: {relative.parts[0]} may not include {name}")
-            elif ".." in name.split("/") or "src" in name.split("/"):
-                complaints.append(f"{place}: {name} reaches into private files by path")
-            elif public and not (root / PART.get(first, "?") / "include" / name).exists():
-                complaints.append(f"{place}: the public header includes {name}, which is not a public header")
-    return complaints
+            name = MAKES_TARGET.get(command, "{}").format(words[0])
+            if command in MAKES_TARGET:
+                parts[name] = relative.parts[0]
+            linked = words[words.index("LIBRARIES"):] if "LIBRARIES" in words else words if command not in MAKES_TARGET else []
+            for word in linked:
+                links.setdefault((name, word), f"{relative}:{text.count(chr(10), 0, call.start()) + 1}")
+    return parts, {link: place for link, place in links.items() if set(link) <= parts.keys() and link[0] != link[1]}
+
+
+def check_targets(root):
+    parts, links = targets(root)
+    return [f"{place}: {parts[a]} may not link {b} of {parts[b]}" for (a, b), place in sorted(links.items())
+            if parts[b] not in MAY_USE[parts[a]]] + circle_complaint(links)
+
+
+def check_drawing(root):
+    """docs/design.md draws the floors as they are listed here."""
+    page = root / "docs" / "design.md"
+    lines = [line.split() for line in page.read_text(encoding="utf-8").splitlines()] if page.exists() else None
+    return [f"docs/design.md: the floors of {part} are not drawn as {' < '.join(floors)}" for part, floors in FLOORS.items()
+            if lines is not None and [part, *" < ".join(floors).split()] not in lines]
+
+
+def check_includes(root):
+    return check_folders(root) + check_targets(root) + check_drawing(root)
 
 
 def markdown_files(root):

@@ -85,6 +85,68 @@ class Includes(ChecksCase):
     def test_refuses_a_way_around_by_path(self):
         self.refuses("includes", self.HYDRO | {"libfit/src/a.cpp": '#include "../../libhydro/src/base/private.hpp"\n'}, "by path")
 
+    def test_refuses_a_way_around_by_brackets(self):
+        self.refuses("includes", {"libhydro/src/base/a.cpp": "#include <dynamics/state/body.hpp>\n"}, "may not include dynamics/state/body.hpp")
+
+
+class Floors(ChecksCase):
+    UP = '#include "dynamics/force/kind.hpp"\n'
+    FORCE = {"libdynamics/include/dynamics/force/kind.hpp": '#include "dynamics/state/body.hpp"\n',
+             "libdynamics/include/dynamics/state/body.hpp": "\n"}
+
+    def test_accepts_folders_that_use_what_is_below(self):
+        self.accepts("includes", self.FORCE | {"libdynamics/src/force/kind.cpp": '#include "dynamics/force/kind.hpp"\n#include "state/own.hpp"\n',
+                                               "libdynamics/src/state/own.hpp": "\n"})
+
+    def test_refuses_a_folder_that_uses_one_above(self):
+        for file in ("libdynamics/include/dynamics/state/a.hpp", "libdynamics/src/joint/a.cpp"):
+            self.refuses("includes", self.FORCE | {file: self.UP}, f"{file}:1", "may not include libdynamics/force, which is above it")
+        self.refuses("includes", {"apps/scene/a.cpp": '#include "compile/compile.hpp"\n'}, "apps/scene may not include apps/compile")
+        self.refuses("includes", {"apps/compile/a.cpp": '#include "froude/run.hpp"\n'}, "apps/compile may not include apps/froude")
+        self.refuses("includes", {"tests/support/a.hpp": '#include "laws/b.hpp"\n'}, "tests/support may not include tests/laws")
+
+    def test_refuses_a_private_header_of_a_folder_above(self):
+        self.refuses("includes", {"libdynamics/src/line/a.cpp": '#include "integrate/cvode.hpp"\n', "libdynamics/src/integrate/cvode.hpp": "\n"},
+                     "libdynamics/line may not include libdynamics/integrate")
+
+    def test_refuses_a_harness_that_knows_a_case_and_cases_that_know_each_other(self):
+        case = {"validation/hulme/case.hpp": "\n"}
+        text = '#include "hulme/case.hpp"\n'
+        self.refuses("includes", case | {"validation/harness/a.cpp": text}, "validation/harness may not include validation/hulme, which is above")
+        self.refuses("includes", case | {"validation/stick/a.cpp": text}, "validation/stick may not include validation/hulme, which is beside it")
+        self.accepts("includes", case | {"validation/cases.cpp": text})
+
+    def test_refuses_a_folder_without_a_floor(self):
+        self.refuses("includes", self.FORCE | {"libdynamics/src/new/a.cpp": self.UP}, "libdynamics/new has no floor")
+
+    def test_names_the_shortest_circle(self):
+        circle = {"libhydro/src/waves/a.cpp": '#include "hydro/potential/b.hpp"\n#include "hydro/signal/c.hpp"\n',
+                  "libhydro/include/hydro/potential/b.hpp": '#include "hydro/signal/c.hpp"\n',
+                  "libhydro/include/hydro/signal/c.hpp": '\n#include "hydro/waves/d.hpp"\n', "libhydro/include/hydro/waves/d.hpp": "\n"}
+        self.refuses("includes", circle, "a circle: libhydro/signal → libhydro/waves at libhydro/include/hydro/signal/c.hpp:2, "
+                                         "libhydro/waves → libhydro/signal at libhydro/src/waves/a.cpp:2")
+
+    def test_refuses_libraries_that_use_each_other(self):
+        self.refuses("includes", {"libhydro/src/waves/a.cpp": '#include "dynamics/state/b.hpp"\n',
+                                  "libdynamics/include/dynamics/state/b.hpp": '#include "hydro/waves/c.hpp"\n',
+                                  "libhydro/include/hydro/waves/c.hpp": "\n"}, "a circle: libdynamics/state → libhydro/waves")
+
+    def test_refuses_targets_that_link_each_other(self):
+        self.refuses("includes", {"apps/CMakeLists.txt": "add_library(commands STATIC)\ntarget_link_libraries(commands PRIVATE cases)\n",
+                                  "validation/CMakeLists.txt": "add_library(cases STATIC) # a(b\ntarget_link_libraries(cases PUBLIC commands)\n"},
+                     "apps/CMakeLists.txt:2: apps may not link cases of validation", "a circle: cases → commands at validation/CMakeLists.txt:2")
+
+    def test_accepts_test_programs_that_link_the_product(self):
+        self.accepts("includes", {"libhydro/CMakeLists.txt": "froude_library(hydro)\n",
+                                  "tests/CMakeLists.txt": "froude_test(hydro SOURCES hydro_test.cpp LIBRARIES froude::hydro)\n"})
+        self.refuses("includes", {"libhydro/CMakeLists.txt": "froude_library(hydro)\ntarget_link_libraries(froude_hydro PUBLIC support)\n",
+                                  "tests/CMakeLists.txt": "add_library(support)\n"}, "libhydro may not link support of tests")
+
+    def test_refuses_a_drawing_of_another_house(self):
+        drawn = "".join(f"{part}  {' < '.join(floors)}\n" for part, floors in checks.FLOORS.items())
+        self.accepts("includes", {"docs/design.md": drawn})
+        self.refuses("includes", {"docs/design.md": drawn.replace("scene < compile", "compile < scene")}, "the floors of apps are not drawn")
+
 
 class Links(ChecksCase):
     def test_accepts_links_to_files_of_the_repository(self):

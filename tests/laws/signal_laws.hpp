@@ -1,11 +1,11 @@
 #pragma once
-/// \file  The laws of signals (dynamics/model/signal.hpp): a variation is the derivative of the value, and a signal
+/// \file  The laws of signals (dynamics/state/signal.hpp): a variation is the derivative of the value, and a signal
 /// without one says why.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "dynamics/model/signal.hpp"
+#include "dynamics/state/signal.hpp"
 
 namespace laws {
 

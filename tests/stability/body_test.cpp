@@ -11,8 +11,8 @@
 #include "dynamics/force/restoring.hpp"
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/hydrostatics/primitives.hpp"
 #include "support/double_pendulum.hpp"
+#include "support/hull_meshes.hpp"
 #include "support/motion.hpp"
 
 namespace body_test {
@@ -162,7 +162,7 @@ TEST(HardBodies, CapsizeThroughHalfATurn) {
                                                  .inertia = mass * Eigen::Vector3d(1.2, 9, 9).asDiagonal(),
                                                  .rest_position = {Eigen::Vector3d(0, 0, -0.9)},
                                                  .centre_of_gravity = {Eigen::Vector3d(0, 0, 1.6)}})};
-  const auto shape = std::make_shared<const FloatingShape>(hh::Hull(hh::box_mesh({-5, -1, 0}, {5, 1, 2})));
+  const auto shape = std::make_shared<const FloatingShape>(hh::Hull(support::box_mesh({-5, -1, 0}, {5, 1, 2})));
   Forces forces;
   forces.push_back(std::make_unique<GravityKind>(bodies, water.gravity));
   forces.push_back(std::make_unique<BuoyancyKind>(bodies, std::vector<Buoyancy>{{0, shape}}, water));

@@ -6,7 +6,7 @@
 #include "dynamics/force/buoyancy.hpp"
 #include "dynamics/force/gravity.hpp"
 #include "dynamics/force/pto.hpp"
-#include "dynamics/joint/assemble.hpp"
+#include "dynamics/model/assemble.hpp"
 #include "dynamics/model/model.hpp"
 #include "dynamics/spatial/rotation.hpp"
 #include "harness/case.hpp"

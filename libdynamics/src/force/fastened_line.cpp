@@ -4,7 +4,6 @@
 
 #include "dynamics/line/equilibrium.hpp"
 #include "dynamics/spatial/rotation.hpp"
-#include "hydro/base/dense.hpp"
 
 namespace dynamics {
 namespace {
@@ -26,20 +25,6 @@ std::vector<DrivenLine::End> ends_of(const FastenedLine& l, const State& state) 
     out.push_back({state.pose[static_cast<std::size_t>(end.body)].centre + arm,
                    state.twist(end.body).head<3>() + omega.cross(arm)});
   }
-  return out;
-}
-
-/// Accelerations of all ends of all lines, one after the other.
-line::Places accelerations_of(const std::vector<FastenedLine>& lines, const Workspace& workspace) {
-  std::vector<Vector3d> all;
-  for (const FastenedLine& l : lines)
-    for (const auto& end : l.ends) {
-      const Vector3d arm = arm_of(end, workspace.state), omega = workspace.state.twist(end.body).tail<3>();
-      const Vector6 a = workspace.acceleration.segment<6>(6 * end.body);
-      all.push_back(a.head<3>() + a.tail<3>().cross(arm) + omega.cross(omega.cross(arm)));
-    }
-  line::Places out(3, static_cast<Eigen::Index>(all.size()));
-  for (std::size_t k = 0; k < all.size(); ++k) out.col(static_cast<Eigen::Index>(k)) = all[k];
   return out;
 }
 
@@ -101,6 +86,19 @@ void FastenedLineMemory::start(const State& state, const line::Places& accelerat
                      accelerations.middleCols(first, count));
     first += count;
   }
+}
+
+line::Places FastenedLineMemory::accelerations_of_ends(const State& state, const Eigen::VectorXd& acceleration) const {
+  std::vector<Vector3d> all;
+  for (const FastenedLine& l : elements_)
+    for (const auto& end : l.ends) {
+      const Vector3d arm = arm_of(end, state), omega = state.twist(end.body).tail<3>();
+      const Vector6 a = acceleration.segment<6>(6 * end.body);
+      all.push_back(a.head<3>() + a.tail<3>().cross(arm) + omega.cross(omega.cross(arm)));
+    }
+  line::Places out(3, static_cast<Eigen::Index>(all.size()));
+  for (std::size_t k = 0; k < all.size(); ++k) out.col(static_cast<Eigen::Index>(k)) = all[k];
+  return out;
 }
 
 void FastenedLineMemory::accept(const State& state) {
@@ -200,41 +198,6 @@ std::vector<Signal> FastenedLineKind::signals() const {
                },
            .variation = [this, i, k](const Still& still) { return pull_variation(elements_[i], k, still.state); }});
   return out;
-}
-
-const FastenedLineKind* fastened_lines(const Model& model, std::size_t* index) {
-  for (std::size_t k = 0; k < model.forces().size(); ++k)
-    if (const auto* kind = dynamic_cast<const FastenedLineKind*>(model.forces()[k].get())) {
-      if (index != nullptr) *index = k;
-      return kind;
-    }
-  return nullptr;
-}
-
-// Accelerations A of the ends make pulls, which make accelerations G + B A of the bodies' points: linear, so as many
-// trials as there are components tell B, and A = (1 − B)⁻¹ G.
-void start_with_lines(const Model& model, Integrator& integrator, Workspace& workspace) {
-  std::size_t index = 0;
-  const FastenedLineKind* kind = fastened_lines(model, &index);
-  integrator.start(workspace);
-  if (kind == nullptr) return;
-  auto& memory = static_cast<FastenedLineMemory&>(*workspace.memory[index]);
-  const line::Places free = accelerations_of(kind->all(), workspace);
-  constexpr double rest = 1e-9;  // m/s²: what equilibrium leaves
-  if (free.cwiseAbs().maxCoeff() < rest) return;
-  const Eigen::VectorXd G = free.reshaped();
-  MatrixXd left = MatrixXd::Identity(G.size(), G.size());
-  line::Places A = line::Places::Zero(3, free.cols());
-  for (Eigen::Index c = 0; c < G.size(); ++c) {
-    A.setZero();
-    A.reshaped()[c] = 1;
-    memory.start(workspace.state, A);
-    integrator.start(workspace);
-    left.col(c) -= accelerations_of(kind->all(), workspace).reshaped() - G;
-  }
-  A.reshaped() = hydro::dense::Lu(left).solve(G);
-  memory.start(workspace.state, A);
-  integrator.start(workspace);
 }
 
 }  // namespace dynamics

@@ -1,18 +1,10 @@
 #include "dynamics/force/ramped_field.hpp"
 
-#include <cmath>
-#include <numbers>
+#include "dynamics/time/ramp.hpp"
 
 namespace dynamics {
 
 using hydro::waves::Kinematics;
-
-Ramp ramp(double t, double over) {
-  if (t >= over) return {1, 0, 0};
-  if (t <= 0) return {0, 0, 0};
-  const double angle = std::numbers::pi * t / over, w = std::numbers::pi / over;
-  return {0.5 * (1 - std::cos(angle)), 0.5 * w * std::sin(angle), 0.5 * w * w * std::cos(angle)};
-}
 
 RampedField::RampedField(std::shared_ptr<const hydro::waves::WaveField> field, double over,
                          hydro::waves::Current current)

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "dynamics/force/ramped_field.hpp"
+#include "dynamics/time/ramp.hpp"
 
 namespace dynamics {
 

@@ -81,8 +81,7 @@ class FreeMotions {
 
   /// Symmetric: K, M and A of a system at rest are, but for the discretisation error of panel codes.
   Eigen::MatrixXd reduced(const Eigen::MatrixXd& whole) const {
-    const Eigen::MatrixXd m = reduction_.matrix(whole);
-    return (m + m.transpose()) / 2;
+    return hydro::dense::symmetric_part(reduction_.matrix(whole));
   }
 
   template <class Of>

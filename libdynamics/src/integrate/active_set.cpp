@@ -14,11 +14,11 @@ ActiveSet::ActiveSet(const Model& model)
   scale_ = mass.dense().diagonal().cwiseSqrt();
   find_condition_scale(rest);
   for (std::size_t k = 0; k < model.forces().size(); ++k) {
-    if (const FrictionKind* kind = model.forces()[k]->friction()) {
+    if (const FrictionLaw* kind = model.forces()[k]->friction()) {
       hydro::ensure(friction_ == nullptr, "all friction of a model is one kind");
       friction_ = kind, friction_index_ = k;
     }
-    if (const ContactKind* kind = model.forces()[k]->contact()) {
+    if (const ContactLaw* kind = model.forces()[k]->contact()) {
       hydro::ensure(contact_ == nullptr, "all contacts of a model are one kind");
       contact_ = kind, contact_index_ = k;
     }
@@ -58,7 +58,7 @@ void ActiveSet::close(std::size_t element, Workspace& workspace) {
   c.row = conditions_.count();
   conditions_.add(normal);
   if (c.is == ContactState::slides) {
-    if (contact_->all()[element].friction > 0) slides_.push_back({c.row, element, c.slip});
+    if (contact_->element(element).friction > 0) slides_.push_back({c.row, element, c.slip});
     return;
   }
   for (const Condition& along : contact_->sticking(element, workspace.state))
@@ -74,7 +74,7 @@ void ActiveSet::rebuild(Workspace& workspace) {
   if (friction_ != nullptr) {
     const FrictionMemory& memory = friction_memory(workspace);
     for (std::size_t i = 0; i < memory.direction.size(); ++i)
-      if (memory.direction[i] == 0) conditions_.add(friction_->all()[i].travel.holding(workspace.state));
+      if (memory.direction[i] == 0) conditions_.add(friction_->holding(i, workspace.state));
   }
   const Eigen::Index exact = conditions_.count();
   if (contact_ != nullptr)
@@ -95,7 +95,7 @@ Eigen::Vector3d ActiveSet::direction(const Slide& slide, const State& state) con
 
 std::vector<Gradient> ActiveSet::columns(std::vector<Gradient> G, const State& state) const {
   for (const Slide& slide : slides_) {
-    const Contact& c = contact_->all()[slide.element];
+    const Contact& c = contact_->element(slide.element);
     const Eigen::Vector3d n = contact_->meeting(slide.element, state).normal, to = direction(slide, state);
     const Eigen::Vector3d along = (to - to.dot(n) * n).normalized();
     Gradient slip = contact_->along(slide.element, along, state);
@@ -111,8 +111,8 @@ std::vector<Gradient> ActiveSet::columns(std::vector<Gradient> G, const State& s
 void ActiveSet::add_turning(const State& state, const Eigen::VectorXd& multipliers, double by_speed,
                             BlockMatrix& out) const {
   for (const Slide& slide : slides_) {
-    const Contact& c = contact_->all()[slide.element];
-    const ContactKind::Motion motion = contact_->motion(slide.element, state);
+    const Contact& c = contact_->element(slide.element);
+    const ContactLaw::Motion motion = contact_->motion(slide.element, state);
     const double load = -multipliers[slide.row];
     if (load <= 0 || motion.slip.dot(slide.start) <= 0) continue;
     const Eigen::Vector3d across = motion.meeting.normal.cross(motion.slip).normalized();

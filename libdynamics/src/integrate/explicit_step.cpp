@@ -2,7 +2,7 @@
 
 #include <Eigen/LU>
 
-#include "dynamics/joint/assemble.hpp"
+#include "dynamics/model/assemble.hpp"
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/error.hpp"
 

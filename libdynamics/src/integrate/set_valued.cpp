@@ -31,7 +31,7 @@ void SetValuedLaws::classify_friction(Workspace& workspace) const {
   if (active_.friction() == nullptr) return;
   FrictionMemory& memory = active_.friction_memory(workspace);
   for (std::size_t i = 0; i < memory.direction.size(); ++i) {
-    const double rate = active_.friction()->all()[i].travel.rate(workspace.state);
+    const double rate = active_.friction()->rate(i, workspace.state);
     memory.turn(i, std::abs(rate) <= slow(workspace) ? 0 : (rate > 0 ? 1 : -1), workspace.state.time);
   }
 }
@@ -44,7 +44,7 @@ void SetValuedLaws::classify_contacts(Workspace& workspace) const {
     ContactState& c = active_.contact_memory(workspace).contact[i];
     const auto [m, parting, slip] = active_.contact()->motion(i, workspace.state);
     const bool touches = m.gap <= closed && std::abs(parting) <= slow;
-    const bool holds = active_.contact()->all()[i].friction > 0 && slip.norm() <= slow;
+    const bool holds = active_.contact()->element(i).friction > 0 && slip.norm() <= slow;
     c.is = !touches ? ContactState::open : holds ? ContactState::sticks : ContactState::slides;
     if (slip.norm() > 0) c.slip = slip.normalized();
   }
@@ -55,7 +55,7 @@ void SetValuedLaws::begin(Workspace& workspace) {
     for (std::size_t i = 0; i < active_.contact()->elements(); ++i)
       if (const double gap = active_.contact()->gap(i, workspace.state); gap < -closed)
         throw hydro::InputError(fmt::format("contact \"{}\": the shapes overlap by {:.3g} m where the run starts",
-                                            active_.contact()->all()[i].name, -gap),
+                                            active_.contact()->element(i).name, -gap),
                                 {}, "move the bodies apart, or make the shapes smaller");
     collide(workspace);
     classify_contacts(workspace);
@@ -73,7 +73,7 @@ void SetValuedLaws::still(Workspace& workspace, double step) {
   std::vector<std::size_t> near;
   for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
     const double fall = std::abs(pull(i, workspace)) * step;
-    const ContactKind::Motion motion = active_.contact()->motion(i, workspace.state);
+    const ContactLaw::Motion motion = active_.contact()->motion(i, workspace.state);
     if (motion.meeting.gap > fall * step / 2 || std::abs(motion.parting) > fall) continue;
     rows.add(active_.contact()->closed(i));
     near.push_back(i);
@@ -170,9 +170,8 @@ SetValuedLaws::Margin SetValuedLaws::least_margin(Workspace& workspace) const {
     const FrictionMemory& memory = active_.friction_memory(workspace);
     Eigen::Index row = model_.joints().count();
     for (std::size_t i = 0; i < memory.direction.size(); ++i) {
-      const Friction& f = active_.friction()->all()[i];
       if (memory.direction[i] != 0) {
-        consider(Event::Law::friction, i, memory.direction[i] * f.travel.rate(workspace.state), 0);
+        consider(Event::Law::friction, i, memory.direction[i] * active_.friction()->rate(i, workspace.state), 0);
         continue;
       }
       const double load = loads->multipliers[row++];
@@ -193,7 +192,7 @@ SetValuedLaws::Margin SetValuedLaws::least_margin(Workspace& workspace) const {
       contact(active_.contact()->gap(i, workspace.state) + active_.rounding(), ContactState::sticks);
     if (c.row < 0) continue;
     const double mass = active_.condition_scale()[c.row] * active_.condition_scale()[c.row];
-    const double load = -loads->multipliers[c.row], friction = active_.contact()->all()[i].friction;
+    const double load = -loads->multipliers[c.row], friction = active_.contact()->element(i).friction;
     bears(i, load / mass + rounding, ContactState::open);
     if (c.is == ContactState::sticks)
       bears(i, (friction * load - loads->multipliers.segment(c.row + 1, c.held).norm()) / mass + rounding,
@@ -249,7 +248,7 @@ bool SetValuedLaws::release(Workspace& workspace) {
     if (exceeds(-load - rounding / 2)) let_go = [&c] { c.is = ContactState::open; };
     if (c.is != ContactState::sticks) continue;
     const double held = workspace.multipliers.segment(c.row + 1, c.held).norm() / mass;
-    if (exceeds(held - active_.contact()->all()[i].friction * std::max(load, 0.0) - rounding / 2))
+    if (exceeds(held - active_.contact()->element(i).friction * std::max(load, 0.0) - rounding / 2))
       let_go = [this, &c, &workspace, i] {
         c.slip = direction_of_slip(i, workspace.multipliers, workspace);
         c.is = ContactState::slides;
@@ -270,10 +269,10 @@ bool SetValuedLaws::close_what_would_overlap(Workspace& workspace) {
   for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
     ContactState& c = active_.contact_memory(workspace).contact[i];
     if (c.is != ContactState::open) continue;
-    const ContactKind::Motion motion = active_.contact()->motion(i, workspace.state);
+    const ContactLaw::Motion motion = active_.contact()->motion(i, workspace.state);
     if (motion.meeting.gap > closed || std::abs(motion.parting) > slow(workspace)) continue;
     if (pull(i, workspace) >= -rounding({workspace.acceleration, workspace.multipliers})) continue;
-    c.is = active_.contact()->all()[i].friction > 0 ? ContactState::sticks : ContactState::slides;
+    c.is = active_.contact()->element(i).friction > 0 ? ContactState::sticks : ContactState::slides;
     any = true;
   }
   return any;
@@ -297,7 +296,7 @@ Eigen::VectorXd SetValuedLaws::slip_power(Workspace& workspace) const {
   for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
     const ContactState& c = active_.contact_memory(workspace).contact[i];
     if (c.is != ContactState::slides || c.row < 0) continue;
-    power[static_cast<Eigen::Index>(i)] = active_.contact()->all()[i].friction * -workspace.multipliers[c.row] *
+    power[static_cast<Eigen::Index>(i)] = active_.contact()->element(i).friction * -workspace.multipliers[c.row] *
                                           active_.contact()->motion(i, workspace.state).slip.norm();
   }
   return power;
@@ -324,7 +323,7 @@ bool SetValuedLaws::follow_rolling(Workspace& workspace) {
       const Eigen::Vector3d slip = active_.contact()->motion(i, workspace.state).slip;
       if (slip.norm() > slow(workspace)) c.slip = slip.normalized();
     }
-    any = any || (c.is != ContactState::open && active_.contact()->all()[i].friction > 0);
+    any = any || (c.is != ContactState::open && active_.contact()->element(i).friction > 0);
   }
   if (!any) return false;
   active_.rebuild(workspace);

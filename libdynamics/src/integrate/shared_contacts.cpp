@@ -27,7 +27,7 @@ std::optional<SetValuedLaws::Shared> SetValuedLaws::shared(Workspace& workspace)
   for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
     const ContactState& c = active_.contact_memory(workspace).contact[i];
     if (c.row < 0) continue;
-    const double friction = active_.contact()->all()[i].friction;
+    const double friction = active_.contact()->element(i).friction;
     rough = rough || friction > 0;
     const int held = c.is == ContactState::sticks ? c.held : 0;
     out.mass.segment(c.row + 1, held).setConstant(out.mass[c.row]);
@@ -69,7 +69,7 @@ void SetValuedLaws::share_loads(Workspace& workspace) {
     const int held = c.is == ContactState::sticks ? c.held : 0;
     const double mass = active_.condition_scale()[c.row] * active_.condition_scale()[c.row];
     all_bear =
-        Bearing{c.row, held, active_.contact()->all()[i].friction}.spare(workspace.multipliers) >= -granted * mass;
+        Bearing{c.row, held, active_.contact()->element(i).friction}.spare(workspace.multipliers) >= -granted * mass;
   }
   if (all_bear) return;
   shares_ = false;

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "cvode.hpp"
 #include "explicit_step.hpp"
 #include "hydro/base/error.hpp"
+#include "time/cvode.hpp"
 
 namespace dynamics {
 

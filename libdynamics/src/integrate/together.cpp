@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "dynamics/integrate/set_valued.hpp"
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "impact.hpp"
 
@@ -36,13 +37,13 @@ struct SetValuedLaws::Touching {
 
 SetValuedLaws::Touching SetValuedLaws::touching(const JointSet& held, std::vector<std::size_t> elements,
                                                 Workspace& workspace) const {
-  const ContactKind& kind = *active_.contact();
+  const ContactLaw& kind = *active_.contact();
   const State& state = workspace.state;
   Touching out{std::move(elements), {}, held.with_only({}), {}, {}, {}, KktSolver(model_.pattern(), held), {}};
   for (const std::size_t i : out.element) {
-    out.laws.push_back({out.rows.count(), bounces_spent_ ? 0 : kind.all()[i].restitution, kind.all()[i].friction});
+    out.laws.push_back({out.rows.count(), bounces_spent_ ? 0 : kind.element(i).restitution, kind.element(i).friction});
     out.rows.add(kind.closed(i));
-    if (kind.all()[i].friction > 0)
+    if (kind.element(i).friction > 0)
       for (const Condition& along : kind.sticking(i, state)) out.rows.add(along);
   }
   out.R = out.rows.dense(out.rows.gradients(state));
@@ -54,8 +55,7 @@ SetValuedLaws::Touching SetValuedLaws::touching(const JointSet& held, std::vecto
         fmt::format("no impulses can be found at t = {} s: the mass matrix is singular", state.time));
   out.gained.resize(model_.modes(), out.R.rows());
   for (Index i = 0; i < out.R.rows(); ++i) out.gained.col(i) = out.held.solve(out.R.row(i).transpose(), nothing).x;
-  const MatrixXd W = out.R * out.gained;
-  out.W = (W + W.transpose()) / 2;
+  out.W = hydro::dense::symmetric_part(out.R * out.gained);
   return out;
 }
 
@@ -67,7 +67,7 @@ bool SetValuedLaws::collide(Workspace& workspace) {
   std::vector<std::size_t> elements;
   bool approaching = false;
   for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
-    const ContactKind::Motion motion = active_.contact()->motion(i, state);
+    const ContactLaw::Motion motion = active_.contact()->motion(i, state);
     if (motion.meeting.gap > closed) continue;
     approaching = approaching || motion.parting < -slow(workspace);
     elements.push_back(i);
@@ -99,16 +99,15 @@ ContactState::Is becomes(double load, double parting, double slip, bool slides, 
 
 /// What touches and does not part, among bodies that joints and frictions hold. What slips already goes on so.
 SetValuedLaws::Touching SetValuedLaws::touching_now(Workspace& workspace) const {
-  const ContactKind& kind = *active_.contact();
+  const ContactLaw& kind = *active_.contact();
   const State& state = workspace.state;
   JointSet held = model_.joints();
   for (std::size_t i = 0; active_.friction() != nullptr && i < active_.friction()->elements(); ++i)
-    if (active_.friction_memory(workspace).direction[i] == 0)
-      held.add(active_.friction()->all()[i].travel.holding(state));
+    if (active_.friction_memory(workspace).direction[i] == 0) held.add(active_.friction()->holding(i, state));
   std::vector<std::size_t> elements;
   std::vector<Eigen::Vector3d> slips;
   for (std::size_t i = 0; i < kind.elements(); ++i) {
-    const ContactKind::Motion motion = kind.motion(i, state);
+    const ContactLaw::Motion motion = kind.motion(i, state);
     if (motion.meeting.gap > closed || std::abs(motion.parting) > slow(workspace)) continue;
     elements.push_back(i);
     slips.push_back(motion.slip);

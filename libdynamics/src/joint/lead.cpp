@@ -3,8 +3,8 @@
 #include <cmath>
 #include <memory>
 
-#include "dynamics/force/ramped_field.hpp"
 #include "dynamics/line/path.hpp"
+#include "dynamics/time/ramp.hpp"
 #include "hydro/base/error.hpp"
 
 namespace dynamics {

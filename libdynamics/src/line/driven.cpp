@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "dynamics/integrate/alpha_parameters.hpp"
+#include "dynamics/time/alpha_parameters.hpp"
 #include "hydro/base/error.hpp"
 
 namespace dynamics::line {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "dynamics/integrate/alpha_parameters.hpp"
+#include "dynamics/time/alpha_parameters.hpp"
 #include "equations.hpp"
 #include "hydro/base/error.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/QR>
 
-#include "dynamics/joint/assemble.hpp"
+#include "dynamics/model/assemble.hpp"
 #include "hydro/base/error.hpp"
 
 namespace dynamics {

@@ -41,7 +41,7 @@ Model::Model(std::vector<RigidBody> bodies, std::vector<AddedMass> added_mass,
       M.col(i).setZero();
       M(i, i) = 1;
     }
-  M = (M + M.transpose()) / 2;
+  M = hydro::dense::symmetric_part(M);
   if (hydro::dense::Cholesky(M)) {
     leave_out_redundant(M.diagonal().cwiseSqrt());
     return;

@@ -93,6 +93,8 @@ MatrixXd Cholesky::L() const { return factors_->llt.matrixL(); }
 
 MatrixXd inverse(const MatrixXd& A) { return A.inverse(); }
 
+MatrixXd symmetric_part(const MatrixXd& A) { return (A + A.transpose()) / 2; }
+
 SymmetricEigen symmetric_eigen(const MatrixXd& A) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(A);
   return {eigen.eigenvalues(), eigen.eigenvectors()};

@@ -81,7 +81,7 @@ Turn turned(const Matrix3d& attitude, const std::vector<int>& axes, const Vector
 
 /// Newton's step with every curvature taken as positive, so that it leads downhill; at most 0.3 rad.
 VectorXd downhill_step(const Balance& b, double scale) {
-  const auto [values, vectors] = dense::symmetric_eigen((b.K + b.K.transpose()) / 2);
+  const auto [values, vectors] = dense::symmetric_eigen(dense::symmetric_part(b.K));
   VectorXd step = vectors.transpose() * b.moment;
   for (Index i = 0; i < step.size(); ++i) step[i] /= std::max(std::abs(values[i]), 1e-9 * scale);
   step = vectors * step;
@@ -116,7 +116,7 @@ Equilibrium descend(const Hull& hull, const MassPoint& body, const Water& water,
     }
     if (!moved) break;
   }
-  const VectorXd curvatures = dense::symmetric_eigenvalues((b.K + b.K.transpose()) / 2);
+  const VectorXd curvatures = dense::symmetric_eigenvalues(dense::symmetric_part(b.K));
   e.stable = e.converged && b.heave_stiffness > 0 && curvatures.minCoeff() > 1e-9 * scale;
   e.pose = b.pose;
   e.arm = b.arm;

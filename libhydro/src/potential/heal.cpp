@@ -43,7 +43,7 @@ Sizes sizes_of(const Coefficients& c) {
 HealStep symmetrise(Coefficients& c, const Sizes& s) {
   double largest = 0;
   const auto change = [&](MatrixXd& m, const VectorXd& size) {
-    largest = std::max(largest, replace(m, (m + m.transpose()) / 2, size));
+    largest = std::max(largest, replace(m, dense::symmetric_part(m), size));
   };
   for (auto& A : c.A) change(A, s.A);
   for (auto& B : c.B) change(B, s.B);
@@ -162,7 +162,7 @@ HealStep make_passive(Coefficients& c, const VectorXd& s) {
   const VectorXd scale = s.cwiseSqrt().unaryExpr([](double x) { return x > 0 ? x : 1.0; });
   for (auto& B : c.B) {
     const MatrixXd scaled =
-        scale.cwiseInverse().asDiagonal() * ((B + B.transpose()) / 2) * scale.cwiseInverse().asDiagonal();
+        scale.cwiseInverse().asDiagonal() * dense::symmetric_part(B) * scale.cwiseInverse().asDiagonal();
     const auto [values, vectors] = dense::symmetric_eigen(scaled);
     if (values(0) >= 0) continue;
     const MatrixXd skew = (B - B.transpose()) / 2;  // does no work, and is another step's business

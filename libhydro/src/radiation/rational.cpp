@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/interpolation.hpp"
 #include "hydro/radiation/tail.hpp"
@@ -95,8 +96,8 @@ Data prepared(const DampingTable& given, const std::vector<Eigen::MatrixXd>& A,
                                [&](std::size_t k) { return whole.table.B[k]; }));
       above = scaled(d, added_mass_above_limit(whole.table, omega));
     }
-    d.samples.values.row(r).real() = detail::packed((B + B.transpose()) / 2);
-    d.samples.values.row(r).imag() = omega * detail::packed((above + above.transpose()) / 2);
+    d.samples.values.row(r).real() = detail::packed(dense::symmetric_part(B));
+    d.samples.values.row(r).imag() = omega * detail::packed(dense::symmetric_part(above));
     if (B.trace() > most) {
       most = B.trace();
       d.centre = omega;

@@ -120,7 +120,7 @@ void prefer_straightness(Problem& p, const Eigen::RowVectorXd& last_B) {
 /// zero. (R11)
 Eigen::MatrixXd passive(const Eigen::MatrixXd& B, const Eigen::VectorXd& size) {
   const Eigen::MatrixXd scaled =
-      size.cwiseInverse().asDiagonal() * ((B + B.transpose()) / 2) * size.cwiseInverse().asDiagonal();
+      size.cwiseInverse().asDiagonal() * dense::symmetric_part(B) * size.cwiseInverse().asDiagonal();
   const auto [values, vectors] = dense::symmetric_eigen(scaled);
   return size.asDiagonal() * vectors * values.cwiseMax(0).asDiagonal() * vectors.transpose() * size.asDiagonal();
 }

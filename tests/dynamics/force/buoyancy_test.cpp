@@ -11,8 +11,8 @@
 #include "dynamics/integrate/generalized_alpha.hpp"
 #include "dynamics/integrate/ledger.hpp"
 #include "dynamics/spatial/rotation.hpp"
-#include "hydro/hydrostatics/primitives.hpp"
 #include "hydro/hydrostatics/stability.hpp"
+#include "support/hull_meshes.hpp"
 
 namespace buoyancy_test {
 namespace {
@@ -29,7 +29,7 @@ const hydro::Water water{.density = 1000, .gravity = 9.81};
 const Eigen::Vector3d cog(0, 0, 1.1);
 constexpr double draught = 0.8, mass = 1000 * 10 * 4 * draught;
 std::shared_ptr<const FloatingShape> barge(double top = 2) {
-  return std::make_shared<const FloatingShape>(hh::Hull(hh::box_mesh({-5, -2, 0}, {5, 2, top})));
+  return std::make_shared<const FloatingShape>(hh::Hull(support::box_mesh({-5, -2, 0}, {5, 2, top})));
 }
 std::vector<RigidBody> floating() {
   return {RigidBody({.name = "barge",
@@ -108,7 +108,7 @@ TEST(Buoyancy, RollsSlowlyAtThePeriodOfTheMetacentre) {
 }
 
 TEST(Buoyancy, EndsTheModelWhereWaterComesInThroughAnOpening) {
-  hh::TriangleMesh open = hh::box_mesh({-5, -2, 0}, {5, 2, 1});
+  hh::TriangleMesh open = support::box_mesh({-5, -2, 0}, {5, 2, 1});
   std::erase_if(open.triangles, [&](const auto& t) {  // the deck
     return std::all_of(t.begin(), t.end(), [&](int v) { return open.vertices[static_cast<std::size_t>(v)].z() == 1; });
   });

@@ -7,12 +7,12 @@
 #include "dynamics/force/restoring.hpp"
 #include "dynamics/force/switched_connector.hpp"
 #include "dynamics/force/wave_loads.hpp"
-#include "hydro/hydrostatics/primitives.hpp"
 #include "hydro/radiation/constant_memory.hpp"
 #include "hydro/radiation/convolution.hpp"
 #include "hydro/radiation/partitioned.hpp"
 #include "hydro/radiation/pole_memory.hpp"
 #include "laws/force_kind_laws.hpp"
+#include "support/hull_meshes.hpp"
 #include "support/two_pole_body.hpp"
 
 namespace force_laws_test {
@@ -44,7 +44,7 @@ TEST(ForceLaws, HoldForBuoyancy) {
   namespace hh = hydro::hydrostatics;
   const auto shape = [](FloatingShape s) { return std::make_shared<const FloatingShape>(std::move(s)); };
   const BuoyancyKind kind(bodies,
-                          {{0, shape(hh::Hull(hh::box_mesh({-1, -0.5, -0.6}, {1.2, 0.6, 0.5})))},
+                          {{0, shape(hh::Hull(support::box_mesh({-1, -0.5, -0.6}, {1.2, 0.6, 0.5})))},
                            {1, shape(hh::CircularCylinder{{0.2, 0, -0.7}, {0.1, 0, 0.9}, 0.6})},
                            {1, shape(hh::Sphere{{-0.9, 0.3, -0.2}, 0.5})}},
                           hydro::Water{.density = 1000, .gravity = 9.81});

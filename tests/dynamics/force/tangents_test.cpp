@@ -20,9 +20,9 @@
 #include "dynamics/force/restoring.hpp"
 #include "dynamics/force/switched_connector.hpp"
 #include "dynamics/joint/conditions.hpp"
-#include "hydro/hydrostatics/primitives.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "laws/automatic_tangents.hpp"
+#include "support/hull_meshes.hpp"
 #include "support/small_seas.hpp"
 
 namespace tangents_test {
@@ -356,7 +356,7 @@ void add_wet_triangle(const std::array<JetVector, 3>& corner, std::array<Jet, 3>
 
 TEST(Tangents, OfBuoyancyFollowFromTheWetVolume) {  // (D30)
   namespace hh = hydro::hydrostatics;
-  const auto mesh = hh::box_mesh({-1, -0.5, -0.6}, {1.2, 0.6, 0.5});
+  const auto mesh = support::box_mesh({-1, -0.5, -0.6}, {1.2, 0.6, 0.5});
   const Eigen::Vector3d middle(-0.9, 0.3, -0.2), cog(0.1, -0.2, 0.3);
   const double radius = 0.9, weight = 1000 * 9.81;
   const BuoyancyKind kind(bodies,

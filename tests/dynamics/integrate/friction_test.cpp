@@ -10,7 +10,7 @@
 #include "dynamics/force/restoring.hpp"
 #include "dynamics/integrate/generalized_alpha.hpp"
 #include "dynamics/integrate/ledger.hpp"
-#include "dynamics/joint/assemble.hpp"
+#include "dynamics/model/assemble.hpp"
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/error.hpp"
 #include "laws/force_kind_laws.hpp"

@@ -9,7 +9,7 @@
 #include "dynamics/force/gravity.hpp"
 #include "dynamics/force/restoring.hpp"
 #include "dynamics/frequency/modes.hpp"
-#include "dynamics/joint/assemble.hpp"
+#include "dynamics/model/assemble.hpp"
 #include "dynamics/spatial/rotation.hpp"
 
 namespace joint_linear_test {

@@ -9,7 +9,7 @@
 #include "dynamics/force/gravity.hpp"
 #include "dynamics/force/restoring.hpp"
 #include "dynamics/integrate/explicit_pair.hpp"
-#include "dynamics/joint/assemble.hpp"
+#include "dynamics/model/assemble.hpp"
 #include "hydro/base/error.hpp"
 #include "support/motion.hpp"
 

@@ -9,6 +9,7 @@
 #include "dynamics/force/gravity.hpp"
 #include "dynamics/integrate/generalized_alpha.hpp"
 #include "dynamics/integrate/ledger.hpp"
+#include "dynamics/integrate/start_with_lines.hpp"
 #include "dynamics/line/catenary.hpp"
 #include "dynamics/line/equilibrium.hpp"
 #include "dynamics/model/equilibrium.hpp"
@@ -86,7 +87,7 @@ TEST(FastenedLine, MovesItsBodyAsABobOfItsOwn) {
       const dynamics::Model model(bodies, {}, weight_and_line(bodies, {hung(springs(4, stiffness))}));
       Workspace w(model, dynamics::rest_state(bodies));
       GeneralizedAlpha integrator(model, {});
-      dynamics::start_with_lines(model, integrator, w);
+      dynamics::start_with_lines(integrator, w);
       double farthest = 0, off = 0;
       for (int i = 0; i < 150; ++i) {
         stepper.step(bobs, 0.02);
@@ -136,7 +137,7 @@ TEST(FastenedLine, ThatGoesSlackGainsNoEnergyInASnap) {
         start.velocity[2] = 5;
         Workspace w(model, start);
         GeneralizedAlpha integrator(model, {.rho_infinity = 0});
-        dynamics::start_with_lines(model, integrator, w);
+        dynamics::start_with_lines(integrator, w);
         const auto energy = [&] {
           return model.kinetic_energy(w.state) + mass * gravity * (w.state.pose[0].centre.z() + 10) +
                  model.forces()[1]->energy(w.instant(w.state, 1)).stored;
@@ -168,7 +169,7 @@ TEST(FastenedLine, ThatGoesSlackSnapsAsASpringDoes) {
     for (const double fine : {0.1, 0.05}) {
       Workspace w(model, start);
       GeneralizedAlpha integrator(model, {.rho_infinity = 0});
-      dynamics::start_with_lines(model, integrator, w);
+      dynamics::start_with_lines(integrator, w);
       double most = 0;
       const double h = fine / omega;
       for (int i = 0; i < std::lround((1.2 + 4 / omega) / h); ++i) {
@@ -278,7 +279,7 @@ TEST(FastenedLine, IsTheSameInTwo) {
     const dynamics::Model model(bodies, {}, weight_and_line(bodies, {l}));
     Workspace w(model, dynamics::rest_state(bodies));
     GeneralizedAlpha integrator(model, {});
-    dynamics::start_with_lines(model, integrator, w);
+    dynamics::start_with_lines(integrator, w);
     for (int i = 0; i < 100; ++i) integrator.step(w, 0.02);
     heights.push_back(w.state.pose[0].centre.z());
   }
@@ -323,7 +324,7 @@ TEST(FastenedLine, HangsStillWhereEquilibriumPutsIt) {
   const double bottom = -5 * (1 + gravity * (10.0 / 2 + 5) / 1e5) - 0.2;
   EXPECT_NEAR(w.state.pose[0].centre.z(), bottom, 1e-9);
   GeneralizedAlpha integrator(model, {});
-  dynamics::start_with_lines(model, integrator, w);
+  dynamics::start_with_lines(integrator, w);
   for (int i = 0; i < 50; ++i) integrator.step(w, 0.02);
   EXPECT_NEAR(w.state.pose[0].centre.z(), bottom, 1e-8);
   EXPECT_LT(w.state.velocity.norm(), 1e-7);
@@ -341,7 +342,7 @@ TEST(FastenedLine, SwingsAtTheFrequencyOfAMassOnAHeavySpring) {
   state.pose[0].centre.z() += 0.01;
   Workspace w(model, state);
   GeneralizedAlpha integrator(model, {.rho_infinity = 0.98});
-  dynamics::start_with_lines(model, integrator, w);
+  dynamics::start_with_lines(integrator, w);
   const int steps = 2000;
   const double h = 10 * 2 * M_PI / omega / steps;  // ten periods
   for (int i = 0; i < steps; ++i) integrator.step(w, h);
@@ -358,7 +359,7 @@ TEST(FastenedLine, ClosesTheLedgerOfTheBodiesToTheOrderOfTheStep) {
     const dynamics::Model model(bodies, {}, weight_and_line(bodies, {hung(springs(3, 2e3), {0, 0, 0.2})}));
     Workspace w(model, dynamics::rest_state(bodies));
     GeneralizedAlpha integrator(model, {.rho_infinity = 0.99});
-    dynamics::start_with_lines(model, integrator, w);
+    dynamics::start_with_lines(integrator, w);
     dynamics::EnergyLedger ledger(model, w);
     for (int i = 0; i < 400 << k; ++i) {
       integrator.step(w, 5e-3 / (1 << k));

@@ -5,9 +5,11 @@
 #include <random>
 
 #include "hydro/hydrostatics/immersion.hpp"
-#include "hydro/hydrostatics/primitives.hpp"
+#include "support/hull_meshes.hpp"
 
 namespace hydro::hydrostatics {
+
+using support::box_mesh, support::cylinder_mesh, support::joined, support::sphere_mesh;
 
 inline constexpr double degree = std::numbers::pi / 180;
 inline const Water water{.density = 1000, .gravity = 9.81};

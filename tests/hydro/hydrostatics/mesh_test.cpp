@@ -241,12 +241,5 @@ TEST(Primitives, KnowWhatTheirChordsLack) {  // (H2)
   EXPECT_NEAR(chord_volume(Hull(box_mesh({0, 0, 0}, {1, 2, 3}))), 0, 1e-15);
 }
 
-TEST(Primitives, RefuseSizesThatAreNone) {
-  EXPECT_THAT([] { box_mesh({0, 0, 0}, {1, 0, 1}); }, ThrowsMessage<InputError>(HasSubstr("box")));
-  EXPECT_THAT([] { cylinder_mesh({0, 0}, -1, 0, 1, 8); }, ThrowsMessage<InputError>(HasSubstr("radius")));
-  EXPECT_THAT([] { cylinder_mesh({0, 0}, 1, 0, 1, 2); }, ThrowsMessage<InputError>(HasSubstr("three walls")));
-  EXPECT_THAT([] { sphere_mesh({0, 0, 0}, std::nan(""), 2); }, ThrowsMessage<InputError>(HasSubstr("radius")));
-}
-
 }  // namespace
 }  // namespace hydro::hydrostatics::mesh_test

@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "dynamics/model/body.hpp"
+#include "dynamics/state/body.hpp"
 
 namespace dynamics {
 

@@ -1,7 +1,6 @@
 #pragma once
 /// \file  Lines of nodes with ends on bodies, stepped together with them. (D90)-(D92)
 #include "dynamics/force/force_kind.hpp"
-#include "dynamics/integrate/integrator.hpp"
 #include "dynamics/line/driven.hpp"
 
 namespace dynamics {
@@ -33,6 +32,8 @@ class FastenedLineMemory final : public Memory {
   void accept(const State& state) override;
   /// Begins again at `state`, its lines at rest, with accelerations (3, all ends) of the points that hold them.
   void start(const State& state, const line::Places& accelerations);
+  /// Accelerations (3, all ends) of the points that hold them, where bodies have `acceleration`, (6N).
+  line::Places accelerations_of_ends(const State& state, const Eigen::VectorXd& acceleration) const;
   line::DrivenLine& line(std::size_t i) { return *lines_[i]; }
   const line::DrivenLine& line(std::size_t i) const { return *lines_[i]; }
 
@@ -60,16 +61,10 @@ class FastenedLineKind final : public ForceKind {
   EnergyFlow energy(const Instant& now) const override;
   bool linear_at_rest() const override { return true; }
   std::vector<Signal> signals() const override;
-  const std::vector<FastenedLine>& all() const { return elements_; }
+  const char* steps_stay_whole() const override { return "lines on bodies step whole"; }
 
  private:
   std::vector<FastenedLine> elements_;
 };
-
-/// The kind among a model's; null if it has none. `index`: its place.
-const FastenedLineKind* fastened_lines(const Model& model, std::size_t* index = nullptr);
-
-/// Starts a run: as Integrator::start(), with accelerations of bodies and lines that belong together (D91).
-void start_with_lines(const Model& model, Integrator& integrator, Workspace& workspace);
 
 }  // namespace dynamics

@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/model/block_matrix.hpp"
-#include "dynamics/model/body.hpp"
-#include "dynamics/model/signal.hpp"
+#include "dynamics/state/block_matrix.hpp"
+#include "dynamics/state/body.hpp"
+#include "dynamics/state/signal.hpp"
 
 namespace dynamics {
 
@@ -101,8 +101,8 @@ struct EnergyFlow {
   std::optional<double> dissipated_so_far = {};  ///< J since the start, of kinds that know it exactly
 };
 
-class FrictionKind;
-class ContactKind;
+class FrictionLaw;
+class ContactLaw;
 
 class ForceKind {
  public:
@@ -132,9 +132,14 @@ class ForceKind {
   /// Why this kind has no load for what happened between two states that follow each other; empty if it has.
   virtual std::string breaks_off(const State& /*before*/, const State& /*after*/) const { return {}; }
 
+  /// True if the memory takes up states at the ends of steps only: a method that looks between them misses the newest.
+  virtual bool remembers_whole_steps() const { return false; }
+  /// Why a step cannot be cut in parts to a tolerance; null if it can.
+  virtual const char* steps_stay_whole() const { return nullptr; }
+
   /// The set-valued laws of this kind, which an integrator must see; null if it has none.
-  virtual const FrictionKind* friction() const { return nullptr; }
-  virtual const ContactKind* contact() const { return nullptr; }
+  virtual const FrictionLaw* friction() const { return nullptr; }
+  virtual const ContactLaw* contact() const { return nullptr; }
 };
 
 /// ½ vᵀ (dM/dt) v of a kind's own mass along the motion, W (D40): by central differences over ± 10 µs, error of about

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "dynamics/model/body.hpp"
+#include "dynamics/state/body.hpp"
 #include "hydro/waves/field.hpp"
 
 namespace dynamics {

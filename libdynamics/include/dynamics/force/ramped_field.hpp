@@ -6,13 +6,7 @@
 
 namespace dynamics {
 
-/// r(t) of (D6): from 0 at t = 0 to 1 at `over_s` by a half cosine; 1 throughout where over_s is 0.
-struct Ramp {
-  double value, rate, bend;  ///< r, dr/dt in 1/s, d²r/dt² in 1/s²
-};
-Ramp ramp(double t_s, double over_s);
-
-/// The field with its waves, not its current, times r(t) (D41). Immutable.
+/// The field with its waves, not its current, times r(t) of ramp() (D41). Immutable.
 class RampedField final : public hydro::waves::WaveField {
  public:
   /// `current`: that of the field.

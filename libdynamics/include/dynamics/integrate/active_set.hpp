@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "dynamics/force/contact.hpp"
-#include "dynamics/force/friction.hpp"
+#include "dynamics/force/contact_law.hpp"
+#include "dynamics/force/friction_law.hpp"
 #include "dynamics/model/model.hpp"
 
 namespace dynamics {
@@ -17,8 +17,8 @@ class ActiveSet {
  public:
   explicit ActiveSet(const Model& model);
 
-  const FrictionKind* friction() const { return friction_; }
-  const ContactKind* contact() const { return contact_; }
+  const FrictionLaw* friction() const { return friction_; }
+  const ContactLaw* contact() const { return contact_; }
   bool may_change() const { return friction_ != nullptr || contact_ != nullptr; }
   FrictionMemory& friction_memory(Workspace& workspace) const;
   ContactMemory& contact_memory(Workspace& workspace) const;
@@ -64,8 +64,8 @@ class ActiveSet {
   };
   Eigen::Vector3d direction(const Slide& slide, const State& state) const;
   const Model& model_;
-  const FrictionKind* friction_ = nullptr;
-  const ContactKind* contact_ = nullptr;
+  const FrictionLaw* friction_ = nullptr;
+  const ContactLaw* contact_ = nullptr;
   std::size_t friction_index_ = 0, contact_index_ = 0;  // among the model's forces
   JointSet conditions_;
   std::vector<Slide> slides_;

@@ -2,8 +2,8 @@
 /// \file  Time stepping by generalised-α on rotations and translations, with the guards that keep it finite.
 #include <Eigen/Core>
 
-#include "dynamics/integrate/alpha_parameters.hpp"
 #include "dynamics/integrate/newton_integrator.hpp"
+#include "dynamics/time/alpha_parameters.hpp"
 
 namespace dynamics {
 

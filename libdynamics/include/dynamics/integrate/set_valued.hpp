@@ -8,7 +8,7 @@ namespace dynamics {
 struct Event {
   enum class Law { friction, contact } law;
   double time;          ///< s
-  std::size_t element;  ///< of FrictionKind::all() or ContactKind::all()
+  std::size_t element;  ///< of the friction or contact law
   int becomes;          ///< friction: the direction in which it slips, 0 if it sticks; contact: a ContactState::Is
 };
 

@@ -14,10 +14,10 @@
 #include <variant>
 #include <vector>
 
-#include "dynamics/model/block_matrix.hpp"
-#include "dynamics/model/body.hpp"
-#include "dynamics/model/signal.hpp"
 #include "dynamics/spatial/shape.hpp"
+#include "dynamics/state/block_matrix.hpp"
+#include "dynamics/state/body.hpp"
+#include "dynamics/state/signal.hpp"
 
 namespace dynamics {
 

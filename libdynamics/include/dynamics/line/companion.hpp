@@ -3,8 +3,8 @@
 #include <memory>
 #include <optional>
 
-#include "dynamics/integrate/growth.hpp"
 #include "dynamics/line/stepper.hpp"
+#include "dynamics/time/growth.hpp"
 
 namespace dynamics::line {
 

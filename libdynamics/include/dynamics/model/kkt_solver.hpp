@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dynamics/joint/joint.hpp"
-#include "dynamics/model/block_matrix.hpp"
+#include "dynamics/state/block_matrix.hpp"
 
 namespace dynamics {
 

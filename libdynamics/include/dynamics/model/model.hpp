@@ -8,9 +8,9 @@
 
 #include "dynamics/force/force_kind.hpp"
 #include "dynamics/joint/joint.hpp"
-#include "dynamics/model/block_matrix.hpp"
-#include "dynamics/model/body.hpp"
 #include "dynamics/model/kkt_solver.hpp"
+#include "dynamics/state/block_matrix.hpp"
+#include "dynamics/state/body.hpp"
 
 namespace dynamics {
 
@@ -95,6 +95,13 @@ class Workspace {
   BlockMatrix matrix;
   KktSolver solver;
 
+  /// The memory of that type; null if no kind has one.
+  template <class OfKind>
+  OfKind* find_memory() const {
+    for (const auto& m : memory)
+      if (auto* found = dynamic_cast<OfKind*>(m.get())) return found;
+    return nullptr;
+  }
   Instant instant(const State& at, std::size_t kind) { return {at, memory[kind].get()}; }
   /// A signal of `model`, read now.
   double read(const Signal& signal, const Model& model) const {

@@ -150,6 +150,9 @@ class Cholesky {
 /// A⁻¹ by LU; for small, well-conditioned A only.
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& A);
 
+/// (A + Aᵀ)/2: of all symmetric matrices the nearest to A.
+Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& A);
+
 /// A = V diag(values) Vᵀ of a symmetric matrix, of which the lower triangle is read; values ascend.
 struct SymmetricEigen {
   Eigen::VectorXd values;

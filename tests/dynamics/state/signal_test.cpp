@@ -1,5 +1,5 @@
 // Signals of bodies, joints and of kinds that the laws of forces do not reach.
-#include "dynamics/model/signal.hpp"
+#include "dynamics/state/signal.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "dynamics/model/body.hpp"
+#include "dynamics/state/body.hpp"
 
 namespace dynamics {
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "cvode.hpp"
 #include "hydro/base/error.hpp"
+#include "time/cvode.hpp"
 
 namespace dynamics::line {
 

@@ -1,16 +1,20 @@
-#include "hydro/hydrostatics/primitives.hpp"
+#pragma once
+/// \file  Simple hulls as closed meshes, whose flat triangles displace less than the shapes they stand for. (H3)
+#include <Eigen/Core>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
-namespace hydro::hydrostatics {
+#include "hydro/hydrostatics/mesh.hpp"
+
+namespace support {
 
 using Eigen::Vector3d;
+using hydro::hydrostatics::TriangleMesh;
 
-TriangleMesh box_mesh(const Vector3d& low, const Vector3d& high) {
-  require(low.allFinite() && high.allFinite() && (high - low).minCoeff() > 0,
-          "a box reaches from its low corner to a higher one in x, y and z; its sides are {} m, {} m and {} m",
-          high.x() - low.x(), high.y() - low.y(), high.z() - low.z());
+/// A box between two opposite corners, 12 triangles, exact.
+inline TriangleMesh box_mesh(const Vector3d& low, const Vector3d& high) {
   TriangleMesh mesh{.source = "box", .vertices = {}, .triangles = {}};
   for (int i = 0; i < 8; ++i)  // bits of i: x, y, z
     mesh.vertices.emplace_back(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z());
@@ -23,11 +27,10 @@ TriangleMesh box_mesh(const Vector3d& low, const Vector3d& high) {
   return mesh;
 }
 
-TriangleMesh cylinder_mesh(const Eigen::Vector2d& centre, double radius, double bottom, double top, int segments) {
-  require(centre.allFinite() && radius > 0 && std::isfinite(radius),
-          "the radius of a cylinder must be positive, got {} m", radius);
-  require(top > bottom && std::isfinite(top - bottom), "a cylinder from z = {} m to {} m has no height", bottom, top);
-  require(segments >= 3, "a cylinder needs three walls, got {}", segments);
+/// A cylinder about a vertical axis from z = bottom to z = top, `segments` (>= 3) flat walls whose edges are on the
+/// true surface. Its volume and areas of section are short by the factor sin(α)/α, α = 2π/segments (H3).
+inline TriangleMesh cylinder_mesh(const Eigen::Vector2d& centre, double radius, double bottom, double top,
+                                  int segments) {
   TriangleMesh mesh{.source = "cylinder", .vertices = {}, .triangles = {}};
   for (const double z : {bottom, top})
     for (int i = 0; i < segments; ++i) {
@@ -47,10 +50,9 @@ TriangleMesh cylinder_mesh(const Eigen::Vector2d& centre, double radius, double 
   return mesh;
 }
 
-TriangleMesh sphere_mesh(const Vector3d& centre, double radius, int cuts) {
-  require(centre.allFinite() && radius > 0 && std::isfinite(radius),
-          "the radius of a sphere must be positive, got {} m", radius);
-  require(cuts >= 0 && cuts <= 10, "edges of a sphere are halved 0 to 10 times, got {}", cuts);
+/// A sphere with vertices on the true surface: an octahedron whose edges are cut `cuts` (>= 0) times in halves;
+/// 8·4^cuts triangles. Volume is short by O(4^−cuts) (H3).
+inline TriangleMesh sphere_mesh(const Vector3d& centre, double radius, int cuts) {
   TriangleMesh mesh{.source = "sphere", .vertices = {}, .triangles = {}};
   const int n = 1 << cuts;
   // Each face of the octahedron |x| + |y| + |z| = 1 as a triangular grid, thrown onto the sphere.
@@ -77,7 +79,8 @@ TriangleMesh sphere_mesh(const Vector3d& centre, double radius, int cuts) {
   return welded(std::move(mesh), 1e-3 * radius / n);
 }
 
-TriangleMesh joined(std::vector<TriangleMesh> meshes) {
+/// Several meshes as one hull; no attempt is made to merge what overlaps.
+inline TriangleMesh joined(std::vector<TriangleMesh> meshes) {
   TriangleMesh all{.source = {}, .vertices = {}, .triangles = {}};
   for (TriangleMesh& mesh : meshes) {
     const int first = static_cast<int>(all.vertices.size());
@@ -89,4 +92,4 @@ TriangleMesh joined(std::vector<TriangleMesh> meshes) {
   return all;
 }
 
-}  // namespace hydro::hydrostatics
+}  // namespace support

@@ -1,4 +1,4 @@
-#include "dynamics/model/block_matrix.hpp"
+#include "dynamics/state/block_matrix.hpp"
 
 #include <gtest/gtest.h>
 

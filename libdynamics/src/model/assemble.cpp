@@ -1,4 +1,4 @@
-#include "dynamics/joint/assemble.hpp"
+#include "dynamics/model/assemble.hpp"
 
 #include <Eigen/QR>
 

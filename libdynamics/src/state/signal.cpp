@@ -1,4 +1,4 @@
-#include "dynamics/model/signal.hpp"
+#include "dynamics/state/signal.hpp"
 
 #include <fmt/format.h>
 

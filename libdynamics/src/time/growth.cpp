@@ -1,4 +1,4 @@
-#include "dynamics/integrate/growth.hpp"
+#include "dynamics/time/growth.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "dynamics/model/body.hpp"
+#include "dynamics/state/body.hpp"
 
 #include <cmath>
 

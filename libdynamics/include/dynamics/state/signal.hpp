@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "dynamics/model/body.hpp"
+#include "dynamics/state/body.hpp"
 
 namespace dynamics {
 
