@@ -11,8 +11,6 @@ namespace {
 using ::fit::Coefficient;
 using Json = FitJson;
 
-bool turns(const scene::FitScene& scene) { return scene.channels.count("angle") > 0; }
-
 const char* unit_of(const std::string& term, bool angle) {
   if (term == "linear" || term == "memory_decay") return "1/s";
   if (term == "memory_strength") return "1/s^2";
@@ -133,7 +131,7 @@ plot::Panel panel_over_frequency(const DecayRun& run, bool damping, const char* 
 }
 
 void add_record(const scene::FitScene& scene, const DecayRun& run, std::size_t w, plot::Figure& f) {
-  const bool angle = turns(scene);
+  const bool angle = scene.turns();
   const auto& m = run.fit.motion;
   const DecayRecord& r = run.records[w];
   const std::vector<double> fitted = column_of(m.motion[w]);
@@ -161,7 +159,7 @@ void add_record(const scene::FitScene& scene, const DecayRun& run, std::size_t w
 }  // namespace
 
 void tell_decay(const scene::FitScene& scene, const DecayRun& run, const Console& console) {
-  const bool angle = turns(scene);
+  const bool angle = scene.turns();
   const auto& m = run.fit.motion;
   if (run.records.size() == 1)
     console.out << fmt::format("{}: {} half cycles from {:.4g} to {:.4g} {}, residual {:.3g} rms", run.name,
@@ -226,7 +224,7 @@ void tell_decay_laws(const scene::FitScene& scene, const std::vector<DecayLaw>& 
     console.out << fmt::format(
         "{} over {} runs: {:.4g} {}, {:g} % interval {:.4g} to {:.4g}; from run to run ±{:.2g}; the next between "
         "{:.4g} and {:.4g}\n",
-        law.coefficient, runs, r.coefficients[0], unit_of(law.coefficient, turns(scene)), 100 * scene.confidence,
+        law.coefficient, runs, r.coefficients[0], unit_of(law.coefficient, scene.turns()), 100 * scene.confidence,
         r.intervals[0].low, r.intervals[0].high, r.between, r.prediction.low, r.prediction.high);
   }
 }
@@ -289,7 +287,7 @@ FitJson decay_law_as_json(const DecayLaw& law) {
 }
 
 std::string decay_table(const scene::FitScene& scene, const std::vector<DecayRun>& runs) {
-  const bool angle = turns(scene);
+  const bool angle = scene.turns();
   const auto all_of = [](const DecayRun& run) {
     std::vector<Coefficient> all{run.fit.period};
     all.insert(all.end(), run.fit.damping.begin(), run.fit.damping.end());
@@ -319,7 +317,7 @@ std::string decay_table(const scene::FitScene& scene, const std::vector<DecayRun
 }
 
 plot::Figure decay_figure(const scene::FitScene& scene, const std::vector<DecayRun>& runs) {
-  const bool angle = turns(scene);
+  const bool angle = scene.turns();
   plot::Figure f{.title = scene.title.empty() ? scene.file.filename().string() : scene.title, .panels = {}};
   for (const DecayRun& run : runs) {
     for (std::size_t w = 0; w < run.records.size(); ++w) add_record(scene, run, w, f);

@@ -29,7 +29,8 @@ struct FrictionLevel {
 bool slides(const scene::FitScene& scene) { return !scene.force.empty(); }
 const char* load_unit(const scene::FitScene& scene) { return slides(scene) ? "N" : "N m"; }
 
-FrictionTest fit_test(const scene::FitScene& scene, const std::filesystem::path& file) try {
+FrictionTest fit_test(const scene::FitScene& scene, const scene::FrictionRampModel& model,
+                      const std::filesystem::path& file) try {
   const auto table = hydro::io::CsvTable::read(file);
   FrictionTest test{.name = file.filename().string(),
                     .time = table.column(scene.channels.at("time"), dim::time),
@@ -38,8 +39,7 @@ FrictionTest fit_test(const scene::FitScene& scene, const std::filesystem::path&
                     .fit = {}};
   if (slides(scene) && scene.force[0].turned)
     for (double& f : test.load) f = -f;
-  const auto& m = scene.model;
-  test.fit = ::fit::fit_friction_ramp(test.time, test.load, {m.ramp, m.slide, m.drop, scene.confidence});
+  test.fit = ::fit::fit_friction_ramp(test.time, test.load, model.options);
   return test;
 } catch (const hydro::InputError& e) {
   throw e.at({.file = file.string()});
@@ -103,7 +103,7 @@ Json as_json_of(const FrictionTest& test) {
 
 Json all_as_json(const scene::FitScene& scene, const std::vector<FrictionTest>& tests,
                  const std::vector<FrictionLevel>& levels) {
-  Json j{{"scene", scene.file.filename().string()}, {"kind", "friction ramp"}, {"confidence", scene.confidence}};
+  Json j{{"scene", scene.file.filename().string()}, {"kind", scene.kind()}, {"confidence", scene.confidence}};
   for (const FrictionLevel& level : levels) {
     if (level.together || tests.size() == 1)
       j["coefficients"][level.name] = fmt::format(
@@ -134,9 +134,10 @@ plot::Figure figure(const scene::FitScene& scene, const std::vector<FrictionTest
 
 }  // namespace
 
-void fit_friction_ramps(const scene::FitScene& scene, const FitArguments& arguments, const Console& console) {
+void fit_model(const scene::FitScene& scene, const scene::FrictionRampModel& model, const FitArguments& arguments,
+               const Console& console) {
   std::vector<FrictionTest> tests;
-  for (const auto& file : scene.files) tests.push_back(fit_test(scene, file.value));
+  for (const auto& file : scene.files) tests.push_back(fit_test(scene, model, file.value));
   const auto levels = levels_of(tests, scene.confidence);
   if (!console.json) {
     for (const FrictionTest& test : tests) tell(test, console, scene.confidence, load_unit(scene));

@@ -31,7 +31,9 @@ RadiationUnits units_of(bool angle) {
   return {"m", "N", "kg", "N s/m"};
 }
 
-RadiationRun fit_run_of(const scene::FitScene& scene, bool angle, const std::filesystem::path& file) try {
+RadiationRun fit_run_of(const scene::FitScene& scene, const ::fit::RestoredBody& body,
+                        const std::filesystem::path& file) try {
+  const bool angle = scene.turns();
   const auto table = hydro::io::CsvTable::read(file);
   const auto& motion = angle ? table.column(scene.channels.at("angle"), dim::angle)
                              : table.column(scene.channels.at("position"), dim::length);
@@ -39,10 +41,8 @@ RadiationRun fit_run_of(const scene::FitScene& scene, bool angle, const std::fil
       angle ? table.column(scene.channels.at("torque"), dim::moment) : table.column(scene.force[0].column, dim::force);
   if (!angle && scene.force[0].turned)
     for (double& f : force) f = -f;
-  const auto& b = *scene.model.body;
-  return {file.filename().string(),
-          ::fit::fit_radiation(table.column(scene.channels.at("time"), dim::time), motion, force,
-                               {b.mass, b.stiffness, b.mass_error, b.stiffness_error}, scene.confidence)};
+  return {file.filename().string(), ::fit::fit_radiation(table.column(scene.channels.at("time"), dim::time), motion,
+                                                         force, body, scene.confidence)};
 } catch (const hydro::InputError& e) {
   throw e.at({.file = file.string()});
 }
@@ -89,7 +89,7 @@ void tell(const ::fit::RadiationMemory& m, const RadiationUnits& unit, double co
 
 Json as_json_of(const scene::FitScene& scene, const std::vector<RadiationRun>& runs,
                 const std::optional<::fit::RadiationMemory>& memory) {
-  Json j{{"scene", scene.file.filename().string()}, {"kind", "radiation"}, {"confidence", scene.confidence}};
+  Json j{{"scene", scene.file.filename().string()}, {"kind", scene.kind()}, {"confidence", scene.confidence}};
   const auto put = [](Json& at, const Coefficient& c) {
     at[c.name] = as_json(c);
     for (const char* of_series : {"shift_per_degree", "effective_samples", "interval_if_independent"})
@@ -170,11 +170,11 @@ plot::Panel panel_of(const std::vector<RadiationRun>& runs, const std::optional<
 
 }  // namespace
 
-void fit_radiations(const scene::FitScene& scene, const FitArguments& arguments, const Console& console) {
-  const bool angle = scene.channels.count("angle") > 0;
-  const RadiationUnits unit = units_of(angle);
+void fit_model(const scene::FitScene& scene, const scene::RadiationModel& model, const FitArguments& arguments,
+               const Console& console) {
+  const RadiationUnits unit = units_of(scene.turns());
   std::vector<RadiationRun> runs;
-  for (const auto& file : scene.files) runs.push_back(fit_run_of(scene, angle, file.value));
+  for (const auto& file : scene.files) runs.push_back(fit_run_of(scene, model.body, file.value));
   std::sort(runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.point.omega < b.point.omega; });
   const auto memory = memory_of(runs, scene.confidence);
   if (!console.json) {

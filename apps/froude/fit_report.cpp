@@ -28,14 +28,14 @@ std::string delay_sentence(const Coefficient& d, double confidence) {
                      100 * confidence, d.interval.low, d.interval.high);
 }
 
-std::vector<std::string> cautions_of(const FitRun& run) {
+std::vector<std::string> cautions_of(const MorisonRun& run) {
   auto all = run.prepared.cautions;
   if (!run.fit.caution.empty()) all.push_back(run.fit.caution);
   return all;
 }
 
 /// What was fitted beside drag and inertia, and how wide the bands are.
-void tell_others(const FitRun& run, const Console& console) {
+void tell_others(const MorisonRun& run, const Console& console) {
   const auto& f = run.fit;
   const auto say = [&](const Coefficient& c, const char* what, const char* unit) {
     if (!c.value)
@@ -56,7 +56,7 @@ void tell_others(const FitRun& run, const Console& console) {
 }
 
 /// Other readings of the same record: harmonics, cycles, variants.
-void tell_checks(const FitRun& run, const Console& console) {
+void tell_checks(const MorisonRun& run, const Console& console) {
   const auto& f = run.fit;
   console.out << fmt::format("  errors of cd and {} correlate by {:.2f}; main harmonic alone: cd {:.4g}, {} {:.4g}\n",
                              f.inertia.name, f.correlation, run.fourier.cd, f.inertia.name, run.fourier.inertia);
@@ -79,8 +79,8 @@ void tell_checks(const FitRun& run, const Console& console) {
 
 }  // namespace
 
-void tell_laws(const std::vector<FitLaw>& laws, const Console& console) {
-  for (const FitLaw& law : laws) {
+void tell_laws(const std::vector<CoefficientLaw>& laws, const Console& console) {
+  for (const CoefficientLaw& law : laws) {
     console.out << fmt::format("{} over {} runs{}:\n", law.coefficient, law.runs,
                                law.left_out > 0 ? fmt::format(" ({} not identifiable)", law.left_out) : "");
     for (const auto& r : law.laws) {
@@ -98,14 +98,14 @@ void tell_laws(const std::vector<FitLaw>& laws, const Console& console) {
   }
 }
 
-void tell_runs(const scene::FitScene& scene, const std::vector<FitRun>& runs, const Console& console) {
-  console.out << (scene.model.motion == "water moves"
+void tell_runs(const scene::MorisonModel& model, const std::vector<MorisonRun>& runs, const Console& console) {
+  console.out << (model.cylinder.experiment == ::fit::Experiment::water_moves
                       ? "F = cm rho V du/dt + 1/2 rho D L cd |u| u, water moving past the body; cm = 1 + ca\n"
-                  : scene.model.motion == "body moves"
+                  : model.cylinder.experiment == ::fit::Experiment::body_moves
                       ? "F = -(ca rho V + m) a - 1/2 rho D L cd |v| v, body moving in still water; cm = 1 + ca\n"
                       : "F = rho V du/dt - m a + ca rho V (du/dt - a) + 1/2 rho D L cd |u - v| (u - v), body moving in "
                         "waves; cm = 1 + ca; KC and Re are those of u - v\n");
-  for (const FitRun& run : runs) {
+  for (const MorisonRun& run : runs) {
     const auto& f = run.fit;
     console.out << fmt::format(
         "{}: KC {:.4g}, {}T {:.4g} s, residual {:.4g} N rms, {:.2f} % of the force's variance explained\n", run.name,
@@ -114,7 +114,7 @@ void tell_runs(const scene::FitScene& scene, const std::vector<FitRun>& runs, co
     console.out << fmt::format("  search: iterations {}, {}; singular values {:.3g} and {:.3g}; {}\n",
                                f.search.iterations, f.search.why, f.search.singular_values[0],
                                f.search.singular_values[1], f.search.identifiability);
-    if (scene.robust)
+    if (model.options.robust)
       console.out << fmt::format("  robust: {:.2f} % of the samples count in full\n", 100 * f.share_inside);
     tell_others(run, console);
     tell_checks(run, console);
@@ -142,7 +142,7 @@ Json as_json(const Coefficient& c) {
 
 namespace {
 
-Json checks_as_json(const FitRun& run) {
+Json checks_as_json(const MorisonRun& run) {
   const std::string& inertia = run.fit.inertia.name;
   Json j{{"correlation", run.fit.correlation},
          {"share_inside", run.fit.share_inside},
@@ -160,7 +160,7 @@ Json checks_as_json(const FitRun& run) {
   return j;
 }
 
-Json run_as_json(const FitRun& run) {
+Json run_as_json(const MorisonRun& run) {
   const auto& f = run.fit;
   Json r{{"file", run.name},
          {"kc", f.kc},
@@ -212,23 +212,24 @@ Json as_json(const ::fit::RandomEffects& r) {
 
 }  // namespace
 
-Json runs_as_json(const scene::FitScene& scene, const std::vector<FitRun>& runs, const std::vector<FitLaw>& laws) {
+Json runs_as_json(const scene::FitScene& scene, const scene::MorisonModel& model, const std::vector<MorisonRun>& runs,
+                  const std::vector<CoefficientLaw>& laws) {
   Json j{{"scene", scene.file.filename().string()},
-         {"kind", "morison"},
-         {"motion", scene.model.motion},
+         {"kind", scene.kind()},
+         {"motion", scene::word_of(model.cylinder.experiment)},
          {"confidence", scene.confidence},
-         {"intervals", scene.interval_method}};
+         {"intervals", scene::word_of(model.options.method)}};
   // What a scene of motion may include: the value of the one run, or of the law in the middle of the runs.
-  for (std::size_t i = 0; i < scene.coefficients.size(); ++i) {
-    const std::string& name = scene.coefficients[i];
+  for (std::size_t i = 0; i < model.coefficients.size(); ++i) {
+    const std::string& name = model.coefficients[i];
     if (!laws.empty())
       j["coefficients"][name] = laws[i].laws.front().coefficients[0];
     else if (runs.size() == 1 && runs[0].asked[i].value)
       j["coefficients"][name] = *runs[0].asked[i].value;
   }
   j["run"] = Json::array();
-  for (const FitRun& run : runs) j["run"].push_back(run_as_json(run));
-  for (const FitLaw& law : laws)
+  for (const MorisonRun& run : runs) j["run"].push_back(run_as_json(run));
+  for (const CoefficientLaw& law : laws)
     for (const auto& r : law.laws) {
       Json one{{"of", law.coefficient}, {"runs", law.runs}, {"left_out", law.left_out}};
       one.update(as_json(r));

@@ -11,6 +11,7 @@ namespace {
 
 namespace dim = hydro::dim;
 using Json = FitJson;
+using Towing = scene::TowingModel;
 
 std::vector<::fit::TowingRun> towing_runs(const scene::FitScene& scene) {
   std::vector<::fit::TowingRun> runs;
@@ -29,8 +30,8 @@ std::vector<::fit::TowingRun> towing_runs(const scene::FitScene& scene) {
   return runs;
 }
 
-bool is_refused(const scene::FitScene& scene, const ::fit::TowingFit& fit) {
-  return fit.scatter > fit.allowed && !scene.accept_residuals;
+bool is_refused(const Towing& model, const ::fit::TowingFit& fit) {
+  return fit.scatter > fit.allowed && !model.accept_residuals;
 }
 
 /// (F66) Runs that differ by more than their deviations allow have no drag coefficient in common.
@@ -40,13 +41,13 @@ bool is_refused(const scene::FitScene& scene, const ::fit::TowingFit& fit) {
           "no cd of all runs together is told: they scatter {:.3g} times as much as their deviations say, which "
           "allow {:.3g} times",
           fit.scatter, fit.allowed),
-      scene.model.place,
+      scene.model_place,
       "cd may depend on speed: fit fewer runs, or state the deviations that they have; to have their mean all the "
       "same: "
       "[ask] accept = [\"residuals\"]"));
 }
 
-void tell(const scene::FitScene& scene, const ::fit::TowingFit& fit, std::span<const ::fit::TowingRun> runs,
+void tell(const Towing& model, const ::fit::TowingFit& fit, std::span<const ::fit::TowingRun> runs,
           const Console& console) {
   console.out << fmt::format("C_D = F/(1/2 rho U^2 D L)\n{:>10} {:>10} {:>10} {:>8} {:>8}\n", "U [m/s]", "F [N]", "Re",
                              "cd", "+-");
@@ -55,7 +56,7 @@ void tell(const scene::FitScene& scene, const ::fit::TowingFit& fit, std::span<c
         "{:>10.4g} {:>10.4g} {:>10} {:>8.3f} {:>8}\n", runs[i].speed, runs[i].force,
         fit.points[i].re ? fmt::format("{:.3g}", *fit.points[i].re) : "-", fit.points[i].cd,
         fit.points[i].cd_deviation > 0 ? fmt::format("{:.3f}", fit.points[i].cd_deviation) : "-");
-  if (is_refused(scene, fit)) return;
+  if (is_refused(model, fit)) return;
   console.out << fmt::format("together: cd {:.4f}, {:g} % interval {:.4f} to {:.4f}\n", *fit.cd.value,
                              100 * fit.confidence, fit.cd.interval.low, fit.cd.interval.high);
   if (std::isfinite(fit.scatter))
@@ -70,7 +71,7 @@ Json towed_as_json(const scene::FitScene& scene, const ::fit::TowingFit& fit, st
        {"effective_samples", "shift_per_degree", "systematic_error", "interval_if_independent"})
     cd.erase(time_series_only);
   Json j{{"scene", scene.file.filename().string()},
-         {"kind", "towing"},
+         {"kind", scene.kind()},
          {"confidence", scene.confidence},
          {"cd", cd},
          {"run", Json::array()}};
@@ -107,11 +108,12 @@ plot::Figure figure(const scene::FitScene& scene, const ::fit::TowingFit& fit, s
 
 }  // namespace
 
-void fit_towed(const scene::FitScene& scene, const FitArguments& arguments, const Console& console) {
+void fit_model(const scene::FitScene& scene, const Towing& model, const FitArguments& arguments,
+               const Console& console) {
   const auto runs = towing_runs(scene);
-  const auto result = ::fit::fit_towing(cylinder_of(scene), runs, scene.confidence);
-  if (!console.json) tell(scene, result, runs, console);
-  if (is_refused(scene, result)) refuse_mean(scene, result);
+  const auto result = ::fit::fit_towing(model.cylinder, runs, scene.confidence);
+  if (!console.json) tell(model, result, runs, console);
+  if (is_refused(model, result)) refuse_mean(scene, result);
   deliver(arguments, console, towed_as_json(scene, result, runs), figure(scene, result, runs));
 }
 
