@@ -6,6 +6,7 @@
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
+#include "motion_bands.hpp"
 #include "simulated.hpp"
 
 namespace fit {
@@ -151,26 +152,14 @@ void Told::tell_motion() {
     fit_.rms.push_back(std::sqrt(s * static_cast<double>(channels()) / static_cast<double>(rows())));
 }
 
-/// What the fit is uncertain by at each sample, and what a new sample would scatter by beside it. (F46)
-void Told::tell_bands() {
+void Told::tell_bands() {  // (F46)
+  std::vector<Eigen::MatrixXd> left;
+  for (std::size_t w = 0; w < fit_.motion.size(); ++w) left.emplace_back(fit_.motion[w] - problem_.measured[w]);
   const double quantile = hydro::signal::student_t_quantile((1 + problem_.confidence) / 2, covariance_.dof);
-  double inside = 0;
-  for (std::size_t w = 0; w < end_.windows.size(); ++w) {
-    const auto& measured = problem_.measured[w];
-    const auto part = end_.jacobian.middleRows(end_.windows[w].row, measured.size());
-    const Eigen::VectorXd variance = (part * covariance_.covariance).cwiseProduct(part).rowwise().sum().cwiseMax(0);
-    Eigen::MatrixXd of_fit = variance.reshaped(measured.rows(), channels()), of_sample = of_fit;
-    for (Eigen::Index c = 0; c < channels(); ++c) {
-      const auto at = static_cast<std::size_t>(c);
-      of_fit.col(c) *= std::pow(problem_.deviations[at], 2);
-      of_sample.col(c) = of_fit.col(c).array() + std::pow(fit_.rms[at], 2);
-    }
-    fit_.fit_band.emplace_back(quantile * of_fit.cwiseSqrt());
-    fit_.sample_band.emplace_back(quantile * of_sample.cwiseSqrt());
-    inside +=
-        static_cast<double>(((fit_.motion[w] - measured).cwiseAbs().array() <= fit_.sample_band[w].array()).count());
-  }
-  fit_.inside = inside / static_cast<double>(rows());
+  auto bands = motion_bands(left, end_.jacobian, covariance_.covariance, problem_.deviations, fit_.rms, quantile);
+  fit_.fit_band = std::move(bands.of_fit);
+  fit_.sample_band = std::move(bands.of_sample);
+  fit_.inside = bands.inside;
 }
 
 /// (F65), (F66)
