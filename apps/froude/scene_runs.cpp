@@ -7,7 +7,6 @@
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 #include "hydro/signal/welch.hpp"
-#include "scene/override.hpp"
 
 namespace froude {
 
@@ -48,7 +47,7 @@ MeasuredRun MeasuredRun::read(const scene::FitScene& fit, const scene::MotionMod
 }
 
 SceneRuns::SceneRuns(const scene::MotionModel& model, const MeasuredRun& measured)
-    : asked_(model), measured_(measured), text_(hydro::io::read_text(model.scene.value)) {
+    : asked_(model), measured_(measured), source_(hydro::io::read_text(model.scene.value), model.scene.value) {
   compiled({});
   if (model.window > 0) begin_windows();
 }
@@ -98,7 +97,7 @@ void SceneRuns::compiled(const Eigen::VectorXd& parameters) {
   std::vector<scene::OverriddenNumber> numbers;
   for (Eigen::Index k = 0; k < parameters.size(); ++k)
     numbers.push_back({asked_.parameters[static_cast<std::size_t>(k)].number.name, parameters[k]});
-  scene_ = scene::parse_with(text_, asked_.scene.value, numbers);
+  scene_ = source_.with(numbers);
   if (!scene_.run)
     throw InputError("the scene to be fitted asks for no run", asked_.scene.place,
                      "add [ask] run = { duration = \"60 s\", every = \"0.05 s\" } to it");
@@ -119,7 +118,9 @@ void SceneRuns::compiled(const Eigen::VectorXd& parameters) {
     scene_.run->of.push_back(s.of);
     scene_.run->of_places.push_back(s.deviation.place);
   }
+  const auto poles = prepared_.fits;  // known by the coefficients that they were fitted to
   prepared_ = compile::prepare(scene_);
+  if (poles) prepared_.fits = poles;
   model_.emplace(compile::time_model(scene_, prepared_));
   if (!chosen_step_) chosen_step_ = model_->step;
   numbers_ = parameters;

@@ -11,6 +11,7 @@
 #include "fit/simulated.hpp"
 #include "froude/simulate.hpp"
 #include "scene/fit_scene.hpp"
+#include "scene/override.hpp"
 
 namespace froude {
 
@@ -50,7 +51,7 @@ class SceneRuns final : public ::fit::Simulation {
 
   const scene::MotionModel& asked_;
   const MeasuredRun& measured_;
-  std::string text_;
+  scene::ChangeableScene source_;
   scene::Scene scene_;
   compile::Prepared prepared_;
   std::optional<compile::TimeModel> model_;
