@@ -1,6 +1,7 @@
 #pragma once
 /// \file  A scene that fits coefficients to measurements, as the user wrote it: typed, in SI, every default filled in.
-///        What libfit takes as an option stands here as libfit's own type.
+///        What libfit takes as an option stands here as libfit's own type, so that no option and no default is written
+///        twice; nothing of libfit is called from here.
 #include <variant>
 
 #include "fit/decay_memory.hpp"
