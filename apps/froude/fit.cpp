@@ -1,4 +1,4 @@
-#include "froude/fit_report.hpp"
+#include "froude/fit_summary.hpp"
 #include "froude/outputs.hpp"
 #include "hydro/base/error.hpp"
 
@@ -14,7 +14,8 @@ void fit(const FitArguments& arguments, const Console& console) {
   if (arguments.table && !has_table)
     throw hydro::InputError(fmt::format("a fit of kind \"{}\" has no table of runs", scene.kind()), {},
                             "leave out --table");
-  std::visit([&](const auto& model) { fit_model(scene, model, arguments, console); }, scene.model);
+  const FitOutcome outcome = std::visit([&](const auto& model) { return fit_model(scene, model); }, scene.model);
+  deliver(outcome, scene.confidence, arguments, console);
 }
 
 }  // namespace froude

@@ -8,9 +8,8 @@
 #include "fit/forced_radiation.hpp"
 #include "fit/prepare.hpp"
 #include "fit/verdict.hpp"
-#include "froude/fit_report.hpp"
+#include "froude/fit_summary.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 #include "hydro/signal/welch.hpp"
 
@@ -76,8 +75,7 @@ void require_explained(const scene::FitScene& scene, const Decay& model, const D
                   100 * motion.explained[0], 100 * ::fit::least_explained),
       scene.model_place,
       "take the part of the record that swings (window of [prepare]), or other terms; to have values all the same: "
-      "[ask] "
-      "accept = [\"residuals\"]"));
+      "[ask] accept = [\"residuals\"]"));
 }
 
 /// The memory, and what it makes of the body where that is known.
@@ -161,21 +159,23 @@ std::optional<DecayRun> fit_together(const scene::FitScene& scene, const Decay& 
 }
 
 /// Each coefficient over three runs and more that were fitted alone, those that cannot tell it from zero among them.
-std::vector<DecayLaw> laws_of(const scene::FitScene& scene, const std::vector<DecayRun>& runs) {
-  std::vector<DecayLaw> out;
-  if (runs.size() < 3) return out;
+FitSummary summary_over(const scene::FitScene& scene, const std::vector<DecayRun>& runs) {
+  FitSummary summary{.key = "over_runs"};
+  if (runs.size() < 3) return summary;
   const auto add = [&](const std::string& name, const auto& coefficient_of) {
     std::vector<::fit::RunEstimate> estimates;
     for (const DecayRun& run : runs)
       if (const Coefficient& c = coefficient_of(run); c.standard_error > 0)
         estimates.push_back({(c.interval.low + c.interval.high) / 2, c.standard_error, 0, 0, 0});
     if (estimates.size() == runs.size())
-      out.push_back({name, ::fit::fit_runs(estimates, ::fit::Law::constant, scene.confidence)});
+      summary.parts.push_back(over_runs(name, unit_of_decay(name, scene.turns()),
+                                        ::fit::fit_runs(estimates, ::fit::Law::constant, scene.confidence), "run",
+                                        runs.size(), scene.confidence));
   };
   add("period", [](const DecayRun& run) -> const Coefficient& { return run.fit.period; });
   for (std::size_t k = 0; k < runs[0].fit.damping.size(); ++k)
     add(runs[0].fit.damping[k].name, [k](const DecayRun& run) -> const Coefficient& { return run.fit.damping[k]; });
-  return out;
+  return summary;
 }
 
 /// What a scene of motion may include, of one run or of all together.
@@ -194,29 +194,23 @@ Json coefficients_of(const DecayRun& run) {
 
 }  // namespace
 
-void fit_model(const scene::FitScene& scene, const Decay& model, const FitArguments& arguments,
-               const Console& console) {
+FitOutcome fit_model(const scene::FitScene& scene, const scene::DecayModel& model) {
   const std::vector<DecayRun> runs = fit_each(scene, model);
   const std::optional<DecayRun> together = fit_together(scene, model, runs);
-  const std::vector<DecayLaw> laws = laws_of(scene, runs);
-  Json j{{"scene", scene.file.filename().string()}, {"kind", scene.kind()}, {"confidence", scene.confidence}};
+  FitSummary summary = begin_summary(scene), over = summary_over(scene, runs);
   if (together || runs.size() == 1) {
-    j["coefficients"] = coefficients_of(together ? *together : runs[0]);
+    summary.facts["coefficients"] = coefficients_of(together ? *together : runs[0]);
   } else {
-    for (const DecayLaw& law : laws) j["coefficients"][law.coefficient] = law.over_runs.coefficients[0];
+    for (const FitSummary& law : over.parts) summary.facts["coefficients"][law.key] = law.facts["value"];
   }
-  j["run"] = Json::array();
-  for (const DecayRun& run : runs) {
-    if (!console.json) tell_decay(scene, run, console);
-    j["run"].push_back(decay_as_json(run));
+  for (const DecayRun& run : runs) summary.parts.push_back(summary_of(scene, run));
+  if (together) {
+    summary.parts.push_back(summary_of(scene, *together));
+    summary.parts.back().key = "together";
+    summary.parts.back().one_of_many = false;
   }
-  if (together) j["together"] = decay_as_json(*together);
-  for (const DecayLaw& law : laws) j["over_runs"][law.coefficient] = decay_law_as_json(law);
-  if (together && !console.json) tell_decay(scene, *together, console);
-  if (!console.json) tell_decay_laws(scene, laws, runs.size(), console);
-  if (arguments.table) hydro::io::write_atomically(*arguments.table, decay_table(scene, runs));
-  if (arguments.table && !console.json) console.out << "wrote " << arguments.table->string() << '\n';
-  deliver(arguments, console, j, decay_figure(scene, together ? std::vector{*together} : runs));
+  if (!over.parts.empty()) summary.parts.push_back(std::move(over));
+  return {std::move(summary), decay_figure(scene, together ? std::vector{*together} : runs), decay_table(scene, runs)};
 }
 
 }  // namespace froude

@@ -1,10 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "froude/fit_report.hpp"
-#include "froude/outputs.hpp"
+#include "froude/fit_morison.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 
 namespace froude {
@@ -208,24 +206,10 @@ std::vector<CoefficientLaw> laws_of(const Morison& model, const std::vector<Mori
 
 }  // namespace
 
-RunLabels run_labels(const hydro::io::CsvTable& table, std::size_t row, const std::vector<std::string>& taken) {
-  RunLabels out;
-  for (const std::string& name : table.names())
-    if (std::find(taken.begin(), taken.end(), name) == taken.end())
-      out.push_back(
-          {name, table.is_text(name) ? table.text_column(name)[row] : fmt::format("{:.6g}", table.column(name)[row])});
-  return out;
-}
-
-void fit_model(const scene::FitScene& scene, const scene::MorisonModel& model, const FitArguments& arguments,
-               const Console& console) {
+FitOutcome fit_model(const scene::FitScene& scene, const scene::MorisonModel& model) {
   const std::vector<MorisonRun> runs = fit_all(scene, model);
   const std::vector<CoefficientLaw> laws = laws_of(model, runs);
-  if (!console.json) tell_runs(model, runs, console);
-  if (!console.json) tell_laws(laws, console);
-  if (arguments.table) hydro::io::write_atomically(*arguments.table, runs_table(runs));
-  if (arguments.table && !console.json) console.out << "wrote " << arguments.table->string() << '\n';
-  deliver(arguments, console, runs_as_json(scene, model, runs, laws), runs_figure(scene, runs, laws));
+  return {summary_of(scene, model, runs, laws), runs_figure(scene, runs, laws), runs_table(runs)};
 }
 
 }  // namespace froude

@@ -3,17 +3,15 @@
 
 #include "fit/simulated.hpp"
 #include "fit/verdict.hpp"
-#include "froude/fit_report.hpp"
+#include "froude/fit_summary.hpp"
 #include "froude/scene_runs.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 
 namespace froude {
 namespace {
 
 using ::fit::Coefficient;
-using Json = FitJson;
 using Motion = scene::MotionModel;
 
 /// What was asked, what was measured, and what came of it.
@@ -53,22 +51,6 @@ double deviation_of(const Motion::Signal& s, const std::string& unit, const hydr
   return p;
 }
 
-void tell_values(const FittedMotion& m, const Console& console) {
-  const auto& fit = m.fit;
-  for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
-    const Coefficient& c = fit.parameters[k];
-    const std::string unit = m.model.parameters[k].unit;
-    const std::string interval =
-        fmt::format("{:g} % interval {:.5g} to {:.5g}", 100 * m.scene.confidence, c.interval.low, c.interval.high);
-    if (c.value)
-      console.out << fmt::format("  {} {:.5g}{}{}, {} (if residuals were independent {:.5g} to {:.5g})\n", c.name,
-                                 *c.value, unit.empty() ? "" : " ", unit, interval, c.white_interval.low,
-                                 c.white_interval.high);
-    else
-      console.out << fmt::format("  {} not identifiable: {}; {}\n", c.name, c.why_not, interval);
-  }
-}
-
 /// "x differs by 0.057 m rms; its deviation is stated as 0.002 m, which allows 0.0026 m"
 std::string difference(const FittedMotion& m, std::size_t c) {
   const auto& s = m.fit.stated[c];
@@ -89,45 +71,6 @@ std::vector<std::string> accepted(const FittedMotion& m) {
   return out;
 }
 
-void tell(const FittedMotion& m, const Console& console) {
-  const auto& [scene, model, measured, units, fit] = m;
-  console.out << fmt::format("{}: {} samples of {} signals in {} window{}, {} runs of a window\n",
-                             scene.files[0].value.filename().string(), measured.values.rows(), measured.values.cols(),
-                             measured.first.size(), measured.first.size() == 1 ? "" : "s", fit.windows_followed);
-  if (fit.refused.empty()) tell_values(m, console);
-  for (std::size_t c = 0; c < units.size(); ++c) console.out << "  " << difference(m, c) << '\n';
-  if (fit.refused.empty()) {
-    console.out << fmt::format("  {:.1f} % of the samples lie in the band in which {:g} % should\n", 100 * fit.inside,
-                               100 * m.scene.confidence);
-    for (const std::string& a : accepted(m)) console.out << "  accepted: " << a << '\n';
-  }
-  if (fit.starts_all > 0)
-    console.out << fmt::format("  of {} numbers of the windows' starts the signals see {}, which are fitted too\n",
-                               fit.starts_all, fit.starts_seen);
-  if (fit.refused.empty())
-    console.out << fmt::format("  singular values {:.3g}; {}\n", fmt::join(fit.singular_values, ", "), fit.weakest);
-  console.out << fmt::format("  search: iterations {}, {}\n", fit.search.iterations, fit.search.why);
-  if (!fit.caution.empty()) console.out << "  caution: " << fit.caution << '\n';
-}
-
-/// By the likelihood, of each parameter that has a value and an error, where asked for.
-using Profiles = std::vector<std::optional<::fit::Interval>>;
-Profiles profiles_of(const Motion& model, ::fit::Simulation& runs, const ::fit::SimulationProblem& problem,
-                     const ::fit::SimulationFit& fit) {
-  Profiles out(fit.parameters.size());
-  for (std::size_t k = 0; model.profile && k < out.size(); ++k)
-    if (fit.parameters[k].value && fit.parameters[k].standard_error > 0)
-      out[k] = ::fit::profile_interval(runs, problem, fit, k);
-  return out;
-}
-
-void tell(const ::fit::SimulationFit& fit, const Profiles& profiles, const Console& console) {
-  for (std::size_t k = 0; k < profiles.size(); ++k)
-    if (profiles[k])
-      console.out << fmt::format("  {} by profile likelihood {:.5g} to {:.5g}\n", fit.parameters[k].name,
-                                 profiles[k]->low, profiles[k]->high);
-}
-
 /// "line[1].damping.linear" as a bare key of TOML.
 std::string bare(std::string key) {
   std::replace(key.begin(), key.end(), '.', '_');
@@ -141,39 +84,88 @@ double widest(const std::vector<Eigen::MatrixXd>& bands, std::size_t column) {
   return out;
 }
 
-Json as_json_of(const FittedMotion& m) {
-  const auto& [scene, model, measured, units, fit] = m;
-  Json j{{"scene", scene.file.filename().string()},
-         {"kind", scene.kind()},
-         {"confidence", scene.confidence},
-         {"of", model.scene.value.filename().string()},
-         {"search", fit.search.why},
-         {"accepted", accepted(m)},
-         {"weakest", fit.weakest},
-         {"singular_values", std::vector<double>(fit.singular_values.begin(), fit.singular_values.end())}};
-  if (!fit.caution.empty()) j["caution"] = fit.caution;
-  j["samples_in_band"] = fit.inside;
-  for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
-    const Coefficient& c = fit.parameters[k];
-    const auto& parameter = model.parameters[k];
-    if (c.value && parameter.unit.empty()) j["coefficients"][bare(c.name)] = *c.value;
-    if (c.value && !parameter.unit.empty())
-      j["coefficients"][bare(c.name)] = fmt::format("{:.10g} {}", *c.value, parameter.unit);
-    Json own = as_json(c);
-    for (const char* of_force : {"shift_per_degree", "systematic_error"}) own.erase(of_force);
-    own["key"] = parameter.number.name;
-    own["unit"] = parameter.unit;
-    j["parameter"][bare(c.name)] = own;
+/// Values of the parameters, and what a scene of motion may include of them.
+void add_values(const FittedMotion& m, FitSummary& summary) {
+  summary.group = "parameter";
+  for (std::size_t k = 0; k < m.fit.parameters.size(); ++k) {
+    const Coefficient& c = m.fit.parameters[k];
+    const auto& [number, unit, place] = m.model.parameters[k];
+    const std::string key = bare(c.name);
+    if (c.value && unit.empty()) summary.facts["coefficients"][key] = *c.value;
+    if (c.value && !unit.empty()) summary.facts["coefficients"][key] = fmt::format("{:.10g} {}", *c.value, unit);
+    Estimate e{c, unit};
+    e.key = key;
+    e.facts = {{"key", number.name}, {"unit", unit}};
+    if (c.value)
+      e.more =
+          fmt::format(" (if residuals were independent {:.5g} to {:.5g})", c.white_interval.low, c.white_interval.high);
+    summary.estimates.push_back(std::move(e));
   }
-  for (std::size_t c = 0; c < units.size(); ++c)
-    j["signal"].push_back({{"of", model.signals[c].of},
-                           {"unit", units[c]},
-                           {"rms", fit.rms[c]},
-                           {"deviation", fit.stated[c].stated},
-                           {"rms_allowed", fit.stated[c].allowed},
-                           {"widest_band_of_fit", widest(fit.fit_band, c)},
-                           {"widest_band_of_sample", widest(fit.sample_band, c)}});
-  return j;
+}
+
+/// Residuals of each signal against the deviation that was stated, and the bands.
+void add_signals(const FittedMotion& m, FitSummary& summary) {
+  const auto& fit = m.fit;
+  for (std::size_t c = 0; c < m.units.size(); ++c) {
+    summary.say("{}", difference(m, c));
+    if (!fit.refused.empty()) continue;
+    summary.facts["signal"].push_back({{"of", m.model.signals[c].of},
+                                       {"unit", m.units[c]},
+                                       {"rms", fit.rms[c]},
+                                       {"deviation", fit.stated[c].stated},
+                                       {"rms_allowed", fit.stated[c].allowed},
+                                       {"widest_band_of_fit", widest(fit.fit_band, c)},
+                                       {"widest_band_of_sample", widest(fit.sample_band, c)}});
+  }
+  if (!fit.refused.empty()) return;
+  summary.facts["samples_in_band"] = fit.inside;
+  summary.say("{:.1f} % of the samples lie in the band in which {:g} % should", 100 * fit.inside,
+              100 * m.scene.confidence);
+}
+
+FitSummary summary_of(const FittedMotion& m) {
+  const auto& fit = m.fit;
+  const bool told = fit.refused.empty();
+  FitSummary summary = begin_summary(m.scene);
+  summary.heading =
+      fmt::format("{}: {} samples of {} signals in {} window{}, {} runs of a window",
+                  m.scene.files[0].value.filename().string(), m.measured.values.rows(), m.measured.values.cols(),
+                  m.measured.first.size(), m.measured.first.size() == 1 ? "" : "s", fit.windows_followed);
+  summary.facts["of"] = m.model.scene.value.filename().string();
+  summary.facts["search"] = fit.search.why;
+  if (told) add_values(m, summary);
+  add_signals(m, summary);
+  if (told) {
+    const std::vector<std::string> all = accepted(m);
+    summary.facts["accepted"] = all;
+    for (const std::string& one : all) summary.say("accepted: {}", one);
+  }
+  if (fit.starts_all > 0)
+    summary.say("of {} numbers of the windows' starts the signals see {}, which are fitted too", fit.starts_all,
+                fit.starts_seen);
+  if (told) {
+    summary.facts["weakest"] = fit.weakest;
+    summary.facts["singular_values"] = std::vector<double>(fit.singular_values.begin(), fit.singular_values.end());
+    summary.say("singular values {:.3g}; {}", fmt::join(fit.singular_values, ", "), fit.weakest);
+  }
+  summary.say("search: iterations {}, {}", fit.search.iterations, fit.search.why);
+  summary.warn(fit.caution);
+  return summary;
+}
+
+void add_starts(const ::fit::SeveralStarts& several, FitSummary& summary) {
+  summary.facts["starts"] = {
+      {"tried", several.tried}, {"agree", several.agree}, {"failed", several.failed}, {"unended", several.unended}};
+  summary.say("of {} starts {} came there, {} had no motion to follow, {} came to no end", several.tried, several.agree,
+              several.failed, several.unended);
+}
+
+/// Intervals by the likelihood of each parameter that has a value and an error.
+void add_profiles(const FittedMotion& m, ::fit::Simulation& runs, const ::fit::SimulationProblem& problem,
+                  FitSummary& summary) {
+  for (std::size_t k = 0; k < summary.estimates.size(); ++k)
+    if (const Coefficient& c = m.fit.parameters[k]; c.value && c.standard_error > 0)
+      summary.estimates[k].profile = ::fit::profile_interval(runs, problem, m.fit, k);
 }
 
 /// A column of all windows, one after the other.
@@ -188,7 +180,7 @@ std::vector<double> joined(const std::vector<Eigen::MatrixXd>& windows, std::siz
 
 plot::Figure figure(const FittedMotion& m) {
   const auto& [scene, model, measured, units, fit] = m;
-  plot::Figure f{.title = scene.title.empty() ? scene.file.filename().string() : scene.title, .panels = {}};
+  plot::Figure f{.title = title_of(scene), .panels = {}};
   if (!fit.refused.empty()) f.title += ": no fit";
   const std::string level = fmt::format("{:g} % band", 100 * m.scene.confidence);
   const auto& t = measured.time;
@@ -212,30 +204,27 @@ plot::Figure figure(const FittedMotion& m) {
 }
 
 /// (F65), (F66) Nothing is told but what stands against it: the picture alone is written.
-[[noreturn]] void refuse_values(const FittedMotion& m) {
-  const auto& [scene, model, measured, units, fit] = m;
+std::exception_ptr refusal_of(const FittedMotion& m) {
   std::string signals;
-  for (std::size_t c = 0; c < units.size(); ++c)
-    if (!fit.stated[c].hold()) signals += "; " + difference(m, c);
-  if (!fit.search.ended())
-    throw hydro::NumericsError(fmt::format(
+  for (std::size_t c = 0; c < m.units.size(); ++c)
+    if (!m.fit.stated[c].hold()) signals += "; " + difference(m, c);
+  if (!m.fit.search.ended())
+    return std::make_exception_ptr(hydro::NumericsError(fmt::format(
         "no value is told: the search has no end: {}{}. Begin elsewhere (first of a [[model.parameter]]) or "
         "at several points ([model] starts), let it take more steps ([model] iterations, now {}), or change "
         "the model",
-        ::fit::why_unended(fit.search), signals, model.iterations));
-  const auto bad = static_cast<std::size_t>(
-      std::find_if(fit.stated.begin(), fit.stated.end(), [](const auto& s) { return !s.hold(); }) - fit.stated.begin());
-  throw CheckFailed(hydro::InputError(
-      fmt::format("no value is told: the search ended, but not at the motion that was measured{}", signals),
-      model.signals[bad].deviation.place,
+        ::fit::why_unended(m.fit.search), signals, m.model.iterations)));
+  const auto bad = std::find_if(m.fit.stated.begin(), m.fit.stated.end(), [](const auto& s) { return !s.hold(); });
+  return std::make_exception_ptr(CheckFailed(hydro::InputError(
+      "no value is told: the search ended, but not at the motion that was measured" + signals,
+      m.model.signals[static_cast<std::size_t>(bad - m.fit.stated.begin())].deviation.place,
       "begin elsewhere (first) or at several points (starts), change the model, or state the deviation that the noise "
-      "has; to have values all the same: [ask] accept = [\"residuals\"]"));
+      "has; to have values all the same: [ask] accept = [\"residuals\"]")));
 }
 
 }  // namespace
 
-void fit_model(const scene::FitScene& scene, const Motion& model, const FitArguments& arguments,
-               const Console& console) {
+FitOutcome fit_model(const scene::FitScene& scene, const scene::MotionModel& model) {
   const MeasuredRun measured = MeasuredRun::read(scene, model);
   SceneRuns runs(model, measured);
   const std::vector<std::string> units = runs.units();
@@ -244,26 +233,18 @@ void fit_model(const scene::FitScene& scene, const Motion& model, const FitArgum
   if (model.starts > 1) several = ::fit::fit_simulation_from(runs, problem, model.starts);
   const auto result = several ? several->best : ::fit::fit_simulation(runs, problem);
   const FittedMotion fitted{scene, model, measured, units, result};
-  if (!console.json) tell(fitted, console);
-  if (several && !console.json)
-    console.out << fmt::format("  of {} starts {} came there, {} had no motion to follow, {} came to no end\n",
-                               several->tried, several->agree, several->failed, several->unended);
+  FitOutcome out{summary_of(fitted), figure(fitted)};
+  if (several) add_starts(*several, out.summary);
   if (!result.refused.empty()) {
-    if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(fitted)));
-    refuse_values(fitted);
+    out.refused = refusal_of(fitted);
+  } else if (model.profile) {
+    try {
+      add_profiles(fitted, runs, problem, out.summary);
+    } catch (const hydro::NumericsError&) {  // values are printed all the same
+      out.refused = std::current_exception();
+    }
   }
-  FitJson j = as_json_of(fitted);
-  if (several)
-    j["starts"] = {{"tried", several->tried},
-                   {"agree", several->agree},
-                   {"failed", several->failed},
-                   {"unended", several->unended}};
-  const Profiles profiles = profiles_of(model, runs, problem, result);
-  for (std::size_t k = 0; k < profiles.size(); ++k)
-    if (profiles[k])
-      j["parameter"][bare(result.parameters[k].name)]["profile_interval"] = {profiles[k]->low, profiles[k]->high};
-  if (!console.json) tell(result, profiles, console);
-  deliver(arguments, console, j, figure(fitted));
+  return out;
 }
 
 }  // namespace froude

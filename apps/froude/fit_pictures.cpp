@@ -1,14 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "froude/fit_report.hpp"
+#include "froude/fit_morison.hpp"
 
 namespace froude {
 namespace {
 
 using ::fit::Coefficient;
-constexpr double gap = std::numeric_limits<double>::quiet_NaN();
 
 /// The mean of all cycles with its standard error, and the fit over one of them. Where the delay was estimated, cycles
 /// begin elsewhere in the record that was fitted, and the fit is left out.
@@ -64,31 +62,26 @@ plot::Axis roomy(const std::string& label, const std::vector<double>& x) {
 /// One coefficient over KC with its intervals, and the law where it asks for KC alone.
 plot::Panel coefficient_panel(const std::vector<MorisonRun>& runs, std::size_t i, const CoefficientLaw* law) {
   const std::string name = runs[0].asked[i].name;
-  plot::Series values{name, {}, {}, false, true}, bars{"95 % interval", {}, {}};
-  bars.name = fmt::format("{:g} % interval", 100 * runs[0].fit.confidence);
+  std::vector<double> kc;
+  std::vector<const Coefficient*> told;
   for (const MorisonRun& run : runs) {
-    const Coefficient& c = run.asked[i];
-    if (!c.value) continue;
-    values.x.push_back(run.fit.kc);
-    values.y.push_back(*c.value);
-    for (const double y : {c.interval.low, c.interval.high, gap}) {
-      bars.x.push_back(run.fit.kc);
-      bars.y.push_back(y);
-    }
+    if (!run.asked[i].value) continue;
+    kc.push_back(run.fit.kc);
+    told.push_back(&run.asked[i]);
   }
-  plot::Panel panel{.x = roomy("KC", values.x), .y = {name}, .series = {values, bars}};
-  if (law == nullptr || values.x.empty()) return panel;
+  plot::Panel panel{.x = roomy("KC", kc), .y = {name}, .series = with_bars(name, runs[0].fit.confidence, kc, told)};
+  if (law == nullptr || kc.empty()) return panel;
   const auto& best = law->laws.front();
   if (best.law != ::fit::Law::kc && best.law != ::fit::Law::constant) return panel;
   double middle = 0;
-  for (const double kc : values.x) middle += std::log(kc) / static_cast<double>(values.x.size());
+  for (const double x : kc) middle += std::log(x) / static_cast<double>(kc.size());
   plot::Series line{"law", {}, {}};
-  const auto [low, high] = std::minmax_element(values.x.begin(), values.x.end());
+  const auto [low, high] = std::minmax_element(kc.begin(), kc.end());
   for (int k = 0; k <= 50; ++k) {
-    const double kc = *low * std::pow(*high / *low, k / 50.0);
-    line.x.push_back(kc);
+    const double x = *low * std::pow(*high / *low, k / 50.0);
+    line.x.push_back(x);
     line.y.push_back(best.coefficients[0] +
-                     (best.law == ::fit::Law::kc ? best.coefficients[1] * (std::log(kc) - middle) : 0.0));
+                     (best.law == ::fit::Law::kc ? best.coefficients[1] * (std::log(x) - middle) : 0.0));
   }
   panel.series.push_back(line);
   return panel;
@@ -96,19 +89,9 @@ plot::Panel coefficient_panel(const std::vector<MorisonRun>& runs, std::size_t i
 
 }  // namespace
 
-plot::Series band_outline(const std::string& name, const std::vector<double>& t, const std::vector<double>& half,
-                          bool dashed) {
-  plot::Series out{name, t, half, true, false, dashed};
-  for (std::size_t i = t.size(); i-- > 0;) {
-    out.x.push_back(t[i]);
-    out.y.push_back(-half[i]);
-  }
-  return out;
-}
-
 plot::Figure runs_figure(const scene::FitScene& scene, const std::vector<MorisonRun>& runs,
                          const std::vector<CoefficientLaw>& laws) {
-  plot::Figure f{.title = scene.title.empty() ? scene.file.filename().string() : scene.title, .panels = {}};
+  plot::Figure f{.title = title_of(scene), .panels = {}};
   if (runs.size() < 3) {
     for (const MorisonRun& run : runs) add_run(run, f);
     return f;
