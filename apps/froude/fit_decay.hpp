@@ -7,7 +7,7 @@
 #include "fit/decay_memory.hpp"
 #include "fit/diagnose.hpp"
 #include "fit/runs.hpp"
-#include "froude/fit_report.hpp"
+#include "froude/fit_summary.hpp"
 
 namespace froude {
 
@@ -41,17 +41,8 @@ struct DecayRun {
   std::vector<::fit::DecayRadiation> curve = {};     ///< about the swing
 };
 
-/// One coefficient over all runs, each fitted alone.
-struct DecayLaw {
-  std::string coefficient;
-  ::fit::RandomEffects over_runs;
-};
-
-void tell_decay(const scene::FitScene& scene, const DecayRun& run, const Console& console);
-void tell_decay_laws(const scene::FitScene& scene, const std::vector<DecayLaw>& laws, std::size_t runs,
-                     const Console& console);
-FitJson decay_as_json(const DecayRun& run);
-FitJson decay_law_as_json(const DecayLaw& law);
+FitSummary summary_of(const scene::FitScene& scene, const DecayRun& run);
+const char* unit_of_decay(const std::string& term, bool angle);  ///< of what a decay fits: "period", "quadratic"
 /// One row for each run, as CSV; cells of what is not identifiable are empty.
 std::string decay_table(const scene::FitScene& scene, const std::vector<DecayRun>& runs);
 /// Records and what is left of them, and of a memory added mass and damping over frequency.

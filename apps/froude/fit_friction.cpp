@@ -2,7 +2,7 @@
 
 #include "fit/friction_ramp.hpp"
 #include "fit/runs.hpp"
-#include "froude/fit_report.hpp"
+#include "froude/fit_summary.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/csv.hpp"
 
@@ -11,7 +11,6 @@ namespace {
 
 namespace dim = hydro::dim;
 using ::fit::Coefficient;
-using Json = FitJson;
 
 struct FrictionTest {
   std::string name;
@@ -19,17 +18,12 @@ struct FrictionTest {
   ::fit::FrictionRamp fit;
 };
 
-/// One level over all tests, which may differ by more than their own errors.
-struct FrictionLevel {
-  std::string name;
-  std::optional<::fit::RandomEffects> together;  ///< of three tests and more
-};
-
 /// A slider has a force, a hinge a torque.
 bool slides(const scene::FitScene& scene) { return !scene.force.empty(); }
 const char* load_unit(const scene::FitScene& scene) { return slides(scene) ? "N" : "N m"; }
 
-FrictionTest fit_test(const scene::FitScene& scene, const std::filesystem::path& file) try {
+FrictionTest fit_test(const scene::FitScene& scene, const scene::FrictionRampModel& model,
+                      const std::filesystem::path& file) try {
   const auto table = hydro::io::CsvTable::read(file);
   FrictionTest test{.name = file.filename().string(),
                     .time = table.column(scene.channels.at("time"), dim::time),
@@ -38,91 +32,55 @@ FrictionTest fit_test(const scene::FitScene& scene, const std::filesystem::path&
                     .fit = {}};
   if (slides(scene) && scene.force[0].turned)
     for (double& f : test.load) f = -f;
-  const auto& m = scene.model;
-  test.fit = ::fit::fit_friction_ramp(test.time, test.load, {m.ramp, m.slide, m.drop, scene.confidence});
+  test.fit = ::fit::fit_friction_ramp(test.time, test.load, model.options);
   return test;
 } catch (const hydro::InputError& e) {
   throw e.at({.file = file.string()});
 }
 
-const Coefficient& level_of(const FrictionTest& test, const std::string& name) {
-  return name == "static" ? test.fit.static_level : test.fit.dynamic_level;
+FitSummary summary_of(const FrictionTest& test, const std::string& unit) {
+  const auto& f = test.fit;
+  FitSummary summary{.key = "run", .one_of_many = true};
+  summary.heading = fmt::format("{}: slips at {:.4g} s, after growing by {:.3g} {} a second; residual {:.3g} {} rms",
+                                test.name, f.slip_s, f.rate, unit, f.residual_rms, unit);
+  summary.facts = {{"file", test.name},
+                   {"slip_s", f.slip_s},
+                   {"rate", f.rate},
+                   {"slide_rate", f.slide_rate},
+                   {"residual_rms", f.residual_rms}};
+  for (const Coefficient* c : {&f.static_level, &f.dynamic_level, &f.drop}) summary.estimates.push_back({*c, unit});
+  summary.say("dynamic over static {:.3g}; while it slides the load changes by {:.2g} {} a second",
+              *f.dynamic_level.value / *f.static_level.value, f.slide_rate, unit);
+  summary.warn(f.caution);
+  return summary;
 }
 
-/// A brake that slips to either side has two signs and one level.
-std::vector<FrictionLevel> levels_of(const std::vector<FrictionTest>& tests, double confidence) {
-  std::vector<FrictionLevel> out{{"static", {}}, {"dynamic", {}}};
-  if (tests.size() < 3) return out;
-  for (FrictionLevel& level : out) {
+/// Each level of all tests together, which may differ by more than their own errors. A brake that slips to either side
+/// has two signs and one level.
+FitSummary summary_of(const scene::FitScene& scene, const std::vector<FrictionTest>& tests) {
+  FitSummary summary = begin_summary(scene), together{.key = "together"};
+  const std::string unit = load_unit(scene);
+  for (const FrictionTest& test : tests) summary.parts.push_back(summary_of(test, unit));
+  for (const auto level : {&::fit::FrictionRamp::static_level, &::fit::FrictionRamp::dynamic_level}) {
+    const std::string name = (tests[0].fit.*level).name;
+    const auto include = [&](double value) {
+      summary.facts["coefficients"][name] = fmt::format("{:.10g} {}", value, unit);
+    };
+    if (tests.size() == 1) include(std::abs(*(tests[0].fit.*level).value));
+    if (tests.size() < 3) continue;
     std::vector<::fit::RunEstimate> runs;
-    for (const FrictionTest& test : tests) {
-      const Coefficient& c = level_of(test, level.name);
-      runs.push_back({std::abs(*c.value), c.standard_error, 0, 0, 0});
-    }
-    level.together = ::fit::fit_runs(runs, ::fit::Law::constant, confidence);
+    for (const FrictionTest& test : tests)
+      runs.push_back({std::abs(*(test.fit.*level).value), (test.fit.*level).standard_error, 0, 0, 0});
+    const auto law = ::fit::fit_runs(runs, ::fit::Law::constant, scene.confidence);
+    include(law.coefficients[0]);
+    together.parts.push_back(over_runs(name, unit, law, "test", tests.size(), scene.confidence));
   }
-  return out;
-}
-
-void tell(const FrictionTest& test, const Console& console, double confidence, const char* unit) {
-  const auto& f = test.fit;
-  console.out << fmt::format("{}: slips at {:.4g} s, after growing by {:.3g} {} a second; residual {:.3g} {} rms\n",
-                             test.name, f.slip_s, f.rate, unit, f.residual_rms, unit);
-  for (const Coefficient* c : {&f.static_level, &f.dynamic_level, &f.drop})
-    console.out << fmt::format("  {:<8} {:.4g} {}, {:g} % interval {:.4g} to {:.4g}\n", c->name, *c->value, unit,
-                               100 * confidence, c->interval.low, c->interval.high);
-  console.out << fmt::format("  dynamic over static {:.3g}; while it slides the load changes by {:.2g} {} a second\n",
-                             *f.dynamic_level.value / *f.static_level.value, f.slide_rate, unit);
-  if (!f.caution.empty()) console.out << "  caution: " << f.caution << '\n';
-}
-
-void tell(const FrictionLevel& level, std::size_t tests, const Console& console, double confidence, const char* unit) {
-  if (!level.together) return;
-  const auto& r = *level.together;
-  console.out << fmt::format(
-      "{} over {} tests: {:.4g} {}, {:g} % interval {:.4g} to {:.4g}; from test to test ±{:.2g}; the next between "
-      "{:.4g} and {:.4g}\n",
-      level.name, tests, r.coefficients[0], unit, 100 * confidence, r.intervals[0].low, r.intervals[0].high, r.between,
-      r.prediction.low, r.prediction.high);
-}
-
-Json as_json_of(const FrictionTest& test) {
-  const auto& f = test.fit;
-  Json j{{"file", test.name},
-         {"slip_s", f.slip_s},
-         {"rate", f.rate},
-         {"slide_rate", f.slide_rate},
-         {"residual_rms", f.residual_rms}};
-  if (!f.caution.empty()) j["caution"] = f.caution;
-  for (const Coefficient* c : {&f.static_level, &f.dynamic_level, &f.drop}) {
-    j[c->name] = as_json(*c);
-    j[c->name].erase("shift_per_degree");
-  }
-  return j;
-}
-
-Json all_as_json(const scene::FitScene& scene, const std::vector<FrictionTest>& tests,
-                 const std::vector<FrictionLevel>& levels) {
-  Json j{{"scene", scene.file.filename().string()}, {"kind", "friction ramp"}, {"confidence", scene.confidence}};
-  for (const FrictionLevel& level : levels) {
-    if (level.together || tests.size() == 1)
-      j["coefficients"][level.name] = fmt::format(
-          "{:.10g} {}",
-          level.together ? level.together->coefficients[0] : std::abs(*level_of(tests[0], level.name).value),
-          load_unit(scene));
-    if (!level.together) continue;
-    const auto& r = *level.together;
-    j["together"][level.name] = {{"value", r.coefficients[0]},
-                                 {"interval", {r.intervals[0].low, r.intervals[0].high}},
-                                 {"between_tests", r.between},
-                                 {"prediction", {r.prediction.low, r.prediction.high}}};
-  }
-  for (const FrictionTest& test : tests) j["run"].push_back(as_json_of(test));
-  return j;
+  if (!together.parts.empty()) summary.parts.push_back(std::move(together));
+  return summary;
 }
 
 plot::Figure figure(const scene::FitScene& scene, const std::vector<FrictionTest>& tests) {
-  plot::Figure f{.title = scene.title.empty() ? scene.file.filename().string() : scene.title, .panels = {}};
+  plot::Figure f{.title = title_of(scene), .panels = {}};
   for (const FrictionTest& test : tests)
     f.panels.push_back({.x = {"time", "s"},
                         .y = {slides(scene) ? "force" : "torque", load_unit(scene)},
@@ -134,15 +92,10 @@ plot::Figure figure(const scene::FitScene& scene, const std::vector<FrictionTest
 
 }  // namespace
 
-void fit_friction_ramps(const scene::FitScene& scene, const FitArguments& arguments, const Console& console) {
+FitOutcome fit_model(const scene::FitScene& scene, const scene::FrictionRampModel& model) {
   std::vector<FrictionTest> tests;
-  for (const auto& file : scene.files) tests.push_back(fit_test(scene, file.value));
-  const auto levels = levels_of(tests, scene.confidence);
-  if (!console.json) {
-    for (const FrictionTest& test : tests) tell(test, console, scene.confidence, load_unit(scene));
-    for (const FrictionLevel& level : levels) tell(level, tests.size(), console, scene.confidence, load_unit(scene));
-  }
-  deliver(arguments, console, all_as_json(scene, tests, levels), figure(scene, tests));
+  for (const auto& file : scene.files) tests.push_back(fit_test(scene, model, file.value));
+  return {summary_of(scene, tests), figure(scene, tests)};
 }
 
 }  // namespace froude

@@ -3,21 +3,28 @@
 
 #include "fit/simulated.hpp"
 #include "fit/verdict.hpp"
-#include "froude/fit_report.hpp"
+#include "froude/fit_summary.hpp"
 #include "froude/scene_runs.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 
 namespace froude {
 namespace {
 
 using ::fit::Coefficient;
-using Json = FitJson;
+using Motion = scene::MotionModel;
+
+/// What was asked, what was measured, and what came of it.
+struct FittedMotion {
+  const scene::FitScene& scene;
+  const Motion& model;
+  const MeasuredRun& measured;
+  const std::vector<std::string>& units;  ///< of the signals
+  const ::fit::SimulationFit& fit;
+};
 
 /// The deviation of a signal's noise, SI, and the dimension of its column against that of the run.
-double deviation_of(const scene::FitScene::Motion::Signal& s, const std::string& unit,
-                    const hydro::io::CsvTable& table) {
+double deviation_of(const Motion::Signal& s, const std::string& unit, const hydro::io::CsvTable& table) {
   const hydro::Dimension needed = hydro::parse_unit(unit).dimension;
   table.column(s.column, needed);  // refuses a column of another dimension
   try {
@@ -29,99 +36,39 @@ double deviation_of(const scene::FitScene::Motion::Signal& s, const std::string&
   }
 }
 
-::fit::SimulationProblem problem_of(const scene::FitScene& fit, const MeasuredRun& measured,
+::fit::SimulationProblem problem_of(const scene::FitScene& scene, const Motion& model, const MeasuredRun& measured,
                                     const std::vector<std::string>& units) {
   ::fit::SimulationProblem p;
-  for (const auto& q : fit.motion.parameters) {
-    ::fit::SimulationParameter one{q.key, q.first};
-    if (q.lowest) one.lowest = *q.lowest;
-    if (q.highest) one.highest = *q.highest;
-    p.parameters.push_back(std::move(one));
-  }
+  for (const auto& q : model.parameters) p.parameters.push_back(q.number);
   for (std::size_t w = 0; w < measured.first.size(); ++w)
     p.measured.emplace_back(measured.values.middleRows(measured.first[w], measured.rows(w)));
-  const auto table = hydro::io::CsvTable::read(fit.files[0].value);
+  const auto table = hydro::io::CsvTable::read(scene.files[0].value);
   for (std::size_t c = 0; c < units.size(); ++c)
-    p.deviations.push_back(deviation_of(fit.motion.signals[c], units[c], table));
-  p.confidence = fit.confidence;
-  p.iterations_reach = fit.motion.iterations;
-  p.accept_residuals = fit.accept_residuals;
+    p.deviations.push_back(deviation_of(model.signals[c], units[c], table));
+  p.confidence = scene.confidence;
+  p.iterations_reach = model.iterations;
+  p.accept_residuals = model.accept_residuals;
   return p;
 }
 
-void tell_values(const scene::FitScene& scene, const ::fit::SimulationFit& fit, const Console& console) {
-  for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
-    const Coefficient& c = fit.parameters[k];
-    const std::string unit = scene.motion.parameters[k].unit;
-    const std::string interval =
-        fmt::format("{:g} % interval {:.5g} to {:.5g}", 100 * scene.confidence, c.interval.low, c.interval.high);
-    if (c.value)
-      console.out << fmt::format("  {} {:.5g}{}{}, {} (if residuals were independent {:.5g} to {:.5g})\n", c.name,
-                                 *c.value, unit.empty() ? "" : " ", unit, interval, c.white_interval.low,
-                                 c.white_interval.high);
-    else
-      console.out << fmt::format("  {} not identifiable: {}; {}\n", c.name, c.why_not, interval);
-  }
-}
-
 /// "x differs by 0.057 m rms; its deviation is stated as 0.002 m, which allows 0.0026 m"
-std::string difference(const scene::FitScene& scene, const std::vector<std::string>& units,
-                       const ::fit::SimulationFit& fit, std::size_t c) {
-  const auto& s = fit.stated[c];
+std::string difference(const FittedMotion& m, std::size_t c) {
+  const auto& s = m.fit.stated[c];
+  const std::string& unit = m.units[c];
   return fmt::format("{} differs by {:.3g} {} rms; its deviation is stated as {:.3g} {}, which allows {:.3g} {}",
-                     scene.motion.signals[c].of, fit.rms[c], units[c], s.stated, units[c], s.allowed, units[c]);
+                     m.model.signals[c].of, m.fit.rms[c], unit, s.stated, unit, s.allowed, unit);
 }
 
 /// What is too large and was accepted; values are told all the same.
-std::vector<std::string> accepted(const scene::FitScene& scene, const std::vector<std::string>& units,
-                                  const ::fit::SimulationFit& fit) {
+std::vector<std::string> accepted(const FittedMotion& m) {
   std::vector<std::string> out;
-  for (std::size_t c = 0; c < units.size(); ++c)
-    if (const auto& s = fit.stated[c]; !s.hold())
+  for (std::size_t c = 0; c < m.units.size(); ++c)
+    if (const auto& s = m.fit.stated[c]; !s.hold())
       out.push_back(
           fmt::format("{}; intervals are made from these residuals, {:.3g} times what is stated, and an error of the "
                       "model is in none of them",
-                      difference(scene, units, fit, c), s.rms / s.stated));
+                      difference(m, c), s.rms / s.stated));
   return out;
-}
-
-void tell(const scene::FitScene& scene, const MeasuredRun& measured, const std::vector<std::string>& units,
-          const ::fit::SimulationFit& fit, const Console& console) {
-  console.out << fmt::format("{}: {} samples of {} signals in {} window{}, {} runs of a window\n",
-                             scene.files[0].value.filename().string(), measured.values.rows(), measured.values.cols(),
-                             measured.first.size(), measured.first.size() == 1 ? "" : "s", fit.windows_followed);
-  if (fit.refused.empty()) tell_values(scene, fit, console);
-  for (std::size_t c = 0; c < units.size(); ++c) console.out << "  " << difference(scene, units, fit, c) << '\n';
-  if (fit.refused.empty()) {
-    console.out << fmt::format("  {:.1f} % of the samples lie in the band in which {:g} % should\n", 100 * fit.inside,
-                               100 * scene.confidence);
-    for (const std::string& a : accepted(scene, units, fit)) console.out << "  accepted: " << a << '\n';
-  }
-  if (fit.starts_all > 0)
-    console.out << fmt::format("  of {} numbers of the windows' starts the signals see {}, which are fitted too\n",
-                               fit.starts_all, fit.starts_seen);
-  if (fit.refused.empty())
-    console.out << fmt::format("  singular values {:.3g}; {}\n", fmt::join(fit.singular_values, ", "), fit.weakest);
-  console.out << fmt::format("  search: iterations {}, {}\n", fit.search.iterations, fit.search.why);
-  if (!fit.caution.empty()) console.out << "  caution: " << fit.caution << '\n';
-}
-
-/// By the likelihood, of each parameter that has a value and an error, where asked for.
-using Profiles = std::vector<std::optional<::fit::Interval>>;
-Profiles profiles_of(const scene::FitScene& scene, ::fit::Simulation& runs, const ::fit::SimulationProblem& problem,
-                     const ::fit::SimulationFit& fit) {
-  Profiles out(fit.parameters.size());
-  for (std::size_t k = 0; scene.profile && k < out.size(); ++k)
-    if (fit.parameters[k].value && fit.parameters[k].standard_error > 0)
-      out[k] = ::fit::profile_interval(runs, problem, fit, k);
-  return out;
-}
-
-void tell(const ::fit::SimulationFit& fit, const Profiles& profiles, const Console& console) {
-  for (std::size_t k = 0; k < profiles.size(); ++k)
-    if (profiles[k])
-      console.out << fmt::format("  {} by profile likelihood {:.5g} to {:.5g}\n", fit.parameters[k].name,
-                                 profiles[k]->low, profiles[k]->high);
 }
 
 /// "line[1].damping.linear" as a bare key of TOML.
@@ -137,38 +84,88 @@ double widest(const std::vector<Eigen::MatrixXd>& bands, std::size_t column) {
   return out;
 }
 
-Json as_json_of(const scene::FitScene& scene, const std::vector<std::string>& units, const ::fit::SimulationFit& fit) {
-  Json j{{"scene", scene.file.filename().string()},
-         {"kind", "motion"},
-         {"confidence", scene.confidence},
-         {"of", scene.motion.scene.value.filename().string()},
-         {"search", fit.search.why},
-         {"accepted", accepted(scene, units, fit)},
-         {"weakest", fit.weakest},
-         {"singular_values", std::vector<double>(fit.singular_values.begin(), fit.singular_values.end())}};
-  if (!fit.caution.empty()) j["caution"] = fit.caution;
-  j["samples_in_band"] = fit.inside;
-  for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
-    const Coefficient& c = fit.parameters[k];
-    const auto& parameter = scene.motion.parameters[k];
-    if (c.value && parameter.unit.empty()) j["coefficients"][bare(c.name)] = *c.value;
-    if (c.value && !parameter.unit.empty())
-      j["coefficients"][bare(c.name)] = fmt::format("{:.10g} {}", *c.value, parameter.unit);
-    Json own = as_json(c);
-    for (const char* of_force : {"shift_per_degree", "systematic_error"}) own.erase(of_force);
-    own["key"] = parameter.key;
-    own["unit"] = parameter.unit;
-    j["parameter"][bare(c.name)] = own;
+/// Values of the parameters, and what a scene of motion may include of them.
+void add_values(const FittedMotion& m, FitSummary& summary) {
+  summary.group = "parameter";
+  for (std::size_t k = 0; k < m.fit.parameters.size(); ++k) {
+    const Coefficient& c = m.fit.parameters[k];
+    const auto& [number, unit, place] = m.model.parameters[k];
+    const std::string key = bare(c.name);
+    if (c.value && unit.empty()) summary.facts["coefficients"][key] = *c.value;
+    if (c.value && !unit.empty()) summary.facts["coefficients"][key] = fmt::format("{:.10g} {}", *c.value, unit);
+    Estimate e{c, unit};
+    e.key = key;
+    e.facts = {{"key", number.name}, {"unit", unit}};
+    if (c.value)
+      e.more =
+          fmt::format(" (if residuals were independent {:.5g} to {:.5g})", c.white_interval.low, c.white_interval.high);
+    summary.estimates.push_back(std::move(e));
   }
-  for (std::size_t c = 0; c < units.size(); ++c)
-    j["signal"].push_back({{"of", scene.motion.signals[c].of},
-                           {"unit", units[c]},
-                           {"rms", fit.rms[c]},
-                           {"deviation", fit.stated[c].stated},
-                           {"rms_allowed", fit.stated[c].allowed},
-                           {"widest_band_of_fit", widest(fit.fit_band, c)},
-                           {"widest_band_of_sample", widest(fit.sample_band, c)}});
-  return j;
+}
+
+/// Residuals of each signal against the deviation that was stated, and the bands.
+void add_signals(const FittedMotion& m, FitSummary& summary) {
+  const auto& fit = m.fit;
+  for (std::size_t c = 0; c < m.units.size(); ++c) {
+    summary.say("{}", difference(m, c));
+    if (!fit.refused.empty()) continue;
+    summary.facts["signal"].push_back({{"of", m.model.signals[c].of},
+                                       {"unit", m.units[c]},
+                                       {"rms", fit.rms[c]},
+                                       {"deviation", fit.stated[c].stated},
+                                       {"rms_allowed", fit.stated[c].allowed},
+                                       {"widest_band_of_fit", widest(fit.fit_band, c)},
+                                       {"widest_band_of_sample", widest(fit.sample_band, c)}});
+  }
+  if (!fit.refused.empty()) return;
+  summary.facts["samples_in_band"] = fit.inside;
+  summary.say("{:.1f} % of the samples lie in the band in which {:g} % should", 100 * fit.inside,
+              100 * m.scene.confidence);
+}
+
+FitSummary summary_of(const FittedMotion& m) {
+  const auto& fit = m.fit;
+  const bool told = fit.refused.empty();
+  FitSummary summary = begin_summary(m.scene);
+  summary.heading =
+      fmt::format("{}: {} samples of {} signals in {} window{}, {} runs of a window",
+                  m.scene.files[0].value.filename().string(), m.measured.values.rows(), m.measured.values.cols(),
+                  m.measured.first.size(), m.measured.first.size() == 1 ? "" : "s", fit.windows_followed);
+  summary.facts["of"] = m.model.scene.value.filename().string();
+  summary.facts["search"] = fit.search.why;
+  if (told) add_values(m, summary);
+  add_signals(m, summary);
+  if (told) {
+    const std::vector<std::string> all = accepted(m);
+    summary.facts["accepted"] = all;
+    for (const std::string& one : all) summary.say("accepted: {}", one);
+  }
+  if (fit.starts_all > 0)
+    summary.say("of {} numbers of the windows' starts the signals see {}, which are fitted too", fit.starts_all,
+                fit.starts_seen);
+  if (told) {
+    summary.facts["weakest"] = fit.weakest;
+    summary.facts["singular_values"] = std::vector<double>(fit.singular_values.begin(), fit.singular_values.end());
+    summary.say("singular values {:.3g}; {}", fmt::join(fit.singular_values, ", "), fit.weakest);
+  }
+  summary.say("search: iterations {}, {}", fit.search.iterations, fit.search.why);
+  summary.warn(fit.caution);
+  return summary;
+}
+
+void add_starts(const ::fit::SeveralStarts& several, FitSummary& summary) {
+  summary.facts["starts"] = {
+      {"tried", several.tried}, {"agree", several.agree}, {"failed", several.failed}, {"unended", several.unended}};
+  summary.say("of {} starts {} came there, {} had no motion to follow, {} came to no end", several.tried, several.agree,
+              several.failed, several.unended);
+}
+
+/// Intervals by the likelihood of each parameter that has a value and an error.
+void add_profiles(const FittedMotion& m, ::fit::Simulation& runs, const ::fit::SimulationProblem& problem,
+                  FitSummary& summary) {
+  for (std::size_t k = 0; k < summary.estimates.size(); ++k)
+    if (const Coefficient& c = m.fit.parameters[k]; c.value && c.standard_error > 0)
+      summary.estimates[k].profile = ::fit::profile_interval(runs, problem, m.fit, k);
 }
 
 /// A column of all windows, one after the other.
@@ -181,11 +178,11 @@ std::vector<double> joined(const std::vector<Eigen::MatrixXd>& windows, std::siz
   return out;
 }
 
-plot::Figure figure(const scene::FitScene& scene, const MeasuredRun& measured, const std::vector<std::string>& units,
-                    const ::fit::SimulationFit& fit) {
-  plot::Figure f{.title = scene.title.empty() ? scene.file.filename().string() : scene.title, .panels = {}};
+plot::Figure figure(const FittedMotion& m) {
+  const auto& [scene, model, measured, units, fit] = m;
+  plot::Figure f{.title = title_of(scene), .panels = {}};
   if (!fit.refused.empty()) f.title += ": no fit";
-  const std::string level = fmt::format("{:g} % band", 100 * scene.confidence);
+  const std::string level = fmt::format("{:g} % band", 100 * m.scene.confidence);
   const auto& t = measured.time;
   for (std::size_t c = 0; c < units.size(); ++c) {
     const auto column = measured.values.col(static_cast<Eigen::Index>(c));
@@ -193,7 +190,7 @@ plot::Figure figure(const scene::FitScene& scene, const MeasuredRun& measured, c
     std::vector<double> left = values;
     for (std::size_t i = 0; i < left.size(); ++i) left[i] -= fitted[i];
     f.panels.push_back({.x = {"time", "s"},
-                        .y = {scene.motion.signals[c].of, units[c]},
+                        .y = {model.signals[c].of, units[c]},
                         .series = {{"measured", t, values}, {"fitted", t, fitted, true, false, true}}});
     plot::Panel residual{
         .x = {"time", "s"}, .y = {"residual", units[c]}, .series = {{"measured − fitted", t, left, false, true}}};
@@ -207,57 +204,47 @@ plot::Figure figure(const scene::FitScene& scene, const MeasuredRun& measured, c
 }
 
 /// (F65), (F66) Nothing is told but what stands against it: the picture alone is written.
-[[noreturn]] void refuse_values(const scene::FitScene& scene, const std::vector<std::string>& units,
-                                const ::fit::SimulationFit& fit) {
+std::exception_ptr refusal_of(const FittedMotion& m) {
   std::string signals;
-  for (std::size_t c = 0; c < units.size(); ++c)
-    if (!fit.stated[c].hold()) signals += "; " + difference(scene, units, fit, c);
-  if (!fit.search.ended())
-    throw hydro::NumericsError(fmt::format(
+  for (std::size_t c = 0; c < m.units.size(); ++c)
+    if (!m.fit.stated[c].hold()) signals += "; " + difference(m, c);
+  if (!m.fit.search.ended())
+    return std::make_exception_ptr(hydro::NumericsError(fmt::format(
         "no value is told: the search has no end: {}{}. Begin elsewhere (first of a [[model.parameter]]) or "
         "at several points ([model] starts), let it take more steps ([model] iterations, now {}), or change "
         "the model",
-        ::fit::why_unended(fit.search), signals, scene.motion.iterations));
-  const auto bad = static_cast<std::size_t>(
-      std::find_if(fit.stated.begin(), fit.stated.end(), [](const auto& s) { return !s.hold(); }) - fit.stated.begin());
-  throw CheckFailed(hydro::InputError(
-      fmt::format("no value is told: the search ended, but not at the motion that was measured{}", signals),
-      scene.motion.signals[bad].deviation.place,
+        ::fit::why_unended(m.fit.search), signals, m.model.iterations)));
+  const auto bad = std::find_if(m.fit.stated.begin(), m.fit.stated.end(), [](const auto& s) { return !s.hold(); });
+  return std::make_exception_ptr(CheckFailed(hydro::InputError(
+      "no value is told: the search ended, but not at the motion that was measured" + signals,
+      m.model.signals[static_cast<std::size_t>(bad - m.fit.stated.begin())].deviation.place,
       "begin elsewhere (first) or at several points (starts), change the model, or state the deviation that the noise "
-      "has; to have values all the same: [ask] accept = [\"residuals\"]"));
+      "has; to have values all the same: [ask] accept = [\"residuals\"]")));
 }
 
 }  // namespace
 
-void fit_motions(const scene::FitScene& scene, const FitArguments& arguments, const Console& console) {
-  const MeasuredRun measured = MeasuredRun::read(scene);
-  SceneRuns runs(scene, measured);
+FitOutcome fit_model(const scene::FitScene& scene, const scene::MotionModel& model) {
+  const MeasuredRun measured = MeasuredRun::read(scene, model);
+  SceneRuns runs(model, measured);
   const std::vector<std::string> units = runs.units();
-  const ::fit::SimulationProblem problem = problem_of(scene, measured, units);
+  const ::fit::SimulationProblem problem = problem_of(scene, model, measured, units);
   std::optional<::fit::SeveralStarts> several;
-  if (scene.motion.starts > 1) several = ::fit::fit_simulation_from(runs, problem, scene.motion.starts);
+  if (model.starts > 1) several = ::fit::fit_simulation_from(runs, problem, model.starts);
   const auto result = several ? several->best : ::fit::fit_simulation(runs, problem);
-  if (!console.json) tell(scene, measured, units, result, console);
-  if (several && !console.json)
-    console.out << fmt::format("  of {} starts {} came there, {} had no motion to follow, {} came to no end\n",
-                               several->tried, several->agree, several->failed, several->unended);
+  const FittedMotion fitted{scene, model, measured, units, result};
+  FitOutcome out{summary_of(fitted), figure(fitted)};
+  if (several) add_starts(*several, out.summary);
   if (!result.refused.empty()) {
-    if (arguments.picture)
-      hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, measured, units, result)));
-    refuse_values(scene, units, result);
+    out.refused = refusal_of(fitted);
+  } else if (model.profile) {
+    try {
+      add_profiles(fitted, runs, problem, out.summary);
+    } catch (const hydro::NumericsError&) {  // values are printed all the same
+      out.refused = std::current_exception();
+    }
   }
-  FitJson j = as_json_of(scene, units, result);
-  if (several)
-    j["starts"] = {{"tried", several->tried},
-                   {"agree", several->agree},
-                   {"failed", several->failed},
-                   {"unended", several->unended}};
-  const Profiles profiles = profiles_of(scene, runs, problem, result);
-  for (std::size_t k = 0; k < profiles.size(); ++k)
-    if (profiles[k])
-      j["parameter"][bare(result.parameters[k].name)]["profile_interval"] = {profiles[k]->low, profiles[k]->high};
-  if (!console.json) tell(result, profiles, console);
-  deliver(arguments, console, j, figure(scene, measured, units, result));
+  return out;
 }
 
 }  // namespace froude

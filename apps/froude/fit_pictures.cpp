@@ -1,18 +1,16 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "froude/fit_report.hpp"
+#include "froude/fit_morison.hpp"
 
 namespace froude {
 namespace {
 
 using ::fit::Coefficient;
-constexpr double gap = std::numeric_limits<double>::quiet_NaN();
 
 /// The mean of all cycles with its standard error, and the fit over one of them. Where the delay was estimated, cycles
 /// begin elsewhere in the record that was fitted, and the fit is left out.
-void add_mean_cycle(const FitRun& run, const ::fit::MeanForce& mean, plot::Figure& f) {
+void add_mean_cycle(const MorisonRun& run, const ::fit::MeanForce& mean, plot::Figure& f) {
   plot::Panel panel{.x = {"time in the cycle", "s"},
                     .y = {"mean force", "N"},
                     .series = {{fmt::format("mean of {} cycles", mean.cycles), mean.time, mean.force}},
@@ -30,7 +28,7 @@ void add_mean_cycle(const FitRun& run, const ::fit::MeanForce& mean, plot::Figur
 }
 
 /// Measured and fitted force and what is left, the last five periods of one run.
-void add_run(const FitRun& run, plot::Figure& f) {
+void add_run(const MorisonRun& run, plot::Figure& f) {
   const auto& r = run.prepared.record;
   const auto from = std::lower_bound(r.time.begin(), r.time.end(), r.time.back() - 5 * run.fit.period) - r.time.begin();
   const auto tail = [&](const std::vector<double>& v) { return std::vector<double>(v.begin() + from, v.end()); };
@@ -62,33 +60,28 @@ plot::Axis roomy(const std::string& label, const std::vector<double>& x) {
 }
 
 /// One coefficient over KC with its intervals, and the law where it asks for KC alone.
-plot::Panel coefficient_panel(const std::vector<FitRun>& runs, std::size_t i, const FitLaw* law) {
+plot::Panel coefficient_panel(const std::vector<MorisonRun>& runs, std::size_t i, const CoefficientLaw* law) {
   const std::string name = runs[0].asked[i].name;
-  plot::Series values{name, {}, {}, false, true}, bars{"95 % interval", {}, {}};
-  bars.name = fmt::format("{:g} % interval", 100 * runs[0].fit.confidence);
-  for (const FitRun& run : runs) {
-    const Coefficient& c = run.asked[i];
-    if (!c.value) continue;
-    values.x.push_back(run.fit.kc);
-    values.y.push_back(*c.value);
-    for (const double y : {c.interval.low, c.interval.high, gap}) {
-      bars.x.push_back(run.fit.kc);
-      bars.y.push_back(y);
-    }
+  std::vector<double> kc;
+  std::vector<const Coefficient*> told;
+  for (const MorisonRun& run : runs) {
+    if (!run.asked[i].value) continue;
+    kc.push_back(run.fit.kc);
+    told.push_back(&run.asked[i]);
   }
-  plot::Panel panel{.x = roomy("KC", values.x), .y = {name}, .series = {values, bars}};
-  if (law == nullptr || values.x.empty()) return panel;
+  plot::Panel panel{.x = roomy("KC", kc), .y = {name}, .series = with_bars(name, runs[0].fit.confidence, kc, told)};
+  if (law == nullptr || kc.empty()) return panel;
   const auto& best = law->laws.front();
   if (best.law != ::fit::Law::kc && best.law != ::fit::Law::constant) return panel;
   double middle = 0;
-  for (const double kc : values.x) middle += std::log(kc) / static_cast<double>(values.x.size());
+  for (const double x : kc) middle += std::log(x) / static_cast<double>(kc.size());
   plot::Series line{"law", {}, {}};
-  const auto [low, high] = std::minmax_element(values.x.begin(), values.x.end());
+  const auto [low, high] = std::minmax_element(kc.begin(), kc.end());
   for (int k = 0; k <= 50; ++k) {
-    const double kc = *low * std::pow(*high / *low, k / 50.0);
-    line.x.push_back(kc);
+    const double x = *low * std::pow(*high / *low, k / 50.0);
+    line.x.push_back(x);
     line.y.push_back(best.coefficients[0] +
-                     (best.law == ::fit::Law::kc ? best.coefficients[1] * (std::log(kc) - middle) : 0.0));
+                     (best.law == ::fit::Law::kc ? best.coefficients[1] * (std::log(x) - middle) : 0.0));
   }
   panel.series.push_back(line);
   return panel;
@@ -96,27 +89,17 @@ plot::Panel coefficient_panel(const std::vector<FitRun>& runs, std::size_t i, co
 
 }  // namespace
 
-plot::Series band_outline(const std::string& name, const std::vector<double>& t, const std::vector<double>& half,
-                          bool dashed) {
-  plot::Series out{name, t, half, true, false, dashed};
-  for (std::size_t i = t.size(); i-- > 0;) {
-    out.x.push_back(t[i]);
-    out.y.push_back(-half[i]);
-  }
-  return out;
-}
-
-plot::Figure runs_figure(const scene::FitScene& scene, const std::vector<FitRun>& runs,
-                         const std::vector<FitLaw>& laws) {
-  plot::Figure f{.title = scene.title.empty() ? scene.file.filename().string() : scene.title, .panels = {}};
+plot::Figure runs_figure(const scene::FitScene& scene, const std::vector<MorisonRun>& runs,
+                         const std::vector<CoefficientLaw>& laws) {
+  plot::Figure f{.title = title_of(scene), .panels = {}};
   if (runs.size() < 3) {
-    for (const FitRun& run : runs) add_run(run, f);
+    for (const MorisonRun& run : runs) add_run(run, f);
     return f;
   }
-  for (std::size_t i = 0; i < scene.coefficients.size(); ++i)
+  for (std::size_t i = 0; i < runs[0].asked.size(); ++i)
     f.panels.push_back(coefficient_panel(runs, i, laws.empty() ? nullptr : &laws[i]));
   plot::Series map{"runs", {}, {}, false, true};
-  for (const FitRun& run : runs) {
+  for (const MorisonRun& run : runs) {
     if (!run.fit.re) continue;
     map.x.push_back(run.fit.kc);
     map.y.push_back(*run.fit.re);
@@ -125,14 +108,14 @@ plot::Figure runs_figure(const scene::FitScene& scene, const std::vector<FitRun>
   return f;
 }
 
-std::string runs_table(const std::vector<FitRun>& runs) {
+std::string runs_table(const std::vector<MorisonRun>& runs) {
   std::string out =
       "# One row for each run; a coefficient that the run does not tell has an empty value and its interval.\nfile";
   for (const auto& [name, value] : runs[0].labels) out += "," + name;
   out += ",KC,Re,beta,period [s]";
   for (const Coefficient& c : runs[0].asked) out += fmt::format(",{0},{0}_low,{0}_high,{0}_error", c.name);
   out += ",residual_rms [N],explained,cautions\n";
-  for (const FitRun& run : runs) {
+  for (const MorisonRun& run : runs) {
     out += run.name;
     for (const auto& [name, value] : run.labels) out += "," + value;
     const auto& f = run.fit;

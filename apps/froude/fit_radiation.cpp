@@ -1,12 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "fit/forced_radiation.hpp"
-#include "froude/fit_report.hpp"
+#include "froude/fit_summary.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 
 namespace froude {
@@ -31,7 +29,9 @@ RadiationUnits units_of(bool angle) {
   return {"m", "N", "kg", "N s/m"};
 }
 
-RadiationRun fit_run_of(const scene::FitScene& scene, bool angle, const std::filesystem::path& file) try {
+RadiationRun fit_run_of(const scene::FitScene& scene, const ::fit::RestoredBody& body,
+                        const std::filesystem::path& file) try {
+  const bool angle = scene.turns();
   const auto table = hydro::io::CsvTable::read(file);
   const auto& motion = angle ? table.column(scene.channels.at("angle"), dim::angle)
                              : table.column(scene.channels.at("position"), dim::length);
@@ -39,10 +39,8 @@ RadiationRun fit_run_of(const scene::FitScene& scene, bool angle, const std::fil
       angle ? table.column(scene.channels.at("torque"), dim::moment) : table.column(scene.force[0].column, dim::force);
   if (!angle && scene.force[0].turned)
     for (double& f : force) f = -f;
-  const auto& b = *scene.model.body;
-  return {file.filename().string(),
-          ::fit::fit_radiation(table.column(scene.channels.at("time"), dim::time), motion, force,
-                               {b.mass, b.stiffness, b.mass_error, b.stiffness_error}, scene.confidence)};
+  return {file.filename().string(), ::fit::fit_radiation(table.column(scene.channels.at("time"), dim::time), motion,
+                                                         force, body, scene.confidence)};
 } catch (const hydro::InputError& e) {
   throw e.at({.file = file.string()});
 }
@@ -54,75 +52,53 @@ std::optional<::fit::RadiationMemory> memory_of(const std::vector<RadiationRun>&
   return ::fit::fit_radiation_memory(points, confidence);
 }
 
-void tell(const RadiationRun& run, const RadiationUnits& unit, double confidence, const Console& console) {
+FitSummary summary_of(const RadiationRun& run, const RadiationUnits& unit) {
   const auto& p = run.point;
-  console.out << fmt::format(
+  FitSummary summary{.key = "run", .one_of_many = true};
+  summary.heading = fmt::format(
       "{}: {:.4g} rad/s, amplitude {:.4g} {}; harmonics of the force: second {:.2g} %, third {:.2g} %; rest {:.3g} {} "
-      "rms\n",
+      "rms",
       run.name, p.omega, p.amplitude, unit.motion, 100 * p.second_harmonic, 100 * p.third_harmonic, p.residual_rms,
       unit.force);
-  for (const auto& [c, in] : {std::pair{&p.added_mass, unit.added_mass}, {&p.damping, unit.damping}})
-    console.out << fmt::format("  {:<10} {:.5g} {}, {:g} % interval {:.5g} to {:.5g}\n", c->name, *c->value, in,
-                               100 * confidence, c->interval.low, c->interval.high);
-  if (!p.caution.empty()) console.out << "  caution: " << p.caution << '\n';
+  summary.facts = {{"file", run.name},
+                   {"omega_rad_s", p.omega},
+                   {"amplitude", p.amplitude},
+                   {"second_harmonic", p.second_harmonic},
+                   {"third_harmonic", p.third_harmonic},
+                   {"residual_rms", p.residual_rms}};
+  summary.estimates = {{p.added_mass, unit.added_mass}, {p.damping, unit.damping}};
+  summary.warn(p.caution);
+  return summary;
 }
 
-void tell(const ::fit::RadiationMemory& m, const RadiationUnits& unit, double confidence, const Console& console) {
-  const auto& r = m.poles.report;
+FitSummary summary_of(const ::fit::RadiationMemory& m, const RadiationUnits& unit, double confidence) {
+  FitSummary summary{.key = "memory"};
   if (!m.refused.empty()) {
-    console.out << fmt::format("memory: none: {}\n", m.refused);
-    return;
+    summary.heading = "memory: none: " + m.refused;
+    summary.facts["why_not"] = m.refused;
+    return summary;
   }
-  console.out << fmt::format(
-      "memory: order {}, {}; differs from the points by {:.2g} of the largest damping, they are known to {:.2g}; {}\n",
+  const auto& r = m.poles.report;
+  const double limit = m.poles.A_inf(0, 0);
+  summary.heading = fmt::format(
+      "memory: order {}, {}; differs from the points by {:.2g} of the largest damping, they are known to {:.2g}; {}",
       r.order, r.why, r.error, m.tolerance, r.passive ? "passive" : "not certified passive");
-  if (m.limit.value)
-    console.out << fmt::format("  added mass at infinite frequency {:.5g} {}, {:g} % interval {:.5g} to {:.5g}\n",
-                               *m.limit.value, unit.added_mass, 100 * confidence, m.limit.interval.low,
-                               m.limit.interval.high);
-  else
-    console.out << fmt::format("  added mass at infinite frequency {:.5g} {}, without interval: {}\n",
-                               m.poles.A_inf(0, 0), unit.added_mass, m.limit.why_not);
-  for (const auto& pole : m.poles.model.poles)
-    console.out << fmt::format("  pole: decays by {:.4g}/s, turns by {:.4g} rad/s\n", pole.decay, pole.omega);
-}
-
-Json as_json_of(const scene::FitScene& scene, const std::vector<RadiationRun>& runs,
-                const std::optional<::fit::RadiationMemory>& memory) {
-  Json j{{"scene", scene.file.filename().string()}, {"kind", "radiation"}, {"confidence", scene.confidence}};
-  const auto put = [](Json& at, const Coefficient& c) {
-    at[c.name] = as_json(c);
-    for (const char* of_series : {"shift_per_degree", "effective_samples", "interval_if_independent"})
-      at[c.name].erase(of_series);
-  };
-  if (runs.size() == 1)
-    j["coefficients"] = {{"added_mass", *runs[0].point.added_mass.value}, {"damping", *runs[0].point.damping.value}};
-  if (memory && !memory->refused.empty()) j["memory"] = {{"why_not", memory->refused}};
-  if (memory && memory->refused.empty()) {
-    const auto& m = memory->poles;
-    j["memory"] = {{"order", m.report.order},     {"error", m.report.error},           {"known_to", memory->tolerance},
-                   {"passive", m.report.passive}, {"added_mass_limit", m.A_inf(0, 0)}, {"why", m.report.why}};
-    if (memory->limit.value)
-      j["memory"]["added_mass_limit_interval"] = {memory->limit.interval.low, memory->limit.interval.high};
-    for (std::size_t k = 0; k < m.model.poles.size(); ++k)
-      j["memory"]["pole"].push_back({{"decay_1_s", m.model.poles[k].decay},
-                                     {"omega_rad_s", m.model.poles[k].omega},
-                                     {"cosine", m.model.C[k](0, 0)},
-                                     {"sine", m.model.S[k](0, 0)}});
+  Json& j = summary.facts = {{"order", r.order},     {"error", r.error},          {"known_to", m.tolerance},
+                             {"passive", r.passive}, {"added_mass_limit", limit}, {"why", r.why}};
+  if (m.limit.value) j["added_mass_limit_interval"] = {m.limit.interval.low, m.limit.interval.high};
+  summary.say("added mass at infinite frequency {:.5g} {}, {}", limit, unit.added_mass,
+              m.limit.value ? fmt::format("{:g} % interval {:.5g} to {:.5g}", 100 * confidence, m.limit.interval.low,
+                                          m.limit.interval.high)
+                            : "without interval: " + m.limit.why_not);
+  const auto& [poles, cosine, sine] = m.poles.model;
+  for (std::size_t k = 0; k < poles.size(); ++k) {
+    j["pole"].push_back({{"decay_1_s", poles[k].decay},
+                         {"omega_rad_s", poles[k].omega},
+                         {"cosine", cosine[k](0, 0)},
+                         {"sine", sine[k](0, 0)}});
+    summary.say("pole: decays by {:.4g}/s, turns by {:.4g} rad/s", poles[k].decay, poles[k].omega);
   }
-  for (const RadiationRun& run : runs) {
-    Json r{{"file", run.name},
-           {"omega_rad_s", run.point.omega},
-           {"amplitude", run.point.amplitude},
-           {"second_harmonic", run.point.second_harmonic},
-           {"third_harmonic", run.point.third_harmonic},
-           {"residual_rms", run.point.residual_rms}};
-    if (!run.point.caution.empty()) r["caution"] = run.point.caution;
-    put(r, run.point.added_mass);
-    put(r, run.point.damping);
-    j["run"].push_back(r);
-  }
-  return j;
+  return summary;
 }
 
 std::string table_of(const std::vector<RadiationRun>& runs, const RadiationUnits& unit) {
@@ -142,27 +118,22 @@ std::string table_of(const std::vector<RadiationRun>& runs, const RadiationUnits
 /// Points with their intervals, and the curve of the poles.
 plot::Panel panel_of(const std::vector<RadiationRun>& runs, const std::optional<::fit::RadiationMemory>& memory,
                      bool damping, const char* unit, double confidence) {
-  plot::Series points{"measured", {}, {}, false, true}, bars{fmt::format("{:g} % interval", 100 * confidence), {}, {}};
-  double highest = 0;
+  std::vector<double> omega;
+  std::vector<const Coefficient*> told;
   for (const RadiationRun& run : runs) {
-    const Coefficient& c = damping ? run.point.damping : run.point.added_mass;
-    points.x.push_back(run.point.omega);
-    points.y.push_back(*c.value);
-    for (const double y : {c.interval.low, c.interval.high, std::numeric_limits<double>::quiet_NaN()}) {
-      bars.x.push_back(run.point.omega);
-      bars.y.push_back(y);
-    }
-    highest = std::max(highest, run.point.omega);
+    omega.push_back(run.point.omega);
+    told.push_back(damping ? &run.point.damping : &run.point.added_mass);
   }
-  plot::Panel panel{
-      .x = {"frequency", "rad/s"}, .y = {damping ? "damping" : "added mass", unit}, .series = {points, bars}};
+  plot::Panel panel{.x = {"frequency", "rad/s"},
+                    .y = {damping ? "damping" : "added mass", unit},
+                    .series = with_bars("measured", confidence, omega, told)};
   if (!memory || !memory->refused.empty()) return panel;
   plot::Series curve{"poles", {}, {}, true, false, true};
   for (int k = 1; k <= 200; ++k) {
-    const double omega = 1.2 * highest * k / 200;
-    const auto value = memory->poles.model.transform(omega)(0, 0);
-    curve.x.push_back(omega);
-    curve.y.push_back(damping ? value.real() : memory->poles.A_inf(0, 0) + value.imag() / omega);
+    const double at = 1.2 * omega.back() * k / 200;  // runs are in the order of their frequencies
+    const auto value = memory->poles.model.transform(at)(0, 0);
+    curve.x.push_back(at);
+    curve.y.push_back(damping ? value.real() : memory->poles.A_inf(0, 0) + value.imag() / at);
   }
   panel.series.push_back(curve);
   return panel;
@@ -170,24 +141,24 @@ plot::Panel panel_of(const std::vector<RadiationRun>& runs, const std::optional<
 
 }  // namespace
 
-void fit_radiations(const scene::FitScene& scene, const FitArguments& arguments, const Console& console) {
-  const bool angle = scene.channels.count("angle") > 0;
-  const RadiationUnits unit = units_of(angle);
+FitOutcome fit_model(const scene::FitScene& scene, const scene::RadiationModel& model) {
+  const RadiationUnits unit = units_of(scene.turns());
   std::vector<RadiationRun> runs;
-  for (const auto& file : scene.files) runs.push_back(fit_run_of(scene, angle, file.value));
+  for (const auto& file : scene.files) runs.push_back(fit_run_of(scene, model.body, file.value));
   std::sort(runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.point.omega < b.point.omega; });
   const auto memory = memory_of(runs, scene.confidence);
-  if (!console.json) {
-    console.out << "F = -(M + A) a - B v - C x, what the load cells carry of a body moved in still water\n";
-    for (const RadiationRun& run : runs) tell(run, unit, scene.confidence, console);
-    if (memory) tell(*memory, unit, scene.confidence, console);
-  }
-  if (arguments.table) hydro::io::write_atomically(*arguments.table, table_of(runs, unit));
-  if (arguments.table && !console.json) console.out << "wrote " << arguments.table->string() << '\n';
-  deliver(arguments, console, as_json_of(scene, runs, memory),
-          {.title = scene.title.empty() ? scene.file.filename().string() : scene.title,
-           .panels = {panel_of(runs, memory, false, unit.added_mass, scene.confidence),
-                      panel_of(runs, memory, true, unit.damping, scene.confidence)}});
+  FitSummary summary = begin_summary(scene);
+  summary.heading = "F = -(M + A) a - B v - C x, what the load cells carry of a body moved in still water";
+  if (runs.size() == 1)  // what a scene of motion may include
+    summary.facts["coefficients"] = {{"added_mass", *runs[0].point.added_mass.value},
+                                     {"damping", *runs[0].point.damping.value}};
+  for (const RadiationRun& run : runs) summary.parts.push_back(summary_of(run, unit));
+  if (memory) summary.parts.push_back(summary_of(*memory, unit, scene.confidence));
+  return {.summary = std::move(summary),
+          .picture = {.title = title_of(scene),
+                      .panels = {panel_of(runs, memory, false, unit.added_mass, scene.confidence),
+                                 panel_of(runs, memory, true, unit.damping, scene.confidence)}},
+          .table = table_of(runs, unit)};
 }
 
 }  // namespace froude

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "fit/towing.hpp"
-#include "froude/fit_report.hpp"
+#include "froude/fit_summary.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/csv.hpp"
 
@@ -10,7 +10,6 @@ namespace froude {
 namespace {
 
 namespace dim = hydro::dim;
-using Json = FitJson;
 
 std::vector<::fit::TowingRun> towing_runs(const scene::FitScene& scene) {
   std::vector<::fit::TowingRun> runs;
@@ -29,62 +28,51 @@ std::vector<::fit::TowingRun> towing_runs(const scene::FitScene& scene) {
   return runs;
 }
 
-bool is_refused(const scene::FitScene& scene, const ::fit::TowingFit& fit) {
-  return fit.scatter > fit.allowed && !scene.accept_residuals;
-}
-
 /// (F66) Runs that differ by more than their deviations allow have no drag coefficient in common.
-[[noreturn]] void refuse_mean(const scene::FitScene& scene, const ::fit::TowingFit& fit) {
-  throw CheckFailed(hydro::InputError(
+std::exception_ptr refusal_of(const scene::FitScene& scene, const ::fit::TowingFit& fit) {
+  return std::make_exception_ptr(CheckFailed(hydro::InputError(
       fmt::format(
           "no cd of all runs together is told: they scatter {:.3g} times as much as their deviations say, which "
           "allow {:.3g} times",
           fit.scatter, fit.allowed),
-      scene.model.place,
+      scene.model_place,
       "cd may depend on speed: fit fewer runs, or state the deviations that they have; to have their mean all the "
-      "same: "
-      "[ask] accept = [\"residuals\"]"));
+      "same: [ask] accept = [\"residuals\"]")));
 }
 
-void tell(const scene::FitScene& scene, const ::fit::TowingFit& fit, std::span<const ::fit::TowingRun> runs,
-          const Console& console) {
-  console.out << fmt::format("C_D = F/(1/2 rho U^2 D L)\n{:>10} {:>10} {:>10} {:>8} {:>8}\n", "U [m/s]", "F [N]", "Re",
-                             "cd", "+-");
-  for (std::size_t i = 0; i < runs.size(); ++i)
-    console.out << fmt::format(
-        "{:>10.4g} {:>10.4g} {:>10} {:>8.3f} {:>8}\n", runs[i].speed, runs[i].force,
-        fit.points[i].re ? fmt::format("{:.3g}", *fit.points[i].re) : "-", fit.points[i].cd,
-        fit.points[i].cd_deviation > 0 ? fmt::format("{:.3f}", fit.points[i].cd_deviation) : "-");
-  if (is_refused(scene, fit)) return;
-  console.out << fmt::format("together: cd {:.4f}, {:g} % interval {:.4f} to {:.4f}\n", *fit.cd.value,
+/// The mean of all runs, and how they scatter about it.
+void add_mean(const ::fit::TowingFit& fit, FitSummary& summary) {
+  FitSummary mean;
+  mean.heading = fmt::format("together: cd {:.4f}, {:g} % interval {:.4f} to {:.4f}", *fit.cd.value,
                              100 * fit.confidence, fit.cd.interval.low, fit.cd.interval.high);
-  if (std::isfinite(fit.scatter))
-    console.out << fmt::format("{}the runs scatter {:.2f} times as much as their deviations say{}\n",
-                               fit.scatter > fit.allowed ? "accepted: " : "", fit.scatter,
-                               fit.scatter > 1 ? "; the interval is widened by as much" : "");
+  mean.facts["cd"] = tree_of(Estimate{.coefficient = fit.cd});
+  if (std::isfinite(fit.scatter)) {
+    mean.facts.update({{"chi_square", fit.chi_square}, {"scatter", fit.scatter}});
+    mean.say("{}the runs scatter {:.2f} times as much as their deviations say{}",
+             fit.scatter > fit.allowed ? "accepted: " : "", fit.scatter,
+             fit.scatter > 1 ? "; the interval is widened by as much" : "");
+  }
+  if (std::isfinite(fit.allowed)) mean.facts["scatter_allowed"] = fit.allowed;
+  summary.parts.push_back(std::move(mean));
 }
 
-Json towed_as_json(const scene::FitScene& scene, const ::fit::TowingFit& fit, std::span<const ::fit::TowingRun> runs) {
-  Json cd = froude::as_json(fit.cd);
-  for (const char* time_series_only :
-       {"effective_samples", "shift_per_degree", "systematic_error", "interval_if_independent"})
-    cd.erase(time_series_only);
-  Json j{{"scene", scene.file.filename().string()},
-         {"kind", "towing"},
-         {"confidence", scene.confidence},
-         {"cd", cd},
-         {"run", Json::array()}};
-  if (std::isfinite(fit.scatter)) j.update({{"chi_square", fit.chi_square}, {"scatter", fit.scatter}});
-  if (std::isfinite(fit.allowed)) j["scatter_allowed"] = fit.allowed;
+FitSummary summary_of(const scene::FitScene& scene, const ::fit::TowingFit& fit, std::span<const ::fit::TowingRun> runs,
+                      bool refused) {
+  FitSummary summary = begin_summary(scene);
+  summary.heading =
+      fmt::format("C_D = F/(1/2 rho U^2 D L)\n{:>10} {:>10} {:>10} {:>8} {:>8}", "U [m/s]", "F [N]", "Re", "cd", "+-");
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    Json r{{"speed", runs[i].speed},
-           {"force", runs[i].force},
-           {"cd", fit.points[i].cd},
-           {"cd_deviation", fit.points[i].cd_deviation}};
-    if (fit.points[i].re) r["re"] = *fit.points[i].re;
-    j["run"].push_back(r);
+    const auto& [cd, deviation, re] = fit.points[i];
+    FitSummary run{.key = "run", .one_of_many = true};
+    run.heading =
+        fmt::format("{:>10.4g} {:>10.4g} {:>10} {:>8.3f} {:>8}", runs[i].speed, runs[i].force,
+                    re ? fmt::format("{:.3g}", *re) : "-", cd, deviation > 0 ? fmt::format("{:.3f}", deviation) : "-");
+    run.facts = {{"speed", runs[i].speed}, {"force", runs[i].force}, {"cd", cd}, {"cd_deviation", deviation}};
+    if (re) run.facts["re"] = *re;
+    summary.parts.push_back(std::move(run));
   }
-  return j;
+  if (!refused) add_mean(fit, summary);
+  return summary;
 }
 
 plot::Figure figure(const scene::FitScene& scene, const ::fit::TowingFit& fit, std::span<const ::fit::TowingRun> runs) {
@@ -95,7 +83,7 @@ plot::Figure figure(const scene::FitScene& scene, const ::fit::TowingFit& fit, s
   }
   const auto [low, high] = std::minmax_element(points.x.begin(), points.x.end());
   const std::vector<double> ends{*low, *high};
-  return {.title = scene.title.empty() ? scene.file.filename().string() : scene.title,
+  return {.title = title_of(scene),
           .panels = {{.x = {"speed", "m/s"},
                       .y = {"C_D"},
                       .series = {points, {"together", ends, {*fit.cd.value, *fit.cd.value}}},
@@ -107,12 +95,13 @@ plot::Figure figure(const scene::FitScene& scene, const ::fit::TowingFit& fit, s
 
 }  // namespace
 
-void fit_towed(const scene::FitScene& scene, const FitArguments& arguments, const Console& console) {
+FitOutcome fit_model(const scene::FitScene& scene, const scene::TowingModel& model) {
   const auto runs = towing_runs(scene);
-  const auto result = ::fit::fit_towing(cylinder_of(scene), runs, scene.confidence);
-  if (!console.json) tell(scene, result, runs, console);
-  if (is_refused(scene, result)) refuse_mean(scene, result);
-  deliver(arguments, console, towed_as_json(scene, result, runs), figure(scene, result, runs));
+  const auto fit = ::fit::fit_towing(model.cylinder, runs, scene.confidence);
+  const bool refused = fit.scatter > fit.allowed && !model.accept_residuals;
+  if (refused)
+    return {.summary = summary_of(scene, fit, runs, refused), .picture = {}, .refused = refusal_of(scene, fit)};
+  return {summary_of(scene, fit, runs, refused), figure(scene, fit, runs)};
 }
 
 }  // namespace froude

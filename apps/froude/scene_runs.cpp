@@ -7,7 +7,6 @@
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 #include "hydro/signal/welch.hpp"
-#include "scene/override.hpp"
 
 namespace froude {
 
@@ -33,24 +32,24 @@ MeasuredRun MeasuredRun::of(std::vector<double> time, Eigen::MatrixXd values, do
   return out;
 }
 
-MeasuredRun MeasuredRun::read(const scene::FitScene& fit) {
+MeasuredRun MeasuredRun::read(const scene::FitScene& fit, const scene::MotionModel& model) {
   if (fit.files.size() != 1)
     throw InputError(fmt::format("a fit of kind \"motion\" takes one file, got {}", fit.files.size()),
                      fit.files[1].place, "fit each record by itself");
   const auto table = hydro::io::CsvTable::read(fit.files[0].value);
   std::vector<double> time = table.column(fit.channels.at("time"), dim::time);
-  Eigen::MatrixXd values(std::ssize(time), std::ssize(fit.motion.signals));
-  for (std::size_t c = 0; c < fit.motion.signals.size(); ++c) {
-    const auto& column = table.column(fit.motion.signals[c].column);
+  Eigen::MatrixXd values(std::ssize(time), std::ssize(model.signals));
+  for (std::size_t c = 0; c < model.signals.size(); ++c) {
+    const auto& column = table.column(model.signals[c].column);
     values.col(static_cast<Eigen::Index>(c)) = Eigen::Map<const Eigen::VectorXd>(column.data(), std::ssize(column));
   }
-  return of(std::move(time), std::move(values), fit.motion.window);
+  return of(std::move(time), std::move(values), model.window);
 }
 
-SceneRuns::SceneRuns(const scene::FitScene& fit, const MeasuredRun& measured)
-    : fit_(fit), measured_(measured), text_(hydro::io::read_text(fit.motion.scene.value)) {
+SceneRuns::SceneRuns(const scene::MotionModel& model, const MeasuredRun& measured)
+    : asked_(model), measured_(measured), source_(hydro::io::read_text(model.scene.value), model.scene.value) {
   compiled({});
-  if (fit.motion.window > 0) begin_windows();
+  if (model.window > 0) begin_windows();
 }
 
 Eigen::Index SceneRuns::coordinates(std::size_t window) {
@@ -63,9 +62,9 @@ Eigen::MatrixXd SceneRuns::follow(std::size_t window, const Eigen::VectorXd& par
   if (!whole) compile::start_from(charts_.at(window).at(*model_, start), *model_);
   const Eigen::Index skipped = whole ? measured_.before : 0, rows = measured_.rows(window);
   const Record record = run(skipped + rows - 1, nullptr);
-  Eigen::MatrixXd out(rows, std::ssize(fit_.motion.signals));
-  for (std::size_t c = 0; c < fit_.motion.signals.size(); ++c) {
-    const auto& values = record.signal(fit_.motion.signals[c].of);
+  Eigen::MatrixXd out(rows, std::ssize(asked_.signals));
+  for (std::size_t c = 0; c < asked_.signals.size(); ++c) {
+    const auto& values = record.signal(asked_.signals[c].of);
     out.col(static_cast<Eigen::Index>(c)) = Eigen::Map<const Eigen::VectorXd>(values.data() + skipped, rows);
   }
   return out;
@@ -84,7 +83,7 @@ void SceneRuns::hand_on(std::size_t window, const Eigen::VectorXd& parameters, c
 std::vector<std::string> SceneRuns::units() {
   const Record record = run(0, nullptr);
   std::vector<std::string> out;
-  for (const auto& s : fit_.motion.signals) {
+  for (const auto& s : asked_.signals) {
     record.signal(s.of);  // a pattern may have let pass what is no name
     for (const Signal& r : record.signals)
       if (r.name == s.of) out.push_back(r.units);
@@ -97,13 +96,13 @@ void SceneRuns::compiled(const Eigen::VectorXd& parameters) {
   if (model_ && parameters.size() == numbers_.size() && parameters == numbers_) return;
   std::vector<scene::OverriddenNumber> numbers;
   for (Eigen::Index k = 0; k < parameters.size(); ++k)
-    numbers.push_back({fit_.motion.parameters[static_cast<std::size_t>(k)].key, parameters[k]});
-  scene_ = scene::parse_with(text_, fit_.motion.scene.value, numbers);
+    numbers.push_back({asked_.parameters[static_cast<std::size_t>(k)].number.name, parameters[k]});
+  scene_ = source_.with(numbers);
   if (!scene_.run)
-    throw InputError("the scene to be fitted asks for no run", fit_.motion.scene.place,
+    throw InputError("the scene to be fitted asks for no run", asked_.scene.place,
                      "add [ask] run = { duration = \"60 s\", every = \"0.05 s\" } to it");
   if (scene_.run->steady)
-    throw InputError("a steady run has no start and no decay", fit_.motion.scene.place,
+    throw InputError("a steady run has no start and no decay", asked_.scene.place,
                      "take start = \"steady\" out of its [ask] run");
   // The record says how often and how long; what the scene asks for does not matter here.
   scene_.run->every = measured_.step;
@@ -115,11 +114,13 @@ void SceneRuns::compiled(const Eigen::VectorXd& parameters) {
     step = {*chosen_step_, {}};
   scene_.run->of.clear();
   scene_.run->of_places.clear();
-  for (const auto& s : fit_.motion.signals) {
+  for (const auto& s : asked_.signals) {
     scene_.run->of.push_back(s.of);
     scene_.run->of_places.push_back(s.deviation.place);
   }
+  const auto poles = prepared_.fits;  // known by the coefficients that they were fitted to
   prepared_ = compile::prepare(scene_);
+  if (poles) prepared_.fits = poles;
   model_.emplace(compile::time_model(scene_, prepared_));
   if (!chosen_step_) chosen_step_ = model_->step;
   numbers_ = parameters;
@@ -136,7 +137,7 @@ void SceneRuns::begin_windows() {
   if (const std::string kind = compile::remembers(*model_); !kind.empty())
     throw InputError(
         fmt::format("a window cannot begin in the middle of this scene: {} remembers what was before", kind),
-        fit_.model.place, "leave out `window`, and fit a record that begins with the run");
+        asked_.place, "leave out `window`, and fit a record that begins with the run");
   compile::MovingState begin = compile::start_of(*model_);
   if (measured_.before > 0) run(measured_.before, &begin);
   charts_.emplace_back(*model_, std::move(begin));

@@ -11,6 +11,7 @@
 #include "fit/simulated.hpp"
 #include "froude/simulate.hpp"
 #include "scene/fit_scene.hpp"
+#include "scene/override.hpp"
 
 namespace froude {
 
@@ -26,16 +27,15 @@ struct MeasuredRun {
   /// Cuts the record into windows of this length; what is left over makes the last one longer. 0: one window.
   /// \throws hydro::InputError for fewer than 8 samples in a window, or a start between samples of the run
   static MeasuredRun of(std::vector<double> time, Eigen::MatrixXd values, double window_s);
-  /// The file of a fit scene. \throws hydro::InputError as of(), and for more than one file
-  static MeasuredRun read(const scene::FitScene& fit);
+  /// The file of a fit scene, the signals of its model. \throws hydro::InputError as of(), and for more than one file
+  static MeasuredRun read(const scene::FitScene& fit, const scene::MotionModel& model);
 };
 
 /// The runs. \throws hydro::InputError, in all it does, for scenes that cannot be run, or not in windows
 class SceneRuns final : public ::fit::Simulation {
  public:
-  /// Both are referred to and must live as long. Files need not be there: only the motion of `fit` are looked
-  /// at.
-  SceneRuns(const scene::FitScene& fit, const MeasuredRun& measured);
+  /// Both are referred to and must live as long.
+  SceneRuns(const scene::MotionModel& model, const MeasuredRun& measured);
 
   Eigen::Index coordinates(std::size_t window) override;
   Eigen::MatrixXd follow(std::size_t window, const Eigen::VectorXd& parameters, const Eigen::VectorXd& start) override;
@@ -49,9 +49,9 @@ class SceneRuns final : public ::fit::Simulation {
   Record run(Eigen::Index samples, compile::MovingState* end);
   void begin_windows();
 
-  const scene::FitScene& fit_;
+  const scene::MotionModel& asked_;
   const MeasuredRun& measured_;
-  std::string text_;
+  scene::ChangeableScene source_;
   scene::Scene scene_;
   compile::Prepared prepared_;
   std::optional<compile::TimeModel> model_;

@@ -5,6 +5,7 @@
 /// "load.at.x". Of several tables with one heading the number counts from 1, or a name stands in its place:
 /// "body.buoy.initial.heave". A single one needs neither.
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,20 @@ struct WrittenNumber {
 /// \throws hydro::InputError at `asked` if the scene writes no number there, with the nearest key
 WrittenNumber number_at(std::string_view text, const std::filesystem::path& file, const std::string& path,
                         const Place& asked);
+
+/// A scene of motion that was read once, its includes too, of which scenes with other numbers are built.
+class ChangeableScene {
+ public:
+  /// \throws hydro::InputError as parse()
+  ChangeableScene(std::string_view text, std::filesystem::path file);
+  /// With other numbers in these places. \throws hydro::InputError as parse() and number_at()
+  Scene with(const std::vector<OverriddenNumber>& numbers) const;
+
+ private:
+  std::string text_;
+  std::filesystem::path file_;
+  std::shared_ptr<const struct Node> document_;
+};
 
 /// As parse(), with other numbers in these places. \throws hydro::InputError as parse() and number_at()
 Scene parse_with(std::string_view text, const std::filesystem::path& file,

@@ -232,36 +232,41 @@ void check_version(const Node& root) {
         schema->value.place, "write schema = 1");
 }
 
-Scene parse_with(std::string_view text, const std::filesystem::path& file,
-                 const std::vector<OverriddenNumber>& numbers) {
-  Node document = parse_document(text, file.string());
-  check_version(document);
-  resolve_includes(document, file);
+ChangeableScene::ChangeableScene(std::string_view text, std::filesystem::path file)
+    : text_(text), file_(std::move(file)) {
+  auto document = std::make_shared<Node>(parse_document(text_, file_.string()));
+  check_version(*document);
+  resolve_includes(*document, file_);
+  document_ = std::move(document);
+}
+
+Scene ChangeableScene::with(const std::vector<OverriddenNumber>& numbers) const {
+  Node document = *document_;
   override_numbers(document, numbers);
   if (const auto* model = document.find("model"))
     throw InputError("this scene has a [model]: it asks for a fit, not for motion", model->place,
                      "use `froude fit`, or take the table out");
   Scene scene;
-  scene.file = file;
-  scene.text = text;
+  scene.file = file_;
+  scene.text = text_;
   const Record root = read_record(document, motion_schema(), scene.echo);
   if (root.has("title")) scene.title = root.text("title");
   scene.water = build_water(root.table("water"));
   if (root.has("waves")) scene.waves = build_waves(root.table("waves"), scene);
   if (root.has("current")) {
-    scene.current = build_current(root.table("current"), file);
+    scene.current = build_current(root.table("current"), file_);
     scene.current_place = root.table("current").place();
   }
   Names names;
   scene.probes = build_probes(root, names);
-  scene.bodies = build_bodies(root, file, names);
+  scene.bodies = build_bodies(root, file_, names);
   build_signals(root, names, scene);
   build_members(root, names, scene);
-  build_lines(root, file, names, scene);
+  build_lines(root, file_, names, scene);
   build_moorings(root, names, scene);
   build_connectors(root, names, scene);
   build_contacts(root, names, scene);
-  build_joints(root, file, names, scene);
+  build_joints(root, file_, names, scene);
   build_loads(root, names, scene);
   check_bodies(root, scene);
   build_ask(root.table("ask"), scene);
@@ -270,6 +275,11 @@ Scene parse_with(std::string_view text, const std::filesystem::path& file,
   check_excitation(root, scene);
   check_start(root, scene);
   return scene;
+}
+
+Scene parse_with(std::string_view text, const std::filesystem::path& file,
+                 const std::vector<OverriddenNumber>& numbers) {
+  return ChangeableScene(text, file).with(numbers);
 }
 
 Scene parse(std::string_view text, const std::filesystem::path& file) { return parse_with(text, file, {}); }

@@ -4,6 +4,8 @@
 #include <complex>
 #include <numbers>
 
+#include "dynamics/force/morison.hpp"
+
 namespace fit {
 namespace {
 
@@ -21,39 +23,57 @@ double power_at(std::span<const double> motion, double step, double omega) {
   return std::norm(sum);
 }
 
+/// Velocity of the water past the body, and the accelerations of both.
+struct Flow {
+  double past, water, own;
+};
+Flow flow_of(Experiment experiment, double velocity, double acceleration, double water_acceleration) {
+  switch (experiment) {
+    case Experiment::water_moves:
+      return {velocity, acceleration, 0};
+    case Experiment::body_moves:
+      return {-velocity, 0, acceleration};
+    case Experiment::both_move:
+      break;
+  }
+  return {velocity, water_acceleration, water_acceleration - acceleration};
+}
+
 }  // namespace
 
 double Cylinder::volume() const { return std::numbers::pi / 4 * diameter * diameter * length; }
 
 double morison_force(const Cylinder& c, double cd, double inertia, double velocity, double acceleration,
-                     double water_acceleration) {
-  const double drag = 0.5 * c.density * c.diameter * c.length * cd * std::abs(velocity) * velocity,
-               displaced = c.density * c.volume(), mass = c.mass_beyond_load_cells;
-  if (c.experiment == Experiment::water_moves) return displaced * inertia * acceleration + drag;           // (F7)
-  if (c.experiment == Experiment::body_moves) return -(inertia * displaced + mass) * acceleration - drag;  // (F8)
-  return displaced * (water_acceleration + inertia * acceleration) - mass * (water_acceleration - acceleration) +
-         drag;  // (F49)
+                     double water_acceleration) {  // (F7), (F8), (F49)
+  const Flow f = flow_of(c.experiment, velocity, acceleration, water_acceleration);
+  const double ca = c.experiment == Experiment::water_moves ? inertia - 1 : inertia;
+  const dynamics::MorisonPerLength load(c.diameter, c.density, cd, ca);
+  return c.length * (load.drag(f.past, std::abs(f.past)) + load.inertia(f.water, f.own)) -
+         c.mass_beyond_load_cells * f.own;
 }
 
 Eigen::MatrixXd morison_columns(const Cylinder& c, const ForceRecord& r) {  // (F7), (F8), (F25), (F49)
-  const double sign = c.experiment == Experiment::body_moves ? -1.0 : 1.0;
-  const auto u = as_vector(r.velocity).array();
-  Eigen::MatrixXd columns(u.size(), 2);
-  if (r.drag_flow.empty())
-    columns.col(0) = u.abs() * u;
-  else
-    columns.col(0) = as_vector(r.drag_flow);
-  columns.col(0) *= sign * 0.5 * c.density * c.diameter * c.length;
-  columns.col(1) = sign * c.density * c.volume() * as_vector(r.acceleration);
+  Cylinder alone = c;  // what else the load cells carry has no coefficient
+  alone.mass_beyond_load_cells = 0;
+  const Eigen::Index n = std::ssize(r.velocity);
+  Eigen::MatrixXd columns(n, 2);
+  const double of_unit_flow = morison_force(alone, 1, 0, 1, 0);
+  const auto u = as_vector(r.velocity), a = as_vector(r.acceleration);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    columns(j, 0) = r.drag_flow.empty() ? morison_force(alone, 1, 0, u[j], 0)
+                                        : of_unit_flow * r.drag_flow[static_cast<std::size_t>(j)];
+    columns(j, 1) = morison_force(alone, 0, 1, 0, a[j]);
+  }
   return columns;
 }
 
 Eigen::VectorXd carried_force(const Cylinder& c, const ForceRecord& r) {
-  const auto a = as_vector(r.acceleration);
-  if (c.experiment == Experiment::water_moves) return Eigen::VectorXd::Zero(a.size());
-  if (c.experiment == Experiment::body_moves) return -c.mass_beyond_load_cells * a;
-  const auto water = as_vector(r.water_acceleration);
-  return c.density * c.volume() * water - c.mass_beyond_load_cells * (water - a);
+  const bool both = c.experiment == Experiment::both_move;
+  Eigen::VectorXd out(std::ssize(r.acceleration));
+  for (std::size_t j = 0; j < r.acceleration.size(); ++j)
+    out[static_cast<Eigen::Index>(j)] =
+        morison_force(c, 0, 0, 0, r.acceleration[j], both ? r.water_acceleration[j] : 0);
+  return out;
 }
 
 MorisonColumns::MorisonColumns(const MorisonOptions& options, bool with_delay) {

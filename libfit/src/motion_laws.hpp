@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "dynamics/force/damper.hpp"
+
 namespace fit {
 
 /// y = (x, ẋ); θ = (ω₀, b₁, b₂, b₃, c, x₀).
@@ -20,7 +22,7 @@ struct Oscillator {
   std::array<T, 2> rate(const std::array<T, 2>& y, const std::array<T, 6>& p, double direction) const {
     const T& v = y[1];
     const T speed = direction * v;  // |ẋ|, since `direction` is the sign of ẋ
-    return {v, -p[1] * v - p[2] * speed * v - p[3] * v * v * v - direction * p[4] - restoring(y, p)};
+    return {v, -dynamics::damper_force(p[1], p[2], v, speed) - p[3] * v * v * v - direction * p[4] - restoring(y, p)};
   }
   template <class T>
   bool sticks(const std::array<T, 2>& y, const std::array<T, 6>& p) const {
@@ -36,7 +38,7 @@ struct Remembering {
   std::array<T, 4> rate(const std::array<T, 4>& y, const std::array<T, 8>& p, double) const {
     using std::abs;
     const T &x = y[0], &v = y[1];
-    const T resisting = p[1] * v + p[2] * abs(v) * v + p[3] * v * v * v + p[5] * y[3];
+    const T speed = abs(v), resisting = dynamics::damper_force(p[1], p[2], v, speed) + p[3] * v * v * v + p[5] * y[3];
     return {v, -resisting - p[0] * p[0] * (x - p[4]), y[3], v - 2.0 * p[6] * y[3] - p[7] * p[7] * y[2]};
   }
 };

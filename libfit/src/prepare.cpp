@@ -147,13 +147,20 @@ void compare_channels(const RawRun& run) {  // (F26)
   }
 }
 
-void take_outliers(Work& w, const PrepareOptions& options) {  // (F22)
-  if (options.outlier_half_window == 0) return;
+/// Half of the window about a sample, in samples of the record as it was given; 0 where outliers are not looked for.
+int outlier_half_window(const std::vector<double>& time, const PrepareOptions& options) {
+  if (options.outlier_window_s <= 0) return 0;
+  const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+  return std::max(2, static_cast<int>(options.outlier_window_s / (2 * step)));
+}
+
+void take_outliers(Work& w, int half_window, double deviations) {  // (F22)
+  if (half_window == 0) return;
   for (const auto& [name, column] : measured(w.run)) {
-    const auto found = find_outliers(*column, options.outlier_half_window, options.outlier_deviations);
+    const auto found = find_outliers(*column, half_window, deviations);
     bridge(*column, found);
     w.tell("outliers: {} of {} samples of {} were more than {:g} deviations off their {} neighbours and are bridged",
-           found.size(), column->size(), name, options.outlier_deviations, 2 * options.outlier_half_window);
+           found.size(), column->size(), name, deviations, 2 * half_window);
   }
 }
 
@@ -474,11 +481,13 @@ void add_force_errors(Work& w) {
 
 Prepared prepare(RawRun run, const PrepareOptions& options) {
   Work w{.run = std::move(run), .step = 0, .out = {}, .pattern = {}};
+  hydro::require(w.run.time.size() >= 3, "a record needs at least three samples, got {}", w.run.time.size());
   check(w.run);
+  const int outlier_half = outlier_half_window(w.run.time, options);
   fill_gaps(w, options.longest_gap_s);
   look_at_sensors(w);
   compare_channels(w.run);
-  take_outliers(w, options);
+  take_outliers(w, outlier_half, options.outlier_deviations);
   resample(w, options.resample_hz);
   sum_forces(w);
   take_delay(w, options.delay_s);
@@ -503,9 +512,10 @@ PreparedMotion prepare_motion(const std::string& name, std::vector<double> time,
   w.run.time = std::move(time);
   w.run.position = std::move(values);
   w.run.position_name = name;
+  const int outlier_half = outlier_half_window(w.run.time, options);
   fill_gaps(w, options.longest_gap_s);
   look_at_sensors(w);
-  take_outliers(w, options);
+  take_outliers(w, outlier_half, options.outlier_deviations);
   cut_window(w, options.window, false);
   return {w.step, std::move(w.run.time), std::move(w.run.position), std::move(w.out.steps), std::move(w.out.cautions)};
 }

@@ -12,6 +12,7 @@
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
+#include "motion_bands.hpp"
 #include "motion_laws.hpp"
 
 namespace fit {
@@ -241,31 +242,16 @@ void tell_motion(const ShootingProblem& p, const Layout& l, const Eigen::VectorX
   }
 }
 
-/// What the fitted motion is uncertain by at each sample, and what a new sample would scatter by beside it.
 void tell_motion_bands(const ShootingProblem& p, const Eigen::MatrixXd& jacobian, const CoefficientCovariance& u,
                        ShootingFit& fit) {  // (F46)
   if (!fit.search.all_identifiable()) return;
+  std::vector<Eigen::MatrixXd> left;
+  for (std::size_t w = 0; w < p.windows.size(); ++w) left.emplace_back(fit.motion[w] - p.windows[w].values);
   const double quantile = hydro::signal::student_t_quantile((1 + p.confidence) / 2, u.dof);
-  const Eigen::VectorXd variance =
-      (jacobian * u.covariance).cwiseProduct(jacobian).rowwise().sum().cwiseMax(0) * quantile * quantile;
-  double inside = 0, samples = 0;
-  Eigen::Index at = 0;
-  for (std::size_t w = 0; w < p.windows.size(); ++w) {
-    const Eigen::MatrixXd& values = p.windows[w].values;
-    Eigen::MatrixXd of_fit = variance.segment(at, values.size()).reshaped(values.rows(), values.cols()),
-                    of_sample = of_fit;
-    for (Eigen::Index c = 0; c < values.cols(); ++c) {
-      const auto channel = static_cast<std::size_t>(c);
-      of_fit.col(c) *= std::pow(p.deviations[channel], 2);
-      of_sample.col(c) = of_fit.col(c).array() + std::pow(quantile * fit.rms[channel], 2);
-    }
-    fit.fit_band.emplace_back(of_fit.cwiseSqrt());
-    fit.sample_band.emplace_back(of_sample.cwiseSqrt());
-    inside += static_cast<double>(((fit.motion[w] - values).cwiseAbs().array() <= fit.sample_band[w].array()).count());
-    samples += static_cast<double>(values.size());
-    at += values.size();
-  }
-  fit.inside = inside / samples;
+  auto bands = motion_bands(left, jacobian, u.covariance, p.deviations, fit.rms, quantile);
+  fit.fit_band = std::move(bands.of_fit);
+  fit.sample_band = std::move(bands.of_sample);
+  fit.inside = bands.inside;
 }
 
 }  // namespace

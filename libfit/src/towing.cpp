@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "dynamics/force/morison.hpp"
 #include "fit/verdict.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
@@ -37,7 +38,7 @@ void check(const Cylinder& c, std::span<const TowingRun> runs, double confidence
 }
 
 TowingPoint point(const Cylinder& c, const TowingRun& r) {  // (F12)
-  const double unit = 0.5 * c.density * r.speed * r.speed * c.diameter * c.length;
+  const double unit = c.length * dynamics::MorisonPerLength(c.diameter, c.density, 1, 0).drag(r.speed, r.speed);
   const double cd = r.force / unit;
   TowingPoint p{cd, std::hypot(r.force_deviation / unit, 2 * cd * r.speed_deviation / r.speed), {}};
   if (c.viscosity) p.re = r.speed * c.diameter / *c.viscosity;

@@ -145,7 +145,7 @@ TEST(Prepare, BridgesGapsAndSpikesWithinLimits) {
   PrepareOptions options = usual;
   EXPECT_THAT([&] { fit::prepare(holes, options); }, ThrowsMessage<hydro::InputError>(HasSubstr("are missing")));
   options.longest_gap_s = 0.05;
-  options.outlier_half_window = 10;
+  options.outlier_window_s = 20.5 * (holes.time[7] - holes.time[6]);  // ten neighbours on either side
   const auto p = fit::prepare(holes, options);
   EXPECT_THAT(p.steps, Contains(HasSubstr("samples were missing")));
   const auto fit = fit::fit_morison(cylinder, p.record);

@@ -15,14 +15,14 @@ constexpr double noise = 0.01, smallest = 0.005;  // rad, of an angle; what it i
 constexpr int seeds = 100;
 
 /// The angles without noise, one column a signal of the fit.
-MeasuredRun truth(const scene::FitScene& fit) {
-  const Record record = simulate(scene::read(fit.motion.scene.value));
-  Eigen::MatrixXd values(std::ssize(record.time), std::ssize(fit.motion.signals));
+MeasuredRun truth(const scene::MotionModel& fit) {
+  const Record record = simulate(scene::read(fit.scene.value));
+  Eigen::MatrixXd values(std::ssize(record.time), std::ssize(fit.signals));
   for (Eigen::Index c = 0; c < values.cols(); ++c) {
-    const auto& v = record.signal(fit.motion.signals[static_cast<std::size_t>(c)].of);
+    const auto& v = record.signal(fit.signals[static_cast<std::size_t>(c)].of);
     values.col(c) = Eigen::Map<const Eigen::VectorXd>(v.data(), std::ssize(v));
   }
-  return MeasuredRun::of(record.time, std::move(values), fit.motion.window);
+  return MeasuredRun::of(record.time, std::move(values), fit.window);
 }
 
 MeasuredRun filmed(MeasuredRun run, std::uint64_t seed) {
@@ -34,13 +34,13 @@ MeasuredRun filmed(MeasuredRun run, std::uint64_t seed) {
   return run;
 }
 
-::fit::SimulationFit fitted(const scene::FitScene& fit, SceneRuns& runs, const MeasuredRun& run,
+::fit::SimulationFit fitted(const scene::MotionModel& fit, SceneRuns& runs, const MeasuredRun& run,
                             const ::fit::SimulationFit* begin) {
   ::fit::SimulationProblem p;
-  for (const auto& q : fit.motion.parameters) p.parameters.push_back({q.key, q.first, *q.lowest});
+  for (const auto& q : fit.parameters) p.parameters.push_back(q.number);
   for (std::size_t w = 0; w < run.first.size(); ++w)
     p.measured.emplace_back(run.values.middleRows(run.first[w], run.rows(w)));
-  p.deviations.assign(fit.motion.signals.size(), noise);
+  p.deviations.assign(fit.signals.size(), noise);
   p.begin = begin;
   return ::fit::fit_simulation(runs, p);
 }
@@ -69,7 +69,7 @@ struct Tally {
 }  // namespace
 
 Outcome outcome(const Folders& folders) {
-  const scene::FitScene fit = scene::read_fit(folders.own() / "fit.toml");
+  const auto fit = std::get<scene::MotionModel>(scene::read_fit(folders.own() / "fit.toml").model);
   const MeasuredRun exact = truth(fit);
   SceneRuns runs(fit, exact);
   Tally tally;

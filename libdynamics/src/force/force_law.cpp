@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/force/damper.hpp"
+
 namespace dynamics {
 namespace {
 
@@ -56,7 +58,7 @@ double TravelLaw::stiffest() const {
 Answer LineLaw::at(double x, double rate) const {
   if (pulls_only && x <= 0) return {};
   Answer out = spring(*this, x);
-  const double damper = (damping + quadratic_damping * std::abs(rate)) * rate;
+  const double damper = damper_force(damping, quadratic_damping, rate, std::abs(rate));
   const double damper_by_rate = damping + 2 * quadratic_damping * std::abs(rate);
   if (!pulls_only) {
     out.force += damper;

@@ -16,17 +16,13 @@ using hydro::waves::Kinematics;
 using hydro::waves::WaveField;
 using Matrix3x6 = Eigen::Matrix<double, 3, 6>;
 
-/// Coefficients of a member per length: ½ρC_D D, ½ρC_T πD, ρA, and ρA C_A.
-struct PerLength {
-  double normal, tangential, displaced, added;
+/// Coefficients of a member per length, with that of drag along its axis, ½ρC_T πD.
+struct PerLength : MorisonPerLength {
+  double tangential;
 
-  PerLength(const MorisonMember& m, double density) {
-    const double D = m.line.diameter;
-    normal = 0.5 * density * m.cd * D;
-    tangential = 0.5 * density * m.cd_tangential * std::numbers::pi * D;
-    displaced = density * std::numbers::pi / 4 * D * D;
-    added = displaced * m.ca;
-  }
+  PerLength(const MorisonMember& m, double density)
+      : MorisonPerLength(m.line.diameter, density, m.cd, m.ca),
+        tangential(0.5 * density * m.cd_tangential * std::numbers::pi * m.line.diameter) {}
 };
 
 /// Flow past one point of a member, global axes.
@@ -54,12 +50,12 @@ Flow flow_past(const PlacedMember& at, const Vector3d& arm, const Kinematics& wa
 
 Vector3d drag(const PerLength& c, const Flow& f) {
   const double along = f.axis.dot(f.relative);
-  return c.normal * f.across.norm() * f.across + c.tangential * std::abs(along) * along * f.axis;
+  return c.drag(f.across, f.across.norm()) + c.tangential * std::abs(along) * along * f.axis;
 }
 
 /// Without the part of the added mass that is on the left.
 Vector3d inertia(const PerLength& c, const Flow& f) {
-  const Vector3d y = (c.displaced + c.added) * f.water_acceleration - c.added * f.turning;
+  const Vector3d y = c.inertia(f.water_acceleration, f.turning);
   return y - f.axis * f.axis.dot(y);
 }
 
@@ -114,7 +110,7 @@ ForceDerivatives drag_derivatives(const PerLength& c, const Flow& f, const FlowD
 }
 
 ForceDerivatives inertia_derivatives(const PerLength& c, const Flow& f, const FlowDerivatives& d) {
-  const Vector3d y = (c.displaced + c.added) * f.water_acceleration - c.added * f.turning;
+  const Vector3d y = c.inertia(f.water_acceleration, f.turning);
   const Matrix3x6 y_by_q = (c.displaced + c.added) * d.water_acceleration_by_q - c.added * d.turning_by_q;
   return {across_by(f, y, y_by_q, d.axis_by_q), across_by(f, y, -c.added * d.turning_by_v, Matrix3x6::Zero())};
 }
@@ -159,6 +155,11 @@ std::vector<WaterGradients> gradients_at(const MorisonMember& m, const WaveField
 }
 
 }  // namespace
+
+MorisonPerLength::MorisonPerLength(double diameter, double density, double cd, double ca)
+    : normal(0.5 * density * cd * diameter),
+      displaced(density * std::numbers::pi / 4 * diameter * diameter),
+      added(displaced * ca) {}
 
 std::string MorisonKind::method() const {
   std::size_t pieces = 0;

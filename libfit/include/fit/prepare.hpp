@@ -61,7 +61,7 @@ struct WindowChoice {
 
 struct PrepareOptions {
   double longest_gap_s = 0;     ///< rows that may be missing at a stretch are bridged; 0: none may
-  int outlier_half_window = 0;  ///< samples; 0: outliers are not looked for
+  double outlier_window_s = 0;  ///< neighbours asked, half before and half after; 0: outliers are not looked for
   double outlier_deviations = 8;
   double resample_hz = 0;              ///< all channels are brought to this rate (F48); 0: left as they are
   double delay_s = 0;                  ///< of the force behind the motion, taken off

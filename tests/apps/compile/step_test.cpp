@@ -169,11 +169,10 @@ TEST(StepOfARun, StaysWhileAFitSearchesForAStiffness) {
   std::ofstream(path) << spring(
       fmt::format("[[mooring]]\non = \"m\"\nkind = \"linear\"\nstiffness = {{ surge = \"{:.12g} N/m\" }}\n", k),
       "0.5 s", "[body.initial]\nsurge = \"0.1 m\"\n");
-  scene::FitScene fit;
-  fit.motion.scene.value = path;
-  fit.motion.parameters.push_back(
-      {.key = "mooring.stiffness.surge", .unit = "N/m", .first = k, .lowest = {}, .highest = {}, .place = {}});
-  fit.motion.signals.push_back({"x", "m.surge", {"1 mm", {}}});
+  scene::MotionModel fit;
+  fit.scene.value = path;
+  fit.parameters.push_back({{"mooring.stiffness.surge", k}, "N/m", {}});
+  fit.signals.push_back({"x", "m.surge", {"1 mm", {}}});
   std::vector<double> time;
   for (int i = 0; i <= 20; ++i) time.push_back(0.5 * i);
   const MeasuredRun measured = MeasuredRun::of(time, Eigen::MatrixXd::Zero(21, 1), 0);

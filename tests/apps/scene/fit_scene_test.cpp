@@ -73,19 +73,21 @@ TEST_F(FitScenes, AreReadInSi) {
   EXPECT_EQ(scene.channels, (std::map<std::string, std::string>{{"time", "t"}, {"velocity", "u"}}));
   ASSERT_EQ(scene.force.size(), 1u);
   EXPECT_EQ(scene.force[0].column, "F");
-  EXPECT_EQ(scene.model.kind, "morison");
-  EXPECT_EQ(scene.model.motion, "body moves");
-  EXPECT_EQ(scene.model.length, 0.5);
-  EXPECT_EQ(scene.model.mass_beyond_load_cells, 5.9);
-  EXPECT_EQ(scene.model.viscosity, 1.05e-6);
-  EXPECT_EQ(scene.coefficients, (std::vector<std::string>{"cd", "ca"}));
+  EXPECT_EQ(scene.kind(), "morison");
+  const auto& model = std::get<MorisonModel>(scene.model);
+  EXPECT_EQ(model.cylinder.experiment, fit::Experiment::body_moves);
+  EXPECT_EQ(model.cylinder.length, 0.5);
+  EXPECT_EQ(model.cylinder.mass_beyond_load_cells, 5.9);
+  EXPECT_EQ(model.cylinder.viscosity, 1.05e-6);
+  EXPECT_EQ(model.coefficients, (std::vector<std::string>{"cd", "ca"}));
   EXPECT_EQ(scene.confidence, 0.95);
   EXPECT_EQ(scene.echo.back().key, "ask.intervals.method");
   EXPECT_TRUE(scene.echo.back().defaulted);
   const FitScene towed = read(towing);
   EXPECT_EQ(towed.channels.size(), 2u);
   EXPECT_EQ(towed.confidence, 0.9);
-  EXPECT_FALSE(towed.model.viscosity);
+  EXPECT_EQ(towed.kind(), "towing");
+  EXPECT_FALSE(std::get<TowingModel>(towed.model).cylinder.viscosity);
 }
 
 TEST_F(FitScenes, FindTheirFiles) {
@@ -142,20 +144,21 @@ uncertainty = { diameter = "0.5 mm", mass = "50 g" })");
   EXPECT_FALSE(scene.force[0].turned);
   EXPECT_EQ(scene.force[1].column, "F2");
   EXPECT_TRUE(scene.force[1].turned);
-  const auto& p = scene.prepare;
-  EXPECT_EQ(p.delay, 0.73);
-  EXPECT_EQ(p.delay_error, 0.005);
-  EXPECT_NEAR(p.derivative_bandwidth, 2, 1e-12);
+  const auto& model = std::get<MorisonModel>(scene.model);
+  const auto& p = model.prepare;
+  EXPECT_EQ(p.delay_s, 0.73);
+  EXPECT_EQ(model.options.delay_error_s, 0.005);
+  EXPECT_NEAR(p.derivative_bandwidth_hz, 2, 1e-12);
   ASSERT_EQ(p.filters.size(), 2u);
-  EXPECT_EQ(p.filters[0].kind, "notch");
-  EXPECT_NEAR(p.filters[0].width_hz, 2, 1e-12);
+  EXPECT_EQ(p.filters[0].kind, fit::FilterChoice::Kind::notch);
+  EXPECT_NEAR(p.filters[0].width, 2, 1e-12);
   EXPECT_EQ(p.filters[1].order, 4);
   EXPECT_NEAR(p.filters[1].hz, 3.33, 1e-12);
-  EXPECT_EQ(p.window, "full cycles");
-  EXPECT_EQ(p.cycles, 5);
+  EXPECT_EQ(p.window.kind, fit::WindowChoice::Kind::full_cycles);
+  EXPECT_EQ(p.window.cycles, 5);
   EXPECT_EQ(p.outlier_deviations, 8);
-  EXPECT_EQ(scene.model.diameter_error, 0.0005);
-  EXPECT_EQ(scene.model.mass_error, 0.05);
+  EXPECT_EQ(model.options.cylinder_errors.diameter, 0.0005);
+  EXPECT_EQ(model.options.cylinder_errors.mass, 0.05);
   EXPECT_THAT(refused(with(with_steps, "delay = \"0.73 s\"", "delay = \"estimate\"")), HasSubstr("delay_error"));
   EXPECT_THAT(refused(with(with_steps, "delay = \"0.73 s\"\ndelay_error = \"5 ms\"", "delay = \"estimate\"")),
               HasSubstr("needs \"longest_delay\""));
@@ -177,8 +180,9 @@ coefficients = ["linear", "coulomb"]
 profile = true
 )";
   const FitScene scene = read(decay);
-  EXPECT_TRUE(scene.model.sine);
-  EXPECT_TRUE(scene.profile);
+  EXPECT_EQ(scene.kind(), "decay");
+  EXPECT_TRUE(std::get<DecayModel>(scene.model).options.pendulum);
+  EXPECT_TRUE(std::get<DecayModel>(scene.model).profile);
   EXPECT_THAT(refused(with(decay, "angle", "velocity")), HasSubstr("has no part in a fit of kind \"decay\""));
   EXPECT_THAT(refused(with(decay, ", angle = \"roll\"", "")), HasSubstr("needs either position or angle"));
   EXPECT_THAT(refused(with(decay, "angle = \"roll\"", "position = \"z\"")),
@@ -193,8 +197,8 @@ profile = true
   const FitScene cut =
       read(with(decay, "[ask]",
                 "[prepare]\nlongest_gap = \"1 s\"\nwindow = { kind = \"span\", from = \"3 s\", to = \"9 s\" }\n[ask]"));
-  EXPECT_EQ(cut.prepare.from, 3);
-  EXPECT_EQ(cut.prepare.longest_gap, 1);
+  EXPECT_EQ(std::get<DecayModel>(cut.model).prepare.window.from, 3);
+  EXPECT_EQ(std::get<DecayModel>(cut.model).prepare.longest_gap_s, 1);
   EXPECT_THAT(refused(with(oscillation, "\"ca\"", "\"cubic\"")), HasSubstr("has no part in a fit of kind \"morison\""));
   EXPECT_THAT(refused(with(decay, "[ask]", "[ask]\ntogether = true")), HasSubstr("needs two files at least"));
   EXPECT_THAT(refused(with(oscillation, "[ask]", "[ask]\ntogether = true")), HasSubstr("has no part"));
@@ -211,8 +215,11 @@ start = "in motion"
 [ask]
 coefficients = ["memory", "quadratic"]
 )";
-  EXPECT_FALSE(read(memory).model.starts_empty);
-  EXPECT_TRUE(read(with(memory, "in motion", "let go from rest")).model.starts_empty);
+  const auto starts_empty = [&](const std::string& text) {
+    return std::get<DecayModel>(read(text).model).memory.value().starts_empty;
+  };
+  EXPECT_FALSE(starts_empty(memory));
+  EXPECT_TRUE(starts_empty(with(memory, "in motion", "let go from rest")));
   EXPECT_THAT(refused(with(memory, "start = \"in motion\"\n", "")), HasSubstr("needs \"start\""));
   EXPECT_THAT(refused(with(memory, "\"memory\", ", "")), HasSubstr("does not act without a memory"));
   EXPECT_THAT(refused(with(memory, "quadratic", "coulomb")), HasSubstr("may not hold coulomb"));
@@ -232,6 +239,7 @@ slide = "2 s"
 [ask]
 )";
   EXPECT_TRUE(read(friction).force.at(0).turned);
+  EXPECT_EQ(read(friction).kind(), "friction ramp");
   EXPECT_THAT(refused(with(friction, ", force = \"-F\"", "")), HasSubstr("either torque or force"));
   EXPECT_THAT(refused(with(friction, "force =", "torque = \"M\", force =")), HasSubstr("either torque or force"));
 }
@@ -242,10 +250,11 @@ TEST_F(FitScenes, TakeTheWaterFromAProbe) {
                                       "water moves\"\nwave = { depth = \"1.25 m\", level = \"0.48 m\" }"),
                                  "\"ca\"", "\"cm\"");
   const FitScene scene = read(waves);
-  ASSERT_TRUE(scene.model.wave);
-  EXPECT_EQ(scene.model.wave->level, -0.48);
-  EXPECT_EQ(scene.model.wave->depth.metres(), 1.25);
-  EXPECT_EQ(scene.model.wave->ahead, 0);
+  const auto& probe = std::get<MorisonModel>(scene.model).probe;
+  ASSERT_TRUE(probe);
+  EXPECT_EQ(probe->level, -0.48);
+  EXPECT_EQ(probe->water.depth.metres(), 1.25);
+  EXPECT_EQ(probe->ahead, 0);
   EXPECT_THAT(refused(with(waves, "0.48 m", "1.48 m")), HasSubstr("lies below the bottom"));
   EXPECT_THAT(refused(with(waves, "elevation = \"eta\"", "velocity = \"u\"")),
               HasSubstr("there is no channel elevation"));

@@ -44,6 +44,17 @@ TEST(Override, WritesIntoTheUnitTheVectorOrTheNumberThatIsThere) {
   EXPECT_EQ(with_number("solve.integrator.rho_infinity", 0.5).solve.rho_infinity, 0.5);
 }
 
+TEST(Override, OfASceneReadOnceLeavesItForTheNextNumber) {
+  const ChangeableScene scene(chains, "s.toml");
+  const auto damping = [](const Scene& s) { return s.chains[0].damping->linear; };
+  EXPECT_DOUBLE_EQ(damping(scene.with({{"line.long.damping.linear", 3}})), 3e-3);
+  EXPECT_DOUBLE_EQ(damping(scene.with({})), 2e-3);
+  const Scene both = scene.with({{"line.long.damping.linear", 4}, {"solve.integrator.rho_infinity", 0.5}});
+  EXPECT_DOUBLE_EQ(damping(both), 4e-3);
+  EXPECT_EQ(both.solve.rho_infinity, 0.5);
+  EXPECT_EQ(both.text, chains);
+}
+
 TEST(Override, RefusesPathsThatLeadNowhereAndSaysWhereToGo) {
   using testing::HasSubstr;
   EXPECT_THAT(refused("line.damping.linear"), HasSubstr("does not say which line of 2"));

@@ -114,7 +114,7 @@ TEST(NewScene, WritesAStarterThatCanBeRead) {
   EXPECT_TRUE(scene.rao && scene.run);
   new_scene("fit", folder.path / "fit.toml", false, console);
   std::ofstream(folder.path / "runs" / "a.csv") << "t,F,u\n";
-  EXPECT_EQ(read_fit(folder.path / "fit.toml").coefficients.size(), 2u);
+  EXPECT_EQ(std::get<MorisonModel>(read_fit(folder.path / "fit.toml").model).coefficients.size(), 2u);
   EXPECT_THAT(out.str(), HasSubstr("wrote "));
 }
 

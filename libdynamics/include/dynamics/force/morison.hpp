@@ -18,6 +18,27 @@ struct MorisonMember {
   double cd_tangential = 0;  ///< of the wetted skin πD
 };
 
+/// What a cylinder takes of flow across its axis, per length (D43): coefficients of drag and of the mass of water, and
+/// the loads of one velocity and one acceleration, as vectors across the axis or as numbers along one line. Members of
+/// a run and the fits of measured forces have their loads from here.
+struct MorisonPerLength {
+  double normal;     ///< ½ρ C_D D, kg/m²
+  double displaced;  ///< ρ ¼πD², kg/m
+  double added;      ///< C_A times that, kg/m
+
+  MorisonPerLength(double diameter, double density, double cd, double ca);
+  /// Of the velocity w of the water past the member, `speed` its length, m/s: N/m.
+  template <class W>
+  W drag(const W& w, double speed) const {
+    return normal * speed * w;
+  }
+  /// Of the water's acceleration and of that of the member, m/s²: N/m.
+  template <class W>
+  W inertia(const W& water, const W& own) const {
+    return (displaced + added) * water - added * own;
+  }
+};
+
 /// One point a piece, the middle of its wet part: the error is (κΔ)²/24 of the inertia load and four times that of the
 /// drag, κ the wavenumber (or the inverse of the distance to the point about which the member turns), Δ the length of a
 /// piece (D44).

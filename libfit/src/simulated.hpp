@@ -1,0 +1,44 @@
+#pragma once
+/// \file  The parts of a fit by simulation: the search, and what is told of its end; (F41)-(F43), docs/theory/fit.md.
+///        Private to libfit.
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "fit/simulated.hpp"
+
+namespace fit {
+
+/// One window of the problem with the directions of its start that the data see.
+struct WindowOfSearch {
+  Eigen::MatrixXd seen;  // shape (coordinates, directions): orthonormal columns
+  Eigen::Index row, column;
+};
+
+/// A direction counts as not seen below this singular value relative to the largest: central differences are off by
+/// about the square of their step, 1e-8.
+constexpr double not_seen_by_differences = 1e-6;
+
+/// Where a search came to, with all that can be told from there.
+struct EndOfSearch {
+  FitReport search;
+  Eigen::VectorXd x;  ///< parameters, then the starts of the windows along the directions seen
+  Eigen::VectorXd r;  ///< residuals over deviations: windows one after the other, in each one channel after the other
+  Eigen::MatrixXd jacobian;
+  std::vector<WindowOfSearch> windows;
+  Eigen::Index starts_all;  ///< numbers of all windows' starts, seen or not
+  long followed;            ///< windows that it took
+
+  Eigen::VectorXd start(std::size_t w) const {
+    return windows[w].seen * x.segment(windows[w].column, windows[w].seen.cols());
+  }
+};
+
+/// \throws as fit_simulation()
+EndOfSearch search_simulation(Simulation& simulation, const SimulationProblem& problem);
+/// The least cost alone, of any number of parameters. \throws as fit_simulation(), and SearchFailed
+double least_cost(Simulation& simulation, const SimulationProblem& problem);
+/// Values, intervals and bands at that end, or why there are none.
+SimulationFit told(const SimulationProblem& problem, EndOfSearch end);
+
+}  // namespace fit

@@ -1,0 +1,313 @@
+#include "simulated.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fit/verdict.hpp"
+#include "hydro/base/dense.hpp"
+#include "hydro/base/error.hpp"
+
+namespace fit {
+namespace {
+
+// Differences: a start moves by so much, a parameter by so much of its scale. Simulations solve to about 1e-9, so the
+// quotient of a difference of 1e-5 is good to 1e-4, and its bend adds as little.
+constexpr double start_step = 1e-5, parameter_step = 1e-4;
+
+class Shooting {
+ public:
+  Shooting(Simulation& simulation, const SimulationProblem& problem) : simulation_(simulation), problem_(problem) {
+    check();
+    for (std::size_t k = 0; k < problem.parameters.size(); ++k) first_.push_back(problem.parameters[k].first);
+  }
+
+  EndOfSearch end();
+  double least_cost();  ///< that of end(), which tells more of it
+
+ private:
+  Eigen::Index p() const { return std::ssize(problem_.parameters); }
+  Eigen::VectorXd first() const { return Eigen::Map<const Eigen::VectorXd>(first_.data(), p()); }
+  Eigen::VectorXd start_of(const Eigen::VectorXd& x, std::size_t w) const {
+    const WindowOfSearch& piece = pieces_[w];
+    return piece.seen * x.segment(piece.column, piece.seen.cols());
+  }
+  void check() const;
+  Eigen::VectorXd residuals(std::size_t w, const Eigen::VectorXd& theta, const Eigen::VectorXd& start);
+  Eigen::MatrixXd start_columns(std::size_t w, const Eigen::VectorXd& theta, const Eigen::VectorXd& start,
+                                const Eigen::VectorXd& here, const Eigen::MatrixXd& directions);
+  void look_at_start(std::size_t w, Eigen::Index row, Eigen::Index column);
+  Eigen::VectorXd settle(std::size_t w);
+  Eigen::VectorXd find_starts();
+  Eigen::VectorXd go_on(const SimulationFit::End& end);
+  FitReport search(Eigen::VectorXd& x);
+  void evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian);
+  Eigen::MatrixXd differences(const Eigen::VectorXd& x);
+  void parameter_column(Eigen::Index k, const Eigen::VectorXd& x, Eigen::MatrixXd& jacobian);
+  ResidualModel model();
+
+  Simulation& simulation_;
+  const SimulationProblem& problem_;
+  std::vector<double> first_;
+  std::vector<WindowOfSearch> pieces_;
+  Eigen::Index rows_ = 0, unknowns_ = 0, all_starts_ = 0;
+  long followed_ = 0;
+  struct {
+    Eigen::VectorXd x, r;
+  } last_;                    // a search asks for the same point several times
+  Eigen::MatrixXd jacobian_;  // held while a round of the search goes on
+};
+
+void Shooting::check() const {
+  hydro::require(!problem_.measured.empty(), "a fit needs a record at least");
+  for (const auto& q : problem_.parameters)
+    hydro::require(q.lowest < q.highest && q.first >= q.lowest && q.first <= q.highest && std::isfinite(q.first),
+                   "{} begins at {}, which must lie between {} and {}", q.name, q.first, q.lowest, q.highest);
+  for (const auto& m : problem_.measured)
+    hydro::require(m.rows() >= 8 && m.cols() == std::ssize(problem_.deviations) && m.allFinite(),
+                   "a window needs 8 samples at least of {} channels, all finite; got {} of {}",
+                   problem_.deviations.size(), m.rows(), m.cols());
+  for (const double d : problem_.deviations) hydro::require(d > 0, "a channel's deviation must be positive, got {}", d);
+}
+
+/// Of one window over the deviations, one channel after the other.
+Eigen::VectorXd Shooting::residuals(std::size_t w, const Eigen::VectorXd& theta, const Eigen::VectorXd& start) {
+  ++followed_;
+  Eigen::MatrixXd motion = simulation_.follow(w, theta, start);
+  const Eigen::MatrixXd& measured = problem_.measured[w];
+  hydro::require(motion.rows() == measured.rows() && motion.cols() == measured.cols(),
+                 "the simulation gave {} samples of {} channels, {} of {} were measured", motion.rows(), motion.cols(),
+                 measured.rows(), measured.cols());
+  motion -= measured;
+  for (Eigen::Index c = 0; c < motion.cols(); ++c) motion.col(c) /= problem_.deviations[static_cast<std::size_t>(c)];
+  return motion.reshaped();
+}
+
+Eigen::MatrixXd Shooting::start_columns(std::size_t w, const Eigen::VectorXd& theta, const Eigen::VectorXd& start,
+                                        const Eigen::VectorXd& here, const Eigen::MatrixXd& directions) {
+  Eigen::MatrixXd out(here.size(), directions.cols());
+  for (Eigen::Index j = 0; j < directions.cols(); ++j)
+    out.col(j) = (residuals(w, theta, start + start_step * directions.col(j)) - here) / start_step;
+  return out;
+}
+
+/// Which directions of a window's start the data see: central differences, in which a motion across the plane that is
+/// measured cancels, and singular values above 1e-6 of the largest, a hundred times their error (F42).
+void Shooting::look_at_start(std::size_t w, Eigen::Index row, Eigen::Index column) {
+  const Eigen::Index d = simulation_.coordinates(w);
+  WindowOfSearch piece{Eigen::MatrixXd::Identity(d, d), row, column};
+  all_starts_ += d;
+  if (d > 0) {
+    Eigen::MatrixXd columns(problem_.measured[w].size(), d);
+    for (Eigen::Index j = 0; j < d; ++j) {
+      const Eigen::VectorXd step = start_step * Eigen::VectorXd::Unit(d, j);
+      columns.col(j) = (residuals(w, first(), step) - residuals(w, first(), -step)) / (2 * start_step);
+    }
+    const auto svd = hydro::dense::svd(columns);
+    Eigen::Index seen = 0;
+    while (seen < d && svd.values[seen] > not_seen_by_differences * svd.values[0]) ++seen;
+    piece.seen = svd.V.leftCols(seen);
+  }
+  pieces_.push_back(std::move(piece));
+}
+
+/// The start of one window fitted alone, with the parameters at their first values: to its first quarter, to its first
+/// half, and to all of it, since what lies far ahead pulls a wrong start to a wrong minimum (F41).
+Eigen::VectorXd Shooting::settle(std::size_t w) {
+  const WindowOfSearch& piece = pieces_[w];
+  const Eigen::Index samples = problem_.measured[w].rows();
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(piece.seen.cols());
+  if (z.size() == 0) return z;
+  ResidualModel alone;
+  alone.parameters.assign(static_cast<std::size_t>(z.size()), {"start"});
+  alone.residuals = problem_.measured[w].size();
+  for (const Eigen::Index part : {4, 2, 1}) {
+    const auto later = Eigen::seq(samples / part, samples - 1);
+    alone.evaluate = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
+      try {
+        r = residuals(w, first(), piece.seen * at);
+        if (jacobian) *jacobian = start_columns(w, first(), piece.seen * at, r, piece.seen);
+      } catch (const hydro::NumericsError&) {
+        r.setConstant(std::numeric_limits<double>::quiet_NaN());  // Ceres then tries a shorter step
+        return;
+      }
+      if (part == 1) return;
+      r.reshaped(samples, r.size() / samples)(later, Eigen::all).setZero();
+      if (jacobian)
+        for (auto column : jacobian->colwise())
+          column.reshaped(samples, r.size() / samples)(later, Eigen::all).setZero();
+    };
+    minimise(alone, z, {.cost_change_below = 1e-3, .gradient_below = 1e-9, .step_below = 1e-6, .iterations_reach = 6});
+  }
+  return z;
+}
+
+/// Each window begins where the one before ended, and settles on its own samples before it is handed on.
+Eigen::VectorXd Shooting::find_starts() {
+  std::vector<Eigen::VectorXd> found;
+  unknowns_ = p();
+  for (std::size_t w = 0; w < problem_.measured.size(); ++w) {
+    look_at_start(w, rows_, unknowns_);
+    found.push_back(settle(w));
+    rows_ += problem_.measured[w].size();
+    unknowns_ += found.back().size();
+    if (w + 1 < problem_.measured.size()) simulation_.hand_on(w, first(), pieces_[w].seen * found.back());
+  }
+  Eigen::VectorXd x(unknowns_);
+  x.head(p()) = first();
+  for (std::size_t w = 0; w < found.size(); ++w) x.segment(pieces_[w].column, found[w].size()) = found[w];
+  return x;
+}
+
+/// Unknowns and directions of the fit of another record.
+Eigen::VectorXd Shooting::go_on(const SimulationFit::End& end) {
+  hydro::require(end.seen.size() == problem_.measured.size() && end.unknowns.size() >= p(),
+                 "the fit to begin at has {} windows, this record {}", end.seen.size(), problem_.measured.size());
+  unknowns_ = p();
+  for (std::size_t w = 0; w < end.seen.size(); ++w) {
+    pieces_.push_back({end.seen[w], rows_, unknowns_});
+    all_starts_ += end.seen[w].rows();
+    rows_ += problem_.measured[w].size();
+    unknowns_ += end.seen[w].cols();
+  }
+  hydro::require(end.jacobian.rows() == rows_ && end.jacobian.cols() == unknowns_ && end.unknowns.size() == unknowns_,
+                 "the fit to begin at has {} samples and {} unknowns, this one {} and {}", end.jacobian.rows(),
+                 end.unknowns.size(), rows_, unknowns_);
+  jacobian_ = end.jacobian;
+  return end.unknowns;
+}
+
+/// By a central difference, one-sided at a bound.
+void Shooting::parameter_column(Eigen::Index k, const Eigen::VectorXd& x, Eigen::MatrixXd& jacobian) {
+  const auto& q = problem_.parameters[static_cast<std::size_t>(k)];
+  const double step = parameter_step * q.scale();
+  Eigen::VectorXd low = x.head(p()), high = low;
+  low[k] = std::max(q.lowest, x[k] - step);
+  high[k] = std::min(q.highest, x[k] + step);
+  for (const auto* side : {&high, &low})
+    for (std::size_t w = 0; w < pieces_.size(); ++w) {
+      auto part = jacobian.block(pieces_[w].row, k, problem_.measured[w].size(), 1);
+      if (side == &high)
+        part = residuals(w, high, start_of(x, w));
+      else
+        part = (part - residuals(w, low, start_of(x, w))).eval() / (high[k] - low[k]);
+    }
+}
+
+void Shooting::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
+  if (last_.x.size() != x.size() || x != last_.x) {
+    last_ = {{}, Eigen::VectorXd(rows_)};
+    for (std::size_t w = 0; w < pieces_.size(); ++w)
+      last_.r.segment(pieces_[w].row, problem_.measured[w].size()) = residuals(w, x.head(p()), start_of(x, w));
+    last_.x = x;
+  }
+  r = last_.r;
+  if (jacobian) *jacobian = jacobian_;
+}
+
+/// Rounds of a search that holds its Jacobian, which takes one run of the record a step; each begins with a new one,
+/// which takes 1 + 2p + d, unless it is where the last one was. The round that gains next to nothing from a new one,
+/// and is promised no more, is the last: where steps are promised and none is found, the next round takes shorter ones.
+/// (F41), (F65)
+FitReport Shooting::search(Eigen::VectorXd& x) {
+  // Shares of the cost. A standard error of one unknown lowers it by one n-th: no step of a thirtieth of it is taken,
+  // and what gains less than half of one leaves a small part of that.
+  const double nothing = 1e-3 / static_cast<double>(rows_), little = 0.2 / static_cast<double>(rows_);
+  using Outcome = FitReport::Outcome;
+  FitReport all{};
+  Eigen::VectorXd at;  // of the Jacobian
+  double radius = StopWhen{}.trust_radius;
+  for (bool held = jacobian_.size() > 0;; held = false) {
+    if (!held && (at.size() == 0 || at != x)) jacobian_ = differences(at = x);
+    const int left = problem_.iterations_reach - all.iterations;
+    FitReport round = minimise(model(), x,
+                               {.cost_change_below = nothing,
+                                .gradient_below = 1e-9,
+                                .step_below = 1e-8,
+                                .iterations_reach = std::min(6, left),
+                                .trust_radius = radius});
+    const bool gained = round.cost_first - round.cost_last > little * round.cost_first,
+               promised = round.promised * static_cast<double>(rows_) > 1,
+               // Less than a ten-thousandth of the noise stated: there is nothing left to find.
+        perfect = 2 * round.cost_last <= 1e-8 * static_cast<double>(rows_),
+               last = !held && (perfect || (!gained && (!promised || round.outcome == Outcome::stuck)));
+    // After a step of full length that failed, one of half that length and less.
+    if (!held) radius = gained ? round.trust_radius : std::min(1.0, round.trust_radius);
+    if (all.iterations > 0) round.cost_first = all.cost_first;
+    round.iterations += all.iterations;
+    all = std::move(round);
+    if (last && (perfect || !promised)) {
+      all.outcome = Outcome::converged;
+      all.why = perfect ? "residuals of a ten-thousandth of the deviations stated"
+                        : fmt::format("a new Jacobian lowered the cost by less than {:.2g} of it", little);
+    }
+    if (last || all.outcome == Outcome::not_finite) return all;
+    if (all.iterations < problem_.iterations_reach) continue;
+    all.outcome = Outcome::out_of_iterations;  // whatever the last round ended by
+    return all;
+  }
+}
+
+Eigen::MatrixXd Shooting::differences(const Eigen::VectorXd& x) {
+  Eigen::VectorXd r(rows_);
+  evaluate(x, r, nullptr);
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows_, unknowns_);
+  for (std::size_t w = 0; w < pieces_.size(); ++w) {
+    const auto& piece = pieces_[w];
+    const Eigen::Index n = problem_.measured[w].size();
+    jacobian.block(piece.row, piece.column, n, piece.seen.cols()) =
+        start_columns(w, x.head(p()), start_of(x, w), r.segment(piece.row, n), piece.seen);
+  }
+  for (Eigen::Index k = 0; k < p(); ++k) parameter_column(k, x, jacobian);
+  return jacobian;
+}
+
+ResidualModel Shooting::model() {
+  ResidualModel m;
+  for (const auto& q : problem_.parameters) m.parameters.push_back({q.name, q.scale(), q.lowest, q.highest});
+  m.parameters.resize(static_cast<std::size_t>(unknowns_), {"start of a window"});
+  m.residuals = rows_;
+  m.evaluate = [this](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
+    try {
+      evaluate(x, r, jacobian);
+    } catch (const std::runtime_error&) {  // a motion that there is not: Ceres then tries a shorter step
+      r.setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+  };
+  return m;
+}
+
+EndOfSearch Shooting::end() {  // (F41)
+  Eigen::VectorXd x = problem_.begin ? go_on(problem_.begin->end) : find_starts();
+  hydro::require(rows_ > unknowns_,
+                 "{} samples cannot give {} parameters and {} numbers of starts: take longer windows", rows_, p(),
+                 unknowns_ - p());
+  Eigen::VectorXd r(rows_);
+  evaluate(x, r, nullptr);  // what the first values cannot do is told as it is
+  FitReport report = search(x);
+  evaluate(x, r, nullptr);
+  return {std::move(report), std::move(x), std::move(r), jacobian_, pieces_, all_starts_, followed_};
+}
+
+double Shooting::least_cost() {
+  Eigen::VectorXd x = problem_.begin ? go_on(problem_.begin->end) : find_starts();
+  if (unknowns_ > 0) {
+    const FitReport report = search(x);
+    if (report.outcome != FitReport::Outcome::not_finite) require_ended(report, "all else at a value of the profile");
+    return report.cost_last;
+  }
+  double squares = 0;
+  for (std::size_t w = 0; w < pieces_.size(); ++w) squares += residuals(w, x, start_of(x, w)).squaredNorm();
+  return squares / 2;
+}
+
+}  // namespace
+
+EndOfSearch search_simulation(Simulation& simulation, const SimulationProblem& problem) {
+  return Shooting(simulation, problem).end();
+}
+
+double least_cost(Simulation& simulation, const SimulationProblem& problem) {
+  return Shooting(simulation, problem).least_cost();
+}
+
+}  // namespace fit
