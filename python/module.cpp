@@ -123,7 +123,8 @@ void add_run(py::module_& m) {
       .def_readonly("stopped", &Record::stopped, "Why it ended before its time; empty if it did not.")
       .def_property_readonly(
           "energy", [](const Record& r) { return std::map<std::string, double>(r.energy.begin(), r.energy.end()); },
-          "J, by effect, at the end; `residual` does not add up, of `turnover`; `largest_residual` when it was most.")
+          "J, by effect, at the end; `residual` is what does not balance, of `turnover`; `largest_residual` when it "
+          "was most.")
       .def_property_readonly(
           "evaluations",
           [](const Record& r) {

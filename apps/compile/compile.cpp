@@ -41,7 +41,8 @@ dynamics::RigidBody rigid_body(const scene::Body& b) {
 }  // namespace
 
 void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::ForceKind>>& forces) {
-  if (!p.heavy.empty()) forces.push_back(std::make_unique<dynamics::GravityKind>(p.bodies, p.water.gravity, p.heavy));
+  if (!p.with_gravity.empty())
+    forces.push_back(std::make_unique<dynamics::GravityKind>(p.bodies, p.water.gravity, p.with_gravity));
   if (!p.buoyancy.empty()) forces.push_back(std::make_unique<dynamics::BuoyancyKind>(p.bodies, p.buoyancy, p.water));
   if (!p.hydrostatics.empty())
     forces.push_back(std::make_unique<dynamics::RestoringKind>("hydrostatics", p.bodies, p.hydrostatics));
@@ -57,7 +58,7 @@ void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::
 Prepared prepare(const Scene& scene) {
   Prepared out;
   for (const auto& b : scene.bodies) {
-    if (b.weight) out.heavy.push_back(static_cast<int>(out.bodies.size()));
+    if (b.weight) out.with_gravity.push_back(static_cast<int>(out.bodies.size()));
     out.bodies.push_back(rigid_body(b));
   }
   out.water = scene.water;
@@ -302,8 +303,8 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
   plan_forces(forces, told_in_parts, plan);
   dynamics::Model model(prepared.bodies, std::move(added_mass), std::move(forces), prepared.joints);
   if (!prepared.joints.empty())
-    plan.push_back({"joint", "conditions held exactly, with the loads that this takes as unknowns",
-                    fmt::format("{} joints, {} conditions", prepared.joints.size(), model.joints().count()), true});
+    plan.push_back({"joint", "constraints held exactly, with the loads that this takes as unknowns",
+                    fmt::format("{} joints, {} constraints", prepared.joints.size(), model.joints().count()), true});
   notes.insert(notes.end(), model.redundant().begin(), model.redundant().end());
   dynamics::State start = placed_state(scene, prepared, model, notes);
   if (scene.run->from_equilibrium) start = in_equilibrium(scene, model, std::move(start));

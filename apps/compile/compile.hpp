@@ -43,7 +43,7 @@ struct Prepared {
   std::vector<std::vector<int>> sharing_waves;  ///< bodies that make waves, in sets within which they reach each other
   std::shared_ptr<RadiationFits> fits;
   std::vector<dynamics::Restoring> hydrostatics, moorings;
-  std::vector<int> heavy;  ///< bodies that feel gravity by themselves
+  std::vector<int> with_gravity;  ///< bodies that feel gravity by themselves
   std::vector<dynamics::Buoyancy> buoyancy;
   hydro::Water water;
   std::vector<dynamics::AxialConnector> axial;

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "dynamics/control/dominant_period.hpp"
-#include "dynamics/joint/lead.hpp"
+#include "dynamics/joint/prescribed_motion.hpp"
 #include "hydro/base/error.hpp"
 
 namespace froude::compile {
@@ -60,7 +60,7 @@ void add_connector(const Scene& scene, const scene::Connector& c, Prepared& out)
                                 .quadratic_damping = axial->quadratic_damping,
                                 .table_x = axial->elongations,
                                 .table_force = axial->tensions,
-                                .pulls_only = axial->pulls_only};
+                                .tension_only = axial->tension_only};
     const dynamics::AxialConnector made{ends, law, axial->rest_length.value_or(offset.norm()), c.name};
     if (axial->switching) {
       add_switched(c, *axial->switching, made, out);
@@ -73,9 +73,9 @@ void add_connector(const Scene& scene, const scene::Connector& c, Prepared& out)
   out.bushing.push_back({ends, b.stiffness, b.damping, b.rotational_stiffness, b.rotational_damping, offset, c.name});
 }
 
-dynamics::Lead lead(const scene::JointLead& l) {
-  return l.time.empty() ? dynamics::led_harmonically(l.amplitude, l.omega, l.ramp)
-                        : dynamics::led_through(l.time, l.travel);
+dynamics::PrescribedMotion prescribed_motion(const scene::JointPrescribedMotion& l) {
+  return l.time.empty() ? dynamics::prescribed_harmonic(l.amplitude, l.omega, l.ramp)
+                        : dynamics::prescribed_through(l.time, l.coordinate);
 }
 
 /// libdynamics has the body first and the ground second.
@@ -89,11 +89,13 @@ void add_joint(const scene::Joint& j, Prepared& out) {
                         .axis = turned && j.kind == scene::JointKind::universal ? j.second_axis : j.axis,
                         .second_axis = turned ? j.axis : j.second_axis,
                         .sign = turned ? -1.0 : 1.0});
-  if (j.lead) out.joints.back().lead = turned ? dynamics::reversed(lead(*j.lead)) : lead(*j.lead);
-  const auto travel = [&] { return dynamics::Travel(out.bodies, out.joints.back()); };
+  if (j.prescribed)
+    out.joints.back().prescribed =
+        turned ? dynamics::reversed(prescribed_motion(*j.prescribed)) : prescribed_motion(*j.prescribed);
+  const auto coordinate = [&] { return dynamics::JointCoordinate(out.bodies, out.joints.back()); };
   if (j.friction)
     out.friction.push_back({j.name,
-                            travel(),
+                            coordinate(),
                             j.friction->breakaway,
                             j.friction->sliding,
                             j.friction->stribeck,
@@ -101,7 +103,7 @@ void add_joint(const scene::Joint& j, Prepared& out) {
                             out.joints.back().sign});
   if (j.pto && j.pto->latch)
     out.friction.push_back(
-        {j.name, travel(), std::numeric_limits<double>::infinity(), 0, {}, j.pto->latch, out.joints.back().sign});
+        {j.name, coordinate(), std::numeric_limits<double>::infinity(), 0, {}, j.pto->latch, out.joints.back().sign});
 }
 
 void add_mooring(const Scene& scene, const scene::Mooring& m, Prepared& out) {
@@ -117,26 +119,27 @@ void add_mooring(const Scene& scene, const scene::Mooring& m, Prepared& out) {
                           .told = told});
 }
 
-/// What the scene lets work on the travel of joints. A joint that names the ground first counts its travel backwards.
+/// What the scene lets work along the coordinates of joints. A joint that names the ground first counts its coordinate
+/// backwards.
 std::vector<dynamics::Pto> ptos(const Scene& scene, const Prepared& p) {
   std::vector<dynamics::Pto> out;
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     if (!scene.joints[j].pto || !scene.joints[j].pto->has_force()) continue;
     const scene::Pto& s = *scene.joints[j].pto;
-    dynamics::TravelLaw law{.line = {.stiffness = s.stiffness,
-                                     .damping = s.damping,
-                                     .cubic = s.cubic,
-                                     .quadratic_damping = s.quadratic_damping},
-                            .preload = s.preload,
-                            .lower = {},
-                            .upper = {}};
+    dynamics::PtoLaw law{.line = {.stiffness = s.stiffness,
+                                  .damping = s.damping,
+                                  .cubic = s.cubic,
+                                  .quadratic_damping = s.quadratic_damping},
+                         .preload = s.preload,
+                         .lower = {},
+                         .upper = {}};
     if (s.force_limit) law.force_limit = *s.force_limit;
     if (s.stops) {
       if (s.stops->lower) law.lower = dynamics::EndStop{*s.stops->lower, s.stops->stiffness, s.stops->damping};
       if (s.stops->upper) law.upper = dynamics::EndStop{*s.stops->upper, s.stops->stiffness, s.stops->damping};
     }
-    out.push_back(
-        {dynamics::Travel(p.bodies, p.joints[j], static_cast<int>(j)), law, p.joints[j].sign, p.joints[j].name});
+    out.push_back({dynamics::JointCoordinate(p.bodies, p.joints[j], static_cast<int>(j)), law, p.joints[j].sign,
+                   p.joints[j].name});
   }
   return out;
 }

@@ -13,9 +13,9 @@ const scene::Body& body_of(const Scene& scene, int body) { return scene.bodies[s
 
 hydro::cylinders::CylinderBody as_cylinders(const scene::Body& body) {
   hydro::cylinders::CylinderBody out{body.name, body.position, body.position + body.centre_of_gravity, {}};
-  for (const scene::Cylinders::Equal& sort : body.hydrodynamics->cylinders->sorts)
-    for (const Eigen::Vector3d& at : sort.at)
-      out.cylinders.push_back({(body.position + at).head<2>(), sort.diameter / 2, sort.draught, sort.top});
+  for (const scene::Cylinders::Equal& type : body.hydrodynamics->cylinders->types)
+    for (const Eigen::Vector3d& at : type.at)
+      out.cylinders.push_back({(body.position + at).head<2>(), type.diameter / 2, type.draught, type.top});
   return out;
 }
 

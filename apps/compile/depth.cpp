@@ -119,7 +119,8 @@ std::vector<UsedFrequency> used_by_run(const scene::Scene& scene, const Prepared
   auto out = used_by(dynamics::frequency::free_motions(model, prepared.groups));
   if (lowest) out.push_back({*lowest, 1, "the longest waves"});
   for (const auto& joint : scene.joints)
-    if (joint.lead && joint.lead->omega > 0) out.push_back({joint.lead->omega, 1, "what leads joint " + joint.name});
+    if (joint.prescribed && joint.prescribed->omega > 0)
+      out.push_back({joint.prescribed->omega, 1, "the prescribed motion of joint " + joint.name});
   return out;
 }
 

@@ -46,7 +46,7 @@ struct UsedFrequency {
 /// The free motions of a model, each with the share of its energy that it gives away in a period, 1 at most: what slow
 /// motions in a mooring radiate does not matter to them.
 std::vector<UsedFrequency> used_by(const dynamics::frequency::ModeList& motions);
-/// The waves of a run, what leads joints, and the free motions of its bodies. `lowest`: of the waves, rad/s.
+/// The waves of a run, prescribed motions of joints, and the free motions of its bodies. `lowest`: of the waves, rad/s.
 std::vector<UsedFrequency> used_by_run(const scene::Scene& scene, const Prepared& prepared,
                                        std::optional<double> lowest);
 

@@ -163,8 +163,8 @@ void examine(const Scene& scene, const Use& use, std::vector<std::string>& notes
     if (f.severity == hydro::potential::Severity::warning) ++warnings;
   }
   if (warnings > 0)
-    notes.push_back(fmt::format("{}: the doctor warns of {} thing{}: `froude bem check` tells", file, warnings,
-                                warnings == 1 ? "" : "s"));
+    notes.push_back(
+        fmt::format("{0}: {1} warning{2}: run `froude bem check {0}`", file, warnings, warnings == 1 ? "" : "s"));
 }
 
 /// What the data's depth leaves wrong in the scene's, if they differ. From here on waves have the scene's length, so
@@ -358,10 +358,10 @@ class Placement {
       shift = first.position.head<2>();
       if (shift.norm() > 0)
         notes_.push_back(
-            fmt::format("{}: the file does not say where the body was; taken to be at x = y = 0 and carried to {}",
+            fmt::format("{}: the file does not say where the body was; taken to be at x = y = 0 and translated to {}",
                         c_.source, first.name));
     }
-    if (shift.norm() > 0) c_ = hydro::potential::carried(std::move(c_), shift);
+    if (shift.norm() > 0) c_ = hydro::potential::translated(std::move(c_), shift);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const auto& b = body(bodies_[i]);
       const auto& stated = c_.body[i].reference_point;

@@ -35,8 +35,8 @@ dl::Segment segment(const scene::Line& l, const scene::Line::Link& link, double 
   if (l.axial_stiffness) s.axial_stiffness = link.axial_stiffness.value_or(*l.axial_stiffness);
   if (l.bending_stiffness) s.bending_stiffness = link.bending_stiffness.value_or(*l.bending_stiffness);
   s.axial_damping = l.axial_damping;
-  s.pulls_only = l.pulls_only;
-  s.sags = l.sags;
+  s.tension_only = l.tension_only;
+  s.catenary = l.catenary_segments;
   s.diameter = link.diameter.value_or(l.diameter);
   if (l.growth && middle > l.growth->from && middle < l.growth->to) grow(*l.growth, s);
   if (l.morison) {
@@ -50,8 +50,8 @@ dl::Segment segment(const scene::Line& l, const scene::Line::Link& link, double 
 dl::Held end(const scene::Line& l, int node, bool first) {
   dl::Held out{.node = node};
   if (const auto& clamp = first ? l.clamp_from : l.clamp_to) out.clamp = *clamp;
-  if (!l.lead || l.lead->first != first) return out;
-  out.path = std::make_shared<dl::SplinePath>(l.lead->time, l.lead->place);
+  if (!l.prescribed || l.prescribed->first != first) return out;
+  out.path = std::make_shared<dl::SplinePath>(l.prescribed->time, l.prescribed->place);
   const Eigen::Vector3d begins = out.path->at(0).position, stands = first ? l.from : *l.to;
   if ((begins - stands).norm() > 1e-3)  // m: what a table of a path is rounded to
     throw InputError(fmt::format("the path of \"{}\" is at ({:.4g}, {:.4g}, {:.4g}) m at t = 0, its end at ({:.4g}, "
@@ -336,15 +336,14 @@ void require_one_step(const Scene& scene, const scene::Line& l) {
         l.place, "hold the line by the ground, or take a [[mooring]] of kind catenary");
 }
 
-/// A line and its companion are stepped so closely that their distance is no matter of tolerances.
+/// A line and its perturbed trajectory are stepped so closely that their distance is no matter of tolerances.
 void ask_for_neighbours(const Scene& scene, LineModel& m) {
   const hydro::Place& place = m.lyapunov->place;
   if (m.settings.scheme == dl::Scheme::generalised_alpha)
-    throw InputError(
-        fmt::format("line \"{}\" has no neighbours in steps of generalized_alpha, which remember more than "
-                    "places and velocities",
-                    m.name),
-        place, "leave out [solve.integrator] lines: energy_momentum");
+    throw InputError(fmt::format("line \"{}\" has no neighbours in steps of generalized_alpha, which keep more than "
+                                 "places and velocities",
+                                 m.name),
+                     place, "leave out [solve.integrator] lines: energy_momentum");
   if (m.line->has_massless_nodes())
     throw InputError(fmt::format("line \"{}\" has a free node without mass, so its motions have no neighbours", m.name),
                      place, "give every free node or link a mass");
@@ -353,7 +352,7 @@ void ask_for_neighbours(const Scene& scene, LineModel& m) {
     throw InputError(fmt::format("growth counts from {} s on, and the run ends at {} s: fewer than {} samples between",
                                  m.lyapunov->from, scene.run->duration, samples),
                      place, "let it begin earlier, or the run last longer");
-  m.settings.tolerance = dl::Companion::tolerance;
+  m.settings.tolerance = dl::PerturbedTrajectory::tolerance;
 }
 
 /// "line a", or "lines a, b, c", each between quotes.
@@ -539,7 +538,7 @@ LineRun::LineRun(const LineModel& model, dl::DrivenLine& driven) : model_(model)
 LineRun::LineRun(const LineModel& model)
     : model_(model), state_(model.start), stepper_(std::make_unique<dl::Stepper>(*model.line, model.settings)) {
   stepper_->start(state_);
-  if (model.lyapunov) companion_ = std::make_unique<dl::Companion>(*model.line, model.settings, state_);
+  if (model.lyapunov) perturbed_ = std::make_unique<dl::PerturbedTrajectory>(*model.line, model.settings, state_);
   begin();
 }
 
@@ -547,7 +546,7 @@ dl::StepReport LineRun::step(double h) {
   if (driven_ != nullptr) return {};
   try {
     const dl::StepReport report = stepper_->step(state_, h);
-    if (companion_) companion_->follow(state_, report, h);
+    if (perturbed_) perturbed_->follow(state_, report, h);
     return report;
   } catch (const hydro::NumericsError& e) {
     throw hydro::NumericsError(fmt::format("{}: {}", joined(model_.parts, "\""), e.what()));
@@ -555,8 +554,8 @@ dl::StepReport LineRun::step(double h) {
 }
 
 std::optional<dynamics::Exponent> LineRun::exponent() const {
-  if (!companion_) return std::nullopt;
-  return companion_->growth().exponent(model_.lyapunov->from);
+  if (!perturbed_) return std::nullopt;
+  return perturbed_->growth().exponent(model_.lyapunov->from);
 }
 
 void LineRun::look() {

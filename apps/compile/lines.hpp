@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dynamics/force/fastened_line.hpp"
-#include "dynamics/line/companion.hpp"
+#include "dynamics/line/perturbed_trajectory.hpp"
 #include "dynamics/line/statistics.hpp"
 #include "dynamics/line/stepper.hpp"
 #include "scene/scene.hpp"
@@ -96,7 +96,7 @@ class LineRun {
     return driven_ != nullptr ? driven_->energies() : stepper_->energies();
   }
   /// Null where the scene does not ask for it.
-  const dynamics::Growth* growth() const { return companion_ ? &companion_->growth() : nullptr; }
+  const dynamics::Growth* growth() const { return perturbed_ ? &perturbed_->growth() : nullptr; }
   /// The largest of energy supplied, taken, and moved about: what a residual is small against.
   double turnover() const { return turnover_; }
 
@@ -114,7 +114,7 @@ class LineRun {
   std::unique_ptr<dynamics::line::Stepper> stepper_;
   dynamics::line::Stepper::Balance balance_;
   std::vector<std::optional<dynamics::line::TensionStatistics>> snaps_;  // one a part
-  std::unique_ptr<dynamics::line::Companion> companion_;
+  std::unique_ptr<dynamics::line::PerturbedTrajectory> perturbed_;
   std::vector<Angles> angles_;
   double first_height_ = 0, turnover_ = 0;
 };

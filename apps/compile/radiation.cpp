@@ -76,7 +76,8 @@ void note_what_was_done(const hydro::potential::Coefficients& c, const ChosenMem
         fit.shift, c.A_inf ? "" : "; the data lack A(inf), which was found with it"));
   } else {
     notes.push_back(fmt::format(
-        "{}: damping continued beyond {:.4g} rad/s so that it belongs to the added mass, which is left off by {:.2g} "
+        "{}: damping extrapolated beyond {:.4g} rad/s so that it belongs to the added mass, which is left off by "
+        "{:.2g} "
         "(rms, worst pair); A(inf) moved by {:.2g}{}; the memory leaves out up to {:.2g} of the radiation damping",
         c.source, c.omega.back(), chosen.misfit, chosen.shift,
         c.A_inf ? "" : "; added mass at infinite frequency, which the data lack, found with it", chosen.truncation));

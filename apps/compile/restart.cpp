@@ -9,10 +9,10 @@ namespace {
 
 namespace dl = dynamics::line;
 
-/// Orthonormal columns x with `conditions` x = 0.
-Eigen::MatrixXd free_directions(const Eigen::MatrixXd& conditions, Eigen::Index unknowns) {
-  if (conditions.rows() == 0 || unknowns == 0) return Eigen::MatrixXd::Identity(unknowns, unknowns);
-  const auto svd = hydro::dense::svd(conditions.transpose() * conditions);
+/// Orthonormal columns x with `constraints` x = 0.
+Eigen::MatrixXd free_directions(const Eigen::MatrixXd& constraints, Eigen::Index unknowns) {
+  if (constraints.rows() == 0 || unknowns == 0) return Eigen::MatrixXd::Identity(unknowns, unknowns);
+  const auto svd = hydro::dense::svd(constraints.transpose() * constraints);
   Eigen::Index rank = 0;
   while (rank < unknowns && svd.values[rank] > 1e-12 * svd.values[0]) ++rank;
   return svd.V.rightCols(unknowns - rank);
@@ -23,12 +23,12 @@ Eigen::MatrixXd body_directions(const dynamics::Model& model, const dynamics::St
   std::vector<int> free;
   for (int mode = 0; mode < model.modes(); ++mode)
     if (model.is_free(mode)) free.push_back(mode);
-  Eigen::MatrixXd conditions(0, std::ssize(free));
+  Eigen::MatrixXd constraints(0, std::ssize(free));
   if (model.joints().count() > 0) {
     const Eigen::MatrixXd all = model.joints().dense(model.joints().gradients(state));
-    conditions = all(Eigen::all, free);
+    constraints = all(Eigen::all, free);
   }
-  const Eigen::MatrixXd own = free_directions(conditions, std::ssize(free));
+  const Eigen::MatrixXd own = free_directions(constraints, std::ssize(free));
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(model.modes(), own.cols());
   for (std::size_t i = 0; i < free.size(); ++i) out.row(free[i]) = own.row(static_cast<Eigen::Index>(i));
   return out;
@@ -52,7 +52,7 @@ Eigen::MatrixXd length_gradients(const dl::Line& line, const dl::State& s) {
   const auto nodes = free_nodes(line);
   std::vector<int> kept;
   for (int j = 0; j < line.segments(); ++j)
-    if (line.segment(j).keeps_length()) kept.push_back(j);
+    if (line.segment(j).is_inextensible()) kept.push_back(j);
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(std::ssize(kept), 3 * std::ssize(nodes));
   for (std::size_t r = 0; r < kept.size(); ++r) {
     const int i = line.first(kept[r]);
@@ -70,7 +70,7 @@ Eigen::MatrixXd length_gradients(const dl::Line& line, const dl::State& s) {
 Eigen::VectorXd length_errors(const dl::Line& line, const dl::State& s, bool rates) {
   std::vector<double> out;
   for (int j = 0; j < line.segments(); ++j) {
-    if (!line.segment(j).keeps_length()) continue;
+    if (!line.segment(j).is_inextensible()) continue;
     const int i = line.first(j);
     const Eigen::Vector3d way = s.position.col(i + 1) - s.position.col(i);
     out.push_back(rates ? way.normalized().dot(s.velocity.col(i + 1) - s.velocity.col(i))
@@ -88,7 +88,7 @@ void add_to_free(const dl::Line& line, const Eigen::VectorXd& change, dl::Places
 
 /// The smallest change of the free nodes' places that brings links to their lengths, by Newton; then of their
 /// velocities.
-void keep_lengths(const dl::Line& line, dl::State& s) {
+void restore_lengths(const dl::Line& line, dl::State& s) {
   for (int i = 0;; ++i) {
     const Eigen::VectorXd off = length_errors(line, s, false);
     if (off.size() == 0) return;
@@ -108,7 +108,7 @@ MovingState start_of(const TimeModel& model) {
   return out;
 }
 
-std::string remembers(const TimeModel& model) {
+std::string kept_memory(const TimeModel& model) {
   const dynamics::Workspace workspace(model.model, model.start);
   for (std::size_t k = 0; k < workspace.memory.size(); ++k)
     if (workspace.memory[k]) return std::string(model.model.forces()[k]->effect());
@@ -144,7 +144,7 @@ MovingState StateChart::at(const TimeModel& model, const Eigen::VectorXd& coordi
     const dl::Line& line = *model.lines[k].line;
     add_to_free(line, d * coordinates.segment(from, d.cols()), out.lines[k].position);
     add_to_free(line, d * coordinates.segment(from + d.cols(), d.cols()), out.lines[k].velocity);
-    keep_lengths(line, out.lines[k]);
+    restore_lengths(line, out.lines[k]);
     from += 2 * d.cols();
   }
   return out;
@@ -157,7 +157,7 @@ void start_from(const MovingState& state, TimeModel& model) {
   for (std::size_t k = 0; k < model.lines.size(); ++k) {
     model.lines[k].start = state.lines[k];
     model.lines[k].start.time = state.bodies.time;
-    keep_lengths(*model.lines[k].line, model.lines[k].start);
+    restore_lengths(*model.lines[k].line, model.lines[k].start);
     if (!state.angles.empty()) model.lines[k].before = state.angles[k];
   }
 }

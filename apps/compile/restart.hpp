@@ -17,8 +17,8 @@ struct MovingState {
 };
 MovingState start_of(const TimeModel& model);
 
-/// Why a run of this model cannot go on from places and velocities alone: it remembers. Empty if it can.
-std::string remembers(const TimeModel& model);
+/// Why a run of this model cannot go on from places and velocities alone: what has a memory. Empty if it can.
+std::string kept_memory(const TimeModel& model);
 
 /// The states near one, by as many numbers as there are free places and velocities: a step along them, then bodies are
 /// brought to where joints close, and links to their lengths.

@@ -66,7 +66,8 @@ void add_energies(const dynamics::Model& model, std::vector<Signal>& out) {
   out.push_back(energy("dissipated", "lost in the slip of friction and contacts, and in impacts", &lost_in_slip));
   out.push_back(energy("absorbed", "kinetic and potential energy and what slip has lost",
                        [](const EnergyLedger& l) { return l.kinetic() + stored(l) + lost_in_slip(l); }));
-  out.push_back(energy("residual", "energy that does not add up", [](const EnergyLedger& l) { return l.residual(); }));
+  out.push_back(energy("residual", "energy residual: what the sums of the ledger differ by",
+                       [](const EnergyLedger& l) { return l.residual(); }));
 }
 
 /// What a wave of one metre does at a point, (real, imaginary part): its kinematics at t = 0 and a quarter period

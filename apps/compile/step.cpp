@@ -42,7 +42,7 @@ void add_stiffening(const Prepared& p, const dynamics::State& at,
     for (const auto& c : group.connectors) consider(c);
   std::vector<dynamics::Pto> stops;
   for (dynamics::Pto pto : p.ptos) {
-    const double x = dynamics::pto_state(pto, at).travel, more = pto.law.stiffest() - pto.law.at(x, 0).by_x;
+    const double x = dynamics::pto_state(pto, at).coordinate, more = pto.law.stiffest() - pto.law.at(x, 0).by_x;
     if (more <= 0) continue;
     pto.law = {.line = {.stiffness = more}, .preload = -more * x, .lower = {}, .upper = {}};
     stops.push_back(std::move(pto));
@@ -92,7 +92,7 @@ Mover turning(const Prepared& p, const dynamics::State& start) {
 Mover snap(const Scene& scene) {
   Mover out;
   for (const scene::Line& l : scene.chains) {
-    if (!l.pulls_only || !l.fastened()) continue;
+    if (!l.tension_only || !l.fastened()) continue;
     double compliance = 0, mobility = 0;
     for (const auto& link : l.links) compliance += link.length / link.axial_stiffness.value_or(*l.axial_stiffness);
     for (const auto& body : {l.from_on, l.to_on})
@@ -112,9 +112,9 @@ Mover fastest_mover(const Scene& scene, const Prepared& p) {
     if (const double omega = highest_relevant_frequency(*scene.waves); omega > 0)
       compare({omega, fmt::format("waves of {:.4g} s, the shortest that matter", 2 * std::numbers::pi / omega)});
   for (const auto& joint : scene.joints)
-    if (joint.lead && joint.lead->omega > 0)
-      compare({joint.lead->omega,
-               fmt::format("what leads joint {}, {:.4g} s", joint.name, 2 * std::numbers::pi / joint.lead->omega)});
+    if (joint.prescribed && joint.prescribed->omega > 0)
+      compare({joint.prescribed->omega, fmt::format("the prescribed motion of joint {}, {:.4g} s", joint.name,
+                                                    2 * std::numbers::pi / joint.prescribed->omega)});
   if (p.bodies.empty()) return out;
   const dynamics::State rest = dynamics::rest_state(p.bodies);
   const dynamics::Model model = model_of_springs(p, rest);

@@ -12,7 +12,7 @@ struct ChosenStep {
 };
 
 /// The step that the scene gives, or the one that keeps the period error of generalised-α, (ωh)²/12, a sixteenth of the
-/// accuracy asked for the fastest of: the waves that matter, sines that lead joints, the bodies' own motions about
+/// accuracy asked for the fastest of: the waves that matter, prescribed sines of joints, the bodies' own motions about
 /// where they are placed and about where they start, and the turning that they start with. Springs count as stiff as
 /// they ever become: slack lines drawn taut, stops that are run into. \throws hydro::InputError where the scene's own
 /// step does not divide the distance of samples

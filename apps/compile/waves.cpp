@@ -168,15 +168,16 @@ std::unique_ptr<const hw::WaveField> tank_field(const scene::Scene& scene, const
   const double series = scene.ask_waves ? scene.ask_waves->from + scene.ask_waves->duration : 0;
   const double until = std::max(series, scene.run ? scene.run->duration : 0);
   const double fastest = std::sqrt(scene.water.gravity * scene.water.depth.metres());
-  const bool come_back = t.reflection > 0 && !t.yields;
+  const bool come_back = t.reflection > 0 && !t.active_absorption;
   const int trips = come_back ? static_cast<int>(std::ceil(until * fastest / (2 * t.length))) : 0;
-  const hw::Tank tank{.length_m = t.length,
-                      .water = scene.water,
-                      .paddle = t.hinge ? hw::Paddle::flap(*t.hinge) : hw::Paddle::piston(),
-                      .reflections = {.far_end = t.reflection,
-                                      .paddle = t.yields ? hw::PaddleMode::absorbing : hw::PaddleMode::reflecting,
-                                      .round_trips = trips},
-                      .stretching = scene.waves->stretching};
+  const hw::Tank tank{
+      .length_m = t.length,
+      .water = scene.water,
+      .paddle = t.hinge ? hw::Paddle::flap(*t.hinge) : hw::Paddle::piston(),
+      .reflections = {.far_end = t.reflection,
+                      .paddle = t.active_absorption ? hw::PaddleMode::absorbing : hw::PaddleMode::reflecting,
+                      .round_trips = trips},
+      .stretching = scene.waves->stretching};
   try {
     const double slow = hw::arrival_time(scene.water, band, t.length * (2 * trips + 2));
     const double length = t.step * static_cast<double>(t.displacement.size());

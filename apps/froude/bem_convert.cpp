@@ -89,10 +89,11 @@ Coefficients changed(Coefficients c, const BemConvertArguments& a) {
   for (const std::string& plane : a.symmetric)
     c = completed_by_symmetry(std::move(c), plane == "y" ? MirrorPlane::y0 : MirrorPlane::x0);
   if (!a.about.empty()) c = about_points(c, a.about);
-  if (a.carry)
-    c = carried(std::move(c), on_the_water("--carry", of_option("--carry", *a.carry, [](const std::string& t) {
-                                             return hydro::parse_vector(t, hydro::dim::length);
-                                           })));
+  if (a.translate)
+    c = translated(std::move(c),
+                   on_the_water("--translate", of_option("--translate", *a.translate, [](const std::string& t) {
+                                  return hydro::parse_vector(t, hydro::dim::length);
+                                })));
   if (a.turn)
     c = turned(std::move(c), of_option("--turn", *a.turn,
                                        [](const std::string& t) { return hydro::parse_si(t, hydro::dim::angle); }));

@@ -28,7 +28,7 @@ using nlohmann::json;
 struct Analysis {
   DampingTable damping;
   std::vector<Eigen::MatrixXd> A;
-  hydro::radiation::ContinuedDamping continued;
+  hydro::radiation::ExtrapolatedDamping extrapolated;
   hydro::radiation::InfiniteAddedMass ogilvie;
   RationalFit fit;
 };
@@ -39,7 +39,7 @@ Analysis analyse(const Coefficients& c, double tolerance) {
   for (const auto& A : c.A) a.A.push_back(symmetric_part(A));
   std::optional<Eigen::MatrixXd> A_inf;
   if (c.A_inf) A_inf = symmetric_part(*c.A_inf);
-  a.continued = hydro::radiation::continued(a.damping, a.A, A_inf);
+  a.extrapolated = hydro::radiation::extrapolated(a.damping, a.A, A_inf);
   a.ogilvie = hydro::radiation::infinite_added_mass(a.damping, a.A);
   a.fit = hydro::radiation::fit(a.damping, a.A, A_inf, {.tolerance = tolerance});
   return a;
@@ -116,11 +116,11 @@ plot::Figure picture(const Coefficients& c, const Analysis& a) {
       fit.x.push_back(t);
       fit.y.push_back(a.fit.model.kernel(t)(i, i));
     }
-    const double told_to = std::min(length, hydro::radiation::RetardationKernel::longest_time(a.continued.table));
+    const double told_to = std::min(length, hydro::radiation::RetardationKernel::longest_time(a.extrapolated.table));
     for (int k = 0; k <= 300; ++k) {
       const double t = told_to * k / 300;
       data.x.push_back(t);
-      data.y.push_back(hydro::radiation::retardation(a.continued.table, t)(i, i));
+      data.y.push_back(hydro::radiation::retardation(a.extrapolated.table, t)(i, i));
     }
     K.series = {std::move(data), std::move(fit)};
     plot::Panel B{.x = {"frequency", "rad/s"}, .y = {"B " + mode_name(c, i)}, .series = {}};

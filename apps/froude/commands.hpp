@@ -63,7 +63,7 @@ struct BemConvertArguments {
   bool merge = false;                           ///< the files are runs of the same bodies at different frequencies
   std::vector<std::string> symmetric = {};      ///< planes in which bodies are their own images: "y", "x"
   std::vector<std::string> about = {};          ///< new reference points, "cog" or one a body, e.g. "(0, 0, -2) m"
-  std::optional<std::string> carry = {};        ///< e.g. "(30, 0, 0) m"
+  std::optional<std::string> translate = {};    ///< e.g. "(30, 0, 0) m"
   std::optional<std::string> turn = {};         ///< e.g. "30 deg"
   std::vector<std::string> array = {};          ///< places of copies, e.g. "(±20, ±20, 0) m"
   std::optional<double> scale = {};             ///< ratio of lengths
@@ -97,7 +97,7 @@ struct PsdArguments {
 };
 void psd(const PsdArguments& arguments, const Console& console);
 
-struct SectionArguments {
+struct PoincareArguments {
   Path file;                              ///< CSV, or a result of `froude run`
   std::string x, y;                       ///< signals of the plane
   std::optional<std::string> at = {};     ///< signal that crosses the level
@@ -110,7 +110,7 @@ struct SectionArguments {
   std::optional<Path> picture = {};       ///< .svg
 };
 /// A Poincaré section of a record, with the error of each point by interpolation.
-void section(const SectionArguments& arguments, const Console& console);
+void poincare(const PoincareArguments& arguments, const Console& console);
 
 struct FitArguments {
   Path scene;

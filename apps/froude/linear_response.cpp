@@ -68,7 +68,8 @@ std::string note_on(const std::vector<LinearDrag>& drags, const scene::AskRao::D
     most = std::max(most, all.maxCoeff());
   }
   return fmt::format(
-      "drag on members is linear, as lossy as quadratic drag in waves of {}: {:.4g} to {:.4g} N s/m in all{}",
+      "drag on members is linear, the equivalent linearisation of quadratic drag in waves of {}: {:.4g} to {:.4g} N "
+      "s/m in all{}",
       waves.height ? fmt::format("{:.4g} m height", *waves.height) : fmt::format("steepness {:.4g}", *waves.steepness),
       least, most,
       drags.size() == 1 ? ""
@@ -175,8 +176,8 @@ std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene,
   const auto one_joint = [&](auto has) { return std::any_of(scene.joints.begin(), scene.joints.end(), has); };
   if (one_joint([](const scene::Joint& j) { return j.friction || (j.pto && j.pto->latch); }))
     out.emplace_back("friction and latches are left out: their joints move freely in a linear response");
-  if (one_joint([](const scene::Joint& j) { return j.lead.has_value(); }))
-    out.emplace_back("what leads joints is left out: they are held where they are placed");
+  if (one_joint([](const scene::Joint& j) { return j.prescribed.has_value(); }))
+    out.emplace_back("prescribed motions of joints are left out: they are held where they are placed");
   if (std::any_of(scene.bodies.begin(), scene.bodies.end(),
                   [](const scene::Body& b) { return b.hydrodynamics && b.hydrodynamics->turning; }))
     out.emplace_back("excitation is that of bodies as placed: their slow yaw acts in runs only");

@@ -25,7 +25,7 @@ void add_absent(const scene::Scene& scene, const compile::Prepared& p, std::vect
     excitation = excitation || g.excitation;
   }
   absent(scene.waves.has_value(), "waves", "[waves]");
-  absent(!p.heavy.empty(), "weight", "weight = true; linear hydrostatics hold it already");
+  absent(!p.with_gravity.empty(), "weight", "weight = true; linear hydrostatics hold it already");
   absent(!p.buoyancy.empty(), "buoyancy", "[body.buoyancy]");
   absent(!p.hydrostatics.empty(), "hydrostatics", "hydrostatics = true");
   absent(!p.moorings.empty() || !p.lines.empty(), "mooring", "[[mooring]]");
@@ -76,17 +76,17 @@ Section plan_rao(const scene::Scene& scene, const compile::Prepared& p, std::vec
                                        : "one factorisation at each frequency serves all",
                        "", true});
   for (const auto& g : p.groups) {
-    const auto open = g.table.openness();
+    const auto error = g.table.interpolation_error();
     s.lines.push_back(
         {"coefficients", "cubic between the frequencies of the data",
-         fmt::format("{} bodies, {} frequencies; left open between them: A {:.1g}, B {:.1g}, X {:.1g}", g.bodies.size(),
-                     g.table.coefficients().omega.size(), open.added_mass, open.damping, open.excitation),
+         fmt::format("{} bodies, {} frequencies; error of interpolation: A {:.1g}, B {:.1g}, X {:.1g}", g.bodies.size(),
+                     g.table.coefficients().omega.size(), error.added_mass, error.damping, error.excitation),
          true});
   }
   const auto one = [&](auto has) { return std::any_of(scene.members.begin(), scene.members.end(), has); };
   if (one([](const auto& m) { return m.cd.has_value(); }))
     s.lines.push_back({"drag",
-                       scene.rao->drag ? "linear, as lossy as the quadratic, settled at each frequency"
+                       scene.rao->drag ? "equivalent linearisation, settled at each frequency"
                                        : "quadratic: no place in a response per metre of wave",
                        "", scene.rao->drag.has_value()});
   if (one([](const auto& m) { return m.morison || m.slamming; }))

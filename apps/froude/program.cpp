@@ -128,7 +128,7 @@ void add_changes(CLI::App& convert, BemConvertArguments& a) {
                   "complete the headings: y if port and starboard are alike, x fore and aft")
       ->check(CLI::IsMember({"y", "x"}));
   convert.add_option("--about", a.about, "other reference points: cog, or \"(0, 0, -1.5) m\" for each body");
-  convert.add_option("--carry", a.carry, "all bodies along the water: \"(30, 0, 0) m\"");
+  convert.add_option("--translate", a.translate, "all bodies along the water: \"(30, 0, 0) m\"");
   convert.add_option("--turn", a.turn, "all bodies about the vertical through the origin: \"30 deg\"");
   convert.add_option("--array", a.array, "copies of one body without interaction: \"(±20, ±20, 0) m\"");
   convert.add_option("--scale", a.scale, "ratio of lengths, by Froude's law");
@@ -376,16 +376,16 @@ void add_psd(CLI::App& app, Request& request) {
   });
 }
 
-void add_section(CLI::App& app, Request& request) {
+void add_poincare(CLI::App& app, Request& request) {
   auto* command = app.add_subcommand(
-      "section", "Poincare section: where two signals are when a third crosses a level, or once in a period");
+      "poincare", "Poincare section: where two signals are when a third crosses a level, or once in a period");
   command->footer(
-      "Examples:\n  froude section run.h5 --x chain.link2.polar --y chain.link2.polar_rate --at chain.link1.polar "
-      "--level \"90 deg\" --picture section.svg\n"
-      "  froude section run.h5 --x chain.link2.polar --y chain.link2.polar_rate --every \"8 s\" --from \"200 s\"");
-  auto arguments = std::make_shared<SectionArguments>();
+      "Examples:\n  froude poincare run.h5 --x chain.link2.polar --y chain.link2.polar_rate --at chain.link1.polar "
+      "--level \"90 deg\" --picture poincare.svg\n"
+      "  froude poincare run.h5 --x chain.link2.polar --y chain.link2.polar_rate --every \"8 s\" --from \"200 s\"");
+  auto arguments = std::make_shared<PoincareArguments>();
   command->add_option("file", arguments->file, "CSV with units in its header, or a result of `froude run`")->required();
-  command->add_option("--x", arguments->x, "signal along the section")->required();
+  command->add_option("--x", arguments->x, "signal along the Poincare section")->required();
   command->add_option("--y", arguments->y, "the other one")->required();
   command->add_option("--at", arguments->at, "signal that crosses the level");
   command->add_option("--level", arguments->level, "which it crosses: \"90 deg\"");
@@ -399,7 +399,7 @@ void add_section(CLI::App& app, Request& request) {
   command->add_option("--picture", arguments->picture, "plot (.svg)");
   command->callback([=, &request] {
     request.call = [=](const Console& console) {
-      section(*arguments, console);
+      poincare(*arguments, console);
       return done;
     };
   });
@@ -447,7 +447,7 @@ void describe(CLI::App& app, Request& request) {
   add_waves(app, request);
   add_hydrostatics(app, request);
   add_psd(app, request);
-  add_section(app, request);
+  add_poincare(app, request);
   add_fit(app, request);
   add_scene_command(app, request, "plan", "what a scene will run, by which method, and why the rest will not", &plan,
                     false);

@@ -45,7 +45,7 @@ nlohmann::json exponents_json(const Record& record) {
                    {"from_s", e.from},
                    {"to_s", e.to},
                    {"blocks", e.blocks},
-                   {"correlation_of_blocks", e.kinship},
+                   {"block_correlation", e.block_correlation},
                    {"of_a_regular_motion_per_s", e.regular}});
   return out;
 }
@@ -59,20 +59,22 @@ std::string sentence(const LineExponent& of) {
       e.has_lasted() ? ""
                      : fmt::format("; the error is too small, since blocks resemble their neighbours (correlation "
                                    "{:.2g}): let it run longer",
-                                   e.kinship));
+                                   e.block_correlation));
 }
 
-/// More of the energy turned over than sound runs leave open; a motion whose energies are that far off is no answer.
-constexpr double leaves_open = 0.02;
+/// More of the energy turned over than the residual of sound runs; a motion whose energies are that far off is no
+/// answer.
+constexpr double tolerated_residual = 0.02;
 
 std::vector<std::string> warnings(const Record& record) {
   const double turnover = found(record.energy, "turnover");
   const auto& [residual, at] = record.worst_residual;
-  if (std::abs(residual) <= leaves_open * turnover) return {};
-  return {fmt::format(
-      "warning: {:.2g} of the energy turned over does not add up at {:.5g} s: the step of {:.4g} s is too long for "
-      "what moves; compare with a run of half the step, [solve] step = \"{:.6g} s\"",
-      std::abs(residual) / turnover, at, record.step, record.step / 2)};
+  if (std::abs(residual) <= tolerated_residual * turnover) return {};
+  return {
+      fmt::format("warning: the energy residual is {:.2g} of the energy turned over at {:.5g} s: the step of {:.4g} s "
+                  "is too long for "
+                  "what moves; compare with a run of half the step, [solve] step = \"{:.6g} s\"",
+                  std::abs(residual) / turnover, at, record.step, record.step / 2)};
 }
 
 void tell(const Console& console, const scene::Scene& scene, const Record& record, const Path& file) {
@@ -110,11 +112,11 @@ void tell(const Console& console, const scene::Scene& scene, const Record& recor
         record.parts ? fmt::format(" cut into {} parts", record.parts) : "",
         static_cast<double>(record.newton_iterations) / static_cast<double>(std::max<std::size_t>(1, record.steps)),
         record.halvings ? fmt::format(", {} halvings", record.halvings) : "",
-        record.events ? fmt::format(", friction or contacts change {} times", record.events) : "", record.stepping_s);
+        record.events ? fmt::format(", {} stick-slip or contact events", record.events) : "", record.stepping_s);
   console.out << series_table(record.signals);
   if (!scene.run->steady)
     console.out << fmt::format(
-        "energy that does not add up: at most {:.3g} J, at {:.5g} s, {:.2g} of the {:.3g} J turned over "
+        "energy residual: at most {:.3g} J, at {:.5g} s, {:.2g} of the {:.3g} J turned over "
         "(this tells how well energy is kept, not how accurate the motion is)\n",
         residual, at, relative, turnover);
   for (const Snaps& s : record.snaps) console.out << sentence(s) << '\n';

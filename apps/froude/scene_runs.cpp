@@ -134,9 +134,9 @@ Record SceneRuns::run(Eigen::Index samples, compile::MovingState* end) {
 }
 
 void SceneRuns::begin_windows() {
-  if (const std::string kind = compile::remembers(*model_); !kind.empty())
+  if (const std::string kind = compile::kept_memory(*model_); !kind.empty())
     throw InputError(
-        fmt::format("a window cannot begin in the middle of this scene: {} remembers what was before", kind),
+        fmt::format("a window cannot begin in the middle of this scene: {} has a memory of what was before", kind),
         asked_.place, "leave out `window`, and fit a record that begins with the run");
   compile::MovingState begin = compile::start_of(*model_);
   if (measured_.before > 0) run(measured_.before, &begin);

@@ -41,7 +41,7 @@ struct Record {
   struct Unexplained {
     double energy = 0, time = 0;  ///< J, s
   };
-  Unexplained worst_residual;           ///< the energy that did not add up when it was most
+  Unexplained worst_residual;           ///< the energy residual when it was largest
   std::vector<Snaps> snaps;             ///< of lines whose scene asks for them
   std::vector<LineExponent> exponents;  ///< likewise
   std::vector<std::string> notes;

@@ -114,7 +114,7 @@ Cylinders::Equal read_equal_cylinders(const Record& record, double height_of_ori
 Cylinders read_cylinders(const Record& record, double height_of_origin) {
   Cylinders out{{read_equal_cylinders(record, height_of_origin)}, record["frequencies"].range, {}};
   for (const Record& other : record.tables("others"))
-    out.sorts.push_back(read_equal_cylinders(other, height_of_origin));
+    out.types.push_back(read_equal_cylinders(other, height_of_origin));
   if (record.has("headings")) out.headings = record["headings"].range;
   return out;
 }

@@ -92,7 +92,7 @@ std::variant<AxialConnector, BushingConnector> read_kind(const Record& record, c
   axial.cubic = number("cubic");
   axial.damping = number("damping");
   axial.quadratic_damping = number("quadratic_damping");
-  axial.pulls_only = record.text("kind") == "cable";
+  axial.tension_only = record.text("kind") == "cable";
   if (record.has("table")) {
     const auto table = hydro::io::CsvTable::read(beside(file, record.text("table")));
     axial.elongations = table.column("elongation", hydro::dim::length);

@@ -62,7 +62,7 @@ bool of_force(const std::string& coefficient) {
 
 InputError no_coefficient(const FitTables& t, const Located<std::string>& c, const char* remedy) {
   return InputError(
-      fmt::format("[ask] coefficients: \"{}\" has no part in a fit of kind \"{}\"", c.value, t.model().text("kind")),
+      fmt::format("[ask] coefficients: \"{}\" does not apply to a fit of kind \"{}\"", c.value, t.model().text("kind")),
       c.place, remedy);
 }
 
@@ -308,7 +308,7 @@ FitModel read_decay(const FitTables& t) {
   }
   if (memory) {
     if (!model.has("start"))
-      throw model.refused("needs \"start\" for a memory: what does the water remember at the first sample?",
+      throw model.refused("needs \"start\" for a memory: what does the radiation memory hold at the first sample?",
                           "add start = \"let go from rest\" if the record begins there, or start = \"in motion\"");
     if (terms.coulomb)
       throw ask.wrong("coefficients",

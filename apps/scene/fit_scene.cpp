@@ -111,7 +111,7 @@ const std::vector<KeysOfSomeKinds>& keys_of_some_kinds() {
 }
 
 void check_keys(const FitTables& t, const std::string& kind) {
-  const std::string rule = fmt::format("has no part in a fit of kind \"{}\"", kind);
+  const std::string rule = fmt::format("does not apply to a fit of kind \"{}\"", kind);
   for (const KeysOfSomeKinds& some : keys_of_some_kinds()) {
     const Record& outer = some.table == "intervals" ? t.ask() : t.root;
     if (!outer.has(some.table) || std::find(some.kinds.begin(), some.kinds.end(), kind) != some.kinds.end()) continue;
@@ -127,7 +127,7 @@ std::map<std::string, std::string> read_channels(const Record& channels, const K
   for (const std::string& role : all_channels) {
     if (!channels.has(role)) continue;
     if (std::find(kind.channels.begin(), kind.channels.end(), role) == kind.channels.end())
-      throw channels.wrong(role, fmt::format("has no part in a fit of kind \"{}\"", kind.word),
+      throw channels.wrong(role, fmt::format("does not apply to a fit of kind \"{}\"", kind.word),
                            fmt::format("its channels are {}", fmt::join(kind.channels, ", ")));
     if (role == "force") continue;  // may be several, see read_force()
     if (channels.text(role).empty()) throw channels.wrong(role, "is empty", "write the name of a column");

@@ -46,8 +46,8 @@ std::optional<JointFriction> read_friction(const Record& record) {
 }
 
 /// The sine, or the record, which must tell where the joint is from t = 0 on.
-JointLead read_lead(const Record& record, JointKind kind, const std::filesystem::path& file) {
-  JointLead out;
+JointPrescribedMotion read_prescribed(const Record& record, JointKind kind, const std::filesystem::path& file) {
+  JointPrescribedMotion out;
   if (record.has("amplitude")) {
     out.amplitude = record.si("amplitude");
     out.omega = 2 * std::numbers::pi / record.si("period");
@@ -56,18 +56,20 @@ JointLead read_lead(const Record& record, JointKind kind, const std::filesystem:
   }
   const auto table = hydro::io::CsvTable::read(beside(file, record.text("file")));
   out.time = rising_times(record, table);
-  out.travel = table.column("travel", kind == JointKind::hinge ? hydro::dim::angle : hydro::dim::length);
+  out.coordinate =
+      kind == JointKind::hinge ? table.column("angle", hydro::dim::angle) : table.column("stroke", hydro::dim::length);
   return out;
 }
 
-/// One travel has one master.
+/// One coordinate has one master.
 void check_masters(const Record& record, const Joint& joint) {
   const bool latched = joint.pto && joint.pto->latch;
-  if (joint.lead && joint.friction)
-    throw record.wrong("lead", "and `friction` are both of one joint: what is led neither sticks nor slips",
+  if (joint.prescribed && joint.friction)
+    throw record.wrong("prescribed",
+                       "and `friction` are both of one joint: a prescribed motion neither sticks nor slips",
                        "leave one of them out");
-  if (latched && (joint.friction || joint.lead))
-    throw record.wrong("pto", "has a latch, and the joint `lead` or `friction`: two would hold one travel",
+  if (latched && (joint.friction || joint.prescribed))
+    throw record.wrong("pto", "has a latch, and the joint `prescribed` or `friction`: two would hold one coordinate",
                        "leave one of them out");
 }
 
@@ -146,7 +148,7 @@ void build_joints(const Record& root, const std::filesystem::path& file, Names& 
       read_axes(record, joint);
       joint.friction = read_friction(record);
       if (record.has("pto")) joint.pto = read_pto(record.table("pto"));
-      if (record.has("lead")) joint.lead = read_lead(record.table("lead"), joint.kind, file);
+      if (record.has("prescribed")) joint.prescribed = read_prescribed(record.table("prescribed"), joint.kind, file);
       check_masters(record, joint);
       check_may_turn(record, joint, scene.bodies);
       scene.joints.push_back(std::move(joint));

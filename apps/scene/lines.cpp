@@ -114,12 +114,13 @@ Line::Release read_release(const Record& record, const Line& line) {
 }
 
 /// The path begins where the end is, at t = 0 or before.
-Line::Lead read_lead(const Record& record, const Line& line, const std::filesystem::path& file) {
-  Line::Lead out{.first = record.text("end") == "from", .time = {}, .place = {}};
+Line::PrescribedMotion read_prescribed(const Record& record, const Line& line, const std::filesystem::path& file) {
+  Line::PrescribedMotion out{.first = record.text("end") == "from", .time = {}, .place = {}};
   if (out.first && line.from_meets)
-    throw record.wrong("end", "is not held: it meets what [line.on] names", "lead the line that holds that");
+    throw record.wrong("end", "is not held: it meets what [line.on] names",
+                       "prescribe the motion of the line that holds that");
   if (!out.first && !line.to)
-    throw record.wrong("end", "is free: the line has no `to`", "add `to`, or lead the end \"from\"");
+    throw record.wrong("end", "is free: the line has no `to`", "add `to`, or prescribe the motion of the end \"from\"");
   const auto table = hydro::io::CsvTable::read(beside(file, record.text("file")));
   out.time = rising_times(record, table);
   const auto &x = table.column("x", hydro::dim::length), &y = table.column("y", hydro::dim::length),
@@ -132,7 +133,7 @@ bool is_body(const Scene& scene, const std::string& name) {
   return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) { return b.name == name; });
 }
 
-/// Ends on bodies. A line between two places that keeps its length has no step where it is drawn taut by one of them.
+/// Ends on bodies. An inextensible line between two places has no step where it is drawn taut by one of them.
 /// Ends on anything else are left to build_networks().
 void read_on(const Record& record, const Record& whole, const Scene& scene, Line& line,
              std::vector<UnresolvedEnd>& unresolved) {
@@ -155,9 +156,9 @@ void read_on(const Record& record, const Record& whole, const Scene& scene, Line
   }
   if (!line.fastened()) return;
   if (line.to && !line.axial_stiffness)
-    throw record.refused("holds a line that keeps its length between two places, which has no step once it is taut",
+    throw record.refused("holds an inextensible line between two places, which has no step once it is taut",
                          "give the line an axial_stiffness");
-  for (const char* key : {"lead", "release"})
+  for (const char* key : {"prescribed", "release"})
     if (whole.has(key))
       throw whole.table(key).refused("acts on a line that is on a body, which begins with it and moves with it",
                                      "leave it out, or move the body");
@@ -185,9 +186,9 @@ Line::Lyapunov read_lyapunov(const Record& record, const Line& line) {
 
 void check_surroundings(const Record& record, const Line& line, const Scene& scene) {
   const bool wet = line.morison || line.buoyancy;
-  if (line.sags && line.bending_stiffness)
-    throw record.wrong("bending_stiffness", "bends segments that sag, and so have no straight axis",
-                       "leave `sags` out");
+  if (line.catenary_segments && line.bending_stiffness)
+    throw record.wrong("bending_stiffness", "bends catenary segments, which have no straight axis",
+                       "leave `catenary_segments` out");
   if (line.partial_immersion && !wet)
     throw record.refused("is immersed in part, but nothing of the water acts on it",
                          "add morison or buoyancy = true, or leave partial_immersion out");
@@ -217,8 +218,8 @@ void build_lines(const Record& root, const std::filesystem::path& file, Names& n
     line.diameter = number("diameter");
     if (record.has("bending_stiffness")) line.bending_stiffness = record.si("bending_stiffness");
     line.axial_damping = number("axial_damping");
-    line.pulls_only = record.has("pulls_only");
-    line.sags = record.has("sags");
+    line.tension_only = record.has("tension_only");
+    line.catenary_segments = record.has("catenary_segments");
     line.buoyancy = record.has("buoyancy");
     line.partial_immersion = record.has("partial_immersion");
     if (record.has("morison")) line.morison = read_water(record.table("morison"), scene, file);
@@ -229,7 +230,7 @@ void build_lines(const Record& root, const std::filesystem::path& file, Names& n
     }
     if (record.has("growth")) line.growth = read_growth(record.table("growth"), record, line);
     if (record.has("release")) line.release = read_release(record.table("release"), line);
-    if (record.has("lead")) line.lead = read_lead(record.table("lead"), line, file);
+    if (record.has("prescribed")) line.prescribed = read_prescribed(record.table("prescribed"), line, file);
     if (record.has("snaps")) {
       const Record& s = record.table("snaps");
       line.snaps = {s.si("slack_below"), s.si("snap_above")};

@@ -174,14 +174,14 @@ void require_one_system(const Scene& scene, const std::vector<std::size_t>& netw
     if (on_bodies && !l.axial_stiffness)
       throw hydro::InputError(
           fmt::format(
-              "line \"{}\" keeps its length, and meets lines that are on a body: they have no step once they are "
+              "line \"{}\" is inextensible, and meets lines that are on a body: they have no step once they are "
               "taut",
               l.name),
           l.place, "give it an axial_stiffness");
-    if (on_bodies && (l.lead || l.lyapunov))
+    if (on_bodies && (l.prescribed || l.lyapunov))
       throw hydro::InputError(
           fmt::format("line \"{}\" meets lines that are on a body, with which [line.{}] does not go", l.name,
-                      l.lead ? "lead" : "lyapunov"),
+                      l.prescribed ? "prescribed" : "lyapunov"),
           l.place, "leave it out, or hold the lines by the ground");
     if (l.lyapunov && ++watched > 1)
       throw hydro::InputError(

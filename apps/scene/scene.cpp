@@ -172,10 +172,10 @@ void build_ask(const Record& ask, Scene& scene) {
 bool acts_one_way(const Scene& scene) {
   const auto axial = [](const Connector& c) {
     const auto* law = std::get_if<AxialConnector>(&c.kind);
-    return law != nullptr && (law->pulls_only || !law->elongations.empty());
+    return law != nullptr && (law->tension_only || !law->elongations.empty());
   };
   const auto line = [&](const Line& l) {
-    return l.pulls_only && (l.fastened() || scene.solve.line_scheme == "generalized_alpha");
+    return l.tension_only && (l.fastened() || scene.solve.line_scheme == "generalized_alpha");
   };
   return std::any_of(scene.connectors.begin(), scene.connectors.end(), axial) ||
          std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& j) { return j.pto && j.pto->stops; }) ||

@@ -85,7 +85,7 @@ struct WaveTank {
   double length, reflection;         ///< m; relative amplitude
   std::optional<double> hinge;       ///< z of a flap's hinge, m; empty: a piston
   double lowest, highest;            ///< rad/s: the band of the motion that is taken
-  bool yields;                       ///< to waves that return
+  bool active_absorption;            ///< waves that come back leave the tank
   double step;                       ///< s, of the record
   std::vector<double> displacement;  ///< m of the paddle at still water, from t = 0
 };
@@ -145,7 +145,7 @@ struct Cylinders {
     std::optional<double> draught;    ///< m; empty: they stand on the sea bed
     std::optional<double> top;        ///< m, depth; empty: they pierce the surface
   };
-  std::vector<Equal> sorts;             ///< at least one
+  std::vector<Equal> types;             ///< at least one
   std::vector<double> omega, headings;  ///< rad/s; rad, empty: those that the scene asks for
 };
 
@@ -331,7 +331,7 @@ struct Line {
     double from;  ///< s, from which on growth counts
     Place place;
   };
-  struct Lead {
+  struct PrescribedMotion {
     bool first;                          ///< the end `from`, else `to`
     std::vector<double> time;            ///< s
     std::vector<Eigen::Vector3d> place;  ///< m
@@ -345,16 +345,16 @@ struct Line {
   std::vector<Link> links;
   double node_mass = 0;                                 ///< kg, at every node but held ends
   double diameter = 0;                                  ///< m
-  std::optional<double> axial_stiffness;                ///< N; empty: keeps its length
+  std::optional<double> axial_stiffness;                ///< N; empty: inextensible
   double axial_damping = 0;                             ///< N s
   std::optional<double> bending_stiffness;              ///< EI, N m²; empty: bends freely
   std::optional<Eigen::Vector3d> clamp_from, clamp_to;  ///< directions of its ends, unit; empty: they turn freely
-  bool pulls_only = false, sags = false, buoyancy = false, partial_immersion = false;
+  bool tension_only = false, catenary_segments = false, buoyancy = false, partial_immersion = false;
   std::optional<Water> morison;
   std::optional<Damping> damping;
   std::optional<Bed> bed;
   std::optional<Release> release;
-  std::optional<Lead> lead;
+  std::optional<PrescribedMotion> prescribed;
   std::optional<Snaps> snaps;
   std::optional<Lyapunov> lyapunov;
   std::optional<Growth> growth;
@@ -378,7 +378,7 @@ struct AxialConnector {
   double stiffness = 0, damping = 0;          ///< N/m, N s/m
   double cubic = 0, quadratic_damping = 0;    ///< N/m³, N s²/m²
   std::vector<double> elongations, tensions;  ///< of a table instead of stiffness and cubic, m and N
-  bool pulls_only = false;                    ///< kind = "cable"
+  bool tension_only = false;                  ///< kind = "cable"
   std::optional<double> rest_length;          ///< m; empty: as placed
   std::optional<StiffnessSwitch> switching;
 };
@@ -425,15 +425,15 @@ struct JointFriction {
   std::optional<double> stribeck = {};  ///< rad/s or m/s
 };
 
-/// `[joint.lead]`: what the travel of a slider or the angle of a hinge is: a sine, or a record.
-struct JointLead {
+/// `[joint.prescribed]`: what the stroke of a slider or the angle of a hinge is: a sine, or a record.
+struct JointPrescribedMotion {
   double amplitude = 0, omega = 0, ramp = 0;  ///< m or rad, rad/s, s
-  std::vector<double> time, travel;           ///< of a record: s, m or rad
+  std::vector<double> time, coordinate;       ///< of a record: s, m or rad
 };
 
 enum class JointKind { fixed, hinge, universal, ball, slider, planar };
 
-/// `[joint.pto]`: against the travel of a slider (m, N) or the angle of a hinge (rad, N m), zero at rest.
+/// `[joint.pto]`: against the stroke of a slider (m, N) or the angle of a hinge (rad, N m), zero at rest.
 struct Pto {
   double stiffness = 0, cubic = 0, damping = 0, quadratic_damping = 0, preload = 0;
   std::optional<double> force_limit;
@@ -465,8 +465,8 @@ struct Joint {
   Eigen::Vector3d at;                ///< global, m
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX(), second_axis = Eigen::Vector3d::UnitY();  ///< global, any length
   std::optional<JointFriction> friction = {};
-  std::optional<Pto> pto = {};         ///< of sliders and hinges
-  std::optional<JointLead> lead = {};  ///< of sliders and hinges
+  std::optional<Pto> pto = {};                           ///< of sliders and hinges
+  std::optional<JointPrescribedMotion> prescribed = {};  ///< of sliders and hinges
   Place place;
 };
 

@@ -96,7 +96,7 @@ const Table& integrator() {
               "rho_infinity",
               "of generalized_alpha: spectral radius at infinite frequency: 1 damps nothing, 0 all at once; left out: "
               "0.8, which kills what is not resolved within some steps and leaves the rest alone, and 0 where "
-              "something acts one way only: cables, tables, end stops, lines with `pulls_only` that it steps")
+              "something acts one way only: cables, tables, end stops, lines with `tension_only` that it steps")
               .within(Limit::fraction)
               .optional(),
           number(

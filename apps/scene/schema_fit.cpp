@@ -306,16 +306,16 @@ const Table& model() {
                         .or_default("60", "most need five to twenty")}},
           {.word = "decay",
            .meaning = "period and damping of a body let go: x'' + b1 x' + b2 |x'| x' + b3 x'^3 + c sgn x' + w0^2 x = 0",
-           .keys = {text("restoring", "by x, or by sin x for a pendulum")
-                        .one_of({"linear", "sine"})
-                        .or_default("linear", "small angles, and all that floats"),
-                    text(
-                        "start",
-                        "with memory among the coefficients: the record begins where the body was let go from rest in "
-                        "calm water, which remembers nothing yet; or in motion, and what the water remembers is fitted")
-                        .one_of({"let go from rest", "in motion"})
-                        .optional(),
-                    inner_table("body", restored_body()).optional()}},
+           .keys =
+               {text("restoring", "by x, or by sin x for a pendulum")
+                    .one_of({"linear", "sine"})
+                    .or_default("linear", "small angles, and all that floats"),
+                text("start",
+                     "with memory among the coefficients: the record begins where the body was let go from rest in "
+                     "calm water, with an empty radiation memory; or in motion, and what that memory holds is fitted")
+                    .one_of({"let go from rest", "in motion"})
+                    .optional(),
+                inner_table("body", restored_body()).optional()}},
           {.word = "radiation",
            .meaning =
                "added mass and damping from forced oscillations in still water, one file each, and the poles of the "

@@ -84,10 +84,10 @@ const Table& release() {
   return table;
 }
 
-const Table& lead() {
+const Table& prescribed() {
   static const Table table{
-      .title = "[line.lead]",
-      .meaning = "one end is led along a path",
+      .title = "[line.prescribed]",
+      .meaning = "the motion of one end, along a path",
       .keys = {text("end", "which: \"from\" or \"to\"").one_of({"from", "to"}),
                text("file", "CSV beside the scene with time, x, y, z; a cubic spline goes through its points")}};
   return table;
@@ -198,61 +198,63 @@ const Table& line_table() {
   static const Table table{
       .title = "[[line]]",
       .meaning = "a chain of nodes and straight segments between two places: dropper, cable, pendulums; it has weight",
-      .keys =
-          {name_key("line", "of the line"),
-           vector("from", dim::length,
-                  "where its first node is held, global; of a body that holds it, in body axes; left out: it meets "
-                  "what `on` names")
-               .optional(),
-           vector("to", dim::length, "where its last node is held, as `from`; left out: a free end, or as `from`")
-               .optional(),
-           inner_table("on", on()).optional(),
-           quantity("length", dim::length, "of the line without tension").positive().optional(),
-           integer("segments", "into which it is cut").within(Limit::at_least_one).optional().only_beside("length"),
-           quantity("mass_per_length", dim::mass / dim::length, "of the line")
-               .positive()
-               .optional()
-               .only_beside("length"),
-           text("mass_at", "\"nodes\": half a segment's mass at either end; \"segments\": spread along it")
-               .one_of({"nodes", "segments"})
-               .or_default("segments", "as a line has it"),
-           inner_tables("part", part()).optional(),
-           inner_tables("link", link()).optional(),
-           quantity("node_mass", dim::mass, "of a bob, pin or clump at every node that is not held")
-               .positive()
-               .optional(),
-           quantity("diameter", dim::length, "that the water and the bed meet").positive().optional(),
-           quantity("axial_stiffness", dim::force, "EA: tension per strain; left out: segments keep their length")
-               .positive()
-               .optional(),
-           quantity("axial_damping", dim::force * dim::time, "tension per rate of strain")
-               .positive()
-               .optional()
-               .only_beside("axial_stiffness"),
-           quantity("bending_stiffness", dim::force * dim::length * dim::length,
-                    "EI: moment per curvature; left out: the line bends freely")
-               .positive()
-               .optional(),
-           inner_table("clamp", clamp()).optional().only_beside("bending_stiffness"),
-           effect("pulls_only", "segments go slack instead of being pressed").optional().only_beside("axial_stiffness"),
-           effect("sags",
-                  "segments hang through between their nodes by their weight in water, and rest on the bed in part: "
-                  "moorings with few segments; with lines = \"generalized_alpha\"")
-               .optional()
-               .only_beside("axial_stiffness"),
-           effect("buoyancy", "weight of the water that it displaces").optional().only_beside("diameter"),
-           effect("partial_immersion", "only what is under the waves is wet; left out: all of it, always")
-               .optional()
-               .only_beside("diameter"),
-           inner_table("morison", morison()).optional().only_beside("diameter"),
-           inner_table("damping", damping()).optional(),
-           inner_table("growth", growth()).optional().only_beside("diameter"),
-           inner_table("bed", bed()).optional().only_beside("diameter"),
-           inner_table("release", release()).optional(),
-           inner_table("lead", lead()).optional(),
-           inner_table("snaps", snaps()).optional(),
-           inner_table("lyapunov", lyapunov()).optional()},
-      .groups = {{exactly_one, {"length", "part", "link"}}, {at_most_one, {"pulls_only", "sags"}}}};
+      .keys = {name_key("line", "of the line"),
+               vector("from", dim::length,
+                      "where its first node is held, global; of a body that holds it, in body axes; left out: it meets "
+                      "what `on` names")
+                   .optional(),
+               vector("to", dim::length, "where its last node is held, as `from`; left out: a free end, or as `from`")
+                   .optional(),
+               inner_table("on", on()).optional(),
+               quantity("length", dim::length, "of the line without tension").positive().optional(),
+               integer("segments", "into which it is cut").within(Limit::at_least_one).optional().only_beside("length"),
+               quantity("mass_per_length", dim::mass / dim::length, "of the line")
+                   .positive()
+                   .optional()
+                   .only_beside("length"),
+               text("mass_at", "\"nodes\": half a segment's mass at either end; \"segments\": spread along it")
+                   .one_of({"nodes", "segments"})
+                   .or_default("segments", "as a line has it"),
+               inner_tables("part", part()).optional(),
+               inner_tables("link", link()).optional(),
+               quantity("node_mass", dim::mass, "of a bob, pin or clump at every node that is not held")
+                   .positive()
+                   .optional(),
+               quantity("diameter", dim::length, "that the water and the bed meet").positive().optional(),
+               quantity("axial_stiffness", dim::force, "EA: tension per strain; left out: segments are inextensible")
+                   .positive()
+                   .optional(),
+               quantity("axial_damping", dim::force * dim::time, "tension per rate of strain")
+                   .positive()
+                   .optional()
+                   .only_beside("axial_stiffness"),
+               quantity("bending_stiffness", dim::force * dim::length * dim::length,
+                        "EI: moment per curvature; left out: the line bends freely")
+                   .positive()
+                   .optional(),
+               inner_table("clamp", clamp()).optional().only_beside("bending_stiffness"),
+               effect("tension_only", "segments go slack instead of being pressed")
+                   .optional()
+                   .only_beside("axial_stiffness"),
+               effect(
+                   "catenary_segments",
+                   "segments hang through between their nodes by their weight in water, and rest on the bed in part: "
+                   "moorings with few segments; with lines = \"generalized_alpha\"")
+                   .optional()
+                   .only_beside("axial_stiffness"),
+               effect("buoyancy", "weight of the water that it displaces").optional().only_beside("diameter"),
+               effect("partial_immersion", "only what is under the waves is wet; left out: all of it, always")
+                   .optional()
+                   .only_beside("diameter"),
+               inner_table("morison", morison()).optional().only_beside("diameter"),
+               inner_table("damping", damping()).optional(),
+               inner_table("growth", growth()).optional().only_beside("diameter"),
+               inner_table("bed", bed()).optional().only_beside("diameter"),
+               inner_table("release", release()).optional(),
+               inner_table("prescribed", prescribed()).optional(),
+               inner_table("snaps", snaps()).optional(),
+               inner_table("lyapunov", lyapunov()).optional()},
+      .groups = {{exactly_one, {"length", "part", "link"}}, {at_most_one, {"tension_only", "catenary_segments"}}}};
   return table;
 }
 

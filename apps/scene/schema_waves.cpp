@@ -185,9 +185,10 @@ const Table& wavemaker() {
                "water"),
           quantity("lowest", dim::angular_velocity, "lowest frequency of the motion that is taken").positive(),
           quantity("highest", dim::angular_velocity, "highest frequency of the motion that is taken").positive(),
-          text("to_waves_that_return", "\"a wall\": they are thrown back; \"yields\": they leave the tank")
-              .one_of({"a wall", "yields"})
-              .or_default("a wall", "a paddle whose motion is prescribed is one")}};
+          effect("active_absorption",
+                 "waves that come back to the paddle leave the tank; left out: they are reflected, as by a paddle "
+                 "whose motion is prescribed")
+              .optional()}};
   return table;
 }
 

@@ -213,7 +213,7 @@ WaveTank build_tank(const Record& waves, const Scene& scene) {
                .hinge = {},
                .lowest = maker.si("lowest"),
                .highest = maker.si("highest"),
-               .yields = maker.text("to_waves_that_return") == "yields",
+               .active_absorption = maker.has("active_absorption"),
                .step = 0,
                .displacement = {}};
   if (scene.water.depth.is_infinite())

@@ -18,7 +18,7 @@
 namespace fit {
 namespace {
 
-// θ of MotionLaw::remembering.
+// θ of MotionLaw::with_radiation_memory.
 enum Theta { omega0, linear, quadratic, cubic, offset, strength, decay, frequency, thetas };
 using Parameters = Eigen::Matrix<double, thetas, 1>;
 
@@ -37,7 +37,7 @@ ShootingProblem problem_of(std::span<const Window> records, const DecayMemoryOpt
   // (1 + Im k̂/ω) (M + A∞) is what swings: it tells ω₀ from the frequency of the swing.
   const double omega = *plain.motion.parameters[0].value, gap = std::pow(start.frequency, 2) - omega * omega,
                d = gap * gap + std::pow(2 * start.decay * omega, 2);
-  ShootingProblem p{.law = MotionLaw::remembering,
+  ShootingProblem p{.law = MotionLaw::with_radiation_memory,
                     .windows = {records.begin(), records.end()},
                     .deviations = plain.problem.deviations,
                     .start = std::vector<double>(thetas, 0.0),
@@ -122,7 +122,7 @@ Eigen::Matrix<double, thetas, thetas> covariance_of(const DecayMemoryFit& fit) {
 void tell_directions(DecayMemoryFit& fit) {
   const Parameters theta = theta_of(fit);
   const auto all = covariance_of(fit);
-  const auto names = parameters_of(MotionLaw::remembering);
+  const auto names = parameters_of(MotionLaw::with_radiation_memory);
   std::vector<Eigen::Index> own;
   for (Eigen::Index k = 0; k < thetas; ++k)
     if (fit.problem.fitted[static_cast<std::size_t>(k)] && k != offset && theta[k] != 0) own.push_back(k);

@@ -35,7 +35,7 @@ void ZeroPhaseFilter::Section::run(std::vector<double>& values) const {
   }
 }
 
-// The slowest pole decides how long the start of a record is remembered.
+// The slowest pole decides how long the start of a record is felt.
 void ZeroPhaseFilter::settle_sections() {  // (F16)
   double slowest = 0;
   for (const Section& s : sections_) {

@@ -32,7 +32,7 @@ struct Oscillator {
 
 /// y = (x, ẋ, ζ, ζ̇); θ = (ω₀, b₁, b₂, b₃, x₀, κ, α, ω_p): the water's memory is a hidden oscillator ζ, driven by the
 /// motion; (F59). |ẋ| bends where ẋ changes its sign, and the step that holds it is of lower order there.
-struct Remembering {
+struct WithRadiationMemory {
   static constexpr int states = 4, parameters = 8, channels = 1, turning = -1;
   template <class T>
   std::array<T, 4> rate(const std::array<T, 4>& y, const std::array<T, 8>& p, double) const {

@@ -60,10 +60,10 @@ CoefficientCovariance bootstrap_covariance(const Eigen::MatrixXd& jacobian, cons
   const double memory = gamma.cwiseAbs().sum() / gamma[0];
   const double usual = std::clamp(8 * memory, std::cbrt(static_cast<double>(n)), static_cast<double>(n) / 10);
   const auto length = static_cast<Eigen::Index>(options.length > 0 ? options.length : std::ceil(usual));
-  hydro::require(
-      length >= 1 && static_cast<double>(length) >= 3 * memory && 2 * length <= n,
-      "the residuals remember {:.3g} of {} averaged samples: blocks of {} hold too little of that, or are too few",
-      memory, n, length);
+  hydro::require(length >= 1 && static_cast<double>(length) >= 3 * memory && 2 * length <= n,
+                 "the residuals are correlated over {:.3g} of {} averaged samples: blocks of {} hold too little of "
+                 "that, or are too few",
+                 memory, n, length);
   e.array() -= e.mean();
   // What the fit took out of the residuals (F4), and what blocks lose that begin and end anywhere.
   const double lost = result.residual_share_lost;

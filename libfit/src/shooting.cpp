@@ -28,8 +28,8 @@ auto with_model(MotionLaw law, Use use) {
       return use(Oscillator<true>{});
     case MotionLaw::fall:
       return use(Fall{});
-    case MotionLaw::remembering:
-      return use(Remembering{});
+    case MotionLaw::with_radiation_memory:
+      return use(WithRadiationMemory{});
     case MotionLaw::double_pendulum:
       break;
   }
@@ -258,7 +258,7 @@ void tell_motion_bands(const ShootingProblem& p, const Eigen::MatrixXd& jacobian
 
 std::vector<std::string> parameters_of(MotionLaw law) {
   if (law == MotionLaw::fall) return {"drag", "gravity"};
-  if (law == MotionLaw::remembering)
+  if (law == MotionLaw::with_radiation_memory)
     return {"omega0", "linear", "quadratic", "cubic", "offset", "memory_strength", "memory_decay", "memory_frequency"};
   if (law == MotionLaw::double_pendulum)
     return {"coupling", "inertia", "gravity1", "gravity2", "friction1", "friction2"};

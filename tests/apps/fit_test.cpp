@@ -256,7 +256,7 @@ TEST_F(Fit, OfASceneGivesProfilesWhereAsked) {
       EXPECT_NEAR(profile[end].get<double>(), plain[end].get<double>(), 0.15 * width) << name;
   }
   EXPECT_THAT([&] { told({.scene = changed("pendulums.toml", "[ask]", "[ask]\nprofile = true\nlaw = \"best\"")}); },
-              ThrowsMessage<InputError>(HasSubstr("has no part in a fit of kind \"motion\"")));
+              ThrowsMessage<InputError>(HasSubstr("does not apply to a fit of kind \"motion\"")));
 }
 
 TEST_F(Fit, OfASceneSaysWhichKeyItCannotFind) {
@@ -308,7 +308,7 @@ TEST_F(Fit, OfASceneWhoseResidualsContradictTheStatedDeviationTellsNothing) {
   EXPECT_GT(j["parameter"]["line_damping_linear"]["interval"][1].get<double>(), 0.006);
   EXPECT_THAT(told({.scene = scene}), HasSubstr("accepted: chain.link2.polar"));
   EXPECT_THAT([&] { told({.scene = changed("oscillation.toml", "[ask]", "[ask]\naccept = [\"residuals\"]")}); },
-              ThrowsMessage<InputError>(HasSubstr("has no part in a fit of kind \"morison\"")));
+              ThrowsMessage<InputError>(HasSubstr("does not apply to a fit of kind \"morison\"")));
 }
 
 TEST_F(Fit, OfADecayThatIsNoneTellsNothing) {

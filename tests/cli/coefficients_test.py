@@ -87,7 +87,7 @@ class Coefficients(unittest.TestCase):
         self.refused("convert", PONTOON, "--array", "(1, 2, 3) m", "-o", "x.h5", parts=["--array", "z must be 0"])
 
     def test_points_headings_and_places_are_moved(self):
-        self.convert(PONTOON, "--about", "(0, 0, -1) m", "--carry", "(10, 0, 0) m", "--turn", "90 deg", "-o", "moved.h5")
+        self.convert(PONTOON, "--about", "(0, 0, -1) m", "--translate", "(10, 0, 0) m", "--turn", "90 deg", "-o", "moved.h5")
         before, after = self.info(PONTOON), self.info("moved.h5")
         point = after["bodies"][0]["reference_point_m"]
         for value, expected in zip(point, (0, 10, -1)):

@@ -97,7 +97,7 @@ class Outputs(unittest.TestCase):
             self.refuses("psd", "m.csv", "-o", name, words=("would be replaced", "-o", "the record"))
         self.refuses("psd", "m.csv", "--picture", "m.csv", words=("--picture",))
         self.refuses("psd", "soft.csv", "-o", "hard.csv")
-        self.refuses("section", "m.csv", "--x", "wave", "--y", "wave", "--every", "4 s", "-o", "m.csv")
+        self.refuses("poincare", "m.csv", "--x", "wave", "--y", "wave", "--every", "4 s", "-o", "m.csv")
 
     def test_scenes_and_the_files_that_they_name_are_not_replaced(self):
         for command in (["run"], ["rao"], ["modes"], ["waves", "make"]):

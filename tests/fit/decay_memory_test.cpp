@@ -1,4 +1,4 @@
-// A decay whose damping the water remembers, against the closed form by eigenvalues and the convolution itself.
+// A decay with radiation memory, against the closed form by eigenvalues and the convolution itself.
 #include "fit/decay_memory.hpp"
 
 #include <Eigen/Dense>
@@ -54,15 +54,16 @@ fit::Window record(const Water& w, double step, int n, double noise = 0, std::ui
   return out;
 }
 
-TEST(RememberingMotion, IsTheClosedForm) {
+TEST(MotionWithRadiationMemory, IsTheClosedForm) {
   const Water w{.linear = 0.05};
   const auto truth = closed_form(w, {0.2, -0.1, 0.02, 0.03}, 0.1, 300);
-  const auto x = fit::follow(MotionLaw::remembering, w.theta(), Eigen::Vector4d(0.2, -0.1, 0.02, 0.03), 0.1, 300, 8);
+  const auto x =
+      fit::follow(MotionLaw::with_radiation_memory, w.theta(), Eigen::Vector4d(0.2, -0.1, 0.02, 0.03), 0.1, 300, 8);
   // Fourth order: (ωh)⁴/120 of the phase at h = 0.0125 and ω = 2 after 60 rad.
   for (int j = 0; j < 300; ++j) ASSERT_NEAR(x(j, 0), truth[static_cast<std::size_t>(j)], 0.2 * 4e-7) << j;
 }
 
-TEST(RememberingMotion, IsThatOfTheConvolution) {
+TEST(MotionWithRadiationMemory, IsThatOfTheConvolution) {
   // Leapfrog with the trapezoidal rule for ∫k(t − τ)ẋ dτ, k = κe^{−αt}(cos βt − α/β sin βt), β² = ω_p² − α².
   const Water w;
   const double h = 0.005, beta = std::sqrt(w.frequency * w.frequency - w.decay * w.decay);
@@ -72,19 +73,20 @@ TEST(RememberingMotion, IsThatOfTheConvolution) {
     const double t = h * j;
     k.push_back(w.strength * std::exp(-w.decay * t) * (std::cos(beta * t) - w.decay / beta * std::sin(beta * t)));
   }
-  const auto remembered = [&](std::size_t now) {
+  const auto history_force = [&](std::size_t now) {
     double sum = 0;
     for (std::size_t i = 0; i <= now; ++i) sum += k[now - i] * v[i] * (i == 0 || i == now ? 0.5 : 1);
     return h * sum;
   };
   for (std::size_t j = 0; j + 1 < static_cast<std::size_t>(n); ++j) {  // Heun
-    const double a = -w.omega0 * w.omega0 * x[j] - remembered(j);
+    const double a = -w.omega0 * w.omega0 * x[j] - history_force(j);
     x.push_back(x[j] + h * v[j] + h * h / 2 * a);
     v.push_back(v[j] + h * a);
-    const double b = -w.omega0 * w.omega0 * x[j + 1] - remembered(j + 1);
+    const double b = -w.omega0 * w.omega0 * x[j + 1] - history_force(j + 1);
     v[j + 1] = v[j] + h / 2 * (a + b);
   }
-  const auto followed = fit::follow(MotionLaw::remembering, w.theta(), Eigen::Vector4d(0.2, 0, 0, 0), h, n, 1);
+  const auto followed =
+      fit::follow(MotionLaw::with_radiation_memory, w.theta(), Eigen::Vector4d(0.2, 0, 0, 0), h, n, 1);
   // Second order: (ωh)²/12 of the phase of 16 rad at ω = 2.
   for (std::size_t j = 0; j < x.size(); j += 10)
     ASSERT_NEAR(followed(static_cast<Eigen::Index>(j), 0), x[j], 0.2 * 16 * 1e-4 / 12) << j;

@@ -33,7 +33,7 @@ TEST(ZeroPhaseFilter, GivesBackASinusoidInPhaseTimesItsGain) {
       const auto x = sinusoid(hz, 3000), y = f.apply(x);
       ASSERT_EQ(y.size(), x.size() - 2 * f.settling());
       const double gain = f.gain(two_pi * hz);
-      // What lies beyond the ends is remembered to 1e-4; two passes of up to five sections add up.
+      // What lies beyond the ends is felt to 1e-4; two passes of up to five sections add up.
       for (std::size_t j = 0; j < y.size(); ++j)
         ASSERT_NEAR(y[j], gain * x[j + f.settling()], 2e-3) << f.name() << " at " << hz << " Hz, sample " << j;
     }

@@ -38,7 +38,7 @@ TEST(StatedResiduals, OfANoiseAsStatedHold) {
   }
 }
 
-TEST(StatedResiduals, CountSquaresThatRememberEachOther) {
+TEST(StatedResiduals, CountCorrelatedSquares) {
   // Σρ_k² = φ²/(1 − φ²) = 4.26 for φ = 0.9: n/9.5 squares, estimated from a record of 4000 samples.
   const auto s = fit::against_stated(noise(4000, 0.9, 1, 7), 1, 0);
   EXPECT_NEAR(s.squares, 4000 / 9.53, 0.25 * 4000 / 9.53);

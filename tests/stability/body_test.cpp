@@ -35,7 +35,7 @@ Model rubbing(double level) {
   const Model free = support::double_pendulum(0.4);
   std::vector<Joint> joints = free.joints().joints();
   std::vector<Friction> friction;
-  for (const Joint& j : joints) friction.push_back({j.name, Travel(free.bodies(), j), 1.2 * level, level});
+  for (const Joint& j : joints) friction.push_back({j.name, JointCoordinate(free.bodies(), j), 1.2 * level, level});
   Forces forces;
   forces.push_back(std::make_unique<GravityKind>(free.bodies(), support::rod_gravity));
   forces.push_back(std::make_unique<FrictionKind>(std::move(friction)));

@@ -23,7 +23,7 @@ constexpr double pi = std::numbers::pi;
 double worst_length(const Line& line, const State& s) {
   double worst = 0;
   for (int j = 0; j < line.segments(); ++j)
-    if (line.segment(j).keeps_length())
+    if (line.segment(j).is_inextensible())
       worst = std::max(worst, std::abs((s.position.col(j + 1) - s.position.col(j)).norm() - line.segment(j).length));
   return worst;
 }
@@ -115,7 +115,7 @@ TEST(HardLines, SlackToTautSnap) {
     Description d;
     d.nodes.assign(11, Node{.mass = 0.1});
     d.nodes.back().mass = 50;
-    d.segments.assign(10, {.length = 1, .axial_stiffness = 1e6, .axial_damping = damping, .pulls_only = true});
+    d.segments.assign(10, {.length = 1, .axial_stiffness = 1e6, .axial_damping = damping, .tension_only = true});
     d.held = {{.node = 0}};
     const Line line(d);
     State s{.position = Places::Zero(3, 11), .velocity = Places::Zero(3, 11), .tension = Eigen::VectorXd::Zero(10)};

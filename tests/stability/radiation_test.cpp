@@ -38,7 +38,7 @@ double least_energy(const MemoryMethod& method, const RadiationData& data, int s
       for (Eigen::Index m = 0; m < v.size(); ++m)
         v[m] = std::sin(omega * h * i + 1.7 * static_cast<double>(m) * static_cast<double>(seed)) +
                noise * random.normal(next++);
-      energy += h * v.dot(state->decided(1) + method.instantaneous(1) * v);
+      energy += h * v.dot(state->history_force(1) + method.instantaneous(1) * v);
       motion += h * v.squaredNorm() * size;
       if (i > 50) least = std::min(least, energy / motion);
       state->accept(v);
@@ -112,7 +112,7 @@ TEST(RadiationStability, NeitherDriftsNorGrowsInALongRun) {
       choose(data.damping, data.A, data.A_inf, {.step = h, .tolerance = 1e-3, .length = {}, .method = {}});
   const auto state = chosen.memory->start(Eigen::VectorXd::Zero(1));
   const auto load_at = [&](double v) {
-    return (state->decided(1) + chosen.memory->instantaneous(1) * Eigen::VectorXd::Constant(1, v))[0];
+    return (state->history_force(1) + chosen.memory->instantaneous(1) * Eigen::VectorXd::Constant(1, v))[0];
   };
   const double omega = 2 * std::acos(-1.0) / 8;  // 80 steps a period
   double early = 0, late = 0;

@@ -186,7 +186,7 @@ constexpr int planar[] = {0, 2, 4, 6, 8, 10, 12, 14, 16};  // surge, heave and p
 
 /// Largest damping, kg/s, by which the memory of poles may be off in surge of all bodies together: its own error is
 /// relative to √(max B_ii max B_jj) of every pair.
-double damping_left_open(const Coefficients& c) {
+double damping_interpolation_error(const Coefficients& c) {
   hydro::radiation::DampingTable damping{c.omega, {}};
   std::vector<Eigen::MatrixXd> A;
   const std::vector<int> modes(std::begin(planar), std::end(planar));
@@ -260,7 +260,7 @@ Outcome outcome(const Folders& folders) {
                            out, figure.panels.back()));
   }
   out.numbers.push_back({"surge, damping of poles beyond that of the convolution, of what poles leave open",
-                         damping_between(data, left.front(), left.back(), 47) / damping_left_open(data), ""});
+                         damping_between(data, left.front(), left.back(), 47) / damping_interpolation_error(data), ""});
   out.pictures.push_back({"decay", "Pitch and surge of the base against four codes.", figure, true});
   return out;
 }

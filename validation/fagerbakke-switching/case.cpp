@@ -74,7 +74,7 @@ Outcome outcome(const Folders& folders) {
                  {"time from the change of waves to the switch", at - change, "s"},
                  {"surge of module 2 after the switch, standard deviation over that without a switch",
                   deviation(cut(m2), settled) / deviation(cut(m2_fixed), settled), ""},
-                 {"energy that does not add up, over that turned over",
+                 {"energy residual, over that turned over",
                   std::abs(entry(switched, "residual")) / entry(switched, "turnover"), ""}};
   plot::Figure f{.title = "Two modules when waves of 7.5 s become waves of 3.5 s",
                  .panels = {{.x = {"time", "s"}, .y = {"surge of module 2", "m"}, .series = {}},

@@ -19,14 +19,14 @@ struct MooringLine {
   hydro::Water water;
   std::vector<dynamics::line::Bed> bed = {};
   dynamics::line::Wet wet = dynamics::line::Wet::all;
-  bool sags = true;  ///< between its nodes (D88)
+  bool catenary = true;  ///< segments between their nodes (D88)
 
   double weight() const {  // in water, N/m
     return (mass_per_length - water.density * std::numbers::pi / 4 * diameter * diameter) * water.gravity;
   }
 
   dynamics::line::Description description(int segments,
-                                          std::shared_ptr<const dynamics::line::Path> lead = nullptr) const {
+                                          std::shared_ptr<const dynamics::line::Path> prescribed = nullptr) const {
     namespace dl = dynamics::line;
     dl::Description d;
     d.nodes.assign(static_cast<std::size_t>(segments) + 1, dl::Node{});
@@ -37,9 +37,9 @@ struct MooringLine {
     s.cd = cd;
     s.cd_tangential = cd_tangential;
     s.ca = ca;
-    s.sags = sags;
+    s.catenary = catenary;
     d.segments.assign(static_cast<std::size_t>(segments), s);
-    d.held = {{.node = 0}, {.node = segments, .path = std::move(lead)}};
+    d.held = {{.node = 0}, {.node = segments, .path = std::move(prescribed)}};
     d.gravity = water.gravity;
     d.bed = bed;
     d.water = {std::make_shared<hydro::waves::HarmonicField>(std::vector<hydro::waves::Harmonic>{}, water,
@@ -71,20 +71,21 @@ inline EndPulls end_pulls(const MooringLine& m, const dynamics::line::State& s) 
   return {-balance.holding.rightCols<1>(), -balance.holding.leftCols<1>()};
 }
 
-/// Pulls at the fairlead against time while it is led, N.
-struct LedRun {
+/// Pulls at the fairlead against time while it is moved, N.
+struct PrescribedRun {
   std::vector<double> time, fairlead, anchor;
   int newton_iterations = 0, halvings = 0;
 };
-inline LedRun run_led(const MooringLine& m, int segments, std::shared_ptr<const dynamics::line::Path> lead, double from,
-                      double until, double h) {
+inline PrescribedRun run_prescribed(const MooringLine& m, int segments,
+                                    std::shared_ptr<const dynamics::line::Path> prescribed, double from, double until,
+                                    double h) {
   namespace dl = dynamics::line;
-  const dl::Line line(m.description(segments, std::move(lead)));
+  const dl::Line line(m.description(segments, std::move(prescribed)));
   dl::State s = m.at_rest(segments);
   s.time = from;
   dl::Stepper stepper(line, {.scheme = dl::Scheme::generalised_alpha});
   stepper.start(s);
-  LedRun out;
+  PrescribedRun out;
   for (int i = 1; i <= static_cast<int>(std::lround((until - from) / h)); ++i) {
     const auto report = stepper.step(s, h);
     s.time = from + i * h;

@@ -109,8 +109,8 @@ void add_dropper(const Folders& folders, Outcome& out) {
   const std::vector<Number> numbers{
       {"runs of the dropper that stopped early, step 0.03 s",
        static_cast<double>(!group.record.stopped.empty()) + static_cast<double>(!storm.record.stopped.empty()), ""},
-      {"dropper in the group: energy that does not add up, of the energy supplied", group.residual, ""},
-      {"dropper in the storm: energy that does not add up, of the energy supplied", storm.residual, ""},
+      {"dropper in the group: energy residual, of the energy supplied", group.residual, ""},
+      {"dropper in the storm: energy residual, of the energy supplied", storm.residual, ""},
       {"dropper in the group: largest tension", largest(group), "N"},
       {"dropper in the storm: largest tension", largest(storm), "N"},
       {"dropper in the storm: steps halved", static_cast<double>(storm.record.halvings), ""}};

@@ -107,8 +107,9 @@ Difference heaving(const Folders& folders, const Chain& c, const std::string& mo
     time.push_back(row[0]);
     places.emplace_back(row[1], row[2], row[3]);
   }
-  const LedRun run = run_led(mooring(c), c.segments, std::make_shared<dynamics::line::SplinePath>(time, places),
-                             time.front(), time.back() - 0.1, 0.05);
+  const PrescribedRun run =
+      run_prescribed(mooring(c), c.segments, std::make_shared<dynamics::line::SplinePath>(time, places), time.front(),
+                     time.back() - 0.1, 0.05);
   plot::Series ours{.name = "ours", .x = {}, .y = {}}, theirs{.name = "reference", .x = {}, .y = {}, .dashed = true};
   for (std::size_t i = 0; i < run.time.size(); ++i)
     if (run.time[i] >= 0) ours.x.push_back(run.time[i]), ours.y.push_back(run.fairlead[i] / 1e3);
@@ -146,7 +147,7 @@ MooringLine jumper() {
           .fairlead = {0, 0, -5},
           .water = {.density = 1000, .gravity = 9.807, .depth = hydro::WaterDepth::from_metres(100)},
           .wet = dynamics::line::Wet::below_surface,
-          .sags = false};
+          .catenary = false};
 }
 
 class Driven final : public dynamics::line::Path {
@@ -166,8 +167,8 @@ class Driven final : public dynamics::line::Path {
 double driven(const Folders& folders, int axis, plot::Panel& panel) {
   const MooringLine line = jumper();
   constexpr double h = 0.05, period = 27;
-  const LedRun run =
-      run_led(line, 34, std::make_shared<Driven>(line.fairlead, 10 * Vector3d::Unit(axis)), 0, 6 * period, h);
+  const PrescribedRun run =
+      run_prescribed(line, 34, std::make_shared<Driven>(line.fairlead, 10 * Vector3d::Unit(axis)), 0, 6 * period, h);
   const auto theirs = table(folders.shared(fmt::format("mooring_lines/lowe_and_langley_2006/Case_{}.csv", axis + 1)));
   const auto ours_at = [&](double t) {  // from the fourth period on
     const double steps = (3 * period + std::fmod(t, period)) / h - 1;

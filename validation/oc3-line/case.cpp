@@ -14,7 +14,7 @@ struct Peak {
 
 Peak peak(int segments, double h) {
   const MooringLine line = oc3_line();
-  const LedRun run = run_led(line, segments, std::make_shared<Oc3Moved>(line.fairlead), 0, 60, h);
+  const PrescribedRun run = run_prescribed(line, segments, std::make_shared<Oc3Moved>(line.fairlead), 0, 60, h);
   Peak out{0, {.name = std::to_string(segments) + " segments", .x = run.time, .y = {}}};
   for (std::size_t i = 0; i < run.time.size(); ++i) {
     out.series.y.push_back(run.fairlead[i] / 1e3);

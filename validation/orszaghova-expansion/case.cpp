@@ -50,14 +50,14 @@ dynamics::Model model_of(const Hull& hull) {
       {buoy, hull.sphere ? shape(hydro::hydrostatics::Sphere{{0, 0, 0}, R}) : shape(hull.cylinder)},
       {slide, shape(hydro::hydrostatics::Sphere{{0, 0, z_S}, std::cbrt(3 * V_S / (4 * pi))})}};
   const hydro::Water water{.density = rho, .gravity = g, .depth = hydro::WaterDepth::from_metres(L)};
-  dynamics::TravelLaw take_off;
+  dynamics::PtoLaw take_off;
   take_off.line = {.stiffness = K1, .cubic = K3};
   take_off.preload = rho * g * hull.volume - m_B * g;
   std::vector<std::unique_ptr<const dynamics::ForceKind>> forces;
   forces.push_back(std::make_unique<dynamics::GravityKind>(bodies, g));
   forces.push_back(std::make_unique<dynamics::BuoyancyKind>(bodies, wet, water));
-  forces.push_back(
-      std::make_unique<dynamics::PtoKind>(std::vector<dynamics::Pto>{{dynamics::Travel(bodies, joints[1]), take_off}}));
+  forces.push_back(std::make_unique<dynamics::PtoKind>(
+      std::vector<dynamics::Pto>{{dynamics::JointCoordinate(bodies, joints[1]), take_off}}));
   return {std::move(bodies), {}, std::move(forces), std::move(joints)};
 }
 

@@ -42,7 +42,7 @@ Response respond(scene::Scene scene, double period, double height) {
   };
   const std::vector<double> omega{pi / period, 2 * pi / period};
   const auto tones = hydro::signal::fit_harmonics(t, last("pivot.angle"), omega);
-  return {deviation(last("pivot.angle")), deviation(last("rack.travel")),
+  return {deviation(last("pivot.angle")), deviation(last("rack.stroke")),
           std::abs(tones.amplitude[0]) > std::abs(tones.amplitude[1])};
 }
 
@@ -64,10 +64,10 @@ std::vector<double> one_degree_of_freedom(scene::Scene scene, const std::vector<
   scene.rao.emplace();
   for (auto T = periods.rbegin(); T != periods.rend(); ++T) scene.rao->omega.push_back(2 * pi / *T);
   scene.rao->headings = {0};  // as the waves of the runs
-  scene.rao->of = {"rack.travel"};
+  scene.rao->of = {"rack.stroke"};
   const Responses responses = froude::respond(scene);
   std::vector<double> out;
-  for (const auto& per_metre : responses.signal("rack.travel").values)
+  for (const auto& per_metre : responses.signal("rack.stroke").values)
     out.insert(out.begin(), std::abs(per_metre) * height / 2 / std::numbers::sqrt2);
   return out;
 }

@@ -49,7 +49,7 @@ double belt() {
   forces.push_back(
       std::make_unique<dynamics::RestoringKind>("mooring", bodies, std::vector<dynamics::Restoring>{{0, spring}}));
   forces.push_back(std::make_unique<dynamics::FrictionKind>(
-      std::vector<dynamics::Friction>{{"contact", dynamics::Travel(bodies, joints[1]), breakaway, sliding}}));
+      std::vector<dynamics::Friction>{{"contact", dynamics::JointCoordinate(bodies, joints[1]), breakaway, sliding}}));
   const dynamics::Model model(bodies, {}, std::move(forces), joints);
   dynamics::State start = dynamics::rest_state(bodies);
   start.velocity[0] = start.velocity[6] = v;

@@ -46,7 +46,7 @@ dynamics::Model hinge() {
   forces.push_back(std::make_unique<dynamics::RestoringKind>(
       "mooring", bodies, std::vector<dynamics::Restoring>{{.body = 0, .stiffness = spring}}));
   forces.push_back(std::make_unique<dynamics::FrictionKind>(
-      std::vector<dynamics::Friction>{{pin.name, dynamics::Travel(bodies, pin), breakaway, sliding}}));
+      std::vector<dynamics::Friction>{{pin.name, dynamics::JointCoordinate(bodies, pin), breakaway, sliding}}));
   return dynamics::Model(std::move(bodies), {}, std::move(forces), {pin});
 }
 

@@ -10,7 +10,7 @@ struct Stretch {
   EndPoint a, b;
   Eigen::Vector3d direction, relative_velocity;  // from the first end to the second
   double length, rate;
-  Answer answer;  // tension
+  SpringDamperForce law;  // tension
 };
 
 Stretch stretch(const AxialConnector& c, const State& state) {
@@ -23,13 +23,13 @@ Stretch stretch(const AxialConnector& c, const State& state) {
   s.direction = s.length > 0 ? Eigen::Vector3d(d / s.length) : Eigen::Vector3d::Zero();
   s.relative_velocity = s.b.velocity - s.a.velocity;
   s.rate = s.direction.dot(s.relative_velocity);
-  s.answer = c.law.at(s.length - c.rest_length, s.rate);
+  s.law = c.law.at(s.length - c.rest_length, s.rate);
   return s;
 }
 
 detail::PairLoad pair_load(const Stretch& s) {
   detail::PairLoad p;
-  p.force = s.answer.force * s.direction;
+  p.force = s.law.force * s.direction;
   p.first_arm = s.a.arm;
   p.second_arm = s.b.arm;
   return p;
@@ -39,11 +39,11 @@ void differentiate(const Stretch& s, detail::PairLoad& p) {
   if (s.length == 0) return;
   const Eigen::Matrix3d along = s.direction * s.direction.transpose();
   const Eigen::Matrix3d across = (Eigen::Matrix3d::Identity() - along) / s.length;  // ∂direction/∂d
-  const Eigen::Matrix3d by_distance = s.answer.by_x * along + s.answer.force * across +
-                                      s.answer.by_rate * s.direction * (across * s.relative_velocity).transpose();
+  const Eigen::Matrix3d by_distance = s.law.by_x * along + s.law.force * across +
+                                      s.law.by_rate * s.direction * (across * s.relative_velocity).transpose();
   const auto d_position = detail::relative_position_derivative(s.a, s.b);
-  p.force_by_q = by_distance * d_position + s.answer.by_rate * along * detail::relative_velocity_derivative(s.a, s.b);
-  p.force_by_v = s.answer.by_rate * along * d_position;
+  p.force_by_q = by_distance * d_position + s.law.by_rate * along * detail::relative_velocity_derivative(s.a, s.b);
+  p.force_by_v = s.law.by_rate * along * d_position;
   p.first_arm_by_q = detail::arm_derivative(0, s.a.arm);
   p.second_arm_by_q = detail::arm_derivative(1, s.b.arm);
 }
@@ -52,7 +52,7 @@ void differentiate(const Stretch& s, detail::PairLoad& p) {
 
 AxialState axial_state(const AxialConnector& connector, const State& state) {
   const Stretch s = stretch(connector, state);
-  return {s.length, s.answer.force};
+  return {s.length, s.law.force};
 }
 
 namespace {
@@ -61,7 +61,7 @@ namespace {
 Variation tension_variation(const AxialConnector& c, const State& still) {
   const Stretch s = stretch(c, still);
   const Eigen::Matrix<double, 1, 12> by_q = s.direction.transpose() * detail::relative_position_derivative(s.a, s.b);
-  return detail::variation_of(c.ends, s.answer.by_x * by_q, s.answer.by_rate * by_q);
+  return detail::variation_of(c.ends, s.law.by_x * by_q, s.law.by_rate * by_q);
 }
 
 }  // namespace
@@ -114,9 +114,9 @@ void add_axial_jacobian(const AxialConnector& connector, const State& state, Jac
 }
 
 void add_axial_energy(const AxialConnector& connector, const State& state, EnergyFlow& flow) {
-  const Answer answer = stretch(connector, state).answer;
-  flow.stored += answer.stored;
-  flow.dissipated += answer.dissipated;
+  const SpringDamperForce law = stretch(connector, state).law;
+  flow.stored += law.stored;
+  flow.dissipated += law.dissipated;
 }
 
 }  // namespace detail

@@ -45,7 +45,7 @@ ContactKind::ContactKind(std::vector<Contact> elements) : elements_(std::move(el
                    c.name);
     hydro::require(std::isfinite(c.friction) && c.friction >= 0, "contact \"{}\": friction must not be negative",
                    c.name);
-    meet(c.shapes.first, c.shapes.second);  // has no law: throws
+    dynamics::closest_points(c.shapes.first, c.shapes.second);  // has no law: throws
     hydro::require(half_thickness(c.shapes.first) + half_thickness(c.shapes.second) > 0,
                    "contact \"{}\": neither of its shapes has a thickness, so they would never be seen to meet",
                    c.name);
@@ -65,7 +65,7 @@ EnergyFlow ContactKind::energy(const Instant& now) const {
   return flow;
 }
 
-Condition ContactKind::closed(std::size_t element) const {
+Constraint ContactKind::closed(std::size_t element) const {
   constexpr int of_no_joint = -1;
   const Contact& c = elements_[element];
   return {of_no_joint, c.first, c.second, c.shapes};
@@ -104,14 +104,14 @@ std::vector<Signal> ContactKind::signals() const {
   return out;
 }
 
-Meeting ContactKind::meeting(std::size_t element, const State& state) const {
-  return dynamics::meeting(elements_[element].shapes, ends_of(closed(element), state));
+ClosestPoints ContactKind::closest_points(std::size_t element, const State& state) const {
+  return dynamics::closest_points(elements_[element].shapes, ends_of(closed(element), state));
 }
 
 ContactKind::Motion ContactKind::motion(std::size_t element, const State& state) const {
   const Contact& c = elements_[element];
-  const ConditionEnds at = ends_of(closed(element), state);
-  const Meeting m = dynamics::meeting(c.shapes, at);
+  const ConstraintEnds at = ends_of(closed(element), state);
+  const ClosestPoints m = dynamics::closest_points(c.shapes, at);
   const auto of_point = [&](int body, const Eigen::Vector3d& centre, const Eigen::Vector3d& point) {
     const auto twist = state.twist(body);
     return Eigen::Vector3d(twist.head<3>() + twist.tail<3>().cross(point - centre));
@@ -140,27 +140,27 @@ std::optional<double> ContactKind::passing(std::size_t element, const State& bef
     const auto attitude = [&](std::optional<int> body) {
       return turn_of(body, before).slerp(s, turn_of(body, after)).toRotationMatrix();
     };
-    const ConditionEnds there{one.at(s), other.at(s), attitude(c.first), attitude(c.second),
-                              before.time + s * (after.time - before.time)};
-    const double apart = dynamics::meeting(c.shapes, there).gap;
+    const ConstraintEnds there{one.at(s), other.at(s), attitude(c.first), attitude(c.second),
+                               before.time + s * (after.time - before.time)};
+    const double apart = dynamics::closest_points(c.shapes, there).gap;
     if (apart < 0) return s;
     s += std::max(apart, thick / 4) / way;
   }
   return {};
 }
 
-std::array<Condition, 2> ContactKind::sticking(std::size_t element, const State& state) const {
-  const Condition c = closed(element);
-  const Eigen::Vector3d n = meeting(element, state).normal, t = n.unitOrthogonal();
-  std::array<Condition, 2> out{c, c};
-  out[0].what = StickCondition{elements_[element].shapes, t};
-  out[1].what = StickCondition{elements_[element].shapes, n.cross(t)};
+std::array<Constraint, 2> ContactKind::sticking(std::size_t element, const State& state) const {
+  const Constraint c = closed(element);
+  const Eigen::Vector3d n = closest_points(element, state).normal, t = n.unitOrthogonal();
+  std::array<Constraint, 2> out{c, c};
+  out[0].what = StickConstraint{elements_[element].shapes, t};
+  out[1].what = StickConstraint{elements_[element].shapes, n.cross(t)};
   return out;
 }
 
 Gradient ContactKind::along(std::size_t element, const Eigen::Vector3d& direction, const State& state) const {
-  const ConditionEnds at = ends_of(closed(element), state);
-  const Meeting m = dynamics::meeting(elements_[element].shapes, at);
+  const ConstraintEnds at = ends_of(closed(element), state);
+  const ClosestPoints m = dynamics::closest_points(elements_[element].shapes, at);
   return apart(direction, m.on_first, m.on_second, at);
 }
 

@@ -9,7 +9,7 @@ namespace dynamics {
 namespace {
 
 /// Of the table, straight between its points and beyond its ends; energy from x = 0.
-Answer tabulated(const std::vector<double>& xs, const std::vector<double>& fs, double x) {
+SpringDamperForce tabulated(const std::vector<double>& xs, const std::vector<double>& fs, double x) {
   const auto segment = [&](double at) {
     const auto above = std::upper_bound(xs.begin() + 1, xs.end() - 1, at) - xs.begin();
     return static_cast<std::size_t>(above) - 1;
@@ -19,7 +19,7 @@ Answer tabulated(const std::vector<double>& xs, const std::vector<double>& fs, d
     const std::size_t i = segment(at);
     return fs[i] + slope(i) * (at - xs[i]);
   };
-  Answer out{.force = force(x), .by_x = slope(segment(x))};
+  SpringDamperForce out{.force = force(x), .by_x = slope(segment(x))};
   // ∫ from 0 to x by trapezia, exact between corners.
   double from = std::min(0.0, x), sum = 0;
   const double to = std::max(0.0, x);
@@ -33,7 +33,7 @@ Answer tabulated(const std::vector<double>& xs, const std::vector<double>& fs, d
   return out;
 }
 
-Answer spring(const LineLaw& law, double x) {
+SpringDamperForce spring(const LineLaw& law, double x) {
   if (!law.table_x.empty()) return tabulated(law.table_x, law.table_force, x);
   const double x2 = x * x;
   return {.force = (law.stiffness + law.cubic * x2) * x,
@@ -51,16 +51,16 @@ double LineLaw::stiffest() const {
   return out;
 }
 
-double TravelLaw::stiffest() const {
+double PtoLaw::stiffest() const {
   return line.stiffest() + std::max(lower ? lower->stiffness : 0, upper ? upper->stiffness : 0);
 }
 
-Answer LineLaw::at(double x, double rate) const {
-  if (pulls_only && x <= 0) return {};
-  Answer out = spring(*this, x);
+SpringDamperForce LineLaw::at(double x, double rate) const {
+  if (tension_only && x <= 0) return {};
+  SpringDamperForce out = spring(*this, x);
   const double damper = damper_force(damping, quadratic_damping, rate, std::abs(rate));
   const double damper_by_rate = damping + 2 * quadratic_damping * std::abs(rate);
-  if (!pulls_only) {
+  if (!tension_only) {
     out.force += damper;
     out.by_rate = damper_by_rate;
     out.dissipated = damper * rate;
@@ -81,9 +81,9 @@ Answer LineLaw::at(double x, double rate) const {
 namespace {
 
 /// Behind a stop, seen along `side` = ±1.
-void add_stop(const EndStop& stop, double side, double x, double rate, Answer& out) {
-  const LineLaw law{.stiffness = stop.stiffness, .damping = stop.damping, .pulls_only = true};
-  const Answer a = law.at(side * (x - stop.at), side * rate);
+void add_stop(const EndStop& stop, double side, double x, double rate, SpringDamperForce& out) {
+  const LineLaw law{.stiffness = stop.stiffness, .damping = stop.damping, .tension_only = true};
+  const SpringDamperForce a = law.at(side * (x - stop.at), side * rate);
   out.force += side * a.force;
   out.by_x += a.by_x;
   out.by_rate += a.by_rate;
@@ -93,9 +93,9 @@ void add_stop(const EndStop& stop, double side, double x, double rate, Answer& o
 
 }  // namespace
 
-TravelLaw::Working TravelLaw::at(double x, double rate) const {
+PtoLaw::Working PtoLaw::at(double x, double rate) const {
   Working out;
-  static_cast<Answer&>(out) = line.at(x, rate);
+  static_cast<SpringDamperForce&>(out) = line.at(x, rate);
   const double elastic = out.force + preload - (rate != 0 ? out.dissipated / rate : 0);
   out.force += preload;
   out.stored += preload * x;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "coordinate_force.hpp"
 #include "hydro/base/error.hpp"
-#include "travel_force.hpp"
 
 namespace dynamics {
 
@@ -33,7 +33,7 @@ double Friction::level(double rate) const {
   return sliding + (breakaway - sliding) * std::exp(-r * r);
 }
 
-double Friction::steepness(double rate) const {
+double Friction::slope(double rate) const {
   return stribeck ? -2 * rate / (*stribeck * *stribeck) * (level(rate) - sliding) : 0;
 }
 
@@ -42,28 +42,28 @@ std::string FrictionKind::effect() const {
   return latches ? "latch" : "friction";
 }
 
-double FrictionKind::strain(std::size_t element, double load, const FrictionMemory& memory, double time) const {
+double FrictionKind::utilisation(std::size_t element, double load, const FrictionMemory& memory, double time) const {
   const Friction& f = elements_[element];
   return f.hold ? (time - memory.since[element]) / *f.hold : std::abs(load) / f.breakaway;
 }
 
 void FrictionKind::couple(BlockPattern& pattern) const {
   for (const Friction& f : elements_)
-    if (f.travel.second()) pattern.couple(f.travel.first(), *f.travel.second());
+    if (f.coordinate.second()) pattern.couple(f.coordinate.first(), *f.coordinate.second());
 }
 
 std::unique_ptr<Memory> FrictionKind::make_memory(const State&) const {
   return std::make_unique<FrictionMemory>(elements_.size());
 }
 
-// d T against the travel of both bodies (D19).
+// d T against the coordinate of both bodies (D19).
 void FrictionKind::add_load(const Instant& now, LoadSink& out) const {
   const auto& memory = static_cast<const FrictionMemory&>(*now.memory);
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     if (memory.direction[i] == 0) continue;
     const Friction& f = elements_[i];
-    const auto m = detail::motion_of(f.travel, now.state, 1);
-    detail::add_load(f.travel, m, memory.direction[i] * f.level(m.rate), out);
+    const auto m = detail::motion_of(f.coordinate, now.state, 1);
+    detail::add_load(f.coordinate, m, memory.direction[i] * f.level(m.rate), out);
   }
 }
 
@@ -72,9 +72,9 @@ void FrictionKind::add_jacobian(const Instant& now, JacobianSink& out) const {
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     if (memory.direction[i] == 0) continue;
     const Friction& f = elements_[i];
-    const auto m = detail::motion_of(f.travel, now.state, 1);
+    const auto m = detail::motion_of(f.coordinate, now.state, 1);
     const double d = memory.direction[i];
-    detail::add_jacobian(f.travel, m, now.state, {d * f.level(m.rate), 0, d * f.steepness(m.rate)}, out);
+    detail::add_jacobian(f.coordinate, m, now.state, {d * f.level(m.rate), 0, d * f.slope(m.rate)}, out);
   }
 }
 
@@ -83,7 +83,7 @@ EnergyFlow FrictionKind::energy(const Instant& now) const {
   EnergyFlow flow;
   double done = 0;
   for (std::size_t i = 0; i < elements_.size(); ++i) {
-    const double rate = elements_[i].travel.rate(now.state);
+    const double rate = elements_[i].coordinate.rate(now.state);
     flow.dissipated += memory.direction[i] * elements_[i].level(rate) * rate;
     done += memory.work[i];
   }
@@ -95,7 +95,7 @@ double FrictionKind::load(std::size_t element, const State& state, const Memory*
                           const Eigen::VectorXd& multipliers, Eigen::Index joints) const {
   const auto& direction = static_cast<const FrictionMemory*>(memory)->direction;
   const Friction& f = elements_[element];
-  if (direction[element] != 0) return -direction[element] * f.level(f.travel.rate(state));
+  if (direction[element] != 0) return -direction[element] * f.level(f.coordinate.rate(state));
   return -multipliers[joints +
                       std::count(direction.begin(), direction.begin() + static_cast<std::ptrdiff_t>(element), 0)];
 }
@@ -106,7 +106,7 @@ std::vector<Signal> FrictionKind::signals() const {
     const Friction& f = elements_[i];
     const char* what = f.hold ? "latch" : "friction";
     out.push_back({.name = fmt::format("{}.{}", f.name, what),
-                   .unit = f.travel.turns() ? "N m" : "N",
+                   .unit = f.coordinate.turns() ? "N m" : "N",
                    .meaning = fmt::format("load of the {} of {} on its second body along the axis", what, f.name),
                    .value =
                        [this, i](const Reading& r) {
@@ -120,7 +120,7 @@ std::vector<Signal> FrictionKind::signals() const {
 void FrictionKind::note_work(const State& before, const State& after, FrictionMemory& memory) const {
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     if (memory.direction[i] == 0) continue;
-    const Travel& s = elements_[i].travel;
+    const JointCoordinate& s = elements_[i].coordinate;
     double way = s.value(after) - s.value(before);
     if (s.turns()) way = std::remainder(way, 2 * std::numbers::pi);
     // Exact where the level is constant.

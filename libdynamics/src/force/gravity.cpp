@@ -13,8 +13,8 @@ std::vector<int> all_of(const std::vector<RigidBody>& bodies) {
 
 }  // namespace
 
-GravityKind::GravityKind(const std::vector<RigidBody>& bodies, double gravity, const std::vector<int>& heavy) {
-  for (const int b : heavy) {
+GravityKind::GravityKind(const std::vector<RigidBody>& bodies, double gravity, const std::vector<int>& with_gravity) {
+  for (const int b : with_gravity) {
     const RigidBody& body = bodies[static_cast<std::size_t>(b)];
     elements_.push_back({b, body.mass() * gravity, body.rest_centre().z()});
   }

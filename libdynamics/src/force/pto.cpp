@@ -2,28 +2,29 @@
 
 #include <fmt/format.h>
 
+#include "coordinate_force.hpp"
 #include "hydro/base/error.hpp"
-#include "travel_force.hpp"
 
 namespace dynamics {
 
 PtoKind::PtoKind(std::vector<Pto> elements) : elements_(std::move(elements)) {
   for (const Pto& e : elements_)
-    hydro::ensure(e.travel.is_continuous(), "a take-off on a hinge whose turns are not counted: it would jump at ±π");
+    hydro::ensure(e.coordinate.is_continuous(),
+                  "a take-off on a hinge whose turns are not counted: it would jump at ±π");
 }
 
 PtoState pto_state(const Pto& pto, const State& state) {
-  const detail::TravelMotion m = detail::motion_of(pto.travel, state, pto.sign);
+  const detail::CoordinateMotion m = detail::motion_of(pto.coordinate, state, pto.sign);
   return {m.x, m.rate, pto.law.at(m.x, m.rate).force};
 }
 
 namespace {
 
-/// How the force against the travel varies where the joint is still.
+/// How the force against the coordinate varies where the joint is still.
 Variation force_variation(const Pto& pto, const State& still) {
-  const detail::TravelMotion m = detail::motion_of(pto.travel, still, pto.sign);
-  const TravelLaw::Working law = pto.law.at(m.x, m.rate);
-  return detail::variation_of(pto.travel, law.by_x * m.gradient, law.by_rate * m.gradient);
+  const detail::CoordinateMotion m = detail::motion_of(pto.coordinate, still, pto.sign);
+  const PtoLaw::Working law = pto.law.at(m.x, m.rate);
+  return detail::variation_of(pto.coordinate, law.by_x * m.gradient, law.by_rate * m.gradient);
 }
 
 }  // namespace
@@ -31,10 +32,10 @@ Variation force_variation(const Pto& pto, const State& still) {
 std::vector<Signal> PtoKind::signals() const {
   std::vector<Signal> out;
   for (const Pto& e : elements_) {
-    const bool turns = e.travel.turns();
+    const bool turns = e.coordinate.turns();
     out.push_back({.name = e.name + (turns ? ".pto_moment" : ".pto_force"),
                    .unit = turns ? "N m" : "N",
-                   .meaning = fmt::format("{} of the power take-off against the travel of {}",
+                   .meaning = fmt::format("{} of the power take-off against the coordinate of {}",
                                           turns ? "moment" : "force", e.name),
                    .value = [e](const Reading& r) { return pto_state(e, r.state).force; },
                    .variation = [e](const Still& still) { return force_variation(e, still.state); }});
@@ -53,28 +54,28 @@ std::vector<Signal> PtoKind::signals() const {
 
 void PtoKind::couple(BlockPattern& pattern) const {
   for (const Pto& e : elements_)
-    if (e.travel.second()) pattern.couple(e.travel.first(), *e.travel.second());
+    if (e.coordinate.second()) pattern.couple(e.coordinate.first(), *e.coordinate.second());
 }
 
 void PtoKind::add_load(const Instant& now, LoadSink& out) const {
   for (const Pto& e : elements_) {
-    const auto m = detail::motion_of(e.travel, now.state, e.sign);
-    detail::add_load(e.travel, m, e.law.at(m.x, m.rate).force, out);
+    const auto m = detail::motion_of(e.coordinate, now.state, e.sign);
+    detail::add_load(e.coordinate, m, e.law.at(m.x, m.rate).force, out);
   }
 }
 
 void PtoKind::add_jacobian(const Instant& now, JacobianSink& out) const {
   for (const Pto& e : elements_) {
-    const auto m = detail::motion_of(e.travel, now.state, e.sign);
+    const auto m = detail::motion_of(e.coordinate, now.state, e.sign);
     const auto law = e.law.at(m.x, m.rate);
-    detail::add_jacobian(e.travel, m, now.state, {law.force, law.by_x, law.by_rate}, out);
+    detail::add_jacobian(e.coordinate, m, now.state, {law.force, law.by_x, law.by_rate}, out);
   }
 }
 
 EnergyFlow PtoKind::energy(const Instant& now) const {
   EnergyFlow flow;
   for (const Pto& e : elements_) {
-    const auto m = detail::motion_of(e.travel, now.state, e.sign);
+    const auto m = detail::motion_of(e.coordinate, now.state, e.sign);
     const auto law = e.law.at(m.x, m.rate);
     flow.stored += law.stored;
     flow.dissipated += law.dissipated;

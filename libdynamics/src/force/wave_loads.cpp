@@ -40,7 +40,7 @@ namespace {
 
 Eigen::VectorXd at_modes(const std::vector<int>& modes, const Eigen::VectorXd& all) { return all(modes); }
 
-/// The memories of all groups, and what the past has decided of each integral: at the newest step itself, and at one
+/// The memories of all groups, and the history force of each integral: at the newest step itself, and at one
 /// time after it.
 class RadiationState final : public Memory {
  public:
@@ -64,9 +64,9 @@ class RadiationState final : public Memory {
   const Eigen::VectorXd& load(std::size_t group, const State& state) {
     const double fraction = fraction_of(state.time, groups_[group].method->step());
     if (fraction > 0) refresh(fraction);
-    const Eigen::VectorXd& decided = fraction > 0 ? after_[group] : at_newest_[group];
+    const Eigen::VectorXd& history_force = fraction > 0 ? after_[group] : at_newest_[group];
     velocity_ = state.velocity(groups_[group].modes);
-    load_ = -decided;
+    load_ = -history_force;
     load_.noalias() -= weight(group, fraction) * velocity_;
     return load_;
   }
@@ -95,7 +95,7 @@ class RadiationState final : public Memory {
   void refresh(double fraction) {
     if (fraction == known_at_) return;
     after_.clear();
-    for (const auto& past : past_) after_.push_back(past->decided(fraction));
+    for (const auto& past : past_) after_.push_back(past->history_force(fraction));
     known_at_ = fraction;
   }
 

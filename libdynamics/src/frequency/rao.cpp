@@ -57,7 +57,7 @@ Eigen::MatrixXcd excitations(const Model& model, const std::vector<PotentialGrou
 class OpenEquations {
  public:
   explicit OpenEquations(const SmallMotions& about)
-      : scale_(scale_of(about)), qr_(scale_.asDiagonal() * about.linear.conditions.transpose()) {}
+      : scale_(scale_of(about)), qr_(scale_.asDiagonal() * about.linear.constraints.transpose()) {}
 
   /// λ by X − Z ξ, of a vector or of each column.
   template <class Loads>
@@ -127,7 +127,7 @@ HeadingAmplitudes response_amplitudes(const SmallMotions& about, const std::vect
 Eigen::MatrixXcd multiplier_amplitudes(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
                                        const std::vector<double>& omega, double heading, const Eigen::MatrixXcd& xi,
                                        const LinearDrag* drag) {
-  Eigen::MatrixXcd lambda(about.linear.conditions.rows(), xi.cols());
+  Eigen::MatrixXcd lambda(about.linear.constraints.rows(), xi.cols());
   if (lambda.rows() == 0) return lambda;
   const OpenEquations open(about);
   for (Eigen::Index w = 0; w < xi.cols(); ++w) {
@@ -143,8 +143,8 @@ std::vector<Eigen::MatrixXcd> multiplier_amplitudes(const SmallMotions& about,
                                                     const std::vector<double>& headings,
                                                     const std::vector<Eigen::MatrixXcd>& xi) {
   const auto frequencies = static_cast<Eigen::Index>(omega.size());
-  std::vector<Eigen::MatrixXcd> lambda(headings.size(), Eigen::MatrixXcd(about.linear.conditions.rows(), frequencies));
-  if (about.linear.conditions.rows() == 0 || headings.empty()) return lambda;
+  std::vector<Eigen::MatrixXcd> lambda(headings.size(), Eigen::MatrixXcd(about.linear.constraints.rows(), frequencies));
+  if (about.linear.constraints.rows() == 0 || headings.empty()) return lambda;
   const OpenEquations open(about);
   for (Eigen::Index w = 0; w < frequencies; ++w) {
     const double at = omega[static_cast<std::size_t>(w)];

@@ -7,12 +7,12 @@
 namespace dynamics {
 
 ActiveSet::ActiveSet(const Model& model)
-    : model_(model), conditions_(model.joints()), compliance_(Eigen::VectorXd::Zero(conditions_.count())) {
+    : model_(model), constraints_(model.joints()), compliance_(Eigen::VectorXd::Zero(constraints_.count())) {
   const State rest = rest_state(model.bodies());
   BlockMatrix mass(model.pattern());
   model.add_mass(rest, 1, mass);
   scale_ = mass.dense().diagonal().cwiseSqrt();
-  find_condition_scale(rest);
+  find_constraint_scale(rest);
   for (std::size_t k = 0; k < model.forces().size(); ++k) {
     if (const FrictionLaw* kind = model.forces()[k]->friction()) {
       hydro::ensure(friction_ == nullptr, "all friction of a model is one kind");
@@ -38,52 +38,52 @@ ContactMemory& ActiveSet::contact_memory(Workspace& workspace) const {
   return static_cast<ContactMemory&>(*workspace.memory[contact_index_]);
 }
 
-void ActiveSet::find_condition_scale(const State& state) {
-  const auto G = conditions_.over(conditions_.gradients(state), scale_);
-  condition_scale_.resize(conditions_.count());
-  for (std::size_t i = 0; i < G.size(); ++i) condition_scale_[static_cast<Eigen::Index>(i)] = 1 / norm(G[i]);
+void ActiveSet::find_constraint_scale(const State& state) {
+  const auto G = constraints_.over(constraints_.gradients(state), scale_);
+  constraint_scale_.resize(constraints_.count());
+  for (std::size_t i = 0; i < G.size(); ++i) constraint_scale_[static_cast<Eigen::Index>(i)] = 1 / norm(G[i]);
 }
 
 /// False if its bodies cannot move that way at all.
-bool ActiveSet::moves(const Condition& condition, const State& state) const {
-  const Gradient g = model_.joints().with_only(condition).gradients(state).front();
-  return g.first.norm() + (condition.second ? g.second.norm() : 0) > 0;
+bool ActiveSet::moves(const Constraint& constraint, const State& state) const {
+  const Gradient g = model_.joints().with_only(constraint).gradients(state).front();
+  return g.first.norm() + (constraint.second ? g.second.norm() : 0) > 0;
 }
 
 void ActiveSet::close(std::size_t element, Workspace& workspace) {
   ContactState& c = contact_memory(workspace).contact[element];
   c.row = -1, c.held = 0;
-  const Condition normal = contact_->closed(element);
+  const Constraint normal = contact_->closed(element);
   if (c.is == ContactState::open || !moves(normal, workspace.state)) return;
-  c.row = conditions_.count();
-  conditions_.add(normal);
+  c.row = constraints_.count();
+  constraints_.add(normal);
   if (c.is == ContactState::slides) {
     if (contact_->element(element).friction > 0) slides_.push_back({c.row, element, c.slip});
     return;
   }
-  for (const Condition& along : contact_->sticking(element, workspace.state))
+  for (const Constraint& along : contact_->sticking(element, workspace.state))
     if (moves(along, workspace.state)) {
-      conditions_.add(along);
+      constraints_.add(along);
       ++c.held;
     }
 }
 
 void ActiveSet::rebuild(Workspace& workspace) {
-  conditions_ = model_.joints();
+  constraints_ = model_.joints();
   slides_.clear();
   if (friction_ != nullptr) {
     const FrictionMemory& memory = friction_memory(workspace);
     for (std::size_t i = 0; i < memory.direction.size(); ++i)
-      if (memory.direction[i] == 0) conditions_.add(friction_->holding(i, workspace.state));
+      if (memory.direction[i] == 0) constraints_.add(friction_->holding(i, workspace.state));
   }
-  const Eigen::Index exact = conditions_.count();
+  const Eigen::Index exact = constraints_.count();
   if (contact_ != nullptr)
     for (std::size_t i = 0; i < contact_->elements(); ++i) close(i, workspace);
-  find_condition_scale(workspace.state);
+  find_constraint_scale(workspace.state);
   constexpr double share = 1e-7;  // of the inverse mass: an iteration more, and loads to 1e-9
-  compliance_ = share * condition_scale_.cwiseAbs2().cwiseInverse();
+  compliance_ = share * constraint_scale_.cwiseAbs2().cwiseInverse();
   compliance_.head(exact).setZero();
-  workspace.solver = KktSolver(model_.pattern(), conditions_);
+  workspace.solver = KktSolver(model_.pattern(), constraints_);
 }
 
 // What has stopped or come back keeps the direction that it had: the step is cut there.
@@ -96,10 +96,10 @@ Eigen::Vector3d ActiveSet::direction(const Slide& slide, const State& state) con
 std::vector<Gradient> ActiveSet::columns(std::vector<Gradient> G, const State& state) const {
   for (const Slide& slide : slides_) {
     const Contact& c = contact_->element(slide.element);
-    const Eigen::Vector3d n = contact_->meeting(slide.element, state).normal, to = direction(slide, state);
+    const Eigen::Vector3d n = contact_->closest_points(slide.element, state).normal, to = direction(slide, state);
     const Eigen::Vector3d along = (to - to.dot(n) * n).normalized();
     Gradient slip = contact_->along(slide.element, along, state);
-    conditions_.keep_free(c.first, c.second, slip);
+    constraints_.keep_free(c.first, c.second, slip);
     Gradient& column = G[static_cast<std::size_t>(slide.row)];
     column.first -= c.friction * slip.first;
     column.second -= c.friction * slip.second;
@@ -115,9 +115,9 @@ void ActiveSet::add_turning(const State& state, const Eigen::VectorXd& multiplie
     const ContactLaw::Motion motion = contact_->motion(slide.element, state);
     const double load = -multipliers[slide.row];
     if (load <= 0 || motion.slip.dot(slide.start) <= 0) continue;
-    const Eigen::Vector3d across = motion.meeting.normal.cross(motion.slip).normalized();
+    const Eigen::Vector3d across = motion.closest_points.normal.cross(motion.slip).normalized();
     Gradient g = contact_->along(slide.element, across, state);
-    conditions_.keep_free(c.first, c.second, g);
+    constraints_.keep_free(c.first, c.second, g);
     const double damping = by_speed * c.friction * load / motion.slip.norm();
     out.block(c.first, c.first) += damping * g.first * g.first.transpose();
     if (!c.second) continue;
@@ -129,17 +129,17 @@ void ActiveSet::add_turning(const State& state, const Eigen::VectorXd& multiplie
 
 // The second pass takes out what the compliance of contacts has left.
 std::optional<ActiveSet::Balance> ActiveSet::balance(Workspace& workspace) const {
-  const auto G = conditions_.gradients(workspace.state), load = columns(G, workspace.state);
+  const auto G = constraints_.gradients(workspace.state), load = columns(G, workspace.state);
   const Eigen::VectorXd r = model_.residual(workspace.state, Eigen::VectorXd::Zero(model_.modes()), workspace);
-  const Eigen::VectorXd convective = conditions_.convective(workspace.state);
+  const Eigen::VectorXd convective = constraints_.convective(workspace.state);
   model_.tangent(workspace.state, 1, 0, 0, workspace, workspace.matrix);
   if (!r.allFinite() || !workspace.solver.factorise(workspace.matrix, load, G, compliance_)) return {};
   auto [a, lambda] = workspace.solver.solve(-r, -convective);
   const bool again = compliance_.size() > 0 && compliance_.maxCoeff() > 0;
   for (int pass = 0; pass < (again ? 2 : 0); ++pass) {
     Eigen::VectorXd left = -r - workspace.matrix * a;
-    conditions_.add_transposed(load, -lambda, left);
-    const auto [more_a, more_lambda] = workspace.solver.solve(left, -convective - conditions_.times(G, a));
+    constraints_.add_transposed(load, -lambda, left);
+    const auto [more_a, more_lambda] = workspace.solver.solve(left, -convective - constraints_.times(G, a));
     a += more_a;
     lambda += more_lambda;
   }

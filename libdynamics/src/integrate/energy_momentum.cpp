@@ -21,8 +21,8 @@ State between(const State& a, const State& b) {
   return out;
 }
 
-/// Means of places and of directions: what the difference of a condition that is bilinear in both is exact with.
-ConditionEnds mean(const ConditionEnds& a, const ConditionEnds& b) {
+/// Means of places and of directions: what the difference of a constraint that is bilinear in both is exact with.
+ConstraintEnds mean(const ConstraintEnds& a, const ConstraintEnds& b) {
   return {(a.first_centre + b.first_centre) / 2, (a.second_centre + b.second_centre) / 2, (a.first + b.first) / 2,
           (a.second + b.second) / 2, (a.time + b.time) / 2};
 }
@@ -71,12 +71,12 @@ void EnergyMomentum::find_loads(Workspace& workspace, double h, Trial& trial) co
       if (model().is_free(static_cast<int>(row) + k)) trial.residual[row + k] += exact[k] - at_midpoint[k];
   }
   trial.columns = trial.gradients;
-  const auto& conditions = active().conditions().conditions();
-  for (std::size_t i = 0; i < conditions.size(); ++i) {
-    const Condition& c = conditions[i];
-    const ConditionEnds at = mean(ends_of(c, now), ends_of(c, trial.state));
+  const auto& constraints = active().constraints().constraints();
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    const Constraint& c = constraints[i];
+    const ConstraintEnds at = mean(ends_of(c, now), ends_of(c, trial.state));
     trial.columns[i] = std::visit([&](const auto& what) { return gradient(what, at); }, c.what);
-    active().conditions().keep_free(c.first, c.second, trial.columns[i]);
+    active().constraints().keep_free(c.first, c.second, trial.columns[i]);
   }
 }
 

@@ -4,7 +4,7 @@
 
 namespace dynamics {
 
-/// Contacts need conditions on places that hold at the end of a step. \throws hydro::InputError
+/// Contacts need constraints on places that hold at the end of a step. \throws hydro::InputError
 void refuse_contacts(const ActiveSet& active);
 
 /// Rate of the displacement (places, and rotation vectors since the start of the step) with a velocity there.

@@ -30,7 +30,7 @@ void GeneralizedAlpha::set_history(const Eigen::VectorXd& was) {
 
 // (D97) What joints carry does not go straight from step to step: stretched, it would swing up.
 void GeneralizedAlpha::prepare(const Workspace& workspace, double h) {
-  if (last_ > 0 && last_ != h && active().conditions().count() == 0)
+  if (last_ > 0 && last_ != h && active().constraints().count() == 0)
     algorithmic_ = workspace.acceleration + h / last_ * (algorithmic_ - workspace.acceleration);
   last_ = h;
 }

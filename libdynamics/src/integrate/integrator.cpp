@@ -16,10 +16,10 @@ constexpr int deepest_halving = 10;          // a step is cut into 2¹⁰ pieces
 void Integrator::require_closed_joints(const State& state) const {
   const JointSet& joints = model_.joints();
   if (joints.count() == 0) return;
-  const Eigen::VectorXd g = joints.values(state),
-                        speed = joints.times(joints.gradients(state), state.velocity) - joints.lead_rates(state.time);
+  const Eigen::VectorXd g = joints.values(state), speed = joints.times(joints.gradients(state), state.velocity) -
+                                                          joints.prescribed_rates(state.time);
   const auto name = [&](Eigen::Index i) {
-    return joints.joints()[static_cast<std::size_t>(joints.conditions()[static_cast<std::size_t>(i)].joint)].name;
+    return joints.joints()[static_cast<std::size_t>(joints.constraints()[static_cast<std::size_t>(i)].joint)].name;
   };
   Eigen::Index worst = 0;
   if (g.cwiseAbs().maxCoeff(&worst) > closed)
@@ -54,7 +54,7 @@ State Integrator::displaced(const State& now, const Eigen::VectorXd& move, Eigen
   return next;
 }
 
-// Between two changes that all but coincide: conditions on places would leave their rounding, divided by the time, in
+// Between two changes that all but coincide: constraints on places would leave their rounding, divided by the time, in
 // the velocities; a straight way is exact to rounding there.
 void Integrator::go_straight(Workspace& workspace, double h) const {
   const Eigen::VectorXd &v = workspace.state.velocity, &a = workspace.acceleration;

@@ -20,15 +20,15 @@ EnergyLedger::EnergyLedger(const Model& model, Workspace& workspace) : model_(mo
 std::vector<std::string> EnergyLedger::effects(const Model& model) {
   std::vector<std::string> out;
   for (const auto& kind : model.forces()) out.push_back(kind->effect());
-  if (model.joints().are_led()) out.emplace_back("joint.lead");
+  if (model.joints().are_prescribed()) out.emplace_back("joint.prescribed");
   return out;
 }
 
-// The load of a led joint on the bodies is −Gᵀλ, and G v = ṡ.
+// The load of a prescribed motion on the bodies is −Gᵀλ, and G v = ṡ.
 EnergyFlow EnergyLedger::flow(std::size_t entry, Workspace& workspace) const {
   const State& now = workspace.state;
   if (entry < model_.forces().size()) return model_.forces()[entry]->energy(workspace.instant(now, entry));
-  const Eigen::VectorXd rates = model_.joints().lead_rates(now.time);
+  const Eigen::VectorXd rates = model_.joints().prescribed_rates(now.time);
   return {.supplied = -workspace.multipliers.head(rates.size()).dot(rates)};
 }
 

@@ -28,21 +28,21 @@ NewtonIntegrator::Trial NewtonIntegrator::evaluate(Workspace& workspace, double 
                                                    Eigen::VectorXd multipliers) const {
   Trial out{std::move(acceleration), std::move(multipliers), {}, {}, {}, {}, {}, {}, 0};
   out.state = end_of_step(workspace, h, out.acceleration);
-  const JointSet& conditions = active().conditions();
-  out.gradients = conditions.gradients(out.state);
+  const JointSet& constraints = active().constraints();
+  out.gradients = constraints.gradients(out.state);
   find_loads(workspace, h, out);
-  if (conditions.count() > 0) {
-    conditions.add_transposed(out.columns, out.multipliers, out.residual);
+  if (constraints.count() > 0) {
+    constraints.add_transposed(out.columns, out.multipliers, out.residual);
     // Divided by ∂q/∂a, the distance by which a joint is open is an acceleration, as large as what closes it; a speed
     // by ∂v/∂a.
-    out.open = conditions.values(out.state) / slopes(h).end_place;
-    const Eigen::VectorXd speed = conditions.times(out.gradients, out.state.velocity) / slopes(h).end_speed;
+    out.open = constraints.values(out.state) / slopes(h).end_place;
+    const Eigen::VectorXd speed = constraints.times(out.gradients, out.state.velocity) / slopes(h).end_speed;
     for (Eigen::Index i = 0; i < out.open.size(); ++i)
-      if (conditions.is_on_velocity(i)) out.open[i] = speed[i];
+      if (constraints.is_on_velocity(i)) out.open[i] = speed[i];
   }
   // Without joints `open` is empty and its norm zero.
   out.size = std::hypot(out.residual.cwiseQuotient(active().scale()).norm(),
-                        out.open.cwiseProduct(active().condition_scale()).norm());
+                        out.open.cwiseProduct(active().constraint_scale()).norm());
   return out;
 }
 
@@ -56,8 +56,8 @@ std::vector<Gradient> NewtonIntegrator::by_step(const std::vector<Gradient>& G, 
     row.tail<3>() = left_jacobian(turn).transpose() * row.tail<3>();
   };
   for (std::size_t i = 0; i < out.size(); ++i) {
-    if (active().conditions().is_on_velocity(static_cast<Eigen::Index>(i))) continue;
-    const Condition& c = active().conditions().conditions()[i];
+    if (active().constraints().is_on_velocity(static_cast<Eigen::Index>(i))) continue;
+    const Constraint& c = active().constraints().constraints()[i];
     turned(c.first, out[i].first);
     if (c.second) turned(*c.second, out[i].second);
   }
@@ -69,7 +69,7 @@ bool NewtonIntegrator::factorise(Workspace& workspace, double h, const Trial& no
   const Slopes slope = slopes(h);
   const State& loads_at = now.loads_at ? *now.loads_at : now.state;
   model().tangent(loads_at, 1, slope.load_speed, slope.load_place, workspace, workspace.matrix);
-  active().conditions().add_curvature(loads_at, now.multipliers, slope.load_place, workspace.matrix);
+  active().constraints().add_curvature(loads_at, now.multipliers, slope.load_place, workspace.matrix);
   active().add_turning(loads_at, now.multipliers, slope.load_speed, workspace.matrix);
   return workspace.solver.factorise(workspace.matrix, now.columns, by_step(now.gradients, workspace.state, now.state),
                                     active().compliance());

@@ -15,7 +15,7 @@ double SetValuedLaws::slow(const Workspace& workspace) const {
 
 // What accelerations, and loads per mass, are known to, m/s².
 double SetValuedLaws::rounding(const ActiveSet::Balance& loads) const {
-  const Eigen::VectorXd by_mass = loads.multipliers.cwiseQuotient(active_.condition_scale().cwiseAbs2());
+  const Eigen::VectorXd by_mass = loads.multipliers.cwiseQuotient(active_.constraint_scale().cwiseAbs2());
   const double heaviest = by_mass.size() > 0 ? by_mass.cwiseAbs().maxCoeff() : 0;
   return 1e-8 * std::max({loads.acceleration.cwiseAbs().maxCoeff(), heaviest, 1e-3});
 }
@@ -74,7 +74,7 @@ void SetValuedLaws::still(Workspace& workspace, double step) {
   for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
     const double fall = std::abs(pull(i, workspace)) * step;
     const ContactLaw::Motion motion = active_.contact()->motion(i, workspace.state);
-    if (motion.meeting.gap > fall * step / 2 || std::abs(motion.parting) > fall) continue;
+    if (motion.closest_points.gap > fall * step / 2 || std::abs(motion.parting) > fall) continue;
     rows.add(active_.contact()->closed(i));
     near.push_back(i);
   }
@@ -88,7 +88,7 @@ void SetValuedLaws::still(Workspace& workspace, double step) {
   if (!solver.factorise(workspace.matrix, G, G, compliance)) return;
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(model_.modes());
   workspace.state.velocity +=
-      solver.solve(none, rows.lead_rates(workspace.state.time) - rows.times(G, workspace.state.velocity)).x;
+      solver.solve(none, rows.prescribed_rates(workspace.state.time) - rows.times(G, workspace.state.velocity)).x;
   const double lost = before - model_.kinetic_energy(workspace.state);
   for (const std::size_t i : near)
     active_.contact_memory(workspace).contact[i].dissipated += lost / static_cast<double>(near.size());
@@ -130,8 +130,8 @@ Eigen::Vector3d SetValuedLaws::direction_of_slip(std::size_t element, const Eige
   const ContactState& c = active_.contact_memory(workspace).contact[element];
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   for (int k = 1; k <= c.held; ++k) {
-    const Condition& along = active_.conditions().conditions()[static_cast<std::size_t>(c.row + k)];
-    direction += multipliers[c.row + k] * std::get<StickCondition>(along.what).direction;
+    const Constraint& along = active_.constraints().constraints()[static_cast<std::size_t>(c.row + k)];
+    direction += multipliers[c.row + k] * std::get<StickConstraint>(along.what).direction;
   }
   return direction.normalized();
 }
@@ -161,7 +161,7 @@ SetValuedLaws::Margin SetValuedLaws::least_margin(Workspace& workspace) const {
   const auto consider = [&](Event::Law law, std::size_t element, double value, int becomes) {
     if (value < least.value) least = {law, element, value, becomes};
   };
-  const bool holds = active_.conditions().count() > model_.joints().count();
+  const bool holds = active_.constraints().count() > model_.joints().count();
   const auto loads = holds ? active_.balance(workspace) : ActiveSet::Balance{workspace.acceleration, {}};
   if (!loads)
     throw hydro::NumericsError(fmt::format(
@@ -175,7 +175,7 @@ SetValuedLaws::Margin SetValuedLaws::least_margin(Workspace& workspace) const {
         continue;
       }
       const double load = loads->multipliers[row++];
-      consider(Event::Law::friction, i, 1 - active_.friction()->strain(i, load, memory, workspace.state.time),
+      consider(Event::Law::friction, i, 1 - active_.friction()->utilisation(i, load, memory, workspace.state.time),
                load > 0 ? 1 : -1);
     }
   }
@@ -191,7 +191,7 @@ SetValuedLaws::Margin SetValuedLaws::least_margin(Workspace& workspace) const {
     if (c.is == ContactState::open)
       contact(active_.contact()->gap(i, workspace.state) + active_.rounding(), ContactState::sticks);
     if (c.row < 0) continue;
-    const double mass = active_.condition_scale()[c.row] * active_.condition_scale()[c.row];
+    const double mass = active_.constraint_scale()[c.row] * active_.constraint_scale()[c.row];
     const double load = -loads->multipliers[c.row], friction = active_.contact()->element(i).friction;
     bears(i, load / mass + rounding, ContactState::open);
     if (c.is == ContactState::sticks)
@@ -227,7 +227,7 @@ bool SetValuedLaws::release(Workspace& workspace) {
     for (std::size_t i = 0; i < memory.direction.size(); ++i) {
       if (memory.direction[i] != 0) continue;
       const double load = workspace.multipliers[row++];
-      const double over = active_.friction()->strain(i, load, memory, workspace.state.time) - 1;
+      const double over = active_.friction()->utilisation(i, load, memory, workspace.state.time) - 1;
       if (over <= most) continue;
       most = over;
       let_go = [&memory, &workspace, i, load] { memory.turn(i, load > 0 ? 1 : -1, workspace.state.time); };
@@ -243,7 +243,7 @@ bool SetValuedLaws::release(Workspace& workspace) {
   for (std::size_t i = 0; active_.contact() != nullptr && i < active_.contact()->elements(); ++i) {
     ContactState& c = active_.contact_memory(workspace).contact[i];
     if (c.row < 0) continue;
-    const double mass = active_.condition_scale()[c.row] * active_.condition_scale()[c.row];
+    const double mass = active_.constraint_scale()[c.row] * active_.constraint_scale()[c.row];
     const double load = -workspace.multipliers[c.row] / mass;
     if (exceeds(-load - rounding / 2)) let_go = [&c] { c.is = ContactState::open; };
     if (c.is != ContactState::sticks) continue;
@@ -270,7 +270,7 @@ bool SetValuedLaws::close_what_would_overlap(Workspace& workspace) {
     ContactState& c = active_.contact_memory(workspace).contact[i];
     if (c.is != ContactState::open) continue;
     const ContactLaw::Motion motion = active_.contact()->motion(i, workspace.state);
-    if (motion.meeting.gap > closed || std::abs(motion.parting) > slow(workspace)) continue;
+    if (motion.closest_points.gap > closed || std::abs(motion.parting) > slow(workspace)) continue;
     if (pull(i, workspace) >= -rounding({workspace.acceleration, workspace.multipliers})) continue;
     c.is = active_.contact()->element(i).friction > 0 ? ContactState::sticks : ContactState::slides;
     any = true;
@@ -327,7 +327,7 @@ bool SetValuedLaws::follow_rolling(Workspace& workspace) {
   }
   if (!any) return false;
   active_.rebuild(workspace);
-  if (workspace.multipliers.size() == active_.conditions().count()) return false;
+  if (workspace.multipliers.size() == active_.constraints().count()) return false;
   settle(workspace);
   return true;
 }

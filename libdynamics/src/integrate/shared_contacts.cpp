@@ -11,7 +11,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// The loads of all conditions over the masses that they move, m/s², and the closed contacts among them.
+/// The loads of all constraints over the masses that they move, m/s², and the closed contacts among them.
 struct SetValuedLaws::Shared {
   VectorXd mass;
   std::vector<Bearing> bearings;
@@ -21,8 +21,8 @@ struct SetValuedLaws::Shared {
 
 /// None where loads are unique, or no contact is rough.
 std::optional<SetValuedLaws::Shared> SetValuedLaws::shared(Workspace& workspace) const {
-  const JointSet& conditions = active_.conditions();
-  Shared out{active_.condition_scale().cwiseAbs2(), {}, {}, {}};
+  const JointSet& constraints = active_.constraints();
+  Shared out{active_.constraint_scale().cwiseAbs2(), {}, {}, {}};
   bool rough = false;
   for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
     const ContactState& c = active_.contact_memory(workspace).contact[i];
@@ -35,9 +35,9 @@ std::optional<SetValuedLaws::Shared> SetValuedLaws::shared(Workspace& workspace)
     out.element.push_back(i);
   }
   if (!rough || out.bearings.size() < 2) return {};
-  const auto columns = active_.columns(conditions.gradients(workspace.state), workspace.state);
+  const auto columns = active_.columns(constraints.gradients(workspace.state), workspace.state);
   out.idle =
-      without_effect(out.mass.asDiagonal() * conditions.dense(columns) * active_.scale().cwiseInverse().asDiagonal());
+      without_effect(out.mass.asDiagonal() * constraints.dense(columns) * active_.scale().cwiseInverse().asDiagonal());
   if (out.idle.cols() == 0) return {};
   return out;
 }
@@ -67,7 +67,7 @@ void SetValuedLaws::share_loads(Workspace& workspace) {
     const ContactState& c = active_.contact_memory(workspace).contact[i];
     if (c.row < 0) continue;
     const int held = c.is == ContactState::sticks ? c.held : 0;
-    const double mass = active_.condition_scale()[c.row] * active_.condition_scale()[c.row];
+    const double mass = active_.constraint_scale()[c.row] * active_.constraint_scale()[c.row];
     all_bear =
         Bearing{c.row, held, active_.contact()->element(i).friction}.spare(workspace.multipliers) >= -granted * mass;
   }
@@ -85,7 +85,7 @@ void SetValuedLaws::share_loads(Workspace& workspace) {
 }
 
 // While any share is borne by all, nothing moves. Where none is, loads and slips are those that contacts find together;
-// at the limit itself nothing moves yet, and what gives way is what is strained the most in the best share.
+// at the limit itself nothing moves yet, and what gives way is what has the highest utilisation in the best share.
 // \returns true if something was let go; nothing where loads are unique
 std::optional<bool> SetValuedLaws::release_together(double rounding, Workspace& workspace) {
   const auto all = shared(workspace);

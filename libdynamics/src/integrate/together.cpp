@@ -27,7 +27,7 @@ struct SetValuedLaws::Touching {
   /// The two directions along the surface of a rough one.
   Eigen::Matrix<double, 3, 2> along(std::size_t k) const {
     const auto direction = [&](Index row) {
-      return std::get<StickCondition>(rows.conditions()[static_cast<std::size_t>(row)].what).direction;
+      return std::get<StickConstraint>(rows.constraints()[static_cast<std::size_t>(row)].what).direction;
     };
     Eigen::Matrix<double, 3, 2> out;
     out << direction(laws[k].row + 1), direction(laws[k].row + 2);
@@ -44,7 +44,7 @@ SetValuedLaws::Touching SetValuedLaws::touching(const JointSet& held, std::vecto
     out.laws.push_back({out.rows.count(), bounces_spent_ ? 0 : kind.element(i).restitution, kind.element(i).friction});
     out.rows.add(kind.closed(i));
     if (kind.element(i).friction > 0)
-      for (const Condition& along : kind.sticking(i, state)) out.rows.add(along);
+      for (const Constraint& along : kind.sticking(i, state)) out.rows.add(along);
   }
   out.R = out.rows.dense(out.rows.gradients(state));
   const auto G = held.gradients(state);
@@ -68,7 +68,7 @@ bool SetValuedLaws::collide(Workspace& workspace) {
   bool approaching = false;
   for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
     const ContactLaw::Motion motion = active_.contact()->motion(i, state);
-    if (motion.meeting.gap > closed) continue;
+    if (motion.closest_points.gap > closed) continue;
     approaching = approaching || motion.parting < -slow(workspace);
     elements.push_back(i);
   }
@@ -108,7 +108,7 @@ SetValuedLaws::Touching SetValuedLaws::touching_now(Workspace& workspace) const 
   std::vector<Eigen::Vector3d> slips;
   for (std::size_t i = 0; i < kind.elements(); ++i) {
     const ContactLaw::Motion motion = kind.motion(i, state);
-    if (motion.meeting.gap > closed || std::abs(motion.parting) > slow(workspace)) continue;
+    if (motion.closest_points.gap > closed || std::abs(motion.parting) > slow(workspace)) continue;
     elements.push_back(i);
     slips.push_back(motion.slip);
   }

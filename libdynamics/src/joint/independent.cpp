@@ -12,12 +12,12 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double, Eigen::ColMajor, SuiteSparse_long>;
 
-/// G of one condition a column, each of length one; a column of zeros where the bodies cannot move that way at all.
+/// G of one constraint a column, each of length one; a column of zeros where the bodies cannot move that way at all.
 Sparse unit_columns(const JointSet& joints, const State& state, const Eigen::VectorXd& scale) {
   std::vector<Eigen::Triplet<double, SuiteSparse_long>> entries;
   const auto G = joints.over(joints.gradients(state), scale);
   for (std::size_t i = 0; i < G.size(); ++i) {
-    const Condition& c = joints.conditions()[i];
+    const Constraint& c = joints.constraints()[i];
     const double size = norm(G[i]);
     for (int k = 0; k < 6; ++k) {
       if (G[i].first[k] != 0) entries.emplace_back(6 * c.first + k, i, G[i].first[k] / size);
@@ -41,7 +41,7 @@ std::vector<bool> independent(const JointSet& joints, const State& state, const 
   SuiteSparse_long* order = nullptr;  // of the columns of R; null: as given
   const SuiteSparse_long rank =
       SuiteSparseQR<double>(SPQR_ORDERING_FIXED, part_of_others, 0, &view, &R, &order, &common);
-  hydro::ensure(rank >= 0 && R != nullptr, "sparse QR of the conditions of joints");
+  hydro::ensure(rank >= 0 && R != nullptr, "sparse QR of the constraints of joints");
   const auto* begin = static_cast<const SuiteSparse_long*>(R->p);
   const auto* row = static_cast<const SuiteSparse_long*>(R->i);
   std::vector<bool> out(static_cast<std::size_t>(joints.count()), false);
@@ -55,7 +55,7 @@ std::vector<bool> independent(const JointSet& joints, const State& state, const 
   cholmod_l_free_sparse(&R, &common);
   cholmod_l_free(joints.count(), sizeof(SuiteSparse_long), order, &common);
   cholmod_l_finish(&common);
-  hydro::ensure(rows == rank, "as many independent conditions of joints as their rank");
+  hydro::ensure(rows == rank, "as many independent constraints of joints as their rank");
   return out;
 }
 

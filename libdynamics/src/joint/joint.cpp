@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/joint/conditions.hpp"
-#include "dynamics/joint/travel.hpp"
+#include "dynamics/joint/constraints.hpp"
+#include "dynamics/joint/coordinate.hpp"
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/error.hpp"
 
@@ -43,19 +43,19 @@ void require_bodies(const Joint& joint, int bodies) {
   hydro::require(!joint.second || *joint.second != joint.first, "joint \"{}\" joins a body to itself", joint.name);
 }
 
-/// Conditions in the frame at rest, where bodies have no attitude: body axes are global there.
-std::vector<ConditionLaw> conditions_of(const Joint& joint, const Eigen::Vector3d& first_centre,
-                                        const Eigen::Vector3d& second_centre) {
+/// Constraints in the frame at rest, where bodies have no attitude: body axes are global there.
+std::vector<ConstraintLaw> constraints_of(const Joint& joint, const Eigen::Vector3d& first_centre,
+                                          const Eigen::Vector3d& second_centre) {
   using enum JointKind;
   const Eigen::Matrix3d frame = frame_of(joint);
   const Eigen::Vector3d x = frame.col(0), y = frame.col(1), z = frame.col(2);
   const Eigen::Vector3d first_arm = joint.place - first_centre, second_arm = joint.place - second_centre;
-  std::vector<ConditionLaw> out;
+  std::vector<ConstraintLaw> out;
   const auto meet = [&](const Eigen::Vector3d& n, bool turns) {
-    out.emplace_back(PointCondition{first_arm, second_arm, n, turns});
+    out.emplace_back(PointConstraint{first_arm, second_arm, n, turns});
   };
   const auto across = [&](const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
-    out.emplace_back(AxesCondition{u, v});
+    out.emplace_back(AxesConstraint{u, v});
   };
   switch (joint.kind) {
     case slider:
@@ -93,39 +93,39 @@ JointSet::JointSet(const std::vector<RigidBody>& bodies, std::vector<Joint> join
     const Eigen::Vector3d second =
         joint.second ? bodies[static_cast<std::size_t>(*joint.second)].rest_centre() : Eigen::Vector3d::Zero();
     place_in_.push_back({joint.place - first, joint.place - second});
-    for (auto& what : conditions_of(joint, first, second))
-      conditions_.push_back({static_cast<int>(j), joint.first, joint.second, std::move(what)});
-    if (!joint.lead) continue;
+    for (auto& what : constraints_of(joint, first, second))
+      constraints_.push_back({static_cast<int>(j), joint.first, joint.second, std::move(what)});
+    if (!joint.prescribed) continue;
     hydro::require(joint.kind == JointKind::slider || joint.kind == JointKind::hinge,
-                   "joint \"{}\" is led, but is neither slider nor hinge", joint.name);
-    conditions_.push_back({static_cast<int>(j), joint.first, joint.second,
-                           LeadCondition{std::make_shared<Travel>(bodies, joint), joint.lead}});
+                   "joint \"{}\" has a prescribed motion, but is neither slider nor hinge", joint.name);
+    constraints_.push_back({static_cast<int>(j), joint.first, joint.second,
+                            PrescribedConstraint{std::make_shared<JointCoordinate>(bodies, joint), joint.prescribed}});
   }
 }
 
 void JointSet::reduce(const std::vector<bool>& keep) {
-  std::vector<Condition> kept;
-  for (std::size_t i = 0; i < conditions_.size(); ++i)
-    if (keep[i]) kept.push_back(conditions_[i]);
-  conditions_ = std::move(kept);
+  std::vector<Constraint> kept;
+  for (std::size_t i = 0; i < constraints_.size(); ++i)
+    if (keep[i]) kept.push_back(constraints_[i]);
+  constraints_ = std::move(kept);
 }
 
-JointSet JointSet::with_only(std::optional<Condition> condition) const {
+JointSet JointSet::with_only(std::optional<Constraint> constraint) const {
   JointSet out = *this;
-  out.conditions_.clear();
-  if (condition) out.conditions_.push_back(std::move(*condition));
+  out.constraints_.clear();
+  if (constraint) out.constraints_.push_back(std::move(*constraint));
   return out;
 }
 
 void JointSet::couple(BlockPattern& pattern) const {
-  for (const Condition& c : conditions_)
+  for (const Constraint& c : constraints_)
     if (c.second) pattern.couple(c.first, *c.second);
 }
 
 Eigen::VectorXd JointSet::values(const State& state) const {
   Eigen::VectorXd g(count());
   for (Eigen::Index i = 0; i < count(); ++i) {
-    const Condition& c = conditions_[static_cast<std::size_t>(i)];
+    const Constraint& c = constraints_[static_cast<std::size_t>(i)];
     g[i] = std::visit([&](const auto& what) { return value(what, ends_of(c, state)); }, c.what);
   }
   return g;
@@ -133,8 +133,8 @@ Eigen::VectorXd JointSet::values(const State& state) const {
 
 std::vector<Gradient> JointSet::gradients(const State& state) const {
   std::vector<Gradient> G;
-  G.reserve(conditions_.size());
-  for (const Condition& c : conditions_) {
+  G.reserve(constraints_.size());
+  for (const Constraint& c : constraints_) {
     Gradient row = std::visit([&](const auto& what) { return gradient(what, ends_of(c, state)); }, c.what);
     keep_free(c.first, c.second, row);
     G.push_back(row);
@@ -152,7 +152,7 @@ double norm(const Gradient& g) { return std::hypot(g.first.norm(), g.second.norm
 std::vector<Gradient> JointSet::over(const std::vector<Gradient>& G, const Eigen::VectorXd& scale) const {
   std::vector<Gradient> out(G.size(), {Vector6::Zero(), Vector6::Zero()});
   for (std::size_t i = 0; i < G.size(); ++i) {
-    const Condition& c = conditions_[i];
+    const Constraint& c = constraints_[i];
     out[i].first = G[i].first.cwiseQuotient(scale.segment<6>(6 * c.first));
     if (c.second) out[i].second = G[i].second.cwiseQuotient(scale.segment<6>(6 * *c.second));
   }
@@ -161,8 +161,8 @@ std::vector<Gradient> JointSet::over(const std::vector<Gradient>& G, const Eigen
 
 Eigen::VectorXd JointSet::times(const std::vector<Gradient>& G, const Eigen::VectorXd& x) const {
   Eigen::VectorXd out(count());
-  for (std::size_t i = 0; i < conditions_.size(); ++i) {
-    const Condition& c = conditions_[i];
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    const Constraint& c = constraints_[i];
     out[static_cast<Eigen::Index>(i)] =
         G[i].first.dot(x.segment<6>(6 * c.first)) + (c.second ? G[i].second.dot(x.segment<6>(6 * *c.second)) : 0);
   }
@@ -171,8 +171,8 @@ Eigen::VectorXd JointSet::times(const std::vector<Gradient>& G, const Eigen::Vec
 
 void JointSet::add_transposed(const std::vector<Gradient>& G, const Eigen::VectorXd& lambda,
                               Eigen::VectorXd& out) const {
-  for (std::size_t i = 0; i < conditions_.size(); ++i) {
-    const Condition& c = conditions_[i];
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    const Constraint& c = constraints_[i];
     const double l = lambda[static_cast<Eigen::Index>(i)];
     out.segment<6>(6 * c.first) += l * G[i].first;
     if (c.second) out.segment<6>(6 * *c.second) += l * G[i].second;
@@ -181,8 +181,8 @@ void JointSet::add_transposed(const std::vector<Gradient>& G, const Eigen::Vecto
 
 Eigen::MatrixXd JointSet::dense(const std::vector<Gradient>& G) const {
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(count(), 6 * static_cast<Eigen::Index>(free_.size()));
-  for (std::size_t i = 0; i < conditions_.size(); ++i) {
-    const Condition& c = conditions_[i];
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    const Constraint& c = constraints_[i];
     const auto row = static_cast<Eigen::Index>(i);
     out.row(row).segment<6>(6 * c.first) = G[i].first;
     if (c.second) out.row(row).segment<6>(6 * *c.second) = G[i].second;
@@ -191,8 +191,8 @@ Eigen::MatrixXd JointSet::dense(const std::vector<Gradient>& G) const {
 }
 
 void JointSet::add_curvature(const State& state, const Eigen::VectorXd& lambda, double factor, BlockMatrix& out) const {
-  for (std::size_t i = 0; i < conditions_.size(); ++i) {
-    const Condition& c = conditions_[i];
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    const Constraint& c = constraints_[i];
     Matrix12 H = factor * lambda[static_cast<Eigen::Index>(i)] *
                  std::visit([&](const auto& what) { return curvature(what, ends_of(c, state)); }, c.what);
     for (int k = 0; k < 12; ++k) {  // motions that are not free have rows and columns of their own
@@ -211,34 +211,34 @@ void JointSet::add_curvature(const State& state, const Eigen::VectorXd& lambda, 
 
 Eigen::VectorXd JointSet::convective(const State& state) const {
   Eigen::VectorXd out(count());
-  for (std::size_t i = 0; i < conditions_.size(); ++i) {
-    const Condition& c = conditions_[i];
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    const Constraint& c = constraints_[i];
     Eigen::Matrix<double, 12, 1> v = Eigen::Matrix<double, 12, 1>::Zero();
     v.head<6>() = state.twist(c.first);
     if (c.second) v.tail<6>() = state.twist(*c.second);
     const Matrix12 H = std::visit([&](const auto& what) { return curvature(what, ends_of(c, state)); }, c.what);
     out[static_cast<Eigen::Index>(i)] = v.dot(H * v);
-    if (const auto* led = std::get_if<LeadCondition>(&c.what))
-      out[static_cast<Eigen::Index>(i)] -= led->lead(state.time).acceleration;
+    if (const auto* prescribed = std::get_if<PrescribedConstraint>(&c.what))
+      out[static_cast<Eigen::Index>(i)] -= prescribed->motion(state.time).acceleration;
   }
   return out;
 }
 
-bool JointSet::are_led() const {
-  return std::any_of(joints_.begin(), joints_.end(), [](const Joint& j) { return static_cast<bool>(j.lead); });
+bool JointSet::are_prescribed() const {
+  return std::any_of(joints_.begin(), joints_.end(), [](const Joint& j) { return static_cast<bool>(j.prescribed); });
 }
 
-Eigen::VectorXd JointSet::lead_rates(double time) const {
+Eigen::VectorXd JointSet::prescribed_rates(double time) const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(count());
-  for (std::size_t i = 0; i < conditions_.size(); ++i)
-    if (const auto* led = std::get_if<LeadCondition>(&conditions_[i].what))
-      out[static_cast<Eigen::Index>(i)] = led->lead(time).rate;
+  for (std::size_t i = 0; i < constraints_.size(); ++i)
+    if (const auto* prescribed = std::get_if<PrescribedConstraint>(&constraints_[i].what))
+      out[static_cast<Eigen::Index>(i)] = prescribed->motion(time).rate;
   return out;
 }
 
 namespace {
 
-/// Rows of one end in the gradient or curvature of a condition: the first six or the last.
+/// Rows of one end in the gradient or curvature of a constraint: the first six or the last.
 constexpr int row_of(End end) { return end == End::first ? 0 : 6; }
 
 Vector6 part_of(const Gradient& g, End end) { return end == End::first ? g.first : g.second; }
@@ -255,8 +255,8 @@ Vector6 JointSet::load_on(int joint, End end, const State& state, const Eigen::V
   const auto body = static_cast<std::size_t>(end == End::first ? j.first : j.second.value());
   const Eigen::Matrix3d to_body = state.pose[body].attitude.toRotationMatrix().transpose();
   Vector6 load = Vector6::Zero();
-  for (std::size_t i = 0; i < conditions_.size(); ++i) {
-    const Condition& c = conditions_[i];
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    const Constraint& c = constraints_[i];
     if (c.joint != joint) continue;
     const Gradient g = std::visit([&](const auto& what) { return gradient(what, ends_of(c, state)); }, c.what);
     load -= lambda[static_cast<Eigen::Index>(i)] * part_of(g, end);
@@ -274,11 +274,11 @@ JointSet::LoadVariation JointSet::load_variation(int joint, End end, const State
   const int body = end == End::first ? j.first : j.second.value();
   LoadVariation out{Eigen::MatrixXd::Zero(6, 6 * static_cast<Eigen::Index>(free_.size())),
                     Eigen::MatrixXd::Zero(6, count())};
-  for (std::size_t i = 0; i < conditions_.size(); ++i) {
-    const Condition& c = conditions_[i];
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    const Constraint& c = constraints_[i];
     if (c.joint != joint) continue;
     const auto index = static_cast<Eigen::Index>(i);
-    const ConditionEnds at = ends_of(c, still);
+    const ConstraintEnds at = ends_of(c, still);
     const Vector6 p = part_of(std::visit([&](const auto& what) { return gradient(what, at); }, c.what), end);
     const Matrix12 H = std::visit([&](const auto& what) { return curvature(what, at); }, c.what);
     out.by_multiplier.col(index) -= p;
@@ -309,18 +309,19 @@ Variation::Part part_of_body(const Eigen::MatrixXd& by_motion, int row, int body
 Signal JointSet::travel_signal(int joint) const {
   const Joint& j = joints_[static_cast<std::size_t>(joint)];
   const bool turns = j.kind == JointKind::hinge;
-  return {.name = j.name + (turns ? ".angle" : ".travel"),
-          .unit = turns ? "rad" : "m",
-          .meaning = fmt::format("{} of {}, the second against the first", turns ? "angle" : "travel", j.name),
-          .value = [along = travel_of(joint), sign = j.sign](const Reading& r) { return sign * along.value(r.state); },
-          .variation =
-              [along = travel_of(joint), sign = j.sign](const Still& still) {
-                const Gradient g = along.gradient(still.state);
-                Variation out{.parts = {{.body = along.first(), .by_motion = sign * g.first.transpose()}}};
-                if (along.second())
-                  out.parts.push_back({.body = *along.second(), .by_motion = sign * g.second.transpose()});
-                return out;
-              }};
+  return {
+      .name = j.name + (turns ? ".angle" : ".coordinate"),
+      .unit = turns ? "rad" : "m",
+      .meaning = fmt::format("{} of {}, the second against the first", turns ? "angle" : "coordinate", j.name),
+      .value = [along = coordinate_of(joint), sign = j.sign](const Reading& r) { return sign * along.value(r.state); },
+      .variation =
+          [along = coordinate_of(joint), sign = j.sign](const Still& still) {
+            const Gradient g = along.gradient(still.state);
+            Variation out{.parts = {{.body = along.first(), .by_motion = sign * g.first.transpose()}}};
+            if (along.second())
+              out.parts.push_back({.body = *along.second(), .by_motion = sign * g.second.transpose()});
+            return out;
+          }};
 }
 
 std::vector<Signal> JointSet::load_signals(int joint, End end, const std::string& body) const {
@@ -340,7 +341,7 @@ std::vector<Signal> JointSet::load_signals(int joint, End end, const std::string
                Variation load{.parts = {part_of_body(v.by_motion, i, j.first)}};
                if (j.second) load.parts.push_back(part_of_body(v.by_motion, i, *j.second));
                for (Eigen::Index c = 0; c < count(); ++c)
-                 if (conditions_[static_cast<std::size_t>(c)].joint == joint)
+                 if (constraints_[static_cast<std::size_t>(c)].joint == joint)
                    load.by_multiplier.emplace_back(c, v.by_multiplier(i, c));
                return load;
              }});
@@ -363,12 +364,12 @@ std::vector<Signal> JointSet::signals(const std::vector<RigidBody>& bodies) cons
   return out;
 }
 
-Travel JointSet::travel_of(int joint) const {
+JointCoordinate JointSet::coordinate_of(int joint) const {
   const auto& place = place_in_[static_cast<std::size_t>(joint)];
   return {joints_[static_cast<std::size_t>(joint)], place[0], place[1], joint};
 }
 
-double JointSet::travel(int joint, const State& state) const { return travel_of(joint).value(state); }
+double JointSet::coordinate(int joint, const State& state) const { return coordinate_of(joint).value(state); }
 
 // (D133)
 void JointSet::count_turns(State& state) const {
@@ -376,15 +377,15 @@ void JointSet::count_turns(State& state) const {
   state.hinge_angle.resize(joints_.size(), 0);
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     if (joints_[j].kind != JointKind::hinge) continue;
-    if (joints_[j].lead) state.hinge_angle[j] = joints_[j].lead(state.time).travel;
-    state.hinge_angle[j] = travel(static_cast<int>(j), state);
+    if (joints_[j].prescribed) state.hinge_angle[j] = joints_[j].prescribed(state.time).coordinate;
+    state.hinge_angle[j] = coordinate(static_cast<int>(j), state);
   }
 }
 
 std::optional<int> JointSet::turns_too_fast(const State& state, double h) const {
   for (int j = 0; j < std::ssize(joints_); ++j)
     if (joints_[static_cast<std::size_t>(j)].kind == JointKind::hinge &&
-        std::abs(travel_of(j).rate(state)) * h >= std::numbers::pi)
+        std::abs(coordinate_of(j).rate(state)) * h >= std::numbers::pi)
       return j;
   return std::nullopt;
 }

@@ -36,10 +36,11 @@ class Way final : public Path {
   }
 };
 
-Description led_by(Description d, const std::vector<int>& led, const std::vector<std::shared_ptr<Way>>& ways) {
+Description prescribed_by(Description d, const std::vector<int>& prescribed,
+                          const std::vector<std::shared_ptr<Way>>& ways) {
   for (Held& h : d.held)
-    for (std::size_t k = 0; k < led.size(); ++k)
-      if (h.node == led[k]) h.path = ways[k];
+    for (std::size_t k = 0; k < prescribed.size(); ++k)
+      if (h.node == prescribed[k]) h.path = ways[k];
   return d;
 }
 
@@ -52,7 +53,7 @@ std::vector<std::shared_ptr<Way>> make_ways(std::size_t count) {
 }  // namespace
 
 struct DrivenLine::Work {
-  std::vector<int> led;
+  std::vector<int> prescribed;
   std::vector<std::shared_ptr<Way>> ways;
   Line line;
   Stepper stepper;
@@ -71,35 +72,36 @@ struct DrivenLine::Work {
   } tried = {};
 
   Work(Description d, std::vector<int> nodes, double rho)
-      : led(std::move(nodes)),
-        ways(make_ways(led.size())),
-        line(led_by(std::move(d), led, ways)),
+      : prescribed(std::move(nodes)),
+        ways(make_ways(prescribed.size())),
+        line(prescribed_by(std::move(d), prescribed, ways)),
         stepper(line, {.scheme = Scheme::generalised_alpha, .rho_infinity = rho}),
         alpha(rho) {}
 
   bool is_now(double t) const { return t - state.time <= 1e-12 * std::max(1.0, std::abs(t)); }
-  void lead(double t, const std::vector<End>& ends);
+  void prescribe(double t, const std::vector<End>& ends);
   void stay() const;
   void try_step(double t);
   void look(const std::vector<End>& ends);
   Pulls nothing(double value) const;
 };
 
-DrivenLine::DrivenLine(Description description, std::vector<int> led, double rho_infinity)
-    : work_(std::make_unique<Work>(std::move(description), std::move(led), rho_infinity)) {
-  for (const int node : work_->led) hydro::ensure(work_->line.held(node) != nullptr, "a node that is led is held");
+DrivenLine::DrivenLine(Description description, std::vector<int> prescribed, double rho_infinity)
+    : work_(std::make_unique<Work>(std::move(description), std::move(prescribed), rho_infinity)) {
+  for (const int node : work_->prescribed)
+    hydro::ensure(work_->line.held(node) != nullptr, "a node with prescribed motion is held");
 }
 
 DrivenLine::~DrivenLine() = default;
 
 DrivenLine::Pulls DrivenLine::Work::nothing(double value) const {
-  const auto n = static_cast<Eigen::Index>(led.size());
+  const auto n = static_cast<Eigen::Index>(prescribed.size());
   return {Places::Constant(3, n, value), Eigen::MatrixXd::Zero(3 * n, 3 * n), Eigen::MatrixXd::Zero(3 * n, 3 * n)};
 }
 
 /// Everything stays where it was accepted.
 void DrivenLine::Work::stay() const {
-  for (std::size_t k = 0; k < led.size(); ++k) {
+  for (std::size_t k = 0; k < prescribed.size(); ++k) {
     ways[k]->from = ways[k]->to = state.time;
     ways[k]->begin = ways[k]->end = now[k];
   }
@@ -121,11 +123,11 @@ void DrivenLine::start(const State& state, const std::vector<End>& ends, const P
 }
 
 /// Where the ends go until t, with the accelerations that (D10) makes of their velocities.
-void DrivenLine::Work::lead(double t, const std::vector<End>& ends) {
+void DrivenLine::Work::prescribe(double t, const std::vector<End>& ends) {
   const double h = t - state.time;
   const auto [alpha_m, alpha_f, gamma, beta] = alpha;
-  tried.algorithmic.resize(led.size());
-  for (std::size_t k = 0; k < led.size(); ++k) {
+  tried.algorithmic.resize(prescribed.size());
+  for (std::size_t k = 0; k < prescribed.size(); ++k) {
     const Vector3d next = ((ends[k].velocity - now[k].velocity) / h - (1 - gamma) * algorithmic[k]) / gamma;
     const Vector3d a =
         ((1 - alpha_m) * next + alpha_m * algorithmic[k] - alpha_f * now[k].acceleration) / (1 - alpha_f);
@@ -144,7 +146,7 @@ void DrivenLine::Work::try_step(double t) {
   tried.state = state;
   try {
     stepper.step(tried.state, h);
-    auto found = stepper.response(led, (1 - alpha.alpha_m) / ((1 - alpha.alpha_f) * alpha.gamma * h));
+    auto found = stepper.response(prescribed, (1 - alpha.alpha_m) / ((1 - alpha.alpha_f) * alpha.gamma * h));
     tried.pulls = {-found.force, -found.by_place, -found.by_velocity};
   } catch (const hydro::NumericsError& e) {
     tried.failure = e.what();
@@ -156,16 +158,16 @@ void DrivenLine::Work::try_step(double t) {
 void DrivenLine::Work::look(const std::vector<End>& ends) {
   stay();
   State at = state;
-  for (std::size_t k = 0; k < led.size(); ++k) {
-    at.position.col(led[k]) = ends[k].position;
-    at.velocity.col(led[k]) = ends[k].velocity;
+  for (std::size_t k = 0; k < prescribed.size(); ++k) {
+    at.position.col(prescribed[k]) = ends[k].position;
+    at.velocity.col(prescribed[k]) = ends[k].velocity;
     ways[k]->end.velocity = ends[k].velocity;
   }
   tried.pulls = nothing(0);
   const auto found = stepper.balance(at);
-  for (std::size_t k = 0; k < led.size(); ++k)
+  for (std::size_t k = 0; k < prescribed.size(); ++k)
     tried.pulls.force.col(static_cast<Eigen::Index>(k)) =
-        found ? Vector3d(-found->holding.col(led[k]))
+        found ? Vector3d(-found->holding.col(prescribed[k]))
               : Vector3d(Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
 }
 
@@ -178,7 +180,7 @@ const DrivenLine::Pulls& DrivenLine::pulls(double t_s, const std::vector<End>& e
   if (w.is_now(t_s)) {
     w.look(ends);
   } else {
-    w.lead(t_s, ends);
+    w.prescribe(t_s, ends);
     w.try_step(t_s);
   }
   return w.tried.pulls;
@@ -191,7 +193,7 @@ void DrivenLine::accept(double t_s, const std::vector<End>& ends) {
   if (!w.tried.failure.empty()) throw hydro::NumericsError(w.tried.failure);
   w.state = w.tried.state;
   w.algorithmic = w.tried.algorithmic;
-  for (std::size_t k = 0; k < w.led.size(); ++k) w.now[k] = w.ways[k]->end;
+  for (std::size_t k = 0; k < w.prescribed.size(); ++k) w.now[k] = w.ways[k]->end;
   w.tried.t = std::numeric_limits<double>::quiet_NaN();
   w.stay();
   w.stepper.keep();

@@ -67,7 +67,7 @@ Equations::Pull Equations::pull(int j, const Stage& stage, const State& before, 
   if (middle > 0) p.direction_by = own * (Matrix3d::Identity() - p.direction * t1.transpose()) / middle;
   const Vector3d w = v_.col(i + 1) - v_.col(i);
   const bool at_once = stage.x_by == 0;
-  if (s.keeps_length()) {
+  if (s.is_inextensible()) {
     p.law = r1 - s.length;
     if (at_once)  // (D77): t·ẅ + |w across t|²/ℓ = 0
       p.law = t1.dot(a_.col(i + 1) - a_.col(i)) + (w - t1 * t1.dot(w)).squaredNorm() / r1;
@@ -79,16 +79,16 @@ Equations::Pull Equations::pull(int j, const Stage& stage, const State& before, 
   const double rate = stage.mean ? (r1 - r0) / stage.h : t1.dot(w);
   const Vector3d rate_by =
       stage.mean ? Vector3d(t1 / stage.h) : Vector3d(stage.v_by * t1 + (r1 > 0 ? (w - t1 * t1.dot(w)) / r1 : w));
-  const Answer spring =
-      s.pulls_only ? one_sided_spring(k, r0 - s.length, r1 - s.length) : Answer{k * (middle - s.length), own * k, 0};
-  const Answer answer =
-      s.pulls_only ? with_damper(spring, c * rate) : Answer{spring.force + c * rate, spring.by_stretch, 1};
-  p.lost = (answer.force - spring.force) * rate;
-  p.law = (T - answer.force) / k;
+  const SpringDamperForce spring = s.tension_only ? one_sided_spring(k, r0 - s.length, r1 - s.length)
+                                                  : SpringDamperForce{k * (middle - s.length), own * k, 0};
+  const SpringDamperForce both =
+      s.tension_only ? with_damper(spring, c * rate) : SpringDamperForce{spring.force + c * rate, spring.by_stretch, 1};
+  p.lost = (both.force - spring.force) * rate;
+  p.law = (T - both.force) / k;
   p.law_by_T = 1 / k;
-  p.law_by = -(answer.by_stretch * t1 + answer.by_damper * c * rate_by) / k;
+  p.law_by = -(both.by_stretch * t1 + both.by_damper * c * rate_by) / k;
   if (at_once) p.law_by.setZero();
-  if (s.sags) sag(j, T, p);
+  if (s.catenary) sag(j, T, p);
   return p;
 }
 
@@ -137,10 +137,10 @@ Equations::Push Equations::bed(int i, const Stage& stage, const State& before) c
   const double z0 = before.position(2, i), z1 = stage.mean ? 2 * x_(2, i) - z0 : x_(2, i);
   const double depth1 = bed.z - z1, depth0 = stage.mean ? bed.z - z0 : depth1;
   const double rate = stage.mean ? (z0 - z1) / stage.h : -v_(2, i);
-  const Answer spring = one_sided_spring(k, depth0, depth1), answer = with_damper(spring, c * rate);
-  double by_end = answer.by_stretch + answer.by_damper * c * (stage.mean ? 1 / stage.h : stage.v_by);
+  const SpringDamperForce spring = one_sided_spring(k, depth0, depth1), both = with_damper(spring, c * rate);
+  double by_end = both.by_stretch + both.by_damper * c * (stage.mean ? 1 / stage.h : stage.v_by);
   if (stage.x_by == 0) by_end = 0;
-  return {answer.force, by_end, (answer.force - spring.force) * rate};
+  return {both.force, by_end, (both.force - spring.force) * rate};
 }
 
 void Equations::add_bed(const Stage& stage, const State& before, bool matrix) {
@@ -175,8 +175,8 @@ void Equations::add_pulls(const Stage& stage, const State& before, const VectorX
     // Of a length that others keep already (both ends of a straight line held) the tension is undetermined: a share of
     // 1e-13 of its change chooses the least, and changes nothing where it is determined.
     matrix_(tension_index(j), tension_index(j)) =
-        line_.segment(j).keeps_length() ? -undetermined * scale_ : scale_ * scale_ * p.law_by_T;
-    if (line_.segment(j).sags) add_sag_derivatives(j, p, stage);
+        line_.segment(j).is_inextensible() ? -undetermined * scale_ : scale_ * scale_ * p.law_by_T;
+    if (line_.segment(j).catenary) add_sag_derivatives(j, p, stage);
   }
 }
 
@@ -228,7 +228,7 @@ void Equations::keep_held() {
 bool Equations::solve_linear(Places& du, VectorXd& dT) {
   for (int c = 0; c < line_.chains(); ++c) rhs_[4 * line_.first_of_chain(c)] = 0;
   for (int j = 0; j < line_.segments(); ++j)
-    rhs_[tension_index(j)] = std::abs(law_[j]) > met_ || !line_.segment(j).keeps_length() ? -scale_ * law_[j] : 0;
+    rhs_[tension_index(j)] = std::abs(law_[j]) > met_ || !line_.segment(j).is_inextensible() ? -scale_ * law_[j] : 0;
   for (int i = 0; i < line_.nodes(); ++i) {
     rhs_.segment<3>(place_index(i)) = -residual_.col(i);
     if (line_.held(i) != nullptr) rhs_.segment<3>(place_index(i)).setZero();

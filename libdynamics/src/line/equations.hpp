@@ -58,10 +58,11 @@ class Equations {
   /// Moves x along the directions of `from` until lengths are kept.
   bool project_place(const Places& from, double tolerance, Places& x);
 
-  /// What led nodes need at the end of a step with places u and tensions T, and how it follows them while the rest of
-  /// the line moves as the step has it; their accelerations follow their velocities by `a_by_v`. (D90)
+  /// What nodes with prescribed motion need at the end of a step with places u and tensions T, and how it follows them
+  /// while the rest of the line moves as the step has it; their accelerations follow their velocities by `a_by_v`.
+  /// (D90)
   Response response(const Stage& stage, const State& before, const Places& u, const Eigen::VectorXd& T,
-                    const std::vector<int>& led, double a_by_v);
+                    const std::vector<int>& prescribed, double a_by_v);
 
   /// What held nodes need besides loads and pulls, N.
   Places holding(const State& state, const Places& a, const Eigen::VectorXd& T);
@@ -87,7 +88,7 @@ class Equations {
     double law, law_by_T;
     Eigen::Vector3d law_by;
     double lost = 0;  ///< by its damper, W
-    Sag sag = {};     ///< of a segment that sags; by_height and by_level in the law come on top of law_by
+    Sag sag = {};     ///< of a catenary segment; by_height and by_level in the law come on top of law_by
     Eigen::Vector3d level_by = Eigen::Vector3d::Zero();  ///< of cos² of the slope by that vector
   };
   void add_sag_derivatives(int j, const Pull& p, const Stage& stage);
@@ -101,8 +102,8 @@ class Equations {
   static int place_index(int node) { return 4 * node + 1; }
   void move(const Stage& stage, const State& before, const Places& u);
   Pull pull(int j, const Stage& stage, const State& before, double T) const;
-  BandMatrix::Columns columns_of(const std::vector<int>& led);
-  Eigen::MatrixXd rows_times(const std::vector<int>& led, const BandMatrix::Columns& y);
+  BandMatrix::Columns columns_of(const std::vector<int>& prescribed);
+  Eigen::MatrixXd rows_times(const std::vector<int>& prescribed, const BandMatrix::Columns& y);
   /// From the first to the second node of a segment, of places or velocities.
   Eigen::Vector3d along(const Places& x, int j) const { return x.col(line_.first(j) + 1) - x.col(line_.first(j)); }
   void keep_held();

@@ -21,13 +21,13 @@ bool Equations::accelerations(const State& state, Places& a, VectorXd& T) {
   const Stage now = instant(state, a);
   move(now, state, a);
   for (int j = 0; j < line_.segments(); ++j)
-    if (line_.segment(j).sags) T[j] = tension_of_sag(j, now, state);
+    if (line_.segment(j).catenary) T[j] = tension_of_sag(j, now, state);
   assemble(now, state, a, T, true);
-  const Places led = a_;  // of nodes along paths
+  const Places prescribed = a_;  // of nodes along paths
   VectorXd dT(line_.segments());
   if (!solve_linear(a, dT)) return false;
   T += dT;
-  a += led;
+  a += prescribed;
   return true;
 }
 
@@ -45,7 +45,7 @@ void Equations::assemble_projection(const Places& along, const Places& x) {
   residual_.setZero();
   fill(1, 0);
   for (int j = 0; j < line_.segments(); ++j) {
-    if (!line_.segment(j).keeps_length()) {
+    if (!line_.segment(j).is_inextensible()) {
       matrix_(tension_index(j), tension_index(j)) = 1;
       law_[j] = 0;
       continue;
@@ -63,11 +63,11 @@ void Equations::assemble_projection(const Places& along, const Places& x) {
 
 bool Equations::project_velocity(const State& state, Places& v) {
   bool any = false;
-  for (int j = 0; j < line_.segments(); ++j) any = any || line_.segment(j).keeps_length();
+  for (int j = 0; j < line_.segments(); ++j) any = any || line_.segment(j).is_inextensible();
   if (!any) return true;
   assemble_projection(state.position, state.position);
   for (int j = 0; j < line_.segments(); ++j)
-    if (line_.segment(j).keeps_length()) law_[j] = along(state.position, j).normalized().dot(along(v, j));
+    if (line_.segment(j).is_inextensible()) law_[j] = along(state.position, j).normalized().dot(along(v, j));
   Places dv(3, line_.nodes());
   VectorXd impulse(line_.segments());
   if (!solve_linear(dv, impulse)) return false;
@@ -82,7 +82,7 @@ bool Equations::project_place(const Places& from, double tolerance, Places& x) {
   for (int i = 0; i < most; ++i) {
     assemble_projection(from, x);
     for (int j = 0; j < line_.segments(); ++j)
-      if (line_.segment(j).keeps_length()) law_[j] = along(x, j).norm() - line_.segment(j).length;
+      if (line_.segment(j).is_inextensible()) law_[j] = along(x, j).norm() - line_.segment(j).length;
     const double open = law_.cwiseAbs().maxCoeff();
     if (!solve_linear(dx, impulse)) return false;
     x += dx;
@@ -127,15 +127,15 @@ double Equations::stored_in_segments(const State& state) {
   move(instant(still, none), still, none);
   for (int j = 0; j < line_.segments(); ++j) {
     const Segment& s = line_.segment(j);
-    if (s.keeps_length()) continue;
-    if (s.sags) {
+    if (s.is_inextensible()) continue;
+    if (s.catenary) {
       const double T = tension_of_sag(j, instant(still, none), still), r = along(x_, j).norm();
       sum += T * (r - s.length) - T * T * s.length / (2 * s.axial_stiffness) +
              pull(j, instant(still, none), still, T).sag.stored;
       continue;
     }
     double stretch = along(state.position, j).norm() - s.length;
-    if (s.pulls_only) stretch = std::max(stretch, 0.0);
+    if (s.tension_only) stretch = std::max(stretch, 0.0);
     sum += s.axial_stiffness / s.length / 2 * stretch * stretch;
   }
   return sum;

@@ -1,4 +1,4 @@
-/// Segments that sag between their nodes, in the equations. (D88)
+/// Catenary segments between their nodes, in the equations. (D88)
 #include <cmath>
 
 #include "equations.hpp"

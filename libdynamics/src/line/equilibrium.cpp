@@ -38,7 +38,7 @@ Potential potential(const Line& line, const Span& span, const Vector3d& first_pu
     const Segment& s = line.segment(j);
     const double size = std::sqrt(F.squaredNorm() + soft * soft);
     const Vector3d t = size > 0 ? Vector3d(F / size) : Vector3d::Zero();
-    const double compliance = s.keeps_length() ? 0 : 1 / s.axial_stiffness;
+    const double compliance = s.is_inextensible() ? 0 : 1 / s.axial_stiffness;
     p.value += s.length * (size + compliance / 2 * F.squaredNorm());
     p.gradient += s.length * (t + compliance * F);
     if (size > 0) p.curvature += s.length * ((Matrix3d::Identity() - t * t.transpose()) / size);
@@ -83,7 +83,7 @@ void hang(const Line& line, const Span& span, State& state) {
   for (int j = span.first; j < span.last; ++j) {
     const Segment& s = line.segment(j);
     length += s.length;
-    longest += s.keeps_length() ? s.length : std::numeric_limits<double>::infinity();
+    longest += s.is_inextensible() ? s.length : std::numeric_limits<double>::infinity();
     if (j > span.first) load += line.constant_load().col(j).norm();
   }
   const double way = span.between.norm();
@@ -106,7 +106,7 @@ void hang(const Line& line, const Span& span, State& state) {
   for (int j = span.first; j < span.last; ++j) {
     if (j > span.first) F -= line.constant_load().col(j);
     const Segment& s = line.segment(j);
-    const double compliance = s.keeps_length() ? 0 : 1 / s.axial_stiffness;
+    const double compliance = s.is_inextensible() ? 0 : 1 / s.axial_stiffness;
     const Vector3d t = F.norm() > 0 ? F.normalized() : Vector3d::UnitX();
     state.tension[j] = F.norm();
     if (j + 1 < span.last)
@@ -125,7 +125,7 @@ void hang_free(const Line& line, int from, int towards, State& state) {
   for (int i = from; i != towards; i += side) {
     const int j = side > 0 ? i : i - 1;
     const Segment& s = line.segment(j);
-    const double compliance = s.keeps_length() ? 0 : 1 / s.axial_stiffness;
+    const double compliance = s.is_inextensible() ? 0 : 1 / s.axial_stiffness;
     const Vector3d t = F.norm() > 0 ? F.normalized() : Vector3d(-Vector3d::UnitZ());
     state.position.col(i + side) = state.position.col(i) + s.length * (t + compliance * F);
     state.tension[j] = F.norm();
@@ -173,13 +173,13 @@ Stage resting(const State& at) {
 
 }  // namespace
 
-Response pulls_at_rest(const Line& line, const State& rest, const std::vector<int>& led) {
+Response pulls_at_rest(const Line& line, const State& rest, const std::vector<int>& prescribed) {
   Equations equations(line);
   Stage stage = resting(rest);
   Places u = Places::Zero(3, line.nodes());
   VectorXd T = rest.tension;
   equations.solve(stage, rest, 1e-10, 30, u, T);  // sets the scale; what is left over is rounding
-  return equations.response(stage, rest, Places::Zero(3, line.nodes()), rest.tension, led, 0);
+  return equations.response(stage, rest, Places::Zero(3, line.nodes()), rest.tension, prescribed, 0);
 }
 
 State equilibrium(const Line& line, const State& guess, RestReport* report) {

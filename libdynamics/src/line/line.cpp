@@ -22,15 +22,17 @@ void check(const Segment& s, std::size_t j) {
   require(s.axial_stiffness > 0, "segment {} needs an axial stiffness above 0, got {} N", j + 1, s.axial_stiffness);
   require(std::isfinite(s.axial_damping) && s.axial_damping >= 0, "segment {} must not have the axial damping {} N s",
           j + 1, s.axial_damping);
-  require(!(s.pulls_only && s.keeps_length()),
-          "segment {} keeps its length, so it cannot go slack: give it an axial stiffness", j + 1);
-  require(!(s.sags && (s.keeps_length() || s.pulls_only)),
-          "segment {} sags, so it needs an axial stiffness and never goes slack: leave pulls_only out", j + 1);
-  require(!(s.axial_damping > 0 && s.keeps_length()), "segment {} keeps its length, so its axial damping cannot act",
+  require(!(s.tension_only && s.is_inextensible()),
+          "segment {} is inextensible, so it cannot go slack: give it an axial stiffness", j + 1);
+  require(!(s.catenary && (s.is_inextensible() || s.tension_only)),
+          "segment {} is a catenary, so it needs an axial stiffness and never goes slack: leave tension_only out",
+          j + 1);
+  require(!(s.axial_damping > 0 && s.is_inextensible()), "segment {} is inextensible, so its axial damping cannot act",
           j + 1);
   require(std::isfinite(s.bending_stiffness) && s.bending_stiffness >= 0,
           "segment {} must not have the bending stiffness {} N m^2", j + 1, s.bending_stiffness);
-  require(!(s.sags && s.bending_stiffness > 0), "segment {} sags, so it has no straight axis that bends", j + 1);
+  require(!(s.catenary && s.bending_stiffness > 0), "segment {} is a catenary, so it has no straight axis that bends",
+          j + 1);
   require(s.diameter >= 0 && s.cd >= 0 && s.cd_tangential >= 0 && s.ca >= 0,
           "diameter and coefficients of segment {} must not be negative", j + 1);
 }
@@ -102,9 +104,10 @@ void Line::add_segment(int j) {
   const bool always_lifted = d_.water.wet == Wet::all && d_.water.buoyancy;
   const double lift = always_lifted ? buoyancy(s, *d_.water.field) : 0;
   sag_weight_[j] = (s.mass * d_.gravity - lift) / s.length;
-  require(!s.sags || d_.water.wet != Wet::below_surface,
-          "segment {} sags by its weight in water, which a line that is wet in part does not have", j + 1);
-  require(!s.sags || sag_weight_[j] > 0, "segment {} sags, but it weighs {} N/m in water", j + 1, sag_weight_[j]);
+  require(!s.catenary || d_.water.wet != Wet::below_surface,
+          "segment {} is a catenary by its weight in water, which a line that is wet in part does not have", j + 1);
+  require(!s.catenary || sag_weight_[j] > 0, "segment {} is a catenary, but it weighs {} N/m in water", j + 1,
+          sag_weight_[j]);
   for (const int end : {i, i + 1}) {
     constant_(2, end) += lift / 2;
     if (s.meets_bed) bed_area_[end] += s.diameter * s.length / 2;

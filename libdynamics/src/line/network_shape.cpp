@@ -118,12 +118,12 @@ double excess(const Line& line, const Places& x, const Eigen::VectorXd& tension,
   return r / (s.length * (1 + tension[j] / s.axial_stiffness)) - 1;
 }
 
-/// No segment stiffer than `stiffest`; none sags or bends.
+/// No segment stiffer than `stiffest`; none is a catenary or bends.
 Line softened(const Line& line, double stiffest) {
   Description d = line.description();
   for (Segment& s : d.segments) {
     s.axial_stiffness = std::min(s.axial_stiffness, stiffest);
-    s.sags = false;
+    s.catenary = false;
     s.axial_damping = s.bending_stiffness = 0;
   }
   for (Held& h : d.held) {
@@ -133,7 +133,7 @@ Line softened(const Line& line, double stiffest) {
   return Line(std::move(d));
 }
 
-/// Of segments that are to keep their lengths, by how much they are too long, m; and the one that is most, relative.
+/// Of segments that are to be inextensible, by how much they are too long, m; and the one that is most, relative.
 struct TooLong {
   double sum = 0, strain = 0;
   int segment = 0;
@@ -141,7 +141,7 @@ struct TooLong {
 TooLong too_long(const Line& line, const Places& x) {
   TooLong out;
   for (int j = 0; j < line.segments(); ++j) {
-    if (!line.segment(j).keeps_length()) continue;
+    if (!line.segment(j).is_inextensible()) continue;
     const double length = line.segment(j).length,
                  more = (x.col(line.first(j) + 1) - x.col(line.first(j))).norm() - length;
     out.sum += std::max(more, 0.0);

@@ -7,13 +7,13 @@
 namespace dynamics::line {
 
 /// A force and its derivatives.
-struct Answer {
+struct SpringDamperForce {
   double force, by_stretch, by_damper;
 };
 
-/// Mean force of a spring that pulls only, over a step between the stretches e₀ and e₁: ΔU/Δe, U = ½k max(e, 0)². (D79)
+/// Mean force of a tension-only spring over a step between the stretches e₀ and e₁: ΔU/Δe, U = ½k max(e, 0)². (D79)
 /// With e₀ = e₁ it is the spring's law.
-inline Answer one_sided_spring(double k, double e0, double e1) {
+inline SpringDamperForce one_sided_spring(double k, double e0, double e1) {
   if (e0 >= 0 && e1 >= 0) return {k * (e0 + e1) / 2, e0 == e1 ? k : k / 2, 0};
   if (e0 <= 0 && e1 <= 0) return {0, 0, 0};
   const double taut = std::max(e0, e1), change = e1 - e0;
@@ -22,7 +22,7 @@ inline Answer one_sided_spring(double k, double e0, double e1) {
 }
 
 /// With a damper d beside it that never makes it push: S + S d/(S + |d|) (D51).
-inline Answer with_damper(const Answer& spring, double d) {
+inline SpringDamperForce with_damper(const SpringDamperForce& spring, double d) {
   const double S = spring.force, sum = S + std::abs(d);
   if (!(S > 0)) return {0, 0, 0};
   return {S + S * d / sum, spring.by_stretch * (1 + d * std::abs(d) / (sum * sum)), S * S / (sum * sum)};

@@ -58,7 +58,7 @@ struct Stepper::Work {
   bool gamma(State& state, double h, StepReport& report);
   bool euler(State& state, double h);
   bool solve(const Stage& stage, const State& state, Places& u, VectorXd& T, StepReport& report);
-  void lead(State& state) const;
+  void prescribe(State& state) const;
   void require_lengths(const State& state) const;
   void require_ties(const State& state) const;
   bool settle(State& state);
@@ -72,17 +72,16 @@ Stepper::Stepper(const Line& line, const Settings& settings) : work_(std::make_u
                  "rho_infinity must lie between 0 and 1, got {}", settings.rho_infinity);
   hydro::require(settings.gamma > 0 && settings.gamma <= 1, "gamma must lie above 0 and not above 1, got {}",
                  settings.gamma);
-  bool kept = false, sags = false;
+  bool kept = false, catenary = false;
   for (int j = 0; j < line.segments(); ++j) {
-    kept = kept || line.segment(j).keeps_length();
-    sags = sags || line.segment(j).sags;
+    kept = kept || line.segment(j).is_inextensible();
+    catenary = catenary || line.segment(j).catenary;
   }
-  if (settings.scheme == Scheme::energy_momentum && sags)
-    throw hydro::InputError("energy-momentum has no means of segments that sag", {}, "step with \"generalized_alpha\"");
+  if (settings.scheme == Scheme::energy_momentum && catenary)
+    throw hydro::InputError("energy-momentum has no means of catenary segments", {}, "step with \"generalized_alpha\"");
   if (settings.scheme == Scheme::generalised_alpha && settings.rho_infinity == 1 && kept)
-    throw hydro::InputError(
-        "generalised-α with rho_infinity = 1 lets the tensions of segments that keep their length grow", {},
-        "take rho_infinity below 1, or step with \"energy_momentum\"");
+    throw hydro::InputError("generalised-α with rho_infinity = 1 lets the tensions of inextensible segments grow", {},
+                            "take rho_infinity below 1, or step with \"energy_momentum\"");
   if (settings.scheme != Scheme::energy_momentum && line.has_massless_nodes())
     throw hydro::InputError(
         fmt::format("a free node of the line has no mass, so {} finds no accelerations", name_of(settings.scheme)), {},
@@ -112,9 +111,9 @@ void Stepper::go_back() {
   w.before = w.kept.before;
 }
 
-Response Stepper::response(const std::vector<int>& led, double a_by_v) {
+Response Stepper::response(const std::vector<int>& prescribed, double a_by_v) {
   Work& w = *work_;
-  return w.equations.response(w.last.stage, w.last.from, w.last.u, w.last.T, led, a_by_v);
+  return w.equations.response(w.last.stage, w.last.from, w.last.u, w.last.T, prescribed, a_by_v);
 }
 
 std::optional<Stepper::Balance> Stepper::balance(const State& state) {
@@ -125,7 +124,7 @@ std::optional<Stepper::Balance> Stepper::balance(const State& state) {
 }
 
 /// Held nodes where their paths have them.
-void Stepper::Work::lead(State& state) const {
+void Stepper::Work::prescribe(State& state) const {
   for (const Held& h : line.description().held) {
     if (!h.path) {
       state.velocity.col(h.node).setZero();
@@ -140,15 +139,15 @@ void Stepper::Work::lead(State& state) const {
 void Stepper::Work::require_lengths(const State& state) const {
   const double fastest = std::max(1.0, state.velocity.cwiseAbs().maxCoeff());
   for (int j = 0; j < line.segments(); ++j) {
-    if (!line.segment(j).keeps_length()) continue;
+    if (!line.segment(j).is_inextensible()) continue;
     const int i = line.first(j);
     const Vector3d d = state.position.col(i + 1) - state.position.col(i);
     hydro::require(std::abs(d.norm() - line.segment(j).length) <= closed * line.segment(j).length,
-                   "segment {} keeps its length of {} m, but the line starts with its nodes {} m apart", j + 1,
+                   "segment {} is inextensible, {} m long, but the line starts with its nodes {} m apart", j + 1,
                    line.segment(j).length, d.norm());
     const double rate = d.normalized().dot(state.velocity.col(i + 1) - state.velocity.col(i));
     hydro::require(std::abs(rate) <= closed * fastest,
-                   "segment {} keeps its length, but the velocities at the start change it by {} m/s", j + 1, rate);
+                   "segment {} is inextensible, but the velocities at the start change it by {} m/s", j + 1, rate);
   }
 }
 
@@ -165,11 +164,11 @@ void Stepper::start(State& state) {
   const Line& line = w.line;
   hydro::require(state.position.cols() == line.nodes() && state.velocity.cols() == line.nodes(),
                  "a line of {} nodes cannot start with {}", line.nodes(), state.position.cols());
-  w.lead(state);
-  // A line at rest whose end is led off at once takes the nearest velocities that its lengths allow.
-  const bool led = std::any_of(line.description().held.begin(), line.description().held.end(),
-                               [](const Held& h) { return h.path != nullptr; });
-  if (led) w.equations.project_velocity(state, state.velocity);
+  w.prescribe(state);
+  // A line at rest whose end moves off at once takes the nearest velocities that its lengths allow.
+  const bool prescribed = std::any_of(line.description().held.begin(), line.description().held.end(),
+                                      [](const Held& h) { return h.path != nullptr; });
+  if (prescribed) w.equations.project_velocity(state, state.velocity);
   w.require_lengths(state);
   w.require_ties(state);
   if (state.grip.cols() != line.nodes()) state.grip = state.position.topRows<2>();
@@ -249,7 +248,7 @@ bool Stepper::Work::energy_momentum(State& state, double h, StepReport& report) 
   state.velocity = 2 / h * u - old;
   state.tension = T;
   state.time = stage.end;
-  lead(state);
+  prescribe(state);
   a = (state.velocity - old) / h;
   return true;
 }
@@ -277,7 +276,7 @@ bool Stepper::Work::generalised_alpha(State& state, double h, StepReport& report
   state.time = stage.end;
   a = stage.a_from + stage.a_by * u;
   algorithmic = (u - known) / (h * h * beta);
-  lead(state);
+  prescribe(state);
   return equations.project_velocity(state, state.velocity);
 }
 
@@ -299,7 +298,7 @@ bool Stepper::Work::gamma(State& state, double h, StepReport& report) {
   next.position += u;
   next.velocity = stage.v_from + stage.v_by * u;
   next.time = stage.end;
-  lead(next);
+  prescribe(next);
   if (!equations.project_velocity(next, next.velocity) || !settle(next)) return false;
   state = next;
   return true;
@@ -312,13 +311,13 @@ bool Stepper::Work::euler(State& state, double h) {
   const bool place_first = settings.scheme == Scheme::explicit_euler;
   next.velocity += h * a;
   next.position += h * (place_first ? state.velocity : next.velocity);
-  lead(next);
+  prescribe(next);
   if (!equations.project_place(state.position, closed * 1e-3 * line.length(), next.position)) {
     failure = "lengths cannot be kept";
     return false;
   }
   if (!place_first) next.velocity = (next.position - state.position) / h;
-  lead(next);
+  prescribe(next);
   if (!equations.project_velocity(next, next.velocity) || !settle(next)) {
     failure = "its equations are singular or not finite";
     return false;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/joint/travel.hpp"
+#include "dynamics/joint/coordinate.hpp"
 #include "dynamics/spatial/rotation.hpp"
 
 namespace dynamics {
@@ -43,8 +43,8 @@ void close_joints(const Model& model, const std::vector<bool>& placed, State& st
 
 void close_joint_velocities(const Model& model, const std::vector<bool>& given, State& state) {
   if (model.joints().count() == 0) return;
-  const Eigen::VectorXd apart =
-      model.joints().times(model.joints().gradients(state), state.velocity) - model.joints().lead_rates(state.time);
+  const Eigen::VectorXd apart = model.joints().times(model.joints().gradients(state), state.velocity) -
+                                model.joints().prescribed_rates(state.time);
   if (apart.cwiseAbs().maxCoeff() > 0) state.velocity += smallest_closing(model, given, state, apart);
 }
 
@@ -52,23 +52,23 @@ namespace {
 
 constexpr double digits = 1e-6;  // six significant ones of a place, an angle or a speed are not taken for a mistake
 
-/// The farthest that a condition on places lies from the centres of its bodies, m.
-double reach(const ConditionLaw& what) {
-  const auto* point = std::get_if<PointCondition>(&what);
+/// The farthest that a constraint on places lies from the centres of its bodies, m.
+double reach(const ConstraintLaw& what) {
+  const auto* point = std::get_if<PointConstraint>(&what);
   return point ? std::max(point->first_arm.norm(), point->second_arm.norm()) : 0;
 }
 
-bool is_of_angle(const ConditionLaw& what) {
-  if (const auto* led = std::get_if<LeadCondition>(&what)) return led->travel->turns();
-  return std::holds_alternative<AxesCondition>(what);
+bool is_of_angle(const ConstraintLaw& what) {
+  if (const auto* prescribed = std::get_if<PrescribedConstraint>(&what)) return prescribed->coordinate->turns();
+  return std::holds_alternative<AxesConstraint>(what);
 }
 
-/// `off` and what is allowed of it, one a condition.
+/// `off` and what is allowed of it, one for each constraint.
 std::optional<Misfit> worst(const JointSet& joints, const Eigen::VectorXd& off, const Eigen::VectorXd& allowed) {
   if (joints.count() == 0) return std::nullopt;
   Eigen::Index i = 0;
   off.cwiseAbs().cwiseQuotient(allowed).maxCoeff(&i);
-  const Condition& c = joints.conditions()[static_cast<std::size_t>(i)];
+  const Constraint& c = joints.constraints()[static_cast<std::size_t>(i)];
   return Misfit{c.joint, std::abs(off[i]), is_of_angle(c.what), allowed[i]};
 }
 
@@ -78,7 +78,7 @@ std::optional<Misfit> worst_misfit(const Model& model, const State& state) {
   const JointSet& joints = model.joints();
   Eigen::VectorXd allowed(joints.count());
   for (Eigen::Index i = 0; i < joints.count(); ++i)
-    allowed[i] = digits * std::max(1.0, reach(joints.conditions()[static_cast<std::size_t>(i)].what));
+    allowed[i] = digits * std::max(1.0, reach(joints.constraints()[static_cast<std::size_t>(i)].what));
   return worst(joints, joints.values(state), allowed);
 }
 
@@ -86,9 +86,9 @@ std::optional<Misfit> worst_misfit_of_velocities(const Model& model, const State
   constexpr double least = 1e-12;  // per second: bodies that stand still leave no speed to compare with
   const JointSet& joints = model.joints();
   const auto G = joints.gradients(state);
-  const Eigen::VectorXd led = joints.lead_rates(state.time);
-  const Eigen::VectorXd speeds = joints.dense(G).cwiseAbs() * state.velocity.cwiseAbs() + led.cwiseAbs();
-  return worst(joints, joints.times(G, state.velocity) - led, (digits * speeds).cwiseMax(least));
+  const Eigen::VectorXd prescribed = joints.prescribed_rates(state.time);
+  const Eigen::VectorXd speeds = joints.dense(G).cwiseAbs() * state.velocity.cwiseAbs() + prescribed.cwiseAbs();
+  return worst(joints, joints.times(G, state.velocity) - prescribed, (digits * speeds).cwiseMax(least));
 }
 
 }  // namespace dynamics

@@ -20,11 +20,11 @@ class Balance {
   Eigen::VectorXd correction(const State& state) const {
     const Model::Linear linear = model_.linear_at(state);
     const Eigen::VectorXd scale = root_.cwiseInverse();
-    const Eigen::Index n = scale.size(), m = linear.conditions.rows();
+    const Eigen::Index n = scale.size(), m = linear.constraints.rows();
     Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n + m, n + m);
     whole.topLeftCorner(n, n) = scale.asDiagonal() * linear.stiffness * scale.asDiagonal();
-    whole.topRightCorner(n, m) = scale.asDiagonal() * linear.conditions.transpose();
-    whole.bottomLeftCorner(m, n) = linear.conditions * scale.asDiagonal();
+    whole.topRightCorner(n, m) = scale.asDiagonal() * linear.constraints.transpose();
+    whole.bottomLeftCorner(m, n) = linear.constraints * scale.asDiagonal();
     for (int mode = 0; mode < n; ++mode)
       if (!model_.is_free(mode)) {
         whole.row(mode).setZero();

@@ -10,23 +10,23 @@ struct KktSolver::Impl {
   using Sparse = Eigen::SparseMatrix<double>;
 
   Impl(const BlockPattern& pattern, const JointSet& joints) : bodies_alone(pattern) {
-    for (const Condition& c : joints.conditions()) ends.push_back({c.first, c.second});
+    for (const Constraint& c : joints.constraints()) ends.push_back({c.first, c.second});
   }
 
-  struct ConditionBodies {
+  struct ConstraintBodies {
     int first;
     std::optional<int> second;
   };
-  std::vector<ConditionBodies> ends;  // one a condition
+  std::vector<ConstraintBodies> ends;  // one for each constraint
   BlockSolver bodies_alone;
   Eigen::PartialPivLU<Eigen::MatrixXd> dense_lu;
   Eigen::KLU<Sparse> sparse_lu;
 
-  // Calls f(row or column of the bodies, condition, which body's part) for all numbers of G.
+  // Calls f(row or column of the bodies, constraint, which body's part) for all numbers of G.
   template <class Use>
   void for_each(const std::vector<Gradient>& G, Use use) const {
     for (std::size_t i = 0; i < G.size(); ++i) {
-      const ConditionBodies& c = ends[i];
+      const ConstraintBodies& c = ends[i];
       for (int k = 0; k < 6; ++k) use(6 * c.first + k, static_cast<Eigen::Index>(i), G[i].first[k]);
       if (!c.second) continue;
       for (int k = 0; k < 6; ++k) use(6 * *c.second + k, static_cast<Eigen::Index>(i), G[i].second[k]);

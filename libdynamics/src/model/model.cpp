@@ -59,13 +59,13 @@ void Model::leave_out_redundant(const Eigen::VectorXd& scale) {
   const std::vector<bool> keep = independent(joints_, rest_state(bodies_), scale);
   std::vector<int> lost(joints_.joints().size(), 0), of(joints_.joints().size(), 0);
   for (std::size_t i = 0; i < keep.size(); ++i) {
-    const auto joint = static_cast<std::size_t>(joints_.conditions()[i].joint);
+    const auto joint = static_cast<std::size_t>(joints_.constraints()[i].joint);
     ++of[joint];
     if (!keep[i]) ++lost[joint];
   }
   for (std::size_t j = 0; j < lost.size(); ++j)
     if (lost[j] > 0)
-      redundant_.push_back(fmt::format("joint \"{}\" ({}): {} of its {} conditions are held already and left out",
+      redundant_.push_back(fmt::format("joint \"{}\" ({}): {} of its {} constraints are held already and left out",
                                        joints_.joints()[j].name, name_of(joints_.joints()[j].kind), lost[j], of[j]));
   joints_.reduce(keep);
 }
@@ -200,14 +200,14 @@ void Model::balance(const State& still, Linear& out) const {
     if (kind->linear_at_rest()) kind->add_load({still, nullptr}, sink);
   for (int m = 0; m < modes(); ++m)
     if (!is_free(m)) out.unbalanced[m] = 0;
-  out.conditions.resize(0, modes());
+  out.constraints.resize(0, modes());
   out.multipliers.resize(joints_.count());
   if (joints_.count() == 0) return;
-  out.conditions = joints_.dense(joints_.gradients(still));
+  out.constraints = joints_.dense(joints_.gradients(still));
   const Eigen::VectorXd root = dry_mass_at_rest().diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = root.asDiagonal() * out.conditions.transpose();
+  const Eigen::MatrixXd scaled = root.asDiagonal() * out.constraints.transpose();
   out.multipliers = hydro::dense::PivotedQr(scaled).solve(root.cwiseProduct(out.unbalanced));
-  out.unbalanced -= out.conditions.transpose() * out.multipliers;
+  out.unbalanced -= out.constraints.transpose() * out.multipliers;
 }
 
 Workspace::Workspace(const Model& model, State start)

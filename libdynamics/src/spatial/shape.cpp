@@ -37,27 +37,27 @@ double reach_of(const Rod& s) { return std::max(s.from.norm(), s.to.norm()) + s.
 double reach_of(const HalfSpace&) { return endless; }
 double reach_of(const Box& s) { return s.centre.norm() + s.half.norm(); }
 
-Meeting reversed(Meeting m) {
+ClosestPoints reversed(ClosestPoints m) {
   std::swap(m.on_first, m.on_second);
   m.normal = -m.normal;
   return m;
 }
 
 /// Of two balls whose centres may coincide: then any way is as long.
-Meeting between(const Vector3d& a, double radius_a, const Vector3d& b, double radius_b) {
+ClosestPoints between(const Vector3d& a, double radius_a, const Vector3d& b, double radius_b) {
   const Vector3d way = b - a;
   const double length = way.norm();
   const Vector3d n = length > 0 ? Vector3d(way / length) : Vector3d::UnitZ();
   return {length - radius_a - radius_b, n, a + radius_a * n, b - radius_b * n};
 }
 
-Meeting between(const HalfSpace& plane, const Ball& ball) {
+ClosestPoints between(const HalfSpace& plane, const Ball& ball) {
   const double height = plane.outward.dot(ball.centre - plane.point);
   return {height - ball.radius, plane.outward, ball.centre - height * plane.outward,
           ball.centre - ball.radius * plane.outward};
 }
 
-Meeting between(const Box& box, const Ball& ball) {
+ClosestPoints between(const Box& box, const Ball& ball) {
   const Vector3d local = box.axes.transpose() * (ball.centre - box.centre);
   const Vector3d nearest = local.cwiseMax(-box.half).cwiseMin(box.half);
   if (nearest != local) return between(box.centre + box.axes * nearest, 0, ball.centre, ball.radius);
@@ -86,7 +86,7 @@ std::pair<double, double> closest(const Rod& a, const Rod& b) {
   return {s, t};
 }
 
-Meeting between(const Rod& a, const Rod& b) {
+ClosestPoints between(const Rod& a, const Rod& b) {
   const auto [s, t] = closest(a, b);
   return between(a.from + s * (a.to - a.from), a.radius, b.from + t * (b.to - b.from), b.radius);
 }
@@ -105,7 +105,7 @@ double reach(const Shape& shape) {
   return std::visit([](const auto& s) { return reach_of(s); }, shape);
 }
 
-Meeting meet(const Shape& first, const Shape& second) {
+ClosestPoints closest_points(const Shape& first, const Shape& second) {
   const auto as_rod = [](const Shape& s) -> std::optional<Rod> {
     if (const auto* rod = std::get_if<Rod>(&s)) return *rod;
     if (const auto* ball = std::get_if<Ball>(&s)) return Rod{ball->centre, ball->centre, ball->radius};
@@ -117,8 +117,8 @@ Meeting meet(const Shape& first, const Shape& second) {
     if (const auto* plane = std::get_if<HalfSpace>(&first)) return between(*plane, *ball);
     return between(std::get<Box>(first), *ball);
   }
-  hydro::require(std::holds_alternative<Ball>(first), "planes and boxes meet balls only");
-  return reversed(meet(second, first));
+  hydro::require(std::holds_alternative<Ball>(first), "planes and boxes are in contact with balls only");
+  return reversed(closest_points(second, first));
 }
 
 }  // namespace dynamics

@@ -8,13 +8,14 @@
 namespace dynamics {
 
 namespace {
-constexpr double back_at = 10, lost_at = 1000;  // times the distance at which the companion begins
+constexpr double back_at = 10, lost_at = 1000;  // times the distance at which the perturbed trajectory begins
 }
 
-bool Exponent::has_lasted() const { return kinship <= 2 / std::sqrt(static_cast<double>(blocks)); }
+bool Exponent::has_lasted() const { return block_correlation <= 2 / std::sqrt(static_cast<double>(blocks)); }
 
 Growth::Growth(double t_s, double distance) : begins_(distance), time_{t_s}, logarithm_{0} {
-  hydro::require(std::isfinite(distance) && distance > 0, "a companion needs a distance above 0, got {}", distance);
+  hydro::require(std::isfinite(distance) && distance > 0, "a perturbed trajectory needs a distance above 0, got {}",
+                 distance);
 }
 
 double Growth::note(double t_s, double distance) {
@@ -55,7 +56,7 @@ std::optional<Exponent> Growth::exponent(double from_s, int blocks) const {
                .from = from_s,
                .to = to,
                .blocks = blocks,
-               .kinship = 0,
+               .block_correlation = 0,
                .regular = std::log(to / from_s) / (to - from_s)};
   double squares = 0, products = 0;
   for (std::size_t k = 0; k < local.size(); ++k) {
@@ -63,7 +64,7 @@ std::optional<Exponent> Growth::exponent(double from_s, int blocks) const {
     if (k > 0) products += (local[k] - out.value) * (local[k - 1] - out.value);
   }
   out.error = std::sqrt(squares / (blocks - 1.0) / blocks);
-  if (squares > 0) out.kinship = products / squares;
+  if (squares > 0) out.block_correlation = products / squares;
   return out;
 }
 

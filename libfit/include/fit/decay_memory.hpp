@@ -19,8 +19,8 @@ namespace fit {
 
 struct DecayMemoryOptions {
   DampingTerms terms = {.linear = false};  ///< beside the memory; coulomb is refused
-  /// The record begins where the body was let go from rest in calm water: nothing to remember yet. Else what the water
-  /// remembers at the first sample is fitted as well.
+  /// The record begins where the body was let go from rest in calm water: an empty radiation memory. Else what that
+  /// memory holds at the first sample is fitted as well.
   bool starts_empty = false;
   bool fit_offset = true;  ///< the rest position
   double confidence = 0.95;
@@ -29,7 +29,7 @@ struct DecayMemoryOptions {
 
 struct DecayMemoryFit {
   ShootingProblem problem;  ///< as it was solved
-  ShootingFit motion;       ///< parameters as MotionLaw::remembering has them
+  ShootingFit motion;       ///< parameters as MotionLaw::with_radiation_memory has them
   /// "memory_strength" κ (1/s²), "memory_decay" α (1/s), "memory_frequency" ω_p (rad/s); without values where the
   /// record does not tell them.
   std::vector<Coefficient> memory;

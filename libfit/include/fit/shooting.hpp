@@ -22,17 +22,17 @@ struct Window {
 };
 
 enum class MotionLaw {
-  oscillator,       ///< ẍ + b₁ẋ + b₂|ẋ|ẋ + b₃ẋ³ + c sgn ẋ + ω₀²(x − x₀) = 0
-  pendulum,         ///< the same with ω₀² sin(x − x₀)
-  fall,             ///< ḧ = −g − k|ḣ|ḣ: a ball in still air
-  double_pendulum,  ///< two hinged links, angles from the upright, friction in both hinges
-  remembering,  ///< ẍ + b₁ẋ + b₂|ẋ|ẋ + b₃ẋ³ + ∫k(t − τ)ẋ(τ)dτ + ω₀²(x − x₀) = 0, k of one pair of poles (F59)
+  oscillator,             ///< ẍ + b₁ẋ + b₂|ẋ|ẋ + b₃ẋ³ + c sgn ẋ + ω₀²(x − x₀) = 0
+  pendulum,               ///< the same with ω₀² sin(x − x₀)
+  fall,                   ///< ḧ = −g − k|ḣ|ḣ: a ball in still air
+  double_pendulum,        ///< two hinged links, angles from the upright, friction in both hinges
+  with_radiation_memory,  ///< ẍ + b₁ẋ + b₂|ẋ|ẋ + b₃ẋ³ + ∫k(t − τ)ẋ(τ)dτ + ω₀²(x − x₀) = 0, k of one pair of poles (F59)
 };
 /// Names of the parameters of a law, in the order of `ShootingProblem::start`: oscillator and pendulum "omega0",
 /// "linear", "quadratic", "cubic", "coulomb", "offset"; fall "drag", "gravity"; double pendulum "coupling", "inertia",
-/// "gravity1", "gravity2", "friction1", "friction2", all over the first inertia M₁₁ (F38); remembering "omega0",
-/// "linear", "quadratic", "cubic", "offset", "memory_strength" κ (1/s²), "memory_decay" α (1/s), "memory_frequency" ω_p
-/// (rad/s).
+/// "gravity1", "gravity2", "friction1", "friction2", all over the first inertia M₁₁ (F38); with_radiation_memory
+/// "omega0", "linear", "quadratic", "cubic", "offset", "memory_strength" κ (1/s²), "memory_decay" α (1/s),
+/// "memory_frequency" ω_p (rad/s).
 std::vector<std::string> parameters_of(MotionLaw law);
 /// Which states are measured, in the order of the channels: "x", "h", or "theta1" and "theta2".
 std::vector<std::string> channels_of(MotionLaw law);

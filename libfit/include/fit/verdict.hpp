@@ -38,7 +38,7 @@ struct StatedResiduals {
 /// leaves more by chance, and a deviation stated with one digit, 2 mm, stands for up to 2.5 mm.
 double allowed_ratio(double squares);
 /// Residuals are in the order of time; the fit took the share `taken` of their squares, unknowns over samples. Squares
-/// of residuals that remember each other are counted as (F4) counts them. \throws hydro::InputError for fewer than 8
+/// of residuals that are correlated are counted as (F4) counts them. \throws hydro::InputError for fewer than 8
 /// samples
 StatedResiduals against_stated(const Eigen::VectorXd& residuals, double stated, double taken);
 

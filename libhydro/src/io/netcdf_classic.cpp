@@ -9,7 +9,7 @@
 namespace hydro::io {
 namespace {
 
-/// Reads the big-endian header of a classic file and remembers only what the size depends on.
+/// Reads the big-endian header of a classic file and keeps only what the size depends on.
 class ClassicHeader {
  public:
   explicit ClassicHeader(const std::filesystem::path& path) : path_(path), in_(path, std::ios::binary) {

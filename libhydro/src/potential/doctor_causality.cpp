@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 struct Causal {
   const Patient& p;
   radiation::DampingTable given;
-  radiation::ContinuedDamping fitted;
+  radiation::ExtrapolatedDamping fitted;
   std::vector<std::size_t> samples;  // where A and B are compared
 };
 
@@ -27,7 +27,7 @@ constexpr std::size_t fewest_frequencies = 10;
 
 Causal causal(const Patient& p) {
   radiation::DampingTable table{p.c.omega, p.c.B};
-  auto fitted = radiation::continued(table, p.c.A, std::nullopt);
+  auto fitted = radiation::extrapolated(table, p.c.A, std::nullopt);
   std::vector<std::size_t> samples;
   // Forty places tell as much as four hundred; near the end of the table what is beyond it decides.
   const std::size_t stride = std::max<std::size_t>(1, p.c.omega.size() / 40);

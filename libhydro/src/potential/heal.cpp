@@ -131,7 +131,7 @@ HealStep extend(Coefficients& c) {
           c.omega.size());
   const std::size_t given = c.omega.size();
   const bool had_limit = c.A_inf.has_value();
-  const auto found = radiation::continued({c.omega, c.B}, c.A, c.A_inf);
+  const auto found = radiation::extrapolated({c.omega, c.B}, c.A, c.A_inf);
   if (!had_limit) c.A_inf = found.A_inf;
   // At the end of the table the kink of B spoils A from B; what it misses there is let go as A − A(∞) does, as ω⁻².
   const double last = c.omega.back();

@@ -63,7 +63,7 @@ Coefficients about(Coefficients c, std::span<const Eigen::Vector3d> from, std::s
   return c;
 }
 
-Coefficients carried(Coefficients c, const Eigen::Vector2d& shift) {
+Coefficients translated(Coefficients c, const Eigen::Vector2d& shift) {
   for (std::size_t h = 0; h < c.heading.size(); ++h)
     for (std::size_t w = 0; w < c.omega.size(); ++w)
       c.X[h].col(static_cast<Eigen::Index>(w)) *= way(c.water, c.omega[w], c.heading[h], shift.x(), shift.y());
@@ -143,7 +143,7 @@ Eigen::VectorXcd FrequencyTable::excitation(double omega, double heading) const 
 
 /// `gap(i, value)` is a matrix of differences near frequency i, for i = 0 … Nω − 1, or an empty one.
 template <class Gap>
-FrequencyTable::Openness FrequencyTable::largest(Gap gap) const {
+FrequencyTable::InterpolationError FrequencyTable::largest(Gap gap) const {
   const auto worst = [&](auto value) {
     double largest_gap = 0;
     Eigen::VectorXd size = value(0).cwiseAbs().rowwise().maxCoeff();
@@ -156,7 +156,7 @@ FrequencyTable::Openness FrequencyTable::largest(Gap gap) const {
     }
     return largest_gap;
   };
-  Openness out{};
+  InterpolationError out{};
   out.added_mass = worst([&](std::size_t i) -> const Eigen::MatrixXd& { return c_.A[i]; });
   out.damping = worst([&](std::size_t i) -> const Eigen::MatrixXd& { return c_.B[i]; });
   for (const auto& X : X_)
@@ -165,7 +165,7 @@ FrequencyTable::Openness FrequencyTable::largest(Gap gap) const {
   return out;
 }
 
-FrequencyTable::Openness FrequencyTable::openness() const {
+FrequencyTable::InterpolationError FrequencyTable::interpolation_error() const {
   return largest([&](std::size_t i, auto value) -> Eigen::MatrixXd {
     if (i + 1 >= c_.omega.size()) return {};
     const double middle = (c_.omega[i] + c_.omega[i + 1]) / 2;
@@ -175,7 +175,7 @@ FrequencyTable::Openness FrequencyTable::openness() const {
   });
 }
 
-FrequencyTable::Openness FrequencyTable::error_with_twice_the_spacing() const {
+FrequencyTable::InterpolationError FrequencyTable::error_with_twice_the_spacing() const {
   return largest([&](std::size_t i, auto value) -> Eigen::MatrixXd {
     if (i == 0 || i + 1 >= c_.omega.size()) return {};
     // Two neighbours on either side, as far as there are any, make the cubic where `i` is missing.

@@ -1,5 +1,5 @@
 #pragma once
-/// \file  Private: text files of numbers, read line by line, that remember where everything stands.
+/// \file  Private: text files of numbers, read line by line, that know where everything stands.
 #include <filesystem>
 #include <optional>
 #include <string>

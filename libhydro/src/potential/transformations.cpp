@@ -158,7 +158,7 @@ Coefficients repeated(const Coefficients& one, std::span<const Eigen::Vector2d> 
   for (auto& X : out.X) X = Eigen::MatrixXcd(6 * n, X.cols());
   out.body.clear();
   for (int b = 0; b < n; ++b) {
-    const Coefficients there = carried(one, place[static_cast<std::size_t>(b)]);  // (P31)
+    const Coefficients there = translated(one, place[static_cast<std::size_t>(b)]);  // (P31)
     for (std::size_t h = 0; h < out.X.size(); ++h) out.X[h].middleRows<6>(6 * b) = there.X[h];
     out.body.push_back(there.body.front());
     out.body.back().name += fmt::format("{}", b + 1);
@@ -192,7 +192,7 @@ void require_on_plane(const Coefficients& c, MirrorPlane plane) {
       if (*point && std::abs((**point)(axis)) > off)
         throw InputError(fmt::format("{}: a point of body \"{}\" is at {} = {:.6g} m, off the plane of symmetry",
                                      c.source, body.name, axis == 0 ? 'x' : 'y', (**point)(axis)),
-                         {}, "carry the bodies onto the plane first, or state the reference points");
+                         {}, "translate the bodies onto the plane first, or state the reference points");
 }
 
 void require_symmetric(const Coefficients& c, const Eigen::MatrixXd& S, double tolerance) {

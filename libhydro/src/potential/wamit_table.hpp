@@ -1,5 +1,5 @@
 #pragma once
-/// \file  Private: a WAMIT numeric file as rows of numbers that remember where they stand.
+/// \file  Private: a WAMIT numeric file as rows of numbers that know where they stand.
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -65,7 +65,7 @@ double direct_cost(double modes, double lags) {
 }
 
 struct Weighed {
-  std::optional<ContinuedDamping> whole;
+  std::optional<ExtrapolatedDamping> whole;
   std::optional<RetardationKernel> kernel;
   std::optional<RationalFit> fit;
 };
@@ -73,7 +73,7 @@ struct Weighed {
 void weigh_convolutions(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A,
                         const std::optional<Eigen::MatrixXd>& A_inf, const MemoryDemand& demand, Weighed& w,
                         ChosenMemory& out) {
-  w.whole = continued(damping, A, A_inf);
+  w.whole = extrapolated(damping, A, A_inf);
   const MemorySurvey survey(w.whole->table);
   const double length =
       demand.length ? *demand.length : survey.length(demand.tolerance / 2);  // half is left for the tail

@@ -9,7 +9,7 @@ class NoState final : public MemoryState {
  public:
   explicit NoState(int modes) : nothing_(Eigen::VectorXd::Zero(modes)) {}
   void accept(const Eigen::VectorXd&) override {}
-  Eigen::VectorXd decided(double) const override { return nothing_; }
+  Eigen::VectorXd history_force(double) const override { return nothing_; }
 
  private:
   Eigen::VectorXd nothing_;

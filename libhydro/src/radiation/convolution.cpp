@@ -94,7 +94,9 @@ class DirectState final : public MemoryState {
     history_.push(0.5 * velocity);  // the trapezium rule gives the first velocity half its weight
   }
   void accept(const Eigen::VectorXd& velocity) override { history_.push(velocity); }
-  Eigen::VectorXd decided(double fraction) const override { return convolution_.decided(history_, fraction); }
+  Eigen::VectorXd history_force(double fraction) const override {
+    return convolution_.history_force(history_, fraction);
+  }
 
  private:
   const DirectConvolution& convolution_;
@@ -118,7 +120,7 @@ std::unique_ptr<MemoryState> DirectConvolution::start(const Eigen::VectorXd& vel
   return std::make_unique<DirectState>(*this, velocity);
 }
 
-Eigen::VectorXd DirectConvolution::decided(const VelocityHistory& history, double fraction) const {
+Eigen::VectorXd DirectConvolution::history_force(const VelocityHistory& history, double fraction) const {
   ensure(fraction > 0 && fraction <= 1, "DirectConvolution: fraction outside (0, 1]");
   Eigen::VectorXd late = Eigen::VectorXd::Zero(modes());
   sum_.add(history, 0, late);

@@ -111,11 +111,11 @@ class PartitionedState final : public MemoryState {
     ++count_;
     take(velocity);
   }
-  Eigen::VectorXd decided(double fraction) const override {
+  Eigen::VectorXd history_force(double fraction) const override {
     Eigen::VectorXd late = due_.row(at(0)).transpose();
     parts_.near.add(history_, 0, late);
     if (fraction == 1) return parts_.step * late;
-    const Eigen::VectorXd newest = history_.newest();  // the rest as DirectConvolution::decided
+    const Eigen::VectorXd newest = history_.newest();  // the rest as DirectConvolution::history_force
     Eigen::VectorXd early = before_ + parts_.K0 * newest;
     parts_.near.add(history_, 1, early);
     const Eigen::MatrixXd K_newest = fraction * parts_.K1 + (1 - fraction) * parts_.K0;

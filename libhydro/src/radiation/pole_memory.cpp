@@ -46,8 +46,8 @@ class PoleState final : public MemoryState {
     velocity_ = velocity;
     look_ahead();
   }
-  Eigen::VectorXd decided(double fraction) const override {
-    if (fraction == 1) return decided_;
+  Eigen::VectorXd history_force(double fraction) const override {
+    if (fraction == 1) return history_force_;
     return memory_.load(moved(memory_.carried_over(fraction * memory_.step())));
   }
 
@@ -73,12 +73,12 @@ class PoleState final : public MemoryState {
   }
   void look_ahead() {
     ahead_ = moved(memory_.carried_over_a_step());
-    decided_ = memory_.load(ahead_);
+    history_force_ = memory_.load(ahead_);
   }
 
   const PoleMemory& memory_;
   Eigen::MatrixXd z_, ahead_;
-  Eigen::VectorXd velocity_, decided_;
+  Eigen::VectorXd velocity_, history_force_;
 };
 
 /// out = matrix · x, columns one after the other, `rows` a multiple of eight: two registers of sums are carried through

@@ -41,7 +41,7 @@ Eigen::MatrixXcd PoleModel::transform(double omega) const {
 
 namespace {
 
-/// The data of a fit: modes that make waves, scaled to a largest damping of one, and the continued damping beyond.
+/// The data of a fit: modes that make waves, scaled to a largest damping of one, and the extrapolated damping beyond.
 struct Data {
   std::vector<int> modes;  // of the caller that make waves
   Eigen::VectorXd scale;   // of those, √max B_ii
@@ -64,7 +64,7 @@ std::vector<double> tail_frequencies(double last) {
 
 Data prepared(const DampingTable& given, const std::vector<Eigen::MatrixXd>& A,
               const std::optional<Eigen::MatrixXd>& A_inf) {
-  const ContinuedDamping whole = continued(given, A, A_inf);
+  const ExtrapolatedDamping whole = extrapolated(given, A, A_inf);
   Data d;
   d.A_inf = whole.A_inf;
   Eigen::VectorXd largest = Eigen::VectorXd::Zero(given.B.front().rows());

@@ -156,8 +156,8 @@ Eigen::MatrixXd damping_from_added_mass(const std::vector<double>& given, const 
   return -omega * omega * (added_mass_above_limit(above, omega) + two_over_pi * log * (A.front() - A_inf));
 }
 
-ContinuedDamping continued(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A,
-                           const std::optional<Eigen::MatrixXd>& A_inf) {
+ExtrapolatedDamping extrapolated(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A,
+                                 const std::optional<Eigen::MatrixXd>& A_inf) {
   require(A.size() == damping.omega.size() && damping.omega.size() >= 3,
           "a tail needs added mass and damping at three frequencies at least, got {} and {}", A.size(),
           damping.omega.size());
@@ -167,7 +167,7 @@ ContinuedDamping continued(const DampingTable& damping, const std::vector<Eigen:
   prefer_straightness(p, damping.B.back().reshaped().transpose());
   Eigen::MatrixXd found = dense::PivotedQr(p.design).solve(p.right);
 
-  ContinuedDamping out;
+  ExtrapolatedDamping out;
   out.table = damping;
   out.A_inf = A_inf ? *A_inf : Eigen::MatrixXd(found.row(free_corners).reshaped(n, n));
   const Eigen::VectorXd size =

@@ -110,7 +110,7 @@ TEST(Angles, OfAHingeAreCountedWhereAStepIsMoreThanHalfATurn) {
 
 TEST(Angles, OfALedHingeAreWhereItIsLed) {
   const auto record =
-      simulate(parse(water + wheel("") + hub("lead = { amplitude = \"5 rad\", period = \"4 s\" }") + ask("4 s")));
+      simulate(parse(water + wheel("") + hub("prescribed = { amplitude = \"5 rad\", period = \"4 s\" }") + ask("4 s")));
   for (std::size_t i = 0; i < record.time.size(); ++i)
     ASSERT_NEAR(record.signal("hub.angle")[i], 5 * std::sin(std::numbers::pi / 2 * record.time[i]), 1e-9);
 }

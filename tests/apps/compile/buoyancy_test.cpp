@@ -64,7 +64,7 @@ TEST(BuoyancyInAScene, IsLinearlyTheRestoringMatrixOfThePontoons) {
 
 TEST(BuoyancyInAScene, ActsOnItsBodyBesideOneWithLinearHydrostatics) {
   const auto prepared = compile::prepare(parse(water + linear_module + module_on_pontoons() + ask));
-  EXPECT_EQ(prepared.heavy, std::vector<int>{1});
+  EXPECT_EQ(prepared.with_gravity, std::vector<int>{1});
   ASSERT_EQ(prepared.hydrostatics.size(), 1u);
   EXPECT_EQ(prepared.hydrostatics[0].body, 0);
   const auto model = compile::frequency_model(prepared);

@@ -91,7 +91,7 @@ TEST(CylindersInAScene, AreSolvedTogetherWhereTheyStandAboutTheirCentresOfGravit
   EXPECT_LT((*ours.C - *expected.C).cwiseAbs().maxCoeff(), 1e-4 * expected.C->maxCoeff());
 }
 
-// A wide one between four slender ones: each sort has its own draught.
+// A wide one between four slender ones: each type has its own draught.
 TEST(CylindersInAScene, MayBeOfSeveralSizesInOneBody) {
   std::string text = scene_text(R"(at = "(±3, ±3, -0.5) m"
 diameter = "0.8 m"

@@ -97,8 +97,8 @@ TEST(Lines, FollowAPathAtTheirEnd) {
   const auto folder = std::filesystem::temp_directory_path() / "froude_lines_test";
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "path.csv") << "time [s],x [m],y [m],z [m]\n0,2,0,0\n1,2.2,0,0.1\n2,2,0,0.2\n";
-  const auto scene =
-      scene::parse(water + loop + "[line.lead]\nend = \"to\"\nfile = \"path.csv\"\n" + ask, folder / "scene.toml");
+  const auto scene = scene::parse(water + loop + "[line.prescribed]\nend = \"to\"\nfile = \"path.csv\"\n" + ask,
+                                  folder / "scene.toml");
   const auto record = simulate(scene);
   EXPECT_EQ(record.stopped, "");
   EXPECT_NEAR(record.signal("d.node5.x").at(100), 2.2, 1e-12);
@@ -139,7 +139,8 @@ TEST(Lines, SayWhatCannotBe) {
 TEST(Lines, SagWhereTheSceneSaysSo) {
   const std::string chain =
       "[[line]]\nname = \"c\"\nfrom = \"(30, 0, -14) m\"\nto = \"(0, 0, 0) m\"\nlength = \"36 m\"\nsegments = 6\n"
-      "mass_per_length = \"10 kg/m\"\ndiameter = \"30 mm\"\naxial_stiffness = \"1 MN\"\nsags = true\nbuoyancy = true\n"
+      "mass_per_length = \"10 kg/m\"\ndiameter = \"30 mm\"\naxial_stiffness = \"1 MN\"\ncatenary_segments = "
+      "true\nbuoyancy = true\n"
       "[line.bed]\nstiffness = \"3 MPa/m\"\n";
   const std::string alike = "[solve.integrator]\nlines = \"generalized_alpha\"\n";
   const auto record = simulate(parse(water + chain + ask + alike));
@@ -148,7 +149,7 @@ TEST(Lines, SagWhereTheSceneSaysSo) {
   // Six segments; the parabola of (D88) on slopes of up to 60 degrees.
   EXPECT_NEAR(record.signal("c.to.force").back() / exact.fairlead(), 1, 2e-3);
   EXPECT_THAT([&] { simulate(parse(water + chain + ask)); },
-              ThrowsMessage<hydro::InputError>(HasSubstr("segments that sag")));
+              ThrowsMessage<hydro::InputError>(HasSubstr("catenary segments")));
 }
 
 // w L⁴/8EI of a beam clamped level, a little more than a hundredth of its length; and w L²/2 at the clamp.
@@ -169,7 +170,8 @@ TEST(Lines, BendAsBeamsWhereTheyAreClamped) {
     EXPECT_THAT([&] { simulate(parse(water + beam(more) + ask)); }, ThrowsMessage<hydro::InputError>(HasSubstr(what)));
   };
   refuses("clamp = { to = \"x\" }\n", "clamps a free end");
-  refuses("diameter = \"50 mm\"\naxial_stiffness = \"1 MN\"\nsags = true\nbuoyancy = true\n", "no straight axis");
+  refuses("diameter = \"50 mm\"\naxial_stiffness = \"1 MN\"\ncatenary_segments = true\nbuoyancy = true\n",
+          "no straight axis");
 }
 
 // A rod that is damped beyond swinging: the slower root of s² + (3b/m) s + 3g/2ℓ = 0.
@@ -259,7 +261,7 @@ std::string between(const std::string& chains, const std::string& more = "") {
   return water + "[[body]]\nname = \"b\"\nmass = \"2000 t\"\nfree = [\"surge\"]\ninitial.surge = \"0.3 m\"\n" + more +
          chains + "[ask]\nrun = { duration = \"30 s\", every = \"0.1 s\" }\n";
 }
-std::string chain_of_nodes(const std::string& name, int side, const std::string& more = "sags = true\n") {
+std::string chain_of_nodes(const std::string& name, int side, const std::string& more = "catenary_segments = true\n") {
   return fmt::format(
       "[[line]]\nname = \"{}\"\nfrom = \"({}, 0, 0) m\"\nto = \"({}, 0, -14) m\"\non = {{ from = \"b\" }}\n"
       "length = \"40 m\"\nsegments = 20\nmass_per_length = \"8 kg/m\"\ndiameter = \"36 mm\"\nbuoyancy = true\n"
@@ -287,7 +289,7 @@ TEST(Lines, CountTheirSnaps) {
   const std::string rope =
       "[[line]]\nname = \"r\"\nfrom = \"(0, 0, 0) m\"\nto = \"(0, 0, 0) m\"\non = { to = \"w\" }\nlength = \"2 "
       "m\"\nsegments = 1\n"
-      "mass_per_length = \"10 g/m\"\naxial_stiffness = \"20 kN\"\npulls_only = true\n"
+      "mass_per_length = \"10 g/m\"\naxial_stiffness = \"20 kN\"\ntension_only = true\n"
       "snaps = { slack_below = \"1 N\", snap_above = \"500 N\" }\n";
   const auto record = simulate(
       parse(water +
@@ -314,7 +316,7 @@ TEST(Lines, ExampleOnAModuleFloatsAndItsEnergyAddsUp) {
         ->second;
   };
   EXPECT_LT(std::abs(found("residual")), 2e-2 * found("turnover"));
-  // It begins where the pull is that of the catenary; 12 segments that sag have it to some 0.1 %.
+  // It begins where the pull is that of the catenary; 12 catenary segments have it to some 0.1 %.
   const double weight = (8 - 1000 * std::numbers::pi / 4 * 0.036 * 0.036) * 9.81;
   const auto at = dynamics::catenary({48, weight, 30e6, true}, 44.8, 12.9 + record.signal("module.heave").front());
   EXPECT_NEAR(record.signal("fore.from.force").front() / at.fairlead(), 1, 5e-3);
@@ -331,7 +333,7 @@ TEST(Lines, OnBodiesSayWhatCannotBe) {
   std::string other = one, rigid = one;
   other.replace(other.find("from = \"b\""), 10, "from = \"c\"");
   refuses(between(other), "\"c\"");
-  rigid.replace(rigid.find("axial_stiffness = \"30 MN\"\nsags = true\n"), 38, "");
+  rigid.replace(rigid.find("axial_stiffness = \"30 MN\"\ncatenary_segments = true\n"), 51, "");
   refuses(between(rigid), "axial_stiffness");
   refuses(between(one) + "[solve.integrator]\nname = \"energy_momentum\"\n", "cannot step a body together with line");
   refuses(between(one) + "[solve.integrator]\nlines = \"generalized_alpha\"\n", "acts on no line");

@@ -79,7 +79,7 @@ TEST(Networks, MayBeOneLineWithAFloat) {
   const auto record =
       simulate(parse(water + buoy + line("rope", "from = \"(0, 0, -14) m\"\non = { to = \"buoy\" }", 13.5, 9) + ask));
   EXPECT_EQ(record.stopped, "");
-  EXPECT_NEAR(record.signal("buoy.z").back(), -0.5, 1e-9);  // the rope keeps its length, and is straight
+  EXPECT_NEAR(record.signal("buoy.z").back(), -0.5, 1e-9);  // the rope is inextensible, and is straight
   // What of the sphere is 0.1 m above the water's surface is out: all is under, and lifts.
   const double V = M_PI / 6 * 0.512;
   EXPECT_NEAR(record.signal("rope.from.force").back(), 9.81 * (1000 * V - 50 - 27), 1e-6);
@@ -152,7 +152,7 @@ TEST(Networks, SayWhatCannotBe) {
   refuses(body.empty()
               ? ""
               : bridle() + body + line("c", "from = \"(0, 0, 0) m\"\non = { from = \"b\", to = \"knot\" }", 2, 2) + ask,
-          "keeps its length, and meets lines that are on a body");
+          "is inextensible, and meets lines that are on a body");
 }
 
 }  // namespace

@@ -37,9 +37,9 @@ double largest(const std::vector<double>& values) {
 TEST(Springs, ExampleOfAPowerTakeOffKeepsToItsLimitAndItsEnergyAddsUp) {
   const auto record = simulate(scene::read(examples / "takeoff.toml"));
   EXPECT_EQ(record.stopped, "");
-  const double travel = largest(record.signal("rack.travel"));
-  EXPECT_GT(travel, 0.2);
-  EXPECT_LT(travel, 0.7);  // the stops yield some centimetres
+  const double stroke = largest(record.signal("rack.stroke"));
+  EXPECT_GT(stroke, 0.2);
+  EXPECT_LT(stroke, 0.7);  // the stops yield some centimetres
   EXPECT_GT(energy(record, "pto.dissipated"), 0);
   EXPECT_LT(std::abs(energy(record, "residual")), 0.01 * energy(record, "turnover"));
 }
@@ -63,7 +63,7 @@ TEST(Springs, ExampleOfAForcedOscillationGivesTheImpedanceBack) {
   EXPECT_NEAR(std::abs(x), 0.1, 1e-6);
   // The accuracy asked, 1e-3, of memory and step; relative to restoring and inertia, which work against each other.
   EXPECT_LT(std::abs(F / x - Z), 2e-3 * 79e3) << F / x << " against " << Z;
-  EXPECT_GT(energy(record, "joint.lead.supplied"), 0) << "waves go out";
+  EXPECT_GT(energy(record, "joint.prescribed.supplied"), 0) << "waves go out";
 }
 
 // Waves of 7 s, a float of some 3 s: held at its ends it keeps their time and goes farther than without.
@@ -75,7 +75,7 @@ TEST(Springs, ExampleOfALatchHoldsTheFloatAndTakesNoEnergy) {
   scene.joints[0].pto->latch.reset();
   const auto free = simulate(scene);
   const auto late = [](const Record& r) {
-    const auto& all = r.signal("rack.travel");
+    const auto& all = r.signal("rack.stroke");
     return largest({all.end() - 400, all.end()});
   };
   EXPECT_GT(late(latched), 1.3 * late(free)) << late(latched) << " m, free " << late(free) << " m";

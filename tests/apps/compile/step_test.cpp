@@ -225,15 +225,15 @@ TEST(StepOfARun, StopsWhereEnergyComesFromNowhere) {
   EXPECT_LT(run.time.back(), 30);
 }
 
-TEST(StepOfARun, FollowsWhatLeadsAJoint) {
+TEST(StepOfARun, FollowsThePrescribedMotionOfAJoint) {
   const scene::Scene scene =
       froude_test::parse(spring("[[joint]]\nname = \"rig\"\nkind = \"slider\"\nbetween = [\"ground\", \"m\"]\nat = "
                                 "\"(0, 0, 0) m\"\naxis = \"x\"\n"
-                                "lead = { amplitude = \"0.1 m\", period = \"1 s\" }\n",
+                                "prescribed = { amplitude = \"0.1 m\", period = \"1 s\" }\n",
                                 "0.5 s", ""));
   const auto model = compile::time_model(scene, compile::prepare(scene));
   EXPECT_LT(model.step, 1 / 72.0);  // √(12 · 1e-2)/4/ω
-  EXPECT_THAT(model.plan.front().method, HasSubstr("what leads joint rig"));
+  EXPECT_THAT(model.plan.front().method, HasSubstr("the prescribed motion of joint rig"));
 }
 
 // A buffer in a gap is felt late: its stiffness counts from the start. A mass of 100 kg at 1 m/s runs into 4e5 N/m,

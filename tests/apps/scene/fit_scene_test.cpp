@@ -103,7 +103,7 @@ TEST_F(FitScenes, NeedTheChannelsOfTheirKind) {
               AllOf(StartsWith("fit.toml:4:12: "), HasSubstr("needs \"time\" for a fit of kind \"morison\"")));
   EXPECT_THAT(refused(with(oscillation, ", velocity = \"u\"", "")), HasSubstr("needs velocity or position"));
   EXPECT_THAT(refused(with(oscillation, "velocity", "speed")),
-              AllOf(StartsWith("fit.toml:4:47: "), HasSubstr("has no part in a fit of kind \"morison\"")));
+              AllOf(StartsWith("fit.toml:4:47: "), HasSubstr("does not apply to a fit of kind \"morison\"")));
   EXPECT_THAT(refused(with(oscillation, "velocity = \"u\"", "velocity = \"u\", position = \"x\"")),
               HasSubstr("position = \"x\" does not act beside the velocity"));
   EXPECT_THAT(refused(with(towing, "speed = \"U\", ", "")), HasSubstr("needs \"speed\""));
@@ -164,7 +164,7 @@ uncertainty = { diameter = "0.5 mm", mass = "50 g" })");
               HasSubstr("needs \"longest_delay\""));
   EXPECT_THAT(refused(with(with_steps, "cutoff = \"3.33 Hz\"", "cutoff = \"3.33 Hz\", order = 40")),
               HasSubstr("must lie between 1 and 10"));
-  EXPECT_THAT(refused(with(towing, "[model]", "[prepare]\ndelay = \"1 s\"\n[model]")), HasSubstr("has no part"));
+  EXPECT_THAT(refused(with(towing, "[model]", "[prepare]\ndelay = \"1 s\"\n[model]")), HasSubstr("does not apply"));
 }
 
 TEST_F(FitScenes, OfDecayKnowTheirOwnKeys) {
@@ -183,15 +183,15 @@ profile = true
   EXPECT_EQ(scene.kind(), "decay");
   EXPECT_TRUE(std::get<DecayModel>(scene.model).options.pendulum);
   EXPECT_TRUE(std::get<DecayModel>(scene.model).profile);
-  EXPECT_THAT(refused(with(decay, "angle", "velocity")), HasSubstr("has no part in a fit of kind \"decay\""));
+  EXPECT_THAT(refused(with(decay, "angle", "velocity")), HasSubstr("does not apply to a fit of kind \"decay\""));
   EXPECT_THAT(refused(with(decay, ", angle = \"roll\"", "")), HasSubstr("needs either position or angle"));
   EXPECT_THAT(refused(with(decay, "angle = \"roll\"", "position = \"z\"")),
               AllOf(HasSubstr("restoring = \"sine\" is by the sine of an angle, and the channel position is a length"),
                     HasSubstr(":7:"), HasSubstr("take restoring = \"linear\"")));
   EXPECT_THAT(refused(with(decay, "\"linear\"", "\"cd\"")), HasSubstr("a decay knows linear"));
-  EXPECT_THAT(refused(with(decay, "[ask]", "[prepare]\ndelay = \"1 s\"\n[ask]")), HasSubstr("has no part"));
+  EXPECT_THAT(refused(with(decay, "[ask]", "[prepare]\ndelay = \"1 s\"\n[ask]")), HasSubstr("does not apply"));
   EXPECT_THAT(refused(with(decay, "[ask]", "[prepare]\nderivative_method = \"smoothing spline\"\n[ask]")),
-              HasSubstr("has no part"));
+              HasSubstr("does not apply"));
   EXPECT_THAT(refused(with(decay, "[ask]", "[prepare]\nwindow = { kind = \"full cycles\" }\n[ask]")),
               HasSubstr("must be \"span\""));
   const FitScene cut =
@@ -199,9 +199,10 @@ profile = true
                 "[prepare]\nlongest_gap = \"1 s\"\nwindow = { kind = \"span\", from = \"3 s\", to = \"9 s\" }\n[ask]"));
   EXPECT_EQ(std::get<DecayModel>(cut.model).prepare.window.from, 3);
   EXPECT_EQ(std::get<DecayModel>(cut.model).prepare.longest_gap_s, 1);
-  EXPECT_THAT(refused(with(oscillation, "\"ca\"", "\"cubic\"")), HasSubstr("has no part in a fit of kind \"morison\""));
+  EXPECT_THAT(refused(with(oscillation, "\"ca\"", "\"cubic\"")),
+              HasSubstr("does not apply to a fit of kind \"morison\""));
   EXPECT_THAT(refused(with(decay, "[ask]", "[ask]\ntogether = true")), HasSubstr("needs two files at least"));
-  EXPECT_THAT(refused(with(oscillation, "[ask]", "[ask]\ntogether = true")), HasSubstr("has no part"));
+  EXPECT_THAT(refused(with(oscillation, "[ask]", "[ask]\ntogether = true")), HasSubstr("does not apply"));
 }
 
 TEST_F(FitScenes, OfDecayKnowWhatAMemoryNeeds) {

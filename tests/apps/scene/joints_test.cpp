@@ -77,16 +77,19 @@ TEST(SceneJoints, RefuseABodyThatMayOnlyTurnAboutItsCentre) {
 }  // namespace
 TEST(JointsOfAScene, AreLedByASineOrARecord) {
   const auto with = [](const std::string& keys) { return jointed(hinges + keys + "\n"); };
-  const JointLead lead =
-      parse(with("lead = { amplitude = \"5 deg\", period = \"2 s\" }"), "scene.toml").joints[1].lead.value();
-  EXPECT_DOUBLE_EQ(lead.amplitude, std::numbers::pi / 36);
-  EXPECT_DOUBLE_EQ(lead.omega, std::numbers::pi);
-  EXPECT_EQ(lead.ramp, 0);
-  EXPECT_THAT(refusal(with("lead = { amplitude = \"5 deg\" }")), HasSubstr("period"));
-  EXPECT_THAT(refusal(with("lead = { period = \"5 s\" }")), HasSubstr("amplitude"));
-  EXPECT_THAT(refusal(with("lead = { amplitude = \"5 m\", period = \"2 s\" }")), HasSubstr("angle"));
-  EXPECT_THAT(refusal(with("lead = { amplitude = \"5 deg\", period = \"2 s\" }\nfriction = { dynamic = \"3 N m\" }")),
-              HasSubstr("neither sticks nor slips"));
+  const JointPrescribedMotion motion =
+      parse(with("prescribed = { amplitude = \"5 deg\", period = \"2 s\" }"), "scene.toml")
+          .joints[1]
+          .prescribed.value();
+  EXPECT_DOUBLE_EQ(motion.amplitude, std::numbers::pi / 36);
+  EXPECT_DOUBLE_EQ(motion.omega, std::numbers::pi);
+  EXPECT_EQ(motion.ramp, 0);
+  EXPECT_THAT(refusal(with("prescribed = { amplitude = \"5 deg\" }")), HasSubstr("period"));
+  EXPECT_THAT(refusal(with("prescribed = { period = \"5 s\" }")), HasSubstr("amplitude"));
+  EXPECT_THAT(refusal(with("prescribed = { amplitude = \"5 m\", period = \"2 s\" }")), HasSubstr("angle"));
+  EXPECT_THAT(
+      refusal(with("prescribed = { amplitude = \"5 deg\", period = \"2 s\" }\nfriction = { dynamic = \"3 N m\" }")),
+      HasSubstr("neither sticks nor slips"));
 }
 
 TEST(JointsOfAScene, MayLatch) {
@@ -95,7 +98,7 @@ TEST(JointsOfAScene, MayLatch) {
   EXPECT_EQ(pto.latch, 1.5);
   EXPECT_FALSE(pto.has_force());
   EXPECT_THAT(refusal(with("pto = { latch = { hold = \"1.5 s\" } }\nfriction = { dynamic = \"3 N m\" }")),
-              HasSubstr("two would hold one travel"));
+              HasSubstr("two would hold one coordinate"));
   EXPECT_THAT(refusal(with("pto = { latch = { hold = \"0 s\" } }")), HasSubstr("hold"));
 }
 

@@ -1,5 +1,5 @@
 // What tangents_test.cpp leaves: loads of waves and of weight, blows, cylinders in closed form and lines from tables,
-// and the conditions of joints and contacts. Each is written a second time from its formula and differentiated by
+// and the constraints of joints and contacts. Each is written a second time from its formula and differentiated by
 // machine.
 #include <gtest/gtest.h>
 
@@ -21,15 +21,15 @@
 #include "dynamics/force/slamming.hpp"
 #include "dynamics/force/turning_excitation.hpp"
 #include "dynamics/force/wave_loads.hpp"
-#include "dynamics/joint/conditions.hpp"
-#include "dynamics/joint/lead.hpp"
-#include "dynamics/joint/travel.hpp"
+#include "dynamics/joint/constraints.hpp"
+#include "dynamics/joint/coordinate.hpp"
+#include "dynamics/joint/prescribed_motion.hpp"
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/radiation/constant_memory.hpp"
 #include "hydro/radiation/convolution.hpp"
 #include "hydro/radiation/partitioned.hpp"
 #include "hydro/radiation/pole_memory.hpp"
-#include "laws/automatic_conditions.hpp"
+#include "laws/automatic_constraints.hpp"
 #include "laws/automatic_tangents.hpp"
 #include "support/small_seas.hpp"
 
@@ -135,15 +135,15 @@ TEST(Tangents, OfTurningExcitationAreNoneWhileTheSlowYawStays) {  // (D121)
   }
 }
 
-/// The integral of memory: what the past has decided, and what multiplies the velocity now.
-struct Remembered {
-  Eigen::VectorXd decided;
+/// The integral of memory: the history force, and what multiplies the velocity now.
+struct MemoryIntegral {
+  Eigen::VectorXd history_force;
   Eigen::MatrixXd weight;
 };
 constexpr double step = 0.1;
 using Velocities = std::vector<Eigen::VectorXd>;  // at whole steps, the newest last
 /// Of a time `fraction` of a step after the newest velocity.
-using MemoryLaw = std::function<Remembered(const Velocities& past, double fraction)>;
+using MemoryLaw = std::function<MemoryIntegral(const Velocities& past, double fraction)>;
 
 /// Symmetric, no two modes alone.
 Eigen::MatrixXd coupled(Eigen::Index n, double phase) {
@@ -167,28 +167,28 @@ Eigen::MatrixXd retardation(double t) {
 
 /// (R7): trapezia over velocities at whole steps, the first of which has half its weight; K is straight between its
 /// samples.
-Remembered by_trapezia(const Velocities& past, double f) {
+MemoryIntegral by_trapezia(const Velocities& past, double f) {
   const auto K = [](std::size_t j, double part) {
     const double t = step * static_cast<double>(j);
     return Eigen::MatrixXd((1 - part) * retardation(t) + part * retardation(t + step));
   };
-  Remembered out{(f + 1) / 2 * K(0, f) * past.back(), f / 2 * K(0, 0)};
+  MemoryIntegral out{(f + 1) / 2 * K(0, f) * past.back(), f / 2 * K(0, 0)};
   for (std::size_t j = 1; j < past.size(); ++j)
-    out.decided += (j + 1 < past.size() ? 1 : 0.5) * K(j, f) * past[past.size() - 1 - j];
-  return {step * out.decided, step * out.weight};
+    out.history_force += (j + 1 < past.size() ? 1 : 0.5) * K(j, f) * past[past.size() - 1 - j];
+  return {step * out.history_force, step * out.weight};
 }
 
 /// (R14): the integral itself, of a velocity that is straight from step to step.
-Remembered by_straight_velocity(const Velocities& past, double f) {
-  Remembered out{Eigen::VectorXd::Zero(7), Eigen::MatrixXd::Zero(7, 7)};
+MemoryIntegral by_straight_velocity(const Velocities& past, double f) {
+  MemoryIntegral out{Eigen::VectorXd::Zero(7), Eigen::MatrixXd::Zero(7, 7)};
   over_unit_interval([&](double xi, double w) {
     const Eigen::MatrixXd K = w * f * step * retardation((1 - xi) * f * step);  // since the newest
-    out.decided += (1 - xi) * K * past.back();
+    out.history_force += (1 - xi) * K * past.back();
     out.weight += xi * K;
     for (std::size_t j = 1; j < past.size(); ++j) {
       const std::size_t end = past.size() - j;
-      out.decided += w * step * retardation((f + static_cast<double>(j) - xi) * step) *
-                     ((1 - xi) * past[end - 1] + xi * past[end]);
+      out.history_force += w * step * retardation((f + static_cast<double>(j) - xi) * step) *
+                           ((1 - xi) * past[end - 1] + xi * past[end]);
     }
   });
   return out;
@@ -205,7 +205,7 @@ TEST(Tangents, OfRadiationFollowFromTheIntegralOfItsMemory) {
       {std::make_shared<PartitionedConvolution>(kernel, 8), by_trapezia},
       {std::make_shared<PoleMemory>(oscillations, step), by_straight_velocity},
       {std::make_shared<ConstantMemory>(B, 1.3, step), [&](const Velocities&, double) {
-         return Remembered{Eigen::VectorXd::Zero(7), B};
+         return MemoryIntegral{Eigen::VectorXd::Zero(7), B};
        }}};
   for (const auto& [method, integral] : methods) {
     SCOPED_TRACE(method->describe());
@@ -222,8 +222,8 @@ TEST(Tangents, OfRadiationFollowFromTheIntegralOfItsMemory) {
     const Velocities before(past.begin(), past.end() - 1);
     for (const double f : {0.0, 0.25, 0.8, 1.0}) {
       // At a whole step the velocity now stands for the newest, which ended a step.
-      const Remembered at = f > 0 ? integral(past, f) : integral(before, 1);
-      ASSERT_TRUE(f > 0 || at.decided.norm() > 0 || method->describe().starts_with("constant"));
+      const MemoryIntegral at = f > 0 ? integral(past, f) : integral(before, 1);
+      ASSERT_TRUE(f > 0 || at.history_force.norm() > 0 || method->describe().starts_with("constant"));
       expect_automatic_tangents_at(kind, memory.get(), {s.time + f * step},
                                    [&](const JetBody& a, const JetBody& b, double) {
                                      const auto velocity = [&](int mode) {
@@ -233,7 +233,7 @@ TEST(Tangents, OfRadiationFollowFromTheIntegralOfItsMemory) {
                                      JetLoads out;
                                      for (int i = 0; i < 7; ++i) {
                                        Jet& load = out.all[radiating[static_cast<std::size_t>(i)]];
-                                       load -= at.decided[i];
+                                       load -= at.history_force[i];
                                        for (int j = 0; j < 7; ++j)
                                          load -= at.weight(i, j) * velocity(radiating[static_cast<std::size_t>(j)]);
                                      }
@@ -478,7 +478,7 @@ struct Pair {
 };
 const Pair all_pairs[] = {{0, 1}, {1, 0}, {1, {}}};
 
-Joint joint(JointKind kind, const Pair& pair = {0, 1}, Lead lead = {}) {
+Joint joint(JointKind kind, const Pair& pair = {0, 1}, PrescribedMotion motion = {}) {
   return {.name = "j",
           .kind = kind,
           .first = pair.first,
@@ -486,7 +486,7 @@ Joint joint(JointKind kind, const Pair& pair = {0, 1}, Lead lead = {}) {
           .place = {2, 0.3, -0.2},
           .axis = {0.2, 1, 0.4},
           .second_axis = {-1, 0.2, 0},
-          .lead = std::move(lead)};
+          .prescribed = std::move(motion)};
 }
 std::string name_of(const Joint& j) {
   return dynamics::name_of(j.kind) + " on body " + std::to_string(j.first) + (j.second ? "" : " and the ground");
@@ -513,27 +513,28 @@ TEST(Tangents, OfJointsHaveNoPartInModesThatAreHeld) {
   }
 }
 
-TEST(Tangents, OfLedJointsFollowFromTheTravel) {  // (D31), (D53)
-  const Lead lead = led_harmonically(5, 1.3, 5);
+TEST(Tangents, OfPrescribedMotionsFollowFromTheCoordinate) {  // (D31), (D53)
+  const PrescribedMotion motion = prescribed_harmonic(5, 1.3, 5);
   bool far = false;
   for (const JointKind kind : {JointKind::slider, JointKind::hinge})
     for (const Pair& pair : all_pairs)
       for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-        const Joint led = joint(kind, pair, lead);
-        SCOPED_TRACE(testing::Message() << name_of(led) << ", seed " << seed);
+        const Joint prescribed = joint(kind, pair, motion);
+        SCOPED_TRACE(testing::Message() << name_of(prescribed) << ", seed " << seed);
         State s = support::random_state(bodies, seed, 0.7);
         s.time = 0.9 * static_cast<double>(seed);
-        const JointSet set(bodies, {led});
+        const JointSet set(bodies, {prescribed});
         laws::expect_automatic_derivatives(bodies, set, s);
-        EXPECT_EQ(set.lead_rates(s.time).tail<1>()[0], lead(s.time).rate);
-        far = far || (kind == JointKind::hinge && std::abs(set.travel(0, s) - lead(s.time).travel) > pi);
-        laws::expect_automatic_derivatives(bodies, set.with_only(Travel(bodies, led).holding(s)), s);
+        EXPECT_EQ(set.prescribed_rates(s.time).tail<1>()[0], motion(s.time).rate);
+        far = far || (kind == JointKind::hinge && std::abs(set.coordinate(0, s) - motion(s.time).coordinate) > pi);
+        laws::expect_automatic_derivatives(bodies, set.with_only(JointCoordinate(bodies, prescribed).holding(s)), s);
       }
-  EXPECT_TRUE(far) << "some hinge is more than half a turn away from its lead";
+  EXPECT_TRUE(far) << "some hinge is more than half a turn away from what is prescribed";
 }
 
-// What sticks is held by another condition than the travel, with the travel's gradient where the joint is closed. (D19)
-TEST(Tangents, OfWhatHoldsATravelAreThoseOfTheTravel) {
+// What sticks is held by another constraint than the coordinate, with the coordinate's gradient where the joint is
+// closed. (D19)
+TEST(Tangents, OfWhatHoldsACoordinateAreThoseOfTheCoordinate) {
   for (const JointKind kind : {JointKind::slider, JointKind::hinge})
     for (const double gone : {0.7, -1.9}) {
       const Joint j = joint(kind);
@@ -544,35 +545,35 @@ TEST(Tangents, OfWhatHoldsATravelAreThoseOfTheTravel) {
       s.pose[1].attitude = R * Eigen::AngleAxisd(turns ? gone : 0, axis);
       s.pose[1].centre = s.pose[0].centre + R * (j.place - bodies[0].rest_centre() + (turns ? 0 : gone) * axis) +
                          s.pose[1].attitude * (bodies[1].rest_centre() - j.place);
-      const auto travel = laws::travel_of(bodies, j, twice_body(s, 0), twice_body(s, 1));
-      EXPECT_NEAR(travel.a.a, gone, laws::condition_round_off);
-      const JointSet holding = JointSet(bodies, {j}).with_only(Travel(bodies, j).holding(s));
-      EXPECT_NEAR(holding.values(s)[0], 0, laws::condition_round_off);
+      const auto coordinate = laws::coordinate_of(bodies, j, twice_body(s, 0), twice_body(s, 1));
+      EXPECT_NEAR(coordinate.a.a, gone, laws::constraint_round_off);
+      const JointSet holding = JointSet(bodies, {j}).with_only(JointCoordinate(bodies, j).holding(s));
+      EXPECT_NEAR(holding.values(s)[0], 0, laws::constraint_round_off);
       const Eigen::MatrixXd row = holding.dense(holding.gradients(s));
-      for (int k = 0; k < 12; ++k) EXPECT_NEAR(row(0, k), travel.v[k].a, laws::condition_round_off) << k;
+      for (int k = 0; k < 12; ++k) EXPECT_NEAR(row(0, k), coordinate.v[k].a, laws::constraint_round_off) << k;
     }
 }
 
-TEST(Tangents, OfALeadAreThoseInTime) {  // (D31): a sin ωt, grown by half a cosine
+TEST(Tangents, OfAPrescribedMotionAreThoseInTime) {  // (D31): a sin ωt, grown by half a cosine
   using Rate = ceres::Jet<double, 1>;
   using Acceleration = ceres::Jet<Rate, 1>;
-  const Lead lead = led_harmonically(0.7, 1.3, 2.5), back = reversed(lead);
+  const PrescribedMotion motion = prescribed_harmonic(0.7, 1.3, 2.5), back = reversed(motion);
   for (const double at : {0.1, 1.31, 2.45, 2.55, 4.7}) {
     const Acceleration t(Rate(at, 0), 0);
     const Acceleration half(Rate(0.5));
     Acceleration s = sin(t * Rate(1.3)) * Rate(0.7);
     if (at < 2.5) s = s * (half - half * cos(t * Rate(pi / 2.5)));
-    EXPECT_NEAR(lead(at).travel, s.a.a, 1e-15) << at;
-    EXPECT_NEAR(lead(at).rate, s.v[0].a, 1e-14) << at;
-    EXPECT_NEAR(lead(at).acceleration, s.v[0].v[0], 1e-14) << at;
-    EXPECT_EQ(back(at).acceleration, -lead(at).acceleration);
+    EXPECT_NEAR(motion(at).coordinate, s.a.a, 1e-15) << at;
+    EXPECT_NEAR(motion(at).rate, s.v[0].a, 1e-14) << at;
+    EXPECT_NEAR(motion(at).acceleration, s.v[0].v[0], 1e-14) << at;
+    EXPECT_EQ(back(at).acceleration, -motion(at).acceleration);
   }
 }
 
 // Load on the body, −λ·∂g, about the joint's place and in the axes of the body, which turn. (D17)
 TEST(Tangents, OfLoadsInJointsFollowFromTheirMultipliers) {
   using OnceVector = Eigen::Matrix<Once, 3, 1>;
-  constexpr double tolerance = 10 * laws::condition_round_off;  // loads of up to six conditions, arms of 3 m
+  constexpr double tolerance = 10 * laws::constraint_round_off;  // loads of up to six constraints, arms of 3 m
   for (const JointKind kind : all_kinds)
     for (const End end : {End::first, End::second}) {
       SCOPED_TRACE(testing::Message() << dynamics::name_of(kind) << (end == End::first ? ", first" : ", second"));
@@ -654,12 +655,12 @@ TEST(Tangents, OfContactsFollowFromTheirGaps) {  // (D22)-(D24)
             {{"c", 0, second, {in_axes_of(c.first, s.pose[0]), ground ? c.second : in_axes_of(c.second, s.pose[1])}}});
         JointSet set = JointSet(bodies, {}).with_only(kind.closed(0));
         laws::expect_automatic_derivatives(bodies, set, s, by_differences);
-        for (const Condition& stick : kind.sticking(0, s)) {
+        for (const Constraint& stick : kind.sticking(0, s)) {
           SCOPED_TRACE("sticks");
           set = set.with_only(stick);
           laws::expect_automatic_derivatives(bodies, set, s, by_differences);
           // How the points slip while the contact does not stick is the same row.
-          const Gradient along = kind.along(0, std::get<StickCondition>(stick.what).direction, s),
+          const Gradient along = kind.along(0, std::get<StickConstraint>(stick.what).direction, s),
                          row = set.gradients(s).front();
           EXPECT_EQ(along.first, row.first);
           EXPECT_EQ(along.second, row.second);
@@ -667,19 +668,19 @@ TEST(Tangents, OfContactsFollowFromTheirGaps) {  // (D22)-(D24)
       }
 }
 
-TEST(Tangents, OfConditionsAreFoundWrongWhereTheyAre) {
-  // A condition whose arm or axis is off by a part in a million, and a curvature whose rotations come in the other
+TEST(Tangents, OfConstraintsAreFoundWrongWhereTheyAre) {
+  // A constraint whose arm or axis is off by a part in a million, and a curvature whose rotations come in the other
   // order.
   const State s = support::random_state(bodies, 3, 0.7);
   const TwiceBody a = twice_body(s, 0), b = twice_body(s, 1);
-  const PointCondition point{{1, 0.3, -0.2}, {-2, 0.3, -0.2}, Eigen::Vector3d(1, 2, 2) / 3, true};
-  PointCondition other = point;
+  const PointConstraint point{{1, 0.3, -0.2}, {-2, 0.3, -0.2}, Eigen::Vector3d(1, 2, 2) / 3, true};
+  PointConstraint other = point;
   other.second_arm *= 1 + 1e-6;
-  const ConditionEnds at = ends_of({0, 0, 1, point}, s);
-  const auto apart = [&](const PointCondition& c) {
+  const ConstraintEnds at = ends_of({0, 0, 1, point}, s);
+  const auto apart = [&](const PointConstraint& c) {
     return (curvature(c, at) - laws::curvature_of(laws::law_of(point, a, b))).cwiseAbs().maxCoeff();
   };
-  EXPECT_LT(apart(point), laws::condition_round_off);
+  EXPECT_LT(apart(point), laws::constraint_round_off);
   EXPECT_GT(apart(other), 1e-7);
   EXPECT_GT((curvature(point, at).transpose() - laws::curvature_of(laws::law_of(point, a, b))).cwiseAbs().maxCoeff(),
             0.1);

@@ -17,7 +17,7 @@ const auto bodies = support::two_bodies();
 
 const LineLaw cubic{.stiffness = 200, .damping = 30, .cubic = 50, .quadratic_damping = 12};
 const LineLaw table{.damping = 5, .table_x = {-1, 0.1, 0.6, 2}, .table_force = {-300, 0, 100, 700}};
-const LineLaw cable{.stiffness = 200, .damping = 90, .pulls_only = true};
+const LineLaw cable{.stiffness = 200, .damping = 90, .tension_only = true};
 
 TEST(LineLaw, SpringsHaveTheirClosedForms) {
   EXPECT_NEAR(cubic.at(0.5, 0).force, 200 * 0.5 + 50 * 0.125, 1e-12);
@@ -33,7 +33,7 @@ TEST(LineLaw, ForceIsTheSlopeOfTheEnergyAndDerivativesAreTrue) {
   for (const LineLaw* law : {&cubic, &table, &cable})
     for (const double x : {-1.7, -0.4, 0.05, 0.3, 1.1, 2.6})
       for (const double v : {-1.3, 0.0, 0.8}) {
-        const Answer a = law->at(x, v);
+        const SpringDamperForce a = law->at(x, v);
         const double slope = (law->at(x + e, 0).stored - law->at(x - e, 0).stored) / (2 * e);
         EXPECT_NEAR(law->at(x, 0).force, slope, 1e-6) << x;
         EXPECT_NEAR(a.by_x, (law->at(x + e, v).force - law->at(x - e, v).force) / (2 * e), 1e-6) << x << ' ' << v;
@@ -54,12 +54,12 @@ TEST(LineLaw, ACableNeverPushesAndTightensWithoutAJump) {
   EXPECT_NEAR(cable.at(1000, 1).force, 200e3 + 90, 0.05);  // pulled hard, the damper is as it says
 }
 
-TEST(TravelLaw, KeepsToItsLimitAndItsStops) {
-  const TravelLaw law{.line = {.stiffness = -350, .damping = 60, .cubic = 20},
-                      .preload = 100,
-                      .force_limit = 500,
-                      .lower = EndStop{-2, 1e4, 0},
-                      .upper = EndStop{3, 1e4, 200}};
+TEST(PtoLaw, KeepsToItsLimitAndItsStops) {
+  const PtoLaw law{.line = {.stiffness = -350, .damping = 60, .cubic = 20},
+                   .preload = 100,
+                   .force_limit = 500,
+                   .lower = EndStop{-2, 1e4, 0},
+                   .upper = EndStop{3, 1e4, 200}};
   EXPECT_NEAR(law.at(1, 0.5).force, -350 + 20 + 30 + 100, 1e-12);
   EXPECT_EQ(law.at(2, -9).force, -500);
   EXPECT_EQ(law.at(2, 20).force, 500);
@@ -80,23 +80,23 @@ Joint joint(JointKind kind, std::optional<int> second = 1) {
 }
 
 TEST(ForceLaws, HoldForPowerTakeOffOnSlidersAndHinges) {
-  const TravelLaw plain{.line = cubic, .preload = 40, .lower = {}, .upper = {}};
-  TravelLaw bounded = plain;
+  const PtoLaw plain{.line = cubic, .preload = 40, .lower = {}, .upper = {}};
+  PtoLaw bounded = plain;
   bounded.force_limit = 60;
   bounded.upper = EndStop{0.1, 3000, 200};
   bounded.lower = EndStop{-0.1, 3000, 200};
   for (const JointKind kind : {JointKind::slider, JointKind::hinge})
-    for (const TravelLaw& law : {plain, bounded})
-      laws::expect_force_laws(
-          PtoKind({{Travel(bodies, joint(kind), 0), law}, {Travel(bodies, joint(kind, std::nullopt), 1), law, -1}}),
-          bodies);
+    for (const PtoLaw& law : {plain, bounded})
+      laws::expect_force_laws(PtoKind({{JointCoordinate(bodies, joint(kind), 0), law},
+                                       {JointCoordinate(bodies, joint(kind, std::nullopt), 1), law, -1}}),
+                              bodies);
 }
 
 TEST(Pto, OfAHingeTurnsTheSecondBodyBackAndTheFirstForth) {
   State s = rest_state(bodies);
   s.pose[1].attitude = rotation_exp(0.1 * Eigen::Vector3d(0.2, 1, 0.4).normalized());
   const PtoKind kind(
-      {{Travel(bodies, joint(JointKind::hinge), 0), {.line = {.stiffness = 500}, .lower = {}, .upper = {}}}});
+      {{JointCoordinate(bodies, joint(JointKind::hinge), 0), {.line = {.stiffness = 500}, .lower = {}, .upper = {}}}});
   const Eigen::VectorXd F = laws::load(kind, s, nullptr);
   const Eigen::Vector3d moment = 50 * Eigen::Vector3d(0.2, 1, 0.4).normalized();
   EXPECT_LT((F.segment<3>(9) + moment).norm(), 1e-10);

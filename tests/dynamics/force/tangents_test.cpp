@@ -1,8 +1,8 @@
 // Laws of force that depend on where bodies are and how they move, written a second time from their formulas and
 // differentiated by machine. Loads of waves and of weight, slamming, cylinders in closed form, lines from tables, and
-// the conditions of joints and contacts are in more_tangents_test.cpp. What remains without such a law: lines of nodes
-// (tests/dynamics/line), Morison members in stretched or nonlinear waves (differences in morison_test.cpp), leads
-// through points (lead_test.cpp), and parallel rods that touch, whose gap has no derivative.
+// the constraints of joints and contacts are in more_tangents_test.cpp. What remains without such a law: lines of nodes
+// (tests/dynamics/line), Morison members in stretched or nonlinear waves (differences in morison_test.cpp), prescribed
+// motions through points (prescribed_motion_test.cpp), and parallel rods that touch, whose gap has no derivative.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -19,7 +19,7 @@
 #include "dynamics/force/pto.hpp"
 #include "dynamics/force/restoring.hpp"
 #include "dynamics/force/switched_connector.hpp"
-#include "dynamics/joint/conditions.hpp"
+#include "dynamics/joint/constraints.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "laws/automatic_tangents.hpp"
 #include "support/hull_meshes.hpp"
@@ -130,7 +130,7 @@ void pull(JetLoads& out, const Ends& ends, const JetBody& a, const JetBody& b, d
 
 TEST(Tangents, OfAxialConnectorsFollowFromTheirLength) {
   const LineLaw cubic{.stiffness = 200, .damping = 30, .cubic = 50, .quadratic_damping = 12},
-      cable{.stiffness = 200, .damping = 90, .pulls_only = true},
+      cable{.stiffness = 200, .damping = 90, .tension_only = true},
       table{.damping = 5, .table_x = {-1, 0.1, 0.6, 2}, .table_force = {-300, 0, 100, 700}};
   const AxialConnectorKind kind({{between, cubic, 1.5}, {to_ground, cable, 2}, {between, table, 1.6}});
   laws::expect_automatic_tangents_everywhere(kind, bodies, [&](const JetBody& a, const JetBody& b, double) {
@@ -207,9 +207,9 @@ Joint joint(JointKind kind) {
   return {.name = "j", .kind = kind, .first = 0, .second = 1, .place = {2, 0.3, -0.2}, .axis = {0.2, 1, 0.4}};
 }
 
-/// Travel, its rate, and the load T against it. (D53)
+/// Coordinate, its rate, and the load T against it. (D53)
 template <class Force>
-JetLoads against_travel(const Joint& j, const JetBody& a, const JetBody& b, Force T) {
+JetLoads against_coordinate(const Joint& j, const JetBody& a, const JetBody& b, Force T) {
   const Eigen::Matrix3d frame = frame_of(j);
   const Eigen::Vector3d first = j.place - bodies[0].rest_centre(), second = j.place - bodies[1].rest_centre();
   JetLoads out;
@@ -231,34 +231,36 @@ JetLoads against_travel(const Joint& j, const JetBody& a, const JetBody& b, Forc
   return out;
 }
 
-TEST(Tangents, OfPowerTakeOffFollowFromTheTravel) {
-  const TravelLaw law{.line = {.stiffness = 200, .damping = 30, .cubic = 50, .quadratic_damping = 12},
-                      .preload = 40,
-                      .lower = {},
-                      .upper = {}};
+TEST(Tangents, OfPowerTakeOffFollowFromTheCoordinate) {
+  const PtoLaw law{.line = {.stiffness = 200, .damping = 30, .cubic = 50, .quadratic_damping = 12},
+                   .preload = 40,
+                   .lower = {},
+                   .upper = {}};
   for (const JointKind of : {JointKind::slider, JointKind::hinge})
     laws::expect_automatic_tangents_everywhere(
-        PtoKind({{Travel(bodies, joint(of), 0), law}}), bodies, [&](const JetBody& a, const JetBody& b, double) {
-          return against_travel(joint(of), a, b, [](const Jet& x, const Jet& rate) {
+        PtoKind({{JointCoordinate(bodies, joint(of), 0), law}}), bodies,
+        [&](const JetBody& a, const JetBody& b, double) {
+          return against_coordinate(joint(of), a, b, [](const Jet& x, const Jet& rate) {
             return 40.0 + 200.0 * x + 50.0 * x * x * x + 30.0 * rate + 12.0 * abs(rate) * rate;
           });
         });
 }
 
 TEST(Tangents, OfPowerTakeOffKeepToItsLimitAndItsStops) {  // (D51), (D52)
-  const TravelLaw law{.line = {.stiffness = 200, .damping = 30},
-                      .preload = 40,
-                      .force_limit = 150,
-                      .lower = EndStop{-0.1, 3000, 200},
-                      .upper = EndStop{0.1, 3000, 200}};
+  const PtoLaw law{.line = {.stiffness = 200, .damping = 30},
+                   .preload = 40,
+                   .force_limit = 150,
+                   .lower = EndStop{-0.1, 3000, 200},
+                   .upper = EndStop{0.1, 3000, 200}};
   const auto stop = [](const Jet& into, const Jet& rate) {  // never pulls
     const Jet S = 3000.0 * into, d = 200.0 * rate;
     return into.a > 0 ? S + S * d / (S + abs(d)) : Jet(0);
   };
   for (const JointKind of : {JointKind::slider, JointKind::hinge})
     laws::expect_automatic_tangents_everywhere(
-        PtoKind({{Travel(bodies, joint(of), 0), law}}), bodies, [&](const JetBody& a, const JetBody& b, double) {
-          return against_travel(joint(of), a, b, [&](const Jet& x, const Jet& rate) {
+        PtoKind({{JointCoordinate(bodies, joint(of), 0), law}}), bodies,
+        [&](const JetBody& a, const JetBody& b, double) {
+          return against_coordinate(joint(of), a, b, [&](const Jet& x, const Jet& rate) {
             const Jet T = 40.0 + 200.0 * x + 30.0 * rate;
             const Jet held = T.a > 150 ? Jet(150) : T.a < -150 ? Jet(-150) : T;
             return held + stop(x - 0.1, rate) - stop(-0.1 - x, -rate);
@@ -266,17 +268,20 @@ TEST(Tangents, OfPowerTakeOffKeepToItsLimitAndItsStops) {  // (D51), (D52)
         });
 }
 
-TEST(Tangents, OfFrictionThatSlipsFollowFromTheTravel) {  // (D19), (D32)
+TEST(Tangents, OfFrictionThatSlipsFollowFromTheCoordinate) {  // (D19), (D32)
   for (const JointKind of : {JointKind::slider, JointKind::hinge}) {
-    const FrictionKind kind(
-        {{.name = "j", .travel = Travel(bodies, joint(of)), .breakaway = 5, .sliding = 3, .stribeck = 1.2}});
+    const FrictionKind kind({{.name = "j",
+                              .coordinate = JointCoordinate(bodies, joint(of)),
+                              .breakaway = 5,
+                              .sliding = 3,
+                              .stribeck = 1.2}});
     FrictionMemory memory(1);
     for (const double direction : {1.0, -1.0})
       for (std::uint64_t seed = 1; seed <= 4; ++seed) {
         memory.direction = {direction > 0 ? 1 : -1};
         laws::expect_automatic_tangents(kind, support::random_state(bodies, seed, 0.7), &memory,
                                         [&](const JetBody& a, const JetBody& b, double) {
-                                          return against_travel(joint(of), a, b, [&](const Jet&, const Jet& rate) {
+                                          return against_coordinate(joint(of), a, b, [&](const Jet&, const Jet& rate) {
                                             return direction * (3.0 + 2.0 * exp(-rate * rate / 1.44));
                                           });
                                         });

@@ -35,7 +35,7 @@ Contact on_floor(int body, const Shape& shape, double restitution, double fricti
   return {"floor", body, {}, {shape, ground}, restitution, friction};
 }
 
-Model heavy_bodies(std::vector<RigidBody> bodies, std::vector<Contact> contacts, double gravity = g) {
+Model bodies_with_gravity(std::vector<RigidBody> bodies, std::vector<Contact> contacts, double gravity = g) {
   std::vector<std::unique_ptr<const ForceKind>> forces;
   if (gravity > 0) forces.push_back(std::make_unique<GravityKind>(bodies, gravity));
   forces.push_back(std::make_unique<ContactKind>(std::move(contacts)));
@@ -54,7 +54,7 @@ Eigen::Vector3d place(const Motion& run) { return run.workspace.state.pose[0].ce
 // would all end within a step, are lost: the rest comes at most a step early.
 TEST(Contact, LetsABallBounceUntilItsSeriesOfBouncesEnds) {
   constexpr double H = 0.5, e = 0.7, h = 0.01;
-  const Model model = heavy_bodies({ball({0, 0, H + 0.1})}, {on_floor(0, Ball{{0, 0, 0}, 0.1}, e, 0)});
+  const Model model = bodies_with_gravity({ball({0, 0, H + 0.1})}, {on_floor(0, Ball{{0, 0, 0}, 0.1}, e, 0)});
   Motion run(model, rest_state(model.bodies()));
   const double v0 = std::sqrt(2 * g * H), t0 = v0 / g, end = t0 * (1 + e) / (1 - e);
   run.go(h, static_cast<int>(end / h));
@@ -69,7 +69,7 @@ TEST(Contact, LetsABallBounceUntilItsSeriesOfBouncesEnds) {
 
 TEST(Contact, KeepsTheTimeOfEachImpact) {
   constexpr double H = 0.5, e = 0.8, h = 0.013;
-  const Model model = heavy_bodies({ball({0, 0, H + 0.1})}, {on_floor(0, Ball{{0, 0, 0}, 0.1}, e, 0)});
+  const Model model = bodies_with_gravity({ball({0, 0, H + 0.1})}, {on_floor(0, Ball{{0, 0, 0}, 0.1}, e, 0)});
   Motion run(model, rest_state(model.bodies()));
   const double t0 = std::sqrt(2 * H / g);
   std::size_t seen = 0;
@@ -99,7 +99,7 @@ TEST(Contact, BringsASlidingBlockToRest) {
   std::vector<Contact> corners;
   for (const double x : {-0.4, 0.4})
     for (const double y : {-0.3, 0.3}) corners.push_back(on_floor(0, Ball{{x, y, -0.1}, 0}, 0, mu));
-  const Model model = heavy_bodies({block}, corners);
+  const Model model = bodies_with_gravity({block}, corners);
   State start = rest_state(model.bodies());
   start.velocity.head<2>() << v * std::cos(0.4), v * std::sin(0.4);
   Motion run(model, start);
@@ -124,7 +124,7 @@ TEST(Contact, HoldsABlockOnASlopeThatFrictionAllows) {
                      .inertia = Eigen::Matrix3d::Identity(),
                      .rest_position = {Eigen::Vector3d(0, 0, 0)},
                      .free = {true, true, true, false, false, false}});
-    const Model model = heavy_bodies({point}, {contact});
+    const Model model = bodies_with_gravity({point}, {contact});
     Motion run(model, rest_state(model.bodies()));
     run.go(0.01, 100);
     const double a = slope < std::atan(mu) ? 0 : g * (std::sin(slope) - mu * std::cos(slope));
@@ -137,7 +137,7 @@ TEST(Contact, HoldsABlockOnASlopeThatFrictionAllows) {
 // ever.
 TEST(Contact, LetsABallRollOnceItsSlipIsSpent) {
   constexpr double mu = 0.2, v0 = 3, R = 0.1;
-  const Model model = heavy_bodies({ball({0, 0, R})}, {on_floor(0, Ball{{0, 0, 0}, R}, 0, mu)});
+  const Model model = bodies_with_gravity({ball({0, 0, R})}, {on_floor(0, Ball{{0, 0, 0}, R}, 0, mu)});
   State start = rest_state(model.bodies());
   start.velocity[0] = v0;
   Motion run(model, start);
@@ -166,8 +166,8 @@ TEST(Contact, LetsABlockRockFromCornerToCorner) {
                    .inertia = I * Eigen::Matrix3d::Identity(),
                    .rest_position = {Eigen::Vector3d(0, 0, height / 2)},
                    .free = {true, false, true, false, true, false}});
-  const Model model = heavy_bodies({block}, {on_floor(0, Ball{{-b / 2, 0, -height / 2}, 0}, 0, 0.9),
-                                             on_floor(0, Ball{{b / 2, 0, -height / 2}, 0}, 0, 0.9)});
+  const Model model = bodies_with_gravity({block}, {on_floor(0, Ball{{-b / 2, 0, -height / 2}, 0}, 0, 0.9),
+                                                    on_floor(0, Ball{{b / 2, 0, -height / 2}, 0}, 0, 0.9)});
   State start = rest_state(model.bodies());
   start.pose[0].centre = placed(start_angle);
   start.pose[0].attitude = rotation_exp({0, start_angle, 0});
@@ -198,7 +198,7 @@ TEST(Contact, PassesAnElasticBlowOnAndKeepsMomentum) {
   for (int i = 0; i < 5; ++i) bodies.push_back(ball({0.3 * i, 0, 0}));
   for (int i = 0; i < 4; ++i)
     contacts.push_back({"pair", i, i + 1, {Ball{{0, 0, 0}, 0.1}, Ball{{0, 0, 0}, 0.1}}, 1, 0});
-  const Model model = heavy_bodies(bodies, contacts, 0);
+  const Model model = bodies_with_gravity(bodies, contacts, 0);
   State start = rest_state(model.bodies());
   start.velocity[0] = 1.5;
   Motion run(model, start);
@@ -321,7 +321,7 @@ TEST(Contact, LetsAStackOfThreeSettle) {
     stack.put(30, {0.5, 0.4, 0.2});
     stack.put(20, {0.4, 0.3, 0.15});
     stack.put(10, {0.3, 0.2, 0.1});
-    const Model model = heavy_bodies(stack.bodies, stack.contacts);
+    const Model model = bodies_with_gravity(stack.bodies, stack.contacts);
     State start = rest_state(model.bodies());
     for (Pose& pose : start.pose) pose.centre.z() += 0.05;
     Motion run(model, start);
@@ -345,7 +345,7 @@ TEST(Contact, FindsTheImpulsesOfAnyStack) {
     Stack stack(restitution, any(0.05, 0.9));
     const int high = 2 + trial % 4;
     for (int i = 0; i < high; ++i) stack.put(std::pow(10, any(0, 2)), {any(0.2, 0.5), any(0.2, 0.5), any(0.05, 0.3)});
-    const Model model = heavy_bodies(stack.bodies, stack.contacts);
+    const Model model = bodies_with_gravity(stack.bodies, stack.contacts);
     State start = rest_state(model.bodies());
     for (Eigen::Index i = 0; i < start.velocity.size(); ++i) start.velocity[i] = any(-1, 1);
     const double before = model.kinetic_energy(start);
@@ -367,7 +367,7 @@ TEST(Contact, IsNotPassedThroughInOneStep) {
   const Contact wall{"wall", 0, {}, {Ball{{0, 0, 0}, R}, Box{{way + 0.5, 0, 0}, {0.5, 2, 2}}}, e, 0};
   for (const double v : {1.0, 20.0, 200.0, 3000.0})
     for (const double h : {0.001, 0.02, 0.1, 0.5}) {
-      const Model model = heavy_bodies({ball({0, 0, 0}, 2, R)}, {wall}, 0);
+      const Model model = bodies_with_gravity({ball({0, 0, 0}, 2, R)}, {wall}, 0);
       State start = rest_state(model.bodies());
       start.velocity[0] = v;
       Motion run(model, start);
@@ -385,7 +385,7 @@ TEST(Contact, OfRodsThatCrossIsSeen) {
     RigidBody rod({.name = "rod", .mass = 3, .inertia = Eigen::Matrix3d::Identity()});
     const Contact crossing{
         "rods", 0, {}, {Rod{{0, -1, 0}, {0, 1, 0}, 0.02}, Rod{{1, 0, height - 1}, {1, 0, height - 0.3}, 0.03}}, 0, 0};
-    const Model model = heavy_bodies({rod}, {crossing}, 0);
+    const Model model = bodies_with_gravity({rod}, {crossing}, 0);
     State start = rest_state(model.bodies());
     start.velocity[0] = 50;
     Motion run(model, start);
@@ -401,7 +401,7 @@ TEST(Contact, OfShapesWithoutThicknessIsRefused) {
 }
 
 TEST(Contact, OfShapesThatOverlapAtTheStartIsRefusedByName) {
-  const Model model = heavy_bodies({ball({0, 0, 0.05})}, {on_floor(0, Ball{{0, 0, 0}, 0.1}, 0, 0)});
+  const Model model = bodies_with_gravity({ball({0, 0, 0.05})}, {on_floor(0, Ball{{0, 0, 0}, 0.1}, 0, 0)});
   Workspace w(model, rest_state(model.bodies()));
   GeneralizedAlpha integrator(model, {});
   EXPECT_THAT([&] { integrator.start(w); },
@@ -409,16 +409,16 @@ TEST(Contact, OfShapesThatOverlapAtTheStartIsRefusedByName) {
 }
 
 /// Gradient and curvature of a gap are its derivatives.
-void expect_derivatives(const GapCondition& c) {
-  ConditionEnds at{{0.1, 0.2, 0.3},
-                   {1.4, 0.1, 0.5},
-                   rotation_exp({0.2, -0.1, 0.3}).toRotationMatrix(),
-                   rotation_exp({-0.3, 0.2, 0.1}).toRotationMatrix(),
-                   0};
+void expect_derivatives(const GapConstraint& c) {
+  ConstraintEnds at{{0.1, 0.2, 0.3},
+                    {1.4, 0.1, 0.5},
+                    rotation_exp({0.2, -0.1, 0.3}).toRotationMatrix(),
+                    rotation_exp({-0.3, 0.2, 0.1}).toRotationMatrix(),
+                    0};
   const Gradient G = gradient(c, at);
   for (int k = 0; k < 12; ++k) {
     const auto moved_by = [&](double way) {
-      ConditionEnds out = at;
+      ConstraintEnds out = at;
       const Eigen::Vector3d move = way * Eigen::Vector3d::Unit(k % 3);
       if (k / 3 == 0) out.first_centre += move;
       if (k / 3 == 1) out.first = rotation_exp(move).toRotationMatrix() * at.first;
@@ -440,15 +440,17 @@ TEST(Contact, HasTheDerivativesOfItsGap) {
 }
 
 TEST(Contact, KnowsTheShortestWayOfEachPairOfShapes) {
-  const Meeting m = meet(Box{{0, 0, 0}, {1, 2, 3}}, Ball{{2, 3, 0}, 0.5});
+  const ClosestPoints m = closest_points(Box{{0, 0, 0}, {1, 2, 3}}, Ball{{2, 3, 0}, 0.5});
   EXPECT_NEAR(m.gap, std::sqrt(2.0) - 0.5, 1e-15) << "from an edge";
-  EXPECT_NEAR(meet(Box{{0, 0, 0}, {1, 2, 3}}, Ball{{0.9, 0, 0}, 0.5}).gap, -0.6, 1e-15) << "out by the nearest face";
-  EXPECT_NEAR(meet(Rod{{0, 0, -1}, {0, 0, 1}, 0.3}, Rod{{2, 0, -3}, {2, 0, 0.5}, 0.4}).gap, 1.3, 1e-15)
+  EXPECT_NEAR(closest_points(Box{{0, 0, 0}, {1, 2, 3}}, Ball{{0.9, 0, 0}, 0.5}).gap, -0.6, 1e-15)
+      << "out by the nearest face";
+  EXPECT_NEAR(closest_points(Rod{{0, 0, -1}, {0, 0, 1}, 0.3}, Rod{{2, 0, -3}, {2, 0, 0.5}, 0.4}).gap, 1.3, 1e-15)
       << "side by side";
-  EXPECT_NEAR(meet(Rod{{0, 0, -1}, {0, 0, 1}, 0.3}, Rod{{2, 0, -3}, {2, 0, 0.5}, 0.4}).on_first.z(), -0.25, 1e-15)
+  EXPECT_NEAR(closest_points(Rod{{0, 0, -1}, {0, 0, 1}, 0.3}, Rod{{2, 0, -3}, {2, 0, 0.5}, 0.4}).on_first.z(), -0.25,
+              1e-15)
       << "in the middle of both";
-  EXPECT_NEAR(meet(Rod{{0, 0, 0}, {1, 0, 0}, 0}, Rod{{3, 0, 0}, {4, 0, 0}, 0}).gap, 2, 1e-15) << "end to end";
-  EXPECT_THROW(meet(Box{{0, 0, 0}, {1, 2, 3}}, floor_level), hydro::InputError);
+  EXPECT_NEAR(closest_points(Rod{{0, 0, 0}, {1, 0, 0}, 0}, Rod{{3, 0, 0}, {4, 0, 0}, 0}).gap, 2, 1e-15) << "end to end";
+  EXPECT_THROW(closest_points(Box{{0, 0, 0}, {1, 2, 3}}, floor_level), hydro::InputError);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ std::vector<Friction> on_joints(const std::vector<RigidBody>& bodies, const std:
                                 const std::vector<Levels>& levels) {
   std::vector<Friction> out;
   for (const Levels& l : levels)
-    out.push_back({joints[l.joint].name, Travel(bodies, joints[l.joint]), l.breakaway, l.sliding});
+    out.push_back({joints[l.joint].name, JointCoordinate(bodies, joints[l.joint]), l.breakaway, l.sliding});
   return out;
 }
 
@@ -152,12 +152,12 @@ Model sledge(const Friction& law, std::unique_ptr<const ForceKind> other = nullp
   forces.push_back(std::make_unique<FrictionKind>(std::vector{law}));
   return Model({body("sledge")}, {}, std::move(forces), {rail(0, {})});
 }
-Travel along_rail() { return Travel({body("sledge")}, rail(0, {})); }
+JointCoordinate along_rail() { return JointCoordinate({body("sledge")}, rail(0, {})); }
 
 // m v̇ = −T(v): the time to rest is ∫ m dv/T(v), by Simpson's rule, from v₀ = 2 m/s where T has fallen to its dynamic
 // level.
 TEST(Friction, OfStribeckRisesAsTheSledgeSlows) {
-  const Friction law{.name = "rail", .travel = along_rail(), .breakaway = 6, .sliding = 2, .stribeck = 0.5};
+  const Friction law{.name = "rail", .coordinate = along_rail(), .breakaway = 6, .sliding = 2, .stribeck = 0.5};
   const double from = 2;
   constexpr int pieces = 2000;
   double time = 0;
@@ -176,8 +176,9 @@ TEST(Friction, OfStribeckRisesAsTheSledgeSlows) {
 // A load that grows past the static level: it slips once, and since the level falls with its speed it never sticks
 // again.
 TEST(Friction, OfStribeckLetsGoOnceUnderAGrowingLoad) {
-  const Model model = sledge({.name = "rail", .travel = along_rail(), .breakaway = 6, .sliding = 2, .stribeck = 0.05},
-                             std::make_unique<support::RampLoad>(1, 0));
+  const Model model =
+      sledge({.name = "rail", .coordinate = along_rail(), .breakaway = 6, .sliding = 2, .stribeck = 0.05},
+             std::make_unique<support::RampLoad>(1, 0));
   Motion run(model, rest_state(model.bodies()));
   run.go(0.01, 800);
   EXPECT_EQ(run.changes(), 1);
@@ -188,7 +189,7 @@ TEST(Friction, OfStribeckLetsGoOnceUnderAGrowingLoad) {
 TEST(Friction, OfALatchHoldsASwingAtItsEnds) {
   const double k = 50, omega = 5, hold = 0.37, far = 0.8;  // √(50 N/m / 2 kg)
   const Friction latch{.name = "rail",
-                       .travel = along_rail(),
+                       .coordinate = along_rail(),
                        .breakaway = std::numeric_limits<double>::infinity(),
                        .sliding = 0,
                        .hold = hold};

@@ -27,7 +27,7 @@ std::vector<RigidBody> bob(double mass) {
 Model on_cable(double mass) {
   auto bodies = bob(mass);
   std::vector<AxialConnector> cable{{.ends = {0, {}, {0, 0, 0}, {0, 0, 5}},
-                                     .law = {.stiffness = mass * omega * omega, .pulls_only = true},
+                                     .law = {.stiffness = mass * omega * omega, .tension_only = true},
                                      .rest_length = 5 + fall}};
   std::vector<std::unique_ptr<const ForceKind>> forces;
   forces.push_back(std::make_unique<GravityKind>(bodies, g));
@@ -39,11 +39,11 @@ Model on_cable(double mass) {
 Model on_stop(double mass) {
   auto bodies = bob(mass);
   const Joint slider{"slide", JointKind::slider, 0, {}, {0, 0, 0}, {0, 0, 1}};
-  // The travel is that of the ground against the bob: up where it falls.
-  const TravelLaw law{.line = {}, .lower = {}, .upper = EndStop{fall, mass * omega * omega, 0}};
+  // The coordinate is that of the ground against the bob: up where it falls.
+  const PtoLaw law{.line = {}, .lower = {}, .upper = EndStop{fall, mass * omega * omega, 0}};
   std::vector<std::unique_ptr<const ForceKind>> forces;
   forces.push_back(std::make_unique<GravityKind>(bodies, g));
-  forces.push_back(std::make_unique<PtoKind>(std::vector<Pto>{{Travel(bodies, slider), law}}));
+  forces.push_back(std::make_unique<PtoKind>(std::vector<Pto>{{JointCoordinate(bodies, slider), law}}));
   return Model(std::move(bodies), {}, std::move(forces), {slider});
 }
 

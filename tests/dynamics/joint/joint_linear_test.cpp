@@ -163,12 +163,12 @@ TEST(CloseJoints, CarriesAlongWhatIsNotPlaced) {
       << "of a body that was given one";
 }
 
-TEST(JointTravel, TellsTheAngleOfAHingeAndTheWayOfASlider) {
+TEST(JointCoordinates, TellsTheAngleOfAHingeAndTheWayOfASlider) {
   const Model hinge = double_pendulum();
   State s = rest_state(hinge.bodies());
   const Eigen::Quaterniond R = rotation_exp(Eigen::Vector3d(0, 2.5, 0));
   s.pose[1].attitude = R;
-  EXPECT_NEAR(hinge.joints().travel(1, s), -2.5, 1e-14) << "the first body of the joint is the one that turned";
+  EXPECT_NEAR(hinge.joints().coordinate(1, s), -2.5, 1e-14) << "the first body of the joint is the one that turned";
   const Model slider =
       model_of({body("a", {0, 0, 0}, 1, diagonal(1, 1, 1)), body("b", {0, 1, 0}, 1, diagonal(1, 1, 1))},
                {joint(JointKind::slider, 0, 1, {0, 1, 0})});
@@ -178,7 +178,7 @@ TEST(JointTravel, TellsTheAngleOfAHingeAndTheWayOfASlider) {
     p.centre = p.attitude * p.centre;
   }
   s.pose[1].centre += 0.75 * (s.pose[0].attitude * Eigen::Vector3d::UnitY());
-  EXPECT_NEAR(slider.joints().travel(0, s), 0.75, 1e-14);
+  EXPECT_NEAR(slider.joints().coordinate(0, s), 0.75, 1e-14);
 }
 
 }  // namespace

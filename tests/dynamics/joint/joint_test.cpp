@@ -1,4 +1,4 @@
-// Conditions of joints: gradients and curvatures against differences, and which motions each kind allows.
+// Constraints of joints: gradients and curvatures against differences, and which motions each kind allows.
 #include "dynamics/joint/joint.hpp"
 
 #include <gmock/gmock.h>
@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "dynamics/joint/conditions.hpp"
+#include "dynamics/joint/constraints.hpp"
 #include "dynamics/model/model.hpp"
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/error.hpp"
@@ -52,7 +52,7 @@ Eigen::VectorXd random_vector(Eigen::Index size, std::uint64_t seed) {
 
 State somewhere(std::uint64_t seed) { return moved(rest_state(two), random_vector(12, seed)); }
 
-TEST(Joint, GradientsAreTheDerivativesOfTheConditions) {
+TEST(Joint, GradientsAreTheDerivativesOfTheConstraints) {
   for (const JointKind kind : all_kinds)
     for (const std::optional<int> second : {std::optional<int>(1), std::optional<int>()}) {
       const JointSet set(two, {joint(kind, second)});
@@ -154,7 +154,7 @@ TEST(Joint, ThatOthersHoldAlreadyIsNamedAndLeftOut) {
   EXPECT_THAT(rails.redundant(), testing::ElementsAre(HasSubstr("5 of its 5")));
 }
 
-// Bodies in a plane on a pivot and a rack: of ten conditions the locked modes hold six, and what is kept is regular.
+// Bodies in a plane on a pivot and a rack: of ten constraints the locked modes hold six, and what is kept is regular.
 TEST(Joint, ThatLockedModesHoldInPartKeepsTheRest) {
   const std::array<bool, 6> plane{true, false, true, false, true, false};
   const Model model(

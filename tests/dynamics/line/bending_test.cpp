@@ -205,7 +205,7 @@ TEST(Bending, RefusesWhatCannotBend) {
   d = cantilever(3, {1, 0, 0});
   for (Segment& s : d.segments) {
     s.axial_stiffness = 1e6;
-    s.sags = true;
+    s.catenary = true;
   }
   refuses(d, "bends");
 }

@@ -111,7 +111,7 @@ struct Thrown {
     d.nodes.assign(static_cast<std::size_t>(segments) + 1, Node{});
     Segment s = Segment::rod(10.0 / segments, line_mass * mass / segments);
     s.axial_stiffness = stiffness * 10;
-    s.pulls_only = true;
+    s.tension_only = true;
     d.segments.assign(static_cast<std::size_t>(segments), s);
     d.held = {{.node = 0}, {.node = segments}};
     d.gravity = gravity;
@@ -287,13 +287,13 @@ TEST(FastenedLine, IsTheSameInTwo) {
   EXPECT_NEAR(heights[1], heights[0], 1e-7);  // Newton's 1e-9 of a step, over 100 of them
 }
 
-// The static stiffness of a mooring is that of its catenary, by 20 segments that sag.
+// The static stiffness of a mooring is that of its catenary, by 20 catenary segments.
 TEST(FastenedLine, AtRestHasTheStiffnessOfTheCatenary) {
   Description d;
   const int n = 20;
   Segment s = Segment::rod(59.0 / n, 8 * 59.0 / n);
   s.axial_stiffness = 30e6;
-  s.sags = true;
+  s.catenary = true;
   s.diameter = 0.036;
   d.nodes.assign(n + 1, Node{});
   d.segments.assign(n, s);

@@ -121,7 +121,7 @@ TEST(Equilibrium, OfASlackStringLeavesItsLowestPartWithoutTension) {
   Description d = loop(17);
   for (Segment& s : d.segments) {
     s.axial_stiffness = 1e8;
-    s.pulls_only = true;
+    s.tension_only = true;
   }
   const Line line(d);
   const State s = equilibrium(line, hanging_shape(line, ends_at(line, {0.4, 0, 0})));

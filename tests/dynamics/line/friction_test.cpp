@@ -139,14 +139,14 @@ TEST(BedFriction, NeverGivesBackWhatItLost) {
   EXPECT_LT(std::abs(stepper.energies().residual()), 1e-8 * stepper.energies().dissipated());
 }
 
-/// A mooring that sags on a bed with friction, its fairlead led aside until much of it slips.
+/// A mooring that sags on a bed with friction, its fairlead moved aside until much of it slips.
 struct Dragged {
   static Description description() {
     Description d;
     Segment s = Segment::rod(59.0 / 15, 8 * 59.0 / 15);
     s.axial_stiffness = 30e6;
     s.axial_damping = 1e5;
-    s.sags = true;
+    s.catenary = true;
     s.diameter = 0.036;
     d.nodes.assign(16, Node{.damping = 1});
     d.segments.assign(15, s);

@@ -60,7 +60,7 @@ TEST(Line, SaysWhatCannotBe) {
     return d;
   };
   EXPECT_THAT([&] { Line(with({.length = 0})); }, ThrowsMessage<hydro::InputError>(HasSubstr("segment 1")));
-  EXPECT_THAT([&] { Line(with({.length = 1, .pulls_only = true})); },
+  EXPECT_THAT([&] { Line(with({.length = 1, .tension_only = true})); },
               ThrowsMessage<hydro::InputError>(HasSubstr("cannot go slack")));
   Description held = with({.length = 1});
   held.held = {{.node = 2}};

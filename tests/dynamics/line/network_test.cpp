@@ -302,12 +302,12 @@ TEST(NetworkAtRest, FindsALonglineWithDroppersAndFloats) {
     EXPECT_LT((s.position.col(tie[1] + 3) - s.position.col(tie[1]) + Vector3d(0, 0, 1.5)).norm(), 1e-8);
 }
 
-// A mooring that rests on the bed in part, with segments that sag: where it is cut, in the air or on the bed, tells
+// A mooring that rests on the bed in part, with catenary segments: where it is cut, in the air or on the bed, tells
 // nothing.
 TEST(NetworkAtRest, RestsOnABedAsTheUncutLine) {
   Description d = rods(20, 59, 8 * 59, 30e6);
   for (Segment& s : d.segments) {
-    s.sags = true;
+    s.catenary = true;
     s.diameter = 0.036;
   }
   d.held = {{.node = 0}, {.node = 20}};
@@ -607,7 +607,7 @@ TEST(Sphere, FloatsWhereItDisplacesItsWeight) {
   d.ties = {{3, 4}};
   for (int j = 0; j < 4; ++j) {
     d.segments[static_cast<std::size_t>(j)].axial_stiffness = 1e5;
-    d.segments[static_cast<std::size_t>(j)].pulls_only = true;
+    d.segments[static_cast<std::size_t>(j)].tension_only = true;
   }
   const Line line(d);
   State places{.position = Places::Zero(3, 6), .velocity = Places::Zero(3, 6), .tension = VectorXd::Zero(4)};

@@ -87,7 +87,7 @@ Description mooring(int n) {
   Segment s = Segment::rod(length / n, mass * length / n);
   s.axial_stiffness = 384.243e6;
   s.diameter = diameter;
-  s.sags = true;
+  s.catenary = true;
   d.segments.assign(static_cast<std::size_t>(n), s);
   d.held = {{.node = 0}, {.node = n}};
   d.gravity = 9.80665;

@@ -159,10 +159,10 @@ TEST(RigidLink, MayHaveItsCentreAnywhere) {
 }
 
 TEST(ElasticSegment, BouncesAsASpring) {
-  for (const bool pulls_only : {false, true}) {
+  for (const bool tension_only : {false, true}) {
     Description d = pendulums(1, 2, 3);
     d.segments[0].axial_stiffness = 500;
-    d.segments[0].pulls_only = pulls_only;
+    d.segments[0].tension_only = tension_only;
     const Line line(d);
     State s = in_plane(line, {pi / 2});  // unstretched: it falls by 2 m g/k
     Stepper stepper(line, {});
@@ -180,7 +180,7 @@ TEST(ElasticSegment, WithADamperLosesWhatTheLedgerSays) {
   for (Segment& s : d.segments) {
     s.axial_stiffness = 2000;
     s.axial_damping = 40;
-    s.pulls_only = true;
+    s.tension_only = true;
   }
   const Line line(d);
   for (const Scheme scheme : {Scheme::energy_momentum, Scheme::generalised_alpha}) {
@@ -218,8 +218,8 @@ class Shaking final : public Path {
   double amplitude = 1e-4, omega = 2;
 };
 
-// Led pendulum, small: x = A sin ωt/(1 − (ω/ω₀)²) once it starts with that velocity.
-TEST(HeldNodes, LeadAPendulumAlong) {
+// Pendulum whose pivot has a prescribed motion, small: x = A sin ωt/(1 − (ω/ω₀)²) once it starts with that velocity.
+TEST(HeldNodes, MoveAPendulumAlong) {
   Description d = pendulums(1, 1, 2);
   const auto shaking = std::make_shared<Shaking>();
   d.held = {{.node = 0, .path = shaking}};
@@ -237,7 +237,7 @@ TEST(HeldNodes, LeadAPendulumAlong) {
   }
 }
 
-/// A line in waves on a bed with all that acts, one end led.
+/// A line in waves on a bed with all that acts, one end with prescribed motion.
 struct Everything {
   Description d;
   State start;
@@ -252,7 +252,7 @@ struct Everything {
     Segment s = Segment::rod(2, 40);
     s.axial_stiffness = 1e6;
     s.axial_damping = 1e4;
-    s.pulls_only = true;
+    s.tension_only = true;
     s.diameter = 0.1;
     s.cd = 1.2;
     s.cd_tangential = 0.05;

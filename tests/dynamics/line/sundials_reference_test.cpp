@@ -14,7 +14,7 @@ namespace {
 
 using namespace dynamics::line;
 
-/// A loop of links that keep their lengths, swung across.
+/// A loop of inextensible links, swung across.
 State swung(const Line& line, int links) {
   State s = hanging_shape(line, support::ends_at(line, {2.5, 0, 0}));
   for (int i = 1; i < links; ++i) s.velocity(1, i) = std::sin(std::numbers::pi * i / links);

@@ -67,9 +67,11 @@ TEST(Signals, OfMooringsConnectorsAndTakeOffsVaryAsTheyAre) {
                     .second = 1,
                     .place = Vector3d(2, 0, 0),
                     .axis = Vector3d(0, 1, 0)};
-  const PtoKind pto(
-      {{Travel(bodies, hinge, 0), {.line = {.stiffness = 50, .damping = 7}, .lower = {}, .upper = {}}, -1, "h"}});
-  const GapCondition shapes{Ball{Vector3d(1, 0, 0), 0.3}, Ball{Vector3d(-1, 0.2, 0), 0.4}};
+  const PtoKind pto({{JointCoordinate(bodies, hinge, 0),
+                      {.line = {.stiffness = 50, .damping = 7}, .lower = {}, .upper = {}},
+                      -1,
+                      "h"}});
+  const GapConstraint shapes{Ball{Vector3d(1, 0, 0), 0.3}, Ball{Vector3d(-1, 0.2, 0), 0.4}};
   const ContactKind contact({{"t", 0, 1, shapes}});
   const auto all_told = {mooring.signals().size(), lines.signals().size(), axial.signals().size(),
                          bushing.signals().size(), pto.signals().size(),   contact.signals().size()};

@@ -70,7 +70,7 @@ TEST(CylinderLaws, DampingIsPassiveAndAddedMassAtInfinityPositive) {
     EXPECT_NE(finding.severity, potential::Severity::error) << finding.message;
 }
 
-TEST(CylinderLaws, ALayoutCarriedAndTurnedGivesTheSameMatricesCarriedAndTurned) {
+TEST(CylinderLaws, ALayoutTranslatedAndTurnedGivesTheSameMatricesTranslatedAndTurned) {
   const double angle = 0.7;
   const Eigen::Vector2d shift(3, -5);
   const Options options{.tolerance = 1e-5, .threads = 1, .doubled_frequencies = 0};
@@ -98,10 +98,10 @@ TEST(CylinderLaws, AnotherReferencePointGivesWhatTheOperationGives) {
     to.push_back(b.reference_point);
   }
   const auto there = solve(bodies, tank(8), {1.4}, {0.2}, options).coefficients;
-  const auto carried = potential::about(here, from, to);
-  EXPECT_LT((carried.A[0] - there.A[0]).cwiseAbs().maxCoeff(), 1e-10 * there.A[0].maxCoeff());
-  EXPECT_LT((carried.X[0] - there.X[0]).cwiseAbs().maxCoeff(), 1e-10 * there.X[0].cwiseAbs().maxCoeff());
-  EXPECT_LT((*carried.C - *there.C).cwiseAbs().maxCoeff(), 1e-10 * there.C->maxCoeff());
+  const auto translated = potential::about(here, from, to);
+  EXPECT_LT((translated.A[0] - there.A[0]).cwiseAbs().maxCoeff(), 1e-10 * there.A[0].maxCoeff());
+  EXPECT_LT((translated.X[0] - there.X[0]).cwiseAbs().maxCoeff(), 1e-10 * there.X[0].cwiseAbs().maxCoeff());
+  EXPECT_LT((*translated.C - *there.C).cwiseAbs().maxCoeff(), 1e-10 * there.C->maxCoeff());
 }
 
 // One rigid body of all cylinders is the sum over separate bodies that move together.

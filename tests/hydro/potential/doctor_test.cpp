@@ -286,7 +286,7 @@ TEST(Doctor, DoesNotDependOnReferencePointAndPlace) {
     to.push_back(*b.reference_point + Eigen::Vector3d(1.2, -0.8, 0.3));
   }
   EXPECT_EQ(told(check(hydro::potential::about(c, from, to))), "nothing");
-  EXPECT_EQ(told(check(hydro::potential::carried(c, {25, -40}))), "nothing");
+  EXPECT_EQ(told(check(hydro::potential::translated(c, {25, -40}))), "nothing");
 }
 
 double number_after(const std::vector<Finding>& findings, const std::string& name, const std::string& words) {

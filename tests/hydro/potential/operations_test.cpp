@@ -67,10 +67,10 @@ TEST(AnotherReferencePoint, LeavesPowerAsItIs) {
   EXPECT_LT((back.A[5] - c.A[5]).norm(), 1e-11 * c.A[5].norm() * 100);  // arms of 10 m enter squared, twice
 }
 
-// (P5): a body carried by d meets the crest k·d/ω later.
-TEST(CarriedCoefficients, LagByTheWayOfTheWave) {
+// (P5): a body translated by d meets the crest k·d/ω later.
+TEST(TranslatedCoefficients, LagByTheWayOfTheWave) {
   const Coefficients c = random_coefficients();
-  const Coefficients there = carried(c, {30, -20});
+  const Coefficients there = translated(c, {30, -20});
   for (std::size_t h = 0; h < 3; ++h) {
     const double k = waves::wavenumber(c.omega[6], c.water),
                  way = 30 * std::cos(c.heading[h]) - 20 * std::sin(c.heading[h]);
@@ -161,12 +161,12 @@ TEST(FrequencyTable, RefusesWhatTheDataDoNotHold) {
   EXPECT_THAT([&] { table.excitation(0.5, 1.2); }, testing::ThrowsMessage<InputError>(testing::HasSubstr("heading")));
 }
 
-TEST(FrequencyTable, TellsHowMuchATableLeavesOpen) {
+TEST(FrequencyTable, TellsItsErrorOfInterpolation) {
   const FrequencyTable fine(parabolas({0.3, 0.31, 0.32, 0.33}, Vector3d::Zero()), {Vector3d::Zero()});
   const FrequencyTable coarse(parabolas({0.3, 1.3, 2.3, 3.3}, Vector3d::Zero()), {Vector3d::Zero()});
-  EXPECT_LT(fine.openness().added_mass, 1e-4);
+  EXPECT_LT(fine.interpolation_error().added_mass, 1e-4);
   // The bend of a parabola 2ω²: 4·h²/8 = 0.5 at mid-interval, of 21.5 at the last frequency.
-  EXPECT_NEAR(coarse.openness().added_mass, 0.5 / (3 - 3.3 + 2 * 3.3 * 3.3), 1e-6);
+  EXPECT_NEAR(coarse.interpolation_error().added_mass, 0.5 / (3 - 3.3 + 2 * 3.3 * 3.3), 1e-6);
 }
 
 }  // namespace

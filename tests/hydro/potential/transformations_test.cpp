@@ -145,10 +145,10 @@ TEST(TurnedArray, MovesAsItDidAndCarriesItsPhasesAlong) {
   const double angle = -0.8;
   SmoothBody body{.bodies = 2};
   Coefficients c = body.coefficients(shallow, {0.5, 1.1}, {0.2, 0.9});
-  // Turning and carrying may change their order.
+  // Turning and translating may change their order.
   const Vector2d d(30, -12);
-  const Coefficients one = turned(carried(c, d), angle),
-                     other = carried(turned(c, angle), Eigen::Rotation2Dd(angle) * d);
+  const Coefficients one = turned(translated(c, d), angle),
+                     other = translated(turned(c, angle), Eigen::Rotation2Dd(angle) * d);
   EXPECT_LT(relative_difference(one.X, other.X), 1e-13);  // phases of a few radians
   // Motions turn with the array.
   Eigen::MatrixXd M = 1e5 * Eigen::MatrixXd::Identity(12, 12);

@@ -181,7 +181,7 @@ Eigen::MatrixXd supply_mass() {
   return M;
 }
 
-// Loads of one file and motions of another, both turned and carried, still obey one equation of motion.
+// Loads of one file and motions of another, both turned and translated, still obey one equation of motion.
 TEST(SupplyShip, MovesAsVeresSaysItDoes) {
   FROUDE_REQUIRE_DATA(folder, "mss_supply_shipx");
   const Coefficients c = read(folder / "input.re7", deep);

@@ -25,7 +25,7 @@ double harmonic_force(double step, double omega, int steps) {
   auto history = convolution.make_history();
   for (int i = 0; i < steps; ++i) history.push(Eigen::VectorXd::Constant(1, std::sin(omega * step * i)));
   const double now = std::sin(omega * step * steps);
-  return convolution.decided(history, 1)[0] + convolution.instantaneous(1)(0, 0) * now;
+  return convolution.history_force(history, 1)[0] + convolution.instantaneous(1)(0, 0) * now;
 }
 
 // After the memory (30 s, e^{−9}) is full: ∫K(t−τ) sin ωτ dτ = B sin ωt + ω(A − A∞) cos ωt.
@@ -55,7 +55,7 @@ TEST(DirectConvolution, ReachesPartOfAStepContinuously) {
   auto history = convolution.make_history();
   for (int i = 0; i <= 100; ++i) history.push(Eigen::VectorXd::Constant(1, std::sin(0.9 * 0.1 * i)));
   const auto force = [&](double fraction) {
-    return convolution.decided(history, fraction)[0] +
+    return convolution.history_force(history, fraction)[0] +
            convolution.instantaneous(fraction)(0, 0) * std::sin(0.9 * 0.1 * (100 + fraction));
   };
   // Straight pieces of K against the trapezium rule: both are second order in the step, 0.1² · |K''|/8 per unit of
@@ -76,7 +76,7 @@ TEST(DirectConvolution, AgreesWithASumWrittenOut) {
   }
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(modes);
   for (std::size_t j = 1; j < K.samples(); ++j) sum += 0.2 * K.at(j) * v[v.size() - j];
-  EXPECT_LT((convolution.decided(history, 1) - sum).norm(), 1e-12 * sum.norm());  // round-off of 150 products
+  EXPECT_LT((convolution.history_force(history, 1) - sum).norm(), 1e-12 * sum.norm());  // round-off of 150 products
 }
 
 // (R8): the discrete sum is passive: energy taken out of any motion that starts and ends at rest is not negative.
@@ -88,7 +88,7 @@ TEST(DirectConvolution, NeverGivesEnergyToARandomMotion) {
     double energy = 0, scale = 0;
     for (std::uint64_t i = 0; i < 500; ++i) {
       const Eigen::VectorXd v = Eigen::VectorXd::Constant(1, random.normal(i));
-      const double force = (convolution.decided(history, 1) + convolution.instantaneous(1) * v)[0];
+      const double force = (convolution.history_force(history, 1) + convolution.instantaneous(1) * v)[0];
       energy += 0.2 * force * v[0];
       scale += 0.2 * v.squaredNorm() * convolution.instantaneous(1)(0, 0);
       EXPECT_GE(energy, -1e-3 * scale) << "seed " << seed;  // the kernel is cut at 30 s, e^{−9}

@@ -78,7 +78,7 @@ TEST(RetardationKernel, IsTheSameByItsCorners) {  // (R23)
 
 TEST(RetardationKernel, IsTheSameWithATail) {  // (R23), (R11)
   const auto damping = body.damping_table(8, 160);
-  const auto whole = continued(damping, body.added_mass(damping, 5), std::nullopt);
+  const auto whole = extrapolated(damping, body.added_mass(damping, 5), std::nullopt);
   ASSERT_GT(whole.table.omega.size(), 3 * damping.omega.size());
   expect_the_same(whole.table, {.step = 0.05, .length = 40});
 }

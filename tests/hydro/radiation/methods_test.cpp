@@ -49,9 +49,10 @@ TEST_P(Partitioned, GivesTheSumsOfDirectConvolutionToRoundOff) {
   double size = 0;
   for (std::uint64_t i = 1; i < 700; ++i) {
     for (const double fraction : {1.0, 0.3}) {
-      const Eigen::VectorXd expected = slow->decided(fraction);
+      const Eigen::VectorXd expected = slow->history_force(fraction);
       size = std::max(size, expected.norm());
-      ASSERT_LT((fast->decided(fraction) - expected).norm(), 1e-13 * size) << "step " << i << ", fraction " << fraction;
+      ASSERT_LT((fast->history_force(fraction) - expected).norm(), 1e-13 * size)
+          << "step " << i << ", fraction " << fraction;
     }
     slow->accept(random_velocity(i, modes));
     fast->accept(random_velocity(i, modes));
@@ -111,7 +112,7 @@ TEST(PoleMemory, IsExactForStraightVelocitiesAtAnyStep) {
     for (std::size_t i = 1; i < 12; ++i) state->accept(Eigen::VectorXd::Constant(1, v[i]));
     for (const double fraction : {0.25, 1.0}) {
       const double at_end = v[11] + fraction * (v[12] - v[11]);
-      const double ours = state->decided(fraction)[0] + memory.instantaneous(fraction)(0, 0) * at_end;
+      const double ours = state->history_force(fraction)[0] + memory.instantaneous(fraction)(0, 0) * at_end;
       EXPECT_NEAR(ours, exact_load(v, h, 11, fraction), 1e-9 * (1 + h)) << "step " << h << ", fraction " << fraction;
     }
   }
@@ -126,7 +127,7 @@ double off_for_straight_velocities(const RetardationKernel& kernel, double h) {
   double off = 0, size = 0;
   for (std::size_t i = 1; i < 13; ++i) {
     const double exact = exact_load(v, h, i, 0);
-    const double ours = state->decided(1)[0] + memory.instantaneous(1)(0, 0) * v[i];
+    const double ours = state->history_force(1)[0] + memory.instantaneous(1)(0, 0) * v[i];
     off = std::max(off, std::abs(ours - exact));
     size = std::max(size, std::abs(exact));
     state->accept(Eigen::VectorXd::Constant(1, v[i]));
@@ -145,8 +146,8 @@ TEST(DirectConvolution, IsExactForStraightVelocitiesAtAnyStep) {
   }
 }
 
-// Damping that lasts to 80 rad/s, as a tail continued far beyond its table, and a slow motion in steps of 0.1 s, which
-// show 31 rad/s at most: the load is B v + ω(A − A∞) of the slow motion, nothing of what is fast.
+// Damping that lasts to 80 rad/s, as a tail extrapolated far beyond its table, and a slow motion in steps of 0.1 s,
+// which show 31 rad/s at most: the load is B v + ω(A − A∞) of the slow motion, nothing of what is fast.
 TEST(DirectConvolution, DoesNotFoldWhatIsFasterThanItsSteps) {
   DampingTable damping;
   for (double omega = 0.1; omega < 80.05; omega += 0.1) {
@@ -160,7 +161,7 @@ TEST(DirectConvolution, DoesNotFoldWhatIsFasterThanItsSteps) {
     auto history = memory.make_history();
     const auto v = [&](int i) { return Eigen::VectorXd::Constant(1, std::cos(slow * h * (i - 600))); };
     for (int i = 0; i < 600; ++i) history.push(v(i));
-    return (memory.decided(history, 1) + memory.instantaneous(1) * v(600))[0];
+    return (memory.history_force(history, 1) + memory.instantaneous(1) * v(600))[0];
   };
   const double exact = 0.01;  // B(0.5), in phase with the velocity
   // Straight velocities lose sinc² = 1 − (ωh)²/12 = 2e-4; the echo of corners at 50 rad/s at the end of 30 s: 2/(π 50
@@ -187,7 +188,7 @@ TEST(PoleMemory, NeverGivesEnergyToARandomMotionAtAnyStep) {
       double energy = 0, scale = 0;
       for (std::uint64_t i = 1; i < 300; ++i) {
         const Eigen::VectorXd v = random_velocity(1000 * seed + i, modes);
-        const Eigen::VectorXd load = state->decided(1) + memory.instantaneous(1) * v;
+        const Eigen::VectorXd load = state->history_force(1) + memory.instantaneous(1) * v;
         energy += h * load.dot(v);
         scale += h * load.norm() * v.norm();
         EXPECT_GE(energy, -1e-12 * scale) << "seed " << seed << ", step " << h;
@@ -212,7 +213,7 @@ TEST(Memories, OfOneBodyAgreeInASmoothMotion) {
     for (auto& s : states) s->accept(v(i));
   const double t = h * steps, mass_force = omega * body.A_minus_A_inf(omega) * std::cos(omega * t);
   for (std::size_t k = 0; k < methods.size(); ++k) {
-    const double load = (states[k]->decided(1) + methods[k]->instantaneous(1) * v(steps))[0];
+    const double load = (states[k]->history_force(1) + methods[k]->instantaneous(1) * v(steps))[0];
     EXPECT_NEAR(load, body.B(omega) * v(steps)[0] + mass_force, 1e-3)
         << methods[k]->describe();  // as in convolution_test
   }

@@ -34,11 +34,11 @@ std::pair<double, double> transform(const DampingTable& table, double omega) {
   return {-sine / omega, cosine};
 }
 
-// (R10): cut at 2 rad/s, where a sixth of B at the peak is left, the kernel alone misses part of A(ω); continued, it
+// (R10): cut at 2 rad/s, where a sixth of B at the peak is left, the kernel alone misses part of A(ω); extrapolated, it
 // has it back.
-TEST(ContinuedDamping, BringsBackTheAddedMassThatACutTableLoses) {
+TEST(ExtrapolatedDamping, BringsBackTheAddedMassThatACutTableLoses) {
   const auto cut = body.damping_table(2, 40);
-  const auto whole = continued(cut, added_mass(cut), Eigen::MatrixXd::Constant(1, 1, A_inf));
+  const auto whole = extrapolated(cut, added_mass(cut), Eigen::MatrixXd::Constant(1, 1, A_inf));
   for (const double omega : {0.4, 0.8, 1.3}) {
     const double exact = body.A_minus_A_inf(omega);
     // Of the part lost, (2/π)∫_2^∞ B/(ν²−ω²) dν = 0.03 to 0.05, a tenth remains: corners of a polygon, spacing of the
@@ -66,16 +66,16 @@ TEST(KramersKronig, GivesAddedMassFromDampingAndDampingFromAddedMass) {
                hydro::InputError);
 }
 
-TEST(ContinuedDamping, FindsTheLimitThatDataLack) {
+TEST(ExtrapolatedDamping, FindsTheLimitThatDataLack) {
   const auto cut = body.damping_table(4, 80);
-  const auto whole = continued(cut, added_mass(cut), std::nullopt);
+  const auto whole = extrapolated(cut, added_mass(cut), std::nullopt);
   EXPECT_NEAR(whole.A_inf(0, 0), A_inf,
               0.01);  // of a range of A of 3: constant and far tail look alike from inside the table
 }
 
-TEST(ContinuedDamping, AddsNextToNothingWhereTheDampingHasDiedAway) {
+TEST(ExtrapolatedDamping, AddsNextToNothingWhereTheDampingHasDiedAway) {
   const auto table = body.damping_table(30, 600);
-  const auto whole = continued(table, added_mass(table), Eigen::MatrixXd::Constant(1, 1, A_inf));
+  const auto whole = extrapolated(table, added_mass(table), Eigen::MatrixXd::Constant(1, 1, A_inf));
   // B(30) = 2a/30² = 7e-4; the true tail goes on from there.
   for (std::size_t i = table.omega.size(); i < whole.table.omega.size(); ++i)
     EXPECT_LT(std::abs(whole.table.B[i](0, 0)), 2e-3);
@@ -83,16 +83,16 @@ TEST(ContinuedDamping, AddsNextToNothingWhereTheDampingHasDiedAway) {
   EXPECT_EQ(whole.table.B.back()(0, 0), 0);
 }
 
-TEST(ContinuedDamping, NoticesThatAddedMassAndDampingDoNotBelongTogether) {
+TEST(ExtrapolatedDamping, NoticesThatAddedMassAndDampingDoNotBelongTogether) {
   const auto table = body.damping_table(4, 80);
   auto A = added_mass(table);
   for (auto& a : A) a(0, 0) = 2 * A_inf - a(0, 0);
-  EXPECT_GT(continued(table, A, Eigen::MatrixXd::Constant(1, 1, A_inf)).misfit, 0.05);
+  EXPECT_GT(extrapolated(table, A, Eigen::MatrixXd::Constant(1, 1, A_inf)).misfit, 0.05);
 }
 
-TEST(ContinuedDamping, NeedsAddedMassAtEveryFrequency) {
+TEST(ExtrapolatedDamping, NeedsAddedMassAtEveryFrequency) {
   const auto table = body.damping_table(4, 80);
-  EXPECT_THROW(continued(table, {}, std::nullopt), hydro::InputError);
+  EXPECT_THROW(extrapolated(table, {}, std::nullopt), hydro::InputError);
 }
 
 }  // namespace

@@ -156,8 +156,8 @@ TEST(WaveTank, RoundTripsAddUpToTheSteadyState) {
 TEST(WaveTank, ReflectingPaddleMovesWithTheWaterAndAbsorbingOneLetsItThrough) {
   const TankMode wall(tank_with(Paddle::piston(), {.far_end = 0.7, .paddle = PaddleMode::reflecting}, 400), 4);
   for (const double z : {-0.2, -0.5, -0.9}) EXPECT_NEAR(std::abs(wall.flow(0, z).u - 4.0 * i), 0, 1e-2);
-  const TankMode yields(tank_with(Paddle::piston(), {.far_end = 0.7, .paddle = PaddleMode::absorbing}, 400), 4);
-  EXPECT_GT(std::abs(yields.flow(0, -0.2).u - 4.0 * i), 0.5);
+  const TankMode absorbing(tank_with(Paddle::piston(), {.far_end = 0.7, .paddle = PaddleMode::absorbing}, 400), 4);
+  EXPECT_GT(std::abs(absorbing.flow(0, -0.2).u - 4.0 * i), 0.5);
 }
 
 TEST(WaveTank, IsTheSumOfItsModesAsAField) {

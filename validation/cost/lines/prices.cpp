@@ -243,7 +243,7 @@ int main(int argc, char** argv) {
   std::string text =
       "# What lines cost\n\nWritten by `price_lines` (validation/cost/lines), one core, processor time, other work "
       "beside it.\n\n"
-      "## The OC3 mooring line\n\n902 m of chain on a bed, segments that sag, generalised-α; the fairlead moved by 2 m "
+      "## The OC3 mooring line\n\n902 m of chain on a bed, catenary segments, generalised-α; the fairlead moved by 2 m "
       "and 1 m at 10 s (case oc3-line). "
       "The error is the root mean square over the range of the tension from 20 to 30 s, against 200 segments "
       "and a step of 12.5 ms. Times of the explicit peer are those reported for it, on another day.\n\n![error against "
@@ -255,8 +255,9 @@ int main(int argc, char** argv) {
       "costs about twice that, and almost half of the time goes into the first second, in which the fairlead is set "
       "off at "
       "once at its\nfull speed: segments of 0.9 m touch down several at a time, Newton halves steps and takes up to a "
-      "hundred iterations and more. From 1 s on it takes four or five a step. Fewer segments that sag have the same "
-      "tension. The error hardly\ndepends on the number of segments: 20 that sag have a static tension nearer to the "
+      "hundred iterations and more. From 1 s on it takes four or five a step. Fewer catenary segments have the same "
+      "tension. The error hardly\ndepends on the number of segments: 20 catenary segments have a static tension nearer "
+      "to the "
       "catenary than 200 straight ones of the peer (0.1 % off), at a twentieth of the time.\n"
       "\n## Loops of links\n\n17 m in n links, swung across at 1 m/s, nothing damps, step 10 ms. A dash: the scheme "
       "could not go on.\n\n";

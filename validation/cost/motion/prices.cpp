@@ -209,7 +209,7 @@ Model rubbing_pendulum() {
   std::vector<std::unique_ptr<const ForceKind>> forces;
   forces.push_back(std::make_unique<GravityKind>(bodies, 9.81));
   std::vector<Friction> friction;
-  for (const Joint& j : joints) friction.push_back({j.name, Travel(bodies, j), 0.025, 0.02, {}, {}});
+  for (const Joint& j : joints) friction.push_back({j.name, JointCoordinate(bodies, j), 0.025, 0.02, {}, {}});
   forces.push_back(std::make_unique<FrictionKind>(std::move(friction)));
   return Model(std::move(bodies), {}, std::move(forces), std::move(joints));
 }
@@ -454,7 +454,7 @@ class ByHand {
       const Vector6 push = grown * (X_ * std::polar(1.0, omega_ * t)).real();
       const Vector6 u_next = u + h_ * v + h_ * h_ * (0.5 - of_.beta) * a, v_next = v + h_ * (1 - of_.gamma) * a;
       const Vector6 u_mid = (1 - af) * u_next + af * u, v_mid = (1 - af) * v_next + af * v;
-      const Vector6 a_next = lu_.solve(push - am * M_ * a - C_ * u_mid - now_ * v_mid - past->decided(1 - af));
+      const Vector6 a_next = lu_.solve(push - am * M_ * a - C_ * u_mid - now_ * v_mid - past->history_force(1 - af));
       u = u_next + h_ * h_ * of_.beta * a_next;
       v = v_next + h_ * of_.gamma * a_next;
       a = a_next;
@@ -553,8 +553,8 @@ void write(const fs::path& data, const fs::path& folder) {
       "\n## Methods by step\n\n![error against time](motion.svg)\n\nFive modules of `examples/pontoon5.toml`, 100 s of "
       "sea; the heave of the first.\n\n" +
       scene_methods(five, "m1.heave", {0.2, 0.1, 0.05, 0.025}, array);
-  text += "\nThe buoy of `examples/buoy.toml`, 100 s; the rack's travel.\n\n" +
-          scene_methods(one, "rack.travel", {0.2, 0.1, 0.05, 0.025}, buoy);
+  text += "\nThe buoy of `examples/buoy.toml`, 100 s; the rack's stroke.\n\n" +
+          scene_methods(one, "rack.stroke", {0.2, 0.1, 0.05, 0.025}, buoy);
   text += "\nA double pendulum whose hinges rub, 4 s; heights of both rods.\n\n" + pendulum_methods(pendulum);
   text += "\n## Effects one at a time\n\nFive modules, 30 degrees of freedom, 600 steps of 0.1 s.\n\n" + effects();
   text += "\n## Without stepping\n\n" + shortcut();

@@ -44,7 +44,7 @@ bool gives_energy(const PoleModel& model, std::uint64_t seed) {
   for (int i = 0; i < 200; ++i) {
     Eigen::VectorXd v(model.modes());
     for (auto& x : v) x = random.normal(next++);
-    const Eigen::VectorXd load = state->decided(1) + memory.instantaneous(1) * v;
+    const Eigen::VectorXd load = state->history_force(1) + memory.instantaneous(1) * v;
     energy += load.dot(v);
     scale += load.norm() * v.norm();
     if (energy < -1e-12 * scale) return true;
@@ -76,9 +76,9 @@ bool sums_differ(const support::RadiationData& data, std::uint64_t seed) {
     for (auto& x : v) x = random.normal(next++);
     slow->accept(v);
     fast->accept(v);
-    const Eigen::VectorXd expected = slow->decided(1);
+    const Eigen::VectorXd expected = slow->history_force(1);
     size = std::max(size, expected.norm());
-    if ((fast->decided(1) - expected).norm() > 1e-12 * size) return true;
+    if ((fast->history_force(1) - expected).norm() > 1e-12 * size) return true;
   }
   return false;
 }

@@ -48,7 +48,7 @@ Eigen::VectorXd velocity(int modes, std::uint64_t i) {
   return v;
 }
 
-/// The decided sum in extended precision at step `now`.
+/// The history force in extended precision at step `now`.
 Eigen::VectorXd exact(const std::vector<Eigen::MatrixXd>& K, int modes, std::uint64_t now) {
   Eigen::Matrix<long double, Eigen::Dynamic, 1> sum = Eigen::Matrix<long double, Eigen::Dynamic, 1>::Zero(modes);
   for (std::size_t l = 1; l < K.size() && l <= now; ++l) {
@@ -75,7 +75,7 @@ Measured measure(const MemoryMethod& method, const std::vector<Eigen::MatrixXd>&
     const Eigen::VectorXd v = velocity(modes, i);
     const auto start = Clock::now();
     state->accept(v);
-    last = state->decided(1);
+    last = state->history_force(1);
     const double took = seconds_since(start);
     if (i < warm) continue;
     total += took;

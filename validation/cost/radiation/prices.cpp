@@ -68,7 +68,7 @@ double microseconds_a_step(const MemoryMethod& method) {
     const auto start = Clock::now();
     for (int i = 0; i < steps; ++i) {
       state->accept(std::cos(0.05 * i) * velocity);
-      if (!state->decided(1).allFinite()) throw std::runtime_error("a memory is not finite");
+      if (!state->history_force(1).allFinite()) throw std::runtime_error("a memory is not finite");
     }
     least = std::min(least, 1e6 * seconds_since(start) / steps);
   }

@@ -16,7 +16,7 @@ struct Ends {
   Eigen::Vector3d first_arm, second_arm;
 };
 
-/// A pull along the line between the ends: what its law answers to L − L₀ and dL/dt, tension positive (D3).
+/// A pull along the line between the ends: what its law gives for L − L₀ and dL/dt, tension positive (D3).
 struct AxialConnector {
   Ends ends;
   LineLaw law;

@@ -7,7 +7,8 @@ namespace dynamics {
 /// Its loads are multipliers of an integrator, so it adds none: it knows the geometry, and keeps the accounts.
 class ContactKind final : public ForceKind, public ContactLaw {
  public:
-  /// \throws hydro::InputError for a restitution outside 0 … 1, a friction below zero, shapes that have no law (meet())
+  /// \throws hydro::InputError for a restitution outside 0 … 1, a friction below zero, shapes that have no law
+  /// (closest_points())
   explicit ContactKind(std::vector<Contact> elements);
 
   std::string effect() const override { return "contact"; }
@@ -24,11 +25,11 @@ class ContactKind final : public ForceKind, public ContactLaw {
   std::vector<Signal> signals() const override;
 
   const Contact& element(std::size_t i) const override { return elements_[i]; }
-  Meeting meeting(std::size_t element, const State& state) const override;
+  ClosestPoints closest_points(std::size_t element, const State& state) const override;
   Motion motion(std::size_t element, const State& state) const override;
   std::optional<double> passing(std::size_t element, const State& before, const State& after) const override;
-  Condition closed(std::size_t element) const override;
-  std::array<Condition, 2> sticking(std::size_t element, const State& state) const override;
+  Constraint closed(std::size_t element) const override;
+  std::array<Constraint, 2> sticking(std::size_t element, const State& state) const override;
   Gradient along(std::size_t element, const Eigen::Vector3d& direction, const State& state) const override;
   double load(std::size_t element, const Memory* memory, const Eigen::VectorXd& multipliers) const override;
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "dynamics/force/force_kind.hpp"
-#include "dynamics/joint/conditions.hpp"
+#include "dynamics/joint/constraints.hpp"
 
 namespace dynamics {
 
@@ -14,7 +14,7 @@ struct Contact {
   std::string name;
   int first;
   std::optional<int> second;  ///< empty: the ground
-  GapCondition shapes;
+  GapConstraint shapes;
   double restitution = 0;  ///< e, of the approach along the normal that comes back; 0 … 1
   double friction = 0;     ///< μ, of the load along the normal; 0: smooth
 };
@@ -39,18 +39,18 @@ class ContactMemory final : public Memory {
 };
 
 /// The set-valued law of a kind of force, ForceKind::contact(), whose memory is a ContactMemory: the geometry of its
-/// elements. Their loads are multipliers of an integrator, which adds a condition for each contact that is closed.
+/// elements. Their loads are multipliers of an integrator, which adds a constraint for each contact that is closed.
 class ContactLaw {
  public:
   virtual ~ContactLaw() = default;
   virtual std::size_t elements() const = 0;
   virtual const Contact& element(std::size_t i) const = 0;
 
-  virtual Meeting meeting(std::size_t element, const State& state) const = 0;
-  double gap(std::size_t element, const State& state) const { return meeting(element, state).gap; }
+  virtual ClosestPoints closest_points(std::size_t element, const State& state) const = 0;
+  double gap(std::size_t element, const State& state) const { return closest_points(element, state).gap; }
   /// How the points that are closest move against each other, the second's seen from the first's.
   struct Motion {
-    Meeting meeting;
+    ClosestPoints closest_points;
     double parting;        ///< along the normal, m/s: the rate of the gap
     Eigen::Vector3d slip;  ///< across it, m/s, global
   };
@@ -58,10 +58,11 @@ class ContactLaw {
   /// Shapes that are apart at both ends of a step but were not between: the share of the step at which they are first
   /// seen to overlap (D131). Nothing if they did not, or moved against each other by less than half their thickness.
   virtual std::optional<double> passing(std::size_t element, const State& before, const State& after) const = 0;
-  /// The condition that keeps the gap at zero.
-  virtual Condition closed(std::size_t element) const = 0;
-  /// Two conditions that keep what touches from slipping along the surface, in directions across its normal in `state`.
-  virtual std::array<Condition, 2> sticking(std::size_t element, const State& state) const = 0;
+  /// The constraint that keeps the gap at zero.
+  virtual Constraint closed(std::size_t element) const = 0;
+  /// Two constraints that keep what touches from slipping along the surface, in directions across its normal in
+  /// `state`.
+  virtual std::array<Constraint, 2> sticking(std::size_t element, const State& state) const = 0;
   /// How the points that touch in `state` move along a direction of the surface.
   virtual Gradient along(std::size_t element, const Eigen::Vector3d& direction, const State& state) const = 0;
   /// Load along the normal, >= 0, N, from the multipliers of an integrator.

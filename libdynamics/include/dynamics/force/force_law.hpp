@@ -1,13 +1,14 @@
 #pragma once
-/// \file  How a spring and a damper answer one number and its rate: an elongation, a travel, an angle. (D50)-(D52)
+/// \file  The force of a spring and a damper by one number and its rate: an elongation or a joint coordinate.
+/// (D50)-(D52)
 #include <limits>
 #include <optional>
 #include <vector>
 
 namespace dynamics {
 
-/// The answer to (x, ẋ): a force against x, its derivatives, the energy held, and the power lost.
-struct Answer {
+/// The force of a spring and a damper at (x, ẋ), against x, its derivatives, the energy held, and the power lost.
+struct SpringDamperForce {
   double force = 0, by_x = 0, by_rate = 0;
   double stored = 0, dissipated = 0;
 };
@@ -19,28 +20,28 @@ struct LineLaw {
   std::vector<double> table_x = {},
                       table_force =
                           {};  ///< at least two, x increasing; straight between them and beyond, instead of k₁, k₃
-  bool pulls_only = false;     ///< nothing at x <= 0, and never a push: cables, end stops (D51)
+  bool tension_only = false;   ///< nothing at x <= 0, and never a push: cables, end stops (D51)
 
-  Answer at(double x, double rate) const;
+  SpringDamperForce at(double x, double rate) const;
   /// The steepest slope of the spring: of its table, or at x = 0 where it pulls.
   double stiffest() const;
 };
 
-/// A stop that a travel runs into: nothing before `at`, a spring with a damper that never pulls behind it.
+/// A stop that a joint runs into: nothing before `at`, a spring with a damper that never pulls behind it.
 struct EndStop {
   double at;
   double stiffness, damping;
 };
 
-/// What works on the travel of a joint: a spring and damper with a preload, all of which cannot exceed a limit, and end
-/// stops, which can. (D52)
-struct TravelLaw {
+/// What works along the coordinate of a joint: a spring and damper with a preload, all of which cannot exceed a limit,
+/// and end stops, which can. (D52)
+struct PtoLaw {
   LineLaw line;
   double preload = 0;
   double force_limit = std::numeric_limits<double>::infinity();
   std::optional<EndStop> lower, upper;
 
-  struct Working : Answer {
+  struct Working : SpringDamperForce {
     double supplied = 0;  ///< W, where a limit keeps the force below what spring and damper would give
   };
   Working at(double x, double rate) const;

@@ -1,7 +1,7 @@
 #pragma once
 /// \file  Coulomb friction in hinges and sliders: a set-valued law, which sticks or slips and is never smoothed.
 #include "dynamics/force/friction_law.hpp"
-#include "dynamics/joint/travel.hpp"
+#include "dynamics/joint/coordinate.hpp"
 
 namespace dynamics {
 
@@ -10,18 +10,18 @@ namespace dynamics {
 /// time `hold` from where it came to rest, and is nothing otherwise (D33).
 struct Friction {
   std::string name;  ///< of the joint
-  Travel travel;
+  JointCoordinate coordinate;
   double breakaway;                     ///< static level, N m or N, >= sliding; of latches infinite
   double sliding;                       ///< dynamic level, > 0; of latches 0
   std::optional<double> stribeck = {};  ///< rad/s or m/s, > 0
   std::optional<double> hold = {};      ///< s, > 0
   double sign = 1;                      ///< −1 where its signal is told along the axis turned round
   double level(double rate) const;      ///< against the slip, N m or N
-  double steepness(double rate) const;  ///< its derivative by the rate
+  double slope(double rate) const;      ///< its derivative by the rate
 };
 
-/// Loads of frictions that slip, and the law of all: those that stick are Travel::holding(), and hold up to the static
-/// level.
+/// Loads of frictions that slip, and the law of all: those that stick are JointCoordinate::holding(), and hold up to
+/// the static level.
 class FrictionKind final : public ForceKind, public FrictionLaw {
  public:
   /// \throws hydro::InputError if a level, rate or time is not positive, or the static level is below the dynamic one
@@ -38,11 +38,13 @@ class FrictionKind final : public ForceKind, public FrictionLaw {
   const FrictionLaw* friction() const override { return this; }
   std::vector<Signal> signals() const override;
 
-  double rate(std::size_t element, const State& state) const override { return elements_[element].travel.rate(state); }
-  Condition holding(std::size_t element, const State& state) const override {
-    return elements_[element].travel.holding(state);
+  double rate(std::size_t element, const State& state) const override {
+    return elements_[element].coordinate.rate(state);
   }
-  double strain(std::size_t element, double load, const FrictionMemory& memory, double time) const override;
+  Constraint holding(std::size_t element, const State& state) const override {
+    return elements_[element].coordinate.holding(state);
+  }
+  double utilisation(std::size_t element, double load, const FrictionMemory& memory, double time) const override;
   double load(std::size_t element, const State& state, const Memory* memory, const Eigen::VectorXd& multipliers,
               Eigen::Index joints) const override;
   void note_work(const State& before, const State& after, FrictionMemory& memory) const override;

@@ -8,7 +8,7 @@
 
 namespace dynamics {
 
-/// Whether each friction sticks (0), or the sign of the travel with which it slips; and the work it has done.
+/// Whether each friction sticks (0), or the sign of the rate with which it slips; and the work it has done.
 class FrictionMemory final : public Memory {
  public:
   explicit FrictionMemory(std::size_t count)
@@ -25,7 +25,7 @@ class FrictionMemory final : public Memory {
 };
 
 /// The set-valued law of a kind of force, ForceKind::friction(), whose memory is a FrictionMemory. Elements that slip
-/// are loads of the kind; those that stick are conditions, which an integrator adds to the joints' own, to compare
+/// are loads of the kind; those that stick are constraints, which an integrator adds to the joints' own, to compare
 /// their multipliers with what they can hold.
 class FrictionLaw {
  public:
@@ -33,10 +33,10 @@ class FrictionLaw {
   virtual std::size_t elements() const = 0;
   /// How fast an element slips, m/s or rad/s; its sign is that of FrictionMemory::direction.
   virtual double rate(std::size_t element, const State& state) const = 0;
-  /// The condition that holds an element where it is in `state`.
-  virtual Condition holding(std::size_t element, const State& state) const = 0;
+  /// The constraint that holds an element where it is in `state`.
+  virtual Constraint holding(std::size_t element, const State& state) const = 0;
   /// Of one that sticks and carries `load`: the share of what it can hold, or, of a latch, of its time.
-  virtual double strain(std::size_t element, double load, const FrictionMemory& memory, double time) const = 0;
+  virtual double utilisation(std::size_t element, double load, const FrictionMemory& memory, double time) const = 0;
   /// What the friction does to the second body along the axis, N m or N. `multipliers` of an integrator hold those of
   /// the joints, of which there are `joints`, and then one for each element that sticks.
   virtual double load(std::size_t element, const State& state, const Memory* memory, const Eigen::VectorXd& multipliers,

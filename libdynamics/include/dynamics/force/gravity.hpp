@@ -8,8 +8,8 @@ namespace dynamics {
 /// hydrostatic stiffness does not hold their weight already.
 class GravityKind final : public ForceKind {
  public:
-  /// `heavy`: indices of the bodies that feel it.
-  GravityKind(const std::vector<RigidBody>& bodies, double gravity, const std::vector<int>& heavy);
+  /// `with_gravity`: indices of the bodies that feel it.
+  GravityKind(const std::vector<RigidBody>& bodies, double gravity, const std::vector<int>& with_gravity);
   /// All of them.
   GravityKind(const std::vector<RigidBody>& bodies, double gravity);
   std::string effect() const override { return "weight"; }

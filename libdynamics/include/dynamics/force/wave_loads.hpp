@@ -28,8 +28,8 @@ class ExcitationKind final : public ForceKind {
 };
 
 /// Radiation memory of modes that feel each other's waves: F = −∫K(t−τ) v(τ) dτ about the centres of gravity. The added
-/// mass at infinite frequency is in the model's mass matrix, not here. Modes that are not free have no velocity to
-/// remember.
+/// mass at infinite frequency is in the model's mass matrix, not here. Modes that are not free have no
+/// velocity.
 struct RadiationMemory {
   std::vector<int> modes;                                        ///< of the model, 6 · body + mode, increasing
   std::shared_ptr<const hydro::radiation::MemoryMethod> method;  ///< with as many modes

@@ -35,9 +35,9 @@ struct LinearDrag {
 ///
 /// Solves (Q1) at each frequency: [−ω²(M + A(ω)) + iω(B(ω) + D) + K] ξ = X(ω, β), K and D from every force of the model
 /// that is linear at rest, about where the bodies are still, in the motions that joints leave (D17). Modes that are not
-/// free stay zero. Error: round-off, plus what FrequencyTable::openness() says of the data. `drag`: made for the same
-/// frequencies, or none. \throws hydro::InputError outside the data, hydro::NumericsError naming the frequency if the
-/// matrix is singular
+/// free stay zero. Error: round-off, plus what FrequencyTable::interpolation_error() says of the data. `drag`: made for
+/// the same frequencies, or none. \throws hydro::InputError outside the data, hydro::NumericsError naming the frequency
+/// if the matrix is singular
 Eigen::MatrixXcd response_amplitudes(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
                                      const std::vector<double>& omega, double heading,
                                      const LinearDrag* drag = nullptr);

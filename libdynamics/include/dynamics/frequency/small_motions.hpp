@@ -6,7 +6,7 @@
 
 namespace dynamics::frequency {
 
-/// Stiffness, damping, conditions and own masses of a model about a still state (D17). Added mass, radiation and
+/// Stiffness, damping, constraints and own masses of a model about a still state (D17). Added mass, radiation and
 /// excitation stay those of the bodies as placed, in global axes, as runs have them.
 struct SmallMotions {
   /// About rest as placed, so that a model may stand wherever its small motions are asked for. `of` must live as long.

@@ -11,7 +11,7 @@
 
 namespace dynamics {
 
-/// The conditions of the joints come first, then one for each friction that sticks, then the normal of each contact
+/// The constraints of the joints come first, then one for each friction that sticks, then the normal of each contact
 /// that is closed and, if it sticks, its directions along the surface.
 class ActiveSet {
  public:
@@ -25,7 +25,7 @@ class ActiveSet {
 
   /// Takes up what the memories say, where the bodies are now; the workspace's solver with it.
   void rebuild(Workspace& workspace);
-  const JointSet& conditions() const { return conditions_; }
+  const JointSet& constraints() const { return constraints_; }
   /// Loads are −columns · λ: G, and friction along with the normal of a contact that slides, against its slip in
   /// `state` (D24).
   std::vector<Gradient> columns(std::vector<Gradient> G, const State& state) const;
@@ -44,8 +44,8 @@ class ActiveSet {
 
   /// √ of the diagonal of mass plus added mass: makes newtons and newton metres comparable.
   const Eigen::VectorXd& scale() const { return scale_; }
-  /// √ of the mass that each condition moves.
-  const Eigen::VectorXd& condition_scale() const { return condition_scale_; }
+  /// √ of the mass that each constraint moves.
+  const Eigen::VectorXd& constraint_scale() const { return constraint_scale_; }
   /// Of closed contacts, which may be more than needed to hold a body: a small inverse mass, for Newton's matrix alone,
   /// by which they share the load evenly (D24). Zero for joints.
   const Eigen::VectorXd& compliance() const { return compliance_; }
@@ -54,8 +54,8 @@ class ActiveSet {
 
  private:
   void close(std::size_t element, Workspace& workspace);
-  bool moves(const Condition& condition, const State& state) const;
-  void find_condition_scale(const State& state);
+  bool moves(const Constraint& constraint, const State& state) const;
+  void find_constraint_scale(const State& state);
 
   struct Slide {
     Eigen::Index row;  ///< of the normal
@@ -67,9 +67,9 @@ class ActiveSet {
   const FrictionLaw* friction_ = nullptr;
   const ContactLaw* contact_ = nullptr;
   std::size_t friction_index_ = 0, contact_index_ = 0;  // among the model's forces
-  JointSet conditions_;
+  JointSet constraints_;
   std::vector<Slide> slides_;
-  Eigen::VectorXd scale_, condition_scale_, compliance_;
+  Eigen::VectorXd scale_, constraint_scale_, compliance_;
   double rounding_ = 0;
 };
 

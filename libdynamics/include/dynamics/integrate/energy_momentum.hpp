@@ -5,7 +5,7 @@
 namespace dynamics {
 
 /// Energy–momentum step of second order (D29), after Simo & Wong (1991) for rotations, with joints by the exact
-/// differences of their conditions: linear and angular momentum of bodies, and the energy of what joints and weights
+/// differences of their constraints: linear and angular momentum of bodies, and the energy of what joints and weights
 /// make, stay to Newton's tolerance at any step, without any damping. Other loads are taken at the midpoint: their
 /// energy is right to second order, and what oscillates faster than the step resolves goes on for ever, so that stiff
 /// scenes want GeneralizedAlpha. Accelerations and multipliers are means over the step. \throws hydro::InputError for

@@ -19,9 +19,9 @@ struct StepReport {
   std::vector<Event> events = {};
 };
 
-/// Friction sticks as one more condition or slips with a given load, contacts are closed as one more condition or open;
-/// where that changes, the step is cut at the instant, found to round-off, and goes on with accelerations of its own
-/// (D20), (D26). No velocity counts as small, no stiffness stands for contact.
+/// Friction sticks as one more constraint or slips with a given load, contacts are closed as one more constraint or
+/// open; where that changes, the step is cut at the instant, found to round-off, and goes on with accelerations of its
+/// own (D20), (D26). No velocity counts as small, no stiffness stands for contact.
 class Integrator {
  public:
   virtual ~Integrator() = default;
@@ -44,7 +44,7 @@ class Integrator {
 
  protected:
   explicit Integrator(const Model& model) : model_(model), active_(model) {}
-  // Copies have the laws of their own conditions.
+  // Copies have the laws of their own constraints.
   Integrator(const Integrator& other) : model_(other.model_), active_(other.active_), failure_(other.failure_) {}
   Integrator& operator=(const Integrator&) = delete;
 

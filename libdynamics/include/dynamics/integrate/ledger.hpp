@@ -1,5 +1,5 @@
 #pragma once
-/// \file  The energy ledger: what each effect supplied, stored and took away, and what does not add up.
+/// \file  The energy ledger: what each effect supplied, stored and took away, and the residual.
 #include <Eigen/Core>
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace dynamics {
 
-/// One entry for each kind of force, and "joint.lead" where joints are led: they work by their multipliers (D31).
-/// Kinetic + stored = initial + ∫(supplied − dissipated) dt + residual (D12). Powers are integrated by the trapezium
-/// rule over the steps, so the residual holds the error of the step as well as of the loads.
+/// One entry for each kind of force, and "joint.prescribed" where joints have a prescribed motion: they work by their
+/// multipliers (D31). Kinetic + stored = initial + ∫(supplied − dissipated) dt + residual (D12). Powers are integrated
+/// by the trapezium rule over the steps, so the residual holds the error of the step as well as of the loads.
 class EnergyLedger {
  public:
   struct Entry {

@@ -21,7 +21,7 @@ class NewtonIntegrator : public Integrator {
     Eigen::VectorXd acceleration, multipliers;
     State state;                               ///< at the end of the step
     std::optional<State> loads_at = {};        ///< where loads are taken, if not there
-    std::vector<Gradient> gradients, columns;  ///< of the conditions at the end, and of their loads
+    std::vector<Gradient> gradients, columns;  ///< of the constraints at the end, and of their loads
     Eigen::VectorXd residual, open;  ///< forces that do not balance; how far joints are open, as accelerations
     double size;                     ///< of both, scaled
   };

@@ -1,9 +1,9 @@
 #pragma once
 /// \file  Joints: bodies that keep points or directions together, exactly, whatever the forces.
 ///
-/// A joint is a few conditions g(q) = 0 with multipliers λ: loads −Gᵀλ on the bodies, G = ∂g/∂q. All kinds are made of
-/// two sorts of condition, (D13) and (D14), so each has one value, one gradient and one curvature to check. A contact
-/// that is closed is a third sort, (D23).
+/// A joint is a few constraints g(q) = 0 with multipliers λ: loads −Gᵀλ on the bodies, G = ∂g/∂q. All kinds are made of
+/// two types of constraint, (D13) and (D14), so each has one value, one gradient and one curvature to check. A contact
+/// that is closed is a third type, (D23).
 #include <Eigen/Core>
 
 #include <array>
@@ -31,12 +31,13 @@ enum class JointKind {
 };
 std::string name_of(JointKind kind);
 
-/// Where a joint that is led has its second body, seen from the first, at one time: m or rad, per second, per second².
-struct Led {
-  double travel, rate, acceleration;
+/// Where a prescribed motion has the second body of its joint, seen from the first, at one time: m or rad, per second,
+/// per second².
+struct PrescribedState {
+  double coordinate, rate, acceleration;
 };
-/// Led::travel is twice differentiable, and the others are its derivatives.
-using Lead = std::function<Led(double time_s)>;
+/// PrescribedState::coordinate is twice differentiable, and the others are its derivatives.
+using PrescribedMotion = std::function<PrescribedState(double time_s)>;
 
 /// A joint, described where the bodies are at rest.
 struct Joint {
@@ -47,49 +48,50 @@ struct Joint {
   Eigen::Vector3d place;                                   ///< global, m
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();         ///< global, any length
   Eigen::Vector3d second_axis = Eigen::Vector3d::UnitY();  ///< global, across `axis`; of universal joints
-  Lead lead = {};                                          ///< of sliders and hinges whose travel is given (D31)
-  double sign = 1;  ///< −1 where its signals count the travel of the first against the second
+  PrescribedMotion prescribed = {};                        ///< of sliders and hinges whose coordinate is given (D31)
+  double sign = 1;  ///< −1 where its signals count the coordinate of the first against the second
 };
 
-class Travel;
+class JointCoordinate;
 
 /// A direction n that keeps d, from the first body's point to the second's, at zero: g = n·d (D13).
-struct PointCondition {
+struct PointConstraint {
   Eigen::Vector3d first_arm, second_arm;  ///< from the centres, body axes; of the ground: global place
   Eigen::Vector3d direction;              ///< n, unit; global, or in the first body's axes if `turns`
   bool turns;
 };
 /// Directions u of the first body and v of the second that stay across each other: g = u·v (D14).
-struct AxesCondition {
+struct AxesConstraint {
   Eigen::Vector3d first_axis, second_axis;  ///< u, v, body axes; of the ground: global
 };
 
 /// Shapes of the two bodies that touch: g is the gap between them (D23).
-struct GapCondition {
+struct GapConstraint {
   Shape first, second;  ///< from the centres, body axes; of the ground: global
 };
 
-/// Where the shapes touch, the second does not slip over the first along a direction: a condition on velocities alone,
+/// Where the shapes touch, the second does not slip over the first along a direction: a constraint on velocities alone,
 /// so that round shapes may roll (D24).
-struct StickCondition {
-  GapCondition shapes;
+struct StickConstraint {
+  GapConstraint shapes;
   Eigen::Vector3d direction;  ///< along the surface, global, unit
 };
 
-/// The travel of a slider or hinge is what it is led to be: g = s(q) − s(t) (D31).
-struct LeadCondition {
-  std::shared_ptr<const Travel> travel;
-  Lead lead;
+/// The coordinate of a slider or hinge is what is prescribed: g = s(q) − s(t) (D31).
+struct PrescribedConstraint {
+  std::shared_ptr<const JointCoordinate> coordinate;
+  PrescribedMotion motion;
 };
-using ConditionLaw = std::variant<PointCondition, AxesCondition, GapCondition, StickCondition, LeadCondition>;
+using ConstraintLaw =
+    std::variant<PointConstraint, AxesConstraint, GapConstraint, StickConstraint, PrescribedConstraint>;
 
-struct Condition {
+struct Constraint {
   int joint, first;
   std::optional<int> second;
-  ConditionLaw what;
+  ConstraintLaw what;
 };
 
-/// G of one condition, by translation and small global rotation of its two bodies.
+/// G of one constraint, by translation and small global rotation of its two bodies.
 struct Gradient {
   Vector6 first, second;
 };
@@ -105,23 +107,23 @@ class JointSet {
  public:
   JointSet() = default;
   /// \throws hydro::InputError for a body that is not there, a body joined to itself, an axis of no length, axes of a
-  /// universal joint that are not across each other, a lead of a joint that is neither slider nor hinge
+  /// universal joint that are not across each other, a prescribed motion of a joint that is neither slider nor hinge
   JointSet(const std::vector<RigidBody>& bodies, std::vector<Joint> joints);
 
   const std::vector<Joint>& joints() const { return joints_; }
-  const std::vector<Condition>& conditions() const { return conditions_; }
-  Eigen::Index count() const { return static_cast<Eigen::Index>(conditions_.size()); }
-  /// Leaves out conditions that others already hold; `keep` has one entry a condition.
+  const std::vector<Constraint>& constraints() const { return constraints_; }
+  Eigen::Index count() const { return static_cast<Eigen::Index>(constraints_.size()); }
+  /// Leaves out constraints that others already hold; `keep` has one entry for each constraint.
   void reduce(const std::vector<bool>& keep);
-  /// The same bodies, joined by this condition alone; by nothing if there is none.
-  JointSet with_only(std::optional<Condition> condition) const;
+  /// The same bodies, joined by this constraint alone; by nothing if there is none.
+  JointSet with_only(std::optional<Constraint> constraint) const;
 
   void couple(BlockPattern& pattern) const;
-  /// True for a condition on velocities, G v = 0, which no g belongs to.
-  bool is_on_velocity(Eigen::Index condition) const {
-    return std::holds_alternative<StickCondition>(conditions_[static_cast<std::size_t>(condition)].what);
+  /// True for a constraint on velocities, G v = 0, which no g belongs to.
+  bool is_on_velocity(Eigen::Index constraint) const {
+    return std::holds_alternative<StickConstraint>(constraints_[static_cast<std::size_t>(constraint)].what);
   }
-  /// g, (count): metres, and sines of angles; zero for conditions on velocities.
+  /// g, (count): metres, and sines of angles; zero for constraints on velocities.
   Eigen::VectorXd values(const State& state) const;
   /// Columns of modes that are not free are zero.
   std::vector<Gradient> gradients(const State& state) const;
@@ -135,13 +137,13 @@ class JointSet {
   Eigen::MatrixXd dense(const std::vector<Gradient>& G) const;
   /// Adds factor · ∂(Gᵀλ)/∂q (D15).
   void add_curvature(const State& state, const Eigen::VectorXd& lambda, double factor, BlockMatrix& out) const;
-  /// Ġ v − s̈(t), (count): the acceleration that the conditions have without any of the bodies'.
+  /// Ġ v − s̈(t), (count): the acceleration that the constraints have without any of the bodies'.
   Eigen::VectorXd convective(const State& state) const;
-  bool are_led() const;  ///< one of them at least
-  /// ṡ(t), (count): what G v is while the joints stay closed; zero but for those that are led.
-  Eigen::VectorXd lead_rates(double time) const;
+  bool are_prescribed() const;  ///< one of them at least
+  /// ṡ(t), (count): what G v is while the joints stay closed; zero but for prescribed motions.
+  Eigen::VectorXd prescribed_rates(double time) const;
   /// Load of the joint on one of its bodies: force and moment about the joint's place in that body, in that body's
-  /// axes, N and N m. What redundant conditions would carry is not in it. The second body must not be the ground.
+  /// axes, N and N m. What redundant constraints would carry is not in it. The second body must not be the ground.
   Vector6 load_on(int joint, End end, const State& state, const Eigen::VectorXd& lambda) const;
   /// How load_on() varies where the bodies are still: with the displacements of all bodies while `lambda` acts, and
   /// with λ.
@@ -150,29 +152,29 @@ class JointSet {
     Eigen::MatrixXd by_multiplier;  ///< (6, count)
   };
   LoadVariation load_variation(int joint, End end, const State& still, const Eigen::VectorXd& lambda) const;
-  /// Where the joint lets its second body (or the ground) move against the first: the travel of a slider along the
+  /// Where the joint lets its second body (or the ground) move against the first: the stroke of a slider along the
   /// axis, m, or the angle of a hinge about it, rad, whole turns counted (D133). Zero at rest. For sliders and hinges
   /// only.
-  double travel(int joint, const State& state) const;
-  /// Travel of sliders and hinges, "hinge.angle", and loads on each body, "hinge.m1.force_x"; `bodies`: those that it
-  /// was made of. For as long as the set stays where it is.
+  double coordinate(int joint, const State& state) const;
+  /// JointCoordinate of sliders and hinges, "hinge.angle", and loads on each body, "hinge.m1.force_x"; `bodies`: those
+  /// that it was made of. For as long as the set stays where it is.
   std::vector<Signal> signals(const std::vector<RigidBody>& bodies) const;
   /// Counts on: the angles of hinges and of bodies in `state`, less than half a turn from those that it has counted
-  /// last; those of hinges that are led, from where they are led.
+  /// last; those of hinges with prescribed motion, from their prescribed angles.
   void count_turns(State& state) const;
   /// The hinge whose angle changes too fast to be counted after h seconds, half a turn or more; empty if all can be.
   std::optional<int> turns_too_fast(const State& state, double h) const;
   /// Sets to zero what stands in modes that are not free.
   void keep_free(int first, std::optional<int> second, Gradient& row) const;
-  /// Adds a condition that belongs to no joint's own.
-  void add(Condition condition) { conditions_.push_back(std::move(condition)); }
+  /// Adds a constraint that belongs to no joint's own.
+  void add(Constraint constraint) { constraints_.push_back(std::move(constraint)); }
 
  private:
-  Travel travel_of(int joint) const;
+  JointCoordinate coordinate_of(int joint) const;
   Signal travel_signal(int joint) const;
   std::vector<Signal> load_signals(int joint, End end, const std::string& body) const;
   std::vector<Joint> joints_;
-  std::vector<Condition> conditions_;
+  std::vector<Constraint> constraints_;
   std::vector<std::array<Eigen::Vector3d, 2>> place_in_;  // from the bodies' centres, body axes; of the ground: global
   std::vector<std::array<bool, 6>> free_;                 // one a body
 };

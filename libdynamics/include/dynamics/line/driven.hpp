@@ -1,5 +1,6 @@
 #pragma once
-/// \file  A line whose ends are led by something that is stepped beside it: for each guess of where the ends will be it
+/// \file  A line whose ends are moved by something that is stepped beside it: for each guess of where the ends will be
+/// it
 ///        tells its pulls, and how they follow the guess. (D90), (D91)
 #include <memory>
 #include <vector>
@@ -8,7 +9,7 @@
 
 namespace dynamics::line {
 
-/// Stepped by generalised-α (D80); the accelerations of the led ends follow their velocities as that of everything
+/// Stepped by generalised-α (D80); the accelerations of those ends follow their velocities as that of everything
 /// does, so a body stepped by the same rule and the line are one system with one step.
 class DrivenLine {
  public:
@@ -16,15 +17,16 @@ class DrivenLine {
     Eigen::Vector3d position, velocity;
     bool operator==(const End&) const = default;
   };
-  /// What the line does to what leads it: forces on that, N, and their derivatives by places and velocities, (3k, 3k).
+  /// What the line does to what moves its ends: forces on that, N, and their derivatives by places and velocities, (3k,
+  /// 3k).
   struct Pulls {
     Places force;
     Eigen::MatrixXd by_place, by_velocity;
   };
 
-  /// `led`: the nodes, which `description` holds; it says no path of them. \throws hydro::InputError as Line and
+  /// `prescribed`: the nodes, which `description` holds; it says no path of them. \throws hydro::InputError as Line and
   /// Stepper
-  DrivenLine(Description description, std::vector<int> led, double rho_infinity);
+  DrivenLine(Description description, std::vector<int> prescribed, double rho_infinity);
   ~DrivenLine();
   DrivenLine(const DrivenLine&) = delete;
   DrivenLine& operator=(const DrivenLine&) = delete;

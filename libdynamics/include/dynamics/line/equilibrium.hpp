@@ -5,7 +5,7 @@
 namespace dynamics::line {
 
 /// How each span between held nodes hangs under constant loads (weight, lasting buoyancy, given forces) alone, and what
-/// is beyond the last held node: the discrete catenary (D85), exact for segments that keep their lengths and for
+/// is beyond the last held node: the discrete catenary (D85), exact for inextensible segments and for
 /// springs. Held nodes stand in `places` where they are; its other nodes are not looked at. Where a segment would have
 /// to be pressed (ends closer than it), the shape is near and not exact: equilibrium() goes on from there. Of a
 /// network, or a line with a float, it is near too, and free nodes need no place to begin at (D112). \throws
@@ -23,8 +23,8 @@ struct RestReport {
 /// hydro::NumericsError with what is left over and at which node
 State equilibrium(const Line& line, const State& guess, RestReport* report = nullptr);
 
-/// What the held nodes `led` need at rest; by places it follows the static stiffness of the line, by velocities not at
-/// all (D90). `rest` is an equilibrium().
-Response pulls_at_rest(const Line& line, const State& rest, const std::vector<int>& led);
+/// What the held nodes `prescribed` need at rest; by places it follows the static stiffness of the line, by velocities
+/// not at all (D90). `rest` is an equilibrium().
+Response pulls_at_rest(const Line& line, const State& rest, const std::vector<int>& prescribed);
 
 }  // namespace dynamics::line

@@ -24,11 +24,12 @@ struct Segment {
   double mass = 0;      ///< m, kg
   double centre = 0.5;  ///< of the mass: share of the length from the first node
   double inertia = 0;  ///< about that centre, across the axis, kg m²: mℓ²/12 of a uniform rod, mℓ²/4 of two half masses
-  double axial_stiffness = std::numeric_limits<double>::infinity();  ///< EA, N; ∞: keeps its length
+  double axial_stiffness = std::numeric_limits<double>::infinity();  ///< EA, N; ∞: inextensible
   double axial_damping = 0;                                          ///< N per strain rate, N s
   double bending_stiffness = 0;                                      ///< EI, N m² (D106)
-  bool pulls_only = false;                                           ///< goes slack instead of being pressed
-  bool sags = false;    ///< hangs through between its nodes and rests on the bed in part, by its weight in water (D88)
+  bool tension_only = false;                                         ///< goes slack instead of being pressed
+  bool catenary =
+      false;            ///< hangs through between its nodes and rests on the bed in part, by its weight in water (D88)
   double diameter = 0;  ///< of what the water and the bed meet, m
   double cd = 0, cd_tangential = 0, ca = 0;  ///< drag across the axis and of the skin πD, added mass across (D74)
   bool meets_bed = true;                     ///< false: goes through the bed, if there is one
@@ -36,7 +37,7 @@ struct Segment {
   /// A uniform rod, or half the mass at either end.
   static Segment rod(double length, double mass);
   static Segment bobs(double length, double mass);
-  bool keeps_length() const { return axial_stiffness == std::numeric_limits<double>::infinity(); }
+  bool is_inextensible() const { return axial_stiffness == std::numeric_limits<double>::infinity(); }
 };
 
 /// Which part of something is taken as wet.
@@ -59,7 +60,7 @@ struct Node {
   Sphere sphere = {};
 };
 
-/// Where a node is led, whatever pulls at it. Immutable.
+/// Where a node is at each time, whatever pulls at it. Immutable.
 class Path {
  public:
   struct Place {
@@ -69,7 +70,7 @@ class Path {
   virtual Place at(double t_s) const = 0;
 };
 
-/// A node led along a path; it holds still without one.
+/// A node with a prescribed path; it holds still without one.
 struct Held {
   int node;
   std::shared_ptr<const Path> path = nullptr;
@@ -105,8 +106,8 @@ struct Description {
   std::vector<std::vector<int>> ties = {};  ///< sets of free nodes that are one place each
 };
 
-/// The force on each of k led nodes by what leads it, N, and its derivatives by places and velocities of all of them,
-/// (3k, 3k), while the rest of the line follows. (D90)
+/// The force on each of k nodes with prescribed motion by what moves it, N, and its derivatives by places and
+/// velocities of all of them, (3k, 3k), while the rest of the line follows. (D90)
 struct Response {
   Places force;
   Eigen::MatrixXd by_place, by_velocity;
@@ -153,7 +154,7 @@ class Line {
   bool bends() const { return hardest_bending_ > 0; }
   /// Of c over squares of the lengths beside it, N/m.
   double hardest_bending() const { return hardest_bending_; }
-  /// Weight in water of a segment that sags, N/m.
+  /// Weight in water of a catenary segment, N/m.
   double sag_weight(int j) const { return sag_weight_[j]; }
   /// Weight, buoyancy of what is always wet, and the given constant load of each node, N.
   const Places& constant_load() const { return constant_; }

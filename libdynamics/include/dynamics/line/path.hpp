@@ -1,5 +1,5 @@
 #pragma once
-/// \file  Paths through given places, along which nodes of lines are led. (D87)
+/// \file  Paths through given places, along which nodes of lines move. (D87)
 #include <vector>
 
 #include "dynamics/line/line.hpp"

@@ -25,7 +25,7 @@ struct Energies {
   double kinetic = 0, height = 0, axial = 0, bed = 0;    ///< held; height: of weight, buoyancy, constant loads
   double shear = 0;                                      ///< held by the bed along itself
   double bending = 0;                                    ///< held
-  double held = 0, drag = 0, inertia = 0, buoyancy = 0;  ///< supplied by what leads nodes, and by the water
+  double held = 0, drag = 0, inertia = 0, buoyancy = 0;  ///< supplied by what moves nodes, and by the water
   double lost_damping = 0, lost_drag = 0, lost_axial = 0, lost_bed = 0, lost_friction = 0;  ///< dissipated
   double at_start = 0;
 
@@ -80,13 +80,13 @@ class Stepper {
   };
   Flow flow() const;
 
-  /// Remembers where it is, and goes back there: for steps that are tried.
+  /// Notes where it is, and goes back there: for steps that are tried.
   void keep();
   void go_back();
 
-  /// What the nodes `led` needed at the end of the last step, while the rest of the line moves with the step; their
-  /// accelerations follow their velocities by `a_by_v`. Of generalised-α alone. (D90)
-  Response response(const std::vector<int>& led, double a_by_v);
+  /// What the nodes `prescribed` needed at the end of the last step, while the rest of the line moves with the step;
+  /// their accelerations follow their velocities by `a_by_v`. Of generalised-α alone. (D90)
+  Response response(const std::vector<int>& prescribed, double a_by_v);
 
   /// What balances a state, whatever the step did (D77); nothing if masses leave it open.
   struct Balance {

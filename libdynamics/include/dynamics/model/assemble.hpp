@@ -16,14 +16,14 @@ void close_joints(const Model& model, const std::vector<bool>& placed, State& st
 /// The same for velocities: those of the bodies that are not `given` change by the least that keeps joints closed.
 void close_joint_velocities(const Model& model, const std::vector<bool>& given, State& state);
 
-/// How a condition of a joint is not met: by metres, or by the sine of an angle.
+/// How a constraint of a joint is not met: by metres, or by the sine of an angle.
 struct Misfit {
   int joint;
   double off;      ///< m, or 1 of angles; of velocities per second
-  bool of_angle;   ///< the condition is on directions, or on the angle of a hinge that is led
+  bool of_angle;   ///< the constraint is on directions, or on the angle of a hinge with prescribed motion
   double allowed;  ///< what the digits of a scene may leave
 };
-/// The condition that is worst met, by its share of what is allowed: 1e-6 of directions, and of places 1e-6 m, or 1e-6
+/// The constraint that is worst met, by its share of what is allowed: 1e-6 of directions, and of places 1e-6 m, or 1e-6
 /// of the distance between the joint and its bodies' centres where that is above a metre. Empty without joints.
 std::optional<Misfit> worst_misfit(const Model& model, const State& state);
 /// The same of velocities: 1e-6 of the speeds that the bodies have where they are joined.

@@ -1,5 +1,5 @@
 #pragma once
-/// \file  Factors of the equations of motion together with the conditions of joints.
+/// \file  Factors of the equations of motion together with the constraints of joints.
 #include <Eigen/Core>
 
 #include <memory>
@@ -10,9 +10,9 @@
 
 namespace dynamics {
 
-/// Solves [T Gᵀ; H 0] (x, λ) = (b, c): T of the bodies, Gᵀ and H one column and one row a condition. Dense LU where the
-/// system is small or all bodies touch, sparse LU (SuiteSparse KLU, ordered once) otherwise. Without conditions this is
-/// BlockSolver and costs the same.
+/// Solves [T Gᵀ; H 0] (x, λ) = (b, c): T of the bodies, Gᵀ and H one column and one row for each constraint. Dense LU
+/// where the system is small or all bodies touch, sparse LU (SuiteSparse KLU, ordered once) otherwise. Without
+/// constraints this is BlockSolver and costs the same.
 class KktSolver {
  public:
   KktSolver(const BlockPattern& pattern, const JointSet& joints);
@@ -20,7 +20,7 @@ class KktSolver {
   KktSolver(KktSolver&&) noexcept;
   KktSolver& operator=(KktSolver&&) noexcept;
   bool is_sparse() const;
-  /// `compliance` c, one a condition, >= 0, puts −c on the diagonal of the lower right block.
+  /// `compliance` c, one for each constraint, >= 0, puts −c on the diagonal of the lower right block.
   /// False if the matrix is singular to working precision or not finite. Forgets `of_step`.
   bool factorise(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H,
                  const Eigen::VectorXd& compliance);

@@ -24,7 +24,7 @@ struct AddedMass {
 class Workspace;
 
 /// The equations of motion (D8): (M(q) + A∞ + mass of the kinds of force (D40)) a + gyro(q, v) + Gᵀλ = Σ loads(t, q, v,
-/// memory), with the modes that are not free left out, and the conditions g(q) = 0 of the joints. Integrators see
+/// memory), with the modes that are not free left out, and the constraints g(q) = 0 of the joints. Integrators see
 /// nothing else.
 class Model {
  public:
@@ -57,7 +57,7 @@ class Model {
   /// The model for small motions about a state, of the kinds that are linear at rest and the joints (D17).
   struct Linear {
     Eigen::MatrixXd stiffness, damping;  ///< loads, joints' among them, ≈ −K δ − D v; (6N, 6N)
-    Eigen::MatrixXd conditions;          ///< G, (m, 6N): G δ = 0
+    Eigen::MatrixXd constraints;         ///< G, (m, 6N): G δ = 0
     Eigen::VectorXd multipliers;         ///< λ that carries what the loads ask of the joints there, (m)
     Eigen::VectorXd unbalanced;          ///< load that neither joints nor locked modes carry, (6N)
   };
@@ -89,7 +89,7 @@ class Workspace {
 
   State state;
   Eigen::VectorXd acceleration;                 ///< (6N), satisfies the equations of motion in `state`
-  Eigen::VectorXd multipliers;                  ///< λ of the joints' conditions
+  Eigen::VectorXd multipliers;                  ///< λ of the joints' constraints
   std::vector<std::unique_ptr<Memory>> memory;  ///< one a kind, null where it needs none
   std::vector<std::size_t> evaluations;         ///< of the load, one a kind: what a scene pays for
   BlockMatrix matrix;

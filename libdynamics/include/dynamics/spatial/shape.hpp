@@ -34,13 +34,13 @@ double half_thickness(const Shape& shape);
 double reach(const Shape& shape);
 
 /// The shortest way between two shapes.
-struct Meeting {
+struct ClosestPoints {
   double gap;                           ///< m; negative where they overlap
   Eigen::Vector3d normal;               ///< from the first to the second, unit
   Eigen::Vector3d on_first, on_second;  ///< the points it joins, gap · normal apart
 };
 /// Of a ball with any shape, and of two rods; the arguments in either order (D22). Where axes cross or a ball's centre
 /// is inside a box or on its surface, the way out is that of least depth. \throws hydro::InputError for other pairs
-Meeting meet(const Shape& first, const Shape& second);
+ClosestPoints closest_points(const Shape& first, const Shape& second);
 
 }  // namespace dynamics

@@ -11,26 +11,27 @@ struct Exponent {
   double error;     ///< its standard error by the scatter of blocks, 1/s
   double from, to;  ///< the time that counts, s
   int blocks;
-  double kinship;  ///< correlation of neighbouring blocks, −1 … 1; 0 if all are the same
+  double block_correlation;  ///< correlation of neighbouring blocks, −1 … 1; 0 if all are the same
   double regular;  ///< ln(to/from)/(to − from), 1/s: what neighbours show that part in proportion to time, λ = 0
 
   /// False: neighbouring blocks are alike beyond chance, and `error` is too small.
   bool has_lasted() const;
 };
 
-/// Distances of a motion from a companion that is brought back along the line between them whenever it has come ten
-/// times nearer or farther than it began. (D101) Any norm will do, the same throughout.
+/// Distances of a motion from a perturbed trajectory that is brought back along the line between them whenever it has
+/// come ten times nearer or farther than it began. (D101) Any norm will do, the same throughout.
 class Growth {
  public:
-  /// The companion begins at time t_s, `distance` away. \throws hydro::InputError unless that is above 0
+  /// The perturbed trajectory begins at time t_s, `distance` away. \throws hydro::InputError unless that is above 0
   Growth(double t_s, double distance);
 
-  /// At t_s, later than the last, the companion is at `distance`. Returns by what its displacement must be multiplied
-  /// now: 1 where it may go on. \throws hydro::NumericsError for a distance that is 0 or no number, or more than a
-  /// thousand times off: the motions are then no neighbours
+  /// At t_s, later than the last, the perturbed trajectory is at `distance`. Returns by what its displacement must be
+  /// multiplied now: 1 where it may go on. \throws hydro::NumericsError for a distance that is 0 or no number, or more
+  /// than a thousand times off: the motions are then no neighbours
   double note(double t_s, double distance);
 
-  /// Logarithm of how far neighbours have parted since the start, as if the companion had never been brought back.
+  /// Logarithm of how far neighbours have parted since the start, as if the perturbed trajectory had never been brought
+  /// back.
   double logarithm() const { return logarithm_.back(); }
 
   /// Over the times from from_s to the last, in equal blocks; nothing as long as there are fewer notes than blocks.

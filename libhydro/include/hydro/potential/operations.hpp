@@ -17,8 +17,8 @@ Coefficients without_interaction(Coefficients c);
 /// The same bodies with motions and loads about other points. `from` and `to`: one point a body, global. (P4)
 Coefficients about(Coefficients c, std::span<const Eigen::Vector3d> from, std::span<const Eigen::Vector3d> to);
 
-/// The whole array carried `shift` (x, y) along the water: only the phase of the excitation changes. (P5)
-Coefficients carried(Coefficients c, const Eigen::Vector2d& shift);
+/// The whole array translated `shift` (x, y) along the water: only the phase of the excitation changes. (P5)
+Coefficients translated(Coefficients c, const Eigen::Vector2d& shift);
 
 /// A, B and X at any frequency inside the table.
 ///
@@ -38,18 +38,18 @@ class FrequencyTable {
   Eigen::VectorXcd excitation(double omega,
                               double heading) const;  ///< also \throws if heading is outside the table or there is none
   /// Largest difference between cubic and straight interpolation of A, B, X half way between the frequencies, relative
-  /// to the largest entry of the same mode: how much the table leaves open.
-  struct Openness {
+  /// to the largest entry of the same mode: the error of interpolation.
+  struct InterpolationError {
     double added_mass, damping, excitation;
   };
-  Openness openness() const;
+  InterpolationError interpolation_error() const;
   /// What interpolation misses at the frequencies of the table but its ends, each left out in turn, relative to the
   /// largest entry of the same mode: the error with twice the spacing (P32). Zero for fewer than three frequencies.
-  Openness error_with_twice_the_spacing() const;
+  InterpolationError error_with_twice_the_spacing() const;
 
  private:
   template <class Gap>
-  Openness largest(Gap gap) const;
+  InterpolationError largest(Gap gap) const;
 
   Coefficients c_;
   std::vector<Eigen::Vector3d> origin_;
@@ -59,7 +59,7 @@ class FrequencyTable {
 /// Coefficients at other frequencies, and how far interpolation may be off.
 struct Resampled {
   Coefficients coefficients;
-  FrequencyTable::Openness error;  ///< estimate, relative as in FrequencyTable::openness()
+  FrequencyTable::InterpolationError error;  ///< estimate, relative as in FrequencyTable::interpolation_error()
 };
 
 /// A, B and X at `omega` by FrequencyTable; limits and C stay. The phases of the waves' way are taken to the reference

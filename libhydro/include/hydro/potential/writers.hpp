@@ -16,9 +16,9 @@ namespace hydro::potential {
 /// \throws InputError if the coefficients are not valid or the file cannot be written
 std::vector<std::string> write_froude(const Coefficients& coefficients, const std::filesystem::path& path);
 
-/// BEMIO .h5 for WEC-Sim and its kin, normalised as (P10). BEMIO's coefficients are about the centre of gravity: where
-/// the reference point is another one they are moved there by (P4), and a sentence says so.
-/// \throws InputError as write_froude
+/// BEMIO .h5 for WEC-Sim and programs like it, normalised as (P10). BEMIO's coefficients are about the centre of
+/// gravity: where the reference point is another one they are moved there by (P4), and a sentence says so. \throws
+/// InputError as write_froude
 std::vector<std::string> write_bemio(const Coefficients& coefficients, const std::filesystem::path& path);
 
 /// netCDF-4 in the layout of Capytaine's datasets, e^{−iωt} (P7), limits as omega = 0 and inf: for programs that read

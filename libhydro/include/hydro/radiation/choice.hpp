@@ -44,7 +44,7 @@ struct ChosenMemory {
   std::optional<FitReport> fit;           ///< of the poles, where they were weighed
   std::size_t lags = 0;                   ///< of the convolutions, where they were weighed
   double truncation = 0;                  ///< of the convolutions, (R5)
-  double misfit = 0, shift = 0;           ///< of the continued damping, as ContinuedDamping
+  double misfit = 0, shift = 0;           ///< of the extrapolated damping, as ExtrapolatedDamping
   double negative_share = 0;              ///< of the data, as RetardationKernel
 };
 

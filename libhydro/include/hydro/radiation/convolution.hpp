@@ -15,7 +15,7 @@
 
 namespace hydro::radiation {
 
-/// Velocities at the steps behind us, newest first, as far back as the kernel remembers. Before the first of them:
+/// Velocities at the steps behind us, newest first, as far back as the kernel reaches. Before the first of them:
 /// rest.
 class VelocityHistory {
  public:
@@ -64,10 +64,10 @@ class DirectConvolution final : public MemoryMethod {
   VelocityHistory make_history() const { return {modes(), samples_ + 1}; }
   std::unique_ptr<MemoryState> start(const Eigen::VectorXd& velocity) const override;
 
-  /// The part of the integral that the past has decided, at the time `fraction`·h after the newest stored step,
-  /// 0 < fraction <= 1, N. Between samples K is taken as straight. Cost: n(n+1)/2 numbers a lag read once; twice where
-  /// fraction < 1.
-  Eigen::VectorXd decided(const VelocityHistory& history, double fraction) const;
+  /// The history force: the part of the integral that only the past makes, at the time `fraction`·h after the newest
+  /// stored step, 0 < fraction <= 1, N. Between samples K is taken as straight. Cost: n(n+1)/2 numbers a lag read once;
+  /// twice where fraction < 1.
+  Eigen::VectorXd history_force(const VelocityHistory& history, double fraction) const;
 
   /// What multiplies the velocity now: K(0) · fraction · h / 2, (n, n), N s/m.
   Eigen::MatrixXd instantaneous(double fraction) const override { return K0_ * (fraction * step_ / 2); }

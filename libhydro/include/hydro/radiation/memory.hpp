@@ -1,9 +1,9 @@
 #pragma once
 /// \file  What every way of computing the memory integral ∫₀ᵗ K(t−τ) v(τ) dτ promises.
 ///
-/// Between two steps the velocity is not known, so the integral at fraction·h after the newest step is split: what the
-/// past has decided, and a matrix times the velocity now. The matrix enters the implicit step. Both are pure functions
-/// of what has been accepted: asked again, they answer the same.
+/// Between two steps the velocity is not known, so the integral at fraction·h after the newest step is split: the
+/// history force, which only the past makes, and a matrix times the velocity now. The matrix enters the implicit step.
+/// Both are pure functions of what has been accepted: asked again, they answer the same.
 #include <Eigen/Core>
 
 #include <memory>
@@ -17,8 +17,8 @@ class MemoryState {
   virtual ~MemoryState() = default;
   /// A full step has been completed with this velocity, (n).
   virtual void accept(const Eigen::VectorXd& velocity) = 0;
-  /// The decided part of the integral at fraction·h after the newest step, 0 < fraction <= 1, (n), N.
-  virtual Eigen::VectorXd decided(double fraction) const = 0;
+  /// The history force at fraction·h after the newest step, 0 < fraction <= 1, (n), N.
+  virtual Eigen::VectorXd history_force(double fraction) const = 0;
 };
 
 /// One way of computing. Const and shareable; outlives the states it makes.

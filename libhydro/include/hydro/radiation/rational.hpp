@@ -62,7 +62,7 @@ struct RationalFit {
 /// Fits added mass and damping together, by vector fitting with common poles (Gustavsen & Semlyen 1999; relaxed as
 /// Gustavsen 2006; (R13)), the order raised until the tolerance is met. Stability, K̂(0) = 0, a finite K(0) and symmetry
 /// are built in; passivity is enforced and certified (R15)–(R16). Between and beyond the frequencies of the data the
-/// model is the least that belongs to them: beyond, the damping of continued() is followed loosely.
+/// model is the least that belongs to them: beyond, the damping of extrapolated() is followed loosely.
 ///
 /// `A`: one matrix a frequency of the table. Cost: a tenth of a second for six modes, seconds for thirty,
 /// minutes for a hundred and fifty.

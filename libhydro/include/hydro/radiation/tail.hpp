@@ -9,8 +9,8 @@
 
 namespace hydro::radiation {
 
-/// A damping table continued to four times its last frequency, with the added mass that belongs to it.
-struct ContinuedDamping {
+/// A damping table extrapolated to four times its last frequency, with the added mass that belongs to it.
+struct ExtrapolatedDamping {
   DampingTable table;     ///< the given one, then the tail at the same spacing, down to zero
   Eigen::MatrixXd A_inf;  ///< the constant that belongs to the table: the limit given or found, less what the tail
                           ///< leaves at slow motions, (n, n)
@@ -26,8 +26,8 @@ struct ContinuedDamping {
 ///
 /// `A`: one matrix a frequency of the table. Modes whose damping has died away get a tail of next to nothing.
 /// \throws InputError as RetardationKernel::from_damping, or if the sizes disagree
-ContinuedDamping continued(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A,
-                           const std::optional<Eigen::MatrixXd>& A_inf);
+ExtrapolatedDamping extrapolated(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A,
+                                 const std::optional<Eigen::MatrixXd>& A_inf);
 
 /// A(ω) − A∞ that belongs to a damping table, cubic between its frequencies and nothing beyond the last, by Kramers and
 /// Kronig (R10), (n, n).

@@ -35,7 +35,7 @@ class Paddle {
 /// What the paddle does to waves that come back to it.
 enum class PaddleMode {
   reflecting,  ///< a moving wall: they are thrown back
-  absorbing    ///< it yields to them: they leave the tank
+  absorbing    ///< active absorption: they leave the tank
 };
 
 /// How far waves are followed through the tank.

@@ -1,5 +1,5 @@
 // The largest Lyapunov exponent of lines, and its error. (D101), (D102)
-#include "dynamics/line/companion.hpp"
+#include "dynamics/line/perturbed_trajectory.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 #include "support/line_models.hpp"
 #include "support/plain_pendulums.hpp"
 
-namespace companion_test {
+namespace perturbed_trajectory_test {
 namespace {
 
 using namespace support;
@@ -32,10 +32,10 @@ Places along_x(const Line& line) {
 }
 
 Exponent exponent(const Line& line, State s, double duration, double h, double from) {
-  const Stepper::Settings settings{.tolerance = Companion::tolerance};
+  const Stepper::Settings settings{.tolerance = PerturbedTrajectory::tolerance};
   Stepper stepper(line, settings);
   stepper.start(s);
-  Companion beside(line, settings, s, along_x(line));
+  PerturbedTrajectory beside(line, settings, s, along_x(line));
   for (int i = 0; i < std::lround(duration / h); ++i) {
     const StepReport took = stepper.step(s, h);
     beside.follow(s, took, h);
@@ -126,7 +126,7 @@ TEST(Growth, FindsTheExponentOfLorenz) {
 }
 
 // A pendulum on its head: ẍ = (g/ℓ) x, of which the midpoint rule makes (1 + σh/2)/(1 − σh/2) a step.
-TEST(Companion, FallsFromAnInvertedPendulumAtItsRate) {
+TEST(PerturbedTrajectory, FallsFromAnInvertedPendulumAtItsRate) {
   const Line line(pendulums(1));
   State s = in_plane(line, {0});
   s.position.col(1) = Vector3d(0, 0, 1);
@@ -137,7 +137,7 @@ TEST(Companion, FallsFromAnInvertedPendulumAtItsRate) {
 }
 
 // ẍ = −2βẋ − (g/ℓ) x: neighbours of rest come nearer by β, or by the slower root where β is above √(g/ℓ).
-TEST(Companion, ComesBackToADampedPendulumAtItsRate) {
+TEST(PerturbedTrajectory, ComesBackToADampedPendulumAtItsRate) {
   const double h = 0.01;
   for (const double beta : {0.3, 5.0}) {
     Description d = pendulums(1);
@@ -151,14 +151,14 @@ TEST(Companion, ComesBackToADampedPendulumAtItsRate) {
   }
 }
 
-TEST(Companion, StaysBesideSmallSwings) {
+TEST(PerturbedTrajectory, StaysBesideSmallSwings) {
   const Line line(pendulums(2));
   const Exponent e = exponent(line, in_plane(line, {pi / 2 - 0.01, pi / 2 + 0.01}), 300, 0.02, 30);
   EXPECT_LT(std::abs(e.value), e.regular);
 }
 
-// Against Lagrange's equations in angles, with a companion of their own.
-TEST(Companion, PartsFromAWildDoublePendulumAsThatOfLagrange) {
+// Against Lagrange's equations in angles, with a perturbed trajectory of their own.
+TEST(PerturbedTrajectory, PartsFromAWildDoublePendulumAsThatOfLagrange) {
   const double duration = 400, from = 20;
   const Line line(pendulums(2));
   const Exponent e = exponent(line, in_plane(line, {0, 0}), duration, 0.01, from);
@@ -180,20 +180,21 @@ TEST(Companion, PartsFromAWildDoublePendulumAsThatOfLagrange) {
   EXPECT_NEAR(e.value, theirs.value, 3 * std::hypot(e.error, theirs.error));
 }
 
-TEST(Companion, RefusesWhatHasNoNeighbours) {
+TEST(PerturbedTrajectory, RefusesWhatHasNoNeighbours) {
   const Line line(pendulums(2));
   const State s = in_plane(line, {0, 0});
-  EXPECT_THAT([&] { Companion(line, {.scheme = Scheme::generalised_alpha}, s); },
+  EXPECT_THAT([&] { PerturbedTrajectory(line, {.scheme = Scheme::generalised_alpha}, s); },
               ThrowsMessage<hydro::InputError>(HasSubstr("accelerations of their own")));
   Description massless = pendulums(2);
   massless.nodes[1].mass = 0;
   const Line light(massless);
-  EXPECT_THAT([&] { Companion(light, {}, s); }, ThrowsMessage<hydro::InputError>(HasSubstr("no mass")));
+  EXPECT_THAT([&] { PerturbedTrajectory(light, {}, s); }, ThrowsMessage<hydro::InputError>(HasSubstr("no mass")));
   Description floating = pendulums(2);
   floating.gravity = 0;
   const Line weightless(floating);
-  EXPECT_THAT([&] { Companion(weightless, {}, s); }, ThrowsMessage<hydro::InputError>(HasSubstr("without gravity")));
+  EXPECT_THAT([&] { PerturbedTrajectory(weightless, {}, s); },
+              ThrowsMessage<hydro::InputError>(HasSubstr("without gravity")));
 }
 
 }  // namespace
-}  // namespace companion_test
+}  // namespace perturbed_trajectory_test

@@ -7,8 +7,8 @@
 
 namespace hydro::signal {
 
-/// Points of a section, each with its error by interpolation.
-struct Section {
+/// Points of a Poincaré section, each with its error by interpolation.
+struct PoincareSection {
   std::vector<double> time_s;
   std::vector<std::vector<double>> values,
       errors;                ///< one list a signal, in its unit; errors are absolute and not negative
@@ -26,10 +26,11 @@ enum class Through { up, down, both };
 /// Where the signals are when `across` passes `level`. Sampled so coarsely that `across` crosses twice between two
 /// samples, both crossings are missed. \throws InputError for fewer than six samples, lists of unequal length, or a
 /// value that is not finite
-Section section_at(std::span<const double> across, double level, Through through, const Samples& samples);
+PoincareSection poincare_section_at(std::span<const double> across, double level, Through through,
+                                    const Samples& samples);
 
 /// Where the signals are at first_s, first_s + period_s, … \throws InputError likewise, and unless period_s is above 0
 /// and first_s inside the record
-Section section_every(double first_s, double period_s, const Samples& samples);
+PoincareSection poincare_section_every(double first_s, double period_s, const Samples& samples);
 
 }  // namespace hydro::signal

@@ -1,5 +1,5 @@
 // Poincaré sections of sampled motions. (D103)
-#include "hydro/signal/section.hpp"
+#include "hydro/signal/poincare_section.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 #include "hydro/base/error.hpp"
 
-namespace section_test {
+namespace poincare_section_test {
 namespace {
 
 using namespace hydro::signal;
@@ -33,10 +33,10 @@ struct Circle {
 };
 
 // Of x = cos t through ½ the other is −√¾ on the way up and √¾ on the way down, at t = ∓π/3.
-TEST(Section, OfACircleIsOnePointAndItsErrorHolds) {
+TEST(PoincareSection, OfACircleIsOnePointAndItsErrorHolds) {
   for (const int per_turn : {10, 20, 40}) {
     const Circle c(per_turn);
-    const Section up = section_at(c.x, 0.5, Through::up, c.samples());
+    const PoincareSection up = poincare_section_at(c.x, 0.5, Through::up, c.samples());
     ASSERT_GE(up.time_s.size(), 9u);
     double largest = 0;
     for (std::size_t k = 0; k < up.time_s.size(); ++k) {
@@ -50,20 +50,20 @@ TEST(Section, OfACircleIsOnePointAndItsErrorHolds) {
   }
 }
 
-TEST(Section, TakesOneDirectionOrBoth) {
+TEST(PoincareSection, TakesOneDirectionOrBoth) {
   const Circle c(40);
-  const Section up = section_at(c.x, 0.5, Through::up, c.samples()),
-                down = section_at(c.x, 0.5, Through::down, c.samples()),
-                both = section_at(c.x, 0.5, Through::both, c.samples());
+  const PoincareSection up = poincare_section_at(c.x, 0.5, Through::up, c.samples()),
+                        down = poincare_section_at(c.x, 0.5, Through::down, c.samples()),
+                        both = poincare_section_at(c.x, 0.5, Through::both, c.samples());
   for (const double y : up.values[1]) EXPECT_NEAR(y, -std::sqrt(0.75), 1e-6);
   for (const double y : down.values[1]) EXPECT_NEAR(y, std::sqrt(0.75), 1e-6);
   EXPECT_EQ(both.time_s.size(), up.time_s.size() + down.time_s.size());
-  EXPECT_EQ(section_at(c.x, 2, Through::both, c.samples()).time_s.size(), 0u);
+  EXPECT_EQ(poincare_section_at(c.x, 2, Through::both, c.samples()).time_s.size(), 0u);
 }
 
-TEST(Section, OnceInAPeriodIsOnePointToo) {
+TEST(PoincareSection, OnceInAPeriodIsOnePointToo) {
   const Circle c(23);
-  const Section s = section_every(1.1, 2 * pi, c.samples());
+  const PoincareSection s = poincare_section_every(1.1, 2 * pi, c.samples());
   ASSERT_EQ(s.time_s.size(), 10u);
   for (std::size_t k = 0; k < s.time_s.size(); ++k) {
     EXPECT_NEAR(s.time_s[k], 1.1 + 2 * pi * static_cast<double>(k), 1e-12);
@@ -72,29 +72,41 @@ TEST(Section, OnceInAPeriodIsOnePointToo) {
   }
 }
 
-TEST(Section, LeavesOutWhatHasTooFewSamplesBeside) {
+TEST(PoincareSection, LeavesOutWhatHasTooFewSamplesBeside) {
   // Through 0 between the first two samples, in the middle, and between the last two.
   const std::vector<double> v{-1, 1, 1, 1, -1, -1, -1, -1, 1, 1, 1, -1, -1, -1, -1, 1};
-  const Section s = section_at(v, 0, Through::up, {0, 1, {v}});
+  const PoincareSection s = poincare_section_at(v, 0, Through::up, {0, 1, {v}});
   EXPECT_EQ(s.time_s.size(), 1u);
   EXPECT_EQ(s.left_out, 2u);
-  EXPECT_EQ(section_every(0, 5, {0, 1, {v}}).left_out, 2u);  // at 0 and 15 s
+  EXPECT_EQ(poincare_section_every(0, 5, {0, 1, {v}}).left_out, 2u);  // at 0 and 15 s
 }
 
-TEST(Section, RefusesWhatIsNoRecord) {
+TEST(PoincareSection, RefusesWhatIsNoRecord) {
   const std::vector<double> few(5, 0.0), six(6, 0.0);
   std::vector<double> gap(8, 0.0);
   gap[4] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT([&] { section_at(few, 0, Through::up, {0, 1, {few}}); }, ThrowsMessage<InputError>(HasSubstr("got 5")));
   EXPECT_THAT(
       [&] {
-        section_at(gap, 0, Through::up, {0, 1, {gap}});
+        poincare_section_at(few, 0, Through::up, {0, 1, {few}});
+      },
+      ThrowsMessage<InputError>(HasSubstr("got 5")));
+  EXPECT_THAT(
+      [&] {
+        poincare_section_at(gap, 0, Through::up, {0, 1, {gap}});
       },
       ThrowsMessage<InputError>(HasSubstr("sample 5")));
-  EXPECT_THAT([&] { section_at(six, 0, Through::up, {0, 1, {gap}}); }, ThrowsMessage<InputError>(HasSubstr("8 and 6")));
-  EXPECT_THAT([&] { section_every(0, 0, {0, 1, {six}}); }, ThrowsMessage<InputError>(HasSubstr("above 0")));
-  EXPECT_THAT([&] { section_every(9, 1, {0, 1, {six}}); }, ThrowsMessage<InputError>(HasSubstr("from 0 to 5 s")));
+  EXPECT_THAT(
+      [&] {
+        poincare_section_at(six, 0, Through::up, {0, 1, {gap}});
+      },
+      ThrowsMessage<InputError>(HasSubstr("8 and 6")));
+  EXPECT_THAT([&] { poincare_section_every(0, 0, {0, 1, {six}}); }, ThrowsMessage<InputError>(HasSubstr("above 0")));
+  EXPECT_THAT(
+      [&] {
+        poincare_section_every(9, 1, {0, 1, {six}});
+      },
+      ThrowsMessage<InputError>(HasSubstr("from 0 to 5 s")));
 }
 
 }  // namespace
-}  // namespace section_test
+}  // namespace poincare_section_test

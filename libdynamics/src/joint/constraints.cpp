@@ -1,9 +1,9 @@
-#include "dynamics/joint/conditions.hpp"
+#include "dynamics/joint/constraints.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/joint/travel.hpp"
+#include "dynamics/joint/coordinate.hpp"
 #include "dynamics/spatial/rotation.hpp"
 
 namespace dynamics {
@@ -13,7 +13,7 @@ namespace {
 struct Points {
   Eigen::Vector3d n, first_arm, second_arm, reach;
 
-  Points(const PointCondition& c, const ConditionEnds& at)
+  Points(const PointConstraint& c, const ConstraintEnds& at)
       : n(c.turns ? Eigen::Vector3d(at.first * c.direction) : c.direction),
         first_arm(at.first * c.first_arm),
         second_arm(at.second * c.second_arm),
@@ -22,29 +22,29 @@ struct Points {
 
 }  // namespace
 
-ConditionEnds ends_of(const Condition& condition, const State& state) {
-  const Pose& first = state.pose[static_cast<std::size_t>(condition.first)];
-  ConditionEnds out{first.centre, Eigen::Vector3d::Zero(), first.attitude.toRotationMatrix(),
-                    Eigen::Matrix3d::Identity(), state.time};
-  if (condition.second) {
-    const Pose& second = state.pose[static_cast<std::size_t>(*condition.second)];
+ConstraintEnds ends_of(const Constraint& constraint, const State& state) {
+  const Pose& first = state.pose[static_cast<std::size_t>(constraint.first)];
+  ConstraintEnds out{first.centre, Eigen::Vector3d::Zero(), first.attitude.toRotationMatrix(),
+                     Eigen::Matrix3d::Identity(), state.time};
+  if (constraint.second) {
+    const Pose& second = state.pose[static_cast<std::size_t>(*constraint.second)];
     out.second_centre = second.centre;
     out.second = second.attitude.toRotationMatrix();
   }
   return out;
 }
 
-double value(const PointCondition& c, const ConditionEnds& at) {
+double value(const PointConstraint& c, const ConstraintEnds& at) {
   const Points p(c, at);
   return p.n.dot(p.reach - p.first_arm);
 }
 
-double value(const AxesCondition& c, const ConditionEnds& at) {
+double value(const AxesConstraint& c, const ConstraintEnds& at) {
   return (at.first * c.first_axis).dot(at.second * c.second_axis);
 }
 
 // δ(n·d): both points move, and n turns with the first body (D13).
-Gradient gradient(const PointCondition& c, const ConditionEnds& at) {
+Gradient gradient(const PointConstraint& c, const ConstraintEnds& at) {
   const Points p(c, at);
   Gradient out;
   out.first << -p.n, p.n.cross(c.turns ? p.reach : p.first_arm);
@@ -52,7 +52,7 @@ Gradient gradient(const PointCondition& c, const ConditionEnds& at) {
   return out;
 }
 
-Gradient gradient(const AxesCondition& c, const ConditionEnds& at) {
+Gradient gradient(const AxesConstraint& c, const ConstraintEnds& at) {
   const Eigen::Vector3d turn = (at.first * c.first_axis).cross(at.second * c.second_axis);
   Gradient out;
   out.first << Eigen::Vector3d::Zero(), turn;
@@ -61,7 +61,7 @@ Gradient gradient(const AxesCondition& c, const ConditionEnds& at) {
 }
 
 // Rows and columns: x₁, θ₁, x₂, θ₂ (D15).
-Matrix12 curvature(const PointCondition& c, const ConditionEnds& at) {
+Matrix12 curvature(const PointConstraint& c, const ConstraintEnds& at) {
   const Points p(c, at);
   const Eigen::Matrix3d n = cross_matrix(p.n), second_arm = cross_matrix(p.second_arm);
   Matrix12 H = Matrix12::Zero();
@@ -80,7 +80,7 @@ Matrix12 curvature(const PointCondition& c, const ConditionEnds& at) {
   return H;
 }
 
-Matrix12 curvature(const AxesCondition& c, const ConditionEnds& at) {
+Matrix12 curvature(const AxesConstraint& c, const ConstraintEnds& at) {
   const Eigen::Matrix3d u = cross_matrix(at.first * c.first_axis), v = cross_matrix(at.second * c.second_axis);
   Matrix12 H = Matrix12::Zero();
   H.block<3, 3>(3, 3) = v * u;
@@ -90,40 +90,40 @@ Matrix12 curvature(const AxesCondition& c, const ConditionEnds& at) {
   return H;
 }
 
-Meeting meeting(const GapCondition& c, const ConditionEnds& at) {
-  return meet(moved(c.first, at.first, at.first_centre), moved(c.second, at.second, at.second_centre));
+ClosestPoints closest_points(const GapConstraint& c, const ConstraintEnds& at) {
+  return closest_points(moved(c.first, at.first, at.first_centre), moved(c.second, at.second, at.second_centre));
 }
 
 Gradient apart(const Eigen::Vector3d& n, const Eigen::Vector3d& on_first, const Eigen::Vector3d& on_second,
-               const ConditionEnds& at) {
+               const ConstraintEnds& at) {
   Gradient out;
   out.first << -n, n.cross(on_first - at.first_centre);
   out.second << n, (on_second - at.second_centre).cross(n);
   return out;
 }
 
-double value(const GapCondition& c, const ConditionEnds& at) { return meeting(c, at).gap; }
+double value(const GapConstraint& c, const ConstraintEnds& at) { return closest_points(c, at).gap; }
 
 // The points are those of the shortest way: how they wander over the shapes changes its length by nothing (D23).
-Gradient gradient(const GapCondition& c, const ConditionEnds& at) {
-  const Meeting m = meeting(c, at);
+Gradient gradient(const GapConstraint& c, const ConstraintEnds& at) {
+  const ClosestPoints m = closest_points(c, at);
   return apart(m.normal, m.on_first, m.on_second, at);
 }
 
-double value(const StickCondition&, const ConditionEnds&) { return 0; }
+double value(const StickConstraint&, const ConstraintEnds&) { return 0; }
 
-Gradient gradient(const StickCondition& c, const ConditionEnds& at) {
-  const Meeting m = meeting(c.shapes, at);
+Gradient gradient(const StickConstraint& c, const ConstraintEnds& at) {
+  const ClosestPoints m = closest_points(c.shapes, at);
   return apart(c.direction, m.on_first, m.on_second, at);
 }
 
 namespace {
 
-template <class ContactCondition>
-Matrix12 curvature_by_differences(const ContactCondition& c, const ConditionEnds& at) {
+template <class ContactConstraint>
+Matrix12 curvature_by_differences(const ContactConstraint& c, const ConstraintEnds& at) {
   constexpr double by = 1e-5;  // m and rad: rounding and curvature of higher order are both 1e-10 there
   const auto displaced = [&](int k, double way) {
-    ConditionEnds out = at;
+    ConstraintEnds out = at;
     const Eigen::Vector3d move = way * Eigen::Vector3d::Unit(k % 3);
     if (k / 3 == 0) out.first_centre += move;
     if (k / 3 == 1) out.first = rotation_exp(move).toRotationMatrix() * at.first;
@@ -141,16 +141,16 @@ Matrix12 curvature_by_differences(const ContactCondition& c, const ConditionEnds
 
 }  // namespace
 
-Matrix12 curvature(const GapCondition& c, const ConditionEnds& at) { return curvature_by_differences(c, at); }
-Matrix12 curvature(const StickCondition& c, const ConditionEnds& at) { return curvature_by_differences(c, at); }
+Matrix12 curvature(const GapConstraint& c, const ConstraintEnds& at) { return curvature_by_differences(c, at); }
+Matrix12 curvature(const StickConstraint& c, const ConstraintEnds& at) { return curvature_by_differences(c, at); }
 
 // (D31)
-double value(const LeadCondition& c, const ConditionEnds& at) {
-  const double off = c.travel->value(at) - c.lead(at.time).travel;
-  return c.travel->turns() ? std::remainder(off, 2 * std::numbers::pi) : off;
+double value(const PrescribedConstraint& c, const ConstraintEnds& at) {
+  const double off = c.coordinate->value(at) - c.motion(at.time).coordinate;
+  return c.coordinate->turns() ? std::remainder(off, 2 * std::numbers::pi) : off;
 }
 
-Gradient gradient(const LeadCondition& c, const ConditionEnds& at) { return c.travel->gradient(at); }
-Matrix12 curvature(const LeadCondition& c, const ConditionEnds& at) { return c.travel->curvature(at); }
+Gradient gradient(const PrescribedConstraint& c, const ConstraintEnds& at) { return c.coordinate->gradient(at); }
+Matrix12 curvature(const PrescribedConstraint& c, const ConstraintEnds& at) { return c.coordinate->curvature(at); }
 
 }  // namespace dynamics

@@ -1,5 +1,5 @@
-// `froude section`: Poincaré sections of a record.
-#include "hydro/signal/section.hpp"
+// `froude poincare`: Poincaré sections of a record.
+#include "hydro/signal/poincare_section.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -27,20 +27,20 @@ using hydro::InputError;
 /// What is drawn and written: both signals of the plane, and the points.
 struct Plane {
   Signal x, y;
-  hs::Section section;
+  hs::PoincareSection section;
   std::string how;  ///< "where … rises through …"
 };
 
-void require_one_way(const SectionArguments& a) {
+void require_one_way(const PoincareArguments& a) {
   if (a.at.has_value() == a.every.has_value())
-    throw InputError("a section is taken either where a signal crosses a level or once in a period",
+    throw InputError("a Poincare section is taken either where a signal crosses a level or once in a period",
                      {.file = "command line"}, "give --at with --level, or --every");
   if (a.at.has_value() != a.level.has_value())
     throw InputError("--at needs a --level to cross, and --level a signal that does", {.file = "command line"},
                      "give both, for example --at chain.link1.polar --level \"90 deg\"");
 }
 
-double level_of(const SectionArguments& a, const Signal& across) {
+double level_of(const PoincareArguments& a, const Signal& across) {
   try {
     return hydro::parse_si(*a.level, hydro::parse_unit(across.units.empty() ? "1" : across.units).dimension);
   } catch (const InputError& e) {
@@ -48,7 +48,7 @@ double level_of(const SectionArguments& a, const Signal& across) {
   }
 }
 
-Plane plane_of(const SectionArguments& a) {
+Plane plane_of(const PoincareArguments& a) {
   require_one_way(a);
   RunResult record = read_record(a.file);
   hydro::require(!record.time.empty(), "the record has no samples");
@@ -61,7 +61,8 @@ Plane plane_of(const SectionArguments& a) {
   if (a.every) {
     // Samples before the first point stay: it is interpolated from both sides.
     const double period = hydro::parse_si(*a.every, hydro::dim::time);
-    out.section = hs::section_every(from.value_or(record.time.front()), period, samples(hs::even_step(record.time)));
+    out.section =
+        hs::poincare_section_every(from.value_or(record.time.front()), period, samples(hs::even_step(record.time)));
     out.how = fmt::format("once in {:.6g} s", period);
     return out;
   }
@@ -72,7 +73,8 @@ Plane plane_of(const SectionArguments& a) {
   const auto through = a.through == "up"     ? hs::Through::up
                        : a.through == "down" ? hs::Through::down
                                              : hs::Through::both;
-  out.section = hs::section_at(across.values, level_of(a, across), through, samples(hs::even_step(record.time)));
+  out.section =
+      hs::poincare_section_at(across.values, level_of(a, across), through, samples(hs::even_step(record.time)));
   out.how = fmt::format("where {} {} {}", across.name,
                         a.through == "up"     ? "rises through"
                         : a.through == "down" ? "falls through"
@@ -91,7 +93,7 @@ struct Spread {
   double lowest, highest, error;  ///< the last: the largest of a point
 };
 
-Spread spread(const hs::Section& s, std::size_t i) {
+Spread spread(const hs::PoincareSection& s, std::size_t i) {
   const auto [low, high] = std::minmax_element(s.values[i].begin(), s.values[i].end());
   return {*low, *high, *std::max_element(s.errors[i].begin(), s.errors[i].end())};
 }
@@ -113,7 +115,7 @@ nlohmann::json as_json(const Plane& p) {
        {{"signal", p.y.name}, {"unit", p.y.units}, {"values", p.section.values[1]}, {"errors", p.section.errors[1]}}}};
 }
 
-void tell(const Plane& p, const SectionArguments& a, const Console& console) {
+void tell(const Plane& p, const PoincareArguments& a, const Console& console) {
   console.out << fmt::format("{} points {}{}\n", p.section.time_s.size(), p.how,
                              p.section.left_out
                                  ? fmt::format("; {} at the ends of the record left out, with fewer than "
@@ -156,7 +158,7 @@ plot::Figure figure(const Plane& p, const std::string& file_name) {
 
 }  // namespace
 
-void section(const SectionArguments& arguments, const Console& console) {
+void poincare(const PoincareArguments& arguments, const Console& console) {
   require_outputs(named({{"-o", arguments.output}, {"--picture", arguments.picture}}),
                   {{"the record", arguments.file}});
   Plane plane = [&] {
@@ -166,7 +168,7 @@ void section(const SectionArguments& arguments, const Console& console) {
       throw e.at({.file = arguments.file.string()});
     }
   }();
-  hs::Section& s = plane.section;
+  hs::PoincareSection& s = plane.section;
   if (arguments.wrap) {
     wrap(plane.x, s.values[0]);
     wrap(plane.y, s.values[1]);
@@ -181,7 +183,7 @@ void section(const SectionArguments& arguments, const Console& console) {
                           {plane.y.name, plane.y.units, &s.values[1]},
                           {plane.x.name + ".error", plane.x.units, &s.errors[0]},
                           {plane.y.name + ".error", plane.y.units, &s.errors[1]}},
-                         {"section " + plane.how});
+                         {"Poincare section " + plane.how});
   if (arguments.picture)
     hydro::io::write_atomically(*arguments.picture, plot::svg(figure(plane, arguments.file.filename().string())));
   if (console.json) {

@@ -1,4 +1,4 @@
-#include "hydro/signal/section.hpp"
+#include "hydro/signal/poincare_section.hpp"
 
 #include <algorithm>
 #include <array>
@@ -47,16 +47,16 @@ void check(std::span<const double> values, std::size_t size) {
   require(bad == values.end(), "sample {} of the record is not a finite number", bad - values.begin() + 1);
 }
 
-Section empty(const Samples& samples) {
+PoincareSection empty(const Samples& samples) {
   require(std::isfinite(samples.step_s) && samples.step_s > 0, "samples need a step above 0, got {} s", samples.step_s);
-  Section out;
+  PoincareSection out;
   out.values.resize(samples.of.size());
   out.errors.resize(samples.of.size());
   return out;
 }
 
 /// A point at the share `s` of the interval after sample k; by fewer samples it would be at `other`.
-void add(std::size_t k, double s, double other, const Samples& samples, Section& out) {
+void add(std::size_t k, double s, double other, const Samples& samples, PoincareSection& out) {
   out.time_s.push_back(samples.start_s + samples.step_s * (static_cast<double>(k) + s));
   for (std::size_t i = 0; i < samples.of.size(); ++i) {
     out.values[i].push_back(fine(samples.of[i], k, s));
@@ -66,8 +66,9 @@ void add(std::size_t k, double s, double other, const Samples& samples, Section&
 
 }  // namespace
 
-Section section_at(std::span<const double> across, double level, Through through, const Samples& samples) {
-  Section out = empty(samples);
+PoincareSection poincare_section_at(std::span<const double> across, double level, Through through,
+                                    const Samples& samples) {
+  PoincareSection out = empty(samples);
   check(across, across.size());
   for (const auto& signal : samples.of) check(signal, across.size());
   for (std::size_t k = 0; k + 1 < across.size(); ++k) {
@@ -83,8 +84,8 @@ Section section_at(std::span<const double> across, double level, Through through
   return out;
 }
 
-Section section_every(double first_s, double period_s, const Samples& samples) {
-  Section out = empty(samples);
+PoincareSection poincare_section_every(double first_s, double period_s, const Samples& samples) {
+  PoincareSection out = empty(samples);
   require(!samples.of.empty(), "a section needs a signal");
   const std::size_t size = samples.of.front().size();
   for (const auto& signal : samples.of) check(signal, size);

@@ -1,4 +1,4 @@
-#include "dynamics/line/companion.hpp"
+#include "dynamics/line/perturbed_trajectory.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,15 +21,16 @@ Places irregular(const Line& line) {
 
 void require_steps_of_places(const Line& line, const Stepper::Settings& settings) {
   if (settings.scheme == Scheme::generalised_alpha)
-    throw hydro::InputError("steps of generalised-α remember accelerations of their own, of which a companion is not",
-                            {}, "step the line with \"energy_momentum\"");
+    throw hydro::InputError(
+        "steps of generalised-α keep accelerations of their own, of which a perturbed trajectory is not", {},
+        "step the line with \"energy_momentum\"");
   hydro::require(!line.has_massless_nodes(), "a free node of the line has no mass, so motions have no neighbours");
   hydro::require(line.description().gravity > 0, "a line without gravity has no time to measure velocities in");
 }
 
 }  // namespace
 
-struct Companion::Work {
+struct PerturbedTrajectory::Work {
   const Line& line;
   Equations equations;
   Stepper stepper;
@@ -73,8 +74,8 @@ struct Companion::Work {
   }
 };
 
-Companion::Companion(const Line& line, Stepper::Settings settings, const State& state,
-                     const std::optional<Places>& kick) {
+PerturbedTrajectory::PerturbedTrajectory(const Line& line, Stepper::Settings settings, const State& state,
+                                         const std::optional<Places>& kick) {
   require_steps_of_places(line, settings);
   settings.tolerance = tolerance;
   work_ = std::make_unique<Work>(line, settings);
@@ -87,16 +88,16 @@ Companion::Companion(const Line& line, Stepper::Settings settings, const State& 
   w.state.velocity += along;
   const double size = w.distance(state);
   hydro::require(size > 1e-9 * w.time / w.length * along.cwiseAbs().maxCoeff() && size > 0,
-                 "nothing of the line can move in the direction of its companion");
+                 "nothing of the line can move in the direction of its perturbed trajectory");
   w.bring(state, apart / size);
   w.growth.emplace(state.time, w.distance(state));
 }
 
-Companion::~Companion() = default;
+PerturbedTrajectory::~PerturbedTrajectory() = default;
 
-const Growth& Companion::growth() const { return *work_->growth; }
+const Growth& PerturbedTrajectory::growth() const { return *work_->growth; }
 
-void Companion::follow(const State& state, const StepReport& took, double h) {
+void PerturbedTrajectory::follow(const State& state, const StepReport& took, double h) {
   Work& w = *work_;
   const StepReport own = w.stepper.step(w.state, h);
   if (own.halvings != took.halvings)

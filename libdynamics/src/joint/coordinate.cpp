@@ -1,4 +1,4 @@
-#include "dynamics/joint/travel.hpp"
+#include "dynamics/joint/coordinate.hpp"
 
 #include <cmath>
 
@@ -18,36 +18,38 @@ Vector12 joined(const Gradient& g) {
 
 }  // namespace
 
-Travel::Travel(const Joint& joint, const Eigen::Vector3d& first_arm, const Eigen::Vector3d& second_arm,
-               std::optional<int> counted_as)
+JointCoordinate::JointCoordinate(const Joint& joint, const Eigen::Vector3d& first_arm,
+                                 const Eigen::Vector3d& second_arm, std::optional<int> counted_as)
     : first_(joint.first), second_(joint.second), turns_(joint.kind == JointKind::hinge), counted_as_(counted_as) {
-  hydro::ensure(turns_ || joint.kind == JointKind::slider, "travel of a joint that is neither slider nor hinge");
+  hydro::ensure(turns_ || joint.kind == JointKind::slider, "coordinate of a joint that is neither slider nor hinge");
   const Eigen::Matrix3d frame = frame_of(joint);
   along_ = {first_arm, second_arm, frame.col(0), true};
   cosine_ = {frame.col(1), frame.col(1)};
   sine_ = {frame.col(2), frame.col(1)};
 }
 
-Travel::Travel(const std::vector<RigidBody>& bodies, const Joint& joint, std::optional<int> counted_as)
-    : Travel(joint, joint.place - bodies[static_cast<std::size_t>(joint.first)].rest_centre(),
-             joint.second ? Eigen::Vector3d(joint.place - bodies[static_cast<std::size_t>(*joint.second)].rest_centre())
+JointCoordinate::JointCoordinate(const std::vector<RigidBody>& bodies, const Joint& joint,
+                                 std::optional<int> counted_as)
+    : JointCoordinate(joint, joint.place - bodies[static_cast<std::size_t>(joint.first)].rest_centre(),
+                      joint.second
+                          ? Eigen::Vector3d(joint.place - bodies[static_cast<std::size_t>(*joint.second)].rest_centre())
                           : joint.place,
-             counted_as) {}
+                      counted_as) {}
 
-double Travel::value(const ConditionEnds& at) const {
+double JointCoordinate::value(const ConstraintEnds& at) const {
   if (!turns_) return dynamics::value(along_, at);
   return std::atan2(dynamics::value(sine_, at), dynamics::value(cosine_, at));
 }
 
 // (D133)
-double Travel::value(const State& state) const {
+double JointCoordinate::value(const State& state) const {
   const double within = value(ends(state));
   if (!turns_ || !counted_as_) return within;
   const auto j = static_cast<std::size_t>(*counted_as_);
   return nearest_turn(within, j < state.hinge_angle.size() ? state.hinge_angle[j] : 0);
 }
 
-Gradient Travel::gradient(const ConditionEnds& at) const {
+Gradient JointCoordinate::gradient(const ConstraintEnds& at) const {
   if (!turns_) return dynamics::gradient(along_, at);
   const double c = dynamics::value(cosine_, at), s = dynamics::value(sine_, at), r2 = c * c + s * s;
   const Gradient dc = dynamics::gradient(cosine_, at), ds = dynamics::gradient(sine_, at);
@@ -55,7 +57,7 @@ Gradient Travel::gradient(const ConditionEnds& at) const {
 }
 
 // (D53)
-Matrix12 Travel::curvature(const ConditionEnds& at) const {
+Matrix12 JointCoordinate::curvature(const ConstraintEnds& at) const {
   if (!turns_) return dynamics::curvature(along_, at);
   const double c = dynamics::value(cosine_, at), s = dynamics::value(sine_, at), r2 = c * c + s * s;
   const Vector12 dc = joined(dynamics::gradient(cosine_, at)), ds = joined(dynamics::gradient(sine_, at));
@@ -64,20 +66,20 @@ Matrix12 Travel::curvature(const ConditionEnds& at) const {
   return numerator / r2 - (c * ds - s * dc) * (2 * c * dc + 2 * s * ds).transpose() / (r2 * r2);
 }
 
-double Travel::rate(const State& state) const {
+double JointCoordinate::rate(const State& state) const {
   const Gradient g = gradient(state);
   return g.first.dot(state.twist(first_)) + (second_ ? g.second.dot(state.twist(*second_)) : 0);
 }
 
 // A hinge: y of the first body stays across what is its z now. A slider: the point of the second body that has come to
 // the first's place stays in the plane across the axis.
-Condition Travel::holding(const State& state) const {
-  const ConditionEnds at = ends(state);
+Constraint JointCoordinate::holding(const State& state) const {
+  const ConstraintEnds at = ends(state);
   constexpr int of_no_joint = -1;
   if (turns_)
     return {of_no_joint, first_, second_,
-            AxesCondition{-cosine_.first_axis, at.second.transpose() * (at.first * sine_.first_axis)}};
-  PointCondition here = along_;
+            AxesConstraint{-cosine_.first_axis, at.second.transpose() * (at.first * sine_.first_axis)}};
+  PointConstraint here = along_;
   here.second_arm -= at.second.transpose() * (at.first * along_.direction) * dynamics::value(along_, at);
   return {of_no_joint, first_, second_, here};
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// \file  Conditions of joints and contacts written a second time from their formulas, as values alone: gradient and
+/// \file  Constraints of joints and contacts written a second time from their formulas, as values alone: gradient and
 /// curvature are taken by machine, from numbers that carry two derivatives.
 #include <Eigen/Core>
 
@@ -15,23 +15,23 @@
 #include <variant>
 #include <vector>
 
-#include "dynamics/joint/conditions.hpp"
+#include "dynamics/joint/constraints.hpp"
 
 namespace laws {
 
-using dynamics::AxesCondition;
+using dynamics::AxesConstraint;
 using dynamics::Ball;
 using dynamics::Box;
-using dynamics::GapCondition;
+using dynamics::GapConstraint;
 using dynamics::HalfSpace;
 using dynamics::JointSet;
-using dynamics::PointCondition;
+using dynamics::PointConstraint;
 using dynamics::Rod;
 using dynamics::State;
-using dynamics::StickCondition;
+using dynamics::StickConstraint;
 
 /// A number with its derivatives by the displacements of two bodies, each of which has its own by displacements that
-/// went before: of a condition's value the gradient, and how it varies (D15).
+/// went before: of a constraint's value the gradient, and how it varies (D15).
 using Once = ceres::Jet<double, 12>;
 using Twice = ceres::Jet<Once, 12>;
 inline Twice number(double x) { return Twice(Once(x)); }
@@ -90,11 +90,11 @@ inline TwiceBody twice_body(const State& state, std::optional<int> b) {
 }
 
 /// (D13)
-inline Twice law_of(const PointCondition& c, const TwiceBody& a, const TwiceBody& b) {
+inline Twice law_of(const PointConstraint& c, const TwiceBody& a, const TwiceBody& b) {
   return dot(c.turns ? a.arm(c.direction) : twice(c.direction), b.point(c.second_arm) - a.point(c.first_arm));
 }
 /// (D14)
-inline Twice law_of(const AxesCondition& c, const TwiceBody& a, const TwiceBody& b) {
+inline Twice law_of(const AxesConstraint& c, const TwiceBody& a, const TwiceBody& b) {
   return dot(a.arm(c.first_axis), b.arm(c.second_axis));
 }
 
@@ -160,7 +160,7 @@ inline TwiceWay way_between(const Box& box, const TwiceBody& a, const Ball& ball
   const Twice out = number(box.half[static_cast<int>(face)]) - dot(from_middle, outward[face]);
   return {number(-ball.radius) - out, outward[face], c + out * outward[face], c - number(ball.radius) * outward[face]};
 }
-inline TwiceWay way_between(const GapCondition& c, const TwiceBody& a, const TwiceBody& b) {
+inline TwiceWay way_between(const GapConstraint& c, const TwiceBody& a, const TwiceBody& b) {
   const auto reversed = [](const TwiceWay& w) {
     return TwiceWay{w.gap, number(-1) * w.normal, w.on_second, w.on_first};
   };
@@ -171,16 +171,16 @@ inline TwiceWay way_between(const GapCondition& c, const TwiceBody& a, const Twi
   if (const auto* plane = std::get_if<HalfSpace>(&c.first)) return way_between(*plane, a, std::get<Ball>(c.second), b);
   if (const auto* box = std::get_if<Box>(&c.first)) return way_between(*box, a, std::get<Ball>(c.second), b);
   if (std::holds_alternative<HalfSpace>(c.second) || std::holds_alternative<Box>(c.second))
-    return reversed(way_between(GapCondition{c.second, c.first}, b, a));
+    return reversed(way_between(GapConstraint{c.second, c.first}, b, a));
   return way_between(rod(c.first), a, rod(c.second), b);
 }
 
 /// (D23): the length of the way, less radii.
-inline Twice law_of(const GapCondition& c, const TwiceBody& a, const TwiceBody& b) { return way_between(c, a, b).gap; }
+inline Twice law_of(const GapConstraint& c, const TwiceBody& a, const TwiceBody& b) { return way_between(c, a, b).gap; }
 
 /// (D24): no value, and in place of the gradient the rates at which the points that touch, of either body, slip along
 /// the direction when one velocity is 1.
-inline Twice law_of(const StickCondition& c, const TwiceBody& a, const TwiceBody& b) {
+inline Twice law_of(const StickConstraint& c, const TwiceBody& a, const TwiceBody& b) {
   const TwiceWay way = way_between(c.shapes, a, b);
   using OnceVector = Eigen::Matrix<Once, 3, 1>;
   const OnceVector t = c.direction.cast<Once>(), first = once(way.on_first - a.centre),
@@ -196,8 +196,8 @@ inline Twice law_of(const StickCondition& c, const TwiceBody& a, const TwiceBody
 }
 
 /// (D53)
-inline Twice travel_of(const std::vector<dynamics::RigidBody>& bodies, const dynamics::Joint& j, const TwiceBody& a,
-                       const TwiceBody& b) {
+inline Twice coordinate_of(const std::vector<dynamics::RigidBody>& bodies, const dynamics::Joint& j, const TwiceBody& a,
+                           const TwiceBody& b) {
   const Eigen::Matrix3d frame = dynamics::frame_of(j);
   if (j.kind == dynamics::JointKind::hinge) {
     const TwiceVector y2 = b.arm(frame.col(1));
@@ -209,16 +209,16 @@ inline Twice travel_of(const std::vector<dynamics::RigidBody>& bodies, const dyn
              b.point(second) - a.point(j.place - bodies[static_cast<std::size_t>(j.first)].rest_centre()));
 }
 
-/// All conditions of a set, in its order. Those that are led belong to its one joint. (D31)
+/// All constraints of a set, in its order. Prescribed motions belong to its one joint. (D31)
 inline std::vector<Twice> laws_of(const std::vector<dynamics::RigidBody>& bodies, const JointSet& set, const State& s) {
   std::vector<Twice> out;
-  for (const dynamics::Condition& c : set.conditions()) {
+  for (const dynamics::Constraint& c : set.constraints()) {
     const TwiceBody a = twice_body(s, c.first), b = twice_body(s, c.second);
     out.push_back(std::visit(
         [&]<class Law>(const Law& what) {
-          if constexpr (std::is_same_v<Law, dynamics::LeadCondition>) {
+          if constexpr (std::is_same_v<Law, dynamics::PrescribedConstraint>) {
             const dynamics::Joint& j = set.joints().front();
-            const Twice off = travel_of(bodies, j, a, b) - number(j.lead(s.time).travel);
+            const Twice off = coordinate_of(bodies, j, a, b) - number(j.prescribed(s.time).coordinate);
             return j.kind == dynamics::JointKind::hinge
                        ? off - number(2 * std::numbers::pi * std::round(off.a.a / (2 * std::numbers::pi)))
                        : off;
@@ -243,11 +243,11 @@ inline Eigen::VectorXd multipliers(const JointSet& set) {
 }
 
 /// Of sums of a few products of numbers of order 1 and of arms of some metres: 2e-15 is seen.
-constexpr double condition_round_off = 1e-13;
+constexpr double constraint_round_off = 1e-13;
 
-/// Values, G, ∂(Gᵀλ)/∂q and Ġv − s̈ of a set on two bodies; modes that are held have no part in them.
+/// Values, G, ∂(Gᵀλ)/∂q and Ġv − s̈ of a set on two bodies; modes that are held do not take part in them.
 inline void expect_automatic_derivatives(const std::vector<dynamics::RigidBody>& bodies, const JointSet& set,
-                                         const State& s, double curvature_tolerance = condition_round_off) {
+                                         const State& s, double curvature_tolerance = constraint_round_off) {
   Eigen::VectorXd free(12);
   for (int i = 0; i < 12; ++i) free[i] = bodies[static_cast<std::size_t>(i / 6)].is_free(i % 6) ? 1 : 0;
   const auto all = laws_of(bodies, set, s);
@@ -262,14 +262,15 @@ inline void expect_automatic_derivatives(const std::vector<dynamics::RigidBody>&
     for (int k = 0; k < 12; ++k) G(i, k) = law.v[k].a;
     H += lambda[i] * bend;
     convective[i] = v.dot(bend * v);
-    if (const auto* led = std::get_if<dynamics::LeadCondition>(&set.conditions()[static_cast<std::size_t>(i)].what))
-      convective[i] -= led->lead(s.time).acceleration;
+    if (const auto* prescribed =
+            std::get_if<dynamics::PrescribedConstraint>(&set.constraints()[static_cast<std::size_t>(i)].what))
+      convective[i] -= prescribed->motion(s.time).acceleration;
   }
   ASSERT_TRUE(g.allFinite() && G.allFinite() && H.allFinite());
   const auto apart = [](const Eigen::MatrixXd& x, const Eigen::MatrixXd& y) { return (x - y).cwiseAbs().maxCoeff(); };
-  EXPECT_LE(apart(set.values(s), g), condition_round_off * (1 + g.cwiseAbs().maxCoeff())) << "value";
+  EXPECT_LE(apart(set.values(s), g), constraint_round_off * (1 + g.cwiseAbs().maxCoeff())) << "value";
   EXPECT_LE(apart(set.dense(set.gradients(s)), G * free.asDiagonal()),
-            condition_round_off * (1 + G.cwiseAbs().maxCoeff()))
+            constraint_round_off * (1 + G.cwiseAbs().maxCoeff()))
       << "gradient";
   dynamics::BlockPattern pattern(2);
   set.couple(pattern);

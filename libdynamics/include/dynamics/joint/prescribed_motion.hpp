@@ -1,5 +1,5 @@
 #pragma once
-/// \file  Ways to lead a joint: what Joint::lead may be. (D31)
+/// \file  Prescribed motions: what Joint::prescribed may be. (D31)
 #include <vector>
 
 #include "dynamics/joint/joint.hpp"
@@ -7,13 +7,13 @@
 namespace dynamics {
 
 /// a sin(ωt), grown from nothing by half a cosine over `ramp_s`. \throws hydro::InputError unless ω > 0 and ramp ≥ 0
-Lead led_harmonically(double amplitude, double omega, double ramp_s);
+PrescribedMotion prescribed_harmonic(double amplitude, double omega, double ramp_s);
 
 /// The natural cubic spline through values at increasing times; before the first and after the last it stays.
 /// \throws hydro::InputError for fewer than two values, times that do not increase, or values that are not finite
-Lead led_through(std::vector<double> time_s, const std::vector<double>& travel);
+PrescribedMotion prescribed_through(std::vector<double> time_s, const std::vector<double>& coordinate);
 
 /// The same counted the other way.
-Lead reversed(Lead lead);
+PrescribedMotion reversed(PrescribedMotion motion);
 
 }  // namespace dynamics

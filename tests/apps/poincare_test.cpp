@@ -1,4 +1,4 @@
-// `froude section` through the function that main.cpp calls.
+// `froude poincare` through the function that main.cpp calls.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,10 +12,10 @@
 #include "hydro/base/error.hpp"
 #include "hydro/io/csv.hpp"
 
-namespace section_command_test {
+namespace poincare_command_test {
 namespace {
 
-using froude::SectionArguments;
+using froude::PoincareArguments;
 using hydro::InputError;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
@@ -41,11 +41,11 @@ class SectionCommand : public testing::Test {
   ~SectionCommand() override { std::filesystem::remove_all(folder); }
   nlohmann::json json() {
     std::ostringstream out, err;
-    froude::section(arguments, {out, err, true});
+    froude::poincare(arguments, {out, err, true});
     return nlohmann::json::parse(out.str());
   }
   std::filesystem::path folder;
-  SectionArguments arguments;
+  PoincareArguments arguments;
 };
 
 TEST_F(SectionCommand, GivesThePointsWhereALevelIsCrossed) {
@@ -53,16 +53,16 @@ TEST_F(SectionCommand, GivesThePointsWhereALevelIsCrossed) {
   arguments.level = "150 cm";  // cos = ½, falling at a sixth of a turn
   arguments.through = "down";
   arguments.from = "20 s";
-  arguments.output = folder / "section.csv";
-  arguments.picture = folder / "section.svg";
+  arguments.output = folder / "poincare.csv";
+  arguments.picture = folder / "poincare.svg";
   const auto j = json();
   EXPECT_EQ(j["points"], 7);
   EXPECT_NEAR(j["time_s"][0], 24 + 8.0 / 6, 1e-5);
   for (const double v : j["x"]["values"]) EXPECT_NEAR(v, 0.5 * std::sqrt(0.75), 1e-6);
-  const auto table = hydro::io::CsvTable::read(folder / "section.csv");
+  const auto table = hydro::io::CsvTable::read(folder / "poincare.csv");
   EXPECT_NEAR(table.column("rate").at(3), 0.25 * std::numbers::pi / 4, 1e-6);
   EXPECT_LT(table.column("rate.error").at(3), 1e-4);
-  EXPECT_TRUE(std::filesystem::exists(folder / "section.svg"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "poincare.svg"));
 }
 
 TEST_F(SectionCommand, GivesThePointsOfOneInstantOfEachPeriod) {
@@ -108,4 +108,4 @@ TEST_F(SectionCommand, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace section_command_test
+}  // namespace poincare_command_test

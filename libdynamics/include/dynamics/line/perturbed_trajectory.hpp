@@ -10,23 +10,24 @@ namespace dynamics::line {
 
 /// Stepped as the line itself. Distance: root mean square over the free nodes of |δx| and |δv|√(ℓ/g), in mean
 /// segments' lengths ℓ; at first a millionth of that.
-class Companion {
+class PerturbedTrajectory {
  public:
-  /// Newton's tolerance for lines that have a companion: what it leaves must be small against their distance.
+  /// Newton's tolerance for lines that have a perturbed trajectory: what it leaves must be small against their
+  /// distance.
   static constexpr double tolerance = 1e-11;
 
   /// `settings`: those of the line's own stepper, but that its tolerance is the above. Begins beside `state`, which has
   /// been started, with other velocities: along `kick` (3, nodes) as far as lengths allow, of any size; left out: in a
-  /// fixed, irregular direction. \throws hydro::InputError for generalised-α, whose steps remember more than places and
+  /// fixed, irregular direction. \throws hydro::InputError for generalised-α, whose steps keep more than places and
   /// velocities, for free nodes without mass, for a line without gravity, and for one in which nothing can move so
-  Companion(const Line& line, Stepper::Settings settings, const State& state,
-            const std::optional<Places>& kick = std::nullopt);
-  ~Companion();
-  Companion(const Companion&) = delete;
-  Companion& operator=(const Companion&) = delete;
+  PerturbedTrajectory(const Line& line, Stepper::Settings settings, const State& state,
+                      const std::optional<Places>& kick = std::nullopt);
+  ~PerturbedTrajectory();
+  PerturbedTrajectory(const PerturbedTrajectory&) = delete;
+  PerturbedTrajectory& operator=(const PerturbedTrajectory&) = delete;
 
-  /// The line has made one step of h seconds to `state`, and `took` that. \throws hydro::NumericsError if the companion
-  /// cannot make the same step, or is no neighbour any more
+  /// The line has made one step of h seconds to `state`, and `took` that. \throws hydro::NumericsError if the perturbed
+  /// trajectory cannot make the same step, or is no neighbour any more
   void follow(const State& state, const StepReport& took, double h);
 
   const Growth& growth() const;
