@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Checks that the documents and the code still agree.
 
-    checks.py tags|includes|links|quotes ROOT
+    checks.py tags|includes|links|quotes|words ROOT
 
 Each check returns a list of complaints, one line each with file and line; the program fails if there is any.
 Python's standard library only.
@@ -302,7 +302,74 @@ def check_quotes(root):
     return complaints
 
 
-CHECKS = {"tags": check_tags, "includes": check_includes, "links": check_links, "quotes": check_quotes}
+# Private words and the glossary's terms for them. Many have other senses elsewhere (waves travel, matrices have a condition number), so
+# each is refused by its pattern in its folders only, on single lines.
+MECHANICS = ("libdynamics", "apps", "tests/dynamics", "tests/laws", "tests/stability", "tests/apps", "validation", "docs/guide",
+             "docs/theory/dynamics.md", "docs/theory/loads.md", "docs/theory/lines.md")
+LAWS = ("libdynamics", "tests/dynamics", "tests/laws")
+EVERYWHERE = ("libhydro", "libdynamics", "libfit", "apps", "python", "tests", "validation", "docs", "examples", "README.md")
+STRANGERS = [(re.compile(pattern), term, folders) for pattern, term, folders in (
+    (r"\b(?:Joint)?Lead\b|\bLeadCondition\b|\blead_(?:rates|table|of)\b|\bled_(?:harmonically|through|by)\b|\.lead\b|\bare_led\b|"
+     r"\b(?:joint|line)\.lead\b|`lead`|(?:\b|\\n)lead = \{ ?\w|\b(?:[Jj]oint|[Hh]inge|[Ss]lider|[Nn]ode|[Ee]nd)s?(?: that (?:is|are))? led\b|"
+     r"\bled (?:joint|hinge|slider|node|end)s?\b|\blead(?:s|ing)? (?:a |the )?(?:joint|hinge|slider)s?\b",
+     "prescribed motion", EVERYWHERE),
+    (r"\b(?:Point|Axes|Gap|Stick)?Conditions?(?:Ends|Law)?\b|(?<![a-z])conditions?(?![a-z])(?! number| of some| below)", "constraint",
+     (*LAWS, "docs/theory/dynamics.md")),
+    (r"\bconditions? of (?:a |the )?joints?\b", "constraint", EVERYWHERE),
+    (r"\b(?:Joint)?Travel(?:Law|Motion|Force)?\b|(?:\b|_)travels?\b", "joint coordinate", MECHANICS),
+    (r"pulls_only|\bpull(?:s|ing)?[- ]only\b", "tension-only", EVERYWHERE),
+    (r"keeps?_lengths?|\bkeeps? (?:its|their) lengths?\b", "inextensible", EVERYWHERE),
+    (r"(?:\b|\\n)sags\b(?= =|[`\";)]| \|\|)|\.sags\b|\bsegments? that sags?\b", "catenary segment", EVERYWHERE),
+    (r"(?:->|\.|::)strain\(|\bis strained\b", "utilisation", LAWS),
+    (r"\bsteepness\b", "slope", LAWS),
+    (r"\bAnswer\b", "spring–damper force", LAWS),
+    (r"\bMeeting\b|\bmeeting\(|\bmeet\((?=const Shape|Box|Rod|Ball)", "closest points", LAWS),
+    (r"\bContinuedDamping\b|\bcontinued\(|\bdamping (?:is )?continued\b", "extrapolated damping", EVERYWHERE),
+    (r"\bdecided\(|\bpast has decided\b", "history force", EVERYWHERE),
+    (r"\b[Oo]penness\b", "interpolation error", EVERYWHERE),
+    (r"\b[Rr]emember(?:s|ed|ing)?\b", "radiation memory", EVERYWHERE),
+    (r"\b(?:potential::)?carried\((?!\))|\bcarried along the water\b|--carry\b", "translated coefficients", EVERYWHERE),
+    (r"\bas lossy as\b", "equivalent linearisation", EVERYWHERE),
+    (r"\b(?:does|did) not add up\b", "energy residual", EVERYWHERE),
+    (r"to_waves_that_return|\byields to waves\b", "active absorption", EVERYWHERE),
+    (r"\bfroude section\b|\bSectionArguments\b|(?<!poincare_)\bsection_(?:at|every)\(", "Poincaré section", EVERYWHERE),
+    (r"\bkinship\b|correlation_of_blocks", "block correlation", EVERYWHERE),
+    (r"\b[Cc]ompanion\b(?! matrix)", "perturbed trajectory", ("libdynamics", "apps", "tests/dynamics/line", "docs")),
+    (r"\bheavy_bodies\b|\b(?:p|prepared|out)\.heavy\b", "bodies with gravity", EVERYWHERE),
+    (r"\b(?:friction|contacts?) changes? (?:\{\}|\d+) times\b", "stick–slip events", EVERYWHERE),
+    (r"\bdoctor warns\b", "warning", EVERYWHERE),
+    (r"\b(?:cylinders->|out\.)sorts\b|\bsorts? of constraint", "types", EVERYWHERE),
+    (r"\bha(?:s|ve) no part in a\b", "does not apply to", EVERYWHERE),
+)]
+WORDED_SUFFIXES = {".hpp", ".cpp", ".py", ".md", ".toml"}
+
+
+def worded_files(root):
+    """Where words are looked at: not in data of others, nor in the checks, which name the strangers."""
+    for path in (root / "README.md", *files_below(root, [f for f in EVERYWHERE if f != "README.md"], WORDED_SUFFIXES)):
+        relative = path.relative_to(root)
+        if path.exists() and relative.parts[:2] != ("tests", "docs") and "reference" not in relative.parts:
+            yield path, relative
+
+
+def check_words(root):
+    """No private word stands where the field has a term; and the glossary has each of these terms."""
+    complaints = []
+    for path, relative in worded_files(root):
+        of_file = [s for s in STRANGERS if any(relative.is_relative_to(folder) for folder in s[2])]
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            for pattern, term, _ in of_file:
+                found = pattern.search(line)
+                if found:
+                    complaints.append(f"{relative}:{number}: \"{found.group().strip()}\" is no word of the field; the glossary has \"{term}\"")
+    glossary = root / "docs" / "glossary.md"
+    if glossary.exists():
+        told = glossary.read_text(encoding="utf-8")
+        complaints += [f"docs/glossary.md:1: the term \"{term}\" is missing" for _, term, _ in STRANGERS if f"| **{term}** |" not in told]
+    return complaints
+
+
+CHECKS = {"tags": check_tags, "includes": check_includes, "links": check_links, "quotes": check_quotes, "words": check_words}
 
 
 def main(arguments):

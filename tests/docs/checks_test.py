@@ -171,5 +171,45 @@ class Quotes(ChecksCase):
         self.refuses("quotes", self.FILE | {"README.md": "<!-- file: b.cpp -->\n```cpp\nint a;\n```\n"}, "no file b.cpp")
 
 
+class Words(ChecksCase):
+    def test_refuses_strangers_with_file_line_and_term(self):
+        for path, line, term in (
+                ("libdynamics/src/a.cpp", "PrescribedMotion lead; Lead l;", "prescribed motion"),
+                ("examples/a.toml", 'lead = { amplitude = "1 m", period = "2 s" }', "prescribed motion"),
+                ("docs/guide/a.md", "Nodes that are led follow a path.", "prescribed motion"),
+                ("libdynamics/src/a.cpp", "std::vector<PointCondition> conditions_;", "constraint"),
+                ("docs/theory/dynamics.md", "One condition more.", "constraint"),
+                ("docs/design.md", "the conditions of joints", "constraint"),
+                ("apps/compile/a.cpp", 'signal("rack.travel")', "joint coordinate"),
+                ("tests/apps/a.cpp", r'"length = 1\npulls_only = true\n"', "tension-only"),
+                ("docs/guide/a.md", "a line that keeps its length", "inextensible"),
+                ("examples/a.toml", "sags = true", "catenary segment"),
+                ("libdynamics/src/a.cpp", "friction->strain(i, load)", "utilisation"),
+                ("libhydro/src/a.cpp", "past->decided(1)", "history force"),
+                ("libfit/src/a.cpp", "// the water remembers nothing", "radiation memory"),
+                ("docs/guide/a.md", "froude bem convert a.1 --carry", "translated coefficients"),
+                ("apps/froude/a.cpp", '"energy that does not add up"', "energy residual"),
+                ("README.md", "`froude section run.h5`", "Poincaré section"),
+                ("apps/froude/a.cpp", '"friction or contacts change {} times"', "stick–slip events"),
+                ("libdynamics/src/a.cpp", "class Companion {", "perturbed trajectory"),
+                ("apps/scene/a.cpp", '"has no part in a fit"', "does not apply to")):
+            with self.subTest(line=line):
+                self.refuses("words", {path: "\n" + line + "\n"}, f"{path}:2", f'"{term}"')
+
+    def test_leaves_the_same_words_alone_in_other_senses(self):
+        self.accepts("words", {
+            "libhydro/src/waves/a.cpp": "// how fast crests travel, on the condition that the bed is level; sections of a file\n",
+            "libdynamics/src/a.cpp": "// 1e-9: condition number of some 1e4; axial strain(connector, state); the step that led to it\n"
+                                     "// what leads to rest; the sag of a line; ends that meet; a heavy body; condition below 1e3\n",
+            "docs/theory/waves.md": "phase leads the wave; steepness H/λ; a continued fraction; the profile is continued upwards\n",
+            "docs/theory/dynamics.md": "rows of internal loads add up to zero\n",
+            "tests/dynamics/frequency/a_test.cpp": "Eigen::Matrix4d companion = Eigen::Matrix4d::Zero();\n",
+            "validation/a/reference/SOURCE.md": "a heave that does not add up, of a led joint\n",
+            "tests/docs/checks.py": "pulls_only\n"})
+
+    def test_refuses_a_glossary_that_lacks_a_term(self):
+        self.refuses("words", {"docs/glossary.md": "| **utilisation** | of friction |\n"}, "docs/glossary.md:1", '"constraint" is missing')
+
+
 if __name__ == "__main__":
     unittest.main()
