@@ -184,6 +184,9 @@ TEST_F(SceneWaveFiles, TanksHaveAPaddleWithARecord) {
   const WaveTank& t = std::get<WaveTank>(scene.waves->kind);
   EXPECT_EQ(*t.hinge, -20);
   EXPECT_NEAR(t.step, 0.1, 1e-15);
+  EXPECT_FALSE(t.active_absorption);
+  const Scene absorbing = read_as(at_zero(sea(tank, maker + "kind = \"piston\"\nactive_absorption = true\n")));
+  EXPECT_TRUE(std::get<WaveTank>(absorbing.waves->kind).active_absorption);
   EXPECT_THAT(refused(at_zero(sea(tank, maker + "kind = \"flap\"\n"))), HasSubstr("needs the height of its hinge"));
   EXPECT_THAT(refused(at_zero(sea(tank, maker + "kind = \"piston\"\nhinge = \"-1 m\"\n"))),
               HasSubstr("belongs to a flap"));
