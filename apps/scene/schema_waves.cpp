@@ -2,6 +2,7 @@
 #include "scene/schema_waves.hpp"
 
 #include "hydro/base/types.hpp"
+#include "scene/spectra.hpp"
 
 namespace froude::scene {
 namespace {
@@ -10,17 +11,10 @@ namespace dim = hydro::dim;
 using enum Group::Count;
 using Variant = Table::Variant;
 
-Key hs() { return quantity("hs", dim::length, "significant wave height, 4 √m₀").positive(); }
-Key tp() { return quantity("tp", dim::time, "peak period").positive(); }
-
-Key gamma(const char* fallback, const char* because) {
-  return number("gamma", "peak enhancement factor").within(Limit::at_least_one).or_default(fallback, because);
-}
-
-/// Where `Tp` may be given by another period instead.
-std::vector<Key> one_period() {
-  return {quantity("tp", dim::time, "peak period").positive().optional(),
-          quantity("tz", dim::time, "mean period of up-crossings, 2π √(m₀/m₂)").positive().optional()};
+std::vector<Variant> spectrum_kinds() {
+  std::vector<Variant> out;
+  for (const SpectrumKind& kind : spectra()) out.push_back(kind.keys);
+  return out;
 }
 
 std::vector<Key> joined(std::vector<Key> first, const std::vector<Key>& second) {
@@ -28,72 +22,16 @@ std::vector<Key> joined(std::vector<Key> first, const std::vector<Key>& second) 
   return first;
 }
 
-/// Every kind of sea that is told by a spectrum, with the keys of the spectrum alone.
-std::vector<Variant> spectrum_kinds() {
-  const auto factor = [] { return gamma("3.3", "the mean over the JONSWAP records (Hasselmann et al., 1973)"); };
-  const Group period{exactly_one, {"tp", "tz"}};
-  return {
-      {"jonswap", "random sea, JONSWAP spectrum", joined({hs(), factor()}, one_period()), {period}},
-      {"jonswap-dnv",
-       "random sea, JONSWAP spectrum with the peak enhancement that DNV-RP-C205 gives for Hs and Tp",
-       joined({hs()}, one_period()),
-       {period}},
-      {"fully-developed",
-       "random sea after a steady wind of long fetch and duration, Pierson and Moskowitz's own relation",
-       {quantity("wind", dim::velocity, "19.5 m above the sea").positive()}},
-      {"pierson-moskowitz",
-       "random sea, Pierson–Moskowitz spectrum: Bretschneider's, or ITTC's of two parameters",
-       joined({hs()}, one_period()),
-       {period}},
-      {"tma", "random sea in water of this depth: JONSWAP times the factor of Kitaigorodskii", {hs(), tp(), factor()}},
-      {"ochi-hubble",
-       "random sea with two peaks, six parameters",
-       {quantity("hs_low", dim::length, "significant height of the part at low frequency").positive(),
-        quantity("tp_low", dim::time, "peak period of that part").positive(),
-        number("lambda_low", "shape of that part; 1 is Pierson–Moskowitz, more is narrower").positive(),
-        quantity("hs_high", dim::length, "significant height of the part at high frequency").positive(),
-        quantity("tp_high", dim::time, "peak period of that part").positive(),
-        number("lambda_high", "shape of that part").positive()}},
-      {"torsethaugen", "random sea with two peaks, for the North Sea, from one height and period", {hs(), tp()}},
-      {"wallops", "random sea, Wallops spectrum: the steeper the sea, the slower its tail falls", {hs(), tp()}},
-      {"swell",
-       "random swell, Gaussian in frequency",
-       {hs(), tp(),
-        quantity("width", dim::angular_velocity, "standard deviation of the frequency; in Hz it is 2π times less")
-            .positive()}},
-      {"measured",
-       "random sea with the spectrum of a record, by Welch's method",
-       {text("file", "CSV beside the scene: columns time [s], evenly spaced, and elevation [m]"),
-        text("column", "of the elevation").or_default("elevation", "its usual name"),
-        quantity("segment", dim::time, "length of a Welch segment").positive()}},
-      {"tabulated",
-       "random sea, spectrum from a table",
-       {text("file",
-             "CSV beside the scene: column omega [rad/s] or frequency [Hz], column density [m^2 s/rad] or [m^2/Hz]")}},
-  };
-}
-
 const Table& spreading() {
-  static const Table table{
-      .title = "[waves.spreading]",
-      .meaning = "how the energy of each frequency is spread about the heading",
-      .keys = {text("kind", "of spreading")},
-      .chosen_by = "kind",
-      .variants = {
-          {"cos2s",
-           "cos^2s of half the angle, the same at every frequency",
-           {number("s", "power; 10 is a wind sea").positive()}},
-          {"mitsuyasu",
-           "cos^2s of half the angle, s greatest at the peak of the spectrum",
-           {number("s_max", "s at the peak; 10 is a wind sea, 75 a swell of long decay").positive()}},
-          {"cosn", "cos^n of the angle, nothing beyond 90 degrees", {number("n", "power; 2 is common").positive()}},
-          {"wrapped-normal",
-           "normal distribution of the angle",
-           {quantity("deviation", dim::angle, "standard deviation").positive()}},
-          {"von-mises", "von Mises distribution of the angle", {number("kappa", "concentration").positive()}},
-          {"tabulated",
-           "from a table",
-           {text("file", "CSV beside the scene: column direction [deg] from the heading, column density [1/rad]")}}}};
+  static const Table table{.title = "[waves.spreading]",
+                           .meaning = "how the energy of each frequency is spread about the heading",
+                           .keys = {text("kind", "of spreading")},
+                           .chosen_by = "kind",
+                           .variants = [] {
+                             std::vector<Variant> out;
+                             for (const SpreadingKind& kind : spreadings()) out.push_back(kind.keys);
+                             return out;
+                           }()};
   return table;
 }
 

@@ -1,5 +1,5 @@
-/// \file  From the tables of waves to seas: spectra and spreadings are made here, so that what is wrong with them is
-/// told at the line that holds it.
+/// \file  From the tables of waves to seas; what is wrong with a spectrum or spreading is told at the line that holds
+/// it.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,9 +8,8 @@
 
 #include "hydro/io/csv.hpp"
 #include "hydro/signal/welch.hpp"
-#include "hydro/waves/spectra.hpp"
-#include "hydro/waves/spectrum_tabulated.hpp"
 #include "scene/build.hpp"
+#include "scene/spectra.hpp"
 
 namespace froude::scene {
 namespace {
@@ -32,67 +31,14 @@ auto placed(const Place& place, F make) {
   }
 }
 
-template <class S>
-std::shared_ptr<const S> shared(S spectrum) {
-  return std::make_shared<const S>(std::move(spectrum));
-}
-
-hw::SeaPeriod period_of(const Record& sea) {
-  if (sea.has("tz")) return hw::ZeroCrossingPeriod{sea.si("tz")};
-  return hw::PeakPeriod{sea.si("tp")};
-}
-
-/// The spectrum of a measured elevation, from its lowest positive frequency to four fifths of the Nyquist frequency,
-/// beyond which recorders filter.
-hw::TabulatedSpectrum spectrum_of_record(const Record& sea, const Scene& scene) {
-  const CsvTable table = CsvTable::read(beside(scene.file, sea.text("file")));
-  const double step = hydro::signal::even_step(table.column("time", dim::time));
-  const auto half = std::llround(sea.si("segment") / step / 2);
-  hydro::require(half >= 2, "a segment of {} s holds fewer than 4 samples of {} s", sea.si("segment"), step);
-  const double lowest = 1 / (2 * static_cast<double>(half) * step);
-  return hw::TabulatedSpectrum::of_record(table.column(sea.text("column"), dim::length), step,
-                                          {.segment = 2 * static_cast<std::size_t>(half)},
-                                          {.from_hz = lowest, .to_hz = 0.4 / step});
-}
-
-std::shared_ptr<const hw::Spectrum> build_spectrum(const Record& sea, const Scene& scene) {
-  const std::string& kind = sea.text("kind");
-  if (kind == "jonswap") return shared(hw::jonswap(sea.si("hs"), period_of(sea), sea.si("gamma")));
-  if (kind == "pierson-moskowitz") return shared(hw::bretschneider(sea.si("hs"), period_of(sea)));
-  if (kind == "jonswap-dnv") return shared(hw::jonswap_dnv(sea.si("hs"), period_of(sea)));
-  if (kind == "fully-developed") return shared(hw::pierson_moskowitz_of_wind(sea.si("wind"), scene.water.gravity));
-  if (kind == "measured") return shared(spectrum_of_record(sea, scene));
-  if (kind == "tma") return shared(hw::Tma(sea.si("hs"), sea.si("tp"), sea.si("gamma"), scene.water));
-  if (kind == "ochi-hubble")
-    return shared(hw::ochi_hubble({sea.si("hs_low"), sea.si("tp_low"), sea.si("lambda_low")},
-                                  {sea.si("hs_high"), sea.si("tp_high"), sea.si("lambda_high")}));
-  if (kind == "torsethaugen") return shared(hw::torsethaugen(sea.si("hs"), sea.si("tp"), scene.water.gravity));
-  if (kind == "wallops") return shared(hw::wallops(sea.si("hs"), sea.si("tp"), scene.water.gravity));
-  if (kind == "swell") return shared(hw::GaussianSwell(sea.si("hs"), sea.si("tp"), sea.si("width")));
-  return shared(hw::TabulatedSpectrum::read(beside(scene.file, sea.text("file"))));
-}
-
-std::shared_ptr<const hw::Spreading> build_spreading(const Record& spreading, const hw::Spectrum& spectrum,
-                                                     const Scene& scene) {
-  const std::string& kind = spreading.text("kind");
-  if (kind == "cos2s") return shared(hw::Cos2sSpreading(hw::SpreadingExponent::constant(spreading.si("s"))));
-  if (kind == "mitsuyasu")
-    return shared(hw::Cos2sSpreading(hw::SpreadingExponent::goda(spreading.si("s_max"), spectrum.peak_omega())));
-  if (kind == "cosn") return shared(hw::CosNSpreading(spreading.si("n")));
-  if (kind == "wrapped-normal")
-    return shared(hw::WrappedNormalSpreading(Angle::from_radians(spreading.si("deviation"))));
-  if (kind == "von-mises") return shared(hw::VonMisesSpreading(spreading.si("kappa")));
-  const CsvTable table = CsvTable::read(beside(scene.file, spreading.text("file")));
-  return shared(
-      hw::TabulatedSpreading(table.column("direction", dim::angle), table.column("density", dim::none / dim::angle)));
-}
-
 WaveSystem build_system(const Record& sea, Angle heading, const Scene& scene) {
   WaveSystem out{.kind = sea.text("kind"), .spectrum = {}, .spreading = {}, .heading = heading};
-  out.spectrum = placed(sea["kind"].place, [&] { return build_spectrum(sea, scene); });
+  out.spectrum = placed(sea["kind"].place, [&] { return spectrum_kind(sea.text("kind")).build(sea, scene); });
   if (sea.has("spreading")) {
     const Record& spreading = sea.table("spreading");
-    out.spreading = placed(spreading["kind"].place, [&] { return build_spreading(spreading, *out.spectrum, scene); });
+    out.spreading = placed(spreading["kind"].place, [&] {
+      return spreading_kind(spreading.text("kind")).build(spreading, *out.spectrum, scene);
+    });
   }
   return out;
 }

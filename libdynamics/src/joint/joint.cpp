@@ -306,13 +306,13 @@ Variation::Part part_of_body(const Eigen::MatrixXd& by_motion, int row, int body
 
 }  // namespace
 
-Signal JointSet::travel_signal(int joint) const {
+Signal JointSet::coordinate_signal(int joint) const {
   const Joint& j = joints_[static_cast<std::size_t>(joint)];
   const bool turns = j.kind == JointKind::hinge;
   return {
-      .name = j.name + (turns ? ".angle" : ".coordinate"),
+      .name = j.name + (turns ? ".angle" : ".stroke"),
       .unit = turns ? "rad" : "m",
-      .meaning = fmt::format("{} of {}, the second against the first", turns ? "angle" : "coordinate", j.name),
+      .meaning = fmt::format("{} of {}, the second against the first", turns ? "angle" : "stroke", j.name),
       .value = [along = coordinate_of(joint), sign = j.sign](const Reading& r) { return sign * along.value(r.state); },
       .variation =
           [along = coordinate_of(joint), sign = j.sign](const Still& still) {
@@ -353,7 +353,7 @@ std::vector<Signal> JointSet::signals(const std::vector<RigidBody>& bodies) cons
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const Joint& joint = joints_[j];
     const int index = static_cast<int>(j);
-    if (joint.kind == JointKind::hinge || joint.kind == JointKind::slider) out.push_back(travel_signal(index));
+    if (joint.kind == JointKind::hinge || joint.kind == JointKind::slider) out.push_back(coordinate_signal(index));
     const auto add_loads = [&](End end, int body) {
       for (Signal& s : load_signals(index, end, bodies[static_cast<std::size_t>(body)].name()))
         out.push_back(std::move(s));

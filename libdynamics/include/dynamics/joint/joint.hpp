@@ -171,7 +171,7 @@ class JointSet {
 
  private:
   JointCoordinate coordinate_of(int joint) const;
-  Signal travel_signal(int joint) const;
+  Signal coordinate_signal(int joint) const;
   std::vector<Signal> load_signals(int joint, End end, const std::string& body) const;
   std::vector<Joint> joints_;
   std::vector<Constraint> constraints_;

@@ -1,0 +1,30 @@
+#pragma once
+/// \file  Every kind of spectrum and spreading that a scene may name, declared once: its keys, and what is made of
+/// them. Private to apps/scene.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hydro/waves/spectrum.hpp"
+#include "hydro/waves/spreading.hpp"
+#include "scene/record.hpp"
+
+namespace froude::scene {
+
+struct SpectrumKind {
+  Table::Variant keys;
+  std::shared_ptr<const hydro::waves::Spectrum> (*build)(const Record& sea, const Scene& scene);
+};
+/// In the order of the reference. A further kind is a line here.
+const std::vector<SpectrumKind>& spectra();
+const SpectrumKind& spectrum_kind(const std::string& word);
+
+struct SpreadingKind {
+  Table::Variant keys;
+  std::shared_ptr<const hydro::waves::Spreading> (*build)(const Record& spreading,
+                                                          const hydro::waves::Spectrum& spectrum, const Scene& scene);
+};
+const std::vector<SpreadingKind>& spreadings();
+const SpreadingKind& spreading_kind(const std::string& word);
+
+}  // namespace froude::scene
