@@ -180,6 +180,25 @@ std::optional<::fit::ProbeToBody> read_probe(const FitTables& t, const ::fit::Cy
   return out;
 }
 
+// Decay
+
+::fit::DecayMemoryOptions read_decay_memory(const FitTables& t, const ::fit::DecayOptions& options) {
+  const Record& model = t.model();
+  if (!model.has("start"))
+    throw model.refused("needs \"start\" for a memory: what does the radiation memory hold at the first sample?",
+                        "add start = \"let go from rest\" if the record begins there, or start = \"in motion\"");
+  if (options.terms.coulomb)
+    throw t.ask().wrong("coefficients",
+                        "may not hold coulomb beside memory: a body at rest would not be at rest for good",
+                        "leave one of them out");
+  if (options.pendulum)
+    throw model.wrong("restoring", "must be linear with a memory: radiation is known for small motions",
+                      "leave it out");
+  return {.terms = options.terms,
+          .starts_empty = model.text("start") == "let go from rest",
+          .confidence = options.confidence};
+}
+
 // Motion
 
 /// "0.001 kg/s" in the unit that the scene writes at that place.
@@ -306,24 +325,10 @@ FitModel read_decay(const FitTables& t) {
     for (const auto& [name, asked] : known)
       if (c.value == name) *asked = true;
   }
-  if (memory) {
-    if (!model.has("start"))
-      throw model.refused("needs \"start\" for a memory: what does the radiation memory hold at the first sample?",
-                          "add start = \"let go from rest\" if the record begins there, or start = \"in motion\"");
-    if (terms.coulomb)
-      throw ask.wrong("coefficients",
-                      "may not hold coulomb beside memory: a body at rest would not be at rest for good",
-                      "leave one of them out");
-    if (out.options.pendulum)
-      throw model.wrong("restoring", "must be linear with a memory: radiation is known for small motions",
-                        "leave it out");
-    out.memory = {.terms = terms,
-                  .starts_empty = model.text("start") == "let go from rest",
-                  .confidence = out.options.confidence};
-  } else if (model.has("start")) {
+  if (memory) out.memory = read_decay_memory(t, out.options);
+  if (!memory && model.has("start"))
     throw model.wrong("start", "does not act without a memory",
                       "add \"memory\" to [ask] coefficients, or leave it out");
-  }
   out.profile = ask.has("profile");
   out.sensitivity = ask.has("sensitivity");
   out.accept_residuals = accepts_residuals(t);

@@ -8,10 +8,14 @@
 #include "dynamics/force/force_law.hpp"
 #include "dynamics/force/friction.hpp"
 #include "dynamics/force/morison.hpp"
+#include "dynamics/force/wave_loads.hpp"
 #include "fit/decay.hpp"
+#include "fit/forced_radiation.hpp"
 #include "fit/friction_ramp.hpp"
 #include "fit/morison.hpp"
 #include "fit/shooting.hpp"
+#include "hydro/radiation/pole_memory.hpp"
+#include "support/two_pole_body.hpp"
 
 namespace fitted_elements_test {
 namespace {
@@ -159,7 +163,7 @@ TEST(FittedElements, AFrictionRampGivesTheLevelsThatFrictionOfARunHas) {
   const dynamics::Joint rail{"rail", dynamics::JointKind::slider, 0, {}, Vector3d::Zero()};
   for (const double breakaway : {3.7, 4.4}) {
     const dynamics::Friction law{.name = "rail",
-                                 .travel = dynamics::Travel(rail, Vector3d::Zero(), Vector3d::Zero()),
+                                 .coordinate = dynamics::JointCoordinate(rail, Vector3d::Zero(), Vector3d::Zero()),
                                  .breakaway = breakaway,
                                  .sliding = 3.0,
                                  .stribeck = 0.5};
@@ -171,12 +175,48 @@ TEST(FittedElements, AFrictionRampGivesTheLevelsThatFrictionOfARunHas) {
       const double t = step * j, carried = rate * t;
       time.push_back(t);
       // Driven at a steady speed once it has slipped.
-      load.push_back(kind.strain(0, carried, sticks, t) < 1 ? carried : law.level(slide_speed));
+      load.push_back(kind.utilisation(0, carried, sticks, t) < 1 ? carried : law.level(slide_speed));
     }
     const auto f = fit::fit_friction_ramp(time, load, {.ramp_s = 2, .slide_s = 2.5});
     // The slip is known to half a sample, in which the load grows by 0.004 N.
     EXPECT_NEAR(*f.static_level.value, breakaway, rate * step / 2 + 1e-9);
     EXPECT_NEAR(*f.dynamic_level.value, 3 + (breakaway - 3) * std::exp(-0.64), 1e-9);
+  }
+}
+
+TEST(FittedElements, AForcedOscillationFindsTheRadiationOfARun) {
+  constexpr double inertia = 120, stiffness = 2500, limit = 60, step = 0.01, omega = 2.5;
+  const support::TwoPoleBody waves{.decay = 1.2, .frequency = 2.8};
+  for (const double strength : {400.0, 500.0}) {
+    auto poles = waves.model();
+    poles.C[0] *= strength;
+    poles.S[0] *= strength;
+    const dynamics::RadiationKind kind({{{0}, std::make_shared<hydro::radiation::PoleMemory>(poles, step)}});
+    dynamics::State state = dynamics::rest_state({dynamics::RigidBody(
+        {.name = "buoy", .mass = inertia, .inertia = Eigen::Matrix3d::Identity(), .rest_position = {{0, 0, 0}}})});
+    std::unique_ptr<dynamics::Memory> memory;
+    std::vector<double> time, motion, force;
+    for (int j = 0; j < 4500; ++j) {
+      state.time = step * j;
+      const double x = 0.05 * std::sin(omega * state.time);
+      state.velocity[0] = 0.05 * omega * std::cos(omega * state.time);
+      if (!memory) {
+        memory = kind.make_memory(state);
+        continue;
+      }
+      Eigen::VectorXd load = Eigen::VectorXd::Zero(6);
+      dynamics::LoadSink sink(load);
+      kind.add_load({state, memory.get()}, sink);
+      memory->accept(state);
+      if (j < 2000) continue;  // of the start e^{-24} is left
+      time.push_back(state.time);
+      motion.push_back(x);
+      force.push_back(load[0] + (inertia + limit) * omega * omega * x - stiffness * x);
+    }
+    const auto p = fit::fit_radiation(time, motion, force, {inertia, stiffness});
+    // The frequency is known to 1e-5 over ten cycles; velocities that are straight over a step are 5e-5 too small.
+    EXPECT_NEAR(*p.added_mass.value, limit + strength * waves.A_minus_A_inf(omega), 0.05);
+    EXPECT_NEAR(*p.damping.value, strength * waves.B(omega), 0.05 * omega);
   }
 }
 

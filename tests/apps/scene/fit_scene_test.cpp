@@ -1,3 +1,4 @@
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -243,6 +244,42 @@ slide = "2 s"
   EXPECT_EQ(read(friction).kind(), "friction ramp");
   EXPECT_THAT(refused(with(friction, ", force = \"-F\"", "")), HasSubstr("either torque or force"));
   EXPECT_THAT(refused(with(friction, "force =", "torque = \"M\", force =")), HasSubstr("either torque or force"));
+}
+
+TEST_F(FitScenes, OfOtherKindsHoldWhatTheirFitsTake) {
+  const FitScene radiation = read(R"(schema = 1
+[data]
+files = "runs/a.csv"
+channels = { time = "t", position = "z", force = "F" }
+[model]
+kind = "radiation"
+body = { mass = "120 kg", stiffness = "2500 N/m", stiffness_error = 0.002 }
+[ask]
+)");
+  EXPECT_EQ(radiation.kind(), "radiation");
+  EXPECT_EQ(std::get<RadiationModel>(radiation.model).body.stiffness, 2500);
+  std::ofstream(folder_ / "scene.toml") << sphere;
+  const FitScene motion = read(R"(schema = 1
+[data]
+files = "runs/a.csv"
+channels = { time = "t" }
+[[data.signal]]
+column = "z"
+of = "sphere.heave"
+deviation = "1 mm"
+[model]
+kind = "motion"
+scene = "scene.toml"
+parameter = [{ key = "water.density", lowest = "900 kg/m^3" }]
+[ask]
+profile = true
+)");
+  EXPECT_EQ(motion.kind(), "motion");
+  const auto& model = std::get<MotionModel>(motion.model);
+  EXPECT_EQ(model.parameters.at(0).number.name, "water.density");
+  EXPECT_EQ(model.parameters.at(0).number.lowest, 900);
+  EXPECT_FALSE(std::isfinite(model.parameters.at(0).number.highest));
+  EXPECT_TRUE(model.profile);
 }
 
 TEST_F(FitScenes, TakeTheWaterFromAProbe) {
