@@ -38,7 +38,8 @@ inline void expect_true_variations(const std::vector<dynamics::Signal>& signals,
       const double scale = 1 + derivative.cwiseAbs().maxCoeff();
       for (Eigen::Index i = 0; i < derivative.size(); ++i) {
         const Eigen::VectorXd d = e * Eigen::VectorXd::Unit(derivative.size(), i);
-        EXPECT_NEAR(derivative[i], (at(d) - at(Eigen::VectorXd(-d))) / (2 * e), 2e-7 * scale)
+        const double ahead = at(d), rounding = 1e-15 * std::abs(ahead) / e;
+        EXPECT_NEAR(derivative[i], (ahead - at(Eigen::VectorXd(-d))) / (2 * e), 2e-7 * scale + rounding)
             << s.name << " by " << by << " " << i;
       }
     };

@@ -81,6 +81,32 @@ TEST(Signals, OfMooringsConnectorsAndTakeOffsVaryAsTheyAre) {
     laws::expect_true_variations(kind->signals(), still(5));
 }
 
+TEST(Signals, OfPointsRelativeMotionsAndNetLoadsVaryAsTheyAre) {
+  const BodyPoint bow{1, Vector3d(2, -0.4, 0.7)};
+  const Ends ends{0, 1, Vector3d(1, 0.5, 0.2), Vector3d(-1, 0.5, -0.1)};
+  for (const auto& signals : {place_signals("bow", bow), velocity_signals("bow", bow), acceleration_signals("bow", bow),
+                              relative_motion_signals("gap", ends, Vector3d(2, 0, 0)), net_load_signals(bodies[1], 1)})
+    laws::expect_true_variations(signals, still(6));
+}
+
+// What turns about its centre at ω: a point at r has ω × (ω × r), the net load is that of the mass at the arm, and no
+// moment about the centre but ω × Iω.
+TEST(Signals, OfATurningBodyAreThoseOfCircles) {
+  State s = rest_state(bodies);
+  const Vector3d omega(0, 0, 2), arm = bodies[0].properties().centre_of_gravity.xyz, point(3, 0, 0);
+  s.velocity.segment<3>(3) = omega;
+  Eigen::VectorXd a = Eigen::VectorXd::Zero(12);
+  a[0] = 5;
+  const Eigen::VectorXd none;
+  const auto tell = [&](const std::vector<Signal>& signals, std::size_t i) {
+    return signals[i].value({s, a, none, 0, nullptr});
+  };
+  EXPECT_NEAR(tell(velocity_signals("p", {0, point}), 1), 6, 1e-14);             // ω r
+  EXPECT_NEAR(tell(acceleration_signals("p", {0, point}), 0), 5 - 12, 1e-14);    // a − ω² r
+  EXPECT_NEAR(tell(net_load_signals(bodies[0], 0), 0), 900 * 5, 1e-10);          // m a
+  EXPECT_NEAR(tell(net_load_signals(bodies[0], 0), 5), -arm.y() * 4500, 1e-10);  // of m a at the arm, about the origin
+}
+
 // (row · ξ) by hand, with each part once.
 TEST(Signals, AmplitudesAddMotionVelocityAccelerationMultiplierAndWave) {
   Variation v{.parts = {{.body = 1}}, .by_multiplier = {{0, 3}}, .by_wave = [](double, double) { return 7.0; }};
