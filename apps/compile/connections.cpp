@@ -14,15 +14,6 @@ using dynamics::Matrix6;
 using hydro::InputError;
 using scene::Scene;
 
-/// The arm from a body's centre of gravity, or the point itself for the ground.
-Eigen::Vector3d arm(const Scene& scene, std::optional<int> body, const Eigen::Vector3d& end) {
-  return body ? Eigen::Vector3d(end - scene.bodies[static_cast<std::size_t>(*body)].centre_of_gravity) : end;
-}
-
-Eigen::Vector3d placed(const Scene& scene, std::optional<int> body, const Eigen::Vector3d& end) {
-  return body ? Eigen::Vector3d(scene.bodies[static_cast<std::size_t>(*body)].position + end) : end;
-}
-
 /// All connectors of one table of the scene have one controller.
 void add_switched(const scene::Connector& c, const scene::StiffnessSwitch& s, const dynamics::AxialConnector& made,
                   Prepared& out) {
@@ -219,6 +210,14 @@ dynamics::Contact contact(const Scene& scene, const scene::Contact& c) {
 }
 
 }  // namespace
+
+Eigen::Vector3d arm(const Scene& scene, std::optional<int> body, const Eigen::Vector3d& end) {
+  return body ? Eigen::Vector3d(end - scene.bodies[static_cast<std::size_t>(*body)].centre_of_gravity) : end;
+}
+
+Eigen::Vector3d placed(const Scene& scene, std::optional<int> body, const Eigen::Vector3d& end) {
+  return body ? Eigen::Vector3d(scene.bodies[static_cast<std::size_t>(*body)].position + end) : end;
+}
 
 void add_connections(const Scene& scene, Prepared& out) {
   for (const auto& m : scene.moorings) add_mooring(scene, m, out);

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "compile/connections.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/waves/sea.hpp"
 
@@ -72,9 +73,9 @@ void add_energies(const dynamics::Model& model, std::vector<Signal>& out) {
 
 /// What a wave of one metre does at a point, (real, imaginary part): its kinematics at t = 0 and a quarter period
 /// before.
-dynamics::Variation wave_variation(const scene::Scene& scene, const Eigen::Vector3d& at,
+dynamics::Variation wave_variation(const hydro::Water& water, const Eigen::Vector3d& at,
                                    std::function<double(const hydro::waves::Kinematics&)> take) {
-  return {.by_wave = [water = scene.water, at, take](double omega, double heading) {
+  return {.by_wave = [water, at, take](double omega, double heading) {
     const auto unit = hydro::waves::linear_field(
         hydro::waves::Sea::regular(hydro::WaveAmplitude::from_metres(1), hydro::AngularFrequency::from_rad_per_s(omega),
                                    hydro::Angle::from_radians(heading), water),
@@ -93,8 +94,8 @@ Signal water_signal(const scene::Scene& scene, const std::shared_ptr<const hydro
   else if (at.z() > 0 && !s.of_surface)
     out.no_variation = "the point is above still water, where linear waves have no water";
   else
-    out.variation = [&scene, at = Eigen::Vector3d(at.x(), at.y(), std::min(at.z(), 0.0)),
-                     take = s.take](const dynamics::Still&) { return wave_variation(scene, at, take); };
+    out.variation = [water = scene.water, at = Eigen::Vector3d(at.x(), at.y(), std::min(at.z(), 0.0)),
+                     take = s.take](const dynamics::Still&) { return wave_variation(water, at, take); };
   return out;
 }
 
@@ -122,11 +123,11 @@ Signal air_gap(const scene::Scene& scene, const std::shared_ptr<const hydro::wav
     out.no_variation = "waves on a current are those of a run";
     return out;
   }
-  out.variation = [&scene, point, name](const dynamics::Still& still) {
+  out.variation = [water = scene.water, point, name](const dynamics::Still& still) {
     Eigen::Vector3d at = dynamics::place_of(point, still.state);
     at.z() = 0;
     dynamics::Variation gap = dynamics::place_signals(name, point)[2].variation(still);
-    gap.by_wave = wave_variation(scene, at, [](const hydro::waves::Kinematics& k) { return -k.elevation; }).by_wave;
+    gap.by_wave = wave_variation(water, at, [](const hydro::waves::Kinematics& k) { return -k.elevation; }).by_wave;
     return gap;
   };
   return out;
@@ -137,24 +138,17 @@ void add_named(const scene::Scene& scene, const dynamics::Model& model,
                const std::shared_ptr<const hydro::waves::WaveField>& field, std::vector<Signal>& out) {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     if (scene.bodies[b].net_load) add(dynamics::net_load_signals(model.bodies()[b], static_cast<int>(b)), out);
-  const auto arm = [&](int body, const Eigen::Vector3d& at) {
-    return Eigen::Vector3d(at - scene.bodies[static_cast<std::size_t>(body)].centre_of_gravity);
-  };
   for (const scene::Point& p : scene.points) {
-    const dynamics::BodyPoint point{p.body, arm(p.body, p.at)};
+    const dynamics::BodyPoint point{p.body, arm(scene, p.body, p.at)};
     if (p.position) add(dynamics::place_signals(p.name, point), out);
     if (p.velocity) add(dynamics::velocity_signals(p.name, point), out);
     if (p.acceleration) add(dynamics::acceleration_signals(p.name, point), out);
     if (p.air_gap) out.push_back(air_gap(scene, field, p.name, point));
   }
-  const auto placed = [&](std::optional<int> body, const Eigen::Vector3d& end) {
-    return body ? Eigen::Vector3d(scene.bodies[static_cast<std::size_t>(*body)].position + end) : end;
-  };
   for (const scene::RelativeMotion& r : scene.relative_motions) {
-    const dynamics::Ends ends{r.first, r.second, arm(r.first, r.first_end),
-                              r.second ? arm(*r.second, r.second_end) : r.second_end};
-    add(dynamics::relative_motion_signals(r.name, ends, placed(r.second, r.second_end) - placed(r.first, r.first_end)),
-        out);
+    const dynamics::Ends ends{r.first, r.second, arm(scene, r.first, r.first_end), arm(scene, r.second, r.second_end)};
+    const Eigen::Vector3d offset = placed(scene, r.second, r.second_end) - placed(scene, r.first, r.first_end);
+    add(dynamics::relative_motion_signals(r.name, ends, offset), out);
   }
 }
 
