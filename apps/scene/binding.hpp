@@ -1,0 +1,194 @@
+#pragma once
+/// \file  A table of the grammar bound to the members of a struct.
+///
+/// One line a key says what may be written (schema.hpp) and where it goes:
+///
+///   static const Binding<Load> binding =
+///       Binding<Load>("[[load]]", "a force that stays as it is")
+///           .key(vector("force", dim::force, "global axes"), &Load::force)
+///           .key(quantity("from", dim::time, "when it begins").optional(), &Load::from);
+///
+/// From it come the schema, its documentation, errors and echo (table()), and the reader (read()). A binding is kept as
+/// a static of a function: tables refer to those within them.
+#include <concepts>
+#include <functional>
+#include <type_traits>
+#include <utility>
+
+#include "scene/record.hpp"
+
+namespace froude::scene {
+namespace detail {
+
+template <class M>
+struct IsOptional : std::false_type {};
+template <class M>
+struct IsOptional<std::optional<M>> : std::true_type {};
+template <class M>
+struct IsLocated : std::false_type {};
+template <class M>
+struct IsLocated<Located<M>> : std::true_type {};
+
+/// A value that was read, as a member of this type holds it. A word that stands instead of a quantity leaves an
+/// optional empty.
+template <class M>
+void put(const Value& from, M& to) {
+  if constexpr (IsOptional<M>::value) {
+    constexpr bool quantity = std::is_floating_point_v<typename M::value_type>;
+    if (quantity && !from.text.empty()) return to.reset();
+    to.emplace();
+    put(from, *to);
+  } else if constexpr (IsLocated<M>::value) {
+    put(from, to.value);
+    to.place = from.place;
+  } else if constexpr (std::same_as<M, bool>) {
+    to = true;  // an effect: there is no false
+  } else if constexpr (std::floating_point<M>) {
+    to = from.number;
+  } else if constexpr (std::integral<M>) {
+    to = static_cast<M>(from.integer);
+  } else if constexpr (std::same_as<M, std::string>) {
+    to = from.text;
+  } else if constexpr (std::same_as<M, Eigen::Vector3d>) {
+    to = from.points.front().front();
+  } else if constexpr (std::same_as<M, std::vector<Eigen::Vector3d>>) {
+    to = from.points.front();
+  } else if constexpr (std::same_as<M, std::vector<double>>) {
+    to = from.range;
+  } else if constexpr (std::same_as<M, hydro::Angle>) {
+    to = hydro::Angle::from_radians(from.number);
+  } else {
+    static_assert(std::same_as<M, std::vector<std::string>>, "no value of a scene is held by this type");
+    to.assign(from.texts.begin(), from.texts.end());
+  }
+}
+
+}  // namespace detail
+
+template <class T>
+class Binding {
+ public:
+  Binding(std::string title, std::string meaning)
+      : table_{.title = std::move(title), .meaning = std::move(meaning), .keys = {}} {}
+
+  /// A key and the member that takes its value, in SI. The member keeps what it was made with where the key is not
+  /// there.
+  template <class M>
+  Binding& key(Key key, M T::*member) {
+    return add(std::move(key), [member](const Value& value, T& out) { detail::put(value, out.*member); });
+  }
+  /// A key that a reader or check of the caller's own looks up in the record.
+  Binding& key(Key key) {
+    table_.keys.push_back(std::move(key));
+    return *this;
+  }
+  Binding& keys(std::vector<Key> keys) {
+    for (Key& one : keys) key(std::move(one));
+    return *this;
+  }
+  /// A text that is one of these words, each of which stands for a value.
+  template <class M>
+  Binding& words(Key key, const std::vector<std::pair<std::string, M>>& words, M T::*member) {
+    for (const auto& [word, value] : words) key.words.push_back(word);
+    return add(std::move(key), [words, member](const Value& value, T& out) {
+      for (const auto& [word, meant] : words)
+        if (word == value.text) out.*member = meant;
+    });
+  }
+  /// A list of words, each of which sets a member.
+  Binding& flags(Key key, const std::vector<std::pair<std::string, bool T::*>>& words) {
+    for (const auto& [word, member] : words) key.words.push_back(word);
+    return add(std::move(key), [words](const Value& value, T& out) {
+      for (const auto& [word, member] : words)
+        for (const auto& given : value.texts)
+          if (given.value == word) out.*member = true;
+    });
+  }
+  /// A table within this one, needed.
+  template <class I>
+  Binding& table(const std::string& name, const Binding<I>& inner, I T::*member) {
+    return add(inner_table(name, inner.table()),
+               [&inner, member](const Value& value, T& out) { out.*member = inner.read(value.records.front()); });
+  }
+  /// A table within this one, which may be left out.
+  template <class I>
+  Binding& table(const std::string& name, const Binding<I>& inner, std::optional<I> T::*member) {
+    return add(inner_table(name, inner.table()).optional(),
+               [&inner, member](const Value& value, T& out) { out.*member = inner.read(value.records.front()); });
+  }
+  /// As many tables as there are.
+  template <class I>
+  Binding& tables(const std::string& name, const Binding<I>& inner, std::vector<I> T::*member) {
+    return add(inner_tables(name, inner.table()), [&inner, member](const Value& value, T& out) {
+      for (const Record& record : value.records) (out.*member).push_back(inner.read(record));
+    });
+  }
+  /// Where the table stands.
+  Binding& place(Place T::*member) {
+    return then([member](const Record& record, T& out) { out.*member = record.place(); });
+  }
+
+  Binding& exactly_one_of(std::vector<std::string> keys) { return group(Group::Count::exactly_one, std::move(keys)); }
+  Binding& at_most_one_of(std::vector<std::string> keys) { return group(Group::Count::at_most_one, std::move(keys)); }
+  Binding& at_least_one_of(std::vector<std::string> keys) { return group(Group::Count::at_least_one, std::move(keys)); }
+  /// The last key only where one of these others is given.
+  Binding& only_beside(std::vector<std::string> others) {
+    table_.keys.back().only_beside_one_of(std::move(others));
+    return *this;
+  }
+
+  /// What the keys one by one cannot know: called with the record and what was read of it. \throws hydro::InputError
+  Binding& then(std::function<void(const Record&, T&)> step) {
+    steps_.push_back(std::move(step));
+    return *this;
+  }
+
+  /// Further keys for one word of `kind`, the key that must have been added, read into the same struct.
+  Binding& variant(const std::string& word, const Binding<T>& of) {
+    add_variant(word, of.table());
+    return then([word, &of](const Record& record, T& out) {
+      if (record.text("kind") == word) of.read_into(record, out);
+    });
+  }
+  /// The same, read into one alternative of a member.
+  template <class V, class... All>
+  Binding& variant(const std::string& word, const Binding<V>& of, std::variant<All...> T::*member) {
+    add_variant(word, of.table());
+    return then([word, &of, member](const Record& record, T& out) {
+      if (record.text("kind") == word) out.*member = of.read(record);
+    });
+  }
+
+  const Table& table() const { return table_; }
+
+  T read(const Record& record) const {
+    T out{};
+    read_into(record, out);
+    return out;
+  }
+  void read_into(const Record& record, T& out) const {
+    for (const auto& step : steps_) step(record, out);
+  }
+
+ private:
+  Binding& add(Key key, std::function<void(const Value&, T&)> put) {
+    then([name = key.name, put = std::move(put)](const Record& record, T& out) {
+      if (record.has(name)) put(record[name], out);
+    });
+    table_.keys.push_back(std::move(key));
+    return *this;
+  }
+  Binding& group(Group::Count count, std::vector<std::string> keys) {
+    table_.groups.push_back({count, std::move(keys)});
+    return *this;
+  }
+  void add_variant(const std::string& word, const Table& of) {
+    table_.chosen_by = "kind";
+    table_.variants.push_back({word, of.meaning, of.keys, of.groups});
+  }
+
+  Table table_;
+  std::vector<std::function<void(const Record&, T&)>> steps_;
+};
+
+}  // namespace froude::scene
