@@ -31,9 +31,9 @@ Record run(const scene::Scene& scene, const std::map<std::string, py::function>&
   if (!scene.run)
     throw hydro::InputError(fmt::format("\"{}\" does not ask for a run", scene.file.filename().string()), {},
                             "[ask] run = { duration = \"600 s\", every = \"0.05 s\" }");
-  std::vector<compile::Control> controls;
+  std::vector<Control> controls;
   for (const auto& [connectors, decide] : controllers)
-    controls.push_back({connectors, [decide = decide](const compile::Sample& sample) {
+    controls.push_back({connectors, [decide = decide](const Sample& sample) {
                           return decide(sample).cast<std::optional<double>>();
                         }});
   return simulate(scene, look_up, controls);
@@ -168,11 +168,11 @@ PYBIND11_MODULE(froude, m) {
             return names;
           },
           "Names of the bodies.");
-  py::class_<compile::Sample>(m, "Sample", "What a controller is told at the end of each step. It may be kept.")
-      .def_property_readonly("time", &compile::Sample::time, "s")
-      .def("__getitem__", &compile::Sample::motion,
+  py::class_<Sample>(m, "Sample", "What a controller is told at the end of each step. It may be kept.")
+      .def_property_readonly("time", &Sample::time, "s")
+      .def("__getitem__", &Sample::motion,
            "A motion from rest of a body's origin, m or rad: sample[\"m1.heave\"].")
-      .def("velocity", &compile::Sample::velocity, py::arg("body"),
+      .def("velocity", &Sample::velocity, py::arg("body"),
            "Velocity of the centre of gravity, m/s, and angular velocity, rad/s: six numbers, global axes.");
   add_run(m);
   add_rao(m);

@@ -8,6 +8,7 @@
 #include "compile/connections.hpp"
 #include "compile/excitation.hpp"
 #include "compile/hydrodynamics.hpp"
+#include "compile/kept.hpp"
 #include "compile/members.hpp"
 #include "compile/radiation.hpp"
 #include "compile/signals.hpp"
@@ -52,20 +53,21 @@ void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::
   if (!p.switched.empty()) forces.push_back(std::make_unique<dynamics::SwitchedConnectorKind>(p.switched));
   if (!p.bushing.empty()) forces.push_back(std::make_unique<dynamics::BushingConnectorKind>(p.bushing));
   if (!p.ptos.empty()) forces.push_back(std::make_unique<dynamics::PtoKind>(p.ptos));
-  if (!p.loads.empty()) forces.push_back(std::make_unique<dynamics::ConstantLoadKind>(p.loads));
+  for (const auto& elements : p.elements) forces.push_back(elements->force({p.bodies, p.water}));
 }
 
-Prepared prepare(const Scene& scene) {
+Prepared prepare(const Scene& scene, std::shared_ptr<Kept> kept) {
   Prepared out;
+  out.kept = kept ? std::move(kept) : std::make_shared<Kept>();
   for (const auto& b : scene.bodies) {
     if (b.weight) out.with_gravity.push_back(static_cast<int>(out.bodies.size()));
     out.bodies.push_back(rigid_body(b));
   }
   out.water = scene.water;
-  out.fits = std::make_shared<RadiationFits>();
   add_buoyancy(scene, out);
   add_hydrodynamics(scene, out);
   add_connections(scene, out);
+  out.elements = scene.elements;
   out.fastened = fastened_lines(scene, out.bodies);
   return out;
 }

@@ -10,7 +10,6 @@
 #include "dynamics/force/buoyancy.hpp"
 #include "dynamics/force/catenary_mooring.hpp"
 #include "dynamics/force/connector.hpp"
-#include "dynamics/force/constant_load.hpp"
 #include "dynamics/force/contact.hpp"
 #include "dynamics/force/fastened_line.hpp"
 #include "dynamics/force/friction.hpp"
@@ -19,20 +18,16 @@
 #include "dynamics/force/switched_connector.hpp"
 #include "dynamics/frequency/rao.hpp"
 #include "dynamics/model/model.hpp"
+#include "froude/result.hpp"
 #include "hydro/waves/field.hpp"
 #include "hydro/waves/sea.hpp"
+#include "scene/element.hpp"
 #include "scene/scene.hpp"
 
 namespace froude::compile {
 
-/// One line of `froude plan`: an effect, how it is computed, how large it is; or why it is left out.
-struct PlanLine {
-  std::string effect, method, size;
-  bool runs = true;
-};
-
-/// Poles fitted to coefficients, kept for every model that is compiled from one Prepared.
-class RadiationFits;
+/// Coefficients and what was fitted to them, compile/kept.hpp.
+class Kept;
 
 /// What both domains share: bodies, coefficients placed about the centres of gravity, springs. In the order of the
 /// scene.
@@ -41,7 +36,7 @@ struct Prepared {
   std::vector<dynamics::frequency::PotentialGroup> groups;
   std::vector<scene::Memory> memory;            ///< one a group
   std::vector<std::vector<int>> sharing_waves;  ///< bodies that make waves, in sets within which they reach each other
-  std::shared_ptr<RadiationFits> fits;
+  std::shared_ptr<Kept> kept;
   std::vector<dynamics::Restoring> hydrostatics, moorings;
   std::vector<int> with_gravity;  ///< bodies that feel gravity by themselves
   std::vector<dynamics::Buoyancy> buoyancy;
@@ -50,7 +45,7 @@ struct Prepared {
   std::vector<dynamics::SwitchedConnectors> switched;  ///< one for each [[connector]] with a switch
   std::vector<dynamics::BushingConnector> bushing;
   std::vector<dynamics::Pto> ptos;
-  std::vector<dynamics::ConstantLoad> loads;
+  std::vector<std::shared_ptr<const scene::Elements>> elements;
   std::vector<dynamics::CatenaryMooring> lines;
   std::vector<dynamics::FastenedLine> fastened;  ///< [[line]] with ends on bodies, in water without waves
   std::vector<dynamics::Joint> joints;
@@ -61,8 +56,9 @@ struct Prepared {
   std::vector<std::string> notes;        ///< what had to be decided, for the result and the plan
 };
 
-/// Opens the data files and places everything. \throws hydro::InputError, placed in the scene
-Prepared prepare(const scene::Scene& scene);
+/// Opens the data files and places everything. What an earlier scene has `kept` serves again where it is the same.
+/// \throws hydro::InputError, placed in the scene
+Prepared prepare(const scene::Scene& scene, std::shared_ptr<Kept> kept = nullptr);
 
 /// The waves of [ask.rao] must go where every file has excitation, and be short enough for coefficients of another
 /// depth, whose error `notes` are told. \throws hydro::InputError at its headings with those of the file, or at the

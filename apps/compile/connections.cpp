@@ -135,10 +135,6 @@ std::vector<dynamics::Pto> ptos(const Scene& scene, const Prepared& p) {
   return out;
 }
 
-dynamics::ConstantLoad constant_load(const Scene& scene, const scene::Load& l) {
-  return {l.body, arm(scene, l.body, l.at), l.force, l.moment};
-}
-
 /// The line as it hangs in water; its place is checked by solving it once, at rest.
 dynamics::CatenaryMooring catenary_mooring(const Scene& scene, const scene::CatenaryLine& l, const Prepared& p) {
   const double displaced = scene.water.density * std::numbers::pi / 4 * l.diameter * l.diameter;
@@ -230,7 +226,6 @@ void add_connections(const Scene& scene, Prepared& out) {
     if (l.table) line.table = catenary_table(scene, l, line.line, out.lines);
     out.lines.push_back(std::move(line));
   }
-  for (const auto& l : scene.loads) out.loads.push_back(constant_load(scene, l));
 }
 
 }  // namespace froude::compile

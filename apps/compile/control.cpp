@@ -8,7 +8,30 @@
 #include "dynamics/control/controller.hpp"
 #include "hydro/base/error.hpp"
 
-namespace froude::compile {
+namespace froude {
+
+int Sample::index(const std::string& body) const {
+  std::vector<std::string> names;
+  for (std::size_t b = 0; b < bodies_->size(); ++b) {
+    if ((*bodies_)[b].name() == body) return static_cast<int>(b);
+    names.push_back((*bodies_)[b].name());
+  }
+  throw hydro::InputError(fmt::format("the scene has no body \"{}\"", body), {},
+                          fmt::format("bodies are: {}", fmt::join(names, ", ")));
+}
+
+double Sample::motion(const std::string& name) const {
+  const auto dot = name.rfind('.');
+  if (dot == std::string::npos)
+    throw hydro::InputError(fmt::format("\"{}\" is no motion", name), {}, "motions are called like \"m1.heave\"");
+  const auto b = static_cast<std::size_t>(index(name.substr(0, dot)));
+  return dynamics::motion_from_rest((*bodies_)[b], state_.pose[b],
+                                    static_cast<int>(hydro::parse_mode(name.substr(dot + 1))));
+}
+
+dynamics::Vector6 Sample::velocity(const std::string& body) const { return state_.twist(index(body)); }
+
+namespace compile {
 namespace {
 
 /// Takes the connectors whose names match out of a list.
@@ -60,27 +83,6 @@ dynamics::MakeController controller(std::shared_ptr<const std::vector<dynamics::
 
 }  // namespace
 
-int Sample::index(const std::string& body) const {
-  std::vector<std::string> names;
-  for (std::size_t b = 0; b < bodies_->size(); ++b) {
-    if ((*bodies_)[b].name() == body) return static_cast<int>(b);
-    names.push_back((*bodies_)[b].name());
-  }
-  throw hydro::InputError(fmt::format("the scene has no body \"{}\"", body), {},
-                          fmt::format("bodies are: {}", fmt::join(names, ", ")));
-}
-
-double Sample::motion(const std::string& name) const {
-  const auto dot = name.rfind('.');
-  if (dot == std::string::npos)
-    throw hydro::InputError(fmt::format("\"{}\" is no motion", name), {}, "motions are called like \"m1.heave\"");
-  const auto b = static_cast<std::size_t>(index(name.substr(0, dot)));
-  return dynamics::motion_from_rest((*bodies_)[b], state_.pose[b],
-                                    static_cast<int>(hydro::parse_mode(name.substr(dot + 1))));
-}
-
-dynamics::Vector6 Sample::velocity(const std::string& body) const { return state_.twist(index(body)); }
-
 void set_controllers(const std::vector<Control>& controls, Prepared& p) {
   const auto bodies = std::make_shared<const std::vector<dynamics::RigidBody>>(p.bodies);
   std::vector<dynamics::SwitchedConnectors> ruled;
@@ -97,4 +99,5 @@ void set_controllers(const std::vector<Control>& controls, Prepared& p) {
   p.switched = std::move(ruled);
 }
 
-}  // namespace froude::compile
+}  // namespace compile
+}  // namespace froude

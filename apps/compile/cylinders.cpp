@@ -1,5 +1,7 @@
 #include "compile/cylinders.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -78,6 +80,21 @@ hydro::cylinders::Solution solve_cylinders(const Scene& scene, const std::vector
   } catch (const InputError& e) {
     throw e.at(r.place);
   }
+}
+
+std::string what_is_solved(const Scene& scene, const std::vector<int>& bodies) {
+  const Request r = request(scene, bodies);
+  std::string out =
+      fmt::format("cylinders {} {} {} {} | {} | {}", scene.water.density, scene.water.gravity,
+                  scene.water.depth.metres(), r.options.tolerance, fmt::join(r.omega, " "), fmt::join(r.headings, " "));
+  for (const auto& body : r.layout) {
+    out += fmt::format(" | {} {} {}", body.name, fmt::join(body.reference_point, " "),
+                       fmt::join(body.centre_of_gravity.value_or(body.reference_point), " "));
+    for (const auto& c : body.cylinders)
+      out +=
+          fmt::format(" ; {} {} {} {}", fmt::join(c.centre, " "), c.radius, c.draught.value_or(-1), c.top.value_or(-1));
+  }
+  return out;
 }
 
 std::string CylinderPlan::method() const {

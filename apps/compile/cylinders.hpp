@@ -18,6 +18,9 @@ std::vector<int> bodies_of_cylinders(const scene::Scene& scene);
 hydro::cylinders::Solution solve_cylinders(const scene::Scene& scene, const std::vector<int>& bodies,
                                            std::function<void(int, int)> progress = {});
 
+/// All that the answer of solve_cylinders() depends on, as one text: equal texts, equal answers.
+std::string what_is_solved(const scene::Scene& scene, const std::vector<int>& bodies);
+
 /// What solve_cylinders() will take, told before it is done.
 struct CylinderPlan {
   hydro::cylinders::Cost cost;

@@ -7,6 +7,7 @@
 
 #include "compile/cylinders.hpp"
 #include "compile/findings.hpp"
+#include "compile/kept.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/potential/check.hpp"
 #include "hydro/potential/operations.hpp"
@@ -31,17 +32,24 @@ const Hydrodynamics& hydrodynamics(const Scene& scene, int body) {
   return *scene.bodies[static_cast<std::size_t>(body)].hydrodynamics;
 }
 
-/// From the file, or computed for all bodies of cylinders together.
-Coefficients read(const Scene& scene, const Hydrodynamics& h) {
-  if (h.cylinders) return solve_cylinders(scene, bodies_of_cylinders(scene)).coefficients;
+/// From the file, or computed for all bodies of cylinders together; once for all scenes that share what is kept.
+Coefficients read(const Scene& scene, const Hydrodynamics& h, Kept& kept) {
+  if (h.cylinders) {
+    const auto bodies = bodies_of_cylinders(scene);
+    return kept.coefficients(what_is_solved(scene, bodies),
+                             [&] { return solve_cylinders(scene, bodies).coefficients; });
+  }
   hydro::potential::ReadOptions options;
   options.density = scene.water.density;
   options.gravity = scene.water.gravity;
   options.depth = scene.water.depth;
   options.ulen = h.ulen;
   options.iperout = h.iperout;
+  const auto& w = scene.water;
+  const std::string name = fmt::format("{}|{}|{}|{}|{}|{}", h.file.value.string(), w.density, w.gravity,
+                                       w.depth.metres(), h.ulen.value_or(0), h.iperout.value_or(0));
   try {
-    return hydro::potential::read(h.file.value, options);
+    return kept.coefficients(name, [&] { return hydro::potential::read(h.file.value, options); });
   } catch (const InputError& e) {
     throw e.at(h.file.place);
   }
@@ -92,7 +100,7 @@ void assign(const Scene& scene, Use& use) {
                          hydrodynamics(scene, use.bodies[i]).file.place);
 }
 
-std::vector<Use> uses(const Scene& scene) {
+std::vector<Use> uses(const Scene& scene, Kept& kept) {
   std::vector<Use> out;
   std::map<std::string, std::size_t> known;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -103,7 +111,7 @@ std::vector<Use> uses(const Scene& scene) {
                     h->interaction != Interaction::self, h->radiation, h->excitation, h->hydrostatics);
     const auto [at, is_new] = known.try_emplace(key, out.size());
     if (is_new) {
-      out.push_back({read(scene, *h), {}, {}});
+      out.push_back({read(scene, *h, kept), {}, {}});
       require_same_water(scene, out.back().data, h->file.place);
     }
     out[at->second].bodies.push_back(static_cast<int>(b));
@@ -480,7 +488,7 @@ std::string listed_bodies(const Scene& scene, const std::vector<int>& set) {
 }
 
 void add_hydrodynamics(const Scene& scene, Prepared& prepared) {
-  std::vector<Use> all = uses(scene);
+  std::vector<Use> all = uses(scene, *prepared.kept);
   prepared.sharing_waves = sharing_waves(scene, all);
   require_said(scene, prepared.sharing_waves);
   note_sets(scene, prepared.sharing_waves, prepared.notes);

@@ -10,13 +10,13 @@
 #include "dynamics/line/perturbed_trajectory.hpp"
 #include "dynamics/line/statistics.hpp"
 #include "dynamics/line/stepper.hpp"
+#include "froude/result.hpp"
 #include "scene/scene.hpp"
 
 namespace froude::compile {
 
 struct Prepared;
 struct RunWater;
-struct PlanLine;
 struct Signal;
 
 /// One line where a run begins, or several that meet: one system.

@@ -145,35 +145,6 @@ RadiationParts at_one_frequency(const dynamics::frequency::PotentialGroup& g, co
 
 }  // namespace
 
-SymmetricData::SymmetricData(const hydro::potential::Coefficients& c, const std::vector<int>& modes)
-    : damping{c.omega, {}} {
-  for (const auto& m : c.B) damping.B.push_back(of(m, modes));
-  for (const auto& m : c.A) A.push_back(of(m, modes));
-  if (c.A_inf) A_inf = of(*c.A_inf, modes);
-}
-
-bool SymmetricData::operator==(const SymmetricData& other) const {
-  const bool as_large = damping.B.front().rows() == other.damping.B.front().rows();
-  return as_large && damping.omega == other.damping.omega && damping.B == other.damping.B && A == other.A &&
-         A_inf == other.A_inf;
-}
-
-Eigen::MatrixXd SymmetricData::of(const Eigen::MatrixXd& whole, const std::vector<int>& modes) {
-  const Eigen::MatrixXd m = whole(modes, modes);
-  const double largest = m.cwiseAbs().maxCoeff();
-  if (largest > 0) asymmetry = std::max(asymmetry, (m - m.transpose()).cwiseAbs().maxCoeff() / largest);
-  return hydro::dense::symmetric_part(m);
-}
-
-const hydro::radiation::RationalFit& RadiationFits::of(const SymmetricData& data, double tolerance) {
-  const std::scoped_lock one_at_a_time(mutex_);
-  for (const auto& known : known_)
-    if (known->tolerance == tolerance && known->data == data) return known->fit;
-  auto fit = hydro::radiation::fit(data.damping, data.A, data.A_inf, {.tolerance = tolerance});
-  known_.push_back(std::make_unique<const Known>(Known{data, tolerance, std::move(fit)}));
-  return known_.back()->fit;
-}
-
 struct Radiation::Chosen {
   scene::Memory asked;
   SymmetricData data;
@@ -201,8 +172,8 @@ const Radiation::Chosen& Radiation::chosen_for(std::size_t group, const std::vec
   if (asked.method == partitioned) demand.method = hydro::radiation::Method::partitioned;
   if (asked.method == poles) demand.method = hydro::radiation::Method::poles;
   require_no_source(data.damping, c, asked.place);
-  ChosenMemory memory =
-      choose(data.damping, data.A, data.A_inf, demand, [&] { return prepared_.fits->of(data, asked.tolerance); });
+  ChosenMemory memory = choose(data.damping, data.A, data.A_inf, demand,
+                               [&] { return prepared_.kept->fits().of(data, asked.tolerance); });
   require_within(c, memory, asked);
   note_what_was_done(c, memory, data.asymmetry, asked, notes);
   chosen_.push_back(std::make_unique<const Chosen>(Chosen{asked, std::move(data), std::move(memory)}));

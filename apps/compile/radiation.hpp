@@ -1,44 +1,10 @@
 #pragma once
 /// \file  Private to compile/: radiation of one group of bodies in a run.
-#include <mutex>
-
 #include "compile/compile.hpp"
+#include "compile/kept.hpp"
 #include "dynamics/force/wave_loads.hpp"
-#include "hydro/radiation/rational.hpp"
 
 namespace froude::compile {
-
-/// A and B of some modes, made symmetric.
-///
-/// A and B of linear theory are symmetric. Panel codes miss that by their discretisation error, which in a run would be
-/// energy from nowhere; the frequency domain, which has no ledger to close, takes the data as they are.
-struct SymmetricData {
-  hydro::radiation::DampingTable damping;
-  std::vector<Eigen::MatrixXd> A;
-  std::optional<Eigen::MatrixXd> A_inf;
-  double asymmetry = 0;  ///< of the largest entry
-
-  SymmetricData(const hydro::potential::Coefficients& c, const std::vector<int>& modes);
-  bool operator==(const SymmetricData& other) const;
-
- private:
-  Eigen::MatrixXd of(const Eigen::MatrixXd& whole, const std::vector<int>& modes);
-};
-
-/// A fit takes seconds, the run of one regular wave a tenth of one. One thread at a time.
-class RadiationFits {
- public:
-  const hydro::radiation::RationalFit& of(const SymmetricData& data, double tolerance);
-
- private:
-  struct Known {
-    SymmetricData data;
-    double tolerance;
-    hydro::radiation::RationalFit fit;
-  };
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<const Known>> known_;
-};
 
 /// Added mass on the left, the memory that goes with it, and what the plan says: the method that runs, then the
 /// alternatives with their errors and costs.

@@ -27,6 +27,9 @@ class Names {
   std::map<std::string, int> unnamed_;
 };
 
+// Froude's own force elements, one file each.
+std::unique_ptr<const class ElementTable> load_element();
+
 /// An end of a line that is on what is no body.
 struct UnresolvedEnd {
   std::size_t line;
@@ -47,7 +50,7 @@ void build_moorings(const Record& root, Names& names, Scene& scene);
 void build_contacts(const Record& root, Names& names, Scene& scene);
 void build_connectors(const Record& root, Names& names, Scene& scene);
 void build_joints(const Record& root, const std::filesystem::path& file, Names& names, Scene& scene);
-void build_loads(const Record& root, Names& names, Scene& scene);
+void build_elements(const Record& root, Names& names, Scene& scene);
 
 Waves build_waves(const Record& waves, const Scene& scene);
 hydro::waves::Current build_current(const Record& current, const std::filesystem::path& file);

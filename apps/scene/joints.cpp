@@ -116,18 +116,6 @@ Pto read_pto(const Record& record) {
 
 }  // namespace
 
-void build_loads(const Record& root, Names& names, Scene& scene) {
-  for (const Record& record : root.tables("load")) {
-    const auto part = [&](std::string_view key) {
-      return record.has(key) ? record.vector(key) : Eigen::Vector3d(Eigen::Vector3d::Zero());
-    };
-    const auto on = bodies_on(record, "on", scene.bodies);
-    const auto name = names.of(record, on.size());
-    for (std::size_t b = 0; b < on.size(); ++b)
-      scene.loads.push_back({name[b], on[b], record.vector("at"), part("force"), part("moment"), record.place()});
-  }
-}
-
 void build_joints(const Record& root, const std::filesystem::path& file, Names& names, Scene& scene) {
   for (const Record& record : root.tables("joint")) {
     const auto pairs = read_between(record, scene.bodies, GroundFirst::allowed);

@@ -162,6 +162,12 @@ WrittenNumber number_at(std::string_view text, const std::filesystem::path& file
   return read_number(Finder(path, asked).find(root), path, asked);
 }
 
+WrittenNumber ChangeableScene::number(const std::string& path, const std::vector<OverriddenNumber>& numbers) const {
+  Node document = *document_;
+  override_numbers(document, numbers);
+  return read_number(Finder(path, document.place).find(document), path, document.place);
+}
+
 void override_numbers(Node& root, const std::vector<OverriddenNumber>& numbers) {
   for (const auto& number : numbers) {
     const Found found = Finder(number.path, root.place).find(root);

@@ -33,6 +33,8 @@ class ChangeableScene {
  public:
   /// \throws hydro::InputError as parse()
   ChangeableScene(std::string_view text, std::filesystem::path file);
+  /// What the scene writes at a path, these numbers in it. \throws hydro::InputError as number_at(), at the scene
+  WrittenNumber number(const std::string& path, const std::vector<OverriddenNumber>& numbers) const;
   /// With other numbers in these places. \throws hydro::InputError as parse() and number_at()
   Scene with(const std::vector<OverriddenNumber>& numbers) const;
 

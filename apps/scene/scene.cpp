@@ -267,7 +267,7 @@ Scene ChangeableScene::with(const std::vector<OverriddenNumber>& numbers) const 
   build_connectors(root, names, scene);
   build_contacts(root, names, scene);
   build_joints(root, file_, names, scene);
-  build_loads(root, names, scene);
+  build_elements(root, names, scene);
   check_bodies(root, scene);
   build_ask(root.table("ask"), scene);
   scene.solve = build_solve(root.table("solve"));

@@ -449,14 +449,6 @@ struct Pto {
   }
 };
 
-/// `[[load]]`: constant.
-struct Load {
-  std::string name;
-  int body;
-  Eigen::Vector3d at, force, moment;  ///< body axes, m; global axes, N and N m
-  Place place;
-};
-
 /// `[[joint]]`: described where the bodies are at rest.
 struct Joint {
   std::string name;  ///< "joint1" … unless named; repeated ones get a number
@@ -545,7 +537,7 @@ struct Scene {
   std::vector<Line> chains;                        ///< [[line]]
   std::vector<std::vector<std::size_t>> networks;  ///< of `chains`: those that meet; most are of one
   std::vector<Connector> connectors;
-  std::vector<Load> loads;
+  std::vector<std::shared_ptr<const class Elements>> elements;  ///< force elements, scene/element.hpp
   std::vector<Joint> joints;
   std::optional<AskRao> rao;
   std::optional<AskModes> ask_modes;

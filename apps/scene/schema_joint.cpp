@@ -118,19 +118,6 @@ const Table& pto_of_hinge() {
 
 }  // namespace
 
-const Table& load_table() {
-  static const Table table{
-      .title = "[[load]]",
-      .meaning = "a force and a moment that stay as they are: wind, a tow",
-      .keys =
-          {name_key("load", "of the load"), texts("on", "bodies it acts on, by name; * stands for any characters"),
-           vector("at", dim::length, "where the force acts, body axes").or_default("(0, 0, 0) m", "the body's origin"),
-           vector("force", dim::force, "global axes").optional(),
-           vector("moment", dim::moment, "global axes").optional()},
-      .groups = {{Group::Count::at_least_one, {"force", "moment"}}}};
-  return table;
-}
-
 const Table& joint_table() {
   static const Table table{
       .title = "[[joint]]",

@@ -5,6 +5,5 @@
 namespace froude::scene {
 
 const Table& joint_table();
-const Table& load_table();
 
 }  // namespace froude::scene

@@ -1,5 +1,11 @@
 /// \file  The tables of a scene of motion: what may be written, what it means, what is filled in and why.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
 #include "hydro/potential/check.hpp"
+#include "scene/element.hpp"
 #include "scene/schema.hpp"
 #include "scene/schema_ask.hpp"
 #include "scene/schema_connections.hpp"
@@ -283,33 +289,46 @@ const Table& body() {
 
 }  // namespace
 
-const Table& motion_schema() {
-  static const Table table{
+namespace {
+
+Table motion_table() {
+  return {
       .title = "a scene",
       .meaning = "floating bodies in waves",
-      .keys = {integer("schema", "version of this grammar, 1"),
-               text("title", "for people").optional(),
+      .keys = {integer("schema", "version of this grammar, 1"), text("title", "for people").optional(),
                texts("include",
                      "results of `froude fit -o`: with \"fit.toml\", a text \"fit.cd\" stands for the number cd of its "
                      "[coefficients]")
                    .optional(),
-               inner_table("water", water()),
-               inner_table("waves", waves_table()).optional(),
-               inner_table("current", current_table()).optional(),
-               inner_tables("body", body()).optional(),
-               inner_tables("probe", probe_table()).optional(),
-               inner_tables("point", point_table()).optional(),
+               inner_table("water", water()), inner_table("waves", waves_table()).optional(),
+               inner_table("current", current_table()).optional(), inner_tables("body", body()).optional(),
+               inner_tables("probe", probe_table()).optional(), inner_tables("point", point_table()).optional(),
                inner_tables("relative_motion", relative_motion_table()).optional(),
-               inner_tables("member", member_table()).optional(),
-               inner_tables("line", line_table()).optional(),
+               inner_tables("member", member_table()).optional(), inner_tables("line", line_table()).optional(),
                inner_tables("junction", junction_table()).optional(),
                inner_tables("mooring", mooring_table()).optional(),
-               inner_tables("connector", connector_table()).optional(),
-               inner_tables("joint", joint_table()).optional(),
-               inner_tables("load", load_table()).optional(),
-               inner_tables("contact", contact_table()).optional(),
-               inner_table("ask", ask_table()),
+               inner_tables("connector", connector_table()).optional(), inner_tables("joint", joint_table()).optional(),
+               inner_tables("contact", contact_table()).optional(), inner_table("ask", ask_table()),
                inner_table("solve", solve_table()).or_default("", "see its keys")}};
+}
+
+/// The tables of force elements stand before [[contact]].
+Table with_elements(Table root) {
+  const auto at = [&](const std::string& name) {
+    return std::find_if(root.keys.begin(), root.keys.end(), [&](const Key& key) { return key.name == name; });
+  };
+  for (const auto& element : element_tables()) {
+    if (at(element->name()) != root.keys.end())
+      throw std::logic_error(fmt::format("the grammar has [[{}]] already", element->name()));
+    root.keys.insert(at("contact"), inner_tables(element->name(), element->keys()).optional());
+  }
+  return root;
+}
+
+}  // namespace
+
+const Table& motion_schema() {
+  static const Table table = with_elements(motion_table());
   return table;
 }
 

@@ -129,7 +129,7 @@ TEST(Angles, ThatAControllerIsToldRunOn) {
       "[[connector]]\nname = \"tether\"\nkind = \"axial\"\nbetween = [\"wheel\", \"ground\"]\n"
       "ends = [\"(0, 0, 0) m\", \"(0, 0, 9) m\"]\nstiffness = \"1 N/m\"\nrest_length = \"as placed\"\n";
   simulate(parse(water + wheel("initial_velocity = { pitch = \"2 rad/s\" }") + hub("") + tether + ask("3 s")), {},
-           {{"tether", [&](const compile::Sample& sample) -> std::optional<double> {
+           {{"tether", [&](const Sample& sample) -> std::optional<double> {
                told.push_back(sample.motion("wheel.pitch"));
                return {};
              }}});

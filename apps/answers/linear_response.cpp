@@ -1,4 +1,4 @@
-#include "froude/linear_response.hpp"
+#include "answers/linear_response.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "answers/provenance.hpp"
 #include "compile/members.hpp"
 #include "compile/waves.hpp"
 #include "dynamics/frequency/linear_drag.hpp"
@@ -41,8 +42,8 @@ Eigen::MatrixXcd transfer(const compile::Prepared& prepared, const SmallMotions&
   return out;
 }
 
-void require_linear(const scene::Scene& scene) {
-  const auto effects = left_out_of_linear_responses(scene);
+void require_linear(const scene::Scene& scene, const compile::Prepared& prepared) {
+  const auto effects = left_out_of_linear_responses(scene, prepared);
   if (!effects.empty())
     throw hydro::InputError(fmt::format("[ask.run] start = \"steady\" is for linear scenes: {}", effects.front()),
                             scene.run->place, "step it from \"as placed\" with a ramp, or leave the effect out");
@@ -162,7 +163,8 @@ std::vector<ComplexSignal> linear_responses(const std::vector<compile::Signal>& 
   return out;
 }
 
-std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene, bool with_drag) {
+std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene, const compile::Prepared& prepared,
+                                                      bool with_drag) {
   std::vector<std::string> out;
   const auto one_member = [&](auto has) { return std::any_of(scene.members.begin(), scene.members.end(), has); };
   if (!with_drag && one_member([](const scene::Member& m) { return m.cd.has_value(); }))
@@ -182,6 +184,10 @@ std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene,
                   [](const scene::Body& b) { return b.hydrodynamics && b.hydrodynamics->turning; }))
     out.emplace_back("excitation is that of bodies as placed: their slow yaw acts in runs only");
   if (!scene.contacts.empty()) out.emplace_back("contacts are left out: bodies are taken not to touch");
+  for (const auto& elements : prepared.elements)
+    if (const auto force = elements->force({prepared.bodies, prepared.water}); !force->linear_at_rest())
+      out.push_back(
+          fmt::format("[[{}]] is left out, {}: it is not linear about rest", elements->table(), force->method()));
   const auto on_body = [&](const std::vector<std::size_t>& network) {
     return std::any_of(network.begin(), network.end(), [&](std::size_t i) { return scene.chains[i].fastened(); });
   };
@@ -191,22 +197,16 @@ std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene,
   return out;
 }
 
-const ComplexSignal& Responses::signal(const std::string& name) const {
-  for (const ComplexSignal& s : signals)
-    if (s.name == name) return s;
-  throw hydro::InputError(fmt::format("[ask.rao] gives no signal \"{}\"", name));
-}
-
 Responses respond(const scene::Scene& scene) { return respond(scene, compile::prepare(scene)); }
 
 Responses respond(const scene::Scene& scene, const compile::Prepared& prepared) {
   if (!scene.rao || scene.rao->headings.empty())
     throw std::logic_error("a response is asked for without a heading: a scene that no reader has made must state one");
-  Responses out{scene.rao->omega, scene.rao->headings, {}, prepared.notes};
+  Responses out{scene.rao->omega, scene.rao->headings, {}, prepared.notes, provenance_of(scene)};
   compile::check_waves_of_rao(scene, prepared, out.notes);
   const dynamics::Model model = compile::frequency_model(prepared, scene.rao->about);
   const SmallMotions about = compile::small_motions(model, scene.rao->about, out.notes);
-  for (const std::string& effect : left_out_of_linear_responses(scene, scene.rao->drag.has_value()))
+  for (const std::string& effect : left_out_of_linear_responses(scene, prepared, scene.rao->drag.has_value()))
     out.notes.push_back(effect);
   const auto signals = compile::chosen_responses(compile::signal_list(scene, prepared, model), scene.rao->of,
                                                  scene.rao->of_places, out.notes);
@@ -216,15 +216,16 @@ Responses respond(const scene::Scene& scene, const compile::Prepared& prepared) 
   return out;
 }
 
-Record steady_run(const scene::Scene& scene) {
+Run steady_run(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept) {
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
-  require_linear(scene);
-  const compile::Prepared prepared = compile::prepare(scene);
+  const compile::Prepared prepared = compile::prepare(scene, kept);
+  require_linear(scene, prepared);
   const dynamics::Model model = compile::frequency_model(prepared);
   const SmallMotions about(model);
-  Record record;
+  Run record;
   record.notes = prepared.notes;
+  record.provenance = provenance_of(scene);
   const hydro::waves::Sea sea = compile::sea_of_run(scene, prepared, record.notes);
   const auto signals = compile::chosen_responses(compile::signal_list(scene, prepared, model), scene.run->of,
                                                  scene.run->of_places, record.notes);

@@ -1,13 +1,14 @@
-#include "froude/simulate.hpp"
+#include "answers/simulate.hpp"
 
 #include <chrono>
 #include <cmath>
 
+#include "answers/linear_response.hpp"
+#include "answers/provenance.hpp"
 #include "compile/integrator.hpp"
 #include "compile/signal_list.hpp"
 #include "dynamics/force/fastened_line.hpp"
 #include "dynamics/integrate/start_with_lines.hpp"
-#include "froude/linear_response.hpp"
 #include "hydro/base/error.hpp"
 
 namespace froude {
@@ -28,7 +29,7 @@ double rounding_of(const dynamics::Model& model) {
 class March {
  public:
   March(const compile::TimeModel& m, const std::vector<compile::Signal>& signals, const scene::Solve& solve,
-        Record& record)
+        Run& record)
       : m_(m),
         signals_(signals),
         record_(record),
@@ -158,30 +159,31 @@ class March {
   const compile::TimeModel& m_;
   const std::vector<compile::Signal>& signals_;
   std::vector<std::unique_ptr<compile::LineRun>> lines_;
-  Record& record_;
+  Run& record_;
   dynamics::Workspace workspace_;
   std::unique_ptr<dynamics::Integrator> integrator_;
   double rounding_;  // J
 };
 
-}  // namespace
-
-const std::vector<double>& Record::signal(const std::string& name) const {
-  std::vector<std::string> names;
-  for (const Signal& s : signals) {
-    if (s.name == name) return s.values;
-    names.push_back(s.name);
-  }
-  throw hydro::InputError(fmt::format("the run has no signal \"{}\"", name), {},
-                          fmt::format("signals are: {}", fmt::join(names, ", ")));
+/// What the scene tells, and what it left to be chosen.
+Provenance provenance_of_run(const scene::Scene& scene) {
+  Provenance out = provenance_of(scene);
+  if (scene.solve.integrator == "generalized_alpha")
+    out.settings.emplace_back("chosen.rho_infinity", fmt::format("{}", scene.solve.rho_infinity));
+  if (compile::has_own_tolerance(scene.solve.integrator) && !scene.solve.tolerance)
+    out.settings.emplace_back("chosen.tolerance", fmt::format("{}", compile::tolerance_of_pair));
+  return out;
 }
 
-Record run_model(const scene::Scene& scene, const compile::TimeModel& model, const std::function<void(double)>& done,
-                 compile::MovingState* end) {
-  Record record;
+}  // namespace
+
+Run run_model(const scene::Scene& scene, const compile::TimeModel& model, const std::function<void(double)>& done,
+              compile::MovingState* end) {
+  Run record;
   const auto signals = compile::chosen(compile::signal_list(scene, model), scene.run->of, scene.run->of_places);
   record.step = model.step;
   record.notes = model.notes;
+  record.provenance = provenance_of_run(scene);
   March march(model, signals, scene.solve, record);
   const auto stepping = Clock::now();
   march.run(done);
@@ -190,20 +192,20 @@ Record run_model(const scene::Scene& scene, const compile::TimeModel& model, con
   return record;
 }
 
-Record simulate(const scene::Scene& scene, const std::function<void(double)>& done,
-                const std::vector<compile::Control>& controls) {
+Run simulate(const scene::Scene& scene, const std::function<void(double)>& done, const std::vector<Control>& controls,
+             const std::shared_ptr<compile::Kept>& kept) {
   if (scene.run->steady) {
     if (!controls.empty())
       throw hydro::InputError("[ask.run] start = \"steady\" takes no step at which a controller could decide",
                               scene.run->place, "step the run from \"as placed\"");
-    return steady_run(scene);
+    return steady_run(scene, kept);
   }
   const auto begin = Clock::now();
-  compile::Prepared prepared = compile::prepare(scene);
+  compile::Prepared prepared = compile::prepare(scene, kept);
   compile::set_controllers(controls, prepared);
   const compile::TimeModel model = compile::time_model(scene, prepared);
   const double preparation = seconds_since(begin);
-  Record record = run_model(scene, model, done);
+  Run record = run_model(scene, model, done);
   record.preparation_s = preparation;
   return record;
 }

@@ -1,8 +1,8 @@
-#include "froude/result_file.hpp"
 
 #include <array>
 #include <numbers>
 
+#include "froude/result.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
 #include "hydro/io/hdf5.hpp"
@@ -109,7 +109,7 @@ void write_rao(const std::filesystem::path& path, const std::vector<double>& ome
   file.save(path);
 }
 
-void write_modes(const std::filesystem::path& path, const ModeTable& modes, const Provenance& provenance) {
+void write_modes(const std::filesystem::path& path, const Modes& modes, const Provenance& provenance) {
   const auto flat = [](const std::vector<std::complex<double>>& values) {
     std::vector<double> out;
     for (const auto& value : values) out.insert(out.end(), {value.real(), value.imag()});

@@ -1,0 +1,14 @@
+#pragma once
+/// \file  How a result came about, as far as its scene tells.
+#include "froude/result.hpp"
+#include "scene/scene.hpp"
+
+namespace froude {
+
+/// Text, every key that acts, seeds.
+Provenance provenance_of(const scene::Scene& scene);
+
+/// Notes are numbered, so that each has a name of its own.
+void add_notes(const std::vector<std::string>& notes, Provenance& provenance);
+
+}  // namespace froude

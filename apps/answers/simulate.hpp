@@ -1,0 +1,25 @@
+#pragma once
+/// \file  A scene run in time.
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "compile/control.hpp"
+#include "compile/restart.hpp"
+#include "froude/result.hpp"
+#include "scene/scene.hpp"
+
+namespace froude {
+
+/// Runs a model that is compiled already, from its start and for its steps; the start may be later than 0. `end`, if it
+/// is not null, is told the last state. \throws hydro::InputError at a signal that there is not
+Run run_model(const scene::Scene& scene, const compile::TimeModel& model, const std::function<void(double)>& done = {},
+              compile::MovingState* end = nullptr);
+
+/// Compiles and runs a scene that asks for a run. `done` is told the share of the steps completed; `controls` rule
+/// connectors.
+/// \throws hydro::InputError; numerics that give up end the record early with a reason instead
+Run simulate(const scene::Scene& scene, const std::function<void(double)>& done = {},
+             const std::vector<Control>& controls = {}, const std::shared_ptr<compile::Kept>& kept = nullptr);
+
+}  // namespace froude

@@ -1,0 +1,181 @@
+#pragma once
+/// \file  What comes of a scene, as values that write themselves to disk.
+///
+/// A result on disk is one HDF5 file that is also a valid netCDF-4 file, so that xarray opens it without us.
+/// Layout: dimensions and signals are datasets at the root, each with `units` and `long_name`; a complex signal has a
+/// last dimension `complex` of size 2 (real, imaginary). How the result came about is in the group `/provenance`.
+#include <array>
+#include <complex>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dynamics/time/growth.hpp"
+
+namespace froude {
+
+/// A named series in the SI unit that `units` states.
+struct Signal {
+  std::string name;       ///< dataset name, e.g. "m1.heave"
+  std::string units;      ///< SI, readable by hydro::parse_unit, e.g. "m", "N"
+  std::string long_name;  ///< for people: "heave of m1 from its position at rest"
+  std::vector<double> values = {};
+};
+
+/// A complex amplitude per frequency, of one heading after the other, phase as (P1) and (P2).
+struct ComplexSignal {
+  std::string name;
+  std::string units;  ///< "m/m", "rad/m", "N/m": per metre of wave amplitude
+  std::string long_name;
+  std::vector<std::complex<double>> values = {};
+};
+
+/// How a result came about. Empty entries are left out of the file.
+struct Provenance {
+  std::string scene_file;  ///< name only: results do not tell where they were made
+  std::string scene_text;
+  std::vector<std::pair<std::string, std::string>> settings;  ///< every key that acts and its value, defaults included
+  std::vector<std::pair<std::string, double>> seeds;          ///< of random numbers
+  std::vector<std::pair<std::string, double>> wall_time;      ///< s, by effect
+  std::vector<std::pair<std::string, double>> energy;         ///< J: supplied, dissipated, stored, residual, …
+  std::vector<std::pair<std::string, std::string>> notes;     ///< anything else worth keeping
+};
+
+/// Slack and snaps of a line over a run.
+struct Snaps {
+  std::string line;
+  double slack_share;  ///< of the time, in which a link is slack
+  int snaps;
+  double largest_tension, at;  ///< N; s
+  int link;                    ///< counted from 1
+};
+/// The same in words.
+std::string sentence(const Snaps& snaps);
+
+/// The largest Lyapunov exponent of a line over a run.
+struct LineExponent {
+  std::string line;
+  dynamics::Exponent exponent;
+};
+std::string sentence(const LineExponent& exponent);
+
+/// A run in time, whole or up to where it stopped.
+struct Run {
+  std::vector<double> time;     ///< s
+  std::vector<Signal> signals;  ///< those that the scene asks for
+  double step = 0;              ///< s
+  std::size_t steps = 0;        ///< completed
+  std::size_t parts = 0;        ///< into which a tolerance has cut them
+  int newton_iterations = 0, halvings = 0, events = 0;
+  double preparation_s = 0, stepping_s = 0;                      ///< wall time
+  std::vector<std::pair<std::string, std::size_t>> evaluations;  ///< of the load, by effect
+  std::vector<std::pair<std::string, double>> energy;            ///< J, by effect, at the end; residual and turnover
+  struct Unexplained {
+    double energy = 0, time = 0;  ///< J, s
+  };
+  Unexplained worst_residual;           ///< the energy residual when it was largest
+  std::vector<Snaps> snaps;             ///< of lines whose scene asks for them
+  std::vector<LineExponent> exponents;  ///< likewise
+  std::vector<std::string> notes;       ///< what had to be decided, and what is left out
+  std::string stopped;                  ///< why it ended before its time; empty if it did not
+  Provenance provenance = {};           ///< without what the members above tell
+
+  /// \throws hydro::InputError if there is no such signal
+  const std::vector<double>& signal(const std::string& name) const;
+  double turnover() const;  ///< J, of energy
+  /// The energy residual when it was largest, of the energy turned over; 0 where nothing was.
+  double relative_residual() const;
+  /// What of the run is not to be trusted, in words.
+  std::vector<std::string> warnings() const;
+  /// As write_run(). \throws hydro::InputError if the file cannot be written
+  void write(const std::filesystem::path& path) const;
+};
+
+/// Signals per metre of wave amplitude, at the frequencies and headings that the scene asks for.
+struct Responses {
+  std::vector<double> omega;           ///< rad/s
+  std::vector<double> heading;         ///< rad, where the waves go; in the order asked
+  std::vector<ComplexSignal> signals;  ///< heading by heading: value of heading h, frequency w at h Nω + w
+  std::vector<std::string> notes;      ///< what had to be decided, and what is left out
+  Provenance provenance = {};          ///< without the notes
+
+  /// \throws hydro::InputError if there is no such signal
+  const ComplexSignal& signal(const std::string& name) const;
+  /// As write_rao(). \throws hydro::InputError if the file cannot be written
+  void write(const std::filesystem::path& path) const;
+};
+
+/// The water at the probes of a scene.
+struct WaterSeries {
+  std::vector<double> time;  ///< s
+  std::vector<Signal> signals;
+  std::string method;              ///< "inverse FFT", …
+  std::vector<std::string> notes;  ///< what had to be decided
+  Provenance provenance = {};      ///< without method and notes
+
+  /// As write_run(). \throws hydro::InputError if the file cannot be written
+  void write(const std::filesystem::path& path) const;
+};
+
+/// Free motions about rest, by rising frequency. Shapes are of the centres of gravity, m and rad, one row a mode, one
+/// column a motion.
+struct Modes {
+  std::vector<std::string> motions;                ///< "m1.surge", …
+  std::vector<double> omega;                       ///< undamped, rad/s
+  std::vector<std::complex<double>> s;             ///< 1/s, of the damped motion; NaN where it creeps
+  std::vector<double> shape;                       ///< undamped
+  std::vector<std::complex<double>> damped_shape;  ///< NaN where it creeps
+  std::vector<std::array<double, 6>> energy;       ///< shares of the kinetic energy in surge … yaw of all bodies
+  std::vector<bool> outside_data;                  ///< the frequency is outside those of the coefficients
+  std::vector<std::string> notes;                  ///< what had to be decided, and what is left out
+  Provenance provenance = {};                      ///< without the notes
+
+  std::size_t count() const { return omega.size(); }
+  double period(std::size_t mode) const;                        ///< s, undamped
+  std::optional<double> damping_ratio(std::size_t mode) const;  ///< empty where it creeps
+  std::span<const double> shape_of(std::size_t mode) const;
+  /// As write_modes(). \throws hydro::InputError if the file cannot be written
+  void write(const std::filesystem::path& path) const;
+};
+
+/// One line of a plan: an effect, how it is computed, how large it is; or why it is left out.
+struct PlanLine {
+  std::string effect, method, size;
+  bool runs = true;
+};
+/// What the answers to a scene will take.
+struct Plan {
+  struct Section {
+    std::string title;
+    std::vector<PlanLine> lines;
+  };
+  std::vector<Section> sections;
+  std::vector<std::string> notes;
+};
+
+/// Time series: dimension `time` in s. \throws hydro::InputError if the file cannot be written
+void write_run(const std::filesystem::path& path, const std::vector<double>& time, const std::vector<Signal>& signals,
+               const Provenance& provenance);
+
+/// Response amplitude operators: dimensions `omega` in rad/s and `complex`. `heading` in rad: a scalar where there is
+/// one, the first dimension where there are several. \throws hydro::InputError if the file cannot be written
+void write_rao(const std::filesystem::path& path, const std::vector<double>& omega, const std::vector<double>& heading,
+               const std::vector<ComplexSignal>& signals, const Provenance& provenance);
+
+/// Dimensions `mode` (counted from 1), `motion` and `complex`. \throws hydro::InputError if the file cannot be written
+void write_modes(const std::filesystem::path& path, const Modes& modes, const Provenance& provenance);
+
+/// A result of write_run, read back.
+struct RunResult {
+  std::vector<double> time;     ///< s
+  std::vector<Signal> signals;  ///< in alphabetical order
+};
+
+/// \throws hydro::InputError if the file is none of ours, or cut short
+RunResult read_run(const std::filesystem::path& path);
+
+}  // namespace froude
