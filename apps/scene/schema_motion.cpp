@@ -1,14 +1,11 @@
 /// \file  The tables of a scene of motion: what may be written, what it means, what is filled in and why.
 #include "hydro/potential/check.hpp"
+#include "scene/build.hpp"
 #include "scene/schema.hpp"
 #include "scene/schema_ask.hpp"
-#include "scene/schema_connections.hpp"
-#include "scene/schema_contact.hpp"
-#include "scene/schema_joint.hpp"
 #include "scene/schema_line.hpp"
 #include "scene/schema_members.hpp"
 #include "scene/schema_modes.hpp"
-#include "scene/schema_signals.hpp"
 #include "scene/schema_waves.hpp"
 
 namespace froude::scene {
