@@ -366,12 +366,13 @@ struct StiffnessSwitch : dynamics::PeriodSwitching {
   hydro::Mode mode;  ///< of the body's origin from rest: what is watched
 };
 
+/// The law of a connector along the line between its ends.
 struct AxialConnector : dynamics::LineLaw {
   std::optional<double> rest_length = {};  ///< m; empty: as placed
   std::optional<StiffnessSwitch> switching = {};
 };
 
-/// `[[connector]]`: joins two points. The ends of a bushing are those of the pair.
+/// `[[connector]]`: joins two points. A bushing keeps stiffness and damping only: ends, offset and name are the pair's.
 struct Connector : PointPair {
   std::variant<AxialConnector, dynamics::BushingConnector> kind;
   Place place;
