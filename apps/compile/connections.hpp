@@ -7,8 +7,10 @@ namespace froude::compile {
 /// From a body's centre of gravity to `end`, which is given from its origin in body axes, m; of the ground the point
 /// itself, global.
 Eigen::Vector3d arm(const scene::Scene& scene, std::optional<int> body, const Eigen::Vector3d& end);
-/// Where the scene places that end, global, m.
-Eigen::Vector3d placed(const scene::Scene& scene, std::optional<int> body, const Eigen::Vector3d& end);
+/// The same of two points.
+dynamics::Ends ends_of(const scene::Scene& scene, const scene::PointPair& pair);
+/// From the first to the second as the scene places them, global, m.
+Eigen::Vector3d offset_of(const scene::Scene& scene, const scene::PointPair& pair);
 
 /// Moorings, connectors, contacts, joints with what works on them, lines and constant loads, in the order of the scene;
 /// `out.bodies` and `out.water` are there already.

@@ -145,11 +145,8 @@ void add_named(const scene::Scene& scene, const dynamics::Model& model,
     if (p.acceleration) add(dynamics::acceleration_signals(p.name, point), out);
     if (p.air_gap) out.push_back(air_gap(scene, field, p.name, point));
   }
-  for (const scene::RelativeMotion& r : scene.relative_motions) {
-    const dynamics::Ends ends{r.first, r.second, arm(scene, r.first, r.first_end), arm(scene, r.second, r.second_end)};
-    const Eigen::Vector3d offset = placed(scene, r.second, r.second_end) - placed(scene, r.first, r.first_end);
-    add(dynamics::relative_motion_signals(r.name, ends, offset), out);
-  }
+  for (const scene::PointPair& pair : scene.relative_motions)
+    add(dynamics::relative_motion_signals(pair.name, ends_of(scene, pair), offset_of(scene, pair)), out);
 }
 
 std::vector<std::string> names_of(const std::vector<Signal>& all) {

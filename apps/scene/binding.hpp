@@ -8,10 +8,11 @@
 ///           .key(vector("force", dim::force, "global axes"), &Load::force)
 ///           .key(quantity("from", dim::time, "when it begins").optional(), &Load::from);
 ///
-/// From it come the schema, its documentation, errors and echo (table()), and the reader (read()). A binding is kept as
-/// a static of a function: tables refer to those within them.
+/// From it come the schema, its documentation, errors and echo (table()), and the reader (read()). A binding keeps
+/// copies of those within it; one whose table() is part of the grammar is a static of a function.
 #include <concepts>
 #include <functional>
+#include <memory>
 #include <type_traits>
 #include <utility>
 
@@ -71,16 +72,21 @@ class Binding {
   Binding(std::string title, std::string meaning)
       : table_{.title = std::move(title), .meaning = std::move(meaning), .keys = {}} {}
 
-  /// A key and the member that takes its value, in SI. The member keeps what it was made with where the key is not
-  /// there.
-  template <class M>
-  Binding& key(Key key, M T::*member) {
+  /// A key and the member, of T or of a base, that takes its value, in SI. The member keeps what it was made with where
+  /// the key is not there.
+  template <class M, class B>
+  Binding& key(Key key, M B::*member) {
     return add(std::move(key), [member](const Value& value, T& out) { detail::put(value, out.*member); });
   }
   /// A key that a reader or check of the caller's own looks up in the record.
   Binding& key(Key key) {
     table_.keys.push_back(std::move(key));
     return *this;
+  }
+  /// A key that may be left out.
+  template <class... Member>
+  Binding& optional(Key key, Member... member) {
+    return this->key(std::move(key.optional()), member...);
   }
   Binding& keys(std::vector<Key> keys) {
     for (Key& one : keys) key(std::move(one));
@@ -104,24 +110,33 @@ class Binding {
           if (given.value == word) out.*member = true;
     });
   }
-  /// A table within this one, needed.
-  template <class I>
-  Binding& table(const std::string& name, const Binding<I>& inner, I T::*member) {
-    return add(inner_table(name, inner.table()),
-               [&inner, member](const Value& value, T& out) { out.*member = inner.read(value.records.front()); });
+  /// A table within this one, which may be left out where the member is a std::optional.
+  template <class I, class M>
+  Binding& table(const std::string& name, const Binding<I>& inner, M T::*member) {
+    Key key = inner_table(name, inner.table());
+    if (detail::IsOptional<M>::value) key.optional();
+    return nested(key, inner,
+                  [member](const Binding<I>& of, const Record& record, T& out) { out.*member = of.read(record); });
   }
-  /// A table within this one, which may be left out.
-  template <class I>
-  Binding& table(const std::string& name, const Binding<I>& inner, std::optional<I> T::*member) {
-    return add(inner_table(name, inner.table()).optional(),
-               [&inner, member](const Value& value, T& out) { out.*member = inner.read(value.records.front()); });
+  /// One that may be left out, whose keys are read into this very struct, or into a base of it.
+  template <class B>
+  Binding& table(const std::string& name, const Binding<B>& inner) {
+    return nested(inner_table(name, inner.table()).optional(), inner,
+                  [](const Binding<B>& of, const Record& record, T& out) { of.read_into(record, out); });
   }
-  /// As many tables as there are.
-  template <class I>
-  Binding& tables(const std::string& name, const Binding<I>& inner, std::vector<I> T::*member) {
-    return add(inner_tables(name, inner.table()), [&inner, member](const Value& value, T& out) {
-      for (const Record& record : value.records) (out.*member).push_back(inner.read(record));
-    });
+  /// As many tables as there are; one at least unless the key is optional().
+  template <class I, class B>
+  Binding& tables(const std::string& name, const Binding<I>& inner, std::vector<I> B::*member) {
+    return nested(
+        inner_tables(name, inner.table()), inner,
+        [member](const Binding<I>& of, const Record& record, T& out) { (out.*member).push_back(of.read(record)); });
+  }
+  /// Keys of this table, and rules between them, that a member is read from.
+  template <class I, class M, class B>
+  Binding& part(const Binding<I>& of, M B::*member) {
+    keys(of.table().keys);
+    for (const Group& one : of.table().groups) table_.groups.push_back(one);
+    return then([of, member](const Record& record, T& out) { out.*member = of.read(record); });
   }
   /// Where the table stands.
   Binding& place(Place T::*member) {
@@ -131,6 +146,11 @@ class Binding {
   Binding& exactly_one_of(std::vector<std::string> keys) { return group(Group::Count::exactly_one, std::move(keys)); }
   Binding& at_most_one_of(std::vector<std::string> keys) { return group(Group::Count::at_most_one, std::move(keys)); }
   Binding& at_least_one_of(std::vector<std::string> keys) { return group(Group::Count::at_least_one, std::move(keys)); }
+  /// The last key may be left out; its member then stays as it was made.
+  Binding& optional() {
+    table_.keys.back().optional();
+    return *this;
+  }
   /// The last key only where one of these others is given.
   Binding& only_beside(std::vector<std::string> others) {
     table_.keys.back().only_beside_one_of(std::move(others));
@@ -146,7 +166,7 @@ class Binding {
   /// Further keys for one word of `kind`, the key that must have been added, read into the same struct.
   Binding& variant(const std::string& word, const Binding<T>& of) {
     add_variant(word, of.table());
-    return then([word, &of](const Record& record, T& out) {
+    return then([word, of](const Record& record, T& out) {
       if (record.text("kind") == word) of.read_into(record, out);
     });
   }
@@ -154,7 +174,7 @@ class Binding {
   template <class V, class... All>
   Binding& variant(const std::string& word, const Binding<V>& of, std::variant<All...> T::*member) {
     add_variant(word, of.table());
-    return then([word, &of, member](const Record& record, T& out) {
+    return then([word, of, member](const Record& record, T& out) {
       if (record.text("kind") == word) out.*member = of.read(record);
     });
   }
@@ -177,6 +197,15 @@ class Binding {
     });
     table_.keys.push_back(std::move(key));
     return *this;
+  }
+  /// A key of one table or several, each of which `put` reads with a copy of their binding.
+  template <class I, class Put>
+  Binding& nested(Key key, const Binding<I>& inner, Put put) {
+    const auto own = std::make_shared<const Binding<I>>(inner);
+    key.inner = &own->table();
+    return add(std::move(key), [own, put](const Value& value, T& out) {
+      for (const Record& record : value.records) put(*own, record, out);
+    });
   }
   Binding& group(Group::Count count, std::vector<std::string> keys) {
     table_.groups.push_back({count, std::move(keys)});

@@ -29,6 +29,14 @@ class Names {
 
 // Froude's own force elements, one file each.
 std::unique_ptr<const class ElementTable> load_element();
+// The tables that are declared beside their readers.
+const Table& probe_table();
+const Table& point_table();
+const Table& relative_motion_table();
+const Table& mooring_table();
+const Table& connector_table();
+const Table& contact_table();
+const Table& joint_table();
 
 /// An end of a line that is on what is no body.
 struct UnresolvedEnd {
@@ -40,7 +48,7 @@ struct UnresolvedEnd {
 std::vector<Body> build_bodies(const Record& root, const std::filesystem::path& file, Names& names);
 
 // Each refers to scene.bodies, which must be there already.
-void build_signals(const Record& root, Names& names, Scene& scene);
+void build_signals(const Record& root, Names& names, Scene& scene);  ///< points and relative motions
 void build_members(const Record& root, Names& names, Scene& scene);
 void build_lines(const Record& root, const std::filesystem::path& file, Names& names, Scene& scene);
 /// The junctions of a scene, and what the ends of its lines meet that `unresolved` names; then which lines form
@@ -49,12 +57,12 @@ void build_networks(const Record& root, Names& names, const std::vector<Unresolv
 void build_moorings(const Record& root, Names& names, Scene& scene);
 void build_contacts(const Record& root, Names& names, Scene& scene);
 void build_connectors(const Record& root, Names& names, Scene& scene);
-void build_joints(const Record& root, const std::filesystem::path& file, Names& names, Scene& scene);
+void build_joints(const Record& root, Names& names, Scene& scene);
 void build_elements(const Record& root, Names& names, Scene& scene);
 
 Waves build_waves(const Record& waves, const Scene& scene);
 hydro::waves::Current build_current(const Record& current, const std::filesystem::path& file);
-std::vector<Probe> build_probes(const Record& root, Names& names);
+void build_probes(const Record& root, Names& names, Scene& scene);
 void build_ask(const Record& ask, Scene& scene);
 Solve build_solve(const Record& solve);
 
@@ -66,11 +74,29 @@ enum class GroundFirst { allowed, refused };
 /// All pairs of the key `between`. \throws hydro::InputError at names that do not fit
 std::vector<Between> read_between(const Record& record, const std::vector<Body>& bodies, GroundFirst ground_first);
 
+/// The key that read_between() reads, where the ground cannot be first.
+Key between_key();
+/// All points of all pairs, by the keys `between`, with the ground second if at all, `ends` and `name`.
+std::vector<PointPair> read_point_pairs(const Record& record, Names& names, const std::vector<Body>& bodies);
+
 /// Indices of the bodies that fit the patterns of `record`'s key, in the order of the scene, each once.
 /// \throws hydro::InputError at a pattern that fits none, with the nearest name
 std::vector<int> bodies_on(const Record& record, std::string_view key, const std::vector<Body>& bodies);
 /// \throws hydro::InputError if there is no body of this name, with the nearest
 int body_named(const Record& record, const Located<std::string>& name, const std::vector<Body>& bodies);
+
+/// Adds a copy of `thing` for each body of the key `on`, named by the key `name`.
+template <class Thing>
+void on_each_body(const Record& record, Names& names, const std::vector<Body>& bodies, Thing thing,
+                  std::vector<Thing>& out) {
+  const auto on = bodies_on(record, "on", bodies);
+  const auto name = names.of(record, on.size());
+  for (std::size_t b = 0; b < on.size(); ++b) {
+    thing.name = name[b];
+    thing.body = on[b];
+    out.push_back(thing);
+  }
+}
 
 /// A file beside the scene.
 std::filesystem::path beside(const std::filesystem::path& scene, const std::string& relative);

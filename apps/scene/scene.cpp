@@ -172,13 +172,14 @@ void build_ask(const Record& ask, Scene& scene) {
 bool acts_one_way(const Scene& scene) {
   const auto axial = [](const Connector& c) {
     const auto* law = std::get_if<AxialConnector>(&c.kind);
-    return law != nullptr && (law->tension_only || !law->elongations.empty());
+    return law != nullptr && (law->tension_only || !law->table_x.empty());
   };
   const auto line = [&](const Line& l) {
     return l.tension_only && (l.fastened() || scene.solve.line_scheme == "generalized_alpha");
   };
   return std::any_of(scene.connectors.begin(), scene.connectors.end(), axial) ||
-         std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& j) { return j.pto && j.pto->stops; }) ||
+         std::any_of(scene.joints.begin(), scene.joints.end(),
+                     [](const Joint& j) { return j.pto && j.pto->has_stops(); }) ||
          std::any_of(scene.chains.begin(), scene.chains.end(), line);
 }
 
@@ -258,7 +259,7 @@ Scene ChangeableScene::with(const std::vector<OverriddenNumber>& numbers) const 
     scene.current_place = root.table("current").place();
   }
   Names names;
-  scene.probes = build_probes(root, names);
+  build_probes(root, names, scene);
   scene.bodies = build_bodies(root, file_, names);
   build_signals(root, names, scene);
   build_members(root, names, scene);
@@ -266,7 +267,7 @@ Scene ChangeableScene::with(const std::vector<OverriddenNumber>& numbers) const 
   build_moorings(root, names, scene);
   build_connectors(root, names, scene);
   build_contacts(root, names, scene);
-  build_joints(root, file_, names, scene);
+  build_joints(root, names, scene);
   build_elements(root, names, scene);
   check_bodies(root, scene);
   build_ask(root.table("ask"), scene);

@@ -3,6 +3,7 @@
 /// yet.
 ///
 /// What a scene does not name is absent here (an empty optional or list) and is never allocated later.
+/// Where libdynamics has a struct of what a table says, it stands here; its points are seen from the bodies' origins.
 /// Values that can still turn out wrong when data files are opened keep their Place in the scene file.
 #include <Eigen/Core>
 
@@ -18,6 +19,13 @@
 #include <variant>
 #include <vector>
 
+#include "dynamics/control/dominant_period.hpp"
+#include "dynamics/force/connector.hpp"
+#include "dynamics/force/contact_law.hpp"
+#include "dynamics/force/force_law.hpp"
+#include "dynamics/force/restoring.hpp"
+#include "dynamics/joint/joint.hpp"
+#include "dynamics/line/catenary.hpp"
 #include "hydro/base/types.hpp"
 #include "hydro/waves/focus.hpp"
 #include "hydro/waves/sea.hpp"
@@ -114,9 +122,9 @@ struct Point {
   bool position = false, velocity = false, acceleration = false, air_gap = false;
 };
 
-/// `[[relative_motion]]`: of two points of bodies, or of one and the ground.
-struct RelativeMotion {
-  std::string name;
+/// Two points: of a body, and of another or of the ground.
+struct PointPair {
+  std::string name;                       ///< "connector1" … unless named; repeated ones get a number
   int first;                              ///< index of a body
   std::optional<int> second;              ///< index of a body; empty: the ground
   Eigen::Vector3d first_end, second_end;  ///< body axes; global axes for the ground
@@ -246,21 +254,12 @@ struct Member {
   Place place;
 };
 
-/// `[[mooring]]`, kind = "linear": stiffness and damping about the body's origin.
-struct Mooring {
-  std::string name;
-  int body;
-  Eigen::Matrix<double, 6, 6> stiffness, damping;  ///< symmetric
-  Place place;
-};
-
 /// `[[mooring]]`, kind = "catenary": one line from a body to the ground.
 struct CatenaryLine {
   std::string name;
   int body;
-  Eigen::Vector3d fairlead, anchor;                           ///< body axes; global, m
-  double length, mass_per_length, diameter, axial_stiffness;  ///< m, kg/m, m, N
-  bool on_bed;  ///< the anchor lies on the bed, on which the line may rest
+  Eigen::Vector3d fairlead, anchor;  ///< body axes; global, m
+  dynamics::LineProperties line;
   struct Table {
     double reach;      ///< m, of the fairlead from rest, horizontally and vertically
     double tolerance;  ///< of the largest pull
@@ -361,61 +360,21 @@ struct Line {
   Place place;
 };
 
-/// `[connector.switch]`: the stiffness by the period that dominates a motion.
-struct StiffnessSwitch {
+/// `[connector.switch]`: the stiffness by the period that dominates a motion, which `signal` is made of later.
+struct StiffnessSwitch : dynamics::PeriodSwitching {
   int body;
-  hydro::Mode mode;      ///< of the body's origin from rest: what is watched
-  double every, window;  ///< s
-  double hysteresis;     ///< rad/s
-  double dwell;          ///< s
-  struct Setting {
-    double from, stiffness;  ///< s, N/m
-  };
-  std::vector<Setting> settings;
+  hydro::Mode mode;  ///< of the body's origin from rest: what is watched
 };
 
-struct AxialConnector {
-  double stiffness = 0, damping = 0;          ///< N/m, N s/m
-  double cubic = 0, quadratic_damping = 0;    ///< N/m³, N s²/m²
-  std::vector<double> elongations, tensions;  ///< of a table instead of stiffness and cubic, m and N
-  bool tension_only = false;                  ///< kind = "cable"
-  std::optional<double> rest_length;          ///< m; empty: as placed
-  std::optional<StiffnessSwitch> switching;
-};
-struct BushingConnector {
-  Eigen::Vector3d stiffness, damping;                        ///< along the axes of the first body, N/m, N s/m
-  Eigen::Vector3d rotational_stiffness, rotational_damping;  ///< N m/rad, N m s/rad
+/// The law of a connector along the line between its ends.
+struct AxialConnector : dynamics::LineLaw {
+  std::optional<double> rest_length = {};  ///< m; empty: as placed
+  std::optional<StiffnessSwitch> switching = {};
 };
 
-/// `[[connector]]`: joins a point of one body to a point of another, or to the ground.
-struct Connector {
-  std::string name;                       ///< "connector1" … unless named; repeated ones get a number
-  int first;                              ///< index of a body
-  std::optional<int> second;              ///< index of a body; empty: the ground
-  Eigen::Vector3d first_end, second_end;  ///< body axes; global axes for the ground
-  std::variant<AxialConnector, BushingConnector> kind;
-  Place place;
-};
-
-/// A cylinder with round ends; a ball where both are one point. Body axes, of the ground global.
-struct ContactRod {
-  Eigen::Vector3d from, to;
-  double radius;  ///< m
-};
-struct ContactPlane {
-  Eigen::Vector3d at, normal;  ///< out of the body, unit
-};
-struct ContactBox {
-  Eigen::Vector3d centre, half;  ///< half of its sides, along the body's axes
-};
-/// `[[contact]]`: shapes of two bodies that touch and part.
-struct Contact {
-  std::string name;  ///< "contact1" … unless named; repeated ones get a number
-  int first;
-  std::optional<int> second;  ///< empty: the ground
-  ContactRod on_first;
-  std::variant<ContactRod, ContactPlane, ContactBox> on_second;
-  double restitution, friction;
+/// `[[connector]]`: joins two points. A bushing keeps stiffness and damping only: ends, offset and name are the pair's.
+struct Connector : PointPair {
+  std::variant<AxialConnector, dynamics::BushingConnector> kind;
   Place place;
 };
 
@@ -431,28 +390,21 @@ struct JointPrescribedMotion {
   std::vector<double> time, coordinate;       ///< of a record: s, m or rad
 };
 
-enum class JointKind { fixed, hinge, universal, ball, slider, planar };
-
 /// `[joint.pto]`: against the stroke of a slider (m, N) or the angle of a hinge (rad, N m), zero at rest.
-struct Pto {
-  double stiffness = 0, cubic = 0, damping = 0, quadratic_damping = 0, preload = 0;
-  std::optional<double> force_limit;
-  struct Stops {
-    std::optional<double> lower, upper;
-    double stiffness, damping;
-  };
-  std::optional<Stops> stops;
-  std::optional<double> latch;  ///< s: holds that long wherever it comes to rest
+struct Pto : dynamics::PtoLaw {
+  std::optional<double> latch = {};  ///< s: holds that long wherever it comes to rest
   /// False if there is nothing but a latch.
   bool has_force() const {
-    return stiffness != 0 || cubic != 0 || damping != 0 || quadratic_damping != 0 || preload != 0 || stops;
+    return line.stiffness != 0 || line.cubic != 0 || line.damping != 0 || line.quadratic_damping != 0 || preload != 0 ||
+           has_stops();
   }
+  bool has_stops() const { return lower || upper; }
 };
 
 /// `[[joint]]`: described where the bodies are at rest.
 struct Joint {
   std::string name;  ///< "joint1" … unless named; repeated ones get a number
-  JointKind kind;
+  dynamics::JointKind kind;
   std::optional<int> first, second;  ///< indices of bodies; one may be empty: the ground
   Eigen::Vector3d at;                ///< global, m
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX(), second_axis = Eigen::Vector3d::UnitY();  ///< global, any length
@@ -528,11 +480,11 @@ struct Scene {
   std::vector<Probe> probes;
   std::vector<Body> bodies;
   std::vector<Point> points;
-  std::vector<RelativeMotion> relative_motions;
+  std::vector<PointPair> relative_motions;
   std::vector<Member> members;
-  std::vector<Mooring> moorings;
+  std::vector<dynamics::Restoring> moorings;  ///< about the bodies' origins
   std::vector<CatenaryLine> lines;
-  std::vector<Contact> contacts;
+  std::vector<dynamics::Contact> contacts;  ///< shapes from the bodies' origins
   std::vector<Junction> junctions;
   std::vector<Line> chains;                        ///< [[line]]
   std::vector<std::vector<std::size_t>> networks;  ///< of `chains`: those that meet; most are of one

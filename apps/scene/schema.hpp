@@ -92,6 +92,7 @@ Key number(std::string name, std::string meaning);
 Key integer(std::string name, std::string meaning);
 Key effect(std::string name, std::string meaning);
 Key quantity(std::string name, const hydro::Dimension& dimension, std::string meaning);
+Key positive(std::string name, const hydro::Dimension& dimension, std::string meaning);  ///< a quantity above zero
 Key vector(std::string name, const hydro::Dimension& dimension, std::string meaning);
 Key points(std::string name, std::string meaning);
 Key ends(std::string name, std::string meaning);

@@ -5,16 +5,13 @@
 #include <stdexcept>
 
 #include "hydro/potential/check.hpp"
+#include "scene/build.hpp"
 #include "scene/element.hpp"
 #include "scene/schema.hpp"
 #include "scene/schema_ask.hpp"
-#include "scene/schema_connections.hpp"
-#include "scene/schema_contact.hpp"
-#include "scene/schema_joint.hpp"
 #include "scene/schema_line.hpp"
 #include "scene/schema_members.hpp"
 #include "scene/schema_modes.hpp"
-#include "scene/schema_signals.hpp"
 #include "scene/schema_waves.hpp"
 
 namespace froude::scene {

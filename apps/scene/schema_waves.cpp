@@ -219,17 +219,6 @@ const Table& current_table() {
   return table;
 }
 
-const Table& probe_table() {
-  static const Table table{
-      .title = "[[probe]]",
-      .meaning = "a point that stays where it is, at which the water is told",
-      .keys = {name_key("probe", "of the probe"), vector("at", dim::length, "global, z up from still water"),
-               texts("gives", "what is told there")
-                   .one_of({"elevation", "velocity", "acceleration", "pressure"})
-                   .or_default("elevation", "the height of the surface above the point")}};
-  return table;
-}
-
 const Table& ask_waves_table() {
   static const Table table{
       .title = "[ask.waves]",

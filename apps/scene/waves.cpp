@@ -239,19 +239,4 @@ hw::Current build_current(const Record& current, const std::filesystem::path& fi
   return placed(current["file"].place, [&] { return hw::Current::profile(table.column("z", dim::length), velocity); });
 }
 
-std::vector<Probe> build_probes(const Record& root, Names& names) {
-  std::vector<Probe> out;
-  for (const Record& p : root.tables("probe")) {
-    Probe probe{.name = names.of(p, 1).front(), .at = p.vector("at"), .place = p.place()};
-    for (const auto& what : p["gives"].texts) {
-      if (what.value == "elevation") probe.elevation = true;
-      if (what.value == "velocity") probe.velocity = true;
-      if (what.value == "acceleration") probe.acceleration = true;
-      if (what.value == "pressure") probe.pressure = true;
-    }
-    out.push_back(std::move(probe));
-  }
-  return out;
-}
-
 }  // namespace froude::scene

@@ -79,7 +79,7 @@ scene::Scene scene_of(const Folders& folders, const Quantities& p, const Conditi
   top.centre_of_gravity.z() = -p.at("cog_1");
   top.inertia = p.at("inertia_1_about_cog") * Eigen::Matrix3d::Identity();
   scene.joints.at(0).at.z() = upper;
-  scene.joints.at(0).pto->damping = p.at("damping_1");
+  scene.joints.at(0).pto->line.damping = p.at("damping_1");
   scene.joints.at(1).friction.reset();
   if (c.torque > 0) scene.joints.at(1).friction = scene::JointFriction{c.torque, 0.81 * c.torque};
   std::get<scene::FocusedPackets>(scene.waves->kind).focus.x_m = c.focus - pendulum_at;

@@ -127,7 +127,7 @@ TEST(SceneConnectors, MayBeBushings) {
       "[[connector]]\nbetween = [\"m1\", \"m2\"]\nends = [\"(6.5, 0, 0) m\", \"(-6.5, 0, 0) m\"]\nkind = \"bushing\"\n";
   const Scene scene = parse(
       connected(lines + "stiffness = \"(1, 2, 0) kN/m\"\nrotational_damping = \"(0, 3, 0) N m s/rad\""), "scene.toml");
-  const auto& bushing = std::get<BushingConnector>(scene.connectors.at(0).kind);
+  const auto& bushing = std::get<dynamics::BushingConnector>(scene.connectors.at(0).kind);
   EXPECT_EQ(bushing.stiffness, Eigen::Vector3d(1000, 2000, 0));
   EXPECT_EQ(bushing.damping, Eigen::Vector3d::Zero());
   EXPECT_EQ(bushing.rotational_damping, Eigen::Vector3d(0, 3, 0));

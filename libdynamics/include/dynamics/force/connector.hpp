@@ -29,9 +29,11 @@ struct AxialConnector {
 /// end seen from the first body, ψ the rotation vector of the second body seen from the first.
 struct BushingConnector {
   Ends ends;
-  Eigen::Vector3d stiffness, damping;                        ///< N/m, N s/m
-  Eigen::Vector3d rotational_stiffness, rotational_damping;  ///< N m/rad, N m s/rad
-  Eigen::Vector3d rest_offset;  ///< of the second end from the first at rest, first body's axes, m
+  Eigen::Vector3d stiffness = Eigen::Vector3d::Zero(), damping = Eigen::Vector3d::Zero();  ///< N/m, N s/m
+  Eigen::Vector3d rotational_stiffness = Eigen::Vector3d::Zero(),
+                  rotational_damping = Eigen::Vector3d::Zero();  ///< N m/rad, N m s/rad
+  Eigen::Vector3d rest_offset =
+      Eigen::Vector3d::Zero();  ///< of the second end from the first at rest, first body's axes, m
   std::string name = {};
 };
 

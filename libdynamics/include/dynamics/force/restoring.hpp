@@ -11,8 +11,8 @@ namespace dynamics {
 /// conserves energy at any rotation below a full turn and is C δ for small ones.
 struct Restoring {
   int body;
-  Matrix6 stiffness;                  ///< C about the centre of gravity, symmetric
-  Matrix6 damping = Matrix6::Zero();  ///< D about the centre of gravity
+  Matrix6 stiffness = Matrix6::Zero();  ///< C about the centre of gravity, symmetric
+  Matrix6 damping = Matrix6::Zero();    ///< D about the centre of gravity
   double lift = 0;  ///< N, a constant force upwards at the centre of gravity: buoyancy less weight of a body that
                     ///< others hold at its draught
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< N m at rest about the centre of gravity, of a constant force
