@@ -10,7 +10,11 @@
 ///
 /// From it come the schema, its documentation, errors and echo (table()), and the reader (read()). A binding is kept as
 /// a static of a function: tables refer to those within them.
+#include <fmt/format.h>
+
+#include <array>
 #include <concepts>
+#include <filesystem>
 #include <functional>
 #include <type_traits>
 #include <utility>
@@ -57,6 +61,13 @@ void put(const Value& from, M& to) {
     to = from.range;
   } else if constexpr (std::same_as<M, hydro::Angle>) {
     to = hydro::Angle::from_radians(from.number);
+  } else if constexpr (std::same_as<M, hydro::WaterDepth>) {
+    to = from.text.empty() ? hydro::WaterDepth::from_metres(from.number) : hydro::WaterDepth::infinite();
+  } else if constexpr (std::same_as<M, std::filesystem::path>) {
+    to = beside(from.place.file, from.text);
+  } else if constexpr (std::same_as<M, std::array<bool, 6>>) {
+    to.fill(false);  // of the six modes, those that are named
+    for (const auto& mode : from.texts) to[static_cast<std::size_t>(hydro::parse_mode(mode.value))] = true;
   } else {
     static_assert(std::same_as<M, std::vector<std::string>>, "no value of a scene is held by this type");
     to.assign(from.texts.begin(), from.texts.end());
@@ -71,12 +82,19 @@ class Binding {
   Binding(std::string title, std::string meaning)
       : table_{.title = std::move(title), .meaning = std::move(meaning), .keys = {}} {}
 
-  /// A key and the member that takes its value, in SI. The member keeps what it was made with where the key is not
-  /// there.
-  template <class M>
-  Binding& key(Key key, M T::*member) {
+  /// A key and the member, of T or of a base, that takes its value, in SI. The member keeps what it was made with where
+  /// the key is not there.
+  template <class M, class B>
+  requires std::derived_from<T, B> Binding& key(Key key, M B::*member) {
     return add(std::move(key), [member](const Value& value, T& out) { detail::put(value, out.*member); });
   }
+  /// The same of a member's member.
+  template <class I, class M>
+  Binding& key(Key key, I T::*outer, M I::*member) {
+    return add(std::move(key), [=](const Value& value, T& out) { detail::put(value, out.*outer.*member); });
+  }
+  /// A key and what is done with its value, where it is there.
+  Binding& key(Key key, std::function<void(const Value&, T&)> put) { return add(std::move(key), std::move(put)); }
   /// A key that a reader or check of the caller's own looks up in the record.
   Binding& key(Key key) {
     table_.keys.push_back(std::move(key));
@@ -104,11 +122,11 @@ class Binding {
           if (given.value == word) out.*member = true;
     });
   }
-  /// A table within this one, needed.
+  /// A table within this one, needed. A member that other keys fill too keeps what they gave.
   template <class I>
   Binding& table(const std::string& name, const Binding<I>& inner, I T::*member) {
     return add(inner_table(name, inner.table()),
-               [&inner, member](const Value& value, T& out) { out.*member = inner.read(value.records.front()); });
+               [&inner, member](const Value& value, T& out) { inner.read_into(value.records.front(), out.*member); });
   }
   /// A table within this one, which may be left out.
   template <class I>
@@ -116,12 +134,26 @@ class Binding {
     return add(inner_table(name, inner.table()).optional(),
                [&inner, member](const Value& value, T& out) { out.*member = inner.read(value.records.front()); });
   }
-  /// As many tables as there are.
-  template <class I>
-  Binding& tables(const std::string& name, const Binding<I>& inner, std::vector<I> T::*member) {
+  /// The same, whose keys are read into this very struct, or into a base of it.
+  template <class B>
+  requires std::derived_from<T, B> Binding& table(const std::string& name, const Binding<B>& inner) {
+    return add(inner_table(name, inner.table()).optional(),
+               [&inner](const Value& value, T& out) { inner.read_into(value.records.front(), out); });
+  }
+  /// As many tables as there are, one at least.
+  template <class I, class B>
+  requires std::derived_from<T, B> Binding& tables(const std::string& name, const Binding<I>& inner,
+                                                   std::vector<I> B::*member) {
     return add(inner_tables(name, inner.table()), [&inner, member](const Value& value, T& out) {
       for (const Record& record : value.records) (out.*member).push_back(inner.read(record));
     });
+  }
+  /// Keys of this table, and rules between them, that a member is read from.
+  template <class I, class M, class B>
+  requires std::derived_from<T, B> Binding& part(const Binding<I>& of, M B::*member) {
+    keys(of.table().keys);
+    for (const Group& one : of.table().groups) table_.groups.push_back(one);
+    return then([of, member](const Record& record, T& out) { out.*member = of.read(record); });
   }
   /// Where the table stands.
   Binding& place(Place T::*member) {
@@ -131,10 +163,22 @@ class Binding {
   Binding& exactly_one_of(std::vector<std::string> keys) { return group(Group::Count::exactly_one, std::move(keys)); }
   Binding& at_most_one_of(std::vector<std::string> keys) { return group(Group::Count::at_most_one, std::move(keys)); }
   Binding& at_least_one_of(std::vector<std::string> keys) { return group(Group::Count::at_least_one, std::move(keys)); }
+  /// The last key may be left out; its member then stays as it was made.
+  Binding& optional() {
+    table_.keys.back().optional();
+    return *this;
+  }
   /// The last key only where one of these others is given.
   Binding& only_beside(std::vector<std::string> others) {
     table_.keys.back().only_beside_one_of(std::move(others));
     return *this;
+  }
+  /// The last key, an integer, up to this.
+  Binding& at_most(std::int64_t most) {
+    return then([name = table_.keys.back().name, most](const Record& record, T&) {
+      if (record.has(name) && record[name].integer > most)
+        throw record.wrong(name, fmt::format("is more than {}", most));
+    });
   }
 
   /// What the keys one by one cannot know: called with the record and what was read of it. \throws hydro::InputError
@@ -146,7 +190,7 @@ class Binding {
   /// Further keys for one word of `kind`, the key that must have been added, read into the same struct.
   Binding& variant(const std::string& word, const Binding<T>& of) {
     add_variant(word, of.table());
-    return then([word, &of](const Record& record, T& out) {
+    return then([word, of](const Record& record, T& out) {
       if (record.text("kind") == word) of.read_into(record, out);
     });
   }
@@ -154,7 +198,7 @@ class Binding {
   template <class V, class... All>
   Binding& variant(const std::string& word, const Binding<V>& of, std::variant<All...> T::*member) {
     add_variant(word, of.table());
-    return then([word, &of, member](const Record& record, T& out) {
+    return then([word, of, member](const Record& record, T& out) {
       if (record.text("kind") == word) out.*member = of.read(record);
     });
   }
