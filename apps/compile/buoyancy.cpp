@@ -21,8 +21,8 @@ Shapes shapes_of(const scene::Buoyancy& given, std::vector<std::string>& notes) 
   const auto add = [&](FloatingShape shape) {
     shapes.push_back(std::make_shared<const FloatingShape>(std::move(shape)));
   };
-  for (const auto& c : given.cylinders) add(hh::CircularCylinder{c.from, c.to, c.radius});
-  for (const auto& s : given.spheres) add(hh::Sphere{s.at, s.radius});
+  for (const auto& cylinder : given.cylinders) add(cylinder);
+  for (const auto& sphere : given.spheres) add(sphere);
   if (!given.mesh) return shapes;
   try {
     hh::Hull hull = read_hull(given);

@@ -14,10 +14,9 @@ using scene::Scene;
 const scene::Body& body_of(const Scene& scene, int body) { return scene.bodies[static_cast<std::size_t>(body)]; }
 
 hydro::cylinders::CylinderBody as_cylinders(const scene::Body& body) {
-  hydro::cylinders::CylinderBody out{body.name, body.position, body.position + body.centre_of_gravity, {}};
-  for (const scene::Cylinders::Equal& type : body.hydrodynamics->cylinders->types)
-    for (const Eigen::Vector3d& at : type.at)
-      out.cylinders.push_back({(body.position + at).head<2>(), type.diameter / 2, type.draught, type.top});
+  hydro::cylinders::CylinderBody out{body.name, body.position, body.position + body.centre_of_gravity,
+                                     body.hydrodynamics->cylinders->all};
+  for (hydro::cylinders::Cylinder& c : out.cylinders) c.centre += body.position.head<2>();
   return out;
 }
 

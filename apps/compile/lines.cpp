@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <span>
 
 #include "compile/compile.hpp"
@@ -21,38 +20,11 @@ namespace dl = dynamics::line;
 using hydro::InputError;
 using scene::Scene;
 
-/// A layer t around a diameter D adds ρ π t (D + t) per length, spread as the rest is. (D100)
-void grow(const scene::Line::Growth& growth, dl::Segment& s) {
-  const double before = s.mass, t = growth.thickness;
-  s.mass += growth.density * std::numbers::pi * t * (s.diameter + t) * s.length;
-  s.inertia *= s.mass / before;
-  s.diameter += 2 * t;
-}
-
-/// `middle`: of the link, along the line, m.
-dl::Segment segment(const scene::Line& l, const scene::Line::Link& link, double middle) {
-  dl::Segment s{.length = link.length, .mass = link.mass, .centre = link.centre, .inertia = link.inertia};
-  if (l.axial_stiffness) s.axial_stiffness = link.axial_stiffness.value_or(*l.axial_stiffness);
-  if (l.bending_stiffness) s.bending_stiffness = link.bending_stiffness.value_or(*l.bending_stiffness);
-  s.axial_damping = l.axial_damping;
-  s.tension_only = l.tension_only;
-  s.catenary = l.catenary_segments;
-  s.diameter = link.diameter.value_or(l.diameter);
-  if (l.growth && middle > l.growth->from && middle < l.growth->to) grow(*l.growth, s);
-  if (l.morison) {
-    s.cd = l.morison->cd;
-    s.ca = l.morison->ca;
-    s.cd_tangential = l.morison->cd_tangential;
-  }
-  return s;
-}
-
-dl::Held end(const scene::Line& l, int node, bool first) {
-  dl::Held out{.node = node};
-  if (const auto& clamp = first ? l.clamp_from : l.clamp_to) out.clamp = *clamp;
+dl::Held held(const scene::Line& l, bool first) {
+  dl::Held out{.node = first ? 0 : l.last_node(), .clamp = l.end(first).clamp};
   if (!l.prescribed || l.prescribed->first != first) return out;
   out.path = std::make_shared<dl::SplinePath>(l.prescribed->time, l.prescribed->place);
-  const Eigen::Vector3d begins = out.path->at(0).position, stands = first ? l.from : *l.to;
+  const Eigen::Vector3d begins = out.path->at(0).position, stands = *l.end(first).at;
   if ((begins - stands).norm() > 1e-3)  // m: what a table of a path is rounded to
     throw InputError(fmt::format("the path of \"{}\" is at ({:.4g}, {:.4g}, {:.4g}) m at t = 0, its end at ({:.4g}, "
                                  "{:.4g}, {:.4g}) m",
@@ -63,32 +35,22 @@ dl::Held end(const scene::Line& l, int node, bool first) {
 
 /// One line by itself; ends that meet something are free, and what is there is the other's.
 dl::Description chain(const Scene& scene, const scene::Line& l, std::shared_ptr<const hydro::waves::WaveField> field) {
-  dl::Description d;
-  const int last = static_cast<int>(l.links.size());
-  d.nodes.assign(l.links.size() + 1, dl::Node{.mass = l.node_mass});
-  if (l.damping)
-    for (dl::Node& n : d.nodes) {
-      n.damping = l.damping->linear;
-      n.quadratic_damping = l.damping->quadratic;
+  dl::Description d{.nodes = std::vector<dl::Node>(l.segments.size() + 1, l.node),
+                    .segments = l.segments,
+                    .held = {},
+                    .gravity = scene.water.gravity,
+                    .water = l.water,
+                    .componentwise_damping = l.componentwise_damping};
+  for (const bool first : {true, false}) {
+    dl::Node& node = first ? d.nodes.front() : d.nodes.back();
+    if (l.end(first).at) {
+      d.held.push_back(held(l, first));
+      node.mass = 0;
     }
-  d.componentwise_damping = l.damping && l.damping->componentwise;
-  double along = 0;
-  for (const auto& link : l.links) {
-    d.segments.push_back(segment(l, link, along + link.length / 2));
-    along += link.length;
+    if (l.end(first).meets) node = {};
   }
-  d.nodes.front().mass = 0;
-  if (!l.from_meets) d.held.push_back(end(l, 0, true));
-  if (l.to) {
-    d.held.push_back(end(l, last, false));
-    d.nodes.back().mass = 0;
-  }
-  if (l.from_meets) d.nodes.front() = {};
-  if (l.to_meets) d.nodes.back() = {};
-  d.gravity = scene.water.gravity;
-  if (l.bed) d.bed.push_back({-scene.water.depth.metres(), l.bed->stiffness, l.bed->damping, l.bed->friction});
-  if (l.morison || l.buoyancy)
-    d.water = {std::move(field), l.partial_immersion ? dl::Wet::below_surface : dl::Wet::all, l.buoyancy};
+  if (l.bed) d.bed.push_back(*l.bed);
+  if (l.water.wet != dl::Wet::nothing) d.water.field = std::move(field);
   return d;
 }
 
@@ -105,9 +67,9 @@ Meetings meetings(const Scene& scene, const std::vector<std::size_t>& network, c
   std::map<std::size_t, std::vector<int>> at_junction;
   for (const std::size_t i : network)
     for (const bool begin : {true, false}) {
-      const auto& meets = begin ? scene.chains[i].from_meets : scene.chains[i].to_meets;
+      const auto& meets = scene.chains[i].end(begin).meets;
       if (!meets) continue;
-      const int own = first[i] + (begin ? 0 : static_cast<int>(scene.chains[i].links.size()));
+      const int own = first[i] + (begin ? 0 : scene.chains[i].last_node());
       if (meets->junction) {
         at_junction[*meets->junction].push_back(own);
         continue;
@@ -124,16 +86,6 @@ Meetings meetings(const Scene& scene, const std::vector<std::size_t>& network, c
     if (tie.size() > 1) out.ties.push_back(std::move(tie));
   }
   return out;
-}
-
-void put_at(const scene::Junction& j, dl::Node& node) {
-  node.mass += j.mass;
-  if (j.diameter == 0) return;
-  node.sphere = {.diameter = j.diameter,
-                 .cd = j.morison ? j.morison->cd : 0,
-                 .ca = j.morison ? j.morison->ca : 0,
-                 .wet = j.partial_immersion ? dl::Wet::below_surface : dl::Wet::all,
-                 .buoyancy = j.buoyancy};
 }
 
 /// Of lines that meet, with where each begins.
@@ -173,8 +125,8 @@ System description(const Scene& scene, const std::vector<std::size_t>& network,
                          .nodes = static_cast<int>(own.nodes.size()),
                          .first_segment = static_cast<int>(out.d.segments.size()),
                          .segments = static_cast<int>(own.segments.size()),
-                         .from_on_body = l.from_on.has_value(),
-                         .to_on_body = l.to_on.has_value(),
+                         .from_on_body = l.from.body.has_value(),
+                         .to_on_body = l.to.body.has_value(),
                          .snaps = l.snaps});
     append(own, i == network.front(), l.bed.has_value(), out.d);
     out.d.water = own.water;
@@ -182,8 +134,10 @@ System description(const Scene& scene, const std::vector<std::size_t>& network,
   Meetings meet = meetings(scene, network, first);
   out.d.ties = std::move(meet.ties);
   for (std::size_t k = 0; k < meet.knots.size(); ++k) {
-    put_at(*meet.junctions[k], out.d.nodes[static_cast<std::size_t>(meet.knots[k].node)]);
-    if (meet.junctions[k]->diameter > 0) out.d.water.field = field;
+    dl::Node& node = out.d.nodes[static_cast<std::size_t>(meet.knots[k].node)];
+    node.mass += meet.junctions[k]->mass;
+    node.sphere = meet.junctions[k]->sphere;
+    if (node.sphere.diameter > 0) out.d.water.field = field;
   }
   out.knots = std::move(meet.knots);
   return out;
@@ -193,18 +147,19 @@ System description(const Scene& scene, const std::vector<std::size_t>& network,
 /// digits, and a single link reaches one distance only.
 Eigen::Vector3d reached(const scene::Line& l) {
   constexpr double written = 1e-3;  // of the way, that a place may be off
-  const Eigen::Vector3d way = l.release->at - l.from;
+  const Eigen::Vector3d& from = *l.from.at;
+  const Eigen::Vector3d way = l.release->at - from;
   double reach = 0;
-  for (int j = 0; j < l.release->node; ++j) reach += l.links[static_cast<std::size_t>(j)].length;
-  const bool fixed = !l.axial_stiffness && (l.release->node == 1 || way.norm() > reach);
-  return fixed && std::abs(way.norm() - reach) <= written * reach ? Eigen::Vector3d(l.from + reach * way.normalized())
+  for (int j = 0; j < l.release->node; ++j) reach += l.segments[static_cast<std::size_t>(j)].length;
+  const bool fixed = l.common.is_inextensible() && (l.release->node == 1 || way.norm() > reach);
+  return fixed && std::abs(way.norm() - reach) <= written * reach ? Eigen::Vector3d(from + reach * way.normalized())
                                                                   : l.release->at;
 }
 
 std::string brought(const scene::Line& l) {
   constexpr double digits = 1e-6;  // of the way: not worth telling
   const double by = (reached(l) - l.release->at).norm();
-  return by > digits * (l.release->at - l.from).norm()
+  return by > digits * (l.release->at - *l.from.at).norm()
              ? fmt::format("the place of its release was brought by {:.2g} m to where its links reach", by)
              : "";
 }
@@ -220,8 +175,8 @@ dl::Places held_places(const Scene& scene, const std::vector<std::size_t>& netwo
   for (std::size_t k = 0; k < network.size(); ++k) {
     const scene::Line& l = scene.chains[network[k]];
     const LineModel::Part& part = system.parts[k];
-    out.col(part.first_node) = l.from;
-    if (l.to) out.col(part.first_node + part.nodes - 1) = *l.to;
+    if (l.from.at) out.col(part.first_node) = *l.from.at;
+    if (l.to.at) out.col(part.first_node + part.nodes - 1) = *l.to.at;
   }
   return out;
 }
@@ -240,9 +195,9 @@ dl::State at_rest(const Scene& scene, const std::vector<std::size_t>& network) {
                                              .velocity = dl::Places::Zero(3, line.nodes()),
                                              .tension = Eigen::VectorXd::Zero(line.segments())});
   // What is clamped and free beyond stands or hangs as it does: from straight down it might not turn over.
-  if (line.chains() == 1 && l.clamp_from && !l.to && !l.release && !l.to_meets)
+  if (line.chains() == 1 && !l.from.clamp.isZero(0) && !l.to.at && !l.release && !l.to.meets)
     for (int i = 1; i < line.nodes(); ++i)
-      guess.position.col(i) = guess.position.col(i - 1) + line.segment(i - 1).length * *l.clamp_from;
+      guess.position.col(i) = guess.position.col(i - 1) + line.segment(i - 1).length * l.from.clamp;
   return dl::equilibrium(line, guess);
 }
 
@@ -255,12 +210,10 @@ std::string range(const std::vector<double>& values) {
 /// Puts in what the table has for the waves that pass each segment in `places`, and tells it. (D104), (D105)
 std::string take_coefficients(const Scene& scene, const scene::Line& l, const RunWater& water, const dl::Places& places,
                               std::span<dl::Segment> segments) {
-  if (!l.morison || !l.morison->table) return "";
-  const auto& given = *l.morison->table;
+  if (!l.coefficients) return "";
+  const scene::Line::Coefficients& given = *l.coefficients;
   try {
-    std::vector<dl::CoefficientTable::Row> rows;
-    for (const auto& r : given.rows) rows.push_back({r.kc, r.re, r.cd, r.ca});
-    const dl::CoefficientTable table(std::move(rows));
+    const dl::CoefficientTable table(given.rows);
     const double ramp = scene.waves->ramp < scene.run->duration ? scene.waves->ramp : 0;
     const auto exposures = dl::exposure(*water.field, places, ramp, scene.run->duration);
     std::vector<double> kc, re, cd, ca;
@@ -277,7 +230,7 @@ std::string take_coefficients(const Scene& scene, const scene::Line& l, const Ru
                          "extend the table, or give cd and ca");
       }
     }
-    return fmt::format("C_D {}, C_A {} by {} at KC {}{}", range(cd), range(ca), given.file.string(), range(kc),
+    return fmt::format("C_D {}, C_A {} by {} at KC {}{}", range(cd), range(ca), given.file, range(kc),
                        table.knows_reynolds() ? ", Re " + range(re) : "");
   } catch (const InputError& e) {
     throw e.at(given.place);
@@ -311,13 +264,13 @@ dynamics::FastenedLine fastened_line(const Scene& scene, const std::vector<std::
   for (std::size_t k = 0; k < network.size(); ++k) {
     const scene::Line& l = scene.chains[network[k]];
     const LineModel::Part& part = still.parts[k];
-    const auto add = [&](int node, std::optional<int> body, const Eigen::Vector3d& at, const char* end) {
-      if (body)
-        out.ends.push_back({node, *body, at - scene.bodies[static_cast<std::size_t>(*body)].centre_of_gravity,
-                            fmt::format("{}.{}", l.name, end)});
-    };
-    add(part.first_node, l.from_on, l.from, "from");
-    if (l.to) add(part.first_node + part.nodes - 1, l.to_on, *l.to, "to");
+    for (const bool first : {true, false}) {
+      const scene::Line::End& end = l.end(first);
+      if (end.body)
+        out.ends.push_back({part.first_node + (first ? 0 : l.last_node()), *end.body,
+                            *end.at - scene.bodies[static_cast<std::size_t>(*end.body)].centre_of_gravity,
+                            fmt::format("{}.{}", l.name, first ? "from" : "to")});
+    }
   }
   return out;
 }

@@ -57,39 +57,32 @@ int needed_pieces(const Scene& scene, double length) {
   return static_cast<int>(pieces);
 }
 
-dynamics::SlenderMember slender(const Scene& scene, const scene::Member& m, dynamics::Immersion immersion,
-                                const std::optional<int>& pieces) {
+/// Where the member is on its body, cut as `asked` says or the accuracy needs.
+dynamics::SlenderMember slender(const Scene& scene, const scene::Member& m, const dynamics::SlenderMember& asked) {
   const Eigen::Vector3d centre = scene.bodies[static_cast<std::size_t>(m.body)].centre_of_gravity;
   return {m.body,
           m.from - centre,
           m.to - centre,
           m.diameter,
-          pieces ? *pieces : needed_pieces(scene, (m.to - m.from).norm()),
-          immersion};
+          asked.pieces > 0 ? asked.pieces : needed_pieces(scene, (m.to - m.from).norm()),
+          asked.immersion};
 }
 
 dynamics::MorisonMember morison(const Scene& scene, const scene::Member& m) {
-  using enum dynamics::Immersion;
-  const scene::Morison& load = *m.morison;
+  dynamics::MorisonMember out = *m.morison;
   const double height = scene.bodies[static_cast<std::size_t>(m.body)].position.z();
-  if (!load.partial && height + std::max(m.from.z(), m.to.z()) > 0)
+  if (out.line.immersion == dynamics::Immersion::whole && height + std::max(m.from.z(), m.to.z()) > 0)
     throw InputError(
         fmt::format("member \"{}\" reaches above still water, but would be loaded as if all of it were wet", m.name),
         m.place, "add partial_immersion = true to its morison, or end the member at still water");
-  const auto immersion = !load.partial ? whole : load.still ? still_water : surface;
-  return {slender(scene, m, immersion, load.pieces), load.cd, load.ca, load.cd_tangential};
+  out.line = slender(scene, m, out.line);
+  return out;
 }
 
 dynamics::SlammingMember slamming(const Scene& scene, const scene::Member& m) {
-  using enum hydro::waves::ImpactTheory;
-  using Model = scene::Slamming::Model;
-  using Begins = scene::Slamming::Begins;
-  const scene::Slamming& s = *m.slamming;
-  const auto theory = s.model == Model::goda ? goda : s.model == Model::wienke ? wienke_oumeraci : von_karman;
-  const auto begins = s.begins == Begins::underside ? dynamics::ImpactBegins::underside
-                      : s.begins == Begins::line    ? dynamics::ImpactBegins::line
-                                                    : dynamics::ImpactBegins::submerged;
-  return {slender(scene, m, dynamics::Immersion::surface, s.pieces), theory, begins, s.factor};
+  dynamics::SlammingMember out = *m.slamming;
+  out.line = slender(scene, m, out.line);
+  return out;
 }
 
 }  // namespace

@@ -92,10 +92,10 @@ Mover turning(const Prepared& p, const dynamics::State& start) {
 Mover snap(const Scene& scene) {
   Mover out;
   for (const scene::Line& l : scene.chains) {
-    if (!l.tension_only || !l.fastened()) continue;
+    if (!l.common.tension_only || !l.fastened()) continue;
     double compliance = 0, mobility = 0;
-    for (const auto& link : l.links) compliance += link.length / link.axial_stiffness.value_or(*l.axial_stiffness);
-    for (const auto& body : {l.from_on, l.to_on})
+    for (const auto& segment : l.segments) compliance += segment.length / segment.axial_stiffness;
+    for (const auto& body : {l.from.body, l.to.body})
       if (body) mobility += 1 / scene.bodies[static_cast<std::size_t>(*body)].mass;
     if (const double omega = std::sqrt(mobility / compliance); omega > out.omega)
       out = {omega, fmt::format("line {} where it is drawn taut, {:.4g} s", l.name, 2 * std::numbers::pi / omega)};

@@ -1,14 +1,127 @@
+/// \file  `[[body]]`: rigid bodies, how they begin, and what they show the water.
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "hydro/base/dense.hpp"
+#include "scene/binding.hpp"
 #include "scene/build.hpp"
 
 namespace froude::scene {
 namespace {
 
-using hydro::Mode;
+namespace dim = hydro::dim;
+namespace hh = hydro::hydrostatics;
+
+/// `copies`.
+struct Copies {
+  int count = 0;
+  Eigen::Vector3d step = Eigen::Vector3d::Zero();  ///< m
+};
+
+const Binding<Copies>& copies() {
+  static const Binding<Copies> binding =
+      Binding<Copies>("[body.copies]", "makes name1, name2, … of one description")
+          .key(integer("count", "number of bodies").within(Limit::at_least_one), &Copies::count)
+          .at_most(100'000)
+          .key(vector("step", dim::length, "from each body to the next"), &Copies::step);
+  return binding;
+}
+
+using ByMode = std::map<hydro::Mode, double>;
+
+/// One key for each mode, a length or an angle over `per`, of which one acts at least.
+Binding<ByMode> by_mode(const std::string& title, const std::string& meaning, const hydro::Dimension& per,
+                        const std::string& what) {
+  Binding<ByMode> binding(title, meaning);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const auto mode = static_cast<hydro::Mode>(i);
+    const auto dimension = (hydro::is_rotation(mode) ? dim::angle : dim::length) / per;
+    binding.key(quantity(std::string(hydro::mode_names[i]), dimension, what + " in " + si_unit(dimension)).optional(),
+                [mode](const Value& value, ByMode& out) { out[mode] = value.number; });
+  }
+  return binding.at_least_one_of({hydro::mode_names.begin(), hydro::mode_names.end()});
+}
+
+const Binding<ByMode>& initial() {
+  static const Binding<ByMode> binding =
+      by_mode("[body.initial]",
+              "displacement from rest at t = 0, of the body's origin; turned by yaw first, then pitch, then roll, as "
+              "records tell it",
+              dim::none, "displacement");
+  return binding;
+}
+
+const Binding<ByMode>& initial_velocity() {
+  static const Binding<ByMode> binding =
+      by_mode("[body.initial_velocity]", "velocity at t = 0, of the body's origin; angular velocity along global axes",
+              dim::time, "velocity");
+  return binding;
+}
+
+using HullCylinders = std::vector<hh::CircularCylinder>;
+
+/// One for each pair of ends.
+void read_hull_cylinders(const Record& record, HullCylinders& out) {
+  const auto &from = record["from"].points.front(), &to = record["to"].points.front();
+  if (from.size() != to.size())
+    throw record.wrong("to", fmt::format("gives {} points, `from` gives {}", to.size(), from.size()),
+                       "each cylinder needs both ends");
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    if ((to[i] - from[i]).norm() <= 1e-9 * record.si("diameter"))
+      throw record.wrong("to", "is where the cylinder begins", "give the middle of the other end");
+    out.push_back({from[i], to[i], record.si("diameter") / 2});
+  }
+}
+
+const Binding<HullCylinders>& hull_cylinders() {
+  static const Binding<HullCylinders> binding =
+      Binding<HullCylinders>("[body.buoyancy.cylinders]", "circular cylinders with flat ends, exact without a mesh")
+          .key(points("from", "middle of one end, body axes; each ± makes two cylinders"))
+          .key(points("to", "middle of the other end, body axes; as many as `from`, taken in pairs"))
+          .key(quantity("diameter", dim::length, "of each").positive())
+          .then(read_hull_cylinders);
+  return binding;
+}
+
+const Binding<std::vector<hh::Sphere>>& hull_spheres() {
+  static const Binding<std::vector<hh::Sphere>> binding =
+      Binding<std::vector<hh::Sphere>>("[body.buoyancy.spheres]", "spheres, exact without a mesh")
+          .key(points("at", "centres, body axes; each ± makes two"))
+          .key(quantity("diameter", dim::length, "of each").positive())
+          .then([](const Record& record, std::vector<hh::Sphere>& out) {
+            for (const Eigen::Vector3d& at : record["at"].points.front())
+              out.push_back({at, record.si("diameter") / 2});
+          });
+  return binding;
+}
+
+const Binding<Buoyancy>& buoyancy() {
+  static const Binding<Buoyancy> binding =
+      Binding<Buoyancy>("[body.buoyancy]",
+                        "load of still water on the hull as it is: exact at any pose in a run, its derivative at rest "
+                        "in responses and modes; the hull is all that is named here")
+          .key(text("mesh", "of the hull in body axes, relative to the scene: STL, OBJ or GDF").optional(),
+               &Buoyancy::mesh)
+          .key(quantity("unit", dim::length, "what one unit of the mesh is; left out: metres, or what the file says")
+                   .positive()
+                   .optional()
+                   .only_beside("mesh"),
+               &Buoyancy::unit)
+          .key(quantity("freeboard", dim::length,
+                        "height of walls drawn straight up from the rim of an open mesh, with a deck on them")
+                   .positive()
+                   .optional()
+                   .only_beside("mesh"),
+               &Buoyancy::freeboard)
+          .table("cylinders", hull_cylinders(), &Buoyancy::cylinders)
+          .optional()
+          .table("spheres", hull_spheres(), &Buoyancy::spheres)
+          .optional()
+          .at_least_one_of({"mesh", "cylinders", "spheres"})
+          .place(&Buoyancy::place);
+  return binding;
+}
 
 /// Data are mostly rounded to three or four digits, and a flat plate meets the bound exactly.
 constexpr double inertia_rounding = 1e-3;
@@ -28,8 +141,6 @@ void check_inertia(const Record& record, std::string_view key, const Eigen::Matr
                     principal[0], principal[1], principal[2], inertia_rounding),
         "check the order of the components and the unit");
 }
-
-bool any_rotation(const std::array<bool, 6>& free) { return free[3] || free[4] || free[5]; }
 
 Eigen::Matrix3d read_inertia(const Record& record, double mass, bool needed) {
   Eigen::Matrix3d inertia = mass * Eigen::Matrix3d::Identity();
@@ -53,136 +164,6 @@ Eigen::Matrix3d read_inertia(const Record& record, double mass, bool needed) {
   return inertia;
 }
 
-std::array<bool, 6> read_mode_list(const Record& record, std::string_view key) {
-  std::array<bool, 6> named{};
-  for (const auto& word : record[key].texts) named[static_cast<std::size_t>(hydro::parse_mode(word.value))] = true;
-  return named;
-}
-
-std::map<Mode, double> read_modes(const Record& body, std::string_view key, const std::array<bool, 6>& free) {
-  std::map<Mode, double> out;
-  if (!body.has(key)) return out;
-  const Record& table = body.table(key);
-  for (std::size_t i = 0; i < 6; ++i) {
-    const std::string_view mode = hydro::mode_names[i];
-    if (!table.has(mode)) continue;
-    if (!free[i]) throw table.wrong(mode, "moves a mode that is held", "add the mode to `free`, or leave it out here");
-    out[static_cast<Mode>(i)] = table.si(mode);
-  }
-  return out;
-}
-
-int small_integer(const Record& record, std::string_view key, std::int64_t most) {
-  const std::int64_t value = record[key].integer;
-  if (value > most) throw record.wrong(key, fmt::format("is more than {}", most));
-  return static_cast<int>(value);
-}
-
-Memory read_memory(const Record& radiation) {
-  using enum Memory::Method;
-  static const std::map<std::string, Memory::Method, std::less<>> methods{{"automatic", automatic},
-                                                                          {"direct", direct},
-                                                                          {"partitioned", partitioned},
-                                                                          {"poles", poles},
-                                                                          {"constant", constant}};
-  Memory out;
-  out.method = methods.at(radiation.text("method"));
-  out.place = radiation["method"].place;
-  if (radiation.has("memory_tolerance")) out.tolerance = radiation.si("memory_tolerance");
-  if (radiation.has("memory")) out.length = radiation.si("memory");
-  if (radiation.has("accept_error")) out.accepted_error = radiation.si("accept_error");
-  if (out.length && (out.method == poles || out.method == constant))
-    throw radiation.wrong("method", "has no length of memory", "leave out `memory`, or take a convolution");
-  return out;
-}
-
-/// The axes are given where they pierce still water, whose height in body axes is known.
-Cylinders::Equal read_equal_cylinders(const Record& record, double height_of_origin) {
-  Cylinders::Equal out{record["at"].points.front(), record.si("diameter"), {}, {}};
-  if (record.text("draught").empty()) out.draught = record.si("draught");
-  if (record.has("top")) out.top = record.si("top");
-  if (out.top && out.draught && *out.top >= *out.draught)
-    throw record.wrong("top", "is not above the bottom", "both are depths, from still water down");
-  for (const Eigen::Vector3d& p : out.at)
-    if (std::abs(p.z() + height_of_origin) > 1e-9)
-      throw record.wrong(
-          "at", fmt::format("has z = {:.6g} m; still water is at {:.6g} m in body axes", p.z(), -height_of_origin),
-          "give the axes at the height of still water");
-  return out;
-}
-
-Cylinders read_cylinders(const Record& record, double height_of_origin) {
-  Cylinders out{{read_equal_cylinders(record, height_of_origin)}, record["frequencies"].range, {}};
-  for (const Record& other : record.tables("others"))
-    out.types.push_back(read_equal_cylinders(other, height_of_origin));
-  if (record.has("headings")) out.headings = record["headings"].range;
-  return out;
-}
-
-Turning read_turning(const Record& record) {
-  Turning out{record.si("from"), record.si("to"), record.si("spacing"), record.si("slower_than"), record.place()};
-  if (!(out.from < out.to)) throw record.wrong("to", "is not beyond `from`", "from = \"-30 deg\", to = \"30 deg\"");
-  return out;
-}
-
-Hydrodynamics read_hydrodynamics(const Record& record, const std::filesystem::path& file, double height_of_origin) {
-  Hydrodynamics out;
-  if (record.has("file")) {
-    out.file = {beside(file, record.text("file")), record["file"].place};
-    if (record.has("ulen")) out.ulen = record.si("ulen");
-  } else {
-    out.file.place = record["cylinders"].place;
-    out.cylinders = read_cylinders(record.table("cylinders"), height_of_origin);
-  }
-  if (record.has("body")) out.body = {small_integer(record, "body", 100'000), record["body"].place};
-  if (record.has("reference_point")) out.reference_point = record.vector("reference_point");
-  if (record.has("displaced_volume")) out.displaced_volume = record.si("displaced_volume");
-  if (record.has("centre_of_buoyancy")) out.centre_of_buoyancy = record.vector("centre_of_buoyancy");
-  if (record.has("iperout")) out.iperout = small_integer(record, "iperout", 4);
-  if (record.has("accept"))
-    for (const auto& check : record["accept"].texts) out.accept.push_back(check.value);
-  out.excitation = record.has("excitation");
-  if (record.has("excitation_modes")) out.excited = read_mode_list(record, "excitation_modes");
-  if (record.has("turning")) out.turning = read_turning(record.table("turning"));
-  out.hydrostatics = record.has("hydrostatics");
-  out.radiation = record.has("radiation");
-  if (out.radiation) {
-    const Record& radiation = record.table("radiation");
-    out.memory = read_memory(radiation);
-  }
-  out.interaction_place = out.file.place;
-  if (out.makes_waves()) {
-    const std::string& word = record.text("interaction");
-    out.interaction = word == "full" ? Interaction::full : word == "file" ? Interaction::file : Interaction::self;
-    if (!record["interaction"].defaulted) out.interaction_place = record["interaction"].place;
-  }
-  return out;
-}
-
-Buoyancy read_buoyancy(const Record& record, const std::filesystem::path& file) {
-  Buoyancy out;
-  out.place = record.place();
-  if (record.has("mesh")) out.mesh = {beside(file, record.text("mesh")), record["mesh"].place};
-  if (record.has("unit")) out.unit = record.si("unit");
-  if (record.has("freeboard")) out.freeboard = record.si("freeboard");
-  if (record.has("cylinders")) {
-    const Record& cylinders = record.table("cylinders");
-    const auto &from = cylinders["from"].points.front(), &to = cylinders["to"].points.front();
-    if (from.size() != to.size())
-      throw cylinders.wrong("to", fmt::format("gives {} points, `from` gives {}", to.size(), from.size()),
-                            "each cylinder needs both ends");
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      if ((to[i] - from[i]).norm() <= 1e-9 * cylinders.si("diameter"))
-        throw cylinders.wrong("to", "is where the cylinder begins", "give the middle of the other end");
-      out.cylinders.push_back({from[i], to[i], cylinders.si("diameter") / 2});
-    }
-  }
-  if (record.has("spheres"))
-    for (const Eigen::Vector3d& at : record.table("spheres")["at"].points.front())
-      out.spheres.push_back({at, record.table("spheres").si("diameter") / 2});
-  return out;
-}
-
 /// Linear hydrostatics hold buoyancy and weight already.
 void require_nothing_twice(const Record& record, const Body& body) {
   if (!body.hydrodynamics || !body.hydrodynamics->hydrostatics) return;
@@ -195,49 +176,107 @@ void require_nothing_twice(const Record& record, const Body& body) {
                  "leave out `hydrostatics` and add weight = true, or leave out buoyancy");
 }
 
-Body read_body(const Record& record, const std::filesystem::path& file) {
-  Body body;
-  body.name = body.family = record.text("name");
-  body.place = record.place();
-  body.position = record.vector("position");
-  body.mass = record.si("mass");
-  body.free = read_mode_list(record, "free");
-  const bool rotates = any_rotation(body.free);
+void require_what_rotation_needs(const Record& record, Body& body) {
+  const bool rotates = body.free[3] || body.free[4] || body.free[5];
   if (rotates && !record.has("centre_of_gravity"))
     throw record.refused("may rotate and needs centre_of_gravity", "add centre_of_gravity = \"(0, 0, 1.31) m\"");
-  body.centre_of_gravity =
-      record.has("centre_of_gravity") ? record.vector("centre_of_gravity") : Eigen::Vector3d::Zero();
   body.inertia = read_inertia(record, body.mass, rotates);
-  body.initial = read_modes(record, "initial", body.free);
-  body.initial_velocity = read_modes(record, "initial_velocity", body.free);
-  if (record.has("hydrodynamics"))
-    body.hydrodynamics = read_hydrodynamics(record.table("hydrodynamics"), file, body.position.z());
-  body.net_load = record.has("net_load");
-  body.weight = record.has("weight");
-  if (record.has("buoyancy")) body.buoyancy = read_buoyancy(record.table("buoyancy"), file);
-  require_nothing_twice(record, body);
-  return body;
+}
+
+void require_free_modes(const Record& record, const Body& body) {
+  for (const char* key : {"initial", "initial_velocity"}) {
+    if (!record.has(key)) continue;
+    const Record& table = record.table(key);
+    for (std::size_t i = 0; i < 6; ++i)
+      if (table.has(hydro::mode_names[i]) && !body.free[i])
+        throw table.wrong(hydro::mode_names[i], "moves a mode that is held",
+                          "add the mode to `free`, or leave it out here");
+  }
+}
+
+/// The axes of cylinders are given where they pierce still water, whose height in body axes is known.
+void require_at_still_water(const Record& cylinders, double height_of_origin) {
+  for (const Eigen::Vector3d& p : cylinders["at"].points.front())
+    if (std::abs(p.z() + height_of_origin) > 1e-9)
+      throw cylinders.wrong(
+          "at", fmt::format("has z = {:.6g} m; still water is at {:.6g} m in body axes", p.z(), -height_of_origin),
+          "give the axes at the height of still water");
+  for (const Record& other : cylinders.tables("others")) require_at_still_water(other, height_of_origin);
+}
+
+const Binding<Body>& body() {
+  static const Binding<Body> binding =
+      Binding<Body>("[[body]]", "a rigid body; its axes are x forward, y port, z up")
+          .place(&Body::place)
+          .key(name_key("", "of the body; other tables and signals refer to it"), &Body::family)
+          .key(inner_table("copies", copies().table()).optional())
+          .key(vector("position", dim::length, "of the body's origin at rest, global; z from still water")
+                   .or_default("(0, 0, 0) m", "one body is best described about the still waterplane"),
+               &Body::position)
+          .key(quantity("mass", dim::mass, "of the body with all it carries").positive(), &Body::mass)
+          .key(vector("centre_of_gravity", dim::length, "from the origin, body axes; needed if a rotation is free")
+                   .optional(),
+               &Body::centre_of_gravity)
+          .key(vector("radii_of_gyration", dim::length,
+                      "about the centre of gravity along body axes: I = mass · radius²; no products of inertia")
+                   .positive()
+                   .optional())
+          .key(vector("inertia", dim::inertia, "(Ixx, Iyy, Izz) about the centre of gravity, body axes")
+                   .positive()
+                   .optional())
+          .key(vector("products_of_inertia", dim::inertia,
+                      "(∫xy dm, ∫xz dm, ∫yz dm) from the centre of gravity; the inertia matrix holds them with a minus")
+                   .or_default("(0, 0, 0) kg m^2", "body axes are mostly principal axes")
+                   .only_beside("inertia"))
+          .key(effect("weight",
+                      "gravity pulls at the centre of gravity; for a body whose hydrostatics are not linear (those "
+                      "hold the weight already)"),
+               &Body::weight)
+          .key(effect("net_load",
+                      "all loads on the body together are signals: net_force_x to net_moment_z, about its origin along "
+                      "global axes"),
+               &Body::net_load)
+          .key(modes("free", "modes that may move; the others are held")
+                   .or_default("surge, sway, heave, roll, pitch, yaw", "a body is free unless something holds it"),
+               &Body::free)
+          .table("initial", initial(), &Body::initial)
+          .optional()
+          .table("initial_velocity", initial_velocity(), &Body::initial_velocity)
+          .optional()
+          .table("buoyancy", buoyancy(), &Body::buoyancy)
+          .table("hydrodynamics", hydrodynamics_binding(), &Body::hydrodynamics)
+          .at_most_one_of({"radii_of_gyration", "inertia"})
+          .then(require_what_rotation_needs)
+          .then(require_free_modes)
+          .then(require_nothing_twice)
+          .then([](const Record& record, const Body& body) {
+            if (body.hydrodynamics && body.hydrodynamics->cylinders)
+              require_at_still_water(record.table("hydrodynamics").table("cylinders"), body.position.z());
+          });
+  return binding;
 }
 
 }  // namespace
 
-std::vector<Body> build_bodies(const Record& root, const std::filesystem::path& file, Names& names) {
+const Table& body_table() { return body().table(); }
+
+std::vector<Body> build_bodies(const Record& root, Names& names) {
   std::vector<Body> bodies;
   for (const Record& record : root.tables("body")) {
-    const Body one = read_body(record, file);
-    const int count = record.has("copies") ? small_integer(record.table("copies"), "count", 100'000) : 0;
-    if (count == 0) {
-      names.add(one.name, record["name"].place);
+    const Body one = body().read(record);
+    const auto add = [&](int copy, const std::string& name, const Eigen::Vector3d& moved) {
       bodies.push_back(one);
+      bodies.back().copy = copy;
+      bodies.back().name = name;
+      bodies.back().position += moved;
+      names.add(name, record["name"].place);
+    };
+    if (!record.has("copies")) {
+      add(0, one.family, Eigen::Vector3d::Zero());
+      continue;
     }
-    for (int i = 1; i <= count; ++i) {
-      Body copy = one;
-      copy.copy = i;
-      copy.name = fmt::format("{}{}", one.family, i);
-      copy.position += (i - 1) * record.table("copies").vector("step");
-      names.add(copy.name, record["name"].place);
-      bodies.push_back(std::move(copy));
-    }
+    const auto [count, step] = copies().read(record.table("copies"));
+    for (int i = 1; i <= count; ++i) add(i, fmt::format("{}{}", one.family, i), (i - 1) * step);
   }
   return bodies;
 }

@@ -45,12 +45,25 @@ struct UnresolvedEnd {
   Located<std::string> name;
 };
 
-std::vector<Body> build_bodies(const Record& root, const std::filesystem::path& file, Names& names);
+template <class T>
+class Binding;
+
+// The tables of the subjects, for motion_schema().
+const Table& water_table();
+const Table& body_table();
+const Table& member_table();
+const Table& line_table();
+const Table& junction_table();
+/// `[body.hydrodynamics]`, which stands apart from the rest of a body.
+const Binding<Hydrodynamics>& hydrodynamics_binding();
+
+hydro::Water build_water(const Record& record);
+std::vector<Body> build_bodies(const Record& root, Names& names);
 
 // Each refers to scene.bodies, which must be there already.
 void build_signals(const Record& root, Names& names, Scene& scene);  ///< points and relative motions
 void build_members(const Record& root, Names& names, Scene& scene);
-void build_lines(const Record& root, const std::filesystem::path& file, Names& names, Scene& scene);
+void build_chains(const Record& root, Names& names, Scene& scene);
 /// The junctions of a scene, and what the ends of its lines meet that `unresolved` names; then which lines form
 /// networks.
 void build_networks(const Record& root, Names& names, const std::vector<UnresolvedEnd>& unresolved, Scene& scene);
@@ -98,8 +111,6 @@ void on_each_body(const Record& record, Names& names, const std::vector<Body>& b
   }
 }
 
-/// A file beside the scene.
-std::filesystem::path beside(const std::filesystem::path& scene, const std::string& relative);
 /// Times of a recorded motion, the file of the key `file`: two or more, rising, from t = 0 or before.
 /// \throws hydro::InputError for others
 std::vector<double> rising_times(const Record& record, const hydro::io::CsvTable& table);

@@ -1,132 +1,324 @@
+/// \file  `[[line]]`: lines that are stepped: droppers, chains of pendulums, cables.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <numbers>
+
 #include "hydro/io/csv.hpp"
+#include "scene/binding.hpp"
 #include "scene/build.hpp"
 
 namespace froude::scene {
 namespace {
 
-/// Equal segments of a line or of one part of it; `mass_at` is the line's.
-Line::Link equal_link(const Record& record, const std::string& mass_at) {
-  const auto count = static_cast<double>(record["segments"].integer);
-  const double length = record.si("length") / count, mass = record.si("mass_per_length") * length;
-  return {length, mass, 0.5, mass * length * length / (mass_at == "nodes" ? 4 : 12)};
+namespace dim = hydro::dim;
+namespace dl = dynamics::line;
+
+const Binding<dl::Segment>& line_link() {
+  static const Binding<dl::Segment> binding =
+      Binding<dl::Segment>("[[line.link]]", "one rigid link, in order from `from`")
+          .key(quantity("length", dim::length, "of the link").positive(), &dl::Segment::length)
+          .key(quantity("mass", dim::mass, "of the link").within(Limit::not_negative), &dl::Segment::mass)
+          .key(number("centre", "of its mass: share of the length from its first node")
+                   .within(Limit::fraction)
+                   .or_default("0.5", "the middle"),
+               &dl::Segment::centre)
+          .key(quantity("inertia", dim::inertia, "about that centre, across; left out: a uniform rod's, m l^2/12")
+                   .within(Limit::not_negative)
+                   .optional(),
+               &dl::Segment::inertia)
+          .then([](const Record& record, dl::Segment& out) {
+            if (!record.has("inertia")) out.inertia = out.mass * out.length * out.length / 12;
+          });
+  return binding;
 }
 
-void append_equal(const Record& record, const Line::Link& link, std::vector<Line::Link>& out) {
-  constexpr std::int64_t most = 1'000'000;
+/// What the segments of a part have of their own; into which it is cut is for append_equal().
+const Binding<dl::Segment>& line_part() {
+  static const Binding<dl::Segment> binding =
+      Binding<dl::Segment>("[[line.part]]", "an even part of a line, in order from `from`: chain, rope, chain")
+          .key(quantity("length", dim::length, "of the part without tension").positive())
+          .key(integer("segments", "into which it is cut").within(Limit::at_least_one))
+          .at_most(1'000'000)
+          .key(quantity("mass_per_length", dim::mass / dim::length, "of the part").positive())
+          .key(quantity("diameter", dim::length, "left out: that of the line").positive().optional(),
+               &dl::Segment::diameter)
+          .key(quantity("axial_stiffness", dim::force, "EA; left out: that of the line").positive().optional(),
+               &dl::Segment::axial_stiffness)
+          .key(quantity("bending_stiffness", dim::force * dim::length * dim::length, "EI; left out: that of the line")
+                   .positive()
+                   .optional(),
+               &dl::Segment::bending_stiffness);
+  return binding;
+}
+
+/// Equal segments of a line or of one part of it; `mass_at` is the line's.
+void append_equal(const Record& record, const std::string& mass_at, dl::Segment segment, Line& out) {
   const std::int64_t count = record["segments"].integer;
-  if (count > most) throw record.wrong("segments", fmt::format("is more than {}", most));
-  out.insert(out.end(), static_cast<std::size_t>(count), link);
+  segment.length = record.si("length") / static_cast<double>(count);
+  segment.mass = record.si("mass_per_length") * segment.length;
+  segment.inertia = segment.mass * segment.length * segment.length / (mass_at == "nodes" ? 4 : 12);
+  out.segments.insert(out.segments.end(), static_cast<std::size_t>(count), segment);
 }
 
 /// Equal segments of a line, of its parts one after the other, or its links one by one.
-std::vector<Line::Link> read_links(const Record& record) {
-  std::vector<Line::Link> out;
+void read_segments(const Record& record, Line& out) {
   if (record.has("link") && !record["mass_at"].defaulted)
     throw record.wrong("mass_at", "acts on nothing: each link says where its mass is", "leave it out");
-  for (const Record& link : record.tables("link")) {
-    const double length = link.si("length"), mass = link.si("mass");
-    out.push_back(
-        {length, mass, link.si("centre"), link.has("inertia") ? link.si("inertia") : mass * length * length / 12});
-  }
+  for (const Record& link : record.tables("link")) line_link().read_into(link, out.segments.emplace_back(out.common));
   for (const Record& part : record.tables("part")) {
-    Line::Link link = equal_link(part, record.text("mass_at"));
-    if (part.has("diameter")) link.diameter = part.si("diameter");
-    if (part.has("axial_stiffness")) link.axial_stiffness = part.si("axial_stiffness");
-    if (part.has("bending_stiffness")) link.bending_stiffness = part.si("bending_stiffness");
+    dl::Segment segment = out.common;
+    line_part().read_into(part, segment);
     for (const char* key : {"diameter", "axial_stiffness", "bending_stiffness"})
       if (part.has(key) && !record.has(key))
         throw part.wrong(key, fmt::format("is for this part, but the line has no {} for the others", key),
                          fmt::format("give [[line]] a {} too", key));
-    append_equal(part, link, out);
+    append_equal(part, record.text("mass_at"), segment, out);
   }
-  if (!record.has("length")) return out;
+  if (!record.has("length")) return;
   for (const char* key : {"segments", "mass_per_length"})
     if (!record.has(key)) throw record.refused(fmt::format("needs the key \"{}\" beside \"length\"", key));
-  append_equal(record, equal_link(record, record.text("mass_at")), out);
-  return out;
+  append_equal(record, record.text("mass_at"), out.common, out);
 }
 
-Line::Growth read_growth(const Record& record, const Record& whole, const Line& line) {
+/// Marine growth on segments whose middle is between two distances along the line.
+struct Growth {
+  double thickness, density, from, to;  ///< m, kg/m³, m, m
+};
+
+const Binding<Growth>& line_growth() {
+  static const Binding<Growth> binding =
+      Binding<Growth>("[line.growth]",
+                      "a layer around the segments whose middle is between two distances along the line: it has mass, "
+                      "and widens the diameter that water and bed meet")
+          .key(quantity("thickness", dim::length, "of the layer").positive(), &Growth::thickness)
+          .key(quantity("density", dim::density, "of what grows, in air").positive(), &Growth::density)
+          .key(quantity("from", dim::length, "distance from the line's first end")
+                   .within(Limit::not_negative)
+                   .or_default("0 m", "from there on"),
+               &Growth::from)
+          .key(quantity("to", dim::length, "likewise; left out: to the other end").positive().optional(), &Growth::to);
+  return binding;
+}
+
+/// A layer t around a diameter D adds ρ π t (D + t) per length, spread as the rest is. (D100)
+void grow(const Growth& growth, dl::Segment& s) {
+  const double before = s.mass, t = growth.thickness;
+  s.mass += growth.density * std::numbers::pi * t * (s.diameter + t) * s.length;
+  s.inertia *= s.mass / before;
+  s.diameter += 2 * t;
+}
+
+void add_growth(const Record& whole, Line& out) {
+  if (!whole.has("growth")) return;
+  const Record& record = whole.table("growth");
   if (whole.has("link"))
     throw record.refused("grows on links that are given one by one, each with its own mass",
                          "leave it out, or give the line a `length` or [[line.part]]");
   double length = 0;
-  for (const auto& link : line.links) length += link.length;
-  Line::Growth out{record.si("thickness"), record.si("density"), record.si("from"),
-                   record.has("to") ? record.si("to") : length};
-  if (!(out.to > out.from) || out.to > length * (1 + 1e-9))
-    throw record.refused(fmt::format("reaches from {} to {} m of a line of {} m", out.from, out.to, length),
+  for (const dl::Segment& s : out.segments) length += s.length;
+  Growth growth = line_growth().read(record);
+  if (!record.has("to")) growth.to = length;
+  if (!(growth.to > growth.from) || growth.to > length * (1 + 1e-9))
+    throw record.refused(fmt::format("reaches from {} to {} m of a line of {} m", growth.from, growth.to, length),
                          "count both from the line's first end");
-  return out;
-}
-
-Line::CoefficientTable read_coefficients(const Record& record, const std::filesystem::path& file) {
-  const auto table = hydro::io::CsvTable::read(beside(file, record.text("file")));
-  const bool has_re = table.has("Re");
-  if (has_re != record.has("viscosity"))
-    throw has_re ? record.refused("needs a viscosity: its file has a column Re", "for example \"1.05e-6 m^2/s\"")
-                 : record.wrong("viscosity", "acts on nothing: the file has no column Re", "leave it out");
-  const auto &kc = table.column("KC"), &cd = table.column("cd"), &ca = table.column("ca");
-  Line::CoefficientTable out{.rows = {},
-                             .viscosity = has_re ? record.si("viscosity") : 1,
-                             .file = record.text("file"),
-                             .place = record.place()};
-  for (std::size_t i = 0; i < table.rows(); ++i)
-    out.rows.push_back({kc[i], has_re ? table.column("Re")[i] : 1, cd[i], ca[i]});
-  return out;
-}
-
-Line::Water read_water(const Record& record, const Scene& scene, const std::filesystem::path& file) {
-  Line::Water out{.cd = 0, .ca = 0, .cd_tangential = record.si("cd_tangential"), .table = {}};
-  if (!record.has("file")) {
-    if (!record.has("ca")) throw record.refused("needs the key \"ca\" beside \"cd\"");
-    out.cd = record.si("cd");
-    out.ca = record.si("ca");
-    return out;
+  double along = 0;
+  for (dl::Segment& s : out.segments) {
+    if (const double middle = along + s.length / 2; middle > growth.from && middle < growth.to) grow(growth, s);
+    along += s.length;
   }
+}
+
+const Binding<Line>& line_morison() {
+  static const Binding<Line> binding =
+      Binding<Line>("[line.morison]",
+                    "drag, Froude-Krylov load and added mass of the segments where they are at each instant")
+          .key(number("cd", "drag coefficient across the segment").within(Limit::not_negative).optional(),
+               &Line::common, &dl::Segment::cd)
+          .key(number("ca", "added mass over displaced mass, across the segment")
+                   .within(Limit::not_negative)
+                   .optional()
+                   .only_beside("cd"),
+               &Line::common, &dl::Segment::ca)
+          .key(text("file",
+                    "CSV beside the scene with KC, cd, ca and perhaps Re: each segment takes what belongs to the "
+                    "waves that pass it at rest")
+                   .optional())
+          .key(quantity("viscosity", dim::length * dim::velocity, "kinematic, of the water, for Re")
+                   .positive()
+                   .optional()
+                   .only_beside("file"))
+          .key(number("cd_tangential", "drag coefficient along the segment, of its skin pi D")
+                   .within(Limit::not_negative)
+                   .or_default("0", "a smooth cylinder has some 0.01"),
+               &Line::common, &dl::Segment::cd_tangential)
+          .exactly_one_of({"cd", "file"})
+          .then([](const Record& record, const Line&) {
+            if (record.has("cd") && !record.has("ca")) throw record.refused("needs the key \"ca\" beside \"cd\"");
+          });
+  return binding;
+}
+
+Line::Coefficients read_coefficients(const Record& record, const Scene& scene) {
   if (!scene.waves)
     throw record.wrong("file", "gives coefficients by KC, and nothing moves the water to and fro",
                        "add [waves], or give cd and ca");
   if (scene.current_place)
     throw record.wrong("file", "gives coefficients by KC, which say nothing of waves together with a current",
                        "leave [current] out, or give cd and ca");
-  out.table = read_coefficients(record, file);
+  const auto table = hydro::io::CsvTable::read(beside(scene.file, record.text("file")));
+  const bool has_re = table.has("Re");
+  if (has_re != record.has("viscosity"))
+    throw has_re ? record.refused("needs a viscosity: its file has a column Re", "for example \"1.05e-6 m^2/s\"")
+                 : record.wrong("viscosity", "acts on nothing: the file has no column Re", "leave it out");
+  const auto &kc = table.column("KC"), &cd = table.column("cd"), &ca = table.column("ca");
+  Line::Coefficients out{.rows = {},
+                         .viscosity = has_re ? record.si("viscosity") : 1,
+                         .file = record.text("file"),
+                         .place = record.place()};
+  for (std::size_t i = 0; i < table.rows(); ++i)
+    out.rows.push_back({kc[i], has_re ? table.column("Re")[i] : 1, cd[i], ca[i]});
   return out;
 }
 
-Line::Damping read_damping(const Record& record) {
-  return {record.has("linear") ? record.si("linear") : 0, record.has("quadratic") ? record.si("quadratic") : 0,
-          record.has("componentwise")};
+const Binding<Line>& line_damping() {
+  static const Binding<Line> binding =
+      Binding<Line>("[line.damping]", "of each node, against its velocity")
+          .key(quantity("linear", dim::mass / dim::time, "b_l of -b_l v").positive().optional(), &Line::node,
+               &dl::Node::damping)
+          .key(quantity("quadratic", dim::mass / dim::length, "b_q of -b_q |v| v").positive().optional(), &Line::node,
+               &dl::Node::quadratic_damping)
+          .key(effect("componentwise", "-b_q |v_i| v_i for each component instead, which depends on the axes")
+                   .only_beside("quadratic"),
+               &Line::componentwise_damping)
+          .at_least_one_of({"linear", "quadratic"});
+  return binding;
 }
 
-Line::Release read_release(const Record& record, const Line& line) {
-  const auto last = static_cast<std::int64_t>(line.links.size());
-  const std::int64_t node = record["node"].integer;
-  if (line.from_meets || line.to_meets)
+const Binding<dl::Bed>& line_bed() {
+  static const Binding<dl::Bed> binding =
+      Binding<dl::Bed>("[line.bed]", "the sea bed at the water's depth pushes back where the line sinks into it")
+          .key(quantity("stiffness", dim::pressure / dim::length, "pressure per depth, on the line's diameter")
+                   .positive(),
+               &dl::Bed::stiffness)
+          .key(quantity("damping", dim::pressure / dim::velocity, "pressure per velocity; never pulls")
+                   .within(Limit::not_negative)
+                   .or_default("0 Pa s/m", "what is not named does not act"),
+               &dl::Bed::damping)
+          .key(number("friction",
+                      "what lies on the bed is held by up to this times its weight on it; none at rest, before "
+                      "anything moves")
+                   .positive()
+                   .optional(),
+               &dl::Bed::friction);
+  return binding;
+}
+
+const Binding<Line::Release>& line_release() {
+  static const Binding<Line::Release> binding =
+      Binding<Line::Release>("[line.release]", "the line starts at rest with one node held, and is let go at t = 0")
+          .key(integer("node", "counted from 0 at `from`").within(Limit::at_least_one), &Line::Release::node)
+          .key(vector("at", dim::length, "where it is held, global"), &Line::Release::at);
+  return binding;
+}
+
+void check_release(const Record& record, const Line& line) {
+  if (line.from.meets || line.to.meets)
     throw record.refused("holds a node of a line that meets others, which begin with it",
                          "leave it out, or hold the line by the ground");
-  if (node > last || (node == last && line.to))
+  const std::int64_t node = record["node"].integer, last = line.last_node();
+  if (node > last || (node == last && line.to.at))
     throw record.wrong("node", fmt::format("is not a free node: the line has {} segments", last),
                        "count nodes from 0 at `from`");
-  return {static_cast<int>(node), record.vector("at")};
 }
 
 /// The path begins where the end is, at t = 0 or before.
-Line::PrescribedMotion read_prescribed(const Record& record, const Line& line, const std::filesystem::path& file) {
-  Line::PrescribedMotion out{.first = record.text("end") == "from", .time = {}, .place = {}};
-  if (out.first && line.from_meets)
+void read_path(const Record& record, const Line& line, Line::PrescribedMotion& out) {
+  if (out.first && line.from.meets)
     throw record.wrong("end", "is not held: it meets what [line.on] names",
                        "prescribe the motion of the line that holds that");
-  if (!out.first && !line.to)
+  if (!out.first && !line.to.at)
     throw record.wrong("end", "is free: the line has no `to`", "add `to`, or prescribe the motion of the end \"from\"");
-  const auto table = hydro::io::CsvTable::read(beside(file, record.text("file")));
+  const auto table = hydro::io::CsvTable::read(beside(record.place().file, record.text("file")));
   out.time = rising_times(record, table);
-  const auto &x = table.column("x", hydro::dim::length), &y = table.column("y", hydro::dim::length),
-             &z = table.column("z", hydro::dim::length);
+  const auto &x = table.column("x", dim::length), &y = table.column("y", dim::length),
+             &z = table.column("z", dim::length);
   for (std::size_t i = 0; i < x.size(); ++i) out.place.emplace_back(x[i], y[i], z[i]);
-  return out;
+}
+
+const Binding<Line::PrescribedMotion>& line_prescribed() {
+  static const Binding<Line::PrescribedMotion> binding =
+      Binding<Line::PrescribedMotion>("[line.prescribed]", "the motion of one end, along a path")
+          .words(text("end", "which: \"from\" or \"to\""), {{"from", true}, {"to", false}},
+                 &Line::PrescribedMotion::first)
+          .key(text("file", "CSV beside the scene with time, x, y, z; a cubic spline goes through its points"));
+  return binding;
+}
+
+const Binding<Line::Snaps>& line_snaps() {
+  static const Binding<Line::Snaps> binding =
+      Binding<Line::Snaps>("[line.snaps]",
+                           "counts slack and snaps over the steps of a run, and tells the largest tension")
+          .key(quantity("slack_below", dim::force, "a link with this tension or less is slack")
+                   .within(Limit::not_negative),
+               &Line::Snaps::slack_below)
+          .key(quantity("snap_above", dim::force, "a link that was slack snaps when it reaches this").positive(),
+               &Line::Snaps::snap_above)
+          .then([](const Record& record, const Line::Snaps& out) {
+            if (!(out.snap_above > out.slack_below))
+              throw record.wrong("snap_above", "is not above slack_below", "a snap is tighter than slack");
+          });
+  return binding;
+}
+
+const Binding<Line::Lyapunov>& line_lyapunov() {
+  static const Binding<Line::Lyapunov> binding =
+      Binding<Line::Lyapunov>("[line.lyapunov]",
+                              "the largest Lyapunov exponent of a run: a second line a millionth of a segment beside "
+                              "the first tells how fast neighbours part")
+          .key(quantity("from", dim::time, "growth counts from here on, when the start is forgotten").positive(),
+               &Line::Lyapunov::from)
+          .place(&Line::Lyapunov::place);
+  return binding;
+}
+
+const Binding<Line>& line_clamp() {
+  static const Binding<Line> binding =
+      Binding<Line>("[line.clamp]",
+                    "ends that do not turn: the direction in which the line goes there, from its first node to its "
+                    "last")
+          .key(direction("from", "at the first node: \"x\" or \"(1, 0, -1)\"").optional(), &Line::from,
+               &Line::End::clamp)
+          .key(direction("to", "at the last node, still from first to last").optional(), &Line::to, &Line::End::clamp)
+          .at_least_one_of({"from", "to"})
+          .then([](const Record&, Line& out) {
+            out.from.clamp.normalize();  // of an end that turns freely it stays zero
+            out.to.clamp.normalize();
+          });
+  return binding;
+}
+
+/// Ends held by the ground alone: a body would have to bear the moment too.
+void check_clamp(const Record& record, const Line& line) {
+  if (record.has("to") && !line.to.at) throw record.wrong("to", "clamps a free end: the line has no `to`", "add `to`");
+  if (record.has("from") && line.from.meets)
+    throw record.wrong("from", "clamps an end that meets others, and turns with nothing", "let the end turn freely");
+  for (const char* key : {"from", "to"})
+    if (record.has(key) && line.end(key == std::string_view("from")).body)
+      throw record.wrong(key, "clamps an end that is on a body, which would have to bear its moment",
+                         "let the end turn freely, or hold it by the ground");
+}
+
+const Table& line_on() {
+  static const Table table{
+      .title = "[line.on]",
+      .meaning =
+          "what ends of the line are on: a body, and `from` or `to` is then in its axes; or a junction or a node "
+          "of a line, \"main.node4\", whose place is found, so that `from` or `to` is left out",
+      .keys = {text("from", "of the first node, by name").optional(),
+               text("to", "of the last node, by name").optional()},
+      .groups = {{Group::Count::at_least_one, {"from", "to"}}}};
+  return table;
 }
 
 bool is_body(const Scene& scene, const std::string& name) {
@@ -141,21 +333,22 @@ void read_on(const Record& record, const Record& whole, const Scene& scene, Line
     const char* key = first ? "from" : "to";
     if (!record.has(key)) continue;
     const Located<std::string> name{record.text(key), record[key].place};
+    Line::End& end = first ? line.from : line.to;
     if (is_body(scene, name.value)) {
-      (first ? line.from_on : line.to_on) = body_named(record, name, scene.bodies);
-      if (!whole.has(key))
+      end.body = body_named(record, name, scene.bodies);
+      if (!end.at)
         throw record.wrong(key, fmt::format("holds no end: the line has no `{}`", key),
                            fmt::format("add `{}`, in axes of that body", key));
       continue;
     }
-    if (whole.has(key))
+    if (end.at)
       throw whole.wrong(key, fmt::format("is a place, but the end is on \"{}\", which is no body", name.value),
                         "leave it out: the place of a junction or a node is found");
-    (first ? line.from_meets : line.to_meets).emplace();
+    end.meets.emplace();
     unresolved.push_back({scene.chains.size(), first, name});
   }
   if (!line.fastened()) return;
-  if (line.to && !line.axial_stiffness)
+  if (line.to.at && line.common.is_inextensible())
     throw record.refused("holds an inextensible line between two places, which has no step once it is taut",
                          "give the line an axial_stiffness");
   for (const char* key : {"prescribed", "release"})
@@ -164,84 +357,136 @@ void read_on(const Record& record, const Record& whole, const Scene& scene, Line
                                      "leave it out, or move the body");
 }
 
-/// Ends held by the ground alone: a body would have to bear the moment too.
-void read_clamp(const Record& record, Line& line) {
-  if (record.has("from")) line.clamp_from = record.vector("from").normalized();
-  if (record.has("to")) line.clamp_to = record.vector("to").normalized();
-  if (line.clamp_to && !line.to) throw record.wrong("to", "clamps a free end: the line has no `to`", "add `to`");
-  if (line.clamp_from && line.from_meets)
-    throw record.wrong("from", "clamps an end that meets others, and turns with nothing", "let the end turn freely");
-  for (const char* key : {"from", "to"})
-    if (record.has(key) && (std::string_view(key) == "from" ? line.from_on : line.to_on))
-      throw record.wrong(key, "clamps an end that is on a body, which would have to bear its moment",
-                         "let the end turn freely, or hold it by the ground");
-}
-
-Line::Lyapunov read_lyapunov(const Record& record, const Line& line) {
-  if (line.fastened())
-    throw record.refused("asks for neighbours of a line that is on a body, whose own neighbours are not followed",
-                         "hold the line by the ground");
-  return {record.si("from"), record.place()};
-}
-
-void check_surroundings(const Record& record, const Line& line, const Scene& scene) {
-  const bool wet = line.morison || line.buoyancy;
-  if (line.catenary_segments && line.bending_stiffness)
+/// What of the water acts on the line.
+void read_surroundings(const Record& record, Line& out) {
+  const bool wet = record.has("morison") || out.water.buoyancy, partial = record.has("partial_immersion");
+  if (out.common.catenary && record.has("bending_stiffness"))
     throw record.wrong("bending_stiffness", "bends catenary segments, which have no straight axis",
                        "leave `catenary_segments` out");
-  if (line.partial_immersion && !wet)
+  if (partial && !wet)
     throw record.refused("is immersed in part, but nothing of the water acts on it",
                          "add morison or buoyancy = true, or leave partial_immersion out");
-  if (line.bed && scene.water.depth.is_infinite())
-    throw record.table("bed").refused("needs a bed, but the water is infinitely deep", "give [water] a depth");
-  if (!wet && !line.bed && record.has("diameter"))
+  if (!wet && !out.bed && record.has("diameter"))
     throw record.wrong("diameter", "acts on nothing here", "leave it out, or add morison, buoyancy or bed");
+  if (wet) out.water.wet = partial ? dl::Wet::below_surface : dl::Wet::all;
+}
+
+/// Keys of the line's own segments and nodes, as they stand in [[line]].
+Binding<Line> line_itself() {
+  return Binding<Line>("[[line]]",
+                       "a chain of nodes and straight segments between two places: dropper, cable, pendulums; it has "
+                       "weight")
+      .place(&Line::place)
+      .key(name_key("line", "of the line"))
+      .key(vector("from", dim::length,
+                  "where its first node is held, global; of a body that holds it, in body axes; left out: it meets "
+                  "what `on` names")
+               .optional(),
+           &Line::from, &Line::End::at)
+      .key(vector("to", dim::length, "where its last node is held, as `from`; left out: a free end, or as `from`")
+               .optional(),
+           &Line::to, &Line::End::at)
+      .key(inner_table("on", line_on()).optional())
+      .key(quantity("length", dim::length, "of the line without tension").positive().optional())
+      .key(integer("segments", "into which it is cut").within(Limit::at_least_one).optional().only_beside("length"))
+      .at_most(1'000'000)
+      .key(quantity("mass_per_length", dim::mass / dim::length, "of the line")
+               .positive()
+               .optional()
+               .only_beside("length"))
+      .key(text("mass_at", "\"nodes\": half a segment's mass at either end; \"segments\": spread along it")
+               .one_of({"nodes", "segments"})
+               .or_default("segments", "as a line has it"))
+      .key(inner_tables("part", line_part().table()).optional())
+      .key(inner_tables("link", line_link().table()).optional())
+      .key(quantity("node_mass", dim::mass, "of a bob, pin or clump at every node that is not held")
+               .positive()
+               .optional(),
+           &Line::node, &dl::Node::mass)
+      .key(quantity("diameter", dim::length, "that the water and the bed meet").positive().optional(), &Line::common,
+           &dl::Segment::diameter)
+      .key(quantity("axial_stiffness", dim::force, "EA: tension per strain; left out: segments are inextensible")
+               .positive()
+               .optional(),
+           &Line::common, &dl::Segment::axial_stiffness)
+      .key(quantity("axial_damping", dim::force * dim::time, "tension per rate of strain")
+               .positive()
+               .optional()
+               .only_beside("axial_stiffness"),
+           &Line::common, &dl::Segment::axial_damping)
+      .key(quantity("bending_stiffness", dim::force * dim::length * dim::length,
+                    "EI: moment per curvature; left out: the line bends freely")
+               .positive()
+               .optional(),
+           &Line::common, &dl::Segment::bending_stiffness);
+}
+
+const Binding<Line>& line() {
+  static const Binding<Line> binding =
+      line_itself()
+          .table("clamp", line_clamp())
+          .only_beside({"bending_stiffness"})
+          .key(effect("tension_only", "segments go slack instead of being pressed").only_beside("axial_stiffness"),
+               &Line::common, &dl::Segment::tension_only)
+          .key(effect("catenary_segments",
+                      "segments hang through between their nodes by their weight in water, and rest on the bed in "
+                      "part: moorings with few segments; with lines = \"generalized_alpha\"")
+                   .only_beside("axial_stiffness"),
+               &Line::common, &dl::Segment::catenary)
+          .key(effect("buoyancy", "weight of the water that it displaces").only_beside("diameter"), &Line::water,
+               &dl::Surroundings::buoyancy)
+          .key(effect("partial_immersion", "only what is under the waves is wet; left out: all of it, always")
+                   .only_beside("diameter"))
+          .table("morison", line_morison())
+          .only_beside({"diameter"})
+          .table("damping", line_damping())
+          .key(inner_table("growth", line_growth().table()).optional().only_beside("diameter"))
+          .table("bed", line_bed(), &Line::bed)
+          .only_beside({"diameter"})
+          .table("release", line_release(), &Line::release)
+          .table("prescribed", line_prescribed(), &Line::prescribed)
+          .table("snaps", line_snaps(), &Line::snaps)
+          .table("lyapunov", line_lyapunov(), &Line::lyapunov)
+          .exactly_one_of({"length", "part", "link"})
+          .at_most_one_of({"tension_only", "catenary_segments"})
+          .then(read_surroundings)
+          .then(read_segments)
+          .then(add_growth);
+  return binding;
+}
+
+/// What follows from how its ends are held, and from the water.
+void place_line(const Record& record, const Scene& scene, Line& line) {
+  if (!line.from.at && !line.from.meets)
+    throw record.refused("needs the key \"from\"",
+                         "give a place, or let [line.on] name the junction or node that its first end meets");
+  if (record.has("morison") && record.table("morison").has("file"))
+    line.coefficients = read_coefficients(record.table("morison"), scene);
+  if (line.release) check_release(record.table("release"), line);
+  if (line.prescribed) read_path(record.table("prescribed"), line, *line.prescribed);
+  if (record.has("clamp")) check_clamp(record.table("clamp"), line);
+  if (line.lyapunov && line.fastened())
+    throw record.table("lyapunov")
+        .refused("asks for neighbours of a line that is on a body, whose own neighbours are not followed",
+                 "hold the line by the ground");
+  if (!line.bed) return;
+  if (scene.water.depth.is_infinite())
+    throw record.table("bed").refused("needs a bed, but the water is infinitely deep", "give [water] a depth");
+  line.bed->z = -scene.water.depth.metres();
 }
 
 }  // namespace
 
-void build_lines(const Record& root, const std::filesystem::path& file, Names& names, Scene& scene) {
+const Table& line_table() { return line().table(); }
+
+void build_chains(const Record& root, Names& names, Scene& scene) {
   std::vector<UnresolvedEnd> unresolved;
   for (const Record& record : root.tables("line")) {
-    Line line;
-    line.name = names.of(record, 1).front();
-    if (record.has("from")) line.from = record.vector("from");
-    if (record.has("to")) line.to = record.vector("to");
-    if (record.has("axial_stiffness")) line.axial_stiffness = record.si("axial_stiffness");
-    if (record.has("on")) read_on(record.table("on"), record, scene, line, unresolved);
-    if (!record.has("from") && !line.from_meets)
-      throw record.refused("needs the key \"from\"",
-                           "give a place, or let [line.on] name the junction or node that its first end meets");
-    line.links = read_links(record);
-    const auto number = [&](std::string_view key) { return record.has(key) ? record.si(key) : 0.0; };
-    line.node_mass = number("node_mass");
-    line.diameter = number("diameter");
-    if (record.has("bending_stiffness")) line.bending_stiffness = record.si("bending_stiffness");
-    line.axial_damping = number("axial_damping");
-    line.tension_only = record.has("tension_only");
-    line.catenary_segments = record.has("catenary_segments");
-    line.buoyancy = record.has("buoyancy");
-    line.partial_immersion = record.has("partial_immersion");
-    if (record.has("morison")) line.morison = read_water(record.table("morison"), scene, file);
-    if (record.has("damping")) line.damping = read_damping(record.table("damping"));
-    if (record.has("bed")) {
-      const Record& b = record.table("bed");
-      line.bed = {b.si("stiffness"), b.si("damping"), b.has("friction") ? b.si("friction") : 0.0};
-    }
-    if (record.has("growth")) line.growth = read_growth(record.table("growth"), record, line);
-    if (record.has("release")) line.release = read_release(record.table("release"), line);
-    if (record.has("prescribed")) line.prescribed = read_prescribed(record.table("prescribed"), line, file);
-    if (record.has("snaps")) {
-      const Record& s = record.table("snaps");
-      line.snaps = {s.si("slack_below"), s.si("snap_above")};
-      if (!(line.snaps->snap_above > line.snaps->slack_below))
-        throw s.wrong("snap_above", "is not above slack_below", "a snap is tighter than slack");
-    }
-    line.place = record.place();
-    if (record.has("clamp")) read_clamp(record.table("clamp"), line);
-    if (record.has("lyapunov")) line.lyapunov = read_lyapunov(record.table("lyapunov"), line);
-    check_surroundings(record, line, scene);
-    scene.chains.push_back(std::move(line));
+    Line one = line().read(record);
+    one.name = names.of(record, 1).front();
+    if (record.has("on")) read_on(record.table("on"), record, scene, one, unresolved);
+    place_line(record, scene, one);
+    scene.chains.push_back(std::move(one));
   }
   build_networks(root, names, unresolved, scene);
 }

@@ -1,49 +1,106 @@
+/// \file  `[[member]]`: slender cylinders fixed to bodies.
 #include <fmt/format.h>
 
-#include <map>
-
+#include "scene/binding.hpp"
 #include "scene/build.hpp"
 
 namespace froude::scene {
 namespace {
 
-std::optional<int> read_pieces(const Record& record) {
-  if (!record.has("pieces")) return std::nullopt;
-  constexpr std::int64_t most = 100'000;
-  if (record["pieces"].integer > most) throw record.wrong("pieces", fmt::format("is more than {}", most));
-  return static_cast<int>(record["pieces"].integer);
+namespace dim = hydro::dim;
+using dynamics::MorisonMember;
+using dynamics::SlammingMember;
+
+const Binding<Member>& member_drag() {
+  static const Binding<Member> binding =
+      Binding<Member>(
+          "[member.drag]",
+          "½ ρ cd D ‖u‖ u per length, of the flow across the member; water as it moves where the member is at rest")
+          .key(number("cd", "drag coefficient").positive(), &Member::cd);
+  return binding;
 }
 
-Morison read_morison(const Record& record) {
-  Morison out{.cd = record.si("cd"), .ca = record.si("ca"), .cd_tangential = record.si("cd_tangential")};
-  out.partial = record.has("partial_immersion");
-  out.still = out.partial && record.text("surface") == "still";
-  out.pieces = read_pieces(record);
-  return out;
+Key pieces_key() {
+  return integer("pieces", "into which the member is cut; left out: as many as the accuracy asked needs")
+      .within(Limit::at_least_one)
+      .optional();
 }
 
-Slamming read_slamming(const Record& record) {
-  static const std::map<std::string, Slamming::Model, std::less<>> models{{"goda", Slamming::Model::goda},
-                                                                          {"wienke", Slamming::Model::wienke},
-                                                                          {"von karman", Slamming::Model::von_karman}};
-  static const std::map<std::string, Slamming::Begins, std::less<>> begins{{"underside", Slamming::Begins::underside},
-                                                                           {"line", Slamming::Begins::line},
-                                                                           {"submerged", Slamming::Begins::submerged}};
-  return {models.at(record.text("model")), begins.at(record.text("begins")), record.si("factor"), read_pieces(record)};
+const Binding<MorisonMember>& member_morison() {
+  using enum dynamics::Immersion;
+  static const Binding<MorisonMember> binding =
+      Binding<MorisonMember>("[member.morison]",
+                             "drag, Froude-Krylov load and added mass of the member where it is at each instant")
+          .key(number("cd", "drag coefficient across the member").within(Limit::not_negative), &MorisonMember::cd)
+          .key(number("ca", "added mass over displaced mass, across the member").within(Limit::not_negative),
+               &MorisonMember::ca)
+          .key(number("cd_tangential", "drag coefficient along the member, of its skin pi D")
+                   .within(Limit::not_negative)
+                   .or_default("0", "a smooth cylinder has some 0.01"),
+               &MorisonMember::cd_tangential)
+          .key(effect("partial_immersion", "only the part under water is loaded; left out: the member is always wet"))
+          .key(text("surface", "that partial immersion goes by: \"waves\", or \"still\" water")
+                   .one_of({"waves", "still"})
+                   .or_default("waves", "the surface is where the waves are")
+                   .only_beside("partial_immersion"))
+          .key(pieces_key(), &MorisonMember::line, &dynamics::SlenderMember::pieces)
+          .at_most(100'000)
+          .then([](const Record& record, MorisonMember& out) {
+            out.line.immersion = !record.has("partial_immersion")    ? whole
+                                 : record.text("surface") == "still" ? still_water
+                                                                     : surface;
+          });
+  return binding;
 }
 
-/// What acts on the member, without name, body and ends.
-Member read_member(const Record& record) {
-  Member out;
-  out.diameter = record.si("diameter");
-  if (record.has("drag")) out.cd = record.table("drag").si("cd");
-  if (record.has("morison")) out.morison = read_morison(record.table("morison"));
-  if (record.has("slamming")) out.slamming = read_slamming(record.table("slamming"));
-  out.place = record.place();
-  return out;
+const Binding<SlammingMember>& member_slamming() {
+  using enum hydro::waves::ImpactTheory;
+  using dynamics::ImpactBegins;
+  static const Binding<SlammingMember> binding =
+      Binding<SlammingMember>("[member.slamming]", "impact of water on the member, once for each piece that goes under")
+          .words(text("model",
+                      "\"goda\" or \"von karman\": the plate below the undisturbed surface; \"wienke\": water "
+                      "piled up beside the member"),
+                 {{"goda", goda}, {"von karman", von_karman}, {"wienke", wienke_oumeraci}}, &SlammingMember::theory)
+          .words(text("begins",
+                      "what goes under when the impact begins: the \"underside\", the \"line\" of the axis, or "
+                      "all, \"submerged\"")
+                     .or_default("line", "between the first touch and the last"),
+                 {{"underside", ImpactBegins::underside},
+                  {"line", ImpactBegins::line},
+                  {"submerged", ImpactBegins::submerged}},
+                 &SlammingMember::begins)
+          .key(number("factor", "by which the model's force is multiplied")
+                   .positive()
+                   .or_default("1", "the model itself"),
+               &SlammingMember::factor)
+          .key(pieces_key(), &SlammingMember::line, &dynamics::SlenderMember::pieces)
+          .at_most(100'000)
+          .then([](const Record&, SlammingMember& out) { out.line.immersion = dynamics::Immersion::surface; });
+  return binding;
+}
+
+/// A member without name, body and ends.
+const Binding<Member>& member() {
+  static const Binding<Member> binding =
+      Binding<Member>("[[member]]", "a slender cylinder fixed to a body; what is named acts on it")
+          .place(&Member::place)
+          .key(name_key("member", "of the member"))
+          .key(texts("on", "bodies that carry it, by name; * stands for any characters"))
+          .key(points("from", "one end, body axes; each ± makes two members"))
+          .key(points("to", "other end, body axes; as many as `from`, taken in pairs"))
+          .key(quantity("diameter", dim::length, "of the member").positive(), &Member::diameter)
+          .table("drag", member_drag())
+          .table("morison", member_morison(), &Member::morison)
+          .table("slamming", member_slamming(), &Member::slamming)
+          .at_most_one_of({"drag", "morison"})
+          .at_least_one_of({"drag", "morison", "slamming"});
+  return binding;
 }
 
 }  // namespace
+
+const Table& member_table() { return member().table(); }
 
 void build_members(const Record& root, Names& names, Scene& scene) {
   for (const Record& record : root.tables("member")) {
@@ -54,7 +111,7 @@ void build_members(const Record& root, Names& names, Scene& scene) {
                          "use as many ± in one as in the other");
     for (std::size_t k = 0; k < from.size(); ++k)
       if (from[k] == to[k]) throw record.wrong("to", "is the same point as from", "a member has a length");
-    Member one = read_member(record);
+    Member one = member().read(record);
     const auto on = bodies_on(record, "on", scene.bodies);
     const auto name = names.of(record, on.size() * from.size());
     for (std::size_t b = 0, n = 0; b < on.size(); ++b)

@@ -1,4 +1,4 @@
-/// Lines that meet: at junctions, and at each other's nodes.
+/// \file  Lines that meet: at each `[[junction]]`, and at each other's nodes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,26 +6,49 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "scene/binding.hpp"
 #include "scene/build.hpp"
 
 namespace froude::scene {
 namespace {
 
-Junction read_junction(const Record& record, Names& names) {
-  Junction out;
-  out.name = names.of(record, 1).front();
-  if (record.has("mass")) out.mass = record.si("mass");
-  if (record.has("diameter")) out.diameter = record.si("diameter");
-  if (record.has("morison")) {
-    const Record& m = record.table("morison");
-    out.morison = {m.si("cd"), m.si("ca")};
-  }
-  out.buoyancy = record.has("buoyancy");
-  out.partial_immersion = record.has("partial_immersion");
-  out.place = record.place();
-  if (record.has("diameter") && !out.buoyancy && !out.morison)
-    throw record.wrong("diameter", "acts on nothing here", "leave it out, or add buoyancy or morison");
-  return out;
+namespace dim = hydro::dim;
+namespace dl = dynamics::line;
+
+const Binding<Junction>& junction_morison() {
+  static const Binding<Junction> binding =
+      Binding<Junction>("[junction.morison]", "drag, Froude-Krylov load and added mass of the sphere")
+          .key(number("cd", "drag coefficient, of its section").within(Limit::not_negative), &Junction::sphere,
+               &dl::Sphere::cd)
+          .key(number("ca", "added mass over displaced mass")
+                   .within(Limit::not_negative)
+                   .or_default("0.5", "of a sphere in unbounded water"),
+               &Junction::sphere, &dl::Sphere::ca);
+  return binding;
+}
+
+const Binding<Junction>& junction() {
+  static const Binding<Junction> binding =
+      Binding<Junction>("[[junction]]",
+                        "a place that nothing holds, at which lines meet that name it in [line.on]; where it is "
+                        "follows from them. With mass or diameter a float or sinker, on one line too")
+          .place(&Junction::place)
+          .key(name_key("junction", "of the junction"))
+          .key(quantity("mass", dim::mass, "of what is there besides the lines").positive().optional(), &Junction::mass)
+          .key(quantity("diameter", dim::length, "of a sphere that the water meets").positive().optional(),
+               &Junction::sphere, &dl::Sphere::diameter)
+          .table("morison", junction_morison())
+          .only_beside({"diameter"})
+          .key(effect("buoyancy", "weight of the water that the sphere displaces").only_beside("diameter"),
+               &Junction::sphere, &dl::Sphere::buoyancy)
+          .key(effect("partial_immersion", "only what is under the waves is wet; left out: all of it, always")
+                   .only_beside("diameter"))
+          .then([](const Record& record, Junction& out) {
+            if (record.has("partial_immersion")) out.sphere.wet = dl::Wet::below_surface;
+            if (record.has("diameter") && !out.sphere.buoyancy && !record.has("morison"))
+              throw record.wrong("diameter", "acts on nothing here", "leave it out, or add buoyancy or morison");
+          });
+  return binding;
 }
 
 /// "main.node4": the line and the node; nothing if there is no such line.
@@ -38,7 +61,7 @@ std::optional<Line::Meets> node_named(const UnresolvedEnd& end, const Scene& sce
   if (of == scene.chains.end()) return std::nullopt;
   int node = -1;
   const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), node);
-  const auto last = static_cast<int>(of->links.size());
+  const int last = of->last_node();
   if (read.ec != std::errc{} || read.ptr != digits.data() + digits.size() || node < 0 || node > last)
     throw hydro::InputError(
         fmt::format("[line.on] refers to \"{}\", but line \"{}\" has the nodes 0 to {}", text, line, last),
@@ -49,19 +72,19 @@ std::optional<Line::Meets> node_named(const UnresolvedEnd& end, const Scene& sce
 /// A node in the middle of a line, or its free end: those which nothing else holds already.
 void require_free(const UnresolvedEnd& end, const Line::Meets& meets, const Scene& scene) {
   const Line& of = scene.chains[meets.line];
-  const auto last = static_cast<int>(of.links.size());
+  const int last = of.last_node();
   const auto refuse = [&](const std::string& rule, const std::string& remedy) {
     throw hydro::InputError(fmt::format("[line.on] refers to \"{}\", {}", end.name.value, rule), end.name.place,
                             remedy);
   };
-  if ((meets.node == 0 && !of.from_meets) || (meets.node == last && of.to))
+  if ((meets.node == 0 && !of.from.meets) || (meets.node == last && of.to.at))
     refuse("which is held already", "hold this line there too: write the place instead");
-  if ((meets.node == 0 && of.from_meets) || (meets.node == last && of.to_meets))
+  if ((meets.node == 0 && of.from.meets) || (meets.node == last && of.to.meets))
     refuse("an end that itself meets something", "name what it meets");
-  if (of.bending_stiffness && meets.node != 0 && meets.node != last)
+  if (of.common.bending_stiffness > 0 && meets.node != 0 && meets.node != last)
     refuse(fmt::format("in the middle of a line that resists bending"),
            fmt::format("make two lines of \"{}\" that end there at a [[junction]]", of.name));
-  const int own = end.first ? 0 : static_cast<int>(scene.chains[end.line].links.size());
+  const int own = end.first ? 0 : scene.chains[end.line].last_node();
   if (meets.line == end.line && std::abs(own - meets.node) < 2)
     refuse("the node beside it", "a loop needs two links at least");
 }
@@ -92,12 +115,12 @@ void require_meetings(const Scene& scene) {
     const Junction& junction = scene.junctions[k];
     int ends = 0;
     for (const Line& l : scene.chains)
-      for (const auto& meets : {l.from_meets, l.to_meets}) ends += meets && meets->junction == k ? 1 : 0;
+      for (const auto& meets : {l.from.meets, l.to.meets}) ends += meets && meets->junction == k ? 1 : 0;
     if (ends == 0)
       throw hydro::InputError(
           fmt::format("no line is on the junction \"{}\"", junction.name), junction.place,
           fmt::format("write on = {{ to = \"{}\" }} in a [[line]], or leave it out", junction.name));
-    if (ends == 1 && junction.mass == 0 && junction.diameter == 0)
+    if (ends == 1 && junction.mass == 0 && junction.sphere.diameter == 0)
       throw hydro::InputError(
           fmt::format("one line alone is on the junction \"{}\", at which nothing is", junction.name), junction.place,
           "let another line be on it too, or give it mass or diameter, or let the end be free");
@@ -113,7 +136,7 @@ std::vector<std::vector<std::size_t>> find_networks(const Scene& scene) {
     return i;
   };
   for (std::size_t i = 0; i < scene.chains.size(); ++i)
-    for (const auto& meets : {scene.chains[i].from_meets, scene.chains[i].to_meets}) {
+    for (const auto& meets : {scene.chains[i].from.meets, scene.chains[i].to.meets}) {
       if (!meets) continue;
       std::size_t with = meets->line;
       if (meets->junction) {
@@ -141,13 +164,14 @@ void require_alike(const Line& l, const Line& first) {
   const auto differs = [&](const std::string& what, const std::string& remedy) {
     throw hydro::InputError(fmt::format("line \"{}\" meets \"{}\", but {}", l.name, first.name, what), l.place, remedy);
   };
-  const auto wet = [](const Line& x) { return x.morison || x.buoyancy; };
-  if (wet(l) != wet(first)) differs("the water acts on one of them alone", "give both buoyancy or morison, or neither");
-  if (l.buoyancy != first.buoyancy) differs("one of them alone has buoyancy", "give it to both or to neither");
-  if (l.partial_immersion != first.partial_immersion)
+  const auto dry = [](const Line& x) { return x.water.wet == dl::Wet::nothing; };
+  if (dry(l) != dry(first)) differs("the water acts on one of them alone", "give both buoyancy or morison, or neither");
+  if (l.water.buoyancy != first.water.buoyancy)
+    differs("one of them alone has buoyancy", "give it to both or to neither");
+  if (l.water.wet != first.water.wet)
     differs("one of them alone is immersed in part", "give partial_immersion to both or to neither");
-  const auto componentwise = [](const Line& x) { return x.damping && x.damping->componentwise; };
-  if (l.damping && first.damping && componentwise(l) != componentwise(first))
+  const auto damped = [](const Line& x) { return x.node.damping > 0 || x.node.quadratic_damping > 0; };
+  if (damped(l) && damped(first) && l.componentwise_damping != first.componentwise_damping)
     differs("one of them alone has its damping componentwise", "give it to both or to neither");
 }
 
@@ -171,7 +195,7 @@ void require_one_system(const Scene& scene, const std::vector<std::size_t>& netw
     if (l.release)
       throw hydro::InputError(fmt::format("line \"{}\" is let go, but meets others, which begin with it", l.name),
                               l.place, "leave [line.release] out");
-    if (on_bodies && !l.axial_stiffness)
+    if (on_bodies && l.common.is_inextensible())
       throw hydro::InputError(
           fmt::format(
               "line \"{}\" is inextensible, and meets lines that are on a body: they have no step once they are "
@@ -192,11 +216,16 @@ void require_one_system(const Scene& scene, const std::vector<std::size_t>& netw
 
 }  // namespace
 
+const Table& junction_table() { return junction().table(); }
+
 void build_networks(const Record& root, Names& names, const std::vector<UnresolvedEnd>& unresolved, Scene& scene) {
-  for (const Record& record : root.tables("junction")) scene.junctions.push_back(read_junction(record, names));
+  for (const Record& record : root.tables("junction")) {
+    scene.junctions.push_back(junction().read(record));
+    scene.junctions.back().name = names.of(record, 1).front();
+  }
   for (const UnresolvedEnd& end : unresolved) {
     Line& line = scene.chains[end.line];
-    (end.first ? line.from_meets : line.to_meets) = resolve(end, scene);
+    (end.first ? line.from : line.to).meets = resolve(end, scene);
   }
   require_meetings(scene);
   scene.networks = find_networks(scene);

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
@@ -62,6 +63,9 @@ class Record {
   Place place_;
   std::map<std::string, Value, std::less<>> values_;
 };
+
+/// A file beside the scene.
+std::filesystem::path beside(const std::filesystem::path& scene, const std::string& relative);
 
 /// Reads `root` as the table `schema`, appends to `echo` one line for each key that acts.
 /// \throws hydro::InputError on an unknown key, a missing one, a wrong type, unit, dimension or bound

@@ -16,13 +16,6 @@ namespace {
 
 using hydro::InputError;
 
-hydro::Water build_water(const Record& water) {
-  const bool deep = water.text("depth") == "infinite";
-  return {.density = water.si("density"),
-          .gravity = water.si("gravity"),
-          .depth = deep ? hydro::WaterDepth::infinite() : hydro::WaterDepth::from_metres(water.si("depth"))};
-}
-
 void read_of(const Record& asked, std::vector<std::string>& of, std::vector<Place>& places) {
   if (asked["of"].defaulted) return;  // empty means everything
   for (const auto& pattern : asked["of"].texts) {
@@ -175,7 +168,7 @@ bool acts_one_way(const Scene& scene) {
     return law != nullptr && (law->tension_only || !law->table_x.empty());
   };
   const auto line = [&](const Line& l) {
-    return l.tension_only && (l.fastened() || scene.solve.line_scheme == "generalized_alpha");
+    return l.common.tension_only && (l.fastened() || scene.solve.line_scheme == "generalized_alpha");
   };
   return std::any_of(scene.connectors.begin(), scene.connectors.end(), axial) ||
          std::any_of(scene.joints.begin(), scene.joints.end(),
@@ -260,10 +253,10 @@ Scene ChangeableScene::with(const std::vector<OverriddenNumber>& numbers) const 
   }
   Names names;
   build_probes(root, names, scene);
-  scene.bodies = build_bodies(root, file_, names);
+  scene.bodies = build_bodies(root, names);
   build_signals(root, names, scene);
   build_members(root, names, scene);
-  build_lines(root, file_, names, scene);
+  build_chains(root, names, scene);
   build_moorings(root, names, scene);
   build_connectors(root, names, scene);
   build_contacts(root, names, scene);

@@ -23,10 +23,16 @@
 #include "dynamics/force/connector.hpp"
 #include "dynamics/force/contact_law.hpp"
 #include "dynamics/force/force_law.hpp"
+#include "dynamics/force/morison.hpp"
 #include "dynamics/force/restoring.hpp"
+#include "dynamics/force/slamming.hpp"
 #include "dynamics/joint/joint.hpp"
 #include "dynamics/line/catenary.hpp"
+#include "dynamics/line/exposure.hpp"
+#include "dynamics/line/line.hpp"
 #include "hydro/base/types.hpp"
+#include "hydro/cylinders/layout.hpp"
+#include "hydro/hydrostatics/shapes.hpp"
 #include "hydro/waves/focus.hpp"
 #include "hydro/waves/sea.hpp"
 
@@ -147,14 +153,8 @@ struct Memory {
 
 /// `[body.hydrodynamics] cylinders`: vertical cylinders, of which the program computes the coefficients.
 struct Cylinders {
-  struct Equal {
-    std::vector<Eigen::Vector3d> at;  ///< axes at the waterline, body axes, m; z is that of still water
-    double diameter;                  ///< m
-    std::optional<double> draught;    ///< m; empty: they stand on the sea bed
-    std::optional<double> top;        ///< m, depth; empty: they pierce the surface
-  };
-  std::vector<Equal> types;             ///< at least one
-  std::vector<double> omega, headings;  ///< rad/s; rad, empty: those that the scene asks for
+  std::vector<hydro::cylinders::Cylinder> all;  ///< at least one; their centres in body axes
+  std::vector<double> omega, headings;          ///< rad/s; rad, empty: those that the scene asks for
 };
 
 /// `[body.hydrodynamics.turning]`: excitation for the heading that a slow yaw leaves.
@@ -193,29 +193,21 @@ struct Buoyancy {
   std::optional<Located<std::filesystem::path>> mesh;  ///< absolute
   std::optional<double> unit;                          ///< of the mesh, m
   std::optional<double> freeboard;                     ///< m: walls drawn up from an open rim, with a deck
-  struct Cylinder {
-    Eigen::Vector3d from, to;  ///< middles of the ends, m
-    double radius;             ///< m
-  };
-  std::vector<Cylinder> cylinders;
-  struct Sphere {
-    Eigen::Vector3d at;  ///< m
-    double radius;       ///< m
-  };
-  std::vector<Sphere> spheres;
+  std::vector<hydro::hydrostatics::CircularCylinder> cylinders;
+  std::vector<hydro::hydrostatics::Sphere> spheres;
   Place place;
 };
 
 struct Body {
-  std::string name;                   ///< unique; copies are m1, m2, …
-  std::string family;                 ///< the name as written; equal to `name` for a single body
-  int copy = 0;                       ///< 0 for a single body, 1, 2, … for copies
-  Eigen::Vector3d position;           ///< of the body's origin at rest, global, m
-  double mass;                        ///< kg, > 0
-  Eigen::Vector3d centre_of_gravity;  ///< from the origin, body axes, m
-  Eigen::Matrix3d inertia;            ///< about the centre of gravity, body axes, kg m², positive definite;
-                                      ///< mass · 1 m² where no rotation is free and none was given: it does not act
-  std::array<bool, 6> free;           ///< modes that may move; all by default
+  std::string name;          ///< unique; copies are m1, m2, …
+  std::string family;        ///< the name as written; equal to `name` for a single body
+  int copy = 0;              ///< 0 for a single body, 1, 2, … for copies
+  Eigen::Vector3d position;  ///< of the body's origin at rest, global, m
+  double mass;               ///< kg, > 0
+  Eigen::Vector3d centre_of_gravity = Eigen::Vector3d::Zero();  ///< from the origin, body axes, m
+  Eigen::Matrix3d inertia;   ///< about the centre of gravity, body axes, kg m², positive definite;
+                             ///< mass · 1 m² where no rotation is free and none was given: it does not act
+  std::array<bool, 6> free;  ///< modes that may move; all by default
   std::map<hydro::Mode, double> initial;           ///< displacement of the origin from rest at t = 0, m or rad
   std::map<hydro::Mode, double> initial_velocity;  ///< m/s or rad/s
   bool weight = false;                             ///< feels gravity; linear hydrostatics hold it already
@@ -225,23 +217,6 @@ struct Body {
   Place place;
 };
 
-/// `[member.morison]`: loads on the member at its true position.
-struct Morison {
-  double cd, ca;             ///< across the axis
-  double cd_tangential = 0;  ///< of the skin
-  bool partial = false;      ///< only the part under water is loaded
-  bool still = false;        ///< with `partial`: under still water, whatever the waves
-  std::optional<int> pieces = {};
-};
-
-/// `[member.slamming]`.
-struct Slamming {
-  enum class Model { goda, wienke, von_karman } model;
-  enum class Begins { underside, line, submerged } begins;
-  double factor;
-  std::optional<int> pieces;
-};
-
 /// `[[member]]`: a slender cylinder fixed to a body. What is named acts on it.
 struct Member {
   std::string name;
@@ -249,8 +224,9 @@ struct Member {
   Eigen::Vector3d from, to;  ///< body axes, m
   double diameter;
   std::optional<double> cd;  ///< of `[member.drag]`: quadratic drag as it is at rest
-  std::optional<Morison> morison;
-  std::optional<Slamming> slamming;
+  /// What they say but for the place and diameter of their `line`; no `pieces`: as many as the accuracy asked needs.
+  std::optional<dynamics::MorisonMember> morison;
+  std::optional<dynamics::SlammingMember> slamming;
   Place place;
 };
 
@@ -271,13 +247,9 @@ struct CatenaryLine {
 
 /// `[[junction]]`: a place that nothing holds, at which ends of lines meet; perhaps a float or sinker.
 struct Junction {
-  struct Water {
-    double cd, ca;
-  };
   std::string name;
-  double mass = 0, diameter = 0;  ///< of a sphere, kg and m
-  std::optional<Water> morison;
-  bool buoyancy = false, partial_immersion = false;
+  double mass = 0;  ///< kg
+  dynamics::line::Sphere sphere;
   Place place;
 };
 
@@ -289,35 +261,20 @@ struct Line {
     std::size_t line = 0;                 ///< else into Scene::chains,
     int node = 0;                         ///< and there
   };
-  struct Link {
-    double length, mass, centre, inertia;  ///< m, kg, share of the length from its first node, kg m² about that
-    std::optional<double> diameter = {}, axial_stiffness = {};  ///< m, N; empty: those of the line
-    std::optional<double> bending_stiffness = {};               ///< N m²; likewise
-  };
-  /// Marine growth on links whose middle is between two distances along the line.
-  struct Growth {
-    double thickness, density, from, to;  ///< m, kg/m³, m, m
+  /// Its first node or its last.
+  struct End {
+    std::optional<Eigen::Vector3d> at;  ///< m, in axes of the body that holds it, if one does; empty: it meets
+                                        ///< something, or is free
+    std::optional<int> body;            ///< index into Scene::bodies
+    std::optional<Meets> meets;
+    Eigen::Vector3d clamp = Eigen::Vector3d::Zero();  ///< as dynamics::line::Held
   };
   /// C_D and C_A by KC and perhaps Re, from a file.
-  struct CoefficientTable {
-    struct Row {
-      double kc, re, cd, ca;
-    };
-    std::vector<Row> rows;
-    double viscosity;  ///< m²/s; 1 where the table has no Re
-    std::filesystem::path file;
+  struct Coefficients {
+    std::vector<dynamics::line::CoefficientTable::Row> rows;
+    double viscosity = 1;  ///< m²/s; 1 where the table has no Re
+    std::string file;      ///< as the scene names it
     Place place;
-  };
-  struct Water {
-    double cd, ca, cd_tangential;
-    std::optional<CoefficientTable> table;  ///< instead of cd and ca
-  };
-  struct Damping {
-    double linear, quadratic;  ///< of each node, kg/s and kg/m
-    bool componentwise;
-  };
-  struct Bed {
-    double stiffness, damping, friction;  ///< Pa/m, Pa s/m, of the weight on it
   };
   struct Release {
     int node;
@@ -336,28 +293,23 @@ struct Line {
     std::vector<Eigen::Vector3d> place;  ///< m
   };
   std::string name;
-  Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< m; in axes of the body that holds it, if one does
-  std::optional<Eigen::Vector3d> to;               ///< m, likewise; empty: a free end, or one that meets something
-  std::optional<Meets> from_meets, to_meets;       ///< instead of `from` and `to`
-  std::optional<int> from_on, to_on;               ///< indices into Scene::bodies
-  bool fastened() const { return from_on || to_on; }
-  std::vector<Link> links;
-  double node_mass = 0;                                 ///< kg, at every node but held ends
-  double diameter = 0;                                  ///< m
-  std::optional<double> axial_stiffness;                ///< N; empty: inextensible
-  double axial_damping = 0;                             ///< N s
-  std::optional<double> bending_stiffness;              ///< EI, N m²; empty: bends freely
-  std::optional<Eigen::Vector3d> clamp_from, clamp_to;  ///< directions of its ends, unit; empty: they turn freely
-  bool tension_only = false, catenary_segments = false, buoyancy = false, partial_immersion = false;
-  std::optional<Water> morison;
-  std::optional<Damping> damping;
-  std::optional<Bed> bed;
+  End from, to;
+  dynamics::line::Segment common;                 ///< what segments have whose own table says nothing else
+  std::vector<dynamics::line::Segment> segments;  ///< each with all it has, marine growth too
+  dynamics::line::Node node;                      ///< each; at held ends without mass
+  bool componentwise_damping = false;             ///< as dynamics::line::Description
+  dynamics::line::Surroundings water;             ///< without the field of a run
+  std::optional<Coefficients> coefficients;       ///< instead of those of the segments
+  std::optional<dynamics::line::Bed> bed;
   std::optional<Release> release;
   std::optional<PrescribedMotion> prescribed;
   std::optional<Snaps> snaps;
   std::optional<Lyapunov> lyapunov;
-  std::optional<Growth> growth;
   Place place;
+
+  const End& end(bool first) const { return first ? from : to; }
+  int last_node() const { return static_cast<int>(segments.size()); }
+  bool fastened() const { return from.body || to.body; }
 };
 
 /// `[connector.switch]`: the stiffness by the period that dominates a motion, which `signal` is made of later.

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "hydro/base/types.hpp"
+
 namespace froude::scene {
 
 namespace dim = hydro::dim;
@@ -17,6 +19,9 @@ Key name_key(std::string fallback, std::string meaning) {
 }
 Key texts(std::string name, std::string meaning) {
   return {.name = std::move(name), .holds = Holds::texts, .meaning = std::move(meaning)};
+}
+Key modes(std::string name, std::string meaning) {
+  return texts(std::move(name), std::move(meaning)).one_of({hydro::mode_names.begin(), hydro::mode_names.end()});
 }
 Key number(std::string name, std::string meaning) {
   return {.name = std::move(name), .holds = Holds::number, .meaning = std::move(meaning)};

@@ -1,7 +1,6 @@
 #pragma once
-/// \file  The grammar of scenes as data. Each table is declared once, in schema_motion.cpp and schema_fit.cpp; from
-/// that
-///        one declaration come the reader (record.hpp), its error messages, the echo, and key_reference().
+/// \file  The grammar of scenes as data. Each table is declared once; from that one declaration come the reader
+///        (record.hpp, binding.hpp), its error messages, the echo, and key_reference().
 #include <span>
 #include <string>
 #include <string_view>
@@ -88,6 +87,7 @@ struct Table {
 Key text(std::string name, std::string meaning);
 Key name_key(std::string fallback, std::string meaning);  ///< "" as fallback: required
 Key texts(std::string name, std::string meaning);
+Key modes(std::string name, std::string meaning);  ///< texts that name motions of a body
 Key number(std::string name, std::string meaning);
 Key integer(std::string name, std::string meaning);
 Key effect(std::string name, std::string meaning);
