@@ -8,10 +8,15 @@
 ///           .key(vector("force", dim::force, "global axes"), &Load::force)
 ///           .key(quantity("from", dim::time, "when it begins").optional(), &Load::from);
 ///
-/// From it come the schema, its documentation, errors and echo (table()), and the reader (read()). A binding is kept as
-/// a static of a function: tables refer to those within them.
+/// From it come the schema, its documentation, errors and echo (table()), and the reader (read()). A binding keeps
+/// those within it; the outermost is a static of a function.
+#include <fmt/format.h>
+
+#include <array>
 #include <concepts>
+#include <filesystem>
 #include <functional>
+#include <memory>
 #include <type_traits>
 #include <utility>
 
@@ -34,7 +39,8 @@ struct IsLocated<Located<M>> : std::true_type {};
 template <class M>
 void put(const Value& from, M& to) {
   if constexpr (IsOptional<M>::value) {
-    constexpr bool quantity = std::is_floating_point_v<typename M::value_type>;
+    using Held = typename M::value_type;
+    constexpr bool quantity = std::floating_point<Held> || std::same_as<Held, Located<double>>;
     if (quantity && !from.text.empty()) return to.reset();
     to.emplace();
     put(from, *to);
@@ -57,6 +63,13 @@ void put(const Value& from, M& to) {
     to = from.range;
   } else if constexpr (std::same_as<M, hydro::Angle>) {
     to = hydro::Angle::from_radians(from.number);
+  } else if constexpr (std::same_as<M, hydro::WaterDepth>) {
+    to = from.text.empty() ? hydro::WaterDepth::from_metres(from.number) : hydro::WaterDepth::infinite();
+  } else if constexpr (std::same_as<M, std::filesystem::path>) {
+    to = beside(from.place.file, from.text);
+  } else if constexpr (std::same_as<M, std::array<bool, 6>>) {
+    to.fill(false);  // of the six modes, those that are named
+    for (const auto& mode : from.texts) to[static_cast<std::size_t>(hydro::parse_mode(mode.value))] = true;
   } else {
     static_assert(std::same_as<M, std::vector<std::string>>, "no value of a scene is held by this type");
     to.assign(from.texts.begin(), from.texts.end());
@@ -65,22 +78,61 @@ void put(const Value& from, M& to) {
 
 }  // namespace detail
 
+/// Words of a scene and what each stands for.
+template <class M>
+using Words = std::vector<std::pair<std::string, M>>;
+
+template <class M>
+std::vector<std::string> words_of(const Words<M>& words) {
+  std::vector<std::string> out;
+  for (const auto& [word, meant] : words) out.push_back(word);
+  return out;
+}
+/// What a word stands for; the grammar lets no other pass.
+template <class M>
+const M& value_for(const Words<M>& words, const std::string& text) {
+  for (const auto& [word, meant] : words)
+    if (word == text) return meant;
+  throw std::logic_error("the grammar lets a word pass that its reader does not know: " + text);
+}
+/// The word for a value that has one.
+template <class M>
+const std::string& word_for(const Words<M>& words, const M& value) {
+  for (const auto& [word, meant] : words)
+    if (meant == value) return word;
+  throw std::logic_error("there is a value for which the grammar has no word");
+}
+
 template <class T>
 class Binding {
  public:
   Binding(std::string title, std::string meaning)
       : table_{.title = std::move(title), .meaning = std::move(meaning), .keys = {}} {}
+  /// Of keys that no member holds.
+  explicit Binding(Table table) : table_(std::move(table)) {}
 
-  /// A key and the member that takes its value, in SI. The member keeps what it was made with where the key is not
-  /// there.
-  template <class M>
-  Binding& key(Key key, M T::*member) {
+  /// A key and the member, of T or of a base, that takes its value, in SI. The member keeps what it was made with where
+  /// the key is not there.
+  template <class M, class B>
+  Binding& key(Key key, M B::*member) {
     return add(std::move(key), [member](const Value& value, T& out) { detail::put(value, out.*member); });
   }
+  /// The same of a member's member.
+  template <class I, class M>
+  Binding& key(Key key, I T::*outer, M I::*member) {
+    return add(std::move(key), [=](const Value& value, T& out) { detail::put(value, out.*outer.*member); });
+  }
+  /// A key and what is done with its value, where it is there.
+  Binding& key(Key key, std::function<void(const Value&, T&)> put) { return add(std::move(key), std::move(put)); }
   /// A key that a reader or check of the caller's own looks up in the record.
   Binding& key(Key key) {
     table_.keys.push_back(std::move(key));
     return *this;
+  }
+  /// A key that may be left out.
+  template <class... Member>
+  Binding& optional(Key key, Member... member) {
+    return this->key(std::move(key.optional()), member...);
   }
   Binding& keys(std::vector<Key> keys) {
     for (Key& one : keys) key(std::move(one));
@@ -88,12 +140,9 @@ class Binding {
   }
   /// A text that is one of these words, each of which stands for a value.
   template <class M>
-  Binding& words(Key key, const std::vector<std::pair<std::string, M>>& words, M T::*member) {
-    for (const auto& [word, value] : words) key.words.push_back(word);
-    return add(std::move(key), [words, member](const Value& value, T& out) {
-      for (const auto& [word, meant] : words)
-        if (word == value.text) out.*member = meant;
-    });
+  Binding& words(Key key, const Words<M>& words, M T::*member) {
+    return add(std::move(key.one_of(words_of(words))),
+               [words, member](const Value& value, T& out) { out.*member = value_for(words, value.text); });
   }
   /// A list of words, each of which sets a member.
   Binding& flags(Key key, const std::vector<std::pair<std::string, bool T::*>>& words) {
@@ -104,24 +153,44 @@ class Binding {
           if (given.value == word) out.*member = true;
     });
   }
-  /// A table within this one, needed.
-  template <class I>
-  Binding& table(const std::string& name, const Binding<I>& inner, I T::*member) {
-    return add(inner_table(name, inner.table()),
-               [&inner, member](const Value& value, T& out) { out.*member = inner.read(value.records.front()); });
-  }
-  /// A table within this one, which may be left out.
-  template <class I>
-  Binding& table(const std::string& name, const Binding<I>& inner, std::optional<I> T::*member) {
-    return add(inner_table(name, inner.table()).optional(),
-               [&inner, member](const Value& value, T& out) { out.*member = inner.read(value.records.front()); });
-  }
-  /// As many tables as there are.
-  template <class I>
-  Binding& tables(const std::string& name, const Binding<I>& inner, std::vector<I> T::*member) {
-    return add(inner_tables(name, inner.table()), [&inner, member](const Value& value, T& out) {
-      for (const Record& record : value.records) (out.*member).push_back(inner.read(record));
+  /// A table within this one, which may be left out where the member is a std::optional. A member that other keys fill
+  /// too keeps what they gave.
+  template <class I, class M>
+  Binding& table(const std::string& name, const Binding<I>& inner, M T::*member) {
+    Key key = inner_table(name, inner.table());
+    if (detail::IsOptional<M>::value) key.optional();
+    return nested(key, inner, [member](const Binding<I>& of, const Record& record, T& out) {
+      of.read_member(record, out.*member);
     });
+  }
+  /// One that may be left out, whose keys are read into this very struct, or into a base of it.
+  template <class B>
+  Binding& table(const std::string& name, const Binding<B>& inner) {
+    return nested(inner_table(name, inner.table()).optional(), inner,
+                  [](const Binding<B>& of, const Record& record, T& out) { of.read_into(record, out); });
+  }
+  /// As many tables as there are; one at least unless the key is optional().
+  template <class I, class B>
+  Binding& tables(const std::string& name, const Binding<I>& inner, std::vector<I> B::*member) {
+    return nested(
+        inner_tables(name, inner.table()), inner,
+        [member](const Binding<I>& of, const Record& record, T& out) { (out.*member).push_back(of.read(record)); });
+  }
+  /// Keys of this table, and rules between them, that a member is read from.
+  template <class I, class M, class B>
+  Binding& part(const Binding<I>& of, M B::*member) {
+    append(of.table());
+    return then([of, member](const Record& record, T& out) { of.read_member(record, out.*member); });
+  }
+  /// The same, read into this very struct.
+  Binding& part(const Binding<T>& of) {
+    append(of.table());
+    return then([of](const Record& record, T& out) { of.read_into(record, out); });
+  }
+  /// A member that every such table sets to the same.
+  template <class M>
+  Binding& sets(M T::*member, M value) {
+    return then([member, value](const Record&, T& out) { out.*member = value; });
   }
   /// Where the table stands.
   Binding& place(Place T::*member) {
@@ -131,10 +200,32 @@ class Binding {
   Binding& exactly_one_of(std::vector<std::string> keys) { return group(Group::Count::exactly_one, std::move(keys)); }
   Binding& at_most_one_of(std::vector<std::string> keys) { return group(Group::Count::at_most_one, std::move(keys)); }
   Binding& at_least_one_of(std::vector<std::string> keys) { return group(Group::Count::at_least_one, std::move(keys)); }
+  /// The last key may be left out; its member then stays as it was made.
+  Binding& optional() {
+    table_.keys.back().optional();
+    return *this;
+  }
+  /// The last key, a table, may not be left out;
+  Binding& needed() {
+    table_.keys.back().need = Need::required;
+    return *this;
+  }
+  /// or where it is left out, it is read as if it were there and empty.
+  Binding& or_default() {
+    table_.keys.back().or_default("", "see its keys");
+    return *this;
+  }
   /// The last key only where one of these others is given.
   Binding& only_beside(std::vector<std::string> others) {
     table_.keys.back().only_beside_one_of(std::move(others));
     return *this;
+  }
+  /// The last key, an integer, up to this.
+  Binding& at_most(std::int64_t most) {
+    return then([name = table_.keys.back().name, most](const Record& record, T&) {
+      if (record.has(name) && record[name].integer > most)
+        throw record.wrong(name, fmt::format("is more than {}", most));
+    });
   }
 
   /// What the keys one by one cannot know: called with the record and what was read of it. \throws hydro::InputError
@@ -146,7 +237,7 @@ class Binding {
   /// Further keys for one word of `kind`, the key that must have been added, read into the same struct.
   Binding& variant(const std::string& word, const Binding<T>& of) {
     add_variant(word, of.table());
-    return then([word, &of](const Record& record, T& out) {
+    return then([word, of](const Record& record, T& out) {
       if (record.text("kind") == word) of.read_into(record, out);
     });
   }
@@ -154,7 +245,7 @@ class Binding {
   template <class V, class... All>
   Binding& variant(const std::string& word, const Binding<V>& of, std::variant<All...> T::*member) {
     add_variant(word, of.table());
-    return then([word, &of, member](const Record& record, T& out) {
+    return then([word, of, member](const Record& record, T& out) {
       if (record.text("kind") == word) out.*member = of.read(record);
     });
   }
@@ -169,6 +260,14 @@ class Binding {
   void read_into(const Record& record, T& out) const {
     for (const auto& step : steps_) step(record, out);
   }
+  /// Into a member that is such a struct, or is to hold one.
+  template <class M>
+  void read_member(const Record& record, M& member) const {
+    if constexpr (std::same_as<M, T>)
+      read_into(record, member);
+    else
+      member = read(record);
+  }
 
  private:
   Binding& add(Key key, std::function<void(const Value&, T&)> put) {
@@ -177,6 +276,19 @@ class Binding {
     });
     table_.keys.push_back(std::move(key));
     return *this;
+  }
+  /// A key of one table or several, each of which `put` reads with a copy of their binding.
+  template <class I, class Put>
+  Binding& nested(Key key, const Binding<I>& inner, Put put) {
+    const auto own = std::make_shared<const Binding<I>>(inner);
+    key.inner = &own->table();
+    return add(std::move(key), [own, put](const Value& value, T& out) {
+      for (const Record& record : value.records) put(*own, record, out);
+    });
+  }
+  void append(const Table& part) {
+    table_.keys.insert(table_.keys.end(), part.keys.begin(), part.keys.end());
+    table_.groups.insert(table_.groups.end(), part.groups.begin(), part.groups.end());
   }
   Binding& group(Group::Count count, std::vector<std::string> keys) {
     table_.groups.push_back({count, std::move(keys)});

@@ -12,6 +12,9 @@ class CsvTable;
 
 namespace froude::scene {
 
+template <class T>
+class Binding;
+
 /// Names of bodies, members, moorings and connectors: one word, one thing, because signals are called after them.
 class Names {
  public:
@@ -52,8 +55,14 @@ void build_loads(const Record& root, Names& names, Scene& scene);
 Waves build_waves(const Record& waves, const Scene& scene);
 hydro::waves::Current build_current(const Record& current, const std::filesystem::path& file);
 std::vector<Probe> build_probes(const Record& root, Names& names);
-void build_ask(const Record& ask, Scene& scene);
-Solve build_solve(const Record& solve);
+void build_solve(const Record& solve, Scene& scene);
+
+// The tables, each declared in the file of its subject.
+const Binding<Waves>& waves_binding();
+const Table& current_table();
+const Table& probe_table();
+const Binding<Scene>& ask_binding();
+const Binding<Solve>& solve_binding();
 
 /// What `between` joins; an empty one is the ground. Of neighbours both are bodies.
 struct Between {
@@ -69,8 +78,6 @@ std::vector<int> bodies_on(const Record& record, std::string_view key, const std
 /// \throws hydro::InputError if there is no body of this name, with the nearest
 int body_named(const Record& record, const Located<std::string>& name, const std::vector<Body>& bodies);
 
-/// A file beside the scene.
-std::filesystem::path beside(const std::filesystem::path& scene, const std::string& relative);
 /// Times of a recorded motion, the file of the key `file`: two or more, rising, from t = 0 or before.
 /// \throws hydro::InputError for others
 std::vector<double> rising_times(const Record& record, const hydro::io::CsvTable& table);

@@ -31,6 +31,9 @@ Key effect(std::string name, std::string meaning) {
 Key quantity(std::string name, const hydro::Dimension& dimension, std::string meaning) {
   return {.name = std::move(name), .holds = Holds::quantity, .dimension = dimension, .meaning = std::move(meaning)};
 }
+Key positive(std::string name, const hydro::Dimension& dimension, std::string meaning) {
+  return quantity(std::move(name), dimension, std::move(meaning)).positive();
+}
 Key vector(std::string name, const hydro::Dimension& dimension, std::string meaning) {
   return {.name = std::move(name), .holds = Holds::vector, .dimension = dimension, .meaning = std::move(meaning)};
 }

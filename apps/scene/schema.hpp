@@ -1,7 +1,6 @@
 #pragma once
-/// \file  The grammar of scenes as data. Each table is declared once, in schema_motion.cpp and schema_fit.cpp; from
-/// that
-///        one declaration come the reader (record.hpp), its error messages, the echo, and key_reference().
+/// \file  The grammar of scenes as data. Each table is declared once, beside what reads it (binding.hpp); from that one
+///        declaration come the reader (record.hpp), its error messages, the echo, and key_reference().
 #include <span>
 #include <string>
 #include <string_view>
@@ -92,6 +91,7 @@ Key number(std::string name, std::string meaning);
 Key integer(std::string name, std::string meaning);
 Key effect(std::string name, std::string meaning);
 Key quantity(std::string name, const hydro::Dimension& dimension, std::string meaning);
+Key positive(std::string name, const hydro::Dimension& dimension, std::string meaning);  ///< a quantity above zero
 Key vector(std::string name, const hydro::Dimension& dimension, std::string meaning);
 Key points(std::string name, std::string meaning);
 Key ends(std::string name, std::string meaning);

@@ -1,7 +1,8 @@
 /// \file  The tables of a scene of motion: what may be written, what it means, what is filled in and why.
 #include "hydro/potential/check.hpp"
+#include "scene/binding.hpp"
+#include "scene/build.hpp"
 #include "scene/schema.hpp"
-#include "scene/schema_ask.hpp"
 #include "scene/schema_connections.hpp"
 #include "scene/schema_contact.hpp"
 #include "scene/schema_joint.hpp"
@@ -9,7 +10,6 @@
 #include "scene/schema_members.hpp"
 #include "scene/schema_modes.hpp"
 #include "scene/schema_signals.hpp"
-#include "scene/schema_waves.hpp"
 
 namespace froude::scene {
 namespace {
@@ -294,7 +294,7 @@ const Table& motion_schema() {
                      "[coefficients]")
                    .optional(),
                inner_table("water", water()),
-               inner_table("waves", waves_table()).optional(),
+               inner_table("waves", waves_binding().table()).optional(),
                inner_table("current", current_table()).optional(),
                inner_tables("body", body()).optional(),
                inner_tables("probe", probe_table()).optional(),
@@ -308,8 +308,8 @@ const Table& motion_schema() {
                inner_tables("joint", joint_table()).optional(),
                inner_tables("load", load_table()).optional(),
                inner_tables("contact", contact_table()).optional(),
-               inner_table("ask", ask_table()),
-               inner_table("solve", solve_table()).or_default("", "see its keys")}};
+               inner_table("ask", ask_binding().table()),
+               inner_table("solve", solve_binding().table()).or_default("", "see its keys")}};
   return table;
 }
 
