@@ -23,24 +23,23 @@ Binding<PrepareOptions> outliers() {
 }
 
 const Binding<FilterChoice>& low_pass() {
-  using enum FilterChoice::Kind;
+  using F = FilterChoice;
+  using enum F::Kind;
   static const auto table =
-      Binding<FilterChoice>("[prepare.low_pass]", "low pass without delay, over force and model alike")
+      Binding<F>("[prepare.low_pass]", "low pass without delay, over force and model alike")
           .key(text("kind", "of filter"))
-          .key(positive("cutoff", dim::angular_velocity, "frequency of half the amplitude"),
-               in_hertz(&FilterChoice::hz))
+          .key(positive("cutoff", dim::angular_velocity, "frequency of half the amplitude"), in_hertz(&F::hz))
           .variant("butterworth",
-                   Binding<FilterChoice>("", "recursive, forward and backward")
+                   Binding<F>("", "recursive, forward and backward")
                        .key(integer("order", "of one pass, 1 to 10").or_default("4", "as steep as most need"),
-                            [](const Value& v, FilterChoice& out) {
+                            [](const Value& v, F& out) {
                               out.order = static_cast<int>(v.integer);
                               if (v.integer < 1 || v.integer > 10) throw v.wrong("must lie between 1 and 10");
                             })
-                       .sets(&FilterChoice::kind, butterworth))
+                       .sets(&F::kind, butterworth))
           .variant("symmetric weights",
-                   Binding<FilterChoice>(
-                       "", "finite: sinc under a Kaiser window of 60 dB, from half the cutoff to one and a half")
-                       .sets(&FilterChoice::kind, finite));
+                   Binding<F>("", "finite: sinc under a Kaiser window of 60 dB, from half the cutoff to one and a half")
+                       .sets(&F::kind, finite));
   return table;
 }
 

@@ -269,6 +269,18 @@ void read_channels(const FitTables& tables, const std::vector<std::string>& role
                              fmt::format("add {} = \"name of a column\"", role));
 }
 
+const std::vector<Located<std::string>>& wanted(const FitTables& t, const std::vector<std::string>& known,
+                                                const char* example, const char* remedy) {
+  if (!t.ask().has("coefficients"))
+    throw t.ask().refused("needs the key \"coefficients\"", fmt::format("add coefficients = {}", example));
+  const Value& asked = t.ask()["coefficients"];
+  for (const auto& one : asked.texts)
+    if (std::find(known.begin(), known.end(), one.value) == known.end())
+      throw hydro::InputError(fmt::format("{}: \"{}\" {}", asked.name, one.value, not_of_kind(t.model().text("kind"))),
+                              one.place, remedy);
+  return asked.texts;
+}
+
 std::string word_of(::fit::IntervalMethod method) { return word_for(interval_methods, method); }
 
 const Table& fit_schema() {

@@ -81,9 +81,9 @@ auto in_hertz(double T::*member) {
 /// [prepare].
 const Binding<::fit::PrepareOptions>& prepare_binding();
 
-/// Keys of [model] that describe a cylinder and its water.
+/// Keys of [model] that describe a cylinder and its water: in fit_towing.cpp.
 Binding<::fit::Cylinder> cylinder_keys();
-/// [model.body]
+/// [model.body]: in fit_radiation.cpp.
 Binding<::fit::RestoredBody> restored_body();
 /// \throws hydro::InputError for a mass beside an angle, an inertia beside a position
 void check_restored(const FitTables& tables);

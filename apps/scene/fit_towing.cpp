@@ -1,7 +1,22 @@
-/// \file  Fits of kind "towing": drag at steady speed.
+/// \file  Fits of kind "towing": drag of a cylinder at steady speed.
 #include "scene/fit_tables.hpp"
 
 namespace froude::scene {
+
+Binding<::fit::Cylinder> cylinder_keys() {
+  namespace dim = hydro::dim;
+  using ::fit::Cylinder;
+  const auto water =
+      Binding<Cylinder>("[model.water]", "the water of the experiment")
+          .key(positive("density", dim::density, "of the water"), &Cylinder::density)
+          .optional(positive("viscosity", dim::kinematic_viscosity, "kinematic; gives the Reynolds number"),
+                    &Cylinder::viscosity);
+  return Binding<Cylinder>("", "")
+      .key(positive("diameter", dim::length, "of the cylinder"), &Cylinder::diameter)
+      .key(positive("length", dim::length, "of the cylinder in the water"), &Cylinder::length)
+      .table("water", water)
+      .needed();
+}
 
 Binding<TowingModel> towing_keys() {
   return Binding<TowingModel>("", "drag at steady speed").part(cylinder_keys(), &TowingModel::cylinder);
