@@ -12,6 +12,9 @@ class CsvTable;
 
 namespace froude::scene {
 
+template <class T>
+class Binding;
+
 /// Names of bodies, members, moorings and connectors: one word, one thing, because signals are called after them.
 class Names {
  public:
@@ -76,8 +79,13 @@ void build_elements(const Record& root, Names& names, Scene& scene);
 Waves build_waves(const Record& waves, const Scene& scene);
 hydro::waves::Current build_current(const Record& current, const std::filesystem::path& file);
 void build_probes(const Record& root, Names& names, Scene& scene);
-void build_ask(const Record& ask, Scene& scene);
-Solve build_solve(const Record& solve);
+void build_solve(const Record& solve, Scene& scene);
+
+// Tables that are declared beside their readers.
+const Binding<Waves>& waves_binding();
+const Table& current_table();
+const Binding<Scene>& ask_binding();
+const Binding<Solve>& solve_binding();
 
 /// What `between` joins; an empty one is the ground. Of neighbours both are bodies.
 struct Between {

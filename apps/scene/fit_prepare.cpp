@@ -1,67 +1,145 @@
-#include "scene/fit_models.hpp"
+/// \file  [prepare]: the steps between a measurement and its fit.
+#include "scene/fit_tables.hpp"
 
 namespace froude::scene {
 namespace {
 
-constexpr FitWord<::fit::Derivative> derivatives[] = {{"local polynomial", ::fit::Derivative::local_polynomial},
-                                                      {"smoothing spline", ::fit::Derivative::smoothing_spline},
-                                                      {"fourier series", ::fit::Derivative::fourier_series}};
-constexpr FitWord<::fit::FilterChoice::Kind> low_passes[] = {{"butterworth", ::fit::FilterChoice::Kind::butterworth},
-                                                             {"symmetric weights", ::fit::FilterChoice::Kind::finite}};
-constexpr FitWord<::fit::WindowChoice::Kind> windows[] = {{"span", ::fit::WindowChoice::Kind::span},
-                                                          {"full cycles", ::fit::WindowChoice::Kind::full_cycles}};
+namespace dim = hydro::dim;
+using ::fit::FilterChoice;
+using ::fit::PrepareOptions;
+using ::fit::WindowChoice;
 
-std::vector<::fit::FilterChoice> read_filters(const Record& prepare) {
-  using Kind = ::fit::FilterChoice::Kind;
-  std::vector<::fit::FilterChoice> out;
-  for (const Record& n : prepare.tables("notch"))
-    out.push_back({.kind = Kind::notch, .hz = hertz(n, "centre"), .width = hertz(n, "width")});
-  if (prepare.has("moving_average"))
-    out.push_back({.kind = Kind::moving_average, .seconds = prepare.si("moving_average")});
-  if (!prepare.has("low_pass")) return out;
-  const Record& low = prepare.table("low_pass");
-  ::fit::FilterChoice f{.kind = value_of_word(low_passes, low.text("kind")), .hz = hertz(low, "cutoff")};
-  if (low.has("order")) {
-    f.order = static_cast<int>(low["order"].integer);
-    if (f.order < 1 || f.order > 10) throw low.wrong("order", "must lie between 1 and 10");
-  }
-  out.push_back(f);
-  return out;
+Binding<PrepareOptions> outliers() {
+  return Binding<PrepareOptions>("[prepare.outliers]", "single samples far off their neighbours, which are bridged")
+      .key(positive("window", dim::time, "neighbours asked, half before and half after"),
+           &PrepareOptions::outlier_window_s)
+      .key(number("deviations", "how far off, in deviations of the neighbours (from their medians), 3 at least")
+               .positive()
+               .or_default("8", "noise alone comes so far once in 1e15 samples"),
+           [](const Value& v, PrepareOptions& out) {
+             out.outlier_deviations = v.number;
+             if (v.number < 3) throw v.wrong("must be 3 at least: noise itself comes so far");
+           });
 }
 
-::fit::WindowChoice read_window(const Record& window) {
-  ::fit::WindowChoice out{.kind = value_of_word(windows, window.text("kind"))};
-  if (window.has("last") && window["last"].integer < 1) throw window.wrong("last", "must be 1 at least");
-  if (window.has("last")) out.cycles = static_cast<int>(window["last"].integer);
-  if (window.has("tolerance")) out.tolerance = window.si("tolerance");
-  out.from = given(window, "from");
-  out.to = given(window, "to");
-  if (window.has("to") && !(out.from < out.to)) throw window.wrong("to", "must be later than from");
-  return out;
+const Binding<FilterChoice>& low_pass() {
+  using F = FilterChoice;
+  using enum F::Kind;
+  static const auto table =
+      Binding<F>("[prepare.low_pass]", "low pass without delay, over force and model alike")
+          .key(text("kind", "of filter"))
+          .key(positive("cutoff", dim::angular_velocity, "frequency of half the amplitude"), in_hertz(&F::hz))
+          .variant("butterworth",
+                   Binding<F>("", "recursive, forward and backward")
+                       .key(integer("order", "of one pass, 1 to 10").or_default("4", "as steep as most need"),
+                            [](const Value& v, F& out) {
+                              out.order = static_cast<int>(v.integer);
+                              if (v.integer < 1 || v.integer > 10) throw v.wrong("must lie between 1 and 10");
+                            })
+                       .sets(&F::kind, butterworth))
+          .variant("symmetric weights",
+                   Binding<F>("", "finite: sinc under a Kaiser window of 60 dB, from half the cutoff to one and a half")
+                       .sets(&F::kind, finite));
+  return table;
+}
+
+Binding<FilterChoice> notch() {
+  return Binding<FilterChoice>("[[prepare.notch]]",
+                               "takes one line out: hum of the mains, a vibration of the structure")
+      .sets(&FilterChoice::kind, FilterChoice::Kind::notch)
+      .key(positive("centre", dim::angular_velocity, "frequency of the line"), in_hertz(&FilterChoice::hz))
+      .key(positive("width", dim::angular_velocity, "between the frequencies of half the amplitude"),
+           in_hertz(&FilterChoice::width));
+}
+
+Binding<WindowChoice> full_cycles_window() {
+  return Binding<WindowChoice>("", "cycles of full amplitude, found in the motion; build-up and run-down fall out")
+      .optional(integer("last", "so many of them; left out: all"),
+                [](const Value& v, WindowChoice& out) {
+                  out.cycles = static_cast<int>(v.integer);
+                  if (v.integer < 1) throw v.wrong("must be 1 at least");
+                })
+      .key(number("tolerance", "of amplitude and period, relative")
+               .within(Limit::open_fraction)
+               .or_default("0.03", "a build-up over three cycles takes a quarter each"),
+           &WindowChoice::tolerance)
+      .sets(&WindowChoice::kind, WindowChoice::Kind::full_cycles);
+}
+
+Binding<WindowChoice> span_window() {
+  return Binding<WindowChoice>("", "from one time to another")
+      .key(quantity("from", dim::time, "first instant"), &WindowChoice::from)
+      .key(quantity("to", dim::time, "last instant"), &WindowChoice::to)
+      .sets(&WindowChoice::kind, WindowChoice::Kind::span)
+      .then([](const Record& window, WindowChoice& out) {
+        if (!(out.from < out.to)) throw window.wrong("to", "must be later than from");
+      });
+}
+
+Binding<WindowChoice> window() {
+  return Binding<WindowChoice>("[prepare.window]", "the part of the record that is fitted")
+      .key(text("kind", "of window"))
+      .variant("full cycles", full_cycles_window())
+      .variant("span", span_window());
+}
+
+/// Steps of a force alone.
+Binding<PrepareOptions> steps_of_forces() {
+  using enum ::fit::Derivative;
+  return Binding<PrepareOptions>("", "")
+      .optional(
+          positive("derivative_bandwidth", dim::angular_velocity,
+                   "of velocity and acceleration where they are derived; left out: five times the main frequency"),
+          in_hertz(&PrepareOptions::derivative_bandwidth_hz))
+      .words(text("derivative_method",
+                  "how they are derived: a spline has less noise for the same bandwidth and gives up more at the ends; "
+                  "a Fourier series is for a motion that repeats from one end of the record to the other")
+                 .or_default("local polynomial", "gives up the least where a motion does not repeat"),
+             {{"local polynomial", local_polynomial},
+              {"smoothing spline", smoothing_spline},
+              {"fourier series", fourier_series}},
+             &PrepareOptions::derivative)
+      .optional(inner_table("low_pass", low_pass().table()))
+      .tables("notch", notch(), &PrepareOptions::filters)
+      .optional()
+      .optional(positive("moving_average", dim::time, "length of a mean over neighbours; a low pass does it better"),
+                [](const Value& v, PrepareOptions& out) {
+                  out.filters.push_back({.kind = FilterChoice::Kind::moving_average, .seconds = v.number});
+                })
+      .then([](const Record& prepare, PrepareOptions& out) {  // the last of all filters
+        if (prepare.has("low_pass")) out.filters.push_back(low_pass().read(prepare.table("low_pass")));
+      });
 }
 
 }  // namespace
 
-::fit::PrepareOptions read_steps(const Record& root) {
-  ::fit::PrepareOptions out;
-  if (!root.has("prepare")) return out;
-  const Record& prepare = root.table("prepare");
-  out.longest_gap_s = given(prepare, "longest_gap");
-  if (prepare.has("outliers")) {
-    const Record& outliers = prepare.table("outliers");
-    out.outlier_window_s = outliers.si("window");
-    out.outlier_deviations = outliers.si("deviations");
-    if (out.outlier_deviations < 3) throw outliers.wrong("deviations", "must be 3 at least: noise itself comes so far");
-  }
-  if (prepare.has("resample")) out.resample_hz = hertz(prepare, "resample");
-  if (prepare.has("derivative_bandwidth")) out.derivative_bandwidth_hz = hertz(prepare, "derivative_bandwidth");
-  out.derivative = value_of_word(derivatives, prepare.text("derivative_method"));
-  out.filters = read_filters(prepare);
-  if (prepare.has("window")) out.window = read_window(prepare.table("window"));
-  out.average_cycles = prepare.has("mean_cycle");
-  if (out.average_cycles && out.window.kind != ::fit::WindowChoice::Kind::full_cycles)
-    throw prepare.wrong("mean_cycle", "needs cycles", "set window = { kind = \"full cycles\" }");
-  return out;
+const Binding<PrepareOptions>& prepare_binding() {
+  static const auto table =
+      Binding<PrepareOptions>("[prepare]",
+                              "steps between the measurement and a fit of kind \"morison\"; each is told in the "
+                              "report. A decay has longest_gap, outliers and a window of kind \"span\"")
+          .optional(positive("longest_gap", dim::time, "rows missing no longer than this are bridged"),
+                    &PrepareOptions::longest_gap_s)
+          .table("outliers", outliers())
+          .optional(
+              positive("resample", dim::angular_velocity,
+                       "\"50 Hz\": all channels are brought to this sampling rate, without delay; kept is what lies "
+                       "below 0.3 of the lower rate"),
+              in_hertz(&PrepareOptions::resample_hz))
+          .optional(quantity("delay", dim::time, "of the force behind the motion: taken off, or estimated with the fit")
+                        .one_of({"estimate"}))
+          .optional(
+              positive("delay_error", dim::time, "standard uncertainty of a delay that is given").only_beside("delay"))
+          .optional(positive("longest_delay", dim::time, "where it is estimated: searched so far either way")
+                        .only_beside("delay"))
+          .part(steps_of_forces())
+          .table("window", window(), &PrepareOptions::window)
+          .optional()
+          .key(effect("mean_cycle",
+                      "the window's cycles are laid over each other: the mean force is fitted to the mean motion; "
+                      "needs window = full cycles"),
+               &PrepareOptions::average_cycles);
+  return table;
 }
 
 }  // namespace froude::scene

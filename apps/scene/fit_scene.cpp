@@ -1,3 +1,4 @@
+/// \file  A scene that fits: its measurements, what is asked of them, and the kinds of fit there are.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -5,7 +6,7 @@
 
 #include "hydro/io/atomic_file.hpp"
 #include "scene/build.hpp"
-#include "scene/fit_models.hpp"
+#include "scene/fit_tables.hpp"
 
 namespace froude::scene {
 namespace {
@@ -13,17 +14,44 @@ namespace {
 namespace fs = std::filesystem;
 using hydro::InputError;
 
-const std::vector<std::string> all_channels{
-    "time",      "force", "angle",    "velocity", "acceleration",   "position",           "cross_velocity",
-    "elevation", "speed", "speed_sd", "force_sd", "water_velocity", "water_acceleration", "torque"};
+const Table& data_channels() {
+  static const Table table{
+      .title = "[data.channels]",
+      .meaning = "which column of the files plays which part",
+      .keys = {
+          text("time", "all but towing: time").optional(),
+          texts("force",
+                "morison, towing, radiation with a position, friction ramp of a slider: measured force, positive along "
+                "positive velocity: of the water on a fixed body, or what load cells carry; several columns are added "
+                "up, and \"-F2\" is F2 turned round")
+              .optional(),
+          text("velocity", "morison: of the water, or of the body, whichever moves; where both move, of the body")
+              .optional(),
+          text("acceleration", "morison: as velocity; left out: from the velocity or position").optional(),
+          text("position", "morison: as velocity, instead of it; decay, radiation: the motion").optional(),
+          text(
+              "cross_velocity",
+              "morison, where water moves: velocity across both the force and the axis: drag is then sqrt(u^2 + w^2) u")
+              .optional(),
+          text("elevation",
+               "morison, where water moves: surface at a probe, in place of the water's velocity; needs [model] wave")
+              .optional(),
+          text("water_velocity", "morison, both move: of the water where the body is").optional(),
+          text("water_acceleration", "morison, both move: as water_velocity; left out: from it").optional(),
+          text("angle", "decay, radiation: the motion, in place of a position").optional(),
+          text("torque", "friction ramp of a hinge, and radiation with an angle: the measured torque").optional(),
+          text("speed", "towing: speed of the carriage").optional(),
+          text("speed_sd", "towing: standard deviation of the speed").optional(),
+          text("force_sd", "towing: standard deviation of the force").optional()}};
+  return table;
+}
 
 /// Files that fit one entry of `files`, in alphabetical order. A `*` may stand in the file's name, not in a folder's.
-void expand(const Record& data, const Located<std::string>& entry, const fs::path& scene,
-            std::vector<Located<fs::path>>& out) {
-  const fs::path path = beside(scene, entry.value);
+void expand(const Value& files, const Located<std::string>& entry, std::vector<Located<fs::path>>& out) {
+  const fs::path path = beside(entry.place.file, entry.value);
   const std::string pattern = path.filename().string(), folder = path.parent_path().string();
   const auto refuse = [&](const std::string& rule, const std::string& remedy) {
-    throw InputError(fmt::format("{} files: \"{}\" {}", data.title(), entry.value, rule), entry.place, remedy);
+    throw InputError(fmt::format("{}: \"{}\" {}", files.name, entry.value, rule), entry.place, remedy);
   };
   if (fs::path(entry.value).parent_path().string().find('*') != std::string::npos)
     refuse("has a * in the name of a folder", "list the folders one by one");
@@ -39,105 +67,15 @@ void expand(const Record& data, const Located<std::string>& entry, const fs::pat
   for (const fs::path& file : found) out.push_back({file, entry.place});
 }
 
-std::vector<Located<fs::path>> read_files(const Record& data, const fs::path& scene) {
-  std::vector<Located<fs::path>> out;
-  if (!data.has("files")) return out;
-  for (const auto& entry : data["files"].texts) expand(data, entry, scene, out);
+void put_files(const Value& given, FitScene& scene) {
+  auto& out = scene.files;
+  for (const auto& entry : given.texts) expand(given, entry, out);
   std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
   const auto twice =
       std::adjacent_find(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.value == b.value; });
   if (twice != out.end())
-    throw InputError(fmt::format("{} files holds {} twice", data.title(), twice->value.string()),
-                     std::next(twice)->place, "name each file once, or the fit counts it twice");
-  return out;
-}
-
-/// A kind of fit: its word in a scene, the roles that columns may and must play, and the reader of its model.
-struct KindOfFit {
-  std::string word;
-  std::vector<std::string> channels, needed;
-  FitModel (*read)(const FitTables&);
-};
-
-/// In the order of FitModel.
-const std::vector<KindOfFit>& kinds_of_fit() {
-  static const std::vector<KindOfFit> kinds{
-      {"morison",
-       {"time", "force", "velocity", "acceleration", "position", "cross_velocity", "elevation", "water_velocity",
-        "water_acceleration"},
-       {"time", "force"},
-       read_morison},
-      {"towing", {"speed", "force", "speed_sd", "force_sd"}, {"speed", "force"}, read_towing},
-      {"decay", {"time", "position", "angle"}, {"time"}, read_decay},
-      {"radiation", {"time", "position", "angle", "force", "torque"}, {"time"}, read_radiation},
-      {"friction ramp", {"time", "torque", "force"}, {"time"}, read_friction_ramp},
-      {"motion", {"time"}, {"time"}, read_motion}};
-  return kinds;
-}
-
-/// Keys of a table that act in some kinds of fit only; without keys the table itself.
-struct KeysOfSomeKinds {
-  std::string_view table;
-  std::vector<std::string_view> keys, kinds;
-  const char* remedy = "leave it out";
-};
-
-const std::vector<KeysOfSomeKinds>& keys_of_some_kinds() {
-  static const std::vector<KeysOfSomeKinds> all{
-      {"prepare", {}, {"morison", "decay"}, "leave it out: its steps are those of a force, or of a decay"},
-      {"prepare",
-       {"resample", "delay", "derivative_bandwidth", "derivative_method", "low_pass", "notch", "moving_average",
-        "mean_cycle"},
-       {"morison"},
-       "leave it out: what is fitted is the motion as it was recorded"},
-      {"data", {"runs"}, {"morison", "decay"}},
-      {"data", {"calibration", "zero"}, {"morison"}},
-      {"data", {"signal"}, {"motion"}, "name [data.channels] instead"},
-      {"ask",
-       {"coefficients"},
-       {"morison", "towing", "decay", "radiation", "friction ramp"},
-       "leave it out: what is fitted are the [[model.parameter]]"},
-      {"ask", {"coefficients"}, {"morison", "towing", "decay", "motion"}},
-      {"ask", {"robust", "cycles", "law"}, {"morison"}},
-      {"ask", {"sensitivity"}, {"morison", "decay"}},
-      {"ask", {"together"}, {"decay"}},
-      {"intervals", {"method"}, {"morison"}},
-      {"ask",
-       {"profile"},
-       {"decay", "motion"},
-       "leave it out: that model is linear, and its intervals are those of the likelihood"},
-      {"ask", {"accept"}, {"motion", "towing", "decay"}, "leave it out: nothing is kept back there for its residuals"}};
-  return all;
-}
-
-void check_keys(const FitTables& t, const std::string& kind) {
-  const std::string rule = fmt::format("does not apply to a fit of kind \"{}\"", kind);
-  for (const KeysOfSomeKinds& some : keys_of_some_kinds()) {
-    const Record& outer = some.table == "intervals" ? t.ask() : t.root;
-    if (!outer.has(some.table) || std::find(some.kinds.begin(), some.kinds.end(), kind) != some.kinds.end()) continue;
-    const Record& table = outer.table(some.table);
-    if (some.keys.empty()) throw table.refused(rule, some.remedy);
-    for (const std::string_view key : some.keys)
-      if (table.has(key) && !table[key].defaulted) throw table.wrong(key, rule, some.remedy);
-  }
-}
-
-std::map<std::string, std::string> read_channels(const Record& channels, const KindOfFit& kind) {
-  std::map<std::string, std::string> out;
-  for (const std::string& role : all_channels) {
-    if (!channels.has(role)) continue;
-    if (std::find(kind.channels.begin(), kind.channels.end(), role) == kind.channels.end())
-      throw channels.wrong(role, fmt::format("does not apply to a fit of kind \"{}\"", kind.word),
-                           fmt::format("its channels are {}", fmt::join(kind.channels, ", ")));
-    if (role == "force") continue;  // may be several, see read_force()
-    if (channels.text(role).empty()) throw channels.wrong(role, "is empty", "write the name of a column");
-    out[role] = channels.text(role);
-  }
-  for (const std::string& role : kind.needed)
-    if (!channels.has(role))
-      throw channels.refused(fmt::format("needs \"{}\" for a fit of kind \"{}\"", role, kind.word),
-                             fmt::format("add {} = \"name of a column\"", role));
-  return out;
+    throw InputError(fmt::format("{} holds {} twice", given.name, twice->value.string()), std::next(twice)->place,
+                     "name each file once, or the fit counts it twice");
 }
 
 /// The force channels, each with its sign and, where they are given, its calibration.
@@ -166,9 +104,194 @@ std::vector<FitScene::ForceChannel> read_force(const Record& data, const FitScen
   return out;
 }
 
+const Binding<MotionModel::Signal>& data_signal() {
+  using Signal = MotionModel::Signal;
+  static const auto table =
+      Binding<Signal>("[[data.signal]]", "motion: a column of the files, and what of a run it should be")
+          .key(text("column", "of the files, with its unit"), &Signal::column)
+          .key(text("of", "signal of the run: \"buoy.heave\", \"dropper.link2.polar\""), &Signal::of)
+          .key(text("deviation", "standard deviation of the noise, \"0.5 deg\": weighs the columns"),
+               &Signal::deviation);
+  return table;
+}
+
+const Binding<FitScene>& fit_data() {
+  static const auto table =
+      Binding<FitScene>("[data]", "the measurements")
+          .optional(texts("files", "CSV, relative to the scene; * stands for any characters of a file's name"),
+                    put_files)
+          .optional(
+              text("runs",
+                   "morison, decay: CSV with one row for each run: the column file, and of morison any of zero, "
+                   "delay, diameter, length, density, viscosity and mass_beyond_load_cells, which then hold for that "
+                   "run; other columns are carried into the results"),
+              [](const Value& runs, FitScene& scene) {
+                check_kind<MorisonModel, DecayModel>(scene, runs);
+                detail::put(runs, scene.run_table);
+              })
+          .key(inner_table("channels", data_channels()))
+          .optional(inner_tables("signal", data_signal().table()),
+                    [](const Value& signals, FitScene& scene) {
+                      auto& out = only_in_fits_of<MotionModel>(scene, signals, "name [data.channels] instead").signals;
+                      for (const Record& signal : signals.records) out.push_back(data_signal().read(signal));
+                    })
+          .optional(
+              texts("calibration",
+                    "morison: one CSV for each force channel, with columns force and voltage (and cycle, where there "
+                    "are several): the channel is then in volts"),
+              [](const Value& files, FitScene& scene) { check_kind<MorisonModel>(scene, files); })
+          .optional(text("zero", "morison: CSV of a run at rest, with the same force channels: its mean is taken off"),
+                    to_models("leave it out", &MorisonModel::zero_run))
+          .exactly_one_of({"files", "runs"});
+  return table;
+}
+
+const Words<::fit::IntervalMethod> interval_methods{{"effective samples", ::fit::IntervalMethod::effective_samples},
+                                                    {"cycle clusters", ::fit::IntervalMethod::cycle_clusters},
+                                                    {"block bootstrap", ::fit::IntervalMethod::block_bootstrap}};
+const Words<std::optional<::fit::Law>> laws{
+    {"constant", ::fit::Law::constant},   {"kc", ::fit::Law::kc}, {"re", ::fit::Law::re}, {"beta", ::fit::Law::beta},
+    {"kc and re", ::fit::Law::kc_and_re}, {"best", std::nullopt}};
+
+Binding<FitScene> intervals() {
+  return Binding<FitScene>("[ask.intervals]", "how sure to be")
+      .key(number("level", "probability that the interval covers the truth")
+               .within(Limit::open_fraction)
+               .or_default("0.95", "the usual level"),
+           &FitScene::confidence)
+      .key(text("method", "morison: how the residuals' memory is counted")
+               .one_of(words_of(interval_methods))
+               .or_default("effective samples", "sharpest where residuals are stationary"),
+           [](const Value& method, FitScene& scene) {
+             check_kind<MorisonModel>(scene, method);
+             if (auto* morison = std::get_if<MorisonModel>(&scene.model))
+               morison->options.method = value_for(interval_methods, method.text);
+           });
+}
+
+/// What the several kinds of fit leave out.
+void check_coefficients(const Value& coefficients, FitScene& scene) {
+  check_kind<MorisonModel, TowingModel, DecayModel>(scene, coefficients,
+                                                    std::holds_alternative<MotionModel>(scene.model)
+                                                        ? "leave it out: what is fitted are the [[model.parameter]]"
+                                                        : "leave it out");
+}
+
+const Binding<FitScene>& fit_ask() {
+  const std::string leave = "leave it out";
+  static const auto table =
+      Binding<FitScene>("[ask]", "what is wanted of a fit")
+          .optional(
+              texts("coefficients",
+                    "all but motion, where they are the parameters: drag cd, inertia cm, added mass ca; towing knows "
+                    "cd alone; decay: the damping terms that act, linear, quadratic, cubic, coulomb, and memory: a "
+                    "pair of poles of the water's")
+                  .one_of({"cd", "cm", "ca", "linear", "quadratic", "cubic", "coulomb", "memory"}),
+              check_coefficients)
+          .table("intervals", intervals())
+          .or_default()
+          .optional(
+              texts("accept",
+                    "motion, towing, decay: checks whose failure shall not keep values back. \"residuals\": larger "
+                    "than the stated deviations allow, or of a decay than half of its variance; intervals are then as "
+                    "wide as the residuals make them, and the report says by how much")
+                  .one_of({"residuals"}),
+              to_models(leave + ": nothing is kept back there for its residuals", &MotionModel::accept_residuals,
+                        &TowingModel::accept_residuals, &DecayModel::accept_residuals))
+          .key(effect("robust", "morison: wild samples of the force pull less (Huber)"),
+               [](const Value& v, FitScene& scene) { only_in_fits_of<MorisonModel>(scene, v).options.robust = true; })
+          .key(effect("profile",
+                      "decay, motion: intervals of damping or parameters from the likelihood itself, which need not be "
+                      "symmetric"),
+               to_models(leave + ": that model is linear, and its intervals are those of the likelihood",
+                         &DecayModel::profile, &MotionModel::profile))
+          .key(effect("together",
+                      "decay: one set of coefficients for all runs, with a start and a rest position for each, beside "
+                      "the fit of each run alone"),
+               to_models(leave, &DecayModel::together))
+          .key(effect("cycles", "morison: coefficients of each cycle too; needs [prepare] window in full cycles"),
+               to_models(leave, &MorisonModel::cycles))
+          .optional(
+              text("law",
+                   "morison: coefficients of all runs against KC, Re or beta = Re/KC, with runs that differ by chance")
+                  .one_of(words_of(laws)),
+              [](const Value& law, FitScene& scene) {
+                only_in_fits_of<MorisonModel>(scene, law).law = {value_for(laws, law.text)};
+              })
+          .key(effect("sensitivity",
+                      "morison: the fit repeated with other cutoffs, bandwidths and halves of the window; decay: with "
+                      "each half of the record"),
+               to_models(leave, &MorisonModel::sensitivity, &DecayModel::sensitivity));
+  return table;
+}
+
+/// In the order of the reference. A further kind is a line here and an alternative of FitModel.
+const Binding<FitScene>& fit_model() {
+  static const auto table = Binding<FitScene>("[model]", "what the measurement is taken for")
+                                .key(text("kind", "of experiment"))
+                                .place(&FitScene::model_place)
+                                .variant(MorisonModel::kind, morison_keys(), &FitScene::model)
+                                .variant(TowingModel::kind, towing_keys(), &FitScene::model)
+                                .variant(MotionModel::kind, motion_keys(), &FitScene::model)
+                                .variant(DecayModel::kind, decay_keys(), &FitScene::model)
+                                .variant(RadiationModel::kind, radiation_keys(), &FitScene::model)
+                                .variant(FrictionRampModel::kind, friction_ramp_keys(), &FitScene::model);
+  return table;
+}
+
+void read_prepare(const Record& prepare, FitScene& scene) {
+  const auto read = [&](auto& model) {
+    if constexpr (requires { model.prepare; })
+      prepare_binding().read_into(prepare, model.prepare);
+    else
+      throw prepare.refused(not_of_kind(model.kind), "leave it out: its steps are those of a force, or of a decay");
+  };
+  std::visit(read, scene.model);
+}
+
 }  // namespace
 
-std::string FitScene::kind() const { return kinds_of_fit().at(model.index()).word; }
+void read_channels(const FitTables& tables, const std::vector<std::string>& roles,
+                   const std::vector<std::string>& needed, FitScene& scene) {
+  const Record& channels = tables.channels();
+  for (const Key& key : data_channels().keys) {
+    const std::string& role = key.name;
+    if (!channels.has(role)) continue;
+    if (std::find(roles.begin(), roles.end(), role) == roles.end())
+      throw channels.wrong(role, not_of_kind(scene.kind()), fmt::format("its channels are {}", fmt::join(roles, ", ")));
+    if (role == "force") continue;  // may be several, see read_force()
+    if (channels.text(role).empty()) throw channels.wrong(role, "is empty", "write the name of a column");
+    scene.channels[role] = channels.text(role);
+  }
+  for (const std::string& role : needed)
+    if (!channels.has(role))
+      throw channels.refused(fmt::format("needs \"{}\" for a fit of kind \"{}\"", role, scene.kind()),
+                             fmt::format("add {} = \"name of a column\"", role));
+}
+
+const std::vector<Located<std::string>>& wanted(const FitTables& t, const std::vector<std::string>& known,
+                                                const char* example, const char* remedy) {
+  if (!t.ask().has("coefficients"))
+    throw t.ask().refused("needs the key \"coefficients\"", fmt::format("add coefficients = {}", example));
+  const Value& asked = t.ask()["coefficients"];
+  for (const auto& one : asked.texts)
+    if (std::find(known.begin(), known.end(), one.value) == known.end())
+      throw hydro::InputError(fmt::format("{}: \"{}\" {}", asked.name, one.value, not_of_kind(t.model().text("kind"))),
+                              one.place, remedy);
+  return asked.texts;
+}
+
+std::string word_of(::fit::IntervalMethod method) { return word_for(interval_methods, method); }
+
+const Table& fit_schema() {
+  static const Table table{
+      .title = "a fit",
+      .meaning = "coefficients from measurements",
+      .keys = {integer("schema", "version of this grammar, 1"), text("title", "for people").optional(),
+               inner_table("data", fit_data().table()), inner_table("prepare", prepare_binding().table()).optional(),
+               inner_table("model", fit_model().table()), inner_table("ask", fit_ask().table())}};
+  return table;
+}
 
 bool is_fit(const fs::path& file) {
   return parse_document(hydro::io::read_text(file), file.string()).find("model") != nullptr;
@@ -184,22 +307,14 @@ FitScene parse_fit(std::string_view text, const fs::path& file) {
   scene.file = file;
   scene.text = text;
   const Record root = read_record(document, fit_schema(), scene.echo);
-  const FitTables tables{root, file};
-  const Record &data = tables.data(), &ask = tables.ask();
-  const KindOfFit& kind = *std::find_if(kinds_of_fit().begin(), kinds_of_fit().end(),
-                                        [&](const KindOfFit& k) { return k.word == tables.model().text("kind"); });
   if (root.has("title")) scene.title = root.text("title");
-  check_keys(tables, kind.word);
-  scene.channels = read_channels(tables.channels(), kind);
-  scene.model = kind.read(tables);
-  scene.model_place = tables.model().place();
-  scene.confidence = tables.confidence();
-  scene.force = read_force(data, scene);
-  scene.files = read_files(data, file);
-  if (data.has("runs")) scene.run_table = {{beside(file, data.text("runs")), data["runs"].place}};
-  if (const auto* decay = std::get_if<DecayModel>(&scene.model))
-    if (decay->together && data.has("files") && scene.files.size() < 2)
-      throw ask.wrong("together", "needs two files at least", "name more files, or leave it out");
+  fit_model().read_into(root.table("model"), scene);
+  if (root.has("prepare")) read_prepare(root.table("prepare"), scene);
+  fit_data().read_into(root.table("data"), scene);
+  fit_ask().read_into(root.table("ask"), scene);
+  const FitTables tables{root};
+  std::visit([&](auto& model) { finish(tables, scene, model); }, scene.model);
+  scene.force = read_force(tables.data(), scene);
   return scene;
 }
 

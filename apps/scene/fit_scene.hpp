@@ -17,6 +17,7 @@ namespace froude::scene {
 
 /// Drag and inertia of a cylinder.
 struct MorisonModel {
+  static constexpr const char* kind = "morison";
   ::fit::Cylinder cylinder;
   std::optional<::fit::ProbeToBody> probe;  ///< with the channel elevation
   std::optional<Located<std::filesystem::path>> zero_run;
@@ -34,12 +35,14 @@ struct MorisonModel {
 
 /// Drag of a cylinder at steady speed.
 struct TowingModel {
+  static constexpr const char* kind = "towing";
   ::fit::Cylinder cylinder;
   bool accept_residuals = false;  ///< accept = ["residuals"]: a mean is told though runs differ too much
 };
 
 /// Period and damping of a body let go.
 struct DecayModel {
+  static constexpr const char* kind = "decay";
   ::fit::PrepareOptions prepare;
   ::fit::DecayOptions options;
   std::optional<::fit::DecayMemoryOptions> memory;  ///< where asked for; with the same terms
@@ -50,16 +53,19 @@ struct DecayModel {
 
 /// Added mass and damping from forced oscillations.
 struct RadiationModel {
+  static constexpr const char* kind = "radiation";
   ::fit::RestoredBody body;
 };
 
 /// Friction of a joint whose load grows until it slips.
 struct FrictionRampModel {
+  static constexpr const char* kind = "friction ramp";
   ::fit::FrictionRampOptions options;
 };
 
 /// Numbers of a scene of motion, and what its run should tell.
 struct MotionModel {
+  static constexpr const char* kind = "motion";
   struct Parameter {
     ::fit::SimulationParameter number;  ///< named by its key, as number_at() reads it
     std::string unit;                   ///< as the scene writes it; the values are in it
@@ -101,7 +107,9 @@ struct FitScene {
   std::vector<Echo> echo;
 
   /// As [model] writes it: "morison", "friction ramp".
-  std::string kind() const;
+  std::string kind() const {
+    return std::visit([](const auto& m) { return std::string(m.kind); }, model);
+  }
   /// What moved is an angle, or what was measured a torque.
   bool turns() const { return channels.count("angle") + channels.count("torque") > 0; }
 };

@@ -148,6 +148,7 @@ class TableReader {
       value = read_value(node, key, table_.title);
       echo_.push_back({path, echo_text(node), defaulted});
     }
+    value.name = table_.title.starts_with('[') ? table_.title + " " + key.name : key.name;
     value.defaulted = defaulted;
     record_.set(key.name, std::move(value));
   }
@@ -190,11 +191,8 @@ const std::vector<Record>& Record::tables(std::string_view key) const {
   return has(key) ? (*this)[key].records : none;
 }
 
-InputError Record::wrong(std::string_view key, const std::string& rule, const std::string& remedy) const {
-  const Value& value = (*this)[key];
-  const std::string shown = value.shown.empty() ? "" : " = " + value.shown;
-  const std::string of_table = title().starts_with('[') ? title() + " " : "";  // keys of the root stand alone
-  return InputError(fmt::format("{}{}{} {}", of_table, key, shown, rule), value.place, remedy);
+InputError Value::wrong(const std::string& rule, const std::string& remedy) const {
+  return InputError(fmt::format("{}{} {}", name, shown.empty() ? "" : " = " + shown, rule), place, remedy);
 }
 
 InputError Record::refused(const std::string& rule, const std::string& remedy) const {

@@ -19,7 +19,8 @@ class Record;
 
 /// One value that was read or filled in. Only the fields that belong to Key::holds are filled.
 struct Value {
-  Place place;  ///< of the value; of the table where the value was filled in
+  std::string name;  ///< "[water] density"; keys of the root stand alone
+  Place place;       ///< of the value; of the table where the value was filled in
   bool defaulted = false;
   std::string shown;  ///< as the file holds it: `"0.02 m"`, `3.3`
   std::string text;   ///< text and name; the word that stands instead of a quantity, else empty
@@ -29,6 +30,9 @@ struct Value {
   std::vector<double> range;                         ///< range and values, SI
   std::vector<Located<std::string>> texts;
   std::vector<Record> records;  ///< table: one; tables: as many as there are
+
+  /// The error "[title] key = value rule" at the value.
+  [[nodiscard]] hydro::InputError wrong(const std::string& rule, const std::string& remedy = {}) const;
 };
 
 /// A table that was read: every needed key is there, every value is of its type, dimension and bound.
@@ -50,9 +54,10 @@ class Record {
   const Place& place() const { return place_; }
   const std::string& title() const { return table_->title; }
 
-  /// The error "[title] key = value rule" at the value.
   [[nodiscard]] hydro::InputError wrong(std::string_view key, const std::string& rule,
-                                        const std::string& remedy = {}) const;
+                                        const std::string& remedy = {}) const {
+    return (*this)[key].wrong(rule, remedy);
+  }
   /// The error "[title] rule" at the table.
   [[nodiscard]] hydro::InputError refused(const std::string& rule, const std::string& remedy = {}) const;
 

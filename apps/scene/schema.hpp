@@ -1,6 +1,6 @@
 #pragma once
-/// \file  The grammar of scenes as data. Each table is declared once; from that one declaration come the reader
-///        (record.hpp, binding.hpp), its error messages, the echo, and key_reference().
+/// \file  The grammar of scenes as data. Each table is declared once, beside what reads it (binding.hpp); from that one
+///        declaration come the reader (record.hpp), its error messages, the echo, and key_reference().
 #include <span>
 #include <string>
 #include <string_view>

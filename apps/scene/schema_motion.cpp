@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "scene/binding.hpp"
 #include "scene/build.hpp"
 #include "scene/element.hpp"
 #include "scene/schema.hpp"
-#include "scene/schema_ask.hpp"
-#include "scene/schema_waves.hpp"
 
 namespace froude::scene {
 namespace {
@@ -23,7 +22,7 @@ Table motion_table() {
                      "[coefficients]")
                    .optional(),
                inner_table("water", water_table()),
-               inner_table("waves", waves_table()).optional(),
+               inner_table("waves", waves_binding().table()).optional(),
                inner_table("current", current_table()).optional(),
                inner_tables("body", body_table()).optional(),
                inner_tables("probe", probe_table()).optional(),
@@ -33,8 +32,8 @@ Table motion_table() {
                inner_tables("junction", junction_table()).optional(),
                inner_tables("mooring", mooring_table()).optional(),
                inner_tables("connector", connector_table()).optional(), inner_tables("joint", joint_table()).optional(),
-               inner_tables("contact", contact_table()).optional(), inner_table("ask", ask_table()),
-               inner_table("solve", solve_table()).or_default("", "see its keys")}};
+               inner_tables("contact", contact_table()).optional(), inner_table("ask", ask_binding().table()),
+               inner_table("solve", solve_binding().table()).or_default("", "see its keys")}};
 }
 
 /// The tables of force elements stand before [[contact]].

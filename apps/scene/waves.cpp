@@ -1,5 +1,6 @@
-/// \file  From the tables of waves to seas; what is wrong with a spectrum or spreading is told at the line that holds
-/// it.
+/// \file  [waves] and [current]: every kind of sea, its directions and how it is cut into components. What is wrong
+/// with
+///        a spectrum or spreading is told at the line that holds it.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,6 +9,7 @@
 
 #include "hydro/io/csv.hpp"
 #include "hydro/signal/welch.hpp"
+#include "scene/binding.hpp"
 #include "scene/build.hpp"
 #include "scene/spectra.hpp"
 
@@ -20,6 +22,7 @@ using hydro::InputError;
 using hydro::io::CsvTable;
 namespace dim = hydro::dim;
 namespace hw = hydro::waves;
+using enum Group::Count;
 
 /// Runs `make`; what it throws without a place of its own gets that of a value of the scene.
 template <class F>
@@ -31,60 +34,145 @@ auto placed(const Place& place, F make) {
   }
 }
 
-WaveSystem build_system(const Record& sea, Angle heading, const Scene& scene) {
+// Random seas
+
+/// The kinds of spectra or spreadings as variants of a table.
+template <class Kind>
+std::vector<Table::Variant> variants_of(const std::vector<Kind>& kinds) {
+  std::vector<Table::Variant> out;
+  for (const Kind& kind : kinds) out.push_back(kind.keys);
+  return out;
+}
+
+const Table& spreading() {
+  static const Table table{.title = "[waves.spreading]",
+                           .meaning = "how the energy of each frequency is spread about the heading",
+                           .keys = {text("kind", "of spreading")},
+                           .chosen_by = "kind",
+                           .variants = variants_of(spreadings())};
+  return table;
+}
+
+const Table& part() {
+  static const Table table{
+      .title = "[[waves.part]]",
+      .meaning = "one of several seas that run through each other, like wind sea and swell",
+      .keys = {text("kind", "of sea"), quantity("heading", dim::angle, "where these waves go: from +x towards +y"),
+               inner_table("spreading", spreading()).optional()},
+      .chosen_by = "kind",
+      .variants = variants_of(spectra())};
+  return table;
+}
+
+WaveSystem read_system(const Record& sea, Angle heading, const Scene& scene) {
   WaveSystem out{.kind = sea.text("kind"), .spectrum = {}, .spreading = {}, .heading = heading};
-  out.spectrum = placed(sea["kind"].place, [&] { return spectrum_kind(sea.text("kind")).build(sea, scene); });
+  out.spectrum = placed(sea["kind"].place, [&] { return spectrum_kind(out.kind).build(sea, scene); });
   if (sea.has("spreading")) {
-    const Record& spreading = sea.table("spreading");
-    out.spreading = placed(spreading["kind"].place, [&] {
-      return spreading_kind(spreading.text("kind")).build(spreading, *out.spectrum, scene);
-    });
+    const Record& record = sea.table("spreading");
+    out.spreading = placed(record["kind"].place,
+                           [&] { return spreading_kind(record.text("kind")).build(record, *out.spectrum, scene); });
   }
   return out;
 }
 
-hw::Focus build_focus(const Record& focus) {
-  const Eigen::Vector3d position = focus.vector("position");
-  if (position.z() != 0) throw focus.wrong("position", "lies above or below still water", "write (x, y, 0)");
-  return {.x_m = position.x(), .y_m = position.y(), .t_s = focus.si("time")};
-}
-
-RandomSea build_random(const Record& waves, Angle heading, const Scene& scene) {
-  RandomSea out;
-  if (waves.text("kind") == "sum") {
-    for (const Record& part : waves.tables("part"))
-      out.systems.push_back(build_system(part, Angle::from_radians(part.si("heading")), scene));
-    if (out.systems.empty()) throw waves.refused("has no part", "add [[waves.part]]");
-  } else {
-    out.systems.push_back(build_system(waves, heading, scene));
-  }
-  out.seed = static_cast<std::uint64_t>(waves["seed"].integer);
-  const Record& cut = waves.table("components");
-  out.bins_place = cut.place();
-  if (cut.has("equal_energy"))
-    out.bins = hw::EqualEnergy{static_cast<std::size_t>(cut["equal_energy"].integer)};
-  else if (cut.has("random"))
-    out.bins = hw::RandomInBin{static_cast<std::size_t>(cut["random"].integer)};
-  else
-    out.bins = hw::FftGrid{cut.si("repetition")};
-  if (cut.has("lowest")) out.lowest = cut.si("lowest");
-  if (cut.has("highest")) out.highest = cut.si("highest");
-  if (cut.text("amplitudes") == "rayleigh") out.amplitudes = hw::Amplitudes::rayleigh;
-  if (waves.has("crest")) {
-    const Record& crest = waves.table("crest");
-    out.crest = Crest{crest.si("height"), build_focus(crest), crest.text("around") == "nothing"};
-  }
-  out.second_order = waves.has("second_order");
+/// One sea, or those of a sum.
+std::vector<WaveSystem> read_systems(const Record& waves, Angle heading, const Scene& scene) {
+  if (waves.text("kind") != "sum") return {read_system(waves, heading, scene)};
+  std::vector<WaveSystem> out;
+  for (const Record& one : waves.tables("part"))
+    out.push_back(read_system(one, Angle::from_radians(one.si("heading")), scene));
+  if (out.empty()) throw waves.refused("has no part", "add [[waves.part]]");
   return out;
 }
 
-RegularWave build_regular(const Record& waves) {
-  static const std::map<std::string, RegularTheory> theories{{"linear", RegularTheory::linear},
-                                                             {"stokes2", RegularTheory::stokes_second},
-                                                             {"stokes5", RegularTheory::stokes_fifth},
-                                                             {"stream", RegularTheory::stream_function}};
-  return {waves.has("amplitude") ? waves.si("amplitude") : waves.si("height") / 2, waves.si("period"),
-          theories.at(waves.text("theory"))};
+Binding<RandomSea> components() {
+  return Binding<RandomSea>("[waves.components]", "how a spectrum is cut into regular waves")
+      .key(positive("repetition", dim::time,
+                    "components at the multiples of 2π over this; then the sea repeats; no run may be longer")
+               .or_default("30 min", "the usual length of a wave record; a shorter run is its beginning"),
+           [](const Value& v, RandomSea& sea) { sea.bins = hw::FftGrid{v.number}; })
+      .optional(integer("equal_energy", "that many components of the same energy; the sea does not repeat")
+                    .within(Limit::at_least_one),
+                [](const Value& v, RandomSea& sea) { sea.bins = hw::EqualEnergy{static_cast<std::size_t>(v.integer)}; })
+      .optional(
+          integer("random",
+                  "that many components, each at random within its own equal part of the band; the sea does not repeat")
+              .within(Limit::at_least_one),
+          [](const Value& v, RandomSea& sea) { sea.bins = hw::RandomInBin{static_cast<std::size_t>(v.integer)}; })
+      .optional(
+          positive("lowest", dim::angular_velocity, "frequency at which the cut begins; in Hz it is 2π times less"),
+          &RandomSea::lowest)
+      .optional(positive("highest", dim::angular_velocity, "frequency at which it ends"), &RandomSea::highest)
+      .words(text("amplitudes",
+                  "\"fixed\": every seed has the variance of the spectrum; \"rayleigh\": it scatters, as in records of "
+                  "a Gaussian sea")
+                 .or_default("fixed", "runs of different seeds are then of the same severity"),
+             {{"fixed", hw::Amplitudes::fixed}, {"rayleigh", hw::Amplitudes::rayleigh}}, &RandomSea::amplitudes)
+      .at_most_one_of({"repetition", "equal_energy", "random"})
+      .place(&RandomSea::bins_place);
+}
+
+void read_position(const Record& record, hw::Focus& focus) {
+  const Eigen::Vector3d position = record.vector("position");
+  if (position.z() != 0) throw record.wrong("position", "lies above or below still water", "write (x, y, 0)");
+  focus.x_m = position.x();
+  focus.y_m = position.y();
+}
+
+/// A place and time; `where` is what the place is for.
+Binding<hw::Focus> place_and_time(const std::string& title, const std::string& meaning, const std::string& where) {
+  return Binding<hw::Focus>(title, meaning)
+      .key(vector("position", dim::length, where))
+      .key(quantity("time", dim::time, "when"), &hw::Focus::t_s)
+      .then(read_position);
+}
+
+Binding<Crest> crest() {
+  return Binding<Crest>("[waves.crest]",
+                        "a crest of given height at a place and time: the most probable wave that has it (NewWave)")
+      .key(positive("height", dim::length, "of the crest above still water"), &Crest::height)
+      .part(place_and_time("", "", "where, as (x, y, 0)"), &Crest::focus)
+      .words(text("around", "\"random sea\": put into the random sea; \"nothing\": alone")
+                 .or_default("random sea", "waves before and after it are then those of the sea"),
+             {{"random sea", false}, {"nothing", true}}, &Crest::alone);
+}
+
+Key second_order() {
+  return effect("second_order",
+                "bound waves: sums and differences of frequencies (Sharma & Dean); for `froude waves` and members");
+}
+
+/// A random sea: its own keys, and what every one may have beside them. What systems it has is read where water is
+/// known.
+Binding<RandomSea> random_sea(Table own) {
+  return Binding<RandomSea>(std::move(own))
+      .key(integer("seed", "of the random phases; another number is another sea of the same spectrum")
+               .within(Limit::not_negative)
+               .or_default("1", "any fixed number, so that a scene gives the same sea twice"),
+           &RandomSea::seed)
+      .table("components", components())
+      .or_default()
+      .table("crest", crest(), &RandomSea::crest)
+      .key(second_order(), &RandomSea::second_order);
+}
+
+// Other seas
+
+Binding<RegularWave> regular() {
+  return Binding<RegularWave>("", "one wave after the other")
+      .optional(positive("height", dim::length, "from trough to crest"),
+                [](const Value& v, RegularWave& wave) { wave.amplitude = v.number / 2; })
+      .optional(positive("amplitude", dim::length, "half the height"), &RegularWave::amplitude)
+      .key(positive("period", dim::time, "of the wave"), &RegularWave::period)
+      .words(text("theory",
+                  "\"linear\", \"stokes2\", \"stokes5\" or \"stream\" (stream function); a run takes linear waves")
+                 .or_default("linear", "what potential-flow coefficients belong to"),
+             {{"linear", RegularTheory::linear},
+              {"stokes2", RegularTheory::stokes_second},
+              {"stokes5", RegularTheory::stokes_fifth},
+              {"stream", RegularTheory::stream_function}},
+             &RegularWave::theory)
+      .exactly_one_of({"height", "amplitude"});
 }
 
 /// A column `name` with a unit in the header, or a column "name_s" whose name ends in one of `units`; SI. Empty if
@@ -143,47 +231,121 @@ ListColumns list_columns(const CsvTable& table) {
   return {std::move(rate.values), std::move(size.values)};
 }
 
-FocusedPackets build_packets(const Record& waves, const Scene& scene) {
-  FocusedPackets out{.packets = {}, .focus = build_focus(waves.table("focus"))};
-  const ListColumns list = list_columns(CsvTable::read(beside(scene.file, waves.text("file"))));
+Binding<WaveList> listed() {
+  return Binding<WaveList>("", "regular waves from a list")
+      .key(text("file",
+                "CSV beside the scene: column period [s], frequency [Hz] or omega [rad/s]; amplitude [m] or height "
+                "[m]; phase [rad]; perhaps heading [deg], which is added to the heading of the scene"),
+           &WaveList::file)
+      .key(text("phase_of", "what a phase is added to: \"omega t - k x\" (ours) or \"k x - omega t\"")
+               .one_of({"omega t - k x", "k x - omega t"})
+               .or_default("omega t - k x", "the convention of every result"))
+      .key(second_order(), &WaveList::second_order)
+      .then([](const Record& waves, WaveList& out) {
+        out.waves = read_wave_list(out.file, Angle::from_radians(waves.si("heading")),
+                                   waves.text("phase_of") == "k x - omega t");
+      });
+}
+
+void read_packets(const Value& file, FocusedPackets& out) {
+  const ListColumns list = list_columns(CsvTable::read(beside(file.place.file, file.text)));
   for (std::size_t i = 0; i < list.omega.size(); ++i)
     out.packets.push_back(
         {hydro::WaveAmplitude::from_metres(list.amplitude[i]), AngularFrequency::from_rad_per_s(list.omega[i])});
-  return out;
 }
 
-WaveTank build_tank(const Record& waves, const Scene& scene) {
-  const Record& maker = waves.table("wavemaker");
-  WaveTank out{.length = waves.si("length"),
-               .reflection = waves.si("reflection"),
-               .hinge = {},
-               .lowest = maker.si("lowest"),
-               .highest = maker.si("highest"),
-               .active_absorption = maker.has("active_absorption"),
-               .step = 0,
-               .displacement = {}};
-  if (scene.water.depth.is_infinite())
-    throw waves.refused("of kind tank needs a bed", "give [water] a depth in metres");
-  if (waves.si("heading") != 0)
-    throw waves.wrong("heading", "is not possible in a tank, whose waves go towards +x", "write heading = \"0 deg\"");
-  if (maker.text("kind") == "flap") {
-    if (!maker.has("hinge")) throw maker.refused("of kind flap needs the height of its hinge", "add hinge = \"-1 m\"");
-    out.hinge = maker.si("hinge");
-  } else if (maker.has("hinge")) {
+const Binding<FocusedPackets>& focused_packets() {
+  static const auto focus = place_and_time("[waves.focus]", "where and when the packets meet", "as (x, y, 0)");
+  static const auto table =
+      Binding<FocusedPackets>("",
+                              "groups 3.5 waves long that meet at one place and time; for `froude waves` and members")
+          .key(text("file", "CSV beside the scene: column period [s] (or frequency, omega), column amplitude [m]"),
+               read_packets)
+          .table("focus", focus, &FocusedPackets::focus);
+  return table;
+}
+
+void read_wavemaker(const Record& maker, WaveTank& out) {
+  if (maker.text("kind") == "flap" && !out.hinge)
+    throw maker.refused("of kind flap needs the height of its hinge", "add hinge = \"-1 m\"");
+  if (maker.text("kind") != "flap" && out.hinge)
     throw maker.wrong("hinge", "belongs to a flap; a piston does not turn", "leave it out");
-  }
-  const CsvTable motion = CsvTable::read(beside(scene.file, maker.text("file")));
-  out.step = placed(maker["file"].place, [&] { return hydro::signal::even_step(motion.column("time", dim::time)); });
+  const Value& file = maker["file"];
+  const CsvTable motion = CsvTable::read(beside(file.place.file, file.text));
+  out.step = placed(file.place, [&] { return hydro::signal::even_step(motion.column("time", dim::time)); });
   out.displacement = motion.column("displacement", dim::length);
-  return out;
 }
 
-hw::Stretching stretching_of(const std::string& word) {
-  if (word == "wheeler") return hw::Stretching::wheeler;
-  if (word == "linear") return hw::Stretching::linear;
-  if (word == "delta") return hw::Stretching::delta;
-  if (word == "none") return hw::Stretching::none;
-  return hw::Stretching::vertical;
+Binding<WaveTank> wavemaker() {
+  return Binding<WaveTank>("[waves.wavemaker]", "the paddle at x = 0, and how it moves")
+      .key(text("kind", "\"flap\": turns about a hinge; \"piston\": moves without turning").one_of({"flap", "piston"}))
+      .optional(
+          quantity("hinge", dim::length, "flap: height of the hinge, z up from still water; may lie below the bed"),
+          &WaveTank::hinge)
+      .key(text(
+          "file",
+          "CSV beside the scene: columns time [s], evenly spaced, and displacement [m] of the paddle at still water"))
+      .key(positive("lowest", dim::angular_velocity, "lowest frequency of the motion that is taken"), &WaveTank::lowest)
+      .key(positive("highest", dim::angular_velocity, "highest frequency of the motion that is taken"),
+           &WaveTank::highest)
+      .key(effect("active_absorption",
+                  "waves that come back to the paddle leave the tank; left out: they are reflected, as by a paddle "
+                  "whose motion is prescribed"),
+           &WaveTank::active_absorption)
+      .then(read_wavemaker);
+}
+
+Binding<WaveTank> tank() {
+  return Binding<WaveTank>("", "a wave tank: what a paddle makes; for `froude waves` and members")
+      .then([](const Record& waves, WaveTank&) {
+        if (waves.si("heading") != 0)
+          throw waves.wrong("heading", "is not possible in a tank, whose waves go towards +x",
+                            "write heading = \"0 deg\"");
+      })
+      .key(positive("length", dim::length, "from the paddle at x = 0 to the beach"), &WaveTank::length)
+      .key(number("reflection", "amplitude that the beach sends back, relative")
+               .within(Limit::fraction)
+               .or_default("0", "a beach that absorbs everything"),
+           &WaveTank::reflection)
+      .table("wavemaker", wavemaker())
+      .needed();
+}
+
+Binding<Waves> kinematics() {
+  using enum hw::Stretching;
+  return Binding<Waves>("[waves.kinematics]", "how the water moves between still water and the surface")
+      .words(text("above_still_water",
+                  "\"vertical\": as at still water; \"wheeler\": the whole column stretched; \"linear\": the tangent "
+                  "at still water; \"delta\": between the last two; \"none\": the exponential goes on")
+                 .or_default("vertical", "never exceeds what linear theory says at still water"),
+             {{"vertical", vertical}, {"wheeler", wheeler}, {"linear", linear}, {"delta", delta}, {"none", none}},
+             &Waves::stretching);
+}
+
+Binding<Waves> all_waves() {
+  auto table =
+      Binding<Waves>("[waves]", "the waves")
+          .key(text("kind", "of sea"))
+          .key(quantity("heading", dim::angle, "where the waves go: from +x towards +y; 0 deg goes towards +x"),
+               &Waves::heading)
+          .key(quantity("ramp", dim::time, "wave loads grow from nothing over this time, by half a cosine")
+                   .within(Limit::not_negative)
+                   .or_default("0 s", "loads act from the start unless the scene says otherwise"),
+               &Waves::ramp)
+          .table("kinematics", kinematics())
+          .or_default()
+          .place(&Waves::place)
+          .variant("regular", regular(), &Waves::kind)
+          .variant("components", listed(), &Waves::kind)
+          .variant("focused_packets", focused_packets(), &Waves::kind)
+          .variant("tank", tank(), &Waves::kind);
+  for (const auto& [keys, build] : spectra()) {
+    Table own{.title = "", .meaning = keys.meaning, .keys = keys.keys, .groups = keys.groups};
+    own.keys.push_back(inner_table("spreading", spreading()).optional());
+    table.variant(keys.word, random_sea(own), &Waves::kind);
+  }
+  const Table sum{.title = "", .meaning = "several random seas at once", .keys = {inner_tables("part", part())}};
+  return table.variant("sum", random_sea(sum), &Waves::kind);
 }
 
 }  // namespace
@@ -203,27 +365,28 @@ std::vector<hw::GivenWave> read_wave_list(const std::filesystem::path& file, Ang
   return out;
 }
 
+const Binding<Waves>& waves_binding() {
+  static const auto table = all_waves();
+  return table;
+}
+
 Waves build_waves(const Record& waves, const Scene& scene) {
-  Waves out{.kind = RegularWave{},
-            .heading = Angle::from_radians(waves.si("heading")),
-            .ramp = waves.si("ramp"),
-            .stretching = stretching_of(waves.table("kinematics").text("above_still_water")),
-            .place = waves.place()};
-  const std::string& kind = waves.text("kind");
-  if (kind == "regular") {
-    out.kind = build_regular(waves);
-  } else if (kind == "components") {
-    const auto file = beside(scene.file, waves.text("file"));
-    out.kind = WaveList{read_wave_list(file, out.heading, waves.text("phase_of") == "k x - omega t"), file,
-                        waves.has("second_order")};
-  } else if (kind == "focused_packets") {
-    out.kind = build_packets(waves, scene);
-  } else if (kind == "tank") {
-    out.kind = build_tank(waves, scene);
-  } else {
-    out.kind = build_random(waves, out.heading, scene);
-  }
+  Waves out = waves_binding().read(waves);
+  if (auto* sea = std::get_if<RandomSea>(&out.kind)) sea->systems = read_systems(waves, out.heading, scene);
+  if (std::holds_alternative<WaveTank>(out.kind) && scene.water.depth.is_infinite())
+    throw waves.refused("of kind tank needs a bed", "give [water] a depth in metres");
   return out;
+}
+
+const Table& current_table() {
+  static const Table table{
+      .title = "[current]",
+      .meaning = "steady flow of the water; waves run on it",
+      .keys =
+          {vector("velocity", dim::velocity, "the same at every depth, as (x, y, 0)").optional(),
+           text("file", "CSV beside the scene: columns z [m] (up, from the bed to 0), u [m/s] and v [m/s]").optional()},
+      .groups = {{exactly_one, {"velocity", "file"}}}};
+  return table;
 }
 
 hw::Current build_current(const Record& current, const std::filesystem::path& file) {

@@ -1,0 +1,201 @@
+/// \file  Fits of kind "morison": drag and inertia of a cylinder in unsteady flow.
+#include "scene/fit_tables.hpp"
+
+namespace froude::scene {
+namespace {
+
+namespace dim = hydro::dim;
+using ::fit::Cylinder;
+using ::fit::CylinderErrors;
+using ::fit::Experiment;
+using ::fit::ForceLine;
+using ::fit::MorisonOptions;
+using ::fit::ProbeToBody;
+
+const Words<Experiment> experiments{{"water moves", Experiment::water_moves},
+                                    {"body moves", Experiment::body_moves},
+                                    {"both move", Experiment::both_move}};
+
+void check_mass(const Record& model, Cylinder& cylinder) {
+  const bool known = model.has("mass_beyond_load_cells"), moves = cylinder.experiment != Experiment::water_moves;
+  if (known && !moves)
+    throw model.wrong("mass_beyond_load_cells", "does not act: the body does not move",
+                      "leave it out, or set motion = \"body moves\"");
+  if (!known && moves)
+    throw model.refused(
+        "needs \"mass_beyond_load_cells\" where the body moves: its inertia is part of the measured force",
+        "add mass_beyond_load_cells = \"5.9 kg\", contained water included; \"0 kg\" if it is taken off already");
+}
+
+Binding<Cylinder> cylinder_in_flow() {
+  return Binding<Cylinder>(cylinder_keys())
+      .words(text("motion",
+                  "\"water moves\": waves on a fixed body; \"body moves\": forced oscillation in still water; \"both "
+                  "move\": a body that moves in waves"),
+             experiments, &Cylinder::experiment)
+      .optional(quantity("mass_beyond_load_cells", dim::mass,
+                         "where the body moves: all that the load cells accelerate, contained water included")
+                    .within(Limit::not_negative),
+                &Cylinder::mass_beyond_load_cells)
+      .then(check_mass);
+}
+
+Binding<ForceLine> force_line() {
+  return Binding<ForceLine>("[[model.line]]",
+                            "morison: a force of one frequency beside drag and inertia (lift, vortices, a vibration), "
+                            "fitted with them so that it widens no interval")
+      .optional(positive("frequency", dim::angular_velocity, "of the line"), in_hertz(&ForceLine::hz))
+      .optional(number("multiple", "of the main frequency of the motion: 2 for lift").positive(), &ForceLine::multiple)
+      .exactly_one_of({"frequency", "multiple"});
+}
+
+Binding<ProbeToBody> probe_to_body() {
+  using P = ProbeToBody;
+  return Binding<P>("[model.wave]",
+                    "from the surface at a probe to the water at the body, by linear waves of one direction")
+      .key(quantity("depth", dim::length, "of the tank").one_of({"infinite"}).positive(), &P::water,
+           &hydro::Water::depth)
+      .key(positive("level", dim::length, "of the body's axis below still water"),
+           [](const Value& v, P& probe) { probe.level = -v.number; })
+      .key(quantity("ahead", dim::length, "of the body in front of the probe, the way waves go")
+               .or_default("0 m", "beside each other"),
+           &P::ahead)
+      .key(positive("gravity", dim::acceleration, "acceleration of free fall")
+               .or_default("9.81 m/s^2", "what hydrodynamic data are mostly computed with"),
+           &P::water, &hydro::Water::gravity)
+      .key(effect("regular", "the surface is one sinusoid, fitted to the probe: noise averages out, no ends are lost"),
+           &P::regular)
+      .key(effect("follow",
+                  "both move: the water is taken where the body is; its position counts along the waves from where "
+                  "\"ahead\" puts it; needs the channel position"),
+           &P::follow);
+}
+
+Binding<CylinderErrors> cylinder_errors() {
+  return Binding<CylinderErrors>("[model.uncertainty]", "standard uncertainties of what the cylinder is taken for")
+      .optional(positive("diameter", dim::length, "of the diameter"), &CylinderErrors::diameter)
+      .optional(positive("length", dim::length, "of the length"), &CylinderErrors::length)
+      .optional(positive("density", dim::density, "of the water's density"), &CylinderErrors::density)
+      .optional(positive("mass", dim::mass, "of the mass beyond the load cells"), &CylinderErrors::mass);
+}
+
+/// What only moving water, or only a moving body, has.
+void check_water_channels(const Record& channels, Experiment experiment) {
+  using enum Experiment;
+  if (experiment == body_moves)
+    for (const char* role : {"cross_velocity", "elevation"})
+      if (channels.has(role))
+        throw channels.wrong(role, "has no part where the body moves in still water", "leave it out");
+  for (const char* role : {"water_velocity", "water_acceleration"})
+    if (channels.has(role) && experiment != both_move)
+      throw channels.wrong(role, fmt::format("has no part with motion = \"{}\"", word_of(experiment)),
+                           "leave it out, or set motion = \"both move\"");
+  if (experiment == both_move && channels.has("elevation") == channels.has("water_velocity"))
+    throw channels.refused("needs either water_velocity or elevation where both move",
+                           "name the column of the water's motion; velocity and position are the body's");
+}
+
+/// Exactly one of the motion's channels, which others must not contradict.
+void check_motion_channels(const Record& channels, Experiment experiment) {
+  check_water_channels(channels, experiment);
+  const auto refuse_beside_elevation = [&](std::initializer_list<const char*> others) {
+    for (const char* other : others)
+      if (channels.has(other)) throw channels.wrong(other, "does not act beside the elevation", "keep one of the two");
+  };
+  if (channels.has("elevation") && experiment != Experiment::both_move)
+    return refuse_beside_elevation({"velocity", "position", "acceleration", "cross_velocity"});
+  if (channels.has("elevation")) refuse_beside_elevation({"water_acceleration", "cross_velocity"});
+  if (!channels.has("velocity") && !channels.has("position"))
+    throw channels.refused("needs velocity or position for a fit of kind \"morison\": drag needs the velocity",
+                           "add one of them; an acceleration alone does not give it, its integral drifts");
+  if (channels.has("velocity") && channels.has("position"))
+    throw channels.wrong("position", "does not act beside the velocity", "keep one of the two");
+}
+
+void finish_probe(const FitTables& t, MorisonModel& morison) {
+  const Record &model = t.model(), &channels = t.channels();
+  if (!morison.probe && channels.has("elevation"))
+    throw model.refused("needs \"wave\" for the channel elevation",
+                        "add wave = { depth = \"1.25 m\", level = \"0.48 m\" }");
+  if (!morison.probe) return;
+  const Record& wave = model.table("wave");
+  ProbeToBody& probe = *morison.probe;
+  probe.water.density = morison.cylinder.density;
+  if (probe.follow && !(morison.cylinder.experiment == Experiment::both_move && channels.has("position")))
+    throw wave.wrong("follow", "needs to know where the body is",
+                     "set motion = \"both move\" with the channel position, or leave it out");
+  if (!probe.water.depth.is_infinite() && -probe.level >= probe.water.depth.metres())
+    throw wave.wrong("level", "lies below the bottom", "give the depth of the axis below still water");
+  if (!channels.has("elevation"))
+    throw model.wrong("wave", "does not act: there is no channel elevation", "leave it out");
+}
+
+void read_delay(const Record& prepare, MorisonModel& out) {
+  if (!prepare.has("delay")) return;
+  const bool estimate = prepare.text("delay") == "estimate";
+  if (estimate && prepare.has("delay_error"))
+    throw prepare.wrong("delay_error", "does not act where the delay is estimated: its error is then estimated too",
+                        "leave it out");
+  if (!estimate && prepare.has("longest_delay"))
+    throw prepare.wrong("longest_delay", "does not act where the delay is given",
+                        "leave it out, or set delay = \"estimate\"");
+  if (!estimate) out.prepare.delay_s = prepare.si("delay");
+  if (prepare.has("delay_error")) out.options.delay_error_s = prepare.si("delay_error");
+  if (!estimate) return;
+  if (!prepare.has("longest_delay"))
+    throw prepare.wrong(
+        "delay", "needs \"longest_delay\"",
+        "add longest_delay = \"1 s\": less than half the main period, which would be the force turned round");
+  out.longest_delay = prepare.si("longest_delay");
+}
+
+/// What is made of cycles needs them.
+void check_cycles(const FitTables& t, const MorisonModel& morison) {
+  const bool cut = morison.prepare.window.kind == ::fit::WindowChoice::Kind::full_cycles;
+  if (morison.prepare.average_cycles && !cut)
+    throw t.root.table("prepare").wrong("mean_cycle", "needs cycles", "set window = { kind = \"full cycles\" }");
+  if (morison.cycles && !cut)
+    throw t.ask().wrong("cycles", "needs cycles", "set [prepare] window = { kind = \"full cycles\" }");
+  if (morison.cycles && morison.longest_delay)
+    throw t.ask().wrong("cycles", "cannot be had while the delay is being estimated",
+                        "give the delay that was estimated");
+}
+
+}  // namespace
+
+std::string word_of(Experiment experiment) { return word_for(experiments, experiment); }
+
+Binding<MorisonModel> morison_keys() {
+  using M = MorisonModel;
+  using O = MorisonOptions;
+  return Binding<M>("", "drag and inertia in unsteady flow (Morison et al., 1950)")
+      .part(cylinder_in_flow(), &M::cylinder)
+      .part(Binding<O>("", "")
+                .key(effect("linear_drag", "a drag that goes with the velocity is fitted as well"), &O::linear_drag)
+                .key(effect("offset", "a constant force is fitted as well"), &O::force_offset)
+                .tables("line", force_line(), &O::lines)
+                .optional(),
+            &M::options)
+      .table("wave", probe_to_body(), &M::probe)
+      .part(Binding<O>("", "").table("uncertainty", cylinder_errors(), &O::cylinder_errors).optional(), &M::options);
+}
+
+void finish(const FitTables& t, FitScene& scene, MorisonModel& morison) {
+  read_channels(t,
+                {"time", "force", "velocity", "acceleration", "position", "cross_velocity", "elevation",
+                 "water_velocity", "water_acceleration"},
+                {"time", "force"}, scene);
+  morison.options.bands = true;
+  morison.options.confidence = scene.confidence;
+  morison.prepare.linear_drag = morison.options.linear_drag;
+  check_motion_channels(t.channels(), morison.cylinder.experiment);
+  if (morison.cylinder.experiment == Experiment::water_moves && morison.options.cylinder_errors.mass != 0)
+    throw t.model().table("uncertainty").wrong("mass", "does not act: the body does not move", "leave it out");
+  finish_probe(t, morison);
+  if (t.root.has("prepare")) read_delay(t.root.table("prepare"), morison);
+  check_cycles(t, morison);
+  const auto& coefficients = wanted(t, {"cd", "cm", "ca"}, "[\"cd\"]", "ask for cd, cm or ca");
+  morison.coefficients.assign(coefficients.begin(), coefficients.end());
+}
+
+}  // namespace froude::scene
