@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <ostream>
 
+#include "froude/commands.hpp"
+
 namespace froude {
 namespace {
 
@@ -67,27 +69,39 @@ Report& Report::sentences(const std::string& key, fmt::format_string<const std::
   if (list.is_null()) list = Json::array();
   for (const std::string& sentence : all) {
     list.push_back(sentence);
-    text_ += fmt::format(line, sentence) + '\n';
+    lines_.push_back(fmt::format(line, sentence));
   }
   return *this;
 }
 
 Report& Report::part(const std::string& key, const Report& inner) {
-  text_ += inner.text_;
+  lines_.insert(lines_.end(), inner.lines_.begin(), inner.lines_.end());
   (key.empty() ? tree_ : tree_[key]).update(inner.tree_);
   return *this;
 }
 
 Report& Report::one_of(const std::string& key, const Report& inner) {
-  text_ += inner.text_;
+  lines_.insert(lines_.end(), inner.lines_.begin(), inner.lines_.end());
   tree_[key].push_back(inner.tree_);
   return *this;
 }
 
-Report& Report::wrote(const std::optional<Path>& file) {
+Report& Report::wrote(const std::optional<std::filesystem::path>& file) {
   if (!file) return *this;
   tree_["written"].push_back(file->string());
   return say("wrote {}", file->string());
+}
+
+Report Report::untold() const {
+  Report out;
+  out.tree_ = tree_;
+  return out;
+}
+
+std::string Report::text() const {
+  std::string out;
+  for (const std::string& line : lines_) out += line + '\n';
+  return out;
 }
 
 std::string toml_of(const Json& tree, const std::string& comment) {

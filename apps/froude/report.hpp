@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Core>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -11,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "froude/commands.hpp"
-
 namespace froude {
+
+struct Console;
 
 using Json = nlohmann::ordered_json;  ///< results keep the order in which they are told
 
@@ -40,7 +41,8 @@ Json json_of(const T& value) {
   }
 }
 
-/// A value in a sentence that programs find too. A slash in its key goes down a level: "metacentre/gm_least_m".
+/// A value in a sentence that programs find too, unless it is absent. A slash in its key goes down a level:
+/// "metacentre/gm_least_m".
 template <class Shown>
 struct Fact {
   std::string key;
@@ -65,10 +67,10 @@ class Report {
   template <class... Args>
   Report& say(fmt::format_string<Args...> line, Args&&... args) {
     (keep_if_fact(args), ...);
-    text_ += fmt::format(line, std::forward<Args>(args)...) + '\n';
+    lines_.push_back(fmt::format(line, std::forward<Args>(args)...));
     return *this;
   }
-  /// A fact for programs alone.
+  /// A fact for programs alone; what is absent is null.
   template <class T>
   Report& keep(const std::string& key, const T& value) {
     place_of(key) = json_of(value);
@@ -87,21 +89,24 @@ class Report {
     return one_of(key, Report().say(line, std::forward<Args>(args)...));
   }
   /// That a file was written, if it was asked for; in the tree one of the list `written`.
-  Report& wrote(const std::optional<Path>& file);
+  Report& wrote(const std::optional<std::filesystem::path>& file);
 
-  const std::string& text() const { return text_; }
+  /// The same facts for programs alone.
+  Report untold() const;
+  const std::vector<std::string>& lines() const { return lines_; }
+  std::string text() const;  ///< the lines, each with its end
   const Json& tree() const { return tree_; }
 
  private:
   template <class T>
   void keep_if_fact(const Fact<T>& f) {
-    place_of(f.key) = f.value;
+    if (!f.value.is_null()) place_of(f.key) = f.value;
   }
   template <class T>
   void keep_if_fact(const T&) {}
   Json& place_of(const std::string& key);
 
-  std::string text_;
+  std::vector<std::string> lines_;
   Json tree_ = Json::object();
 };
 

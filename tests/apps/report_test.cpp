@@ -8,6 +8,8 @@
 #include <limits>
 #include <sstream>
 
+#include "froude/commands.hpp"
+
 namespace report_test {
 namespace {
 
@@ -23,14 +25,14 @@ TEST(Report, TellsAFactOnceForPeopleAndForPrograms) {
   EXPECT_EQ(report.tree().dump(), R"({"samples":3000,"step_s":0.2,"slack_share":0.25,"line":"bow"})");
 }
 
-TEST(Report, PutsWhatIsAbsentAndWhatIsAMatrixIntoTheTree) {
+TEST(Report, PutsMatricesIntoTheTreeAndWhatIsAbsentWhereItIsKeptOnPurpose) {
   Report report;
-  report.say("GM {}", fact("gm_m", std::optional<double>(), "unknown"));
+  report.say("GM {}", fact("gm_m", std::optional<double>(), "unknown")).keep("bm_m", std::optional<double>());
   report.keep("centre", Eigen::Vector3d(1, 2, 3)).keep("C", Eigen::Matrix2d{{1, 2}, {3, 4}});
   report.keep("column", Eigen::MatrixXd::Ones(2, 1)).keep("mass", std::optional(5.0));
   EXPECT_EQ(report.text(), "GM unknown\n");
   EXPECT_EQ(report.tree(),
-            Json::parse(R"({"gm_m":null,"centre":[1.0,2.0,3.0],"C":[[1.0,2.0],[3.0,4.0]],"column":[[1.0],[1.0]],
+            Json::parse(R"({"bm_m":null,"centre":[1.0,2.0,3.0],"C":[[1.0,2.0],[3.0,4.0]],"column":[[1.0],[1.0]],
                             "mass":5.0})"));
 }
 
@@ -49,10 +51,11 @@ TEST(Report, TellsPartsRowsAndSentencesInTheirOrder) {
   report.sentences("notes", "note: {}", {"short"}).sentences("notes", "note: {}", {"noisy"});
   report.sentences("warnings", "warning: {}", {});
   report.wrote("a.csv").wrote(std::nullopt);
+  report.part("", Report().say("{}", fact("energy_J", 5)).untold());
   EXPECT_EQ(report.text(), "signals:\n  heave\n  pitch\n  peak at 8 s\nnote: short\nnote: noisy\nwrote a.csv\n");
   EXPECT_EQ(report.tree().dump(),
             R"({"signals":[{"name":"heave"},{"name":"pitch"}],"peak":{"period_s":8},"beside":true,)"
-            R"("notes":["short","noisy"],"warnings":[],"written":["a.csv"]})");
+            R"("notes":["short","noisy"],"warnings":[],"written":["a.csv"],"energy_J":5})");
 }
 
 TEST(Report, IsOneDocumentForAProgramAndTextForAPerson) {
