@@ -110,11 +110,14 @@ std::string toml_of(const Json& tree, const std::string& comment) {
   return out;
 }
 
+const Report& tell_people(const Report& part, const Console& console) {
+  if (!console.json) console.out << part.text();
+  return part;
+}
+
 void tell(const Report& report, const Console& console) {
-  if (console.json)
-    console.out << report.tree().dump(1) << '\n';
-  else
-    console.out << report.text();
+  tell_people(report, console);
+  if (console.json) console.out << report.tree().dump(1) << '\n';
 }
 
 }  // namespace froude

@@ -115,13 +115,15 @@ std::string toml_of(const Json& tree, const std::string& comment);
 
 /// As the console wants it: the text, or the tree as one JSON document.
 void tell(const Report& report, const Console& console);
+/// Its text now, if the console is a person's, who need not wait for the whole; programs are told that by tell().
+const Report& tell_people(const Report& part, const Console& console);
 
 }  // namespace froude
 
 template <class Shown>
 struct fmt::formatter<froude::Fact<Shown>> : fmt::formatter<Shown> {
   template <class Context>
-  auto format(const froude::Fact<Shown>& fact, Context& context) const {
-    return fmt::formatter<Shown>::format(fact.shown, context);
+  auto format(const froude::Fact<Shown>& fact, Context& out) const {
+    return fmt::formatter<Shown>::format(fact.shown, out);
   }
 };
