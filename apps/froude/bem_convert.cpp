@@ -1,6 +1,4 @@
 // froude bem convert: reads, changes by exact laws in one fixed order, writes.
-#include <fmt/ranges.h>
-
 #include "froude/coefficient_files.hpp"
 #include "froude/commands.hpp"
 #include "froude/report.hpp"

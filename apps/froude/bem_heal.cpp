@@ -1,5 +1,3 @@
-#include <fmt/ranges.h>
-
 #include "froude/coefficient_files.hpp"
 #include "froude/commands.hpp"
 #include "froude/report.hpp"

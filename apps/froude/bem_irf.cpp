@@ -119,16 +119,11 @@ plot::Figure picture(const Coefficients& c, const Analysis& a) {
 
 void export_fit(const BemIrfArguments& arguments, const Coefficients& c, const Analysis& a) {
   if (!arguments.output) return;
-  const std::string extension = arguments.output->extension().string();
-  if (extension == ".ss")
+  if (arguments.output->extension() == ".ss")
     hydro::radiation::write_openfast(a.fit.model, "Radiation of " + c.source, *arguments.output);
-  else if (extension == ".h5")
+  else
     hydro::radiation::write_bemio_state_space(a.fit.model, c.water.density, 0.05, shown_length(a.fit),
                                               *arguments.output);
-  else
-    throw hydro::InputError(
-        fmt::format("the name \"{}\" does not tell a format", arguments.output->filename().string()), {},
-        "end it with .ss (OpenFAST) or .h5 (BEMIO state-space groups)");
 }
 
 }  // namespace
@@ -138,6 +133,10 @@ void bem_irf(const BemIrfArguments& arguments, const Console& console) {
                  arguments.bem.files.size());
   hydro::require(arguments.tolerance > 0 && arguments.tolerance < 1, "a tolerance lies between 0 and 1, got {}",
                  arguments.tolerance);
+  if (arguments.output && arguments.output->extension() != ".ss" && arguments.output->extension() != ".h5")
+    throw hydro::InputError(
+        fmt::format("the name \"{}\" does not tell a format", arguments.output->filename().string()), {},
+        "end it with .ss (OpenFAST) or .h5 (BEMIO state-space groups)");
   const Path& file = arguments.bem.files.front();
   require_outputs(named({{"-o", arguments.output}, {"--picture", arguments.picture}}),
                   files_of_coefficients(arguments.bem.files));

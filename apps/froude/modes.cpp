@@ -1,8 +1,6 @@
 // `froude modes`: free motions about rest, with the added mass and damping of each motion's own frequency.
 #include "dynamics/frequency/modes.hpp"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
@@ -196,7 +197,7 @@ Report report_of(const Analysis& a) {
   out.say("{:<24} {:<8} {:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>6}", "signal", "unit", "mean", "4 sqrt(m0)",
           "Tp [s]", "Te [s]", "Tm02 [s]", "Tz [s]", "H1/3", "waves");
   for (const Estimate& e : a.estimates) signals.part(e.signal.name, report_of(e, a.input));
-  out.part("signals", signals);
+  out.part("signals", std::move(signals));
   for (const Estimate& e : a.estimates) out.sentences("notes", "note: {}", notes_of(e));
   add_response(a, out);
   return out;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "froude/linear_response.hpp"
 #include "froude/report.hpp"
@@ -134,7 +135,7 @@ Report report_of(const scene::Scene& scene, const Responses& r, const Path& file
   out.say("{:<24} {}{:>12} {:<7} {:>10} {:>10}", "signal", several ? "heading [deg] " : "", "largest", "unit",
           "at T [s]", "phase [deg]");
   for (const auto& s : r.signals) signals.part(s.name, report_of(s, r));
-  out.part("signals", signals).sentences("notes", "note: {}", r.notes);
+  out.part("signals", std::move(signals)).sentences("notes", "note: {}", r.notes);
   return out.say("wrote {}", fact("file", file.string()));
 }
 

@@ -80,9 +80,9 @@ class Report {
   Report& sentences(const std::string& key, fmt::format_string<const std::string&> line,
                     const std::vector<std::string>& all);
   /// A report within this one: its lines follow, its tree stands under `key` or, if that is empty, in this one's.
-  Report& part(const std::string& key, const Report& inner);
+  Report& part(const std::string& key, Report inner);
   /// The same as the next entry of the list `key`.
-  Report& one_of(const std::string& key, const Report& inner);
+  Report& one_of(const std::string& key, Report inner);
   /// A line whose facts are the next entry of the list `key`.
   template <class... Args>
   Report& row(const std::string& key, fmt::format_string<Args...> line, Args&&... args) {
