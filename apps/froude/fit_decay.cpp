@@ -37,30 +37,25 @@ plot::Panel panel_over_frequency(const DecayRun& run, bool damping, const char* 
           .series = {value, low, swing}};
 }
 
-/// What was measured and fitted, and what is left of it.
+/// One record, what was fitted to it and what is left of it, by the memory too.
 void add_record(const ::fit::decay::Problem& problem, const DecayRun& run, std::size_t w, Panels& panels) {
-  const char* unit = problem.turns ? "rad" : "m";
   const auto& m = run.fit.motion;
   const ::fit::decay::Record& r = run.records[w];
-  const std::vector<double> fitted = column_of(m.motion[w]);
-  std::vector<double> left = r.values;
-  for (std::size_t i = 0; i < left.size(); ++i) left[i] -= fitted[i];
-  panels.push_back(
-      {.x = {"time", "s"},
-       .y = {problem.turns ? "angle" : "position", unit},
-       .series = {{r.name + ": measured", r.time, r.values}, {"fitted", r.time, fitted, true, false, true}}});
-  plot::Panel residual{.x = {"time", "s"}, .y = {"residual", unit}, .series = {{"measured − fitted", r.time, left}}};
-  if (!m.fit_band.empty()) {
-    const std::string level = fmt::format("{:g} % band", 100 * problem.options.motion.confidence);
-    residual.series.push_back(band_outline(level + " of a sample", r.time, column_of(m.sample_band[w]), true));
-    residual.series.push_back(band_outline(level + " of the fit", r.time, column_of(m.fit_band[w]), false));
-  }
+  const auto band = [&](const auto& of) { return of.empty() ? std::vector<double>() : column_of(of[w]); };
+  Panels both = panels_of(FittedRecord{.legend = r.name + ": measured",
+                                       .axis = {problem.turns ? "angle" : "position", problem.turns ? "rad" : "m"},
+                                       .confidence = problem.options.motion.confidence,
+                                       .time = r.time,
+                                       .measured = r.values,
+                                       .fitted = column_of(m.motion[w]),
+                                       .sample_band = band(m.sample_band),
+                                       .fit_band = band(m.fit_band)});
   if (run.memory) {
     std::vector<double> by_memory = column_of(run.memory->motion.motion[w]);
     for (std::size_t i = 0; i < by_memory.size(); ++i) by_memory[i] = r.values[i] - by_memory[i];
-    residual.series.push_back({"measured − fitted with a memory", r.time, by_memory});
+    both[1].series.push_back({"measured − fitted with a memory", r.time, by_memory});
   }
-  panels.push_back(std::move(residual));
+  panels.insert(panels.end(), both.begin(), both.end());
 }
 
 std::vector<Coefficient> in_table(const DecayRun& run) {

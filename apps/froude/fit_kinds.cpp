@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace froude {
 namespace {
@@ -17,6 +18,17 @@ std::vector<std::pair<std::string, std::string>> labels_of(const hydro::io::CsvT
     if (std::find(taken.begin(), taken.end(), name) == taken.end())
       out.push_back(
           {name, table.is_text(name) ? table.text_column(name)[row] : fmt::format("{:.6g}", table.column(name)[row])});
+  return out;
+}
+
+/// There along the upper edge of a band about zero and back along the lower one: one line.
+plot::Series band_outline(const std::string& name, const std::vector<double>& t, const std::vector<double>& half,
+                          bool dashed) {
+  plot::Series out{name, t, half, true, false, dashed};
+  for (std::size_t i = t.size(); i-- > 0;) {
+    out.x.push_back(t[i]);
+    out.y.push_back(-half[i]);
+  }
   return out;
 }
 
@@ -59,14 +71,20 @@ std::vector<RunOfScene> runs_of(const scene::FitScene& scene, const std::vector<
   return out;
 }
 
-plot::Series band_outline(const std::string& name, const std::vector<double>& t, const std::vector<double>& half,
-                          bool dashed) {
-  plot::Series out{name, t, half, true, false, dashed};
-  for (std::size_t i = t.size(); i-- > 0;) {
-    out.x.push_back(t[i]);
-    out.y.push_back(-half[i]);
+Panels panels_of(const FittedRecord& r) {
+  std::vector<double> left = r.measured;
+  for (std::size_t i = 0; i < left.size(); ++i) left[i] -= r.fitted[i];
+  plot::Panel both{.x = {"time", "s"},
+                   .y = r.axis,
+                   .series = {{r.legend, r.time, r.measured}, {"fitted", r.time, r.fitted, true, false, true}}};
+  plot::Panel residual{
+      .x = {"time", "s"}, .y = {"residual", r.axis.unit}, .series = {{"measured − fitted", r.time, left}}};
+  if (!r.fit_band.empty()) {
+    const std::string level = fmt::format("{:g} % band", 100 * r.confidence);
+    residual.series.push_back(band_outline(level + " of a sample", r.time, r.sample_band, true));
+    residual.series.push_back(band_outline(level + " of the fit", r.time, r.fit_band, false));
   }
-  return out;
+  return {std::move(both), std::move(residual)};
 }
 
 std::vector<plot::Series> with_bars(const std::string& name, double confidence, const std::vector<double>& x,

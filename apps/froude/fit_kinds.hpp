@@ -74,9 +74,15 @@ struct RunOfScene {
 };
 std::vector<RunOfScene> runs_of(const scene::FitScene& scene, const std::vector<std::string>& taken = {});
 
-/// There along the upper edge of a band about zero and back along the lower one: one line.
-plot::Series band_outline(const std::string& name, const std::vector<double>& t, const std::vector<double>& half,
-                          bool dashed);
+/// What was measured over time, what was fitted to it, and half widths of the bands about that, if it has any.
+struct FittedRecord {
+  std::string legend;  ///< of what was measured
+  plot::Axis axis;
+  double confidence;  ///< of the bands
+  std::vector<double> time, measured, fitted, sample_band, fit_band;
+};
+/// A panel of both, and one of what is left.
+Panels panels_of(const FittedRecord& record);
 /// Values with their intervals as bars, over `x`.
 std::vector<plot::Series> with_bars(const std::string& name, double confidence, const std::vector<double>& x,
                                     const std::vector<const ::fit::Coefficient*>& y);

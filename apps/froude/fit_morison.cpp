@@ -103,21 +103,19 @@ void add_mean_cycle(const MorisonRun& run, const ::fit::MeanForce& mean, Panels&
 void add_run(const MorisonRun& run, Panels& panels) {
   const auto& r = run.prepared.record;
   const auto from = std::lower_bound(r.time.begin(), r.time.end(), r.time.back() - 5 * run.fit.period) - r.time.begin();
-  const auto tail = [&](const std::vector<double>& v) { return std::vector<double>(v.begin() + from, v.end()); };
-  std::vector<double> left = tail(r.force);
-  for (std::size_t j = 0; j < left.size(); ++j) left[j] -= run.fit.fitted[j + static_cast<std::size_t>(from)];
-  panels.push_back({.x = {"time", "s"},
-                    .y = {"force", "N"},
-                    .series = {{run.source.name() + ": measured", tail(r.time), tail(r.force)},
-                               {"fitted", tail(r.time), tail(run.fit.fitted), true, false, true}}});
-  plot::Panel residual{
-      .x = {"time", "s"}, .y = {"residual", "N"}, .series = {{"measured − fitted", tail(r.time), left}}};
-  if (!run.fit.fit_band.empty()) {
-    const std::string level = fmt::format("{:g} % band", 100 * run.fit.confidence);
-    residual.series.push_back(band_outline(level + " of a sample", tail(r.time), tail(run.fit.sample_band), true));
-    residual.series.push_back(band_outline(level + " of the fit", tail(r.time), tail(run.fit.fit_band), false));
-  }
-  panels.push_back(std::move(residual));
+  const auto tail = [&](const std::vector<double>& v) {
+    return v.empty() ? v : std::vector<double>(v.begin() + from, v.end());
+  };
+  const ::fit::MorisonFit& f = run.fit;
+  const Panels both = panels_of(FittedRecord{.legend = run.source.name() + ": measured",
+                                             .axis = {"force", "N"},
+                                             .confidence = f.confidence,
+                                             .time = tail(r.time),
+                                             .measured = tail(r.force),
+                                             .fitted = tail(f.fitted),
+                                             .sample_band = tail(f.sample_band),
+                                             .fit_band = tail(f.fit_band)});
+  panels.insert(panels.end(), both.begin(), both.end());
   if (run.prepared.mean_force) add_mean_cycle(run, *run.prepared.mean_force, panels);
 }
 

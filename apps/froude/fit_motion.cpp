@@ -89,24 +89,20 @@ Remedy remedy_of(const scene::FitScene& scene, const ::fit::motion::Problem& pro
 
 Panels panels_of(const ::fit::motion::Problem& problem, const ::fit::motion::Solution& solution) {
   const ::fit::SimulationFit& fit = solution.fit;
-  const std::string level = fmt::format("{:g} % band", 100 * problem.options.confidence);
-  const auto& t = problem.time;
   Panels out;
   for (std::size_t c = 0; c < problem.signals.size(); ++c) {
     const auto& [name, unit, deviation] = problem.signals[c];
-    const std::vector<double> values = joined(problem.measured, c), fitted = joined(fit.motion, c);
-    std::vector<double> left = values;
-    for (std::size_t i = 0; i < left.size(); ++i) left[i] -= fitted[i];
-    out.push_back({.x = {"time", "s"},
-                   .y = {name, unit},
-                   .series = {{"measured", t, values}, {"fitted", t, fitted, true, false, true}}});
-    plot::Panel residual{
-        .x = {"time", "s"}, .y = {"residual", unit}, .series = {{"measured − fitted", t, left, false, true}}};
-    if (fit.refused.empty()) {
-      residual.series.push_back(band_outline(level + " of a sample", t, joined(fit.sample_band, c), true));
-      residual.series.push_back(band_outline(level + " of the fit", t, joined(fit.fit_band, c), false));
-    }
-    out.push_back(std::move(residual));
+    Panels both = panels_of(FittedRecord{.legend = "measured",
+                                         .axis = {name, unit},
+                                         .confidence = problem.options.confidence,
+                                         .time = problem.time,
+                                         .measured = joined(problem.measured, c),
+                                         .fitted = joined(fit.motion, c),
+                                         .sample_band = joined(fit.sample_band, c),
+                                         .fit_band = joined(fit.fit_band, c)});
+    both[1].series[0].line = false;  // windows begin anew: what is left has jumps between them
+    both[1].series[0].marks = true;
+    out.insert(out.end(), both.begin(), both.end());
   }
   return out;
 }
