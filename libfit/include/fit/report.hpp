@@ -53,12 +53,12 @@ struct Estimate {
 /// Value, errors, intervals, and why there is no value.
 Facts facts_of(const Estimate& estimate);
 
-/// Why no value may be told, though the input is right.
+/// Why no value may be told.
 struct Refusal {
   enum class Reason {
-    search_without_end,     ///< (F65)
-    residuals_too_large,    ///< (F66), (F67)
-    wrong_sign,             ///< (F26)
+    search_without_end,     ///< where it stands is no minimum (F65)
+    residuals_too_large,    ///< than what was stated of them (F66), or than what is explained (F67)
+    wrong_sign,             ///< force and motion work against each other (F26)
     profile_without_an_end  ///< what is missing is the interval by likelihood: values stand in the report
   } reason;
   std::string why;          ///< one sentence
