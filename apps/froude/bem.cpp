@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <ostream>
 
@@ -8,8 +7,8 @@
 #include "froude/bem_responses.hpp"
 #include "froude/coefficient_files.hpp"
 #include "froude/commands.hpp"
-#include "froude/optional_json.hpp"
 #include "froude/progress.hpp"
+#include "froude/report.hpp"
 #include "hydro/base/error.hpp"
 
 namespace froude {
@@ -17,7 +16,6 @@ namespace {
 
 using hydro::potential::BodyData;
 using hydro::potential::Coefficients;
-using nlohmann::json;
 
 /// The two numbers by which a person recognises a floating body.
 struct HeaveFacts {
@@ -38,42 +36,6 @@ std::vector<double> headings_deg(const Coefficients& c) {
   return degrees;
 }
 
-std::string depth_text(const Coefficients& c) {
-  return c.water.depth.is_infinite() ? "infinite" : fmt::format("{:.6g} m", c.water.depth.metres());
-}
-
-json json_point(const std::optional<Eigen::Vector3d>& p) {
-  return p ? json::array({p->x(), p->y(), p->z()}) : json(nullptr);
-}
-
-json json_info(const Path& file, const Coefficients& c) {
-  json bodies = json::array();
-  for (std::size_t b = 0; b < c.body.size(); ++b) {
-    const BodyData& body = c.body[b];
-    const HeaveFacts heave = heave_of(c, b);
-    bodies.push_back({{"name", body.name},
-                      {"reference_point_m", json_point(body.reference_point)},
-                      {"centre_of_gravity_m", json_point(body.centre_of_gravity)},
-                      {"centre_of_buoyancy_m", json_point(body.centre_of_buoyancy)},
-                      {"displaced_volume_m3", json_or_null(body.displaced_volume)},
-                      {"A33_infinite_kg", json_or_null(heave.A33_infinite)},
-                      {"C33_N_per_m", json_or_null(heave.C33)}});
-  }
-  return {{"file", file.string()},
-          {"source", c.source},
-          {"bodies", bodies},
-          {"omega_rad_per_s", c.omega},
-          {"heading_deg", headings_deg(c)},
-          {"density_kg_per_m3", c.water.density},
-          {"gravity_m_per_s2", c.water.gravity},
-          {"depth_m", c.water.depth.is_infinite() ? json("infinite") : json(c.water.depth.metres())},
-          {"has_A_zero", c.A_zero.has_value()},
-          {"has_A_infinite", c.A_inf.has_value()},
-          {"has_excitation", !c.X.empty()},
-          {"has_restoring", c.C.has_value()},
-          {"notes", c.notes}};
-}
-
 std::string point_text(const std::optional<Eigen::Vector3d>& p) {
   return p ? fmt::format("({:.4g}, {:.4g}, {:.4g})", p->x(), p->y(), p->z()) : "not stated";
 }
@@ -81,19 +43,23 @@ std::string number_text(const std::optional<double>& value) {
   return value ? fmt::format("{:.6g}", *value) : "not stated";
 }
 
-std::string body_table(const Coefficients& c) {
+void add_bodies(Report& report, const Coefficients& c) {
   std::size_t width = 4;
   for (const BodyData& body : c.body) width = std::max(width, body.name.size());
-  std::string out = fmt::format("  {:<{}}  {:>14}  {:>14}  {:>14}  {:<24}  {}\n", "body", width, "volume [m^3]",
-                                "A33(inf) [kg]", "C33 [N/m]", "reference point [m]", "centre of gravity [m]");
+  report.say("  {:<{}}  {:>14}  {:>14}  {:>14}  {:<24}  {}", "body", width, "volume [m^3]", "A33(inf) [kg]",
+             "C33 [N/m]", "reference point [m]", "centre of gravity [m]");
   for (std::size_t b = 0; b < c.body.size(); ++b) {
     const BodyData& body = c.body[b];
     const HeaveFacts heave = heave_of(c, b);
-    out += fmt::format("  {:<{}}  {:>14}  {:>14}  {:>14}  {:<24}  {}\n", body.name, width,
-                       number_text(body.displaced_volume), number_text(heave.A33_infinite), number_text(heave.C33),
-                       point_text(body.reference_point), point_text(body.centre_of_gravity));
+    Report one;
+    one.say("  {:<{}}  {:>14}  {:>14}  {:>14}  {:<24}  {}", fact("name", body.name), width,
+            number_text(body.displaced_volume), number_text(heave.A33_infinite), number_text(heave.C33),
+            point_text(body.reference_point), point_text(body.centre_of_gravity));
+    one.keep("reference_point_m", body.reference_point).keep("centre_of_gravity_m", body.centre_of_gravity);
+    one.keep("centre_of_buoyancy_m", body.centre_of_buoyancy).keep("displaced_volume_m3", body.displaced_volume);
+    one.keep("A33_infinite_kg", heave.A33_infinite).keep("C33_N_per_m", heave.C33);
+    report.one_of("bodies", one);
   }
-  return out;
 }
 
 std::string heading_text(const Coefficients& c) {
@@ -104,23 +70,33 @@ std::string heading_text(const Coefficients& c) {
   return shown.empty() ? "none" : fmt::format("{} deg", fmt::join(shown, ", "));
 }
 
-std::string text_info(const Path& file, const Coefficients& c) {
+Report report_of(const Path& file, const Coefficients& c) {
+  const auto [density, gravity, depth] = c.water;
   const double lowest = c.omega.front(), highest = c.omega.back();
-  std::string out = fmt::format("{}\n", file.string());
-  const auto line = [&](const char* what, const std::string& value) {
-    out += fmt::format("  {:<12}{}\n", what, value);
-  };
-  line("format", c.source);
-  line("water", fmt::format("density {:.6g} kg/m^3, gravity {:.6g} m/s^2, depth {}", c.water.density, c.water.gravity,
-                            depth_text(c)));
-  line("frequencies", fmt::format("{} from {:.4g} to {:.4g} rad/s (periods {:.4g} to {:.4g} s)", c.omega.size(), lowest,
-                                  highest, 2 * std::numbers::pi / highest, 2 * std::numbers::pi / lowest));
-  line("headings", heading_text(c));
-  line("limits", fmt::format("A(0) {}, A(inf) {}", c.A_zero ? "present" : "absent", c.A_inf ? "present" : "absent"));
-  line("restoring", c.C ? "present" : "absent");
-  out += body_table(c);
-  for (const std::string& note : c.notes) line("note", note);
-  return out;
+  const auto presence = [](const auto& of) { return of ? "present" : "absent"; };
+  Report out;
+  out.say("{}", fact("file", file.string()));
+  out.say("  format      {}", fact("source", c.source));
+  out.say("  water       density {:.6g} kg/m^3, gravity {:.6g} m/s^2, depth {}", fact("density_kg_per_m3", density),
+          fact("gravity_m_per_s2", gravity),
+          depth.is_infinite() ? fact("depth_m", "infinite", std::string("infinite"))
+                              : fact("depth_m", depth.metres(), fmt::format("{:.6g} m", depth.metres())));
+  out.say("  frequencies {} from {:.4g} to {:.4g} rad/s (periods {:.4g} to {:.4g} s)",
+          fact("omega_rad_per_s", c.omega, c.omega.size()), lowest, highest, 2 * std::numbers::pi / highest,
+          2 * std::numbers::pi / lowest);
+  out.say("  headings    {}", fact("heading_deg", headings_deg(c), heading_text(c)));
+  out.say("  limits      A(0) {}, A(inf) {}", fact("has_A_zero", c.A_zero.has_value(), presence(c.A_zero)),
+          fact("has_A_infinite", c.A_inf.has_value(), presence(c.A_inf)));
+  out.say("  restoring   {}", fact("has_restoring", c.C.has_value(), presence(c.C)));
+  out.keep("has_excitation", !c.X.empty());
+  add_bodies(out, c);
+  return out.sentences("notes", "  note        {}", c.notes);
+}
+
+Report report_of(const Path& file, const hydro::potential::ReadOptions& options) {
+  if (hydro::potential::response_kind(file) != hydro::potential::ResponseKind::none)
+    return response_report(file, options);
+  return report_of(file, hydro::potential::read(file, options));
 }
 
 void require_a_file(const BemArguments& arguments) {
@@ -131,24 +107,10 @@ void require_a_file(const BemArguments& arguments) {
 
 void bem_info(const BemArguments& arguments, const Console& console) {
   require_a_file(arguments);
-  json files = json::array();
-  for (const Path& file : arguments.files) {
-    if (hydro::potential::response_kind(file) != hydro::potential::ResponseKind::none) {
-      if (console.json) {
-        files.push_back(response_info(file, arguments.options));
-      } else {
-        console.out << response_text(file, arguments.options);
-      }
-      continue;
-    }
-    const Coefficients c = hydro::potential::read(file, arguments.options);
-    if (console.json) {
-      files.push_back(json_info(file, c));
-    } else {
-      console.out << text_info(file, c);
-    }
-  }
-  if (console.json) console.out << json{{"files", files}}.dump(2) << '\n';
+  Report all;
+  for (const Path& file : arguments.files)
+    all.one_of("files", tell_people(report_of(file, arguments.options), console));
+  tell(all.untold(), console);
 }
 
 void bem_solve(const Path& file, const Path& output, const std::string& format, const Console& console) {
@@ -165,22 +127,13 @@ void bem_solve(const Path& file, const Path& output, const std::string& format, 
       scene, bodies, [&](int done, int all) { progress.update(static_cast<double>(done) / all); });
   const WrittenCoefficients written = write_as(target, solution.coefficients, output);
   const auto& check = solution.check;
-  if (console.json) {
-    console.out << json{{"input", file.string()},
-                        {"files", written.files},
-                        {"left_out", written.left_out},
-                        {"self_check",
-                         {{"energy", check.energy},
-                          {"haskind", check.haskind},
-                          {"reciprocity", check.reciprocity},
-                          {"change_with_doubled_resolution", check.doubling}}}}
-                       .dump(2)
-                << '\n';
-    return;
-  }
-  console.out << fmt::format("wrote {}\n", fmt::join(written.files, ", "));
-  for (const std::string& note : solution.coefficients.notes) console.out << "  " << note << '\n';
-  for (const std::string& sentence : written.left_out) console.out << "  left out or changed: " << sentence << '\n';
+  Report out;
+  out.say("wrote {}", fact("files", written.files, fmt::join(written.files, ", "))).keep("input", file.string());
+  out.sentences("notes", "  {}", solution.coefficients.notes);
+  out.sentences("left_out", "  left out or changed: {}", written.left_out);
+  out.keep("self_check/energy", check.energy).keep("self_check/haskind", check.haskind);
+  out.keep("self_check/reciprocity", check.reciprocity);
+  tell(out.keep("self_check/change_with_doubled_resolution", check.doubling), console);
 }
 
 }  // namespace froude

@@ -1,9 +1,7 @@
 #include <algorithm>
-#include <nlohmann/json.hpp>
-#include <ostream>
 
 #include "froude/commands.hpp"
-#include "froude/optional_json.hpp"
+#include "froude/report.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/potential/check.hpp"
 
@@ -12,27 +10,18 @@ namespace {
 
 using hydro::potential::Finding;
 using hydro::potential::Severity;
-using nlohmann::json;
 
-json json_finding(const Finding& f) {
-  return {{"severity", to_string(f.severity)},
-          {"check", f.check},
-          {"where", f.where},
-          {"message", f.message},
-          {"why", f.why},
-          {"remedy", f.remedy},
-          {"body", json_or_null(f.body)},
-          {"entry", json_or_null(f.entry)},
-          {"omega_rad_per_s", json_or_null(f.omega)}};
-}
-
-std::string text_finding(const Finding& f) {
-  std::string out = fmt::format("  {:<8} {:<28} {}\n", to_string(f.severity), f.check, f.message);
+Report report_of(const Finding& f) {
+  Report out;
+  out.say("  {:<8} {:<28} {}", fact("severity", to_string(f.severity)), fact("check", f.check),
+          fact("message", f.message));
+  out.keep("where", f.where).keep("why", f.why).keep("remedy", f.remedy);
+  out.keep("body", f.body).keep("entry", f.entry).keep("omega_rad_per_s", f.omega);
   if (f.severity == Severity::note) return out;
   const std::string indent(40, ' ');
-  out += fmt::format("{}at {}\n", indent, f.where);
-  if (!f.why.empty()) out += fmt::format("{}{}\n", indent, f.why);
-  if (!f.remedy.empty()) out += fmt::format("{}{}\n", indent, f.remedy);
+  out.say("{}at {}", indent, f.where);
+  for (const std::string& more : {f.why, f.remedy})
+    if (!more.empty()) out.say("{}{}", indent, more);
   return out;
 }
 
@@ -45,25 +34,20 @@ std::size_t count(const std::vector<Finding>& findings, Severity severity) {
 
 int bem_check(const BemArguments& arguments, const Console& console, bool strict) {
   hydro::require(!arguments.files.empty(), "no file is given; give at least one file of coefficients");
-  json files = json::array();
+  Report all;
   int status = 0;
   for (const Path& file : arguments.files) {
     const std::vector<Finding> findings = hydro::potential::check(hydro::potential::read(file, arguments.options));
-    const std::size_t errors = count(findings, Severity::error), warnings = count(findings, Severity::warning),
-                      notes = count(findings, Severity::note);
+    const std::size_t errors = count(findings, Severity::error), warnings = count(findings, Severity::warning);
     if (errors > 0 || (strict && warnings > 0)) status = 1;
-    if (console.json) {
-      json list = json::array();
-      for (const Finding& f : findings) list.push_back(json_finding(f));
-      files.push_back(
-          {{"file", file.string()}, {"errors", errors}, {"warnings", warnings}, {"notes", notes}, {"findings", list}});
-    } else {
-      console.out << file.string() << '\n';
-      for (const Finding& f : findings) console.out << text_finding(f);
-      console.out << fmt::format("  {} errors, {} warnings, {} notes\n", errors, warnings, notes);
-    }
+    Report one;
+    one.say("{}", fact("file", file.string())).keep("findings", Json::array());
+    for (const Finding& f : findings) one.one_of("findings", report_of(f));
+    one.say("  {} errors, {} warnings, {} notes", fact("errors", errors), fact("warnings", warnings),
+            fact("notes", count(findings, Severity::note)));
+    all.one_of("files", tell_people(one, console));
   }
-  if (console.json) console.out << json{{"files", files}, {"status", status}}.dump(2) << '\n';
+  tell(all.keep("status", status).untold(), console);
   return status;
 }
 

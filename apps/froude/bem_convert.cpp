@@ -1,10 +1,7 @@
 // froude bem convert: reads, changes by exact laws in one fixed order, writes.
-#include <nlohmann/json.hpp>
-
-#include <ostream>
-
 #include "froude/coefficient_files.hpp"
 #include "froude/commands.hpp"
+#include "froude/report.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
 #include "hydro/potential/operations.hpp"
@@ -15,7 +12,6 @@ namespace {
 
 using hydro::potential::BodyData;
 using hydro::potential::Coefficients;
-using nlohmann::json;
 
 /// What `parse` makes of an option's text; its complaint names the option.
 template <class Parse>
@@ -117,20 +113,12 @@ void bem_convert(const BemConvertArguments& arguments, const Console& console) {
   const std::vector<std::string> done(c.notes.begin() + static_cast<std::ptrdiff_t>(original.notes.size()),
                                       c.notes.end());
   const WrittenCoefficients written = write_as(target, c, arguments.output);
-  if (console.json) {
-    json input = json::array();
-    for (const Path& file : arguments.bem.files) input.push_back(file.string());
-    console.out << json{{"input", arguments.merge ? input : input.front()},
-                        {"files", written.files},
-                        {"changed", done},
-                        {"left_out", written.left_out}}
-                       .dump(2)
-                << '\n';
-    return;
-  }
-  console.out << fmt::format("wrote {}\n", fmt::join(written.files, ", "));
-  for (const std::string& sentence : done) console.out << "  " << sentence << '\n';
-  for (const std::string& sentence : written.left_out) console.out << "  left out or changed: " << sentence << '\n';
+  const Json input = arguments.bem.files;
+  Report out;
+  out.keep("input", arguments.merge ? input : input.front());
+  out.say("wrote {}", fact("files", written.files, fmt::join(written.files, ", ")));
+  out.sentences("changed", "  {}", done);
+  tell(out.sentences("left_out", "  left out or changed: {}", written.left_out), console);
 }
 
 }  // namespace froude

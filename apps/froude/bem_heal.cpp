@@ -1,9 +1,6 @@
-#include <filesystem>
-#include <nlohmann/json.hpp>
-#include <ostream>
-
 #include "froude/coefficient_files.hpp"
 #include "froude/commands.hpp"
+#include "froude/report.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/potential/check.hpp"
 
@@ -12,7 +9,6 @@ namespace {
 
 using hydro::potential::HealStep;
 using hydro::potential::Severity;
-using nlohmann::json;
 
 struct Counts {
   std::size_t errors = 0, warnings = 0;
@@ -27,8 +23,6 @@ Counts counts(const hydro::potential::Coefficients& c) {
   return out;
 }
 
-json json_counts(const Counts& c) { return {{"errors", c.errors}, {"warnings", c.warnings}}; }
-
 }  // namespace
 
 void bem_heal(const BemHealArguments& arguments, const Console& console) {
@@ -40,23 +34,15 @@ void bem_heal(const BemHealArguments& arguments, const Console& console) {
   const auto healed = hydro::potential::heal(before, arguments.steps);
   const Counts was = counts(before), is = counts(healed.coefficients);
   const WrittenCoefficients written = write_as(format, healed.coefficients, arguments.output);
-  if (console.json) {
-    json steps = json::array();
-    for (const HealStep& s : healed.steps)
-      steps.push_back({{"step", s.name}, {"what", s.what}, {"largest_relative_change", s.largest_change}});
-    console.out << json{{"input", files.front().string()}, {"files", written.files},
-                        {"left_out", written.left_out},    {"steps", steps},
-                        {"before", json_counts(was)},      {"after", json_counts(is)}}
-                       .dump(2)
-                << '\n';
-    return;
-  }
+  Report out;
+  out.keep("input", files.front().string()).keep("steps", Json::array());
   for (const HealStep& s : healed.steps)
-    console.out << fmt::format("  {:<10} largest change {:<9.2g} {}\n", s.name, s.largest_change, s.what);
-  console.out << fmt::format("  the doctor had {} errors and {} warnings, and has {} and {}\n", was.errors,
-                             was.warnings, is.errors, is.warnings);
-  console.out << fmt::format("wrote {}\n", fmt::join(written.files, ", "));
-  for (const std::string& sentence : written.left_out) console.out << "  left out or changed: " << sentence << '\n';
+    out.row("steps", "  {:<10} largest change {:<9.2g} {}", fact("step", s.name),
+            fact("largest_relative_change", s.largest_change), fact("what", s.what));
+  out.say("  the doctor had {} errors and {} warnings, and has {} and {}", fact("before/errors", was.errors),
+          fact("before/warnings", was.warnings), fact("after/errors", is.errors), fact("after/warnings", is.warnings));
+  out.say("wrote {}", fact("files", written.files, fmt::join(written.files, ", ")));
+  tell(out.sentences("left_out", "  left out or changed: {}", written.left_out), console);
 }
 
 }  // namespace froude

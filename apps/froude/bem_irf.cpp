@@ -1,12 +1,11 @@
 /// \file  `froude bem irf`: what the radiation data say in the time domain.
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
-#include <ostream>
 
 #include "froude/commands.hpp"
 #include "froude/outputs.hpp"
 #include "froude/plot.hpp"
+#include "froude/report.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/types.hpp"
@@ -22,7 +21,6 @@ using hydro::dense::symmetric_part;
 using hydro::potential::Coefficients;
 using hydro::radiation::DampingTable;
 using hydro::radiation::RationalFit;
-using nlohmann::json;
 
 /// What the data hold, made symmetric, and what was found from them.
 struct Analysis {
@@ -50,50 +48,31 @@ std::string mode_name(const Coefficients& c, Eigen::Index mode) {
   return c.bodies() == 1 ? name : c.body[static_cast<std::size_t>(mode / 6)].name + "." + name;
 }
 
-json told(const Path& file, const Coefficients& c, const Analysis& a) {
+Report report_of(const Path& file, const Coefficients& c, const Analysis& a) {
   const auto& r = a.fit.report;
-  json poles = json::array(), modes = json::array();
-  for (const auto& p : a.fit.model.poles) poles.push_back({{"decay_rad_per_s", p.decay}, {"omega_rad_per_s", p.omega}});
-  for (Eigen::Index i = 0; i < c.modes(); ++i)
-    modes.push_back({{"mode", mode_name(c, i)},
-                     {"K0", a.fit.model.kernel(0)(i, i)},
-                     {"error", r.error_per_pair(i, i)},
-                     {"A_infinite_of_the_fit", a.fit.A_inf(i, i)},
-                     {"A_infinite_by_Ogilvie", a.ogilvie.value(i, i)},
-                     {"spread_by_Ogilvie", a.ogilvie.spread(i, i)}});
-  return {{"file", file.string()},
-          {"order", r.order},
-          {"error", r.error},
-          {"error_before_passivity", r.error_before},
-          {"passive", r.passive},
-          {"margin", r.margin},
-          {"most_negative_before", r.most_negative},
-          {"lift", r.lift},
-          {"shift_of_A_infinite", r.shift},
-          {"why", r.why},
-          {"poles", poles},
-          {"modes", modes}};
-}
-
-void tell(const Path& file, const Coefficients& c, const Analysis& a, const Console& console) {
-  const auto& r = a.fit.report;
-  console.out << fmt::format("{}\n  fit         order {}, off the data by up to {:.2g} of the largest damping; {}\n",
-                             file.string(), r.order, r.error, r.why);
+  Report out;
+  out.say("{}", fact("file", file.string()));
+  out.say("  fit         order {}, off the data by up to {:.2g} of the largest damping; {}", fact("order", r.order),
+          fact("error", r.error), fact("why", r.why));
+  out.keep("passive", r.passive).keep("margin", r.margin).keep("error_before_passivity", r.error_before);
+  out.keep("most_negative_before", r.most_negative).keep("lift", r.lift);
   if (r.passive)
-    console.out << fmt::format(
-        "  passive     certified with a margin of {:.2g}; that cost an error of {:.2g} in place of {:.2g}\n", r.margin,
-        r.error, r.error_before);
+    out.say("  passive     certified with a margin of {:.2g}; that cost an error of {:.2g} in place of {:.2g}",
+            r.margin, r.error, r.error_before);
   else
-    console.out << "  passive     not certified: the fit may give energy to a motion\n";
-  console.out << fmt::format("  A(inf)      moved by {:.2g} of its diagonal\n", r.shift);
-  console.out << fmt::format("  {:>14}  {:>14}\n", "decay [rad/s]", "omega [rad/s]");
-  for (const auto& p : a.fit.model.poles) console.out << fmt::format("  {:>14.5g}  {:>14.5g}\n", p.decay, p.omega);
-  console.out << fmt::format("  {:<16}  {:>12}  {:>10}  {:>14}  {:>14}  {:>10}\n", "mode", "K(0)", "error",
-                             "A(inf), fit", "A(inf), R6", "spread");
+    out.say("  passive     not certified: the fit may give energy to a motion");
+  out.say("  A(inf)      moved by {:.2g} of its diagonal", fact("shift_of_A_infinite", r.shift));
+  out.say("  {:>14}  {:>14}", "decay [rad/s]", "omega [rad/s]").keep("poles", Json::array());
+  for (const auto& p : a.fit.model.poles)
+    out.row("poles", "  {:>14.5g}  {:>14.5g}", fact("decay_rad_per_s", p.decay), fact("omega_rad_per_s", p.omega));
+  out.say("  {:<16}  {:>12}  {:>10}  {:>14}  {:>14}  {:>10}", "mode", "K(0)", "error", "A(inf), fit", "A(inf), R6",
+          "spread");
   for (Eigen::Index i = 0; i < c.modes(); ++i)
-    console.out << fmt::format("  {:<16}  {:>12.5g}  {:>10.2g}  {:>14.6g}  {:>14.6g}  {:>10.2g}\n", mode_name(c, i),
-                               a.fit.model.kernel(0)(i, i), r.error_per_pair(i, i), a.fit.A_inf(i, i),
-                               a.ogilvie.value(i, i), a.ogilvie.spread(i, i));
+    out.row("modes", "  {:<16}  {:>12.5g}  {:>10.2g}  {:>14.6g}  {:>14.6g}  {:>10.2g}", fact("mode", mode_name(c, i)),
+            fact("K0", a.fit.model.kernel(0)(i, i)), fact("error", r.error_per_pair(i, i)),
+            fact("A_infinite_of_the_fit", a.fit.A_inf(i, i)), fact("A_infinite_by_Ogilvie", a.ogilvie.value(i, i)),
+            fact("spread_by_Ogilvie", a.ogilvie.spread(i, i)));
+  return out;
 }
 
 /// Time after which the slowest pole has lost all but a thousandth, but no more than a minute.
@@ -138,19 +117,13 @@ plot::Figure picture(const Coefficients& c, const Analysis& a) {
   return f;
 }
 
-void export_fit(const BemIrfArguments& arguments, const Coefficients& c, const Analysis& a, const Console& console) {
+void export_fit(const BemIrfArguments& arguments, const Coefficients& c, const Analysis& a) {
   if (!arguments.output) return;
-  const std::string extension = arguments.output->extension().string();
-  if (extension == ".ss")
+  if (arguments.output->extension() == ".ss")
     hydro::radiation::write_openfast(a.fit.model, "Radiation of " + c.source, *arguments.output);
-  else if (extension == ".h5")
+  else
     hydro::radiation::write_bemio_state_space(a.fit.model, c.water.density, 0.05, shown_length(a.fit),
                                               *arguments.output);
-  else
-    throw hydro::InputError(
-        fmt::format("the name \"{}\" does not tell a format", arguments.output->filename().string()), {},
-        "end it with .ss (OpenFAST) or .h5 (BEMIO state-space groups)");
-  if (!console.json) console.out << fmt::format("wrote {}\n", arguments.output->string());
 }
 
 }  // namespace
@@ -160,20 +133,18 @@ void bem_irf(const BemIrfArguments& arguments, const Console& console) {
                  arguments.bem.files.size());
   hydro::require(arguments.tolerance > 0 && arguments.tolerance < 1, "a tolerance lies between 0 and 1, got {}",
                  arguments.tolerance);
+  if (arguments.output && arguments.output->extension() != ".ss" && arguments.output->extension() != ".h5")
+    throw hydro::InputError(
+        fmt::format("the name \"{}\" does not tell a format", arguments.output->filename().string()), {},
+        "end it with .ss (OpenFAST) or .h5 (BEMIO state-space groups)");
   const Path& file = arguments.bem.files.front();
   require_outputs(named({{"-o", arguments.output}, {"--picture", arguments.picture}}),
                   files_of_coefficients(arguments.bem.files));
   const Coefficients c = hydro::potential::read(file, arguments.bem.options);
   const Analysis a = analyse(c, arguments.tolerance);
-  if (console.json)
-    console.out << told(file, c, a).dump(1) << '\n';
-  else
-    tell(file, c, a, console);
-  export_fit(arguments, c, a, console);
-  if (arguments.picture) {
-    hydro::io::write_atomically(*arguments.picture, plot::svg(picture(c, a)));
-    if (!console.json) console.out << fmt::format("wrote {}\n", arguments.picture->string());
-  }
+  export_fit(arguments, c, a);
+  if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(picture(c, a)));
+  tell(report_of(file, c, a).wrote(arguments.output).wrote(arguments.picture), console);
 }
 
 }  // namespace froude

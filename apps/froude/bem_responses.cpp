@@ -10,7 +10,6 @@ namespace froude {
 namespace {
 
 using namespace hydro::potential;
-using nlohmann::json;
 
 constexpr double degree = std::numbers::pi / 180;
 
@@ -94,29 +93,20 @@ const char* unit_of(const Told& t, int mode) { return mode % 6 < 3 ? t.force_uni
 
 }  // namespace
 
-nlohmann::json response_info(const Path& file, const ReadOptions& options) {
+Report response_report(const Path& file, const ReadOptions& options) {
   const Told t = told_of(file, options);
-  json largest = json::array();
+  Report out;
+  out.say("{}", fact("file", file.string()));
+  out.say("  format      {}", fact("source", t.source));
+  out.say("  holds       {}", fact("kind", t.kind));
+  out.say("  frequencies {} from {:.4g} to {:.4g} rad/s, {} headings", fact("omega_rad_per_s", t.omega, t.omega.size()),
+          t.omega.front(), t.omega.back(), fact("headings", t.headings));
+  out.keep("largest", Json::array());
   for (const Peak& p : t.peak)
-    largest.push_back({{"mode", name_of(p.mode)},
-                       {"value", p.value},
-                       {"unit", unit_of(t, p.mode)},
-                       {"omega_rad_per_s", p.omega},
-                       {"heading_deg", p.heading_deg}});
-  return {{"file", file.string()},  {"source", t.source}, {"kind", t.kind},  {"omega_rad_per_s", t.omega},
-          {"headings", t.headings}, {"largest", largest}, {"notes", t.notes}};
-}
-
-std::string response_text(const Path& file, const ReadOptions& options) {
-  const Told t = told_of(file, options);
-  std::string out = fmt::format("{}\n  {:<12}{}\n  {:<12}{}\n", file.string(), "format", t.source, "holds", t.kind);
-  out += fmt::format("  {:<12}{} from {:.4g} to {:.4g} rad/s, {} headings\n", "frequencies", t.omega.size(),
-                     t.omega.front(), t.omega.back(), t.headings);
-  for (const Peak& p : t.peak)
-    out += fmt::format("  largest {:<20} {:>12.5g} {:<6} at {:.4g} rad/s, {:.4g} deg\n", name_of(p.mode), p.value,
-                       unit_of(t, p.mode), p.omega, p.heading_deg);
-  for (const std::string& note : t.notes) out += fmt::format("  {:<12}{}\n", "note", note);
-  return out;
+    out.row("largest", "  largest {:<20} {:>12.5g} {:<6} at {:.4g} rad/s, {:.4g} deg", fact("mode", name_of(p.mode)),
+            fact("value", p.value), fact("unit", unit_of(t, p.mode)), fact("omega_rad_per_s", p.omega),
+            fact("heading_deg", p.heading_deg));
+  return out.sentences("notes", "  note        {}", t.notes);
 }
 
 }  // namespace froude

@@ -1,8 +1,6 @@
 /// \file  `froude hydrostatics`: what still water does to a hull given as a mesh.
 #include <fmt/ranges.h>
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,6 +8,7 @@
 #include "froude/commands.hpp"
 #include "froude/outputs.hpp"
 #include "froude/plot.hpp"
+#include "froude/report.hpp"
 #include "hydro/hydrostatics/stability.hpp"
 #include "hydro/io/atomic_file.hpp"
 
@@ -18,12 +17,11 @@ namespace {
 
 namespace hh = hydro::hydrostatics;
 using Eigen::Vector3d;
-using nlohmann::json;
 
 constexpr double degree = std::numbers::pi / 180;
 
 /// All that is told, computed once.
-struct Report {
+struct Hydrostatics {
   hh::Pose pose;
   double heel, trim;
   hh::Immersion im;
@@ -37,7 +35,7 @@ struct Report {
   std::vector<std::string> notes;
 };
 
-void find_pose(const HydrostaticsArguments& a, const hh::Hull& hull, Report& r) {
+void find_pose(const HydrostaticsArguments& a, const hh::Hull& hull, Hydrostatics& r) {
   r.heel = a.heel.radians();
   r.trim = a.trim.radians();
   r.pose = {.attitude = hh::attitude_of(a.heel, a.trim), .position = {0, 0, a.heave.value_or(0)}};
@@ -50,7 +48,7 @@ void find_pose(const HydrostaticsArguments& a, const hh::Hull& hull, Report& r) 
   r.trim = r.equilibrium->trim;
 }
 
-void add_stability(const HydrostaticsArguments& a, const hh::Hull& hull, Report& r) {
+void add_stability(const HydrostaticsArguments& a, const hh::Hull& hull, Hydrostatics& r) {
   r.C = hh::buoyancy_stiffness(r.im, a.water, r.reference);
   if (!r.body) {
     r.notes.push_back("no centre of gravity is given: C is the water's part alone, and there are no GM and no GZ");
@@ -70,8 +68,8 @@ void add_stability(const HydrostaticsArguments& a, const hh::Hull& hull, Report&
   if (!r.curve->ended.empty()) r.notes.push_back("the curve of GZ ends " + r.curve->ended);
 }
 
-Report report(const HydrostaticsArguments& a, const hh::Hull& hull) {
-  Report r{};
+Hydrostatics hydrostatics_of(const HydrostaticsArguments& a, const hh::Hull& hull) {
+  Hydrostatics r{};
   r.notes = hull.notes();
   if (hull.slivers() > 0) r.notes.push_back(fmt::format("{} triangles have no area", hull.slivers()));
   find_pose(a, hull, r);
@@ -93,121 +91,89 @@ Report report(const HydrostaticsArguments& a, const hh::Hull& hull) {
   return r;
 }
 
-json array(const Eigen::VectorXd& v) { return std::vector<double>(v.data(), v.data() + v.size()); }
-
-json rows(const Eigen::MatrixXd& m) {
-  json out = json::array();
-  for (Eigen::Index i = 0; i < m.rows(); ++i) out.push_back(array(m.row(i).transpose()));
-  return out;
-}
-
-json curve_json(const hh::RightingCurve& curve) {
-  json out = json::array();
-  for (const auto& p : curve.arms)
-    out.push_back(
-        {{"heel_deg", p.heel / degree}, {"trim_deg", p.trim / degree}, {"gz_m", p.gz}, {"energy_m", p.energy}});
-  return out;
-}
-
-json document(const HydrostaticsArguments& a, const hh::Hull& hull, const Report& r) {
-  json j{{"mesh",
-          {{"file", hull.source()},
-           {"triangles", hull.triangles().size()},
-           {"closed", hull.closed()},
-           {"parts", hull.parts()},
-           {"volume_m3", hull.volume()},
-           {"area_m2", hull.area()},
-           {"chord_volume_m3", hh::chord_volume(hull)}}},
-         {"water", {{"density", a.water.density}, {"gravity", a.water.gravity}}},
-         {"pose", {{"heave_m", r.pose.position.z()}, {"heel_deg", r.heel / degree}, {"trim_deg", r.trim / degree}}},
-         {"volume_m3", r.im.volume},
-         {"displacement_kg", a.water.density * r.im.volume},
-         {"centre_of_buoyancy_m", array(*r.im.centre_of_buoyancy)},
-         {"wetted_area_m2", r.im.wetted_area},
-         {"draught_m", -r.lowest},
-         {"reference_m", array(r.reference)},
-         {"C", rows(r.C)},
-         {"C_holds", r.body ? "water and gravity" : "water"},
-         {"notes", r.notes}};
-  if (r.im.waterplane)
-    j["waterplane"] = {{"area_m2", r.im.waterplane->area},
-                       {"centre_m", array(r.im.waterplane->centre)},
-                       {"second_moment_m4", rows(r.im.waterplane->second_moment)}};
-  if (r.body) {
-    j["mass_kg"] = r.body->mass;
-    j["centre_of_gravity_m"] = array(r.G);
-  }
-  if (r.equilibrium) j["equilibrium"] = {{"stable", r.equilibrium->stable}, {"why", r.equilibrium->why}};
-  if (r.metacentre)
-    j["metacentre"] = {{"bm_transverse_m", r.metacentre->bm_transverse},
-                       {"bm_longitudinal_m", r.metacentre->bm_longitudinal},
-                       {"gm_transverse_m", r.metacentre->gm_transverse},
-                       {"gm_longitudinal_m", r.metacentre->gm_longitudinal},
-                       {"gm_least_m", r.metacentre->gm_least}};
-  if (r.curve) j["gz"] = curve_json(*r.curve);
-  return j;
-}
-
 std::string point(const Eigen::VectorXd& p) { return fmt::format("({:.6g}) m", fmt::join(p, ", ")); }
 
-void tell_immersion(const HydrostaticsArguments& a, const hh::Hull& hull, const Report& r, std::ostream& out) {
-  const auto line = [&out](const char* what, const std::string& value) {
-    out << fmt::format("  {:<26} {}\n", what, value);
-  };
-  out << fmt::format("{}: {} triangles, {}, volume {:.6g} m³\n", hull.source(), hull.triangles().size(),
-                     hull.closed() ? "closed" : "open", hull.volume());
-  line("flat triangles lack about",
-       fmt::format("{:.2g} % of the volume", 100 * hh::chord_volume(hull) / hull.volume()));
-  line("heave, heel, trim",
-       fmt::format("{:.6g} m, {:.5g}°, {:.5g}°", r.pose.position.z(), r.heel / degree, r.trim / degree));
-  if (r.equilibrium) line("equilibrium", r.equilibrium->why);
-  line("volume displaced", fmt::format("{:.6g} m³ = {:.6g} kg", r.im.volume, a.water.density * r.im.volume));
-  line("centre of buoyancy", point(*r.im.centre_of_buoyancy));
-  line("wetted area", fmt::format("{:.6g} m²", r.im.wetted_area));
-  line("draught", fmt::format("{:.6g} m", -r.lowest));
-  if (const auto& w = r.im.waterplane) {
-    line("waterplane", fmt::format("{:.6g} m², centre {}", w->area, point(w->centre)));
-    line("  second moments", fmt::format("about x {:.6g}, about y {:.6g}, product {:.6g} m⁴", w->second_moment(1, 1),
-                                         w->second_moment(0, 0), w->second_moment(0, 1)));
-  }
-  if (r.body) line("mass, centre of gravity", fmt::format("{:.6g} kg, {}", r.body->mass, point(r.G)));
-  if (r.metacentre) {
-    line("BM", fmt::format("transverse {:.6g} m, longitudinal {:.6g} m", r.metacentre->bm_transverse,
-                           r.metacentre->bm_longitudinal));
-    line("GM", fmt::format("transverse {:.6g} m, longitudinal {:.6g} m, least {:.6g} m", r.metacentre->gm_transverse,
-                           r.metacentre->gm_longitudinal, r.metacentre->gm_least));
-  }
+void add_hull(const HydrostaticsArguments& a, const hh::Hull& hull, Report& report) {
+  const double lacking = hh::chord_volume(hull);
+  report.say("{}: {} triangles, {}, volume {:.6g} m³", fact("mesh/file", hull.source()),
+             fact("mesh/triangles", hull.triangles().size()),
+             fact("mesh/closed", hull.closed(), hull.closed() ? "closed" : "open"),
+             fact("mesh/volume_m3", hull.volume()));
+  report.say("  flat triangles lack about  {:.2g} % of the volume",
+             fact("mesh/chord_volume_m3", lacking, 100 * lacking / hull.volume()));
+  report.keep("mesh/parts", hull.parts()).keep("mesh/area_m2", hull.area());
+  report.keep("water/density", a.water.density).keep("water/gravity", a.water.gravity);
 }
 
-void tell_matrix(const Report& r, std::ostream& out) {
-  out << fmt::format("C about {} [N/m, N, N m], {}:\n", point(r.reference),
-                     r.body ? "water and gravity" : "water alone");
+void add_immersion(const HydrostaticsArguments& a, const Hydrostatics& r, Report& report) {
+  report.say("  heave, heel, trim          {:.6g} m, {:.5g}°, {:.5g}°", fact("pose/heave_m", r.pose.position.z()),
+             fact("pose/heel_deg", r.heel / degree), fact("pose/trim_deg", r.trim / degree));
+  if (r.equilibrium)
+    report.say("  equilibrium                {}", fact("equilibrium/why", r.equilibrium->why))
+        .keep("equilibrium/stable", r.equilibrium->stable);
+  report.say("  volume displaced           {:.6g} m³ = {:.6g} kg", fact("volume_m3", r.im.volume),
+             fact("displacement_kg", a.water.density * r.im.volume));
+  report.say("  centre of buoyancy         {}",
+             fact("centre_of_buoyancy_m", *r.im.centre_of_buoyancy, point(*r.im.centre_of_buoyancy)));
+  report.say("  wetted area                {:.6g} m²", fact("wetted_area_m2", r.im.wetted_area));
+  report.say("  draught                    {:.6g} m", fact("draught_m", -r.lowest));
+  if (!r.im.waterplane) return;
+  const auto& [area, centre, second] = *r.im.waterplane;
+  report.say("  waterplane                 {:.6g} m², centre {}", fact("waterplane/area_m2", area),
+             fact("waterplane/centre_m", centre, point(centre)));
+  report.say("    second moments           about x {:.6g}, about y {:.6g}, product {:.6g} m⁴", second(1, 1),
+             second(0, 0), second(0, 1));
+  report.keep("waterplane/second_moment_m4", second);
+}
+
+void add_centres(const Hydrostatics& r, Report& report) {
+  if (r.body)
+    report.say("  mass, centre of gravity    {:.6g} kg, {}", fact("mass_kg", r.body->mass),
+               fact("centre_of_gravity_m", r.G, point(r.G)));
+  if (!r.metacentre) return;
+  report.say("  BM                         transverse {:.6g} m, longitudinal {:.6g} m",
+             fact("metacentre/bm_transverse_m", r.metacentre->bm_transverse),
+             fact("metacentre/bm_longitudinal_m", r.metacentre->bm_longitudinal));
+  report.say("  GM                         transverse {:.6g} m, longitudinal {:.6g} m, least {:.6g} m",
+             fact("metacentre/gm_transverse_m", r.metacentre->gm_transverse),
+             fact("metacentre/gm_longitudinal_m", r.metacentre->gm_longitudinal),
+             fact("metacentre/gm_least_m", r.metacentre->gm_least));
+}
+
+void add_matrix(const Hydrostatics& r, Report& report) {
+  report.say(
+      "C about {} [N/m, N, N m], {}:", fact("reference_m", r.reference, point(r.reference)),
+      r.body ? fact("C_holds", "water and gravity", "water and gravity") : fact("C_holds", "water", "water alone"));
+  report.keep("C", r.C);
   const double largest = r.C.cwiseAbs().maxCoeff();
   for (Eigen::Index i = 2; i < 5; ++i) {  // the other rows are zero
-    out << fmt::format("  {:<6}", hydro::mode_names[static_cast<std::size_t>(i)]);
+    std::string row = fmt::format("  {:<6}", hydro::mode_names[static_cast<std::size_t>(i)]);
     for (Eigen::Index j = 0; j < 6; ++j)
-      out << fmt::format(" {:>12}", std::abs(r.C(i, j)) < 1e-12 * largest ? "0" : fmt::format("{:.5g}", r.C(i, j)));
-    out << '\n';
+      row += fmt::format(" {:>12}", std::abs(r.C(i, j)) < 1e-12 * largest ? "0" : fmt::format("{:.5g}", r.C(i, j)));
+    report.say("{}", row);
   }
 }
 
-void tell_curve(const hh::RightingCurve& curve, bool free_trim, std::ostream& out) {
-  out << fmt::format("righting arms, trim {}:\n  {:>9} {:>10} {:>9} {:>14}\n", free_trim ? "free" : "fixed", "heel [°]",
-                     "GZ [m]", "trim [°]", "area [m rad]");
+void add_curve(const hh::RightingCurve& curve, bool free_trim, Report& report) {
+  report.say("righting arms, trim {}:", free_trim ? "free" : "fixed");
+  report.say("  {:>9} {:>10} {:>9} {:>14}", "heel [°]", "GZ [m]", "trim [°]", "area [m rad]").keep("gz", Json::array());
   for (const auto& p : curve.arms)
-    out << fmt::format("  {:>9.4g} {:>10.4f} {:>9.3f} {:>14.5f}\n", p.heel / degree, p.gz, p.trim / degree, p.energy);
+    report.row("gz", "  {:>9.4g} {:>10.4f} {:>9.3f} {:>14.5f}", fact("heel_deg", p.heel / degree), fact("gz_m", p.gz),
+               fact("trim_deg", p.trim / degree), fact("energy_m", p.energy));
+  if (curve.arms.empty()) return;
   const auto& most =
       *std::max_element(curve.arms.begin(), curve.arms.end(), [](const auto& a, const auto& b) { return a.gz < b.gz; });
-  out << fmt::format("  largest of these: {:.4g} m at {:.4g}°\n", most.gz, most.heel / degree);
+  report.say("  largest of these: {:.4g} m at {:.4g}°", fact("largest_gz/gz_m", most.gz),
+             fact("largest_gz/heel_deg", most.heel / degree));
   for (std::size_t i = 1; i < curve.arms.size(); ++i) {
     const auto &p = curve.arms[i - 1], &q = curve.arms[i];
     if (p.gz > 0 && q.gz <= 0)
-      out << fmt::format("  vanishes at {:.4g}° (straight line between the points)\n",
-                         (p.heel + (q.heel - p.heel) * p.gz / (p.gz - q.gz)) / degree);
+      report.row("vanishing_gz", "  vanishes at {:.4g}° (straight line between the points)",
+                 fact("heel_deg", (p.heel + (q.heel - p.heel) * p.gz / (p.gz - q.gz)) / degree));
   }
 }
 
-void draw(const Path& path, const hh::Hull& hull, const Report& r) {
+void draw(const Path& path, const hh::Hull& hull, const Hydrostatics& r) {
   plot::Series gz{.name = "GZ", .x = {}, .y = {}}, tangent{.name = "GM · heel", .x = {}, .y = {}, .dashed = true},
       area{.name = "area under GZ", .x = {}, .y = {}};
   double top = 0;
@@ -247,17 +213,15 @@ void hydrostatics(const HydrostaticsArguments& arguments, const Console& console
   hh::TriangleMesh mesh = hh::read_mesh(arguments.mesh, arguments.options);
   if (arguments.freeboard) mesh = hh::with_freeboard(std::move(mesh), *arguments.freeboard);
   const hh::Hull hull(std::move(mesh));
-  const Report r = report(arguments, hull);
+  const Hydrostatics r = hydrostatics_of(arguments, hull);
   if (arguments.picture) draw(*arguments.picture, hull, r);
-  if (console.json) {
-    console.out << document(arguments, hull, r).dump(1) << '\n';
-    return;
-  }
-  tell_immersion(arguments, hull, r, console.out);
-  tell_matrix(r, console.out);
-  if (r.curve) tell_curve(*r.curve, arguments.free_trim, console.out);
-  for (const auto& note : r.notes) console.out << "note: " << note << '\n';
-  if (arguments.picture) console.out << "wrote " << arguments.picture->string() << '\n';
+  Report report;
+  add_hull(arguments, hull, report);
+  add_immersion(arguments, r, report);
+  add_centres(r, report);
+  add_matrix(r, report);
+  if (r.curve) add_curve(*r.curve, arguments.free_trim, report);
+  tell(report.sentences("notes", "note: {}", r.notes).wrote(arguments.picture), console);
 }
 
 }  // namespace froude

@@ -1,15 +1,13 @@
 // `froude modes`: free motions about rest, with the added mass and damping of each motion's own frequency.
 #include "dynamics/frequency/modes.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
 #include "froude/linear_response.hpp"
-#include "froude/progress.hpp"
+#include "froude/report.hpp"
 #include "froude/scene_result.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -75,35 +73,28 @@ std::vector<std::string> notes_of(const ModeList& all, const std::vector<Mode>& 
   return notes;
 }
 
-void tell(const Console& console, const scene::Scene& scene, const SmallMotions& about, const std::vector<Mode>& modes,
-          const std::vector<std::string>& notes, const Path& file) {
-  const dynamics::Model& model = about.model;
-  if (console.json) {
-    nlohmann::json j{{"file", file.string()}, {"notes", notes}, {"modes", nlohmann::json::array()}};
-    for (const Mode& mode : modes) {
-      nlohmann::json one{{"omega_rad_per_s", mode.omega}, {"outside_data", mode.outside_data}};
-      if (mode.damped) one["damping_ratio"] = mode.damped->damping_ratio();
-      for (int m = 0; m < model.modes(); ++m) one["shape"][model.mode_name(m)] = mode.shape[m];
-      j["modes"].push_back(std::move(one));
-    }
-    console.out << j.dump(1) << '\n';
-    return;
-  }
-  console.out << fmt::format("{}: {} modes; share of the kinetic energy in %\n", scene.file.filename().string(),
-                             modes.size())
-              << fmt::format("{:>4} {:>10} {:>11} {:>10}", "mode", "period [s]", "omega", "damping");
-  for (const char* motion : motions) console.out << fmt::format(" {:>6}", motion);
-  console.out << "  largest\n";
-  for (std::size_t i = 0; i < modes.size(); ++i) {
-    const Mode& mode = modes[i];
-    console.out << fmt::format("{:>4} {:>10.5g}{}{:>11.5g} {:>10}", i + 1, period(mode), mode.outside_data ? "*" : " ",
-                               mode.omega,
-                               mode.damped ? fmt::format("{:.2f} %", 100 * mode.damped->damping_ratio()) : "none");
-    for (const double share : shares(mode, about)) console.out << fmt::format(" {:>6.0f}", 100 * share);
-    console.out << "  " << describe(mode.shape, model) << '\n';
-  }
-  for (const auto& note : notes) console.out << "note: " << note << '\n';
-  console.out << "wrote " << file.string() << '\n';
+Report report_of(const Mode& mode, std::size_t number, const SmallMotions& about) {
+  std::array<double, 6> percent = shares(mode, about);
+  for (double& share : percent) share *= 100;
+  std::optional<double> ratio;
+  if (mode.damped) ratio = mode.damped->damping_ratio();
+  Report out, shape;
+  out.say("{:>4} {:>10.5g}{}{:>11.5g} {:>10} {:>6.0f}  {}", number, fact("period_s", period(mode)),
+          fact("outside_data", mode.outside_data, mode.outside_data ? "*" : " "), fact("omega_rad_per_s", mode.omega),
+          fact("damping_ratio", ratio, ratio ? fmt::format("{:.2f} %", 100 * *ratio) : "none"), fmt::join(percent, " "),
+          describe(mode.shape, about.model));
+  for (int m = 0; m < about.model.modes(); ++m) shape.keep(about.model.mode_name(m), mode.shape[m]);
+  return out.part("shape", shape);
+}
+
+Report report_of(const scene::Scene& scene, const SmallMotions& about, const std::vector<Mode>& modes,
+                 const std::vector<std::string>& notes, const Path& file) {
+  Report out;
+  out.say("{}: {} modes; share of the kinetic energy in %", scene.file.filename().string(), modes.size());
+  out.say("{:>4} {:>10} {:>11} {:>10} {:>6}  largest", "mode", "period [s]", "omega", "damping",
+          fmt::join(motions, " "));
+  for (std::size_t i = 0; i < modes.size(); ++i) out.one_of("modes", report_of(modes[i], i + 1, about));
+  return out.sentences("notes", "note: {}", notes).say("wrote {}", fact("file", file.string()));
 }
 
 void write_csv(const Path& path, const std::vector<Mode>& modes, const dynamics::Model& model) {
@@ -181,7 +172,7 @@ void modes(const SceneArguments& arguments, const Console& console) {
   write_modes(file, table_of(shown, model), provenance_of(scene, notes));
   if (arguments.csv) write_csv(*arguments.csv, shown, model);
   if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, about, shown)));
-  tell(console, scene, about, shown, notes, file);
+  tell(report_of(scene, about, shown, notes, file), console);
 }
 
 }  // namespace froude

@@ -1,9 +1,6 @@
 // froude new: a scene to begin with, and the reference of all keys.
-#include <nlohmann/json.hpp>
-
-#include <ostream>
-
 #include "froude/commands.hpp"
+#include "froude/report.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "scene/scene.hpp"
 
@@ -127,20 +124,17 @@ std::string starter(const std::string& kind) {
 
 void new_scene(const std::string& kind, const std::optional<Path>& output, bool keys, const Console& console) {
   const std::string text = keys ? scene::key_reference() : starter(kind);
+  Report report;
   if (output) {
     if (std::filesystem::is_regular_file(*output))
       throw hydro::InputError(fmt::format("\"{}\" is there already", output->string()), {},
                               "choose another name; nothing was written");
     hydro::io::write_atomically(*output, text);
-    if (!console.json) console.out << fmt::format("wrote {}\n", output->string());
-  } else if (!console.json) {
-    console.out << text;
+    report.say("wrote {}", fact("file", output->string())).keep("text", text);
+  } else {
+    report.say("{}", fact("text", text, text.substr(0, text.size() - 1)));  // a line has its end
   }
-  if (!console.json) return;
-  nlohmann::json told;
-  if (output) told["file"] = output->string();
-  told["text"] = text;
-  console.out << told.dump(2) << '\n';
+  tell(report, console);
 }
 
 }  // namespace froude

@@ -1,5 +1,3 @@
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +5,7 @@
 #include "compile/hydrodynamics.hpp"
 #include "compile/integrator.hpp"
 #include "compile/waves.hpp"
+#include "froude/report.hpp"
 #include "froude/scene_result.hpp"
 
 namespace froude {
@@ -171,25 +170,17 @@ Section plan_coefficients(const compile::CylinderPlan& cylinders) {
           {{"potential", cylinders.method(), cylinders.size(), true}}};
 }
 
-void tell(const Console& console, const std::vector<Section>& sections, const std::vector<std::string>& notes) {
-  if (console.json) {
-    nlohmann::json j{{"notes", notes}};
-    for (const auto& s : sections) {
-      nlohmann::json lines = nlohmann::json::array();
-      for (const auto& l : s.lines)
-        lines.push_back({{"effect", l.effect}, {"method", l.method}, {"size", l.size}, {"runs", l.runs}});
-      j["sections"].push_back({{"title", s.title}, {"lines", lines}});
-    }
-    console.out << j.dump(1) << '\n';
-    return;
+Report report_of(const std::vector<Section>& sections, const std::vector<std::string>& notes) {
+  Report out;
+  for (const Section& s : sections) {
+    Report section;
+    section.say("{}", fact("title", s.title)).keep("lines", Json::array());
+    for (const PlanLine& l : s.lines)
+      section.row("lines", "  {} {:<18} {}{}", fact("runs", l.runs, l.runs ? "+" : "-"), fact("effect", l.effect),
+                  fact("method", l.method), fact("size", l.size, l.size.empty() ? "" : "; " + l.size));
+    out.one_of("sections", section);
   }
-  for (const auto& s : sections) {
-    console.out << s.title << '\n';
-    for (const auto& l : s.lines)
-      console.out << fmt::format("  {} {:<18} {}{}\n", l.runs ? "+" : "-", l.effect, l.method,
-                                 l.size.empty() ? "" : "; " + l.size);
-  }
-  for (const auto& note : notes) console.out << "note: " << note << '\n';
+  return out.sentences("notes", "note: {}", notes);
 }
 
 }  // namespace
@@ -202,9 +193,12 @@ void plan(const SceneArguments& arguments, const Console& console) {
     sections.push_back(plan_coefficients(cylinders));
     constexpr double patience_s = 60;
     if (cylinders.cost.seconds > patience_s)
-      return tell(console, sections,
-                  {"the rest of the plan depends on these coefficients, which take longer than a plan should: compute "
-                   "them with `froude bem solve`, name the file in the scene, and plan again"});
+      return tell(
+          report_of(
+              sections,
+              {"the rest of the plan depends on these coefficients, which take longer than a plan should: compute "
+               "them with `froude bem solve`, name the file in the scene, and plan again"}),
+          console);
   }
   const compile::Prepared prepared = compile::prepare(scene);
   if (prepared.sharing_waves.size() > 1 || (!prepared.sharing_waves.empty() && prepared.sharing_waves[0].size() > 1))
@@ -214,11 +208,11 @@ void plan(const SceneArguments& arguments, const Console& console) {
   if (scene.ask_modes) sections.push_back(plan_modes(prepared));
   if (scene.run) sections.push_back(plan_run(scene, prepared, notes));
   if (scene.ask_waves) sections.push_back(plan_waves(scene));
-  if (scene.bodies.empty()) return tell(console, sections, notes);
+  if (scene.bodies.empty()) return tell(report_of(sections, notes), console);
   Section left_out{"left out, at no cost:", {}};
   add_absent(scene, prepared, left_out.lines);
   if (!left_out.lines.empty()) sections.push_back(std::move(left_out));
-  tell(console, sections, notes);
+  tell(report_of(sections, notes), console);
 }
 
 }  // namespace froude

@@ -1,8 +1,6 @@
 // `froude poincare`: Poincaré sections of a record.
 #include "hydro/signal/poincare_section.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,6 +10,7 @@
 #include "froude/outputs.hpp"
 #include "froude/plot.hpp"
 #include "froude/record_file.hpp"
+#include "froude/report.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -104,37 +103,31 @@ double sharp(const Signal& signal) {
   return 1e-3 * (*high - *low);
 }
 
-nlohmann::json as_json(const Plane& p) {
-  return {
-      {"points", p.section.time_s.size()},
-      {"left_out", p.section.left_out},
-      {"time_s", p.section.time_s},
-      {"x",
-       {{"signal", p.x.name}, {"unit", p.x.units}, {"values", p.section.values[0]}, {"errors", p.section.errors[0]}}},
-      {"y",
-       {{"signal", p.y.name}, {"unit", p.y.units}, {"values", p.section.values[1]}, {"errors", p.section.errors[1]}}}};
-}
-
-void tell(const Plane& p, const PoincareArguments& a, const Console& console) {
-  console.out << fmt::format("{} points {}{}\n", p.section.time_s.size(), p.how,
-                             p.section.left_out
-                                 ? fmt::format("; {} at the ends of the record left out, with fewer than "
-                                               "three samples on a side",
-                                               p.section.left_out)
-                                 : "");
-  console.out << fmt::format("{:<24} {:>12} {:>12} {:>16} {}\n", "signal", "lowest", "highest", "largest error",
-                             "unit");
+Report report_of(const Plane& p) {
+  const std::size_t left_out = p.section.left_out;
+  Report out;
+  out.say(
+      "{} points {}{}", fact("points", p.section.time_s.size()), fact("how", p.how),
+      fact("left_out", left_out,
+           left_out ? fmt::format("; {} at the ends of the record left out, with fewer than three samples on a side",
+                                  left_out)
+                    : ""));
+  out.keep("time_s", p.section.time_s);
+  out.say("{:<24} {:>12} {:>12} {:>16} {}", "signal", "lowest", "highest", "largest error", "unit");
   for (std::size_t i = 0; i < 2; ++i) {
     const Spread s = spread(p.section, i);
     const Signal& signal = i == 0 ? p.x : p.y;
-    console.out << fmt::format("{:<24} {:>12.4g} {:>12.4g} {:>16.2g} {}\n", signal.name, s.lowest, s.highest, s.error,
-                               signal.units);
+    Report axis;
+    axis.say("{:<24} {:>12.4g} {:>12.4g} {:>16.2g} {}", fact("signal", signal.name), fact("lowest", s.lowest),
+             fact("highest", s.highest), fact("largest_error", s.error), fact("unit", signal.units));
+    axis.keep("values", p.section.values[i]).keep("errors", p.section.errors[i]);
+    out.part(i == 0 ? "x" : "y", axis);
     if (s.error > sharp(signal))
-      console.out << fmt::format("note: points of {} are up to {:.2g} {} off: take samples more often\n", signal.name,
-                                 s.error, signal.units);
+      out.sentences("notes", "note: {}",
+                    {fmt::format("points of {} are up to {:.2g} {} off: take samples more often", signal.name, s.error,
+                                 signal.units)});
   }
-  if (a.output) console.out << "wrote " << a.output->string() << '\n';
-  if (a.picture) console.out << "wrote " << a.picture->string() << '\n';
+  return out;
 }
 
 /// The range of an axis: wide enough that one point, scattered by its error, is drawn as one.
@@ -186,11 +179,7 @@ void poincare(const PoincareArguments& arguments, const Console& console) {
                          {"Poincare section " + plane.how});
   if (arguments.picture)
     hydro::io::write_atomically(*arguments.picture, plot::svg(figure(plane, arguments.file.filename().string())));
-  if (console.json) {
-    console.out << as_json(plane).dump(1) << '\n';
-    return;
-  }
-  tell(plane, arguments, console);
+  tell(report_of(plane).wrote(arguments.output).wrote(arguments.picture), console);
 }
 
 }  // namespace froude

@@ -142,13 +142,7 @@ void psd(const PsdArguments& arguments, const Console& console) {
   if (arguments.picture)
     hydro::io::write_atomically(*arguments.picture,
                                 plot::svg(spectra::figure(analysis, arguments.file.filename().string())));
-  if (console.json) {
-    console.out << spectra::as_json(analysis).dump(1) << '\n';
-    return;
-  }
-  spectra::tell(analysis, console);
-  if (arguments.output) console.out << "wrote " << arguments.output->string() << '\n';
-  if (arguments.picture) console.out << "wrote " << arguments.picture->string() << '\n';
+  tell(spectra::report_of(analysis).wrote(arguments.output).wrote(arguments.picture), console);
 }
 
 }  // namespace froude

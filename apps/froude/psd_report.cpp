@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
@@ -51,54 +53,78 @@ std::string gain_unit(const std::string& output, const std::string& input) {
   return unit_of(hydro::parse_unit(output).dimension / hydro::parse_unit(input).dimension);
 }
 
-std::string dash_or(bool known, double value) { return known ? fmt::format("{:.4g}", value) : "-"; }
+/// A number of what may be absent.
+template <class Whole, class Number>
+std::optional<double> number_of(const std::optional<Whole>& whole, Number number) {
+  if (!whole) return std::nullopt;
+  return std::invoke(number, *whole);
+}
 
-void tell_text(const Analysis& a, const Console& console) {
-  const hs::WelchSpectrum& w = a.estimates.front().welch;
-  console.out << fmt::format(
-      "{} samples every {:.6g} s; {} segments of {} ({:.6g} s), Hann, half overlapping\n"
-      "resolution {:.4g} Hz, {:.3g} degrees of freedom: with {:g} % the density in truth is {:.3g} to {:.3g} times the "
-      "estimate\n",
-      a.samples, a.step, w.segments, a.options.segment, static_cast<double>(a.options.segment) * a.step,
-      w.resolution_hz, w.dof, 100 * a.confidence, a.band.lower, a.band.upper);
-  console.out << fmt::format("{:<24} {:<8} {:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>6}\n", "signal", "unit",
-                             "mean", "4 sqrt(m0)", "Tp [s]", "Te [s]", "Tm02 [s]", "Tz [s]", "H1/3", "waves");
-  for (const Estimate& e : a.estimates) {
-    const bool moves = e.moments.has_value(), waves = e.statistics.has_value();
-    console.out << fmt::format(
-        "{:<24} {:<8} {:>10.4g} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>6}\n", e.signal.name,
-        e.signal.units.empty() ? "-" : e.signal.units, e.welch.mean, dash_or(moves, moves ? e.moments->hs() : 0),
-        dash_or(moves && !e.peak->at_edge, moves ? e.peak->period_s() : 0), dash_or(moves, moves ? e.moments->te() : 0),
-        dash_or(moves, moves ? e.moments->tm02() : 0), dash_or(waves, waves ? e.statistics->mean_period : 0),
-        dash_or(waves, waves ? e.statistics->h13 : 0), e.waves);
+Fact<std::string> fact_or_dash(const char* key, const std::optional<double>& value, bool dash = false) {
+  return fact(key, value, value && !dash ? fmt::format("{:.4g}", *value) : std::string("-"));
+}
+
+/// The response to the input over frequency, for programs alone.
+Report transfer_of(const hs::TransferEstimate& transfer, const std::string& input) {
+  std::vector<double> gain, phase;
+  for (const auto& h : transfer.h1) {
+    gain.push_back(std::abs(h));
+    phase.push_back(std::arg(h));
   }
-  for (const Estimate& e : a.estimates) {
-    if (!e.moments) console.out << fmt::format("note: {} never changes\n", e.signal.name);
-    if (e.moments && e.peak->at_edge)
-      console.out << fmt::format(
-          "note: {} is strongest at an end of its spectrum, {:.4g} Hz: no peak, or one that needs longer segments "
-          "(--segment)\n",
-          e.signal.name, e.peak->frequency_hz);
-    if (!e.drift.empty()) console.out << fmt::format("note: {} {}\n", e.signal.name, e.drift);
-    if (e.moments && !e.statistics)
-      console.out << fmt::format("note: {} has {} complete waves: too few for H1/3\n", e.signal.name, e.waves);
+  Report out;
+  out.keep("input", input).keep("gain", gain).keep("phase_rad", phase).keep("coherence", transfer.coherence);
+  out.keep("gain_relative_error", transfer.gain_relative_error);
+  return out.keep("coherence_threshold", transfer.coherence_threshold);
+}
+
+Report report_of(const Estimate& e, const std::string& input) {
+  using hs::Moments, hs::WaveStatistics;
+  Report out;
+  out.say("{:<24} {:<8} {:>10.4g} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>6}", e.signal.name,
+          fact("unit", e.signal.units, e.signal.units.empty() ? "-" : e.signal.units), fact("mean", e.welch.mean),
+          fact_or_dash("hs", number_of(e.moments, &Moments::hs)),
+          fact_or_dash("tp_s", number_of(e.peak, &hs::Peak::period_s), e.peak && e.peak->at_edge),
+          fact_or_dash("te_s", number_of(e.moments, &Moments::te)),
+          fact_or_dash("tm02_s", number_of(e.moments, &Moments::tm02)),
+          fact_or_dash("tz_s", number_of(e.statistics, &WaveStatistics::mean_period)),
+          fact_or_dash("h13", number_of(e.statistics, &WaveStatistics::h13)), fact("waves", e.waves));
+  out.keep("variance", e.welch.variance).keep("density_per_hz", e.welch.spectrum.density);
+  if (e.moments) {
+    out.keep("tm01_s", e.moments->tm01()).keep("epsilon", e.moments->epsilon()).keep("nu", e.moments->nu());
+    out.keep("peak_at_edge", e.peak->at_edge);
   }
+  if (!e.drift.empty()) out.keep("drift", e.drift);
+  if (e.statistics) out.keep("h_max", e.statistics->highest).keep("t13_s", e.statistics->t13);
+  if (e.transfer) out.part("transfer", transfer_of(*e.transfer, input));
+  return out;
+}
+
+std::vector<std::string> notes_of(const Estimate& e) {
+  std::vector<std::string> out;
+  if (!e.moments) out.push_back(e.signal.name + " never changes");
+  if (e.moments && e.peak->at_edge)
+    out.push_back(fmt::format(
+        "{} is strongest at an end of its spectrum, {:.4g} Hz: no peak, or one that needs longer segments (--segment)",
+        e.signal.name, e.peak->frequency_hz));
+  if (!e.drift.empty()) out.push_back(e.signal.name + " " + e.drift);
+  if (e.moments && !e.statistics)
+    out.push_back(fmt::format("{} has {} complete waves: too few for H1/3", e.signal.name, e.waves));
+  return out;
 }
 
 /// Where the input is strongest, the response is known best: one line for each output.
-void tell_transfer(const Analysis& a, const Console& console) {
+void add_response(const Analysis& a, Report& report) {
   const auto input =
       std::find_if(a.estimates.begin(), a.estimates.end(), [&](const Estimate& e) { return e.signal.name == a.input; });
-  if (input == a.estimates.end()) return;
+  if (a.input.empty() || input == a.estimates.end()) return;
   const auto& density = input->welch.spectrum.density;
   const auto k = static_cast<std::size_t>(std::max_element(density.begin() + 1, density.end()) - density.begin());
-  console.out << fmt::format("response to {} at its peak, {:.4g} Hz:\n", a.input,
-                             input->welch.spectrum.frequency_hz[k]);
+  report.say("response to {} at its peak, {:.4g} Hz:", a.input, input->welch.spectrum.frequency_hz[k]);
   for (const Estimate& e : a.estimates)
     if (e.transfer)
-      console.out << fmt::format(
+      report.say(
           "{:<24} |H1| {:.4g} +- {:.2g} {}, |H2| {:.4g}, phase {:.1f} deg, coherence {:.3f} (unrelated signals stay "
-          "below {:.2f} at {:g} % of the frequencies)\n",
+          "below {:.2f} at {:g} % of the frequencies)",
           e.signal.name, std::abs(e.transfer->h1[k]), std::abs(e.transfer->h1[k]) * e.transfer->gain_relative_error[k],
           gain_unit(e.signal.units, input->signal.units), std::abs(e.transfer->h2[k]),
           std::arg(e.transfer->h1[k]) / degree, e.transfer->coherence[k], e.transfer->coherence_threshold,
@@ -156,59 +182,25 @@ double interesting_hz(const Analysis& a) {
 
 }  // namespace
 
-void tell(const Analysis& analysis, const Console& console) {
-  tell_text(analysis, console);
-  if (!analysis.input.empty()) tell_transfer(analysis, console);
-}
-
-nlohmann::json as_json(const Analysis& a) {
+Report report_of(const Analysis& a) {
   const hs::WelchSpectrum& w = a.estimates.front().welch;
-  nlohmann::json j{{"samples", a.samples},
-                   {"step_s", a.step},
-                   {"segment_samples", a.options.segment},
-                   {"segments", w.segments},
-                   {"resolution_hz", w.resolution_hz},
-                   {"degrees_of_freedom", w.dof},
-                   {"confidence", a.confidence},
-                   {"band", {a.band.lower, a.band.upper}},
-                   {"frequency_hz", w.spectrum.frequency_hz}};
-  for (const Estimate& e : a.estimates) {
-    nlohmann::json& s = j["signals"][e.signal.name];
-    s = {{"unit", e.signal.units},
-         {"mean", e.welch.mean},
-         {"variance", e.welch.variance},
-         {"density_per_hz", e.welch.spectrum.density},
-         {"waves", e.waves}};
-    if (e.moments) {
-      s.update({{"hs", e.moments->hs()},
-                {"te_s", e.moments->te()},
-                {"tm01_s", e.moments->tm01()},
-                {"tm02_s", e.moments->tm02()},
-                {"epsilon", e.moments->epsilon()},
-                {"nu", e.moments->nu()},
-                {"tp_s", e.peak->period_s()},
-                {"peak_at_edge", e.peak->at_edge}});
-    }
-    if (!e.drift.empty()) s["drift"] = e.drift;
-    if (e.statistics)
-      s.update({{"tz_s", e.statistics->mean_period},
-                {"h13", e.statistics->h13},
-                {"h_max", e.statistics->highest},
-                {"t13_s", e.statistics->t13}});
-    if (!e.transfer) continue;
-    nlohmann::json gain = nlohmann::json::array(), phase = nlohmann::json::array();
-    for (const auto& h : e.transfer->h1) {
-      gain.push_back(std::abs(h));
-      phase.push_back(std::arg(h));
-    }
-    s["transfer"] = {{"input", a.input},
-                     {"gain", gain},
-                     {"phase_rad", phase},
-                     {"coherence", e.transfer->coherence},
-                     {"gain_relative_error", e.transfer->gain_relative_error},
-                     {"coherence_threshold", e.transfer->coherence_threshold}};
-  }
-  return j;
+  Report out, signals;
+  out.say("{} samples every {:.6g} s; {} segments of {} ({:.6g} s), Hann, half overlapping", fact("samples", a.samples),
+          fact("step_s", a.step), fact("segments", w.segments), fact("segment_samples", a.options.segment),
+          static_cast<double>(a.options.segment) * a.step);
+  out.say(
+      "resolution {:.4g} Hz, {:.3g} degrees of freedom: with {:g} % the density in truth is {:.3g} to {:.3g} times the "
+      "estimate",
+      fact("resolution_hz", w.resolution_hz), fact("degrees_of_freedom", w.dof),
+      fact("confidence", a.confidence, 100 * a.confidence), a.band.lower, a.band.upper);
+  out.keep("band", std::vector{a.band.lower, a.band.upper}).keep("frequency_hz", w.spectrum.frequency_hz);
+  out.say("{:<24} {:<8} {:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>6}", "signal", "unit", "mean", "4 sqrt(m0)",
+          "Tp [s]", "Te [s]", "Tm02 [s]", "Tz [s]", "H1/3", "waves");
+  for (const Estimate& e : a.estimates) signals.part(e.signal.name, report_of(e, a.input));
+  out.part("signals", std::move(signals));
+  for (const Estimate& e : a.estimates) out.sentences("notes", "note: {}", notes_of(e));
+  add_response(a, out);
+  return out;
 }
 
 void write_table(const Path& path, const Analysis& a) {

@@ -1,12 +1,12 @@
 #pragma once
 /// \file  Private to the command psd: what was computed, and its telling, writing and drawing.
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "froude/commands.hpp"
 #include "froude/plot.hpp"
+#include "froude/report.hpp"
 #include "froude/result_file.hpp"
 #include "hydro/signal/welch.hpp"
 #include "hydro/signal/zero_crossings.hpp"
@@ -37,10 +37,8 @@ struct Analysis {
   std::vector<Estimate> estimates;
 };
 
-/// The tables on the screen.
-void tell(const Analysis& analysis, const Console& console);
-/// Everything, for programs.
-nlohmann::json as_json(const Analysis& analysis);
+/// Tables for people, everything for programs.
+Report report_of(const Analysis& analysis);
 /// Densities with their bands, and responses, along frequency. \throws hydro::InputError unless path ends in .csv or
 /// .h5
 void write_table(const Path& path, const Analysis& analysis);

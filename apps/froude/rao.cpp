@@ -1,11 +1,11 @@
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "froude/linear_response.hpp"
+#include "froude/report.hpp"
 #include "froude/scene_result.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/types.hpp"
@@ -107,48 +107,36 @@ plot::Figure figure(const scene::Scene& scene, const Responses& r) {
           .panels = r.heading.size() == 1 ? panels_by_unit(r) : panels_by_signal(r)};
 }
 
-/// Amplitudes and phases have one list a heading where there are several.
-nlohmann::json as_json(const Responses& r, const Path& file) {
-  nlohmann::json j{{"file", file.string()}, {"omega_rad_per_s", r.omega}, {"notes", r.notes}};
-  if (r.heading.size() > 1) j["heading_rad"] = r.heading;
-  for (const auto& s : r.signals) {
-    nlohmann::json amplitude = nlohmann::json::array(), phase = nlohmann::json::array();
-    for (std::size_t h = 0; h < r.heading.size(); ++h) {
-      amplitude.push_back(amplitudes_of(of_heading(s, r, h)));
-      phase.push_back(phases_of(of_heading(s, r, h)));
-    }
-    const bool one = r.heading.size() == 1;
-    j["signals"][s.name] = {
-        {"unit", s.units}, {"amplitude", one ? amplitude[0] : amplitude}, {"phase_rad", one ? phase[0] : phase}};
-  }
-  return j;
-}
-
-void tell_peaks(const Console& console, const Responses& r) {
+/// Its peaks for people, all of it for programs: one list a heading where there are several.
+Report report_of(const ComplexSignal& s, const Responses& r) {
   const bool several = r.heading.size() > 1;
-  console.out << fmt::format("{:<24} {}{:>12} {:<7} {:>10} {:>10}\n", "signal", several ? "heading [deg] " : "",
-                             "largest", "unit", "at T [s]", "phase [deg]");
-  for (const auto& s : r.signals)
-    for (std::size_t h = 0; h < r.heading.size(); ++h) {
-      const Peak p = peak(of_heading(s, r, h), r.omega);
-      console.out << fmt::format("{:<24} {}{:>12.5g} {:<7} {:>10.4g} {:>10.1f}\n", s.name,
-                                 several ? fmt::format("{:>13.4g} ", degrees(r.heading[h])) : "", p.amplitude, s.units,
-                                 p.period, p.phase);
-    }
+  Report out;
+  Json amplitude, phase;
+  for (std::size_t h = 0; h < r.heading.size(); ++h) {
+    const auto values = of_heading(s, r, h);
+    const Peak p = peak(values, r.omega);
+    out.say("{:<24} {}{:>12.5g} {:<7} {:>10.4g} {:>10.1f}", s.name,
+            several ? fmt::format("{:>13.4g} ", degrees(r.heading[h])) : "", p.amplitude, fact("unit", s.units),
+            p.period, p.phase);
+    amplitude.push_back(amplitudes_of(values));
+    phase.push_back(phases_of(values));
+  }
+  return out.keep("amplitude", several ? amplitude : amplitude[0]).keep("phase_rad", several ? phase : phase[0]);
 }
 
-void tell(const Console& console, const scene::Scene& scene, const Responses& r, const Path& file) {
-  if (console.json) {
-    console.out << as_json(r, file).dump(1) << '\n';
-    return;
-  }
-  console.out << fmt::format("{}: {} signals at {} frequencies{}, periods {:.4g} to {:.4g} s\n",
-                             scene.file.filename().string(), r.signals.size(), r.omega.size(),
-                             r.heading.size() > 1 ? fmt::format(" and {} headings", r.heading.size()) : "",
-                             2 * std::numbers::pi / r.omega.back(), 2 * std::numbers::pi / r.omega.front());
-  tell_peaks(console, r);
-  for (const auto& note : r.notes) console.out << "note: " << note << '\n';
-  console.out << "wrote " << file.string() << '\n';
+Report report_of(const scene::Scene& scene, const Responses& r, const Path& file) {
+  const bool several = r.heading.size() > 1;
+  Report out, signals;
+  out.say("{}: {} signals at {} frequencies{}, periods {:.4g} to {:.4g} s", scene.file.filename().string(),
+          r.signals.size(), fact("omega_rad_per_s", r.omega, r.omega.size()),
+          several ? fmt::format(" and {} headings", r.heading.size()) : "", 2 * std::numbers::pi / r.omega.back(),
+          2 * std::numbers::pi / r.omega.front());
+  if (several) out.keep("heading_rad", r.heading);
+  out.say("{:<24} {}{:>12} {:<7} {:>10} {:>10}", "signal", several ? "heading [deg] " : "", "largest", "unit",
+          "at T [s]", "phase [deg]");
+  for (const auto& s : r.signals) signals.part(s.name, report_of(s, r));
+  out.part("signals", std::move(signals)).sentences("notes", "note: {}", r.notes);
+  return out.say("wrote {}", fact("file", file.string()));
 }
 
 }  // namespace
@@ -161,7 +149,7 @@ void rao(const SceneArguments& arguments, const Console& console) {
   write_rao(file, r.omega, r.heading, r.signals, provenance_of(scene, r.notes));
   if (arguments.csv) write_rao_csv(*arguments.csv, r);
   if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, r)));
-  tell(console, scene, r, file);
+  tell(report_of(scene, r, file), console);
 }
 
 }  // namespace froude

@@ -1,8 +1,7 @@
 #include "froude/report.hpp"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
+#include <iterator>
 #include <ostream>
 
 #include "froude/commands.hpp"
@@ -74,15 +73,19 @@ Report& Report::sentences(const std::string& key, fmt::format_string<const std::
   return *this;
 }
 
-Report& Report::part(const std::string& key, const Report& inner) {
-  lines_.insert(lines_.end(), inner.lines_.begin(), inner.lines_.end());
-  (key.empty() ? tree_ : tree_[key]).update(inner.tree_);
+Report& Report::part(const std::string& key, Report inner) {
+  std::move(inner.lines_.begin(), inner.lines_.end(), std::back_inserter(lines_));
+  Json& place = key.empty() ? tree_ : tree_[key];
+  if (place.empty())
+    place = std::move(inner.tree_);
+  else
+    place.update(inner.tree_);
   return *this;
 }
 
-Report& Report::one_of(const std::string& key, const Report& inner) {
-  lines_.insert(lines_.end(), inner.lines_.begin(), inner.lines_.end());
-  tree_[key].push_back(inner.tree_);
+Report& Report::one_of(const std::string& key, Report inner) {
+  std::move(inner.lines_.begin(), inner.lines_.end(), std::back_inserter(lines_));
+  tree_[key].push_back(std::move(inner.tree_));
   return *this;
 }
 
@@ -110,11 +113,14 @@ std::string toml_of(const Json& tree, const std::string& comment) {
   return out;
 }
 
+const Report& tell_people(const Report& part, const Console& console) {
+  if (!console.json) console.out << part.text();
+  return part;
+}
+
 void tell(const Report& report, const Console& console) {
-  if (console.json)
-    console.out << report.tree().dump(1) << '\n';
-  else
-    console.out << report.text();
+  tell_people(report, console);
+  if (console.json) console.out << report.tree().dump(1) << '\n';
 }
 
 }  // namespace froude

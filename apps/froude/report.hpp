@@ -80,9 +80,9 @@ class Report {
   Report& sentences(const std::string& key, fmt::format_string<const std::string&> line,
                     const std::vector<std::string>& all);
   /// A report within this one: its lines follow, its tree stands under `key` or, if that is empty, in this one's.
-  Report& part(const std::string& key, const Report& inner);
+  Report& part(const std::string& key, Report inner);
   /// The same as the next entry of the list `key`.
-  Report& one_of(const std::string& key, const Report& inner);
+  Report& one_of(const std::string& key, Report inner);
   /// A line whose facts are the next entry of the list `key`.
   template <class... Args>
   Report& row(const std::string& key, fmt::format_string<Args...> line, Args&&... args) {
@@ -115,13 +115,15 @@ std::string toml_of(const Json& tree, const std::string& comment);
 
 /// As the console wants it: the text, or the tree as one JSON document.
 void tell(const Report& report, const Console& console);
+/// Its text now, if the console is a person's, who need not wait for the whole; programs are told that by tell().
+const Report& tell_people(const Report& part, const Console& console);
 
 }  // namespace froude
 
 template <class Shown>
 struct fmt::formatter<froude::Fact<Shown>> : fmt::formatter<Shown> {
   template <class Context>
-  auto format(const froude::Fact<Shown>& fact, Context& context) const {
-    return fmt::formatter<Shown>::format(fact.shown, context);
+  auto format(const froude::Fact<Shown>& fact, Context& out) const {
+    return fmt::formatter<Shown>::format(fact.shown, out);
   }
 };

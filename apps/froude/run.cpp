@@ -1,5 +1,4 @@
-#include <nlohmann/json.hpp>
-
+#include <algorithm>
 #include <cmath>
 
 #include "compile/integrator.hpp"
@@ -19,47 +18,29 @@ double found(const std::vector<std::pair<std::string, double>>& entries, const s
   return 0;
 }
 
-nlohmann::json snaps_json(const Record& record) {
-  nlohmann::json out = nlohmann::json::array();
-  for (const Snaps& s : record.snaps)
-    out.push_back({{"line", s.line},
-                   {"slack_share", s.slack_share},
-                   {"snaps", s.snaps},
-                   {"largest_tension_N", s.largest_tension},
-                   {"link", s.link},
-                   {"time_s", s.at}});
-  return out;
+Report report_of(const Snaps& s) {
+  return Report().say("{}: slack {:.3g} % of the time, {} snap{}, largest tension {:.5g} N in link {} at {:.5g} s",
+                      fact("line", s.line), fact("slack_share", s.slack_share, 100 * s.slack_share),
+                      fact("snaps", s.snaps), s.snaps == 1 ? "" : "s", fact("largest_tension_N", s.largest_tension),
+                      fact("link", s.link), fact("time_s", s.at));
 }
 
-std::string sentence(const Snaps& s) {
-  return fmt::format("{}: slack {:.3g} % of the time, {} snap{}, largest tension {:.5g} N in link {} at {:.5g} s",
-                     s.line, 100 * s.slack_share, s.snaps, s.snaps == 1 ? "" : "s", s.largest_tension, s.link, s.at);
-}
-
-nlohmann::json exponents_json(const Record& record) {
-  nlohmann::json out = nlohmann::json::array();
-  for (const auto& [line, e] : record.exponents)
-    out.push_back({{"line", line},
-                   {"lyapunov_per_s", e.value},
-                   {"standard_error_per_s", e.error},
-                   {"from_s", e.from},
-                   {"to_s", e.to},
-                   {"blocks", e.blocks},
-                   {"block_correlation", e.block_correlation},
-                   {"of_a_regular_motion_per_s", e.regular}});
-  return out;
-}
-
-std::string sentence(const LineExponent& of) {
+Report report_of(const LineExponent& of) {
   const dynamics::Exponent& e = of.exponent;
-  return fmt::format(
-      "{}: largest Lyapunov exponent {:.4g} +- {:.2g} 1/s from {:.5g} to {:.5g} s; a regular motion would show up to "
-      "{:.2g} 1/s{}",
-      of.line, e.value, e.error, e.from, e.to, e.regular,
-      e.has_lasted() ? ""
-                     : fmt::format("; the error is too small, since blocks resemble their neighbours (correlation "
-                                   "{:.2g}): let it run longer",
-                                   e.block_correlation));
+  const std::string doubt = e.has_lasted()
+                                ? ""
+                                : fmt::format(
+                                      "; the error is too small, since blocks resemble their neighbours (correlation "
+                                      "{:.2g}): let it run longer",
+                                      e.block_correlation);
+  return Report()
+      .say(
+          "{}: largest Lyapunov exponent {:.4g} +- {:.2g} 1/s from {:.5g} to {:.5g} s; a regular motion would show up "
+          "to {:.2g} 1/s{}",
+          fact("line", of.line), fact("lyapunov_per_s", e.value), fact("standard_error_per_s", e.error),
+          fact("from_s", e.from), fact("to_s", e.to), fact("of_a_regular_motion_per_s", e.regular),
+          fact("block_correlation", e.block_correlation, doubt))
+      .keep("blocks", e.blocks);
 }
 
 /// More of the energy turned over than the residual of sound runs; a motion whose energies are that far off is no
@@ -77,53 +58,49 @@ std::vector<std::string> warnings(const Record& record) {
                   std::abs(residual) / turnover, at, record.step, record.step / 2)};
 }
 
-void tell(const Console& console, const scene::Scene& scene, const Record& record, const Path& file) {
+/// How the run was stepped.
+Report steps_of(const Record& record, const std::string& scene) {
+  const auto if_any = [](auto count, const char* format) {
+    return count > 0 ? fmt::format(fmt::runtime(format), count) : std::string();
+  };
+  const double a_step =
+      static_cast<double>(record.newton_iterations) / static_cast<double>(std::max<std::size_t>(1, record.steps));
+  return Report().say("{}: {:.6g} s in {} steps of {:.4g} s{}, {:.2f} Newton iterations a step{}{}, {:.2f} s of work",
+                      scene, fact("duration_s", record.time.back()), fact("steps", record.steps),
+                      fact("step_s", record.step),
+                      fact("parts", record.parts, if_any(record.parts, " cut into {} parts")),
+                      fact("newton_iterations", record.newton_iterations, a_step),
+                      fact("halvings", record.halvings, if_any(record.halvings, ", {} halvings")),
+                      fact("events", record.events, if_any(record.events, ", {} stick-slip or contact events")),
+                      fact("wall_time_s", record.stepping_s));
+}
+
+Report energy_of(const Record& record) {
   const double turnover = found(record.energy, "turnover");
   const auto& [residual, at] = record.worst_residual;
-  const double relative = turnover > 0 ? std::abs(residual) / turnover : 0;
-  if (console.json) {
-    nlohmann::json j{{"file", file.string()},
-                     {"duration_s", record.time.back()},
-                     {"step_s", record.step},
-                     {"steps", record.steps},
-                     {"newton_iterations", record.newton_iterations},
-                     {"halvings", record.halvings},
-                     {"parts", record.parts},
-                     {"events", record.events},
-                     {"wall_time_s", record.stepping_s},
-                     {"energy_residual_relative", relative},
-                     {"energy_residual_at_s", at},
-                     {"stopped", record.stopped},
-                     {"notes", record.notes},
-                     {"warnings", warnings(record)}};
-    if (!record.snaps.empty()) j["snaps"] = snaps_json(record);
-    if (!record.exponents.empty()) j["lyapunov"] = exponents_json(record);
-    j["signals"] = series_json(record.signals);
-    console.out << j.dump(1) << '\n';
-    return;
-  }
-  if (scene.run->steady)
-    console.out << fmt::format("{}: {:.6g} s without stepping, {:.2f} s of work\n", scene.file.filename().string(),
-                               record.time.back(), record.preparation_s);
-  else
-    console.out << fmt::format(
-        "{}: {:.6g} s in {} steps of {:.4g} s{}, {:.2f} Newton iterations a step{}{}, {:.2f} s of work\n",
-        scene.file.filename().string(), record.time.back(), record.steps, record.step,
-        record.parts ? fmt::format(" cut into {} parts", record.parts) : "",
-        static_cast<double>(record.newton_iterations) / static_cast<double>(std::max<std::size_t>(1, record.steps)),
-        record.halvings ? fmt::format(", {} halvings", record.halvings) : "",
-        record.events ? fmt::format(", {} stick-slip or contact events", record.events) : "", record.stepping_s);
-  console.out << series_table(record.signals);
-  if (!scene.run->steady)
-    console.out << fmt::format(
-        "energy residual: at most {:.3g} J, at {:.5g} s, {:.2g} of the {:.3g} J turned over "
-        "(this tells how well energy is kept, not how accurate the motion is)\n",
-        residual, at, relative, turnover);
-  for (const Snaps& s : record.snaps) console.out << sentence(s) << '\n';
-  for (const LineExponent& e : record.exponents) console.out << sentence(e) << '\n';
-  for (const auto& note : record.notes) console.out << "note: " << note << '\n';
-  for (const auto& warning : warnings(record)) console.out << warning << '\n';
-  console.out << "wrote " << file.string() << '\n';
+  return Report().say(
+      "energy residual: at most {:.3g} J, at {:.5g} s, {:.2g} of the {:.3g} J turned over "
+      "(this tells how well energy is kept, not how accurate the motion is)",
+      fact("energy_residual_J", residual), fact("energy_residual_at_s", at),
+      fact("energy_residual_relative", turnover > 0 ? std::abs(residual) / turnover : 0),
+      fact("energy_turnover_J", turnover));
+}
+
+Report report_of(const scene::Scene& scene, const Record& record, const Path& file) {
+  const std::string name = scene.file.filename().string();
+  const Report steps = steps_of(record, name), energy = energy_of(record);
+  const bool stepped = !scene.run->steady;
+  Report out;
+  if (!stepped)
+    out.say("{}: {:.6g} s without stepping, {:.2f} s of work", name, record.time.back(), record.preparation_s);
+  out.part("", stepped ? steps : steps.untold());
+  add_series(out, record.signals);
+  out.part("", stepped ? energy : energy.untold());
+  for (const Snaps& s : record.snaps) out.one_of("snaps", report_of(s));
+  for (const LineExponent& e : record.exponents) out.one_of("lyapunov", report_of(e));
+  out.keep("stopped", record.stopped);
+  out.sentences("notes", "note: {}", record.notes).sentences("warnings", "{}", warnings(record));
+  return out.say("wrote {}", fact("file", file.string()));
 }
 
 }  // namespace
@@ -143,8 +120,9 @@ void run(const SceneArguments& arguments, const Console& console) {
     provenance.settings.emplace_back("chosen.tolerance", fmt::format("{}", compile::tolerance_of_pair));
   for (const auto& [effect, count] : record.evaluations)
     provenance.settings.emplace_back("evaluations." + effect, std::to_string(count));
-  for (const Snaps& s : record.snaps) provenance.settings.emplace_back("snaps." + s.line, sentence(s));
-  for (const LineExponent& e : record.exponents) provenance.settings.emplace_back("lyapunov." + e.line, sentence(e));
+  for (const Snaps& s : record.snaps) provenance.settings.emplace_back("snaps." + s.line, report_of(s).lines().front());
+  for (const LineExponent& e : record.exponents)
+    provenance.settings.emplace_back("lyapunov." + e.line, report_of(e).lines().front());
   for (const auto& warning : warnings(record)) provenance.notes.emplace_back("warning", warning);
   provenance.energy = record.energy;
   if (!record.stopped.empty()) provenance.notes.emplace_back("stopped", record.stopped);
@@ -153,7 +131,7 @@ void run(const SceneArguments& arguments, const Console& console) {
   if (arguments.picture)
     hydro::io::write_atomically(*arguments.picture, plot::svg(series_figure(scene.title.empty() ? "Run" : scene.title,
                                                                             record.time, record.signals)));
-  tell(console, scene, record, file);
+  tell(report_of(scene, record, file), console);
   if (!record.stopped.empty())
     throw hydro::NumericsError(record.stopped + "; what was computed is in " + file.string());
 }

@@ -30,29 +30,18 @@ bool is_energy(const Signal& s) { return s.name.starts_with("energy."); }
 
 }  // namespace
 
-std::string series_table(std::span<const Signal> signals) {
-  std::string table =
-      fmt::format("{:<24} {:>12} {:>12} {:>12} {:>12} {}\n", "signal", "mean", "std", "lowest", "highest", "unit");
-  for (const Signal& s : signals) {
-    if (is_energy(s)) continue;
-    const Statistics st = statistics(s.values);
-    table += fmt::format("{:<24} {:>12.4g} {:>12.4g} {:>12.4g} {:>12.4g} {}\n", s.name, st.mean, st.deviation,
-                         st.lowest, st.highest, s.units);
-  }
-  return table;
-}
-
-nlohmann::json series_json(std::span<const Signal> signals) {
-  nlohmann::json j;
+void add_series(Report& report, std::span<const Signal> signals) {
+  Report all;
+  report.say("{:<24} {:>12} {:>12} {:>12} {:>12} {}", "signal", "mean", "std", "lowest", "highest", "unit");
   for (const Signal& s : signals) {
     const Statistics st = statistics(s.values);
-    j[s.name] = {{"unit", s.units},
-                 {"mean", st.mean},
-                 {"standard_deviation", st.deviation},
-                 {"lowest", st.lowest},
-                 {"highest", st.highest}};
+    Report one;
+    one.say("{:<24} {:>12.4g} {:>12.4g} {:>12.4g} {:>12.4g} {}", s.name, fact("mean", st.mean),
+            fact("standard_deviation", st.deviation), fact("lowest", st.lowest), fact("highest", st.highest),
+            fact("unit", s.units));
+    all.part(s.name, is_energy(s) ? one.untold() : one);
   }
-  return j;
+  report.part("signals", all);
 }
 
 plot::Figure series_figure(const std::string& title, const std::vector<double>& time, std::span<const Signal> signals,

@@ -1,21 +1,20 @@
 #pragma once
 /// \file  Private to the commands that make time series: how they are summed up, drawn and written as CSV.
 #include <map>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "froude/commands.hpp"
 #include "froude/plot.hpp"
+#include "froude/report.hpp"
 #include "froude/result_file.hpp"
 
 namespace froude {
 
-/// Mean, standard deviation and extremes of each signal but the energies: for people, one line each under a header, and
-/// for programs.
-std::string series_table(std::span<const Signal> signals);
-nlohmann::json series_json(std::span<const Signal> signals);
+/// Mean, standard deviation and extremes of each signal, for people one line each under a header, who are not told of
+/// energies; in the tree under `signals`.
+void add_series(Report& report, std::span<const Signal> signals);
 
 /// One panel for each unit; `labels` names the axis of a unit, "signal" where it has none. Energies are left out.
 plot::Figure series_figure(const std::string& title, const std::vector<double>& time, std::span<const Signal> signals,

@@ -1,6 +1,4 @@
 /// \file  `froude waves make`: what the water does at the probes of a scene, as time series.
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -162,22 +160,15 @@ Series series_of(const scene::Scene& scene, const std::function<void(double)>& p
   return out;
 }
 
-void tell(const Console& console, const scene::Scene& scene, const Series& series, const Path& file) {
-  if (console.json) {
-    const nlohmann::json j{{"file", file.string()},
-                           {"method", series.method},
-                           {"notes", series.notes},
-                           {"signals", series_json(series.signals)}};
-    console.out << j.dump(1) << '\n';
-    return;
-  }
-  console.out << fmt::format("{}: {:.6g} s from {:.6g} s, {} samples at {} probe{}, by {}\n",
-                             scene.file.filename().string(), scene.ask_waves->duration, scene.ask_waves->from,
-                             series.time.size(), scene.probes.size(), scene.probes.size() == 1 ? "" : "s",
-                             series.method)
-              << series_table(series.signals);
-  for (const auto& note : series.notes) console.out << "note: " << note << '\n';
-  console.out << "wrote " << file.string() << '\n';
+Report report_of(const scene::Scene& scene, const Series& series, const Path& file) {
+  const std::size_t probes = scene.probes.size();
+  Report out;
+  out.say("{}: {:.6g} s from {:.6g} s, {} samples at {} probe{}, by {}", scene.file.filename().string(),
+          fact("duration_s", scene.ask_waves->duration), fact("from_s", scene.ask_waves->from),
+          fact("samples", series.time.size()), fact("probes", probes), probes == 1 ? "" : "s",
+          fact("method", series.method));
+  add_series(out, series.signals);
+  return out.sentences("notes", "note: {}", series.notes).say("wrote {}", fact("file", file.string()));
 }
 
 }  // namespace
@@ -203,7 +194,7 @@ void waves_make(const SceneArguments& arguments, const Console& console) {
         plot::svg(series_figure(
             scene.title.empty() ? "Waves" : scene.title, series.time, series.signals,
             {{"m", "elevation"}, {"m/s", "velocity"}, {"m/s^2", "acceleration"}, {"Pa", "dynamic pressure"}})));
-  tell(console, scene, series, file);
+  tell(report_of(scene, series, file), console);
 }
 
 }  // namespace froude

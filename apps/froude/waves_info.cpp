@@ -2,8 +2,6 @@
 /// or a record of the surface.
 #include <fmt/ranges.h>
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -13,6 +11,7 @@
 
 #include "compile/waves.hpp"
 #include "froude/commands.hpp"
+#include "froude/report.hpp"
 #include "froude/result_file.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
@@ -32,21 +31,20 @@ namespace hw = hydro::waves;
 namespace hs = hydro::signal;
 constexpr double two_pi = 2 * std::numbers::pi;
 
-/// One number of a sea, with what it means.
-struct Fact {
-  std::string key;  ///< in JSON
-  double value;
-  std::string unit, meaning;
-};
-
 struct Info {
   std::string what;  ///< "231 regular waves from a list"
-  std::vector<Fact> facts;
-  std::vector<std::string> remarks;  ///< sentences with their numbers
+  Report facts = {};
+  std::vector<std::string> remarks = {};  ///< sentences with their numbers
 };
 
-void add(Info& info, const char* key, double value, const char* unit, const std::string& meaning) {
-  info.facts.push_back({key, value, unit, meaning});
+/// One number of a sea, with what it means.
+void add(Info& info, const std::string& key, double value, const char* unit, const std::string& meaning) {
+  const bool counted = key == "components" || key == "waves";
+  Report one;
+  one.say("  {:<20} {:>10} {:<4} {}", key,
+          fact("value", value, counted ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value)),
+          fact("unit", unit), fact("meaning", meaning));
+  info.facts.part(key, one);
 }
 
 // ---- what all kinds have in common ----
@@ -158,7 +156,7 @@ double reach_of(const hw::Focus& focus) { return std::max(100.0, 1.5 * std::abs(
 
 Info of_components(const hw::Sea& sea, const std::string& what, const std::function<Length(double)>& length_of,
                    const std::optional<PutIn>& put_in = {}) {
-  Info info{.what = what, .facts = {}, .remarks = {}};
+  Info info{.what = what};
   const auto [shortest, longest] = std::minmax_element(sea.components().begin(), sea.components().end(),
                                                        [](const auto& a, const auto& b) { return a.omega > b.omega; });
   const double m0 = sum_of(sea, 0), tz = two_pi * std::sqrt(m0 / sum_of(sea, 2));
@@ -179,7 +177,7 @@ Info of_components(const hw::Sea& sea, const std::string& what, const std::funct
 // ---- records ----
 
 Info of_record(const std::vector<double>& time, const std::vector<double>& elevation, const hydro::Water& water) {
-  Info info{.what = fmt::format("a record of {} samples", time.size()), .facts = {}, .remarks = {}};
+  Info info{.what = fmt::format("a record of {} samples", time.size())};
   const double step = hs::even_step(time);
   double mean = 0, m0 = 0;
   for (const double v : elevation) mean += v / static_cast<double>(elevation.size());
@@ -223,7 +221,7 @@ Info of_record(const std::vector<double>& time, const std::vector<double>& eleva
 // ---- files ----
 
 Info of_regular(const scene::Scene& scene, const scene::RegularWave& wave) {
-  Info info{.what = "a regular wave", .facts = {}, .remarks = {}};
+  Info info{.what = "a regular wave"};
   add(info, "height", 2 * wave.amplitude, "m", "from trough to crest");
   add(info, "period", wave.period, "s", "at a fixed point");
   // Region and warnings by the length that the period has in linear theory: that is how the chart is read.
@@ -252,9 +250,7 @@ Info of_random(const scene::Scene& scene, const scene::RandomSea& random) {
   const auto put_in = put_in_of(scene, random);
   const auto length_of = [&](double period) { return in_scene(period, scene, random.systems.front().heading); };
   Info info{.what = fmt::format("a random sea of kind {}, {} components", random.systems.front().kind,
-                                sea.components().size()),
-            .facts = {},
-            .remarks = {}};
+                                sea.components().size())};
   if (random.systems.size() > 1) {
     info = of_components(
         sea, fmt::format("{} random seas at once, {} components", random.systems.size(), sea.components().size()),
@@ -282,7 +278,7 @@ Info of_random(const scene::Scene& scene, const scene::RandomSea& random) {
 }
 
 Info of_packets(const scene::Scene& scene, const scene::FocusedPackets& packets) {
-  Info info{.what = fmt::format("{} packets that meet", packets.packets.size()), .facts = {}, .remarks = {}};
+  Info info{.what = fmt::format("{} packets that meet", packets.packets.size())};
   double all = 0, shortest = std::numeric_limits<double>::infinity(), longest = 0;
   for (const auto& p : packets.packets) {
     all += p.amplitude.metres();
@@ -325,7 +321,7 @@ Info of_csv(const WavesInfoArguments& arguments, const hydro::Water& water) {
                          [&](double period) { return in_still_water(period, water); });
   }
   if (table.has("density")) {
-    Info info{.what = "a table of a spectrum", .facts = {}, .remarks = {}};
+    Info info{.what = "a table of a spectrum"};
     const hw::TabulatedSpectrum spectrum = hw::TabulatedSpectrum::read(arguments.file);
     add_spectrum(info, spectrum, water, in_still_water(spectrum.tp(), water));
     return info;
@@ -394,19 +390,9 @@ void waves_info(const WavesInfoArguments& arguments, const Console& console) {
       throw e.at({.file = arguments.file.string()});
     }
   }();
-  if (console.json) {
-    nlohmann::json j{{"file", arguments.file.string()}, {"what", info.what}, {"remarks", info.remarks}};
-    for (const Fact& f : info.facts) j["facts"][f.key] = {{"value", f.value}, {"unit", f.unit}, {"meaning", f.meaning}};
-    console.out << j.dump(1) << '\n';
-    return;
-  }
-  console.out << fmt::format("{}: {}\n", arguments.file.filename().string(), info.what);
-  for (const Fact& f : info.facts)
-    console.out << fmt::format("  {:<20} {:>10} {:<4} {}\n", f.key,
-                               f.key.starts_with("components") || f.key == "waves" ? fmt::format("{:.0f}", f.value)
-                                                                                   : fmt::format("{:.4g}", f.value),
-                               f.unit, f.meaning);
-  for (const auto& remark : info.remarks) console.out << "  " << remark << '\n';
+  Report out;
+  out.say("{}: {}", fact("file", arguments.file.string(), arguments.file.filename().string()), fact("what", info.what));
+  tell(out.part("facts", info.facts).sentences("remarks", "  {}", info.remarks), console);
 }
 
 }  // namespace froude

@@ -68,6 +68,19 @@ TEST(Report, IsOneDocumentForAProgramAndTextForAPerson) {
   EXPECT_EQ(json.str(), "{\n \"bodies\": 2\n}\n");
 }
 
+TEST(Report, MayReachPeopleInPartsAndProgramsAsAWhole) {
+  std::ostringstream text, json, err;
+  for (const froude::Console& console :
+       {froude::Console{.out = text, .err = err}, froude::Console{.out = json, .err = err, .json = true}}) {
+    Report all;
+    for (const char* name : {"a.nc", "b.nc"})
+      all.one_of("files", froude::tell_people(Report().say("{}", fact("file", name)), console));
+    froude::tell(all.untold(), console);
+  }
+  EXPECT_EQ(text.str(), "a.nc\nb.nc\n");
+  EXPECT_EQ(Json::parse(json.str()), Json::parse(R"({"files":[{"file":"a.nc"},{"file":"b.nc"}]})"));
+}
+
 TEST(Report, OfAFitIsTomlThatKeepsFloatsAndQuotesWhatIsNoBareKey) {
   Report report, run;
   run.keep("cd", 1.0).keep("labels", Json{{"speed [m/s]", "2"}});
