@@ -1,15 +1,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "froude/fit_morison.hpp"
-#include "hydro/base/error.hpp"
-#include "hydro/io/csv.hpp"
+#include "froude/fit_kinds.hpp"
 
 namespace froude {
 namespace {
 
 namespace dim = hydro::dim;
 using ::fit::Coefficient;
+using MorisonRun = ::fit::morison::FittedRun;
 using Morison = scene::MorisonModel;
 
 /// Loading cycles of a load cell: columns force and voltage, and cycle where there are several.
@@ -23,12 +22,6 @@ using Morison = scene::MorisonModel;
     cycles.back().voltage.push_back(volt[i]);
   }
   return ::fit::calibrate(cycles, confidence);
-}
-
-std::vector<double> turned(std::vector<double> values, bool turn) {
-  if (turn)
-    for (double& v : values) v = -v;
-  return values;
 }
 
 std::vector<::fit::ForceChannel> force_channels(const scene::FitScene& scene, const Morison& model,
@@ -47,169 +40,186 @@ std::vector<::fit::ForceChannel> force_channels(const scene::FitScene& scene, co
   return out;
 }
 
-::fit::RawRun raw_run(const scene::FitScene& scene, const Morison& model, const hydro::io::CsvTable& table) {
-  const auto channel = [&](const char* role, const hydro::Dimension& dimension) -> std::vector<double> {
-    const auto at = scene.channels.find(role);
-    if (at == scene.channels.end()) return {};
-    return table.column(at->second, dimension);
-  };
-  return {.time = channel("time", dim::time),
-          .force = force_channels(scene, model, table),
-          .position = channel("position", dim::length),
-          .velocity = channel("velocity", dim::velocity),
-          .acceleration = channel("acceleration", dim::acceleration),
-          .cross_velocity = channel("cross_velocity", dim::velocity),
-          .elevation = channel("elevation", dim::length),
+::fit::RawRun raw_run(const scene::FitScene& scene, const Morison& model, const Measurements& measured) {
+  return {.time = measured.time(),
+          .force = force_channels(scene, model, measured.table),
+          .position = measured.of_role("position", dim::length),
+          .velocity = measured.of_role("velocity", dim::velocity),
+          .acceleration = measured.of_role("acceleration", dim::acceleration),
+          .cross_velocity = measured.of_role("cross_velocity", dim::velocity),
+          .elevation = measured.of_role("elevation", dim::length),
           .probe = model.probe,
-          .water_velocity = channel("water_velocity", dim::velocity),
-          .water_acceleration = channel("water_acceleration", dim::acceleration)};
+          .water_velocity = measured.of_role("water_velocity", dim::velocity),
+          .water_acceleration = measured.of_role("water_acceleration", dim::acceleration)};
 }
 
-/// The fit of one raw run, with its delay where that is to be estimated.
-MorisonRun fit_raw(const Morison& model, const std::string& force, ::fit::RawRun raw) {
-  MorisonRun run;
-  run.cylinder = model.cylinder;
-  run.prepared = ::fit::prepare(std::move(raw), model.prepare);
-  ::fit::MorisonOptions options = model.options;
-  options.force_errors = run.prepared.force_errors;
-  if (model.longest_delay) {
-    auto delayed = ::fit::fit_morison_and_delay(run.cylinder, run.prepared.record, *model.longest_delay, options);
-    run.fit = std::move(delayed.fit);
-    run.prepared.record = std::move(delayed.aligned);
-  } else {
-    run.fit = ::fit::fit_morison(run.cylinder, run.prepared.record, options);
-  }
-  if (const std::string trouble = ::fit::sign_trouble(run.cylinder, run.fit); !trouble.empty())
-    throw hydro::InputError(trouble, {},
-                            fmt::format("write force = \"-{}\" among the channels, or turn the motion", force));
-  return run;
-}
-
-/// The same fit with another cutoff, another bandwidth, and half of the window.
-void vary(const Morison& model, const std::string& force, const ::fit::RawRun& raw, MorisonRun& run) {
-  const auto add = [&](const std::string& what, Morison other) {
-    // Values alone are asked, and half a window may hold few cycles.
-    other.options.method = ::fit::IntervalMethod::effective_samples;
-    const MorisonRun again = fit_raw(other, force, raw);
-    const auto middle = [](const Coefficient& c) { return (c.interval.low + c.interval.high) / 2; };
-    run.variants.push_back(
-        {what, middle(again.fit.cd) - middle(run.fit.cd), middle(again.fit.inertia) - middle(run.fit.inertia)});
-  };
-  using Filter = ::fit::FilterChoice::Kind;
-  for (const double factor : {0.7, 1.4}) {
-    for (std::size_t i = 0; i < model.prepare.filters.size(); ++i) {
-      if (const Filter kind = model.prepare.filters[i].kind; kind != Filter::butterworth && kind != Filter::finite)
-        continue;
-      Morison other = model;
-      other.prepare.filters[i].hz *= factor;
-      add(fmt::format("low pass at {:.3g} Hz", other.prepare.filters[i].hz), other);
-    }
-    if (!raw.velocity.empty() && !raw.acceleration.empty()) continue;
-    Morison other = model;
-    const double usual = 5 / run.fit.period, chosen = model.prepare.derivative_bandwidth_hz;
-    other.prepare.derivative_bandwidth_hz = factor * (chosen > 0 ? chosen : usual);
-    add(fmt::format("derivatives to {:.3g} Hz", other.prepare.derivative_bandwidth_hz), other);
-  }
-  const auto& t = run.prepared.record.time;
-  if (t.back() - t.front() < 4 * run.fit.period) return;  // two periods a half at least
-  Morison half = model;
-  half.prepare.window.kind = ::fit::WindowChoice::Kind::span;
-  half.prepare.average_cycles = false;  // half a window is read as it is: it may hold a cycle or two
-  for (const bool first : {true, false}) {
-    const double middle = (t.front() + t.back()) / 2;
-    half.prepare.window.from = first ? t.front() : middle;
-    half.prepare.window.to = first ? middle : t.back();
-    add(first ? "first half of the window" : "second half of the window", half);
-  }
-}
-
-MorisonRun fit_run(const scene::FitScene& scene, const Morison& model, const std::filesystem::path& file) try {
-  ::fit::RawRun raw = raw_run(scene, model, hydro::io::CsvTable::read(file));
-  const std::string& force = scene.force[0].column;
-  MorisonRun run = model.sensitivity ? fit_raw(model, force, raw) : fit_raw(model, force, std::move(raw));
-  run.name = file.filename().string();
-  const auto& r = run.prepared.record;
-  Eigen::VectorXd residuals = Eigen::Map<const Eigen::VectorXd>(r.force.data(), std::ssize(r.force));
-  const double rms = std::sqrt(residuals.squaredNorm() / static_cast<double>(residuals.size()));
-  residuals -= Eigen::Map<const Eigen::VectorXd>(run.fit.fitted.data(), residuals.size());
-  run.left = ::fit::look_at_residuals(residuals, rms, r.time[1] - r.time[0], run.fit.period);
-  run.fourier = ::fit::fourier_averages(run.cylinder, r, run.fit.period);
-  if (model.cycles) run.cycles = ::fit::fit_cycles(run.cylinder, r, run.prepared.cycle_starts);
-  if (model.sensitivity) vary(model, force, raw, run);
-  for (const std::string& name : model.coefficients)
-    run.asked.push_back(name == "cd" ? run.fit.cd : ::fit::inertia_as(run.fit, name));
-  return run;
-} catch (const hydro::InputError& e) {
-  throw e.at({.file = file.string()});
-}
-
-/// The model with what one row of the table of runs says of its run.
-Morison model_of_row(const Morison& model, const scene::Located<std::filesystem::path>& place,
-                     const hydro::io::CsvTable& table, std::size_t row) {
-  Morison one = model;
+/// Takes what one row of the table of runs says of its run.
+void take_row(const scene::Located<std::filesystem::path>& place, std::size_t row, Morison& model,
+              ::fit::morison::Run& run) {
+  const auto table = hydro::io::CsvTable::read(place.value);
   const auto take = [&](const char* column, const hydro::Dimension& dimension, auto& value) {
     if (table.has(column)) value = table.column(column, dimension)[row];
   };
-  take("diameter", dim::length, one.cylinder.diameter);
-  take("length", dim::length, one.cylinder.length);
-  take("density", dim::density, one.cylinder.density);
-  take("mass_beyond_load_cells", dim::mass, one.cylinder.mass_beyond_load_cells);
-  take("viscosity", dim::kinematic_viscosity, one.cylinder.viscosity);
-  take("delay", dim::time, one.prepare.delay_s);
-  if (table.has("zero")) one.zero_run = {{place.value.parent_path() / table.text_column("zero")[row], place.place}};
-  return one;
+  take("diameter", dim::length, run.cylinder.diameter);
+  take("length", dim::length, run.cylinder.length);
+  take("density", dim::density, run.cylinder.density);
+  take("mass_beyond_load_cells", dim::mass, run.cylinder.mass_beyond_load_cells);
+  take("viscosity", dim::kinematic_viscosity, run.cylinder.viscosity);
+  take("delay", dim::time, run.delay_s);
+  if (table.has("zero")) model.zero_run = {{place.value.parent_path() / table.text_column("zero")[row], place.place}};
 }
 
-std::vector<MorisonRun> fit_table(const scene::FitScene& scene, const Morison& model) {
-  const auto table = hydro::io::CsvTable::read(scene.run_table->value);
-  std::vector<MorisonRun> runs;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    runs.push_back(fit_run(scene, model_of_row(model, *scene.run_table, table, row),
-                           scene.run_table->value.parent_path() / table.text_column("file")[row]));
-    runs.back().labels = run_labels(
-        table, row, {"file", "zero", "delay", "diameter", "length", "density", "viscosity", "mass_beyond_load_cells"});
+::fit::morison::Run read_run(const scene::FitScene& scene, Morison model, const RunOfScene& of) {
+  ::fit::morison::Run run{.source = of.source, .cylinder = model.cylinder, .raw = {}};
+  if (scene.run_table) take_row(*scene.run_table, of.row, model, run);
+  try {
+    run.raw = raw_run(scene, model, Measurements(scene, of.source.file));
+  } catch (const hydro::InputError& e) {
+    throw e.at({.file = of.source.file.string()});
   }
-  return runs;
+  return run;
 }
 
-std::vector<MorisonRun> fit_all(const scene::FitScene& scene, const Morison& model) {
-  if (scene.run_table) return fit_table(scene, model);
-  std::vector<MorisonRun> runs;
-  for (const auto& file : scene.files) runs.push_back(fit_run(scene, model, file.value));
-  return runs;
-}
-
-std::vector<CoefficientLaw> laws_of(const Morison& model, const std::vector<MorisonRun>& runs) {
-  std::vector<CoefficientLaw> out;
-  if (!model.law) return out;
-  const double confidence = model.options.confidence;
-  for (std::size_t i = 0; i < model.coefficients.size(); ++i) {
-    CoefficientLaw law{.coefficient = model.coefficients[i], .laws = {}, .runs = 0, .left_out = 0};
-    std::vector<::fit::RunEstimate> estimates;
-    for (const MorisonRun& run : runs) {
-      const Coefficient& c = run.asked[i];
-      const double re = run.fit.re.value_or(0);
-      if (c.value)
-        estimates.push_back({*c.value, c.standard_error, run.fit.kc, re, re / run.fit.kc});
-      else
-        ++law.left_out;
-    }
-    law.runs = estimates.size();
-    if (model.law->only)
-      law.laws = {::fit::fit_runs(estimates, *model.law->only, confidence)};
-    else
-      law.laws = ::fit::compare_laws(estimates, confidence);
-    out.push_back(std::move(law));
+/// The mean of all cycles with its standard error, and the fit over one of them. Where the delay was estimated, cycles
+/// begin elsewhere in the record that was fitted, and the fit is left out.
+void add_mean_cycle(const MorisonRun& run, const ::fit::MeanForce& mean, Panels& panels) {
+  plot::Panel panel{.x = {"time in the cycle", "s"},
+                    .y = {"mean force", "N"},
+                    .series = {{fmt::format("mean of {} cycles", mean.cycles), mean.time, mean.force}},
+                    .bands = {{"± standard error", mean.time, mean.force, mean.force}}};
+  for (std::size_t k = 0; k < mean.force.size(); ++k) {
+    panel.bands[0].low[k] -= mean.standard_error[k];
+    panel.bands[0].high[k] += mean.standard_error[k];
   }
-  return out;
+  if (!run.fit.delay) {
+    const auto& fitted = run.fit.fitted;
+    panel.series.push_back(
+        {"fitted", mean.time, {fitted.begin(), fitted.begin() + std::ssize(mean.time)}, true, false, true});
+  }
+  panels.push_back(std::move(panel));
+}
+
+/// Measured and fitted force and what is left, the last five periods of one run.
+void add_run(const MorisonRun& run, Panels& panels) {
+  const auto& r = run.prepared.record;
+  const auto from = std::lower_bound(r.time.begin(), r.time.end(), r.time.back() - 5 * run.fit.period) - r.time.begin();
+  const auto tail = [&](const std::vector<double>& v) {
+    return v.empty() ? v : std::vector<double>(v.begin() + from, v.end());
+  };
+  const ::fit::MorisonFit& f = run.fit;
+  const Panels both = panels_of(FittedRecord{.legend = run.source.name() + ": measured",
+                                             .axis = {"force", "N"},
+                                             .confidence = f.confidence,
+                                             .time = tail(r.time),
+                                             .measured = tail(r.force),
+                                             .fitted = tail(f.fitted),
+                                             .sample_band = tail(f.sample_band),
+                                             .fit_band = tail(f.fit_band)});
+  panels.insert(panels.end(), both.begin(), both.end());
+  if (run.prepared.mean_force) add_mean_cycle(run, *run.prepared.mean_force, panels);
+}
+
+/// An axis with room beside the first and last point.
+plot::Axis roomy(const std::string& label, const std::vector<double>& x) {
+  plot::Axis axis{.label = label};
+  if (x.empty()) return axis;
+  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  const double room = 0.05 * (*high > *low ? *high - *low : std::abs(*high) + 1);
+  axis.range = {{*low - room, *high + room}};
+  return axis;
+}
+
+/// One coefficient over KC with its intervals, and the law where it asks for KC alone.
+plot::Panel coefficient_panel(const std::vector<MorisonRun>& runs, std::size_t i,
+                              const ::fit::morison::CoefficientLaw* law) {
+  const std::string name = runs[0].asked[i].name;
+  std::vector<double> kc;
+  std::vector<const Coefficient*> told;
+  for (const MorisonRun& run : runs) {
+    if (!run.asked[i].value) continue;
+    kc.push_back(run.fit.kc);
+    told.push_back(&run.asked[i]);
+  }
+  plot::Panel panel{.x = roomy("KC", kc), .y = {name}, .series = with_bars(name, runs[0].fit.confidence, kc, told)};
+  if (law == nullptr || kc.empty()) return panel;
+  const auto& best = law->laws.front();
+  if (best.law != ::fit::Law::kc && best.law != ::fit::Law::constant) return panel;
+  double middle = 0;
+  for (const double x : kc) middle += std::log(x) / static_cast<double>(kc.size());
+  plot::Series line{"law", {}, {}};
+  const auto [low, high] = std::minmax_element(kc.begin(), kc.end());
+  for (int k = 0; k <= 50; ++k) {
+    const double x = *low * std::pow(*high / *low, k / 50.0);
+    line.x.push_back(x);
+    line.y.push_back(best.coefficients[0] +
+                     (best.law == ::fit::Law::kc ? best.coefficients[1] * (std::log(x) - middle) : 0.0));
+  }
+  panel.series.push_back(line);
+  return panel;
 }
 
 }  // namespace
 
-FitOutcome fit_model(const scene::FitScene& scene, const scene::MorisonModel& model) {
-  const std::vector<MorisonRun> runs = fit_all(scene, model);
-  const std::vector<CoefficientLaw> laws = laws_of(model, runs);
-  return {summary_of(scene, model, runs, laws), runs_figure(scene, runs, laws), runs_table(runs)};
+::fit::morison::Problem problem_of(const scene::FitScene& scene, const scene::MorisonModel& model) {
+  ::fit::morison::Problem out{.runs = {},
+                              .options = {.prepare = model.prepare,
+                                          .longest_delay = model.longest_delay,
+                                          .force = model.options,
+                                          .coefficients = model.coefficients,
+                                          .law = {},
+                                          .cycles = model.cycles,
+                                          .sensitivity = model.sensitivity}};
+  if (model.law) out.options.law = {model.law->only};
+  for (const RunOfScene& of : runs_of(
+           scene, {"file", "zero", "delay", "diameter", "length", "density", "viscosity", "mass_beyond_load_cells"}))
+    out.runs.push_back(read_run(scene, model, of));
+  return out;
+}
+
+Remedy remedy_of(const scene::FitScene& scene, const ::fit::morison::Problem&, const ::fit::morison::Solution&) {
+  return {.text = fmt::format("write force = \"-{}\" among the channels, or turn the motion", scene.force[0].column)};
+}
+
+Panels panels_of(const ::fit::morison::Problem&, const ::fit::morison::Solution& solution) {
+  const auto& [report, runs, laws] = solution;
+  Panels out;
+  if (runs.size() < 3) {
+    for (const MorisonRun& run : runs) add_run(run, out);
+    return out;
+  }
+  for (std::size_t i = 0; i < runs[0].asked.size(); ++i)
+    out.push_back(coefficient_panel(runs, i, laws.empty() ? nullptr : &laws[i]));
+  plot::Series map{"runs", {}, {}, false, true};
+  for (const MorisonRun& run : runs) {
+    if (!run.fit.re) continue;
+    map.x.push_back(run.fit.kc);
+    map.y.push_back(*run.fit.re);
+  }
+  if (!map.x.empty()) out.push_back({.x = roomy("KC", map.x), .y = roomy("Re", map.y), .series = {map}});
+  return out;
+}
+
+std::string table_of(const ::fit::morison::Problem&, const ::fit::morison::Solution& solution) {
+  const auto& runs = solution.runs;
+  std::string out =
+      "# One row for each run; a coefficient that the run does not tell has an empty value and its interval.\nfile";
+  for (const auto& [name, value] : runs[0].source.labels) out += "," + name;
+  out += ",KC,Re,beta,period [s]";
+  for (const Coefficient& c : runs[0].asked) out += fmt::format(",{0},{0}_low,{0}_high,{0}_error", c.name);
+  out += ",residual_rms [N],explained,cautions\n";
+  for (const MorisonRun& run : runs) {
+    out += run.source.name();
+    for (const auto& [name, value] : run.source.labels) out += "," + value;
+    const auto& f = run.fit;
+    out += fmt::format(",{:.6g},{},{},{:.6g}", f.kc, f.re ? fmt::format("{:.6g}", *f.re) : "",
+                       f.re ? fmt::format("{:.6g}", *f.re / f.kc) : "", f.period);
+    for (const Coefficient& c : run.asked)
+      out += fmt::format(",{},{:.6g},{:.6g},{:.3g}", c.value ? fmt::format("{:.6g}", *c.value) : "", c.interval.low,
+                         c.interval.high, c.standard_error);
+    out += fmt::format(",{:.4g},{:.6g},{}\n", f.residual_rms, f.explained,
+                       run.prepared.cautions.size() + (f.caution.empty() ? 0 : 1));
+  }
+  return out;
 }
 
 }  // namespace froude

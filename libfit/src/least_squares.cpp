@@ -93,7 +93,7 @@ double promised_share(const std::vector<int>& held, const Eigen::VectorXd& r, co
 }
 
 // (F2)
-void judge(const ResidualModel& model, const Eigen::MatrixXd& jacobian, FitReport& report) {
+void judge(const ResidualModel& model, const Eigen::MatrixXd& jacobian, SearchReport& report) {
   constexpr double not_seen = 1e-10;
   const auto p = static_cast<Eigen::Index>(model.parameters.size());
   Eigen::VectorXd scale(p);
@@ -139,7 +139,7 @@ ceres::Solver::Options solver_options(const StopWhen& stop) {
 
 /// Runs Ceres from x, some parameters held, and fills the first half of the report. \return where it ended
 std::vector<double> search(const ResidualModel& model, const Eigen::VectorXd& x, const std::vector<int>& held,
-                           const StopWhen& stop, FitReport& report) {
+                           const StopWhen& stop, SearchReport& report) {
   std::vector<double> trial(x.data(), x.data() + x.size());
   ceres::Problem problem;
   problem.AddResidualBlock(new ModelCost(model), nullptr, trial.data());
@@ -168,13 +168,13 @@ std::vector<double> search(const ResidualModel& model, const Eigen::VectorXd& x,
   report.why = summary.message;
   switch (summary.termination_type) {
     case ceres::CONVERGENCE:
-      report.outcome = FitReport::Outcome::converged;
+      report.outcome = SearchReport::Outcome::converged;
       break;
     case ceres::NO_CONVERGENCE:
-      report.outcome = FitReport::Outcome::out_of_iterations;
+      report.outcome = SearchReport::Outcome::out_of_iterations;
       break;
     default:
-      report.outcome = FitReport::Outcome::not_finite;
+      report.outcome = SearchReport::Outcome::not_finite;
       break;
   }
   return trial;
@@ -184,7 +184,7 @@ std::vector<double> search(const ResidualModel& model, const Eigen::VectorXd& x,
 /// stands at a bound and would cross it is held there, and the others are searched for alone, until no more come or go.
 /// Residuals and Jacobian are those of x, before and after. \return what is held in the end
 std::vector<int> search_with_bounds(const ResidualModel& model, StopWhen stop, Eigen::VectorXd& x, Eigen::VectorXd& r,
-                                    Eigen::MatrixXd& jacobian, FitReport& report) {
+                                    Eigen::MatrixXd& jacobian, SearchReport& report) {
   const double cost_first = r.squaredNorm() / 2;
   int iterations = 0;
   std::vector<int> held = held_at_bounds(model, x, r, jacobian);
@@ -199,7 +199,7 @@ std::vector<int> search_with_bounds(const ResidualModel& model, StopWhen stop, E
     const bool settled = now == held;
     held = now;
     if (!settled && report.ended() && stop.iterations_reach <= 0)
-      report.outcome = FitReport::Outcome::out_of_iterations;
+      report.outcome = SearchReport::Outcome::out_of_iterations;
     if (settled || !report.ended()) break;
   }
   report.cost_first = cost_first;
@@ -209,15 +209,15 @@ std::vector<int> search_with_bounds(const ResidualModel& model, StopWhen stop, E
 
 }  // namespace
 
-FitReport minimise(const ResidualModel& model, Eigen::VectorXd& x, const StopWhen& stop) {  // (F1)
+SearchReport minimise(const ResidualModel& model, Eigen::VectorXd& x, const StopWhen& stop) {  // (F1)
   check(model, x);
-  FitReport report{};
+  SearchReport report{};
   Eigen::VectorXd r(model.residuals);
   Eigen::MatrixXd jacobian(model.residuals, x.size());
   model.evaluate(x, r, &jacobian);
   if (!r.allFinite() || !jacobian.allFinite()) {  // Ceres would end without a first cost
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    report.outcome = FitReport::Outcome::not_finite;
+    report.outcome = SearchReport::Outcome::not_finite;
     report.cost_first = report.cost_last = report.gradient_norm = report.promised = nan;
     report.trust_radius = stop.trust_radius;
     report.why = "residuals or Jacobian are not finite at the start";
@@ -230,7 +230,7 @@ FitReport minimise(const ResidualModel& model, Eigen::VectorXd& x, const StopWhe
   const std::vector<int> held = search_with_bounds(model, stop, x, r, jacobian, report);
   report.promised = promised_share(held, r, jacobian);
   if (report.ended() && report.promised * static_cast<double>(model.residuals) > 1)
-    report.outcome = FitReport::Outcome::stuck;
+    report.outcome = SearchReport::Outcome::stuck;
   judge(model, jacobian, report);
   return report;
 }

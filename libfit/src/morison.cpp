@@ -81,7 +81,7 @@ struct Uncertainty {
 };
 
 /// Known no better than to `enough` it is not known.
-Coefficient coefficient(const FitReport& search, const std::string& name, Eigen::Index j, double value,
+Coefficient coefficient(const SearchReport& search, const std::string& name, Eigen::Index j, double value,
                         const Uncertainty& u, double enough = telling) {
   Coefficient c;
   c.name = name;
@@ -125,7 +125,7 @@ Uncertainty known_scatter(Eigen::Index n, Eigen::Index p, double scatter) {
 }
 
 /// `period_samples` of the motion, `shortest_samples` of all that the columns hold.
-Uncertainty uncertainty_of(const FitReport& search, const Eigen::MatrixXd& columns, const Eigen::VectorXd& residuals,
+Uncertainty uncertainty_of(const SearchReport& search, const Eigen::MatrixXd& columns, const Eigen::VectorXd& residuals,
                            double unit, double period_samples, double shortest_samples, const MorisonOptions& options) {
   if (!search.all_identifiable())
     return known_scatter(columns.rows(), columns.cols(), std::numeric_limits<double>::quiet_NaN());
@@ -226,7 +226,7 @@ Eigen::VectorXd total(const std::vector<SystematicError>& budget, Eigen::Index p
 }
 
 /// Amplitude of a line from its two parts, by propagation; told where the ellipse of both leaves zero out.
-FittedLine fitted_line(const FitReport& search, double hz, Eigen::Index j, const Eigen::VectorXd& x,
+FittedLine fitted_line(const SearchReport& search, double hz, Eigen::Index j, const Eigen::VectorXd& x,
                        const Uncertainty& u, double confidence) {  // (F50)
   FittedLine line{hz, {}, std::atan2(x[j + 1], x[j])};
   Coefficient& c = line.amplitude;

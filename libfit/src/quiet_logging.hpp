@@ -1,5 +1,6 @@
 #pragma once
-/// \file  Keeps Ceres off standard error. What stopped a search is in its summary, which FitReport takes over; glog, by
+/// \file  Keeps Ceres off standard error. What stopped a search is in its summary, which SearchReport takes over; glog,
+/// by
 ///        which Ceres writes it a second time, sends to standard error all that comes before a program initialises it.
 
 namespace fit {

@@ -278,7 +278,7 @@ ShootingFit fit_motion(const ShootingProblem& p) {  // (F36)
   Eigen::VectorXd x = start_of(p, l);
   ShootingFit fit{};
   fit.search = minimise(model, x, {.cost_change_below = 1e-12, .gradient_below = 1e-12, .step_below = 1e-12});
-  if (fit.search.outcome == FitReport::Outcome::not_finite)
+  if (fit.search.outcome == SearchReport::Outcome::not_finite)
     throw hydro::NumericsError(fmt::format("the motion runs away from its start: {}", fit.search.why));
   require_ended(fit.search, "the motion");
   Eigen::VectorXd r(model.residuals);
@@ -342,10 +342,10 @@ Interval profile_interval(const ShootingProblem& problem, const ShootingFit& fit
     Eigen::VectorXd x = start_of(held, l);
     for (std::size_t w = 0; w < held.windows.size(); ++w)
       x.segment(l.fitted + static_cast<Eigen::Index>(w) * l.states, l.states) = fit.initial[w];
-    const FitReport search =
+    const SearchReport search =
         minimise(model_of(held, l), x, {.cost_change_below = 1e-12, .gradient_below = 1e-12, .step_below = 1e-12});
     // Where a motion runs away the end lies before.
-    if (search.outcome == FitReport::Outcome::not_finite) return std::numeric_limits<double>::infinity();
+    if (search.outcome == SearchReport::Outcome::not_finite) return std::numeric_limits<double>::infinity();
     require_ended(search, "all else at a value of the profile");
     return search.cost_last - fit.search.cost_last - rise;
   };

@@ -21,7 +21,7 @@ constexpr double not_seen_by_differences = 1e-6;
 
 /// Where a search came to, with all that can be told from there.
 struct EndOfSearch {
-  FitReport search;
+  SearchReport search;
   Eigen::VectorXd x;  ///< parameters, then the starts of the windows along the directions seen
   Eigen::VectorXd r;  ///< residuals over deviations: windows one after the other, in each one channel after the other
   Eigen::MatrixXd jacobian;

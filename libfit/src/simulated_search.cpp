@@ -39,7 +39,7 @@ class Shooting {
   Eigen::VectorXd settle(std::size_t w);
   Eigen::VectorXd find_starts();
   Eigen::VectorXd go_on(const SimulationFit::End& end);
-  FitReport search(Eigen::VectorXd& x);
+  SearchReport search(Eigen::VectorXd& x);
   void evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian);
   Eigen::MatrixXd differences(const Eigen::VectorXd& x);
   void parameter_column(Eigen::Index k, const Eigen::VectorXd& x, Eigen::MatrixXd& jacobian);
@@ -208,23 +208,23 @@ void Shooting::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::Mat
 /// which takes 1 + 2p + d, unless it is where the last one was. The round that gains next to nothing from a new one,
 /// and is promised no more, is the last: where steps are promised and none is found, the next round takes shorter ones.
 /// (F41), (F65)
-FitReport Shooting::search(Eigen::VectorXd& x) {
+SearchReport Shooting::search(Eigen::VectorXd& x) {
   // Shares of the cost. A standard error of one unknown lowers it by one n-th: no step of a thirtieth of it is taken,
   // and what gains less than half of one leaves a small part of that.
   const double nothing = 1e-3 / static_cast<double>(rows_), little = 0.2 / static_cast<double>(rows_);
-  using Outcome = FitReport::Outcome;
-  FitReport all{};
+  using Outcome = SearchReport::Outcome;
+  SearchReport all{};
   Eigen::VectorXd at;  // of the Jacobian
   double radius = StopWhen{}.trust_radius;
   for (bool held = jacobian_.size() > 0;; held = false) {
     if (!held && (at.size() == 0 || at != x)) jacobian_ = differences(at = x);
     const int left = problem_.iterations_reach - all.iterations;
-    FitReport round = minimise(model(), x,
-                               {.cost_change_below = nothing,
-                                .gradient_below = 1e-9,
-                                .step_below = 1e-8,
-                                .iterations_reach = std::min(6, left),
-                                .trust_radius = radius});
+    SearchReport round = minimise(model(), x,
+                                  {.cost_change_below = nothing,
+                                   .gradient_below = 1e-9,
+                                   .step_below = 1e-8,
+                                   .iterations_reach = std::min(6, left),
+                                   .trust_radius = radius});
     const bool gained = round.cost_first - round.cost_last > little * round.cost_first,
                promised = round.promised * static_cast<double>(rows_) > 1,
                // Less than a ten-thousandth of the noise stated: there is nothing left to find.
@@ -283,7 +283,7 @@ EndOfSearch Shooting::end() {  // (F41)
                  unknowns_ - p());
   Eigen::VectorXd r(rows_);
   evaluate(x, r, nullptr);  // what the first values cannot do is told as it is
-  FitReport report = search(x);
+  SearchReport report = search(x);
   evaluate(x, r, nullptr);
   return {std::move(report), std::move(x), std::move(r), jacobian_, pieces_, all_starts_, followed_};
 }
@@ -291,8 +291,9 @@ EndOfSearch Shooting::end() {  // (F41)
 double Shooting::least_cost() {
   Eigen::VectorXd x = problem_.begin ? go_on(problem_.begin->end) : find_starts();
   if (unknowns_ > 0) {
-    const FitReport report = search(x);
-    if (report.outcome != FitReport::Outcome::not_finite) require_ended(report, "all else at a value of the profile");
+    const SearchReport report = search(x);
+    if (report.outcome != SearchReport::Outcome::not_finite)
+      require_ended(report, "all else at a value of the profile");
     return report.cost_last;
   }
   double squares = 0;

@@ -9,27 +9,27 @@
 
 namespace fit {
 
-std::string why_unended(const FitReport& search) {  // (F65)
+std::string why_unended(const SearchReport& search) {  // (F65)
   switch (search.outcome) {
-    case FitReport::Outcome::converged:
+    case SearchReport::Outcome::converged:
       return {};
-    case FitReport::Outcome::stuck:
+    case SearchReport::Outcome::stuck:
       return fmt::format(
           "after {} iterations no step lowers the squares of the residuals, though their derivatives promise {:.2g} % "
           "less",
           search.iterations, 100 * search.promised);
-    case FitReport::Outcome::out_of_iterations:
+    case SearchReport::Outcome::out_of_iterations:
       return fmt::format(
           "all {} of its iterations are used up, and the derivatives still promise {:.2g} % less of the squares of the "
           "residuals",
           search.iterations, 100 * search.promised);
-    case FitReport::Outcome::not_finite:
+    case SearchReport::Outcome::not_finite:
       break;
   }
   return search.why;
 }
 
-void require_ended(const FitReport& search, const std::string& what) {
+void require_ended(const SearchReport& search, const std::string& what) {
   if (!search.ended())
     throw SearchFailed(fmt::format("the search for {} has no end: {}", what, why_unended(search)), search.cost_last);
 }

@@ -13,8 +13,8 @@
 namespace least_squares_test {
 namespace {
 
-using fit::FitReport;
 using fit::ResidualModel;
+using fit::SearchReport;
 using testing::HasSubstr;
 
 Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, std::uint64_t stream) {
@@ -38,8 +38,8 @@ TEST(LeastSquares, SolvesALinearProblemAsTheNormalEquationsDo) {
   const Eigen::MatrixXd a = random_matrix(50, 3, 0);
   const Eigen::VectorXd b = random_matrix(50, 1, 1);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(3);
-  const FitReport report = fit::minimise(linear(a, b), x);
-  EXPECT_EQ(report.outcome, FitReport::Outcome::converged) << report.why;
+  const SearchReport report = fit::minimise(linear(a, b), x);
+  EXPECT_EQ(report.outcome, SearchReport::Outcome::converged) << report.why;
   const Eigen::MatrixXd inverse = (a.transpose() * a).inverse();
   EXPECT_LT((x - inverse * a.transpose() * b).norm(), 1e-12);  // rounding times a condition number of about 2
   EXPECT_LT((report.covariance - inverse).norm(), 1e-14);
@@ -57,7 +57,7 @@ TEST(LeastSquares, FindsTheKnownMinimumOfRosenbrocksValley) {
   Eigen::VectorXd x(2);
   x << -1.2, 1;
   const auto report = fit::minimise(model, x);
-  EXPECT_EQ(report.outcome, FitReport::Outcome::converged) << report.why;
+  EXPECT_EQ(report.outcome, SearchReport::Outcome::converged) << report.why;
   EXPECT_NEAR(x[0], 1, 1e-10);
   EXPECT_NEAR(x[1], 1, 1e-10);
   EXPECT_LT(report.gradient_norm, 1e-10);
@@ -84,7 +84,7 @@ TEST(LeastSquares, SaysWhenItRanOutOfIterations) {
   Eigen::VectorXd x(1);
   x << 20;
   const auto report = fit::minimise(model, x, {.iterations_reach = 3});
-  EXPECT_EQ(report.outcome, FitReport::Outcome::out_of_iterations);
+  EXPECT_EQ(report.outcome, SearchReport::Outcome::out_of_iterations);
   EXPECT_FALSE(report.why.empty());
 }
 
@@ -99,7 +99,7 @@ TEST(LeastSquares, SaysThatItIsStuckWhereTheDerivativesAreWrong) {
   };
   Eigen::VectorXd x = Eigen::VectorXd::Zero(2);
   const auto report = fit::minimise(model, x);
-  EXPECT_EQ(report.outcome, FitReport::Outcome::stuck) << report.why;
+  EXPECT_EQ(report.outcome, SearchReport::Outcome::stuck) << report.why;
   const double least = (a * (a.transpose() * a).inverse() * a.transpose() * b).squaredNorm();
   EXPECT_NEAR(report.promised, least / b.squaredNorm(), 1e-9);  // of the way to the minimum that there is
 }
@@ -110,7 +110,7 @@ TEST(LeastSquares, HasAnEndAtABoundThatHoldsItBack) {
   model.parameters[0].highest = 0.5;
   Eigen::VectorXd x = Eigen::VectorXd::Zero(2);
   const auto report = fit::minimise(model, x);
-  EXPECT_EQ(report.outcome, FitReport::Outcome::converged) << report.why;
+  EXPECT_EQ(report.outcome, SearchReport::Outcome::converged) << report.why;
   EXPECT_NEAR(x[0], 0.5, 1e-12);
   EXPECT_LT(report.promised, 1e-12);
 }
@@ -123,7 +123,7 @@ TEST(LeastSquares, LeavesTheStartAloneWhereTheModelIsNotFinite) {
   Eigen::VectorXd x(1);
   x << 2;
   const auto report = fit::minimise(model, x);
-  EXPECT_EQ(report.outcome, FitReport::Outcome::not_finite);
+  EXPECT_EQ(report.outcome, SearchReport::Outcome::not_finite);
   EXPECT_EQ(x[0], 2);
   EXPECT_FALSE(report.identifiable[0]);
 }

@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 
 struct Fitted {
-  fit::FitReport report;
+  fit::SearchReport report;
   std::string standard_error;
 };
 
@@ -25,14 +25,14 @@ Fitted fit_that_ceres_gives_up() {
       }};
   Eigen::VectorXd x = Eigen::VectorXd::Ones(1);
   testing::internal::CaptureStderr();
-  const fit::FitReport report = fit::minimise(model, x);
+  const fit::SearchReport report = fit::minimise(model, x);
   return {report, testing::internal::GetCapturedStderr()};
 }
 
 TEST(LoggingOfCeres, DoesNotReachStandardError) {
   const Fitted fitted = fit_that_ceres_gives_up();
   EXPECT_EQ(fitted.standard_error, "");
-  EXPECT_EQ(fitted.report.outcome, fit::FitReport::Outcome::not_finite);
+  EXPECT_EQ(fitted.report.outcome, fit::SearchReport::Outcome::not_finite);
   EXPECT_THAT(fitted.report.why, HasSubstr("evaluation failed"));
 }
 

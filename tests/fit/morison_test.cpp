@@ -73,7 +73,7 @@ TEST(MorisonFit, RecoversAPureMorisonSignalInBothExperiments) {
   for (const auto experiment : {Experiment::water_moves, Experiment::body_moves}) {
     const auto c = cylinder(experiment);
     const auto fit = fit::fit_morison(c, made(c, 1.2, 1.7, 0.4, 4, 800, 0.02));
-    EXPECT_EQ(fit.search.outcome, fit::FitReport::Outcome::converged) << fit.search.why;
+    EXPECT_EQ(fit.search.outcome, fit::SearchReport::Outcome::converged) << fit.search.why;
     EXPECT_NEAR(fit.cd.value.value(), 1.2, 1e-10);
     EXPECT_NEAR(fit.inertia.value.value(), 1.7, 1e-10);
     EXPECT_EQ(fit.inertia.name, experiment == Experiment::water_moves ? "cm" : "ca");

@@ -198,7 +198,7 @@ TEST(Simulated, TellsNothingOfASearchThatUsedUpItsIterations) {
   p.iterations_reach = 1;
   Flow flow(swing, vector({1, 0, 1}), 0.05, 300, false);
   const auto f = fit::fit_simulation(flow, p);
-  EXPECT_EQ(f.search.outcome, fit::FitReport::Outcome::out_of_iterations);
+  EXPECT_EQ(f.search.outcome, fit::SearchReport::Outcome::out_of_iterations);
   EXPECT_THAT(f.refused, HasSubstr("all 1 of its iterations are used up"));
   for (const auto& c : f.parameters) {
     EXPECT_FALSE(c.value);

@@ -11,7 +11,7 @@
 namespace verdict_test {
 namespace {
 
-using fit::FitReport;
+using fit::SearchReport;
 using testing::HasSubstr;
 
 Eigen::VectorXd noise(std::size_t n, double phi, double sigma, std::uint64_t stream) {
@@ -60,14 +60,14 @@ TEST(StatedResiduals, GetBackWhatTheFitTookOutOfThem) {
 }
 
 TEST(Verdict, NamesHowASearchFailed) {
-  FitReport report{};
-  report.outcome = FitReport::Outcome::out_of_iterations;
+  SearchReport report{};
+  report.outcome = SearchReport::Outcome::out_of_iterations;
   report.iterations = 60;
   report.promised = 0.42;
   EXPECT_THAT(fit::why_unended(report), testing::AllOf(HasSubstr("all 60 of its iterations"), HasSubstr("42 %")));
   EXPECT_THAT([&] { fit::require_ended(report, "the damping"); },
               testing::ThrowsMessage<hydro::NumericsError>(HasSubstr("the search for the damping has no end")));
-  report.outcome = FitReport::Outcome::converged;
+  report.outcome = SearchReport::Outcome::converged;
   EXPECT_EQ(fit::why_unended(report), "");
   EXPECT_NO_THROW(fit::require_ended(report, "the damping"));
 }

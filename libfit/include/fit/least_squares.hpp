@@ -34,7 +34,7 @@ struct StopWhen {
   double trust_radius = 1e12;
 };
 
-struct FitReport {
+struct SearchReport {
   /// `stuck`: no step lowers the cost, yet the Jacobian promises that one would: it jumps there, or is wrong. (F65)
   enum class Outcome { converged, stuck, out_of_iterations, not_finite } outcome;
   int iterations;
@@ -58,7 +58,7 @@ struct FitReport {
 /// it freely). Ceres writes nothing to standard error: unless the program has initialised glog, messages of glog that
 /// are not fatal are dropped while the search runs. \throws hydro::InputError if x has another length, n < p, or a
 /// scale is not positive
-FitReport minimise(const ResidualModel& model, Eigen::VectorXd& x, const StopWhen& stop = {});
+SearchReport minimise(const ResidualModel& model, Eigen::VectorXd& x, const StopWhen& stop = {});
 
 /// The same least-squares problem with few rows; (F1).
 struct Compressed {

@@ -111,7 +111,7 @@ struct MorisonFit {
   std::optional<Coefficient> offset;       ///< N, if asked for
   std::optional<Coefficient> linear_drag;  ///< B, N s/m, if asked for: a force −Bv on a body, Bu of water
   std::vector<FittedLine> lines;           ///< in the order asked for
-  FitReport search;
+  SearchReport search;
   double residual_rms;        ///< N
   double explained;           ///< 1 − residual variance / variance of the force
   double period;              ///< main period 2π √(Σwu²/Σwu̇²), s: of a sinusoid its period (w: Hann)

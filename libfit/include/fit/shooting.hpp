@@ -53,7 +53,7 @@ struct ShootingProblem {
 struct ShootingFit {
   std::vector<Coefficient> parameters;  ///< of all, in the law's order; those not fitted have standard error 0
   std::vector<double> ended;            ///< where the search left them all, told or not
-  FitReport search;
+  SearchReport search;
   std::vector<Eigen::VectorXd> initial;  ///< initial state of each window, hidden ones where they are fitted
   std::vector<Eigen::MatrixXd> motion;   ///< of each window, as its values
   std::vector<double> rms;               ///< per channel, over all windows

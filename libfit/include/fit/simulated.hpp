@@ -55,7 +55,7 @@ struct SimulationProblem {
 
 struct SimulationFit {
   std::vector<Coefficient> parameters;
-  FitReport search;
+  SearchReport search;
   std::vector<StatedResiduals> stated;  ///< residuals against their deviations, one a channel
   /// Why no parameter has a value or an interval, and the motion no bands: a search without an end, or residuals that
   /// the deviations do not allow and nobody accepted. Empty where they may be told. (F65), (F66)

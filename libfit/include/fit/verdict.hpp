@@ -22,9 +22,9 @@ class SearchFailed : public hydro::NumericsError {
 };
 
 /// Why a search has no end, with its numbers; empty where it has one. (F65)
-std::string why_unended(const FitReport& search);
+std::string why_unended(const SearchReport& search);
 /// \throws SearchFailed "the search for `what` has no end: …" unless it has one
-void require_ended(const FitReport& search, const std::string& what);
+void require_ended(const SearchReport& search, const std::string& what);
 
 /// Residuals of one channel against the standard deviation that was stated of its noise, in the channel's unit. (F66)
 struct StatedResiduals {

@@ -1,0 +1,50 @@
+#pragma once
+/// \file  Problem of a motion: parameters of any simulation from a record of what its run should tell; (F41)-(F43),
+///        (F46), (F58), docs/theory/fit.md.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fit/problem/source.hpp"
+#include "fit/report.hpp"
+#include "fit/simulated.hpp"
+
+namespace fit::motion {
+
+struct Options {
+  double confidence = 0.95;
+  int starts = 1;  ///< of the search; more than one need bounds of every parameter
+  int iterations_reach = 60;
+  bool profile = false;           ///< intervals by profile likelihood
+  bool accept_residuals = false;  ///< values are told though residuals exceed what the deviations allow (F66)
+};
+
+struct Parameter {
+  SimulationParameter number;
+  std::string unit;  ///< that its values are in
+};
+
+struct Signal {
+  std::string name, unit;
+  double deviation;  ///< of the noise, in that unit
+};
+
+struct Problem {
+  Source source;
+  std::shared_ptr<Simulation> simulation;  ///< follows the signals with trial parameters
+  std::vector<Parameter> parameters;
+  std::vector<Signal> signals;
+  std::vector<double> time;               ///< s, of all samples: for those who look at them
+  std::vector<Eigen::MatrixXd> measured;  ///< one a window, shape (samples, signals)
+  Options options;
+};
+
+struct Solution {
+  Report report;  ///< refused where the search has no end (F65), residuals contradict what was stated of the noise
+                  ///< (F66), or an interval by likelihood has no end
+  SimulationFit fit;
+};
+/// \throws hydro::InputError as fit_simulation() and fit_simulation_from()
+Solution solve(const Problem& problem);
+
+}  // namespace fit::motion

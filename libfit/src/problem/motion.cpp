@@ -1,0 +1,180 @@
+#include "fit/problem/motion.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "fit/verdict.hpp"
+#include "telling.hpp"
+
+namespace fit::motion {
+namespace {
+
+SimulationProblem simulated(const Problem& problem) {
+  SimulationProblem out;
+  for (const Parameter& p : problem.parameters) out.parameters.push_back(p.number);
+  out.measured = problem.measured;
+  for (const Signal& s : problem.signals) out.deviations.push_back(s.deviation);
+  out.confidence = problem.options.confidence;
+  out.iterations_reach = problem.options.iterations_reach;
+  out.accept_residuals = problem.options.accept_residuals;
+  return out;
+}
+
+/// "x differs by 0.057 m rms; its deviation is stated as 0.002 m, which allows 0.0026 m"
+std::string difference(const Problem& problem, const SimulationFit& fit, std::size_t c) {
+  const StatedResiduals& s = fit.stated[c];
+  const auto& [name, unit, deviation] = problem.signals[c];
+  return fmt::format("{} differs by {:.3g} {} rms; its deviation is stated as {:.3g} {}, which allows {:.3g} {}", name,
+                     fit.rms[c], unit, s.stated, unit, s.allowed, unit);
+}
+
+/// What is too large and was accepted; values are told all the same.
+std::vector<std::string> accepted(const Problem& problem, const SimulationFit& fit) {
+  std::vector<std::string> out;
+  for (std::size_t c = 0; c < problem.signals.size(); ++c)
+    if (const StatedResiduals& s = fit.stated[c]; !s.hold())
+      out.push_back(
+          fmt::format("{}; intervals are made from these residuals, {:.3g} times what is stated, and an error of the "
+                      "model is in none of them",
+                      difference(problem, fit, c), s.rms / s.stated));
+  return out;
+}
+
+/// "line[1].damping.linear" as a word: line1_damping_linear.
+std::string word_of(std::string key) {
+  std::replace(key.begin(), key.end(), '.', '_');
+  std::erase_if(key, [](char c) { return c == '[' || c == ']'; });
+  return key;
+}
+
+double widest(const std::vector<Eigen::MatrixXd>& bands, std::size_t column) {
+  double out = 0;
+  for (const auto& band : bands) out = std::max(out, band.col(static_cast<Eigen::Index>(column)).maxCoeff());
+  return out;
+}
+
+/// Values of the parameters, and what a scene of motion may include of them.
+void add_values(const Problem& problem, const SimulationFit& fit, Report& report) {
+  Facts coefficients;
+  report.group = "parameter";
+  for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
+    const Coefficient& c = fit.parameters[k];
+    const auto& [number, unit] = problem.parameters[k];
+    const std::string key = word_of(c.name);
+    if (c.value && unit.empty()) coefficients.emplace_back(key, *c.value);
+    if (c.value && !unit.empty()) coefficients.emplace_back(key, fmt::format("{:.10g} {}", *c.value, unit));
+    Estimate e{c, unit};
+    e.key = key;
+    e.facts = {{"key", number.name}, {"unit", unit}};
+    if (c.value)
+      e.more =
+          fmt::format(" (if residuals were independent {:.5g} to {:.5g})", c.white_interval.low, c.white_interval.high);
+    report.estimates.push_back(std::move(e));
+  }
+  if (!coefficients.empty()) report.facts.emplace_back("coefficients", std::move(coefficients));
+}
+
+Facts facts_of_signal(const Problem& problem, const SimulationFit& fit, std::size_t c) {
+  return {{"of", problem.signals[c].name},
+          {"unit", problem.signals[c].unit},
+          {"rms", fit.rms[c]},
+          {"deviation", fit.stated[c].stated},
+          {"rms_allowed", fit.stated[c].allowed},
+          {"widest_band_of_fit", widest(fit.fit_band, c)},
+          {"widest_band_of_sample", widest(fit.sample_band, c)}};
+}
+
+/// Residuals of each signal against the deviation that was stated, and the bands.
+void add_signals(const Problem& problem, const SimulationFit& fit, Report& report) {
+  std::vector<Facts> all;
+  for (std::size_t c = 0; c < problem.signals.size(); ++c) {
+    report.say("{}", difference(problem, fit, c));
+    if (fit.refused.empty()) all.push_back(facts_of_signal(problem, fit, c));
+  }
+  if (!fit.refused.empty()) return;
+  append(report.facts, {{"signal", std::move(all)}, {"samples_in_band", fit.inside}});
+  report.say("{:.1f} % of the samples lie in the band in which {:g} % should", 100 * fit.inside,
+             100 * problem.options.confidence);
+}
+
+void add_accepted(const Problem& problem, const SimulationFit& fit, Report& report) {
+  const std::vector<std::string> all = accepted(problem, fit);
+  report.facts.emplace_back("accepted", all);
+  for (const std::string& one : all) report.say("accepted: {}", one);
+}
+
+void add_starts(const SeveralStarts& several, Report& report) {
+  report.facts.emplace_back("starts", Facts{{"tried", several.tried},
+                                            {"agree", several.agree},
+                                            {"failed", several.failed},
+                                            {"unended", several.unended}});
+  report.say("of {} starts {} came there, {} had no motion to follow, {} came to no end", several.tried, several.agree,
+             several.failed, several.unended);
+}
+
+std::string heading_of(const Problem& problem, const SimulationFit& fit) {
+  Eigen::Index samples = 0;
+  for (const Eigen::MatrixXd& window : problem.measured) samples += window.rows();
+  return fmt::format("{}: {} samples of {} signals in {} window{}, {} runs of a window", problem.source.name(), samples,
+                     problem.signals.size(), problem.measured.size(), problem.measured.size() == 1 ? "" : "s",
+                     fit.windows_followed);
+}
+
+Report told(const Problem& problem, const SimulationFit& fit) {
+  const bool values = fit.refused.empty();
+  Report report{.heading = heading_of(problem, fit), .facts = {{"search", fit.search.why}}};
+  if (values) add_values(problem, fit, report);
+  add_signals(problem, fit, report);
+  if (values) add_accepted(problem, fit, report);
+  if (fit.starts_all > 0)
+    report.say("of {} numbers of the windows' starts the signals see {}, which are fitted too", fit.starts_all,
+               fit.starts_seen);
+  if (values) {
+    append(report.facts, {{"weakest", fit.weakest}, {"singular_values", fit.singular_values}});
+    report.say("singular values {:.3g}; {}", fmt::join(fit.singular_values, ", "), fit.weakest);
+  }
+  report.say("search: iterations {}, {}", fit.search.iterations, fit.search.why);
+  report.warn(fit.caution);
+  return report;
+}
+
+/// (F65), (F66) Nothing is told but what stands against it.
+std::optional<Refusal> refusal_of(const Problem& problem, const SimulationFit& fit) {
+  if (fit.refused.empty()) return {};
+  std::string signals;
+  for (std::size_t c = 0; c < problem.signals.size(); ++c)
+    if (!fit.stated[c].hold()) signals += "; " + difference(problem, fit, c);
+  if (!fit.search.ended())
+    return Refusal{Refusal::Reason::search_without_end,
+                   fmt::format("no value is told: the search has no end: {}{}", why_unended(fit.search), signals)};
+  return Refusal{Refusal::Reason::residuals_too_large,
+                 "no value is told: the search ended, but not at the motion that was measured" + signals};
+}
+
+/// Intervals by the likelihood of each parameter that has a value and an error.
+void add_profiles(const Problem& problem, const SimulationProblem& simulated, const SimulationFit& fit,
+                  Report& report) {
+  try {
+    for (std::size_t k = 0; k < report.estimates.size(); ++k)
+      if (const Coefficient& c = fit.parameters[k]; c.value && c.standard_error > 0)
+        report.estimates[k].profile = profile_interval(*problem.simulation, simulated, fit, k);
+  } catch (const hydro::NumericsError& e) {
+    report.refused = {Refusal::Reason::profile_without_an_end, e.what()};
+  }
+}
+
+}  // namespace
+
+Solution solve(const Problem& problem) {
+  const SimulationProblem search = simulated(problem);
+  std::optional<SeveralStarts> several;
+  if (problem.options.starts > 1) several = fit_simulation_from(*problem.simulation, search, problem.options.starts);
+  Solution out{.report = {}, .fit = several ? several->best : fit_simulation(*problem.simulation, search)};
+  out.report = told(problem, out.fit);
+  if (several) add_starts(*several, out.report);
+  out.report.refused = refusal_of(problem, out.fit);
+  if (!out.report.refused && problem.options.profile) add_profiles(problem, search, out.fit, out.report);
+  return out;
+}
+
+}  // namespace fit::motion

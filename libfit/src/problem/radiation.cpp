@@ -1,0 +1,100 @@
+#include "fit/problem/radiation.hpp"
+
+#include <algorithm>
+
+#include "telling.hpp"
+
+namespace fit::radiation {
+namespace {
+
+constexpr std::size_t least_for_poles = 5;
+
+std::optional<RadiationMemory> memory_of(const std::vector<Point>& points, double confidence) {
+  if (points.size() < least_for_poles) return {};
+  std::vector<RadiationPoint> all;
+  for (const Point& p : points) all.push_back(p.point);
+  return fit_radiation_memory(all, confidence);
+}
+
+Report told(const Point& of, const Units& unit) {
+  const RadiationPoint& p = of.point;
+  Report report = begin_run(of.source);
+  report.heading = fmt::format(
+      "{}: {:.4g} rad/s, amplitude {:.4g} {}; harmonics of the force: second {:.2g} %, third {:.2g} %; rest {:.3g} {} "
+      "rms",
+      of.source.name(), p.omega, p.amplitude, unit.motion, 100 * p.second_harmonic, 100 * p.third_harmonic,
+      p.residual_rms, unit.force);
+  append(report.facts, {{"omega_rad_s", p.omega},
+                        {"amplitude", p.amplitude},
+                        {"second_harmonic", p.second_harmonic},
+                        {"third_harmonic", p.third_harmonic},
+                        {"residual_rms", p.residual_rms}});
+  report.estimates = {{p.added_mass, unit.added_mass}, {p.damping, unit.damping}};
+  report.warn(p.caution);
+  return report;
+}
+
+void add_poles(const hydro::radiation::PoleModel& kernel, Report& report) {
+  std::vector<Facts> all;
+  for (std::size_t k = 0; k < kernel.poles.size(); ++k) {
+    const auto& [decay, omega] = kernel.poles[k];
+    all.push_back(
+        {{"decay_1_s", decay}, {"omega_rad_s", omega}, {"cosine", kernel.C[k](0, 0)}, {"sine", kernel.S[k](0, 0)}});
+    report.say("pole: decays by {:.4g}/s, turns by {:.4g} rad/s", decay, omega);
+  }
+  if (!all.empty()) report.facts.emplace_back("pole", std::move(all));
+}
+
+Report told(const RadiationMemory& m, const Units& unit, double confidence) {
+  Report report{.key = "memory"};
+  if (!m.refused.empty()) {
+    report.heading = "memory: none: " + m.refused;
+    report.facts = {{"why_not", m.refused}};
+    return report;
+  }
+  const auto& r = m.poles.report;
+  const double limit = m.poles.A_inf(0, 0);
+  report.heading = fmt::format(
+      "memory: order {}, {}; differs from the points by {:.2g} of the largest damping, they are known to {:.2g}; {}",
+      r.order, r.why, r.error, m.tolerance, r.passive ? "passive" : "not certified passive");
+  report.facts = {{"order", r.order},     {"error", r.error},          {"known_to", m.tolerance},
+                  {"passive", r.passive}, {"added_mass_limit", limit}, {"why", r.why}};
+  if (m.limit.value) report.facts.emplace_back("added_mass_limit_interval", m.limit.interval);
+  report.say("added mass at infinite frequency {:.5g} {}, {}", limit, unit.added_mass,
+             m.limit.value ? fmt::format("{:g} % interval {:.5g} to {:.5g}", 100 * confidence, m.limit.interval.low,
+                                         m.limit.interval.high)
+                           : "without interval: " + m.limit.why_not);
+  add_poles(m.poles.model, report);
+  return report;
+}
+
+}  // namespace
+
+Units units_of(bool turns) {
+  if (turns) return {"rad", "N m", "kg m^2", "N m s/rad"};
+  return {"m", "N", "kg", "N s/m"};
+}
+
+Solution solve(const Problem& problem) {
+  const double confidence = problem.options.confidence;
+  const Units unit = units_of(problem.turns);
+  Solution out;
+  for (const Run& run : problem.runs)
+    out.points.push_back({run.source, of_run(run.source, [&] {
+                            return fit_radiation(run.time, run.motion, run.force, problem.body, confidence);
+                          })});
+  std::sort(out.points.begin(), out.points.end(),
+            [](const Point& a, const Point& b) { return a.point.omega < b.point.omega; });
+  out.memory = memory_of(out.points, confidence);
+  Report& report = out.report;
+  report.heading = "F = -(M + A) a - B v - C x, what the load cells carry of a body moved in still water";
+  if (out.points.size() == 1) {  // what a scene of motion may include
+    const RadiationPoint& p = out.points[0].point;
+    report.facts = {{"coefficients", Facts{{"added_mass", *p.added_mass.value}, {"damping", *p.damping.value}}}};
+  }
+  for (const Point& p : out.points) report.parts.push_back(told(p, unit));
+  if (out.memory) report.parts.push_back(told(*out.memory, unit, confidence));
+  return out;
+}
+
+}  // namespace fit::radiation

@@ -1,0 +1,49 @@
+#include "telling.hpp"
+
+namespace fit {
+
+Report begin_run(const Source& source) {
+  return {.key = "run", .one_of_many = true, .facts = {{"file", source.name()}}};
+}
+
+void add_labels(Report& report, const Source& source) {
+  if (source.labels.empty()) return;
+  Facts labels;
+  for (const auto& [name, value] : source.labels) labels.emplace_back(name, value);
+  report.facts.emplace_back("labels", std::move(labels));
+}
+
+void add_residuals(Report& report, const ResidualReport& left, const std::string& unit) {
+  std::string large;
+  std::vector<double> amplitudes;
+  for (const auto& h : left.harmonics) {
+    amplitudes.push_back(h.amplitude);
+    if (!unit.empty() && h.relative > 0.01)
+      large += fmt::format("{}{} ({:.2g} {})", large.empty() ? "" : ", ", h.number, h.amplitude, unit);
+  }
+  report.say(
+      "residuals: {:.0f} % of their variance in harmonics{}; neighbouring fortieths of a period correlate by {:.2f} "
+      "(white with p = {:.2g})",
+      100 * left.harmonic_share, large.empty() ? "" : ", above 1 % of the force in number " + large, left.lag_one,
+      left.ljung_box_p);
+  Facts facts{{"harmonic_share", left.harmonic_share}, {"lag_one", left.lag_one}, {"ljung_box_p", left.ljung_box_p}};
+  if (!unit.empty()) facts.emplace_back("harmonic_amplitudes_" + unit, amplitudes);
+  report.facts.emplace_back("residuals", std::move(facts));
+}
+
+Report over_runs(const std::string& name, const std::string& unit, const RandomEffects& law, const std::string& runs,
+                 std::size_t count, double confidence) {
+  Report out{.key = name};
+  out.heading = fmt::format(
+      "{} over {} {}s: {:.4g} {}, {:g} % interval {:.4g} to {:.4g}; from {} to {} ±{:.2g}; the next between {:.4g} "
+      "and {:.4g}",
+      name, count, runs, law.coefficients[0], unit, 100 * confidence, law.intervals[0].low, law.intervals[0].high, runs,
+      runs, law.between, law.prediction.low, law.prediction.high);
+  out.facts = {{"value", law.coefficients[0]},
+               {"interval", law.intervals[0]},
+               {"between_" + runs + "s", law.between},
+               {"prediction", law.prediction}};
+  return out;
+}
+
+}  // namespace fit

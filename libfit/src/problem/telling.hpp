@@ -1,0 +1,55 @@
+#pragma once
+/// \file  What problems of several kinds have in common when they are solved and told. Private to libfit.
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fit/diagnose.hpp"
+#include "fit/problem/source.hpp"
+#include "fit/report.hpp"
+#include "fit/runs.hpp"
+#include "hydro/base/error.hpp"
+
+namespace fit {
+
+/// Thrown on the way to a solution, which then holds its refusal and nothing else.
+struct Refused {
+  Refusal refusal;
+};
+
+/// What `work` gives; what the user's mistake is there is told of this run's file.
+template <class Work>
+auto of_run(const Source& source, const Work& work) {
+  try {
+    return work();
+  } catch (const hydro::InputError& e) {
+    throw e.at({.file = source.file.string()});
+  }
+}
+
+/// The middle of the interval: the value also of what is not identifiable.
+inline double middle(const Coefficient& c) { return (c.interval.low + c.interval.high) / 2; }
+
+/// The part of a report that tells one run of several.
+Report begin_run(const Source& source);
+/// Labels of a run, if it has any.
+void add_labels(Report& report, const Source& source);
+/// Harmonics and whiteness of the residuals; harmonics one by one where they have a `unit`.
+void add_residuals(Report& report, const ResidualReport& left, const std::string& unit = {});
+/// One line and one entry of the list `key` for each row: `tell` gives its facts and its words.
+template <class Row, class Tell>
+void add_rows(Report& report, const char* key, const std::vector<Row>& rows, const Tell& tell) {
+  std::vector<Facts> all;
+  for (const Row& row : rows) {
+    auto [facts, words] = tell(row);
+    all.push_back(std::move(facts));
+    report.remarks.push_back(std::move(words));
+  }
+  if (!all.empty()) report.facts.emplace_back(key, std::move(all));
+}
+
+/// One coefficient over several runs, tests …, each fitted alone, without a law.
+Report over_runs(const std::string& name, const std::string& unit, const RandomEffects& law, const std::string& runs,
+                 std::size_t count, double confidence);
+
+}  // namespace fit
