@@ -39,7 +39,7 @@ void add_switched(const scene::Connector& c, const scene::StiffnessSwitch& s, co
 }
 
 void add_connector(const Scene& scene, const scene::Connector& c, Prepared& out) {
-  const dynamics::Ends ends{c.first, c.second, arm(scene, c.first, c.first_end), arm(scene, c.second, c.second_end)};
+  const dynamics::Ends ends{point_on(scene, c.first, c.first_end), point_on(scene, c.second, c.second_end)};
   const Eigen::Vector3d offset = placed(scene, c.second, c.second_end) - placed(scene, c.first, c.first_end);
   if (const auto* axial = std::get_if<scene::AxialConnector>(&c.kind)) {
     if (offset.norm() < 1e-9)
@@ -136,15 +136,14 @@ std::vector<dynamics::Pto> ptos(const Scene& scene, const Prepared& p) {
 }
 
 dynamics::ConstantLoad constant_load(const Scene& scene, const scene::Load& l) {
-  return {l.body, arm(scene, l.body, l.at), l.force, l.moment};
+  return {point_on(scene, l.body, l.at), l.force, l.moment};
 }
 
 /// The line as it hangs in water; its place is checked by solving it once, at rest.
 dynamics::CatenaryMooring catenary_mooring(const Scene& scene, const scene::CatenaryLine& l, const Prepared& p) {
   const double displaced = scene.water.density * std::numbers::pi / 4 * l.diameter * l.diameter;
-  dynamics::CatenaryMooring out{l.body,
-                                arm(scene, l.body, l.fairlead),
-                                l.anchor,
+  dynamics::CatenaryMooring out{point_on(scene, l.body, l.fairlead),
+                                {l.anchor},
                                 {.length = l.length,
                                  .weight = (l.mass_per_length - displaced) * scene.water.gravity,
                                  .axial_stiffness = l.axial_stiffness,
@@ -211,8 +210,13 @@ dynamics::Contact contact(const Scene& scene, const scene::Contact& c) {
 
 }  // namespace
 
-Eigen::Vector3d arm(const Scene& scene, std::optional<int> body, const Eigen::Vector3d& end) {
-  return body ? Eigen::Vector3d(end - scene.bodies[static_cast<std::size_t>(*body)].centre_of_gravity) : end;
+dynamics::PointOnBody point_on(const Scene& scene, int body, const Eigen::Vector3d& at) {
+  return {body, at - scene.bodies[static_cast<std::size_t>(body)].centre_of_gravity};
+}
+
+dynamics::Point point_on(const Scene& scene, const std::optional<int>& body, const Eigen::Vector3d& at) {
+  if (body) return point_on(scene, *body, at);
+  return dynamics::PointOnGround{at};
 }
 
 Eigen::Vector3d placed(const Scene& scene, std::optional<int> body, const Eigen::Vector3d& end) {

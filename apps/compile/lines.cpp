@@ -9,6 +9,7 @@
 #include <span>
 
 #include "compile/compile.hpp"
+#include "compile/connections.hpp"
 #include "dynamics/line/equilibrium.hpp"
 #include "dynamics/line/exposure.hpp"
 #include "dynamics/line/path.hpp"
@@ -312,9 +313,7 @@ dynamics::FastenedLine fastened_line(const Scene& scene, const std::vector<std::
     const scene::Line& l = scene.chains[network[k]];
     const LineModel::Part& part = still.parts[k];
     const auto add = [&](int node, std::optional<int> body, const Eigen::Vector3d& at, const char* end) {
-      if (body)
-        out.ends.push_back({node, *body, at - scene.bodies[static_cast<std::size_t>(*body)].centre_of_gravity,
-                            fmt::format("{}.{}", l.name, end)});
+      if (body) out.ends.push_back({node, point_on(scene, *body, at), fmt::format("{}.{}", l.name, end)});
     };
     add(part.first_node, l.from_on, l.from, "from");
     if (l.to) add(part.first_node + part.nodes - 1, l.to_on, *l.to, "to");

@@ -13,6 +13,8 @@ namespace dynamics {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix12 = Eigen::Matrix<double, 12, 12>;
+using Vector12 = Eigen::Matrix<double, 12, 1>;
 
 /// A rigid body. Constructed means usable: the constructor refuses what physics forbids.
 class RigidBody {
