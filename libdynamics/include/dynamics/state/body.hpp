@@ -52,8 +52,9 @@ struct Pose {
 
   /// Roll, pitch and yaw, the nearest to those counted last: they run on through half and whole turns (D133).
   Eigen::Vector3d roll_pitch_yaw() const;
-  /// Displacement from rest: translation of the centre of gravity, and the rotation vector (global axes).
-  Vector6 displacement(const RigidBody& body) const;
+  /// Displacement from rest: translation of the centre of gravity from where it rests, and the rotation vector (global
+  /// axes).
+  Vector6 displacement(const Eigen::Vector3d& rest_centre) const;
   /// Global position of a point given from the body's origin in body axes.
   Vec3<World> point(const RigidBody& body, const Vec3<BodyAxes>& from_origin) const;
 };
