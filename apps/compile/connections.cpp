@@ -103,7 +103,7 @@ dynamics::Restoring mooring(const Scene& scene, dynamics::Restoring m) {
 
 /// Its place is checked by solving it once, at rest.
 dynamics::CatenaryMooring catenary_mooring(const Scene& scene, const scene::CatenaryLine& l, const Prepared& p) {
-  const dynamics::CatenaryMooring out{l.body, arm(scene, l.body, l.fairlead), l.anchor, l.line, {}, l.name};
+  const dynamics::CatenaryMooring out{point_on(scene, l.body, l.fairlead), {l.anchor}, l.line, {}, l.name};
   try {
     dynamics::tension_of(out, dynamics::rest_state(p.bodies));
   } catch (const hydro::NumericsError& e) {
@@ -156,12 +156,17 @@ dynamics::Contact contact(const Scene& scene, dynamics::Contact c) {
 
 }  // namespace
 
-Eigen::Vector3d arm(const Scene& scene, std::optional<int> body, const Eigen::Vector3d& end) {
-  return body ? Eigen::Vector3d(end - scene.bodies[static_cast<std::size_t>(*body)].centre_of_gravity) : end;
+dynamics::PointOnBody point_on(const Scene& scene, int body, const Eigen::Vector3d& at) {
+  return {body, at - scene.bodies[static_cast<std::size_t>(body)].centre_of_gravity};
+}
+
+dynamics::Point point_on(const Scene& scene, const std::optional<int>& body, const Eigen::Vector3d& at) {
+  if (body) return point_on(scene, *body, at);
+  return dynamics::PointOnGround{at};
 }
 
 dynamics::Ends ends_of(const Scene& scene, const scene::PointPair& p) {
-  return {p.first, p.second, arm(scene, p.first, p.first_end), arm(scene, p.second, p.second_end)};
+  return {point_on(scene, p.first, p.first_end), point_on(scene, p.second, p.second_end)};
 }
 
 Eigen::Vector3d offset_of(const Scene& scene, const scene::PointPair& p) {

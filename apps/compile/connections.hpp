@@ -4,9 +4,9 @@
 
 namespace froude::compile {
 
-/// From a body's centre of gravity to `end`, which is given from its origin in body axes, m; of the ground the point
-/// itself, global.
-Eigen::Vector3d arm(const scene::Scene& scene, std::optional<int> body, const Eigen::Vector3d& end);
+/// The point that a scene gives from a body's origin in body axes, or, of the ground, in global ones, m.
+dynamics::PointOnBody point_on(const scene::Scene& scene, int body, const Eigen::Vector3d& at);
+dynamics::Point point_on(const scene::Scene& scene, const std::optional<int>& body, const Eigen::Vector3d& at);
 /// The same of two points.
 dynamics::Ends ends_of(const scene::Scene& scene, const scene::PointPair& pair);
 /// From the first to the second as the scene places them, global, m.

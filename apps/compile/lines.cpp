@@ -8,6 +8,7 @@
 #include <span>
 
 #include "compile/compile.hpp"
+#include "compile/connections.hpp"
 #include "dynamics/line/equilibrium.hpp"
 #include "dynamics/line/exposure.hpp"
 #include "dynamics/line/path.hpp"
@@ -267,8 +268,7 @@ dynamics::FastenedLine fastened_line(const Scene& scene, const std::vector<std::
     for (const bool first : {true, false}) {
       const scene::Line::End& end = l.end(first);
       if (end.body)
-        out.ends.push_back({part.first_node + (first ? 0 : l.last_node()), *end.body,
-                            *end.at - scene.bodies[static_cast<std::size_t>(*end.body)].centre_of_gravity,
+        out.ends.push_back({part.first_node + (first ? 0 : l.last_node()), point_on(scene, *end.body, *end.at),
                             fmt::format("{}.{}", l.name, first ? "from" : "to")});
     }
   }

@@ -112,7 +112,7 @@ void add_water(const scene::Scene& scene, const std::shared_ptr<const hydro::wav
 
 /// How far a point of a body is above the undisturbed surface there.
 Signal air_gap(const scene::Scene& scene, const std::shared_ptr<const hydro::waves::WaveField>& field,
-               const std::string& name, const dynamics::BodyPoint& point) {
+               const std::string& name, const dynamics::PointOnBody& point) {
   Signal out{name + ".air_gap", "m", fmt::format("height of {} above the undisturbed surface", name),
              [field, point](const Moment& m) {
                const dynamics::State& now = m.workspace.state;
@@ -139,7 +139,7 @@ void add_named(const scene::Scene& scene, const dynamics::Model& model,
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     if (scene.bodies[b].net_load) add(dynamics::net_load_signals(model.bodies()[b], static_cast<int>(b)), out);
   for (const scene::Point& p : scene.points) {
-    const dynamics::BodyPoint point{p.body, arm(scene, p.body, p.at)};
+    const dynamics::PointOnBody point = point_on(scene, p.body, p.at);
     if (p.position) add(dynamics::place_signals(p.name, point), out);
     if (p.velocity) add(dynamics::velocity_signals(p.name, point), out);
     if (p.acceleration) add(dynamics::acceleration_signals(p.name, point), out);

@@ -58,8 +58,8 @@ std::vector<std::pair<std::string, int>> placed_on_bodies(const Record& record, 
 }  // namespace detail
 }  // namespace scene
 
-Eigen::Vector3d Site::arm(int body, const Eigen::Vector3d& point) const {
-  return point - bodies[static_cast<std::size_t>(body)].properties().centre_of_gravity.xyz;
+dynamics::PointOnBody Site::point(int body, const Eigen::Vector3d& from_origin) const {
+  return {body, from_origin - bodies[static_cast<std::size_t>(body)].properties().centre_of_gravity.xyz};
 }
 
 void add_element(std::unique_ptr<const scene::ElementTable> table) {

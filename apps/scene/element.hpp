@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "dynamics/force/force_kind.hpp"
+#include "dynamics/state/point.hpp"
 #include "hydro/base/types.hpp"
 #include "scene/binding.hpp"
 
@@ -30,8 +31,8 @@ namespace froude {
 struct Site {
   const std::vector<dynamics::RigidBody>& bodies;  ///< in the order of the scene
   const hydro::Water& water;
-  /// A point of a body, given from its origin in body axes, seen from its centre of gravity, m.
-  Eigen::Vector3d arm(int body, const Eigen::Vector3d& point) const;
+  /// A point of a body, given from its origin in body axes, m.
+  dynamics::PointOnBody point(int body, const Eigen::Vector3d& from_origin) const;
 };
 
 /// One element on one body.

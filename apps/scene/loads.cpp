@@ -30,7 +30,7 @@ const Binding<Load>& binding() {
 std::unique_ptr<const ElementTable> load_element() {
   return on_bodies<Load>("load", binding(), [](const std::vector<OnBody<Load>>& all, const Site& site) {
     std::vector<dynamics::ConstantLoad> out;
-    for (const auto& [name, body, load] : all) out.push_back({body, site.arm(body, load.at), load.force, load.moment});
+    for (const auto& [name, body, load] : all) out.push_back({site.point(body, load.at), load.force, load.moment});
     return std::make_unique<dynamics::ConstantLoadKind>(std::move(out));
   });
 }

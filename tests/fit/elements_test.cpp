@@ -163,7 +163,7 @@ TEST(FittedElements, AFrictionRampGivesTheLevelsThatFrictionOfARunHas) {
   const dynamics::Joint rail{"rail", dynamics::JointKind::slider, 0, {}, Vector3d::Zero()};
   for (const double breakaway : {3.7, 4.4}) {
     const dynamics::Friction law{.name = "rail",
-                                 .coordinate = dynamics::JointCoordinate(rail, Vector3d::Zero(), Vector3d::Zero()),
+                                 .coordinate = dynamics::JointCoordinate(rail, {Vector3d::Zero(), Vector3d::Zero()}),
                                  .breakaway = breakaway,
                                  .sliding = 3.0,
                                  .stribeck = 0.5};

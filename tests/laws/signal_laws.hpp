@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "dynamics/joint/joint.hpp"
 #include "dynamics/state/signal.hpp"
 
 namespace laws {
@@ -13,6 +14,21 @@ namespace laws {
 inline double value_of(const dynamics::Signal& s, const dynamics::State& state, const Eigen::VectorXd& acceleration,
                        const Eigen::VectorXd& multipliers) {
   return s.value({state, acceleration, multipliers, multipliers.size(), nullptr});
+}
+
+/// How the six components of a joint's load vary, over all bodies and all multipliers.
+struct LoadVariations {
+  Eigen::MatrixXd by_motion, by_multiplier;  ///< (6, 6N), (6, count)
+};
+inline LoadVariations load_variations(const dynamics::JointSet& joints, int joint, dynamics::End end,
+                                      const dynamics::State& still, const Eigen::VectorXd& lambda) {
+  LoadVariations out{Eigen::MatrixXd::Zero(6, still.velocity.size()), Eigen::MatrixXd::Zero(6, joints.count())};
+  for (int i = 0; i < 6; ++i) {
+    const dynamics::Variation told = joints.load_variation(joint, end, i, still, lambda);
+    for (const auto& part : told.parts) out.by_motion.block<1, 6>(i, 6 * part.body) += part.by_motion;
+    for (const auto& [column, factor] : told.by_multiplier) out.by_multiplier(i, column) += factor;
+  }
+  return out;
 }
 
 /// Variations about `still`, which has no velocities, against central differences of the values: error e² f‴/6 +

@@ -64,8 +64,13 @@ TEST(HardBodies, ConnectorsFromSoftToAllButRigidInOneStep) {
     const Matrix6 moored = 100 * Matrix6::Identity();
     forces.push_back(
         std::make_unique<RestoringKind>("mooring", bodies, std::vector<Restoring>{{0, moored}, {1, moored}}));
-    forces.push_back(std::make_unique<BushingConnectorKind>(std::vector<BushingConnector>{
-        {{0, 1, {1, 0, 0}, {-1, 0, 0}}, Eigen::Vector3d::Constant(k), {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}}));
+    forces.push_back(std::make_unique<BushingConnectorKind>(
+        std::vector<BushingConnector>{{{{0, {1, 0, 0}}, PointOnBody{1, {-1, 0, 0}}},
+                                       Eigen::Vector3d::Constant(k),
+                                       {0, 0, 0},
+                                       {0, 0, 0},
+                                       {0, 0, 0},
+                                       {0, 0, 0}}}));
     const Model model(bodies, {}, std::move(forces));
     State start = rest_state(bodies);
     start.velocity << 0.3, 0.1, -0.2, 0.1, 0.2, 0.3, 0, 0, 0, 0, 0, 0;
@@ -99,7 +104,7 @@ TEST_P(PlatformWithSixFloaters, SwingsAndComesToRest) {
                       .second = i + 1,
                       .place = top,
                       .axis = Eigen::Vector3d::UnitZ().cross(out)});
-    bushings.push_back({{0, i + 1, top - Eigen::Vector3d(0, 0, 3), top - at},
+    bushings.push_back({{{0, top - Eigen::Vector3d(0, 0, 3)}, PointOnBody{i + 1, top - at}},
                         Eigen::Vector3d::Constant(1e7),
                         Eigen::Vector3d::Constant(1e4),
                         Eigen::Vector3d::Constant(1e5),
@@ -184,7 +189,7 @@ TEST(HardBodies, StepTenTimesTheFastestPeriod) {
   const std::vector<RigidBody> bodies{block("a", {0, 0, 0}, 10)};
   Forces forces;
   forces.push_back(std::make_unique<AxialConnectorKind>(
-      std::vector<AxialConnector>{{{0, std::nullopt, {0, 0, 0}, {0, 0, 3}}, {.stiffness = 4e4}, 2.9}}));
+      std::vector<AxialConnector>{{{{0, {0, 0, 0}}, PointOnGround{{0, 0, 3}}}, {.stiffness = 4e4}, 2.9}}));
   forces.push_back(std::make_unique<GravityKind>(bodies, 9.81));
   const Model model(bodies, {}, std::move(forces));
   State start = rest_state(bodies);

@@ -13,17 +13,17 @@ struct Stretch {
   SpringDamperForce law;  // tension
 };
 
-Stretch stretch(const AxialConnector& c, const State& state) {
+Stretch stretch(const AxialConnector& c, double stiffness, const State& state) {
   Stretch s;
-  s.a = detail::end_point(state, c.ends.first, c.ends.first_arm);
-  s.b = detail::end_point(state, c.ends.second, c.ends.second_arm);
+  s.a = detail::end_point(c.ends.first, state);
+  s.b = detail::end_point(c.ends.second, state);
   const Eigen::Vector3d d = s.b.position - s.a.position;
   s.length = d.norm();
   // Ends that meet have no direction between them; the pull passes through zero there whatever it is called.
   s.direction = s.length > 0 ? Eigen::Vector3d(d / s.length) : Eigen::Vector3d::Zero();
   s.relative_velocity = s.b.velocity - s.a.velocity;
   s.rate = s.direction.dot(s.relative_velocity);
-  s.law = c.law.at(s.length - c.rest_length, s.rate);
+  s.law = c.law.at(s.length - c.rest_length, s.rate, stiffness);
   return s;
 }
 
@@ -48,75 +48,73 @@ void differentiate(const Stretch& s, detail::PairLoad& p) {
   p.second_arm_by_q = detail::arm_derivative(1, s.b.arm);
 }
 
-}  // namespace
-
-AxialState axial_state(const AxialConnector& connector, const State& state) {
-  const Stretch s = stretch(connector, state);
-  return {s.length, s.law.force};
-}
-
-namespace {
-
 /// How the tension varies where the ends are still.
-Variation tension_variation(const AxialConnector& c, const State& still) {
-  const Stretch s = stretch(c, still);
-  const Eigen::Matrix<double, 1, 12> by_q = s.direction.transpose() * detail::relative_position_derivative(s.a, s.b);
+Variation tension_variation(const AxialConnector& c, double stiffness, const State& still) {
+  const Stretch s = stretch(c, stiffness, still);
+  const RowOfTwo by_q = s.direction.transpose() * detail::relative_position_derivative(s.a, s.b);
   return detail::variation_of(c.ends, s.law.by_x * by_q, s.law.by_rate * by_q);
 }
 
 }  // namespace
 
-std::vector<Signal> axial_signals(const std::string& name, std::function<AxialConnector(const Memory*)> of) {
-  return {{.name = name + ".force",
-           .unit = "N",
-           .meaning = "tension of " + name,
-           .value = [of](const Reading& r) { return axial_state(of(r.memory), r.state).tension; },
-           .variation = [of](const Still& still) { return tension_variation(of(nullptr), still.state); }}};
+AxialState axial_state(const AxialConnector& connector, const State& state) {
+  const Stretch s = stretch(connector, connector.law.stiffness, state);
+  return {s.length, s.law.force};
 }
 
 std::vector<Signal> AxialConnectorKind::signals() const {
   std::vector<Signal> out;
   for (const AxialConnector& e : elements_)
-    for (Signal& s : axial_signals(e.name, [e](const Memory*) { return e; })) out.push_back(std::move(s));
+    for (Signal& s : detail::axial_signals(e, [k = e.law.stiffness](const Memory*) { return k; }))
+      out.push_back(std::move(s));
   return out;
 }
 
 void AxialConnectorKind::couple(BlockPattern& pattern) const {
-  for (const auto& e : elements_)
-    if (e.ends.second) pattern.couple(e.ends.first, *e.ends.second);
+  for (const auto& e : elements_) detail::couple(e.ends, pattern);
 }
 
 void AxialConnectorKind::add_load(const Instant& now, LoadSink& out) const {
-  for (const auto& e : elements_) detail::add_axial_load(e, now.state, out);
+  for (const auto& e : elements_) detail::add_axial_load(e, e.law.stiffness, now.state, out);
 }
 
 void AxialConnectorKind::add_jacobian(const Instant& now, JacobianSink& out) const {
-  for (const auto& e : elements_) detail::add_axial_jacobian(e, now.state, out);
+  for (const auto& e : elements_) detail::add_axial_jacobian(e, e.law.stiffness, now.state, out);
 }
 
 EnergyFlow AxialConnectorKind::energy(const Instant& now) const {
   EnergyFlow flow;
-  for (const auto& e : elements_) detail::add_axial_energy(e, now.state, flow);
+  for (const auto& e : elements_) detail::add_axial_energy(e, e.law.stiffness, now.state, flow);
   return flow;
 }
 
 namespace detail {
 
-void add_axial_load(const AxialConnector& connector, const State& state, LoadSink& out) {
-  add_load(connector.ends, pair_load(stretch(connector, state)), out);
+void add_axial_load(const AxialConnector& connector, double stiffness, const State& state, LoadSink& out) {
+  add_load(connector.ends, pair_load(stretch(connector, stiffness, state)), out);
 }
 
-void add_axial_jacobian(const AxialConnector& connector, const State& state, JacobianSink& out) {
-  const Stretch s = stretch(connector, state);
+void add_axial_jacobian(const AxialConnector& connector, double stiffness, const State& state, JacobianSink& out) {
+  const Stretch s = stretch(connector, stiffness, state);
   PairLoad p = pair_load(s);
   differentiate(s, p);
   add_jacobian(connector.ends, p, out);
 }
 
-void add_axial_energy(const AxialConnector& connector, const State& state, EnergyFlow& flow) {
-  const SpringDamperForce law = stretch(connector, state).law;
+void add_axial_energy(const AxialConnector& connector, double stiffness, const State& state, EnergyFlow& flow) {
+  const SpringDamperForce law = stretch(connector, stiffness, state).law;
   flow.stored += law.stored;
   flow.dissipated += law.dissipated;
+}
+
+std::vector<Signal> axial_signals(const AxialConnector& connector, std::function<double(const Memory*)> stiffness) {
+  return {{.name = connector.name + ".force",
+           .unit = "N",
+           .meaning = "tension of " + connector.name,
+           .value = [c = connector,
+                     stiffness](const Reading& r) { return stretch(c, stiffness(r.memory), r.state).law.force; },
+           .variation = [c = connector, stiffness](
+                            const Still& still) { return tension_variation(c, stiffness(nullptr), still.state); }}};
 }
 
 }  // namespace detail

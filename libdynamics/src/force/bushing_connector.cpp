@@ -8,11 +8,36 @@ namespace {
 
 using detail::EndPoint;
 
-/// Everything seen along the first body's axes.
-struct Strain {
+/// The second end seen from the first body.
+struct RelativeMotion {
   EndPoint a, b;
+  Eigen::Vector3d distance;  // from the first end to the second, global
+  Eigen::Vector3d shift;     // ε: the distance along the first body's axes, less what it is at rest
+};
+
+RelativeMotion relative_motion(const Ends& ends, const Eigen::Vector3d& rest_offset, const State& state) {
+  const EndPoint a = detail::end_point(ends.first, state), b = detail::end_point(ends.second, state);
+  const Eigen::Vector3d distance = b.position - a.position;
+  return {a, b, distance, a.rotation.transpose() * distance - rest_offset};
+}
+
+/// How the shift varies with displacements, global axes: as the distance of the ends, less its turning with the first
+/// body.
+detail::Matrix3x12 shift_derivative(const RelativeMotion& m) {
+  detail::Matrix3x12 out = detail::relative_position_derivative(m.a, m.b);
+  out.middleCols<3>(3) += cross_matrix(m.distance);
+  return out;
+}
+
+/// The same along one axis of the first body.
+RowOfTwo shift_row(const RelativeMotion& m, int axis) {
+  return m.a.rotation.col(axis).transpose() * shift_derivative(m);
+}
+
+/// Everything seen along the first body's axes.
+struct Strain : RelativeMotion {
   Eigen::Vector3d arm_to_second;          // ρ: from the first centre to the second end, global
-  Eigen::Vector3d shift, shift_rate;      // ε, dε/dt
+  Eigen::Vector3d shift_rate;             // dε/dt
   Eigen::Vector3d turn, turn_rate;        // ψ, relative angular velocity
   Eigen::Vector3d relative_velocity;      // of the second end to the first body there, global
   Eigen::Vector3d force, elastic_moment;  // k ε + c dε/dt; J(ψ)⁻ᵀ κ ψ
@@ -20,13 +45,10 @@ struct Strain {
 
 Strain strain(const BushingConnector& c, const State& state) {
   Strain s;
-  s.a = detail::end_point(state, c.ends.first, c.ends.first_arm);
-  s.b = detail::end_point(state, c.ends.second, c.ends.second_arm);
+  static_cast<RelativeMotion&>(s) = relative_motion(c.ends, c.rest_offset, state);
   const Eigen::Matrix3d to_first = s.a.rotation.transpose();
-  const Eigen::Vector3d distance = s.b.position - s.a.position;
-  s.arm_to_second = s.a.arm + distance;
-  s.shift = to_first * distance - c.rest_offset;
-  s.relative_velocity = s.b.velocity - s.a.velocity - s.a.omega.cross(distance);
+  s.arm_to_second = s.a.arm + s.distance;
+  s.relative_velocity = s.b.velocity - s.a.velocity - s.a.omega.cross(s.distance);
   s.shift_rate = to_first * s.relative_velocity;
   s.turn = rotation_log(Eigen::Quaterniond(Eigen::Matrix3d(to_first * s.b.rotation)));
   s.turn_rate = to_first * (s.b.omega - s.a.omega);
@@ -42,14 +64,6 @@ detail::PairLoad pair_load(const BushingConnector& c, const Strain& s) {
   p.second_arm = s.b.arm;
   p.moment = s.a.rotation * (s.elastic_moment + c.rotational_damping.cwiseProduct(s.turn_rate));
   return p;
-}
-
-/// How the shift varies with displacements, global axes: as the distance of the ends, less its turning with the first
-/// body.
-detail::Matrix3x12 shift_derivative(const Strain& s) {
-  detail::Matrix3x12 out = detail::relative_position_derivative(s.a, s.b);
-  out.middleCols<3>(3) += cross_matrix(s.arm_to_second - s.a.arm);
-  return out;
 }
 
 /// Adds the derivatives to a load. Turning the first body by θ₁ turns the axes along which everything is measured.
@@ -90,8 +104,7 @@ void differentiate(const BushingConnector& c, const Strain& s, detail::PairLoad&
 
 /// How the force along one axis of the first body varies where both are still.
 Variation force_variation(const BushingConnector& c, const State& still, int axis) {
-  const Strain s = strain(c, still);
-  const Eigen::Matrix<double, 1, 12> by_q = s.a.rotation.col(axis).transpose() * shift_derivative(s);
+  const RowOfTwo by_q = shift_row(relative_motion(c.ends, c.rest_offset, still), axis);
   return detail::variation_of(c.ends, c.stiffness[axis] * by_q, c.damping[axis] * by_q);
 }
 
@@ -99,8 +112,6 @@ Variation force_variation(const BushingConnector& c, const State& still, int axi
 
 std::vector<Signal> relative_motion_signals(const std::string& name, const Ends& ends,
                                             const Eigen::Vector3d& rest_offset) {
-  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
-  const BushingConnector between{ends, none, none, none, none, rest_offset};
   std::vector<Signal> out;
   for (int axis = 0; axis < 3; ++axis)
     out.push_back(
@@ -108,12 +119,11 @@ std::vector<Signal> relative_motion_signals(const std::string& name, const Ends&
          .unit = "m",
          .meaning = fmt::format("second end of {} seen from its first body along that body's {}, from as placed", name,
                                 "xyz"[axis]),
-         .value = [between, axis](const Reading& r) { return strain(between, r.state).shift[axis]; },
+         .value = [ends, rest_offset,
+                   axis](const Reading& r) { return relative_motion(ends, rest_offset, r.state).shift[axis]; },
          .variation =
-             [between, axis](const Still& still) {
-               const Strain s = strain(between, still.state);
-               const Eigen::Matrix<double, 1, 12> by_q = s.a.rotation.col(axis).transpose() * shift_derivative(s);
-               return detail::variation_of(between.ends, by_q, Eigen::Matrix<double, 1, 12>::Zero());
+             [ends, rest_offset, axis](const Still& still) {
+               return detail::variation_of(ends, shift_row(relative_motion(ends, rest_offset, still.state), axis));
              }});
   return out;
 }
@@ -135,8 +145,7 @@ Eigen::Vector3d bushing_force(const BushingConnector& connector, const State& st
 }
 
 void BushingConnectorKind::couple(BlockPattern& pattern) const {
-  for (const auto& e : elements_)
-    if (e.ends.second) pattern.couple(e.ends.first, *e.ends.second);
+  for (const auto& e : elements_) detail::couple(e.ends, pattern);
 }
 
 void BushingConnectorKind::add_load(const Instant& now, LoadSink& out) const {

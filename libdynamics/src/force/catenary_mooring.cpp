@@ -23,10 +23,9 @@ struct Span {
 };
 
 Span span_of(const CatenaryMooring& m, const State& state) {
-  const Pose& pose = state.pose[static_cast<std::size_t>(m.body)];
   Span r;
-  r.arm = pose.attitude * m.fairlead;
-  const Vector3d d = pose.centre + r.arm - m.anchor;
+  r.arm = arm_of(m.fairlead, state);
+  const Vector3d d = place_of(m.fairlead, state) - m.anchor.place;
   r.x = d.head<2>().norm();
   r.z = d.z();
   r.ahead = r.x > 0 ? Vector3d(d.x() / r.x, d.y() / r.x, 0) : Vector3d(Vector3d::Zero());
@@ -69,9 +68,7 @@ LineTension tension_of(const CatenaryMooring& mooring, const State& state) {
 TensionGradient tension_gradient(const CatenaryMooring& mooring, const State& state) {
   const Span r = span_of(mooring, state);
   const LineTension t = tension_at(mooring, r);
-  Eigen::Matrix<double, 3, 6> fairlead_by_q;
-  fairlead_by_q << Matrix3d::Identity(), -cross_matrix(r.arm);
-  const Eigen::Matrix<double, 2, 6> pull_by_q = t.stiffness * plane_of(r).transpose() * fairlead_by_q;
+  const Eigen::Matrix<double, 2, 6> pull_by_q = t.stiffness * plane_of(r).transpose() * place_by_displacement(r.arm);
   TensionGradient out;
   out.fairlead = Eigen::RowVector2d(t.horizontal, t.vertical) / t.fairlead() * pull_by_q;
   out.anchor.setZero();
@@ -90,8 +87,8 @@ std::vector<Signal> CatenaryMooringKind::signals() const {
                      .value = [m, tension](const Reading& r) { return (tension_of(m, r.state).*tension)(); },
                      .variation =
                          [m, gradient](const Still& still) {
-                           return Variation{
-                               .parts = {{.body = m.body, .by_motion = tension_gradient(m, still.state).*gradient}}};
+                           return Variation{.parts = {{.body = m.fairlead.body,
+                                                       .by_motion = tension_gradient(m, still.state).*gradient}}};
                          }});
     };
     add("tension", "fairlead", &LineTension::fairlead, &TensionGradient::fairlead);
@@ -118,7 +115,7 @@ void CatenaryMooringKind::add_load(const Instant& now, LoadSink& out) const {
     const Pull p = pull_of(m, now.state);
     Vector6 load;
     load << p.force, p.arm.cross(p.force);
-    out.add(m.body, load);
+    out.add(m.fairlead.body, load);
   }
 }
 
@@ -131,7 +128,7 @@ void CatenaryMooringKind::add_jacobian(const Instant& now, JacobianSink& out) co
     Matrix6 by_q;
     by_q << force_by_q, S * force_by_q;
     by_q.bottomRightCorner<3, 3>() += cross_matrix(p.force) * S;
-    out.add(m.body, m.body, by_q, Matrix6::Zero());
+    out.add(m.fairlead.body, m.fairlead.body, by_q, Matrix6::Zero());
   }
 }
 

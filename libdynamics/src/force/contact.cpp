@@ -83,9 +83,7 @@ std::vector<Signal> ContactKind::signals() const {
                    .variation =
                        [c](const Still& still) {
                          const Gradient g = gradient(c.shapes, ends_of({-1, c.first, c.second, c.shapes}, still.state));
-                         Variation gap{.parts = {{.body = c.first, .by_motion = g.first.transpose()}}};
-                         if (c.second) gap.parts.push_back({.body = *c.second, .by_motion = g.second.transpose()});
-                         return gap;
+                         return variation_of_two(c.first, c.second, joined(g).transpose());
                        }});
     out.push_back({.name = c.name + ".force",
                    .unit = "N",
@@ -116,8 +114,8 @@ ContactKind::Motion ContactKind::motion(std::size_t element, const State& state)
     const auto twist = state.twist(body);
     return Eigen::Vector3d(twist.head<3>() + twist.tail<3>().cross(point - centre));
   };
-  Eigen::Vector3d v = -of_point(c.first, at.first_centre, m.on_first);
-  if (c.second) v += of_point(*c.second, at.second_centre, m.on_second);
+  Eigen::Vector3d v = -of_point(c.first, at.first.origin, m.on_first);
+  if (c.second) v += of_point(*c.second, at.second.origin, m.on_second);
   const double parting = v.dot(m.normal);
   return {m, parting, v - parting * m.normal};
 }
@@ -140,7 +138,8 @@ std::optional<double> ContactKind::passing(std::size_t element, const State& bef
     const auto attitude = [&](std::optional<int> body) {
       return turn_of(body, before).slerp(s, turn_of(body, after)).toRotationMatrix();
     };
-    const ConstraintEnds there{one.at(s), other.at(s), attitude(c.first), attitude(c.second),
+    const ConstraintEnds there{{one.at(s), attitude(c.first)},
+                               {other.at(s), attitude(c.second)},
                                before.time + s * (after.time - before.time)};
     const double apart = dynamics::closest_points(c.shapes, there).gap;
     if (apart < 0) return s;

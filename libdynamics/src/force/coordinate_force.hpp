@@ -8,7 +8,6 @@ namespace dynamics::detail {
 /// Coordinate with its rate, gradient and curvature, and the velocities of both bodies; counted backwards where sign is
 /// −1.
 struct CoordinateMotion {
-  using Vector12 = Eigen::Matrix<double, 12, 1>;
   double sign, x, rate;
   Vector12 gradient, velocity;
 };
@@ -17,8 +16,7 @@ inline CoordinateMotion motion_of(const JointCoordinate& coordinate, const State
   CoordinateMotion m;
   m.sign = sign;
   const Gradient g = coordinate.gradient(state);
-  m.gradient << g.first, g.second;
-  m.gradient *= sign;
+  m.gradient = sign * joined(g);
   m.velocity.head<6>() = state.twist(coordinate.first());
   m.velocity.tail<6>().setZero();
   if (coordinate.second()) m.velocity.tail<6>() = state.twist(*coordinate.second());
@@ -27,27 +25,13 @@ inline CoordinateMotion motion_of(const JointCoordinate& coordinate, const State
   return m;
 }
 
-/// The variation of a number that changes by these with the displacements and velocities of the coordinate's two
-/// bodies.
-inline Variation variation_of(const JointCoordinate& coordinate, const CoordinateMotion::Vector12& by_q,
-                              const CoordinateMotion::Vector12& by_v) {
-  Variation out{.parts = {{.body = coordinate.first(),
-                           .by_motion = by_q.head<6>().transpose(),
-                           .by_velocity = by_v.head<6>().transpose()}}};
-  if (coordinate.second())
-    out.parts.push_back({.body = *coordinate.second(),
-                         .by_motion = by_q.tail<6>().transpose(),
-                         .by_velocity = by_v.tail<6>().transpose()});
-  return out;
-}
-
 /// A force T(x, ẋ) against the coordinate and its derivatives.
 struct CoordinateForce {
   double force, by_x, by_rate;
 };
 
 inline void add_load(const JointCoordinate& coordinate, const CoordinateMotion& m, double force, LoadSink& out) {
-  const CoordinateMotion::Vector12 load = -force * m.gradient;
+  const Vector12 load = -force * m.gradient;
   out.add(coordinate.first(), load.head<6>());
   if (coordinate.second()) out.add(*coordinate.second(), load.tail<6>());
 }
@@ -56,14 +40,10 @@ inline void add_load(const JointCoordinate& coordinate, const CoordinateMotion& 
 inline void add_jacobian(const JointCoordinate& coordinate, const CoordinateMotion& m, const State& state,
                          const CoordinateForce& law, JacobianSink& out) {
   const Matrix12 H = m.sign * coordinate.curvature(state);
-  const CoordinateMotion::Vector12 force_by_q = law.by_x * m.gradient + law.by_rate * H.transpose() * m.velocity;
+  const Vector12 force_by_q = law.by_x * m.gradient + law.by_rate * H.transpose() * m.velocity;
   const Matrix12 by_q = -law.force * H - m.gradient * force_by_q.transpose();
   const Matrix12 by_v = -law.by_rate * m.gradient * m.gradient.transpose();
-  const int count = coordinate.second() ? 2 : 1;
-  const int body[2] = {coordinate.first(), coordinate.second().value_or(-1)};
-  for (int i = 0; i < count; ++i)
-    for (int j = 0; j < count; ++j)
-      out.add(body[i], body[j], by_q.block<6, 6>(6 * i, 6 * j), by_v.block<6, 6>(6 * i, 6 * j));
+  out.add_pair(coordinate.first(), coordinate.second(), by_q, by_v);
 }
 
 }  // namespace dynamics::detail

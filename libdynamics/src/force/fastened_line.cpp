@@ -13,18 +13,10 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using line::DrivenLine;
 
-Vector3d arm_of(const FastenedLine::End& end, const State& state) {
-  return state.pose[static_cast<std::size_t>(end.body)].attitude * end.at;
-}
-
 /// Where bodies have the ends of a line.
 std::vector<DrivenLine::End> ends_of(const FastenedLine& l, const State& state) {
   std::vector<DrivenLine::End> out;
-  for (const auto& end : l.ends) {
-    const Vector3d arm = arm_of(end, state), omega = state.twist(end.body).tail<3>();
-    out.push_back({state.pose[static_cast<std::size_t>(end.body)].centre + arm,
-                   state.twist(end.body).head<3>() + omega.cross(arm)});
-  }
+  for (const auto& end : l.ends) out.push_back({place_of(end.at, state), velocity_of(end.at, state)});
   return out;
 }
 
@@ -40,13 +32,6 @@ DrivenLine::Pulls pulls_of(const FastenedLine& l, std::size_t i, const Instant& 
     return static_cast<FastenedLineMemory*>(now.memory)->line(i).pulls(now.state.time, ends_of(l, now.state));
   const auto found = pulls_at_rest(line::Line(l.still), line_at_rest(l, now.state), nodes_of(l));
   return {-found.force, -found.by_place, -found.by_velocity};
-}
-
-/// ∂(end's place)/∂(displacement of its body), and of its velocity by velocity: (1, −[r]×).
-Eigen::Matrix<double, 3, 6> follows(const Vector3d& arm) {
-  Eigen::Matrix<double, 3, 6> out;
-  out << Matrix3d::Identity(), -cross_matrix(arm);
-  return out;
 }
 
 /// Energy held by a line: what moves counts too, since a body cannot tell one from the other.
@@ -91,11 +76,7 @@ void FastenedLineMemory::start(const State& state, const line::Places& accelerat
 line::Places FastenedLineMemory::accelerations_of_ends(const State& state, const Eigen::VectorXd& acceleration) const {
   std::vector<Vector3d> all;
   for (const FastenedLine& l : elements_)
-    for (const auto& end : l.ends) {
-      const Vector3d arm = arm_of(end, state), omega = state.twist(end.body).tail<3>();
-      const Vector6 a = acceleration.segment<6>(6 * end.body);
-      all.push_back(a.head<3>() + a.tail<3>().cross(arm) + omega.cross(omega.cross(arm)));
-    }
+    for (const auto& end : l.ends) all.push_back(acceleration_of(end.at, state, acceleration));
   line::Places out(3, static_cast<Eigen::Index>(all.size()));
   for (std::size_t k = 0; k < all.size(); ++k) out.col(static_cast<Eigen::Index>(k)) = all[k];
   return out;
@@ -109,7 +90,7 @@ void FastenedLineKind::couple(BlockPattern& pattern) const {
   for (const FastenedLine& l : elements_)
     for (std::size_t k = 0; k < l.ends.size(); ++k)
       for (std::size_t m = 0; m < k; ++m)
-        if (l.ends[m].body != l.ends[k].body) pattern.couple(l.ends[m].body, l.ends[k].body);
+        if (l.ends[m].at.body != l.ends[k].at.body) pattern.couple(l.ends[m].at.body, l.ends[k].at.body);
 }
 
 std::unique_ptr<Memory> FastenedLineKind::make_memory(const State& state) const {
@@ -123,8 +104,8 @@ void FastenedLineKind::add_load(const Instant& now, LoadSink& out) const {
       const auto& end = elements_[i].ends[k];
       const Vector3d force = p.force.col(static_cast<Eigen::Index>(k));
       Vector6 load;
-      load << force, arm_of(end, now.state).cross(force);
-      out.add(end.body, load);
+      load << force, arm_of(end.at, now.state).cross(force);
+      out.add(end.at.body, load);
     }
   }
 }
@@ -138,15 +119,15 @@ void FastenedLineKind::add_jacobian(const Instant& now, JacobianSink& out) const
       for (std::size_t m = 0; m < ends.size(); ++m) {
         const auto row = 3 * static_cast<Eigen::Index>(k), column = 3 * static_cast<Eigen::Index>(m);
         const Matrix3d by_x = p.by_place.block<3, 3>(row, column), by_v = p.by_velocity.block<3, 3>(row, column);
-        const Vector3d arm = arm_of(ends[k], now.state), other = arm_of(ends[m], now.state);
-        const Vector3d omega = now.state.twist(ends[m].body).tail<3>();
-        Eigen::Matrix<double, 3, 6> by_q = by_x * follows(other);
+        const Vector3d arm = arm_of(ends[k].at, now.state), other = arm_of(ends[m].at, now.state);
+        const Vector3d omega = now.state.twist(ends[m].at.body).tail<3>();
+        Eigen::Matrix<double, 3, 6> by_q = by_x * place_by_displacement(other);
         by_q.rightCols<3>() -= by_v * cross_matrix(omega) * cross_matrix(other);
-        const Eigen::Matrix<double, 6, 3> acts = follows(arm).transpose();
+        const Eigen::Matrix<double, 6, 3> acts = place_by_displacement(arm).transpose();
         Matrix6 by_displacement = acts * by_q;
         const Vector3d force = p.force.col(static_cast<Eigen::Index>(k));
         if (k == m) by_displacement.bottomRightCorner<3, 3>() += cross_matrix(force) * cross_matrix(arm);
-        out.add(ends[k].body, ends[m].body, by_displacement, acts * by_v * follows(other));
+        out.add(ends[k].at.body, ends[m].at.body, by_displacement, acts * by_v * place_by_displacement(other));
       }
   }
 }
@@ -173,8 +154,8 @@ Variation pull_variation(const FastenedLine& l, std::size_t k, const State& stil
   for (std::size_t m = 0; m < l.ends.size(); ++m) {
     const auto row = 3 * static_cast<Eigen::Index>(k), column = 3 * static_cast<Eigen::Index>(m);
     const Matrix3d by_x = p.by_place.block<3, 3>(row, column), by_v = p.by_velocity.block<3, 3>(row, column);
-    const Eigen::Matrix<double, 3, 6> follow = follows(arm_of(l.ends[m], still));
-    out.parts.push_back({.body = l.ends[m].body,
+    const Eigen::Matrix<double, 3, 6> follow = place_by_displacement(arm_of(l.ends[m].at, still));
+    out.parts.push_back({.body = l.ends[m].at.body,
                          .by_motion = along.transpose() * by_x * follow,
                          .by_velocity = along.transpose() * by_v * follow});
   }

@@ -33,12 +33,12 @@ SpringDamperForce tabulated(const std::vector<double>& xs, const std::vector<dou
   return out;
 }
 
-SpringDamperForce spring(const LineLaw& law, double x) {
+SpringDamperForce spring(const LineLaw& law, double x, double k1) {
   if (!law.table_x.empty()) return tabulated(law.table_x, law.table_force, x);
   const double x2 = x * x;
-  return {.force = (law.stiffness + law.cubic * x2) * x,
-          .by_x = law.stiffness + 3 * law.cubic * x2,
-          .stored = (law.stiffness / 2 + law.cubic / 4 * x2) * x2};
+  return {.force = (k1 + law.cubic * x2) * x,
+          .by_x = k1 + 3 * law.cubic * x2,
+          .stored = (k1 / 2 + law.cubic / 4 * x2) * x2};
 }
 
 }  // namespace
@@ -55,9 +55,9 @@ double PtoLaw::stiffest() const {
   return line.stiffest() + std::max(lower ? lower->stiffness : 0, upper ? upper->stiffness : 0);
 }
 
-SpringDamperForce LineLaw::at(double x, double rate) const {
+SpringDamperForce LineLaw::at(double x, double rate, double k1) const {
   if (tension_only && x <= 0) return {};
-  SpringDamperForce out = spring(*this, x);
+  SpringDamperForce out = spring(*this, x, k1);
   const double damper = damper_force(damping, quadratic_damping, rate, std::abs(rate));
   const double damper_by_rate = damping + 2 * quadratic_damping * std::abs(rate);
   if (!tension_only) {

@@ -16,14 +16,20 @@ struct EndPoint {
   Eigen::Matrix3d rotation;
 };
 
-inline EndPoint end_point(const State& state, std::optional<int> body, const Eigen::Vector3d& arm_in_body) {
-  if (!body)
-    return {arm_in_body, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
-            Eigen::Matrix3d::Identity()};
-  const Pose& pose = state.pose[static_cast<std::size_t>(*body)];
-  const Eigen::Matrix3d R = pose.attitude.toRotationMatrix();
-  const Eigen::Vector3d arm = R * arm_in_body, omega = state.twist(*body).tail<3>();
-  return {pose.centre + arm, state.twist(*body).head<3>() + omega.cross(arm), arm, omega, R};
+inline EndPoint end_point(const PointOnBody& end, const State& state) {
+  const Frame frame = frame_of(end.body, state);
+  const Eigen::Vector3d arm = frame.axes * end.arm, omega = state.twist(end.body).tail<3>();
+  return {frame.origin + arm, state.twist(end.body).head<3>() + omega.cross(arm), arm, omega, frame.axes};
+}
+
+/// Of the ground, which has no arm: nothing is asked about its moment.
+inline EndPoint end_point(const PointOnGround& end, const State&) {
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  return {end.place, none, none, none, Eigen::Matrix3d::Identity()};
+}
+
+inline EndPoint end_point(const Point& end, const State& state) {
+  return std::visit([&](const auto& e) { return end_point(e, state); }, end);
 }
 
 /// Derivative of the second end's position minus the first's, by displacement (and of its velocity, by velocity).
@@ -51,36 +57,32 @@ struct PairLoad {
   Matrix3x12 first_arm_by_q = Matrix3x12::Zero(), second_arm_by_q = Matrix3x12::Zero();
 };
 
+inline void couple(const Ends& ends, BlockPattern& pattern) {
+  if (const auto second = body_of(ends.second)) pattern.couple(ends.first.body, *second);
+}
+
 inline void add_load(const Ends& ends, const PairLoad& p, LoadSink& out) {
   Vector6 load;
   load << p.force, p.moment + p.first_arm.cross(p.force);
-  out.add(ends.first, load);
-  if (!ends.second) return;
+  out.add(ends.first.body, load);
+  const auto* second = std::get_if<PointOnBody>(&ends.second);
+  if (second == nullptr) return;
   load << -p.force, -p.moment - p.second_arm.cross(p.force);
-  out.add(*ends.second, load);
+  out.add(second->body, load);
 }
 
 inline void add_jacobian(const Ends& ends, const PairLoad& p, JacobianSink& out) {
   const Eigen::Matrix3d F = cross_matrix(p.force);
-  Eigen::Matrix<double, 12, 12> by_q, by_v;
+  Matrix12 by_q, by_v;
   by_q << p.force_by_q, p.moment_by_q - F * p.first_arm_by_q + cross_matrix(p.first_arm) * p.force_by_q, -p.force_by_q,
       -p.moment_by_q + F * p.second_arm_by_q - cross_matrix(p.second_arm) * p.force_by_q;
   by_v << p.force_by_v, p.moment_by_v + cross_matrix(p.first_arm) * p.force_by_v, -p.force_by_v,
       -p.moment_by_v - cross_matrix(p.second_arm) * p.force_by_v;
-  const int count = ends.second ? 2 : 1;
-  const int body[2] = {ends.first, ends.second.value_or(-1)};
-  for (int i = 0; i < count; ++i)
-    for (int j = 0; j < count; ++j)
-      out.add(body[i], body[j], by_q.block<6, 6>(6 * i, 6 * j), by_v.block<6, 6>(6 * i, 6 * j));
+  out.add_pair(ends.first.body, body_of(ends.second), by_q, by_v);
 }
 
-/// The variation of a number that changes by these rows with the displacements and velocities of (first, second).
-inline Variation variation_of(const Ends& ends, const Eigen::Matrix<double, 1, 12>& by_q,
-                              const Eigen::Matrix<double, 1, 12>& by_v) {
-  Variation out{.parts = {{.body = ends.first, .by_motion = by_q.head<6>(), .by_velocity = by_v.head<6>()}}};
-  if (ends.second)
-    out.parts.push_back({.body = *ends.second, .by_motion = by_q.tail<6>(), .by_velocity = by_v.tail<6>()});
-  return out;
+inline Variation variation_of(const Ends& ends, const RowOfTwo& by_q, const RowOfTwo& by_v = RowOfTwo::Zero()) {
+  return variation_of_two(ends.first.body, body_of(ends.second), by_q, by_v);
 }
 
 /// Derivative of an arm fixed to the first (0) or second (1) body by displacement.

@@ -24,7 +24,8 @@ namespace {
 Variation force_variation(const Pto& pto, const State& still) {
   const detail::CoordinateMotion m = detail::motion_of(pto.coordinate, still, pto.sign);
   const PtoLaw::Working law = pto.law.at(m.x, m.rate);
-  return detail::variation_of(pto.coordinate, law.by_x * m.gradient, law.by_rate * m.gradient);
+  return variation_of_two(pto.coordinate.first(), pto.coordinate.second(), law.by_x * m.gradient.transpose(),
+                          law.by_rate * m.gradient.transpose());
 }
 
 }  // namespace

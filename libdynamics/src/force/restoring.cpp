@@ -25,17 +25,17 @@ Eigen::Matrix<double, 6, columns> about_origin(Eigen::Matrix<double, 6, columns>
   return load;
 }
 
-Vector6 load_about_origin(const Restoring& e, const RigidBody& body, const State& state) {
+Vector6 load_about_origin(const Restoring& e, const RestoringKind::Held& held, const State& state) {
   const Pose& pose = state.pose[static_cast<std::size_t>(e.body)];
-  return about_origin<1>(restoring_load(e, pose.displacement(body), state.twist(e.body)),
-                         pose.attitude * body.properties().centre_of_gravity.xyz);
+  return about_origin<1>(restoring_load(e, pose.displacement(held.rest_centre), state.twist(e.body)),
+                         pose.attitude * held.centre);
 }
 
 /// The arm turns with the body: δ(r × F) = r × δF + F × (r × θ).
-Variation origin_variation(const Restoring& e, const RigidBody& body, const State& still, int mode) {
+Variation origin_variation(const Restoring& e, const RestoringKind::Held& held, const State& still, int mode) {
   const Pose& pose = still.pose[static_cast<std::size_t>(e.body)];
-  const Vector6 d = pose.displacement(body), load = restoring_load(e, d, Vector6::Zero());
-  const Eigen::Vector3d arm = pose.attitude * body.properties().centre_of_gravity.xyz;
+  const Vector6 d = pose.displacement(held.rest_centre), load = restoring_load(e, d, Vector6::Zero());
+  const Eigen::Vector3d arm = pose.attitude * held.centre;
   Matrix6 by_q = about_origin<6>(by_displacement(e, d), arm);
   by_q.bottomRightCorner<3, 3>() += cross_matrix(load.head<3>()) * cross_matrix(arm);
   const Matrix6 by_v = about_origin<6>(-e.damping, arm);
@@ -54,7 +54,10 @@ Vector6 restoring_load(const Restoring& element, const Vector6& displacement, co
 
 RestoringKind::RestoringKind(std::string effect, const std::vector<RigidBody>& bodies, std::vector<Restoring> elements)
     : effect_(std::move(effect)), elements_(std::move(elements)) {
-  for (const Restoring& e : elements_) body_.push_back(bodies[static_cast<std::size_t>(e.body)]);
+  for (const Restoring& e : elements_) {
+    const RigidBody& body = bodies[static_cast<std::size_t>(e.body)];
+    held_.push_back({body.name(), body.rest_centre(), body.properties().centre_of_gravity.xyz});
+  }
 }
 
 std::vector<Signal> RestoringKind::signals() const {
@@ -67,10 +70,13 @@ std::vector<Signal> RestoringKind::signals() const {
       out.push_back(
           {.name = e.name + "." + name,
            .unit = load_unit(mode),
-           .meaning = fmt::format("{} load of {} on {} about its origin", name, e.name, body_[i].name()),
-           .value = [e, b = body_[i], mode](const Reading& r) { return load_about_origin(e, b, r.state)[mode]; },
-           .variation = [e, b = body_[i],
-                         mode](const Still& still) { return origin_variation(e, b, still.state, mode); }});
+           .meaning = fmt::format("{} load of {} on {} about its origin", name, e.name, held_[i].name),
+           .value = [this, i,
+                     mode](const Reading& r) { return load_about_origin(elements_[i], held_[i], r.state)[mode]; },
+           .variation =
+               [this, i, mode](const Still& still) {
+                 return origin_variation(elements_[i], held_[i], still.state, mode);
+               }});
     }
   return out;
 }
@@ -79,7 +85,7 @@ void RestoringKind::add_load(const Instant& now, LoadSink& out) const {
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     const Restoring& e = elements_[i];
     const Pose& pose = now.state.pose[static_cast<std::size_t>(e.body)];
-    Vector6 load = restoring_load(e, pose.displacement(body_[i]), now.state.twist(e.body));
+    Vector6 load = restoring_load(e, pose.displacement(held_[i].rest_centre), now.state.twist(e.body));
     load.z() += e.lift;
     out.add(e.body, load);
   }
@@ -88,7 +94,7 @@ void RestoringKind::add_load(const Instant& now, LoadSink& out) const {
 void RestoringKind::add_jacobian(const Instant& now, JacobianSink& out) const {
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     const Restoring& e = elements_[i];
-    const Vector6 d = now.state.pose[static_cast<std::size_t>(e.body)].displacement(body_[i]);
+    const Vector6 d = now.state.pose[static_cast<std::size_t>(e.body)].displacement(held_[i].rest_centre);
     out.add(e.body, e.body, by_displacement(e, d), -e.damping);
   }
 }
@@ -108,7 +114,7 @@ EnergyFlow RestoringKind::energy(const Instant& now) const {
   EnergyFlow flow;
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     const Restoring& e = elements_[i];
-    const Vector6 d = now.state.pose[static_cast<std::size_t>(e.body)].displacement(body_[i]);
+    const Vector6 d = now.state.pose[static_cast<std::size_t>(e.body)].displacement(held_[i].rest_centre);
     const Vector6 v = now.state.twist(e.body);
     flow.stored += 0.5 * d.dot(e.stiffness * d) - e.lift * d.z() - e.moment.dot(d.tail<3>());
     flow.dissipated += v.dot(e.damping * v);

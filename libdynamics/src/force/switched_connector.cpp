@@ -1,16 +1,17 @@
 #include "dynamics/force/switched_connector.hpp"
 
 #include "axial.hpp"
+#include "pair.hpp"
 
 namespace dynamics {
 namespace {
 
-/// Calls use(connector as it is) for all of all groups; at rest, without memory, as they begin.
+/// Calls use(connector, its stiffness now) for all of all groups; at rest, without memory, as they begin.
 template <class Use>
 void for_each(const std::vector<SwitchedConnectors>& groups, const std::vector<double>* stiffness, Use use) {
   for (std::size_t g = 0; g < groups.size(); ++g)
     for (const AxialConnector& c : groups[g].connectors)
-      use(stiffness != nullptr ? with_stiffness(c, (*stiffness)[g]) : c);
+      use(c, stiffness != nullptr ? (*stiffness)[g] : c.law.stiffness);
 }
 
 const std::vector<double>* set_in(const Instant& now) {
@@ -18,11 +19,6 @@ const std::vector<double>* set_in(const Instant& now) {
 }
 
 }  // namespace
-
-AxialConnector with_stiffness(AxialConnector connector, double stiffness) {
-  connector.law.stiffness = stiffness;
-  return connector;
-}
 
 SwitchMemory::SwitchMemory(const std::vector<SwitchedConnectors>& groups, const State& start)
     : switches(groups.size(), 0), groups_(groups), time_(start.time) {
@@ -35,7 +31,7 @@ SwitchMemory::SwitchMemory(const std::vector<SwitchedConnectors>& groups, const 
 
 EnergyFlow SwitchMemory::flow(const State& state) const {
   EnergyFlow out;
-  for_each(groups_, &stiffness, [&](const AxialConnector& c) { detail::add_axial_energy(c, state, out); });
+  for_each(groups_, &stiffness, [&](const AxialConnector& c, double k) { detail::add_axial_energy(c, k, state, out); });
   return out;
 }
 
@@ -62,10 +58,10 @@ std::vector<Signal> SwitchedConnectorKind::signals() const {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const auto stiffness = [g](const Memory* memory) { return static_cast<const SwitchMemory*>(memory)->stiffness[g]; };
     for (const AxialConnector& c : groups_[g].connectors) {
-      const auto now = [c, stiffness](const Memory* memory) {
-        return memory == nullptr ? c : with_stiffness(c, stiffness(memory));
+      const auto now = [first = c.law.stiffness, stiffness](const Memory* memory) {
+        return memory == nullptr ? first : stiffness(memory);
       };
-      for (Signal& s : axial_signals(c.name, now)) out.push_back(std::move(s));
+      for (Signal& s : detail::axial_signals(c, now)) out.push_back(std::move(s));
       out.push_back({.name = c.name + ".stiffness",
                      .unit = "N/m",
                      .meaning = "stiffness of " + c.name + " as its controller has set it",
@@ -83,22 +79,23 @@ std::size_t SwitchedConnectorKind::elements() const {
 }
 
 void SwitchedConnectorKind::couple(BlockPattern& pattern) const {
-  for_each(groups_, nullptr, [&](const AxialConnector& c) {
-    if (c.ends.second) pattern.couple(c.ends.first, *c.ends.second);
-  });
+  for_each(groups_, nullptr, [&](const AxialConnector& c, double) { detail::couple(c.ends, pattern); });
 }
 
 void SwitchedConnectorKind::add_load(const Instant& now, LoadSink& out) const {
-  for_each(groups_, set_in(now), [&](const AxialConnector& c) { detail::add_axial_load(c, now.state, out); });
+  for_each(groups_, set_in(now),
+           [&](const AxialConnector& c, double k) { detail::add_axial_load(c, k, now.state, out); });
 }
 
 void SwitchedConnectorKind::add_jacobian(const Instant& now, JacobianSink& out) const {
-  for_each(groups_, set_in(now), [&](const AxialConnector& c) { detail::add_axial_jacobian(c, now.state, out); });
+  for_each(groups_, set_in(now),
+           [&](const AxialConnector& c, double k) { detail::add_axial_jacobian(c, k, now.state, out); });
 }
 
 EnergyFlow SwitchedConnectorKind::energy(const Instant& now) const {
   EnergyFlow flow;
-  for_each(groups_, set_in(now), [&](const AxialConnector& c) { detail::add_axial_energy(c, now.state, flow); });
+  for_each(groups_, set_in(now),
+           [&](const AxialConnector& c, double k) { detail::add_axial_energy(c, k, now.state, flow); });
   if (now.memory != nullptr) flow.dissipated_so_far = static_cast<const SwitchMemory*>(now.memory)->dissipated;
   return flow;
 }

@@ -23,8 +23,10 @@ State between(const State& a, const State& b) {
 
 /// Means of places and of directions: what the difference of a constraint that is bilinear in both is exact with.
 ConstraintEnds mean(const ConstraintEnds& a, const ConstraintEnds& b) {
-  return {(a.first_centre + b.first_centre) / 2, (a.second_centre + b.second_centre) / 2, (a.first + b.first) / 2,
-          (a.second + b.second) / 2, (a.time + b.time) / 2};
+  const auto between = [](const Frame& x, const Frame& y) {
+    return Frame{(x.origin + y.origin) / 2, (x.axes + y.axes) / 2};
+  };
+  return {between(a.first, b.first), between(a.second, b.second), (a.time + b.time) / 2};
 }
 
 }  // namespace

@@ -9,29 +9,21 @@
 namespace dynamics {
 namespace {
 
-/// Arms, direction and the way from the first centre to the second point, global.
+/// Arms, direction and the way from the first origin to the second point, along global axes.
 struct Points {
   Eigen::Vector3d n, first_arm, second_arm, reach;
 
   Points(const PointConstraint& c, const ConstraintEnds& at)
-      : n(c.turns ? Eigen::Vector3d(at.first * c.direction) : c.direction),
-        first_arm(at.first * c.first_arm),
-        second_arm(at.second * c.second_arm),
-        reach(at.second_centre + second_arm - at.first_centre) {}
+      : n(c.turns ? Eigen::Vector3d(at.first.axes * c.direction) : c.direction),
+        first_arm(at.first.axes * c.first_arm),
+        second_arm(at.second.axes * c.second_arm),
+        reach(at.second.origin + second_arm - at.first.origin) {}
 };
 
 }  // namespace
 
 ConstraintEnds ends_of(const Constraint& constraint, const State& state) {
-  const Pose& first = state.pose[static_cast<std::size_t>(constraint.first)];
-  ConstraintEnds out{first.centre, Eigen::Vector3d::Zero(), first.attitude.toRotationMatrix(),
-                     Eigen::Matrix3d::Identity(), state.time};
-  if (constraint.second) {
-    const Pose& second = state.pose[static_cast<std::size_t>(*constraint.second)];
-    out.second_centre = second.centre;
-    out.second = second.attitude.toRotationMatrix();
-  }
-  return out;
+  return {frame_of(constraint.first, state), frame_of(constraint.second, state), state.time};
 }
 
 double value(const PointConstraint& c, const ConstraintEnds& at) {
@@ -40,7 +32,7 @@ double value(const PointConstraint& c, const ConstraintEnds& at) {
 }
 
 double value(const AxesConstraint& c, const ConstraintEnds& at) {
-  return (at.first * c.first_axis).dot(at.second * c.second_axis);
+  return (at.first.axes * c.first_axis).dot(at.second.axes * c.second_axis);
 }
 
 // δ(n·d): both points move, and n turns with the first body (D13).
@@ -53,7 +45,7 @@ Gradient gradient(const PointConstraint& c, const ConstraintEnds& at) {
 }
 
 Gradient gradient(const AxesConstraint& c, const ConstraintEnds& at) {
-  const Eigen::Vector3d turn = (at.first * c.first_axis).cross(at.second * c.second_axis);
+  const Eigen::Vector3d turn = (at.first.axes * c.first_axis).cross(at.second.axes * c.second_axis);
   Gradient out;
   out.first << Eigen::Vector3d::Zero(), turn;
   out.second << Eigen::Vector3d::Zero(), -turn;
@@ -81,7 +73,8 @@ Matrix12 curvature(const PointConstraint& c, const ConstraintEnds& at) {
 }
 
 Matrix12 curvature(const AxesConstraint& c, const ConstraintEnds& at) {
-  const Eigen::Matrix3d u = cross_matrix(at.first * c.first_axis), v = cross_matrix(at.second * c.second_axis);
+  const Eigen::Matrix3d u = cross_matrix(at.first.axes * c.first_axis),
+                        v = cross_matrix(at.second.axes * c.second_axis);
   Matrix12 H = Matrix12::Zero();
   H.block<3, 3>(3, 3) = v * u;
   H.block<3, 3>(3, 9) = -u * v;
@@ -91,14 +84,15 @@ Matrix12 curvature(const AxesConstraint& c, const ConstraintEnds& at) {
 }
 
 ClosestPoints closest_points(const GapConstraint& c, const ConstraintEnds& at) {
-  return closest_points(moved(c.first, at.first, at.first_centre), moved(c.second, at.second, at.second_centre));
+  return closest_points(moved(c.first, at.first.axes, at.first.origin),
+                        moved(c.second, at.second.axes, at.second.origin));
 }
 
 Gradient apart(const Eigen::Vector3d& n, const Eigen::Vector3d& on_first, const Eigen::Vector3d& on_second,
                const ConstraintEnds& at) {
   Gradient out;
-  out.first << -n, n.cross(on_first - at.first_centre);
-  out.second << n, (on_second - at.second_centre).cross(n);
+  out.first << -n, n.cross(on_first - at.first.origin);
+  out.second << n, (on_second - at.second.origin).cross(n);
   return out;
 }
 
@@ -125,14 +119,11 @@ Matrix12 curvature_by_differences(const ContactConstraint& c, const ConstraintEn
   const auto displaced = [&](int k, double way) {
     ConstraintEnds out = at;
     const Eigen::Vector3d move = way * Eigen::Vector3d::Unit(k % 3);
-    if (k / 3 == 0) out.first_centre += move;
-    if (k / 3 == 1) out.first = rotation_exp(move).toRotationMatrix() * at.first;
-    if (k / 3 == 2) out.second_centre += move;
-    if (k / 3 == 3) out.second = rotation_exp(move).toRotationMatrix() * at.second;
-    const Gradient g = gradient(c, out);
-    Eigen::Matrix<double, 12, 1> joined;
-    joined << g.first, g.second;
-    return joined;
+    if (k / 3 == 0) out.first.origin += move;
+    if (k / 3 == 1) out.first.axes = rotation_exp(move).toRotationMatrix() * at.first.axes;
+    if (k / 3 == 2) out.second.origin += move;
+    if (k / 3 == 3) out.second.axes = rotation_exp(move).toRotationMatrix() * at.second.axes;
+    return joined(gradient(c, out));
   };
   Matrix12 H;
   for (int k = 0; k < 12; ++k) H.col(k) = (displaced(k, by) - displaced(k, -by)) / (2 * by);

@@ -6,35 +6,19 @@
 #include "hydro/base/error.hpp"
 
 namespace dynamics {
-namespace {
 
-using Vector12 = Eigen::Matrix<double, 12, 1>;
-
-Vector12 joined(const Gradient& g) {
-  Vector12 out;
-  out << g.first, g.second;
-  return out;
-}
-
-}  // namespace
-
-JointCoordinate::JointCoordinate(const Joint& joint, const Eigen::Vector3d& first_arm,
-                                 const Eigen::Vector3d& second_arm, std::optional<int> counted_as)
+JointCoordinate::JointCoordinate(const Joint& joint, const JointArms& arms, std::optional<int> counted_as)
     : first_(joint.first), second_(joint.second), turns_(joint.kind == JointKind::hinge), counted_as_(counted_as) {
   hydro::ensure(turns_ || joint.kind == JointKind::slider, "coordinate of a joint that is neither slider nor hinge");
   const Eigen::Matrix3d frame = frame_of(joint);
-  along_ = {first_arm, second_arm, frame.col(0), true};
+  along_ = {arms.first, arms.second, frame.col(0), true};
   cosine_ = {frame.col(1), frame.col(1)};
   sine_ = {frame.col(2), frame.col(1)};
 }
 
 JointCoordinate::JointCoordinate(const std::vector<RigidBody>& bodies, const Joint& joint,
                                  std::optional<int> counted_as)
-    : JointCoordinate(joint, joint.place - bodies[static_cast<std::size_t>(joint.first)].rest_centre(),
-                      joint.second
-                          ? Eigen::Vector3d(joint.place - bodies[static_cast<std::size_t>(*joint.second)].rest_centre())
-                          : joint.place,
-                      counted_as) {}
+    : JointCoordinate(joint, arms_at_rest(bodies, joint), counted_as) {}
 
 double JointCoordinate::value(const ConstraintEnds& at) const {
   if (!turns_) return dynamics::value(along_, at);
@@ -78,9 +62,9 @@ Constraint JointCoordinate::holding(const State& state) const {
   constexpr int of_no_joint = -1;
   if (turns_)
     return {of_no_joint, first_, second_,
-            AxesConstraint{-cosine_.first_axis, at.second.transpose() * (at.first * sine_.first_axis)}};
+            AxesConstraint{-cosine_.first_axis, at.second.axes.transpose() * (at.first.axes * sine_.first_axis)}};
   PointConstraint here = along_;
-  here.second_arm -= at.second.transpose() * (at.first * along_.direction) * dynamics::value(along_, at);
+  here.second_arm -= at.second.axes.transpose() * (at.first.axes * along_.direction) * dynamics::value(along_, at);
   return {of_no_joint, first_, second_, here};
 }
 

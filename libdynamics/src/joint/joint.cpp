@@ -34,6 +34,13 @@ Eigen::Matrix3d frame_of(const Joint& joint) {
   return frame;
 }
 
+JointArms arms_at_rest(const std::vector<RigidBody>& bodies, const Joint& joint) {
+  const auto from_centre = [&](int body) {
+    return Eigen::Vector3d(joint.place - bodies[static_cast<std::size_t>(body)].rest_centre());
+  };
+  return {from_centre(joint.first), joint.second ? from_centre(*joint.second) : joint.place};
+}
+
 namespace {
 
 void require_bodies(const Joint& joint, int bodies) {
@@ -44,15 +51,13 @@ void require_bodies(const Joint& joint, int bodies) {
 }
 
 /// Constraints in the frame at rest, where bodies have no attitude: body axes are global there.
-std::vector<ConstraintLaw> constraints_of(const Joint& joint, const Eigen::Vector3d& first_centre,
-                                          const Eigen::Vector3d& second_centre) {
+std::vector<ConstraintLaw> constraints_of(const Joint& joint, const JointArms& arms) {
   using enum JointKind;
   const Eigen::Matrix3d frame = frame_of(joint);
   const Eigen::Vector3d x = frame.col(0), y = frame.col(1), z = frame.col(2);
-  const Eigen::Vector3d first_arm = joint.place - first_centre, second_arm = joint.place - second_centre;
   std::vector<ConstraintLaw> out;
   const auto meet = [&](const Eigen::Vector3d& n, bool turns) {
-    out.emplace_back(PointConstraint{first_arm, second_arm, n, turns});
+    out.emplace_back(PointConstraint{arms.first, arms.second, n, turns});
   };
   const auto across = [&](const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
     out.emplace_back(AxesConstraint{u, v});
@@ -77,6 +82,9 @@ std::vector<ConstraintLaw> constraints_of(const Joint& joint, const Eigen::Vecto
   return out;
 }
 
+/// Of a joint's place in the frame of one of its two.
+const Eigen::Vector3d& arm_of(const JointArms& arms, End end) { return end == End::first ? arms.first : arms.second; }
+
 void set_locked_to_zero(Vector6& row, const std::array<bool, 6>& free) {
   for (int i = 0; i < 6; ++i)
     if (!free[static_cast<std::size_t>(i)]) row[i] = 0;
@@ -89,11 +97,8 @@ JointSet::JointSet(const std::vector<RigidBody>& bodies, std::vector<Joint> join
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const Joint& joint = joints_[j];
     require_bodies(joint, static_cast<int>(bodies.size()));
-    const Eigen::Vector3d first = bodies[static_cast<std::size_t>(joint.first)].rest_centre();
-    const Eigen::Vector3d second =
-        joint.second ? bodies[static_cast<std::size_t>(*joint.second)].rest_centre() : Eigen::Vector3d::Zero();
-    place_in_.push_back({joint.place - first, joint.place - second});
-    for (auto& what : constraints_of(joint, first, second))
+    arms_.push_back(arms_at_rest(bodies, joint));
+    for (auto& what : constraints_of(joint, arms_.back()))
       constraints_.push_back({static_cast<int>(j), joint.first, joint.second, std::move(what)});
     if (!joint.prescribed) continue;
     hydro::require(joint.kind == JointKind::slider || joint.kind == JointKind::hinge,
@@ -145,6 +150,12 @@ std::vector<Gradient> JointSet::gradients(const State& state) const {
 void JointSet::keep_free(int first, std::optional<int> second, Gradient& row) const {
   set_locked_to_zero(row.first, free_[static_cast<std::size_t>(first)]);
   if (second) set_locked_to_zero(row.second, free_[static_cast<std::size_t>(*second)]);
+}
+
+Vector12 joined(const Gradient& g) {
+  Vector12 out;
+  out << g.first, g.second;
+  return out;
 }
 
 double norm(const Gradient& g) { return std::hypot(g.first.norm(), g.second.norm()); }
@@ -213,7 +224,7 @@ Eigen::VectorXd JointSet::convective(const State& state) const {
   Eigen::VectorXd out(count());
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const Constraint& c = constraints_[i];
-    Eigen::Matrix<double, 12, 1> v = Eigen::Matrix<double, 12, 1>::Zero();
+    Vector12 v = Vector12::Zero();
     v.head<6>() = state.twist(c.first);
     if (c.second) v.tail<6>() = state.twist(*c.second);
     const Matrix12 H = std::visit([&](const auto& what) { return curvature(what, ends_of(c, state)); }, c.what);
@@ -263,17 +274,22 @@ Vector6 JointSet::load_on(int joint, End end, const State& state, const Eigen::V
   }
   Eigen::MatrixXd out(6, 1);
   out << to_body * load.head<3>(), to_body * load.tail<3>();
-  carry(place_in_[static_cast<std::size_t>(joint)][end == End::first ? 0 : 1], out);
+  carry(arm_of(arms_[static_cast<std::size_t>(joint)], end), out);
   return out;
 }
 
 // Body axes turn with the body: δ(Rᵀf) = δf − θ × f where R is one (D17).
-JointSet::LoadVariation JointSet::load_variation(int joint, End end, const State& still,
-                                                 const Eigen::VectorXd& lambda) const {
+Variation JointSet::load_variation(int joint, End end, int component, const State& still,
+                                   const Eigen::VectorXd& lambda) const {
   const Joint& j = joints_[static_cast<std::size_t>(joint)];
-  const int body = end == End::first ? j.first : j.second.value();
-  LoadVariation out{Eigen::MatrixXd::Zero(6, 6 * static_cast<Eigen::Index>(free_.size())),
-                    Eigen::MatrixXd::Zero(6, count())};
+  const auto body = static_cast<std::size_t>(end == End::first ? j.first : j.second.value());
+  Eigen::MatrixXd told = Eigen::MatrixXd::Zero(6, 6);  // of a load about the centre of gravity, global axes
+  told.topLeftCorner<3, 3>() = still.pose[body].attitude.toRotationMatrix().transpose();
+  told.bottomRightCorner<3, 3>() = told.topLeftCorner<3, 3>();
+  carry(arm_of(arms_[static_cast<std::size_t>(joint)], end), told);
+  const Variation::Row row = told.row(component);
+  RowOfTwo by_motion = RowOfTwo::Zero();
+  std::vector<std::pair<Eigen::Index, double>> by_multiplier;
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const Constraint& c = constraints_[i];
     if (c.joint != joint) continue;
@@ -281,30 +297,15 @@ JointSet::LoadVariation JointSet::load_variation(int joint, End end, const State
     const ConstraintEnds at = ends_of(c, still);
     const Vector6 p = part_of(std::visit([&](const auto& what) { return gradient(what, at); }, c.what), end);
     const Matrix12 H = std::visit([&](const auto& what) { return curvature(what, at); }, c.what);
-    out.by_multiplier.col(index) -= p;
-    out.by_motion.middleCols<6>(6 * c.first) -= lambda[index] * H.block<6, 6>(row_of(end), 0);
-    if (c.second) out.by_motion.middleCols<6>(6 * *c.second) -= lambda[index] * H.block<6, 6>(row_of(end), 6);
-    out.by_motion.block<3, 3>(0, 6 * body + 3) -= lambda[index] * cross_matrix(p.head<3>());
-    out.by_motion.block<3, 3>(3, 6 * body + 3) -= lambda[index] * cross_matrix(p.tail<3>());
+    by_motion -= lambda[index] * row * H.middleRows<6>(row_of(end));
+    by_motion.segment<3>(row_of(end) + 3) -=
+        lambda[index] * (row.head<3>() * cross_matrix(p.head<3>()) + row.tail<3>() * cross_matrix(p.tail<3>()));
+    by_multiplier.emplace_back(index, -row.dot(p));
   }
-  // Into the body's axes, whose own turning the last two blocks told.
-  const Eigen::Matrix3d to_body = still.pose[static_cast<std::size_t>(body)].attitude.toRotationMatrix().transpose();
-  for (Eigen::MatrixXd* rows : {&out.by_motion, &out.by_multiplier})
-    for (const int row : {0, 3}) rows->middleRows<3>(row) = (to_body * rows->middleRows<3>(row)).eval();
-  const Eigen::Vector3d arm = place_in_[static_cast<std::size_t>(joint)][end == End::first ? 0 : 1];
-  carry(arm, out.by_motion);
-  carry(arm, out.by_multiplier);
+  Variation out = variation_of_two(j.first, j.second, by_motion);
+  out.by_multiplier = std::move(by_multiplier);
   return out;
 }
-
-namespace {
-
-/// The part of rows over all modes that stand in those of one body.
-Variation::Part part_of_body(const Eigen::MatrixXd& by_motion, int row, int body) {
-  return {.body = body, .by_motion = by_motion.block<1, 6>(row, 6 * body)};
-}
-
-}  // namespace
 
 Signal JointSet::coordinate_signal(int joint) const {
   const Joint& j = joints_[static_cast<std::size_t>(joint)];
@@ -316,11 +317,8 @@ Signal JointSet::coordinate_signal(int joint) const {
       .value = [along = coordinate_of(joint), sign = j.sign](const Reading& r) { return sign * along.value(r.state); },
       .variation =
           [along = coordinate_of(joint), sign = j.sign](const Still& still) {
-            const Gradient g = along.gradient(still.state);
-            Variation out{.parts = {{.body = along.first(), .by_motion = sign * g.first.transpose()}}};
-            if (along.second())
-              out.parts.push_back({.body = *along.second(), .by_motion = sign * g.second.transpose()});
-            return out;
+            return variation_of_two(along.first(), along.second(),
+                                    sign * joined(along.gradient(still.state)).transpose());
           }};
 }
 
@@ -336,14 +334,7 @@ std::vector<Signal> JointSet::load_signals(int joint, End end, const std::string
          .value = [this, joint, end, i](const Reading& r) { return load_on(joint, end, r.state, r.multipliers)[i]; },
          .variation =
              [this, joint, end, i](const Still& still) {
-               const Joint& j = joints_[static_cast<std::size_t>(joint)];
-               const LoadVariation v = load_variation(joint, end, still.state, still.multipliers);
-               Variation load{.parts = {part_of_body(v.by_motion, i, j.first)}};
-               if (j.second) load.parts.push_back(part_of_body(v.by_motion, i, *j.second));
-               for (Eigen::Index c = 0; c < count(); ++c)
-                 if (constraints_[static_cast<std::size_t>(c)].joint == joint)
-                   load.by_multiplier.emplace_back(c, v.by_multiplier(i, c));
-               return load;
+               return load_variation(joint, end, i, still.state, still.multipliers);
              }});
   return out;
 }
@@ -365,8 +356,7 @@ std::vector<Signal> JointSet::signals(const std::vector<RigidBody>& bodies) cons
 }
 
 JointCoordinate JointSet::coordinate_of(int joint) const {
-  const auto& place = place_in_[static_cast<std::size_t>(joint)];
-  return {joints_[static_cast<std::size_t>(joint)], place[0], place[1], joint};
+  return {joints_[static_cast<std::size_t>(joint)], arms_[static_cast<std::size_t>(joint)], joint};
 }
 
 double JointSet::coordinate(int joint, const State& state) const { return coordinate_of(joint).value(state); }

@@ -26,9 +26,9 @@ RigidBody::RigidBody(Properties properties) : p_(std::move(properties)) {
                  p_.name, principal[0], principal[1], principal[2]);
 }
 
-Vector6 Pose::displacement(const RigidBody& body) const {
+Vector6 Pose::displacement(const Eigen::Vector3d& rest_centre) const {
   Vector6 d;
-  d << centre - body.rest_centre(), rotation_log(attitude);
+  d << centre - rest_centre, rotation_log(attitude);
   return d;
 }
 

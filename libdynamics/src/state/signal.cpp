@@ -24,6 +24,14 @@ Eigen::Matrix3d angles_by_rotation(const RigidBody& body, const Pose& pose) {
 
 }  // namespace
 
+Variation variation_of_two(int first, const std::optional<int>& second, const RowOfTwo& by_motion,
+                           const RowOfTwo& by_velocity) {
+  Variation out{.parts = {{.body = first, .by_motion = by_motion.head<6>(), .by_velocity = by_velocity.head<6>()}}};
+  if (second)
+    out.parts.push_back({.body = *second, .by_motion = by_motion.tail<6>(), .by_velocity = by_velocity.tail<6>()});
+  return out;
+}
+
 // (Q7)
 std::complex<double> amplitude(const Variation& variation, const Eigen::VectorXcd& xi, const Eigen::VectorXcd& lambda,
                                double omega, double heading) {
@@ -70,32 +78,10 @@ std::vector<Signal> motion_signals(const std::vector<RigidBody>& bodies) {
 
 namespace {
 
-Vector3d arm_of(const BodyPoint& p, const State& state) {
-  return state.pose[static_cast<std::size_t>(p.body)].attitude * p.arm;
-}
-
-/// How the place of a point varies along one axis: the centre's way, and θ × arm.
-Variation::Row place_row(const BodyPoint& p, const State& state, int axis) {
-  Variation::Row row;
-  row << Vector3d::Unit(axis).transpose(), arm_of(p, state).cross(Vector3d::Unit(axis)).transpose();
-  return row;
-}
-
-Vector3d velocity_of(const BodyPoint& p, const State& state) {
-  const Vector6 twist = state.twist(p.body);
-  return twist.head<3>() + twist.tail<3>().cross(arm_of(p, state));
-}
-
-Vector3d acceleration_of(const BodyPoint& p, const Reading& r) {
-  const Vector3d arm = arm_of(p, r.state), omega = r.state.twist(p.body).tail<3>();
-  const Vector6 a = r.acceleration.segment<6>(6 * p.body);
-  return a.head<3>() + a.tail<3>().cross(arm) + omega.cross(omega.cross(arm));
-}
-
 /// Three signals of a point, one an axis, that vary as its place does by motion, velocity or acceleration.
 template <class Read>
 std::vector<Signal> along_axes(const std::string& name, const char* prefix, const char* unit, const char* what,
-                               const BodyPoint& p, Read read, Variation::Row Variation::Part::*by) {
+                               const PointOnBody& p, Read read, Variation::Row Variation::Part::*by) {
   std::vector<Signal> out;
   for (int axis = 0; axis < 3; ++axis)
     out.push_back({.name = fmt::format("{}.{}{}", name, prefix, "xyz"[axis]),
@@ -105,7 +91,7 @@ std::vector<Signal> along_axes(const std::string& name, const char* prefix, cons
                    .variation =
                        [p, axis, by](const Still& still) {
                          Variation::Part part{.body = p.body};
-                         part.*by = place_row(p, still.state, axis);
+                         part.*by = place_by_displacement(arm_of(p, still.state)).row(axis);
                          return Variation{.parts = {part}};
                        }});
   return out;
@@ -134,26 +120,23 @@ Matrix6 net_load_by_acceleration(const RigidBody& body, const Pose& pose) {
 
 }  // namespace
 
-Vector3d place_of(const BodyPoint& point, const State& state) {
-  return state.pose[static_cast<std::size_t>(point.body)].centre + arm_of(point, state);
-}
-
-std::vector<Signal> place_signals(const std::string& name, const BodyPoint& point) {
+std::vector<Signal> place_signals(const std::string& name, const PointOnBody& point) {
   return along_axes(
       name, "", "m", "place", point, [point](const Reading& r) { return place_of(point, r.state); },
       &Variation::Part::by_motion);
 }
 
-std::vector<Signal> velocity_signals(const std::string& name, const BodyPoint& point) {
+std::vector<Signal> velocity_signals(const std::string& name, const PointOnBody& point) {
   return along_axes(
       name, "velocity_", "m/s", "velocity", point, [point](const Reading& r) { return velocity_of(point, r.state); },
       &Variation::Part::by_velocity);
 }
 
-std::vector<Signal> acceleration_signals(const std::string& name, const BodyPoint& point) {
+std::vector<Signal> acceleration_signals(const std::string& name, const PointOnBody& point) {
   return along_axes(
       name, "acceleration_", "m/s^2", "acceleration", point,
-      [point](const Reading& r) { return acceleration_of(point, r); }, &Variation::Part::by_acceleration);
+      [point](const Reading& r) { return acceleration_of(point, r.state, r.acceleration); },
+      &Variation::Part::by_acceleration);
 }
 
 std::vector<Signal> net_load_signals(const RigidBody& body, int index) {

@@ -98,7 +98,7 @@ TEST(DominantPeriod, RefusesSettingsThatDoNotAscendFromZero) {
 // closes.
 TEST(Controllers, AccountForTheEnergyOfASwitch) {
   const std::vector<RigidBody> bodies{RigidBody({.name = "mass", .mass = 2, .inertia = Eigen::Matrix3d::Identity()})};
-  const Ends to_ground{0, std::nullopt, Eigen::Vector3d::Zero(), Eigen::Vector3d(10, 0, 0)};
+  const Ends to_ground{{0, Eigen::Vector3d::Zero()}, PointOnGround{Eigen::Vector3d(10, 0, 0)}};
   const auto at_two = [] {
     return std::make_unique<FunctionController>(
         [](const State& s) { return s.time > 2 ? std::optional<double>(20) : std::nullopt; });

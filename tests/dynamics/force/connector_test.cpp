@@ -12,7 +12,7 @@ using namespace dynamics;
 TEST(AxialConnector, PullsAlongItsLineByStiffnessTimesStretch) {
   const auto bodies = support::two_bodies();
   // Ends at the centres, 4 m apart at rest.
-  const AxialConnector c{{0, 1, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}, {250, 10}, 3.5};
+  const AxialConnector c{{{0, {0, 0, 0}}, PointOnBody{1, {0, 0, 0}}}, {250, 10}, 3.5};
   State s = rest_state(bodies);
   s.velocity[6] = 2;  // the second body moves away at 2 m/s
   EXPECT_NEAR(axial_state(c, s).tension, 250 * 0.5 + 10 * 2, 1e-12 * 145);
@@ -23,12 +23,8 @@ TEST(AxialConnector, PullsAlongItsLineByStiffnessTimesStretch) {
 
 TEST(BushingConnector, ResistsEachAxisByItsOwnStiffness) {
   const auto bodies = support::two_bodies();
-  const BushingConnector c{{0, 1, Eigen::Vector3d(2, 0, 0), Eigen::Vector3d(-2, 0, 0)},
-                           {100, 200, 300},
-                           {0, 0, 0},
-                           {0, 0, 50},
-                           {0, 0, 0},
-                           {0, 0, 0}};
+  const BushingConnector c{
+      {{0, {2, 0, 0}}, PointOnBody{1, {-2, 0, 0}}}, {100, 200, 300}, {0, 0, 0}, {0, 0, 50}, {0, 0, 0}, {0, 0, 0}};
   State s = rest_state(bodies);
   s.pose[1].centre += Eigen::Vector3d(0.01, 0.02, 0.03);
   const Eigen::VectorXd F = laws::load(BushingConnectorKind({c}), s, nullptr);
@@ -45,9 +41,10 @@ TEST(BushingConnector, ResistsEachAxisByItsOwnStiffness) {
 // Turning both bodies together strains nothing, however far.
 TEST(Connectors, DoNotFeelARigidTurnOfTheWhole) {
   const auto bodies = support::two_bodies();
-  const Ends ends{0, 1, Eigen::Vector3d(1, 0.5, 0.2), Eigen::Vector3d(-1, 0.5, -0.1)};
+  const PointOnBody first{0, {1, 0.5, 0.2}}, second{1, {-1, 0.5, -0.1}};
+  const Ends ends{first, second};
   const State rest = rest_state(bodies);
-  const Eigen::Vector3d offset = rest.pose[1].centre + ends.second_arm - rest.pose[0].centre - ends.first_arm;
+  const Eigen::Vector3d offset = place_of(second, rest) - place_of(first, rest);
   const AxialConnectorKind axial({{ends, {3000, 200}, offset.norm()}});
   const Eigen::Vector3d k(1000, 2000, 500), c(30, 10, 60), kr(300, 200, 100), cr(5, 8, 3);
   const BushingConnectorKind bushing({{ends, k, c, kr, cr, offset}});

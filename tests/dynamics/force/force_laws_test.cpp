@@ -57,13 +57,13 @@ TEST(Weight, ActsOnTheBodiesThatFeelItAlone) {
 }
 
 TEST(ForceLaws, HoldForAxialConnectors) {
-  const Ends between{0, 1, Eigen::Vector3d(1, 0.5, 0.2), Eigen::Vector3d(-1, 0.5, -0.1)};
-  const Ends to_ground{1, std::nullopt, Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(9, 1, -2)};
+  const Ends between{{0, Eigen::Vector3d(1, 0.5, 0.2)}, PointOnBody{1, Eigen::Vector3d(-1, 0.5, -0.1)}};
+  const Ends to_ground{{1, Eigen::Vector3d(1, 0, 0)}, PointOnGround{Eigen::Vector3d(9, 1, -2)}};
   laws::expect_force_laws(AxialConnectorKind({{between, {3000, 200}, 1.5}, {to_ground, {500, 0}, 2}}), bodies);
 }
 
 TEST(ForceLaws, HoldForConnectorsThatAControllerSets) {
-  const Ends between{0, 1, Eigen::Vector3d(1, 0.5, 0.2), Eigen::Vector3d(-1, 0.5, -0.1)};
+  const Ends between{{0, Eigen::Vector3d(1, 0.5, 0.2)}, PointOnBody{1, Eigen::Vector3d(-1, 0.5, -0.1)}};
   const auto idle = [] {
     return std::make_unique<FunctionController>([](const State&) { return std::optional<double>(); });
   };
@@ -71,8 +71,8 @@ TEST(ForceLaws, HoldForConnectorsThatAControllerSets) {
 }
 
 TEST(ForceLaws, HoldForBushings) {
-  const Ends between{0, 1, Eigen::Vector3d(1, 0.5, 0.2), Eigen::Vector3d(-1, 0.5, -0.1)};
-  const Ends to_ground{1, std::nullopt, Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(5.5, 0, 0.3)};
+  const Ends between{{0, Eigen::Vector3d(1, 0.5, 0.2)}, PointOnBody{1, Eigen::Vector3d(-1, 0.5, -0.1)}};
+  const Ends to_ground{{1, Eigen::Vector3d(1, 0, 0)}, PointOnGround{Eigen::Vector3d(5.5, 0, 0.3)}};
   const Eigen::Vector3d k(1000, 2000, 500), c(30, 10, 60), kr(300, 200, 100), cr(5, 8, 3);
   laws::expect_force_laws(BushingConnectorKind({{between, k, c, kr, cr, Eigen::Vector3d(2, 0, 0)},
                                                 {to_ground, k, c, kr, cr, Eigen::Vector3d(0.4, 0, 0)}}),
@@ -123,7 +123,7 @@ TEST(ForceLaws, HoldForEveryMemoryOfRadiationWithinAStep) {
 
 // Newton's third law: what two bodies do to each other has no net force and no net moment about the origin.
 TEST(ForceLaws, InternalForcesCancel) {
-  const Ends between{0, 1, Eigen::Vector3d(1, 0.5, 0.2), Eigen::Vector3d(-1, 0.5, -0.1)};
+  const Ends between{{0, Eigen::Vector3d(1, 0.5, 0.2)}, PointOnBody{1, Eigen::Vector3d(-1, 0.5, -0.1)}};
   const AxialConnectorKind axial({{between, {3000, 200}, 1.5}});
   const Eigen::Vector3d k(1000, 2000, 500), c(30, 10, 60), kr(300, 200, 100), cr(5, 8, 3);
   const BushingConnectorKind bushing({{between, k, c, kr, cr, Eigen::Vector3d(2, 0, 0)}});

@@ -31,6 +31,7 @@
 #include "hydro/radiation/pole_memory.hpp"
 #include "laws/automatic_constraints.hpp"
 #include "laws/automatic_tangents.hpp"
+#include "laws/signal_laws.hpp"
 #include "support/small_seas.hpp"
 
 namespace more_tangents_test {
@@ -427,8 +428,8 @@ std::vector<CatenaryMooring> tabled_lines() {
   const auto table = [](const LineProperties& line, const Reach& reach) {
     return std::make_shared<const CatenaryTable>(line, reach, 1e-2);
   };
-  return {{0, {1, 0.5, -1}, {50, 10, -20}, resting, table(resting, {46, 56, 16, 25})},
-          {1, {0, 0, -1}, {-20, 3, -15}, hanging, table(hanging, {20, 28, 11, 18})}};
+  return {{{0, {1, 0.5, -1}}, {{50, 10, -20}}, resting, table(resting, {46, 56, 16, 25})},
+          {{1, {0, 0, -1}}, {{-20, 3, -15}}, hanging, table(hanging, {20, 28, 11, 18})}};
 }
 
 TEST(Tangents, OfCatenariesFromATableAreThoseOfItsEnergy) {
@@ -437,13 +438,13 @@ TEST(Tangents, OfCatenariesFromATableAreThoseOfItsEnergy) {
       CatenaryMooringKind(lines), bodies, [&](const JetBody& a, const JetBody& b, double) {
         JetLoads out;
         for (const CatenaryMooring& m : lines) {
-          const JetBody& body = m.body == 0 ? a : b;
-          const JetVector r = body.arm(m.fairlead), d = body.centre + r - jets(m.anchor);
+          const JetBody& body = m.fairlead.body == 0 ? a : b;
+          const JetVector r = body.arm(m.fairlead.arm), d = body.centre + r - jets(m.anchor.place);
           const Jet x = sqrt(d[0] * d[0] + d[1] * d[1]);
           EXPECT_TRUE(m.table->reach().holds(x.a, d[2].a)) << "else it would be solved";
           const InPlane E = tabled_energy(m, InPlane(x, 0), InPlane(d[2], 1));
           const Jet &H = E.v[0], &V = E.v[1];
-          out.force(m.body, r, JetVector(-H * d[0] / x, -H * d[1] / x, -V));
+          out.force(m.fairlead.body, r, JetVector(-H * d[0] / x, -H * d[1] / x, -V));
         }
         return out;
       });
@@ -454,13 +455,13 @@ TEST(Tangents, OfTensionsFromATableAreThoseOfItsEnergy) {
   for (const CatenaryMooring& m : tabled_lines())
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
       const State s = support::random_state(bodies, seed, 0.7);
-      const JetVector d = laws::jet_body(s, m.body).point(m.fairlead) - jets(m.anchor);
+      const JetVector d = laws::jet_body(s, m.fairlead.body).point(m.fairlead.arm) - jets(m.anchor.place);
       const InPlane E = tabled_energy(m, InPlane(sqrt(d[0] * d[0] + d[1] * d[1]), 0), InPlane(d[2], 1));
       const Jet &H = E.v[0], &V = E.v[1];
       const Jet low = V - m.line.weight * m.line.length, at_anchor = m.line.on_bed && low.a < 0 ? Jet(0) : low;
       const TensionGradient gradient = tension_gradient(m, s);
       const auto expect = [&](const Jet& T, const Eigen::Matrix<double, 1, 6>& by_q, const char* what) {
-        const Eigen::Matrix<double, 1, 6> expected = T.v.segment<6>(6 * m.body).transpose();
+        const Eigen::Matrix<double, 1, 6> expected = T.v.segment<6>(6 * m.fairlead.body).transpose();
         EXPECT_LT((by_q - expected).norm(), 1e-11 * expected.norm()) << what;  // as of loads
       };
       expect(sqrt(H * H + V * V), gradient.fairlead, "at the fairlead");
@@ -596,7 +597,7 @@ TEST(Tangents, OfLoadsInJointsFollowFromTheirMultipliers) {
       const Eigen::Vector3d arm = j.place - bodies[static_cast<std::size_t>(b)].rest_centre();
       Eigen::Matrix<Once, 6, 1> load;
       load << force, OnceVector(moment - arm.cast<Once>().cross(force));
-      const auto variation = set.load_variation(0, end, s, lambda);
+      const auto variation = laws::load_variations(set, 0, end, s, lambda);
       const Vector6 now = set.load_on(0, end, s, lambda);
       for (int k = 0; k < 6; ++k) {
         EXPECT_NEAR(now[k], load[k].a, tolerance) << k;

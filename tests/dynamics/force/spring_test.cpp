@@ -68,8 +68,8 @@ TEST(PtoLaw, KeepsToItsLimitAndItsStops) {
 }
 
 TEST(ForceLaws, HoldForEveryLawOfAnAxialConnector) {
-  const Ends between{0, 1, Eigen::Vector3d(1, 0.5, 0.2), Eigen::Vector3d(-1, 0.5, -0.1)};
-  const Ends to_ground{1, std::nullopt, Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(9, 1, -2)};
+  const Ends between{{0, Eigen::Vector3d(1, 0.5, 0.2)}, PointOnBody{1, Eigen::Vector3d(-1, 0.5, -0.1)}};
+  const Ends to_ground{{1, Eigen::Vector3d(1, 0, 0)}, PointOnGround{Eigen::Vector3d(9, 1, -2)}};
   laws::expect_force_laws(
       AxialConnectorKind({{between, cubic, 1.5}, {between, table, 1.6}, {to_ground, cable, 2}, {to_ground, cable, 9}}),
       bodies);

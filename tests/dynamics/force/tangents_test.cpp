@@ -94,7 +94,7 @@ TEST(Tangents, OfRestoringFollowFromItsPotential) {  // (D2)
 
 TEST(Tangents, OfConstantLoadsAreThoseOfTheirArms) {
   const Eigen::Vector3d arm(1, 2, 3), force(10, -20, 30), moment(5, 6, -7);
-  laws::expect_automatic_tangents_everywhere(ConstantLoadKind({{0, arm, force, moment}}), bodies,
+  laws::expect_automatic_tangents_everywhere(ConstantLoadKind({{{0, arm}, force, moment}}), bodies,
                                              [&](const JetBody& a, const JetBody&, double) {
                                                JetLoads out;
                                                out.force(0, a.arm(arm), jets(force));
@@ -103,8 +103,8 @@ TEST(Tangents, OfConstantLoadsAreThoseOfTheirArms) {
                                              });
 }
 
-const Ends between{0, 1, Eigen::Vector3d(1, 0.5, 0.2), Eigen::Vector3d(-1, 0.5, -0.1)};
-const Ends to_ground{1, std::nullopt, Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(9, 1, -2)};
+const Ends between{{0, Eigen::Vector3d(1, 0.5, 0.2)}, PointOnBody{1, Eigen::Vector3d(-1, 0.5, -0.1)}};
+const Ends to_ground{{1, Eigen::Vector3d(1, 0, 0)}, PointOnGround{Eigen::Vector3d(9, 1, -2)}};
 
 /// An end and its velocity.
 struct JetEnd {
@@ -119,13 +119,15 @@ JetEnd on_ground(const Eigen::Vector3d& at) { return {jets(at), jets(at), jets(E
 /// A pull T(L − L₀, dL/dt) along the line between two ends. (D3)
 template <class Tension>
 void pull(JetLoads& out, const Ends& ends, const JetBody& a, const JetBody& b, double rest, Tension tension) {
-  const JetEnd p = end_of(ends.first == 0 ? a : b, ends.first_arm),
-               q = ends.second ? end_of(*ends.second == 0 ? a : b, ends.second_arm) : on_ground(ends.second_arm);
+  const auto on_body = [&](const PointOnBody& end) { return end_of(end.body == 0 ? a : b, end.arm); };
+  const auto* second = std::get_if<PointOnBody>(&ends.second);
+  const JetEnd p = on_body(ends.first),
+               q = second != nullptr ? on_body(*second) : on_ground(std::get<PointOnGround>(ends.second).place);
   const JetVector d = q.place - p.place;
   const Jet L = length(d);
   const JetVector u = d / L, f = u * tension(L - rest, u.dot(JetVector(q.velocity - p.velocity)));
-  out.force(ends.first, p.arm, f);
-  if (ends.second) out.force(*ends.second, q.arm, -f);
+  out.force(ends.first.body, p.arm, f);
+  if (second != nullptr) out.force(second->body, q.arm, -f);
 }
 
 TEST(Tangents, OfAxialConnectorsFollowFromTheirLength) {
@@ -168,7 +170,7 @@ TEST(Tangents, OfBushingsFollowFromStrainAndTurn) {  // (D4)
   const Eigen::Vector3d k(1000, 2000, 500), c(30, 10, 60), kr(300, 200, 100), cr(5, 8, 3), rest(2, 0, 0);
   const BushingConnectorKind kind({{between, k, c, kr, cr, rest}});
   laws::expect_automatic_tangents_everywhere(kind, bodies, [&](const JetBody& a, const JetBody& b, double) {
-    const JetEnd p = end_of(a, between.first_arm), q = end_of(b, between.second_arm);
+    const JetEnd p = end_of(a, between.first.arm), q = end_of(b, std::get<PointOnBody>(between.second).arm);
     const JetMatrix back = a.attitude.transpose();
     const JetVector d = q.place - p.place, arm = q.place - a.centre;
     const JetVector shift = back * d - jets(rest),
@@ -318,20 +320,20 @@ std::array<Jet, 2> tension_for(const LineProperties& line, const Jet& x, const J
 }
 
 TEST(Tangents, OfCatenariesFollowFromTheirSpan) {  // (D60)-(D63)
-  const std::vector<CatenaryMooring> lines{{0, {1, 0.5, -1}, {50, 10, -20}, {60, 700, 1e7, true}},
-                                           {1, {0, 0, -1}, {-20, 3, -15}, {34, 300, 1e6, false}}};
+  const std::vector<CatenaryMooring> lines{{{0, {1, 0.5, -1}}, {{50, 10, -20}}, {60, 700, 1e7, true}},
+                                           {{1, {0, 0, -1}}, {{-20, 3, -15}}, {34, 300, 1e6, false}}};
   // The line is solved to 1e-12 of its length, which is round-off of its stretch HL/EA a hundredfold: 1e-9 of the pull.
   laws::expect_automatic_tangents_everywhere(
       CatenaryMooringKind(lines), bodies,
       [&](const JetBody& a, const JetBody& b, double) {
         JetLoads out;
         for (const CatenaryMooring& m : lines) {
-          const JetBody& body = m.body == 0 ? a : b;
-          const JetVector r = body.arm(m.fairlead), d = body.centre + r - jets(m.anchor);
+          const JetBody& body = m.fairlead.body == 0 ? a : b;
+          const JetVector r = body.arm(m.fairlead.arm), d = body.centre + r - jets(m.anchor.place);
           const Jet x = sqrt(d[0] * d[0] + d[1] * d[1]);
           const auto start = catenary(m.line, x.a, d[2].a);
           const auto [H, V] = tension_for(m.line, x, d[2], start.horizontal, start.vertical);
-          out.force(m.body, r, JetVector(-H * d[0] / x, -H * d[1] / x, -V));
+          out.force(m.fairlead.body, r, JetVector(-H * d[0] / x, -H * d[1] / x, -V));
         }
         return out;
       },

@@ -28,12 +28,9 @@ Model chain(int count, double stiffness) {
   std::vector<AxialConnector> springs;
   for (int i = 0; i < count; ++i) {
     bodies.push_back(body(std::to_string(i), {i + 1.0, 0, 0}));
-    AxialConnector c{};
-    c.ends.first = i;
-    if (i > 0) c.ends.second = i - 1;
-    c.law.stiffness = stiffness;
-    c.rest_length = 1;
-    springs.push_back(c);
+    const Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    const Point before = i > 0 ? Point(PointOnBody{i - 1, centre}) : PointOnGround{centre};
+    springs.push_back({{{i, centre}, before}, {.stiffness = stiffness}, 1});
   }
   std::vector<std::unique_ptr<const ForceKind>> forces;
   forces.push_back(std::make_unique<AxialConnectorKind>(std::move(springs)));

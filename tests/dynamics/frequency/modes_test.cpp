@@ -85,9 +85,9 @@ TEST(Modes, OfAChainAreThoseOfLagrange) {
   std::vector<AxialConnector> springs;
   for (int i = 0; i < n; ++i) bodies.push_back(body(fmt::format("m{}", i + 1), 10.0 * i, surge_only));
   const Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  springs.push_back({{0, {}, centre, {-10, 0, 0}}, {k, 0}, 10});
-  for (int i = 0; i + 1 < n; ++i) springs.push_back({{i, i + 1, centre, centre}, {k, 0}, 10});
-  springs.push_back({{n - 1, {}, centre, {10.0 * n, 0, 0}}, {k, 0}, 10});
+  springs.push_back({{{0, centre}, PointOnGround{{-10, 0, 0}}}, {k, 0}, 10});
+  for (int i = 0; i + 1 < n; ++i) springs.push_back({{{i, centre}, PointOnBody{i + 1, centre}}, {k, 0}, 10});
+  springs.push_back({{{n - 1, centre}, PointOnGround{{10.0 * n, 0, 0}}}, {k, 0}, 10});
   const Model model = held(bodies, Matrix6::Zero(), Matrix6::Zero(), springs);
   const auto found = free_motions(model, {});
   ASSERT_EQ(found.modes.size(), static_cast<std::size_t>(n));

@@ -102,7 +102,7 @@ TEST(Rao, InterpolatesTheWayOfTheWaveExactly) {
 TEST(Rao, OfTwoSprungBodiesSolvesBothEquations) {
   const std::vector<RigidBody> bodies{body("a", 0), body("b", 10)};
   const double kc = 800;
-  const Ends ends{0, 1, Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0)};
+  const Ends ends{{0, Eigen::Vector3d(1, 0, 0)}, PointOnBody{1, Eigen::Vector3d(-1, 0, 0)}};
   const Model model =
       sprung(bodies, 2500, 40, std::make_unique<AxialConnectorKind>(std::vector<AxialConnector>{{ends, {kc, 0}, 8}}));
   const Coefficients c = coefficients({0, 10});
@@ -119,7 +119,7 @@ TEST(Rao, OfTwoSprungBodiesSolvesBothEquations) {
 // Energy: over a period the waves supply what radiation and dampers take, ½ Re(iω ξ* … ) summed over the modes.
 TEST(Rao, BalancesThePowerOfTheWaves) {
   const std::vector<RigidBody> bodies{body("a", 0), body("b", 10)};
-  const Ends ends{0, 1, Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(-1, 0, 0)};
+  const Ends ends{{0, Eigen::Vector3d(1, 1, 0)}, PointOnBody{1, Eigen::Vector3d(-1, 0, 0)}};
   const Model model =
       sprung(bodies, 2500, 40,
              std::make_unique<AxialConnectorKind>(std::vector<AxialConnector>{{ends, {800, 60}, std::sqrt(65.0)}}));
@@ -149,7 +149,7 @@ Coefficients from_sides(Coefficients c, const std::vector<double>& headings) {
 // The same factors on more columns: the sums are those of one heading, in another order.
 TEST(RaoHeadings, AreThoseOfOneByOneFromOneFactorisationAFrequency) {
   const std::vector<RigidBody> bodies{body("a", 0), body("b", 10)};
-  const Ends ends{0, 1, Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(-1, 0, 0)};
+  const Ends ends{{0, Eigen::Vector3d(1, 1, 0)}, PointOnBody{1, Eigen::Vector3d(-1, 0, 0)}};
   const Model model =
       sprung(bodies, 2500, 40,
              std::make_unique<AxialConnectorKind>(std::vector<AxialConnector>{{ends, {800, 60}, std::sqrt(65.0)}}));

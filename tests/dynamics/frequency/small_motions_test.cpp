@@ -11,6 +11,7 @@
 #include "dynamics/frequency/modes.hpp"
 #include "dynamics/model/equilibrium.hpp"
 #include "dynamics/spatial/rotation.hpp"
+#include "laws/signal_laws.hpp"
 
 namespace small_motions_test {
 namespace {
@@ -29,7 +30,7 @@ Model leaning_pendulum() {
   std::vector<std::unique_ptr<const ForceKind>> forces;
   forces.push_back(std::make_unique<GravityKind>(bodies, g));
   forces.push_back(std::make_unique<ConstantLoadKind>(
-      std::vector<ConstantLoad>{{0, Eigen::Vector3d::Zero(), {load, 0, 0}, Eigen::Vector3d::Zero()}}));
+      std::vector<ConstantLoad>{{{0, Eigen::Vector3d::Zero()}, {load, 0, 0}, Eigen::Vector3d::Zero()}}));
   return {bodies,
           {},
           std::move(forces),
@@ -61,7 +62,7 @@ TEST(SmallMotions, OfAPendulumThatLeansAreFasterByTheLoadThatLeansIt) {
 TEST(SmallMotions, LoadsInAHingeVaryInTheBodysOwnAxes) {
   const Model model = leaning_pendulum();
   const SmallMotions about(model, equilibrium(model, rest_state(model.bodies())));
-  const auto variation = model.joints().load_variation(0, End::first, about.still, about.linear.multipliers);
+  const auto variation = laws::load_variations(model.joints(), 0, End::first, about.still, about.linear.multipliers);
   // The same joint in a state that has turned a little further about the hinge, with multipliers a little changed.
   const double step = 1e-6;
   Eigen::VectorXd move = Eigen::VectorXd::Zero(6), change = Eigen::VectorXd::Random(model.joints().count());

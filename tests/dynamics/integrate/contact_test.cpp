@@ -410,20 +410,18 @@ TEST(Contact, OfShapesThatOverlapAtTheStartIsRefusedByName) {
 
 /// Gradient and curvature of a gap are its derivatives.
 void expect_derivatives(const GapConstraint& c) {
-  ConstraintEnds at{{0.1, 0.2, 0.3},
-                    {1.4, 0.1, 0.5},
-                    rotation_exp({0.2, -0.1, 0.3}).toRotationMatrix(),
-                    rotation_exp({-0.3, 0.2, 0.1}).toRotationMatrix(),
+  ConstraintEnds at{{{0.1, 0.2, 0.3}, rotation_exp({0.2, -0.1, 0.3}).toRotationMatrix()},
+                    {{1.4, 0.1, 0.5}, rotation_exp({-0.3, 0.2, 0.1}).toRotationMatrix()},
                     0};
   const Gradient G = gradient(c, at);
   for (int k = 0; k < 12; ++k) {
     const auto moved_by = [&](double way) {
       ConstraintEnds out = at;
       const Eigen::Vector3d move = way * Eigen::Vector3d::Unit(k % 3);
-      if (k / 3 == 0) out.first_centre += move;
-      if (k / 3 == 1) out.first = rotation_exp(move).toRotationMatrix() * at.first;
-      if (k / 3 == 2) out.second_centre += move;
-      if (k / 3 == 3) out.second = rotation_exp(move).toRotationMatrix() * at.second;
+      if (k / 3 == 0) out.first.origin += move;
+      if (k / 3 == 1) out.first.axes = rotation_exp(move).toRotationMatrix() * at.first.axes;
+      if (k / 3 == 2) out.second.origin += move;
+      if (k / 3 == 3) out.second.axes = rotation_exp(move).toRotationMatrix() * at.second.axes;
       return value(c, out);
     };
     const double by = 1e-6, slope = (moved_by(by) - moved_by(-by)) / (2 * by);

@@ -155,8 +155,8 @@ TEST(EnergyLedger, ClosesForASwingingDampedPair) {
     std::vector<std::unique_ptr<const ForceKind>> f;
     const Matrix6 C = 4000 * Matrix6::Identity();
     f.push_back(std::make_unique<RestoringKind>("mooring", bodies, std::vector<Restoring>{{0, C, 0.02 * C}, {1, C}}));
-    f.push_back(std::make_unique<AxialConnectorKind>(std::vector<AxialConnector>{
-        {{0, 1, Eigen::Vector3d(1, 0.5, 0), Eigen::Vector3d(-1, 0.5, 0)}, {2500, 100}, 2}}));
+    f.push_back(std::make_unique<AxialConnectorKind>(
+        std::vector<AxialConnector>{{{{0, {1, 0.5, 0}}, PointOnBody{1, {-1, 0.5, 0}}}, {2500, 100}, 2}}));
     const Model model(bodies, {}, std::move(f));
     State start = rest_state(bodies);
     start.pose[0].centre.x() += 0.4;

@@ -37,7 +37,8 @@ Model row(int count, Joined how) {
   std::vector<Joint> hinges;
   for (int i = 0; i + 1 < count; ++i) {
     const Eigen::Vector3d end(1.5, 0.2, 0.1);
-    springs.push_back({{i, i + 1, end, {-1.2, 0.2, 0.1}}, {.stiffness = 300, .damping = 5, .cubic = 50}, 0.3});
+    springs.push_back(
+        {{{i, end}, PointOnBody{i + 1, {-1.2, 0.2, 0.1}}}, {.stiffness = 300, .damping = 5, .cubic = 50}, 0.3});
     hinges.push_back({.name = "h",
                       .kind = JointKind::hinge,
                       .first = i,

@@ -26,7 +26,7 @@ std::vector<RigidBody> bob(double mass) {
 /// A bob that falls by 0.3 m until a cable holds it.
 Model on_cable(double mass) {
   auto bodies = bob(mass);
-  std::vector<AxialConnector> cable{{.ends = {0, {}, {0, 0, 0}, {0, 0, 5}},
+  std::vector<AxialConnector> cable{{.ends = {{0, {0, 0, 0}}, PointOnGround{{0, 0, 5}}},
                                      .law = {.stiffness = mass * omega * omega, .tension_only = true},
                                      .rest_length = 5 + fall}};
   std::vector<std::unique_ptr<const ForceKind>> forces;

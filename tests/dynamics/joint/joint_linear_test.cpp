@@ -11,6 +11,7 @@
 #include "dynamics/frequency/modes.hpp"
 #include "dynamics/model/assemble.hpp"
 #include "dynamics/spatial/rotation.hpp"
+#include "laws/signal_laws.hpp"
 
 namespace joint_linear_test {
 namespace {
@@ -109,7 +110,7 @@ TEST(JointLinear, LoadsVaryAboutRestAsTheirDerivativesSay) {
   for (const int j : {0, 1})
     for (const End end : {End::first, End::second}) {
       if (j == 0 && end == End::second) continue;  // the ground
-      const auto variation = m.joints().load_variation(j, end, rest, lambda);
+      const auto variation = laws::load_variations(m.joints(), j, end, rest, lambda);
       constexpr double step = 1e-6;
       for (int mode = 0; mode < m.modes(); ++mode) {
         const auto at = [&](double d) {

@@ -78,9 +78,9 @@ TEST(Catenary, SaysWhatItCannotSolve) {
 TEST(ForceLaws, HoldForCatenariesThatRestHangAndLieSlack) {
   const auto bodies = support::two_bodies();
   const LineProperties resting{60, 700, 1e7, true}, free{34, 300, 1e6, false}, slack{200, 700, 1e7, true};
-  laws::expect_force_laws(CatenaryMooringKind({{0, {1, 0.5, -1}, {50, 10, -20}, resting},
-                                               {1, {0, 0, -1}, {-20, 3, -15}, free},
-                                               {1, {0.3, 0, 0}, {30, -40, -20}, slack}}),
+  laws::expect_force_laws(CatenaryMooringKind({{{0, {1, 0.5, -1}}, {{50, 10, -20}}, resting},
+                                               {{1, {0, 0, -1}}, {{-20, 3, -15}}, free},
+                                               {{1, {0.3, 0, 0}}, {{30, -40, -20}}, slack}}),
                           bodies);
 }
 
@@ -89,7 +89,7 @@ TEST(ForceLaws, HoldForCatenariesFromTables) {
   const LineProperties resting{60, 700, 1e7, true};
   const Reach all{1, 80, 0.01, 40};
   const auto table = std::make_shared<CatenaryTable>(resting, all, 1e-2);
-  laws::expect_force_laws(CatenaryMooringKind({{0, {1, 0.5, -1}, {50, 10, -20}, resting, table}}), bodies);
+  laws::expect_force_laws(CatenaryMooringKind({{{0, {1, 0.5, -1}}, {{50, 10, -20}}, resting, table}}), bodies);
 }
 
 // The promise is checked where the table was not made to look.
@@ -133,14 +133,14 @@ TEST(CatenaryTable, RefusesWhatItCannotHold) {
 TEST(CatenaryMooring, HasTheGradientOfItsTensions) {
   const auto bodies = support::two_bodies();
   const LineProperties resting{60, 700, 1e7, true}, free{34, 300, 1e6, false};
-  for (const CatenaryMooring& m : {CatenaryMooring{0, {1, 0.5, -1}, {50, 10, -20}, resting},
-                                   CatenaryMooring{1, {0, 0, -1}, {-20, 3, -15}, free}}) {
+  for (const CatenaryMooring& m : {CatenaryMooring{{0, {1, 0.5, -1}}, {{50, 10, -20}}, resting},
+                                   CatenaryMooring{{1, {0, 0, -1}}, {{-20, 3, -15}}, free}}) {
     const State at = rest_state(bodies);
     const TensionGradient gradient = tension_gradient(m, at);
     for (int mode = 0; mode < 6; ++mode) {
       const auto moved = [&](double by) {
         State s = at;
-        Pose& pose = s.pose[static_cast<std::size_t>(m.body)];
+        Pose& pose = s.pose[static_cast<std::size_t>(m.fairlead.body)];
         if (mode < 3)
           pose.centre[mode] += by;
         else

@@ -46,7 +46,7 @@ Description springs(int n, double axial_stiffness) {
 /// From the origin to the centre of a body.
 FastenedLine hung(const Description& d, const Vector3d& at = Vector3d::Zero()) {
   const int n = static_cast<int>(d.segments.size());
-  return {.name = "l", .run = d, .still = d, .places = Places::Zero(3, n + 1), .ends = {{n, 0, at}}};
+  return {.name = "l", .run = d, .still = d, .places = Places::Zero(3, n + 1), .ends = {{n, {0, at}}}};
 }
 
 RigidBody bob(double mass, const Vector3d& place, bool turns = false) {
@@ -199,7 +199,7 @@ FastenedLineKind between_bodies() {
                             .run = stiff,
                             .still = stiff,
                             .places = Places::Zero(3, 6),
-                            .ends = {{0, 0, {0.5, 0.1, -0.2}}, {5, 1, {-0.4, 0.2, 0.1}}}},
+                            .ends = {{0, {0, {0.5, 0.1, -0.2}}}, {5, {1, {-0.4, 0.2, 0.1}}}}},
                            hung(d, {0.3, 0.2, -0.1})});
 }
 
@@ -253,7 +253,7 @@ FastenedLineKind bridle_on_bodies() {
         .run = d,
         .still = d,
         .places = Places::Zero(3, std::ssize(d.nodes)),
-        .ends = {{0, 0, {0.5, 0.4, -0.2}}, {second, 0, {0.5, -0.4, -0.2}}, {third + 2, 1, {-0.4, 0.2, 0.1}}}}});
+        .ends = {{0, {0, {0.5, 0.4, -0.2}}}, {second, {0, {0.5, -0.4, -0.2}}}, {third + 2, {1, {-0.4, 0.2, 0.1}}}}}});
 }
 
 TEST(FastenedLine, OfABridleHasTheDerivativesOfItsStep) {

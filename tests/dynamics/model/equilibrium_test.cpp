@@ -31,8 +31,7 @@ Model under_gravity(const RigidBody& b, std::vector<Joint> joints, std::vector<A
 
 TEST(Equilibrium, HangsAWeightOnItsSpring) {
   // k = 100 N/m, 2 m long without load, from 5 m above: it hangs m g/k deeper, whatever way it was placed.
-  const Model m =
-      under_gravity(body({1, 0, 1}), {}, {{{0, {}, Eigen::Vector3d::Zero(), Eigen::Vector3d(0, 0, 5)}, {100, 0}, 2}});
+  const Model m = under_gravity(body({1, 0, 1}), {}, {{{{0, {0, 0, 0}}, PointOnGround{{0, 0, 5}}}, {100, 0}, 2}});
   const State rest = equilibrium(m, rest_state(m.bodies()));
   EXPECT_NEAR(rest.pose[0].centre.z(), 5 - 2 - 3 * g / 100, 1e-9);
   EXPECT_NEAR(rest.pose[0].centre.head<2>().norm(), 0, 1e-7) << "straight below";

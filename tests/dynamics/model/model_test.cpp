@@ -32,7 +32,7 @@ std::vector<std::unique_ptr<const ForceKind>> springs(const std::vector<RigidBod
   Matrix6 C = Matrix6::Identity() * 800;
   f.push_back(std::make_unique<RestoringKind>("mooring", bodies, std::vector<Restoring>{{0, C, 0.1 * C}, {1, C}}));
   f.push_back(std::make_unique<AxialConnectorKind>(
-      std::vector<AxialConnector>{{{0, 1, Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0)}, {500, 20}, 1.8}}));
+      std::vector<AxialConnector>{{{{0, {1, 0, 0}}, PointOnBody{1, {-1, 0, 0}}}, {500, 20}, 1.8}}));
   return f;
 }
 

@@ -52,12 +52,11 @@ TEST(Signals, OfMooringsConnectorsAndTakeOffsVaryAsTheyAre) {
   K(0, 4) = K(4, 0) = 50;
   const RestoringKind mooring("mooring", bodies,
                               {{.body = 1, .stiffness = K, .damping = 0.2 * K, .name = "m", .told = all}});
-  const CatenaryMooringKind lines({{.body = 0,
-                                    .fairlead = Vector3d(1, 0.3, -0.5),
-                                    .anchor = Vector3d(60, 20, -40),
+  const CatenaryMooringKind lines({{.fairlead = {0, Vector3d(1, 0.3, -0.5)},
+                                    .anchor = {Vector3d(60, 20, -40)},
                                     .line = {.length = 90, .weight = 300, .axial_stiffness = 1e7, .on_bed = true},
                                     .name = "c"}});
-  const Ends ends{0, 1, Vector3d(1, 0.5, 0.2), Vector3d(-1, 0.5, -0.1)};
+  const Ends ends{{0, Vector3d(1, 0.5, 0.2)}, PointOnBody{1, Vector3d(-1, 0.5, -0.1)}};
   const AxialConnectorKind axial({{ends, {.stiffness = 2000, .damping = 100}, 1.5, "a"}});
   const BushingConnectorKind bushing({{ends, Vector3d(100, 200, 300), Vector3d(10, 20, 30), Vector3d(1, 2, 3),
                                        Vector3d(1, 1, 1), Vector3d(2, 0, 0), "b"}});
@@ -82,8 +81,8 @@ TEST(Signals, OfMooringsConnectorsAndTakeOffsVaryAsTheyAre) {
 }
 
 TEST(Signals, OfPointsRelativeMotionsAndNetLoadsVaryAsTheyAre) {
-  const BodyPoint bow{1, Vector3d(2, -0.4, 0.7)};
-  const Ends ends{0, 1, Vector3d(1, 0.5, 0.2), Vector3d(-1, 0.5, -0.1)};
+  const PointOnBody bow{1, Vector3d(2, -0.4, 0.7)};
+  const Ends ends{{0, Vector3d(1, 0.5, 0.2)}, PointOnBody{1, Vector3d(-1, 0.5, -0.1)}};
   for (const auto& signals : {place_signals("bow", bow), velocity_signals("bow", bow), acceleration_signals("bow", bow),
                               relative_motion_signals("gap", ends, Vector3d(2, 0, 0)), net_load_signals(bodies[1], 1)})
     laws::expect_true_variations(signals, still(6));

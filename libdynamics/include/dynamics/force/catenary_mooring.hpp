@@ -5,13 +5,13 @@
 
 #include "dynamics/force/force_kind.hpp"
 #include "dynamics/line/catenary_table.hpp"
+#include "dynamics/state/point.hpp"
 
 namespace dynamics {
 
 struct CatenaryMooring {
-  int body;
-  Eigen::Vector3d fairlead;  ///< from the centre of gravity, body axes, m
-  Eigen::Vector3d anchor;    ///< global, m
+  PointOnBody fairlead;
+  PointOnGround anchor;
   LineProperties line;
   std::shared_ptr<const CatenaryTable> table = {};  ///< used where it holds the fairlead; empty: always solved
   std::string name = {};

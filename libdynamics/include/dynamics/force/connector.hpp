@@ -1,19 +1,18 @@
 #pragma once
 /// \file  Connectors between a point of one body and a point of another, or of the ground.
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "dynamics/force/force_kind.hpp"
 #include "dynamics/force/force_law.hpp"
+#include "dynamics/state/point.hpp"
 
 namespace dynamics {
 
-/// The two points a connector joins, each from its body's centre of gravity in body axes; global where `second` is
-/// empty.
+/// The two points that a connector joins.
 struct Ends {
-  int first;
-  std::optional<int> second;
-  Eigen::Vector3d first_arm, second_arm;
+  PointOnBody first;
+  Point second;
 };
 
 /// A pull along the line between the ends: what its law gives for L − L₀ and dL/dt, tension positive (D3).
@@ -42,9 +41,6 @@ struct AxialState {
   double length, tension;  ///< m, N
 };
 AxialState axial_state(const AxialConnector& connector, const State& state);
-
-/// The signals of a connector whose law may change with the memory of its kind: as `of` tells it.
-std::vector<Signal> axial_signals(const std::string& name, std::function<AxialConnector(const Memory*)> of);
 
 /// The second end seen from the first body, less `rest_offset`, along that body's axes: "gap.x" … "gap.z", m.
 std::vector<Signal> relative_motion_signals(const std::string& name, const Ends& ends,

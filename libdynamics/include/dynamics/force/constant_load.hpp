@@ -1,13 +1,13 @@
 #pragma once
 /// \file  Loads that stay as they are: wind, a tow, a weight hung on.
 #include "dynamics/force/force_kind.hpp"
+#include "dynamics/state/point.hpp"
 
 namespace dynamics {
 
 /// A force and a moment, both constant in global axes; the force acts at a point of the body. Counted as supplied.
 struct ConstantLoad {
-  int body;
-  Eigen::Vector3d arm;            ///< from the centre of gravity, body axes, m
+  PointOnBody at;
   Eigen::Vector3d force, moment;  ///< N, N m
 };
 

@@ -9,7 +9,7 @@
 
 namespace dynamics {
 
-/// Two shapes of two bodies that do not pass through each other (D23)-(D25).
+/// Two shapes of two bodies, in their frames (frame_of()), that do not pass through each other (D23)-(D25).
 struct Contact {
   std::string name;
   int first;

@@ -2,6 +2,7 @@
 /// \file  Lines of nodes with ends on bodies, stepped together with them. (D90)-(D92)
 #include "dynamics/force/force_kind.hpp"
 #include "dynamics/line/driven.hpp"
+#include "dynamics/state/point.hpp"
 
 namespace dynamics {
 
@@ -9,8 +10,7 @@ namespace dynamics {
 struct FastenedLine {
   struct End {
     int node;
-    int body;
-    Eigen::Vector3d at;     ///< from the centre of gravity, body axes, m
+    PointOnBody at;
     std::string name = {};  ///< "a.to" of line a
   };
   std::string name;

@@ -59,6 +59,16 @@ class JacobianSink {
   void add(int on, int by, const Matrix6& by_displacement, const Matrix6& by_velocity) {
     matrix_.block(on, by) -= displacement_factor_ * by_displacement + velocity_factor_ * by_velocity;
   }
+  /// Derivatives of the loads on two bodies by displacements and velocities of both, (first, second); without a second
+  /// only those of the first.
+  void add_pair(int first, const std::optional<int>& second, const Matrix12& by_displacement,
+                const Matrix12& by_velocity) {
+    const int count = second ? 2 : 1;
+    const int body[2] = {first, second.value_or(-1)};
+    for (int i = 0; i < count; ++i)
+      for (int j = 0; j < count; ++j)
+        add(body[i], body[j], by_displacement.block<6, 6>(6 * i, 6 * j), by_velocity.block<6, 6>(6 * i, 6 * j));
+  }
   /// Derivatives by velocity between single modes, (modes, modes).
   void add_velocity_modes(const std::vector<int>& modes, const Eigen::MatrixXd& by_velocity) {
     for (std::size_t j = 0; j < modes.size(); ++j)

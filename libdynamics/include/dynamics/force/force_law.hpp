@@ -22,7 +22,9 @@ struct LineLaw {
                           {};  ///< at least two, x increasing; straight between them and beyond, instead of k₁, k₃
   bool tension_only = false;   ///< nothing at x <= 0, and never a push: cables, end stops (D51)
 
-  SpringDamperForce at(double x, double rate) const;
+  SpringDamperForce at(double x, double rate) const { return at(x, rate, stiffness); }
+  /// With another k₁ in place of its own.
+  SpringDamperForce at(double x, double rate, double k1) const;
   /// The steepest slope of the spring: of its table, or at x = 0 where it pulls.
   double stiffest() const;
 };

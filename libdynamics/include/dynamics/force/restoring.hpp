@@ -41,10 +41,17 @@ class RestoringKind final : public ForceKind {
   /// The rotation vector ends at half a turn from rest: beyond it the moment would act the other way.
   std::string breaks_off(const State& before, const State& after) const override;
 
+  /// What an element needs of its body.
+  struct Held {
+    std::string name;
+    Eigen::Vector3d rest_centre;  ///< of gravity, global, m
+    Eigen::Vector3d centre;       ///< of gravity from the origin, body axes, m
+  };
+
  private:
   std::string effect_;
   std::vector<Restoring> elements_;
-  std::vector<RigidBody> body_;  // one an element
+  std::vector<Held> held_;  // one an element
 };
 
 }  // namespace dynamics

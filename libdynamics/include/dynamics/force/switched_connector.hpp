@@ -55,7 +55,4 @@ class SwitchedConnectorKind final : public ForceKind {
   std::vector<SwitchedConnectors> groups_;
 };
 
-/// One connector as it is while its group has this stiffness.
-AxialConnector with_stiffness(AxialConnector connector, double stiffness);
-
 }  // namespace dynamics

@@ -1,18 +1,14 @@
 #pragma once
 /// \file  One constraint of a joint or contact: its value, gradient and curvature (D13)-(D15), (D23). For JointSet and
-/// for
-///        tests.
+///        for tests.
 #include "dynamics/joint/joint.hpp"
 
 namespace dynamics {
 
-using Matrix12 = Eigen::Matrix<double, 12, 12>;
-
-/// Where the two bodies of a constraint are.
+/// Where the frames are that a constraint has its numbers in.
 struct ConstraintEnds {
-  Eigen::Vector3d first_centre, second_centre;  ///< global
-  Eigen::Matrix3d first, second;                ///< attitudes; identity for the ground
-  double time;                                  ///< s
+  Frame first, second;
+  double time;  ///< s
 };
 ConstraintEnds ends_of(const Constraint& constraint, const State& state);
 

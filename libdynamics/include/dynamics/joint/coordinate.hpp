@@ -1,7 +1,6 @@
 #pragma once
 /// \file  How far the second body of a slider has gone along its axis, or of a hinge has turned about it: one number
-/// with
-///        gradient and curvature, made of the constraints of joints. (D53)
+///        with gradient and curvature, made of the constraints of joints. (D53)
 #include "dynamics/joint/constraints.hpp"
 
 namespace dynamics {
@@ -12,9 +11,7 @@ class JointCoordinate {
  public:
   /// `joint`: a slider or hinge, as JointSet takes it; `counted_as`: its place there.
   JointCoordinate(const std::vector<RigidBody>& bodies, const Joint& joint, std::optional<int> counted_as = {});
-  /// Arms from the bodies' centres to the joint's place, body axes; of the ground: the global place.
-  JointCoordinate(const Joint& joint, const Eigen::Vector3d& first_arm, const Eigen::Vector3d& second_arm,
-                  std::optional<int> counted_as = {});
+  JointCoordinate(const Joint& joint, const JointArms& arms, std::optional<int> counted_as = {});
 
   int first() const { return first_; }
   const std::optional<int>& second() const { return second_; }
@@ -34,7 +31,9 @@ class JointCoordinate {
   Constraint holding(const State& state) const;
 
  private:
-  ConstraintEnds ends(const State& state) const { return ends_of({0, first_, second_, along_}, state); }
+  ConstraintEnds ends(const State& state) const {
+    return {frame_of(first_, state), frame_of(second_, state), state.time};
+  }
 
   int first_;
   std::optional<int> second_;

@@ -17,6 +17,7 @@
 #include "dynamics/spatial/shape.hpp"
 #include "dynamics/state/block_matrix.hpp"
 #include "dynamics/state/body.hpp"
+#include "dynamics/state/point.hpp"
 #include "dynamics/state/signal.hpp"
 
 namespace dynamics {
@@ -54,20 +55,26 @@ struct Joint {
 
 class JointCoordinate;
 
+/// The place of a joint in the frames of its two bodies.
+struct JointArms {
+  Eigen::Vector3d first, second;
+};
+JointArms arms_at_rest(const std::vector<RigidBody>& bodies, const Joint& joint);
+
 /// A direction n that keeps d, from the first body's point to the second's, at zero: g = n·d (D13).
 struct PointConstraint {
-  Eigen::Vector3d first_arm, second_arm;  ///< from the centres, body axes; of the ground: global place
-  Eigen::Vector3d direction;              ///< n, unit; global, or in the first body's axes if `turns`
+  Eigen::Vector3d first_arm, second_arm;  ///< in the frame of the first, of the second
+  Eigen::Vector3d direction;              ///< n, unit; global, or along the first body's axes if `turns`
   bool turns;
 };
 /// Directions u of the first body and v of the second that stay across each other: g = u·v (D14).
 struct AxesConstraint {
-  Eigen::Vector3d first_axis, second_axis;  ///< u, v, body axes; of the ground: global
+  Eigen::Vector3d first_axis, second_axis;  ///< u, v, along the axes of either frame
 };
 
 /// Shapes of the two bodies that touch: g is the gap between them (D23).
 struct GapConstraint {
-  Shape first, second;  ///< from the centres, body axes; of the ground: global
+  Shape first, second;  ///< in the frame of the first, of the second
 };
 
 /// Where the shapes touch, the second does not slip over the first along a direction: a constraint on velocities alone,
@@ -85,9 +92,10 @@ struct PrescribedConstraint {
 using ConstraintLaw =
     std::variant<PointConstraint, AxesConstraint, GapConstraint, StickConstraint, PrescribedConstraint>;
 
+/// A constraint between two bodies, or a body and the ground. Its numbers stand in the frames of these (frame_of()).
 struct Constraint {
   int joint, first;
-  std::optional<int> second;
+  std::optional<int> second;  ///< empty: the ground
   ConstraintLaw what;
 };
 
@@ -95,6 +103,7 @@ struct Constraint {
 struct Gradient {
   Vector6 first, second;
 };
+Vector12 joined(const Gradient& g);
 
 /// Length of both rows together.
 double norm(const Gradient& g);
@@ -145,13 +154,9 @@ class JointSet {
   /// Load of the joint on one of its bodies: force and moment about the joint's place in that body, in that body's
   /// axes, N and N m. What redundant constraints would carry is not in it. The second body must not be the ground.
   Vector6 load_on(int joint, End end, const State& state, const Eigen::VectorXd& lambda) const;
-  /// How load_on() varies where the bodies are still: with the displacements of all bodies while `lambda` acts, and
-  /// with λ.
-  struct LoadVariation {
-    Eigen::MatrixXd by_motion;      ///< (6, 6N)
-    Eigen::MatrixXd by_multiplier;  ///< (6, count)
-  };
-  LoadVariation load_variation(int joint, End end, const State& still, const Eigen::VectorXd& lambda) const;
+  /// How one component of load_on() varies where the bodies are still: with their displacements while `lambda` acts,
+  /// and with λ.
+  Variation load_variation(int joint, End end, int component, const State& still, const Eigen::VectorXd& lambda) const;
   /// Where the joint lets its second body (or the ground) move against the first: the stroke of a slider along the
   /// axis, m, or the angle of a hinge about it, rad, whole turns counted (D133). Zero at rest. For sliders and hinges
   /// only.
@@ -175,8 +180,8 @@ class JointSet {
   std::vector<Signal> load_signals(int joint, End end, const std::string& body) const;
   std::vector<Joint> joints_;
   std::vector<Constraint> constraints_;
-  std::vector<std::array<Eigen::Vector3d, 2>> place_in_;  // from the bodies' centres, body axes; of the ground: global
-  std::vector<std::array<bool, 6>> free_;                 // one a body
+  std::vector<JointArms> arms_;            // one a joint
+  std::vector<std::array<bool, 6>> free_;  // one a body
 };
 
 }  // namespace dynamics

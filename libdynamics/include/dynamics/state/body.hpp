@@ -13,6 +13,8 @@ namespace dynamics {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix12 = Eigen::Matrix<double, 12, 12>;
+using Vector12 = Eigen::Matrix<double, 12, 1>;
 
 /// A rigid body. Constructed means usable: the constructor refuses what physics forbids.
 class RigidBody {
@@ -50,8 +52,9 @@ struct Pose {
 
   /// Roll, pitch and yaw, the nearest to those counted last: they run on through half and whole turns (D133).
   Eigen::Vector3d roll_pitch_yaw() const;
-  /// Displacement from rest: translation of the centre of gravity, and the rotation vector (global axes).
-  Vector6 displacement(const RigidBody& body) const;
+  /// Displacement from rest: translation of the centre of gravity from where it rests, and the rotation vector (global
+  /// axes).
+  Vector6 displacement(const Eigen::Vector3d& rest_centre) const;
   /// Global position of a point given from the body's origin in body axes.
   Vec3<World> point(const RigidBody& body, const Vec3<BodyAxes>& from_origin) const;
 };

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "dynamics/state/body.hpp"
+#include "dynamics/state/point.hpp"
 
 namespace dynamics {
 
@@ -48,6 +49,12 @@ struct Variation {
   std::function<std::complex<double>(double omega, double heading)> by_wave = {};
 };
 
+/// Rows by the twelve displacements, velocities or accelerations of two bodies, (first, second).
+using RowOfTwo = Eigen::Matrix<double, 1, 12>;
+/// The variation of a number between two bodies; without a second the ground is there, which stays.
+Variation variation_of_two(int first, const std::optional<int>& second, const RowOfTwo& by_motion,
+                           const RowOfTwo& by_velocity = RowOfTwo::Zero());
+
 /// The amplitude that a variation tells, of displacements ξ (6N), multipliers λ and a wave, Re(… e^{iωt}) per metre.
 std::complex<double> amplitude(const Variation& variation, const Eigen::VectorXcd& xi, const Eigen::VectorXcd& lambda,
                                double omega, double heading);
@@ -75,17 +82,11 @@ Matrix6 motions_by_displacement(const RigidBody& body, const Pose& pose);
 /// Motions of the free modes of all bodies, called like "m1.heave".
 std::vector<Signal> motion_signals(const std::vector<RigidBody>& bodies);
 
-/// A point that moves with a body, from its centre of gravity in body axes, m.
-struct BodyPoint {
-  int body;
-  Eigen::Vector3d arm;
-};
-/// Where it is, how fast it goes and how its velocity changes, along global axes: "bow.x", "bow.velocity_x",
+/// Where a point is, how fast it goes and how its velocity changes, along global axes: "bow.x", "bow.velocity_x",
 /// "bow.acceleration_x".
-std::vector<Signal> place_signals(const std::string& name, const BodyPoint& point);
-std::vector<Signal> velocity_signals(const std::string& name, const BodyPoint& point);
-std::vector<Signal> acceleration_signals(const std::string& name, const BodyPoint& point);
-Eigen::Vector3d place_of(const BodyPoint& point, const State& state);
+std::vector<Signal> place_signals(const std::string& name, const PointOnBody& point);
+std::vector<Signal> velocity_signals(const std::string& name, const PointOnBody& point);
+std::vector<Signal> acceleration_signals(const std::string& name, const PointOnBody& point);
 
 /// All loads on a body together, its weight among them, about its origin along global axes: what its own mass answers
 /// with m a and d(I ω)/dt. Called "m1.net_force_x" … "m1.net_moment_z".
