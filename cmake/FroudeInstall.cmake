@@ -2,9 +2,13 @@
 include(CMakePackageConfigHelpers)
 set(froude_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Froude)
 
-install(TARGETS froude_hydro froude_dynamics froude_fit EXPORT FroudeTargets
+install(TARGETS froude_hydro froude_dynamics froude_fit froude_compile froude_scene EXPORT FroudeTargets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+# The grammar's headers are called "scene/…", a name that is taken too easily for the common folder.
+install(TARGETS froude_grammar EXPORT FroudeTargets
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/froude)
 install(TARGETS froude RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 if(TARGET froude-validate)
   install(TARGETS froude-validate RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

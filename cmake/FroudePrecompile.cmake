@@ -67,7 +67,7 @@ function(froude_without out folder sources headers)
   foreach(source IN LISTS sources)
     cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder} NORMALIZE)
     froude_included(included "${source}" ${PROJECT_SOURCE_DIR}/libhydro/include ${PROJECT_SOURCE_DIR}/libdynamics/include
-      ${PROJECT_SOURCE_DIR}/libfit/include ${PROJECT_SOURCE_DIR}/apps ${PROJECT_SOURCE_DIR}/validation ${PROJECT_SOURCE_DIR}/tests)
+      ${PROJECT_SOURCE_DIR}/libfit/include ${PROJECT_SOURCE_DIR}/apps ${PROJECT_SOURCE_DIR}/apps/include ${PROJECT_SOURCE_DIR}/validation ${PROJECT_SOURCE_DIR}/tests)
     set(lacking ${headers})
     list(REMOVE_ITEM lacking ${included})
     if(lacking)

@@ -49,14 +49,17 @@ function(froude_merge target)
   endif()
 endfunction()
 
-# froude_library(NAME): a library froude_NAME with alias froude::NAME and the common options, not exported with them.
+# froude_library(NAME [HEADERS]): a library froude_NAME with alias froude::NAME and the common options, not exported with them;
+# its files read the set HEADERS precompiled, or that of the libraries.
 function(froude_library name)
+  set(headers ${ARGN} froude_library_headers)
+  list(GET headers 0 headers)
   add_library(froude_${name})
   add_library(froude::${name} ALIAS froude_${name})
   set_target_properties(froude_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   target_compile_features(froude_${name} PUBLIC cxx_std_20)
   target_link_libraries(froude_${name} PRIVATE $<BUILD_INTERFACE:froude::options>)
-  froude_precompile(froude_${name} froude_library_headers)
+  froude_precompile(froude_${name} ${headers})
   if(FROUDE_AUDIT)
     target_compile_definitions(froude_${name} PUBLIC FROUDE_AUDIT)
   endif()

@@ -12,8 +12,8 @@
 #include <sstream>
 
 #include "compile/control.hpp"
-#include "froude/linear_response.hpp"
-#include "froude/simulate.hpp"
+#include "answers/linear_response.hpp"
+#include "answers/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "scene/override.hpp"
 
@@ -27,7 +27,7 @@ void look_up(double) {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
-Record run(const scene::Scene& scene, const std::map<std::string, py::function>& controllers) {
+Run run(const scene::Scene& scene, const std::map<std::string, py::function>& controllers) {
   if (!scene.run)
     throw hydro::InputError(fmt::format("\"{}\" does not ask for a run", scene.file.filename().string()), {},
                             "[ask] run = { duration = \"600 s\", every = \"0.05 s\" }");
@@ -68,7 +68,7 @@ py::array_t<T> view(const std::vector<T>& values, const py::handle& owner, std::
 }
 
 /// A signal is a series in a run, and in responses to several headings one row for each of them.
-std::vector<std::size_t> shape_of(const Record& run) { return {run.time.size()}; }
+std::vector<std::size_t> shape_of(const Run& run) { return {run.time.size()}; }
 std::vector<std::size_t> shape_of(const Responses& r) {
   if (r.heading.size() == 1) return {r.omega.size()};
   return {r.heading.size(), r.omega.size()};
@@ -114,20 +114,20 @@ void add_signals(py::class_<Result>& type) {
 }
 
 void add_run(py::module_& m) {
-  py::class_<Record> type(m, "Run", "A run in time. run[\"m1.heave\"] is a signal as a numpy array, SI.");
+  py::class_<Run> type(m, "Run", "A run in time. run[\"m1.heave\"] is a signal as a numpy array, SI.");
   add_signals(type);
   type.def_property_readonly(
-          "time", [](const py::object& self) { return view(self.cast<const Record&>().time, self); }, "s")
-      .def_readonly("step", &Record::step, "s")
-      .def_readonly("steps", &Record::steps, "Steps completed.")
-      .def_readonly("stopped", &Record::stopped, "Why it ended before its time; empty if it did not.")
+          "time", [](const py::object& self) { return view(self.cast<const Run&>().time, self); }, "s")
+      .def_readonly("step", &Run::step, "s")
+      .def_readonly("steps", &Run::steps, "Steps completed.")
+      .def_readonly("stopped", &Run::stopped, "Why it ended before its time; empty if it did not.")
       .def_property_readonly(
-          "energy", [](const Record& r) { return std::map<std::string, double>(r.energy.begin(), r.energy.end()); },
+          "energy", [](const Run& r) { return std::map<std::string, double>(r.energy.begin(), r.energy.end()); },
           "J, by effect, at the end; `residual` is what does not balance, of `turnover`; `largest_residual` when it "
           "was most.")
       .def_property_readonly(
           "evaluations",
-          [](const Record& r) {
+          [](const Run& r) {
             return std::map<std::string, std::size_t>(r.evaluations.begin(), r.evaluations.end());
           },
           "How often each effect was evaluated.");

@@ -4,7 +4,7 @@
 
 #include "froude/commands.hpp"
 #include "froude/outputs.hpp"
-#include "froude/plot.hpp"
+#include "answers/plot.hpp"
 #include "froude/report.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"

@@ -1,6 +1,6 @@
 #include <ostream>
 
-#include "froude/fit_kinds.hpp"
+#include "answers/fit_kinds.hpp"
 #include "froude/fit_report.hpp"
 #include "froude/outputs.hpp"
 #include "hydro/io/atomic_file.hpp"

@@ -7,7 +7,7 @@
 
 #include "froude/commands.hpp"
 #include "froude/outputs.hpp"
-#include "froude/plot.hpp"
+#include "answers/plot.hpp"
 #include "froude/report.hpp"
 #include "hydro/hydrostatics/stability.hpp"
 #include "hydro/io/atomic_file.hpp"

@@ -8,7 +8,7 @@
 
 #include "froude/commands.hpp"
 #include "froude/outputs.hpp"
-#include "froude/plot.hpp"
+#include "answers/plot.hpp"
 #include "froude/record_file.hpp"
 #include "froude/report.hpp"
 #include "hydro/base/error.hpp"

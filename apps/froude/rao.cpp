@@ -4,7 +4,8 @@
 #include <span>
 #include <utility>
 
-#include "froude/linear_response.hpp"
+#include "answers/linear_response.hpp"
+#include "answers/plot.hpp"
 #include "froude/report.hpp"
 #include "froude/scene_result.hpp"
 #include "hydro/base/error.hpp"
@@ -146,7 +147,7 @@ void rao(const SceneArguments& arguments, const Console& console) {
   require_asked(scene.rao.has_value(), scene, "rao", "rao = { periods = \"2 s .. 8 s, 61 values\" }");
   const Path file = checked_output(arguments, ".rao.h5");
   const Responses r = respond(scene);
-  write_rao(file, r.omega, r.heading, r.signals, provenance_of(scene, r.notes));
+  r.write(file);
   if (arguments.csv) write_rao_csv(*arguments.csv, r);
   if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, r)));
   tell(report_of(scene, r, file), console);

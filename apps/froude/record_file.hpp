@@ -3,7 +3,7 @@
 #include <string>
 
 #include "froude/commands.hpp"
-#include "froude/result_file.hpp"
+#include "froude/result.hpp"
 
 namespace froude {
 

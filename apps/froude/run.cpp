@@ -1,22 +1,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compile/integrator.hpp"
+#include "answers/simulate.hpp"
 #include "froude/progress.hpp"
 #include "froude/scene_result.hpp"
 #include "froude/series.hpp"
-#include "froude/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
 
 namespace froude {
 namespace {
-
-double found(const std::vector<std::pair<std::string, double>>& entries, const std::string& name) {
-  for (const auto& [key, value] : entries)
-    if (key == name) return value;
-  return 0;
-}
 
 Report report_of(const Snaps& s) {
   return Report().say("{}: slack {:.3g} % of the time, {} snap{}, largest tension {:.5g} N in link {} at {:.5g} s",
@@ -43,23 +36,8 @@ Report report_of(const LineExponent& of) {
       .keep("blocks", e.blocks);
 }
 
-/// More of the energy turned over than the residual of sound runs; a motion whose energies are that far off is no
-/// answer.
-constexpr double tolerated_residual = 0.02;
-
-std::vector<std::string> warnings(const Record& record) {
-  const double turnover = found(record.energy, "turnover");
-  const auto& [residual, at] = record.worst_residual;
-  if (std::abs(residual) <= tolerated_residual * turnover) return {};
-  return {
-      fmt::format("warning: the energy residual is {:.2g} of the energy turned over at {:.5g} s: the step of {:.4g} s "
-                  "is too long for "
-                  "what moves; compare with a run of half the step, [solve] step = \"{:.6g} s\"",
-                  std::abs(residual) / turnover, at, record.step, record.step / 2)};
-}
-
 /// How the run was stepped.
-Report steps_of(const Record& record, const std::string& scene) {
+Report steps_of(const Run& record, const std::string& scene) {
   const auto if_any = [](auto count, const char* format) {
     return count > 0 ? fmt::format(fmt::runtime(format), count) : std::string();
   };
@@ -75,18 +53,16 @@ Report steps_of(const Record& record, const std::string& scene) {
                       fact("wall_time_s", record.stepping_s));
 }
 
-Report energy_of(const Record& record) {
-  const double turnover = found(record.energy, "turnover");
+Report energy_of(const Run& record) {
   const auto& [residual, at] = record.worst_residual;
   return Report().say(
       "energy residual: at most {:.3g} J, at {:.5g} s, {:.2g} of the {:.3g} J turned over "
       "(this tells how well energy is kept, not how accurate the motion is)",
       fact("energy_residual_J", residual), fact("energy_residual_at_s", at),
-      fact("energy_residual_relative", turnover > 0 ? std::abs(residual) / turnover : 0),
-      fact("energy_turnover_J", turnover));
+      fact("energy_residual_relative", record.relative_residual()), fact("energy_turnover_J", record.turnover()));
 }
 
-Report report_of(const scene::Scene& scene, const Record& record, const Path& file) {
+Report report_of(const scene::Scene& scene, const Run& record, const Path& file) {
   const std::string name = scene.file.filename().string();
   const Report steps = steps_of(record, name), energy = energy_of(record);
   const bool stepped = !scene.run->steady;
@@ -99,7 +75,7 @@ Report report_of(const scene::Scene& scene, const Record& record, const Path& fi
   for (const Snaps& s : record.snaps) out.one_of("snaps", report_of(s));
   for (const LineExponent& e : record.exponents) out.one_of("lyapunov", report_of(e));
   out.keep("stopped", record.stopped);
-  out.sentences("notes", "note: {}", record.notes).sentences("warnings", "{}", warnings(record));
+  out.sentences("notes", "note: {}", record.notes).sentences("warnings", "{}", record.warnings());
   return out.say("wrote {}", fact("file", file.string()));
 }
 
@@ -110,23 +86,8 @@ void run(const SceneArguments& arguments, const Console& console) {
   require_asked(scene.run.has_value(), scene, "run", "run = { duration = \"600 s\", every = \"0.05 s\" }");
   const Path file = checked_output(arguments, ".run.h5");
   Progress progress(console.err, "run", console.show_progress);
-  const Record record = simulate(scene, [&](double done) { progress.update(done); });
-  Provenance provenance = provenance_of(scene, record.notes);
-  provenance.wall_time = {{"preparation", record.preparation_s}, {"stepping", record.stepping_s}};
-  provenance.settings.emplace_back("chosen.step", fmt::format("{} s", record.step));
-  if (scene.solve.integrator == "generalized_alpha")
-    provenance.settings.emplace_back("chosen.rho_infinity", fmt::format("{}", scene.solve.rho_infinity));
-  if (compile::has_own_tolerance(scene.solve.integrator) && !scene.solve.tolerance)
-    provenance.settings.emplace_back("chosen.tolerance", fmt::format("{}", compile::tolerance_of_pair));
-  for (const auto& [effect, count] : record.evaluations)
-    provenance.settings.emplace_back("evaluations." + effect, std::to_string(count));
-  for (const Snaps& s : record.snaps) provenance.settings.emplace_back("snaps." + s.line, report_of(s).lines().front());
-  for (const LineExponent& e : record.exponents)
-    provenance.settings.emplace_back("lyapunov." + e.line, report_of(e).lines().front());
-  for (const auto& warning : warnings(record)) provenance.notes.emplace_back("warning", warning);
-  provenance.energy = record.energy;
-  if (!record.stopped.empty()) provenance.notes.emplace_back("stopped", record.stopped);
-  write_run(file, record.time, record.signals, provenance);
+  const Run record = simulate(scene, [&](double done) { progress.update(done); });
+  record.write(file);
   if (arguments.csv) write_series_csv(*arguments.csv, record.time, record.signals);
   if (arguments.picture)
     hydro::io::write_atomically(*arguments.picture, plot::svg(series_figure(scene.title.empty() ? "Run" : scene.title,

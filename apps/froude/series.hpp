@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "froude/commands.hpp"
-#include "froude/plot.hpp"
+#include "answers/plot.hpp"
 #include "froude/report.hpp"
-#include "froude/result_file.hpp"
+#include "froude/result.hpp"
 
 namespace froude {
 

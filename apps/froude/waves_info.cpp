@@ -12,7 +12,7 @@
 #include "compile/waves.hpp"
 #include "froude/commands.hpp"
 #include "froude/report.hpp"
-#include "froude/result_file.hpp"
+#include "froude/result.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 #include "hydro/signal/welch.hpp"

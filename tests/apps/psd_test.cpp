@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "froude/commands.hpp"
-#include "froude/result_file.hpp"
+#include "froude/result.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"

@@ -1,4 +1,4 @@
-#include "froude/result_file.hpp"
+#include "froude/result.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

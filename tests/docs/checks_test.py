@@ -72,7 +72,7 @@ class Includes(ChecksCase):
                 self.refuses("includes", {f"{part}/a.cpp": f'#include "{name}"\n'}, f"{part}/a.cpp:1", f"may not include {name}")
 
     def test_accepts_reference_solutions_in_tests_and_validation(self):
-        text = '#include "froude/plot.hpp"\n#include "harness/case.hpp"\n#include "support/plain.hpp"\n'
+        text = '#include "answers/plot.hpp"\n#include "harness/case.hpp"\n#include "support/plain.hpp"\n'
         self.accepts("includes", {"validation/hulme/case.cpp": text, "tests/apps/a_test.cpp": text})
 
     def test_refuses_laws_of_tests_in_a_case(self):

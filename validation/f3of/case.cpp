@@ -4,7 +4,7 @@
 #include <random>
 #include <sstream>
 
-#include "froude/simulate.hpp"
+#include "answers/simulate.hpp"
 #include "harness/scenes.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -250,7 +250,7 @@ Outcome outcome(const Folders& folders) {
       for (auto& body : scene.bodies) body.hydrodynamics->memory.method = method;
       return simulate(scene);
     };
-    const Record pitching = run("scene.toml"), surging = run("surge.toml");
+    const Run pitching = run("scene.toml"), surging = run("surge.toml");
     Curve pitch{pitching.time, pitching.signal("base.pitch")};
     for (double& p : pitch.value) p *= 180 / std::numbers::pi;
     figure.panels.push_back({.x = {"time", "s"}, .y = {"pitch, " + name, "deg"}, .series = {}});

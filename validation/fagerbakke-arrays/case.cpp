@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "dynamics/frequency/modes.hpp"
-#include "froude/linear_response.hpp"
-#include "froude/simulate.hpp"
+#include "answers/linear_response.hpp"
+#include "answers/simulate.hpp"
 #include "harness/case.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -87,8 +87,8 @@ class Array {
     return out;
   }
   /// The last hundred seconds.
-  Record run() const {
-    Record r = run_model(scene_, compile::time_model(scene_, prepared_));
+  Run run() const {
+    Run r = run_model(scene_, compile::time_model(scene_, prepared_));
     hydro::require(r.stopped.empty(), "modules in waves of {} s: {}", period_, r.stopped);
     const auto first = r.time.size() - static_cast<std::size_t>(std::lround(looked_at / scene_.run->every));
     r.time.erase(r.time.begin(), r.time.begin() + static_cast<std::ptrdiff_t>(first));
@@ -111,7 +111,7 @@ class Array {
 std::string kind_of(const std::string& signal) { return signal.substr(signal.find('.') + 1); }
 
 /// The largest difference of first harmonics, of surge, heave, pitch and force each over the largest of its kind.
-double apart(const Array& array, const Record& run, const Responses& rao) {
+double apart(const Array& array, const Run& run, const Responses& rao) {
   std::map<std::string, double> largest, difference;
   const std::vector<double> omega{2 * pi / array.period(), 4 * pi / array.period(), 6 * pi / array.period()};
   for (const ComplexSignal& s : rao.signals) {
@@ -127,7 +127,7 @@ double apart(const Array& array, const Record& run, const Responses& rao) {
 }
 
 /// Peaks above 1 % of the largest in the spectra of connector forces that are neither n ω nor an eigenfrequency.
-double unexplained(const Array& array, const Record& run) {
+double unexplained(const Array& array, const Run& run) {
   const double step = run.time[1] - run.time[0];
   const auto n = static_cast<std::size_t>(
       std::lround(std::floor(looked_at / array.period()) * array.period() / step));  // whole periods
@@ -159,7 +159,7 @@ double unexplained(const Array& array, const Record& run) {
 }
 
 /// The mean surge of the module that wanders most over the largest amplitude of surge.
-double mean_over_amplitude(const Array& array, const Record& run) {
+double mean_over_amplitude(const Array& array, const Run& run) {
   double mean = 0, amplitude = 0;
   const std::vector<double> omega{2 * pi / array.period()};
   for (const auto& s : run.signals) {
@@ -196,7 +196,7 @@ Outcome outcome(const Folders& folders) {
         array.curve(fmt::format("{} module{}", count, count > 1 ? "s" : ""), "m1.surge", springs.at("S1")));
     for (const Setting& s : settings) {
       array.set(springs.at(s.set), s.period, s.steepness);
-      const Record run = array.run();
+      const Run run = array.run();
       std::string name = count == 1 ? fmt::format("1 module, {} s", s.period)
                                     : fmt::format("{} modules, {}, {} s", count, s.set, s.period);
       if (s.steepness != asked_steepness) name += ", a tenth of the steepness";
@@ -218,7 +218,7 @@ Outcome outcome(const Folders& folders) {
   }
   Array eyes(modules(folders, 2, true));
   eyes.set(10000, 5);
-  const Record wandering = eyes.run();
+  const Run wandering = eyes.run();
   out.numbers.push_back({"2 modules, 10000 N/m between eyes, 5 s: mean surge over its amplitude",
                          mean_over_amplitude(eyes, wandering), ""});
   out.numbers.push_back({"2 modules, 10000 N/m between eyes, 5 s: lines of force that are not explained",

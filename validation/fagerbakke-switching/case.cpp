@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "froude/simulate.hpp"
+#include "answers/simulate.hpp"
 #include "harness/case.hpp"
 #include "hydro/signal/fft.hpp"
 
@@ -44,7 +44,7 @@ double deviation(const std::vector<double>& x, std::size_t from) {
   return std::sqrt(square);
 }
 
-double entry(const Record& record, const std::string& name) {
+double entry(const Run& record, const std::string& name) {
   for (const auto& [what, joules] : record.energy)
     if (what == name) return joules;
   return std::nan("");
@@ -57,7 +57,7 @@ Outcome outcome(const Folders& folders) {
   with.waves->kind = sea();
   scene::Scene without = with;
   for (auto& c : without.connectors) std::get<scene::AxialConnector>(c.kind).switching.reset();
-  const Record switched = simulate(with), fixed = simulate(without);
+  const Run switched = simulate(with), fixed = simulate(without);
   const auto &t = switched.time, &k = switched.signal("spring1.stiffness");
   double switches = 0, at = 0;
   for (std::size_t i = 1; i < k.size(); ++i)

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "froude/plot.hpp"
+#include "answers/plot.hpp"
 
 namespace froude::validation {
 

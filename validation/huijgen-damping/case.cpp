@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "fit/simulated.hpp"
-#include "froude/scene_runs.hpp"
+#include "answers/scene_runs.hpp"
 #include "harness/case.hpp"
 #include "hydro/base/random.hpp"
 #include "scene/fit_scene.hpp"

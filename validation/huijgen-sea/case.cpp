@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "froude/simulate.hpp"
+#include "answers/simulate.hpp"
 #include "harness/case.hpp"
 #include "hydro/io/csv.hpp"
 #include "hydro/signal/fft.hpp"
@@ -47,7 +47,7 @@ std::array<double, 5> by_the_source(const std::vector<Row>& rows, double t, doub
 
 /// One run of the dropper and what is told of it.
 struct DropperRun {
-  Record record;
+  Run record;
   double residual = 0;  ///< of the energy supplied
 
   DropperRun(const Folders& folders, const char* file) : record(simulate(scene::read(folders.own() / file))) {

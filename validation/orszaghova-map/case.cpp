@@ -5,8 +5,8 @@
 
 #include "compile/compile.hpp"
 #include "dynamics/frequency/modes.hpp"
-#include "froude/linear_response.hpp"
-#include "froude/simulate.hpp"
+#include "answers/linear_response.hpp"
+#include "answers/simulate.hpp"
 #include "harness/case.hpp"
 #include "hydro/signal/harmonics.hpp"
 
@@ -33,7 +33,7 @@ double deviation(std::span<const double> x) {
 
 Response respond(scene::Scene scene, double period, double height) {
   scene.waves->kind = scene::RegularWave{height / 2, period};
-  const Record run = simulate(scene);
+  const Run run = simulate(scene);
   const std::size_t from = run.time.size() * 2 / 3;
   const std::span<const double> t(run.time.begin() + static_cast<std::ptrdiff_t>(from), run.time.end());
   const auto last = [&](const char* name) {

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "froude/simulate.hpp"
+#include "answers/simulate.hpp"
 #include "harness/scenes.hpp"
 #include "hydro/io/atomic_file.hpp"
 
@@ -33,7 +33,7 @@ double rms(const std::vector<double>& reference, const std::vector<double>& ours
   return std::sqrt(sum / static_cast<double>(ours.size()));
 }
 
-double entry(const Record& r, const std::string& name) {
+double entry(const Run& r, const std::string& name) {
   for (const auto& [key, value] : r.energy)
     if (key == name) return value;
   return std::nan("");
@@ -47,7 +47,7 @@ Outcome outcome(const Folders& folders) {
   plot::Figure picture{.title = "RM3, float let go from 0.1 m",
                        .panels = {{.x = {"time", "s"}, .y = {"heave of the float", "m"}, .series = {}}}};
   for (const std::string method : {"direct", "partitioned", "poles"}) {
-    const Record run =
+    const Run run =
         simulate(read_scene(folders, "rm3/wamit/rm3.1", "method = \"direct\"", "method = \"" + method + "\""));
     out.numbers.push_back(
         {"float, rms to WEC-Sim over 100 s, " + method, rms(reference.of_float, run.signal("float.heave")), "m"});

@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "compile/signal_list.hpp"
-#include "froude/simulate.hpp"
+#include "answers/simulate.hpp"
 #include "harness/scenes.hpp"
 #include "hydro/signal/harmonics.hpp"
 
@@ -23,7 +23,7 @@ Pair frequency_domain(const scene::Scene& scene) {
 }
 
 /// Amplitude of the last ten periods.
-double steady_amplitude(const Record& r, const std::string& name) {
+double steady_amplitude(const Run& r, const std::string& name) {
   const auto& all = r.signal(name);
   std::vector<double> t, z;
   for (std::size_t i = 0; i < r.time.size(); ++i)
@@ -44,7 +44,7 @@ Outcome outcome(const Folders& folders) {
                                           full ? "interaction = \"full\"" : "interaction = \"self\"");
     const std::string which = full ? "full interaction" : "no interaction";
     const Pair f = frequency_domain(scene);
-    const Record run = simulate(scene);
+    const Run run = simulate(scene);
     out.numbers.push_back({"float, frequency domain, " + which, f.of_float, "m"});
     out.numbers.push_back({"spar, frequency domain, " + which, f.of_spar, "m"});
     out.numbers.push_back({"float, run, " + which, steady_amplitude(run, "float.heave"), "m"});

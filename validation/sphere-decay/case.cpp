@@ -4,7 +4,7 @@
 
 #include "compile/compile.hpp"
 #include "fit/decay_memory.hpp"
-#include "froude/simulate.hpp"
+#include "answers/simulate.hpp"
 #include "harness/scenes.hpp"
 #include "hydro/io/atomic_file.hpp"
 
@@ -93,7 +93,7 @@ void add_fitted_memory(const scene::Scene& scene, const Curve& curve, std::vecto
   numbers.push_back({"AICc gained by the memory", f.gain, ""});
 }
 
-double entry(const Record& r, const std::string& name) {
+double entry(const Run& r, const std::string& name) {
   for (const auto& [key, value] : r.energy)
     if (key == name) return value;
   return std::nan("");
@@ -105,7 +105,7 @@ Outcome outcome(const Folders& folders) {
   const scene::Scene scene = read_scene(folders, "iea_sphere/wamit/sphere.1");
   const Curve inwave = read_curve(folders.shared("iea_sphere/reference/decay_1m/inwave_h.txt"));
   const Curve hydrochrono = read_curve(folders.shared("iea_sphere/reference/decay_1m/hydrochrono.txt"));
-  const Record record = simulate(scene);
+  const Run record = simulate(scene);
   const auto& heave = record.signal("sphere.heave");
   const auto crossings = zero_crossings(record.time, heave);
   const auto peaks = extrema(heave);

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <set>
 
-#include "froude/simulate.hpp"
+#include "answers/simulate.hpp"
 #include "harness/scenes.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/csv.hpp"
@@ -63,7 +63,7 @@ std::map<double, double> measured_crests(const std::map<Condition, Measured>& re
 /// Highest water at the pendulum that the packets of a scene make, m.
 double crest_of(scene::Scene scene) {
   scene.run->of.push_back("wave.elevation");
-  const Record run = simulate(scene);
+  const Run run = simulate(scene);
   const auto& elevation = run.signal("wave.elevation");
   return *std::max_element(elevation.begin(), elevation.end());
 }
@@ -111,7 +111,7 @@ double elastic_energy(const Quantities& p, double top, double bottom, double top
 }
 
 Quantities simulated(const Quantities& p, const scene::Scene& scene) {
-  const Record run = simulate(scene);
+  const Run run = simulate(scene);
   hydro::require(run.stopped.empty(), "zanten-waves: {}", run.stopped);
   const auto& top = run.signal("upper.angle");
   const auto& relative = run.signal("lower.angle");

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "apps/compile/scenes.hpp"
-#include "froude/linear_response.hpp"
-#include "froude/simulate.hpp"
+#include "answers/linear_response.hpp"
+#include "answers/simulate.hpp"
 #include "hydro/signal/harmonics.hpp"
 
 namespace about_equilibrium_test {
@@ -66,7 +66,7 @@ accuracy = 1e-3
 TEST(AboutEquilibrium, ResponsesAreThoseOfARunThatSwingsThere) {
   const scene::Scene scene = froude_test::parse(scene_text("equilibrium"));
   const Responses linear = respond(scene);
-  const Record run = simulate(scene);
+  const Run run = simulate(scene);
   ASSERT_EQ(run.stopped, "");
   EXPECT_GT(std::abs(run.signal("module.surge").front()), 0.5) << "far from where it was placed";
   EXPECT_GT(std::abs(run.signal("module.pitch").front()), 0.02);

@@ -7,7 +7,7 @@
 
 #include "apps/compile/scenes.hpp"
 #include "compile/control.hpp"
-#include "froude/simulate.hpp"
+#include "answers/simulate.hpp"
 #include "hydro/base/error.hpp"
 
 namespace angles_test {

@@ -7,7 +7,7 @@
 
 #include "apps/compile/scenes.hpp"
 #include "compile/signal_list.hpp"
-#include "froude/simulate.hpp"
+#include "answers/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/waves/dispersion.hpp"
 

@@ -9,8 +9,8 @@
 
 #include "apps/compile/scenes.hpp"
 #include "compile/compile.hpp"
-#include "froude/linear_response.hpp"
-#include "froude/simulate.hpp"
+#include "answers/linear_response.hpp"
+#include "answers/simulate.hpp"
 #include "hydro/base/error.hpp"
 
 namespace depth_test {

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "compile/compile.hpp"
-#include "froude/linear_response.hpp"
-#include "froude/simulate.hpp"
+#include "answers/linear_response.hpp"
+#include "answers/simulate.hpp"
 #include "scenes.hpp"
 
 namespace effects_test {
@@ -101,7 +101,7 @@ accuracy = 1e-2
 }
 
 std::map<std::string, std::size_t> evaluated(const Effect* effect) {
-  const Record run = simulate(froude_test::parse(scene_with(effect)));
+  const Run run = simulate(froude_test::parse(scene_with(effect)));
   EXPECT_TRUE(run.stopped.empty()) << run.stopped;
   return {run.evaluations.begin(), run.evaluations.end()};
 }

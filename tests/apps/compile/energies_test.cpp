@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "apps/compile/scenes.hpp"
-#include "froude/simulate.hpp"
+#include "answers/simulate.hpp"
 
 namespace energies_test {
 namespace {
@@ -51,7 +51,7 @@ step = "2 ms"
 )";
 
 TEST(Energies, AreTheSumsOfVanZantensTable) {
-  const Record run = simulate(froude_test::parse(text));
+  const Run run = simulate(froude_test::parse(text));
   ASSERT_EQ(run.stopped, "");
   const auto& top = run.signal("upper.angle");
   const auto& relative = run.signal("lower.angle");

@@ -9,7 +9,7 @@
 #include "apps/compile/scenes.hpp"
 #include "compile/compile.hpp"
 #include "compile/findings.hpp"
-#include "froude/simulate.hpp"
+#include "answers/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/potential/operations.hpp"
 #include "hydro/potential/writers.hpp"

@@ -10,7 +10,7 @@
 #include "compile/compile.hpp"
 #include "dynamics/force/fastened_line.hpp"
 #include "dynamics/line/catenary.hpp"
-#include "froude/simulate.hpp"
+#include "answers/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "support/source_dir.hpp"
 
@@ -201,7 +201,7 @@ class LinesByTable : public testing::Test {
     std::filesystem::create_directories(folder);
   }
   ~LinesByTable() override { std::filesystem::remove_all(folder); }
-  Record run(const std::string& morison, const std::string& table, const std::string& more = "") const {
+  Run run(const std::string& morison, const std::string& table, const std::string& more = "") const {
     std::ofstream(folder / "table.csv") << table;
     return simulate(scene::parse(water +
                                      "[waves]\nkind = \"regular\"\nheight = \"0.4 m\"\nperiod = \"4 s\"\n"

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "froude/simulate.hpp"
+#include "answers/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "scenes.hpp"
 

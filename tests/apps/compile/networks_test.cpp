@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "apps/compile/scenes.hpp"
-#include "froude/simulate.hpp"
+#include "answers/simulate.hpp"
 #include "hydro/base/error.hpp"
 
 namespace networks_test {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "froude/linear_response.hpp"
+#include "answers/linear_response.hpp"
 #include "hydro/base/error.hpp"
 #include "scenes.hpp"
 #include "support/pontoons.hpp"

@@ -7,7 +7,7 @@
 
 #include "compile/compile.hpp"
 #include "dynamics/force/turning_excitation.hpp"
-#include "froude/simulate.hpp"
+#include "answers/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "scenes.hpp"
 
@@ -103,7 +103,7 @@ TEST(TurningExcitation, FollowsTheSlowPartOfTheYaw) {
 
 TEST(TurningExcitation, StopsARunThatTurnsTooFar) {
   // A push that turns the module by more than the table holds.
-  const Record run =
+  const Run run =
       simulate(module("turning = { from = \"-1 deg\", to = \"0 deg\", spacing = \"1 deg\", slower_than = \"1 s\" }\n",
                       "initial_velocity = { yaw = \"-0.01 rad/s\" }\n"));
   EXPECT_THAT(run.stopped, AllOf(HasSubstr("m has turned by -1"), HasSubstr("from -1 to 0 deg")));

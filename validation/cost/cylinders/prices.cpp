@@ -11,7 +11,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "froude/plot.hpp"
+#include "answers/plot.hpp"
 #include "hydro/cylinders/solve.hpp"
 #include "hydro/io/atomic_file.hpp"
 

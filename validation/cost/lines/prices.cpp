@@ -12,7 +12,7 @@
 #ifdef FROUDE_SUNDIALS
 #include "dynamics/line/sundials_reference.hpp"
 #endif
-#include "froude/plot.hpp"
+#include "answers/plot.hpp"
 #include "harness/oc3_line.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"

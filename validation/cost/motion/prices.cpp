@@ -20,9 +20,9 @@
 #include "dynamics/integrate/generalized_alpha.hpp"
 #include "dynamics/line/catenary_table.hpp"
 #include "dynamics/time/alpha_parameters.hpp"
-#include "froude/linear_response.hpp"
-#include "froude/plot.hpp"
-#include "froude/simulate.hpp"
+#include "answers/linear_response.hpp"
+#include "answers/plot.hpp"
+#include "answers/simulate.hpp"
 #include "harness/scenes.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -51,7 +51,7 @@ constexpr bool with_assertions = false;
 
 /// A run that went to its end, and how long that took: processor time, the better of two.
 struct Timed {
-  Record record;
+  Run record;
   double preparing, stepping;  ///< s
 };
 Timed timed(const scene::Scene& scene) {
@@ -150,7 +150,7 @@ std::string peers(const fs::path& data) {
       "| ratio to stepping, to all |\n| --- | --- | --- | --- | --- | --- | --- |\n";
   for (const Run& r : runs) {
     const Timed run = timed(stepped(r.scene, r.step));
-    const Record fine = simulate(stepped(r.scene, r.step / 5));
+    const Run fine = simulate(stepped(r.scene, r.step / 5));
     const double error = off(run.record.signal(r.signal), fine.signal(r.signal));
     hydro::require(error < r.limit, "{}: off by {}", r.name, error);
     text += fmt::format("| {} | {} | {:.1g} | {:.2g} | {:.2g} | {:.3g} | {:.0f}, {:.1f} |\n", r.name, r.step, error,
@@ -182,7 +182,7 @@ std::string rows_of(const std::vector<Point>& points, plot::Panel& panel) {
 /// Scenes by generalised-α and implicit Euler, error of one signal against generalised-α at a short step.
 std::string scene_methods(scene::Scene scene, const char* signal, const std::vector<double>& steps,
                           plot::Panel& panel) {
-  const Record exact = simulate(stepped(scene, steps.back() / 4));
+  const Run exact = simulate(stepped(scene, steps.back() / 4));
   std::vector<Point> points;
   for (const char* method : {"generalized_alpha", "implicit_euler"})
     for (const double h : steps) {

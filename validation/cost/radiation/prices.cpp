@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "froude/plot.hpp"
+#include "answers/plot.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/potential/coefficients.hpp"
 #include "hydro/radiation/choice.hpp"

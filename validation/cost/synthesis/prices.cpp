@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "froude/plot.hpp"
+#include "answers/plot.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "subject.hpp"
 

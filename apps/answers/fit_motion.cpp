@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "froude/fit_kinds.hpp"
-#include "froude/scene_runs.hpp"
+#include "answers/fit_kinds.hpp"
+#include "answers/scene_runs.hpp"
 
 namespace froude {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fit/problem/any.hpp"
-#include "froude/plot.hpp"
+#include "answers/plot.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/csv.hpp"
 #include "scene/fit_scene.hpp"

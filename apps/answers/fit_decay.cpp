@@ -1,7 +1,7 @@
 #include <cmath>
 #include <limits>
 
-#include "froude/fit_kinds.hpp"
+#include "answers/fit_kinds.hpp"
 
 namespace froude {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "compile/restart.hpp"
 #include "fit/simulated.hpp"
-#include "froude/simulate.hpp"
+#include "answers/simulate.hpp"
 #include "scene/fit_scene.hpp"
 #include "scene/override.hpp"
 
@@ -46,7 +46,7 @@ class SceneRuns final : public ::fit::Simulation {
 
  private:
   void compiled(const Eigen::VectorXd& parameters);
-  Record run(Eigen::Index samples, compile::MovingState* end);
+  Run run(Eigen::Index samples, compile::MovingState* end);
   void begin_windows();
 
   const scene::MotionModel& asked_;

@@ -1,4 +1,4 @@
-#include "froude/fit_kinds.hpp"
+#include "answers/fit_kinds.hpp"
 
 namespace froude {
 namespace {

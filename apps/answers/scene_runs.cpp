@@ -1,4 +1,4 @@
-#include "froude/scene_runs.hpp"
+#include "answers/scene_runs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -61,7 +61,7 @@ Eigen::MatrixXd SceneRuns::follow(std::size_t window, const Eigen::VectorXd& par
   const bool whole = charts_.empty();
   if (!whole) compile::start_from(charts_.at(window).at(*model_, start), *model_);
   const Eigen::Index skipped = whole ? measured_.before : 0, rows = measured_.rows(window);
-  const Record record = run(skipped + rows - 1, nullptr);
+  const Run record = run(skipped + rows - 1, nullptr);
   Eigen::MatrixXd out(rows, std::ssize(asked_.signals));
   for (std::size_t c = 0; c < asked_.signals.size(); ++c) {
     const auto& values = record.signal(asked_.signals[c].of);
@@ -81,7 +81,7 @@ void SceneRuns::hand_on(std::size_t window, const Eigen::VectorXd& parameters, c
 }
 
 std::vector<std::string> SceneRuns::units() {
-  const Record record = run(0, nullptr);
+  const Run record = run(0, nullptr);
   std::vector<std::string> out;
   for (const auto& s : asked_.signals) {
     record.signal(s.of);  // a pattern may have let pass what is no name
@@ -118,17 +118,15 @@ void SceneRuns::compiled(const Eigen::VectorXd& parameters) {
     scene_.run->of.push_back(s.of);
     scene_.run->of_places.push_back(s.deviation.place);
   }
-  const auto poles = prepared_.fits;  // known by the coefficients that they were fitted to
-  prepared_ = compile::prepare(scene_);
-  if (poles) prepared_.fits = poles;
+  prepared_ = compile::prepare(scene_, prepared_.kept);
   model_.emplace(compile::time_model(scene_, prepared_));
   if (!chosen_step_) chosen_step_ = model_->step;
   numbers_ = parameters;
 }
 
-Record SceneRuns::run(Eigen::Index samples, compile::MovingState* end) {
+Run SceneRuns::run(Eigen::Index samples, compile::MovingState* end) {
   model_->steps = static_cast<std::size_t>(samples) * model_->steps_per_sample;
-  Record record = run_model(scene_, *model_, {}, end);
+  Run record = run_model(scene_, *model_, {}, end);
   if (!record.stopped.empty()) throw hydro::NumericsError(record.stopped);
   return record;
 }

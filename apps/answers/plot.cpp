@@ -1,4 +1,4 @@
-#include "froude/plot.hpp"
+#include "answers/plot.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "froude/fit_kinds.hpp"
+#include "answers/fit_kinds.hpp"
 
 namespace froude {
 
