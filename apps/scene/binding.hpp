@@ -8,14 +8,15 @@
 ///           .key(vector("force", dim::force, "global axes"), &Load::force)
 ///           .key(quantity("from", dim::time, "when it begins").optional(), &Load::from);
 ///
-/// From it come the schema, its documentation, errors and echo (table()), and the reader (read()). A binding is kept as
-/// a static of a function: tables refer to those within them.
+/// From it come the schema, its documentation, errors and echo (table()), and the reader (read()). A binding keeps
+/// copies of those within it; one whose table() is part of the grammar is a static of a function.
 #include <fmt/format.h>
 
 #include <array>
 #include <concepts>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <type_traits>
 #include <utility>
 
@@ -85,7 +86,7 @@ class Binding {
   /// A key and the member, of T or of a base, that takes its value, in SI. The member keeps what it was made with where
   /// the key is not there.
   template <class M, class B>
-  requires std::derived_from<T, B> Binding& key(Key key, M B::*member) {
+  Binding& key(Key key, M B::*member) {
     return add(std::move(key), [member](const Value& value, T& out) { detail::put(value, out.*member); });
   }
   /// The same of a member's member.
@@ -99,6 +100,11 @@ class Binding {
   Binding& key(Key key) {
     table_.keys.push_back(std::move(key));
     return *this;
+  }
+  /// A key that may be left out.
+  template <class... Member>
+  Binding& optional(Key key, Member... member) {
+    return this->key(std::move(key.optional()), member...);
   }
   Binding& keys(std::vector<Key> keys) {
     for (Key& one : keys) key(std::move(one));
@@ -122,35 +128,30 @@ class Binding {
           if (given.value == word) out.*member = true;
     });
   }
-  /// A table within this one, needed. A member that other keys fill too keeps what they gave.
-  template <class I>
-  Binding& table(const std::string& name, const Binding<I>& inner, I T::*member) {
-    return add(inner_table(name, inner.table()),
-               [&inner, member](const Value& value, T& out) { inner.read_into(value.records.front(), out.*member); });
+  /// A table within this one, which may be left out where the member is a std::optional.
+  template <class I, class M>
+  Binding& table(const std::string& name, const Binding<I>& inner, M T::*member) {
+    Key key = inner_table(name, inner.table());
+    if (detail::IsOptional<M>::value) key.optional();
+    return nested(key, inner,
+                  [member](const Binding<I>& of, const Record& record, T& out) { out.*member = of.read(record); });
   }
-  /// A table within this one, which may be left out.
-  template <class I>
-  Binding& table(const std::string& name, const Binding<I>& inner, std::optional<I> T::*member) {
-    return add(inner_table(name, inner.table()).optional(),
-               [&inner, member](const Value& value, T& out) { out.*member = inner.read(value.records.front()); });
-  }
-  /// The same, whose keys are read into this very struct, or into a base of it.
+  /// One that may be left out, whose keys are read into this very struct, or into a base of it.
   template <class B>
-  requires std::derived_from<T, B> Binding& table(const std::string& name, const Binding<B>& inner) {
-    return add(inner_table(name, inner.table()).optional(),
-               [&inner](const Value& value, T& out) { inner.read_into(value.records.front(), out); });
+  Binding& table(const std::string& name, const Binding<B>& inner) {
+    return nested(inner_table(name, inner.table()).optional(), inner,
+                  [](const Binding<B>& of, const Record& record, T& out) { of.read_into(record, out); });
   }
-  /// As many tables as there are, one at least.
+  /// As many tables as there are; one at least unless the key is optional().
   template <class I, class B>
-  requires std::derived_from<T, B> Binding& tables(const std::string& name, const Binding<I>& inner,
-                                                   std::vector<I> B::*member) {
-    return add(inner_tables(name, inner.table()), [&inner, member](const Value& value, T& out) {
-      for (const Record& record : value.records) (out.*member).push_back(inner.read(record));
-    });
+  Binding& tables(const std::string& name, const Binding<I>& inner, std::vector<I> B::*member) {
+    return nested(
+        inner_tables(name, inner.table()), inner,
+        [member](const Binding<I>& of, const Record& record, T& out) { (out.*member).push_back(of.read(record)); });
   }
   /// Keys of this table, and rules between them, that a member is read from.
   template <class I, class M, class B>
-  requires std::derived_from<T, B> Binding& part(const Binding<I>& of, M B::*member) {
+  Binding& part(const Binding<I>& of, M B::*member) {
     keys(of.table().keys);
     for (const Group& one : of.table().groups) table_.groups.push_back(one);
     return then([of, member](const Record& record, T& out) { out.*member = of.read(record); });
@@ -173,6 +174,7 @@ class Binding {
     table_.keys.back().only_beside_one_of(std::move(others));
     return *this;
   }
+
   /// The last key, an integer, up to this.
   Binding& at_most(std::int64_t most) {
     return then([name = table_.keys.back().name, most](const Record& record, T&) {
@@ -221,6 +223,15 @@ class Binding {
     });
     table_.keys.push_back(std::move(key));
     return *this;
+  }
+  /// A key of one table or several, each of which `put` reads with a copy of their binding.
+  template <class I, class Put>
+  Binding& nested(Key key, const Binding<I>& inner, Put put) {
+    const auto own = std::make_shared<const Binding<I>>(inner);
+    key.inner = &own->table();
+    return add(std::move(key), [own, put](const Value& value, T& out) {
+      for (const Record& record : value.records) put(*own, record, out);
+    });
   }
   Binding& group(Group::Count count, std::vector<std::string> keys) {
     table_.groups.push_back({count, std::move(keys)});
