@@ -43,22 +43,6 @@ Binding<ByMode> by_mode(const std::string& title, const std::string& meaning, co
   return binding.at_least_one_of({hydro::mode_names.begin(), hydro::mode_names.end()});
 }
 
-const Binding<ByMode>& initial() {
-  static const Binding<ByMode> binding =
-      by_mode("[body.initial]",
-              "displacement from rest at t = 0, of the body's origin; turned by yaw first, then pitch, then roll, as "
-              "records tell it",
-              dim::none, "displacement");
-  return binding;
-}
-
-const Binding<ByMode>& initial_velocity() {
-  static const Binding<ByMode> binding =
-      by_mode("[body.initial_velocity]", "velocity at t = 0, of the body's origin; angular velocity along global axes",
-              dim::time, "velocity");
-  return binding;
-}
-
 using HullCylinders = std::vector<hh::CircularCylinder>;
 
 /// One for each pair of ends.
@@ -74,53 +58,46 @@ void read_hull_cylinders(const Record& record, HullCylinders& out) {
   }
 }
 
-const Binding<HullCylinders>& hull_cylinders() {
-  static const Binding<HullCylinders> binding =
-      Binding<HullCylinders>("[body.buoyancy.cylinders]", "circular cylinders with flat ends, exact without a mesh")
-          .key(points("from", "middle of one end, body axes; each ± makes two cylinders"))
-          .key(points("to", "middle of the other end, body axes; as many as `from`, taken in pairs"))
-          .key(quantity("diameter", dim::length, "of each").positive())
-          .then(read_hull_cylinders);
-  return binding;
+Binding<HullCylinders> hull_cylinders() {
+  return Binding<HullCylinders>("[body.buoyancy.cylinders]", "circular cylinders with flat ends, exact without a mesh")
+      .key(points("from", "middle of one end, body axes; each ± makes two cylinders"))
+      .key(points("to", "middle of the other end, body axes; as many as `from`, taken in pairs"))
+      .key(quantity("diameter", dim::length, "of each").positive())
+      .then(read_hull_cylinders);
 }
 
-const Binding<std::vector<hh::Sphere>>& hull_spheres() {
-  static const Binding<std::vector<hh::Sphere>> binding =
-      Binding<std::vector<hh::Sphere>>("[body.buoyancy.spheres]", "spheres, exact without a mesh")
-          .key(points("at", "centres, body axes; each ± makes two"))
-          .key(quantity("diameter", dim::length, "of each").positive())
-          .then([](const Record& record, std::vector<hh::Sphere>& out) {
-            for (const Eigen::Vector3d& at : record["at"].points.front())
-              out.push_back({at, record.si("diameter") / 2});
-          });
-  return binding;
+Binding<std::vector<hh::Sphere>> hull_spheres() {
+  return Binding<std::vector<hh::Sphere>>("[body.buoyancy.spheres]", "spheres, exact without a mesh")
+      .key(points("at", "centres, body axes; each ± makes two"))
+      .key(quantity("diameter", dim::length, "of each").positive())
+      .then([](const Record& record, std::vector<hh::Sphere>& out) {
+        for (const Eigen::Vector3d& at : record["at"].points.front()) out.push_back({at, record.si("diameter") / 2});
+      });
 }
 
-const Binding<Buoyancy>& buoyancy() {
-  static const Binding<Buoyancy> binding =
-      Binding<Buoyancy>("[body.buoyancy]",
-                        "load of still water on the hull as it is: exact at any pose in a run, its derivative at rest "
-                        "in responses and modes; the hull is all that is named here")
-          .key(text("mesh", "of the hull in body axes, relative to the scene: STL, OBJ or GDF").optional(),
-               &Buoyancy::mesh)
-          .key(quantity("unit", dim::length, "what one unit of the mesh is; left out: metres, or what the file says")
-                   .positive()
-                   .optional()
-                   .only_beside("mesh"),
-               &Buoyancy::unit)
-          .key(quantity("freeboard", dim::length,
-                        "height of walls drawn straight up from the rim of an open mesh, with a deck on them")
-                   .positive()
-                   .optional()
-                   .only_beside("mesh"),
-               &Buoyancy::freeboard)
-          .table("cylinders", hull_cylinders(), &Buoyancy::cylinders)
-          .optional()
-          .table("spheres", hull_spheres(), &Buoyancy::spheres)
-          .optional()
-          .at_least_one_of({"mesh", "cylinders", "spheres"})
-          .place(&Buoyancy::place);
-  return binding;
+Binding<Buoyancy> buoyancy() {
+  return Binding<Buoyancy>(
+             "[body.buoyancy]",
+             "load of still water on the hull as it is: exact at any pose in a run, its derivative at rest "
+             "in responses and modes; the hull is all that is named here")
+      .key(text("mesh", "of the hull in body axes, relative to the scene: STL, OBJ or GDF").optional(), &Buoyancy::mesh)
+      .key(quantity("unit", dim::length, "what one unit of the mesh is; left out: metres, or what the file says")
+               .positive()
+               .optional()
+               .only_beside("mesh"),
+           &Buoyancy::unit)
+      .key(quantity("freeboard", dim::length,
+                    "height of walls drawn straight up from the rim of an open mesh, with a deck on them")
+               .positive()
+               .optional()
+               .only_beside("mesh"),
+           &Buoyancy::freeboard)
+      .table("cylinders", hull_cylinders(), &Buoyancy::cylinders)
+      .optional()
+      .table("spheres", hull_spheres(), &Buoyancy::spheres)
+      .optional()
+      .at_least_one_of({"mesh", "cylinders", "spheres"})
+      .place(&Buoyancy::place);
 }
 
 /// Data are mostly rounded to three or four digits, and a flat plate meets the bound exactly.
@@ -239,9 +216,18 @@ const Binding<Body>& body() {
           .key(modes("free", "modes that may move; the others are held")
                    .or_default("surge, sway, heave, roll, pitch, yaw", "a body is free unless something holds it"),
                &Body::free)
-          .table("initial", initial(), &Body::initial)
+          .table("initial",
+                 by_mode("[body.initial]",
+                         "displacement from rest at t = 0, of the body's origin; turned by yaw first, then pitch, then "
+                         "roll, as records tell it",
+                         dim::none, "displacement"),
+                 &Body::initial)
           .optional()
-          .table("initial_velocity", initial_velocity(), &Body::initial_velocity)
+          .table("initial_velocity",
+                 by_mode("[body.initial_velocity]",
+                         "velocity at t = 0, of the body's origin; angular velocity along global axes", dim::time,
+                         "velocity"),
+                 &Body::initial_velocity)
           .optional()
           .table("buoyancy", buoyancy(), &Body::buoyancy)
           .table("hydrodynamics", hydrodynamics_binding(), &Body::hydrodynamics)

@@ -58,7 +58,7 @@ const Table& member_table();
 const Table& line_table();
 const Table& junction_table();
 /// `[body.hydrodynamics]`, which stands apart from the rest of a body.
-const Binding<Hydrodynamics>& hydrodynamics_binding();
+Binding<Hydrodynamics> hydrodynamics_binding();
 
 hydro::Water build_water(const Record& record);
 std::vector<Body> build_bodies(const Record& root, Names& names);

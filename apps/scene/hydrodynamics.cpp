@@ -8,65 +8,61 @@ namespace {
 
 namespace dim = hydro::dim;
 
-const Binding<Memory>& radiation() {
+Binding<Memory> radiation() {
   using enum Memory::Method;
-  static const Binding<Memory> binding =
-      Binding<Memory>("[body.hydrodynamics.radiation]",
-                      "waves that the motion makes: added mass, damping and their memory; may be empty")
-          .key(number("memory_tolerance",
-                      "error of the force that a method may make, relative; the cheapest within it is taken")
-                   .within(Limit::open_fraction)
-                   .or_default("1e-3", "ten times less than the accuracy usually asked"),
-               &Memory::tolerance)
-          .key(quantity("memory", dim::time, "length of the memory of a convolution, where you want to fix it")
-                   .positive()
-                   .optional(),
-               &Memory::length)
-          .key(number("accept_error",
-                      "error of that force, relative, that you take where no memory is within the tolerance; without "
-                      "it such a run is refused")
-                   .positive()
-                   .optional(),
-               &Memory::accepted_error)
-          .words(text("method",
-                      "\"direct\" or \"partitioned\" convolution, \"poles\" (sum of exponentials), or, in one regular "
-                      "wave and once the motion is steady, \"constant\" added mass and damping")
-                     .or_default("automatic", "the program knows error and cost of each; `froude plan` shows them"),
-                 {{"automatic", automatic},
-                  {"direct", direct},
-                  {"partitioned", partitioned},
-                  {"poles", poles},
-                  {"constant", constant}},
-                 &Memory::method)
-          .at_most_one_of({"memory_tolerance", "memory"})
-          .then([](const Record& record, Memory& out) {
-            out.place = record["method"].place;
-            if (out.length && (out.method == poles || out.method == constant))
-              throw record.wrong("method", "has no length of memory", "leave out `memory`, or take a convolution");
-          });
-  return binding;
+  return Binding<Memory>("[body.hydrodynamics.radiation]",
+                         "waves that the motion makes: added mass, damping and their memory; may be empty")
+      .key(number("memory_tolerance",
+                  "error of the force that a method may make, relative; the cheapest within it is taken")
+               .within(Limit::open_fraction)
+               .or_default("1e-3", "ten times less than the accuracy usually asked"),
+           &Memory::tolerance)
+      .key(quantity("memory", dim::time, "length of the memory of a convolution, where you want to fix it")
+               .positive()
+               .optional(),
+           &Memory::length)
+      .key(number("accept_error",
+                  "error of that force, relative, that you take where no memory is within the tolerance; without "
+                  "it such a run is refused")
+               .positive()
+               .optional(),
+           &Memory::accepted_error)
+      .words(text("method",
+                  "\"direct\" or \"partitioned\" convolution, \"poles\" (sum of exponentials), or, in one regular "
+                  "wave and once the motion is steady, \"constant\" added mass and damping")
+                 .or_default("automatic", "the program knows error and cost of each; `froude plan` shows them"),
+             {{"automatic", automatic},
+              {"direct", direct},
+              {"partitioned", partitioned},
+              {"poles", poles},
+              {"constant", constant}},
+             &Memory::method)
+      .at_most_one_of({"memory_tolerance", "memory"})
+      .then([](const Record& record, Memory& out) {
+        out.place = record["method"].place;
+        if (out.length && (out.method == poles || out.method == constant))
+          throw record.wrong("method", "has no length of memory", "leave out `memory`, or take a convolution");
+      });
 }
 
-const Binding<Turning>& turning() {
-  static const Binding<Turning> binding =
-      Binding<Turning>("[body.hydrodynamics.turning]",
-                       "excitation for the heading that a slow yaw of the body leaves, in runs")
-          .key(quantity("from", dim::angle, "least yaw that is tabled, from rest"), &Turning::from)
-          .key(quantity("to", dim::angle, "largest; a run in which the slow yaw goes beyond stops"), &Turning::to)
-          .key(quantity("spacing", dim::angle, "of the yaws in the table; straight between them")
-                   .positive()
-                   .or_default("5 deg", "finer than the headings of most data"),
-               &Turning::spacing)
-          .key(quantity("slower_than", dim::time,
-                        "what counts as slow: yaw is averaged over times up to this, by a lag of this over 2π")
-                   .positive(),
-               &Turning::slower_than)
-          .place(&Turning::place)
-          .then([](const Record& record, const Turning& out) {
-            if (!(out.from < out.to))
-              throw record.wrong("to", "is not beyond `from`", "from = \"-30 deg\", to = \"30 deg\"");
-          });
-  return binding;
+Binding<Turning> turning() {
+  return Binding<Turning>("[body.hydrodynamics.turning]",
+                          "excitation for the heading that a slow yaw of the body leaves, in runs")
+      .key(quantity("from", dim::angle, "least yaw that is tabled, from rest"), &Turning::from)
+      .key(quantity("to", dim::angle, "largest; a run in which the slow yaw goes beyond stops"), &Turning::to)
+      .key(quantity("spacing", dim::angle, "of the yaws in the table; straight between them")
+               .positive()
+               .or_default("5 deg", "finer than the headings of most data"),
+           &Turning::spacing)
+      .key(quantity("slower_than", dim::time,
+                    "what counts as slow: yaw is averaged over times up to this, by a lag of this over 2π")
+               .positive(),
+           &Turning::slower_than)
+      .place(&Turning::place)
+      .then([](const Record& record, const Turning& out) {
+        if (!(out.from < out.to))
+          throw record.wrong("to", "is not beyond `from`", "from = \"-30 deg\", to = \"30 deg\"");
+      });
 }
 
 /// Equal cylinders, one for each axis.
@@ -94,22 +90,20 @@ Binding<Cylinders> equal_cylinders(const std::string& title, const std::string& 
       .then(append_cylinders);
 }
 
-const Binding<Cylinders>& cylinders() {
+Binding<Cylinders> cylinders() {
   static const Binding<Cylinders> others =
       equal_cylinders("[[body.hydrodynamics.cylinders.others]]", "cylinders of another size in the same body");
-  static const Binding<Cylinders> binding =
-      equal_cylinders("[body.hydrodynamics.cylinders]",
-                      "vertical cylinders: the program computes their coefficients exactly, with interaction")
-          .key(inner_tables("others", others.table()).optional(),
-               [](const Value& value, Cylinders& out) {
-                 for (const Record& record : value.records) others.read_into(record, out);
-               })
-          .key(range("frequencies", dim::angular_velocity,
-                     "of the table that is computed: \"0.2 rad/s .. 4 rad/s, 39 values\""),
-               &Cylinders::omega)
-          .key(range("headings", dim::angle, "of the table; without it those of [waves] and [ask]").optional(),
-               &Cylinders::headings);
-  return binding;
+  return equal_cylinders("[body.hydrodynamics.cylinders]",
+                         "vertical cylinders: the program computes their coefficients exactly, with interaction")
+      .key(inner_tables("others", others.table()).optional(),
+           [](const Value& value, Cylinders& out) {
+             for (const Record& record : value.records) others.read_into(record, out);
+           })
+      .key(range("frequencies", dim::angular_velocity,
+                 "of the table that is computed: \"0.2 rad/s .. 4 rad/s, 39 values\""),
+           &Cylinders::omega)
+      .key(range("headings", dim::angle, "of the table; without it those of [waves] and [ask]").optional(),
+           &Cylinders::headings);
 }
 
 /// Where coefficients and the choice of interaction stand.
@@ -121,86 +115,82 @@ void find_places(const Record& record, Hydrodynamics& out) {
 
 }  // namespace
 
-const Binding<Hydrodynamics>& hydrodynamics_binding() {
-  static const Binding<Hydrodynamics> binding =
-      Binding<Hydrodynamics>(
-          "[body.hydrodynamics]",
-          "linear potential theory, with coefficients from a file or of cylinders; each effect is named")
-          .key(text("file", "of coefficients, relative to the scene: any format of `froude bem info`").optional(),
-               &Hydrodynamics::file)
-          .table("cylinders", cylinders(), &Hydrodynamics::cylinders)
-          .key(integer("body",
-                       "which body of the file, from 1 (copies take the following ones); needed where the scene takes "
-                       "fewer than the file holds")
-                   .within(Limit::at_least_one)
-                   .optional()
-                   .only_beside("file"),
-               &Hydrodynamics::body)
-          .at_most(100'000)
-          .key(vector("reference_point", dim::length,
-                      "global, what the coefficients are about, if the file does not say")
-                   .optional()
-                   .only_beside("file"),
-               &Hydrodynamics::reference_point)
-          .key(quantity("displaced_volume", dim::volume,
-                        "of the body at rest, if the file does not say; a body on joints needs it, since they carry "
-                        "what buoyancy and weight differ by")
-                   .positive()
-                   .optional()
-                   .only_beside("file"),
-               &Hydrodynamics::displaced_volume)
-          .key(vector("centre_of_buoyancy", dim::length,
-                      "of the body at rest, body axes, if the file does not say; of a body on joints buoyancy acts "
-                      "here")
-                   .optional()
-                   .only_beside("file"),
-               &Hydrodynamics::centre_of_buoyancy)
-          .key(quantity("ulen", dim::length,
-                        "WAMIT's ULEN; only for WAMIT files, where it is 1 m unless this or the .out file says "
-                        "otherwise")
-                   .positive()
-                   .optional()
-                   .only_beside("file"),
-               &Hydrodynamics::ulen)
-          .key(integer("iperout", "WAMIT's IPEROUT, 1 to 4; only for WAMIT files")
-                   .within(Limit::at_least_one)
-                   .optional()
-                   .only_beside("file"),
-               &Hydrodynamics::iperout)
-          .at_most(4)
-          .key(texts("accept",
-                     "findings of the doctor (`froude bem check`) that are known and shall not stop the scene; the "
-                     "result records them")
-                   .one_of(hydro::potential::check_names())
-                   .optional()
-                   .only_beside("file"),
-               &Hydrodynamics::accept)
-          .key(effect("excitation", "loads of the incoming waves on the body held still"), &Hydrodynamics::excitation)
-          .key(modes("excitation_modes",
-                     "of the loads about the body's centre of gravity, those that act; all, unless some shall be "
-                     "suppressed to see what they do")
-                   .optional()
-                   .only_beside("excitation"),
-               &Hydrodynamics::excited)
-          .table("turning", turning(), &Hydrodynamics::turning)
-          .only_beside({"excitation"})
-          .table("radiation", radiation(), &Hydrodynamics::memory)
-          .optional()
-          .key(effect("hydrostatics", "restoring loads of buoyancy and weight"), &Hydrodynamics::hydrostatics)
-          .words(
-              text("interaction",
-                   "whose waves the body feels: \"full\": those of all bodies that make waves, which one file must "
-                   "hold or the program compute together; \"file\": of the bodies of its own file; \"self\": only "
-                   "its own")
-                  .or_default("full", "leaving it out would be an approximation; where no waves can pass it is refused")
-                  .only_beside_one_of({"radiation", "excitation"}),
-              {{"full", Interaction::full}, {"file", Interaction::file}, {"self", Interaction::self}},
-              &Hydrodynamics::interaction)
-          .exactly_one_of({"file", "cylinders"})
-          .at_least_one_of({"excitation", "radiation", "hydrostatics"})
-          .then([](const Record& record, Hydrodynamics& out) { out.radiation = record.has("radiation"); })
-          .then(find_places);
-  return binding;
+Binding<Hydrodynamics> hydrodynamics_binding() {
+  return Binding<Hydrodynamics>(
+             "[body.hydrodynamics]",
+             "linear potential theory, with coefficients from a file or of cylinders; each effect is named")
+      .key(text("file", "of coefficients, relative to the scene: any format of `froude bem info`").optional(),
+           &Hydrodynamics::file)
+      .table("cylinders", cylinders(), &Hydrodynamics::cylinders)
+      .key(integer("body",
+                   "which body of the file, from 1 (copies take the following ones); needed where the scene takes "
+                   "fewer than the file holds")
+               .within(Limit::at_least_one)
+               .optional()
+               .only_beside("file"),
+           &Hydrodynamics::body)
+      .at_most(100'000)
+      .key(vector("reference_point", dim::length, "global, what the coefficients are about, if the file does not say")
+               .optional()
+               .only_beside("file"),
+           &Hydrodynamics::reference_point)
+      .key(quantity("displaced_volume", dim::volume,
+                    "of the body at rest, if the file does not say; a body on joints needs it, since they carry "
+                    "what buoyancy and weight differ by")
+               .positive()
+               .optional()
+               .only_beside("file"),
+           &Hydrodynamics::displaced_volume)
+      .key(vector("centre_of_buoyancy", dim::length,
+                  "of the body at rest, body axes, if the file does not say; of a body on joints buoyancy acts "
+                  "here")
+               .optional()
+               .only_beside("file"),
+           &Hydrodynamics::centre_of_buoyancy)
+      .key(quantity("ulen", dim::length,
+                    "WAMIT's ULEN; only for WAMIT files, where it is 1 m unless this or the .out file says "
+                    "otherwise")
+               .positive()
+               .optional()
+               .only_beside("file"),
+           &Hydrodynamics::ulen)
+      .key(integer("iperout", "WAMIT's IPEROUT, 1 to 4; only for WAMIT files")
+               .within(Limit::at_least_one)
+               .optional()
+               .only_beside("file"),
+           &Hydrodynamics::iperout)
+      .at_most(4)
+      .key(texts("accept",
+                 "findings of the doctor (`froude bem check`) that are known and shall not stop the scene; the "
+                 "result records them")
+               .one_of(hydro::potential::check_names())
+               .optional()
+               .only_beside("file"),
+           &Hydrodynamics::accept)
+      .key(effect("excitation", "loads of the incoming waves on the body held still"), &Hydrodynamics::excitation)
+      .key(modes("excitation_modes",
+                 "of the loads about the body's centre of gravity, those that act; all, unless some shall be "
+                 "suppressed to see what they do")
+               .optional()
+               .only_beside("excitation"),
+           &Hydrodynamics::excited)
+      .table("turning", turning(), &Hydrodynamics::turning)
+      .only_beside({"excitation"})
+      .table("radiation", radiation(), &Hydrodynamics::memory)
+      .optional()
+      .key(effect("hydrostatics", "restoring loads of buoyancy and weight"), &Hydrodynamics::hydrostatics)
+      .words(text("interaction",
+                  "whose waves the body feels: \"full\": those of all bodies that make waves, which one file must "
+                  "hold or the program compute together; \"file\": of the bodies of its own file; \"self\": only "
+                  "its own")
+                 .or_default("full", "leaving it out would be an approximation; where no waves can pass it is refused")
+                 .only_beside_one_of({"radiation", "excitation"}),
+             {{"full", Interaction::full}, {"file", Interaction::file}, {"self", Interaction::self}},
+             &Hydrodynamics::interaction)
+      .exactly_one_of({"file", "cylinders"})
+      .at_least_one_of({"excitation", "radiation", "hydrostatics"})
+      .then([](const Record& record, Hydrodynamics& out) { out.radiation = record.has("radiation"); })
+      .then(find_places);
 }
 
 }  // namespace froude::scene

@@ -129,34 +129,32 @@ void add_growth(const Record& whole, Line& out) {
   }
 }
 
-const Binding<Line>& line_morison() {
-  static const Binding<Line> binding =
-      Binding<Line>("[line.morison]",
-                    "drag, Froude-Krylov load and added mass of the segments where they are at each instant")
-          .key(number("cd", "drag coefficient across the segment").within(Limit::not_negative).optional(),
-               &Line::common, &dl::Segment::cd)
-          .key(number("ca", "added mass over displaced mass, across the segment")
-                   .within(Limit::not_negative)
-                   .optional()
-                   .only_beside("cd"),
-               &Line::common, &dl::Segment::ca)
-          .key(text("file",
-                    "CSV beside the scene with KC, cd, ca and perhaps Re: each segment takes what belongs to the "
-                    "waves that pass it at rest")
-                   .optional())
-          .key(quantity("viscosity", dim::length * dim::velocity, "kinematic, of the water, for Re")
-                   .positive()
-                   .optional()
-                   .only_beside("file"))
-          .key(number("cd_tangential", "drag coefficient along the segment, of its skin pi D")
-                   .within(Limit::not_negative)
-                   .or_default("0", "a smooth cylinder has some 0.01"),
-               &Line::common, &dl::Segment::cd_tangential)
-          .exactly_one_of({"cd", "file"})
-          .then([](const Record& record, const Line&) {
-            if (record.has("cd") && !record.has("ca")) throw record.refused("needs the key \"ca\" beside \"cd\"");
-          });
-  return binding;
+Binding<Line> line_morison() {
+  return Binding<Line>("[line.morison]",
+                       "drag, Froude-Krylov load and added mass of the segments where they are at each instant")
+      .key(number("cd", "drag coefficient across the segment").within(Limit::not_negative).optional(), &Line::common,
+           &dl::Segment::cd)
+      .key(number("ca", "added mass over displaced mass, across the segment")
+               .within(Limit::not_negative)
+               .optional()
+               .only_beside("cd"),
+           &Line::common, &dl::Segment::ca)
+      .key(text("file",
+                "CSV beside the scene with KC, cd, ca and perhaps Re: each segment takes what belongs to the "
+                "waves that pass it at rest")
+               .optional())
+      .key(quantity("viscosity", dim::length * dim::velocity, "kinematic, of the water, for Re")
+               .positive()
+               .optional()
+               .only_beside("file"))
+      .key(number("cd_tangential", "drag coefficient along the segment, of its skin pi D")
+               .within(Limit::not_negative)
+               .or_default("0", "a smooth cylinder has some 0.01"),
+           &Line::common, &dl::Segment::cd_tangential)
+      .exactly_one_of({"cd", "file"})
+      .then([](const Record& record, const Line&) {
+        if (record.has("cd") && !record.has("ca")) throw record.refused("needs the key \"ca\" beside \"cd\"");
+      });
 }
 
 Line::Coefficients read_coefficients(const Record& record, const Scene& scene) {
@@ -181,45 +179,38 @@ Line::Coefficients read_coefficients(const Record& record, const Scene& scene) {
   return out;
 }
 
-const Binding<Line>& line_damping() {
-  static const Binding<Line> binding =
-      Binding<Line>("[line.damping]", "of each node, against its velocity")
-          .key(quantity("linear", dim::mass / dim::time, "b_l of -b_l v").positive().optional(), &Line::node,
-               &dl::Node::damping)
-          .key(quantity("quadratic", dim::mass / dim::length, "b_q of -b_q |v| v").positive().optional(), &Line::node,
-               &dl::Node::quadratic_damping)
-          .key(effect("componentwise", "-b_q |v_i| v_i for each component instead, which depends on the axes")
-                   .only_beside("quadratic"),
-               &Line::componentwise_damping)
-          .at_least_one_of({"linear", "quadratic"});
-  return binding;
+Binding<Line> line_damping() {
+  return Binding<Line>("[line.damping]", "of each node, against its velocity")
+      .key(quantity("linear", dim::mass / dim::time, "b_l of -b_l v").positive().optional(), &Line::node,
+           &dl::Node::damping)
+      .key(quantity("quadratic", dim::mass / dim::length, "b_q of -b_q |v| v").positive().optional(), &Line::node,
+           &dl::Node::quadratic_damping)
+      .key(effect("componentwise", "-b_q |v_i| v_i for each component instead, which depends on the axes")
+               .only_beside("quadratic"),
+           &Line::componentwise_damping)
+      .at_least_one_of({"linear", "quadratic"});
 }
 
-const Binding<dl::Bed>& line_bed() {
-  static const Binding<dl::Bed> binding =
-      Binding<dl::Bed>("[line.bed]", "the sea bed at the water's depth pushes back where the line sinks into it")
-          .key(quantity("stiffness", dim::pressure / dim::length, "pressure per depth, on the line's diameter")
-                   .positive(),
-               &dl::Bed::stiffness)
-          .key(quantity("damping", dim::pressure / dim::velocity, "pressure per velocity; never pulls")
-                   .within(Limit::not_negative)
-                   .or_default("0 Pa s/m", "what is not named does not act"),
-               &dl::Bed::damping)
-          .key(number("friction",
-                      "what lies on the bed is held by up to this times its weight on it; none at rest, before "
-                      "anything moves")
-                   .positive()
-                   .optional(),
-               &dl::Bed::friction);
-  return binding;
+Binding<dl::Bed> line_bed() {
+  return Binding<dl::Bed>("[line.bed]", "the sea bed at the water's depth pushes back where the line sinks into it")
+      .key(quantity("stiffness", dim::pressure / dim::length, "pressure per depth, on the line's diameter").positive(),
+           &dl::Bed::stiffness)
+      .key(quantity("damping", dim::pressure / dim::velocity, "pressure per velocity; never pulls")
+               .within(Limit::not_negative)
+               .or_default("0 Pa s/m", "what is not named does not act"),
+           &dl::Bed::damping)
+      .key(number("friction",
+                  "what lies on the bed is held by up to this times its weight on it; none at rest, before "
+                  "anything moves")
+               .positive()
+               .optional(),
+           &dl::Bed::friction);
 }
 
-const Binding<Line::Release>& line_release() {
-  static const Binding<Line::Release> binding =
-      Binding<Line::Release>("[line.release]", "the line starts at rest with one node held, and is let go at t = 0")
-          .key(integer("node", "counted from 0 at `from`").within(Limit::at_least_one), &Line::Release::node)
-          .key(vector("at", dim::length, "where it is held, global"), &Line::Release::at);
-  return binding;
+Binding<Line::Release> line_release() {
+  return Binding<Line::Release>("[line.release]", "the line starts at rest with one node held, and is let go at t = 0")
+      .key(integer("node", "counted from 0 at `from`").within(Limit::at_least_one), &Line::Release::node)
+      .key(vector("at", dim::length, "where it is held, global"), &Line::Release::at);
 }
 
 void check_release(const Record& record, const Line& line) {
@@ -246,56 +237,46 @@ void read_path(const Record& record, const Line& line, Line::PrescribedMotion& o
   for (std::size_t i = 0; i < x.size(); ++i) out.place.emplace_back(x[i], y[i], z[i]);
 }
 
-const Binding<Line::PrescribedMotion>& line_prescribed() {
-  static const Binding<Line::PrescribedMotion> binding =
-      Binding<Line::PrescribedMotion>("[line.prescribed]", "the motion of one end, along a path")
-          .words(text("end", "which: \"from\" or \"to\""), {{"from", true}, {"to", false}},
-                 &Line::PrescribedMotion::first)
-          .key(text("file", "CSV beside the scene with time, x, y, z; a cubic spline goes through its points"));
-  return binding;
+Binding<Line::PrescribedMotion> line_prescribed() {
+  return Binding<Line::PrescribedMotion>("[line.prescribed]", "the motion of one end, along a path")
+      .words(text("end", "which: \"from\" or \"to\""), {{"from", true}, {"to", false}}, &Line::PrescribedMotion::first)
+      .key(text("file", "CSV beside the scene with time, x, y, z; a cubic spline goes through its points"));
 }
 
-const Binding<Line::Snaps>& line_snaps() {
-  static const Binding<Line::Snaps> binding =
-      Binding<Line::Snaps>("[line.snaps]",
-                           "counts slack and snaps over the steps of a run, and tells the largest tension")
-          .key(quantity("slack_below", dim::force, "a link with this tension or less is slack")
-                   .within(Limit::not_negative),
-               &Line::Snaps::slack_below)
-          .key(quantity("snap_above", dim::force, "a link that was slack snaps when it reaches this").positive(),
-               &Line::Snaps::snap_above)
-          .then([](const Record& record, const Line::Snaps& out) {
-            if (!(out.snap_above > out.slack_below))
-              throw record.wrong("snap_above", "is not above slack_below", "a snap is tighter than slack");
-          });
-  return binding;
+Binding<Line::Snaps> line_snaps() {
+  return Binding<Line::Snaps>("[line.snaps]",
+                              "counts slack and snaps over the steps of a run, and tells the largest tension")
+      .key(quantity("slack_below", dim::force, "a link with this tension or less is slack").within(Limit::not_negative),
+           &Line::Snaps::slack_below)
+      .key(quantity("snap_above", dim::force, "a link that was slack snaps when it reaches this").positive(),
+           &Line::Snaps::snap_above)
+      .then([](const Record& record, const Line::Snaps& out) {
+        if (!(out.snap_above > out.slack_below))
+          throw record.wrong("snap_above", "is not above slack_below", "a snap is tighter than slack");
+      });
 }
 
-const Binding<Line::Lyapunov>& line_lyapunov() {
-  static const Binding<Line::Lyapunov> binding =
-      Binding<Line::Lyapunov>("[line.lyapunov]",
-                              "the largest Lyapunov exponent of a run: a second line a millionth of a segment beside "
-                              "the first tells how fast neighbours part")
-          .key(quantity("from", dim::time, "growth counts from here on, when the start is forgotten").positive(),
-               &Line::Lyapunov::from)
-          .place(&Line::Lyapunov::place);
-  return binding;
+Binding<Line::Lyapunov> line_lyapunov() {
+  return Binding<Line::Lyapunov>(
+             "[line.lyapunov]",
+             "the largest Lyapunov exponent of a run: a second line a millionth of a segment beside "
+             "the first tells how fast neighbours part")
+      .key(quantity("from", dim::time, "growth counts from here on, when the start is forgotten").positive(),
+           &Line::Lyapunov::from)
+      .place(&Line::Lyapunov::place);
 }
 
-const Binding<Line>& line_clamp() {
-  static const Binding<Line> binding =
-      Binding<Line>("[line.clamp]",
-                    "ends that do not turn: the direction in which the line goes there, from its first node to its "
-                    "last")
-          .key(direction("from", "at the first node: \"x\" or \"(1, 0, -1)\"").optional(), &Line::from,
-               &Line::End::clamp)
-          .key(direction("to", "at the last node, still from first to last").optional(), &Line::to, &Line::End::clamp)
-          .at_least_one_of({"from", "to"})
-          .then([](const Record&, Line& out) {
-            out.from.clamp.normalize();  // of an end that turns freely it stays zero
-            out.to.clamp.normalize();
-          });
-  return binding;
+Binding<Line> line_clamp() {
+  return Binding<Line>("[line.clamp]",
+                       "ends that do not turn: the direction in which the line goes there, from its first node to its "
+                       "last")
+      .key(direction("from", "at the first node: \"x\" or \"(1, 0, -1)\"").optional(), &Line::from, &Line::End::clamp)
+      .key(direction("to", "at the last node, still from first to last").optional(), &Line::to, &Line::End::clamp)
+      .at_least_one_of({"from", "to"})
+      .then([](const Record&, Line& out) {
+        out.from.clamp.normalize();  // of an end that turns freely it stays zero
+        out.to.clamp.normalize();
+      });
 }
 
 /// Ends held by the ground alone: a body would have to bear the moment too.

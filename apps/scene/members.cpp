@@ -11,13 +11,11 @@ namespace dim = hydro::dim;
 using dynamics::MorisonMember;
 using dynamics::SlammingMember;
 
-const Binding<Member>& member_drag() {
-  static const Binding<Member> binding =
-      Binding<Member>(
-          "[member.drag]",
-          "½ ρ cd D ‖u‖ u per length, of the flow across the member; water as it moves where the member is at rest")
-          .key(number("cd", "drag coefficient").positive(), &Member::cd);
-  return binding;
+Binding<Member> member_drag() {
+  return Binding<Member>(
+             "[member.drag]",
+             "½ ρ cd D ‖u‖ u per length, of the flow across the member; water as it moves where the member is at rest")
+      .key(number("cd", "drag coefficient").positive(), &Member::cd);
 }
 
 Key pieces_key() {
@@ -26,58 +24,53 @@ Key pieces_key() {
       .optional();
 }
 
-const Binding<MorisonMember>& member_morison() {
+Binding<MorisonMember> member_morison() {
   using enum dynamics::Immersion;
-  static const Binding<MorisonMember> binding =
-      Binding<MorisonMember>("[member.morison]",
-                             "drag, Froude-Krylov load and added mass of the member where it is at each instant")
-          .key(number("cd", "drag coefficient across the member").within(Limit::not_negative), &MorisonMember::cd)
-          .key(number("ca", "added mass over displaced mass, across the member").within(Limit::not_negative),
-               &MorisonMember::ca)
-          .key(number("cd_tangential", "drag coefficient along the member, of its skin pi D")
-                   .within(Limit::not_negative)
-                   .or_default("0", "a smooth cylinder has some 0.01"),
-               &MorisonMember::cd_tangential)
-          .key(effect("partial_immersion", "only the part under water is loaded; left out: the member is always wet"))
-          .key(text("surface", "that partial immersion goes by: \"waves\", or \"still\" water")
-                   .one_of({"waves", "still"})
-                   .or_default("waves", "the surface is where the waves are")
-                   .only_beside("partial_immersion"))
-          .key(pieces_key(), &MorisonMember::line, &dynamics::SlenderMember::pieces)
-          .at_most(100'000)
-          .then([](const Record& record, MorisonMember& out) {
-            out.line.immersion = !record.has("partial_immersion")    ? whole
-                                 : record.text("surface") == "still" ? still_water
-                                                                     : surface;
-          });
-  return binding;
+  return Binding<MorisonMember>("[member.morison]",
+                                "drag, Froude-Krylov load and added mass of the member where it is at each instant")
+      .key(number("cd", "drag coefficient across the member").within(Limit::not_negative), &MorisonMember::cd)
+      .key(number("ca", "added mass over displaced mass, across the member").within(Limit::not_negative),
+           &MorisonMember::ca)
+      .key(number("cd_tangential", "drag coefficient along the member, of its skin pi D")
+               .within(Limit::not_negative)
+               .or_default("0", "a smooth cylinder has some 0.01"),
+           &MorisonMember::cd_tangential)
+      .key(effect("partial_immersion", "only the part under water is loaded; left out: the member is always wet"))
+      .key(text("surface", "that partial immersion goes by: \"waves\", or \"still\" water")
+               .one_of({"waves", "still"})
+               .or_default("waves", "the surface is where the waves are")
+               .only_beside("partial_immersion"))
+      .key(pieces_key(), &MorisonMember::line, &dynamics::SlenderMember::pieces)
+      .at_most(100'000)
+      .then([](const Record& record, MorisonMember& out) {
+        out.line.immersion = !record.has("partial_immersion")    ? whole
+                             : record.text("surface") == "still" ? still_water
+                                                                 : surface;
+      });
 }
 
-const Binding<SlammingMember>& member_slamming() {
+Binding<SlammingMember> member_slamming() {
   using enum hydro::waves::ImpactTheory;
   using dynamics::ImpactBegins;
-  static const Binding<SlammingMember> binding =
-      Binding<SlammingMember>("[member.slamming]", "impact of water on the member, once for each piece that goes under")
-          .words(text("model",
-                      "\"goda\" or \"von karman\": the plate below the undisturbed surface; \"wienke\": water "
-                      "piled up beside the member"),
-                 {{"goda", goda}, {"von karman", von_karman}, {"wienke", wienke_oumeraci}}, &SlammingMember::theory)
-          .words(text("begins",
-                      "what goes under when the impact begins: the \"underside\", the \"line\" of the axis, or "
-                      "all, \"submerged\"")
-                     .or_default("line", "between the first touch and the last"),
-                 {{"underside", ImpactBegins::underside},
-                  {"line", ImpactBegins::line},
-                  {"submerged", ImpactBegins::submerged}},
-                 &SlammingMember::begins)
-          .key(number("factor", "by which the model's force is multiplied")
-                   .positive()
-                   .or_default("1", "the model itself"),
-               &SlammingMember::factor)
-          .key(pieces_key(), &SlammingMember::line, &dynamics::SlenderMember::pieces)
-          .at_most(100'000)
-          .then([](const Record&, SlammingMember& out) { out.line.immersion = dynamics::Immersion::surface; });
-  return binding;
+  return Binding<SlammingMember>("[member.slamming]",
+                                 "impact of water on the member, once for each piece that goes under")
+      .words(text("model",
+                  "\"goda\" or \"von karman\": the plate below the undisturbed surface; \"wienke\": water "
+                  "piled up beside the member"),
+             {{"goda", goda}, {"von karman", von_karman}, {"wienke", wienke_oumeraci}}, &SlammingMember::theory)
+      .words(text("begins",
+                  "what goes under when the impact begins: the \"underside\", the \"line\" of the axis, or "
+                  "all, \"submerged\"")
+                 .or_default("line", "between the first touch and the last"),
+             {{"underside", ImpactBegins::underside},
+              {"line", ImpactBegins::line},
+              {"submerged", ImpactBegins::submerged}},
+             &SlammingMember::begins)
+      .key(number("factor", "by which the model's force is multiplied").positive().or_default("1", "the model itself"),
+           &SlammingMember::factor)
+      .key(pieces_key(), &SlammingMember::line, &dynamics::SlenderMember::pieces)
+      .at_most(100'000)
+      .then([](const Record&, SlammingMember& out) { out.line.immersion = dynamics::Immersion::surface; });
 }
 
 /// A member without name, body and ends.

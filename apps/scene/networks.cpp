@@ -15,16 +15,14 @@ namespace {
 namespace dim = hydro::dim;
 namespace dl = dynamics::line;
 
-const Binding<Junction>& junction_morison() {
-  static const Binding<Junction> binding =
-      Binding<Junction>("[junction.morison]", "drag, Froude-Krylov load and added mass of the sphere")
-          .key(number("cd", "drag coefficient, of its section").within(Limit::not_negative), &Junction::sphere,
-               &dl::Sphere::cd)
-          .key(number("ca", "added mass over displaced mass")
-                   .within(Limit::not_negative)
-                   .or_default("0.5", "of a sphere in unbounded water"),
-               &Junction::sphere, &dl::Sphere::ca);
-  return binding;
+Binding<Junction> junction_morison() {
+  return Binding<Junction>("[junction.morison]", "drag, Froude-Krylov load and added mass of the sphere")
+      .key(number("cd", "drag coefficient, of its section").within(Limit::not_negative), &Junction::sphere,
+           &dl::Sphere::cd)
+      .key(number("ca", "added mass over displaced mass")
+               .within(Limit::not_negative)
+               .or_default("0.5", "of a sphere in unbounded water"),
+           &Junction::sphere, &dl::Sphere::ca);
 }
 
 const Binding<Junction>& junction() {
