@@ -72,7 +72,7 @@ TEST(Problem, OfAnOscillatedCylinderTellsDragAndInertia) {
   const Report& run = report.parts.at(0);
   EXPECT_EQ(std::get<std::string>(*find(run.facts, "file")), "run_7.csv");
   EXPECT_EQ(std::get<std::string>(*find(std::get<fit::Facts>(*find(run.facts, "labels")), "day")), "Monday");
-  EXPECT_EQ(std::get<std::int64_t>(*find(run.facts, "samples")), 2500);
+  EXPECT_NEAR(std::get<std::int64_t>(*find(run.facts, "samples")), 2500, 50);  // less what derivatives give up
   EXPECT_FALSE(run.remarks.empty());
   EXPECT_TRUE(run.steps);
   EXPECT_EQ(find(run.facts, "weather"), nullptr);
@@ -107,14 +107,12 @@ TEST(Problem, OfTowingTellsTheDragOfAllRunsOrWhyThereIsNone) {
   EXPECT_EQ(refused.find("cd"), nullptr);
 }
 
-/// A swing of 6 s whose amplitude falls by 2 % a second, and beside it another of three times its size or none.
-fit::decay::Problem let_go(double other) {
+/// A swing of 6 s whose amplitude falls by 2 % a second.
+fit::decay::Problem let_go() {
   constexpr std::size_t samples = 2000;
   const double omega = 2 * std::numbers::pi / 6;
-  const auto roll = sampled(samples, 0.0005, 3, [&](double t) {
-    return 0.1 * std::exp(-0.02 * t) * std::cos(omega * t) +
-           other * (std::cos(0.8 * omega * t) + std::cos(1.25 * omega * t));
-  });
+  const auto roll =
+      sampled(samples, 0.0005, 3, [&](double t) { return 0.1 * std::exp(-0.02 * t) * std::cos(omega * t); });
   return {.turns = true,
           .runs = {{.source = {"decay.csv"}, .time = times(samples), .motion = roll}},
           .body = fit::RestoredBody{.mass = 9960, .stiffness = 12e3},
@@ -122,7 +120,7 @@ fit::decay::Problem let_go(double other) {
 }
 
 TEST(Problem, OfADecayTellsPeriodDampingAndAddedMass) {
-  const Report report = fit::solve(let_go(0));
+  const Report report = fit::solve(let_go());
   const double rate = 0.04, omega0 = std::hypot(2 * std::numbers::pi / 6, rate / 2);
   expect_told(report, "period", 2 * std::numbers::pi / omega0, "s");
   expect_told(report, "linear", rate, "1/s");
@@ -130,9 +128,18 @@ TEST(Problem, OfADecayTellsPeriodDampingAndAddedMass) {
 }
 
 TEST(Problem, OfADecayThatIsNoneIsRefused) {
-  const Report report = fit::solve(let_go(0.3));
+  fit::decay::Problem problem = let_go();
+  problem.options.motion = {};
+  auto& [source, time, motion] = problem.runs[0];
+  for (auto* values : {&time, &motion}) values->clear();
+  for (int j = 0; j < 900; ++j) {  // three swings as large as each other: one of them is a third of the whole
+    const double t = 0.1 * j;
+    time.push_back(t);
+    motion.push_back(0.1 * (std::cos(0.8 * t) + std::cos(t) + std::cos(1.25 * t)));
+  }
+  const Report report = fit::solve(problem);
   ASSERT_TRUE(report.refused);
-  EXPECT_THAT(report.refused->why, HasSubstr("no value is told"));
+  EXPECT_EQ(report.refused->reason, Refusal::Reason::residuals_too_large);
   EXPECT_EQ(report.refused->source, "decay.csv");
   EXPECT_EQ(report.find("period"), nullptr);
 }
