@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <limits>
 #include <utility>
+#include <variant>
+
+#include "answers/answers.hpp"
 
 namespace froude {
 namespace {
@@ -98,6 +101,10 @@ std::vector<plot::Series> with_bars(const std::string& name, double confidence, 
     }
   }
   return {values, bars};
+}
+
+::fit::Report fitted(const scene::FitScene& scene) {
+  return std::visit([&](const auto& model) { return solve(problem_of(scene, model)).report; }, scene.model);
 }
 
 }  // namespace froude

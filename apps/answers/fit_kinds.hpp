@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "fit/problem/any.hpp"
 #include "answers/plot.hpp"
+#include "fit/problem/any.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/csv.hpp"
 #include "scene/fit_scene.hpp"

@@ -2,23 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <variant>
+
 #include "answers/answers.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
+#include "scene/document.hpp"
 #include "scene/override.hpp"
 
 namespace froude {
+namespace {
 
-struct Scene::Shared {
+/// A scene of motion, and what others that differ in numbers share with it.
+struct Motion {
   scene::ChangeableScene source;
   std::vector<scene::OverriddenNumber> numbers;
   scene::Scene read;
   std::shared_ptr<compile::Kept> kept;
 };
 
-namespace {
-
-/// \throws InputError unless the scene asks for this
 template <class Ask>
 void require_asked(const std::optional<Ask>& asked, const scene::Scene& scene, const std::string& what,
                    const std::string& example) {
@@ -29,34 +31,48 @@ void require_asked(const std::optional<Ask>& asked, const scene::Scene& scene, c
 
 }  // namespace
 
-const scene::Scene& Scene::read() const { return shared_->read; }
+struct Scene::Shared {
+  std::variant<Motion, scene::FitScene> kind;
+
+  /// \throws InputError for a scene that fits
+  const Motion& motion() const {
+    if (const auto* fit = std::get_if<scene::FitScene>(&kind))
+      throw hydro::InputError("this scene has a [model]: it asks for a fit, not for motion",
+                              {.file = fit->file.string()}, "call fit(), or take the table out");
+    return std::get<Motion>(kind);
+  }
+};
+
+const scene::Scene& Scene::read() const { return shared_->motion().read; }
 
 Parameter Scene::parameter(const std::string& path) const {
-  const auto written = shared_->source.number(path, shared_->numbers);
+  const Motion& motion = shared_->motion();
+  const auto written = motion.source.number(path, motion.numbers);
   return {path, written.value, written.unit};
 }
 
 Scene Scene::with(const Parameter& parameter, double value) const {
-  auto numbers = shared_->numbers;
+  const Motion& motion = shared_->motion();
+  auto numbers = motion.numbers;
   numbers.push_back({parameter.path, value});
-  scene::Scene changed = shared_->source.with(numbers);
-  return Scene(
-      std::make_shared<const Shared>(Shared{shared_->source, std::move(numbers), std::move(changed), shared_->kept}));
+  scene::Scene changed = motion.source.with(numbers);
+  return Scene(std::make_shared<const Shared>(
+      Shared{Motion{motion.source, std::move(numbers), std::move(changed), motion.kept}}));
 }
 
 Run Scene::run(const std::function<void(double)>& progress, const std::vector<Control>& controls) const {
   require_asked(read().run, read(), "a run", "run = { duration = \"600 s\", every = \"0.05 s\" }");
-  return simulate(read(), progress, controls, shared_->kept);
+  return simulate(read(), progress, controls, shared_->motion().kept);
 }
 
 Responses Scene::rao() const {
   require_asked(read().rao, read(), "RAOs", "rao = { periods = \"2 s .. 8 s, 61 values\" }");
-  return respond(read(), compile::prepare(read(), shared_->kept));
+  return respond(read(), compile::prepare(read(), shared_->motion().kept));
 }
 
 Modes Scene::modes() const {
   require_asked(read().ask_modes, read(), "modes", "modes = { longest = \"60 s\" }");
-  return free_modes(read(), shared_->kept);
+  return free_modes(read(), shared_->motion().kept);
 }
 
 WaterSeries Scene::waves(const std::function<void(double)>& progress) const {
@@ -64,12 +80,20 @@ WaterSeries Scene::waves(const std::function<void(double)>& progress) const {
   return water_series(read(), progress);
 }
 
-Plan Scene::plan() const { return froude::plan(read(), shared_->kept); }
+Plan Scene::plan() const { return froude::plan(read(), shared_->motion().kept); }
+
+::fit::Report Scene::fit() const {
+  if (const auto* asked = std::get_if<scene::FitScene>(&shared_->kind)) return fitted(*asked);
+  throw hydro::InputError("the scene has no [model]: it asks for motion, not for a fit", {.file = read().file.string()},
+                          "call run() or rao()");
+}
 
 Scene parse(std::string_view text, const std::filesystem::path& file) {
+  if (scene::parse_document(text, file.string()).find("model") != nullptr)
+    return Scene(std::make_shared<const Scene::Shared>(Scene::Shared{scene::parse_fit(text, file)}));
   const scene::ChangeableScene source(text, file);
   return Scene(std::make_shared<const Scene::Shared>(
-      Scene::Shared{source, {}, source.with({}), std::make_shared<compile::Kept>()}));
+      Scene::Shared{Motion{source, {}, source.with({}), std::make_shared<compile::Kept>()}}));
 }
 
 Scene read(const std::filesystem::path& file) { return parse(hydro::io::read_text(file), file); }

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "answers/simulate.hpp"
 #include "compile/restart.hpp"
 #include "fit/simulated.hpp"
-#include "answers/simulate.hpp"
 #include "scene/fit_scene.hpp"
 #include "scene/override.hpp"
 

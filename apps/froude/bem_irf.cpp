@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "answers/plot.hpp"
 #include "froude/commands.hpp"
 #include "froude/outputs.hpp"
-#include "answers/plot.hpp"
 #include "froude/report.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"

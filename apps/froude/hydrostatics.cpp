@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "answers/plot.hpp"
 #include "froude/commands.hpp"
 #include "froude/outputs.hpp"
-#include "answers/plot.hpp"
 #include "froude/report.hpp"
 #include "hydro/hydrostatics/stability.hpp"
 #include "hydro/io/atomic_file.hpp"

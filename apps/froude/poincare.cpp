@@ -6,9 +6,9 @@
 #include <numbers>
 #include <utility>
 
+#include "answers/plot.hpp"
 #include "froude/commands.hpp"
 #include "froude/outputs.hpp"
-#include "answers/plot.hpp"
 #include "froude/record_file.hpp"
 #include "froude/report.hpp"
 #include "hydro/base/error.hpp"

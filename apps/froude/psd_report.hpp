@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "froude/commands.hpp"
 #include "answers/plot.hpp"
+#include "froude/commands.hpp"
 #include "froude/report.hpp"
 #include "froude/result.hpp"
 #include "hydro/signal/welch.hpp"

@@ -21,12 +21,9 @@ Table motion_table() {
                      "results of `froude fit -o`: with \"fit.toml\", a text \"fit.cd\" stands for the number cd of its "
                      "[coefficients]")
                    .optional(),
-               inner_table("water", water_table()),
-               inner_table("waves", waves_binding().table()).optional(),
-               inner_table("current", current_table()).optional(),
-               inner_tables("body", body_table()).optional(),
-               inner_tables("probe", probe_table()).optional(),
-               inner_tables("point", point_table()).optional(),
+               inner_table("water", water_table()), inner_table("waves", waves_binding().table()).optional(),
+               inner_table("current", current_table()).optional(), inner_tables("body", body_table()).optional(),
+               inner_tables("probe", probe_table()).optional(), inner_tables("point", point_table()).optional(),
                inner_tables("relative_motion", relative_motion_table()).optional(),
                inner_tables("member", member_table()).optional(), inner_tables("line", line_table()).optional(),
                inner_tables("junction", junction_table()).optional(),

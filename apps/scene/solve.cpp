@@ -74,7 +74,8 @@ bool acts_one_way(const Scene& scene) {
     return l.common.tension_only && (l.fastened() || scene.solve.line_scheme == "generalized_alpha");
   };
   return std::any_of(scene.connectors.begin(), scene.connectors.end(), axial) ||
-         std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& j) { return j.pto && j.pto->has_stops(); }) ||
+         std::any_of(scene.joints.begin(), scene.joints.end(),
+                     [](const Joint& j) { return j.pto && j.pto->has_stops(); }) ||
          std::any_of(scene.chains.begin(), scene.chains.end(), line);
 }
 

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fit/report.hpp"
 #include "froude/control.hpp"
 #include "froude/result.hpp"
 
@@ -30,9 +31,9 @@ struct Parameter {
   std::string unit;  ///< as written; empty for a number without one
 };
 
-/// A scene: checked, nothing computed. Copies share what they were read from, and with() shares the coefficients that
-/// were read and the poles that were fitted to them, as long as the change leaves them alone. Of one scene and its
-/// copies one thread at a time may ask.
+/// A scene of motion, or one that fits: checked, nothing computed. Copies share what they were read from, and with()
+/// shares the coefficients that were read and the poles that were fitted to them, as long as the change leaves them
+/// alone. Of one scene and its copies one thread at a time may ask.
 class Scene {
  public:
   /// A number that may be changed. \throws hydro::InputError if the scene writes no number there, with the nearest key
@@ -50,10 +51,13 @@ class Scene {
   Modes modes() const;
   /// [ask] waves: the water at the probes. \throws hydro::InputError
   WaterSeries waves(const std::function<void(double)>& progress = {}) const;
+  /// What the measurements say, of a scene with a [model]; where values may not be told, Report::refused says why.
+  /// \throws hydro::InputError, hydro::NumericsError
+  ::fit::Report fit() const;
   /// What each answer will take, and what the scene leaves out. \throws hydro::InputError
   Plan plan() const;
 
-  /// What was read, for programs that look inside.
+  /// What was read, for programs that look inside. \throws hydro::InputError for a scene that fits
   const scene::Scene& read() const;
 
  private:
@@ -63,7 +67,7 @@ class Scene {
   std::shared_ptr<const Shared> shared_;
 };
 
-/// Reads a scene of motion. \throws hydro::InputError with file, line, column, rule and remedy
+/// Reads a scene. \throws hydro::InputError with file, line, column, rule and remedy
 Scene read(const std::filesystem::path& file);
 /// The same of a text; files that it names are looked for beside `file`.
 Scene parse(std::string_view text, const std::filesystem::path& file = "scene.toml");
