@@ -14,7 +14,7 @@
 #include "dynamics/frequency/linear_drag.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/waves/dispersion.hpp"
-#include "hydro/waves/synthesis.hpp"
+#include "hydro/waves/synthesis/synthesis.hpp"
 
 namespace froude {
 namespace {

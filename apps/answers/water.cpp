@@ -11,9 +11,9 @@
 #include "compile/signal_list.hpp"
 #include "compile/waves.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/waves/kinematics.hpp"
-#include "hydro/waves/second_order.hpp"
-#include "hydro/waves/synthesis.hpp"
+#include "hydro/waves/kinematics/kinematics.hpp"
+#include "hydro/waves/synthesis/second_order.hpp"
+#include "hydro/waves/synthesis/synthesis.hpp"
 
 namespace froude {
 namespace {

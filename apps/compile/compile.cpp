@@ -18,7 +18,7 @@
 #include "dynamics/force/ramped_field.hpp"
 #include "dynamics/force/wave_loads.hpp"
 #include "dynamics/model/equilibrium.hpp"
-#include "hydro/waves/boxed_field.hpp"
+#include "hydro/waves/synthesis/boxed_field.hpp"
 
 namespace froude::compile {
 namespace {

@@ -19,8 +19,8 @@
 #include "dynamics/frequency/rao.hpp"
 #include "dynamics/model/model.hpp"
 #include "froude/result.hpp"
-#include "hydro/waves/field.hpp"
-#include "hydro/waves/sea.hpp"
+#include "hydro/waves/kinematics/field.hpp"
+#include "hydro/waves/kinematics/sea.hpp"
 #include "scene/element.hpp"
 #include "scene/scene.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "hydro/potential/operations.hpp"
+#include "hydro/potential/operations/operations.hpp"
 
 namespace froude::compile {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "hydro/potential/check.hpp"
+#include "hydro/potential/doctor/check.hpp"
 
 namespace froude::compile {
 

@@ -9,8 +9,8 @@
 #include "compile/findings.hpp"
 #include "compile/kept.hpp"
 #include "hydro/base/dense.hpp"
-#include "hydro/potential/check.hpp"
-#include "hydro/potential/operations.hpp"
+#include "hydro/potential/doctor/check.hpp"
+#include "hydro/potential/operations/operations.hpp"
 
 namespace froude::compile {
 namespace {

@@ -10,7 +10,7 @@
 #include "dynamics/force/morison.hpp"
 #include "dynamics/force/slamming.hpp"
 #include "hydro/waves/dispersion.hpp"
-#include "hydro/waves/kinematics.hpp"
+#include "hydro/waves/kinematics/kinematics.hpp"
 
 namespace froude::compile {
 namespace {

@@ -3,7 +3,7 @@
 #include "compile/compile.hpp"
 #include "compile/signals.hpp"
 #include "dynamics/force/drag.hpp"
-#include "hydro/waves/field_choice.hpp"
+#include "hydro/waves/synthesis/field_choice.hpp"
 
 namespace froude::compile {
 

@@ -8,7 +8,7 @@
 
 #include "compile/connections.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/waves/sea.hpp"
+#include "hydro/waves/kinematics/sea.hpp"
 
 namespace froude::compile {
 namespace {

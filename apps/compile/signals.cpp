@@ -1,6 +1,6 @@
 #include "compile/signals.hpp"
 
-#include "hydro/waves/synthesis.hpp"
+#include "hydro/waves/synthesis/synthesis.hpp"
 
 namespace froude::compile {
 

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "dynamics/force/wave_signals.hpp"
-#include "hydro/waves/sea.hpp"
+#include "hydro/waves/kinematics/sea.hpp"
 
 namespace froude::compile {
 

@@ -7,14 +7,14 @@
 #include <limits>
 #include <numbers>
 
-#include "hydro/waves/current.hpp"
 #include "hydro/waves/dispersion.hpp"
-#include "hydro/waves/focus.hpp"
-#include "hydro/waves/limits.hpp"
-#include "hydro/waves/second_order.hpp"
-#include "hydro/waves/steady.hpp"
-#include "hydro/waves/summed_field.hpp"
-#include "hydro/waves/tank.hpp"
+#include "hydro/waves/kinematics/current.hpp"
+#include "hydro/waves/kinematics/focus.hpp"
+#include "hydro/waves/kinematics/limits.hpp"
+#include "hydro/waves/kinematics/steady.hpp"
+#include "hydro/waves/kinematics/tank.hpp"
+#include "hydro/waves/synthesis/second_order.hpp"
+#include "hydro/waves/synthesis/summed_field.hpp"
 
 namespace froude::compile {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "hydro/waves/field.hpp"
-#include "hydro/waves/sea.hpp"
+#include "hydro/waves/kinematics/field.hpp"
+#include "hydro/waves/kinematics/sea.hpp"
 #include "scene/scene.hpp"
 
 namespace froude::compile {

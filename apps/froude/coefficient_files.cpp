@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "hydro/base/error.hpp"
-#include "hydro/potential/writers.hpp"
+#include "hydro/potential/formats/writers.hpp"
 
 namespace froude {
 namespace {

@@ -13,7 +13,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/hydrostatics/mesh.hpp"
 #include "hydro/potential/coefficients.hpp"
-#include "hydro/potential/heal.hpp"
+#include "hydro/potential/doctor/heal.hpp"
 
 namespace froude {
 

@@ -3,7 +3,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
-#include "hydro/potential/files.hpp"
+#include "hydro/potential/formats/files.hpp"
 #include "scene/document.hpp"
 #include "scene/scene.hpp"
 

@@ -18,10 +18,10 @@
 #include "hydro/signal/welch.hpp"
 #include "hydro/signal/zero_crossings.hpp"
 #include "hydro/waves/dispersion.hpp"
-#include "hydro/waves/focus.hpp"
-#include "hydro/waves/limits.hpp"
-#include "hydro/waves/spectrum_tabulated.hpp"
-#include "hydro/waves/statistics.hpp"
+#include "hydro/waves/kinematics/focus.hpp"
+#include "hydro/waves/kinematics/limits.hpp"
+#include "hydro/waves/spectra/spectrum_tabulated.hpp"
+#include "hydro/waves/spectra/statistics.hpp"
 #include "scene/scene.hpp"
 
 namespace froude {

@@ -1,5 +1,5 @@
 /// \file  `[body.hydrodynamics]`: coefficients of a body from a file, or of cylinders, and what of them acts.
-#include "hydro/potential/check.hpp"
+#include "hydro/potential/doctor/check.hpp"
 #include "scene/binding.hpp"
 #include "scene/build.hpp"
 

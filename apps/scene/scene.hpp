@@ -33,8 +33,8 @@
 #include "hydro/base/types.hpp"
 #include "hydro/cylinders/layout.hpp"
 #include "hydro/hydrostatics/shapes.hpp"
-#include "hydro/waves/focus.hpp"
-#include "hydro/waves/sea.hpp"
+#include "hydro/waves/kinematics/focus.hpp"
+#include "hydro/waves/kinematics/sea.hpp"
 
 namespace froude::scene {
 

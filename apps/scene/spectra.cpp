@@ -6,8 +6,8 @@
 #include "hydro/base/error.hpp"
 #include "hydro/io/csv.hpp"
 #include "hydro/signal/welch.hpp"
-#include "hydro/waves/spectra.hpp"
-#include "hydro/waves/spectrum_tabulated.hpp"
+#include "hydro/waves/spectra/spectra.hpp"
+#include "hydro/waves/spectra/spectrum_tabulated.hpp"
 #include "scene/build.hpp"
 
 namespace froude::scene {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "hydro/waves/spectrum.hpp"
-#include "hydro/waves/spreading.hpp"
+#include "hydro/waves/spectra/spectrum.hpp"
+#include "hydro/waves/spectra/spreading.hpp"
 #include "scene/record.hpp"
 
 namespace froude::scene {

@@ -8,7 +8,7 @@
 
 #include "froude/commands.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/potential/writers.hpp"
+#include "hydro/potential/formats/writers.hpp"
 #include "support/source_dir.hpp"
 
 namespace bem_test {

@@ -103,12 +103,16 @@ MAY_USE = {
 MAY_USE_OF = {("validation", "tests"): {"support"}, ("tests", "validation"): {"harness"}}
 # The floors of each part, lowest first: a folder uses itself and those before it. "*" are all other folders, none of which
 # uses another; files that are in no folder may use all. docs/design.md draws the same.
+# Rooms inside a folder have floors too, where it is listed; "." is what stands in the folder itself.
 FLOORS = {
     "libhydro": ("base", "io", "signal", "waves", "radiation", "hydrostatics", "potential", "cylinders"),
     "libdynamics": ("spatial", "time", "line", "state", "control", "joint", "force", "model", "integrate", "frequency"),
     "apps": ("scene", "compile", "froude"),
     "validation": ("harness", "*"),
     "tests": ("support", "laws", "*"),
+    "libhydro/waves": (".", "spectra", "kinematics", "synthesis"),
+    "libhydro/potential": (".", "operations", "formats", "doctor"),
+    "apps/froude": (".", "*"),
 }
 # The part that an include belongs to, by its first folder.
 PART = {"hydro": "libhydro", "dynamics": "libdynamics", "fit": "libfit", "froude": "apps", "scene": "apps", "compile": "apps",
@@ -121,6 +125,13 @@ def folder_of(path):
     if part.startswith("lib"):
         rest = rest[{"include": 2, "src": 1}.get(rest[0], 0):]
     return part, rest[0] if len(rest) > 1 else ""
+
+
+def room_of(path):
+    """The folder of a part that a path lies in, and the room of that folder, "." where it lies in none; "" without a folder."""
+    part, folder = folder_of(path)
+    within = path.parts[path.parts.index(folder, 1) + 1:] if folder else ()
+    return f"{part}/{folder}", (within[0] if len(within) > 1 else ".") if folder else ""
 
 
 def included(root, path, name):
@@ -191,7 +202,10 @@ def include_complaint(root, path, name):
         return f"{part} may not include {name}"
     if path.parts[1] == "include" and (aim.parts[1] != "include" or not (root / aim).exists()):
         return f"the public header includes {name}, which is not a public header"
-    return floor_complaint(part, folder, used) if used_part == part else None
+    if used_part != part:
+        return None
+    (home, room), (other, used_room) = room_of(path), room_of(aim)
+    return floor_complaint(part, folder, used) or (floor_complaint(home, room, used_room) if home == other else None)
 
 
 def own_includes(root):

@@ -116,6 +116,13 @@ class Floors(ChecksCase):
         self.refuses("includes", case | {"validation/stick/a.cpp": text}, "validation/stick may not include validation/hulme, which is beside it")
         self.accepts("includes", case | {"validation/cases.cpp": text})
 
+    def test_refuses_a_room_that_uses_one_above(self):
+        rooms = {"libhydro/src/potential/formats/a.hpp": "\n", "libhydro/src/potential/b.hpp": "\n"}
+        self.accepts("includes", rooms | {"libhydro/src/potential/doctor/c.cpp": '#include "potential/formats/a.hpp"\n#include "potential/b.hpp"\n'})
+        for room in ("potential", "potential/operations"):
+            self.refuses("includes", rooms | {f"libhydro/src/{room}/c.cpp": '#include "potential/formats/a.hpp"\n'},
+                         "may not include libhydro/potential/formats, which is above it")
+
     def test_refuses_a_folder_without_a_floor(self):
         self.refuses("includes", self.FORCE | {"libdynamics/src/new/a.cpp": self.UP}, "libdynamics/new has no floor")
 

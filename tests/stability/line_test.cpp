@@ -8,9 +8,9 @@
 #include "dynamics/line/equilibrium.hpp"
 #include "dynamics/line/stepper.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/waves/sea.hpp"
-#include "hydro/waves/spectra.hpp"
-#include "hydro/waves/summed_field.hpp"
+#include "hydro/waves/kinematics/sea.hpp"
+#include "hydro/waves/spectra/spectra.hpp"
+#include "hydro/waves/synthesis/summed_field.hpp"
 #include "support/line_models.hpp"
 
 namespace line_test {

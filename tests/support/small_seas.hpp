@@ -3,9 +3,9 @@
 #include <memory>
 #include <numbers>
 
-#include "hydro/waves/field.hpp"
-#include "hydro/waves/sea.hpp"
-#include "hydro/waves/summed_field.hpp"
+#include "hydro/waves/kinematics/field.hpp"
+#include "hydro/waves/kinematics/sea.hpp"
+#include "hydro/waves/synthesis/summed_field.hpp"
 
 namespace support {
 

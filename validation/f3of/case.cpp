@@ -8,7 +8,7 @@
 #include "harness/scenes.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
-#include "hydro/potential/writers.hpp"
+#include "hydro/potential/formats/writers.hpp"
 #include "hydro/radiation/choice.hpp"
 
 namespace froude::validation::f3of {

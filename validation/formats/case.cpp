@@ -4,7 +4,7 @@
 
 #include "harness/case.hpp"
 #include "hydro/base/random.hpp"
-#include "hydro/potential/operations.hpp"
+#include "hydro/potential/operations/operations.hpp"
 
 namespace froude::validation::formats {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "dynamics/line/equilibrium.hpp"
 #include "dynamics/line/stepper.hpp"
-#include "hydro/waves/field.hpp"
+#include "hydro/waves/kinematics/field.hpp"
 
 namespace froude::validation {
 

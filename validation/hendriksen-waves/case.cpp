@@ -7,7 +7,7 @@
 #include "harness/hendriksen.hpp"
 #include "hydro/base/random.hpp"
 #include "hydro/io/csv.hpp"
-#include "hydro/waves/sea.hpp"
+#include "hydro/waves/kinematics/sea.hpp"
 
 namespace froude::validation::hendriksen_waves {
 namespace {

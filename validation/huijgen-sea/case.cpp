@@ -7,7 +7,7 @@
 #include "harness/case.hpp"
 #include "hydro/io/csv.hpp"
 #include "hydro/signal/fft.hpp"
-#include "hydro/waves/focus.hpp"
+#include "hydro/waves/kinematics/focus.hpp"
 
 namespace froude::validation::huijgen_sea {
 namespace {

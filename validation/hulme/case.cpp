@@ -5,7 +5,7 @@
 #include "harness/case.hpp"
 #include "hydro/io/csv.hpp"
 #include "hydro/potential/coefficients.hpp"
-#include "hydro/potential/operations.hpp"
+#include "hydro/potential/operations/operations.hpp"
 
 namespace froude::validation::hulme {
 namespace {

@@ -7,10 +7,10 @@
 #include "harness/case.hpp"
 #include "hydro/signal/fft.hpp"
 #include "hydro/waves/dispersion.hpp"
-#include "hydro/waves/sea.hpp"
-#include "hydro/waves/spectra.hpp"
-#include "hydro/waves/spectrum_tabulated.hpp"
-#include "hydro/waves/spreading.hpp"
+#include "hydro/waves/kinematics/sea.hpp"
+#include "hydro/waves/spectra/spectra.hpp"
+#include "hydro/waves/spectra/spectrum_tabulated.hpp"
+#include "hydro/waves/spectra/spreading.hpp"
 
 namespace froude::validation::spectra {
 namespace {

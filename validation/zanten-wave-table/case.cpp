@@ -3,7 +3,7 @@
 
 #include "harness/case.hpp"
 #include "hydro/io/csv.hpp"
-#include "hydro/waves/focus.hpp"
+#include "hydro/waves/kinematics/focus.hpp"
 
 namespace froude::validation::zanten_wave_table {
 namespace {

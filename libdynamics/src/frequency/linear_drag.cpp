@@ -6,7 +6,7 @@
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/waves/dispersion.hpp"
-#include "hydro/waves/kinematics.hpp"
+#include "hydro/waves/kinematics/kinematics.hpp"
 #include "linear_model.hpp"
 
 namespace dynamics::frequency {

@@ -6,13 +6,13 @@
 
 #include <filesystem>
 
+#include "answers/simulate.hpp"
 #include "apps/compile/scenes.hpp"
 #include "compile/compile.hpp"
 #include "compile/findings.hpp"
-#include "answers/simulate.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/potential/operations.hpp"
-#include "hydro/potential/writers.hpp"
+#include "hydro/potential/formats/writers.hpp"
+#include "hydro/potential/operations/operations.hpp"
 
 namespace hydrodynamics_test {
 namespace {

@@ -6,11 +6,11 @@
 #include <fstream>
 #include <numbers>
 
-#include "compile/compile.hpp"
 #include "answers/scene_runs.hpp"
 #include "answers/simulate.hpp"
+#include "compile/compile.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/potential/writers.hpp"
+#include "hydro/potential/formats/writers.hpp"
 #include "scenes.hpp"
 #include "support/two_pole_body.hpp"
 

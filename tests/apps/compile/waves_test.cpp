@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "hydro/waves/dispersion.hpp"
-#include "hydro/waves/spectrum.hpp"
+#include "hydro/waves/spectra/spectrum.hpp"
 
 namespace froude::compile::waves_test {
 namespace {

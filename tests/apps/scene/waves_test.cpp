@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "apps/scene/scenes.hpp"
-#include "hydro/waves/spectra.hpp"
+#include "hydro/waves/spectra/spectra.hpp"
 
 namespace froude::scene::waves_test {
 namespace {

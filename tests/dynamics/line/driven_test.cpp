@@ -13,7 +13,7 @@
 #include "dynamics/line/catenary.hpp"
 #include "dynamics/line/equilibrium.hpp"
 #include "dynamics/model/equilibrium.hpp"
-#include "hydro/waves/field.hpp"
+#include "hydro/waves/kinematics/field.hpp"
 #include "laws/force_kind_laws.hpp"
 #include "support/line_networks.hpp"
 

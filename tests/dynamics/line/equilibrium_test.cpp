@@ -8,7 +8,7 @@
 #include "dynamics/line/catenary.hpp"
 #include "dynamics/line/stepper.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/waves/sea.hpp"
+#include "hydro/waves/kinematics/sea.hpp"
 #include "support/line_models.hpp"
 
 namespace equilibrium_test {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hydro/base/random.hpp"
-#include "hydro/waves/sea.hpp"
+#include "hydro/waves/kinematics/sea.hpp"
 #include "springs.hpp"
 #include "support/line_models.hpp"
 

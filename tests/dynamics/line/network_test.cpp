@@ -13,7 +13,7 @@
 #include "dynamics/line/stepper.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/random.hpp"
-#include "hydro/waves/sea.hpp"
+#include "hydro/waves/kinematics/sea.hpp"
 #include "loads.hpp"
 #include "network_solver.hpp"
 #include "support/line_networks.hpp"

@@ -8,7 +8,7 @@
 
 #include "dynamics/line/equilibrium.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/waves/sea.hpp"
+#include "hydro/waves/kinematics/sea.hpp"
 #include "support/line_models.hpp"
 #include "support/plain_pendulums.hpp"
 

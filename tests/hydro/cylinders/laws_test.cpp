@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "hydro/potential/check.hpp"
-#include "hydro/potential/operations.hpp"
+#include "hydro/potential/doctor/check.hpp"
+#include "hydro/potential/operations/operations.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "layouts.hpp"
 

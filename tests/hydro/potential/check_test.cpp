@@ -1,4 +1,4 @@
-#include "hydro/potential/check.hpp"
+#include "hydro/potential/doctor/check.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -10,8 +10,8 @@
 #include "example.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/cylinders/solve.hpp"
-#include "hydro/potential/check.hpp"
-#include "hydro/potential/operations.hpp"
+#include "hydro/potential/doctor/check.hpp"
+#include "hydro/potential/operations/operations.hpp"
 #include "support/reference_data.hpp"
 
 namespace doctor_test {

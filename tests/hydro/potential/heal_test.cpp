@@ -1,5 +1,5 @@
 // Healing changes as little as it can, and what it promises then holds.
-#include "hydro/potential/heal.hpp"
+#include "hydro/potential/doctor/heal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 #include "example.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/potential/check.hpp"
+#include "hydro/potential/doctor/check.hpp"
 #include "hydro/radiation/kernel.hpp"
 #include "smooth_body.hpp"
 #include "support/reference_data.hpp"

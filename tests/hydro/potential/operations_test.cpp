@@ -1,4 +1,4 @@
-#include "hydro/potential/operations.hpp"
+#include "hydro/potential/operations/operations.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

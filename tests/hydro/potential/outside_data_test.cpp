@@ -5,8 +5,8 @@
 #include <Eigen/LU>
 #include <numbers>
 
-#include "hydro/potential/check.hpp"
-#include "hydro/potential/operations.hpp"
+#include "hydro/potential/doctor/check.hpp"
+#include "hydro/potential/operations/operations.hpp"
 #include "smooth_body.hpp"
 #include "support/reference_data.hpp"
 #include "support/source_dir.hpp"

@@ -1,4 +1,4 @@
-#include "hydro/potential/responses.hpp"
+#include "hydro/potential/formats/responses.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

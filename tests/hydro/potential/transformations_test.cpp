@@ -1,4 +1,4 @@
-#include "hydro/potential/transformations.hpp"
+#include "hydro/potential/operations/transformations.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 #include "hydro/base/error.hpp"
 #include "hydro/cylinders/solve.hpp"
-#include "hydro/potential/operations.hpp"
+#include "hydro/potential/operations/operations.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "smooth_body.hpp"
 

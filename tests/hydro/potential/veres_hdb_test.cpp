@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "hydro/base/error.hpp"
-#include "hydro/potential/responses.hpp"
+#include "hydro/potential/formats/responses.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "smooth_body.hpp"
 #include "support/reference_data.hpp"

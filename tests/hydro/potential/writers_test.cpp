@@ -1,4 +1,4 @@
-#include "hydro/potential/writers.hpp"
+#include "hydro/potential/formats/writers.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/io/hdf5.hpp"
 #include "hydro/io/netcdf.hpp"
-#include "hydro/potential/operations.hpp"
+#include "hydro/potential/operations/operations.hpp"
 #include "smooth_body.hpp"
 
 namespace writers_test {

@@ -1,4 +1,4 @@
-#include "hydro/waves/current.hpp"
+#include "hydro/waves/kinematics/current.hpp"
 
 #include <gmock/gmock.h>
 

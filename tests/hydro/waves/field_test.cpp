@@ -1,4 +1,4 @@
-#include "hydro/waves/field.hpp"
+#include "hydro/waves/kinematics/field.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,8 +7,8 @@
 #include <functional>
 #include <numbers>
 
-#include "hydro/waves/kinematics.hpp"
-#include "hydro/waves/sea.hpp"
+#include "hydro/waves/kinematics/kinematics.hpp"
+#include "hydro/waves/kinematics/sea.hpp"
 
 namespace hydro::waves::field_test {
 namespace {

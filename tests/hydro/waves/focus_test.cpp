@@ -1,4 +1,4 @@
-#include "hydro/waves/focus.hpp"
+#include "hydro/waves/kinematics/focus.hpp"
 
 #include <gmock/gmock.h>
 

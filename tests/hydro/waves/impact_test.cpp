@@ -1,4 +1,4 @@
-#include "hydro/waves/impact.hpp"
+#include "hydro/waves/kinematics/impact.hpp"
 
 #include <gmock/gmock.h>
 

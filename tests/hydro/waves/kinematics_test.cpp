@@ -1,4 +1,4 @@
-#include "hydro/waves/kinematics.hpp"
+#include "hydro/waves/kinematics/kinematics.hpp"
 
 #include <gmock/gmock.h>
 

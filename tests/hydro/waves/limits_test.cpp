@@ -1,4 +1,4 @@
-#include "hydro/waves/limits.hpp"
+#include "hydro/waves/kinematics/limits.hpp"
 
 #include <gmock/gmock.h>
 

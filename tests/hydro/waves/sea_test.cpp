@@ -1,4 +1,4 @@
-#include "hydro/waves/sea.hpp"
+#include "hydro/waves/kinematics/sea.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "hydro/waves/dispersion.hpp"
-#include "hydro/waves/synthesis.hpp"
+#include "hydro/waves/synthesis/synthesis.hpp"
 
 namespace hydro::waves::sea_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "hydro/waves/second_order.hpp"
+#include "hydro/waves/synthesis/second_order.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "hydro/waves/dispersion.hpp"
-#include "hydro/waves/steady.hpp"
+#include "hydro/waves/kinematics/steady.hpp"
 #include "support/fresh_waters.hpp"
 
 namespace hydro::waves::second_order_test {

@@ -1,4 +1,4 @@
-#include "hydro/waves/spectra.hpp"
+#include "hydro/waves/spectra/spectra.hpp"
 
 #include <gmock/gmock.h>
 

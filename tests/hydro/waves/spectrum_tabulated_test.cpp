@@ -1,4 +1,4 @@
-#include "hydro/waves/spectrum_tabulated.hpp"
+#include "hydro/waves/spectra/spectrum_tabulated.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "hydro/waves/spectra.hpp"
+#include "hydro/waves/spectra/spectra.hpp"
 #include "support/reference_data.hpp"
 
 namespace hydro::waves::spectrum_tabulated_test {

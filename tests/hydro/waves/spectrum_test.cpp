@@ -1,4 +1,4 @@
-#include "hydro/waves/spectrum.hpp"
+#include "hydro/waves/spectra/spectrum.hpp"
 
 #include <gmock/gmock.h>
 

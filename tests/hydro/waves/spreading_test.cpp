@@ -1,4 +1,4 @@
-#include "hydro/waves/spreading.hpp"
+#include "hydro/waves/spectra/spreading.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "hydro/waves/statistics.hpp"
+#include "hydro/waves/spectra/statistics.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "hydro/base/random.hpp"
-#include "hydro/waves/spectra.hpp"
+#include "hydro/waves/spectra/spectra.hpp"
 
 namespace hydro::waves::statistics_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "hydro/waves/steady.hpp"
+#include "hydro/waves/kinematics/steady.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "hydro/waves/dispersion.hpp"
-#include "hydro/waves/limits.hpp"
+#include "hydro/waves/kinematics/limits.hpp"
 #include "support/fresh_waters.hpp"
 
 namespace hydro::waves::steady_test {

@@ -7,12 +7,12 @@
 #include <numbers>
 
 #include "hydro/base/random.hpp"
-#include "hydro/waves/boxed_field.hpp"
-#include "hydro/waves/field_choice.hpp"
-#include "hydro/waves/sea.hpp"
-#include "hydro/waves/second_order.hpp"
-#include "hydro/waves/summed_field.hpp"
-#include "hydro/waves/tabulated_field.hpp"
+#include "hydro/waves/kinematics/sea.hpp"
+#include "hydro/waves/synthesis/boxed_field.hpp"
+#include "hydro/waves/synthesis/field_choice.hpp"
+#include "hydro/waves/synthesis/second_order.hpp"
+#include "hydro/waves/synthesis/summed_field.hpp"
+#include "hydro/waves/synthesis/tabulated_field.hpp"
 
 namespace hydro::waves::synth_fields_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "hydro/waves/synthesis.hpp"
+#include "hydro/waves/synthesis/synthesis.hpp"
 
 #include <gmock/gmock.h>
 

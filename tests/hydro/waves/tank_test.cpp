@@ -1,4 +1,4 @@
-#include "hydro/waves/tank.hpp"
+#include "hydro/waves/kinematics/tank.hpp"
 
 #include <gmock/gmock.h>
 

@@ -16,8 +16,8 @@
 #include "harness/oc3_line.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
-#include "hydro/waves/sea.hpp"
-#include "hydro/waves/summed_field.hpp"
+#include "hydro/waves/kinematics/sea.hpp"
+#include "hydro/waves/synthesis/summed_field.hpp"
 #include "support/line_models.hpp"
 
 namespace froude::cost {

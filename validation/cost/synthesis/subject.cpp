@@ -8,9 +8,9 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "hydro/waves/field_choice.hpp"
-#include "hydro/waves/summed_field.hpp"
-#include "hydro/waves/synthesis.hpp"
+#include "hydro/waves/synthesis/field_choice.hpp"
+#include "hydro/waves/synthesis/summed_field.hpp"
+#include "hydro/waves/synthesis/synthesis.hpp"
 
 namespace froude::cost {
 namespace {

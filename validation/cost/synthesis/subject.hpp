@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hydro/waves/sea.hpp"
+#include "hydro/waves/kinematics/sea.hpp"
 
 namespace froude::cost {
 

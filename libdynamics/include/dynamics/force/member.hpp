@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "dynamics/state/body.hpp"
-#include "hydro/waves/field.hpp"
+#include "hydro/waves/kinematics/field.hpp"
 
 namespace dynamics {
 

@@ -2,7 +2,7 @@
 /// \file  Waves that grow from nothing at the beginning of a run, as moving members meet them.
 #include <memory>
 
-#include "hydro/waves/field.hpp"
+#include "hydro/waves/kinematics/field.hpp"
 
 namespace dynamics {
 

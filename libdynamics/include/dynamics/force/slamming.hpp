@@ -4,7 +4,7 @@
 
 #include "dynamics/force/force_kind.hpp"
 #include "dynamics/force/member.hpp"
-#include "hydro/waves/impact.hpp"
+#include "hydro/waves/kinematics/impact.hpp"
 
 namespace dynamics {
 

@@ -7,7 +7,7 @@
 
 #include "dynamics/force/drag.hpp"
 #include "dynamics/frequency/small_motions.hpp"
-#include "hydro/potential/operations.hpp"
+#include "hydro/potential/operations/operations.hpp"
 
 namespace dynamics::frequency {
 

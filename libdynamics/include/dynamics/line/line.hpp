@@ -12,7 +12,7 @@
 #include <numbers>
 #include <vector>
 
-#include "hydro/waves/field.hpp"
+#include "hydro/waves/kinematics/field.hpp"
 
 namespace dynamics::line {
 

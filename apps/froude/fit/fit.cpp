@@ -1,0 +1,99 @@
+#include <ostream>
+
+#include "answers/fit_kinds.hpp"
+#include "froude/fit/report.hpp"
+#include "froude/outputs.hpp"
+#include "hydro/io/atomic_file.hpp"
+
+namespace froude {
+namespace {
+
+/// All that comes of a fit. Where it is refused, text and picture are all that is told.
+struct Outcome {
+  Report report;
+  plot::Figure picture;
+  std::string table;           ///< CSV
+  std::exception_ptr refused;  ///< null where values may be told
+};
+
+/// What a report of any kind begins with: what was asked.
+Report begun(const scene::FitScene& scene) {
+  Report out;
+  out.keep("scene", scene.file.filename().string()).keep("kind", scene.kind()).keep("confidence", scene.confidence);
+  if (const auto* morison = std::get_if<scene::MorisonModel>(&scene.model))
+    out.keep("motion", scene::word_of(morison->cylinder.experiment))
+        .keep("intervals", scene::word_of(morison->options.method));
+  if (const auto* motion = std::get_if<scene::MotionModel>(&scene.model))
+    out.keep("of", motion->scene.value.filename().string());
+  return out;
+}
+
+std::exception_ptr exception_of(const ::fit::Refusal& refusal, const Remedy& remedy) {
+  const hydro::InputError error(refusal.why, remedy.place, remedy.text);
+  switch (refusal.reason) {
+    case ::fit::Refusal::Reason::residuals_too_large:
+      return std::make_exception_ptr(CheckFailed(error));
+    case ::fit::Refusal::Reason::wrong_sign:
+      return std::make_exception_ptr(error.at({.file = refusal.source}));
+    case ::fit::Refusal::Reason::search_without_end:
+      break;
+    case ::fit::Refusal::Reason::profile_without_an_end:
+      return std::make_exception_ptr(hydro::NumericsError(refusal.why));
+  }
+  const std::string of = refusal.source.empty() ? "" : refusal.source + ": ";
+  return std::make_exception_ptr(hydro::NumericsError(fmt::format("{}{}. {}", of, refusal.why, remedy.text)));
+}
+
+template <class Model>
+Outcome outcome_of(const scene::FitScene& scene, const Model& model) {
+  const auto problem = problem_of(scene, model);
+  const auto solution = solve(problem);
+  const ::fit::Report& report = solution.report;
+  Outcome out{.report = begun(scene).part("", told(report, scene.confidence)),
+              .picture = {.title = scene.title.empty() ? scene.file.filename().string() : scene.title,
+                          .panels = panels_of(problem, solution)},
+              .table = report.refused ? std::string() : table_of(problem, solution),
+              .refused = {}};
+  if (!report.refused) return out;
+  out.refused = exception_of(*report.refused, remedy_of(scene, problem, solution));
+  if (report.refused->reason != ::fit::Refusal::Reason::profile_without_an_end) out.picture.title += ": no fit";
+  return out;
+}
+
+/// Prints, and writes what the arguments ask for: TOML, table, picture. \throws what `outcome` was refused for
+void deliver(const Outcome& outcome, const FitArguments& arguments, const Console& console) {
+  if (!console.json) console.out << outcome.report.text();
+  const auto write = [&](const std::optional<Path>& file, const std::string& content) {
+    if (!file || content.empty()) return;
+    hydro::io::write_atomically(*file, content);
+    if (!console.json && !outcome.refused) console.out << "wrote " << file->string() << '\n';
+  };
+  const std::string picture =
+      arguments.picture && !outcome.picture.panels.empty() ? plot::svg(outcome.picture) : std::string();
+  if (outcome.refused) {
+    write(arguments.picture, picture);
+    std::rethrow_exception(outcome.refused);
+  }
+  write(arguments.table, outcome.table);
+  const std::string comment = fmt::format("Estimates of `froude fit`, version {}. SI units.", FROUDE_VERSION);
+  if (arguments.output) write(arguments.output, toml_of(outcome.report.tree(), comment));
+  write(arguments.picture, picture);
+  if (console.json) tell(outcome.report, console);
+}
+
+}  // namespace
+
+void fit(const FitArguments& arguments, const Console& console) {
+  const scene::FitScene scene = scene::read_fit(arguments.scene);
+  require_outputs(named({{"-o", arguments.output}, {"--table", arguments.table}, {"--picture", arguments.picture}}),
+                  files_of_scene(arguments.scene));
+  const bool has_table = std::holds_alternative<scene::MorisonModel>(scene.model) ||
+                         std::holds_alternative<scene::RadiationModel>(scene.model) ||
+                         std::holds_alternative<scene::DecayModel>(scene.model);
+  if (arguments.table && !has_table)
+    throw hydro::InputError(fmt::format("a fit of kind \"{}\" has no table of runs", scene.kind()), {},
+                            "leave out --table");
+  deliver(std::visit([&](const auto& model) { return outcome_of(scene, model); }, scene.model), arguments, console);
+}
+
+}  // namespace froude

@@ -1,0 +1,148 @@
+#include <algorithm>
+#include <cmath>
+
+#include "froude/outputs.hpp"
+#include "froude/psd/report.hpp"
+#include "froude/record_file.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/base/units.hpp"
+#include "hydro/io/atomic_file.hpp"
+#include "scene/scene.hpp"
+
+namespace froude {
+namespace {
+
+namespace hs = hydro::signal;
+using spectra::Analysis;
+using spectra::Estimate;
+
+std::vector<Signal> chosen(const RunResult& record, const PsdArguments& arguments) {
+  std::vector<std::string> known, patterns = arguments.signals;
+  for (const Signal& s : record.signals) known.push_back(s.name);
+  if (patterns.empty()) patterns.push_back("*");
+  if (arguments.input) patterns.push_back(*arguments.input);
+  for (const std::string& pattern : patterns) {
+    if (std::any_of(known.begin(), known.end(), [&](const auto& name) { return scene::matches(pattern, name); }))
+      continue;
+    const std::string near = hydro::nearest(pattern, known);
+    throw hydro::InputError(fmt::format("no signal is called \"{}\"", pattern), {.file = arguments.file.string()},
+                            near.empty() ? fmt::format("signals are: {}", fmt::join(known, ", "))
+                                         : fmt::format("did you mean \"{}\"?", near));
+  }
+  std::vector<Signal> out;
+  for (const Signal& s : record.signals)
+    if (std::any_of(patterns.begin(), patterns.end(),
+                    [&](const auto& pattern) { return scene::matches(pattern, s.name); }))
+      out.push_back(s);
+  return out;
+}
+
+// ---- computing ----
+
+/// What a record that drifts does to its single waves: a straight line is taken off, of anything else is told.
+std::string drift_of(const hs::Trend& trend, double duration, const std::optional<hs::WaveStatistics>& waves,
+                     double tm02) {
+  if (trend.is_drift())
+    return fmt::format(
+        "drifts by {:.4g} over the record, {:.2g} of its variance: its waves are counted about that line",
+        trend.slope * duration, trend.share);
+  constexpr double usual = 1.5;  // Tz of a broad sea is near Tm02, which its own tail shortens
+  if (waves && waves->mean_period > usual * tm02)
+    return fmt::format(
+        "has waves of {:.4g} s from one crossing of the mean to the next, where its spectrum has {:.4g} s: "
+        "it drifts slowly, so that waves miss the mean; take the drift off first",
+        waves->mean_period, tm02);
+  return "";
+}
+
+hs::WelchOptions welch_options(const PsdArguments& arguments, std::size_t samples, double step) {
+  if (!arguments.segment) return hs::fifteen_segments(samples);
+  const double length = hydro::parse_si(*arguments.segment, hydro::dim::time);
+  const auto half = std::llround(length / step / 2);  // the nearest even number of samples
+  hydro::require(half >= 2, "a segment of {} holds fewer than 4 samples at {:.4g} s each", *arguments.segment, step);
+  return {.segment = 2 * static_cast<std::size_t>(half)};
+}
+
+Estimate estimate(const Signal& signal, const RunResult& record, const Analysis& analysis, const Signal* input) {
+  Estimate e{.signal = signal,
+             .welch = hs::welch(signal.values, analysis.step, analysis.options),
+             .moments = {},
+             .peak = {},
+             .statistics = {},
+             .drift = {},
+             .transfer = {}};
+  // Rounding of a large mean is no motion.
+  if (e.welch.variance <= 1e-28 * e.welch.mean * e.welch.mean) return e;
+  e.moments = hs::moments(e.welch.spectrum, hs::whole(e.welch.spectrum));
+  e.peak = hs::peak(e.welch.spectrum, hs::whole(e.welch.spectrum));
+  const auto waves = hs::single_waves(record.time, signal.values);
+  e.waves = waves.size();
+  if (e.waves >= 3) e.statistics = hs::wave_statistics(waves);
+  e.drift = drift_of(hs::trend_of(record.time, signal.values), record.time.back() - record.time.front(), e.statistics,
+                     e.moments->tm02());
+  if (input != nullptr && input->name != signal.name)
+    e.transfer = hs::transfer(input->values, signal.values, analysis.step, analysis.options);
+  if (e.transfer) e.transfer->coherence_threshold = hs::coherence_threshold(e.transfer->averages, analysis.confidence);
+  return e;
+}
+
+/// A time of the command line, s.
+std::optional<double> time_of(const char* option, const std::optional<std::string>& text) {
+  if (!text) return std::nullopt;
+  try {
+    return hydro::parse_si(*text, hydro::dim::time);
+  } catch (const hydro::InputError& e) {
+    throw e.at({.file = option});
+  }
+}
+
+/// Leaves the part of the record from --from to --to, both included.
+void cut_out(RunResult& record, const PsdArguments& arguments) {
+  const auto from = time_of("--from", arguments.from), to = time_of("--to", arguments.to);
+  if (from && to && !(*to > *from))
+    throw hydro::InputError(fmt::format("--to {:.6g} s is not after --from {:.6g} s", *to, *from),
+                            {.file = "command line"}, "exchange the two, or leave one out");
+  if (from) drop_before(record, *from, arguments.file);
+  if (to) drop_after(record, *to, arguments.file);
+}
+
+Analysis analyse(const PsdArguments& arguments) {
+  RunResult record = read_record(arguments.file);
+  record.signals = chosen(record, arguments);
+  hydro::require(!record.time.empty(), "the record has no samples");
+  cut_out(record, arguments);
+  Analysis a{.samples = record.time.size(),
+             .step = 0,
+             .options = {},
+             .band = {},
+             .confidence = arguments.confidence,
+             .input = arguments.input.value_or(""),
+             .estimates = {}};
+  try {
+    a.step = hs::even_step(record.time);
+    a.options = welch_options(arguments, a.samples, a.step);
+    const auto at =
+        std::find_if(record.signals.begin(), record.signals.end(), [&](const Signal& s) { return s.name == a.input; });
+    for (const Signal& s : record.signals)
+      a.estimates.push_back(estimate(s, record, a, at == record.signals.end() ? nullptr : &*at));
+  } catch (const hydro::InputError& e) {
+    throw e.at({.file = arguments.file.string()});
+  }
+  a.band = hs::confidence_band(a.estimates.front().welch.dof, arguments.confidence);
+  return a;
+}
+
+}  // namespace
+
+void psd(const PsdArguments& arguments, const Console& console) {
+  require_outputs(named({{"-o", arguments.output}, {"--picture", arguments.picture}}),
+                  {{"the record", arguments.file}});
+  const Analysis analysis = analyse(arguments);
+  if (arguments.output) spectra::write_table(*arguments.output, analysis);
+  if (arguments.picture)
+    hydro::io::write_atomically(*arguments.picture,
+                                plot::svg(spectra::figure(analysis, arguments.file.filename().string())));
+  tell(spectra::report_of(analysis).wrote(arguments.output).wrote(arguments.picture), console);
+}
+
+}  // namespace froude

@@ -1,0 +1,275 @@
+#include "froude/psd/report.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "hydro/base/error.hpp"
+#include "hydro/base/units.hpp"
+#include "hydro/io/csv.hpp"
+#include "hydro/io/hdf5.hpp"
+
+namespace froude::spectra {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// A unit that hydro::parse_unit reads: "1/m/s" is written "m^-1 s^-1".
+std::string unit_of(const hydro::Dimension& dimension) {
+  const std::string si = dimension.si();
+  if (!si.starts_with("1/")) return si;
+  std::string out;
+  for (std::size_t at = 1; at < si.size();) {
+    const auto end = std::min(si.find('/', at + 1), si.size());
+    const std::string factor = si.substr(at + 1, end - at - 1);
+    const auto caret = factor.find('^');
+    out += (out.empty() ? "" : " ") + factor.substr(0, caret) + "^-" +
+           (caret == std::string::npos ? "1" : factor.substr(caret + 1));
+    at = end;
+  }
+  return out;
+}
+
+bool is_one_symbol(const std::string& unit) {
+  return !unit.empty() && std::all_of(unit.begin(), unit.end(), [](unsigned char c) { return std::isalpha(c) != 0; });
+}
+
+/// Of a density: "m" → "m^2/Hz"; the SI base units where the signal's unit is composed.
+std::string density_unit(const std::string& unit) {
+  if (unit.empty()) return "Hz^-1";
+  if (is_one_symbol(unit)) return unit + "^2/Hz";
+  const auto dimension = hydro::parse_unit(unit).dimension;
+  return unit_of(dimension * dimension) + "/Hz";
+}
+
+std::string gain_unit(const std::string& output, const std::string& input) {
+  if (output == input) return "";
+  if (is_one_symbol(output) && is_one_symbol(input)) return output + "/" + input;
+  return unit_of(hydro::parse_unit(output).dimension / hydro::parse_unit(input).dimension);
+}
+
+/// A number of what may be absent.
+template <class Whole, class Number>
+std::optional<double> number_of(const std::optional<Whole>& whole, Number number) {
+  if (!whole) return std::nullopt;
+  return std::invoke(number, *whole);
+}
+
+Fact<std::string> fact_or_dash(const char* key, const std::optional<double>& value, bool dash = false) {
+  return fact(key, value, value && !dash ? fmt::format("{:.4g}", *value) : std::string("-"));
+}
+
+/// The response to the input over frequency, for programs alone.
+Report transfer_of(const hs::TransferEstimate& transfer, const std::string& input) {
+  std::vector<double> gain, phase;
+  for (const auto& h : transfer.h1) {
+    gain.push_back(std::abs(h));
+    phase.push_back(std::arg(h));
+  }
+  Report out;
+  out.keep("input", input).keep("gain", gain).keep("phase_rad", phase).keep("coherence", transfer.coherence);
+  out.keep("gain_relative_error", transfer.gain_relative_error);
+  return out.keep("coherence_threshold", transfer.coherence_threshold);
+}
+
+Report report_of(const Estimate& e, const std::string& input) {
+  using hs::Moments, hs::WaveStatistics;
+  Report out;
+  out.say("{:<24} {:<8} {:>10.4g} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>6}", e.signal.name,
+          fact("unit", e.signal.units, e.signal.units.empty() ? "-" : e.signal.units), fact("mean", e.welch.mean),
+          fact_or_dash("hs", number_of(e.moments, &Moments::hs)),
+          fact_or_dash("tp_s", number_of(e.peak, &hs::Peak::period_s), e.peak && e.peak->at_edge),
+          fact_or_dash("te_s", number_of(e.moments, &Moments::te)),
+          fact_or_dash("tm02_s", number_of(e.moments, &Moments::tm02)),
+          fact_or_dash("tz_s", number_of(e.statistics, &WaveStatistics::mean_period)),
+          fact_or_dash("h13", number_of(e.statistics, &WaveStatistics::h13)), fact("waves", e.waves));
+  out.keep("variance", e.welch.variance).keep("density_per_hz", e.welch.spectrum.density);
+  if (e.moments) {
+    out.keep("tm01_s", e.moments->tm01()).keep("epsilon", e.moments->epsilon()).keep("nu", e.moments->nu());
+    out.keep("peak_at_edge", e.peak->at_edge);
+  }
+  if (!e.drift.empty()) out.keep("drift", e.drift);
+  if (e.statistics) out.keep("h_max", e.statistics->highest).keep("t13_s", e.statistics->t13);
+  if (e.transfer) out.part("transfer", transfer_of(*e.transfer, input));
+  return out;
+}
+
+std::vector<std::string> notes_of(const Estimate& e) {
+  std::vector<std::string> out;
+  if (!e.moments) out.push_back(e.signal.name + " never changes");
+  if (e.moments && e.peak->at_edge)
+    out.push_back(fmt::format(
+        "{} is strongest at an end of its spectrum, {:.4g} Hz: no peak, or one that needs longer segments (--segment)",
+        e.signal.name, e.peak->frequency_hz));
+  if (!e.drift.empty()) out.push_back(e.signal.name + " " + e.drift);
+  if (e.moments && !e.statistics)
+    out.push_back(fmt::format("{} has {} complete waves: too few for H1/3", e.signal.name, e.waves));
+  return out;
+}
+
+/// Where the input is strongest, the response is known best: one line for each output.
+void add_response(const Analysis& a, Report& report) {
+  const auto input =
+      std::find_if(a.estimates.begin(), a.estimates.end(), [&](const Estimate& e) { return e.signal.name == a.input; });
+  if (a.input.empty() || input == a.estimates.end()) return;
+  const auto& density = input->welch.spectrum.density;
+  const auto k = static_cast<std::size_t>(std::max_element(density.begin() + 1, density.end()) - density.begin());
+  report.say("response to {} at its peak, {:.4g} Hz:", a.input, input->welch.spectrum.frequency_hz[k]);
+  for (const Estimate& e : a.estimates)
+    if (e.transfer)
+      report.say(
+          "{:<24} |H1| {:.4g} +- {:.2g} {}, |H2| {:.4g}, phase {:.1f} deg, coherence {:.3f} (unrelated signals stay "
+          "below {:.2f} at {:g} % of the frequencies)",
+          e.signal.name, std::abs(e.transfer->h1[k]), std::abs(e.transfer->h1[k]) * e.transfer->gain_relative_error[k],
+          gain_unit(e.signal.units, input->signal.units), std::abs(e.transfer->h2[k]),
+          std::arg(e.transfer->h1[k]) / degree, e.transfer->coherence[k], e.transfer->coherence_threshold,
+          100 * a.confidence);
+}
+
+/// One column of results along frequency, SI: densities here are per hertz, and a file's unit says so.
+struct Column {
+  std::string name, unit;
+  std::vector<double> values;
+};
+
+std::vector<Column> columns_of(const Analysis& a) {
+  std::vector<Column> out{{"frequency", "Hz", a.estimates.front().welch.spectrum.frequency_hz}};
+  std::string input_unit;
+  for (const Estimate& e : a.estimates)
+    if (e.signal.name == a.input) input_unit = e.signal.units;
+  for (const Estimate& e : a.estimates) {
+    Column density{e.signal.name + ".density", density_unit(e.signal.units), e.welch.spectrum.density}, low = density,
+                                                                                                        high = density;
+    low.name += "_low";
+    high.name += "_high";
+    for (double& v : low.values) v *= a.band.lower;
+    for (double& v : high.values) v *= a.band.upper;
+    out.insert(out.end(), {density, low, high});
+    if (!e.transfer) continue;
+    const std::string unit = gain_unit(e.signal.units, input_unit);
+    Column h1{e.signal.name + ".gain_h1", unit, {}}, h2{e.signal.name + ".gain_h2", unit, {}},
+        phase{e.signal.name + ".phase", "deg", {}};
+    for (const auto& h : e.transfer->h1) h1.values.push_back(std::abs(h));
+    for (const auto& h : e.transfer->h2) h2.values.push_back(std::abs(h));
+    for (const auto& h : e.transfer->h1) phase.values.push_back(std::arg(h) / degree);
+    out.insert(out.end(), {h1,
+                           h2,
+                           phase,
+                           {e.signal.name + ".coherence", "", e.transfer->coherence},
+                           {e.signal.name + ".gain_relative_error", "", e.transfer->gain_relative_error}});
+  }
+  return out;
+}
+
+/// The frequency below which 99.9 % of all variance lies: what lies beyond would squeeze the picture.
+double interesting_hz(const Analysis& a) {
+  const auto& f = a.estimates.front().welch.spectrum.frequency_hz;
+  double highest = f[std::min<std::size_t>(8, f.size() - 1)];
+  for (const Estimate& e : a.estimates) {
+    const auto& density = e.welch.spectrum.density;
+    double left = 0.001 * std::accumulate(density.begin(), density.end(), 0.0);
+    std::size_t k = density.size() - 1;
+    while (k > 0 && (left -= density[k]) > 0) --k;
+    highest = std::max(highest, 1.2 * f[k]);
+  }
+  return std::min(f.back(), highest);
+}
+
+}  // namespace
+
+Report report_of(const Analysis& a) {
+  const hs::WelchSpectrum& w = a.estimates.front().welch;
+  Report out, signals;
+  out.say("{} samples every {:.6g} s; {} segments of {} ({:.6g} s), Hann, half overlapping", fact("samples", a.samples),
+          fact("step_s", a.step), fact("segments", w.segments), fact("segment_samples", a.options.segment),
+          static_cast<double>(a.options.segment) * a.step);
+  out.say(
+      "resolution {:.4g} Hz, {:.3g} degrees of freedom: with {:g} % the density in truth is {:.3g} to {:.3g} times the "
+      "estimate",
+      fact("resolution_hz", w.resolution_hz), fact("degrees_of_freedom", w.dof),
+      fact("confidence", a.confidence, 100 * a.confidence), a.band.lower, a.band.upper);
+  out.keep("band", std::vector{a.band.lower, a.band.upper}).keep("frequency_hz", w.spectrum.frequency_hz);
+  out.say("{:<24} {:<8} {:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>6}", "signal", "unit", "mean", "4 sqrt(m0)",
+          "Tp [s]", "Te [s]", "Tm02 [s]", "Tz [s]", "H1/3", "waves");
+  for (const Estimate& e : a.estimates) signals.part(e.signal.name, report_of(e, a.input));
+  out.part("signals", std::move(signals));
+  for (const Estimate& e : a.estimates) out.sentences("notes", "note: {}", notes_of(e));
+  add_response(a, out);
+  return out;
+}
+
+void write_table(const Path& path, const Analysis& a) {
+  std::vector<Column> columns = columns_of(a);
+  const std::string kind = path.extension().string();
+  if (kind == ".csv") {
+    std::vector<hydro::io::CsvColumn> table;
+    for (Column& c : columns) {
+      // write_csv takes SI, and SI of a hertz is 2π rad/s: what it divides out again is put in here.
+      const double factor = hydro::parse_unit(c.unit).factor;
+      for (double& v : c.values) v *= factor;
+      table.push_back({c.name, c.unit, &c.values});
+    }
+    hydro::io::write_csv(
+        path, table, {fmt::format("one-sided densities by Welch, {:g} % band from low to high", 100 * a.confidence)});
+    return;
+  }
+  hydro::require(kind == ".h5", "the table is written as .csv or .h5, not as \"{}\"", path.filename().string());
+  hydro::io::Hdf5Writer file;
+  file.attribute("/", "kind", "froude psd");
+  file.attribute("/", "froude_version", FROUDE_VERSION);
+  file.attribute("/", "confidence", a.confidence);
+  file.attribute("/", "degrees_of_freedom", a.estimates.front().welch.dof);
+  for (const Column& c : columns) {
+    const std::string name = "/" + c.name;
+    file.write(name, c.values, {c.values.size()});
+    if (c.name == "frequency") {
+      file.make_dimension(name);
+    } else {
+      file.attach_dimension(name, 0, "/frequency");
+    }
+    file.attribute(name, "units", c.unit.empty() ? "1" : c.unit);
+  }
+  file.save(path);
+}
+
+plot::Figure figure(const Analysis& a, const std::string& file_name) {
+  plot::Figure figure{.title = "Spectra of " + file_name, .panels = {}};
+  const auto& f = a.estimates.front().welch.spectrum.frequency_hz;
+  const plot::Axis x{.label = "frequency", .unit = "Hz", .range = std::pair{0.0, interesting_hz(a)}};
+  const auto panel = [&](const std::string& label, const std::string& unit) -> plot::Panel& {
+    const auto at = std::find_if(figure.panels.begin(), figure.panels.end(),
+                                 [&](const auto& p) { return p.y.label == label && p.y.unit == unit; });
+    if (at != figure.panels.end()) return *at;
+    figure.panels.push_back({.x = x, .y = {label, unit}, .series = {}});
+    return figure.panels.back();
+  };
+  double threshold = 0;
+  for (const Estimate& e : a.estimates)
+    if (e.transfer) threshold = e.transfer->coherence_threshold;
+  const std::vector<Column> columns = columns_of(a);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const Column& c = columns[i];
+    if (c.name.ends_with(".density")) {
+      auto& p = panel("density", c.unit);
+      p.series.push_back({c.name.substr(0, c.name.size() - 8), f, c.values});
+      p.bands.push_back({fmt::format("{:g} %", 100 * a.confidence), f, columns[i + 1].values, columns[i + 2].values});
+    }
+    if (c.name.ends_with(".gain_h1")) {
+      // A gain between unrelated signals is noise; it would set the scale of the axis.
+      plot::Series gain{c.name.substr(0, c.name.size() - 8) + ", where coherent", f, c.values};
+      for (std::size_t k = 0; k < f.size(); ++k)
+        if (columns[i + 3].values[k] < threshold) gain.y[k] = std::numeric_limits<double>::quiet_NaN();
+      panel("gain", c.unit).series.push_back(std::move(gain));
+    }
+    if (c.name.ends_with(".coherence"))
+      panel("coherence", "").series.push_back({c.name.substr(0, c.name.size() - 10), f, c.values});
+  }
+  return figure;
+}
+
+}  // namespace froude::spectra

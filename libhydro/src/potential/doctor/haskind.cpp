@@ -1,0 +1,319 @@
+// Damping from excitation: the waves that a motion makes are those that push it. (P64)-(P66)
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "doctor.hpp"
+#include "hydro/waves/dispersion.hpp"
+#include "potential/readers.hpp"
+
+namespace hydro::potential::doctor {
+namespace {
+
+using Eigen::Index;
+
+using std::numbers::pi;
+constexpr double same_angle = 1e-4;  // rad: degrees written with two decimals
+
+/// Excitation at one heading, from the data or by a mirror.
+struct Heading {
+  double angle;        // 0 … 2π
+  std::size_t source;  // index in the data
+  Eigen::MatrixXd by;  // X(angle) = by · X(source); empty: as it is
+};
+
+double wrapped(double angle) {
+  const double a = std::remainder(angle, 2 * pi);
+  return a < -same_angle / 2 ? a + 2 * pi : std::max(0.0, a);
+}
+
+bool holds(const std::vector<Heading>& list, double angle) {
+  return std::any_of(list.begin(), list.end(),
+                     [&](const Heading& h) { return std::abs(std::remainder(h.angle - angle, 2 * pi)) < same_angle; });
+}
+
+/// The matrix that a mirror of the array makes of modes: body b goes to its image, modes keep or change sign. Empty if
+/// the bodies are not at mirrored places. (P65)
+std::optional<Eigen::MatrixXd> mirror(const Coefficients& c, bool across_x) {
+  // x → −x turns surge, pitch and yaw; y → −y turns sway, roll and yaw.
+  const Eigen::VectorXd sign = across_x ? (Eigen::VectorXd(6) << -1, 1, 1, 1, -1, -1).finished()
+                                        : (Eigen::VectorXd(6) << 1, -1, 1, -1, 1, -1).finished();
+  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(c.modes(), c.modes());
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (const auto& b : c.body) {
+    if (!b.reference_point && c.bodies() > 1) return std::nullopt;
+    centre += b.reference_point.value_or(Eigen::Vector3d::Zero()) / c.bodies();
+  }
+  for (int b = 0; b < c.bodies(); ++b) {
+    Eigen::Vector3d image = c.body[static_cast<std::size_t>(b)].reference_point.value_or(Eigen::Vector3d::Zero());
+    const int axis = across_x ? 0 : 1;
+    image[axis] = 2 * centre[axis] - image[axis];
+    int partner = -1;
+    for (int q = 0; q < c.bodies(); ++q)
+      if ((c.body[static_cast<std::size_t>(q)].reference_point.value_or(Eigen::Vector3d::Zero()) - image).norm() < 1e-3)
+        partner = q;
+    if (partner < 0) return std::nullopt;
+    P.block<6, 6>(6 * partner, 6 * b) = sign.asDiagonal();
+  }
+  return P;
+}
+
+/// Whether the data are unchanged by the mirror, within what a mesh leaves. Kernels of a symmetric array must be; that
+/// the array is symmetric does not follow strictly, but nothing else in the data could show that it is not. (P65)
+bool is_symmetric_under(const Eigen::MatrixXd& P, const Patient& p) {
+  const auto unchanged = [&](const std::vector<Eigen::MatrixXd>& matrices, const Eigen::VectorXd& s) {
+    for (const auto& M : matrices) {
+      const Eigen::MatrixXd d = M - P * M * P.transpose();
+      for (Index i = 0; i < d.rows(); ++i)
+        for (Index j = 0; j < d.cols(); ++j)
+          if (std::abs(d(i, j)) > usual_asymmetry * size_of_entry(s, i, j)) return false;
+    }
+    return true;
+  };
+  return unchanged(p.c.A, p.size_of_A) && unchanged(p.c.B, p.size_of_B);
+}
+
+/// Whether the only body is one of revolution about the vertical axis through its reference point: turned by an angle
+/// it has the same A and B, and turning about its axis moves no water, A₆₆ = 0. (P65)
+bool is_of_revolution(const Patient& p) {
+  if (p.c.bodies() != 1) return false;
+  Eigen::MatrixXd turn = Eigen::MatrixXd::Identity(6, 6);
+  const double s = std::sqrt(0.5);
+  for (const Index i : {0, 3}) turn.block<2, 2>(i, i) << s, -s, s, s;
+  // Medians, since a spike in heave would make the body so large that any yaw is small beside it.
+  const auto usual = [&](Index i) {
+    std::vector<double> values;
+    for (const auto& A : p.c.A) values.push_back(std::abs(A(i, i)));
+    return quantile(std::move(values), 0.5);
+  };
+  const double yaw = usual(5), heave = usual(2);
+  const double length = std::cbrt(heave / p.c.water.density);
+  return yaw < 1e-3 * heave * length * length && is_symmetric_under(turn, p);
+}
+
+/// X at eight headings from that at one, for a body of revolution: no harmonic of X in β is higher than the first.
+std::vector<Heading> turned_about(const Patient& p) {
+  constexpr std::size_t count = 8;
+  std::vector<Heading> list;
+  for (std::size_t h = 0; h < count; ++h) {
+    const double angle = 2 * pi * static_cast<double>(h) / count, turn = angle - p.c.heading.front();
+    Eigen::MatrixXd R = Eigen::MatrixXd::Identity(6, 6);
+    for (const Index i : {0, 3}) R.block<2, 2>(i, i) << std::cos(turn), -std::sin(turn), std::sin(turn), std::cos(turn);
+    list.push_back({angle, 0, R});
+  }
+  return list;
+}
+
+/// Headings of the data and their images, if they are evenly spread over the circle; else empty.
+std::vector<Heading> circle(const Patient& p) {
+  if (is_of_revolution(p)) return turned_about(p);
+  std::array<std::optional<Eigen::MatrixXd>, 2> across{mirror(p.c, true), mirror(p.c, false)};
+  for (auto& m : across)
+    if (m && !is_symmetric_under(*m, p)) m.reset();
+  std::vector<Heading> list;
+  const auto add = [&](double angle, std::size_t source, const Eigen::MatrixXd& by) {
+    if (!holds(list, angle)) list.push_back({wrapped(angle), source, by});
+  };
+  const auto& beta = p.c.heading;
+  for (std::size_t h = 0; h < beta.size(); ++h) add(beta[h], h, {});
+  for (std::size_t h = 0; h < beta.size(); ++h) {
+    if (across[1]) add(-beta[h], h, *across[1]);
+    if (across[0]) add(pi - beta[h], h, *across[0]);
+    if (across[0] && across[1]) add(pi + beta[h], h, *across[0] * *across[1]);
+  }
+  std::sort(list.begin(), list.end(), [](const Heading& a, const Heading& b) { return a.angle < b.angle; });
+  const double step = 2 * pi / static_cast<double>(list.size());
+  for (std::size_t h = 0; h < list.size(); ++h)
+    if (std::abs(list[h].angle - list.front().angle - static_cast<double>(h) * step) > same_angle) return {};
+  // Half of them must be enough for a rougher answer, by which the finer one is judged.
+  return list.size() >= 4 && list.size() % 2 == 0 ? list : std::vector<Heading>{};
+}
+
+/// k / (8π ρ g c_g), which turns ∮ X X* dβ into B. (P64)
+double haskind_factor(const Patient& p, std::size_t w) {
+  const Water& water = p.c.water;
+  return p.k[w] / (8 * pi * water.density * water.gravity * waves::group_velocity(p.c.omega[w], water));
+}
+
+/// B of (P64) at one frequency by the trapezium rule over every `stride`-th heading.
+Eigen::MatrixXd damping_from_excitation(const Patient& p, const std::vector<Heading>& list, std::size_t w,
+                                        std::size_t stride) {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(p.c.modes(), p.c.modes());
+  for (std::size_t h = 0; h < list.size(); h += stride) {
+    Eigen::VectorXcd X = p.c.X[list[h].source].col(static_cast<Index>(w));
+    if (list[h].by.size() > 0) X = list[h].by.cast<std::complex<double>>() * X;
+    sum += (X * X.adjoint()).real();
+  }
+  return haskind_factor(p, w) * 2 * pi * static_cast<double>(stride) / static_cast<double>(list.size()) * sum;
+}
+
+/// One comparison of a damping from excitation with the one in the data.
+struct Comparison {
+  std::size_t w;
+  Eigen::MatrixXd from_excitation;
+};
+
+/// At the frequencies where the headings are dense enough: where half of them give the same.
+std::vector<Comparison> over_the_circle(const Patient& p, const std::vector<Heading>& list) {
+  constexpr double dense_enough = 0.02;
+  std::vector<Comparison> out;
+  for (std::size_t w = 0; w < p.c.omega.size(); ++w) {
+    const Eigen::MatrixXd fine = damping_from_excitation(p, list, w, 1), rough = damping_from_excitation(p, list, w, 2);
+    const double trace = fine.diagonal().cwiseQuotient(p.size_of_B.cwiseMax(1e-300)).sum();
+    double change = 0;
+    for (Index i = 0; i < fine.rows(); ++i)
+      for (Index j = 0; j < fine.cols(); ++j)
+        change = std::max(change, std::abs(fine(i, j) - rough(i, j)) / size_of_entry(p.size_of_B, i, j));
+    if (change <= dense_enough * std::max(trace, 1e-300)) out.push_back({w, fine});
+  }
+  return out;
+}
+
+struct Ratio {
+  double value = 1;
+  Index mode = 0;
+  std::size_t w = 0;
+  bool known = false;
+};
+
+/// The mode whose B from excitation is, in the median over the frequencies, farthest from B.
+Ratio worst_ratio(const Patient& p, const std::vector<Comparison>& list) {
+  Ratio worst;
+  for (Index i = 0; i < p.c.modes(); ++i) {
+    if (!acts(p.c.B, p.size_of_B, i)) continue;
+    std::vector<std::pair<double, std::size_t>> ratios;
+    for (const auto& one : list) {
+      const double given = p.c.B[one.w](i, i);
+      // Below this, B is a small difference of large pressures, and its relative error says little.
+      if (given > 0.01 * p.size_of_B(i)) ratios.emplace_back(one.from_excitation(i, i) / given, one.w);
+    }
+    if (ratios.empty()) continue;
+    std::nth_element(ratios.begin(), ratios.begin() + static_cast<long>(ratios.size() / 2), ratios.end());
+    const auto [value, w] = ratios[ratios.size() / 2];
+    const auto distance = [](double r) { return r > 0 ? std::abs(std::log(r)) : 1e300; };
+    if (!worst.known || distance(value) > distance(worst.value)) worst = {value, i, w, true};
+  }
+  return worst;
+}
+
+/// The entry that is farthest off in the sense of (P11), in the upper quartile over the frequencies: spikes, which
+/// another check finds, do not count.
+std::pair<double, std::array<Index, 2>> worst_entry(const Patient& p, const std::vector<Comparison>& list) {
+  std::pair<double, std::array<Index, 2>> worst{0, {0, 0}};
+  std::vector<double> errors(list.size());
+  for (Index i = 0; i < p.c.modes(); ++i)
+    for (Index j = 0; j < p.c.modes(); ++j) {
+      for (std::size_t n = 0; n < list.size(); ++n)
+        errors[n] = std::abs(list[n].from_excitation(i, j) - p.c.B[list[n].w](i, j)) / size_of_entry(p.size_of_B, i, j);
+      if (const double error = quantile(errors, 0.75); error > worst.first) worst = {error, {i, j}};
+    }
+  return worst;
+}
+
+constexpr const char* why =
+    "damping and excitation are two faces of the same waves (Haskind; (P64)): a wrong unit, density, phase or body "
+    "shows here";
+constexpr const char* remedy =
+    "look at ULEN, density, units and the order of bodies and headings of A, B and X; they may come from two runs";
+
+/// Ratios of good data keep within 3 %; a tenth is what coarse meshes do, a third no mesh.
+constexpr double usual_ratio = 1.15, impossible_ratio = 1.35;
+
+void grade(Finding& f, const Ratio& ratio, const Patient& p) {
+  f.message += fmt::format("{} of {} is {:.3g} times as large as the B that is given (median over the frequencies)",
+                           f.message.empty() ? "B from excitation" : "; that", mode_label(ratio.mode), ratio.value);
+  const double off = ratio.value > 0 ? std::max(ratio.value, 1 / ratio.value) : 1e300;
+  if (off > usual_ratio) {
+    f.severity = off > impossible_ratio ? Severity::error : Severity::warning;
+    f.message += likely_cause(ratio.value, p.c.water);
+  }
+  f.where = fmt::format("B({0}, {0}): {1}", ratio.mode + 1, mode_label(ratio.mode));
+  f.body = static_cast<int>(ratio.mode / 6) + 1;
+  f.entry = {{static_cast<int>(ratio.mode) + 1, static_cast<int>(ratio.mode) + 1}};
+}
+
+Finding circle_finding(const Patient& p, const std::vector<Comparison>& list, std::size_t headings) {
+  Finding f{.check = "Haskind relation", .where = "B"};
+  if (const Ratio ratio = worst_ratio(p, list); ratio.known) grade(f, ratio, p);
+  const auto [error, entry] = worst_entry(p, list);
+  f.message += fmt::format("{}{} headings, up to {:.3g} rad/s; farthest entry {:.2g} of sqrt(B_ii B_jj)",
+                           f.message.empty() ? "" : "; ", headings, p.c.omega[list.back().w], error);
+  constexpr double usual = 0.06, impossible = 0.2;  // good data keep within 0.03
+  if (error > usual) {
+    f.severity = std::max(f.severity, error > impossible ? Severity::error : Severity::warning);
+    f.where = entry_text("B", entry[0], entry[1], "all frequencies");
+    f.body = static_cast<int>(entry[0] / 6) + 1;
+    f.entry = {{static_cast<int>(entry[0]) + 1, static_cast<int>(entry[1]) + 1}};
+  }
+  if (f.severity != Severity::note) {
+    f.why = why;
+    f.remedy = remedy;
+  }
+  return f;
+}
+
+/// In waves long against the body, heave is pushed alike from everywhere: ∮|X₃|² dβ = 2π|X₃|² at any heading. (P66)
+std::vector<Comparison> heave_in_long_waves(const Patient& p) {
+  std::vector<Comparison> out;
+  for (std::size_t w = 0; w < p.c.omega.size(); ++w) {
+    Eigen::MatrixXd B = Eigen::MatrixXd::Zero(p.c.modes(), p.c.modes());
+    bool long_enough = p.c.C.has_value();
+    for (Index i = 2; i < p.c.modes() && long_enough; i += 6) {
+      const double C33 = (*p.c.C)(i, i), area = C33 / (p.c.water.density * p.c.water.gravity);
+      const double inertia = p.c.omega[w] * p.c.omega[w] * p.c.A[w](i, i);
+      long_enough = C33 > 0 && p.k[w] * std::sqrt(area) < 0.3 && inertia < 0.3 * C33;
+      B(i, i) = haskind_factor(p, w) * 2 * pi * std::norm(p.c.X.front()(i, static_cast<Index>(w)));
+    }
+    if (long_enough) out.push_back({w, B});
+  }
+  return out;
+}
+
+/// As worst_ratio, of heave alone and with the small B of long waves.
+Ratio worst_heave_ratio(const Patient& p, const std::vector<Comparison>& list) {
+  Ratio worst;
+  for (Index i = 2; i < p.c.modes(); i += 6) {
+    std::vector<double> ratios;
+    for (const auto& one : list)
+      if (const double given = p.c.B[one.w](i, i); std::abs(given) > 1e-3 * p.size_of_B(i))
+        ratios.push_back(one.from_excitation(i, i) / given);
+    if (ratios.empty()) continue;
+    std::nth_element(ratios.begin(), ratios.begin() + static_cast<long>(ratios.size() / 2), ratios.end());
+    const double value = ratios[ratios.size() / 2];
+    const auto distance = [](double r) { return r > 0 ? std::abs(std::log(r)) : 1e300; };
+    if (!worst.known || distance(value) > distance(worst.value)) worst = {value, i, list.front().w, true};
+  }
+  return worst;
+}
+
+}  // namespace
+
+void check_haskind(const Patient& p, Findings& out) {
+  if (p.c.X.empty()) {
+    out.push_back(not_looked_at("Haskind relation", "there is no excitation"));
+    return;
+  }
+  if (const auto headings = circle(p); !headings.empty())
+    if (const auto list = over_the_circle(p, headings); !list.empty()) {
+      out.push_back(circle_finding(p, list, headings.size()));
+      return;
+    }
+  const auto list = heave_in_long_waves(p);
+  const Ratio ratio = list.empty() ? Ratio{} : worst_heave_ratio(p, list);
+  if (!ratio.known) {
+    out.push_back(not_looked_at("Haskind relation", "the headings do not cover the circle and no wave is long enough"));
+    return;
+  }
+  Finding f{.check = "Haskind relation"};
+  grade(f, ratio, p);
+  f.message += ", in long waves, since the headings do not cover the circle";
+  if (f.severity != Severity::note) {
+    f.why = why;
+    f.remedy = remedy;
+  }
+  out.push_back(std::move(f));
+}
+
+}  // namespace hydro::potential::doctor

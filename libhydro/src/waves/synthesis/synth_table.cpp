@@ -1,0 +1,395 @@
+#include "hydro/waves/synthesis/tabulated_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "hydro/waves/synthesis/synthesis.hpp"
+#include "synth_axis.hpp"
+#include "synth_band.hpp"
+#include "synth_flow.hpp"
+
+namespace hydro::waves {
+namespace {
+
+using Complex = std::complex<double>;
+using simd::padded;
+constexpr double oversampling = 2;
+
+/// Axis b lies along the waves, or along y; axis a along x, with one sample if the sea is long-crested.
+struct Axes {
+  Axis time, a, b;
+};
+
+Axes axes_of(const Window& window, const BinBand& band, const FieldBox& box) {
+  Axes out;
+  out.time = Axis::along(window, box.start_s, box.end_s, band.omega);
+  double low = box.low.y(), high = box.high.y();
+  if (band.long_crested) {
+    const Eigen::Vector2d e = band.along;
+    low = std::min(e.x() * box.low.x(), e.x() * box.high.x()) + std::min(e.y() * box.low.y(), e.y() * box.high.y());
+    high = std::max(e.x() * box.low.x(), e.x() * box.high.x()) + std::max(e.y() * box.low.y(), e.y() * box.high.y());
+  } else {
+    out.a = Axis::along(window, box.low.x(), box.high.x(), band.kappa);
+  }
+  out.b = Axis::along(window, low, high, band.kappa);
+  return out;
+}
+
+// Projections of the wave vector onto the axes.
+double along_a(const Harmonic& w, const BinBand& band) { return band.long_crested ? 0 : w.kx; }
+double along_b(const Harmonic& w, const BinBand& band) {
+  return band.long_crested ? w.kx * band.along.x() + w.ky * band.along.y() : w.ky;
+}
+
+}  // namespace
+
+struct TabulatedField::Content {
+  struct Scratch;
+  Surroundings around;
+  FieldBox box;
+  BinBand band;
+  Window window;
+  Axes axes;
+  std::optional<VerticalBasis> vertical;
+  std::size_t row = 0;  // of the elevation table: stations along b and what packs read beyond them
+  std::vector<double> elevation, potential;
+  double relative_error = 0;
+  FieldError bound{};
+
+  table::Strides elevation_strides() const { return {axes.a.count * row, row, 1}; }
+  table::Strides potential_strides() const {
+    const std::size_t q = vertical->padded();
+    return {axes.a.count * axes.b.count * q, axes.b.count * q, q};
+  }
+  double along_b_of(double x, double y) const {
+    return band.long_crested ? x * band.along.x() + y * band.along.y() : y;
+  }
+  void require_inside(double t, double x, double y) const;
+  void require_flow(double z) const;
+  double elevation_at(const AxisPoint& time, const AxisPoint& a, const AxisPoint& b) const;
+  double elevation_at(const AxisPoint& time, double x, double y) const {
+    return elevation_at(time, axes.a.point(x, 1), axes.b.point(along_b_of(x, y), 1));
+  }
+  void weigh_height(const StretchedHeight& height, std::span<double> value, std::span<double> slope,
+                    std::span<double> bend) const;
+  Flow flow(const table::AtHeight& parts) const;
+};
+
+namespace {
+
+/// Amplitudes of the harmonics divided by the windows' transforms, and their wavenumbers along the axes.
+struct Prepared {
+  Eigen::VectorXcd amplitude;
+  Eigen::ArrayXd ka, kb;
+
+  /// At one station.
+  Eigen::VectorXcd at(double a, double b) const {
+    const Eigen::ArrayXd angle = -(ka * a + kb * b);
+    Eigen::VectorXcd out(angle.size());
+    for (Eigen::Index j = 0; j < angle.size(); ++j) out[j] = amplitude[j] * std::polar(1.0, angle[j]);
+    return out;
+  }
+};
+
+Prepared prepared(const HarmonicField& field, const BinBand& band, const Axes& axes, Complex Harmonic::*member) {
+  const auto count = static_cast<Eigen::Index>(field.harmonics().size());
+  Prepared out{Eigen::VectorXcd(count), Eigen::ArrayXd(count), Eigen::ArrayXd(count)};
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const Harmonic& w = field.harmonics()[static_cast<std::size_t>(j)];
+    out.ka[j] = along_a(w, band);
+    out.kb[j] = along_b(w, band);
+    out.amplitude[j] =
+        w.*member / (axes.time.transform(w.omega) * axes.a.transform(out.ka[j]) * axes.b.transform(out.kb[j]));
+  }
+  return out;
+}
+
+std::vector<double> frequencies(const HarmonicField& field) {
+  std::vector<double> out;
+  for (const Harmonic& w : field.harmonics()) out.push_back(w.omega);
+  return out;
+}
+
+// Shape (time, a, row).
+std::vector<double> elevation_table(const HarmonicField& field, const BinBand& band, const Axes& axes,
+                                    std::size_t row) {
+  const auto omega = frequencies(field);
+  std::vector<double> out(axes.time.count * axes.a.count * row, 0.0);
+  const Prepared waves = prepared(field, band, axes, &Harmonic::elevation);
+  Eigen::MatrixXcd c(static_cast<Eigen::Index>(axes.b.count), static_cast<Eigen::Index>(omega.size()));
+  for (std::size_t ia = 0; ia < axes.a.count; ++ia) {
+    for (std::size_t ib = 0; ib < axes.b.count; ++ib)
+      c.row(static_cast<Eigen::Index>(ib)) = waves.at(axes.a.at(ia), axes.b.at(ib)).transpose();
+    const auto made = synthesise(omega, {axes.time.step, axes.time.count, axes.time.origin}, c).series;
+    for (std::size_t n = 0; n < axes.time.count; ++n)
+      for (std::size_t ib = 0; ib < axes.b.count; ++ib)
+        out[(n * axes.a.count + ia) * row + ib] = made(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(ib));
+  }
+  return out;
+}
+
+// Shape (time, a, b, levels): Chebyshev coefficients of the potential.
+std::vector<double> potential_table(const HarmonicField& field, const BinBand& band, const Axes& axes,
+                                    const VerticalBasis& vertical) {
+  const auto omega = frequencies(field);
+  const auto levels = static_cast<Eigen::Index>(vertical.count()), waves = static_cast<Eigen::Index>(omega.size());
+  Eigen::MatrixXd profile = Eigen::MatrixXd::Zero(levels, waves);
+  for (Eigen::Index j = 0; j < waves; ++j) {
+    const Harmonic& w = field.harmonics()[static_cast<std::size_t>(j)];
+    const double kappa = std::hypot(w.kx, w.ky);
+    if (kappa == 0) {  // without a wave vector there is no flow, but a pressure at every height
+      profile(0, j) = 1;
+      continue;
+    }
+    const auto one = vertical.profile(kappa, field.water().depth.metres());
+    profile.col(j) = Eigen::Map<const Eigen::VectorXd>(one.data(), levels);
+  }
+  const Prepared flow = prepared(field, band, axes, &Harmonic::potential);
+  const std::size_t station = vertical.padded(), instant = axes.a.count * axes.b.count * station;
+  std::vector<double> out(axes.time.count * instant);
+  for (std::size_t ia = 0; ia < axes.a.count; ++ia)
+    for (std::size_t ib = 0; ib < axes.b.count; ++ib) {
+      const Eigen::MatrixXcd all = profile * flow.at(axes.a.at(ia), axes.b.at(ib)).asDiagonal();
+      const auto made = synthesise(omega, {axes.time.step, axes.time.count, axes.time.origin}, all).series;
+      double* to = out.data() + (ia * axes.b.count + ib) * station;
+      for (Eigen::Index n = 0; n < made.rows(); ++n, to += instant)
+        for (Eigen::Index q = 0; q < levels; ++q) to[q] = made(n, q);
+    }
+  return out;
+}
+
+// The highest elevation on the nodes inside the box; between nodes that are twice as dense as needed a function may be
+// 1/cos(π/4) times as high along each axis.
+double highest_crest(const std::vector<double>& elevation, const Axes& axes, const table::Strides& stride) {
+  const auto nodes = [](const Axis& axis) {
+    std::vector<AxisPoint> out;
+    for (std::size_t i = 0; i < axis.count; ++i)
+      out.push_back(axis.point(std::min(axis.low + static_cast<double>(i) * axis.step, axis.high), 1));
+    return out;
+  };
+  const auto a_nodes = nodes(axes.a), b_nodes = nodes(axes.b);
+  double highest = 0;
+  for (const AxisPoint& time : nodes(axes.time))
+    for (const AxisPoint& a : a_nodes)
+      for (const AxisPoint& b : b_nodes) {
+        const double* from = elevation.data() + static_cast<std::size_t>(time.first) * stride.time +
+                             static_cast<std::size_t>(a.first) * stride.a + static_cast<std::size_t>(b.first);
+        highest = std::max(highest, std::abs(table::contract_elevation(from, stride, time.view(), a.view(), b.view())));
+      }
+  return highest * (axes.a.count > 1 ? 2 * std::numbers::sqrt2 : 2);
+}
+
+double bytes_of(const Axes& axes, std::size_t row, std::size_t levels) {
+  return 8.0 * static_cast<double>(axes.time.count) * static_cast<double>(axes.a.count) *
+         (static_cast<double>(row) + static_cast<double>(axes.b.count) * static_cast<double>(levels));
+}
+
+void require_memory(const Axes& axes, std::size_t row, std::size_t levels, std::size_t largest) {
+  if (const double bytes = bytes_of(axes, row, levels); bytes > static_cast<double>(largest))
+    throw InputError(
+        fmt::format("a table of {} instants, {} × {} stations and {} levels takes {:.3g} MB, more than the "
+                    "{:.3g} MB allowed",
+                    axes.time.count, axes.a.count, axes.b.count, levels, bytes / 1e6,
+                    static_cast<double>(largest) / 1e6),
+        {}, "take a smaller box, one table for each part of the record, or leave out the shortest waves");
+}
+
+}  // namespace
+
+double TabulatedField::expected_bytes(const HarmonicField& field, const FieldBox& box, const Options& options) {
+  require_box(box, field.water().depth.metres());
+  const BinBand band = band_of(field);
+  const Window window = Window::of_tolerance(options.tolerance / 4, oversampling);
+  const Axes axes = axes_of(window, band, box);
+  const double crest = std::min(sum_of(field, &Harmonic::elevation), 8 * rms_elevation(field));
+  const std::size_t levels =
+      options.elevation_only ? 0 : vertical_basis(field, box, band, crest, options.tolerance / 4).padded();
+  return bytes_of(axes, padded(axes.b.count + Window::stride), levels);
+}
+
+TabulatedField::TabulatedField(const HarmonicField& field, const FieldBox& box, const Options& options) {
+  const double depth = field.water().depth.metres();
+  require_box(box, depth);
+  require(options.tolerance >= 1e-11 && options.tolerance <= 1e-2,
+          "the tolerance of a table must lie between 1e-11 and 1e-2, got {}", options.tolerance);
+  Content c{.around = {field.water(), field.options(), field.current()},
+            .box = box,
+            .band = band_of(field),
+            .window = Window::of_tolerance(options.tolerance / 4, oversampling),
+            .axes = {},
+            .vertical = {},
+            .elevation = {},
+            .potential = {}};
+  auto content = std::make_unique<Content>(std::move(c));
+  content->axes = axes_of(content->window, content->band, box);  // points at the window where it stays
+  const Axes& axes = content->axes;
+  content->row = padded(axes.b.count + Window::stride);
+  require_memory(axes, content->row, options.elevation_only ? 0 : 8, options.largest_bytes);
+  content->elevation = elevation_table(field, content->band, axes, content->row);
+  content->relative_error = (axes.a.count > 1 ? 3 : 2) * content->window.error(std::numbers::pi / oversampling);
+  if (options.elevation_only) {
+    content->bound = elevation_bound(field, content->relative_error);
+    content_ = std::move(content);
+    return;
+  }
+  const double crest = std::min(sum_of(field, &Harmonic::elevation),
+                                highest_crest(content->elevation, axes, content->elevation_strides()));
+  content->vertical.emplace(vertical_basis(field, box, content->band, crest, options.tolerance / 4));
+  require_memory(axes, content->row, content->vertical->padded(), options.largest_bytes);
+  content->potential = potential_table(field, content->band, axes, *content->vertical);
+  content->relative_error += content->vertical->error();
+  content->bound = bounds(field, content->band, content->vertical->top(), content->relative_error, box, crest);
+  content_ = std::move(content);
+}
+TabulatedField::~TabulatedField() = default;
+TabulatedField::TabulatedField(TabulatedField&&) noexcept = default;
+TabulatedField& TabulatedField::operator=(TabulatedField&&) noexcept = default;
+
+const FieldBox& TabulatedField::box() const noexcept { return content_->box; }
+std::size_t TabulatedField::bytes() const noexcept {
+  return sizeof(double) * (content_->elevation.size() + content_->potential.size());
+}
+double TabulatedField::relative_error() const noexcept { return content_->relative_error; }
+const FieldError& TabulatedField::error_bound() const noexcept { return content_->bound; }
+const Water& TabulatedField::water() const noexcept { return content_->around.water; }
+
+void TabulatedField::Content::require_inside(double t, double x, double y) const {
+  if (!axes.time.holds(t))
+    throw InputError(
+        fmt::format("the table of waves runs from {} s to {} s, asked for {} s", box.start_s, box.end_s, t), {},
+        "build the table for the whole run");
+  const double slack = 1e-9 * axes.b.step;
+  if (!(x >= box.low.x() - slack && x <= box.high.x() + slack && y >= box.low.y() - slack && y <= box.high.y() + slack))
+    throw InputError(fmt::format("the table of waves covers x from {} m to {} m and y from {} m to {} m, asked for "
+                                 "({}, {}) m",
+                                 box.low.x(), box.high.x(), box.low.y(), box.high.y(), x, y),
+                     {}, "build the table for all places that the structure can reach");
+}
+
+double TabulatedField::Content::elevation_at(const AxisPoint& time, const AxisPoint& a, const AxisPoint& b) const {
+  const table::Strides stride = elevation_strides();
+  const double* from = elevation.data() + static_cast<std::size_t>(time.first) * stride.time +
+                       static_cast<std::size_t>(a.first) * stride.a + static_cast<std::size_t>(b.first);
+  return table::contract_elevation(from, stride, time.view(), a.view(), b.view());
+}
+
+// Polynomials at the stretched height; beyond z = 0 the tangent goes on from there.
+void TabulatedField::Content::weigh_height(const StretchedHeight& height, std::span<double> value,
+                                           std::span<double> slope, std::span<double> bend) const {
+  if (!(height.z >= vertical->bottom() - 1e-9 && height.z <= vertical->top() + 1e-9))
+    throw InputError(fmt::format("the table of waves was built for profiles from z = {} m to {} m, needed at {} m",
+                                 vertical->bottom(), vertical->top(), height.z),
+                     {}, "build it for a higher box");
+  vertical->at(height.z, value, slope, bend);
+  if (height.tangent > 0)
+    for (std::size_t q = 0; q < value.size(); ++q) {
+      value[q] += height.tangent * slope[q];
+      slope[q] += height.tangent * bend[q];
+    }
+}
+
+Flow TabulatedField::Content::flow(const table::AtHeight& parts) const {
+  using namespace table;
+  const auto& [v, s] = parts;
+  // ∂x = ∂a where the axes are x and y; in a long-crested sea a is not there and b lies along the waves.
+  const double bx = band.long_crested ? band.along.x() : 0, by = band.along.y(), ax = band.long_crested ? 0 : 1;
+  return {.ux = ax * v[phi_a] + bx * v[phi_b],
+          .uy = by * v[phi_b],
+          .uz = s[phi],
+          .ax = ax * v[rate_a] + bx * v[rate_b],
+          .ay = by * v[rate_b],
+          .az = s[rate],
+          .potential_rate = v[rate],
+          .xx = ax * v[phi_aa] + bx * bx * v[phi_bb],
+          .yy = by * by * v[phi_bb],
+          .xy = ax * by * v[phi_ab] + bx * by * v[phi_bb],
+          .xz = ax * s[phi_a] + bx * s[phi_b],
+          .yz = by * s[phi_b]};
+}
+
+double TabulatedField::elevation(double t, double x, double y) const {
+  content_->require_inside(t, x, y);
+  return content_->elevation_at(content_->axes.time.point(t, 1), x, y);
+}
+
+void TabulatedField::elevations(double t, std::span<const Eigen::Vector2d> at, std::span<double> out) const {
+  require(at.size() == out.size(), "{} places need as many for the answer, got {}", at.size(), out.size());
+  const AxisPoint time = content_->axes.time.point(t, 1);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    content_->require_inside(t, at[i].x(), at[i].y());
+    out[i] = content_->elevation_at(time, at[i].x(), at[i].y());
+  }
+}
+
+Kinematics TabulatedField::at(double t, const Eigen::Vector3d& point) const {
+  Kinematics out;
+  at(t, {&point, 1}, {&out, 1});
+  return out;
+}
+
+void TabulatedField::Content::require_flow(double z) const {
+  require(vertical.has_value(), "this table of waves holds the elevation only");
+  if (!(z >= box.low.z() - 1e-9 && z <= box.high.z() + 1e-9))
+    throw InputError(
+        fmt::format("the table of waves covers z from {} m to {} m, asked for {} m", box.low.z(), box.high.z(), z), {},
+        "build the table for all heights that the structure can reach");
+}
+
+/// What one call needs besides the table: polynomials at a height, contracted parts, and the table at one instant.
+struct TabulatedField::Content::Scratch {
+  Scratch(std::size_t levels, std::size_t instant)
+      : values(std::make_unique_for_overwrite<double[]>(levels * (3 + table::parts) + 2 * instant)),
+        value(values.get(), levels),
+        slope(value.data() + levels, levels),
+        bend(slope.data() + levels, levels),
+        parts(bend.data() + levels),
+        potential(parts + levels * table::parts),
+        rate(potential + instant) {}
+  std::unique_ptr<double[]> values;
+  std::span<double> value, slope, bend;
+  double *parts, *potential, *rate;
+};
+
+void TabulatedField::at(double t, std::span<const Eigen::Vector3d> points, std::span<Kinematics> out) const {
+  require(points.size() == out.size(), "{} points need as many places for the answer, got {}", points.size(),
+          out.size());
+  if (points.empty()) return;
+  const Content& c = *content_;
+  c.require_flow(points[0].z());
+  c.require_inside(t, points[0].x(), points[0].y());
+  const AxisPoint time = c.axes.time.point(t, 2);
+  const table::Strides stride = c.potential_strides();
+  const std::size_t levels = c.vertical->padded(), stations = c.axes.a.count * c.axes.b.count;
+  const std::size_t a_used = c.axes.a.count > 1 ? c.window.width() : 1, b_used = c.window.width();
+  const double* now = c.potential.data() + static_cast<std::size_t>(time.first) * stride.time;
+  // Interpolating in time for all stations at once pays when the points use each more than once.
+  const bool shared = points.size() * a_used * b_used > stations;
+  const table::Strides contracted = shared ? stride : table::Strides{0, b_used * levels, levels};
+  Content::Scratch scratch(levels, (shared ? stations : a_used * b_used) * levels);
+  if (shared) table::contract_time(now, stride.time, time.view(), stations * levels, scratch.potential, scratch.rate);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double x = points[i].x(), y = points[i].y(), z = points[i].z();
+    c.require_inside(t, x, y);
+    c.require_flow(z);
+    const AxisPoint a = c.axes.a.point(x, 3), b = c.axes.b.point(c.along_b_of(x, y), 3);
+    const double zeta = c.elevation_at(time, a, b);
+    c.weigh_height(c.around.stretched(z, zeta), scratch.value, scratch.slope, scratch.bend);
+    const std::size_t first =
+        static_cast<std::size_t>(a.first) * stride.a + static_cast<std::size_t>(b.first) * stride.b;
+    if (!shared)
+      for (std::size_t k = 0; k < a_used; ++k)
+        table::contract_time(now + first + k * stride.a, stride.time, time.view(), b_used * levels,
+                             scratch.potential + k * contracted.a, scratch.rate + k * contracted.a);
+    const std::size_t skipped = shared ? first : 0;
+    table::contract_place(scratch.potential + skipped, scratch.rate + skipped, contracted, a.view(), b.view(), levels,
+                          scratch.parts);
+    table::AtHeight parts;
+    table::at_height(scratch.parts, scratch.value.data(), scratch.slope.data(), levels, parts);
+    out[i] = c.around.kinematics(c.flow(parts), z, zeta);
+  }
+}
+
+}  // namespace hydro::waves
