@@ -18,8 +18,6 @@ namespace {
 namespace hh = hydro::hydrostatics;
 using Eigen::Vector3d;
 
-constexpr double degree = std::numbers::pi / 180;
-
 /// All that is told, computed once.
 struct Hydrostatics {
   hh::Pose pose;

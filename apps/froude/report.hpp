@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -13,6 +14,8 @@
 #include <vector>
 
 namespace froude {
+
+inline constexpr double degree = std::numbers::pi / 180;  ///< rad
 
 struct Console;
 

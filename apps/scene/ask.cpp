@@ -106,7 +106,7 @@ Binding<AskRun> run() {
       .then(check_whole<AskRun>);
 }
 
-Binding<AskModes> modes() {
+Binding<AskModes> free_motions() {
   return Binding<AskModes>("[ask.modes]", "free motions about rest: periods, damping, shapes")
       .optional(positive("shortest", dim::time, "no mode of a shorter period"), &AskModes::shortest)
       .optional(positive("longest", dim::time, "no mode of a longer period"), &AskModes::longest)
@@ -171,7 +171,7 @@ const Binding<Scene>& ask_binding() {
   static const auto table = Binding<Scene>("[ask]", "what is wanted")
                                 .then(check_bodies)
                                 .table("rao", rao(), &Scene::rao)
-                                .table("modes", modes(), &Scene::ask_modes)
+                                .table("modes", free_motions(), &Scene::ask_modes)
                                 .table("run", run(), &Scene::run)
                                 .table("waves", waves(), &Scene::ask_waves)
                                 .key(number("accuracy", "relative, of what is asked")

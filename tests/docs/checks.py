@@ -107,7 +107,7 @@ MAY_USE_OF = {("validation", "tests"): {"support"}, ("tests", "validation"): {"h
 FLOORS = {
     "libhydro": ("base", "io", "signal", "waves", "radiation", "hydrostatics", "potential", "cylinders"),
     "libdynamics": ("spatial", "time", "line", "state", "control", "joint", "force", "model", "integrate", "frequency"),
-    "apps": ("scene", "compile", "froude"),
+    "apps": ("scene", "include", "compile", "answers", "froude"),
     "validation": ("harness", "*"),
     "tests": ("support", "laws", "*"),
     "libhydro/waves": (".", "spectra", "kinematics", "synthesis"),
@@ -116,6 +116,7 @@ FLOORS = {
 }
 # The part that an include belongs to, by its first folder.
 PART = {"hydro": "libhydro", "dynamics": "libdynamics", "fit": "libfit", "froude": "apps", "scene": "apps", "compile": "apps",
+        "answers": "apps",
         "harness": "validation", "validation": "validation", "support": "tests", "laws": "tests", "tests": "tests"}
 
 
@@ -137,7 +138,7 @@ def room_of(path):
 def included(root, path, name):
     """The file that an include of `path` leads to, as a path of the repository; none if it is another project's."""
     part = path.parts[0]
-    for folder in (path.parent, "libhydro/include", "libdynamics/include", "libfit/include", "apps", "validation", "tests", f"{part}/src"):
+    for folder in (path.parent, "libhydro/include", "libdynamics/include", "libfit/include", "apps/include", "apps", "validation", "tests", f"{part}/src"):
         if (root / folder / name).exists():
             return (root / folder / name).resolve().relative_to(root)
     first, *rest = name.split("/")
@@ -189,6 +190,14 @@ def floor_complaint(part, folder, used):
     return f"{part}/{folder} may not include {part}/{used}, which is " + ("above it" if level[0] < level[1] else "beside it")
 
 
+# Headers of the grammar that are installed, for elements of a user's own.
+PUBLIC_GRAMMAR = {Path("apps/scene", name) for name in ("binding.hpp", "document.hpp", "element.hpp", "record.hpp", "scene.hpp", "schema.hpp")}
+
+
+def is_public(path):
+    return path.parts[1] == "include" or path in PUBLIC_GRAMMAR
+
+
 def include_complaint(root, path, name):
     """Why `path` may not include `name`; none if it may."""
     part, folder = folder_of(path)
@@ -196,11 +205,11 @@ def include_complaint(root, path, name):
     if ".." in name.split("/") or "src" in name.split("/"):
         return f"{name} reaches into private files by path"
     if aim is None:
-        return f"the public header includes {name}, which is not a public header" if path.parts[1] == "include" else None
+        return f"the public header includes {name}, which is not a public header" if is_public(path) else None
     used_part, used = folder_of(aim)
     if used_part not in MAY_USE[part] or used not in MAY_USE_OF.get((part, used_part), {used}):
         return f"{part} may not include {name}"
-    if path.parts[1] == "include" and (aim.parts[1] != "include" or not (root / aim).exists()):
+    if is_public(path) and not (is_public(aim) and (root / aim).exists()):
         return f"the public header includes {name}, which is not a public header"
     if used_part != part:
         return None

@@ -16,7 +16,7 @@ constexpr int seeds = 100;
 
 /// The angles without noise, one column a signal of the fit.
 MeasuredRun truth(const scene::MotionModel& fit) {
-  const Record record = simulate(scene::read(fit.scene.value));
+  const Run record = simulate(scene::read(fit.scene.value));
   Eigen::MatrixXd values(std::ssize(record.time), std::ssize(fit.signals));
   for (Eigen::Index c = 0; c < values.cols(); ++c) {
     const auto& v = record.signal(fit.signals[static_cast<std::size_t>(c)].of);

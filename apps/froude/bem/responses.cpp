@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "froude/report.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/types.hpp"
 
@@ -10,8 +11,6 @@ namespace froude {
 namespace {
 
 using namespace hydro::potential;
-
-constexpr double degree = std::numbers::pi / 180;
 
 std::string name_of(int mode) {
   return fmt::format("{} of body {}", hydro::mode_names[static_cast<std::size_t>(mode % 6)], mode / 6 + 1);

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "froude/report.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
 #include "hydro/io/csv.hpp"
@@ -16,8 +17,6 @@
 
 namespace froude::spectra {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// A unit that hydro::parse_unit reads: "1/m/s" is written "m^-1 s^-1".
 std::string unit_of(const hydro::Dimension& dimension) {

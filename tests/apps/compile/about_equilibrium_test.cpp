@@ -66,7 +66,7 @@ accuracy = 1e-3
 TEST(AboutEquilibrium, ResponsesAreThoseOfARunThatSwingsThere) {
   const scene::Scene scene = froude_test::parse(scene_text("equilibrium"));
   const Responses linear = respond(scene);
-  const Run run = simulate(scene);
+  const froude::Run run = simulate(scene);
   ASSERT_EQ(run.stopped, "");
   EXPECT_GT(std::abs(run.signal("module.surge").front()), 0.5) << "far from where it was placed";
   EXPECT_GT(std::abs(run.signal("module.pitch").front()), 0.02);

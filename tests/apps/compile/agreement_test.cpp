@@ -81,7 +81,7 @@ TEST_P(Agreement, OfTimeAndFrequencyDomainInEveryDegreeOfFreedom) {
   const dynamics::Model model = compile::frequency_model(prepared);
   const Eigen::MatrixXcd xi =
       dynamics::frequency::response_amplitudes(model, prepared.groups, {omegas[0]}, scene.waves->heading.radians());
-  const Run run = simulate(scene);
+  const froude::Run run = simulate(scene);
   ASSERT_EQ(run.stopped, "");
   std::vector<double> time, values;
   const auto begin = static_cast<std::size_t>(std::lround(300 / 0.1));
@@ -124,7 +124,7 @@ TEST(HingeAgreement, OfTimeAndFrequencyDomainInHinges) {
   const Eigen::MatrixXcd xi = dynamics::frequency::response_amplitudes(model, prepared.groups, omegas, heading);
   const Eigen::MatrixXcd lambda =
       dynamics::frequency::multiplier_amplitudes(model, prepared.groups, omegas, heading, xi);
-  const Run run = simulate(scene);
+  const froude::Run run = simulate(scene);
   ASSERT_EQ(run.stopped, "");
   const auto begin = static_cast<std::ptrdiff_t>(std::lround(300 / 0.1));
   const std::vector<double> time(run.time.begin() + begin, run.time.end());

@@ -100,7 +100,7 @@ TEST(BuoyancyInAScene, RefusesAMeshThatIsNotThereAtItsPlace) {
 TEST(BuoyancyInAScene, OfAMeshTurnsTheWorkboatBackFromALargeHeelWithoutLossOfEnergy) {
   const auto scene = scene::read(froude_test::source_dir() / "examples/roll.toml");
   EXPECT_NO_THROW(compile::frequency_model(compile::prepare(scene)));  // it floats as placed
-  const Run run = simulate(scene);
+  const froude::Run run = simulate(scene);
   ASSERT_EQ(run.stopped, "");
   const auto& roll = run.signal("boat.roll");
   const auto [low, high] = std::minmax_element(roll.begin(), roll.end());

@@ -47,7 +47,7 @@ friction = 0.5
 
 // It falls 1 m, bounces and lies on its four corners, which carry a quarter of its weight each.
 TEST(ContactInAScene, LetsACrateFallOnItsCorners) {
-  const Run run = simulate(parse(scene_text(on_corners)));
+  const froude::Run run = simulate(parse(scene_text(on_corners)));
   ASSERT_TRUE(run.stopped.empty()) << run.stopped;
   EXPECT_NEAR(run.signal("crate.heave").back(), -1, 1e-9);
   for (int i = 1; i <= 4; ++i) {
@@ -101,7 +101,7 @@ TEST(ContactInAScene, IsRefusedWithItsPlace) {
 // Five at once in steep waves: no gap is ever crossed, and what contact takes is in the ledger. The residual is that of
 // the step: 0.0005 to 0.0025 of the turnover as the waves change by a thousandth, 0.0003 at a quarter of the step.
 TEST(ContactInAScene, KeepsFiveModulesApartInSteepWaves) {
-  const Run run = simulate(scene::read(froude_test::source_dir() / "examples/fenders.toml"));
+  const froude::Run run = simulate(scene::read(froude_test::source_dir() / "examples/fenders.toml"));
   ASSERT_TRUE(run.stopped.empty()) << run.stopped;
   double impacts = 0;
   for (int i = 1; i <= 8; ++i) {

@@ -101,7 +101,7 @@ accuracy = 1e-2
 }
 
 std::map<std::string, std::size_t> evaluated(const Effect* effect) {
-  const Run run = simulate(froude_test::parse(scene_with(effect)));
+  const froude::Run run = simulate(froude_test::parse(scene_with(effect)));
   EXPECT_TRUE(run.stopped.empty()) << run.stopped;
   return {run.evaluations.begin(), run.evaluations.end()};
 }

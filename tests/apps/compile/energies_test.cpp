@@ -51,7 +51,7 @@ step = "2 ms"
 )";
 
 TEST(Energies, AreTheSumsOfVanZantensTable) {
-  const Run run = simulate(froude_test::parse(text));
+  const froude::Run run = simulate(froude_test::parse(text));
   ASSERT_EQ(run.stopped, "");
   const auto& top = run.signal("upper.angle");
   const auto& relative = run.signal("lower.angle");

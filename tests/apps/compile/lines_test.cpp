@@ -201,7 +201,7 @@ class LinesByTable : public testing::Test {
     std::filesystem::create_directories(folder);
   }
   ~LinesByTable() override { std::filesystem::remove_all(folder); }
-  Run run(const std::string& morison, const std::string& table, const std::string& more = "") const {
+  froude::Run run(const std::string& morison, const std::string& table, const std::string& more = "") const {
     std::ofstream(folder / "table.csv") << table;
     return simulate(scene::parse(water +
                                      "[waves]\nkind = \"regular\"\nheight = \"0.4 m\"\nperiod = \"4 s\"\n"

@@ -57,7 +57,7 @@ double surge_of(const std::string& text) {
 TEST(RaoDrag, IsWhatARunWithQuadraticDragShows) {
   const scene::Scene scene = froude_test::parse(moored_module(on_cylinders, "drag = { height = \"0.8 m\" }, "));
   const auto response = respond(scene);
-  const Run run = simulate(scene);
+  const froude::Run run = simulate(scene);
   const std::vector<double> last_time(run.time.end() - 701, run.time.end() - 1);  // ten periods
   const std::vector<double> omega{2 * std::numbers::pi / 7};
   for (const char* name : {"m1.surge", "m1.heave", "m1.pitch"}) {

@@ -33,7 +33,7 @@ struct Ready {
   compile::TimeModel model;
   explicit Ready(const std::string& text)
       : scene(parse(text)), prepared(compile::prepare(scene)), model(compile::time_model(scene, prepared)) {}
-  Run run(std::size_t steps, compile::MovingState* end = nullptr) {
+  froude::Run run(std::size_t steps, compile::MovingState* end = nullptr) {
     model.steps = steps * model.steps_per_sample;
     return run_model(scene, model, {}, end);
   }
@@ -42,11 +42,11 @@ struct Ready {
 TEST(Restart, GoesOnWhereARunEnded) {
   for (const std::string& moving : {chain, pendulum}) {
     Ready whole(begin + moving + ask), half(begin + moving + ask);
-    const Run all = whole.run(200);
+    const froude::Run all = whole.run(200);
     compile::MovingState middle;
     half.run(100, &middle);
     compile::start_from(middle, half.model);
-    const Run rest = half.run(100);
+    const froude::Run rest = half.run(100);
     EXPECT_DOUBLE_EQ(rest.time.front(), 1.0);
     for (const auto& s : rest.signals) {
       if (s.name.starts_with("energy") || s.name.find("tension") != std::string::npos)
@@ -66,10 +66,10 @@ TEST(Restart, KeepsTheTurnsOfAHinge) {
       "axis = \"y\"\npto = { stiffness = \"0.1 N m/rad\" }\n";
   Ready first(begin + wound + ask), second(begin + wound + ask);
   compile::MovingState middle;
-  const Run before = first.run(20, &middle);
+  const froude::Run before = first.run(20, &middle);
   const compile::StateChart chart(second.model, middle);
   compile::start_from(chart.at(second.model, Eigen::VectorXd::Zero(chart.coordinates())), second.model);
-  const Run after = second.run(20);
+  const froude::Run after = second.run(20);
   for (const char* name : {"hub.angle", "wheel.pitch", "hub.pto_moment"})
     EXPECT_NEAR(after.signal(name).front(), before.signal(name).back(), 1e-12) << name;
   EXPECT_GT(after.signal("hub.angle").front(), 6.9);

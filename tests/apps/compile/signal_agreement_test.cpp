@@ -110,7 +110,7 @@ bool told(const ComplexSignal& s, const std::map<std::string, double>& largest) 
 
 TEST(SignalAgreement, OfRunsInSmallWavesAndResponses) {
   const Responses rao = respond(froude_test::parse(scene_text() + ask_rao));
-  const Run run = simulate(froude_test::parse(
+  const froude::Run run = simulate(froude_test::parse(
       scene_text() + "[ask.run]\nstart = \"equilibrium\"\nduration = \"200 s\"\nevery = \"0.1 s\"\n"));
   ASSERT_EQ(run.stopped, "");
   ASSERT_NEAR(rao.omega.back(), 2 * std::numbers::pi / period, 1e-12);

@@ -22,7 +22,7 @@ using testing::ThrowsMessage;
 
 using froude_test::examples;
 
-double energy(const Run& record, const std::string& name) {
+double energy(const froude::Run& record, const std::string& name) {
   for (const auto& [key, value] : record.energy)
     if (key == name) return value;
   return std::nan("");
@@ -74,7 +74,7 @@ TEST(Springs, ExampleOfALatchHoldsTheFloatAndTakesNoEnergy) {
   EXPECT_EQ(energy(latched, "latch.dissipated"), 0);
   scene.joints[0].pto->latch.reset();
   const auto free = simulate(scene);
-  const auto late = [](const Run& r) {
+  const auto late = [](const froude::Run& r) {
     const auto& all = r.signal("rack.stroke");
     return largest({all.end() - 400, all.end()});
   };
@@ -120,11 +120,11 @@ scene::Scene joined(const std::string& connector) {
 TEST(Springs, ChainsFromATableAreThoseThatAreSolved) {
   auto scene = scene::read(examples / "moored.toml");
   scene.run->duration = 20;
-  const Run solved = simulate(scene);
+  const froude::Run solved = simulate(scene);
   for (auto& line : scene.lines) line.table = scene::CatenaryLine::Table{3, 1e-4, {}};
   const compile::Prepared prepared = compile::prepare(scene);
   for (const auto& line : prepared.lines) EXPECT_EQ(line.table, prepared.lines.front().table);
-  const Run looked_up = simulate(scene);
+  const froude::Run looked_up = simulate(scene);
   const double largest_tension = largest(solved.signal("chain1.tension"));
   for (const char* name : {"chain1.tension", "chain4.anchor_tension"})
     for (std::size_t i = 0; i < solved.time.size(); ++i)

@@ -61,8 +61,8 @@ double largest(const std::vector<double>& x, std::size_t from) {
 TEST(SteadyRun, AgreesWithTheSameSceneStepped) {
   const std::string sea =
       "kind = \"jonswap\"\nhs = \"0.1 m\"\ntp = \"6 s\"\nseed = 3\ncomponents = { repetition = \"400 s\" }\n";
-  const Run steady = simulate(parse(scene_text(sea, "start = \"steady\"")));
-  const Run stepped = simulate(parse(scene_text(sea + "ramp = \"20 s\"\n", "of = [\"*\"]")));
+  const froude::Run steady = simulate(parse(scene_text(sea, "start = \"steady\"")));
+  const froude::Run stepped = simulate(parse(scene_text(sea + "ramp = \"20 s\"\n", "of = [\"*\"]")));
   EXPECT_EQ(steady.steps, 0u);
   constexpr std::size_t settled = 2500;
   for (const char* name : {"wave.elevation", "m1.surge", "m1.heave", "m1.pitch", "m2.surge", "m2.heave", "m2.pitch"}) {
@@ -75,7 +75,7 @@ TEST(SteadyRun, AgreesWithTheSameSceneStepped) {
 }
 
 TEST(SteadyRun, OfARegularWaveIsItsRao) {
-  const Run run =
+  const froude::Run run =
       simulate(parse(scene_text("kind = \"regular\"\nheight = \"2 m\"\nperiod = \"5 s\"\n", "start = \"steady\"")));
   const auto& heave = run.signal("m1.heave");
   EXPECT_NEAR(heave[0], heave[50], 1e-9 * largest(heave, 0)) << "a period later";

@@ -89,7 +89,7 @@ struct Flap {
   }
 };
 
-double off(const Run& run, const std::vector<double>& exact) {
+double off(const froude::Run& run, const std::vector<double>& exact) {
   double worst = 0;
   for (std::size_t i = 0; i < exact.size(); ++i)
     worst = std::max(worst, std::abs(run.signal("flap.pitch")[i] - exact[i]));
@@ -102,7 +102,7 @@ TEST(StepOfARun, LetsAFlapSwingBackAtAnyDistanceOfSamples) {
   const auto file = flap.write("flap_decay");
   for (const std::string method : {"direct", "partitioned", "automatic"})
     for (const double every : {0.05, 0.1, 0.2}) {
-      const Run run = simulate(
+      const froude::Run run = simulate(
           scene::parse(Flap::scene(file, "memory_tolerance = 1e-3, accept_error = 0.02, method = \"" + method + "\"",
                                    fmt::format("{} s", every)),
                        file));
@@ -118,7 +118,7 @@ TEST(StepOfARun, LetsAFlapSwingBackAtAnyDistanceOfSamples) {
 TEST(StepOfARun, DoesNotFoldTheDampingOfAFlapWhereTheSceneGivesALongOne) {
   const Flap flap;
   const auto file = flap.write("flap_long_step");
-  const Run run =
+  const froude::Run run =
       simulate(scene::parse(Flap::scene(file, "memory_tolerance = 1e-3, accept_error = 0.02, method = \"direct\"",
                                         "0.1 s", "[solve]\nstep = \"0.1 s\"\n"),
                             file));
@@ -137,7 +137,7 @@ TEST(MemoryOfARun, IsRefusedWhereItMissesItsToleranceUnlessThatIsAccepted) {
                   AllOf(HasSubstr("no memory of the radiated waves is within 0.001"), HasSubstr("accept_error = "))));
   EXPECT_THAT([&] { run("memory = \"0.2 s\", accept_error = 0.01"); },
               ThrowsMessage<hydro::InputError>(HasSubstr("misses them by")));
-  const Run taken = run("memory = \"0.2 s\", accept_error = 2");
+  const froude::Run taken = run("memory = \"0.2 s\", accept_error = 2");
   EXPECT_THAT(taken.notes, Contains(AllOf(HasSubstr("differs from the data"), HasSubstr("accept_error = 2"))));
 }
 
@@ -150,7 +150,7 @@ std::string spring(const std::string& extra, const std::string& every, const std
 
 TEST(StepOfARun, FollowsASpringOfOneSecond) {
   const double k = 100 * 4 * std::numbers::pi * std::numbers::pi;
-  const Run run = simulate(froude_test::parse(spring(
+  const froude::Run run = simulate(froude_test::parse(spring(
       fmt::format(
           "[[mooring]]\nname = \"spring\"\non = \"m\"\nkind = \"linear\"\nstiffness = {{ surge = \"{:.12g} N/m\" }}\n",
           k),
@@ -208,7 +208,7 @@ run = { duration = "30 s", every = "0.075 s" }
 
 // Let go level it turns over 3 kg · 9.81 m/s² · 0.5 m twice in a swing, from where it hangs seen.
 TEST(StepOfARun, LetsARodKeepItsEnergy) {
-  const Run run = simulate(froude_test::parse(rod));
+  const froude::Run run = simulate(froude_test::parse(rod));
   ASSERT_EQ(run.stopped, "");
   double turnover = 0;
   for (const auto& [name, joules] : run.energy)
@@ -219,7 +219,7 @@ TEST(StepOfARun, LetsARodKeepItsEnergy) {
 }
 
 TEST(StepOfARun, StopsWhereEnergyComesFromNowhere) {
-  const Run run = simulate(froude_test::parse(rod + "[solve]\nstep = \"0.075 s\"\n"));
+  const froude::Run run = simulate(froude_test::parse(rod + "[solve]\nstep = \"0.075 s\"\n"));
   EXPECT_THAT(run.stopped, AllOf(HasSubstr("energy comes from nowhere"), HasSubstr("[solve] step = \"0.01875 s\"")));
   EXPECT_GT(run.time.size(), 20u) << "what was computed is kept";
   EXPECT_LT(run.time.back(), 30);
@@ -249,7 +249,7 @@ axis = "x"
 stops = { upper = "0.5 m", stiffness = "400 kN/m" }
 )";
   const scene::Scene scene = froude_test::parse(spring(stop, "0.02 s", "[body.initial_velocity]\nsurge = \"1 m/s\"\n"));
-  const Run run = simulate(scene);
+  const froude::Run run = simulate(scene);
   ASSERT_EQ(run.stopped, "");
   EXPECT_LT(run.step, 0.02 / 10);
   double most = 0;

@@ -103,7 +103,7 @@ TEST(TurningExcitation, FollowsTheSlowPartOfTheYaw) {
 
 TEST(TurningExcitation, StopsARunThatTurnsTooFar) {
   // A push that turns the module by more than the table holds.
-  const Run run =
+  const froude::Run run =
       simulate(module("turning = { from = \"-1 deg\", to = \"0 deg\", spacing = \"1 deg\", slower_than = \"1 s\" }\n",
                       "initial_velocity = { yaw = \"-0.01 rad/s\" }\n"));
   EXPECT_THAT(run.stopped, AllOf(HasSubstr("m has turned by -1"), HasSubstr("from -1 to 0 deg")));
