@@ -11,9 +11,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "compile/control.hpp"
 #include "answers/linear_response.hpp"
 #include "answers/simulate.hpp"
+#include "compile/control.hpp"
 #include "hydro/base/error.hpp"
 #include "scene/override.hpp"
 
@@ -33,9 +33,8 @@ Run run(const scene::Scene& scene, const std::map<std::string, py::function>& co
                             "[ask] run = { duration = \"600 s\", every = \"0.05 s\" }");
   std::vector<Control> controls;
   for (const auto& [connectors, decide] : controllers)
-    controls.push_back({connectors, [decide = decide](const Sample& sample) {
-                          return decide(sample).cast<std::optional<double>>();
-                        }});
+    controls.push_back(
+        {connectors, [decide = decide](const Sample& sample) { return decide(sample).cast<std::optional<double>>(); }});
   return simulate(scene, look_up, controls);
 }
 
@@ -127,9 +126,7 @@ void add_run(py::module_& m) {
           "was most.")
       .def_property_readonly(
           "evaluations",
-          [](const Run& r) {
-            return std::map<std::string, std::size_t>(r.evaluations.begin(), r.evaluations.end());
-          },
+          [](const Run& r) { return std::map<std::string, std::size_t>(r.evaluations.begin(), r.evaluations.end()); },
           "How often each effect was evaluated.");
 }
 
@@ -170,8 +167,7 @@ PYBIND11_MODULE(froude, m) {
           "Names of the bodies.");
   py::class_<Sample>(m, "Sample", "What a controller is told at the end of each step. It may be kept.")
       .def_property_readonly("time", &Sample::time, "s")
-      .def("__getitem__", &Sample::motion,
-           "A motion from rest of a body's origin, m or rad: sample[\"m1.heave\"].")
+      .def("__getitem__", &Sample::motion, "A motion from rest of a body's origin, m or rad: sample[\"m1.heave\"].")
       .def("velocity", &Sample::velocity, py::arg("body"),
            "Velocity of the centre of gravity, m/s, and angular velocity, rad/s: six numbers, global axes.");
   add_run(m);

@@ -152,7 +152,7 @@ class Floors(ChecksCase):
     def test_refuses_a_drawing_of_another_house(self):
         drawn = "".join(f"{part}  {' < '.join(floors)}\n" for part, floors in checks.FLOORS.items())
         self.accepts("includes", {"docs/design.md": drawn})
-        self.refuses("includes", {"docs/design.md": drawn.replace("scene < compile", "compile < scene")}, "the floors of apps are not drawn")
+        self.refuses("includes", {"docs/design.md": drawn.replace("scene < include", "include < scene")}, "the floors of apps are not drawn")
 
 
 class Links(ChecksCase):

@@ -84,7 +84,7 @@ def main():
     files = sorted(pathlib.Path(f) for f in commands if pathlib.Path(f).relative_to(source).parts[0] in TARGETS
                    if source in pathlib.Path(f).parents and scratch not in pathlib.Path(f).parents)
     refuses_planted_faults(commands[str(files[0])], scratch)
-    directories = [source / d for d in ("libhydro/include", "libdynamics/include", "libfit/include", "apps")]
+    directories = [source / d for d in ("libhydro/include", "libdynamics/include", "libfit/include", "apps", "apps/include")]
     record = scratch / "alone.json"
     known = json.loads(record.read_text()) if record.is_file() else {}
     prints = {file: fingerprint(file, commands[str(file)], directories, set()).hex() for file in files}

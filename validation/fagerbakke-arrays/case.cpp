@@ -4,9 +4,9 @@
 #include <numbers>
 #include <optional>
 
-#include "dynamics/frequency/modes.hpp"
 #include "answers/linear_response.hpp"
 #include "answers/simulate.hpp"
+#include "dynamics/frequency/modes.hpp"
 #include "harness/case.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"

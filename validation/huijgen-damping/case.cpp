@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fit/simulated.hpp"
 #include "answers/scene_runs.hpp"
+#include "fit/simulated.hpp"
 #include "harness/case.hpp"
 #include "hydro/base/random.hpp"
 #include "scene/fit_scene.hpp"

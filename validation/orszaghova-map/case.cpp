@@ -3,10 +3,10 @@
 #include <numbers>
 #include <span>
 
-#include "compile/compile.hpp"
-#include "dynamics/frequency/modes.hpp"
 #include "answers/linear_response.hpp"
 #include "answers/simulate.hpp"
+#include "compile/compile.hpp"
+#include "dynamics/frequency/modes.hpp"
 #include "harness/case.hpp"
 #include "hydro/signal/harmonics.hpp"
 

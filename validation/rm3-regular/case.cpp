@@ -1,8 +1,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "compile/signal_list.hpp"
 #include "answers/simulate.hpp"
+#include "compile/signal_list.hpp"
 #include "harness/scenes.hpp"
 #include "hydro/signal/harmonics.hpp"
 

@@ -2,9 +2,9 @@
 #include <numbers>
 #include <sstream>
 
+#include "answers/simulate.hpp"
 #include "compile/compile.hpp"
 #include "fit/decay_memory.hpp"
-#include "answers/simulate.hpp"
 #include "harness/scenes.hpp"
 #include "hydro/io/atomic_file.hpp"
 

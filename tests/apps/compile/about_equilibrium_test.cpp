@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "apps/compile/scenes.hpp"
 #include "answers/linear_response.hpp"
 #include "answers/simulate.hpp"
+#include "apps/compile/scenes.hpp"
 #include "hydro/signal/harmonics.hpp"
 
 namespace about_equilibrium_test {

@@ -7,9 +7,9 @@
 #include <ostream>
 #include <tuple>
 
+#include "answers/simulate.hpp"
 #include "apps/compile/scenes.hpp"
 #include "compile/signal_list.hpp"
-#include "answers/simulate.hpp"
 #include "hydro/signal/harmonics.hpp"
 #include "support/pontoons.hpp"
 

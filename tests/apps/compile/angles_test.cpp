@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "answers/simulate.hpp"
 #include "apps/compile/scenes.hpp"
 #include "compile/control.hpp"
-#include "answers/simulate.hpp"
 #include "hydro/base/error.hpp"
 
 namespace angles_test {

@@ -6,8 +6,8 @@
 
 #include <numbers>
 
-#include "apps/compile/scenes.hpp"
 #include "answers/simulate.hpp"
+#include "apps/compile/scenes.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/cylinders/layout.hpp"
 #include "support/source_dir.hpp"

@@ -5,9 +5,9 @@
 
 #include <numbers>
 
+#include "answers/simulate.hpp"
 #include "apps/compile/scenes.hpp"
 #include "compile/signal_list.hpp"
-#include "answers/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/waves/dispersion.hpp"
 

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "compile/compile.hpp"
 #include "answers/simulate.hpp"
+#include "compile/compile.hpp"
 #include "hydro/base/error.hpp"
 #include "scene/scene.hpp"
 #include "scenes.hpp"

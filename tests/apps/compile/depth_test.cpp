@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "apps/compile/scenes.hpp"
-#include "compile/compile.hpp"
 #include "answers/linear_response.hpp"
 #include "answers/simulate.hpp"
+#include "apps/compile/scenes.hpp"
+#include "compile/compile.hpp"
 #include "hydro/base/error.hpp"
 
 namespace depth_test {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 
-#include "compile/compile.hpp"
 #include "answers/linear_response.hpp"
 #include "answers/simulate.hpp"
+#include "compile/compile.hpp"
 #include "scenes.hpp"
 
 namespace effects_test {

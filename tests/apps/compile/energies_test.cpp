@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "apps/compile/scenes.hpp"
 #include "answers/simulate.hpp"
+#include "apps/compile/scenes.hpp"
 
 namespace energies_test {
 namespace {

@@ -1,16 +1,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <numbers>
 
+#include "answers/simulate.hpp"
 #include "apps/compile/scenes.hpp"
 #include "compile/compile.hpp"
 #include "dynamics/force/fastened_line.hpp"
 #include "dynamics/line/catenary.hpp"
-#include "answers/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "support/source_dir.hpp"
 
@@ -197,7 +198,8 @@ TEST(Lines, TellHowFastNeighboursPart) {
 
 class LinesByTable : public testing::Test {
  protected:
-  LinesByTable() : folder(std::filesystem::temp_directory_path() / "froude_lines_by_table") {
+  LinesByTable()
+      : folder(std::filesystem::temp_directory_path() / fmt::format("froude_lines_by_table_{}", ::getpid())) {
     std::filesystem::create_directories(folder);
   }
   ~LinesByTable() override { std::filesystem::remove_all(folder); }

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/compile/scenes.hpp"
 #include "answers/simulate.hpp"
+#include "apps/compile/scenes.hpp"
 #include "hydro/base/error.hpp"
 
 namespace networks_test {

@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/compile/scenes.hpp"
 #include "answers/simulate.hpp"
+#include "apps/compile/scenes.hpp"
 
 namespace restart_test {
 namespace {

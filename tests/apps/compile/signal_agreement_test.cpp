@@ -7,8 +7,8 @@
 #include <map>
 #include <numbers>
 
-#include "apps/compile/scenes.hpp"
 #include "answers/linear_response.hpp"
+#include "apps/compile/scenes.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/harmonics.hpp"
 #include "support/pontoons.hpp"

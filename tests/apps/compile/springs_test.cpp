@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "answers/simulate.hpp"
 #include "compile/compile.hpp"
 #include "dynamics/frequency/rao.hpp"
-#include "answers/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/harmonics.hpp"
 #include "scenes.hpp"

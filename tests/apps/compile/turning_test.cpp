@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "answers/simulate.hpp"
 #include "compile/compile.hpp"
 #include "dynamics/force/turning_excitation.hpp"
-#include "answers/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "scenes.hpp"
 

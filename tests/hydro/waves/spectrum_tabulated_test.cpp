@@ -1,6 +1,7 @@
 #include "hydro/waves/spectra/spectrum_tabulated.hpp"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -20,12 +21,15 @@ using testing::ThrowsMessage;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// In a folder of its own process: tests run beside each other.
 class File {
  public:
-  explicit File(const std::string& text) : path_(std::filesystem::path(testing::TempDir()) / "spectrum.csv") {
+  explicit File(const std::string& text)
+      : path_(std::filesystem::path(testing::TempDir()) / std::to_string(::getpid()) / "spectrum.csv") {
+    std::filesystem::create_directories(path_.parent_path());
     std::ofstream(path_) << text;
   }
-  ~File() { std::filesystem::remove(path_); }
+  ~File() { std::filesystem::remove_all(path_.parent_path()); }
   const std::filesystem::path& path() const { return path_; }
 
  private:

@@ -9,6 +9,9 @@
 #include <limits>
 #include <numbers>
 
+#include "answers/linear_response.hpp"
+#include "answers/plot.hpp"
+#include "answers/simulate.hpp"
 #include "compile/compile.hpp"
 #include "compile/radiation.hpp"
 #include "compile/waves.hpp"
@@ -20,9 +23,6 @@
 #include "dynamics/integrate/generalized_alpha.hpp"
 #include "dynamics/line/catenary_table.hpp"
 #include "dynamics/time/alpha_parameters.hpp"
-#include "answers/linear_response.hpp"
-#include "answers/plot.hpp"
-#include "answers/simulate.hpp"
 #include "harness/scenes.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
