@@ -1,24 +1,36 @@
 #pragma once
-/// \file  Private to hydro/potential: one function per format, and what they share.
+/// \file  Private to hydro/potential: the formats of coefficients, and what their readers share.
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "hydro/io/hdf5.hpp"
 #include "hydro/potential/coefficients.hpp"
 
 namespace hydro::potential {
 
-Coefficients read_wamit(const std::filesystem::path& path, const ReadOptions& options);
-Coefficients read_capytaine(const std::filesystem::path& path);
-Coefficients read_bemio(const std::filesystem::path& path);
-Coefficients read_nemoh(const std::filesystem::path& path);  ///< the folder, its Nemoh.cal, or one of its results
-Coefficients read_aqwa_ah1(const std::filesystem::path& path);
-Coefficients read_aqwa_lis(const std::filesystem::path& path);  ///< one structure
-Coefficients read_hams(const std::filesystem::path& control, const ReadOptions& options);
-Coefficients read_froude(const std::filesystem::path& path);
-Coefficients read_veres(const std::filesystem::path& path, const ReadOptions& options);  ///< .re7, and .re8 beside it
-Coefficients read_hdb(const std::filesystem::path& path, const ReadOptions& options);    ///< one structure
+/// What is to be read, as far as formats look to know it.
+struct Candidate {
+  std::filesystem::path path;
+  bool is_folder = false, is_classic_netcdf = false;
+  const io::Hdf5Reader* hdf5 = nullptr;  ///< null for other files
+  std::string head = {};                 ///< the first kilobytes of a text, in which every mark stands
+  bool has(std::string_view mark) const { return head.find(mark) != std::string::npos; }
+  std::string_view first_line() const { return std::string_view(head).substr(0, head.find('\n')); }
+};
+
+/// A format of coefficients: whether a candidate is of it, and its reader. Each is defined in the file of its reader.
+struct Format {
+  bool (*knows)(const Candidate& candidate);
+  Coefficients (*read)(const std::filesystem::path& path, const ReadOptions& options);
+};
+extern const Format froude_files, bemio, capytaine, aqwa_ah1, aqwa_lis, hams, veres, hdb, nemoh, wamit;
+/// In the order in which they are asked: WAMIT's tables have no mark, so any text that no other knows is one.
+inline constexpr std::array<const Format*, 10> formats{&froude_files, &bemio, &capytaine, &nemoh, &aqwa_ah1,
+                                                       &aqwa_lis,     &hams,  &veres,     &hdb,   &wamit};
 
 /// The entry of `folder` of this name, in whatever case its letters are; as written first. An empty path if there is
 /// none.

@@ -253,8 +253,6 @@ void fill_excitation(Coefficients& c, const Ah1& file, const FrequencyOrder& ord
       }
 }
 
-}  // namespace
-
 Coefficients read_aqwa_ah1(const fs::path& path) {
   const Ah1 file = read_sections(path);
   Coefficients c;
@@ -269,5 +267,10 @@ Coefficients read_aqwa_ah1(const fs::path& path) {
   note_added_damping(c, file);
   return c;
 }
+
+}  // namespace
+
+const Format aqwa_ah1{[](const Candidate& c) { return c.first_line().starts_with("*") && c.has("AQWA"); },
+                      [](const fs::path& path, const ReadOptions&) { return read_aqwa_ah1(path); }};
 
 }  // namespace hydro::potential

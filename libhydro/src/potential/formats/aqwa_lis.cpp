@@ -188,8 +188,6 @@ void fill_excitation(Coefficients& c, const TextLines& text) {
       }
 }
 
-}  // namespace
-
 Coefficients read_aqwa_lis(const fs::path& path) {
   const TextLines text = TextLines::read(path);
   for (int line = text.find(parameters_title); line != 0; line = text.find(parameters_title, line + 1))
@@ -207,5 +205,10 @@ Coefficients read_aqwa_lis(const fs::path& path) {
   c.notes.emplace_back("a .LIS file has three digits of the loads: the .AH1 file of the same run has more");
   return c;
 }
+
+}  // namespace
+
+const Format aqwa_lis{[](const Candidate& c) { return c.has("JOB AQWA"); },
+                      [](const fs::path& path, const ReadOptions&) { return read_aqwa_lis(path); }};
 
 }  // namespace hydro::potential

@@ -218,8 +218,6 @@ void note_what_is_absent(Coefficients& c) {
       "the reference point of each body is its centre of gravity, as WEC-Sim takes it; the file states none");
 }
 
-}  // namespace
-
 Coefficients read_bemio(const fs::path& path) {
   BemioFile in(path);
   in.bodies = count_bodies(in);
@@ -241,5 +239,13 @@ Coefficients read_bemio(const fs::path& path) {
   note_what_is_absent(c);
   return c;
 }
+
+}  // namespace
+
+const Format bemio{[](const Candidate& c) {
+                     return c.hdf5 && c.hdf5->has("/simulation_parameters") &&
+                            (c.hdf5->has("/bem_data") || c.hdf5->has("/body1/hydro_coeffs"));
+                   },
+                   [](const fs::path& path, const ReadOptions&) { return read_bemio(path); }};
 
 }  // namespace hydro::potential

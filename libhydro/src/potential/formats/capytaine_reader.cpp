@@ -263,8 +263,6 @@ void fill_bodies(Coefficients& c, const CapytaineFile& in) {
   }
 }
 
-}  // namespace
-
 Coefficients read_capytaine(const fs::path& path) {
   CapytaineFile in(path);
   for (const char* needed :
@@ -288,5 +286,13 @@ Coefficients read_capytaine(const fs::path& path) {
   fill_restoring(c, in);
   return c;
 }
+
+}  // namespace
+
+const Format capytaine{[](const Candidate& c) {
+                         return c.is_classic_netcdf ||
+                                (c.hdf5 && c.hdf5->has("/added_mass") && c.hdf5->has("/radiating_dof"));
+                       },
+                       [](const fs::path& path, const ReadOptions&) { return read_capytaine(path); }};
 
 }  // namespace hydro::potential

@@ -76,8 +76,6 @@ void read_excitation(Coefficients& c, const io::Hdf5Reader& file, const std::fil
   }
 }
 
-}  // namespace
-
 Coefficients read_froude(const std::filesystem::path& path) {
   const io::Hdf5Reader file(path);
   constexpr double known = 1;
@@ -96,5 +94,13 @@ Coefficients read_froude(const std::filesystem::path& path) {
   if (file.has("/note_text")) c.notes = file.texts("/note_text");
   return c;
 }
+
+}  // namespace
+
+const Format froude_files{[](const Candidate& c) {
+                            return c.hdf5 && c.hdf5->has_attribute("/", "format") &&
+                                   c.hdf5->text_attribute("/", "format") == froude_format;
+                          },
+                          [](const std::filesystem::path& path, const ReadOptions&) { return read_froude(path); }};
 
 }  // namespace hydro::potential

@@ -73,8 +73,6 @@ WamitFiles find_results(const fs::path& control) {
   return {found.front(), stem};
 }
 
-}  // namespace
-
 Coefficients read_hams(const fs::path& path, const ReadOptions& options) {
   const HamsControl control = read_control(path);
   if (!options.density || !options.gravity)
@@ -96,5 +94,16 @@ Coefficients read_hams(const fs::path& path, const ReadOptions& options) {
   c.body.front().reference_point = control.centre;
   return c;
 }
+
+}  // namespace
+
+const Format hams{[](const Candidate& c) {
+                    if (c.is_folder) return fs::exists(c.path / "Input" / "ControlFile.in");
+                    return c.has("Output_frequency_type") || hams_run_around(c.path).has_value();
+                  },
+                  [](const fs::path& path, const ReadOptions& options) {
+                    if (fs::is_directory(path)) return read_hams(path / "Input" / "ControlFile.in", options);
+                    return read_hams(hams_run_around(path).value_or(path), options);
+                  }};
 
 }  // namespace hydro::potential

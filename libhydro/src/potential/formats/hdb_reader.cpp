@@ -235,8 +235,6 @@ void fill_restoring(Coefficients& c, const HdbFile& file) {
   c.C = C;
 }
 
-}  // namespace
-
 Coefficients read_hdb(const fs::path& path, const ReadOptions& options) {
   if (!options.density || !options.gravity || !options.depth)
     throw InputError("HDB files do not hold density, gravity and depth", {.file = path.string()},
@@ -260,5 +258,9 @@ Coefficients read_hdb(const fs::path& path, const ReadOptions& options) {
   fill_excitation(c, file);
   return c;
 }
+
+}  // namespace
+
+const Format hdb{[](const Candidate& c) { return c.has("[List_calculated_periods]"); }, read_hdb};
 
 }  // namespace hydro::potential

@@ -239,8 +239,6 @@ fs::path find_cal(const fs::path& path) {
                    "the water and the points of the bodies are in it: put it into the folder above the results");
 }
 
-}  // namespace
-
 Coefficients read_nemoh(const fs::path& path) {
   const fs::path cal = find_cal(path);
   const NemohCase nemoh = read_nemoh_case(cal);
@@ -260,5 +258,15 @@ Coefficients read_nemoh(const fs::path& path) {
   fill_nemoh_hydrostatics(c, nemoh);
   return c;
 }
+
+}  // namespace
+
+const Format nemoh{[](const Candidate& c) {
+                     const std::string_view first = c.first_line();
+                     if (c.is_folder) return !entry_of(c.path, "Nemoh.cal").empty();
+                     return (first.starts_with("---") && first.find("Environment") != std::string_view::npos) ||
+                            first.find("VARIABLES=") != std::string_view::npos || first.starts_with("...");
+                   },
+                   [](const fs::path& path, const ReadOptions&) { return read_nemoh(path); }};
 
 }  // namespace hydro::potential

@@ -18,47 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Container { hdf5, classic_netcdf, other };
-
-Container container_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  char head[4] = {};
-  in.read(head, 4);
-  if (!in) return Container::other;
-  const std::string_view magic(head, 4);
-  if (magic == "\x89HDF") return Container::hdf5;
-  if (magic.substr(0, 3) == "CDF" && (head[3] == 1 || head[3] == 2 || head[3] == 5)) return Container::classic_netcdf;
-  return Container::other;
+bool has_magic_of_classic_netcdf(const std::string& head) {
+  return head.starts_with("CDF") && head.size() > 3 && (head[3] == 1 || head[3] == 2 || head[3] == 5);
 }
 
-enum class Hdf5Kind { froude, bemio, capytaine };
-
-Hdf5Kind kind_of_hdf5(const fs::path& path) {
-  const io::Hdf5Reader file(path);
-  if (file.has_attribute("/", "format") && file.text_attribute("/", "format") == froude_format) return Hdf5Kind::froude;
-  if (file.has("/simulation_parameters") && (file.has("/bem_data") || file.has("/body1/hydro_coeffs")))
-    return Hdf5Kind::bemio;
-  if (file.has("/added_mass") && file.has("/radiating_dof")) return Hdf5Kind::capytaine;
-  throw InputError("an HDF5 file, but none that holds coefficients Froude knows", {.file = path.string()},
-                   "give a file of Froude (`froude bem convert`), of BEMIO (groups body1, simulation_parameters) or of "
-                   "Capytaine (variables added_mass, radiating_dof)");
-}
-
-Coefficients read_hdf5(const fs::path& path) {
-  switch (kind_of_hdf5(path)) {
-    case Hdf5Kind::froude:
-      return read_froude(path);
-    case Hdf5Kind::bemio:
-      return read_bemio(path);
-    case Hdf5Kind::capytaine:
-      break;
-  }
-  return read_capytaine(path);
-}
-
-enum class TextKind { wamit, nemoh, aqwa_ah1, aqwa_lis, hams, veres, hdb };
-
-/// The first lines of a text file; a few kilobytes hold every mark by which formats are known.
+/// The first bytes of a file; a few kilobytes hold every mark by which formats are known.
 std::string head_of(const fs::path& path) {
   std::string head(4096, '\0');
   std::ifstream in(path, std::ios::binary);
@@ -67,39 +31,26 @@ std::string head_of(const fs::path& path) {
   return head;
 }
 
-TextKind kind_of_text(const fs::path& path) {
-  if (fs::is_directory(path)) {
-    if (!entry_of(path, "Nemoh.cal").empty()) return TextKind::nemoh;
-    if (fs::exists(path / "Input" / "ControlFile.in")) return TextKind::hams;
-    throw InputError(fmt::format("\"{}\" is a folder", path.string()), {},
+[[noreturn]] void refuse_unknown(const Candidate& candidate) {
+  if (candidate.is_folder)
+    throw InputError(fmt::format("\"{}\" is a folder", candidate.path.string()), {},
                      "give a file in it; only folders of NEMOH (with Nemoh.cal) and HAMS (with Input/ControlFile.in) "
                      "are read as a whole");
-  }
-  const std::string head = head_of(path), first = head.substr(0, head.find('\n'));
-  const auto has = [&](const char* mark) { return head.find(mark) != std::string::npos; };
-  if (first.starts_with("*") && has("AQWA")) return TextKind::aqwa_ah1;
-  if (has("JOB AQWA")) return TextKind::aqwa_lis;
-  if (has("Output_frequency_type")) return TextKind::hams;
-  if (first.find("VERES") != std::string::npos) return TextKind::veres;
-  if (has("[List_calculated_periods]")) return TextKind::hdb;
-  if (first.starts_with("---") && first.find("Environment") != std::string::npos) return TextKind::nemoh;
-  if (first.find("VARIABLES=") != std::string::npos || first.starts_with("...")) return TextKind::nemoh;
-  return TextKind::wamit;
+  throw InputError("an HDF5 file, but none that holds coefficients Froude knows", {.file = candidate.path.string()},
+                   "give a file of Froude (`froude bem convert`), of BEMIO (groups body1, simulation_parameters) or of "
+                   "Capytaine (variables added_mass, radiating_dof)");
 }
 
-Coefficients read_text_format(const fs::path& path, const ReadOptions& options, bool& is_wamit) {
-  const TextKind kind = kind_of_text(path);
-  is_wamit = false;
-  if (kind == TextKind::nemoh) return read_nemoh(path);
-  if (kind == TextKind::aqwa_ah1) return read_aqwa_ah1(path);
-  if (kind == TextKind::aqwa_lis) return read_aqwa_lis(path);
-  if (kind == TextKind::hams)
-    return read_hams(fs::is_directory(path) ? path / "Input" / "ControlFile.in" : path, options);
-  if (kind == TextKind::veres) return read_veres(path, options);
-  if (kind == TextKind::hdb) return read_hdb(path, options);
-  if (const auto control = hams_run_around(path)) return read_hams(*control, options);
-  is_wamit = true;
-  return read_wamit(path, options);
+/// \throws InputError if none knows it
+const Format& format_of(const fs::path& path) {
+  Candidate candidate{path, fs::is_directory(path)};
+  if (!candidate.is_folder) candidate.head = head_of(path);
+  candidate.is_classic_netcdf = has_magic_of_classic_netcdf(candidate.head);
+  std::optional<io::Hdf5Reader> hdf5;
+  if (candidate.head.starts_with("\x89HDF")) candidate.hdf5 = &hdf5.emplace(path);
+  for (const Format* format : formats)
+    if (format->knows(candidate)) return *format;
+  refuse_unknown(candidate);
 }
 
 /// ULEN and IPEROUT are facts of WAMIT's files alone: with another format they are a mistake of the caller.
@@ -190,13 +141,9 @@ std::optional<fs::path> hams_run_around(const fs::path& path) {
 }
 
 Coefficients read(const fs::path& path, const ReadOptions& options) {
-  const bool is_file = fs::exists(path) && !fs::is_directory(path);
-  const Container container = is_file ? container_of(path) : Container::other;
-  bool is_wamit = false;
-  Coefficients c = container == Container::hdf5             ? read_hdf5(path)
-                   : container == Container::classic_netcdf ? read_capytaine(path)
-                                                            : read_text_format(path, options, is_wamit);
-  if (!is_wamit) {
+  const Format& format = format_of(path);
+  Coefficients c = format.read(path, options);
+  if (&format != &wamit) {
     require_no_wamit_options(options, c, path);
     note_differing_water(c, options);
   }

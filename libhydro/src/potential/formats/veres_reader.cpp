@@ -184,8 +184,6 @@ void fill_excitation(Coefficients& c, const fs::path& path) {
   for (const std::size_t h : order) c.X.push_back(f.value[h]);
 }
 
-}  // namespace
-
 Coefficients read_veres(const fs::path& path, const ReadOptions& options) {
   fs::path radiation = path, excitation = path;
   radiation.replace_extension(".re7");
@@ -222,6 +220,8 @@ Coefficients read_veres(const fs::path& path, const ReadOptions& options) {
   c.notes.back() = "axes are turned by 180 degrees: x forward, y to port, origin at Lpp/2 in still water";
   return c;
 }
+
+}  // namespace
 
 RaoTable read_veres_rao(const fs::path& path) {
   const TransferFunctions f = read_transfer_functions(path);
@@ -285,5 +285,8 @@ DriftForces read_veres_drift(const fs::path& path) {
   drift.notes = {"the file does not say about which point the yaw moment is"};
   return drift;
 }
+
+const Format veres{[](const Candidate& c) { return c.first_line().find("VERES") != std::string_view::npos; },
+                   read_veres};
 
 }  // namespace hydro::potential

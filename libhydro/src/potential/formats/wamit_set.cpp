@@ -106,6 +106,8 @@ WamitRun run_of(const ReadOptions& options, const std::optional<WamitOut>& out, 
   return run;
 }
 
+namespace {
+
 Coefficients read_wamit(const fs::path& path, const ReadOptions& options) {
   const WamitFiles files = find_wamit_files(path);
   std::optional<WamitOut> out;
@@ -119,5 +121,9 @@ Coefficients read_wamit(const fs::path& path, const ReadOptions& options) {
   note_other_files(c, files);
   return c;
 }
+
+}  // namespace
+
+const Format wamit{[](const Candidate& c) { return !c.is_folder && !c.hdf5; }, read_wamit};
 
 }  // namespace hydro::potential
