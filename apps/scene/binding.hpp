@@ -10,8 +10,6 @@
 ///
 /// From it come the schema, its documentation, errors and echo (table()), and the reader (read()). A binding keeps
 /// those within it; the outermost is a static of a function.
-#include <fmt/format.h>
-
 #include <array>
 #include <concepts>
 #include <filesystem>
@@ -103,27 +101,59 @@ const std::string& word_for(const Words<M>& words, const M& value) {
   throw std::logic_error("there is a value for which the grammar has no word");
 }
 
+namespace detail {
+
+/// What bindings of all structs have alike, compiled once; the struct itself is only pointed to.
+class Steps {
+ public:
+  explicit Steps(Table table) : table_(std::move(table)) {}
+  const Table& table() const { return table_; }
+
+ protected:
+  /// A key and what is done with its value, where it is there.
+  void add_key(Key key, std::function<void(const Value&, void*)> put);
+  void add_step(std::function<void(const Record&, void*)> step) { steps_.push_back(std::move(step)); }
+  /// Keys of another table, and rules between them.
+  void append(const Table& part);
+  void add_variant(const std::string& word, const Table& of);
+  void refuse_more_than(std::int64_t most);
+  void take(const Record& record, void* out) const {
+    for (const auto& step : steps_) step(record, out);
+  }
+
+  Table table_;
+
+ private:
+  std::vector<std::function<void(const Record&, void*)>> steps_;
+};
+
+}  // namespace detail
+
 template <class T>
-class Binding {
+class Binding : private detail::Steps {
  public:
   Binding(std::string title, std::string meaning)
-      : table_{.title = std::move(title), .meaning = std::move(meaning), .keys = {}} {}
+      : Steps({.title = std::move(title), .meaning = std::move(meaning), .keys = {}}) {}
   /// Of keys that no member holds.
-  explicit Binding(Table table) : table_(std::move(table)) {}
+  explicit Binding(Table table) : Steps(std::move(table)) {}
+  using Steps::table;
 
   /// A key and the member, of T or of a base, that takes its value, in SI. The member keeps what it was made with where
   /// the key is not there.
   template <class M, class B>
   Binding& key(Key key, M B::*member) {
-    return add(std::move(key), [member](const Value& value, T& out) { detail::put(value, out.*member); });
+    return put(std::move(key), [member](const Value& value, T& out) { detail::put(value, out.*member); });
   }
   /// The same of a member's member.
   template <class I, class M>
   Binding& key(Key key, I T::*outer, M I::*member) {
-    return add(std::move(key), [=](const Value& value, T& out) { detail::put(value, out.*outer.*member); });
+    return put(std::move(key), [=](const Value& value, T& out) { detail::put(value, out.*outer.*member); });
   }
   /// A key and what is done with its value, where it is there.
-  Binding& key(Key key, std::function<void(const Value&, T&)> put) { return add(std::move(key), std::move(put)); }
+  template <std::invocable<const Value&, T&> Put>
+  Binding& key(Key key, Put given) {
+    return put(std::move(key), std::move(given));
+  }
   /// A key that a reader or check of the caller's own looks up in the record.
   Binding& key(Key key) {
     table_.keys.push_back(std::move(key));
@@ -141,13 +171,13 @@ class Binding {
   /// A text that is one of these words, each of which stands for a value.
   template <class M>
   Binding& words(Key key, const Words<M>& words, M T::*member) {
-    return add(std::move(key.one_of(words_of(words))),
+    return put(std::move(key.one_of(words_of(words))),
                [words, member](const Value& value, T& out) { out.*member = value_for(words, value.text); });
   }
   /// A list of words, each of which sets a member.
   Binding& flags(Key key, const std::vector<std::pair<std::string, bool T::*>>& words) {
     for (const auto& [word, member] : words) key.words.push_back(word);
-    return add(std::move(key), [words](const Value& value, T& out) {
+    return put(std::move(key), [words](const Value& value, T& out) {
       for (const auto& [word, member] : words)
         for (const auto& given : value.texts)
           if (given.value == word) out.*member = true;
@@ -222,15 +252,14 @@ class Binding {
   }
   /// The last key, an integer, up to this.
   Binding& at_most(std::int64_t most) {
-    return then([name = table_.keys.back().name, most](const Record& record, T&) {
-      if (record.has(name) && record[name].integer > most)
-        throw record.wrong(name, fmt::format("is more than {}", most));
-    });
+    refuse_more_than(most);
+    return *this;
   }
 
   /// What the keys one by one cannot know: called with the record and what was read of it. \throws hydro::InputError
-  Binding& then(std::function<void(const Record&, T&)> step) {
-    steps_.push_back(std::move(step));
+  template <std::invocable<const Record&, T&> Step>
+  Binding& then(Step step) {
+    add_step([step = std::move(step)](const Record& record, void* out) { step(record, *static_cast<T*>(out)); });
     return *this;
   }
 
@@ -250,16 +279,12 @@ class Binding {
     });
   }
 
-  const Table& table() const { return table_; }
-
   T read(const Record& record) const {
     T out{};
     read_into(record, out);
     return out;
   }
-  void read_into(const Record& record, T& out) const {
-    for (const auto& step : steps_) step(record, out);
-  }
+  void read_into(const Record& record, T& out) const { take(record, &out); }
   /// Into a member that is such a struct, or is to hold one.
   template <class M>
   void read_member(const Record& record, M& member) const {
@@ -270,11 +295,10 @@ class Binding {
   }
 
  private:
-  Binding& add(Key key, std::function<void(const Value&, T&)> put) {
-    then([name = key.name, put = std::move(put)](const Record& record, T& out) {
-      if (record.has(name)) put(record[name], out);
-    });
-    table_.keys.push_back(std::move(key));
+  template <class Put>
+  Binding& put(Key key, Put put) {
+    add_key(std::move(key),
+            [put = std::move(put)](const Value& value, void* out) { put(value, *static_cast<T*>(out)); });
     return *this;
   }
   /// A key of one table or several, each of which `put` reads with a copy of their binding.
@@ -282,25 +306,14 @@ class Binding {
   Binding& nested(Key key, const Binding<I>& inner, Put put) {
     const auto own = std::make_shared<const Binding<I>>(inner);
     key.inner = &own->table();
-    return add(std::move(key), [own, put](const Value& value, T& out) {
+    return this->put(std::move(key), [own, put](const Value& value, T& out) {
       for (const Record& record : value.records) put(*own, record, out);
     });
-  }
-  void append(const Table& part) {
-    table_.keys.insert(table_.keys.end(), part.keys.begin(), part.keys.end());
-    table_.groups.insert(table_.groups.end(), part.groups.begin(), part.groups.end());
   }
   Binding& group(Group::Count count, std::vector<std::string> keys) {
     table_.groups.push_back({count, std::move(keys)});
     return *this;
   }
-  void add_variant(const std::string& word, const Table& of) {
-    table_.chosen_by = "kind";
-    table_.variants.push_back({word, of.meaning, of.keys, of.groups});
-  }
-
-  Table table_;
-  std::vector<std::function<void(const Record&, T&)>> steps_;
 };
 
 }  // namespace froude::scene
