@@ -296,18 +296,18 @@ class Binding : private detail::Steps {
 
  private:
   template <class Put>
-  Binding& put(Key key, Put put) {
+  Binding& put(Key key, Put given) {
     add_key(std::move(key),
-            [put = std::move(put)](const Value& value, void* out) { put(value, *static_cast<T*>(out)); });
+            [given = std::move(given)](const Value& value, void* out) { given(value, *static_cast<T*>(out)); });
     return *this;
   }
-  /// A key of one table or several, each of which `put` reads with a copy of their binding.
-  template <class I, class Put>
-  Binding& nested(Key key, const Binding<I>& inner, Put put) {
+  /// A key of one table or several, each of which `read_one` reads with a copy of their binding.
+  template <class I, class Read>
+  Binding& nested(Key key, const Binding<I>& inner, Read read_one) {
     const auto own = std::make_shared<const Binding<I>>(inner);
     key.inner = &own->table();
-    return this->put(std::move(key), [own, put](const Value& value, T& out) {
-      for (const Record& record : value.records) put(*own, record, out);
+    return this->put(std::move(key), [own, read_one](const Value& value, T& out) {
+      for (const Record& record : value.records) read_one(*own, record, out);
     });
   }
   Binding& group(Group::Count count, std::vector<std::string> keys) {

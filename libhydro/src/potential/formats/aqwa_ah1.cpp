@@ -270,7 +270,7 @@ Coefficients read_aqwa_ah1(const fs::path& path) {
 
 }  // namespace
 
-const Format aqwa_ah1{[](const Candidate& c) { return c.first_line().starts_with("*") && c.has("AQWA"); },
-                      [](const fs::path& path, const ReadOptions&) { return read_aqwa_ah1(path); }};
+const Format aqwa_ah1_files{[](const Candidate& c) { return c.first_line().starts_with("*") && c.has("AQWA"); },
+                            [](const fs::path& path, const ReadOptions&) { return read_aqwa_ah1(path); }};
 
 }  // namespace hydro::potential

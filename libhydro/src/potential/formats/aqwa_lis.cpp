@@ -208,7 +208,7 @@ Coefficients read_aqwa_lis(const fs::path& path) {
 
 }  // namespace
 
-const Format aqwa_lis{[](const Candidate& c) { return c.has("JOB AQWA"); },
-                      [](const fs::path& path, const ReadOptions&) { return read_aqwa_lis(path); }};
+const Format aqwa_lis_files{[](const Candidate& c) { return c.has("JOB AQWA"); },
+                            [](const fs::path& path, const ReadOptions&) { return read_aqwa_lis(path); }};
 
 }  // namespace hydro::potential

@@ -242,10 +242,10 @@ Coefficients read_bemio(const fs::path& path) {
 
 }  // namespace
 
-const Format bemio{[](const Candidate& c) {
-                     return c.hdf5 && c.hdf5->has("/simulation_parameters") &&
-                            (c.hdf5->has("/bem_data") || c.hdf5->has("/body1/hydro_coeffs"));
-                   },
-                   [](const fs::path& path, const ReadOptions&) { return read_bemio(path); }};
+const Format bemio_files{[](const Candidate& c) {
+                           return c.hdf5 && c.hdf5->has("/simulation_parameters") &&
+                                  (c.hdf5->has("/bem_data") || c.hdf5->has("/body1/hydro_coeffs"));
+                         },
+                         [](const fs::path& path, const ReadOptions&) { return read_bemio(path); }};
 
 }  // namespace hydro::potential

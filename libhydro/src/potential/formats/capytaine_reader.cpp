@@ -289,10 +289,10 @@ Coefficients read_capytaine(const fs::path& path) {
 
 }  // namespace
 
-const Format capytaine{[](const Candidate& c) {
-                         return c.is_classic_netcdf ||
-                                (c.hdf5 && c.hdf5->has("/added_mass") && c.hdf5->has("/radiating_dof"));
-                       },
-                       [](const fs::path& path, const ReadOptions&) { return read_capytaine(path); }};
+const Format capytaine_files{[](const Candidate& c) {
+                               return c.is_classic_netcdf ||
+                                      (c.hdf5 && c.hdf5->has("/added_mass") && c.hdf5->has("/radiating_dof"));
+                             },
+                             [](const fs::path& path, const ReadOptions&) { return read_capytaine(path); }};
 
 }  // namespace hydro::potential

@@ -97,13 +97,13 @@ Coefficients read_hams(const fs::path& path, const ReadOptions& options) {
 
 }  // namespace
 
-const Format hams{[](const Candidate& c) {
-                    if (c.is_folder) return fs::exists(c.path / "Input" / "ControlFile.in");
-                    return c.has("Output_frequency_type") || hams_run_around(c.path).has_value();
-                  },
-                  [](const fs::path& path, const ReadOptions& options) {
-                    if (fs::is_directory(path)) return read_hams(path / "Input" / "ControlFile.in", options);
-                    return read_hams(hams_run_around(path).value_or(path), options);
-                  }};
+const Format hams_files{[](const Candidate& c) {
+                          if (c.is_folder) return fs::exists(c.path / "Input" / "ControlFile.in");
+                          return c.has("Output_frequency_type") || hams_run_around(c.path).has_value();
+                        },
+                        [](const fs::path& path, const ReadOptions& options) {
+                          if (fs::is_directory(path)) return read_hams(path / "Input" / "ControlFile.in", options);
+                          return read_hams(hams_run_around(path).value_or(path), options);
+                        }};
 
 }  // namespace hydro::potential

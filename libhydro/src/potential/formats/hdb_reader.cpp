@@ -261,6 +261,6 @@ Coefficients read_hdb(const fs::path& path, const ReadOptions& options) {
 
 }  // namespace
 
-const Format hdb{[](const Candidate& c) { return c.has("[List_calculated_periods]"); }, read_hdb};
+const Format hdb_files{[](const Candidate& c) { return c.has("[List_calculated_periods]"); }, read_hdb};
 
 }  // namespace hydro::potential

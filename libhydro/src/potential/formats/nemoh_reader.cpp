@@ -261,12 +261,12 @@ Coefficients read_nemoh(const fs::path& path) {
 
 }  // namespace
 
-const Format nemoh{[](const Candidate& c) {
-                     const std::string_view first = c.first_line();
-                     if (c.is_folder) return !entry_of(c.path, "Nemoh.cal").empty();
-                     return (first.starts_with("---") && first.find("Environment") != std::string_view::npos) ||
-                            first.find("VARIABLES=") != std::string_view::npos || first.starts_with("...");
-                   },
-                   [](const fs::path& path, const ReadOptions&) { return read_nemoh(path); }};
+const Format nemoh_files{[](const Candidate& c) {
+                           const std::string_view first = c.first_line();
+                           if (c.is_folder) return !entry_of(c.path, "Nemoh.cal").empty();
+                           return (first.starts_with("---") && first.find("Environment") != std::string_view::npos) ||
+                                  first.find("VARIABLES=") != std::string_view::npos || first.starts_with("...");
+                         },
+                         [](const fs::path& path, const ReadOptions&) { return read_nemoh(path); }};
 
 }  // namespace hydro::potential

@@ -143,7 +143,7 @@ std::optional<fs::path> hams_run_around(const fs::path& path) {
 Coefficients read(const fs::path& path, const ReadOptions& options) {
   const Format& format = format_of(path);
   Coefficients c = format.read(path, options);
-  if (&format != &wamit) {
+  if (&format != &wamit_files) {
     require_no_wamit_options(options, c, path);
     note_differing_water(c, options);
   }

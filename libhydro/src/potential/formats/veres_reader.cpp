@@ -286,7 +286,7 @@ DriftForces read_veres_drift(const fs::path& path) {
   return drift;
 }
 
-const Format veres{[](const Candidate& c) { return c.first_line().find("VERES") != std::string_view::npos; },
-                   read_veres};
+const Format veres_files{[](const Candidate& c) { return c.first_line().find("VERES") != std::string_view::npos; },
+                         read_veres};
 
 }  // namespace hydro::potential

@@ -124,6 +124,6 @@ Coefficients read_wamit(const fs::path& path, const ReadOptions& options) {
 
 }  // namespace
 
-const Format wamit{[](const Candidate& c) { return !c.is_folder && !c.hdf5; }, read_wamit};
+const Format wamit_files{[](const Candidate& c) { return !c.is_folder && !c.hdf5; }, read_wamit};
 
 }  // namespace hydro::potential
