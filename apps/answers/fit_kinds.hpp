@@ -1,6 +1,6 @@
 #pragma once
 /// \file  Between a fit scene and libfit: what was measured becomes a problem of its kind, and a solution becomes
-///        pictures, a table and, where it is refused, a remedy in the words of the scene. Private to apps/froude.
+///        pictures, a table and, where it is refused, a remedy in the words of the scene. Private to apps.
 #include <filesystem>
 #include <string>
 #include <vector>
