@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "answers/provenance.hpp"
+#include "answers/spacing.hpp"
 #include "compile/members.hpp"
 #include "compile/waves.hpp"
 #include "dynamics/frequency/linear_drag.hpp"
@@ -202,7 +203,7 @@ Responses respond(const scene::Scene& scene) { return respond(scene, compile::pr
 Responses respond(const scene::Scene& scene, const compile::Prepared& prepared) {
   if (!scene.rao || scene.rao->headings.empty())
     throw std::logic_error("a response is asked for without a heading: a scene that no reader has made must state one");
-  Responses out{scene.rao->omega, scene.rao->headings, {}, prepared.notes, provenance_of(scene)};
+  Responses out{scene.rao->omega, scene.rao->headings, {}, prepared.notes, {}, provenance_of(scene)};
   compile::check_waves_of_rao(scene, prepared, out.notes);
   const dynamics::Model model = compile::frequency_model(prepared, scene.rao->about);
   const SmallMotions about = compile::small_motions(model, scene.rao->about, out.notes);
@@ -210,9 +211,14 @@ Responses respond(const scene::Scene& scene, const compile::Prepared& prepared) 
     out.notes.push_back(effect);
   const auto signals = compile::chosen_responses(compile::signal_list(scene, prepared, model), scene.rao->of,
                                                  scene.rao->of_places, out.notes);
-  const auto drags = drag_of_rao(scene, prepared, about, out.notes);
-  const Amplitudes found = amplitudes_of_rao(*scene.rao, prepared, about, drags);
-  out.signals = heading_by_heading(signals, about, found, *scene.rao);
+  const auto answer = [&](const compile::Prepared& from, std::vector<std::string>& notes) {
+    const auto drags = drag_of_rao(scene, from, about, notes);
+    return heading_by_heading(signals, about, amplitudes_of_rao(*scene.rao, from, about, drags), *scene.rao);
+  };
+  out.signals = answer(prepared, out.notes);
+  std::vector<std::string> told_already;
+  out.error = error_of_spacing(scene, prepared, out.omega, out.signals,
+                               [&](const compile::Prepared& thinned) { return answer(thinned, told_already); });
   return out;
 }
 
@@ -229,9 +235,14 @@ Run steady_run(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& 
   const hydro::waves::Sea sea = compile::sea_of_run(scene, prepared, record.notes);
   const auto signals = compile::chosen_responses(compile::signal_list(scene, prepared, model), scene.run->of,
                                                  scene.run->of_places, record.notes);
-  Eigen::MatrixXcd amplitudes = transfer(prepared, about, signals, sea);
-  for (Eigen::Index c = 0; c < amplitudes.cols(); ++c)
-    amplitudes.col(c) *= compile::elevation_at_origin(sea.components()[static_cast<std::size_t>(c)]);
+  const auto answer = [&](const compile::Prepared& from) {
+    Eigen::MatrixXcd out = transfer(from, about, signals, sea);
+    for (Eigen::Index c = 0; c < out.cols(); ++c)
+      out.col(c) *= compile::elevation_at_origin(sea.components()[static_cast<std::size_t>(c)]);
+    return out;
+  };
+  const Eigen::MatrixXcd amplitudes = answer(prepared);
+  record.error = error_of_spacing(scene, prepared, signals, amplitudes, answer);
   const auto samples = static_cast<std::size_t>(std::llround(scene.run->duration / scene.run->every)) + 1;
   const auto series = hydro::waves::synthesise(sea, {scene.run->every, samples}, amplitudes).series;
   for (std::size_t i = 0; i < samples; ++i) record.time.push_back(static_cast<double>(i) * scene.run->every);

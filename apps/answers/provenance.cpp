@@ -15,8 +15,9 @@ Provenance provenance_of(const scene::Scene& scene) {
   return p;
 }
 
-void add_notes(const std::vector<std::string>& notes, Provenance& provenance) {
-  for (std::size_t i = 0; i < notes.size(); ++i) provenance.notes.emplace_back(fmt::format("note{}", i + 1), notes[i]);
+void add_notes(const std::vector<std::string>& notes, Provenance& provenance, const std::string& kind) {
+  for (std::size_t i = 0; i < notes.size(); ++i)
+    provenance.notes.emplace_back(fmt::format("{}{}", kind, i + 1), notes[i]);
 }
 
 }  // namespace froude

@@ -9,6 +9,7 @@ namespace froude {
 Provenance provenance_of(const scene::Scene& scene);
 
 /// Notes are numbered, so that each has a name of its own.
-void add_notes(const std::vector<std::string>& notes, Provenance& provenance);
+/// `kind`: what they are called, "note" or "warning".
+void add_notes(const std::vector<std::string>& notes, Provenance& provenance, const std::string& kind = "note");
 
 }  // namespace froude

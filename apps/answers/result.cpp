@@ -62,28 +62,102 @@ double Run::turnover() const { return entry(energy, "turnover"); }
 
 double Run::relative_residual() const { return turnover() > 0 ? std::abs(worst_residual.energy) / turnover() : 0; }
 
+double ErrorEstimate::total(std::size_t signal) const {
+  double out = 0;
+  for (const Source& source : sources) out += source.of_signal[signal];
+  return out;
+}
+
+std::size_t ErrorEstimate::worst() const {
+  std::size_t out = 0;
+  const std::size_t signals = sources.empty() ? 0 : sources.front().of_signal.size();
+  for (std::size_t i = 1; i < signals; ++i)
+    if (total(i) > total(out)) out = i;
+  return out;
+}
+
+const ErrorEstimate::Source& ErrorEstimate::largest_source(std::size_t signal) const {
+  return *std::max_element(sources.begin(), sources.end(),
+                           [&](const Source& a, const Source& b) { return a.of_signal[signal] < b.of_signal[signal]; });
+}
+
+namespace {
+
+/// `of`: " of its peak", or nothing for rms.
+template <class S>
+std::string accuracy_of(const ErrorEstimate& error, const std::vector<S>& signals, const char* of) {
+  if (error.asked == 0 || signals.empty()) return "";
+  const std::string asked = fmt::format("accuracy asked {:.2g}, ", error.asked);
+  if (!error.missing.empty()) return asked + "not estimated: " + error.missing;
+  if (error.sources.empty()) return "";
+  const std::size_t worst = error.worst();
+  return fmt::format("{}estimated {:.2g}{} ({}), {} the {}{}", asked, error.total(worst), of, signals[worst].name,
+                     error.sources.size() > 1 ? "most of it from" : "by", error.largest_source(worst).name,
+                     error.unpredictable.empty() ? "" : ", for as long as signals can be predicted");
+}
+
+/// Of signals that are off by more than was asked, which the scene takes.
+template <class S>
+std::string warning_of_error(const ErrorEstimate& e, const std::vector<S>& signals, const char* of) {
+  if (e.sources.empty() || e.total(e.worst()) <= e.asked) return "";
+  std::string others;
+  for (std::size_t i = 0; i < signals.size(); ++i)
+    if (i != e.worst() && e.total(i) > e.asked) others += fmt::format(", {} by {:.2g}", signals[i].name, e.total(i));
+  const std::string why = e.accepted ? "which the scene accepts" : "with the " + e.given + " that the scene gives";
+  return fmt::format("warning: {} is off by an estimated {:.2g} of its {}, {}{}", signals[e.worst()].name,
+                     e.total(e.worst()), of, why, others);
+}
+
+/// Of energy that comes from nowhere, or goes there.
+std::string warning_of_residual(const Run& run) {
+  if (std::abs(run.worst_residual.energy) <= tolerated_residual * run.turnover()) return "";
+  return fmt::format(
+      "warning: the energy residual is {:.2g} of the energy turned over at {:.5g} s: the step of {:.4g} s is too long "
+      "for what moves; compare with a run of half the step, [solve] step = \"{:.6g} s\"",
+      run.relative_residual(), run.worst_residual.time, run.step, run.step / 2);
+}
+
+std::string warning_of(const Run& run, const ErrorEstimate::Unpredictable& lost) {
+  const Signal& s = run.signals[lost.signal];
+  return fmt::format(
+      "warning: {} can be predicted until {:.4g} s only: what parts neighbouring motions grows; beyond, its statistics "
+      "can be told: standard deviation {:.3g} {}, which differs between runs by {:.2g}",
+      s.name, lost.until, lost.deviation, s.units, lost.scatter);
+}
+
+}  // namespace
+
+std::string Run::accuracy() const { return accuracy_of(error, signals, ""); }
+
+std::string Responses::accuracy() const { return accuracy_of(error, signals, " of the peak"); }
+
+std::vector<std::string> Responses::warnings() const {
+  const std::string warning = warning_of_error(error, signals, "peak");
+  return warning.empty() ? std::vector<std::string>() : std::vector{warning};
+}
+
 std::vector<std::string> Run::warnings() const {
-  if (std::abs(worst_residual.energy) <= tolerated_residual * turnover()) return {};
-  return {
-      fmt::format("warning: the energy residual is {:.2g} of the energy turned over at {:.5g} s: the step of {:.4g} s "
-                  "is too long for "
-                  "what moves; compare with a run of half the step, [solve] step = \"{:.6g} s\"",
-                  relative_residual(), worst_residual.time, step, step / 2)};
+  std::vector<std::string> out;
+  for (std::string warning : {warning_of_residual(*this), warning_of_error(error, signals, "rms")})
+    if (!warning.empty()) out.push_back(std::move(warning));
+  for (const auto& lost : error.unpredictable) out.push_back(warning_of(*this, lost));
+  return out;
 }
 
 void Run::write(const std::filesystem::path& path) const {
   Provenance p = provenance;
   p.energy = energy;
-  p.wall_time = {{"preparation", preparation_s}, {"stepping", stepping_s}};
+  p.wall_time = {{"preparation", preparation_s}, {"stepping", stepping_s}, {"estimating", estimating_s}};
   p.settings.emplace_back("chosen.step", fmt::format("{} s", step));
   for (const auto& [effect, count] : evaluations)
     p.settings.emplace_back("evaluations." + effect, std::to_string(count));
   for (const Snaps& s : snaps) p.settings.emplace_back("snaps." + s.line, sentence(s));
   for (const LineExponent& e : exponents) p.settings.emplace_back("lyapunov." + e.line, sentence(e));
   add_notes(notes, p);
-  for (const auto& warning : warnings()) p.notes.emplace_back("warning", warning);
+  add_notes(warnings(), p, "warning");
   if (!stopped.empty()) p.notes.emplace_back("stopped", stopped);
-  write_run(path, time, signals, p);
+  if (const std::string told = accuracy(); !told.empty()) p.settings.emplace_back("estimated.accuracy", told);
+  write_run(path, time, signals, p, error);
 }
 
 const ComplexSignal& Responses::signal(const std::string& name) const {
@@ -93,7 +167,9 @@ const ComplexSignal& Responses::signal(const std::string& name) const {
 void Responses::write(const std::filesystem::path& path) const {
   Provenance p = provenance;
   add_notes(notes, p);
-  write_rao(path, omega, heading, signals, p);
+  add_notes(warnings(), p, "warning");
+  if (const std::string told = accuracy(); !told.empty()) p.settings.emplace_back("estimated.accuracy", told);
+  write_rao(path, omega, heading, signals, p, error);
 }
 
 void WaterSeries::write(const std::filesystem::path& path) const {

@@ -60,22 +60,36 @@ std::string root_path(const std::string& name) {
 
 }  // namespace
 
+namespace {
+
+/// One attribute each, as text like all numbers about a result.
+void write_error(Hdf5Writer& file, const std::string& dataset, const ErrorEstimate& error, std::size_t signal) {
+  if (error.sources.empty()) return;
+  file.attribute(dataset, "error", error.total(signal));
+  for (const auto& source : error.sources) file.attribute(dataset, "error_" + source.name, source.of_signal[signal]);
+  for (const auto& lost : error.unpredictable)
+    if (lost.signal == signal) file.attribute(dataset, "predictable_until_s", lost.until);
+}
+
+}  // namespace
+
 void write_run(const std::filesystem::path& path, const std::vector<double>& time, const std::vector<Signal>& signals,
-               const Provenance& provenance) {
+               const Provenance& provenance, const ErrorEstimate& error) {
   Hdf5Writer file;
   write_provenance(file, run_kind, provenance);
   write_dimension(file, "/time", time, "s", "time from the start of the run");
-  for (const Signal& signal : signals) {
-    const std::string dataset = root_path(signal.name);
-    file.write(dataset, signal.values, {time.size()});
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    const std::string dataset = root_path(signals[i].name);
+    file.write(dataset, signals[i].values, {time.size()});
     file.attach_dimension(dataset, 0, "/time");
-    describe(file, dataset, signal.units, signal.long_name);
+    describe(file, dataset, signals[i].units, signals[i].long_name);
+    write_error(file, dataset, error, i);
   }
   file.save(path);
 }
 
 void write_rao(const std::filesystem::path& path, const std::vector<double>& omega, const std::vector<double>& heading,
-               const std::vector<ComplexSignal>& signals, const Provenance& provenance) {
+               const std::vector<ComplexSignal>& signals, const Provenance& provenance, const ErrorEstimate& error) {
   constexpr const char* meaning = "direction the wave propagates towards, from +x towards +y";
   const bool several = heading.size() != 1;
   Hdf5Writer file;
@@ -97,7 +111,8 @@ void write_rao(const std::filesystem::path& path, const std::vector<double>& ome
     dimensions.insert(dimensions.begin(), "/heading");
     shape.insert(shape.begin(), heading.size());
   }
-  for (const ComplexSignal& signal : signals) {
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    const ComplexSignal& signal = signals[i];
     const std::string dataset = root_path(signal.name);
     std::vector<double> flat;
     flat.reserve(2 * signal.values.size());
@@ -105,6 +120,7 @@ void write_rao(const std::filesystem::path& path, const std::vector<double>& ome
     file.write(dataset, flat, shape);
     for (std::size_t d = 0; d < dimensions.size(); ++d) file.attach_dimension(dataset, d, dimensions[d]);
     describe(file, dataset, signal.units, signal.long_name);
+    write_error(file, dataset, error, i);
   }
   file.save(path);
 }

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "answers/estimate.hpp"
 #include "answers/linear_response.hpp"
 #include "answers/provenance.hpp"
 #include "compile/integrator.hpp"
@@ -177,6 +178,22 @@ Provenance provenance_of_run(const scene::Scene& scene) {
 
 }  // namespace
 
+namespace {
+
+/// Controllers of the caller's have a memory of their own: they are not asked twice of the same time.
+Run run_once(const scene::Scene& scene, const compile::Prepared& prepared, const std::function<void(double)>& done) {
+  const auto begin = Clock::now();
+  const compile::TimeModel model = compile::time_model(scene, prepared);
+  const double preparation = seconds_since(begin);
+  Run out = run_model(scene, model, done);
+  out.preparation_s = preparation;
+  out.error.asked = scene.accuracy;
+  out.error.missing = "controllers of the caller decide, which can be asked once only";
+  return out;
+}
+
+}  // namespace
+
 Run run_model(const scene::Scene& scene, const compile::TimeModel& model, const std::function<void(double)>& done,
               compile::MovingState* end) {
   Run record;
@@ -203,10 +220,10 @@ Run simulate(const scene::Scene& scene, const std::function<void(double)>& done,
   const auto begin = Clock::now();
   compile::Prepared prepared = compile::prepare(scene, kept);
   compile::set_controllers(controls, prepared);
-  const compile::TimeModel model = compile::time_model(scene, prepared);
   const double preparation = seconds_since(begin);
-  Run record = run_model(scene, model, done);
-  record.preparation_s = preparation;
+  Run record = controls.empty() ? run_to_accuracy(scene, prepared, done) : run_once(scene, prepared, done);
+  record.preparation_s += preparation;
+  record.estimating_s = seconds_since(begin) - record.preparation_s - record.stepping_s;
   return record;
 }
 

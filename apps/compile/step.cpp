@@ -161,7 +161,7 @@ ChosenStep choose_step(const Scene& scene, const Prepared& prepared) {
     out.note = fmt::format(
         "the step that the scene gives, {:.4g} s, is longer than the {:.4g} s that an accuracy of {:.2g} asks for; "
         "fastest: {}",
-        step, longest, scene.accuracy, fastest.what);
+        step, longest, scene.accuracy.value, fastest.what);
   return out;
 }
 

@@ -136,7 +136,8 @@ Report report_of(const scene::Scene& scene, const Responses& r, const Path& file
   out.say("{:<24} {}{:>12} {:<7} {:>10} {:>10}", "signal", several ? "heading [deg] " : "", "largest", "unit",
           "at T [s]", "phase [deg]");
   for (const auto& s : r.signals) signals.part(s.name, report_of(s, r));
-  out.part("signals", std::move(signals)).sentences("notes", "note: {}", r.notes);
+  out.part("signals", std::move(signals)).part("error", error_of(r));
+  out.sentences("notes", "note: {}", r.notes).sentences("warnings", "{}", r.warnings());
   return out.say("wrote {}", fact("file", file.string()));
 }
 

@@ -72,6 +72,7 @@ Report report_of(const scene::Scene& scene, const Run& record, const Path& file)
   out.part("", stepped ? steps : steps.untold());
   add_series(out, record.signals);
   out.part("", stepped ? energy : energy.untold());
+  out.part("error", error_of(record));
   for (const Snaps& s : record.snaps) out.one_of("snaps", report_of(s));
   for (const LineExponent& e : record.exponents) out.one_of("lyapunov", report_of(e));
   out.keep("stopped", record.stopped);

@@ -153,6 +153,9 @@ void take_heading(const Record& record, Scene& scene) {
 
 /// What the scene must have beside the question.
 void check_scene(const Record& ask, Scene& scene) {
+  constexpr double digits = 1e-9;  // runs are stepped in double precision, and differ by their rounding
+  if (scene.accuracy < digits)
+    throw ask.wrong("accuracy", "is finer than runs in double precision can be compared", "ask for 1e-9 or more");
   const auto has_drag = [](const Member& m) { return m.cd.has_value(); };
   if (scene.rao && scene.rao->drag && std::none_of(scene.members.begin(), scene.members.end(), has_drag))
     throw ask.table("rao").table("drag").refused("makes drag linear, but no member names drag",
@@ -174,7 +177,9 @@ const Binding<Scene>& ask_binding() {
                                 .table("modes", free_motions(), &Scene::ask_modes)
                                 .table("run", run(), &Scene::run)
                                 .table("waves", waves(), &Scene::ask_waves)
-                                .key(number("accuracy", "relative, of what is asked")
+                                .key(number("accuracy",
+                                            "the largest error of each signal that a run is asked for, rms over its "
+                                            "own rms; a run that misses it is refused")
                                          .within(Limit::open_fraction)
                                          .or_default("1e-2", "about what coefficients and measurements are good for"),
                                      &Scene::accuracy)

@@ -412,6 +412,7 @@ struct Solve {
   std::string line_scheme = "energy_momentum";  ///< of lines, as dynamics::line::parse_scheme() reads it
   std::optional<Place> line_scheme_place = {};  ///< where the scene names it
   double gamma = 0.51;                          ///< of the γ-method of lines
+  bool accept_error = false;                    ///< a run stands whatever its error is estimated to be
 };
 
 /// One line of the echo: every key that acts, whether written or filled in.
@@ -447,7 +448,7 @@ struct Scene {
   std::optional<AskModes> ask_modes;
   std::optional<AskRun> run;
   std::optional<AskWaves> ask_waves;
-  double accuracy = 1e-2;  ///< relative, of what is asked
+  Located<double> accuracy{1e-2, {}};  ///< largest error of each signal asked for, rms over its own rms
   Solve solve;
   std::vector<Echo> echo;
 };

@@ -85,6 +85,10 @@ const Binding<Solve>& solve_binding() {
                                          .one_of({"automatic"})
                                          .or_default("automatic", "chosen from the accuracy asked"),
                                      &Solve::step)
+                                .key(effect("accept_error",
+                                            "a run stands whatever its error is estimated to be, with the step that is "
+                                            "chosen first; without it what misses the accuracy asked is refused"),
+                                     &Solve::accept_error)
                                 .table("integrator", integrator())
                                 .or_default();
   return table;

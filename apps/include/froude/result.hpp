@@ -63,6 +63,32 @@ struct LineExponent {
 };
 std::string sentence(const LineExponent& exponent);
 
+/// How far the signals of a run are off by what is approximated: rms of the error over rms of the signal, over the
+/// whole run, or for as long as the signal can be predicted. (E1)-(E3), docs/theory/accuracy.md.
+struct ErrorEstimate {
+  struct Source {
+    std::string name;               ///< "step", "memory", …
+    std::string how;                ///< it was estimated
+    std::vector<double> of_signal;  ///< one a signal; 0 for energy.residual, which is an error itself
+  };
+  /// A signal that no step can predict: what parts neighbours grows until they have nothing in common.
+  struct Unpredictable {
+    std::size_t signal;
+    double until;               ///< s; from there on only its statistics can be told:
+    double deviation, scatter;  ///< its standard deviation, and by how much that differs between runs, rms
+  };
+  double asked = 0;
+  bool accepted = false;   ///< the scene takes whatever error there is
+  std::string given = {};  ///< "step" or "tolerance" where the scene gives it, and the run stands by that; else empty
+  std::vector<Source> sources;
+  std::vector<Unpredictable> unpredictable;
+  std::string missing;  ///< why nothing is estimated; empty where it is
+
+  double total(std::size_t signal) const;  ///< of all sources
+  std::size_t worst() const;               ///< the signal whose total is largest
+  const Source& largest_source(std::size_t signal) const;
+};
+
 /// A run in time, whole or up to where it stopped.
 struct Run {
   std::vector<double> time;     ///< s
@@ -71,7 +97,7 @@ struct Run {
   std::size_t steps = 0;        ///< completed
   std::size_t parts = 0;        ///< into which a tolerance has cut them
   int newton_iterations = 0, halvings = 0, events = 0;
-  double preparation_s = 0, stepping_s = 0;                      ///< wall time
+  double preparation_s = 0, stepping_s = 0, estimating_s = 0;    ///< wall time; the last of the runs beside this one
   std::vector<std::pair<std::string, std::size_t>> evaluations;  ///< of the load, by effect
   std::vector<std::pair<std::string, double>> energy;            ///< J, by effect, at the end; residual and turnover
   struct Unexplained {
@@ -82,13 +108,16 @@ struct Run {
   std::vector<LineExponent> exponents;  ///< likewise
   std::vector<std::string> notes;       ///< what had to be decided, and what is left out
   std::string stopped;                  ///< why it ended before its time; empty if it did not
-  Provenance provenance = {};           ///< without what the members above tell
+  ErrorEstimate error;
+  Provenance provenance = {};  ///< without what the members above tell
 
   /// \throws hydro::InputError if there is no such signal
   const std::vector<double>& signal(const std::string& name) const;
   double turnover() const;  ///< J, of energy
   /// The energy residual when it was largest, of the energy turned over; 0 where nothing was.
   double relative_residual() const;
+  /// "accuracy asked 0.01, estimated 0.006 (m3.pitch), most of it from the step"
+  std::string accuracy() const;
   /// What of the run is not to be trusted, in words.
   std::vector<std::string> warnings() const;
   /// As write_run(). \throws hydro::InputError if the file cannot be written
@@ -101,8 +130,13 @@ struct Responses {
   std::vector<double> heading;         ///< rad, where the waves go; in the order asked
   std::vector<ComplexSignal> signals;  ///< heading by heading: value of heading h, frequency w at h Nω + w
   std::vector<std::string> notes;      ///< what had to be decided, and what is left out
+  ErrorEstimate error = {};            ///< of each value, over the largest of its signal
   Provenance provenance = {};          ///< without the notes
 
+  /// "accuracy asked 0.01, estimated 0.006 of the peak (m3.pitch), by the coefficients"; empty where they have no error
+  std::string accuracy() const;
+  /// What of the responses is not to be trusted, in words.
+  std::vector<std::string> warnings() const;
   /// \throws hydro::InputError if there is no such signal
   const ComplexSignal& signal(const std::string& name) const;
   /// As write_rao(). \throws hydro::InputError if the file cannot be written
@@ -157,14 +191,18 @@ struct Plan {
   std::vector<std::string> notes;
 };
 
-/// Time series: dimension `time` in s. \throws hydro::InputError if the file cannot be written
+/// Time series: dimension `time` in s. Where an `error` is known, signals have the attributes `error`, `error_<source>`
+/// and, where they cannot be predicted to the end, `predictable_until_s`.
+/// \throws hydro::InputError if the file cannot be written
 void write_run(const std::filesystem::path& path, const std::vector<double>& time, const std::vector<Signal>& signals,
-               const Provenance& provenance);
+               const Provenance& provenance, const ErrorEstimate& error = {});
 
 /// Response amplitude operators: dimensions `omega` in rad/s and `complex`. `heading` in rad: a scalar where there is
-/// one, the first dimension where there are several. \throws hydro::InputError if the file cannot be written
+/// one, the first dimension where there are several. Errors as write_run() has them.
+/// \throws hydro::InputError if the file cannot be written
 void write_rao(const std::filesystem::path& path, const std::vector<double>& omega, const std::vector<double>& heading,
-               const std::vector<ComplexSignal>& signals, const Provenance& provenance);
+               const std::vector<ComplexSignal>& signals, const Provenance& provenance,
+               const ErrorEstimate& error = {});
 
 /// Dimensions `mode` (counted from 1), `motion` and `complex`. \throws hydro::InputError if the file cannot be written
 void write_modes(const std::filesystem::path& path, const Modes& modes, const Provenance& provenance);

@@ -1,0 +1,125 @@
+#include "answers/companions.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "answers/simulate.hpp"
+#include "compile/integrator.hpp"
+#include "compile/restart.hpp"
+#include "compile/step.hpp"
+
+namespace froude {
+namespace {
+
+/// Steps `factor` times as long: as many fewer a sample as may be, and then samples that are farther apart. Where that
+/// would leave hardly any, the steps of a sample are as many as come nearest.
+void lengthen(std::size_t factor, std::size_t& per_sample, std::size_t& stride, scene::AskRun& run) {
+  constexpr std::size_t few = 8;
+  const auto samples = static_cast<std::size_t>(std::llround(run.duration / run.every));
+  const std::size_t common = std::gcd(per_sample, factor);
+  if (samples < few * factor / common) {
+    per_sample = std::max<std::size_t>(1, (per_sample + factor / 2) / factor);
+    return;
+  }
+  per_sample /= common;
+  stride = factor / common;
+  run.every *= static_cast<double>(stride);
+  run.duration = static_cast<double>(samples / stride) * run.every;
+}
+
+/// A start that lies beside that of the model, in directions that any run of this scene takes alike.
+void disturb(compile::TimeModel& model) {
+  constexpr double by = 1e-9;  // m, rad, m/s, rad/s: far above rounding, far below what anybody asks for
+  const compile::StateChart chart(model, compile::start_of(model));
+  std::mt19937 random(1);
+  Eigen::VectorXd coordinates(chart.coordinates());
+  for (double& c : coordinates) c = (random() & 1U) != 0U ? by : -by;
+  compile::start_from(chart.at(model, coordinates), model);
+}
+
+}  // namespace
+
+Companions::Companions(const scene::Scene& scene, const compile::Prepared& prepared,
+                       const std::function<void(double)>& progress)
+    : scene_(scene), prepared_(prepared), progress_(progress) {
+  const scene::Solve& solve = scene.solve;
+  by_tolerance_ = solve.tolerance || compile::has_own_tolerance(solve.integrator);
+  given_ = by_tolerance_ ? solve.tolerance.has_value() : solve.step.has_value();
+  first_ = by_tolerance_ ? solve.tolerance.value_or(compile::tolerance_of_pair)
+                         : compile::choose_step(scene, prepared).value;
+}
+
+double Companions::largest_ratio() const {
+  if (by_tolerance_) return 10;
+  const bool first_order = scene_.solve.integrator.ends_with("implicit_euler");
+  return first_order ? 2 : 4;
+}
+
+std::string Companions::how() const {
+  return by_tolerance_ ? "runs at 10 and 100 times the tolerance" : "runs at 2 and 4 times the step";
+}
+
+scene::Scene Companions::scene_of(int level, std::size_t& stride) const {
+  scene::Scene out = scene_;
+  stride = 1;
+  if (by_tolerance_) {
+    out.solve.tolerance = first_ * std::pow(10, level);
+    return out;
+  }
+  auto per_sample = static_cast<std::size_t>(std::llround(scene_.run->every / first_));
+  if (level < 0)
+    per_sample <<= -level;
+  else
+    lengthen(std::size_t{1} << level, per_sample, stride, *out.run);
+  out.solve.step = scene::Located<double>{out.run->every / static_cast<double>(per_sample), scene_.run->place};
+  return out;
+}
+
+Companions::Made Companions::made(int level) const {
+  Made out;
+  const scene::Scene scene = scene_of(level, out.stride);
+  const auto begin = std::chrono::steady_clock::now();
+  const compile::TimeModel model = compile::time_model(scene, prepared_);
+  const double preparation = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  out.run = run_model(scene, model, progress_);
+  out.run.preparation_s = preparation;
+  return out;
+}
+
+const Run& Companions::run(int level) { return *beside(level).run; }
+
+Beside Companions::beside(int level) {
+  auto at = runs_.find(level);
+  if (at == runs_.end()) at = runs_.emplace(level, made(level)).first;
+  return {&at->second.run, at->second.stride};
+}
+
+const Run& Companions::neighbour() {
+  if (!neighbour_) {
+    std::size_t stride = 1;
+    const scene::Scene scene = scene_of(0, stride);
+    compile::TimeModel model = compile::time_model(scene, prepared_);
+    disturb(model);
+    neighbour_ = run_model(scene, model, progress_);
+  }
+  return *neighbour_;
+}
+
+std::vector<const Run*> Companions::completed() const {
+  std::vector<const Run*> out;
+  for (const auto& [level, made] : runs_)
+    if (made.run.stopped.empty()) out.push_back(&made.run);
+  if (neighbour_ && neighbour_->stopped.empty()) out.push_back(&*neighbour_);
+  return out;
+}
+
+Run Companions::take(int level) {
+  Run out = std::move(runs_.at(level).run);
+  runs_.erase(level);
+  return out;
+}
+
+}  // namespace froude

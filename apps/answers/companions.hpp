@@ -1,0 +1,63 @@
+#pragma once
+/// \file  Runs beside a run: the same scene with one approximation varied, to see what it does to the signals. (E1).
+///        Private to apps.
+#include <functional>
+#include <map>
+
+#include "answers/convergence.hpp"
+#include "compile/compile.hpp"
+#include "scene/scene.hpp"
+
+namespace froude {
+
+/// Runs of one scene with other steps, or other tolerances where the integrator cuts its steps by one. Level 0 is what
+/// the scene gives or the program chooses; each level above has twice the step or ten times the tolerance, each level
+/// below half of it, or a tenth.
+class Companions {
+ public:
+  /// Both are referred to and must live as long. `progress`: told the share done of each run. The step of level 0 is
+  /// chosen here. \throws hydro::InputError as compile::choose_step()
+  Companions(const scene::Scene& scene, const compile::Prepared& prepared, const std::function<void(double)>& progress);
+
+  /// True if a tolerance is varied, not a step.
+  bool by_tolerance() const { return by_tolerance_; }
+  /// True if the scene gives what is varied.
+  bool given() const { return given_; }
+  /// By which errors fall from one level to the next at most: that of the method's order.
+  double largest_ratio() const;
+  /// "runs at 2 and 4 times the step"
+  std::string how() const;
+
+  /// The run of a level, made once. \throws hydro::InputError
+  const Run& run(int level);
+  /// The same, of which `fine` is another: how many of its samples lie from one of `level` to the next.
+  Beside beside(int level);
+  /// One that is made already.
+  const Run& at(int level) const { return runs_.at(level).run; }
+  /// True if that run came to its end.
+  bool completes(int level) { return run(level).stopped.empty(); }
+  /// Level 0 with its start moved by a nanometre, a nanoradian, and as much in a second, this way and that.
+  const Run& neighbour();
+  /// All that are made and came to their end.
+  std::vector<const Run*> completed() const;
+  /// Hands a run over; it is made anew if it is asked for again.
+  Run take(int level);
+
+ private:
+  struct Made {
+    Run run;
+    std::size_t stride;
+  };
+  Made made(int level) const;
+  scene::Scene scene_of(int level, std::size_t& stride) const;
+
+  const scene::Scene& scene_;
+  const compile::Prepared& prepared_;
+  const std::function<void(double)>& progress_;
+  bool by_tolerance_, given_;
+  double first_;  // s, of level 0; or the tolerance
+  std::map<int, Made> runs_;
+  std::optional<Run> neighbour_;
+};
+
+}  // namespace froude

@@ -1,0 +1,198 @@
+#include "answers/estimate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "answers/companions.hpp"
+#include "hydro/base/error.hpp"
+
+namespace froude {
+namespace {
+
+/// An error is not judged by its own error.
+bool is_judged(const Signal& signal) { return signal.name != "energy.residual"; }
+
+/// Weight of all bodies, N.
+double weight_of(const compile::Prepared& prepared) {
+  double out = 0;
+  for (const auto& body : prepared.bodies) out += body.mass() * prepared.water.gravity;
+  return out;
+}
+
+/// What the step does to one signal.
+struct Judged {
+  double error;  // over the signal's rms
+  double ratio;  // by which errors fall from one level to the next; 0 where it was not seen
+  double until;  // s; until when the signal can be predicted
+};
+
+/// Looks for the level whose error is small enough.
+class Refinement {
+ public:
+  Refinement(const scene::Scene& scene, const compile::Prepared& prepared, Companions& companions)
+      : scene_(scene), companions_(companions), weight_(weight_of(prepared)) {}
+
+  Run settled() {
+    int level = first_level();
+    for (int finer = level;; level = finer) {
+      if (!companions_.completes(level)) return without_estimate(level, "the run has stopped early");
+      if (!judge(level)) return without_estimate(level, "runs with other steps do not come to their end");
+      finer = finer_level(level);
+      if (finer == level) return told(level);
+    }
+  }
+
+ private:
+  static constexpr int finest = -6;  // a 64th of what was chosen first, at a hundred times its cost
+
+  bool may_refine() const { return !companions_.given() && !scene_.solve.accept_error; }
+  double largest_ratio() const { return companions_.largest_ratio(); }
+
+  /// Where errors of longer steps say that the first level will not do, a finer one at once. They hardly tell of much
+  /// shorter steps, so what they foresee is not followed far.
+  int first_level() {
+    constexpr double farthest = 2;
+    if (!may_refine() || !companions_.completes(2) || !companions_.completes(1)) return 0;
+    const auto scale = scales(companions_.run(1), weight_);
+    double worst = 0;  // at level 0
+    for (std::size_t i = 0; i < scale.size(); ++i)
+      if (is_judged(companions_.run(1).signals[i]))
+        worst = std::max(worst, difference(companions_.beside(1), companions_.beside(2), i) / scale[i] /
+                                    (largest_ratio() - 1) / largest_ratio());
+    const double needed = std::ceil(std::log(worst / scene_.accuracy) / std::log(largest_ratio()));
+    return -static_cast<int>(std::clamp(needed, 0.0, farthest));
+  }
+
+  /// Judges all signals of a level. \returns false where no other level can be compared
+  bool judge(int level) {
+    judged_.clear();
+    const bool longer = companions_.completes(level + 1);
+    if (!longer && !companions_.completes(level - 1)) return false;
+    const Run& run = companions_.run(level);
+    scale_ = scales(run, weight_);
+    for (std::size_t i = 0; i < run.signals.size(); ++i) {
+      const double end = run.time.back();
+      if (!is_judged(run.signals[i]))
+        judged_.push_back({0, largest_ratio(), end});
+      else
+        judged_.push_back(longer ? by_longer(level, i, end) : by_shorter(level, i, end));
+    }
+    return true;
+  }
+  Judged by_longer(int level, std::size_t signal, double end) {
+    const Beside fine = companions_.beside(level), coarse = companions_.beside(level + 1);
+    std::optional<Beside> coarsest;
+    if (companions_.completes(level + 2)) coarsest = companions_.beside(level + 2);
+    const auto c = convergence(fine, coarse, coarsest, largest_ratio(), signal);
+    const Judged out{c.error / scale_[signal], c.ratio, end};
+    if (out.error <= scene_.accuracy || c.converges() || !parts_neighbours(signal)) return out;
+    return while_predictable(fine, coarse, signal, out);
+  }
+  /// Where longer steps do not come to the end of the run.
+  Judged by_shorter(int level, std::size_t signal, double end) {
+    const Beside fine = companions_.beside(level - 1), coarse = companions_.beside(level);
+    const double error =
+        difference(fine, coarse, signal) + convergence(fine, coarse, {}, largest_ratio(), signal).error;
+    const Judged out{error / scale_[signal], 0, end};
+    if (out.error <= scene_.accuracy || !parts_neighbours(signal)) return out;
+    return while_predictable(fine, coarse, signal, out);
+  }
+  /// (E2)
+  bool parts_neighbours(std::size_t signal) {
+    constexpr double much = 1e3;    // what parts in proportion to time comes to some 200
+    constexpr double least = 1e-9;  // of the signal: about as far as the start is moved
+    return growth(companions_.run(0), companions_.neighbour(), signal, least * scale_[signal]) > much;
+  }
+  /// Up to where runs with other steps tell the same.
+  Judged while_predictable(const Beside& fine, const Beside& coarse, std::size_t signal, Judged out) const {
+    out.until = agrees_until(fine, coarse, signal, scene_.accuracy * scale_[signal]);
+    out.error = difference(fine, coarse, signal, out.until) / scale_[signal];
+    return out;
+  }
+
+  /// The level to try next; the same where no finer one is needed, or may be tried.
+  int finer_level(int level) const {
+    constexpr int most = 2;       // at once
+    constexpr double room = 0.8;  // of the accuracy asked, which is aimed at
+    int out = level;
+    if (!may_refine()) return out;
+    for (std::size_t i = 0; i < judged_.size(); ++i) {
+      const Judged& j = judged_[i];
+      if (j.error <= scene_.accuracy) continue;
+      const double ratio = std::clamp(j.ratio, std::numbers::sqrt2, largest_ratio());
+      const int needed = static_cast<int>(std::ceil(std::log(j.error / (room * scene_.accuracy)) / std::log(ratio)));
+      if (level - needed < finest) refuse(level, i);
+      out = std::min(out, level - std::clamp(needed, 1, most));
+    }
+    return out;
+  }
+
+  [[noreturn]] void refuse(int level, std::size_t signal) const {
+    const Judged& j = judged_[signal];
+    throw hydro::InputError(
+        fmt::format(
+            "an accuracy of {:.2g} is asked for, but {} is off by an estimated {:.2g} of its rms; the {} stands "
+            "in the way: errors fall by {:.2g} from one run to the next with {}",
+            scene_.accuracy.value, companions_.at(level).signals[signal].name, j.error,
+            companions_.by_tolerance() ? "tolerance" : "step", j.ratio,
+            companions_.by_tolerance() ? "a tenth of it" : "half of it"),
+        scene_.accuracy.place,
+        "ask for less accuracy, leave that signal out of `of`, or take the error by name: [solve] accept_error = true");
+  }
+
+  Run told(int level) {
+    ErrorEstimate error{.asked = scene_.accuracy,
+                        .accepted = scene_.solve.accept_error,
+                        .given = companions_.given() ? companions_.by_tolerance() ? "tolerance" : "step" : "",
+                        .sources = {{companions_.by_tolerance() ? "tolerance" : "step", companions_.how(), {}}},
+                        .unpredictable = {},
+                        .missing = {}};
+    for (std::size_t i = 0; i < judged_.size(); ++i) {
+      error.sources.front().of_signal.push_back(judged_[i].error);
+      if (judged_[i].until < companions_.at(level).time.back()) error.unpredictable.push_back(beyond(level, i));
+    }
+    Run out = companions_.take(level);
+    out.error = std::move(error);
+    return out;
+  }
+  /// Standard deviation from where the signal cannot be predicted, by all runs there are: they have parted.
+  ErrorEstimate::Unpredictable beyond(int level, std::size_t signal) {
+    const double from = judged_[signal].until;
+    std::vector<double> seen;
+    for (const Run* run : companions_.completed()) seen.push_back(deviation(*run, signal, from));
+    double mean = 0, squares = 0;
+    for (const double s : seen) mean += s / static_cast<double>(seen.size());
+    for (const double s : seen) squares += (s - mean) * (s - mean);
+    const auto n = static_cast<double>(seen.size());
+    return {signal, from, deviation(companions_.at(level), signal, from), std::sqrt(squares / (n - 1))};
+  }
+  Run without_estimate(int level, const char* why) {
+    Run out = companions_.take(level);
+    out.error = {.asked = scene_.accuracy,
+                 .accepted = scene_.solve.accept_error,
+                 .given = {},
+                 .sources = {},
+                 .unpredictable = {},
+                 .missing = why};
+    return out;
+  }
+
+  const scene::Scene& scene_;
+  Companions& companions_;
+  double weight_;  // N
+  std::vector<double> scale_;
+  std::vector<Judged> judged_;
+};
+
+}  // namespace
+
+Run run_to_accuracy(const scene::Scene& scene, const compile::Prepared& prepared,
+                    const std::function<void(double)>& progress) {
+  Companions companions(scene, prepared, progress);
+  return Refinement(scene, prepared, companions).settled();
+}
+
+}  // namespace froude

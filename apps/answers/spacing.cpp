@@ -1,0 +1,169 @@
+#include "answers/spacing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "hydro/base/error.hpp"
+
+namespace froude {
+namespace {
+
+using hydro::potential::Coefficients;
+
+/// Every n-th frequency, and the last.
+Coefficients every(std::size_t n, const Coefficients& c) {
+  std::vector<Eigen::Index> kept;
+  for (std::size_t k = 0; k < c.omega.size(); ++k)
+    if (k % n == 0 || k + 1 == c.omega.size()) kept.push_back(static_cast<Eigen::Index>(k));
+  Coefficients out = c;
+  out.omega.clear();
+  out.A.clear();
+  out.B.clear();
+  for (const Eigen::Index k : kept) {
+    const auto at = static_cast<std::size_t>(k);
+    out.omega.push_back(c.omega[at]);
+    out.A.push_back(c.A[at]);
+    out.B.push_back(c.B[at]);
+  }
+  for (auto& X : out.X) X = X(Eigen::all, kept).eval();
+  return out;
+}
+
+compile::Prepared thinned(std::size_t n, const scene::Scene& scene, const compile::Prepared& prepared) {
+  compile::Prepared out = prepared;
+  for (auto& group : out.groups) {
+    std::vector<Eigen::Vector3d> origins;
+    for (const int b : group.bodies) origins.push_back(scene.bodies[static_cast<std::size_t>(b)].position);
+    group.table = hydro::potential::FrequencyTable(every(n, group.table.coefficients()), std::move(origins));
+  }
+  return out;
+}
+
+/// True if the coefficients of some group are interpolated there.
+bool is_between(const compile::Prepared& prepared, double omega) {
+  return std::any_of(prepared.groups.begin(), prepared.groups.end(), [&](const auto& group) {
+    const auto& all = group.table.coefficients().omega;
+    return std::none_of(all.begin(), all.end(), [&](double w) { return std::abs(w - omega) <= 1e-9 * omega; });
+  });
+}
+
+std::vector<double> peaks(const std::vector<ComplexSignal>& signals) {
+  constexpr double share_of_largest = 1e-3;
+  std::vector<double> out;
+  std::map<std::string, double> largest;
+  for (const auto& s : signals) {
+    double peak = 0;
+    for (const auto& v : s.values) peak = std::max(peak, std::abs(v));
+    out.push_back(peak);
+    largest[s.units] = std::max(largest[s.units], peak);
+  }
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = std::max(out[i], share_of_largest * largest[signals[i].units]);
+  return out;
+}
+
+/// The largest error of a signal, of its peak, and where.
+struct Worst {
+  double error = 0;
+  std::size_t at = 0;
+};
+
+/// (E3): the error of the whole by what half and a quarter of the frequencies change, in any unit.
+double extrapolated(double gap, double before) {
+  constexpr double order_of_cubic = 16, least = 2;
+  return gap > 0 ? gap / (std::clamp(before / gap, least, order_of_cubic) - 1) : 0;
+}
+
+Worst worst(const ComplexSignal& whole, const ComplexSignal& half, const ComplexSignal& quarter, double peak,
+            const std::vector<bool>& counts) {
+  Worst gap, before;
+  for (std::size_t k = 0; k < whole.values.size(); ++k) {
+    if (!counts[k % counts.size()] || peak == 0) continue;
+    if (const double d = std::abs(whole.values[k] - half.values[k]) / peak; d > gap.error) gap = {d, k};
+    if (const double d = std::abs(half.values[k] - quarter.values[k]) / peak; d > before.error) before = {d, k};
+  }
+  return {extrapolated(gap.error, before.error), gap.at};
+}
+
+/// \throws InputError unless the error is within the accuracy asked, or accepted. `of`: "peak, at 1 rad/s"
+void require(const scene::Scene& scene, const std::string& signal, double error, const std::string& of) {
+  if (error <= scene.accuracy || scene.solve.accept_error) return;
+  throw hydro::InputError(
+      fmt::format("an accuracy of {:.2g} is asked for, but {} is off by an estimated {:.2g} of its {}; the spacing of "
+                  "the frequencies of the coefficients stands in the way",
+                  scene.accuracy.value, signal, error, of),
+      scene.accuracy.place,
+      "compute them at more frequencies there, leave that signal out of `of`, ask for less accuracy, or take the error "
+      "by name: [solve] accept_error = true");
+}
+
+ErrorEstimate nothing_yet(const scene::Scene& scene) {
+  return {.asked = scene.accuracy,
+          .accepted = scene.solve.accept_error,
+          .given = {},
+          .sources = {},
+          .unpredictable = {},
+          .missing = {}};
+}
+
+/// Why the coefficients cannot be thinned twice; empty if they can.
+std::string too_few(const compile::Prepared& prepared) {
+  constexpr std::size_t enough = 9;  // three are left of them where every fourth is taken
+  for (const auto& group : prepared.groups)
+    if (const auto& c = group.table.coefficients(); c.omega.size() < enough)
+      return fmt::format("{} has too few frequencies", c.source);
+  return "";
+}
+
+ErrorEstimate::Source spacing_source() {
+  return {"coefficients", "answers from every second and every fourth of their frequencies", {}};
+}
+
+}  // namespace
+
+ErrorEstimate error_of_spacing(const scene::Scene& scene, const compile::Prepared& prepared,
+                               const std::vector<double>& omega, const std::vector<ComplexSignal>& whole,
+                               const LinearAnswer& answer) {
+  ErrorEstimate out = nothing_yet(scene);
+  std::vector<bool> counts;
+  for (const double w : omega) counts.push_back(is_between(prepared, w));
+  if (std::none_of(counts.begin(), counts.end(), [](bool c) { return c; })) return out;
+  if (out.missing = too_few(prepared); !out.missing.empty()) return out;
+  const auto half = answer(thinned(2, scene, prepared)), quarter = answer(thinned(4, scene, prepared));
+  const auto peak = peaks(whole);
+  out.sources.push_back(spacing_source());
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    const Worst found = worst(whole[i], half[i], quarter[i], peak[i], counts);
+    require(scene, whole[i].name, found.error, fmt::format("peak, at {:.4g} rad/s", omega[found.at % omega.size()]));
+    out.sources.front().of_signal.push_back(found.error);
+  }
+  return out;
+}
+
+ErrorEstimate error_of_spacing(const scene::Scene& scene, const compile::Prepared& prepared,
+                               const std::vector<compile::Signal>& signals, const Eigen::MatrixXcd& whole,
+                               const std::function<Eigen::MatrixXcd(const compile::Prepared&)>& answer) {
+  ErrorEstimate out = nothing_yet(scene);
+  if (prepared.groups.empty()) return out;
+  if (out.missing = too_few(prepared); !out.missing.empty()) return out;
+  const Eigen::MatrixXcd half = answer(thinned(2, scene, prepared)), quarter = answer(thinned(4, scene, prepared));
+  const Eigen::VectorXd size = whole.rowwise().norm(), gap = (whole - half).rowwise().norm(),
+                        before = (half - quarter).rowwise().norm();
+  out.sources.push_back(spacing_source());
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    constexpr double share_of_largest = 1e-3;
+    const auto row = static_cast<Eigen::Index>(i);
+    double largest = 0;
+    for (std::size_t j = 0; j < signals.size(); ++j)
+      if (signals[j].unit == signals[i].unit) largest = std::max(largest, size[static_cast<Eigen::Index>(j)]);
+    const double scale = std::max(size[row], share_of_largest * largest);
+    const double error = scale > 0 ? extrapolated(gap[row], before[row]) / scale : 0;
+    require(scene, signals[i].name, error, "rms");
+    out.sources.front().of_signal.push_back(error);
+  }
+  return out;
+}
+
+}  // namespace froude

@@ -1,0 +1,31 @@
+#pragma once
+/// \file  What the spacing of the coefficients' frequencies does to linear answers: (E3). Private to apps.
+#include <functional>
+#include <vector>
+
+#include "compile/compile.hpp"
+#include "compile/signal_list.hpp"
+#include "froude/result.hpp"
+#include "scene/scene.hpp"
+
+namespace froude {
+
+/// A linear answer from these coefficients: signals per metre of wave amplitude.
+using LinearAnswer = std::function<std::vector<ComplexSignal>(const compile::Prepared&)>;
+
+/// The error of each value over the largest of its signal, and of signals of less than a thousandth of the largest of
+/// their unit over that thousandth, by answers from every second and every fourth frequency. Values at frequencies of
+/// the data have none. `whole` is the answer from all of them, at `omega`, rad/s, heading by heading. Nothing without
+/// coefficients; ErrorEstimate::missing where they have too few frequencies.
+/// \throws hydro::InputError where it is above the accuracy that the scene asks for and does not accept
+ErrorEstimate error_of_spacing(const scene::Scene& scene, const compile::Prepared& prepared,
+                               const std::vector<double>& omega, const std::vector<ComplexSignal>& whole,
+                               const LinearAnswer& answer);
+
+/// The same of a sea's answer: amplitudes of all signals, one row a signal, one column a component. Errors are rms over
+/// the components, over rms of the signal.
+ErrorEstimate error_of_spacing(const scene::Scene& scene, const compile::Prepared& prepared,
+                               const std::vector<compile::Signal>& signals, const Eigen::MatrixXcd& whole,
+                               const std::function<Eigen::MatrixXcd(const compile::Prepared&)>& answer);
+
+}  // namespace froude

@@ -1,0 +1,168 @@
+// Runs tell how far they are off, refine their step until that is within what was asked, and are refused where it
+// cannot.
+#include "answers/estimate.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "answers/simulate.hpp"
+#include "apps/compile/scenes.hpp"
+#include "hydro/base/error.hpp"
+
+namespace estimate_test {
+namespace {
+
+using namespace froude;
+using froude_test::parse;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::ThrowsMessage;
+
+/// A sledge of 100 kg on a spring of 400 N/m, let go 1 m off: x = cos 2t, with 20 swings in 62.8 s.
+std::string sledge(const std::string& ask, const std::string& more = "") {
+  return "schema = 1\n[water]\ndensity = \"1000 kg/m^3\"\ndepth = \"14 m\"\n"
+         "[[body]]\nname = \"sledge\"\nmass = \"100 kg\"\ncentre_of_gravity = \"(0, 0, 0) m\"\n"
+         "free = [\"surge\"]\ninitial = { surge = \"1 m\" }\n"
+         "[[mooring]]\non = \"sledge\"\nkind = \"linear\"\nstiffness = { surge = \"400 N/m\" }\n"
+         "[ask]\n" +
+         ask + "run = { duration = \"62.8 s\", every = \"0.1 s\", of = [\"sledge.surge\"] }\n" + more;
+}
+
+double true_error(const froude::Run& run) {
+  double off = 0, all = 0;
+  for (std::size_t i = 0; i < run.time.size(); ++i) {
+    const double exact = std::cos(2 * run.time[i]);
+    off += std::pow(run.signals[0].values[i] - exact, 2);
+    all += exact * exact;
+  }
+  return std::sqrt(off / all);
+}
+
+TEST(Estimate, TellsTheErrorOfAStepThatTheSceneGives) {
+  // The phase is off by (omega h)^2/12 of omega t: at 20 swings, h = 0.02 s, 0.017 rad; rms over the run 0.0097.
+  // Generalised-alpha with rho_infinity = 1 is of order 2 there, and the extrapolation is off by the next order, (omega
+  // h)^2 of itself, and by how phases of 4h saturate: 10 % are plenty.
+  for (const double step : {0.02, 0.01, 0.005}) {
+    const auto run =
+        simulate(parse(sledge("", "[solve]\nstep = \"" + std::to_string(step) +
+                                      " s\"\nintegrator = { name = \"generalized_alpha\", rho_infinity = 1 }\n")));
+    ASSERT_EQ(run.error.sources.size(), 1);
+    EXPECT_EQ(run.step, step);
+    EXPECT_NEAR(run.error.total(0) / true_error(run), 1, 0.1) << step;
+    const double phase = std::pow(2 * step, 2) / 12 * 2 * run.time.back();
+    EXPECT_NEAR(true_error(run), phase / std::numbers::sqrt3, 0.1 * phase);
+  }
+}
+
+TEST(Estimate, RefinesTheStepUntilTheErrorIsWithinWhatIsAsked) {
+  for (const double asked : {1e-1, 1e-2, 1e-3, 1e-4}) {
+    const auto run = simulate(parse(sledge("accuracy = " + std::to_string(asked) + "\n")));
+    EXPECT_LE(true_error(run), asked);
+    EXPECT_LE(run.error.total(0), asked);
+    EXPECT_NEAR(run.error.total(0) / true_error(run), 1, 0.3) << asked;  // phases of long steps saturate
+    EXPECT_THAT(run.warnings(), IsEmpty());
+    EXPECT_THAT(run.accuracy(), HasSubstr("(sledge.surge), by the step"));
+  }
+}
+
+TEST(Estimate, WarnsWhereAGivenStepMissesTheAccuracy) {
+  const auto run = simulate(parse(sledge("accuracy = 1e-3\n", "[solve]\nstep = \"0.05 s\"\n")));
+  EXPECT_GT(true_error(run), 1e-3);
+  EXPECT_EQ(run.error.given, "step");
+  EXPECT_THAT(run.warnings(), testing::ElementsAre(AllOf(HasSubstr("sledge.surge is off by an estimated"),
+                                                         HasSubstr("with the step that the scene gives"))));
+}
+
+TEST(Estimate, AnIntegratorWithAToleranceIsJudgedByIt) {
+  const auto run =
+      simulate(parse(sledge("", "[solve]\nintegrator = { name = \"explicit_pair\", tolerance = 1e-4 }\n")));
+  EXPECT_EQ(run.error.given, "tolerance");
+  // Errors of the pair do not fall quite as its tolerance.
+  EXPECT_NEAR(std::log10(run.error.total(0) / true_error(run)), 0, std::log10(3.0));
+}
+
+TEST(Estimate, WhatCannotBeMetIsRefusedOrAcceptedByName) {
+  // Errors of 1e-9 would take 1e4 times the steps of 1e-1.
+  const std::string asked = "accuracy = 1e-9\n";
+  EXPECT_THAT([&] { simulate(parse(sledge(asked))); },
+              ThrowsMessage<hydro::InputError>(
+                  AllOf(HasSubstr("accuracy of 1e-09"), HasSubstr("sledge.surge is off by an estimated"),
+                        HasSubstr("the step stands in the way"), HasSubstr("accept_error = true"))));
+  const auto run = simulate(parse(sledge(asked, "[solve]\naccept_error = true\n")));
+  EXPECT_TRUE(run.error.accepted);
+  EXPECT_GT(run.error.total(0), 1e-9);
+  EXPECT_THAT(run.warnings(), testing::ElementsAre(HasSubstr("which the scene accepts")));
+}
+
+TEST(Estimate, RefusesAnAccuracyBelowRounding) {
+  EXPECT_THAT([] { parse(sledge("accuracy = 1e-10\n")); },
+              ThrowsMessage<hydro::InputError>(HasSubstr("double precision")));
+}
+
+/// Two rods of 1 m and 1 kg, one hinged below the other, let go at `angle` from hanging.
+std::string double_pendulum(const std::string& angle) {
+  return "schema = 1\n[water]\ndensity = \"1000 kg/m^3\"\ndepth = \"14 m\"\n"
+         "[[body]]\nname = \"upper\"\nposition = \"(0, 0, -0.5) m\"\nmass = \"1 kg\"\ncentre_of_gravity = \"(0, 0, 0) "
+         "m\"\nradii_of_gyration = \"(0.3, 0.3, 0.3) m\"\nfree = [\"surge\", \"heave\", \"pitch\"]\nweight = true\n"
+         "[[body]]\nname = \"lower\"\nposition = \"(0, 0, -1.5) m\"\nmass = \"1 kg\"\ncentre_of_gravity = \"(0, 0, 0) "
+         "m\"\nradii_of_gyration = \"(0.3, 0.3, 0.3) m\"\nfree = [\"surge\", \"heave\", \"pitch\"]\nweight = true\n"
+         "initial_velocity = { pitch = \"" +
+         angle +
+         " rad/s\" }\n"
+         "[[joint]]\nname = \"top\"\nkind = \"hinge\"\nbetween = [\"ground\", \"upper\"]\nat = \"(0, 0, 0) m\"\n"
+         "axis = \"y\"\n[[joint]]\nname = \"knee\"\nkind = \"hinge\"\nbetween = [\"upper\", \"lower\"]\n"
+         "at = \"(0, 0, -1) m\"\naxis = \"y\"\n"
+         "[ask]\nrun = { duration = \"40 s\", every = \"0.05 s\", of = [\"top.angle\", \"energy.residual\"] }\n";
+}
+
+TEST(Estimate, SaysUntilWhenAChaoticMotionCanBePredicted) {
+  const auto run = simulate(parse(double_pendulum("14")));
+  ASSERT_THAT(run.error.unpredictable, testing::SizeIs(1));
+  const auto& lost = run.error.unpredictable[0];
+  EXPECT_GT(lost.until, 1);
+  EXPECT_LT(lost.until, 35);
+  EXPECT_THAT(run.warnings(), testing::Contains(HasSubstr("top.angle can be predicted until")));
+  // Up to there a run with other errors tells the same: another integrator with an eighth of the step.
+  auto scene = parse(double_pendulum("14"));
+  scene.solve.step = scene::Located<double>{scene.run->every / 160, {}};
+  scene.solve.integrator = "energy_momentum";
+  scene.solve.accept_error = true;
+  const auto other = simulate(scene);
+  double off = 0, all = 0, beyond = 0;
+  for (std::size_t i = 0; i < run.time.size(); ++i) {
+    const double d = run.signals[0].values[i] - other.signals[0].values[i];
+    (run.time[i] <= lost.until ? off : beyond) += d * d;
+    all += run.signals[0].values[i] * run.signals[0].values[i];
+  }
+  const auto n = static_cast<double>(run.time.size());
+  EXPECT_LT(std::sqrt(off / (lost.until / 40 * n)), 2 * run.error.asked * std::sqrt(all / n));
+  EXPECT_GT(std::sqrt(beyond / all), 0.1);
+}
+
+TEST(Estimate, ARegularMotionOfTheSamePendulumIsPredictedToTheEnd) {
+  const auto run = simulate(parse(double_pendulum("0.5")));
+  EXPECT_THAT(run.error.unpredictable, IsEmpty());
+  EXPECT_THAT(run.warnings(), IsEmpty());
+  EXPECT_EQ(run.error.total(1), 0);  // energy.residual is an error itself
+}
+
+TEST(Estimate, ControllersOfTheCallerAreAskedOnce) {
+  int asked = 0;
+  const auto scene =
+      parse(sledge("",
+                   "[[connector]]\nname = \"spring\"\nkind = \"axial\"\nbetween = [\"sledge\", \"ground\"]\n"
+                   "ends = [\"(0, 0, 0) m\", \"(5, 0, 0) m\"]\nstiffness = \"10 N/m\"\nrest_length = \"as placed\"\n"));
+  const auto run = simulate(scene, {}, {{"spring", [&](const Sample&) {
+                                           ++asked;
+                                           return std::optional<double>();
+                                         }}});
+  EXPECT_EQ(asked, static_cast<int>(run.steps));
+  EXPECT_THAT(run.accuracy(), HasSubstr("not estimated: controllers"));
+}
+
+}  // namespace
+}  // namespace estimate_test

@@ -1,0 +1,87 @@
+// What runs with longer and longer steps tell of the error of the first.
+#include "answers/convergence.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace convergence_test {
+namespace {
+
+using namespace froude;
+
+/// cos t over 20 s, off by `error` times a shape that has the rms of the cosine.
+froude::Run run_with(double error, double every = 0.1) {
+  froude::Run out;
+  out.signals = {{"x", "m", "", {}}};
+  for (int i = 0; every * i <= 20 + 1e-9; ++i) {
+    const double t = every * i;
+    out.time.push_back(t);
+    out.signals[0].values.push_back(std::cos(t) + error * std::sin(t));
+  }
+  return out;
+}
+
+TEST(Convergence, ExtrapolatesByTheOrderSeen) {
+  for (const double order : {1.0, 1.5, 2.0}) {
+    const auto at = [&](double step) { return run_with(std::pow(step, order)); };
+    const froude::Run fine = at(0.01), twice = at(0.02), fourfold = at(0.04);
+    const auto c = convergence({&fine, 1}, {&twice, 1}, Beside{&fourfold, 1}, 4, 0);
+    EXPECT_NEAR(c.ratio, std::pow(2, order), 1e-6);  // rounding of differences of 1e-4
+    // rms of sin over these 20 s, which are no whole periods: 0.69.
+    const froude::Run exact = run_with(0);
+    EXPECT_NEAR(c.error, difference({&fine, 1}, {&exact, 1}, 0), 1e-6 * c.error);
+  }
+}
+
+TEST(Convergence, TakesNoMoreThanTheMethodsOrderAndNoLessThanAHalf) {
+  const froude::Run fine = run_with(0), twice = run_with(1e-3), fourfold = run_with(1e-1), alike = run_with(2.01e-3);
+  const double d = difference({&fine, 1}, {&twice, 1}, 0);
+  EXPECT_DOUBLE_EQ(convergence({&fine, 1}, {&twice, 1}, Beside{&fourfold, 1}, 4, 0).error, d / 3);
+  EXPECT_DOUBLE_EQ(convergence({&fine, 1}, {&twice, 1}, Beside{&alike, 1}, 4, 0).error, d / (std::sqrt(2.0) - 1));
+  EXPECT_DOUBLE_EQ(convergence({&fine, 1}, {&twice, 1}, {}, 4, 0).error, d);
+}
+
+TEST(Convergence, ComparesSamplesThatRunsShare) {
+  const froude::Run fine = run_with(0), sparse = run_with(1e-3, 0.4);
+  EXPECT_NEAR(difference({&fine, 1}, {&sparse, 4}, 0), 1e-3 * std::sqrt(0.5), 0.1e-3);  // few samples of the sine
+  EXPECT_NEAR(difference({&fine, 1}, {&sparse, 4}, 0, 0.1), 0, 1e-12);                  // sin 0
+}
+
+TEST(Convergence, JudgesSmallSignalsAgainstTheLargestOfTheirUnit) {
+  froude::Run run = run_with(0);
+  const double rms = scales(run, 0)[0];
+  for (const auto& [units, share] : {std::pair<const char*, double>{"m", 1e-8}, {"m", 1e-3}, {"N", 1e-12}}) {
+    run.signals.push_back(run.signals[0]);
+    run.signals.back().units = units;
+    for (double& v : run.signals.back().values) v *= share;
+  }
+  const auto out = scales(run, 1e4);
+  EXPECT_DOUBLE_EQ(out[1], 1e-6 * rms);
+  EXPECT_DOUBLE_EQ(out[2], 1e-3 * rms);
+  EXPECT_DOUBLE_EQ(out[3], 1e-9 * 1e4);
+}
+
+TEST(Convergence, SeesUntilWhenRunsAgreeAndHowNeighboursPart) {
+  froude::Run run = run_with(0), chaotic = run, drifting = run;
+  for (std::size_t j = 0; j < run.time.size(); ++j) {
+    chaotic.signals[0].values[j] += 1e-9 * std::exp(run.time[j]);
+    drifting.signals[0].values[j] += 1e-9 * run.time[j];
+  }
+  // 1e-9 e^t passes 1e-3 at 13.8 s, within the block that begins at 13.6 s; its rms there does.
+  EXPECT_NEAR(agrees_until({&run, 1}, {&chaotic, 1}, 0, 1e-3), 13.8, 0.4);
+  EXPECT_DOUBLE_EQ(agrees_until({&run, 1}, {&drifting, 1}, 0, 1e-3), run.time.back());
+  EXPECT_GT(growth(run, chaotic, 0, 1e-12), 1e6);
+  // rms of t over the last third over that of its first three samples: 16.8/0.216.
+  EXPECT_NEAR(growth(run, drifting, 0, 1e-12), 78, 2);
+}
+
+TEST(Convergence, DeviationIsFromATimeOn) {
+  froude::Run run = run_with(0);
+  for (std::size_t j = 0; j < run.time.size(); ++j)
+    run.signals[0].values[j] = run.time[j] < 10 ? 100 : (j % 2 == 0 ? 3 : 5);
+  EXPECT_NEAR(deviation(run, 0, 10), 1, 1e-3);  // an odd number of samples
+}
+
+}  // namespace
+}  // namespace convergence_test
