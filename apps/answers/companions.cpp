@@ -30,6 +30,13 @@ void lengthen(std::size_t factor, std::size_t& per_sample, std::size_t& stride, 
   run.duration = static_cast<double>(samples / stride) * run.every;
 }
 
+/// The loads that are put back have energies of their own: signals that only this run has.
+void keep_signals_of(const Run& other, Run& run) {
+  std::vector<Signal> kept;
+  for (const Signal& s : other.signals) kept.push_back({s.name, s.units, s.long_name, run.signal(s.name)});
+  run.signals = std::move(kept);
+}
+
 /// A start that lies beside that of the model, in directions that any run of this scene takes alike.
 void disturb(compile::TimeModel& model) {
   constexpr double by = 1e-9;  // m, rad, m/s, rad/s: far above rounding, far below what anybody asks for
@@ -42,14 +49,30 @@ void disturb(compile::TimeModel& model) {
 
 }  // namespace
 
-Companions::Companions(const scene::Scene& scene, const compile::Prepared& prepared,
+Companions::Companions(const scene::Scene& scene, compile::Prepared prepared,
                        const std::function<void(double)>& progress)
-    : scene_(scene), prepared_(prepared), progress_(progress) {
+    : scene_(scene), prepared_(std::move(prepared)), progress_(progress) {
   const scene::Solve& solve = scene.solve;
   by_tolerance_ = solve.tolerance || compile::has_own_tolerance(solve.integrator);
   given_ = by_tolerance_ ? solve.tolerance.has_value() : solve.step.has_value();
   first_ = by_tolerance_ ? solve.tolerance.value_or(compile::tolerance_of_pair)
-                         : compile::choose_step(scene, prepared).value;
+                         : compile::choose_step(scene, prepared_).value;
+  hold_memories();
+}
+
+/// Which method is cheapest depends on the step, and what methods differ by is no error of the step.
+void Companions::hold_memories() {
+  using enum scene::Memory::Method;
+  const auto radiates = [](const auto& group) { return group.radiation; };
+  if (std::none_of(prepared_.groups.begin(), prepared_.groups.end(), radiates)) return;
+  std::size_t stride = 1;
+  const compile::TimeModel model = compile::time_model(scene_of(0, stride), prepared_);
+  auto memory = model.memories.begin();
+  for (std::size_t i = 0; i < prepared_.groups.size(); ++i) {
+    if (!prepared_.groups[i].radiation) continue;
+    if (auto& method = prepared_.memory[i].method; method == automatic) method = memory->poles ? poles : partitioned;
+    ++memory;
+  }
 }
 
 double Companions::largest_ratio() const {
@@ -95,6 +118,30 @@ Beside Companions::beside(int level) {
   auto at = runs_.find(level);
   if (at == runs_.end()) at = runs_.emplace(level, made(level)).first;
   return {&at->second.run, at->second.stride};
+}
+
+/// The level is run once more for it: velocities at each step of all levels would take much memory.
+const compile::VelocityRecord& Companions::motion(int level) {
+  auto at = motions_.find(level);
+  if (at != motions_.end()) return at->second;
+  std::size_t stride = 1;
+  const scene::Scene scene = scene_of(level, stride);
+  compile::VelocityRecord& out = motions_[level];
+  run_model(scene, compile::time_model(scene, prepared_), progress_, nullptr, &out);
+  return out;
+}
+
+std::optional<Run> Companions::completed_by(Missing what, int level) {
+  if (prepared_.groups.empty()) return std::nullopt;
+  std::size_t stride = 1;
+  const scene::Scene scene = scene_of(level, stride);
+  const compile::TimeModel model = compile::time_model(scene, prepared_);
+  const auto load = what == Missing::memory ? compile::memory_defect(model, motion(level))
+                                            : compile::data_defect(scene, prepared_, model, motion(level));
+  if (!load) return std::nullopt;
+  Run out = run_model(scene, compile::time_model(scene, prepared_, {*load}), progress_);
+  keep_signals_of(at(level), out);
+  return out;
 }
 
 const Run& Companions::neighbour() {

@@ -6,6 +6,7 @@
 
 #include "answers/convergence.hpp"
 #include "compile/compile.hpp"
+#include "compile/defect.hpp"
 #include "scene/scene.hpp"
 
 namespace froude {
@@ -15,9 +16,9 @@ namespace froude {
 /// below half of it, or a tenth.
 class Companions {
  public:
-  /// Both are referred to and must live as long. `progress`: told the share done of each run. The step of level 0 is
-  /// chosen here. \throws hydro::InputError as compile::choose_step()
-  Companions(const scene::Scene& scene, const compile::Prepared& prepared, const std::function<void(double)>& progress);
+  /// Scene and progress are referred to and must live as long. `progress`: told the share done of each run. The step of
+  /// level 0 is chosen here. \throws hydro::InputError as compile::choose_step()
+  Companions(const scene::Scene& scene, compile::Prepared prepared, const std::function<void(double)>& progress);
 
   /// True if a tolerance is varied, not a step.
   bool by_tolerance() const { return by_tolerance_; }
@@ -36,6 +37,11 @@ class Companions {
   const Run& at(int level) const { return runs_.at(level).run; }
   /// True if that run came to its end.
   bool completes(int level) { return run(level).stopped.empty(); }
+  /// What approximations of the water keep from a run.
+  enum class Missing { memory, coefficients };
+  /// A level that came to its end with the loads put back that it misses, by its own motion; nothing where it misses
+  /// none.
+  std::optional<Run> completed_by(Missing what, int level);
   /// Level 0 with its start moved by a nanometre, a nanoradian, and as much in a second, this way and that.
   const Run& neighbour();
   /// All that are made and came to their end.
@@ -48,15 +54,18 @@ class Companions {
     Run run;
     std::size_t stride;
   };
+  void hold_memories();
   Made made(int level) const;
   scene::Scene scene_of(int level, std::size_t& stride) const;
+  const compile::VelocityRecord& motion(int level);
 
   const scene::Scene& scene_;
-  const compile::Prepared& prepared_;
+  compile::Prepared prepared_;
   const std::function<void(double)>& progress_;
   bool by_tolerance_, given_;
   double first_;  // s, of level 0; or the tolerance
   std::map<int, Made> runs_;
+  std::map<int, compile::VelocityRecord> motions_;
   std::optional<Run> neighbour_;
 };
 

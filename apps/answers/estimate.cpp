@@ -40,6 +40,7 @@ class Refinement {
     for (int finer = level;; level = finer) {
       if (!companions_.completes(level)) return without_estimate(level, "the run has stopped early");
       if (!judge(level)) return without_estimate(level, "runs with other steps do not come to their end");
+      look_at_water(level);
       finer = finer_level(level);
       if (finer == level) return told(level);
     }
@@ -48,7 +49,8 @@ class Refinement {
  private:
   static constexpr int finest = -6;  // a 64th of what was chosen first, at a hundred times its cost
 
-  bool may_refine() const { return !companions_.given() && !scene_.solve.accept_error; }
+  bool may_refuse() const { return !scene_.solve.accept_error; }
+  bool may_refine() const { return !companions_.given() && may_refuse(); }
   double largest_ratio() const { return companions_.largest_ratio(); }
 
   /// Where errors of longer steps say that the first level will not do, a finer one at once. They hardly tell of much
@@ -75,6 +77,7 @@ class Refinement {
     scale_ = scales(run, weight_);
     for (std::size_t i = 0; i < run.signals.size(); ++i) {
       const double end = run.time.back();
+      if (known_until_.size() <= i) known_until_.push_back(end);
       if (!is_judged(run.signals[i]))
         judged_.push_back({0, largest_ratio(), end});
       else
@@ -89,7 +92,7 @@ class Refinement {
     const auto c = convergence(fine, coarse, coarsest, largest_ratio(), signal);
     const Judged out{c.error / scale_[signal], c.ratio, end};
     if (out.error <= scene_.accuracy || c.converges() || !parts_neighbours(signal)) return out;
-    return while_predictable(fine, coarse, signal, out);
+    return while_predictable(fine, coarse, coarsest, signal, out);
   }
   /// Where longer steps do not come to the end of the run.
   Judged by_shorter(int level, std::size_t signal, double end) {
@@ -98,7 +101,7 @@ class Refinement {
         difference(fine, coarse, signal) + convergence(fine, coarse, {}, largest_ratio(), signal).error;
     const Judged out{error / scale_[signal], 0, end};
     if (out.error <= scene_.accuracy || !parts_neighbours(signal)) return out;
-    return while_predictable(fine, coarse, signal, out);
+    return while_predictable(fine, coarse, {}, signal, out);
   }
   /// (E2)
   bool parts_neighbours(std::size_t signal) {
@@ -106,41 +109,101 @@ class Refinement {
     constexpr double least = 1e-9;  // of the signal: about as far as the start is moved
     return growth(companions_.run(0), companions_.neighbour(), signal, least * scale_[signal]) > much;
   }
-  /// Up to where runs with other steps tell the same.
-  Judged while_predictable(const Beside& fine, const Beside& coarse, std::size_t signal, Judged out) const {
-    out.until = agrees_until(fine, coarse, signal, scene_.accuracy * scale_[signal]);
-    out.error = difference(fine, coarse, signal, out.until) / scale_[signal];
+  /// Up to where what runs with other steps differ by leaves the signal within the accuracy asked.
+  Judged while_predictable(const Beside& fine, const Beside& coarse, const std::optional<Beside>& coarsest,
+                           std::size_t signal, Judged out) const {
+    const double allowed = scene_.accuracy * scale_[signal] * (largest_ratio() - 1);
+    out.until = std::min(known_until_[signal], agrees_until(fine, coarse, signal, allowed));
+    const auto c = convergence(fine, coarse, coarsest, largest_ratio(), signal, out.until);
+    return {c.error / scale_[signal], c.ratio, out.until};
+  }
+
+  /// What the memory of radiated waves and the spacing of coefficients do, which hardly depends on the step: seen once,
+  /// at the longest step that there is.
+  void look_at_water(int level) {
+    using enum Companions::Missing;
+    if (looked_ || !companions_.completes(level + 1)) return;
+    looked_ = true;
+    const int at = companions_.completes(level + 2) ? level + 2 : level + 1;
+    constexpr const char* how = "a run with the loads put back that are left out";
+    compare(level, at, "memory", how, companions_.completed_by(memory, at));
+    compare(level, at, "coefficients", how, companions_.completed_by(coefficients, at));
+  }
+  void compare(int level, int at, const char* source, const char* how, const std::optional<Run>& with) {
+    if (!with) return;
+    const Beside without{&companions_.run(at), 1}, put_back{&*with, 1};
+    others_.push_back({source, how, {}});
+    for (std::size_t i = 0; i < judged_.size(); ++i) {
+      Judged& j = judged_[i];
+      if (j.until < companions_.run(level).time.back())
+        j.until = known_until_[i] = parted(without, put_back, i, j.until);
+      others_.back().of_signal.push_back(
+          is_judged(with->signals[i]) ? difference(without, put_back, i, j.until) / scale_[i] : 0);
+    }
+  }
+  /// From when on runs with other water have parted as neighbours do: they are farther apart than what is asked, and
+  /// than the water itself has brought them in the first quarter of the time in which the step predicts the signal.
+  double parted(const Beside& without, const Beside& put_back, std::size_t signal, double until) const {
+    constexpr double more = 4;  // waves that have a ramp make as much of it
+    const double first = difference(without, put_back, signal, until / 4);
+    const double allowed = std::max(scene_.accuracy * scale_[signal], more * first);
+    return std::min(until, agrees_until(without, put_back, signal, allowed));
+  }
+  /// What of the accuracy is left for the step.
+  double left_for_step(std::size_t signal) const {
+    double out = scene_.accuracy;
+    for (const auto& source : others_) out -= source.of_signal[signal];
     return out;
   }
 
   /// The level to try next; the same where no finer one is needed, or may be tried.
   int finer_level(int level) const {
     constexpr int most = 2;       // at once
-    constexpr double room = 0.8;  // of the accuracy asked, which is aimed at
+    constexpr double room = 0.8;  // of what is left for the step, which is aimed at
     int out = level;
-    if (!may_refine()) return out;
+    if (!may_refine() && !may_refuse()) return out;
     for (std::size_t i = 0; i < judged_.size(); ++i) {
       const Judged& j = judged_[i];
-      if (j.error <= scene_.accuracy) continue;
+      const double left = left_for_step(i);
+      if (j.error <= left) continue;
+      if (left <= 0) refuse_water(level, i);
+      if (!may_refine()) continue;
       const double ratio = std::clamp(j.ratio, std::numbers::sqrt2, largest_ratio());
-      const int needed = static_cast<int>(std::ceil(std::log(j.error / (room * scene_.accuracy)) / std::log(ratio)));
-      if (level - needed < finest) refuse(level, i);
+      const int needed = static_cast<int>(std::ceil(std::log(j.error / (room * left)) / std::log(ratio)));
+      if (level - needed < finest) refuse_step(level, i);
       out = std::min(out, level - std::clamp(needed, 1, most));
     }
     return out;
   }
 
-  [[noreturn]] void refuse(int level, std::size_t signal) const {
-    const Judged& j = judged_[signal];
+  [[noreturn]] void refuse(int level, std::size_t signal, double error, const std::string& why,
+                           const std::string& remedy) const {
     throw hydro::InputError(
-        fmt::format(
-            "an accuracy of {:.2g} is asked for, but {} is off by an estimated {:.2g} of its rms; the {} stands "
-            "in the way: errors fall by {:.2g} from one run to the next with {}",
-            scene_.accuracy.value, companions_.at(level).signals[signal].name, j.error,
-            companions_.by_tolerance() ? "tolerance" : "step", j.ratio,
-            companions_.by_tolerance() ? "a tenth of it" : "half of it"),
+        fmt::format("an accuracy of {:.2g} is asked for, but {} is off by an estimated {:.2g} of its rms; {}",
+                    scene_.accuracy.value, companions_.at(level).signals[signal].name, error, why),
         scene_.accuracy.place,
-        "ask for less accuracy, leave that signal out of `of`, or take the error by name: [solve] accept_error = true");
+        remedy +
+            "ask for less accuracy, leave that signal out of `of`, or take the error by name: [solve] accept_error = "
+            "true");
+  }
+  [[noreturn]] void refuse_step(int level, std::size_t signal) const {
+    const Judged& j = judged_[signal];
+    const bool tolerance = companions_.by_tolerance();
+    refuse(level, signal, j.error,
+           fmt::format("the {} stands in the way: errors fall by {:.2g} from one run to the next with {}",
+                       tolerance ? "tolerance" : "step", j.ratio, tolerance ? "a tenth of it" : "half of it"),
+           "");
+  }
+  [[noreturn]] void refuse_water(int level, std::size_t signal) const {
+    const auto& worst = *std::max_element(others_.begin(), others_.end(), [&](const auto& a, const auto& b) {
+      return a.of_signal[signal] < b.of_signal[signal];
+    });
+    if (worst.name == "memory")
+      refuse(level, signal, worst.of_signal[signal], "the memory of radiated waves stands in the way",
+             "give radiation a finer memory_tolerance, ");
+    refuse(level, signal, worst.of_signal[signal],
+           "the spacing of the frequencies of the coefficients stands in the way",
+           "compute them at more frequencies, ");
   }
 
   Run told(int level) {
@@ -154,6 +217,7 @@ class Refinement {
       error.sources.front().of_signal.push_back(judged_[i].error);
       if (judged_[i].until < companions_.at(level).time.back()) error.unpredictable.push_back(beyond(level, i));
     }
+    error.sources.insert(error.sources.end(), others_.begin(), others_.end());
     Run out = companions_.take(level);
     out.error = std::move(error);
     return out;
@@ -185,6 +249,9 @@ class Refinement {
   double weight_;  // N
   std::vector<double> scale_;
   std::vector<Judged> judged_;
+  std::vector<double> known_until_;  // s, one a signal: what the water leaves of it
+  bool looked_ = false;
+  std::vector<ErrorEstimate::Source> others_;
 };
 
 }  // namespace

@@ -40,14 +40,22 @@ class March {
     for (const auto& s : signals) record_.signals.push_back({s.name, s.unit, s.meaning});
   }
 
+  /// The velocities at each step are kept from the start on.
+  void keep_motion(compile::VelocityRecord& motion) {
+    motion_ = &motion;
+    motion = {m_.step, Eigen::MatrixXd::Zero(m_.model.modes(), static_cast<Eigen::Index>(m_.steps) + 1)};
+  }
+
   void run(const std::function<void(double)>& done) {
     if (bodies()) dynamics::start_with_lines(*integrator_, workspace_);
     begin_lines();
     dynamics::EnergyLedger ledger(m_.model, workspace_);
     sample(ledger);
+    if (motion_) motion_->of_modes.col(0) = workspace_.state.velocity;
     try {
       for (std::size_t n = 1; n <= m_.steps; ++n) {
         advance(n, ledger);
+        if (motion_) motion_->of_modes.col(static_cast<Eigen::Index>(n)) = workspace_.state.velocity;
         if (n % m_.steps_per_sample != 0) continue;
         sample(ledger);
         if (done) done(static_cast<double>(n) / static_cast<double>(m_.steps));
@@ -164,6 +172,7 @@ class March {
   dynamics::Workspace workspace_;
   std::unique_ptr<dynamics::Integrator> integrator_;
   double rounding_;  // J
+  compile::VelocityRecord* motion_ = nullptr;
 };
 
 /// What the scene tells, and what it left to be chosen.
@@ -195,13 +204,14 @@ Run run_once(const scene::Scene& scene, const compile::Prepared& prepared, const
 }  // namespace
 
 Run run_model(const scene::Scene& scene, const compile::TimeModel& model, const std::function<void(double)>& done,
-              compile::MovingState* end) {
+              compile::MovingState* end, compile::VelocityRecord* motion) {
   Run record;
   const auto signals = compile::chosen(compile::signal_list(scene, model), scene.run->of, scene.run->of_places);
   record.step = model.step;
   record.notes = model.notes;
   record.provenance = provenance_of_run(scene);
   March march(model, signals, scene.solve, record);
+  if (motion) march.keep_motion(*motion);
   const auto stepping = Clock::now();
   march.run(done);
   record.stepping_s = seconds_since(stepping);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compile/control.hpp"
+#include "compile/defect.hpp"
 #include "compile/restart.hpp"
 #include "froude/result.hpp"
 #include "scene/scene.hpp"
@@ -12,9 +13,10 @@
 namespace froude {
 
 /// Runs a model that is compiled already, from its start and for its steps; the start may be later than 0. `end`, if it
-/// is not null, is told the last state. \throws hydro::InputError at a signal that there is not
+/// is not null, is told the last state; `motion`, if it is not, the velocities at each step.
+/// \throws hydro::InputError at a signal that there is not
 Run run_model(const scene::Scene& scene, const compile::TimeModel& model, const std::function<void(double)>& done = {},
-              compile::MovingState* end = nullptr);
+              compile::MovingState* end = nullptr, compile::VelocityRecord* motion = nullptr);
 
 /// Compiles and runs a scene that asks for a run. `done` is told the share of the steps completed; `controls` rule
 /// connectors.
