@@ -12,8 +12,8 @@
 namespace froude {
 
 /// Runs of one scene with other steps, or other tolerances where the integrator cuts its steps by one. Level 0 is what
-/// the scene gives or the program chooses; each level above has twice the step or ten times the tolerance, each level
-/// below half of it, or a tenth.
+/// the scene gives or the program chooses; each level above has twice the step and ten times the tolerance, each
+/// level below half of it, and a tenth.
 class Companions {
  public:
   /// Scene and progress are referred to and must live as long. `progress`: told the share done of each run. The step of
@@ -63,7 +63,7 @@ class Companions {
   compile::Prepared prepared_;
   const std::function<void(double)>& progress_;
   bool by_tolerance_, given_;
-  double first_;  // s, of level 0; or the tolerance
+  double step_, tolerance_;  // s; of level 0
   std::map<int, Made> runs_;
   std::map<int, compile::VelocityRecord> motions_;
   std::optional<Run> neighbour_;

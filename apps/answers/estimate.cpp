@@ -13,7 +13,9 @@ namespace froude {
 namespace {
 
 /// An error is not judged by its own error.
-bool is_judged(const Signal& signal) { return signal.name != "energy.residual"; }
+bool is_judged(const Signal& signal) {
+  return !signal.name.starts_with("energy.") || !signal.name.ends_with("residual");
+}
 
 /// Weight of all bodies, N.
 double weight_of(const compile::Prepared& prepared) {
@@ -169,7 +171,8 @@ class Refinement {
       if (left <= 0) refuse_water(level, i);
       if (!may_refine()) continue;
       const double ratio = std::clamp(j.ratio, std::numbers::sqrt2, largest_ratio());
-      const int needed = static_cast<int>(std::ceil(std::log(j.error / (room * left)) / std::log(ratio)));
+      const bool unseen = j.ratio == 0;  // longer steps did not come to the end
+      const int needed = unseen ? 1 : static_cast<int>(std::ceil(std::log(j.error / (room * left)) / std::log(ratio)));
       if (level - needed < finest) refuse_step(level, i);
       out = std::min(out, level - std::clamp(needed, 1, most));
     }

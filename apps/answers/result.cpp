@@ -96,16 +96,26 @@ std::string accuracy_of(const ErrorEstimate& error, const std::vector<S>& signal
                      error.unpredictable.empty() ? "" : ", for as long as signals can be predicted");
 }
 
+constexpr std::size_t told_by_name = 4;  // signals; results have each
+
+/// ", m1.heave by 0.02, m2.heave by 0.01, and 12 more"
+std::string listed(const std::vector<std::string>& all) {
+  std::string out;
+  for (std::size_t i = 0; i < std::min(told_by_name, all.size()); ++i) out += ", " + all[i];
+  return all.size() > told_by_name ? fmt::format("{}, and {} more", out, all.size() - told_by_name) : out;
+}
+
 /// Of signals that are off by more than was asked, which the scene takes.
 template <class S>
 std::string warning_of_error(const ErrorEstimate& e, const std::vector<S>& signals, const char* of) {
   if (e.sources.empty() || e.total(e.worst()) <= e.asked) return "";
-  std::string others;
+  std::vector<std::string> others;
   for (std::size_t i = 0; i < signals.size(); ++i)
-    if (i != e.worst() && e.total(i) > e.asked) others += fmt::format(", {} by {:.2g}", signals[i].name, e.total(i));
+    if (i != e.worst() && e.total(i) > e.asked)
+      others.push_back(fmt::format("{} by {:.2g}", signals[i].name, e.total(i)));
   const std::string why = e.accepted ? "which the scene accepts" : "with the " + e.given + " that the scene gives";
   return fmt::format("warning: {} is off by an estimated {:.2g} of its {}, {}{}", signals[e.worst()].name,
-                     e.total(e.worst()), of, why, others);
+                     e.total(e.worst()), of, why, listed(others));
 }
 
 /// Of energy that comes from nowhere, or goes there.
@@ -117,12 +127,20 @@ std::string warning_of_residual(const Run& run) {
       run.relative_residual(), run.worst_residual.time, run.step, run.step / 2);
 }
 
-std::string warning_of(const Run& run, const ErrorEstimate::Unpredictable& lost) {
-  const Signal& s = run.signals[lost.signal];
+/// Of signals that no step can predict.
+std::string warning_of_prediction(const Run& run) {
+  std::vector<ErrorEstimate::Unpredictable> lost = run.error.unpredictable;
+  if (lost.empty()) return "";
+  std::stable_sort(lost.begin(), lost.end(), [](const auto& a, const auto& b) { return a.until < b.until; });
+  std::vector<std::string> others;
+  for (std::size_t i = 1; i < lost.size(); ++i)
+    others.push_back(fmt::format("{} until {:.4g} s", run.signals[lost[i].signal].name, lost[i].until));
+  const auto& first = lost.front();
+  const Signal& s = run.signals[first.signal];
   return fmt::format(
-      "warning: {} can be predicted until {:.4g} s only: what parts neighbouring motions grows; beyond, its statistics "
-      "can be told: standard deviation {:.3g} {}, which differs between runs by {:.2g}",
-      s.name, lost.until, lost.deviation, s.units, lost.scatter);
+      "warning: {} can be predicted until {:.4g} s only, since neighbouring motions part{}; beyond, statistics can be "
+      "told: {} has a standard deviation of {:.3g} {}, which differs between runs by {:.2g}",
+      s.name, first.until, listed(others), s.name, first.deviation, s.units, first.scatter);
 }
 
 }  // namespace
@@ -138,9 +156,9 @@ std::vector<std::string> Responses::warnings() const {
 
 std::vector<std::string> Run::warnings() const {
   std::vector<std::string> out;
-  for (std::string warning : {warning_of_residual(*this), warning_of_error(error, signals, "rms")})
+  for (std::string warning :
+       {warning_of_residual(*this), warning_of_error(error, signals, "rms"), warning_of_prediction(*this)})
     if (!warning.empty()) out.push_back(std::move(warning));
-  for (const auto& lost : error.unpredictable) out.push_back(warning_of(*this, lost));
   return out;
 }
 

@@ -51,14 +51,14 @@ TEST(Convergence, ComparesSamplesThatRunsShare) {
 TEST(Convergence, JudgesSmallSignalsAgainstTheLargestOfTheirUnit) {
   froude::Run run = run_with(0);
   const double rms = scales(run, 0)[0];
-  for (const auto& [units, share] : {std::pair<const char*, double>{"m", 1e-8}, {"m", 1e-3}, {"N", 1e-12}}) {
+  for (const auto& [units, share] : {std::pair<const char*, double>{"m", 1e-8}, {"m", 1e-2}, {"N", 1e-12}}) {
     run.signals.push_back(run.signals[0]);
     run.signals.back().units = units;
     for (double& v : run.signals.back().values) v *= share;
   }
   const auto out = scales(run, 1e4);
-  EXPECT_DOUBLE_EQ(out[1], 1e-6 * rms);
-  EXPECT_DOUBLE_EQ(out[2], 1e-3 * rms);
+  EXPECT_DOUBLE_EQ(out[1], 1e-3 * rms);
+  EXPECT_DOUBLE_EQ(out[2], 1e-2 * rms);
   EXPECT_DOUBLE_EQ(out[3], 1e-9 * 1e4);
 }
 

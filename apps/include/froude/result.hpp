@@ -69,7 +69,7 @@ struct ErrorEstimate {
   struct Source {
     std::string name;               ///< "step", "memory", …
     std::string how;                ///< it was estimated
-    std::vector<double> of_signal;  ///< one a signal; 0 for energy.residual, which is an error itself
+    std::vector<double> of_signal;  ///< one a signal; 0 for energy residuals, which are errors themselves
   };
   /// A signal that no step can predict: what parts neighbours grows until they have nothing in common.
   struct Unpredictable {

@@ -124,6 +124,7 @@ SetValuedLaws::Touching SetValuedLaws::touching_now(Workspace& workspace) const 
 // (D130) The law of contact with accelerations in place of velocities. \returns true if that changes what any does
 bool SetValuedLaws::decide_together(Workspace& workspace) const {
   const Touching all = touching_now(workspace);
+  if (all.element.empty()) return false;  // what was closed parts faster than what counts as touching
   constexpr int enough = 10'000;  // rounds; where more are needed, what gives way at the limit is as near
   VectorXd z;
   if (relax(all.W, all.own, all.laws, z, enough) > 0) return false;

@@ -130,7 +130,7 @@ TEST(MemoryOfARun, IsRefusedWhereItMissesItsToleranceUnlessThatIsAccepted) {
   const Flap flap;
   const auto file = flap.write("flap_strict");
   const auto run = [&](const std::string& radiation) {
-    return simulate(scene::parse(Flap::scene(file, radiation, "0.1 s"), file));
+    return simulate(scene::parse(Flap::scene(file, radiation, "0.1 s", "[solve]\naccept_error = true\n"), file));
   };
   EXPECT_THAT([&] { run("memory = \"0.2 s\""); },
               ThrowsMessage<hydro::InputError>(
@@ -139,6 +139,9 @@ TEST(MemoryOfARun, IsRefusedWhereItMissesItsToleranceUnlessThatIsAccepted) {
               ThrowsMessage<hydro::InputError>(HasSubstr("misses them by")));
   const froude::Run taken = run("memory = \"0.2 s\", accept_error = 2");
   EXPECT_THAT(taken.notes, Contains(AllOf(HasSubstr("differs from the data"), HasSubstr("accept_error = 2"))));
+  // Of the motion that is most of it: what 0.2 s of memory leave out damps the flap.
+  EXPECT_THAT(taken.warnings(), Contains(HasSubstr("flap.pitch by")));
+  EXPECT_EQ(taken.error.largest_source(0).name, "memory");
 }
 
 /// A mass on a spring along x.
