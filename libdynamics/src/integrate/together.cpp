@@ -125,7 +125,7 @@ SetValuedLaws::Touching SetValuedLaws::touching_now(Workspace& workspace) const 
 bool SetValuedLaws::decide_together(Workspace& workspace) const {
   const Touching all = touching_now(workspace);
   if (all.element.empty()) return false;  // what was closed parts faster than what counts as touching
-  constexpr int enough = 10'000;  // rounds; where more are needed, what gives way at the limit is as near
+  constexpr int enough = 10'000;          // rounds; where more are needed, what gives way at the limit is as near
   VectorXd z;
   if (relax(all.W, all.own, all.laws, z, enough) > 0) return false;
   const VectorXd a = all.own + all.W * z;
