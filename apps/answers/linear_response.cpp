@@ -190,7 +190,7 @@ std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene,
       out.push_back(
           fmt::format("[[{}]] is left out, {}: it is not linear about rest", elements->table(), force->method()));
   const auto on_body = [&](const std::vector<std::size_t>& network) {
-    return std::any_of(network.begin(), network.end(), [&](std::size_t i) { return scene.chains[i].fastened(); });
+    return std::any_of(network.begin(), network.end(), [&](std::size_t i) { return scene.lines[i].fastened(); });
   };
   const auto count = std::count_if(scene.networks.begin(), scene.networks.end(), on_body);
   if (count > 0) out.emplace_back("lines on bodies pull as they do at rest, with their static stiffness");

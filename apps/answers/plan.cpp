@@ -29,7 +29,7 @@ void add_absent(const scene::Scene& scene, const compile::Prepared& p, std::vect
   absent(!p.with_gravity.empty(), "weight", "weight = true; linear hydrostatics hold it already");
   absent(!p.buoyancy.empty(), "buoyancy", "[body.buoyancy]");
   absent(!p.hydrostatics.empty(), "hydrostatics", "hydrostatics = true");
-  absent(!p.moorings.empty() || !p.lines.empty(), "mooring", "[[mooring]]");
+  absent(!p.moorings.empty() || !p.catenaries.empty(), "mooring", "[[mooring]]");
   absent(!p.axial.empty() || !p.bushing.empty() || !p.switched.empty(), "connector", "[[connector]]");
   absent(!p.contacts.empty(), "contact", "[[contact]]");
   absent(!p.joints.empty(), "joint", "[[joint]]");

@@ -48,7 +48,7 @@ void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::
   if (!p.hydrostatics.empty())
     forces.push_back(std::make_unique<dynamics::RestoringKind>("hydrostatics", p.bodies, p.hydrostatics));
   if (!p.moorings.empty()) forces.push_back(std::make_unique<dynamics::RestoringKind>("mooring", p.bodies, p.moorings));
-  if (!p.lines.empty()) forces.push_back(std::make_unique<dynamics::CatenaryMooringKind>(p.lines));
+  if (!p.catenaries.empty()) forces.push_back(std::make_unique<dynamics::CatenaryMooringKind>(p.catenaries));
   if (!p.axial.empty()) forces.push_back(std::make_unique<dynamics::AxialConnectorKind>(p.axial));
   if (!p.switched.empty()) forces.push_back(std::make_unique<dynamics::SwitchedConnectorKind>(p.switched));
   if (!p.bushing.empty()) forces.push_back(std::make_unique<dynamics::BushingConnectorKind>(p.bushing));

@@ -53,7 +53,7 @@ struct Prepared {
   std::vector<dynamics::BushingConnector> bushing;
   std::vector<dynamics::Pto> ptos;
   std::vector<std::shared_ptr<const scene::Elements>> elements;
-  std::vector<dynamics::CatenaryMooring> lines;
+  std::vector<dynamics::CatenaryMooring> catenaries;
   std::vector<dynamics::FastenedLine> fastened;  ///< [[line]] with ends on bodies, in water without waves
   std::vector<dynamics::Joint> joints;
   std::vector<dynamics::Friction> friction;

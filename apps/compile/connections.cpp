@@ -127,7 +127,7 @@ std::shared_ptr<const dynamics::CatenaryTable> catenary_table(const Scene& scene
   const auto near = [&](double a, double b) { return std::abs(a - b) <= 1e-9 * l.table->reach; };
   for (std::size_t i = 0; i < before.size(); ++i) {
     const auto& other = before[i];
-    if (!other.table || other.line != l.line || scene.lines[i].table->tolerance != l.table->tolerance) continue;
+    if (!other.table || other.line != l.line || scene.catenaries[i].table->tolerance != l.table->tolerance) continue;
     const dynamics::Reach& r = other.table->reach();
     if (near(r.x_low, reach.x_low) && near(r.x_high, reach.x_high) && near(r.z_low, reach.z_low) &&
         near(r.z_high, reach.z_high))
@@ -178,10 +178,10 @@ void add_connections(const Scene& scene, Prepared& out) {
   for (const auto& c : scene.connectors) add_connector(scene, c, out);
   for (const auto& c : scene.contacts) out.contacts.push_back(contact(scene, c));
   for (const auto& j : scene.joints) add_joint(j, out);
-  for (const auto& l : scene.lines) {
+  for (const auto& l : scene.catenaries) {
     auto line = catenary_mooring(scene, l, out);
-    if (l.table) line.table = catenary_table(scene, l, out.lines);
-    out.lines.push_back(std::move(line));
+    if (l.table) line.table = catenary_table(scene, l, out.catenaries);
+    out.catenaries.push_back(std::move(line));
   }
 }
 

@@ -68,9 +68,9 @@ Meetings meetings(const Scene& scene, const std::vector<std::size_t>& network, c
   std::map<std::size_t, std::vector<int>> at_junction;
   for (const std::size_t i : network)
     for (const bool begin : {true, false}) {
-      const auto& meets = scene.chains[i].end(begin).meets;
+      const auto& meets = scene.lines[i].end(begin).meets;
       if (!meets) continue;
-      const int own = first[i] + (begin ? 0 : scene.chains[i].last_node());
+      const int own = first[i] + (begin ? 0 : scene.lines[i].last_node());
       if (meets->junction) {
         at_junction[*meets->junction].push_back(own);
         continue;
@@ -115,10 +115,10 @@ void append(const dl::Description& more, bool first, bool rests, dl::Description
 System description(const Scene& scene, const std::vector<std::size_t>& network,
                    std::shared_ptr<const hydro::waves::WaveField> field) {
   System out;
-  std::vector<int> first(scene.chains.size(), 0);
+  std::vector<int> first(scene.lines.size(), 0);
   out.d.gravity = scene.water.gravity;
   for (const std::size_t i : network) {
-    const scene::Line& l = scene.chains[i];
+    const scene::Line& l = scene.lines[i];
     const dl::Description own = chain(scene, l, field);
     first[i] = static_cast<int>(out.d.nodes.size());
     out.parts.push_back({.name = l.name,
@@ -174,7 +174,7 @@ std::shared_ptr<const hydro::waves::WaveField> without_waves(const Scene& scene)
 dl::Places held_places(const Scene& scene, const std::vector<std::size_t>& network, const System& system) {
   dl::Places out = dl::Places::Zero(3, std::ssize(system.d.nodes));
   for (std::size_t k = 0; k < network.size(); ++k) {
-    const scene::Line& l = scene.chains[network[k]];
+    const scene::Line& l = scene.lines[network[k]];
     const LineModel::Part& part = system.parts[k];
     if (l.from.at) out.col(part.first_node) = *l.from.at;
     if (l.to.at) out.col(part.first_node + part.nodes - 1) = *l.to.at;
@@ -186,7 +186,7 @@ dl::Places held_places(const Scene& scene, const std::vector<std::size_t>& netwo
 dl::State at_rest(const Scene& scene, const std::vector<std::size_t>& network) {
   System system = description(scene, network, without_waves(scene));
   dl::Places places = held_places(scene, network, system);
-  const scene::Line& l = scene.chains[network.front()];
+  const scene::Line& l = scene.lines[network.front()];
   if (l.release) {
     system.d.held.push_back({.node = l.release->node});
     places.col(l.release->node) = reached(l);
@@ -244,14 +244,14 @@ void take_coefficients(const Scene& scene, const std::vector<std::size_t>& netwo
   for (std::size_t k = 0; k < network.size(); ++k) {
     LineModel::Part& part = system.parts[k];
     part.coefficients = take_coefficients(
-        scene, scene.chains[network[k]], water, places.middleCols(part.first_node, part.nodes),
+        scene, scene.lines[network[k]], water, places.middleCols(part.first_node, part.nodes),
         std::span(system.d.segments)
             .subspan(static_cast<std::size_t>(part.first_segment), static_cast<std::size_t>(part.segments)));
   }
 }
 
 bool on_bodies(const Scene& scene, const std::vector<std::size_t>& network) {
-  return std::any_of(network.begin(), network.end(), [&](std::size_t i) { return scene.chains[i].fastened(); });
+  return std::any_of(network.begin(), network.end(), [&](std::size_t i) { return scene.lines[i].fastened(); });
 }
 
 dynamics::FastenedLine fastened_line(const Scene& scene, const std::vector<std::size_t>& network) {
@@ -263,7 +263,7 @@ dynamics::FastenedLine fastened_line(const Scene& scene, const std::vector<std::
                              .ends = {},
                              .rho_infinity = scene.solve.rho_infinity};
   for (std::size_t k = 0; k < network.size(); ++k) {
-    const scene::Line& l = scene.chains[network[k]];
+    const scene::Line& l = scene.lines[network[k]];
     const LineModel::Part& part = still.parts[k];
     for (const bool first : {true, false}) {
       const scene::Line::End& end = l.end(first);
@@ -322,9 +322,9 @@ std::string joined(const std::vector<LineModel::Part>& parts, const char* quote)
 
 /// Those of a network: one system, in which no line fails by itself.
 [[noreturn]] void blame(const Scene& scene, const std::vector<std::size_t>& network, const std::exception& e) {
-  const scene::Line& first = scene.chains[network.front()];
+  const scene::Line& first = scene.lines[network.front()];
   std::vector<std::string> names;
-  for (const std::size_t i : network) names.push_back(scene.chains[i].name);
+  for (const std::size_t i : network) names.push_back(scene.lines[i].name);
   const std::string who = joined(names, "\"");
   if (const auto* input = dynamic_cast<const InputError*>(&e)) {
     if (network.size() == 1) throw input->at(first.place);
@@ -359,9 +359,9 @@ LineModel free_model(const Scene& scene, const std::vector<std::size_t>& network
               .settings = {.scheme = dl::parse_scheme(scene.solve.line_scheme),
                            .rho_infinity = scene.solve.rho_infinity,
                            .gamma = scene.solve.gamma}};
-  if (const scene::Line& l = scene.chains[network.front()]; l.release) m.parts.front().released = brought(l);
+  if (const scene::Line& l = scene.lines[network.front()]; l.release) m.parts.front().released = brought(l);
   for (const std::size_t i : network)
-    if (scene.chains[i].lyapunov) m.lyapunov = scene.chains[i].lyapunov;
+    if (scene.lines[i].lyapunov) m.lyapunov = scene.lines[i].lyapunov;
   if (m.lyapunov) ask_for_neighbours(scene, m);
   return m;
 }
@@ -380,7 +380,7 @@ std::vector<dynamics::FastenedLine> fastened_lines(const Scene& scene, const std
     } catch (const InputError& e) {
       blame(scene, network, e);
     } catch (const hydro::NumericsError& e) {
-      const scene::Line& first = scene.chains[network.front()];
+      const scene::Line& first = scene.lines[network.front()];
       throw InputError(fmt::format("line \"{}\": {}", first.name, e.what()), first.place,
                        "check `from`, `to` and `length`");
     }
@@ -395,7 +395,7 @@ std::unique_ptr<const dynamics::ForceKind> fastened_kind(const Scene& scene, con
   auto line = lines.begin();
   for (const auto& network : scene.networks) {
     if (!on_bodies(scene, network)) continue;
-    require_one_step(scene, scene.chains[network.front()]);
+    require_one_step(scene, scene.lines[network.front()]);
     System system = description(scene, network, water.field);
     take_coefficients(scene, network, water,
                       dynamics::line_at_rest(*line, dynamics::rest_state(prepared.bodies)).position, system);
@@ -445,7 +445,7 @@ std::vector<LineModel> lines_as_placed(const Scene& scene) {
                    .settings = {}});
     if (on_bodies(scene, network)) out.back().fastened = fastened++;
     for (const std::size_t i : network)
-      if (scene.chains[i].lyapunov) out.back().lyapunov = scene.chains[i].lyapunov;
+      if (scene.lines[i].lyapunov) out.back().lyapunov = scene.lines[i].lyapunov;
   }
   return out;
 }

@@ -91,7 +91,7 @@ Mover turning(const Prepared& p, const dynamics::State& start) {
 /// move.
 Mover snap(const Scene& scene) {
   Mover out;
-  for (const scene::Line& l : scene.chains) {
+  for (const scene::Line& l : scene.lines) {
     if (!l.common.tension_only || !l.fastened()) continue;
     double compliance = 0, mobility = 0;
     for (const auto& segment : l.segments) compliance += segment.length / segment.axial_stiffness;

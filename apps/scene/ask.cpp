@@ -132,7 +132,7 @@ Binding<AskWaves> waves() {
 void check_bodies(const Record& ask, const Scene& scene) {
   if (!scene.bodies.empty()) return;
   for (const char* what : {"rao", "run"}) {
-    if (!ask.has(what) || (what == std::string_view("run") && !scene.chains.empty())) continue;
+    if (!ask.has(what) || (what == std::string_view("run") && !scene.lines.empty())) continue;
     throw ask.table(what).refused("asks for motion, but the scene has no body", "add a [[body]]");
   }
 }

@@ -66,7 +66,7 @@ std::vector<Body> build_bodies(const Record& root, Names& names);
 // Each refers to scene.bodies, which must be there already.
 void build_signals(const Record& root, Names& names, Scene& scene);  ///< points and relative motions
 void build_members(const Record& root, Names& names, Scene& scene);
-void build_chains(const Record& root, Names& names, Scene& scene);
+void build_lines(const Record& root, Names& names, Scene& scene);
 /// The junctions of a scene, and what the ends of its lines meet that `unresolved` names; then which lines form
 /// networks.
 void build_networks(const Record& root, Names& names, const std::vector<UnresolvedEnd>& unresolved, Scene& scene);

@@ -326,7 +326,7 @@ void read_on(const Record& record, const Record& whole, const Scene& scene, Line
       throw whole.wrong(key, fmt::format("is a place, but the end is on \"{}\", which is no body", name.value),
                         "leave it out: the place of a junction or a node is found");
     end.meets.emplace();
-    unresolved.push_back({scene.chains.size(), first, name});
+    unresolved.push_back({scene.lines.size(), first, name});
   }
   if (!line.fastened()) return;
   if (line.to.at && line.common.is_inextensible())
@@ -460,14 +460,14 @@ void place_line(const Record& record, const Scene& scene, Line& line) {
 
 const Table& line_table() { return line().table(); }
 
-void build_chains(const Record& root, Names& names, Scene& scene) {
+void build_lines(const Record& root, Names& names, Scene& scene) {
   std::vector<UnresolvedEnd> unresolved;
   for (const Record& record : root.tables("line")) {
     Line one = line().read(record);
     one.name = names.of(record, 1).front();
     if (record.has("on")) read_on(record.table("on"), record, scene, one, unresolved);
     place_line(record, scene, one);
-    scene.chains.push_back(std::move(one));
+    scene.lines.push_back(std::move(one));
   }
   build_networks(root, names, unresolved, scene);
 }

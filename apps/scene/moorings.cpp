@@ -146,7 +146,7 @@ void build_catenaries(const Record& record, CatenaryLine line, Names& names, Sce
       line.body = on[b];
       line.fairlead = from[k];
       line.anchor = to[k];
-      scene.lines.push_back(line);
+      scene.catenaries.push_back(line);
     }
 }
 

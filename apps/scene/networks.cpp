@@ -55,8 +55,8 @@ std::optional<Line::Meets> node_named(const UnresolvedEnd& end, const Scene& sce
   const std::size_t dot = text.rfind(".node");
   if (dot == std::string::npos) return std::nullopt;
   const std::string line = text.substr(0, dot), digits = text.substr(dot + 5);
-  const auto of = std::find_if(scene.chains.begin(), scene.chains.end(), [&](const Line& l) { return l.name == line; });
-  if (of == scene.chains.end()) return std::nullopt;
+  const auto of = std::find_if(scene.lines.begin(), scene.lines.end(), [&](const Line& l) { return l.name == line; });
+  if (of == scene.lines.end()) return std::nullopt;
   int node = -1;
   const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), node);
   const int last = of->last_node();
@@ -64,12 +64,12 @@ std::optional<Line::Meets> node_named(const UnresolvedEnd& end, const Scene& sce
     throw hydro::InputError(
         fmt::format("[line.on] refers to \"{}\", but line \"{}\" has the nodes 0 to {}", text, line, last),
         end.name.place, fmt::format("write \"{}.node{}\"", line, last / 2));
-  return Line::Meets{{}, static_cast<std::size_t>(of - scene.chains.begin()), node};
+  return Line::Meets{{}, static_cast<std::size_t>(of - scene.lines.begin()), node};
 }
 
 /// A node in the middle of a line, or its free end: those which nothing else holds already.
 void require_free(const UnresolvedEnd& end, const Line::Meets& meets, const Scene& scene) {
-  const Line& of = scene.chains[meets.line];
+  const Line& of = scene.lines[meets.line];
   const int last = of.last_node();
   const auto refuse = [&](const std::string& rule, const std::string& remedy) {
     throw hydro::InputError(fmt::format("[line.on] refers to \"{}\", {}", end.name.value, rule), end.name.place,
@@ -82,7 +82,7 @@ void require_free(const UnresolvedEnd& end, const Line::Meets& meets, const Scen
   if (of.common.bending_stiffness > 0 && meets.node != 0 && meets.node != last)
     refuse(fmt::format("in the middle of a line that resists bending"),
            fmt::format("make two lines of \"{}\" that end there at a [[junction]]", of.name));
-  const int own = end.first ? 0 : scene.chains[end.line].last_node();
+  const int own = end.first ? 0 : scene.lines[end.line].last_node();
   if (meets.line == end.line && std::abs(own - meets.node) < 2)
     refuse("the node beside it", "a loop needs two links at least");
 }
@@ -98,7 +98,7 @@ Line::Meets resolve(const UnresolvedEnd& end, const Scene& scene) {
     return *node;
   }
   for (const Body& b : scene.bodies) known.push_back(b.name);
-  for (const Line& l : scene.chains) known.push_back(l.name + ".node1");
+  for (const Line& l : scene.lines) known.push_back(l.name + ".node1");
   const std::string near = hydro::nearest(end.name.value, known);
   throw hydro::InputError(
       fmt::format("[line.on] refers to \"{}\", but there is no such body, junction or node of a line", end.name.value),
@@ -112,7 +112,7 @@ void require_meetings(const Scene& scene) {
   for (std::size_t k = 0; k < scene.junctions.size(); ++k) {
     const Junction& junction = scene.junctions[k];
     int ends = 0;
-    for (const Line& l : scene.chains)
+    for (const Line& l : scene.lines)
       for (const auto& meets : {l.from.meets, l.to.meets}) ends += meets && meets->junction == k ? 1 : 0;
     if (ends == 0)
       throw hydro::InputError(
@@ -127,27 +127,27 @@ void require_meetings(const Scene& scene) {
 
 /// Union-find over the lines.
 std::vector<std::vector<std::size_t>> find_networks(const Scene& scene) {
-  std::vector<std::size_t> root(scene.chains.size()), at_junction(scene.junctions.size(), scene.chains.size());
+  std::vector<std::size_t> root(scene.lines.size()), at_junction(scene.junctions.size(), scene.lines.size());
   std::iota(root.begin(), root.end(), std::size_t{0});
   const auto find = [&](std::size_t i) {
     while (root[i] != i) i = root[i];
     return i;
   };
-  for (std::size_t i = 0; i < scene.chains.size(); ++i)
-    for (const auto& meets : {scene.chains[i].from.meets, scene.chains[i].to.meets}) {
+  for (std::size_t i = 0; i < scene.lines.size(); ++i)
+    for (const auto& meets : {scene.lines[i].from.meets, scene.lines[i].to.meets}) {
       if (!meets) continue;
       std::size_t with = meets->line;
       if (meets->junction) {
         std::size_t& first = at_junction[*meets->junction];
-        if (first == scene.chains.size()) first = i;
+        if (first == scene.lines.size()) first = i;
         with = first;
       }
       const std::size_t a = find(i), b = find(with);
       root[std::max(a, b)] = std::min(a, b);
     }
   std::vector<std::vector<std::size_t>> out;
-  std::vector<std::size_t> place(scene.chains.size());
-  for (std::size_t i = 0; i < scene.chains.size(); ++i) {
+  std::vector<std::size_t> place(scene.lines.size());
+  for (std::size_t i = 0; i < scene.lines.size(); ++i) {
     if (find(i) == i) {
       place[i] = out.size();
       out.emplace_back();
@@ -182,14 +182,14 @@ void require_one_bed(const Line& l, const Line& other) {
 }
 
 void require_one_system(const Scene& scene, const std::vector<std::size_t>& network) {
-  const Line& first = scene.chains[network.front()];
-  const auto fastened = [&](std::size_t i) { return scene.chains[i].fastened(); };
+  const Line& first = scene.lines[network.front()];
+  const auto fastened = [&](std::size_t i) { return scene.lines[i].fastened(); };
   const bool on_bodies = std::any_of(network.begin(), network.end(), fastened);
   int watched = 0;
   for (const std::size_t i : network) {
-    const Line& l = scene.chains[i];
+    const Line& l = scene.lines[i];
     require_alike(l, first);
-    for (const std::size_t k : network) require_one_bed(l, scene.chains[k]);
+    for (const std::size_t k : network) require_one_bed(l, scene.lines[k]);
     if (l.release)
       throw hydro::InputError(fmt::format("line \"{}\" is let go, but meets others, which begin with it", l.name),
                               l.place, "leave [line.release] out");
@@ -222,7 +222,7 @@ void build_networks(const Record& root, Names& names, const std::vector<Unresolv
     scene.junctions.back().name = names.of(record, 1).front();
   }
   for (const UnresolvedEnd& end : unresolved) {
-    Line& line = scene.chains[end.line];
+    Line& line = scene.lines[end.line];
     (end.first ? line.from : line.to).meets = resolve(end, scene);
   }
   require_meetings(scene);

@@ -91,7 +91,7 @@ Scene ChangeableScene::with(const std::vector<OverriddenNumber>& numbers) const 
   scene.bodies = build_bodies(root, names);
   build_signals(root, names, scene);
   build_members(root, names, scene);
-  build_chains(root, names, scene);
+  build_lines(root, names, scene);
   build_moorings(root, names, scene);
   build_connectors(root, names, scene);
   build_contacts(root, names, scene);

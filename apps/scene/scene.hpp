@@ -258,7 +258,7 @@ struct Line {
   /// What an end meets that no place or body holds: a junction, or a node of a line.
   struct Meets {
     std::optional<std::size_t> junction;  ///< index into Scene::junctions
-    std::size_t line = 0;                 ///< else into Scene::chains,
+    std::size_t line = 0;                 ///< else into Scene::lines,
     int node = 0;                         ///< and there
   };
   /// Its first node or its last.
@@ -436,11 +436,11 @@ struct Scene {
   std::vector<PointPair> relative_motions;
   std::vector<Member> members;
   std::vector<dynamics::Restoring> moorings;  ///< about the bodies' origins
-  std::vector<CatenaryLine> lines;
-  std::vector<dynamics::Contact> contacts;  ///< shapes from the bodies' origins
+  std::vector<CatenaryLine> catenaries;       ///< [[mooring]] of kind "catenary"
+  std::vector<dynamics::Contact> contacts;    ///< shapes from the bodies' origins
   std::vector<Junction> junctions;
-  std::vector<Line> chains;                        ///< [[line]]
-  std::vector<std::vector<std::size_t>> networks;  ///< of `chains`: those that meet; most are of one
+  std::vector<Line> lines;                         ///< [[line]]
+  std::vector<std::vector<std::size_t>> networks;  ///< of `lines`: those that meet; most are of one
   std::vector<Connector> connectors;
   std::vector<std::shared_ptr<const class Elements>> elements;  ///< force elements, scene/element.hpp
   std::vector<Joint> joints;

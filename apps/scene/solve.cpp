@@ -76,7 +76,7 @@ bool acts_one_way(const Scene& scene) {
   return std::any_of(scene.connectors.begin(), scene.connectors.end(), axial) ||
          std::any_of(scene.joints.begin(), scene.joints.end(),
                      [](const Joint& j) { return j.pto && j.pto->has_stops(); }) ||
-         std::any_of(scene.chains.begin(), scene.chains.end(), line);
+         std::any_of(scene.lines.begin(), scene.lines.end(), line);
 }
 
 const Binding<Solve>& solve_binding() {

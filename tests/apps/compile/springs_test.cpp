@@ -121,9 +121,9 @@ TEST(Springs, ChainsFromATableAreThoseThatAreSolved) {
   auto scene = scene::read(examples / "moored.toml");
   scene.run->duration = 20;
   const froude::Run solved = simulate(scene);
-  for (auto& line : scene.lines) line.table = scene::CatenaryLine::Table{3, 1e-4, {}};
+  for (auto& line : scene.catenaries) line.table = scene::CatenaryLine::Table{3, 1e-4, {}};
   const compile::Prepared prepared = compile::prepare(scene);
-  for (const auto& line : prepared.lines) EXPECT_EQ(line.table, prepared.lines.front().table);
+  for (const auto& line : prepared.catenaries) EXPECT_EQ(line.table, prepared.catenaries.front().table);
   const froude::Run looked_up = simulate(scene);
   const double largest_tension = largest(solved.signal("chain1.tension"));
   for (const char* name : {"chain1.tension", "chain4.anchor_tension"})
@@ -136,7 +136,7 @@ TEST(Springs, ChainsFromATableAreThoseThatAreSolved) {
 
 TEST(Springs, RefuseATableThatReachesTooFar) {
   auto scene = scene::read(examples / "moored.toml");
-  for (auto& line : scene.lines) line.table = scene::CatenaryLine::Table{8, 1e-9, {}};
+  for (auto& line : scene.catenaries) line.table = scene::CatenaryLine::Table{8, 1e-9, {}};
   EXPECT_THAT([&] { compile::prepare(scene); },
               ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("mooring \"chain1\""), HasSubstr("a smaller reach"))));
 }

@@ -37,16 +37,16 @@ TEST(Override, ReadsWhatTheSceneWritesInItsOwnUnit) {
 }
 
 TEST(Override, WritesIntoTheUnitTheVectorOrTheNumberThatIsThere) {
-  EXPECT_DOUBLE_EQ(with_number("line.long.damping.linear", 7.5e-7).chains[0].node.damping, 7.5e-10);
+  EXPECT_DOUBLE_EQ(with_number("line.long.damping.linear", 7.5e-7).lines[0].node.damping, 7.5e-10);
   const Scene moved = with_number("line[2].from.y", 2.5);
-  EXPECT_EQ(*moved.chains[1].from.at, Eigen::Vector3d(1, 2.5, -3));
-  EXPECT_EQ(*moved.chains[0].from.at, Eigen::Vector3d(0, 0, 0));
+  EXPECT_EQ(*moved.lines[1].from.at, Eigen::Vector3d(1, 2.5, -3));
+  EXPECT_EQ(*moved.lines[0].from.at, Eigen::Vector3d(0, 0, 0));
   EXPECT_EQ(with_number("solve.integrator.rho_infinity", 0.5).solve.rho_infinity, 0.5);
 }
 
 TEST(Override, OfASceneReadOnceLeavesItForTheNextNumber) {
   const ChangeableScene scene(chains, "s.toml");
-  const auto damping = [](const Scene& s) { return s.chains[0].node.damping; };
+  const auto damping = [](const Scene& s) { return s.lines[0].node.damping; };
   EXPECT_DOUBLE_EQ(damping(scene.with({{"line.long.damping.linear", 3}})), 3e-3);
   EXPECT_DOUBLE_EQ(damping(scene.with({})), 2e-3);
   const Scene both = scene.with({{"line.long.damping.linear", 4}, {"solve.integrator.rho_infinity", 0.5}});
