@@ -83,7 +83,7 @@ TEST(IntermittentImmersion, MomentumIsLostAsTheTheorySays) {
       forces.push_back(slamming(h, theory));
       const Model model(tube(), {}, std::move(forces));
       Motion run(model, at(0.5, -speed, 0));
-      run.go(h, 200 + static_cast<int>(1 / h));  // 0.8^200 is what the integrator still remembers
+      run.go(h, 200 + static_cast<int>(1 / h));  // of what the integrator damps 0.8^200 is left
       const double impulse =
           length * CylinderImpact(theory, radius, speed, support::fresh_water.density).impulse(10 * radius / speed);
       EXPECT_NEAR(run.workspace.state.velocity[2], -speed + impulse / mass, 1e-9 * speed) << h;
