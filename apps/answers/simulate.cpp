@@ -37,6 +37,9 @@ class March {
         integrator_(compile::make_integrator(solve, m.model)),
         rounding_(rounding_of(m.model)) {
     for (const auto& s : signals) record_.signals.push_back({s.name, s.unit, s.meaning});
+    const std::size_t samples = m.steps / m.steps_per_sample + 1;
+    record_.time.reserve(samples);
+    for (auto& s : record_.signals) s.values.reserve(samples);
   }
 
   void run(const std::function<void(double)>& done) {

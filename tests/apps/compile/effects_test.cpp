@@ -126,32 +126,93 @@ TEST(Effects, HaveAsManyElementsAsTheSceneNames) {
     EXPECT_THAT(kinds_of(model.model), UnorderedElementsAreArray(example.kinds));
     EXPECT_EQ(model.lines.size(), example.lines);
     for (const auto& kind : model.model.forces())
-      if (kind->effect() != "drag") EXPECT_EQ(kind->elements(), 1u) << kind->effect();
+      if (kind->effect() != "drag") {
+        EXPECT_EQ(kind->elements(), 1u) << kind->effect();
+      }
   }
 }
 
 // ---- what the step loop asks of the allocator ----
 
-/// Allocations from one sample to the next, of which each is one step: the middle one of all. An iteration of Newton
-/// more or less, or a friction that changes, moves single steps.
+/// Allocations of a step once the run is under way, the sample after it included: the middle one of all steps. Single
+/// ones have more, where factors are made anew or friction changes.
 std::size_t allocations_of_a_step(const scene::Scene& scene) {
   const auto prepared = compile::prepare(scene);
   const auto model = compile::time_model(scene, prepared);
   std::vector<std::size_t> at;
   at.reserve(model.steps);
   const froude::Run run = run_model(scene, model, [&](double) { at.push_back(support::allocations()); });
-  EXPECT_TRUE(run.stopped.empty()) << run.stopped;
+  EXPECT_EQ(at.size(), model.steps) << run.stopped;
   std::vector<std::size_t> each;
   for (std::size_t i = 3; i < at.size(); ++i) each.push_back(at[i] - at[i - 1]);
-  std::nth_element(each.begin(), each.begin() + static_cast<std::ptrdiff_t>(each.size() / 2), each.end());
-  return each[each.size() / 2];
+  const auto middle = each.begin() + static_cast<std::ptrdiff_t>(each.size() / 2);
+  std::nth_element(each.begin(), middle, each.end());
+  return *middle;
 }
 
-TEST(Effects, AskForNoMoreMemoryAStepThanTheyDid) {
-  for (const Example& example : effects::examples()) {
-    SCOPED_TRACE(example.name);
-    fmt::print("{} {}\n", example.name, allocations_of_a_step(read(example)));
-  }
+using Counts = std::map<std::string, std::size_t>;
+
+/// What a step of bodies asks for, and what each kind of force adds; or, by its own name, what an example does that has
+/// more. These are vectors that functions return: states and loads that Newton tries, wet pieces of a member, gradients
+/// of joints, positions of a line's nodes. Numbers may fall, and are then to be lowered here; none may rise.
+constexpr std::size_t bodies_ask = 25;
+const Counts& kinds_add() {
+  static const Counts counts{{"hydrostatics", 1}, {"excitation", 5},        {"excitation.turning", 4},
+                             {"radiation", 17},   {"mooring.catenary", 10}, {"contact", 10},
+                             {"drag", 31},        {"morison", 102},         {"slamming", 6}};
+  return counts;
+}
+const Counts& examples_ask() {
+  static const Counts counts{{"Morison, wet in part", 175},
+                             {"what is asked", 63},
+                             {"fixed", 60},
+                             {"hinge", 60},
+                             {"universal", 60},
+                             {"ball", 60},
+                             {"slider", 60},
+                             {"planar", 60},
+                             {"take-off of a hinge", 60},
+                             {"take-off of a slider", 60},
+                             {"stops of a hinge", 60},
+                             {"stops of a slider", 60},
+                             {"latch of a hinge", 70},
+                             {"latch of a slider", 70},
+                             {"friction of a hinge", 114},
+                             {"friction of a slider", 114},
+                             {"prescribed motion of a hinge", 107},
+                             {"prescribed motion of a slider", 61},
+                             {"line", 31},
+                             {"parts of a line", 31},
+                             {"links of a line", 31},
+                             {"clamp", 31},
+                             {"tension only", 35},
+                             {"catenary segments", 54},
+                             {"buoyancy of a line", 47},
+                             {"a line wet in part", 47},
+                             {"Morison on a line", 47},
+                             {"damping of a line", 31},
+                             {"growth", 47},
+                             {"bed", 31},
+                             {"release", 43},
+                             {"prescribed end", 39},
+                             {"snaps", 36},
+                             {"Lyapunov exponent", 55},
+                             {"junction", 163},
+                             {"a line on a body", 319}};
+  return counts;
+}
+
+std::size_t allowed(const Example& example) {
+  if (const auto own = examples_ask().find(example.name); own != examples_ask().end()) return own->second;
+  std::size_t sum = bodies_ask;
+  for (const std::string& kind : example.kinds)
+    if (const auto of_kind = kinds_add().find(kind); of_kind != kinds_add().end()) sum += of_kind->second;
+  return sum;
+}
+
+TEST(Effects, AskForNoMoreMemoryInAStepThanIsListed) {
+  for (const Example& example : effects::examples())
+    EXPECT_LE(allocations_of_a_step(read(example)), allowed(example)) << example.name;
 }
 
 // A module that is alike on both sides answers a push in heave with heave alone, and as much as it ever does.
