@@ -1,5 +1,6 @@
 // Members that leave the water and come back to it, down to once in every step: loads stay finite, momentum and energy
 // are accounted for, and shorter steps come to one motion.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
