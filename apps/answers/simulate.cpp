@@ -38,6 +38,9 @@ class March {
         integrator_(compile::make_integrator(solve, m.model)),
         rounding_(rounding_of(m.model)) {
     for (const auto& s : signals) record_.signals.push_back({s.name, s.unit, s.meaning});
+    const std::size_t samples = m.steps / m.steps_per_sample + 1;
+    record_.time.reserve(samples);
+    for (auto& s : record_.signals) s.values.reserve(samples);
   }
 
   /// The velocities at each step are kept from the start on.
@@ -100,6 +103,7 @@ class March {
     ledger.note(workspace_);
     for (auto& line : lines_) line->note(m_.step);
     watch(n, balance(ledger));
+    watch_losses(n, ledger);
   }
   struct Balance {
     double residual, turnover, rounding;  // J, of bodies and lines together
@@ -127,6 +131,20 @@ class March {
         "energy comes from nowhere: by t = {:.6g} s {:.3g} J that nothing has supplied, of {:.3g} J turned over; "
         "the step of {:.4g} s is too long for this motion: give a shorter one, [solve] step = \"{:.6g} s\"",
         workspace_.state.time, now.residual, now.turnover, m_.step, m_.step / 4));
+  }
+  /// An effect that takes energy has none to give: impacts that a step delivers after the body has turned round do.
+  void watch_losses(std::size_t n, const dynamics::EnergyLedger& ledger) const {
+    constexpr std::size_t first = 20;  // steps, as for the residual
+    constexpr double most = 0.25;      // of what was turned over
+    if (n < first) return;
+    for (const auto& e : ledger.entries())
+      if (-e.dissipated > rounding_ + most * ledger.turnover())
+        throw hydro::NumericsError(
+            fmt::format("energy comes from nowhere: by t = {:.6g} s {} has given {:.3g} J, of {:.3g} J turned over, "
+                        "and should have "
+                        "taken some; the step of {:.4g} s is too long for this motion: give a shorter one, [solve] "
+                        "step = \"{:.6g} s\"",
+                        workspace_.state.time, e.effect, -e.dissipated, ledger.turnover(), m_.step, m_.step / 4));
   }
   void sample(const dynamics::EnergyLedger& ledger) {
     record_.time.push_back(workspace_.state.time);

@@ -289,8 +289,30 @@ def markdown_files(root):
             yield path
 
 
+NAMED_TEST = re.compile(r"\[`(\w+)\.(\w+)`\]\(([^)\s]+\.cpp)\)")
+TEST = re.compile(r"^TEST(?:_[FP])?\(\s*(\w+),\s*(\w+)\)", re.MULTILINE)
+
+
+def named_tests(root):
+    """A link `[`Suite.Name`](FILE.cpp)` leads to a file that has this test; docs/stability.md names all of tests/stability."""
+    told = set()
+    for path in markdown_files(root):
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            for suite, name, target in NAMED_TEST.findall(line):
+                file = (path.parent / target).resolve()
+                told.add((file, suite, name))
+                if file.exists() and (suite, name) not in TEST.findall(file.read_text(encoding="utf-8")):
+                    yield f"{path.relative_to(root)}:{number}: {target} has no test {suite}.{name}"
+    if not (root / "docs" / "stability.md").exists():
+        return
+    for file in sorted((root / "tests" / "stability").glob("*.cpp")):
+        for suite, name in TEST.findall(file.read_text(encoding="utf-8")):
+            if (file.resolve(), suite, name) not in told:
+                yield f"docs/stability.md:1: {file.relative_to(root)} has the test {suite}.{name}, which no row names"
+
+
 def check_links(root):
-    complaints = []
+    complaints = list(named_tests(root))
     for path in markdown_files(root):
         fenced = False
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):

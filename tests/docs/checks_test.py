@@ -163,6 +163,20 @@ class Links(ChecksCase):
     def test_refuses_a_link_to_nothing(self):
         self.refuses("links", {"README.md": "\n[a](docs/b.md)\n"}, "README.md:2", "docs/b.md")
 
+    STABILITY = {"tests/stability/a_test.cpp": "TEST(Hard, Case) {}\nTEST_P(Hard, Kinds) {}\n"}
+
+    def test_accepts_tests_that_are_there_and_all_named(self):
+        rows = "[`Hard.Case`](../tests/stability/a_test.cpp)\n[`Hard.Kinds`](../tests/stability/a_test.cpp)\n"
+        self.accepts("links", {"docs/stability.md": rows, **self.STABILITY})
+
+    def test_refuses_a_test_that_is_not_there(self):
+        rows = "[`Hard.Case`](../tests/stability/a_test.cpp)\n[`Hard.Kind`](../tests/stability/a_test.cpp)\n"
+        self.refuses("links", {"docs/stability.md": rows, **self.STABILITY}, "docs/stability.md:2", "Hard.Kind")
+
+    def test_refuses_a_hard_case_that_no_row_names(self):
+        rows = "[`Hard.Case`](../tests/stability/a_test.cpp)\n"
+        self.refuses("links", {"docs/stability.md": rows, **self.STABILITY}, "docs/stability.md:1", "Hard.Kinds")
+
     def test_refuses_a_link_out_of_the_repository(self):
         self.refuses("links", {"README.md": "[a](../../etc)\n"}, "../../etc")
 

@@ -105,7 +105,7 @@ TEST(RadiationStability, SurvivesTwentyFiveCoupledBodies) {
   expect_harmless(support::data_of(model, 6, 60), "25 modes");
 }
 
-// An hour of waves, 36 000 steps of 0.1 s: neither drift nor growth. (24 h: `froude validate`, price list.)
+// An hour of waves, 36 000 steps of 0.1 s: neither drift nor growth. (24 h: long_run_test.cpp.)
 TEST(RadiationStability, NeitherDriftsNorGrowsInALongRun) {
   const auto data = two_pole(8, 160);
   const auto chosen =

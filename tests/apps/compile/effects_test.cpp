@@ -2,132 +2,217 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "answers/linear_response.hpp"
 #include "answers/simulate.hpp"
 #include "compile/compile.hpp"
+#include "effect_examples.hpp"
+#include "scene/document.hpp"
+#include "scene/schema.hpp"
 #include "scenes.hpp"
+#include "support/allocations.hpp"
 
 namespace effects_test {
 namespace {
 
 using namespace froude;
-using testing::ElementsAre;
-using testing::UnorderedElementsAre;
+using effects::Example;
+using scene::Holds;
+using scene::Key;
+using scene::Node;
+using scene::Table;
+using testing::IsEmpty;
+using testing::UnorderedElementsAreArray;
 
-/// One effect: what it adds to a scene of a module in waves, and the kind of force that it is.
-struct Effect {
-  const char* name;
-  const char* table;     ///< further tables
-  const char* of_body;   ///< further keys of [[body]]
-  const char* of_water;  ///< keys of [body.hydrodynamics]
-  const char* kind;
-};
-
-const std::vector<Effect>& effects() {
-  static const std::vector<Effect> all{
-      {"hydrostatics", "", "", "hydrostatics = true\n", "hydrostatics"},
-      {"excitation", "", "", "excitation = true\n", "excitation"},
-      {"turning excitation", "", "",
-       "excitation = true\nturning = { from = \"-5 deg\", to = \"0 deg\", slower_than = \"60 s\" }\n",
-       "excitation.turning"},
-      {"radiation", "", "", "radiation = { memory_tolerance = 1e-2 }\n", "radiation"},
-      {"weight", "", "weight = true\n", "", "weight"},
-      {"linear mooring", "[[mooring]]\non = [\"m\"]\nkind = \"linear\"\nstiffness = { surge = \"1 kN/m\" }\n", "", "",
-       "mooring"},
-      {"catenary",
-       "[[mooring]]\non = [\"m\"]\nkind = \"catenary\"\nfrom = \"(5, 0, 0) m\"\nto = \"(45, 0, -14) m\"\nlength = \"46 "
-       "m\"\nmass_per_length = \"8 "
-       "kg/m\"\ndiameter = \"36 mm\"\naxial_stiffness = \"30 MN\"\non_bed = true\n",
-       "", "", "mooring.catenary"},
-      {"axial connector",
-       "[[connector]]\nbetween = [\"m\", \"ground\"]\nends = [\"(6, 0, 0) m\", \"(9, 0, 0) m\"]\nkind = "
-       "\"axial\"\nstiffness = \"1 kN/m\"\n",
-       "", "", "connector.axial"},
-      {"switched connector",
-       "[[connector]]\nbetween = [\"m\", \"ground\"]\nends = [\"(6, 0, 0) m\", \"(9, 0, 0) m\"]\nkind = "
-       "\"axial\"\nstiffness = \"1 kN/m\"\n"
-       "[connector.switch]\nwatch = \"m.surge\"\nevery = \"1 s\"\nwindow = \"2 s\"\nhysteresis = \"0.01 Hz\"\n"
-       "settings = [{ from = \"0 s\", stiffness = \"2 kN/m\" }]\n",
-       "", "", "connector.switched"},
-      {"bushing",
-       "[[connector]]\nbetween = [\"m\", \"ground\"]\nends = [\"(6, 0, 0) m\", \"(9, 0, 0) m\"]\nkind = "
-       "\"bushing\"\nstiffness = \"(1, 1, 1) kN/m\"\n",
-       "", "", "connector.bushing"},
-      {"power take-off",
-       "[[joint]]\nkind = \"slider\"\nbetween = [\"ground\", \"m\"]\nat = \"(0, 0, 0) m\"\naxis = "
-       "\"z\"\n[joint.pto]\ndamping = \"1 kN s/m\"\n",
-       "", "", "pto"},
-      {"friction",
-       "[[joint]]\nkind = \"slider\"\nbetween = [\"ground\", \"m\"]\nat = \"(0, 0, 0) m\"\naxis = \"z\"\nfriction = { "
-       "dynamic = \"10 N\" }\n",
-       "", "", "friction"},
-      {"constant load", "[[load]]\non = [\"m\"]\nat = \"(0, 0, 0) m\"\nforce = \"(1, 0, 0) kN\"\n", "", "", "load"},
-      {"drag",
-       "[[member]]\non = \"m\"\nfrom = \"(0, 0, -1) m\"\nto = \"(0, 0, 0) m\"\ndiameter = \"1 m\"\ndrag = { cd = 1.0 "
-       "}\n",
-       "", "", "drag"},
-      {"Morison",
-       "[[member]]\non = \"m\"\nfrom = \"(0, 0, -1) m\"\nto = \"(0, 0, 0) m\"\ndiameter = \"0.1 m\"\nmorison = { cd = "
-       "1.0, ca = 1.0 }\n",
-       "", "", "morison"},
-      {"contact",
-       "[[contact]]\nbetween = [\"m\", \"ground\"]\nkind = \"plane\"\npoints = \"(0, 0, 0) m\"\nat = \"(0, 0, -10) "
-       "m\"\nnormal = \"z\"\nrestitution = 0\n",
-       "", "", "contact"}};
-  return all;
+scene::Scene read(const Example& example) {
+  static const effects::Files files;
+  return scene::parse(example.text, files.scene());
 }
 
-std::string scene_with(const Effect* effect) {
-  const std::string hydrodynamics = effect != nullptr ? effect->of_water : "";
-  return froude_test::water + R"([waves]
-kind = "regular"
-height = "1 m"
-period = "5 s"
-heading = "0 deg"
-[[body]]
-name = "m"
-mass = "9088 kg"
-centre_of_gravity = "(0, 0, 1.31) m"
-radii_of_gyration = "(4.6, 4.6, 6.4) m"
-)" + (effect != nullptr ? effect->of_body : "") +
-         (hydrodynamics.empty() ? "" : "[body.hydrodynamics]\nfile = \"pontoon1.nc\"\n" + hydrodynamics) +
-         (effect != nullptr ? effect->table : "") + R"([ask]
-run = { duration = "1 s", every = "0.1 s" }
-accuracy = 1e-2
-)";
+// ---- every table, kind and effect of the grammar has an example ----
+
+/// Tables by their titles, kinds as "[waves] regular", effects as "[[body]] weight".
+using Paths = std::set<std::string>;
+
+void add_paths(const Table& table, Paths& out) {
+  const auto add = [&](const std::string& title, const std::vector<Key>& keys) {
+    out.insert(title);
+    for (const Key& key : keys) {
+      if (key.holds == Holds::effect) out.insert(title + " " + key.name);
+      if (key.inner != nullptr) add_paths(*key.inner, out);
+    }
+  };
+  add(table.title, table.keys);
+  for (const Table::Variant& kind : table.variants) add(table.title + " " + kind.word, kind.keys);
 }
 
-std::map<std::string, std::size_t> evaluated(const Effect* effect) {
-  const froude::Run run = simulate(froude_test::parse(scene_with(effect)));
-  EXPECT_TRUE(run.stopped.empty()) << run.stopped;
-  return {run.evaluations.begin(), run.evaluations.end()};
+/// What of the grammar stands in a file.
+void add_named(const Node& node, const Table& table, Paths& out) {
+  const auto add = [&](const std::string& title, const std::vector<Key>& keys) {
+    out.insert(title);
+    for (const Key& key : keys) {
+      const Node::Entry* entry = node.find(key.name);
+      if (entry == nullptr) continue;
+      if (key.holds == Holds::effect) out.insert(title + " " + key.name);
+      if (key.inner == nullptr) continue;
+      if (entry->value.is(Node::Type::table)) add_named(entry->value, *key.inner, out);
+      for (const Node& item : entry->value.items) add_named(item, *key.inner, out);
+    }
+  };
+  add(table.title, table.keys);
+  for (const Table::Variant& kind : table.variants)
+    if (const Node::Entry* chosen = node.find(table.chosen_by); chosen != nullptr && chosen->value.text == kind.word)
+      add(table.title + " " + kind.word, kind.keys);
 }
 
-TEST(Effects, OfASceneThatNamesNoneAreNone) { EXPECT_TRUE(evaluated(nullptr).empty()); }
+// The grammar itself is walked: what is added to it has no example yet, and is listed here as missing.
+TEST(Effects, OfTheGrammarAllHaveAnExample) {
+  Paths grammar, shown;
+  add_paths(scene::motion_schema(), grammar);
+  for (const Example& example : effects::examples())
+    add_named(scene::parse_document(example.text, example.name), scene::motion_schema(), shown);
+  Paths missing;
+  std::set_difference(grammar.begin(), grammar.end(), shown.begin(), shown.end(),
+                      std::inserter(missing, missing.end()));
+  EXPECT_GT(grammar.size(), 100u) << "the walk went nowhere";
+  EXPECT_THAT(missing, IsEmpty()) << "add a scene to tests/apps/compile/effect_examples.cpp";
+}
+
+// ---- what is named acts, and nothing else does ----
+
+std::vector<std::string> kinds_of(const dynamics::Model& model) {
+  std::vector<std::string> out;
+  for (const auto& kind : model.forces()) out.push_back(kind->effect());
+  return out;
+}
+
+TEST(Effects, OfASceneThatNamesNoneAreNone) {
+  const auto scene = read(effects::without_effects());
+  const auto model = compile::time_model(scene, compile::prepare(scene));
+  EXPECT_THAT(kinds_of(model.model), IsEmpty());
+  EXPECT_THAT(model.lines, IsEmpty());
+  EXPECT_FALSE(model.water.sea);
+  EXPECT_EQ(model.model.joints().count(), 0);
+  dynamics::Workspace workspace(model.model, model.start);
+  EXPECT_THAT(workspace.memory, IsEmpty());
+  EXPECT_THAT(simulate(scene).evaluations, IsEmpty());
+}
 
 TEST(Effects, AreThoseThatTheSceneNamesAndNoOther) {
-  for (const Effect& effect : effects()) {
-    SCOPED_TRACE(effect.name);
-    const auto counts = evaluated(&effect);
-    ASSERT_EQ(counts.size(), 1u);
-    EXPECT_EQ(counts.begin()->first, effect.kind);
-    EXPECT_GE(counts.begin()->second, 10u) << "once a step at least";
+  for (const Example& example : effects::examples()) {
+    SCOPED_TRACE(example.name);
+    const froude::Run run = simulate(read(example));
+    EXPECT_TRUE(run.stopped.empty()) << run.stopped;
+    std::vector<std::string> evaluated;
+    for (const auto& [kind, count] : run.evaluations) {
+      evaluated.push_back(kind);
+      EXPECT_GE(count, run.steps) << kind << ": once a step at least";
+    }
+    EXPECT_THAT(evaluated, UnorderedElementsAreArray(example.kinds));
   }
 }
 
-// No element is made twice or in vain: as many as the scene has, and their count is what the plan tells.
+// As many elements as the scene has, and as many systems of lines; a member counts its pieces where these are what is
+// summed.
 TEST(Effects, HaveAsManyElementsAsTheSceneNames) {
-  for (const Effect& effect : effects()) {
-    SCOPED_TRACE(effect.name);
-    const auto scene = froude_test::parse(scene_with(&effect));
+  for (const Example& example : effects::examples()) {
+    SCOPED_TRACE(example.name);
+    const auto scene = read(example);
     const auto model = compile::time_model(scene, compile::prepare(scene));
-    ASSERT_EQ(model.model.forces().size(), 1u);
-    const bool pieces = effect.kind == std::string("drag") || effect.kind == std::string("morison");
-    EXPECT_TRUE(pieces || model.model.forces()[0]->elements() == 1u) << model.model.forces()[0]->elements();
+    EXPECT_THAT(kinds_of(model.model), UnorderedElementsAreArray(example.kinds));
+    EXPECT_EQ(model.lines.size(), example.lines);
+    for (const auto& kind : model.model.forces())
+      if (kind->effect() != "drag") {
+        EXPECT_EQ(kind->elements(), 1u) << kind->effect();
+      }
   }
+}
+
+// ---- what the step loop asks of the allocator ----
+
+/// Allocations of a step once the run is under way, the sample after it included: the middle one of all steps. Single
+/// ones have more, where factors are made anew or friction changes.
+std::size_t allocations_of_a_step(const scene::Scene& scene) {
+  const auto prepared = compile::prepare(scene);
+  const auto model = compile::time_model(scene, prepared);
+  std::vector<std::size_t> at;
+  at.reserve(model.steps);
+  const froude::Run run = run_model(scene, model, [&](double) { at.push_back(support::allocations()); });
+  EXPECT_EQ(at.size(), model.steps) << run.stopped;
+  std::vector<std::size_t> each;
+  for (std::size_t i = 3; i < at.size(); ++i) each.push_back(at[i] - at[i - 1]);
+  const auto middle = each.begin() + static_cast<std::ptrdiff_t>(each.size() / 2);
+  std::nth_element(each.begin(), middle, each.end());
+  return *middle;
+}
+
+using Counts = std::map<std::string, std::size_t>;
+
+/// What a step of bodies asks for, and what each kind of force adds; or, by its own name, what an example does that has
+/// more. These are vectors that functions return: states and loads that Newton tries, wet pieces of a member, gradients
+/// of joints, positions of a line's nodes. Numbers may fall, and are then to be lowered here; none may rise.
+constexpr std::size_t bodies_ask = 25;
+const Counts& kinds_add() {
+  static const Counts counts{{"hydrostatics", 1}, {"excitation", 5},        {"excitation.turning", 4},
+                             {"radiation", 17},   {"mooring.catenary", 10}, {"contact", 10},
+                             {"drag", 31},        {"morison", 102},         {"slamming", 6}};
+  return counts;
+}
+const Counts& examples_ask() {
+  static const Counts counts{{"Morison, wet in part", 175},
+                             {"what is asked", 63},
+                             {"fixed", 60},
+                             {"hinge", 60},
+                             {"universal", 60},
+                             {"ball", 60},
+                             {"slider", 60},
+                             {"planar", 60},
+                             {"take-off of a hinge", 60},
+                             {"take-off of a slider", 60},
+                             {"stops of a hinge", 60},
+                             {"stops of a slider", 60},
+                             {"latch of a hinge", 70},
+                             {"latch of a slider", 70},
+                             {"friction of a hinge", 114},
+                             {"friction of a slider", 114},
+                             {"prescribed motion of a hinge", 107},
+                             {"prescribed motion of a slider", 61},
+                             {"line", 31},
+                             {"parts of a line", 31},
+                             {"links of a line", 31},
+                             {"clamp", 31},
+                             {"tension only", 35},
+                             {"catenary segments", 54},
+                             {"buoyancy of a line", 47},
+                             {"a line wet in part", 47},
+                             {"Morison on a line", 47},
+                             {"damping of a line", 31},
+                             {"growth", 47},
+                             {"bed", 31},
+                             {"release", 43},
+                             {"prescribed end", 39},
+                             {"snaps", 36},
+                             {"Lyapunov exponent", 55},
+                             {"junction", 163},
+                             {"a line on a body", 319}};
+  return counts;
+}
+
+std::size_t allowed(const Example& example) {
+  if (const auto own = examples_ask().find(example.name); own != examples_ask().end()) return own->second;
+  std::size_t sum = bodies_ask;
+  for (const std::string& kind : example.kinds)
+    if (const auto of_kind = kinds_add().find(kind); of_kind != kinds_add().end()) sum += of_kind->second;
+  return sum;
+}
+
+TEST(Effects, AskForNoMoreMemoryInAStepThanIsListed) {
+  for (const Example& example : effects::examples())
+    EXPECT_LE(allocations_of_a_step(read(example)), allowed(example)) << example.name;
 }
 
 // A module that is alike on both sides answers a push in heave with heave alone, and as much as it ever does.
