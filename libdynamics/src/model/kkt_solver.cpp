@@ -1,8 +1,9 @@
 #include "dynamics/model/kkt_solver.hpp"
 
 #include <Eigen/KLUSupport>
-#include <Eigen/LU>
 #include <Eigen/Sparse>
+
+#include "hydro/base/dense.hpp"
 
 namespace dynamics {
 
@@ -19,7 +20,7 @@ struct KktSolver::Impl {
   };
   std::vector<ConstraintBodies> ends;  // one for each constraint
   BlockSolver bodies_alone;
-  Eigen::PartialPivLU<Eigen::MatrixXd> dense_lu;
+  hydro::dense::Lu dense_lu;
   Eigen::KLU<Sparse> sparse_lu;
 
   // Calls f(row or column of the bodies, constraint, which body's part) for all numbers of G.

@@ -1,7 +1,5 @@
 #include "array.hpp"
 
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -97,15 +95,9 @@ Array::Factors Array::compressed(const MatrixXcd& T, int azimuthal, double radiu
     D(n) = std::sqrt(std::exp(-kappa * closest_) * far.back()) / near[static_cast<std::size_t>(azimuthal)];
   }
   const MatrixXcd weakened = D.asDiagonal() * T * D.asDiagonal();
-  Eigen::ColPivHouseholderQR<MatrixXcd> qr(weakened);
-  const auto diagonal = qr.matrixQR().diagonal().cwiseAbs();
-  Index rank = 0;
-  while (rank < diagonal.size() && diagonal(rank) > precision_) ++rank;
-  const MatrixXcd Q = qr.householderQ() * MatrixXcd::Identity(T.rows(), rank);
-  const MatrixXcd R = qr.matrixQR().topRows(rank).triangularView<Eigen::Upper>();
+  const auto [Q, R] = dense::low_rank(weakened, precision_);
   const Eigen::VectorXd inverse = D.cwiseInverse();
-  const MatrixXcd unsorted = R * qr.colsPermutation().transpose();
-  return {unsorted * inverse.asDiagonal(), inverse.asDiagonal() * Q};
+  return {R * inverse.asDiagonal(), inverse.asDiagonal() * Q};
 }
 
 // From motions with cos θ and sin θ to e^{±iθ}: C cos θ + S sin θ = ½(C − iS) e^{iθ} + ½(C + iS) e^{−iθ}, and back.
