@@ -76,7 +76,7 @@ struct MotionModel {
     Located<std::string> deviation;  ///< of the noise, with its unit
   };
   Located<std::filesystem::path> scene = {};
-  double window = 0;  ///< s; 0: the record is one run from the scene's start
+  double window = 0;               ///< s; 0: the record is one run from the scene's start
   std::optional<int> starts = {};  ///< of the search; none: one, and others where it is refused
   int iterations = 60;
   std::vector<Parameter> parameters = {};
