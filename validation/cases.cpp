@@ -43,6 +43,7 @@ namespace rm3_regular { Outcome outcome(const Folders& folders); }
 namespace roll_decay { Outcome outcome(const Folders& folders); }
 namespace spectra { Outcome outcome(const Folders& folders); }
 namespace sea_dat { Outcome outcome(const Folders& folders); }
+namespace spoilt_fits { Outcome outcome(const Folders& folders); }
 namespace sphere_decay { Outcome outcome(const Folders& folders); }
 namespace stick { Outcome outcome(const Folders& folders); }
 namespace two_pole { Outcome outcome(const Folders& folders); }
@@ -90,6 +91,7 @@ const std::vector<Case>& cases() {
       {"stick", stick::outcome},
       {"kramers-kronig", kramers_kronig::outcome},
       {"sphere-decay", sphere_decay::outcome, {"iea_sphere"}},
+      {"spoilt-fits", spoilt_fits::outcome},
       {"rm3-regular", rm3_regular::outcome, {"rm3"}},
       {"rm3-decay", rm3_decay::outcome, {"rm3"}},
       {"f3of", f3of::outcome, {"f3of"}},

@@ -86,7 +86,12 @@ std::vector<Coefficient> in_table(const DecayRun& run) {
 }
 
 Remedy remedy_of(const scene::FitScene& scene, const ::fit::decay::Problem&, const ::fit::decay::Solution& solution) {
-  if (solution.report.refused->reason == ::fit::Refusal::Reason::search_without_end)
+  using enum ::fit::Refusal::Reason;
+  if (solution.report.refused->reason == halves_differ)
+    return {scene.model_place,
+            "take other terms, or the part of the record in which one set of them holds (window of [prepare]); to have "
+            "values all the same: [ask] accept = [\"residuals\"]"};
+  if (solution.report.refused->reason == search_without_end)
     return {.text = "Take the part of the record that swings (window of [prepare]), or other terms"};
   return {scene.model_place,
           "take the part of the record that swings (window of [prepare]), or other terms; to have values all the same: "

@@ -69,6 +69,7 @@ std::vector<double> joined(const std::vector<Eigen::MatrixXd>& windows, std::siz
 Remedy remedy_of(const scene::FitScene& scene, const ::fit::motion::Problem& problem,
                  const ::fit::motion::Solution& solution) {
   using enum ::fit::Refusal::Reason;
+  if (!solution.trouble.empty()) return {scene.model_place, "Put that right in [[data.signal]] or in the file"};
   const auto& stated = solution.fit.stated;
   switch (solution.report.refused->reason) {
     case search_without_end:

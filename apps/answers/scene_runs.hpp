@@ -43,6 +43,8 @@ class SceneRuns final : public ::fit::Simulation {
 
   /// Units of the signals, in their order. \throws hydro::InputError at a signal that there is not
   std::vector<std::string> units();
+  /// What all trials share: coefficients as they were read, and their poles.
+  compile::Kept& kept() { return *prepared_.kept; }
 
  private:
   void compiled(const Eigen::VectorXd& parameters);

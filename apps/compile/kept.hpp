@@ -34,6 +34,7 @@ struct SymmetricData {
 class RadiationFits {
  public:
   const hydro::radiation::RationalFit& of(const SymmetricData& data, double tolerance);
+  std::size_t made() const { return known_.size(); }  ///< so far, whatever was asked again
 
  private:
   struct Known {

@@ -64,10 +64,11 @@ constexpr std::int64_t most_iterations = 100'000;
 
 /// How the parameters are searched for.
 void check_search(const Record& model, const MotionModel& motion) {
-  if (model.has("starts") && (motion.starts < 2 || motion.parameters.size() > 12))
-    throw model.wrong("starts", "must be 2 at least, for 12 parameters at most", "leave it out for one start");
+  if (motion.starts && (*motion.starts < 1 || (*motion.starts > 1 && motion.parameters.size() > 12)))
+    throw model.wrong("starts", "must be 1 at least, and 1 for more than 12 parameters",
+                      "leave it out: where one start fails, others are tried");
   for (const auto& q : motion.parameters)
-    if (motion.starts > 1 && !std::isfinite(q.number.highest - q.number.lowest))
+    if (motion.starts.value_or(1) > 1 && !std::isfinite(q.number.highest - q.number.lowest))
       throw InputError(
           fmt::format("[[model.parameter]] {} has no bounds between which a search could start", q.number.name),
           q.place, "give lowest and highest, or leave out [model] starts");
@@ -87,7 +88,8 @@ Binding<MotionModel> motion_keys() {
           &MotionModel::window)
       .optional(
           integer("starts",
-                  "the search begins at so many points between the bounds, and the best end is kept; left out: once"),
+                  "the search begins at so many points between the bounds, and the best end is kept; left out: at the "
+                  "first values, and where that gives nothing to tell at four points more"),
           &MotionModel::starts)
       .key(integer("iterations", "steps of a search; one that has used them up tells no value")
                .within(Limit::at_least_one)
@@ -113,7 +115,7 @@ void finish(const FitTables& t, FitScene& scene, MotionModel& motion) {
     throw t.data().refused(
         "needs what was measured",
         "add a [[data.signal]] with its column, the signal of the run, and the deviation of its noise");
-  if (motion.profile && motion.starts > 1 && motion.window > 0)
+  if (motion.profile && motion.starts.value_or(1) > 1 && motion.window > 0)
     throw t.ask().wrong("profile", "cannot be had with several starts of a search in windows",
                         "give each parameter the first value that was found, and leave out [model] starts");
 }

@@ -76,8 +76,8 @@ struct MotionModel {
     Located<std::string> deviation;  ///< of the noise, with its unit
   };
   Located<std::filesystem::path> scene = {};
-  double window = 0;  ///< s; 0: the record is one run from the scene's start
-  int starts = 1;     ///< of the search
+  double window = 0;               ///< s; 0: the record is one run from the scene's start
+  std::optional<int> starts = {};  ///< of the search; none: one, and others where it is refused
   int iterations = 60;
   std::vector<Parameter> parameters = {};
   std::vector<Signal> signals = {};

@@ -38,6 +38,12 @@ struct EndOfSearch {
 EndOfSearch search_simulation(Simulation& simulation, const SimulationProblem& problem);
 /// The least cost alone, of any number of parameters. \throws as fit_simulation(), and SearchFailed
 double least_cost(Simulation& simulation, const SimulationProblem& problem);
+/// The cost from `problem.begin` after two steps by its Jacobian: the least, as far as the residuals are straight
+/// there. \throws as fit_simulation()
+double cost_nearby(Simulation& simulation, const SimulationProblem& problem);
+/// (F76) Rise of the cost at both ends of each interval against what the second derivative says. Where they differ the
+/// interval becomes that of the likelihood, and where that has no ends either, there is no value.
+void compare_with_likelihood(Simulation& simulation, const SimulationProblem& problem, SimulationFit& fit);
 /// Values, intervals and bands at that end, or why there are none.
 SimulationFit told(const SimulationProblem& problem, EndOfSearch end);
 

@@ -14,6 +14,17 @@ namespace {
 // quotient of a difference of 1e-5 is good to 1e-4, and its bend adds as little.
 constexpr double start_step = 1e-5, parameter_step = 1e-4;
 
+// A start is read from so many samples: within them a motion is a place and a velocity, and hardly more.
+constexpr Eigen::Index first_samples = 9;
+
+/// Rows of some first samples of a window, of each channel.
+std::vector<Eigen::Index> rows_of_first(Eigen::Index wanted, Eigen::Index samples, Eigen::Index channels) {
+  std::vector<Eigen::Index> out;
+  for (Eigen::Index c = 0; c < channels; ++c)
+    for (Eigen::Index i = 0; i < std::min(wanted, samples); ++i) out.push_back(c * samples + i);
+  return out;
+}
+
 class Shooting {
  public:
   Shooting(Simulation& simulation, const SimulationProblem& problem) : simulation_(simulation), problem_(problem) {
@@ -23,6 +34,7 @@ class Shooting {
 
   EndOfSearch end();
   double least_cost();  ///< that of end(), which tells more of it
+  double cost_nearby();
 
  private:
   Eigen::Index p() const { return std::ssize(problem_.parameters); }
@@ -36,9 +48,12 @@ class Shooting {
   Eigen::MatrixXd start_columns(std::size_t w, const Eigen::VectorXd& theta, const Eigen::VectorXd& start,
                                 const Eigen::VectorXd& here, const Eigen::MatrixXd& directions);
   void look_at_start(std::size_t w, Eigen::Index row, Eigen::Index column);
+  Eigen::VectorXd from_first_samples(std::size_t w);
+  Eigen::VectorXd begin_of(std::size_t w);
   Eigen::VectorXd settle(std::size_t w);
   Eigen::VectorXd find_starts();
   Eigen::VectorXd go_on(const SimulationFit::End& end);
+  double cost_of_nothing_fitted();
   SearchReport search(Eigen::VectorXd& x);
   void evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian);
   Eigen::MatrixXd differences(const Eigen::VectorXd& x);
@@ -110,12 +125,50 @@ void Shooting::look_at_start(std::size_t w, Eigen::Index row, Eigen::Index colum
   pieces_.push_back(std::move(piece));
 }
 
+/// (F75) Where the first samples contradict what was handed on, by more than chance, the start is theirs; along
+/// directions that they do not tell it stays as it was handed on.
+Eigen::VectorXd Shooting::from_first_samples(std::size_t w) {
+  constexpr double told = 0.01, beyond_chance = 3;  // of the strongest direction; in deviations
+  const WindowOfSearch& piece = pieces_[w];
+  const auto& measured = problem_.measured[w];
+  const auto rows = rows_of_first(first_samples, measured.rows(), measured.cols());
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(piece.seen.cols()), r = residuals(w, first(), piece.seen * z);
+  const auto svd = hydro::dense::svd(start_columns(w, first(), piece.seen * z, r, piece.seen)(rows, Eigen::all));
+  for (int round = 0; round < 4; ++round) {
+    const Eigen::VectorXd against = svd.U.transpose() * r(rows);
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(z.size());
+    for (Eigen::Index i = 0; i < against.size(); ++i)
+      if (svd.values[i] > told * svd.values[0] && std::abs(against[i]) > beyond_chance)
+        step -= against[i] / svd.values[i] * svd.V.col(i);
+    if (step.isZero(0)) break;
+    z += step;
+    r = residuals(w, first(), piece.seen * z);
+  }
+  return z;
+}
+
+/// Of what was handed on and what the first samples tell, the one that follows the first quarter of the window better.
+Eigen::VectorXd Shooting::begin_of(std::size_t w) {
+  const WindowOfSearch& piece = pieces_[w];
+  const auto& measured = problem_.measured[w];
+  const Eigen::VectorXd handed_on = Eigen::VectorXd::Zero(piece.seen.cols());
+  if (handed_on.size() == 0) return handed_on;
+  const auto quarter = rows_of_first(std::max(first_samples, measured.rows() / 4), measured.rows(), measured.cols());
+  const auto missed = [&](const Eigen::VectorXd& z) { return residuals(w, first(), piece.seen * z)(quarter).norm(); };
+  try {
+    const Eigen::VectorXd told = from_first_samples(w);
+    return missed(told) < missed(handed_on) ? told : handed_on;
+  } catch (const hydro::NumericsError&) {
+    return handed_on;  // from what the first samples tell there is no motion
+  }
+}
+
 /// The start of one window fitted alone, with the parameters at their first values: to its first quarter, to its first
 /// half, and to all of it, since what lies far ahead pulls a wrong start to a wrong minimum (F41).
 Eigen::VectorXd Shooting::settle(std::size_t w) {
   const WindowOfSearch& piece = pieces_[w];
   const Eigen::Index samples = problem_.measured[w].rows();
-  Eigen::VectorXd z = Eigen::VectorXd::Zero(piece.seen.cols());
+  Eigen::VectorXd z = begin_of(w);
   if (z.size() == 0) return z;
   ResidualModel alone;
   alone.parameters.assign(static_cast<std::size_t>(z.size()), {"start"});
@@ -141,7 +194,8 @@ Eigen::VectorXd Shooting::settle(std::size_t w) {
   return z;
 }
 
-/// Each window begins where the one before ended, and settles on its own samples before it is handed on.
+/// Each window begins where the one before ended, or where its first samples are, and settles on its own samples before
+/// it is handed on.
 Eigen::VectorXd Shooting::find_starts() {
   std::vector<Eigen::VectorXd> found;
   unknowns_ = p();
@@ -296,9 +350,20 @@ double Shooting::least_cost() {
       require_ended(report, "all else at a value of the profile");
     return report.cost_last;
   }
+  return cost_of_nothing_fitted();
+}
+
+double Shooting::cost_of_nothing_fitted() {
   double squares = 0;
-  for (std::size_t w = 0; w < pieces_.size(); ++w) squares += residuals(w, x, start_of(x, w)).squaredNorm();
+  for (std::size_t w = 0; w < pieces_.size(); ++w)
+    squares += residuals(w, Eigen::VectorXd(0), Eigen::VectorXd::Zero(pieces_[w].seen.rows())).squaredNorm();
   return squares / 2;
+}
+
+double Shooting::cost_nearby() {
+  Eigen::VectorXd x = go_on(problem_.begin->end);
+  if (unknowns_ == 0) return cost_of_nothing_fitted();
+  return minimise(model(), x, {.gradient_below = 1e-9, .step_below = 1e-8, .iterations_reach = 2}).cost_last;
 }
 
 }  // namespace
@@ -309,6 +374,10 @@ EndOfSearch search_simulation(Simulation& simulation, const SimulationProblem& p
 
 double least_cost(Simulation& simulation, const SimulationProblem& problem) {
   return Shooting(simulation, problem).least_cost();
+}
+
+double cost_nearby(Simulation& simulation, const SimulationProblem& problem) {
+  return Shooting(simulation, problem).cost_nearby();
 }
 
 }  // namespace fit

@@ -32,6 +32,7 @@ std::exception_ptr exception_of(const ::fit::Refusal& refusal, const Remedy& rem
   const hydro::InputError error(refusal.why, remedy.place, remedy.text);
   switch (refusal.reason) {
     case ::fit::Refusal::Reason::residuals_too_large:
+    case ::fit::Refusal::Reason::halves_differ:
       return std::make_exception_ptr(CheckFailed(error));
     case ::fit::Refusal::Reason::wrong_sign:
       return std::make_exception_ptr(error.at({.file = refusal.source}));

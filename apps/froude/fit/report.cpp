@@ -67,6 +67,8 @@ Report told(const ::fit::Report& fit, double confidence) {
     estimates.part(e.key.empty() ? e.coefficient.name : e.key, told(e, confidence));
   out.part(fit.group, estimates);
   for (const std::string& remark : fit.remarks) out.say("  {}", remark);
+  if (fit.refused && !fit.refused->best_point.empty())
+    out.say("  best point found, not accepted: {}", fmt::join(fit.refused->best_point, ", "));
   if (fit.steps) out.sentences("steps", "  {}", *fit.steps);
   if (fit.steps || !fit.cautions.empty()) out.sentences("cautions", "  caution: {}", fit.cautions);
   for (const ::fit::Report& part : fit.parts)

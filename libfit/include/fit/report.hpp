@@ -58,11 +58,14 @@ struct Refusal {
   enum class Reason {
     search_without_end,     ///< where it stands is no minimum (F65)
     residuals_too_large,    ///< than what was stated of them (F66), or than what is explained (F67)
-    wrong_sign,             ///< force and motion work against each other (F26)
+    halves_differ,          ///< parts of the record tell values that exclude each other (F78)
+    wrong_sign,             ///< force and motion work against each other (F26), or the water feeds the motion (F79)
     profile_without_an_end  ///< what is missing is the interval by likelihood: values stand in the report
   } reason;
   std::string why;          ///< one sentence
   std::string source = {};  ///< the run that it is true of; empty: all of them together
+  /// Where the search ended or gave up, with units: the best point that is known, which nobody should take for a value.
+  std::vector<std::string> best_point = {};  ///< "damping 0.12 kg/s"
 };
 
 /// What a fit tells, or a part of it: a run, runs together, the water. Each fact stands here once.

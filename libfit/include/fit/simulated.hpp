@@ -55,6 +55,9 @@ struct SimulationProblem {
 
 struct SimulationFit {
   std::vector<Coefficient> parameters;
+  /// Whose interval is that of the likelihood, one a parameter: at its ends the cost does not rise as the second
+  /// derivative says. (F76)
+  std::vector<bool> by_likelihood;
   SearchReport search;
   std::vector<StatedResiduals> stated;  ///< residuals against their deviations, one a channel
   /// Why no parameter has a value or an interval, and the motion no bands: a search without an end, or residuals that
@@ -85,7 +88,7 @@ struct SimulationFit {
 
 /// Fits parameters and starts together (F41). A parameter that ends at a bound, or whose interval is wider than ten
 /// times its scale, has no value and says why; where `refused` says so, none has. Intervals count the memory of the
-/// residuals (F4).
+/// residuals (F4), and are those of the likelihood where the second derivative does not describe it (F76).
 /// \throws hydro::InputError: shapes that do not fit (also of `begin`), first values outside their bounds, what the
 /// simulation throws at the first values
 SimulationFit fit_simulation(Simulation& simulation, const SimulationProblem& problem);
@@ -105,10 +108,21 @@ struct SeveralStarts {
   int tried, agree,
       failed;   ///< `agree` came to the cost of the best, itself counted; `failed` had no motion to follow
   int unended;  ///< came to no end; where one of these lies lowest, it is the best, and refused
+  struct Search {
+    Eigen::VectorXd first, last;  ///< parameters
+    double cost;                  ///< ½‖r‖² at the last
+    bool ended;
+  };
+  std::vector<Search> searches;  ///< of all that had a motion, in their order
+  std::size_t best_of;           ///< which of them is the best
 };
 /// fit_simulation() from the first values and from `starts` − 1 points of a Halton sequence between the bounds, of
 /// which the least cost is kept (F58). \throws hydro::InputError for fewer than two starts, `begin`, or a parameter
 /// without both bounds, and what fit_simulation() throws where no start has a motion
 SeveralStarts fit_simulation_from(Simulation& simulation, const SimulationProblem& problem, int starts);
+/// fit_simulation() from the first values; where that is refused or has no motion, from `more` other points too, which
+/// lie between a parameter's bounds, and where it has not both between a quarter and four times its first value (F58).
+/// Of more than twelve parameters from the first values alone. \throws as fit_simulation(), where no start has a motion
+SeveralStarts fit_simulation_insisting(Simulation& simulation, const SimulationProblem& problem, int more);
 
 }  // namespace fit

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "fit/verdict.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/signal/distributions.hpp"
 #include "hydro/signal/welch.hpp"
 #include "telling.hpp"
 
@@ -29,14 +31,19 @@ DecayOptions plain(const Options& options) {
   return out;
 }
 
-/// The same fit of each half of the record: where they differ by many errors, damping is not what the terms say.
-void vary(const Options& options, const Window& whole, FittedRun& run) {
+/// The same fit of one half of the record.
+DecayFit fit_half(const Options& options, const Window& whole, bool first) {
   const Eigen::Index n = whole.values.rows(), half = n / 2;
+  const Eigen::MatrixXd part = whole.values.middleRows(first ? 0 : half, first ? half : n - half);
+  return fit_decay(std::vector{Window{whole.step, part}}, plain(options));
+}
+
+/// Where halves differ from the whole by many errors, damping is not what the terms say.
+void vary(const Options& options, const Window& whole, FittedRun& run) {
   for (const bool first : {true, false}) {
     Variant v{first ? "the first half of the record" : "the second half of the record", {}, {}};
-    const Eigen::MatrixXd part = whole.values.middleRows(first ? 0 : half, first ? half : n - half);
     try {
-      const DecayFit again = fit_decay(std::vector{Window{whole.step, part}}, plain(options));
+      const DecayFit again = fit_half(options, whole, first);
       const auto add = [&](const Coefficient& a, const Coefficient& b) {
         v.changes.push_back((middle(a) - middle(b)) / b.standard_error);
       };
@@ -51,16 +58,132 @@ void vary(const Options& options, const Window& whole, FittedRun& run) {
   }
 }
 
+/// Where a search ended, of the parameters that were fitted.
+std::vector<std::string> best_point(const Problem& problem, const ShootingFit& motion) {
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < motion.parameters.size(); ++k) {
+    const Coefficient& c = motion.parameters[k];
+    if (c.standard_error == 0) continue;  // held
+    const bool frequency = c.name == "omega0";
+    const std::string name = frequency ? "period" : c.name;
+    out.push_back(fmt::format("{} {:.5g} {}", name,
+                              frequency ? 2 * std::numbers::pi / motion.ended[k] : motion.ended[k],
+                              unit_of(name, problem.turns)));
+  }
+  return out;
+}
+
 /// (F67) Nobody has stated how large residuals of a decay may be; larger than what is explained is too large.
 void require_explained(const Problem& problem, const FittedRun& run, const ShootingFit& motion) {
   if (motion.explained[0] >= least_explained || problem.options.accept_residuals) return;
   throw Refused{
-      {Refusal::Reason::residuals_too_large,
-       fmt::format("no value is told: the motion fitted differs by {:.3g} {} rms from {} and explains {:.3g} "
-                   "% of its variance; {:g} % are the least",
-                   motion.rms[0], problem.turns ? "rad" : "m", run.alone() ? run.name() : "the records together",
-                   100 * motion.explained[0], 100 * least_explained),
-       run.source.file.string()}};
+      {.reason = Refusal::Reason::residuals_too_large,
+       .why = fmt::format("no value is told: the motion fitted differs by {:.3g} {} rms from {} and explains {:.3g} "
+                          "% of its variance; {:g} % are the least",
+                          motion.rms[0], problem.turns ? "rad" : "m", run.alone() ? run.name() : "the records together",
+                          100 * motion.explained[0], 100 * least_explained),
+       .source = run.source.file.string(),
+       .best_point = best_point(problem, motion)}};
+}
+
+/// Differences of the halves' coefficients over what chance allows, the largest of them.
+double difference(const DecayFit& a, const DecayFit& b) {
+  // One right record in a thousand differs by more; an error made from some thirty independent residuals is itself
+  // known to an eighth, and so are two of them together.
+  constexpr double chance = 1e-3, known = 1.25;
+  const auto tests = static_cast<double>(a.damping.size() + 1);
+  const double allowed =
+      known * hydro::signal::student_t_quantile(1 - chance / (2 * tests), std::min(a.motion.dof, b.motion.dof));
+  const auto apart = [&](const Coefficient& x, const Coefficient& y) {
+    const double error = std::hypot(x.standard_error, y.standard_error);
+    return error > 0 ? std::abs(middle(x) - middle(y)) / (allowed * error) : 0.0;
+  };
+  double out = apart(a.period, b.period);
+  for (std::size_t k = 0; k < a.damping.size(); ++k) out = std::max(out, apart(a.damping[k], b.damping[k]));
+  return out;
+}
+
+/// (F78) Terms that are right tell the same of each half of a record.
+void compare_halves(const Problem& problem, const Window& whole, FittedRun& run) {
+  if (!run.alone() || problem.options.memory) return;
+  std::optional<DecayFit> first, second;
+  try {
+    first = fit_half(problem.options, whole, true);
+    second = fit_half(problem.options, whole, false);
+  } catch (const hydro::InputError&) {
+    return;  // a half with two swings tells nothing by itself
+  } catch (const hydro::NumericsError&) {
+    return;  // nor does one in which the motion has died out
+  }
+  run.halves = difference(*first, *second);
+  if (run.halves < 1 || problem.options.accept_residuals) return;
+  std::string told;
+  const auto tell = [&](const Coefficient& of, const Coefficient& a, const Coefficient& b) {
+    told += fmt::format("{}{} {:.4g} and {:.4g} {}", told.empty() ? "" : ", ", of.name, middle(a), middle(b),
+                        unit_of(of.name, problem.turns));
+  };
+  tell(run.fit.period, first->period, second->period);
+  for (std::size_t k = 0; k < first->damping.size(); ++k)
+    tell(run.fit.damping[k], first->damping[k], second->damping[k]);
+  throw Refused{{.reason = Refusal::Reason::halves_differ,
+                 .why = fmt::format("no value is told: the first and the second half of {} tell values that exclude "
+                                    "each other, {}, {:.3g} times as far apart as chance allows",
+                                    run.name(), told, *run.halves),
+                 .source = run.source.file.string(),
+                 .best_point = best_point(problem, run.fit.motion)}};
+}
+
+/// √ of what the cost rises by where a parameter is held at one end of its interval and all else is fitted again, over
+/// what the second derivative says. Infinite where there is no such motion.
+double rise_against_quadratic(const DecayFit& fit, std::size_t parameter, double end) {
+  const Coefficient& c = fit.motion.parameters[parameter];
+  ShootingProblem held = fit.problem;
+  held.start = fit.motion.ended;
+  held.start[parameter] = end;
+  held.fitted[parameter] = false;
+  const double expected = fit.motion.search.cost_last * std::pow((end - *c.value) / c.standard_error, 2) /
+                          std::max(1.0, c.effective_samples);
+  try {
+    const double rise = fit_motion(held).search.cost_last - fit.motion.search.cost_last;
+    return std::sqrt(std::max(0.0, rise) / expected);
+  } catch (const hydro::NumericsError&) {
+    return std::numeric_limits<double>::infinity();
+  }
+}
+
+/// (F76) The interval of the likelihood where the second derivative does not describe it. \return whether it is that
+bool replace_if_bent(const DecayFit& fit, std::size_t parameter, Coefficient& c) {
+  constexpr double off = 1.25;  // an end off by a quarter of its distance, as in fits of a simulation
+  const Coefficient& own = fit.motion.parameters[parameter];
+  if (!c.value || !own.value || !(own.standard_error > 0)) return false;
+  const double low = rise_against_quadratic(fit, parameter, own.interval.low),
+               high = rise_against_quadratic(fit, parameter, own.interval.high);
+  if (std::min(low, high) > 1 / off && std::max(low, high) < off) return false;
+  try {
+    c.interval = profile_interval(fit.problem, fit.motion, parameter);
+    return true;
+  } catch (const hydro::NumericsError& e) {
+    withhold(
+        c, fmt::format("the second derivative does not describe the cost about {:.6g}, and {}", *own.value, e.what()));
+    return false;
+  }
+}
+
+void compare_with_likelihood(FittedRun& run) {
+  const auto names = parameters_of(run.fit.problem.law);
+  for (Coefficient& c : run.fit.damping) {
+    const auto at = static_cast<std::size_t>(std::find(names.begin(), names.end(), c.name) - names.begin());
+    if (!replace_if_bent(run.fit, at, c)) continue;
+    run.by_likelihood.push_back(c.name);
+    if (!(c.interval.low <= 0 && c.interval.high >= 0)) continue;
+    c.value.reset();
+    c.why_not =
+        fmt::format("its likelihood cannot tell it from zero ({:.3g} to {:.3g})", c.interval.low, c.interval.high);
+  }
+  if (!replace_if_bent(run.fit, 0, run.fit.period)) return;
+  const Interval omega = run.fit.period.interval;
+  run.fit.period.interval = {2 * std::numbers::pi / omega.high, 2 * std::numbers::pi / omega.low};
+  run.by_likelihood.push_back(run.fit.period.name);
 }
 
 /// The memory, and what it makes of the body where that is known.
@@ -104,6 +227,8 @@ FittedRun fitted(const Problem& problem, const Source& source, std::vector<Recor
   run.decrement = logarithmic_decrement(find_extremes(run.records[0].time, run.records[0].values));
   run.fit = fit_decay(windows, plain(options));
   require_explained(problem, run, run.fit.motion);
+  compare_halves(problem, windows[0], run);
+  compare_with_likelihood(run);
   if (options.sensitivity && run.alone()) vary(options, windows[0], run);
   if (problem.body) run.water = added_mass(run.fit, *problem.body, options.motion.confidence);
   if (options.memory) add_memory(problem, windows, run);
@@ -111,8 +236,9 @@ FittedRun fitted(const Problem& problem, const Source& source, std::vector<Recor
   if (options.profile) run.profiles = profiles_of(run.fit);
   return run;
 } catch (const SearchFailed& e) {
-  throw Refused{
-      {Refusal::Reason::search_without_end, std::string("no value is told: ") + e.what(), source.file.string()}};
+  throw Refused{{.reason = Refusal::Reason::search_without_end,
+                 .why = std::string("no value is told: ") + e.what(),
+                 .source = source.file.string()}};
 }
 
 /// (F63) All runs with one set of coefficients; each keeps the rest position that its own best fit has.

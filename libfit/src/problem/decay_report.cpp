@@ -129,6 +129,13 @@ void add_quality(const FittedRun& run, double confidence, Report& report) {
   report.say("search: iterations {}, {}; {}", m.search.iterations, m.search.why, m.search.identifiability);
 }
 
+/// (F78)
+void add_halves(double apart, Report& report) {
+  report.facts.emplace_back("halves_apart", apart);
+  report.say("{}both halves of the record tell values that are {:.2g} times as far apart as chance allows",
+             apart < 1 ? "" : "accepted: ", apart);
+}
+
 Report told(const Problem& problem, const FittedRun& run) {
   const bool turns = problem.turns;
   Report report = begun(run, turns);
@@ -142,6 +149,9 @@ Report told(const Problem& problem, const FittedRun& run) {
         "accepted: less than {:g} % is explained; intervals are made from what is left, and an error of the model is "
         "in none of them",
         100 * least_explained);
+  if (run.halves) add_halves(*run.halves, report);
+  for (const std::string& name : run.by_likelihood)
+    report.say("the interval of {} is that of its likelihood, which the second derivative does not describe", name);
   if (run.alone()) add_energy(run, report);
   add_quality(run, problem.options.motion.confidence, report);
   add_variants(run, report);

@@ -7,6 +7,18 @@
 namespace fit::morison {
 namespace {
 
+/// (F79) Drag that is negative beyond twice its interval feeds the motion, which no steady force of water does.
+void require_drag_that_brakes(const MorisonFit& fit, const Source& source) {
+  const auto& [low, high] = fit.cd.interval;
+  if (!fit.cd.value || !(high + (high - low) / 2 < 0)) return;
+  throw Refused{{.reason = Refusal::Reason::wrong_sign,
+                 .why = fmt::format("drag comes out negative (cd {:.3g} to {:.3g}), as if the water drove the motion: "
+                                    "the force or the motion has the wrong sign, they stand in each other's place, or "
+                                    "one of them is recorded late",
+                                    low, high),
+                 .source = source.file.string()}};
+}
+
 /// The fit of one raw record, with its delay where that is to be estimated.
 FittedRun fit_raw(const Options& options, const Source& source, const Cylinder& cylinder, RawRun raw) {
   FittedRun run;
@@ -23,7 +35,8 @@ FittedRun fit_raw(const Options& options, const Source& source, const Cylinder& 
     run.fit = fit_morison(cylinder, run.prepared.record, force);
   }
   if (const std::string trouble = sign_trouble(cylinder, run.fit); !trouble.empty())
-    throw Refused{{Refusal::Reason::wrong_sign, trouble, source.file.string()}};
+    throw Refused{{.reason = Refusal::Reason::wrong_sign, .why = trouble, .source = source.file.string()}};
+  require_drag_that_brakes(run.fit, source);
   return run;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "fit/verdict.hpp"
+#include "motion_channels.hpp"
 #include "telling.hpp"
 
 namespace fit::motion {
@@ -17,6 +18,13 @@ SimulationProblem simulated(const Problem& problem) {
   out.confidence = problem.options.confidence;
   out.iterations_reach = problem.options.iterations_reach;
   out.accept_residuals = problem.options.accept_residuals;
+  return out;
+}
+
+Eigen::VectorXd first_of(const Problem& problem) {
+  Eigen::VectorXd out(std::ssize(problem.parameters));
+  for (std::size_t k = 0; k < problem.parameters.size(); ++k)
+    out[static_cast<Eigen::Index>(k)] = problem.parameters[k].number.first;
   return out;
 }
 
@@ -66,7 +74,9 @@ void add_values(const Problem& problem, const SimulationFit& fit, Report& report
     Estimate e{c, unit};
     e.key = key;
     e.facts = {{"key", number.name}, {"unit", unit}};
-    if (c.value)
+    if (c.value && fit.by_likelihood[k])
+      e.more = " by its likelihood, which the second derivative does not describe";
+    else if (c.value)
       e.more =
           fmt::format(" (if residuals were independent {:.5g} to {:.5g})", c.white_interval.low, c.white_interval.high);
     report.estimates.push_back(std::move(e));
@@ -103,13 +113,43 @@ void add_accepted(const Problem& problem, const SimulationFit& fit, Report& repo
   for (const std::string& one : all) report.say("accepted: {}", one);
 }
 
-void add_starts(const SeveralStarts& several, Report& report) {
+/// "line.damping.linear 0.0123 kg/s"
+std::vector<std::string> point(const Problem& problem, const Eigen::VectorXd& at) {
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < problem.parameters.size(); ++k) {
+    const auto& [number, unit] = problem.parameters[k];
+    out.push_back(
+        fmt::format("{} {:.6g}{}{}", number.name, at[static_cast<Eigen::Index>(k)], unit.empty() ? "" : " ", unit));
+  }
+  return out;
+}
+
+/// Where searches ended that did not come to the best one.
+void add_other_ends(const Problem& problem, const SeveralStarts& several, Report& report) {
+  const auto& best = several.searches[several.best_of];
+  std::vector<std::string> ends;
+  for (const auto& search : several.searches)
+    if (search.cost > 1.01 * best.cost)
+      ends.push_back(
+          fmt::format("from {} to {}, {} the squares {:.3g} times as large",
+                      fmt::join(point(problem, search.first), ", "), fmt::join(point(problem, search.last), ", "),
+                      search.ended ? "where it ended with" : "where it gave up with", search.cost / best.cost));
+  if (ends.empty()) return;
+  report.facts.emplace_back("other_ends", ends);
+  for (const std::string& end : ends) report.say("another search went {}", end);
+}
+
+void add_starts(const Problem& problem, const SeveralStarts& several, Report& report) {
   report.facts.emplace_back("starts", Facts{{"tried", several.tried},
                                             {"agree", several.agree},
                                             {"failed", several.failed},
                                             {"unended", several.unended}});
   report.say("of {} starts {} came there, {} had no motion to follow, {} came to no end", several.tried, several.agree,
              several.failed, several.unended);
+  if (!problem.options.starts)
+    report.say("the others were begun since the first, at {}, gave nothing to tell",
+               fmt::join(point(problem, first_of(problem)), ", "));
+  add_other_ends(problem, several, report);
 }
 
 std::string heading_of(const Problem& problem, const SimulationFit& fit) {
@@ -139,16 +179,20 @@ Report told(const Problem& problem, const SimulationFit& fit) {
 }
 
 /// (F65), (F66) Nothing is told but what stands against it.
-std::optional<Refusal> refusal_of(const Problem& problem, const SimulationFit& fit) {
+std::optional<Refusal> refusal_of(const Problem& problem, const SimulationFit& fit, const std::string& trouble) {
   if (fit.refused.empty()) return {};
-  std::string signals;
+  std::string more;
   for (std::size_t c = 0; c < problem.signals.size(); ++c)
-    if (!fit.stated[c].hold()) signals += "; " + difference(problem, fit, c);
+    if (!fit.stated[c].hold()) more += "; " + difference(problem, fit, c);
+  if (!trouble.empty()) more += "; " + trouble;
+  const std::vector<std::string> best = point(problem, fit.end.unknowns);
   if (!fit.search.ended())
-    return Refusal{Refusal::Reason::search_without_end,
-                   fmt::format("no value is told: the search has no end: {}{}", why_unended(fit.search), signals)};
-  return Refusal{Refusal::Reason::residuals_too_large,
-                 "no value is told: the search ended, but not at the motion that was measured" + signals};
+    return Refusal{.reason = Refusal::Reason::search_without_end,
+                   .why = fmt::format("no value is told: the search has no end: {}{}", why_unended(fit.search), more),
+                   .best_point = best};
+  return Refusal{.reason = Refusal::Reason::residuals_too_large,
+                 .why = "no value is told: the search ended, but not at the motion that was measured" + more,
+                 .best_point = best};
 }
 
 /// Intervals by the likelihood of each parameter that has a value and an error.
@@ -163,17 +207,30 @@ void add_profiles(const Problem& problem, const SimulationProblem& simulated, co
   }
 }
 
+/// Profiles need the windows as the search of the fit handed them on: where another came after it, it is done again.
+SimulationFit again(const Problem& problem, SimulationProblem search, const SeveralStarts& several) {
+  for (std::size_t k = 0; k < search.parameters.size(); ++k)
+    search.parameters[k].first = several.searches[several.best_of].first[static_cast<Eigen::Index>(k)];
+  return fit_simulation(*problem.simulation, search);
+}
+
 }  // namespace
 
 Solution solve(const Problem& problem) {
   const SimulationProblem search = simulated(problem);
-  std::optional<SeveralStarts> several;
-  if (problem.options.starts > 1) several = fit_simulation_from(*problem.simulation, search, problem.options.starts);
-  Solution out{.report = {}, .fit = several ? several->best : fit_simulation(*problem.simulation, search)};
+  Simulation& simulation = *problem.simulation;
+  const Options& options = problem.options;
+  SeveralStarts several = options.starts.value_or(1) > 1
+                              ? fit_simulation_from(simulation, search, *options.starts)
+                              : fit_simulation_insisting(simulation, search, options.starts ? 0 : starts_after_failure);
+  Solution out{.report = {}, .fit = std::move(several.best), .trouble = {}};
+  if (!out.fit.refused.empty()) out.trouble = trouble_of_channels(problem, search, out.fit);
   out.report = told(problem, out.fit);
-  if (several) add_starts(*several, out.report);
-  out.report.refused = refusal_of(problem, out.fit);
-  if (!out.report.refused && problem.options.profile) add_profiles(problem, search, out.fit, out.report);
+  if (several.tried > 1) add_starts(problem, several, out.report);
+  out.report.refused = refusal_of(problem, out.fit, out.trouble);
+  if (out.report.refused || !options.profile) return out;
+  if (several.best_of + 1 < several.searches.size()) out.fit = again(problem, search, several);
+  add_profiles(problem, search, out.fit, out.report);
   return out;
 }
 

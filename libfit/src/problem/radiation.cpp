@@ -9,6 +9,21 @@ namespace {
 
 constexpr std::size_t least_for_poles = 5;
 
+/// (F79) Still water takes energy from a motion, and gives none back.
+std::optional<Refusal> refusal_of(const std::vector<Point>& points) {
+  for (const Point& p : points) {
+    const auto& [low, high] = p.point.damping.interval;
+    if (!(high + (high - low) / 2 < 0)) continue;
+    return Refusal{.reason = Refusal::Reason::wrong_sign,
+                   .why = fmt::format("damping comes out negative at {:.4g} rad/s ({:.3g} to {:.3g}), as if the water "
+                                      "drove the motion: the force or the motion has the wrong sign, they stand in "
+                                      "each other's place, or one of them is recorded late",
+                                      p.point.omega, low, high),
+                   .source = p.source.file.string()};
+  }
+  return {};
+}
+
 std::optional<RadiationMemory> memory_of(const std::vector<Point>& points, double confidence) {
   if (points.size() < least_for_poles) return {};
   std::vector<RadiationPoint> all;
@@ -85,8 +100,10 @@ Solution solve(const Problem& problem) {
                           })});
   std::sort(out.points.begin(), out.points.end(),
             [](const Point& a, const Point& b) { return a.point.omega < b.point.omega; });
-  out.memory = memory_of(out.points, confidence);
   Report& report = out.report;
+  report.refused = refusal_of(out.points);
+  if (report.refused) return out;
+  out.memory = memory_of(out.points, confidence);
   report.heading = "F = -(M + A) a - B v - C x, what the load cells carry of a body moved in still water";
   if (out.points.size() == 1) {  // what a scene of motion may include
     const RadiationPoint& p = out.points[0].point;

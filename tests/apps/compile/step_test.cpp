@@ -9,6 +9,7 @@
 #include "answers/scene_runs.hpp"
 #include "answers/simulate.hpp"
 #include "compile/compile.hpp"
+#include "compile/kept.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/potential/formats/writers.hpp"
 #include "scenes.hpp"
@@ -191,6 +192,27 @@ TEST(StepOfARun, StaysWhileAFitSearchesForAStiffness) {
     bend = std::max(bend, std::abs(last[i + 1] - 2 * last[i] + last[i - 1]));
   }
   EXPECT_LT(bend, 0.02 * by_trial) << "0.008 of a cosine; a step more between samples moves it by a quarter of a trial";
+}
+
+// A search runs the scene a hundred times and more, while a file takes as long to read, and poles to fit, as many runs.
+TEST(TrialsOfAFit, ReadNoFileAndFitNoPolesAgain) {
+  const Flap flap;
+  const auto file = flap.write("flap_searched");
+  const auto path = std::filesystem::path(testing::TempDir()) / "flap_searched.toml";
+  const std::string radiation = "memory_tolerance = 1e-3, accept_error = 0.02";
+  std::ofstream(path) << Flap::scene(file, radiation + ", method = \"poles\"", "0.1 s");
+  scene::MotionModel fit;
+  fit.scene.value = path;
+  fit.parameters.push_back({{"body.flap.initial.pitch", 0.35}, "rad", {}});
+  fit.signals.push_back({"x", "flap.pitch", {"1 mrad", {}}});
+  std::vector<double> time;
+  for (int i = 0; i <= 20; ++i) time.push_back(0.1 * i);
+  const MeasuredRun measured = MeasuredRun::of(time, Eigen::MatrixXd::Zero(21, 1), 0);
+  SceneRuns runs(fit, measured);
+  std::filesystem::remove(file);  // whoever reads it again finds nothing
+  for (int i = 0; i < 10; ++i)
+    EXPECT_NEAR(runs.follow(0, Eigen::VectorXd::Constant(1, 0.1 + 0.01 * i), {})(0, 0), 0.1 + 0.01 * i, 1e-12);
+  EXPECT_EQ(runs.kept().fits().made(), 1u);
 }
 
 const std::string rod = froude_test::water + R"([[body]]

@@ -21,7 +21,7 @@ struct Options {
   std::optional<DecayMemoryOptions> memory;  ///< where asked for
   bool profile = false;                      ///< intervals of the damping by profile likelihood
   bool sensitivity = false;                  ///< each half of a record is fitted by itself
-  bool accept_residuals = false;             ///< values are told though the motion is not explained (F67)
+  bool accept_residuals = false;             ///< values are told though the motion is not explained (F67), (F78)
   bool together = false;                     ///< one set of coefficients for all runs beside those of each (F63)
 };
 
@@ -57,14 +57,18 @@ struct FittedRun {
   std::vector<Record> records;
   Decrement decrement;  ///< of the first record
   DecayFit fit;
-  std::optional<ResidualReport> left = {};    ///< in the residuals of one record of 64 samples and more
-  std::vector<Variant> variants = {};         ///< where asked for
-  std::vector<Interval> profiles = {};        ///< of the terms, where asked for
-  std::optional<AddedMass> water = {};        ///< where the body is known
-  std::optional<DecayMemoryFit> memory = {};  ///< where asked for
-  std::optional<DecayRadiation> swing = {};   ///< of the memory, at the frequency of the swing
-  std::optional<DecayRadiation> limit = {};   ///< at infinite frequency
-  std::vector<DecayRadiation> curve = {};     ///< about the swing
+  std::optional<ResidualReport> left = {};  ///< in the residuals of one record of 64 samples and more
+  std::vector<Variant> variants = {};       ///< where asked for
+  std::vector<Interval> profiles = {};      ///< of the terms, where asked for
+  /// The largest difference of a coefficient between the halves of one record, over what chance allows (F78); none
+  /// where a half tells nothing by itself, of several records, and of a memory.
+  std::optional<double> halves = {};
+  std::vector<std::string> by_likelihood = {};  ///< coefficients whose interval is that of the likelihood (F76)
+  std::optional<AddedMass> water = {};          ///< where the body is known
+  std::optional<DecayMemoryFit> memory = {};    ///< where asked for
+  std::optional<DecayRadiation> swing = {};     ///< of the memory, at the frequency of the swing
+  std::optional<DecayRadiation> limit = {};     ///< at infinite frequency
+  std::vector<DecayRadiation> curve = {};       ///< about the swing
 
   bool alone() const { return records.size() == 1; }
   std::string name() const { return alone() ? source.name() : "together"; }
@@ -76,7 +80,9 @@ const char* unit_of(const std::string& coefficient, bool turns);
 const char* unit_with_mass(const std::string& coefficient, bool turns);
 
 struct Solution {
-  Report report;  ///< refused where a search has no end (F65) or a motion is not explained (F67): then alone
+  /// Refused where a search has no end (F65), a motion is not explained (F67) or halves of a record contradict each
+  /// other (F78): then alone.
+  Report report;
   std::vector<FittedRun> runs;
   std::optional<FittedRun> together;
 };

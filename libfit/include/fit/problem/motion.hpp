@@ -2,6 +2,7 @@
 /// \file  Problem of a motion: parameters of any simulation from a record of what its run should tell; (F41)-(F43),
 ///        (F46), (F58), docs/theory/fit.md.
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,9 +12,13 @@
 
 namespace fit::motion {
 
+constexpr int starts_after_failure = 4;
+
 struct Options {
   double confidence = 0.95;
-  int starts = 1;  ///< of the search; more than one need bounds of every parameter
+  /// Of the search; they need bounds of every parameter. None: one, and where it is refused `starts_after_failure`
+  /// more.
+  std::optional<int> starts;
   int iterations_reach = 60;
   bool profile = false;           ///< intervals by profile likelihood
   bool accept_residuals = false;  ///< values are told though residuals exceed what the deviations allow (F66)
@@ -43,6 +48,7 @@ struct Solution {
   Report report;  ///< refused where the search has no end (F65), residuals contradict what was stated of the noise
                   ///< (F66), or an interval by likelihood has no end
   SimulationFit fit;
+  std::string trouble;  ///< what is wrong with the channels, where that explains why values are refused (F77)
 };
 /// \throws hydro::InputError as fit_simulation() and fit_simulation_from()
 Solution solve(const Problem& problem);

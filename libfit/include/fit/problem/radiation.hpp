@@ -40,7 +40,7 @@ struct Point {
   RadiationPoint point;
 };
 struct Solution {
-  Report report;
+  Report report;                          ///< refused where damping is negative (F79): then alone
   std::vector<Point> points;              ///< in the order of their frequencies
   std::optional<RadiationMemory> memory;  ///< of five points and more
 };
