@@ -3,8 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <limits>
 #include <set>
 
 #include "answers/plot.hpp"
@@ -159,10 +158,14 @@ plot::Panel panel_of(const AnswerCost& answer, const std::optional<double>& tole
     out.series.front().x.push_back(rung->time_s());
     out.series.front().y.push_back(error_of(*rung, answer.measure).error);
   }
+  constexpr double margin = 1.2;  // marks at the ends stand inside the frame
+  first /= margin;
+  last *= margin;
+  if (last > first) out.x.range = {first, last};
   if (tolerance)
     out.series.push_back({.name = "tolerance", .x = {first, last}, .y = {*tolerance, *tolerance}, .dashed = true});
   if (answer.uncertainty.error > 0)
-    out.series.push_back({.name = "known of the reference",
+    out.series.push_back({.name = "uncertainty of the reference",
                           .x = {first, last},
                           .y = {answer.uncertainty.error, answer.uncertainty.error},
                           .dashed = true});
