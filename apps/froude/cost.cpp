@@ -76,13 +76,13 @@ Report report_of(const CostRung& rung, const AnswerCost& answer) {
   const auto what = fact("approximation", rung.approximation);
   const auto setting = fact("setting", rung.setting, rung.setting + (rung.as_scene ? " (scene)" : ""));
   if (!rung.refused.empty())
-    return out.say("  {:<20} {:<34} {:>9}", what, setting, fact("refused", rung.refused, "refused"));
+    return out.say("  {:<24} {:<34} {:>9}", what, setting, fact("refused", rung.refused, "refused"));
   const bool by_itself = !rung.alone.signal.empty();
   const auto alone = fact("error_alone", by_itself ? std::optional(rung.alone.error) : std::nullopt,
                           by_itself ? fmt::format("{:.2g}", rung.alone.error) : "");
   std::string errors;
   for (const ErrorMeasure m : measures_of(answer)) errors += fmt::format(" {:>9.2g}", error_of(rung, m).error);
-  out.say("{} {:<20} {:<34} {:>9.3g} {:>9.3g} {:>9}{}  {}", rung.on_front ? "*" : " ", what, setting,
+  out.say("{} {:<24} {:<34} {:>9.3g} {:>9.3g} {:>9}{}  {}", rung.on_front ? "*" : " ", what, setting,
           fact("time_s", rung.time_s()), fact("preparing_s", rung.preparing_s), alone, errors,
           error_of(rung, answer.measure).signal);
   return out.keep("errors", json_of_errors(rung, answer)).keep("repeats", rung.repeats);
@@ -92,11 +92,11 @@ Report table_of_rungs(const AnswerCost& answer) {
   Report out;
   std::string header;
   for (const ErrorMeasure m : measures_of(answer)) header += fmt::format(" {:>9}", name_of(m));
-  out.say("  {:<20} {:<34} {:>9} {:>9} {:>9}{}  worst by {}", "approximation", "setting", "time [s]", "prepared",
+  out.say("  {:<24} {:<34} {:>9} {:>9} {:>9}{}  worst by {}", "approximation", "setting", "time [s]", "prepared",
           "alone", header, name_of(answer.measure));
   for (const CostRung& rung : answer.rungs) out.one_of("rungs", report_of(rung, answer));
   for (const CostOfComponents& c : answer.components)
-    out.row("components", "  {:<20} {:<34} {:>9.3g}  deviation off by {:.2g} +- {:.1g} by chance  {}", "components",
+    out.row("components", "  {:<24} {:<34} {:>9.3g}  deviation off by {:.2g} +- {:.1g} by chance  {}", "components",
             fact("setting", c.setting), fact("answering_s", c.answering_s), fact("deviation", c.error),
             fact("by_chance", c.by_chance), fact("signal", c.signal));
   return out;
@@ -184,7 +184,10 @@ void require_chosen(const Cost& cost, double tolerance) {
     if (!answer.chosen)
       throw hydro::InputError(fmt::format("no setting keeps the {} within {:.2g}; nearest is {}", answer.ask, tolerance,
                                           sentence(answer.most_accurate(), answer.measure)),
-                              {.file = "--tolerance"}, "ask for no less, or by another measure: --by deviation");
+                              {.file = "--tolerance"},
+                              answer.measure == ErrorMeasure::peak
+                                  ? "ask for no less, or for responses without so sharp a peak"
+                                  : "ask for no less, or by another measure: --by deviation");
 }
 
 }  // namespace
