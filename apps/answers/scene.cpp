@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "answers/answers.hpp"
+#include "answers/cost.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "scene/document.hpp"
@@ -81,6 +82,14 @@ WaterSeries Scene::waves(const std::function<void(double)>& progress) const {
 }
 
 Plan Scene::plan() const { return froude::plan(read(), shared_->motion().kept); }
+
+Cost Scene::cost(const CostOptions& options, const std::function<void(double)>& progress) const {
+  if (const auto& numbers = shared_->motion().numbers; !numbers.empty())
+    throw hydro::InputError(
+        fmt::format("\"{}\" was changed, and what a scene costs is measured of its text", numbers.front().path),
+        {.file = read().file.string()}, "write the number into the text, and parse() that");
+  return froude::cost(read(), options, progress);
+}
 
 ::fit::Report Scene::fit() const {
   if (const auto* asked = std::get_if<scene::FitScene>(&shared_->kind)) return fitted(*asked);

@@ -46,17 +46,6 @@ std::unique_ptr<const dynamics::ForceKind> drag(const Scene& scene, const std::v
   return std::make_unique<dynamics::DragKind>(std::move(pieces), std::move(moving));
 }
 
-/// (D44): pieces so short that neither the shortest relevant wave nor turning about an end is missed by more than the
-/// accuracy asked.
-int needed_pieces(const Scene& scene, double length) {
-  double pieces = std::ceil(0.5 / std::sqrt(scene.accuracy));
-  if (scene.waves) {
-    const double k = hydro::waves::wavenumber(highest_relevant_frequency(*scene.waves), scene.water);
-    pieces = std::max(pieces, std::ceil(length * k / std::sqrt(6 * scene.accuracy)));
-  }
-  return static_cast<int>(pieces);
-}
-
 /// Where the member is on its body, cut as `asked` says or the accuracy needs.
 dynamics::SlenderMember slender(const Scene& scene, const scene::Member& m, const dynamics::SlenderMember& asked) {
   const Eigen::Vector3d centre = scene.bodies[static_cast<std::size_t>(m.body)].centre_of_gravity;
@@ -86,6 +75,15 @@ dynamics::SlammingMember slamming(const Scene& scene, const scene::Member& m) {
 }
 
 }  // namespace
+
+int needed_pieces(const Scene& scene, double length) {
+  double pieces = std::ceil(0.5 / std::sqrt(scene.accuracy));
+  if (scene.waves) {
+    const double k = hydro::waves::wavenumber(highest_relevant_frequency(*scene.waves), scene.water);
+    pieces = std::max(pieces, std::ceil(length * k / std::sqrt(6 * scene.accuracy)));
+  }
+  return static_cast<int>(pieces);
+}
 
 bool any_drag_at_rest(const Scene& scene) {
   return std::any_of(scene.members.begin(), scene.members.end(), [](const auto& m) { return m.cd.has_value(); });

@@ -14,6 +14,10 @@ bool any_drag_at_rest(const scene::Scene& scene);
 std::vector<dynamics::DragPiece> drag_at_rest(const scene::Scene& scene,
                                               const std::vector<dynamics::RigidBody>& bodies);
 
+/// (D44): pieces of a member of this length, m, so short that neither the shortest relevant wave nor turning about an
+/// end is missed by more than the accuracy asked.
+int needed_pieces(const scene::Scene& scene, double length);
+
 /// What members that move ask of the waves of a run, around their places at rest; empty if there are none.
 std::optional<hydro::waves::FieldUse> water_of_members(const scene::Scene& scene, double highest_crest, double step);
 

@@ -131,6 +131,16 @@ void modes(const SceneArguments& arguments, const Console& console);
 void run(const SceneArguments& arguments, const Console& console);
 void plan(const SceneArguments& arguments, const Console& console);
 
+struct CostArguments {
+  Path scene;
+  std::optional<double> tolerance = {};  ///< of the error, relative
+  std::string by = "rms";                ///< errors of runs: rms, deviation, extreme or range
+  std::optional<Path> output = {};       ///< .toml: the scene with the cheapest settings within the tolerance
+  std::optional<Path> picture = {};      ///< .svg
+};
+/// Error and time of every setting of a scene's approximations, and the cheapest within a tolerance.
+void cost(const CostArguments& arguments, const Console& console);
+
 struct HydrostaticsArguments {
   Path mesh;  ///< .stl, .obj or .gdf
   hydro::hydrostatics::MeshOptions options;

@@ -422,6 +422,28 @@ void add_fit(CLI::App& app, Request& request) {
   });
 }
 
+void add_cost(CLI::App& app, Request& request) {
+  auto* command = app.add_subcommand("cost", "what accuracy costs: error and time of a scene's approximations");
+  command->footer(
+      "Example:\n  froude cost examples/pontoon5.toml --tolerance 1e-2 --picture cost.svg -o examples/cheaper.toml");
+  auto arguments = std::make_shared<CostArguments>();
+  command->add_option("scene", arguments->scene, "scene file (.toml)")->required();
+  command->add_option("--tolerance", arguments->tolerance, "names the cheapest settings with at most this error: 1e-2");
+  command
+      ->add_option("--by", arguments->by,
+                   "what the error of a run is: rms of the difference, or difference of deviation, extreme or range")
+      ->check(CLI::IsMember({"rms", "deviation", "extreme", "range"}))
+      ->capture_default_str();
+  command->add_option("-o,--output", arguments->output, "the scene with these settings, beside the scene (.toml)");
+  command->add_option("--picture", arguments->picture, "plot (.svg)");
+  command->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      cost(*arguments, console);
+      return done;
+    };
+  });
+}
+
 /// Stands in the help only: main_program() hands over to another program before the options of a command are read.
 void add_validate(CLI::App& app) {
   app.add_subcommand("validate",
@@ -451,6 +473,7 @@ void describe(CLI::App& app, Request& request) {
   add_fit(app, request);
   add_scene_command(app, request, "plan", "what a scene will run, by which method, and why the rest will not", &plan,
                     false);
+  add_cost(app, request);
   add_validate(app);
 }
 

@@ -15,6 +15,7 @@
 
 #include "fit/report.hpp"
 #include "froude/control.hpp"
+#include "froude/cost.hpp"
 #include "froude/result.hpp"
 
 namespace froude {
@@ -56,6 +57,11 @@ class Scene {
   ::fit::Report fit() const;
   /// What each answer will take, and what the scene leaves out. \throws hydro::InputError
   Plan plan() const;
+
+  /// Error and time of every setting of the scene's approximations. `progress` is told the share that is done.
+  /// \throws hydro::InputError, also for a scene whose numbers were changed by with(): settings are written into its
+  /// text; hydro::NumericsError
+  Cost cost(const CostOptions& options = {}, const std::function<void(double)>& progress = {}) const;
 
   /// What was read, for programs that look inside. \throws hydro::InputError for a scene that fits
   const scene::Scene& read() const;
