@@ -253,7 +253,7 @@ hydro::waves::Sea sea_of_run(const Scene& scene, const Prepared& prepared, std::
   return sea;
 }
 
-TimeModel time_model(const Scene& scene, const Prepared& prepared) {
+TimeModel time_model(const Scene& scene, const Prepared& prepared, const std::vector<LoadRecord>& put_back) {
   const ChosenStep chosen = choose_step(scene, prepared);
   const double step = chosen.value;
   const auto per_sample = static_cast<std::size_t>(std::llround(scene.run->every / step));
@@ -283,6 +283,7 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
     forces.push_back(std::move(kind));
   }
   std::vector<dynamics::RadiationMemory> memories;
+  std::vector<MemoryInRun> in_run;
   std::vector<PlanLine> memory_lines;
   Radiation radiation(prepared, step, sea);
   for (std::size_t i = 0; i < prepared.groups.size(); ++i) {
@@ -290,6 +291,7 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
     auto parts = radiation.of(i, notes);
     added_mass.push_back(std::move(parts.added_mass));
     memories.push_back(std::move(parts.memory));
+    in_run.push_back(std::move(parts.in_run));
     memory_lines.insert(memory_lines.end(), parts.lines.begin(), parts.lines.end());
   }
   if (!memories.empty()) {
@@ -301,6 +303,8 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
 
   if (!prepared.friction.empty()) forces.push_back(std::make_unique<dynamics::FrictionKind>(prepared.friction));
   if (!prepared.contacts.empty()) forces.push_back(std::make_unique<dynamics::ContactKind>(prepared.contacts));
+
+  if (!put_back.empty()) forces.push_back(std::make_unique<dynamics::RecordedLoadKind>(put_back));
 
   plan_forces(forces, told_in_parts, plan);
   dynamics::Model model(prepared.bodies, std::move(added_mass), std::move(forces), prepared.joints);
@@ -321,6 +325,7 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
           .start = std::move(start),
           .water = std::move(water),
           .lines = std::move(lines),
+          .memories = std::move(in_run),
           .step = step,
           .steps = steps,
           .steps_per_sample = per_sample,

@@ -1,5 +1,6 @@
 #pragma once
 /// \file  A scene compiled to the smallest model that answers what it asks. What the scene does not name is not made.
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,11 +15,13 @@
 #include "dynamics/force/fastened_line.hpp"
 #include "dynamics/force/friction.hpp"
 #include "dynamics/force/pto.hpp"
+#include "dynamics/force/recorded_load.hpp"
 #include "dynamics/force/restoring.hpp"
 #include "dynamics/force/switched_connector.hpp"
 #include "dynamics/frequency/rao.hpp"
 #include "dynamics/model/model.hpp"
 #include "froude/result.hpp"
+#include "hydro/radiation/pole_memory.hpp"
 #include "hydro/waves/kinematics/field.hpp"
 #include "hydro/waves/kinematics/sea.hpp"
 #include "scene/element.hpp"
@@ -28,6 +31,10 @@ namespace froude::compile {
 
 /// Coefficients and what was fitted to them, compile/kept.hpp.
 class Kept;
+/// A and B that a memory stands for, compile/kept.hpp.
+struct SymmetricData;
+
+using dynamics::LoadRecord;
 
 /// What both domains share: bodies, coefficients placed about the centres of gravity, springs. In the order of the
 /// scene.
@@ -84,18 +91,29 @@ struct RunWater {
 /// it. \throws hydro::InputError where the waves are no sum of linear ones
 hydro::waves::Sea sea_of_run(const scene::Scene& scene, const Prepared& prepared, std::vector<std::string>& notes);
 
+/// The memory of a group as it runs, and the data that it stands for: its error is their difference.
+struct MemoryInRun {
+  std::vector<int> modes;  ///< of the model, increasing
+  std::shared_ptr<const SymmetricData> data;
+  Eigen::MatrixXd A;                                          ///< on the left beside the memory, (n, n)
+  std::function<Eigen::MatrixXcd(double)> transform;          ///< K̂(iω) of the memory, (n, n)
+  std::shared_ptr<const hydro::radiation::PoleMemory> poles;  ///< null for other methods
+};
+
 /// Everything that a run needs.
 struct TimeModel {
   dynamics::Model model;
   dynamics::State start;
   RunWater water;
-  std::vector<LineModel> lines;  ///< stepped beside the bodies
-  double step;                   ///< s; scene.run->every is a whole multiple of it
+  std::vector<LineModel> lines;       ///< stepped beside the bodies
+  std::vector<MemoryInRun> memories;  ///< one a group that radiates
+  double step;                        ///< s; scene.run->every is a whole multiple of it
   std::size_t steps;
   std::size_t steps_per_sample;
   std::vector<PlanLine> plan;
   std::vector<std::string> notes;
 };
-TimeModel time_model(const scene::Scene& scene, const Prepared& prepared);
+/// `put_back`: loads that act beside all that the scene names, from t = 0 on (compile/defect.hpp).
+TimeModel time_model(const scene::Scene& scene, const Prepared& prepared, const std::vector<LoadRecord>& put_back = {});
 
 }  // namespace froude::compile

@@ -138,6 +138,9 @@ RadiationParts at_one_frequency(const dynamics::frequency::PotentialGroup& g, co
   const auto memory =
       std::make_shared<hydro::radiation::ConstantMemory>(symmetric(g.table.damping(omega)), omega, step);
   out.memory = {modes.in_model, memory};
+  const Eigen::MatrixXcd B = memory->instantaneous(1).cast<std::complex<double>>();
+  out.in_run = {modes.in_model, std::make_shared<const SymmetricData>(g.table.coefficients(), modes.in_group),
+                out.added_mass.value(modes.in_group, modes.in_group), [B](double) { return B; }, nullptr};
   out.lines = {{"radiation", memory->describe() + " (asked for)",
                 fmt::format("{} modes, true of the steady motion only", memory->modes()), true}};
   return out;
@@ -147,7 +150,7 @@ RadiationParts at_one_frequency(const dynamics::frequency::PotentialGroup& g, co
 
 struct Radiation::Chosen {
   scene::Memory asked;
-  SymmetricData data;
+  std::shared_ptr<const SymmetricData> data;
   ChosenMemory memory;
 };
 
@@ -160,11 +163,12 @@ const Radiation::Chosen& Radiation::chosen_for(std::size_t group, const std::vec
   using enum scene::Memory::Method;
   const scene::Memory& asked = prepared_.memory[group];
   const auto& c = prepared_.groups[group].table.coefficients();
-  SymmetricData data(c, modes);
+  const auto made = std::make_shared<const SymmetricData>(c, modes);
+  const SymmetricData& data = *made;
   for (const auto& known : chosen_)
     if (known->asked.method == asked.method && known->asked.tolerance == asked.tolerance &&
         known->asked.length == asked.length && known->asked.accepted_error == asked.accepted_error &&
-        known->data == data)
+        *known->data == data)
       return *known;
   hydro::radiation::MemoryDemand demand{
       .step = step_, .tolerance = asked.tolerance, .length = asked.length, .method = {}};
@@ -176,7 +180,7 @@ const Radiation::Chosen& Radiation::chosen_for(std::size_t group, const std::vec
                                [&] { return prepared_.kept->fits().of(data, asked.tolerance); });
   require_within(c, memory, asked);
   note_what_was_done(c, memory, data.asymmetry, asked, notes);
-  chosen_.push_back(std::make_unique<const Chosen>(Chosen{asked, std::move(data), std::move(memory)}));
+  chosen_.push_back(std::make_unique<const Chosen>(Chosen{asked, made, std::move(memory)}));
   return *chosen_.back();
 }
 
@@ -186,9 +190,12 @@ RadiationParts Radiation::of(std::size_t group, std::vector<std::string>& notes)
   if (prepared_.memory[group].method == scene::Memory::Method::constant)
     return at_one_frequency(g, modes, prepared_.memory[group], step_, sea_);
   const std::size_t known = chosen_.size();
-  const ChosenMemory& chosen = chosen_for(group, modes.in_group, notes).memory;
+  const Chosen& found = chosen_for(group, modes.in_group, notes);
+  const ChosenMemory& chosen = found.memory;
   const Eigen::Index n = g.table.coefficients().modes();
-  RadiationParts out{{g.bodies, Eigen::MatrixXd::Zero(n, n)}, {modes.in_model, chosen.memory}, {}};
+  RadiationParts out{{g.bodies, Eigen::MatrixXd::Zero(n, n)}, {modes.in_model, chosen.memory}, {}, {}};
+  out.in_run = {modes.in_model, found.data, chosen.A_inf, chosen.transform,
+                std::dynamic_pointer_cast<const hydro::radiation::PoleMemory>(chosen.memory)};
   if (chosen_.size() > known) out.lines = lines(chosen);
   out.added_mass.value(modes.in_group, modes.in_group) = chosen.A_inf;
   return out;

@@ -11,6 +11,7 @@ namespace froude::compile {
 struct RadiationParts {
   dynamics::AddedMass added_mass;
   dynamics::RadiationMemory memory;
+  MemoryInRun in_run;
   std::vector<PlanLine> lines;
 };
 

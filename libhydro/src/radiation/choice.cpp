@@ -66,6 +66,7 @@ double direct_cost(double modes, double lags) {
 
 struct Weighed {
   std::optional<ExtrapolatedDamping> whole;
+  std::shared_ptr<const MemorySurvey> survey;
   std::optional<RetardationKernel> kernel;
   std::optional<RationalFit> fit;
 };
@@ -74,7 +75,8 @@ void weigh_convolutions(const DampingTable& damping, const std::vector<Eigen::Ma
                         const std::optional<Eigen::MatrixXd>& A_inf, const MemoryDemand& demand, Weighed& w,
                         ChosenMemory& out) {
   w.whole = extrapolated(damping, A, A_inf);
-  const MemorySurvey survey(w.whole->table);
+  w.survey = std::make_shared<const MemorySurvey>(w.whole->table);
+  const MemorySurvey& survey = *w.survey;
   const double length =
       demand.length ? *demand.length : survey.length(demand.tolerance / 2);  // half is left for the tail
   w.kernel = RetardationKernel::averaged(w.whole->table, {demand.step, std::max(length, 2 * demand.step)}, survey);
@@ -138,11 +140,16 @@ ChosenMemory choose(const DampingTable& damping, const std::vector<Eigen::Matrix
                            : fmt::format("nearest to the data; none is within {:.2g}", demand.tolerance);
   out.negative_share = negative_share(damping);
   if (taken.method == Method::poles) {
-    out.memory = std::make_shared<PoleMemory>(w.fit->model, demand.step);
+    const auto memory = std::make_shared<const PoleMemory>(w.fit->model, demand.step);
+    out.transform = [memory](double omega) { return memory->model().transform(omega); };
+    out.memory = memory;
     out.A_inf = w.fit->A_inf;
     return out;
   }
   out.A_inf = w.whole->A_inf;
+  out.transform = [survey = w.survey, length = w.kernel->length()](double omega) {
+    return survey->transform(omega, length);
+  };
   if (taken.method == Method::direct)
     out.memory = std::make_shared<DirectConvolution>(*w.kernel);
   else

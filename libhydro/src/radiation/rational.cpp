@@ -1,5 +1,7 @@
 #include "hydro/radiation/rational.hpp"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 
@@ -62,6 +64,9 @@ std::vector<double> tail_frequencies(double last) {
   return out;
 }
 
+/// What places beyond the table weigh beside those inside, at 1.
+double weight_of_tail(double last, double omega) { return 0.1 * last / omega; }
+
 Data prepared(const DampingTable& given, const std::vector<Eigen::MatrixXd>& A,
               const std::optional<Eigen::MatrixXd>& A_inf) {
   const ExtrapolatedDamping whole = extrapolated(given, A, A_inf);
@@ -85,7 +90,7 @@ Data prepared(const DampingTable& given, const std::vector<Eigen::MatrixXd>& A,
     const double omega = d.samples.omega[i];
     const bool inside = i < d.inside;
     // The tail is a guess and only steers what the data leave open.
-    d.samples.weight[r] = inside ? 1 : 0.1 * given.omega.back() / omega;
+    d.samples.weight[r] = inside ? 1 : weight_of_tail(given.omega.back(), omega);
     Eigen::MatrixXd B = Eigen::MatrixXd::Zero(n, n), above = B;
     if (inside) {
       B = scaled(d, given.B[i]);
@@ -229,6 +234,38 @@ RationalFit fit(const DampingTable& damping, const std::vector<Eigen::MatrixXd>&
                   best->report.passive || !options.enforce_passivity ? "" : ", and is not certified passive");
   best->report.negative_share = negative;
   return unscaled(d, *best);
+}
+
+std::vector<Eigen::MatrixXcd> missed_if_left_out(const PoleModel& model, const std::vector<double>& omega,
+                                                 const std::vector<Eigen::MatrixXcd>& residual) {
+  std::vector<double> places = omega;
+  for (const double beyond : tail_frequencies(omega.back())) places.push_back(beyond);
+  const Eigen::MatrixXd null = detail::vanishing_at_rest(model.poles);
+  const auto rows = static_cast<Eigen::Index>(places.size());
+  Eigen::MatrixXcd phi(rows, null.cols() + 1);
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    const double at = places[static_cast<std::size_t>(r)];
+    phi.row(r).head(null.cols()) = detail::basis_at(model.poles, at) * null;
+    phi(r, null.cols()) = {0, at};
+    if (at > omega.back()) phi.row(r) *= weight_of_tail(omega.back(), at);
+  }
+  Eigen::MatrixXd design = detail::stacked(phi);
+  for (auto column : design.colwise()) column /= column.norm();
+  const Eigen::MatrixXd Q = dense::HouseholderQr(design).thin_Q();
+  constexpr double least = 1e-6;  // of what a datum leaves free; a model that goes through all data leaves nothing
+  std::vector<Eigen::MatrixXcd> out;
+  for (std::size_t k = 0; k < omega.size(); ++k) {
+    const auto r = static_cast<Eigen::Index>(k);
+    Eigen::Matrix<double, 2, Eigen::Dynamic> both(2, Q.cols());
+    both << Q.row(r), Q.row(r + rows);
+    const Eigen::Matrix2d h = both * both.transpose();
+    const Eigen::Matrix2d more = ((1 + least) * Eigen::Matrix2d::Identity() - h).inverse() * h;
+    Eigen::MatrixXcd missed(residual[k].rows(), residual[k].cols());
+    missed.real() = more(0, 0) * residual[k].real() + more(0, 1) * residual[k].imag();
+    missed.imag() = more(1, 0) * residual[k].real() + more(1, 1) * residual[k].imag();
+    out.push_back(std::move(missed));
+  }
+  return out;
 }
 
 }  // namespace hydro::radiation

@@ -7,6 +7,7 @@
 #include "dynamics/force/constant_load.hpp"
 #include "dynamics/force/force_law.hpp"
 #include "dynamics/force/pto.hpp"
+#include "dynamics/force/recorded_load.hpp"
 #include "laws/force_kind_laws.hpp"
 
 namespace spring_test {
@@ -102,6 +103,19 @@ TEST(Pto, OfAHingeTurnsTheSecondBodyBackAndTheFirstForth) {
   EXPECT_LT((F.segment<3>(9) + moment).norm(), 1e-10);
   EXPECT_LT((F.segment<3>(3) - moment).norm(), 1e-10);
   EXPECT_LT(F.head<3>().norm() + F.segment<3>(6).norm(), 1e-12);
+}
+
+TEST(ForceLaws, HoldForRecordedLoads) {
+  const Eigen::MatrixXd on_modes = Eigen::MatrixXd::Random(12, 4);
+  const RecordedLoadKind kind({{0.5, on_modes}, {0.2, 2 * on_modes}});
+  laws::expect_force_laws(kind, bodies);
+  State s = rest_state(bodies);
+  s.time = 0.35;  // between samples 0 and 1 of the first record, 1 and 2 of the second
+  const Eigen::VectorXd between =
+      0.3 * on_modes.col(0) + 0.7 * on_modes.col(1) + 0.5 * on_modes.col(1) + 1.5 * on_modes.col(2);
+  EXPECT_LT((laws::load(kind, s, nullptr) - between).norm(), 1e-12);
+  s.time = 99;
+  EXPECT_LT((laws::load(kind, s, nullptr) - 3 * on_modes.col(3)).norm(), 1e-12) << "as at its end";
 }
 
 TEST(ForceLaws, HoldForConstantLoads) {

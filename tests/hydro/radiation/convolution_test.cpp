@@ -97,5 +97,61 @@ TEST(DirectConvolution, NeverGivesEnergyToARandomMotion) {
   }
 }
 
+/// A flap of which damping is largest at 12.8 rad/s and 0.65 of that at the 20 rad/s at which its table ends; by itself
+/// it swings at 2.3 rad/s.
+struct Flap {
+  static constexpr double inertia = 2e3, stiffness = 30e3, strength = 600e3, last = 20;  // kg m², N m/rad, N m
+  support::TwoPoleBody water{.decay = 8, .frequency = 10};
+
+  /// With a tail to so many times the last frequency, which falls as the true one.
+  DampingTable table(double times) const {
+    DampingTable out = water.damping_table(times * last, static_cast<int>(100 * times));
+    for (auto& B : out.B) B *= strength;
+    return out;
+  }
+
+  /// Angles at multiples of 0.1 s up to 6 s of a decay from 1, by the trapezium rule with steps of 0.1 s over `parts`.
+  template <class Make>
+  Eigen::VectorXd decay(int parts, Make kernel) const {
+    const double h = 0.1 / parts;
+    const DirectConvolution memory(kernel(MemoryGrid{h, 3}));
+    auto past = memory.start(Eigen::VectorXd::Zero(1));
+    const double D = memory.instantaneous(1)(0, 0);
+    double x = 1, v = 0, a = -stiffness / inertia;
+    Eigen::VectorXd out(60);
+    for (int n = 1; n <= 60 * parts; ++n) {
+      const double history = past->history_force(1)[0], x_free = x + h * v + h * h / 4 * a, v_free = v + h / 2 * a;
+      a = (-history - D * v_free - stiffness * x_free) / (inertia + h / 2 * D + h * h / 4 * stiffness);
+      x = x_free + h * h / 4 * a;
+      v = v_free + h / 2 * a;
+      past->accept(Eigen::VectorXd::Constant(1, v));
+      if (n % parts == 0) out[n / parts - 1] = x;
+    }
+    return out;
+  }
+};
+
+// What a tail adds acts at once and is the same at any step: the decay goes to its limit with the square of the step,
+// wherever the tail ends. With samples of K, of which a step of 0.1 s lays what is about 63 rad/s upon motions at rest,
+// the coarsest is off by as much as it swings.
+TEST(DirectConvolution, LetsADecayConvergeAtItsOrderWhereverTheTailEnds) {
+  const Flap flap;
+  for (const double times : {4.0, 8.0, 16.0}) {
+    const DampingTable table = flap.table(times);
+    const MemorySurvey survey(table);
+    const auto averaged = [&](const MemoryGrid& grid) { return RetardationKernel::averaged(table, grid, survey); };
+    const auto sampled = [&](const MemoryGrid& grid) { return RetardationKernel::from_damping(table, grid, survey); };
+    const Eigen::VectorXd limit = flap.decay(32, averaged);
+    const auto off = [&](int parts) { return (flap.decay(parts, averaged) - limit).norm() / limit.norm(); };
+    const double h = off(1), half = off(2), quarter = off(4);
+    // 2.3 rad/s in steps of 0.1 s: (ωh)²/12 of 14 rad is 0.06 of phase.
+    EXPECT_LT(h, 0.06) << times;
+    // The table ends abruptly, and so does the memory at 3 s where K still rings with that end: 1e-4 of the decay.
+    EXPECT_NEAR(h / half, 4, 0.5) << times;
+    EXPECT_NEAR(half / quarter, 4, 0.6) << times;
+    EXPECT_GT((flap.decay(1, sampled) - limit).norm() / limit.norm(), 5 * h) << times;
+  }
+}
+
 }  // namespace
 }  // namespace convolution_test

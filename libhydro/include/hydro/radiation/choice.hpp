@@ -39,6 +39,8 @@ struct ChosenMemory {
   std::shared_ptr<const MemoryMethod> memory;
   Eigen::MatrixXd A_inf;  ///< the added mass on the left that belongs to it, (n, n)
   Method method;
+  /// K̂(iω) of the memory, (n, n), whatever the step: of the kernel cut at its length, or of the poles.
+  std::function<Eigen::MatrixXcd(double omega)> transform;
   std::vector<Alternative> alternatives;  ///< all that were weighed, the chosen one among them
   std::string why;                        ///< one sentence
   std::optional<FitReport> fit;           ///< of the poles, where they were weighed

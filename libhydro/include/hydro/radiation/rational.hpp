@@ -70,4 +70,13 @@ struct RationalFit {
 RationalFit fit(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A,
                 const std::optional<Eigen::MatrixXd>& A_inf, const FitOptions& options = {});
 
+/// By how much more than its `residual` each frequency would be missed, were it left out when the coefficients of these
+/// poles are fitted: (1 − h)⁻¹h times the residual, h how far a datum draws the fit to itself (Allen 1974, (R26)). Next
+/// to nothing where there are many data for a pole, large where the data leave the model free between them.
+///
+/// `residual`: data less model at `omega`, (n, n) each. Cost: one QR of 2 Nω rows and as many columns as there are
+/// states.
+std::vector<Eigen::MatrixXcd> missed_if_left_out(const PoleModel& model, const std::vector<double>& omega,
+                                                 const std::vector<Eigen::MatrixXcd>& residual);
+
 }  // namespace hydro::radiation
