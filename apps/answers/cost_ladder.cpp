@@ -61,7 +61,7 @@ class Stepping {
  public:
   Stepping(const Scene& scene, const Node& document, double step)
       : scene_(scene), document_(document), parts_(std::lround(scene.run->every / step)) {
-    for (const scene::Line& line : scene.chains) free_lines_ = free_lines_ || !line.fastened();
+    for (const scene::Line& line : scene.lines) free_lines_ = free_lines_ || !line.fastened();
   }
 
   Ladder ladder() const {
@@ -255,10 +255,10 @@ bool counts_nodes(const std::string& signal) {
 }
 
 void add_lines(const Scene& scene, const Node& document, Ladders& out) {
-  if (scene.chains.empty()) return;
+  if (scene.lines.empty()) return;
   const auto& of = scene.run->of;
   bool numbered = of.empty() || std::any_of(of.begin(), of.end(), counts_nodes);
-  for (const scene::Line& line : scene.chains)
+  for (const scene::Line& line : scene.lines)
     for (const bool first : {true, false})
       numbered = numbered || line.release || (line.end(first).meets && !line.end(first).meets->junction);
   if (numbered)
