@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "answers/companions.hpp"
 #include "hydro/base/error.hpp"
@@ -158,6 +157,12 @@ class Refinement {
     return out;
   }
 
+  /// By how many levels, as far as errors fall as they have. Steps that are too long to converge foretell nothing: then
+  /// another try is made, as long as there is room for one more.
+  int levels_needed(const Judged& j, double allowed) const {
+    if (j.ratio < 1.5) return 2;
+    return static_cast<int>(std::ceil(std::log(j.error / allowed) / std::log(std::min(j.ratio, largest_ratio()))));
+  }
   /// The level to try next; the same where no finer one is needed, or may be tried.
   int finer_level(int level) const {
     constexpr int most = 2;       // at once
@@ -170,9 +175,7 @@ class Refinement {
       if (j.error <= left) continue;
       if (left <= 0) refuse_water(level, i);
       if (!may_refine()) continue;
-      const double ratio = std::clamp(j.ratio, std::numbers::sqrt2, largest_ratio());
-      const bool unseen = j.ratio == 0;  // longer steps did not come to the end
-      const int needed = unseen ? 1 : static_cast<int>(std::ceil(std::log(j.error / (room * left)) / std::log(ratio)));
+      const int needed = levels_needed(j, room * left);
       if (level - needed < finest) refuse_step(level, i);
       out = std::min(out, level - std::clamp(needed, 1, most));
     }
