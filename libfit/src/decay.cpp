@@ -140,6 +140,36 @@ EnergyFit fit_energy(std::span<const Extreme> e, const DampingTerms& terms, doub
   return fit;
 }
 
+namespace {
+
+/// What the records are worth to the frequency, by the residuals of the fullest damping that is smooth: those of a
+/// damping that lacks a term have a longer memory, which is an error of the model. 0 where that fit has no end.
+double independent_samples(const ShootingProblem& asked, const ShootingFit& motion) {
+  ShootingProblem fullest = asked;
+  for (const std::size_t k : {1, 2, 3}) fullest.fitted[k] = true;
+  fullest.fitted[4] = false;
+  fullest.start[4] = 0;
+  if (fullest.fitted == asked.fitted) return std::max(motion.parameters[0].effective_samples, 10.0);
+  for (const std::size_t k : {0, 1, 2, 3, 5}) fullest.start[k] = motion.ended[k];
+  try {
+    return std::max(fit_motion(fullest).parameters[0].effective_samples, 10.0);
+  } catch (const hydro::NumericsError&) {
+    return 0;
+  }
+}
+
+/// Independent samples stand for the likelihood; the variance of one is that of the residuals. (F33)
+void judge(double unknowns, DecayFit& fit) {
+  const double n = fit.independent, k = unknowns;
+  fit.aicc = fit.bic = std::numeric_limits<double>::infinity();
+  if (n == 0) return;
+  const double minus2 = n * std::log(fit.motion.rms[0] * fit.motion.rms[0]);
+  fit.bic = minus2 + k * std::log(n);
+  if (n > k + 1) fit.aicc = minus2 + 2 * k + 2 * k * (k + 1) / (n - k - 1);
+}
+
+}  // namespace
+
 DecayFit fit_decay(std::span<const Window> records, const DecayOptions& options) {
   hydro::require(!records.empty() && records[0].values.cols() == 1, "a decay needs records of one channel");
   const auto& first = records[0];
@@ -176,11 +206,8 @@ DecayFit fit_decay(std::span<const Window> records, const DecayOptions& options)
   fit.period.interval = {2 * pi / omega.interval.high, 2 * pi / omega.interval.low};
   fit.period.white_interval = {2 * pi / omega.white_interval.high, 2 * pi / omega.white_interval.low};
   for (const Window& w : records) fit.samples += static_cast<double>(w.values.rows());
-  // Independent samples stand for the likelihood; the variance of one is that of the residuals.
-  const double n = std::max(omega.effective_samples, 10.0), k = static_cast<double>(terms.size()) + 4;
-  const double minus2 = n * std::log(fit.motion.rms[0] * fit.motion.rms[0]);
-  fit.bic = minus2 + k * std::log(n);
-  fit.aicc = n > k + 1 ? minus2 + 2 * k + 2 * k * (k + 1) / (n - k - 1) : std::numeric_limits<double>::infinity();
+  fit.independent = independent_samples(problem, fit.motion);
+  judge(static_cast<double>(terms.size()) + 4, fit);
   return fit;
 }
 

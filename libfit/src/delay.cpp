@@ -101,6 +101,12 @@ DelayedFit fit_morison_and_delay(const Cylinder& cylinder, const ForceRecord& re
   if (!record.drag_flow.empty()) aligned.drag_flow = middle(record.drag_flow, margin);
   if (!record.water_acceleration.empty()) aligned.water_acceleration = middle(record.water_acceleration, margin);
   if (!record.linear_flow.empty()) aligned.linear_flow = middle(record.linear_flow, margin);
+  for (MotionError e : record.motion_errors) {
+    for (auto* c : {&e.velocity, &e.acceleration, &e.water_acceleration, &e.drag_flow, &e.linear_flow})
+      if (!c->empty()) *c = middle(*c, margin);
+    aligned.motion_errors.push_back(std::move(e));
+  }
+  for (const std::vector<double>& draw : record.rounding) aligned.rounding.push_back(middle(draw, margin));
   MorisonOptions inner = options;
   for (ForceError& e : inner.force_errors) e.force = middle(e.force, margin);
 

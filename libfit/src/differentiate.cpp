@@ -59,16 +59,6 @@ double bandwidth_of(const DerivativeWeights& filter, double step_s) {
   return (omega - unit) / two_pi;
 }
 
-// Standard deviation of white noise in the input: what is left of it is (1 − W) e, of variance 1 − 2w₀ + Σw².
-double noise_in(std::span<const double> values, const DerivativeWeights& smooth) {
-  const auto smoothed = smooth.apply(values);
-  const auto m = static_cast<std::size_t>(smooth.half_width());
-  double sum = 0;
-  for (std::size_t j = 0; j < smoothed.size(); ++j) sum += std::pow(values[j + m] - smoothed[j], 2);
-  const double kept = 1 - 2 * smooth.middle() + std::pow(smooth.noise_gain(), 2);
-  return std::sqrt(sum / static_cast<double>(smoothed.size()) / kept);
-}
-
 }  // namespace
 
 DerivativeWeights::DerivativeWeights(int order, int half_width, double step_s)
@@ -162,15 +152,38 @@ std::vector<double> DerivativeWeights::apply(std::span<const double> values) con
   return sliding_sum(values, weights_);
 }
 
+double noise_in(std::span<const double> values, const DerivativeWeights& smooth) {
+  // What is left of noise e is (1 − W) e, of variance 1 − 2w₀ + Σw².
+  const auto smoothed = smooth.apply(values);
+  const auto m = static_cast<std::size_t>(smooth.half_width());
+  double sum = 0;
+  for (std::size_t j = 0; j < smoothed.size(); ++j) sum += std::pow(values[j + m] - smoothed[j], 2);
+  const double kept = 1 - 2 * smooth.middle() + std::pow(smooth.noise_gain(), 2);
+  return std::sqrt(sum / static_cast<double>(smoothed.size()) / kept);
+}
+
+LocalPolynomial smoother_of(std::span<const double> values, double step_s) {
+  constexpr int shortest = 3;
+  double hz = 0;
+  try {
+    hz = main_frequency(values, step_s);
+  } catch (const hydro::InputError&) {  // fewer than two periods: there is little to smooth over
+    return {0, shortest, step_s};
+  }
+  if (std::abs(LocalPolynomial(0, shortest, step_s).gain(two_pi * 5 * hz) - 1) > allowed_gain_error)
+    return {0, shortest, step_s};
+  return longest_window(0, step_s, 5 * hz, values.size());
+}
+
 namespace {
 
 /// What is left to tell of a motion once weights of each order are there.
 template <class Weights>
 Motion told(std::span<const double> values, double step_s, double f, bool from_velocity, const Weights& order) {
-  const auto first = order(1);
+  const auto smooth = order(0), first = order(1);
   const auto last = from_velocity ? first : order(2);
   const auto m = static_cast<std::size_t>(last.half_width());
-  const double noise = noise_in(values, order(0));
+  const double noise = noise_in(values, smooth);
   Motion out{
       .first = m,
       .velocity = {values.begin() + static_cast<std::ptrdiff_t>(m), values.end() - static_cast<std::ptrdiff_t>(m)},
@@ -181,8 +194,11 @@ Motion told(std::span<const double> values, double step_s, double f, bool from_v
       .gain_error_main = std::abs(last.gain(two_pi * f) - 1),
       .gain_error_fifth = std::abs(last.gain(5 * two_pi * f) - 1),
       .noise_velocity = noise,
-      .noise_acceleration = noise * last.noise_gain()};
+      .noise_acceleration = noise * last.noise_gain(),
+      .noise = noise,
+      .weights = {smooth, last}};
   if (from_velocity) return out;
+  out.weights = {smooth, first, last};
   out.velocity = first.apply(values);
   out.noise_velocity = noise * first.noise_gain();
   return out;

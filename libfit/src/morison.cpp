@@ -105,11 +105,66 @@ Coefficient coefficient(const SearchReport& search, const std::string& name, Eig
   return c;
 }
 
+/// What noise of the motion takes off the coefficients; (F68).
+struct Attenuation {
+  Eigen::MatrixXd gain;     ///< (AᵀA − N)⁻¹AᵀA: what least squares gives, times that
+  Eigen::VectorXd change;   ///< of the coefficients, to be added
+  Eigen::VectorXd scatter;  ///< of that change from one draw of the noise to another
+};
+
+void require_motion(const Eigen::MatrixXd& noise, const Eigen::MatrixXd& normal) {
+  for (const Eigen::Index j : {0, 1})
+    if (noise(j, j) > 0.5 * normal(j, j))
+      throw hydro::InputError(
+          fmt::format("noise of the motion is {:.2g} % of the variance of its {}: nothing can be fitted to that",
+                      100 * noise(j, j) / normal(j, j), j == 0 ? "|u|u" : "acceleration"),
+          {},
+          "narrow derivative_bandwidth, take noise out with a low pass, or take derivative_method = "
+          "\"fourier_series\"");
+}
+
+Attenuation attenuation(const Cylinder& c, const ForceRecord& r, const MorisonColumns& at,
+                        const Eigen::MatrixXd& columns, const Eigen::VectorXd& x) {
+  const Eigen::Index p = columns.cols();
+  const auto draws = std::ssize(r.motion_errors);
+  if (draws == 0) return {Eigen::MatrixXd::Identity(p, p), Eigen::VectorXd::Zero(p), Eigen::VectorXd::Zero(p)};
+  Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(p, p), slopes(p, draws);  // E δAᵀδA; −δAᵀ(δy − δA x) of each draw
+  for (Eigen::Index d = 0; d < draws; ++d) {
+    const MotionError& e = r.motion_errors[static_cast<std::size_t>(d)];
+    const Eigen::MatrixXd errors = column_errors(c, e, at);
+    noise += errors.transpose() * errors / static_cast<double>(draws);
+    slopes.col(d) = errors.transpose() * (errors * x + carried_error(c, e));
+  }
+  const Eigen::MatrixXd normal = columns.transpose() * columns;
+  require_motion(noise, normal);
+  const Eigen::MatrixXd without = hydro::dense::inverse(normal - noise), changes = without * slopes;
+  const Eigen::VectorXd change = changes.rowwise().mean();
+  return {without * normal, change,
+          (changes.colwise() - change).rowwise().norm() / std::sqrt(static_cast<double>(draws - 1))};
+}
+
+/// Draws of what is known of the residuals, shape (n, draws): noise of the motion, and rounding of the force. (F69)
+Eigen::MatrixXd known_errors(const Cylinder& c, const ForceRecord& r, const MorisonColumns& at,
+                             const Eigen::VectorXd& x) {
+  const std::size_t draws = std::max(r.motion_errors.size(), r.rounding.size());
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(std::ssize(r.force), static_cast<Eigen::Index>(draws));
+  for (std::size_t d = 0; d < draws; ++d) {
+    auto column = out.col(static_cast<Eigen::Index>(d));
+    if (!r.motion_errors.empty())
+      column -= carried_error(c, r.motion_errors[d]) + column_errors(c, r.motion_errors[d], at) * x;
+    if (!r.rounding.empty()) column += as_vector(r.rounding[d]);
+  }
+  return out;
+}
+
 CoefficientCovariance covariance_by(IntervalMethod method, const Eigen::MatrixXd& columns,
-                                    const Eigen::VectorXd& residuals, int block, double period_samples) {
+                                    const Eigen::VectorXd& residuals, int block, double period_samples,
+                                    const Eigen::MatrixXd& known) {
   if (method == IntervalMethod::cycle_clusters) return cluster_covariance(columns, residuals, period_samples, block);
   if (method == IntervalMethod::block_bootstrap) return bootstrap_covariance(columns, residuals, {.block = block});
-  return correlated_covariance(columns, residuals, block);
+  // Beside what is known the rest may be next to nothing, and its memory with it.
+  return correlated_covariance(columns, residuals, block, known.size() > 0 ? LongMemory::widen : LongMemory::refuse,
+                               known);
 }
 
 // Stands where no scatter can be estimated: 0 for a force made by the model itself, which leaves rounding only, NaN
@@ -124,16 +179,19 @@ Uncertainty known_scatter(Eigen::Index n, Eigen::Index p, double scatter) {
   return u;
 }
 
-/// `period_samples` of the motion, `shortest_samples` of all that the columns hold.
+/// `period_samples` of the motion, `shortest_samples` of all that the columns hold; `known` as in
+/// correlated_covariance(), `gain` of the attenuation.
 Uncertainty uncertainty_of(const SearchReport& search, const Eigen::MatrixXd& columns, const Eigen::VectorXd& residuals,
-                           double unit, double period_samples, double shortest_samples, const MorisonOptions& options) {
+                           double unit, double period_samples, double shortest_samples, const Eigen::MatrixXd& known,
+                           const Eigen::MatrixXd& gain, const MorisonOptions& options) {
   if (!search.all_identifiable())
     return known_scatter(columns.rows(), columns.cols(), std::numeric_limits<double>::quiet_NaN());
   const bool perfect = residuals.squaredNorm() <= 1e-24 * unit * unit * static_cast<double>(columns.rows());
   if (perfect) return known_scatter(columns.rows(), columns.cols(), 0);
   // A fortieth of the period: the columns hardly change within, see correlated_covariance().
   const int block = std::max(1, static_cast<int>(shortest_samples / 40));
-  Uncertainty u{covariance_by(options.method, columns, residuals, block, period_samples), {}, {}, 0, 0, 0};
+  Uncertainty u{covariance_by(options.method, columns, residuals, block, period_samples, known), {}, {}, 0, 0, 0};
+  u.covariance.covariance = gain * u.covariance.covariance * gain.transpose();
   u.t = hydro::signal::student_t_quantile((1 + options.confidence) / 2, u.covariance.dof);
   u.white_t = hydro::signal::student_t_quantile((1 + options.confidence) / 2, u.covariance.white_dof);
   return u;
@@ -321,15 +379,22 @@ MorisonFit fit_columns(const Cylinder& cylinder, const ForceRecord& record, cons
     result.share_inside = robust.share_inside;
     scatter = robust.influence / robust.share_inside;  // (F39)
   }
+  const Attenuation put_back = result.search.all_identifiable()
+                                   ? attenuation(cylinder, record, at, columns, x)
+                                   : Attenuation{{}, Eigen::VectorXd::Zero(columns.cols()), {}};
+  x += put_back.change;
   const Eigen::VectorXd residuals = target - columns * x;
   if (scatter.size() == 0) scatter = residuals;
   result.residual_rms = std::sqrt(residuals.squaredNorm() / rows);
   result.explained = 1 - residuals.squaredNorm() / (force.array() - force.mean()).matrix().squaredNorm();
   double shortest = result.period;
   for (const double hz : line_hz) shortest = std::min(shortest, 1 / hz);
-  Uncertainty u = uncertainty_of(result.search, columns, scatter, unit, result.period / step, shortest / step, options);
+  Uncertainty u = uncertainty_of(result.search, columns, scatter, unit, result.period / step, shortest / step,
+                                 known_errors(cylinder, record, at, x), put_back.gain, options);
   u.shift = shift_per_degree(columns, record.force, step, result.period);
   result.budget = budget(cylinder, record, columns, x, u.shift, result, options);
+  if (!put_back.change.isZero(0))
+    result.budget.push_back({"noise of the motion", put_back.scatter[0], put_back.scatter[1]});
   u.systematic = total(result.budget, columns.cols());
   u.z = hydro::signal::normal_quantile((1 + options.confidence) / 2);
   tell_coefficients(cylinder, options, at, line_hz, x, u, result);

@@ -67,6 +67,15 @@ Eigen::MatrixXd morison_columns(const Cylinder& c, const ForceRecord& r) {  // (
   return columns;
 }
 
+namespace {
+
+Eigen::VectorXd linear_column(const Cylinder& c, const ForceRecord& r) {  // (F51)
+  return (c.experiment == Experiment::body_moves ? -1 : 1) *
+         as_vector(r.linear_flow.empty() ? r.velocity : r.linear_flow);
+}
+
+}  // namespace
+
 Eigen::VectorXd carried_force(const Cylinder& c, const ForceRecord& r) {
   const bool both = c.experiment == Experiment::both_move;
   Eigen::VectorXd out(std::ssize(r.acceleration));
@@ -90,9 +99,7 @@ Eigen::MatrixXd all_columns(const Cylinder& c, const ForceRecord& r, const Moris
   Eigen::MatrixXd columns = morison_columns(c, r);
   if (at.count == 2) return columns;
   columns.conservativeResize(Eigen::NoChange, at.count);
-  if (at.linear >= 0)  // (F51)
-    columns.col(at.linear) = (c.experiment == Experiment::body_moves ? -1 : 1) *
-                             as_vector(r.linear_flow.empty() ? r.velocity : r.linear_flow);
+  if (at.linear >= 0) columns.col(at.linear) = linear_column(c, r);
   if (at.offset >= 0) columns.col(at.offset).setOnes();
   for (std::size_t k = 0; k < line_hz.size(); ++k) {  // (F50)
     const Eigen::ArrayXd angle = 2 * std::numbers::pi * line_hz[k] * as_vector(r.time).array();
@@ -102,6 +109,31 @@ Eigen::MatrixXd all_columns(const Cylinder& c, const ForceRecord& r, const Moris
   if (at.delay >= 0) columns.col(at.delay) = *delay_column;
   return columns;
 }
+
+namespace {
+
+/// The columns are linear in the flows of a record: errors go through them as flows do.
+ForceRecord as_record(const MotionError& e) {
+  return {.time = {},
+          .force = {},
+          .velocity = e.velocity,
+          .acceleration = e.acceleration,
+          .drag_flow = e.drag_flow,
+          .water_acceleration = e.water_acceleration,
+          .linear_flow = e.linear_flow};
+}
+
+}  // namespace
+
+Eigen::MatrixXd column_errors(const Cylinder& c, const MotionError& e, const MorisonColumns& at) {
+  const ForceRecord flows = as_record(e);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(std::ssize(e.velocity), at.count);
+  out.leftCols<2>() = morison_columns(c, flows);
+  if (at.linear >= 0) out.col(at.linear) = linear_column(c, flows);
+  return out;
+}
+
+Eigen::VectorXd carried_error(const Cylinder& c, const MotionError& e) { return carried_force(c, as_record(e)); }
 
 double peak_frequency(std::span<const double> r, double step, double period) {  // (F50)
   const double omega = 2 * std::numbers::pi / period, golden = (std::sqrt(5.0) - 1) / 2,

@@ -30,6 +30,10 @@ struct MorisonColumns {
 Eigen::MatrixXd all_columns(const Cylinder& cylinder, const ForceRecord& record, const MorisonOptions& options,
                             const std::vector<double>& line_hz, const Eigen::VectorXd* delay_column);
 
+/// Errors of all columns for one draw of the motion's noise, shape (n, at.count), and of what is carried, N; (F68).
+Eigen::MatrixXd column_errors(const Cylinder& cylinder, const MotionError& error, const MorisonColumns& at);
+Eigen::VectorXd carried_error(const Cylinder& cylinder, const MotionError& error);
+
 /// The frequency of a motion near 1/`period_s`, where its Fourier transform under a Hann window has its peak, Hz;
 /// (F50).
 double peak_frequency(std::span<const double> motion, double step_s, double period_s);

@@ -12,6 +12,7 @@
 #include "fit/resample.hpp"
 #include "fit/sensor.hpp"
 #include "hydro/base/error.hpp"
+#include "motion_errors.hpp"
 
 namespace fit {
 namespace {
@@ -48,6 +49,10 @@ struct Work {
                                           &out.record.linear_flow};
     for (ForceChannel& f : run.force) all.push_back(&f.values);
     for (ForceError& e : out.force_errors) all.push_back(&e.force);
+    for (std::vector<double>& draw : out.record.rounding) all.push_back(&draw);
+    for (MotionError& e : out.record.motion_errors)
+      for (auto* c : {&e.velocity, &e.acceleration, &e.water_acceleration, &e.drag_flow, &e.linear_flow})
+        all.push_back(c);
     return all;
   }
   /// Keeps samples [from, from + count) of every column that is there.
@@ -215,6 +220,20 @@ void sum_forces(Work& w) {
   if (w.run.force.size() > 1) w.tell("force: the sum of {} channels", w.run.force.size());
 }
 
+/// What the steps of the force's sensors may have done; channels round by themselves. (F69)
+void add_rounding(Work& w) {
+  auto& sum = w.out.record.rounding;
+  std::uint64_t stream = 2;  // after those of the motions
+  for (const ForceChannel& f : w.run.force) {
+    const auto draws = rounding_of(f.values, w.step, ++stream);
+    if (draws.empty()) continue;
+    if (sum.empty()) sum.assign(draws.size(), std::vector<double>(f.values.size(), 0.0));
+    for (std::size_t d = 0; d < draws.size(); ++d)
+      for (std::size_t j = 0; j < draws[d].size(); ++j) sum[d][j] += draws[d][j];
+    w.tell("steps: {} has less noise than half of one; what rounding may have done to it is in the intervals", f.name);
+  }
+}
+
 void take_delay(Work& w, double delay_s) {  // (F24)
   if (delay_s == 0) return;
   const double lag = delay_s / w.step;
@@ -223,8 +242,12 @@ void take_delay(Work& w, double delay_s) {  // (F24)
   const auto force = later(w.out.record.force, lag, margin);
   std::vector<std::vector<double>> channels;
   for (const ForceChannel& f : w.run.force) channels.push_back(later(f.values, lag, margin));
+  auto rounding = std::move(w.out.record.rounding);
+  for (std::vector<double>& draw : rounding) draw = later(draw, lag, margin);
+  w.out.record.rounding.clear();
   w.cut(margin, w.run.time.size() - 2 * margin);
   w.out.record.force = force;
+  w.out.record.rounding = std::move(rounding);
   for (std::size_t i = 0; i < channels.size(); ++i) w.run.force[i].values = channels[i];
   w.tell("delay: the force is taken {:.4g} s earlier", delay_s);
 }
@@ -277,15 +300,20 @@ std::string method_of(const Motion& m, Derivative method) {
       2 * m.half_width + 1, m.bandwidth_hz, 100 * m.gain_error_main);
 }
 
-void warn_of_noise(Work& w, const Motion& m) {  // (F6)
+void tell_noise(Work& w, const Motion& m) {  // (F6), (F68)
   const auto& a = w.out.record.acceleration;
   const double squares = std::inner_product(a.begin(), a.end(), a.begin(), 0.0) / static_cast<double>(a.size());
   const double share = m.noise_acceleration * m.noise_acceleration / squares;
   if (share <= 0.003) return;
   w.warn(
-      "noise is {:.2g} % of the derived acceleration's variance: unless a low pass takes it out, inertia comes out too "
-      "small by as much; derivatives up to fewer than {:.3g} Hz have less of it",
-      100 * share, m.bandwidth_hz);
+      "noise is {:.2g} % of the derived acceleration's variance: {}; a low pass, or derivatives up to fewer than "
+      "{:.3g} "
+      "Hz, have less of it",
+      100 * share,
+      w.out.record.motion_errors.empty()
+          ? "inertia comes out too small by as much"
+          : "what that takes from inertia is put back as far as the noise is white, or rounding to steps",
+      m.bandwidth_hz);
 }
 
 /// Velocity and acceleration, measured or derived; (F5), (F6), (F44), (F45).
@@ -301,13 +329,17 @@ void add_motion(Work& w, const PrepareOptions& options) {
   }
   const auto derive = from_velocity ? ::fit::from_velocity : from_position;
   const Motion m = derive(w.pattern, w.step, options.derivative_bandwidth_hz, options.derivative);
+  auto errors = errors_of(m, w.pattern, from_velocity, 1);
+  if (!w.run.acceleration.empty())
+    for (MotionError& e : errors) std::fill(e.acceleration.begin(), e.acceleration.end(), 0.0);
   w.cut(m.first, m.velocity.size());
+  r.motion_errors = std::move(errors);
   r.velocity = m.velocity;
   r.acceleration = w.run.acceleration.empty() ? m.acceleration : w.run.acceleration;
   w.tell("derivatives of the {} by {}; noise of velocity {:.2g} m/s, of acceleration {:.2g} m/s^2",
          from_velocity ? "velocity" : "position", method_of(m, options.derivative), m.noise_velocity,
          m.noise_acceleration);
-  if (w.run.acceleration.empty()) warn_of_noise(w, m);
+  if (w.run.acceleration.empty()) tell_noise(w, m);
 }
 
 /// From the body's motion to that of the water against it; (F49).
@@ -315,10 +347,14 @@ void add_water(Work& w, const PrepareOptions& options) {
   if (w.run.water_velocity.empty()) return;
   if (w.run.water_acceleration.empty()) {
     const Motion m = from_velocity(w.run.water_velocity, w.step, options.derivative_bandwidth_hz, options.derivative);
+    const auto errors = errors_of(m, w.run.water_velocity, true, 2);
     w.cut(m.first, m.velocity.size());
+    w.out.record.motion_errors = relative_errors(w.out.record.motion_errors, errors);
     w.run.water_velocity = m.velocity;
     w.run.water_acceleration = m.acceleration;
     w.tell("acceleration of the water by {}", method_of(m, options.derivative));
+  } else {
+    w.out.record.motion_errors = relative_errors(w.out.record.motion_errors, {});
   }
   ForceRecord& r = w.out.record;
   for (std::size_t j = 0; j < r.time.size(); ++j) {
@@ -332,6 +368,7 @@ void add_water(Work& w, const PrepareOptions& options) {
 
 /// √(u² + w²) u where the water moves across as well; (F7).
 void add_cross_flow(Work& w) {
+  add_drag_errors(w.out.record.velocity, w.run.cross_velocity, w.out.record.motion_errors);
   if (w.run.cross_velocity.empty()) return;
   for (std::size_t j = 0; j < w.run.time.size(); ++j)
     w.out.record.drag_flow.push_back(std::hypot(w.out.record.velocity[j], w.run.cross_velocity[j]) *
@@ -378,10 +415,16 @@ void filter_all(Work& w, const std::vector<FilterChoice>& choices, bool linear_d
   if (r.drag_flow.empty())
     for (const double u : r.velocity) r.drag_flow.push_back(std::abs(u) * u);
   if (linear_drag) r.linear_flow = r.velocity;
+  for (MotionError& e : r.motion_errors)
+    if (linear_drag) e.linear_flow = e.velocity;
   for (const ZeroPhaseFilter& f : filters) {
     std::vector<std::pair<std::vector<double>*, std::vector<double>>> smooth;
     for (auto* column : {&r.force, &r.acceleration, &r.drag_flow, &r.water_acceleration, &r.linear_flow})
       if (!column->empty()) smooth.push_back({column, f.apply(*column)});
+    for (MotionError& e : r.motion_errors)
+      for (auto* column : {&e.acceleration, &e.drag_flow, &e.water_acceleration, &e.linear_flow})
+        if (!column->empty()) smooth.push_back({column, f.apply(*column)});
+    for (std::vector<double>& draw : r.rounding) smooth.push_back({&draw, f.apply(draw)});
     for (ForceChannel& c : w.run.force) smooth.push_back({&c.values, f.apply(c.values)});
     w.cut(f.settling(), r.time.size() - 2 * f.settling());
     for (auto& [column, values] : smooth) *column = std::move(values);
@@ -412,6 +455,10 @@ void lay_cycles(Work& w, const std::vector<Cycle>& cycles) {  // (F47)
     for (const double u : r.velocity) r.drag_flow.push_back(std::abs(u) * u);
   for (auto* column : {&r.velocity, &r.acceleration, &r.drag_flow, &r.water_acceleration, &r.linear_flow, &w.pattern})
     if (!column->empty()) *column = repeated(mean_cycle(laid(*column), points).mean, cycles.size());
+  for (MotionError& e : r.motion_errors)
+    for (auto* column : {&e.velocity, &e.acceleration, &e.drag_flow, &e.water_acceleration, &e.linear_flow})
+      if (!column->empty()) *column = repeated(mean_cycle(laid(*column), points).mean, cycles.size());
+  for (std::vector<double>& draw : r.rounding) draw = laid(draw);
   r.force = laid(r.force);
   for (ForceChannel& f : w.run.force) f.values = laid(f.values);
   const CycleMean force = mean_cycle(r.force, points);
@@ -490,6 +537,7 @@ Prepared prepare(RawRun run, const PrepareOptions& options) {
   take_outliers(w, outlier_half, options.outlier_deviations);
   resample(w, options.resample_hz);
   sum_forces(w);
+  add_rounding(w);
   take_delay(w, options.delay_s);
   add_waves(w);
   add_motion(w, options);
@@ -522,11 +570,15 @@ PreparedMotion prepare_motion(const std::string& name, std::vector<double> time,
 
 std::string sign_trouble(const Cylinder& cylinder, const MorisonFit& fit) {  // (F26)
   const double mass = cylinder.mass_beyond_load_cells / (cylinder.density * cylinder.volume());
-  if (!(fit.cd.interval.high < 0 && fit.inertia.interval.high + mass < 0)) return {};
-  return fmt::format(
-      "drag and inertia both come out negative (cd {:.3g} at most, inertia {:.3g} at most): the force or "
-      "the motion has the wrong sign",
-      fit.cd.interval.high, fit.inertia.interval.high);
+  const Interval &drag = fit.cd.interval, &inertia = fit.inertia.interval;
+  const bool drag_back = drag.high < 0 && !(inertia.low + mass > 0),
+             inertia_back = inertia.high + mass < 0 && !(drag.low > 0);
+  if (!drag_back && !inertia_back) return {};
+  return fmt::format("{} (cd {:.3g} at most, inertia {:.3g} at most): the force or the motion has the wrong sign",
+                     drag.high < 0 && inertia.high + mass < 0 ? "drag and inertia both come out negative"
+                     : drag_back ? "drag comes out negative, and inertia no larger than zero for certain"
+                                 : "inertia comes out negative, and drag no larger than zero for certain",
+                     drag.high, inertia.high);
 }
 
 }  // namespace fit

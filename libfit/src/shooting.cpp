@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "fit/correlated.hpp"
+#include "fit/sensor.hpp"
+#include "fit/sensor_noise.hpp"
 #include "fit/shooting.hpp"
 #include "fit/verdict.hpp"
 #include "hydro/base/dense.hpp"
@@ -174,13 +176,41 @@ ResidualModel model_of(const ShootingProblem& p, const Layout& l) {
   return m;
 }
 
+/// Draws of what rounding to the steps of a sensor leaves in the residuals r, which are motion less values over
+/// deviations; no column where no channel of no window rounds with a memory. (F69)
+Eigen::MatrixXd rounding_of(const ShootingProblem& p, const Eigen::VectorXd& r) {
+  Eigen::MatrixXd out;
+  Eigen::Index at = 0;
+  std::uint64_t stream = 0;
+  for (const Window& w : p.windows)
+    for (Eigen::Index c = 0; c < w.values.cols(); ++c, at += w.values.rows(), ++stream) {
+      const Eigen::VectorXd values = w.values.col(c);
+      const auto n = static_cast<std::size_t>(values.size());
+      const auto steps = find_quantisation({values.data(), n});
+      if (!steps) continue;
+      const double unit = p.deviations[static_cast<std::size_t>(c)];
+      const Eigen::VectorXd left = unit * r.segment(at, values.size()), motion = values + left;
+      const SensorNoise noise = sensor_noise(std::sqrt(left.squaredNorm() / static_cast<double>(n)), steps->step);
+      if (!noise.rounds_with_memory()) continue;
+      if (out.size() == 0) out = Eigen::MatrixXd::Zero(r.size(), noise_draws);
+      for (int draw = 0; draw < noise_draws; ++draw) {
+        const auto error =
+            drawn_error({motion.data(), n}, noise, DrawnError::rounding, stream, static_cast<std::uint64_t>(draw));
+        out.col(draw).segment(at, values.size()) =
+            Eigen::Map<const Eigen::VectorXd>(error.data(), values.size()) / unit;
+      }
+    }
+  return out;
+}
+
 /// Covariance of all unknowns and the inflation of each variance by the memory of the residuals.
 CoefficientCovariance uncertainty_of(const ShootingProblem& p, const Eigen::MatrixXd& jacobian,
                                      const Eigen::VectorXd& r) {
   // Columns hardly change within 1/400 of a window that holds ten swings at most.
   Eigen::Index shortest = p.windows[0].values.rows();
   for (const Window& w : p.windows) shortest = std::min(shortest, w.values.rows());
-  return correlated_covariance(jacobian, r, std::max(1, static_cast<int>(shortest / 400)), LongMemory::widen);
+  return correlated_covariance(jacobian, r, std::max(1, static_cast<int>(shortest / 400)), LongMemory::widen,
+                               rounding_of(p, r));
 }
 
 void tell_parameters(const ShootingProblem& p, const Layout& l, const Eigen::VectorXd& x,

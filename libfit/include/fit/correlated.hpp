@@ -47,9 +47,14 @@ enum class LongMemory {
 /// of the shortest period that matters costs 0.2 %). Valid for stationary residuals that forget within a small part
 /// of the record; what a model gets wrong in the same way in every cycle is no noise and is covered in part only.
 /// Coverage is tested for white and AR(1) residuals (0.92 to 0.98 for intervals of 0.95).
+///
+/// `known` are draws of a part of the residuals whose law is known, one a column: noise of a motion that was
+/// differentiated, rounding to the steps of a sensor. What it does to the coefficients is taken from the draws
+/// themselves, and the autoregression is asked for the rest alone (F69). Without columns: nothing is known.
 /// \throws hydro::InputError if shapes disagree, J has not full rank, or the record has fewer than 8 blocks
 CoefficientCovariance correlated_covariance(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals,
-                                            int block = 1, LongMemory long_memory = LongMemory::refuse);
+                                            int block = 1, LongMemory long_memory = LongMemory::refuse,
+                                            const Eigen::MatrixXd& known = {});
 
 /// Coefficient number j of a fit: its value with the interval of Student's t at `confidence`.
 Coefficient with_interval(const std::string& name, double value, const CoefficientCovariance& u, Eigen::Index j,

@@ -59,7 +59,10 @@ struct DecayFit {
   Coefficient period;                ///< 2π/ω₀, s
   EnergyFit energy;                  ///< where the search began
   double samples;
-  double aicc, bic;  ///< with the number of independent samples; to compare terms on one record
+  /// Independent samples of the records: those of the fit with linear, quadratic and cubic damping, whatever terms were
+  /// asked for, so that fits of the same records with different terms are compared by the same number (F33).
+  double independent;
+  double aicc, bic;  ///< to compare terms on the same records; ∞ where that fit has no end
 };
 /// Fits the whole motion of one decay or of several with the same damping, from the values that energy gives. A damping
 /// term of which the interval holds zero is reported as not identifiable, with its interval.

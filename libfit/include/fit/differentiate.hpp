@@ -47,6 +47,13 @@ class SmoothingSpline : public DerivativeWeights {
   static double stiffness(int order, double omega, double error, double step_s);
 };
 
+/// Standard deviation of white noise in even samples, from what smoothing takes off them: weights of order 0.
+double noise_in(std::span<const double> values, const DerivativeWeights& smooth);
+
+/// Weights of order 0 that keep 99 % at five times the main frequency of the samples, or the shortest where they have
+/// no main frequency.
+LocalPolynomial smoother_of(std::span<const double> values, double step_s);
+
 /// A motion and its derivatives on the samples where both could be had.
 struct Motion {
   std::size_t first;                 ///< index of the input sample that the first output sample belongs to
@@ -59,7 +66,11 @@ struct Motion {
   double gain_error_fifth;           ///< … at five times the main frequency
   double noise_velocity;             ///< standard deviation of the velocity from noise in the input, m/s
   double noise_acceleration;         ///< m/s²
-  double left = 0;                   ///< Fourier series: rms of what is not in it, over that of the motion
+  double noise = 0;                  ///< of the input itself, m or m/s
+  /// What gave value, velocity and acceleration; of a velocity that was passed through, value and acceleration. Empty
+  /// for a Fourier series.
+  std::vector<DerivativeWeights> weights = {};
+  double left = 0;  ///< Fourier series: rms of what is not in it, over that of the motion
 };
 
 enum class Derivative {

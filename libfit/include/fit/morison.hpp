@@ -33,6 +33,14 @@ struct Cylinder {
   double volume() const;  ///< πD²L/4
 };
 
+/// One draw of what noise of the measured motion adds to the motion that was derived from it (F68); as in a
+/// ForceRecord, after the same filters.
+struct MotionError {
+  std::vector<double> velocity, acceleration;
+  std::vector<double> water_acceleration = {};           ///< both_move only
+  std::vector<double> drag_flow = {}, linear_flow = {};  ///< to first order; empty as there
+};
+
 /// Evenly sampled, of one length. Velocity and acceleration are the water's (water_moves), the body's (body_moves), or
 /// the water's less the body's (both_move).
 struct ForceRecord {
@@ -45,6 +53,11 @@ struct ForceRecord {
   std::vector<double> drag_flow = {};
   std::vector<double> water_acceleration = {};  ///< u̇ itself, m/s²; both_move only
   std::vector<double> linear_flow = {};  ///< the same for a linear drag: the filter over the velocity, m/s. Empty: it
+  /// Draws of the motion's noise: its bias is taken off the coefficients, and its scatter is in their intervals (F68).
+  /// Empty: the motion is taken as exact.
+  std::vector<MotionError> motion_errors = {};
+  /// Draws of what the steps of the force's sensors may have done to the force, N (F69). Empty: they have none.
+  std::vector<std::vector<double>> rounding = {};
 };
 
 /// The force of (F7), (F8) or (F49), N; `inertia` is C_M or C_A, after the experiment, velocity and acceleration are as

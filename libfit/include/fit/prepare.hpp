@@ -109,8 +109,8 @@ struct PreparedMotion {
 PreparedMotion prepare_motion(const std::string& name, std::vector<double> time_s, std::vector<double> values,
                               const PrepareOptions& options);
 
-/// Why the force (or the motion) must have the wrong sign; empty where it need not: both drag and all inertia come out
-/// negative with their whole intervals, which no flow does; (F26).
+/// Why the force (or the motion) must have the wrong sign; empty where it need not: drag or all inertia comes out
+/// negative with its whole interval and the other is not positive with its own, which no flow does; (F26).
 std::string sign_trouble(const Cylinder& cylinder, const MorisonFit& fit);
 
 }  // namespace fit

@@ -80,8 +80,11 @@ std::string heading_of(const FittedRun& run, bool turns) {
 Report begun(const FittedRun& run, bool turns) {
   const ShootingFit& m = run.fit.motion;
   Report report{.key = run.alone() ? "run" : "together", .one_of_many = run.alone(), .heading = heading_of(run, turns)};
-  report.facts = {{"file", run.name()}, {"residual_rms", m.rms[0]}, {"explained", m.explained[0]},
-                  {"bic", run.fit.bic}, {"search", m.search.why},   {"identifiability", m.search.identifiability}};
+  report.facts = {{"file", run.name()},
+                  {"residual_rms", m.rms[0]},
+                  {"explained", m.explained[0]},
+                  {"search", m.search.why},
+                  {"identifiability", m.search.identifiability}};
   add_labels(report, run.source);
   Facts energy;
   for (const Coefficient& c : run.fit.energy.damping) energy.emplace_back(c.name, *c.value);
@@ -117,9 +120,12 @@ void add_variants(const FittedRun& run, Report& report) {
 void add_quality(const FittedRun& run, double confidence, Report& report) {
   const ShootingFit& m = run.fit.motion;
   if (std::isfinite(run.fit.aicc)) report.facts.emplace_back("aicc", run.fit.aicc);
+  if (std::isfinite(run.fit.bic)) report.facts.emplace_back("bic", run.fit.bic);
+  report.facts.emplace_back("independent_samples", run.fit.independent);
   report.say(
-      "AICc {:.1f}, BIC {:.1f} (to compare terms on this record); halving the steps changes {:.1g} % of the amplitude",
-      run.fit.aicc, run.fit.bic, m.integration_error);
+      "AICc {:.1f}, BIC {:.1f}, of {:.0f} independent samples whatever the terms (to compare terms on this record); "
+      "halving the steps changes {:.1g} % of the amplitude",
+      run.fit.aicc, run.fit.bic, run.fit.independent, m.integration_error);
   if (!m.fit_band.empty()) {
     append(report.facts, {{"samples_in_band", m.inside},
                           {"widest_band_of_fit", m.fit_band[0].maxCoeff()},

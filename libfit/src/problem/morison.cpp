@@ -1,7 +1,9 @@
-#include "morison_report.hpp"
-
 #include <cmath>
+#include <optional>
 
+#include "fit/verdict.hpp"
+#include "hydro/base/error.hpp"
+#include "morison_report.hpp"
 #include "telling.hpp"
 
 namespace fit::morison {
@@ -17,6 +19,36 @@ void require_drag_that_brakes(const MorisonFit& fit, const Source& source) {
                                     "one of them is recorded late",
                                     low, high),
                  .source = source.file.string()}};
+}
+
+/// (F70) A delay that nobody asked for and that explains the larger part of what a fit leaves over: such a fit is of
+/// channels that do not belong together in time, and its coefficients say nothing.
+void look_for_delay(const Options& options, FittedRun& run) {
+  constexpr double variance_left =
+      0.25;  // of the residuals; noise gives a needless delay one degree of freedom and no more
+  if (options.longest_delay || !run.fit.search.all_identifiable()) return;
+  MorisonOptions force = options.force;
+  force.force_errors = run.prepared.force_errors;
+  std::optional<DelayedFit> delayed;
+  try {
+    delayed = fit_morison_and_delay(run.cylinder, run.prepared.record, run.fit.period / 4, force);
+  } catch (const hydro::InputError&) {  // too short a record, or lines that hide the delay
+    return;
+  } catch (const SearchFailed&) {
+    return;
+  }
+  const MorisonFit& with = delayed->fit;
+  if (!with.delay->value || !(with.residual_rms < std::sqrt(variance_left) * run.fit.residual_rms)) return;
+  const double late = *with.delay->value, in_all = late + options.prepare.delay_s;
+  const std::string why = fmt::format(
+      "the force comes {:.3g} s {} the motion: taken off, it leaves {:.3g} N rms in place of {:.3g} N. Write delay = "
+      "\"{:.3g} s\" in [prepare], or \"estimate\"",
+      std::abs(late), late > 0 ? "after" : "before", with.residual_rms, run.fit.residual_rms, in_all);
+  for (Coefficient* c : {&run.fit.cd, &run.fit.inertia}) {
+    c->value.reset();
+    c->why_not = why;
+  }
+  run.prepared.cautions.push_back(why);
 }
 
 /// The fit of one raw record, with its delay where that is to be estimated.
@@ -110,6 +142,7 @@ ResidualReport residuals_of(const FittedRun& run) {
 FittedRun fitted(Options options, const Run& of) {
   if (of.delay_s) options.prepare.delay_s = *of.delay_s;
   FittedRun run = fit_raw(options, of.source, of.cylinder, of.raw);
+  look_for_delay(options, run);
   run.left = residuals_of(run);
   run.fourier = fourier_averages(run.cylinder, run.prepared.record, run.fit.period);
   if (options.cycles) run.cycles = fit_cycles(run.cylinder, run.prepared.record, run.prepared.cycle_starts);
