@@ -1,7 +1,6 @@
 # Every outside library, in one place. The installed package's config file includes this file too, so a consumer
 # finds exactly what the build found. Debian's package names are in scripts/apt-packages.txt.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(LAPACK REQUIRED)
 find_package(Ceres 2.1 REQUIRED)
 find_package(glog 0.6 REQUIRED)  # by which Ceres writes messages
 find_package(fmt REQUIRED)

@@ -94,10 +94,10 @@ void restore_lengths(const dl::Line& line, dl::State& s) {
     if (off.size() == 0) return;
     if (off.cwiseAbs().maxCoeff() < 1e-13 * line.length()) break;
     if (i == 30) throw hydro::NumericsError("the links of a line cannot be brought to their lengths");
-    add_to_free(line, hydro::dense::CompleteQr(length_gradients(line, s)).solve(-off), s.position);
+    add_to_free(line, length_gradients(line, s).completeOrthogonalDecomposition().solve(-off), s.position);
   }
   const Eigen::VectorXd off = length_errors(line, s, true);
-  add_to_free(line, hydro::dense::CompleteQr(length_gradients(line, s)).solve(-off), s.velocity);
+  add_to_free(line, length_gradients(line, s).completeOrthogonalDecomposition().solve(-off), s.velocity);
 }
 
 }  // namespace

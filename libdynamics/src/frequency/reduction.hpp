@@ -2,6 +2,7 @@
 /// \file  Private: the small motions that joints and held modes leave, and matrices of all motions brought down to
 /// them.
 #include <Eigen/Core>
+#include <Eigen/QR>
 
 #include <vector>
 

@@ -1,11 +1,12 @@
 #include "dynamics/model/assemble.hpp"
 
+#include <Eigen/QR>
+
 #include <algorithm>
 #include <cmath>
 
 #include "dynamics/joint/coordinate.hpp"
 #include "dynamics/spatial/rotation.hpp"
-#include "hydro/base/dense.hpp"
 
 namespace dynamics {
 namespace {
@@ -19,7 +20,7 @@ Eigen::VectorXd smallest_closing(const Model& model, const std::vector<bool>& he
   for (std::size_t b = 0; b < held.size(); ++b)
     if (held[b]) root.segment<6>(6 * static_cast<Eigen::Index>(b)).setZero();
   const Eigen::MatrixXd scaled = joints.dense(G) * root.asDiagonal();
-  return root.cwiseProduct(hydro::dense::CompleteQr(scaled).solve(-open));
+  return root.cwiseProduct(scaled.completeOrthogonalDecomposition().solve(-open));
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 #include "dynamics/model/equilibrium.hpp"
 
+#include <Eigen/QR>
+
 #include "dynamics/model/assemble.hpp"
-#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 
 namespace dynamics {
@@ -31,7 +32,7 @@ class Balance {
       }
     Eigen::VectorXd right = Eigen::VectorXd::Zero(n + m);
     right.head(n) = scale.cwiseProduct(linear.unbalanced);
-    return scale.cwiseProduct(hydro::dense::CompleteQr(whole).solve(right).head(n));
+    return scale.cwiseProduct(whole.completeOrthogonalDecomposition().solve(right).head(n));
   }
   /// The way that bodies begin to go by themselves; its length means nothing.
   Eigen::VectorXd along_load(const State& state) const { return root_.cwiseInverse().cwiseProduct(unbalanced(state)); }

@@ -1,9 +1,8 @@
 #include "dynamics/model/kkt_solver.hpp"
 
 #include <Eigen/KLUSupport>
+#include <Eigen/LU>
 #include <Eigen/Sparse>
-
-#include "hydro/base/dense.hpp"
 
 namespace dynamics {
 
@@ -20,7 +19,7 @@ struct KktSolver::Impl {
   };
   std::vector<ConstraintBodies> ends;  // one for each constraint
   BlockSolver bodies_alone;
-  hydro::dense::Lu dense_lu;
+  Eigen::PartialPivLU<Eigen::MatrixXd> dense_lu;
   Eigen::KLU<Sparse> sparse_lu;
 
   // Calls f(row or column of the bodies, constraint, which body's part) for all numbers of G.

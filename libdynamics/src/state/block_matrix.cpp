@@ -1,11 +1,11 @@
 #include "dynamics/state/block_matrix.hpp"
 
 #include <Eigen/KLUSupport>
+#include <Eigen/LU>
 #include <Eigen/Sparse>
 
 #include <algorithm>
 
-#include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 
 namespace dynamics {
@@ -70,7 +70,7 @@ bool prefers_sparse(const BlockPattern& p) {
 
 struct BlockSolver::Impl {
   bool sparse;
-  hydro::dense::Lu dense_lu;
+  Eigen::PartialPivLU<Eigen::MatrixXd> dense_lu;
   Eigen::SparseMatrix<double> matrix;
   Eigen::KLU<Eigen::SparseMatrix<double>> sparse_lu;
 

@@ -1,5 +1,7 @@
 #include "array.hpp"
 
+#include <Eigen/QR>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -95,9 +97,15 @@ Array::Factors Array::compressed(const MatrixXcd& T, int azimuthal, double radiu
     D(n) = std::sqrt(std::exp(-kappa * closest_) * far.back()) / near[static_cast<std::size_t>(azimuthal)];
   }
   const MatrixXcd weakened = D.asDiagonal() * T * D.asDiagonal();
-  const auto [Q, R] = dense::low_rank(weakened, precision_);
+  Eigen::ColPivHouseholderQR<MatrixXcd> qr(weakened);
+  const auto diagonal = qr.matrixQR().diagonal().cwiseAbs();
+  Index rank = 0;
+  while (rank < diagonal.size() && diagonal(rank) > precision_) ++rank;
+  const MatrixXcd Q = qr.householderQ() * MatrixXcd::Identity(T.rows(), rank);
+  const MatrixXcd R = qr.matrixQR().topRows(rank).triangularView<Eigen::Upper>();
   const Eigen::VectorXd inverse = D.cwiseInverse();
-  return {R * inverse.asDiagonal(), inverse.asDiagonal() * Q};
+  const MatrixXcd unsorted = R * qr.colsPermutation().transpose();
+  return {unsorted * inverse.asDiagonal(), inverse.asDiagonal() * Q};
 }
 
 // From motions with cos θ and sin θ to e^{±iθ}: C cos θ + S sin θ = ½(C − iS) e^{iθ} + ½(C + iS) e^{−iθ}, and back.

@@ -1,8 +1,8 @@
 #include "tails.hpp"
 
-#include <cmath>
+#include <Eigen/LU>
 
-#include "hydro/base/dense.hpp"
+#include <cmath>
 
 namespace hydro::cylinders {
 namespace {
@@ -29,7 +29,7 @@ SmoothTail::SmoothTail(int last, double decay) {
     for (int i = 0; i < 4; ++i) powers(c, i) = std::pow(at[static_cast<std::size_t>(i)] / N, -decay - c);
     sums(c) = relative_zeta_tail(decay + c, N);
   }
-  const Eigen::Vector4d w = dense::Lu(powers).solve(sums);
+  const Eigen::Vector4d w = powers.partialPivLu().solve(sums);
   for (int i = 0; i < 4; ++i) weight[static_cast<std::size_t>(i)] = w(i);
 }
 
