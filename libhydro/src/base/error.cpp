@@ -45,6 +45,8 @@ InputError InputError::at(const Place& where) const {
   return where_.str().empty() ? InputError(rule_, where, remedy_) : *this;
 }
 
+void throw_input_error(fmt::string_view rule, fmt::format_args args) { throw InputError(fmt::vformat(rule, args)); }
+
 void throw_broken_assumption(std::string_view what) {
   throw std::logic_error("broken assumption inside Froude (please report it): " + std::string(what));
 }

@@ -52,10 +52,13 @@ class NumericsError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// InputError with the rule that the arguments fill in: the part of require() that does not depend on their types.
+[[noreturn]] void throw_input_error(fmt::string_view rule, fmt::format_args args);
+
 /// Throws InputError unless `condition` holds: for the user's mistakes, always on.
 template <class... Args>
 void require(bool condition, fmt::format_string<Args...> rule, Args&&... args) {
-  if (!condition) throw InputError(fmt::format(rule, std::forward<Args>(args)...));
+  if (!condition) throw_input_error(rule, fmt::make_format_args(args...));
 }
 
 [[noreturn]] void throw_broken_assumption(std::string_view what);
