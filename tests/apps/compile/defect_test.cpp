@@ -11,6 +11,7 @@
 #include "compile/integrator.hpp"
 #include "dynamics/integrate/integrator.hpp"
 #include "dynamics/integrate/start_with_lines.hpp"
+#include "hydro/base/random.hpp"
 #include "hydro/potential/formats/writers.hpp"
 #include "scenes.hpp"
 #include "support/two_pole_body.hpp"
@@ -180,9 +181,9 @@ const Buoy eight_poles{{{200, {.decay = 0.3, .frequency = 1.1}},
                         {100, {.decay = 0.5, .frequency = 2.6}},
                         {50, {.decay = 0.15, .frequency = 0.8}}}};
 
-// What a step of 0.01 s and frequencies 0.05 rad/s apart leave: (1.2 rad/s · h)²/12 of the 48 rad of 40 s is 6e-4 at
-// their end, a third of that in the mean of a decay that dies away.
-constexpr double floor_of_the_step = 2.5e-4;
+// A step of 0.01 s turns the phase of 1.2 rad/s by (ωh)²/12 of itself: 6e-4 after 40 s, 6e-4/√3 as rms of what grows
+// straight to that.
+constexpr double floor_of_the_step = 3.5e-4;
 
 TEST(MemoryDefect, PredictsTheErrorOfTheMotion) {
   for (const auto& [buoy, method] : {std::pair{two_poles, "direct"}, {eight_poles, "direct"}, {eight_poles, "poles"}})
@@ -196,6 +197,32 @@ TEST(MemoryDefect, PredictsTheErrorOfTheMotion) {
         // Put back, it takes the error away but for its square and the error of the data.
         EXPECT_LT(e.left, 0.06 * e.real + floor_of_the_step) << which;
       }
+}
+
+/// Water of two to five resonances, from a tenth to the half of critical and more.
+Buoy random_buoy(std::uint64_t seed) {
+  const hydro::RandomStream random(seed, 0);
+  const auto between = [&](std::uint64_t index, double low, double high) {
+    return low + (high - low) * random.uniform(index);
+  };
+  Buoy out{{}};
+  const auto count = 2 + seed % 4;
+  for (std::uint64_t k = 0; k < count; ++k)
+    out.parts.push_back(
+        {between(3 * k, 40, 250), {.decay = between(3 * k + 1, 0.15, 0.8), .frequency = between(3 * k + 2, 0.6, 3)}});
+  return out;
+}
+
+TEST(MemoryDefect, PredictsTheErrorOfTheMotionInTwentyScenesDrawnAtRandom) {
+  const std::string methods[] = {"direct", "poles", "partitioned"};
+  const double ladder[] = {1e-1, 3e-2, 1e-2, 1e-3};
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const std::string which =
+        fmt::format("memory_tolerance = {}, accept_error = 1, method = \"{}\"", ladder[seed / 5], methods[seed % 3]);
+    const Errors e = errors(random_buoy(seed), which, seed % 2 == 0 ? decay : waves);
+    EXPECT_LT(e.real, 3 * (e.memory + e.data) + floor_of_the_step) << "seed " << seed << ", " << which;
+    EXPECT_LT(e.memory, 3 * e.real + floor_of_the_step) << "seed " << seed << ", " << which;
+  }
 }
 
 /// A pontoon of which the origin is `below` the water and the centre of gravity where it always is, let go in heave.
