@@ -49,7 +49,7 @@ struct Finer {
 
 /// Segments of lines that the scene cuts into equal ones; links that it lists are bodies by themselves.
 inline bool has_segments(const froude::scene::Scene& scene) {
-  return !scene.chains.empty() && scene.text.find("segments = ") != std::string::npos;
+  return !scene.lines.empty() && scene.text.find("segments = ") != std::string::npos;
 }
 
 inline void cut_in_three(froude::scene::Line& line) {
@@ -78,7 +78,7 @@ inline froude::scene::Scene refined(froude::scene::Scene scene, const Finer& fin
   if (finer.integrator) {
     scene.solve.integrator = *finer.integrator;
     const bool neighbours =
-        std::any_of(scene.chains.begin(), scene.chains.end(), [](const auto& l) { return l.lyapunov.has_value(); });
+        std::any_of(scene.lines.begin(), scene.lines.end(), [](const auto& l) { return l.lyapunov.has_value(); });
     if (!neighbours) scene.solve.line_scheme = "generalized_alpha";
   }
   for (auto& body : scene.bodies)
@@ -87,7 +87,7 @@ inline froude::scene::Scene refined(froude::scene::Scene scene, const Finer& fin
       body.hydrodynamics->memory.method = froude::scene::Memory::Method::automatic;
     }
   if (finer.links && has_segments(scene)) {
-    for (auto& line : scene.chains) cut_in_three(line);
+    for (auto& line : scene.lines) cut_in_three(line);
     scene.run->of.clear();
     scene.run->of_places.clear();
   }
