@@ -28,10 +28,11 @@ double rounding_of(const dynamics::Model& model) {
 /// One run on its way: stepping, book-keeping of energy, samples.
 class March {
  public:
-  March(const compile::TimeModel& m, const std::vector<compile::Signal>& signals, const scene::Solve& solve,
-        Run& record)
+  March(const compile::TimeModel& m, const std::vector<compile::Signal>& signals, compile::Controllers controllers,
+        const scene::Solve& solve, Run& record)
       : m_(m),
         signals_(signals),
+        controllers_(std::move(controllers)),
         record_(record),
         workspace_(m.model, m.start),
         integrator_(compile::make_integrator(solve, m.model)),
@@ -90,6 +91,10 @@ class March {
     record_.steps = n;
     ledger.note(workspace_);
     for (auto& line : lines_) line->note(m_.step);
+    if (controllers_.decide({m_.model, workspace_, ledger, lines_})) {
+      integrator_->loads_jumped(workspace_);
+      ledger.note(workspace_);
+    }
     watch(n, balance(ledger));
   }
   struct Balance {
@@ -158,6 +163,7 @@ class March {
 
   const compile::TimeModel& m_;
   const std::vector<compile::Signal>& signals_;
+  compile::Controllers controllers_;
   std::vector<std::unique_ptr<compile::LineRun>> lines_;
   Run& record_;
   dynamics::Workspace workspace_;
@@ -180,11 +186,12 @@ Provenance provenance_of_run(const scene::Scene& scene) {
 Run run_model(const scene::Scene& scene, const compile::TimeModel& model, const std::function<void(double)>& done,
               compile::MovingState* end) {
   Run record;
-  const auto signals = compile::chosen(compile::signal_list(scene, model), scene.run->of, scene.run->of_places);
+  const auto all = compile::signal_list(scene, model);
+  const auto signals = compile::chosen(all, scene.run->of, scene.run->of_places);
   record.step = model.step;
   record.notes = model.notes;
   record.provenance = provenance_of_run(scene);
-  March march(model, signals, scene.solve, record);
+  March march(model, signals, {model.rules, all}, scene.solve, record);
   const auto stepping = Clock::now();
   march.run(done);
   record.stepping_s = seconds_since(stepping);

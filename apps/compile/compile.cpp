@@ -50,7 +50,11 @@ void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::
   if (!p.moorings.empty()) forces.push_back(std::make_unique<dynamics::RestoringKind>("mooring", p.bodies, p.moorings));
   if (!p.catenaries.empty()) forces.push_back(std::make_unique<dynamics::CatenaryMooringKind>(p.catenaries));
   if (!p.axial.empty()) forces.push_back(std::make_unique<dynamics::AxialConnectorKind>(p.axial));
-  if (!p.switched.empty()) forces.push_back(std::make_unique<dynamics::SwitchedConnectorKind>(p.switched));
+  if (!p.switched.empty()) {
+    std::vector<dynamics::SwitchedConnectors> groups;
+    for (const RuledConnectors& group : p.switched) groups.push_back(group.connectors);
+    forces.push_back(std::make_unique<dynamics::SwitchedConnectorKind>(std::move(groups)));
+  }
   if (!p.bushing.empty()) forces.push_back(std::make_unique<dynamics::BushingConnectorKind>(p.bushing));
   if (!p.ptos.empty()) forces.push_back(std::make_unique<dynamics::PtoKind>(p.ptos));
   for (const auto& elements : p.elements) forces.push_back(elements->force({p.bodies, p.water}));
@@ -317,10 +321,13 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared) {
       for (const std::string* told : {&part.coefficients, &part.released})
         if (!told->empty()) notes.push_back(fmt::format("line {}: {}", part.name, *told));
   }
+  std::vector<Rule> rules;
+  for (const RuledConnectors& group : prepared.switched) rules.push_back(group.rule);
   return {.model = std::move(model),
           .start = std::move(start),
           .water = std::move(water),
           .lines = std::move(lines),
+          .rules = std::move(rules),
           .step = step,
           .steps = steps,
           .steps_per_sample = per_sample,

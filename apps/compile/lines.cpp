@@ -477,9 +477,11 @@ void LineRun::begin() {
     if (part.snaps) snaps_.back().emplace(part.segments, part.snaps->slack_below, part.snaps->snap_above);
   }
   look();
+  looked_ = false;  // bodies may have been brought to their start meanwhile
 }
 
 void LineRun::note(double h) {
+  looked_ = false;
   for (std::size_t k = 0; k < snaps_.size(); ++k) {
     const LineModel::Part& part = model_.parts[k];
     if (snaps_[k]) snaps_[k]->note(state().time, h, state().tension.segment(part.first_segment, part.segments));
@@ -512,6 +514,8 @@ std::optional<dynamics::Exponent> LineRun::exponent() const {
 }
 
 void LineRun::look() {
+  if (looked_) return;
+  looked_ = true;
   const dl::Energies& e = energies();
   turnover_ = std::max(
       {turnover_, e.kinetic, e.axial, std::abs(e.height - first_height_), std::abs(e.supplied()), e.dissipated()});
