@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "answers/fit_kinds.hpp"
+#include "scene/placed.hpp"
 
 namespace froude {
 namespace {
@@ -72,11 +73,8 @@ void take_row(const scene::Located<std::filesystem::path>& place, std::size_t ro
 ::fit::morison::Run read_run(const scene::FitScene& scene, Morison model, const RunOfScene& of) {
   ::fit::morison::Run run{.source = of.source, .cylinder = model.cylinder, .raw = {}};
   if (scene.run_table) take_row(*scene.run_table, of.row, model, run);
-  try {
-    run.raw = raw_run(scene, model, Measurements(scene, of.source.file));
-  } catch (const hydro::InputError& e) {
-    throw e.at({.file = of.source.file.string()});
-  }
+  scene::placed({.file = of.source.file.string()},
+                [&] { run.raw = raw_run(scene, model, Measurements(scene, of.source.file)); });
   return run;
 }
 

@@ -19,6 +19,7 @@
 #include "dynamics/force/wave_loads.hpp"
 #include "dynamics/model/equilibrium.hpp"
 #include "hydro/waves/synthesis/boxed_field.hpp"
+#include "scene/placed.hpp"
 
 namespace froude::compile {
 namespace {
@@ -27,16 +28,14 @@ using hydro::InputError;
 using scene::Scene;
 
 dynamics::RigidBody rigid_body(const scene::Body& b) {
-  try {
+  return scene::placed(b.place, [&] {
     return dynamics::RigidBody({.name = b.name,
                                 .mass = b.mass,
                                 .inertia = b.inertia,
                                 .rest_position = {b.position},
                                 .centre_of_gravity = {b.centre_of_gravity},
                                 .free = b.free});
-  } catch (const InputError& e) {
-    throw e.at(b.place);
-  }
+  });
 }
 
 }  // namespace
@@ -135,14 +134,12 @@ std::string farthest(const dynamics::Model& model, const dynamics::State& state)
 dynamics::frequency::SmallMotions small_motions(const dynamics::Model& model, const scene::About& about,
                                                 std::vector<std::string>& notes) {
   if (!about.equilibrium) return {model};
-  try {
+  return scene::placed(about.place, [&] {
     dynamics::State still = dynamics::equilibrium(model, dynamics::rest_state(model.bodies()));
     notes.push_back(fmt::format("small motions are about the equilibrium, {}; coefficients stay those as placed",
                                 farthest(model, still)));
-    return {model, std::move(still)};
-  } catch (const InputError& e) {
-    throw e.at(about.place);
-  }
+    return dynamics::frequency::SmallMotions(model, std::move(still));
+  });
 }
 
 namespace {
@@ -223,13 +220,11 @@ PlanLine waves_line(const RunWater& water) {
 
 /// Where they balance without waves, with the velocities that the scene gives them there.
 dynamics::State in_equilibrium(const Scene& scene, const dynamics::Model& model, dynamics::State start) {
-  try {
+  return scene::placed(scene.run->place, [&] {
     dynamics::State out = dynamics::equilibrium(model, start);
     out.velocity = start.velocity;
     return out;
-  } catch (const InputError& e) {
-    throw e.at(scene.run->place);
-  }
+  });
 }
 
 /// The lines of a plan for kinds of force that one line would not tell.

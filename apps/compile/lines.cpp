@@ -13,6 +13,7 @@
 #include "dynamics/line/exposure.hpp"
 #include "dynamics/line/path.hpp"
 #include "hydro/base/error.hpp"
+#include "scene/placed.hpp"
 
 namespace froude::compile {
 namespace {
@@ -213,7 +214,7 @@ std::string take_coefficients(const Scene& scene, const scene::Line& l, const Ru
                               std::span<dl::Segment> segments) {
   if (!l.coefficients) return "";
   const scene::Line::Coefficients& given = *l.coefficients;
-  try {
+  return scene::placed(given.place, [&] {
     const dl::CoefficientTable table(given.rows);
     const double ramp = scene.waves->ramp < scene.run->duration ? scene.waves->ramp : 0;
     const auto exposures = dl::exposure(*water.field, places, ramp, scene.run->duration);
@@ -233,9 +234,7 @@ std::string take_coefficients(const Scene& scene, const scene::Line& l, const Ru
     }
     return fmt::format("C_D {}, C_A {} by {} at KC {}{}", range(cd), range(ca), given.file, range(kc),
                        table.knows_reynolds() ? ", Re " + range(re) : "");
-  } catch (const InputError& e) {
-    throw e.at(given.place);
-  }
+  });
 }
 
 /// The same for all lines of a network.

@@ -11,6 +11,7 @@
 #include "hydro/signal/welch.hpp"
 #include "scene/binding.hpp"
 #include "scene/build.hpp"
+#include "scene/placed.hpp"
 #include "scene/spectra.hpp"
 
 namespace froude::scene {
@@ -23,16 +24,6 @@ using hydro::io::CsvTable;
 namespace dim = hydro::dim;
 namespace hw = hydro::waves;
 using enum Group::Count;
-
-/// Runs `make`; what it throws without a place of its own gets that of a value of the scene.
-template <class F>
-auto placed(const Place& place, F make) {
-  try {
-    return make();
-  } catch (const InputError& e) {
-    throw e.at(place);
-  }
-}
 
 // Random seas
 
