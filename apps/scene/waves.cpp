@@ -60,8 +60,8 @@ WaveSystem read_system(const Record& sea, Angle heading, const Scene& scene) {
   out.spectrum = placed(sea["kind"].place, [&] { return spectrum_kind(out.kind).build(sea, scene); });
   if (sea.has("spreading")) {
     const Record& record = sea.table("spreading");
-    out.spreading = placed(record["kind"].place,
-                           [&] { return spreading_kind(record.text("kind")).build(record, *out.spectrum, scene); });
+    out.spreading =
+        placed(record["kind"].place, [&] { return spreading_kind(record.text("kind")).build(record, *out.spectrum); });
   }
   return out;
 }
