@@ -159,15 +159,7 @@ plot::Panel coefficient_panel(const std::vector<MorisonRun>& runs, std::size_t i
 }  // namespace
 
 ::fit::morison::Problem problem_of(const scene::FitScene& scene, const scene::MorisonModel& model) {
-  ::fit::morison::Problem out{.runs = {},
-                              .options = {.prepare = model.prepare,
-                                          .longest_delay = model.longest_delay,
-                                          .force = model.options,
-                                          .coefficients = model.coefficients,
-                                          .law = {},
-                                          .cycles = model.cycles,
-                                          .sensitivity = model.sensitivity}};
-  if (model.law) out.options.law = {model.law->only};
+  ::fit::morison::Problem out{.runs = {}, .options = model};
   for (const RunOfScene& of : runs_of(
            scene, {"file", "zero", "delay", "diameter", "length", "density", "viscosity", "mass_beyond_load_cells"}))
     out.runs.push_back(read_run(scene, model, of));
