@@ -1,5 +1,5 @@
 #pragma once
-/// \file  Switching by the period of a motion (Fagerbakke 2023, sections 4.2 and 6.8).
+/// \file  Switching by the period of a signal (Fagerbakke 2023, sections 4.2 and 6.8).
 #include <optional>
 #include <vector>
 
