@@ -83,10 +83,10 @@ const std::string tied =
     "ends = [\"(0, 0, 0) m\", \"(5, 0, -1) m\"]\nstiffness = \"5 N/m\"\nrest_length = \"as placed\"\n"
     "[[line]]\nname = \"rope\"\nfrom = \"(0, 0, 0) m\"\nto = \"(1.5, 0, -2) m\"\nlength = \"2.5 m\"\nsegments = 5\n"
     "on = { from = \"bob\" }\nmass_per_length = \"0.1 kg/m\"\naxial_stiffness = \"2 kN\"\ndiameter = \"10 mm\"\n"
-    "[line.morison]\ncd = 1.2\n"
+    "[line.morison]\ncd = 1.2\nca = 1.0\n"
     "[[line]]\nname = \"stray\"\nfrom = \"(9, 0, -1) m\"\nto = \"(9, 2, -1) m\"\nlength = \"3 m\"\nsegments = 5\n"
     "mass_per_length = \"0.1 kg/m\"\ndiameter = \"10 mm\"\n"
-    "[line.morison]\ncd = 1.2\n"
+    "[line.morison]\ncd = 1.2\nca = 1.0\n"
     "[ask]\nrun = { duration = \"0.5 s\", every = \"0.01 s\" }\n[solve]\nstep = \"0.01 s\"\n";
 
 // Where nothing is switched, what a controller reads at the ends of steps is what the record has there, to the bit.
