@@ -27,14 +27,38 @@ void look_up(double) {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
+/// A sample as Python holds it, which may keep it: it can be read while its controller decides.
+class HeldSample {
+ public:
+  explicit HeldSample(const Sample& now) : now_(&now) {}
+  void end() { now_ = nullptr; }
+  const Sample& now() const {
+    if (now_ == nullptr)
+      throw hydro::InputError("a sample was read after its controller had decided", {},
+                              "keep the numbers that are read, not the sample");
+    return *now_;
+  }
+
+ private:
+  const Sample* now_;
+};
+
+std::optional<double> ask(const py::function& decide, const Sample& sample) {
+  const auto held = std::make_shared<HeldSample>(sample);
+  struct End {
+    HeldSample& sample;
+    ~End() { sample.end(); }
+  } const at_the_end{*held};
+  return decide(held).cast<std::optional<double>>();
+}
+
 Run run(const scene::Scene& scene, const std::map<std::string, py::function>& controllers) {
   if (!scene.run)
     throw hydro::InputError(fmt::format("\"{}\" does not ask for a run", scene.file.filename().string()), {},
                             "[ask] run = { duration = \"600 s\", every = \"0.05 s\" }");
   std::vector<Control> controls;
   for (const auto& [connectors, decide] : controllers)
-    controls.push_back(
-        {connectors, [decide = decide](const Sample& sample) { return decide(sample).cast<std::optional<double>>(); }});
+    controls.push_back({connectors, [decide = decide](const Sample& sample) { return ask(decide, sample); }});
   return simulate(scene, look_up, controls);
 }
 
@@ -165,11 +189,17 @@ PYBIND11_MODULE(froude, m) {
             return names;
           },
           "Names of the bodies.");
-  py::class_<Sample>(m, "Sample", "What a controller is told at the end of each step. It may be kept.")
-      .def_property_readonly("time", &Sample::time, "s")
-      .def("__getitem__", &Sample::motion, "A motion from rest of a body's origin, m or rad: sample[\"m1.heave\"].")
-      .def("velocity", &Sample::velocity, py::arg("body"),
-           "Velocity of the centre of gravity, m/s, and angular velocity, rad/s: six numbers, global axes.");
+  py::class_<HeldSample, std::shared_ptr<HeldSample>>(
+      m, "Sample", "What a controller may read at the end of each step, while it decides.")
+      .def_property_readonly(
+          "time", [](const HeldSample& s) { return s.now().time(); }, "s")
+      .def(
+          "__getitem__", [](const HeldSample& s, const std::string& signal) { return s.now()[signal]; },
+          "Any signal of the run, SI: sample[\"m1.heave\"], sample[\"spring1.force\"]. Computed when it is asked for.")
+      .def(
+          "velocity", [](const HeldSample& s, const std::string& body) { return s.now().velocity(body); },
+          py::arg("body"),
+          "Velocity of the centre of gravity, m/s, and angular velocity, rad/s: six numbers, global axes.");
   add_run(m);
   add_rao(m);
 

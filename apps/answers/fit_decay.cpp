@@ -68,16 +68,7 @@ std::vector<Coefficient> in_table(const DecayRun& run) {
 }  // namespace
 
 ::fit::decay::Problem problem_of(const scene::FitScene& scene, const scene::DecayModel& model) {
-  ::fit::decay::Problem out{.turns = scene.turns(),
-                            .runs = {},
-                            .body = model.body,
-                            .options = {.prepare = model.prepare,
-                                        .motion = model.options,
-                                        .memory = model.memory,
-                                        .profile = model.profile,
-                                        .sensitivity = model.sensitivity,
-                                        .accept_residuals = model.accept_residuals,
-                                        .together = model.together}};
+  ::fit::decay::Problem out{.turns = scene.turns(), .runs = {}, .body = model.body, .options = model};
   for (const auto& [source, row] : runs_of(scene, {"file"})) {
     const Measurements measured(scene, source.file);
     out.runs.push_back({source, measured.time(), measured.motion()});

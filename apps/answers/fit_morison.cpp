@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "answers/fit_kinds.hpp"
+#include "scene/placed.hpp"
 
 namespace froude {
 namespace {
@@ -72,11 +73,8 @@ void take_row(const scene::Located<std::filesystem::path>& place, std::size_t ro
 ::fit::morison::Run read_run(const scene::FitScene& scene, Morison model, const RunOfScene& of) {
   ::fit::morison::Run run{.source = of.source, .cylinder = model.cylinder, .raw = {}};
   if (scene.run_table) take_row(*scene.run_table, of.row, model, run);
-  try {
-    run.raw = raw_run(scene, model, Measurements(scene, of.source.file));
-  } catch (const hydro::InputError& e) {
-    throw e.at({.file = of.source.file.string()});
-  }
+  scene::placed({.file = of.source.file.string()},
+                [&] { run.raw = raw_run(scene, model, Measurements(scene, of.source.file)); });
   return run;
 }
 
@@ -161,15 +159,7 @@ plot::Panel coefficient_panel(const std::vector<MorisonRun>& runs, std::size_t i
 }  // namespace
 
 ::fit::morison::Problem problem_of(const scene::FitScene& scene, const scene::MorisonModel& model) {
-  ::fit::morison::Problem out{.runs = {},
-                              .options = {.prepare = model.prepare,
-                                          .longest_delay = model.longest_delay,
-                                          .force = model.options,
-                                          .coefficients = model.coefficients,
-                                          .law = {},
-                                          .cycles = model.cycles,
-                                          .sensitivity = model.sensitivity}};
-  if (model.law) out.options.law = {model.law->only};
+  ::fit::morison::Problem out{.runs = {}, .options = model};
   for (const RunOfScene& of : runs_of(
            scene, {"file", "zero", "delay", "diameter", "length", "density", "viscosity", "mass_beyond_load_cells"}))
     out.runs.push_back(read_run(scene, model, of));

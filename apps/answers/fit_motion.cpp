@@ -2,6 +2,7 @@
 
 #include "answers/fit_kinds.hpp"
 #include "answers/scene_runs.hpp"
+#include "scene/placed.hpp"
 
 namespace froude {
 namespace {
@@ -21,13 +22,11 @@ struct FollowedRecord {
 double deviation_of(const Motion::Signal& s, const std::string& unit, const hydro::io::CsvTable& table) {
   const hydro::Dimension needed = hydro::parse_unit(unit).dimension;
   table.column(s.column, needed);  // refuses a column of another dimension
-  try {
+  return scene::placed(s.deviation.place, [&] {
     const double out = hydro::parse_si(s.deviation.value, needed);
     hydro::require(out > 0, "the deviation of \"{}\" must be positive, got {}", s.of, out);
     return out;
-  } catch (const hydro::InputError& e) {
-    throw e.at(s.deviation.place);
-  }
+  });
 }
 
 /// A column of all windows, one after the other.

@@ -7,7 +7,7 @@ namespace froude {
 namespace dim = hydro::dim;
 
 ::fit::towing::Problem problem_of(const scene::FitScene& scene, const scene::TowingModel& model) {
-  ::fit::towing::Problem out{model.cylinder, {}, {scene.confidence, model.accept_residuals}};
+  ::fit::towing::Problem out{model.cylinder, {}, model};
   for (const auto& file : scene.files) {
     const Measurements measured(scene, file.value);
     const auto column = [&](const char* role, const hydro::Dimension& dimension) {

@@ -149,15 +149,16 @@ std::vector<ComplexSignal> heading_by_heading(const std::vector<compile::Signal>
 std::vector<ComplexSignal> linear_responses(const std::vector<compile::Signal>& signals, const SmallMotions& about,
                                             const Eigen::MatrixXcd& xi, const Eigen::MatrixXcd& multipliers,
                                             const std::vector<double>& omega, double heading) {
-  const Eigen::VectorXcd none;
+  const Eigen::MatrixXcd none(0, xi.cols());  // where there are no joints
+  const Eigen::MatrixXcd& lambda = multipliers.cols() > 0 ? multipliers : none;
+  const dynamics::Still still(about.still, about.linear.multipliers);
   std::vector<ComplexSignal> out;
   for (const auto& signal : signals) {
-    const dynamics::Variation variation = signal.variation({about.still, about.linear.multipliers});
+    const dynamics::Variation variation = signal.variation(still);
     ComplexSignal s{signal.name, signal.unit + "/m", signal.meaning + " per metre of wave amplitude", {}};
     for (std::size_t w = 0; w < omega.size(); ++w) {
       const auto column = static_cast<Eigen::Index>(w);
-      const Eigen::VectorXcd lambda = multipliers.cols() > 0 ? Eigen::VectorXcd(multipliers.col(column)) : none;
-      s.values.push_back(dynamics::amplitude(variation, xi.col(column), lambda, omega[w], heading));
+      s.values.push_back(dynamics::amplitude(variation, xi.col(column), lambda.col(column), omega[w], heading));
     }
     out.push_back(std::move(s));
   }

@@ -29,10 +29,11 @@ double rounding_of(const dynamics::Model& model) {
 /// One run on its way: stepping, book-keeping of energy, samples.
 class March {
  public:
-  March(const compile::TimeModel& m, const std::vector<compile::Signal>& signals, const scene::Solve& solve,
-        Run& record)
+  March(const compile::TimeModel& m, const std::vector<compile::Signal>& signals, compile::Controllers controllers,
+        const scene::Solve& solve, Run& record)
       : m_(m),
         signals_(signals),
+        controllers_(std::move(controllers)),
         record_(record),
         workspace_(m.model, m.start),
         integrator_(compile::make_integrator(solve, m.model)),
@@ -102,6 +103,10 @@ class March {
     record_.steps = n;
     ledger.note(workspace_);
     for (auto& line : lines_) line->note(m_.step);
+    if (controllers_.decide({m_.model, workspace_, ledger, lines_})) {
+      integrator_->loads_jumped(workspace_);
+      ledger.note(workspace_);
+    }
     watch(n, balance(ledger));
     watch_losses(n, ledger);
   }
@@ -185,6 +190,7 @@ class March {
 
   const compile::TimeModel& m_;
   const std::vector<compile::Signal>& signals_;
+  compile::Controllers controllers_;
   std::vector<std::unique_ptr<compile::LineRun>> lines_;
   Run& record_;
   dynamics::Workspace workspace_;
@@ -224,11 +230,12 @@ Run run_once(const scene::Scene& scene, const compile::Prepared& prepared, const
 Run run_model(const scene::Scene& scene, const compile::TimeModel& model, const std::function<void(double)>& done,
               compile::MovingState* end, compile::VelocityRecord* motion) {
   Run record;
-  const auto signals = compile::chosen(compile::signal_list(scene, model), scene.run->of, scene.run->of_places);
+  const auto all = compile::signal_list(scene, model);
+  const auto signals = compile::chosen(all, scene.run->of, scene.run->of_places);
   record.step = model.step;
   record.notes = model.notes;
   record.provenance = provenance_of_run(scene);
-  March march(model, signals, scene.solve, record);
+  March march(model, signals, {model.rules, all}, scene.solve, record);
   if (motion) march.keep_motion(*motion);
   const auto stepping = Clock::now();
   march.run(done);

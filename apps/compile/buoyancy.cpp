@@ -1,4 +1,5 @@
 #include "compile/buoyancy.hpp"
+#include "scene/placed.hpp"
 
 #include <map>
 
@@ -24,24 +25,19 @@ Shapes shapes_of(const scene::Buoyancy& given, std::vector<std::string>& notes) 
   for (const auto& cylinder : given.cylinders) add(cylinder);
   for (const auto& sphere : given.spheres) add(sphere);
   if (!given.mesh) return shapes;
-  try {
+  scene::placed(given.mesh->place, [&] {
     hh::Hull hull = read_hull(given);
     for (const auto& note : hull.notes())
       notes.push_back(fmt::format("{}: {}", given.mesh->value.filename().string(), note));
     add(std::move(hull));
-  } catch (const InputError& e) {
-    throw e.at(given.mesh->place);
-  }
+  });
   return shapes;
 }
 
 void require_dry_openings(const dynamics::Buoyancy& element, const Prepared& p, const hydro::Place& place) {
   const auto body = static_cast<std::size_t>(element.body);
-  try {
-    dynamics::immersion(element, p.bodies[body], dynamics::rest_state(p.bodies).pose[body]);
-  } catch (const InputError& e) {
-    throw e.at(place);
-  }
+  scene::placed(place,
+                [&] { dynamics::immersion(element, p.bodies[body], dynamics::rest_state(p.bodies).pose[body]); });
 }
 
 /// Volume and its first moment about the centre of gravity of what a body has under water at rest.

@@ -19,6 +19,7 @@
 #include "dynamics/force/wave_loads.hpp"
 #include "dynamics/model/equilibrium.hpp"
 #include "hydro/waves/synthesis/boxed_field.hpp"
+#include "scene/placed.hpp"
 
 namespace froude::compile {
 namespace {
@@ -27,16 +28,14 @@ using hydro::InputError;
 using scene::Scene;
 
 dynamics::RigidBody rigid_body(const scene::Body& b) {
-  try {
+  return scene::placed(b.place, [&] {
     return dynamics::RigidBody({.name = b.name,
                                 .mass = b.mass,
                                 .inertia = b.inertia,
                                 .rest_position = {b.position},
                                 .centre_of_gravity = {b.centre_of_gravity},
                                 .free = b.free});
-  } catch (const InputError& e) {
-    throw e.at(b.place);
-  }
+  });
 }
 
 }  // namespace
@@ -50,7 +49,11 @@ void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::
   if (!p.moorings.empty()) forces.push_back(std::make_unique<dynamics::RestoringKind>("mooring", p.bodies, p.moorings));
   if (!p.catenaries.empty()) forces.push_back(std::make_unique<dynamics::CatenaryMooringKind>(p.catenaries));
   if (!p.axial.empty()) forces.push_back(std::make_unique<dynamics::AxialConnectorKind>(p.axial));
-  if (!p.switched.empty()) forces.push_back(std::make_unique<dynamics::SwitchedConnectorKind>(p.switched));
+  if (!p.switched.empty()) {
+    std::vector<dynamics::SwitchedConnectors> groups;
+    for (const RuledConnectors& group : p.switched) groups.push_back(group.connectors);
+    forces.push_back(std::make_unique<dynamics::SwitchedConnectorKind>(std::move(groups)));
+  }
   if (!p.bushing.empty()) forces.push_back(std::make_unique<dynamics::BushingConnectorKind>(p.bushing));
   if (!p.ptos.empty()) forces.push_back(std::make_unique<dynamics::PtoKind>(p.ptos));
   for (const auto& elements : p.elements) forces.push_back(elements->force({p.bodies, p.water}));
@@ -131,14 +134,12 @@ std::string farthest(const dynamics::Model& model, const dynamics::State& state)
 dynamics::frequency::SmallMotions small_motions(const dynamics::Model& model, const scene::About& about,
                                                 std::vector<std::string>& notes) {
   if (!about.equilibrium) return {model};
-  try {
+  return scene::placed(about.place, [&] {
     dynamics::State still = dynamics::equilibrium(model, dynamics::rest_state(model.bodies()));
     notes.push_back(fmt::format("small motions are about the equilibrium, {}; coefficients stay those as placed",
                                 farthest(model, still)));
-    return {model, std::move(still)};
-  } catch (const InputError& e) {
-    throw e.at(about.place);
-  }
+    return dynamics::frequency::SmallMotions(model, std::move(still));
+  });
 }
 
 namespace {
@@ -219,13 +220,11 @@ PlanLine waves_line(const RunWater& water) {
 
 /// Where they balance without waves, with the velocities that the scene gives them there.
 dynamics::State in_equilibrium(const Scene& scene, const dynamics::Model& model, dynamics::State start) {
-  try {
+  return scene::placed(scene.run->place, [&] {
     dynamics::State out = dynamics::equilibrium(model, start);
     out.velocity = start.velocity;
     return out;
-  } catch (const InputError& e) {
-    throw e.at(scene.run->place);
-  }
+  });
 }
 
 /// The lines of a plan for kinds of force that one line would not tell.
@@ -321,11 +320,14 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared, const std::ve
       for (const std::string* told : {&part.coefficients, &part.released})
         if (!told->empty()) notes.push_back(fmt::format("line {}: {}", part.name, *told));
   }
+  std::vector<Rule> rules;
+  for (const RuledConnectors& group : prepared.switched) rules.push_back(group.rule);
   return {.model = std::move(model),
           .start = std::move(start),
           .water = std::move(water),
           .lines = std::move(lines),
           .memories = std::move(in_run),
+          .rules = std::move(rules),
           .step = step,
           .steps = steps,
           .steps_per_sample = per_sample,

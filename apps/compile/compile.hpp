@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "compile/depth.hpp"
@@ -20,6 +21,7 @@
 #include "dynamics/force/switched_connector.hpp"
 #include "dynamics/frequency/rao.hpp"
 #include "dynamics/model/model.hpp"
+#include "froude/control.hpp"
 #include "froude/result.hpp"
 #include "hydro/radiation/pole_memory.hpp"
 #include "hydro/waves/kinematics/field.hpp"
@@ -36,6 +38,14 @@ struct SymmetricData;
 
 using dynamics::LoadRecord;
 
+/// What sets the stiffness of connectors between steps: [connector.switch], or a controller of the caller's.
+using Rule = std::variant<scene::StiffnessSwitch, Control>;
+struct RuledConnectors {
+  dynamics::SwitchedConnectors connectors;
+  Rule rule;
+  scene::Place place;  ///< of the [[connector]], if it is the scene's rule
+};
+
 /// What both domains share: bodies, coefficients placed about the centres of gravity, springs. In the order of the
 /// scene.
 struct Prepared {
@@ -49,7 +59,7 @@ struct Prepared {
   std::vector<dynamics::Buoyancy> buoyancy;
   hydro::Water water;
   std::vector<dynamics::AxialConnector> axial;
-  std::vector<dynamics::SwitchedConnectors> switched;  ///< one for each [[connector]] with a switch
+  std::vector<RuledConnectors> switched;  ///< one for each [[connector]] with a switch
   std::vector<dynamics::BushingConnector> bushing;
   std::vector<dynamics::Pto> ptos;
   std::vector<std::shared_ptr<const scene::Elements>> elements;
@@ -58,7 +68,6 @@ struct Prepared {
   std::vector<dynamics::Joint> joints;
   std::vector<dynamics::Friction> friction;
   std::vector<dynamics::Contact> contacts;
-  std::vector<scene::Place> switched_places;
   std::vector<OtherDepth> other_depths;  ///< of coefficients that are not for the scene's
   std::vector<std::string> notes;        ///< what had to be decided, for the result and the plan
 };
@@ -107,6 +116,7 @@ struct TimeModel {
   RunWater water;
   std::vector<LineModel> lines;       ///< stepped beside the bodies
   std::vector<MemoryInRun> memories;  ///< one a group that radiates
+  std::vector<Rule> rules;            ///< one for each group of SwitchMemory
   double step;                        ///< s; scene.run->every is a whole multiple of it
   std::size_t steps;
   std::size_t steps_per_sample;

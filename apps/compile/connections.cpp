@@ -3,7 +3,6 @@
 #include <limits>
 #include <numbers>
 
-#include "dynamics/control/dominant_period.hpp"
 #include "dynamics/joint/prescribed_motion.hpp"
 #include "hydro/base/error.hpp"
 
@@ -22,17 +21,9 @@ Eigen::Vector3d placed(const Scene& scene, std::optional<int> body, const Eigen:
 /// All connectors of one table of the scene have one controller.
 void add_switched(const scene::Connector& c, const scene::StiffnessSwitch& s, const dynamics::AxialConnector& made,
                   Prepared& out) {
-  const bool same = !out.switched.empty() && out.switched_places.back().line == c.place.line &&
-                    out.switched_places.back().column == c.place.column;
-  if (!same) {
-    dynamics::PeriodSwitching law = s;
-    law.signal = [body = out.bodies[static_cast<std::size_t>(s.body)], index = static_cast<std::size_t>(s.body),
-                  mode = static_cast<int>(s.mode)](const dynamics::State& state) {
-      return dynamics::motion_from_rest(body, state.pose[index], mode);
-    };
-    out.switched.push_back({{}, [law] { return std::make_unique<dynamics::DominantPeriodController>(law); }});
-    out.switched_places.push_back(c.place);
-  }
+  const bool same = !out.switched.empty() && out.switched.back().place.line == c.place.line &&
+                    out.switched.back().place.column == c.place.column;
+  if (!same) out.switched.push_back({{}, s, c.place});
   out.switched.back().connectors.push_back(made);
 }
 

@@ -4,34 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
 
-#include "dynamics/control/controller.hpp"
+#include "dynamics/control/dominant_period.hpp"
 #include "hydro/base/error.hpp"
 
-namespace froude {
-
-int Sample::index(const std::string& body) const {
-  std::vector<std::string> names;
-  for (std::size_t b = 0; b < bodies_->size(); ++b) {
-    if ((*bodies_)[b].name() == body) return static_cast<int>(b);
-    names.push_back((*bodies_)[b].name());
-  }
-  throw hydro::InputError(fmt::format("the scene has no body \"{}\"", body), {},
-                          fmt::format("bodies are: {}", fmt::join(names, ", ")));
-}
-
-double Sample::motion(const std::string& name) const {
-  const auto dot = name.rfind('.');
-  if (dot == std::string::npos)
-    throw hydro::InputError(fmt::format("\"{}\" is no motion", name), {}, "motions are called like \"m1.heave\"");
-  const auto b = static_cast<std::size_t>(index(name.substr(0, dot)));
-  return dynamics::motion_from_rest((*bodies_)[b], state_.pose[b],
-                                    static_cast<int>(hydro::parse_mode(name.substr(dot + 1))));
-}
-
-dynamics::Vector6 Sample::velocity(const std::string& body) const { return state_.twist(index(body)); }
-
-namespace compile {
+namespace froude::compile {
 namespace {
 
 /// Takes the connectors whose names match out of a list.
@@ -39,7 +18,7 @@ void take(const std::string& pattern, std::vector<dynamics::AxialConnector>& con
           dynamics::SwitchedConnectors& group) {
   const auto left = std::stable_partition(connectors.begin(), connectors.end(),
                                           [&](const auto& c) { return !scene::matches(pattern, c.name); });
-  group.connectors.insert(group.connectors.end(), left, connectors.end());
+  group.insert(group.end(), left, connectors.end());
   connectors.erase(left, connectors.end());
 }
 
@@ -54,8 +33,8 @@ hydro::InputError no_such(const std::string& pattern, const Prepared& p) {
 }
 
 void check(const std::string& pattern, const dynamics::SwitchedConnectors& group) {
-  const auto& first = group.connectors.front().law;
-  for (const auto& c : group.connectors) {
+  const auto& first = group.front().law;
+  for (const auto& c : group) {
     if (!c.law.table_x.empty())
       throw hydro::InputError(fmt::format("\"{}\" has a table of tensions, not a stiffness to set", pattern), {},
                               "kind = \"axial\" with a stiffness");
@@ -67,31 +46,64 @@ void check(const std::string& pattern, const dynamics::SwitchedConnectors& group
   }
 }
 
-dynamics::MakeController controller(std::shared_ptr<const std::vector<dynamics::RigidBody>> bodies,
-                                    const Control& control) {
-  return [bodies, control] {
-    return std::make_unique<dynamics::FunctionController>([bodies, control](const dynamics::State& state) {
-      const auto stiffness = control.decide(Sample(bodies, state));
-      if (stiffness && !std::isfinite(*stiffness))
-        throw hydro::InputError(fmt::format("the controller of \"{}\" asks for a stiffness of {} N/m at {:.6g} s",
-                                            control.connectors, *stiffness, state.time),
-                                {}, "return a number, or nothing to leave the stiffness as it is");
-      return stiffness;
-    });
+using SignalsByName = std::map<std::string, Signal>;
+
+const Signal& named(const SignalsByName& signals, const scene::Located<std::string>& name) {
+  if (const auto found = signals.find(name.value); found != signals.end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& [other, signal] : signals) known.push_back(other);
+  throw scene::no_signal(name.value, name.place, known);
+}
+
+/// One instant of a run, as a controller of the caller's sees it.
+class SampleOfRun final : public Sample {
+ public:
+  SampleOfRun(const SignalsByName& signals, const Moment& now) : signals_(signals), now_(now) {}
+  double time() const override { return now_.workspace.state.time; }
+  double operator[](const std::string& signal) const override { return named(signals_, {signal, {}}).value(now_); }
+  dynamics::Vector6 velocity(const std::string& body) const override {
+    std::vector<std::string> names;
+    for (const dynamics::RigidBody& b : now_.model.bodies()) names.push_back(b.name());
+    const auto found = std::find(names.begin(), names.end(), body);
+    if (found == names.end())
+      throw hydro::InputError(fmt::format("the scene has no body \"{}\"", body), {},
+                              fmt::format("bodies are: {}", fmt::join(names, ", ")));
+    return now_.workspace.state.twist(static_cast<int>(found - names.begin()));
+  }
+
+ private:
+  const SignalsByName& signals_;
+  const Moment& now_;
+};
+
+std::function<std::optional<double>(const Moment&)> ruled_by(const scene::StiffnessSwitch& rule,
+                                                             const std::shared_ptr<const SignalsByName>& signals) {
+  return [watched = named(*signals, rule.watch), controller = dynamics::DominantPeriodController(rule)](
+             const Moment& now) mutable { return controller.sample(now.workspace.state.time, watched.value(now)); };
+}
+
+std::function<std::optional<double>(const Moment&)> ruled_by(const Control& control,
+                                                             const std::shared_ptr<const SignalsByName>& signals) {
+  return [control, signals](const Moment& now) {
+    const auto stiffness = control.decide(SampleOfRun(*signals, now));
+    if (stiffness && !std::isfinite(*stiffness))
+      throw hydro::InputError(fmt::format("the controller of \"{}\" asks for a stiffness of {} N/m at {:.6g} s",
+                                          control.connectors, *stiffness, now.workspace.state.time),
+                              {}, "return a number, or nothing to leave the stiffness as it is");
+    return stiffness;
   };
 }
 
 }  // namespace
 
 void set_controllers(const std::vector<Control>& controls, Prepared& p) {
-  const auto bodies = std::make_shared<const std::vector<dynamics::RigidBody>>(p.bodies);
-  std::vector<dynamics::SwitchedConnectors> ruled;
+  std::vector<RuledConnectors> ruled;
   for (const Control& control : controls) {
-    dynamics::SwitchedConnectors group{{}, controller(bodies, control)};
-    take(control.connectors, p.axial, group);
-    for (auto& other : p.switched) take(control.connectors, other.connectors, group);
+    RuledConnectors group{{}, control, {}};
+    take(control.connectors, p.axial, group.connectors);
+    for (auto& other : p.switched) take(control.connectors, other.connectors, group.connectors);
     if (group.connectors.empty()) throw no_such(control.connectors, p);
-    check(control.connectors, group);
+    check(control.connectors, group.connectors);
     ruled.push_back(std::move(group));
   }
   for (auto& group : p.switched)
@@ -99,5 +111,20 @@ void set_controllers(const std::vector<Control>& controls, Prepared& p) {
   p.switched = std::move(ruled);
 }
 
-}  // namespace compile
-}  // namespace froude
+Controllers::Controllers(const std::vector<Rule>& rules, const std::vector<Signal>& signals) {
+  if (rules.empty()) return;
+  const auto by_name = std::make_shared<SignalsByName>();
+  for (const Signal& s : signals) by_name->emplace(s.name, s);
+  for (const Rule& rule : rules)
+    rules_.push_back(std::visit([&](const auto& one) { return ruled_by(one, by_name); }, rule));
+}
+
+bool Controllers::decide(const Moment& now) {
+  bool changed = false;
+  for (std::size_t group = 0; group < rules_.size(); ++group)
+    if (const auto stiffness = rules_[group](now))
+      changed |= now.workspace.find_memory<dynamics::SwitchMemory>()->set(group, *stiffness, now.workspace.state);
+  return changed;
+}
+
+}  // namespace froude::compile

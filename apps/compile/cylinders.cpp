@@ -1,4 +1,5 @@
 #include "compile/cylinders.hpp"
+#include "scene/placed.hpp"
 
 #include <fmt/ranges.h>
 
@@ -74,11 +75,8 @@ hydro::cylinders::Solution solve_cylinders(const Scene& scene, const std::vector
   const Request r = request(scene, bodies);
   hydro::cylinders::Options options = r.options;
   options.progress = std::move(progress);
-  try {
-    return hydro::cylinders::solve(r.layout, scene.water, r.omega, r.headings, options);
-  } catch (const InputError& e) {
-    throw e.at(r.place);
-  }
+  return scene::placed(r.place,
+                       [&] { return hydro::cylinders::solve(r.layout, scene.water, r.omega, r.headings, options); });
 }
 
 std::string what_is_solved(const Scene& scene, const std::vector<int>& bodies) {
@@ -111,11 +109,8 @@ CylinderPlan plan_cylinders(const Scene& scene, const std::vector<int>& bodies) 
   const Request r = request(scene, bodies);
   CylinderPlan plan{{}, 0, bodies.size(), r.omega.size(), r.headings.size()};
   for (const auto& body : r.layout) plan.cylinders += body.cylinders.size();
-  try {
-    plan.cost = hydro::cylinders::cost(r.layout, scene.water, r.omega, r.headings, r.options);
-  } catch (const InputError& e) {
-    throw e.at(r.place);
-  }
+  scene::placed(r.place,
+                [&] { plan.cost = hydro::cylinders::cost(r.layout, scene.water, r.omega, r.headings, r.options); });
   return plan;
 }
 

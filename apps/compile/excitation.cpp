@@ -9,6 +9,7 @@
 #include "dynamics/force/turning_excitation.hpp"
 #include "dynamics/force/wave_loads.hpp"
 #include "hydro/base/error.hpp"
+#include "scene/placed.hpp"
 
 namespace froude::compile {
 namespace {
@@ -59,16 +60,14 @@ dynamics::TurningExcitation turning(const PotentialGroup& g, const dynamics::Rig
   const int yaws = static_cast<int>(std::ceil((asked.to - asked.from) / asked.spacing - 1e-9)) + 1;
   const double spacing = (asked.to - asked.from) / (yaws - 1);
   Eigen::MatrixXcd amplitudes(6 * yaws, static_cast<Eigen::Index>(sea.components().size()));
-  try {
+  scene::placed(asked.place, [&] {
     for (int k = 0; k < yaws; ++k) {
       Eigen::Index column = 0;
       for (const auto& c : sea.components())
         amplitudes.block<6, 1>(6 * k, column++) =
             elevation_at_origin(c) * turned(g, c, body.rest_centre().head<2>(), asked.from + k * spacing);
     }
-  } catch (const InputError& e) {
-    throw e.at(asked.place);
-  }
+  });
   return {.name = body.name(),
           .body = g.bodies.front(),
           .first_yaw = asked.from,

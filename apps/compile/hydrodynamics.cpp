@@ -11,6 +11,7 @@
 #include "hydro/base/dense.hpp"
 #include "hydro/potential/doctor/check.hpp"
 #include "hydro/potential/operations/operations.hpp"
+#include "scene/placed.hpp"
 
 namespace froude::compile {
 namespace {
@@ -48,11 +49,9 @@ Coefficients read(const Scene& scene, const Hydrodynamics& h, Kept& kept) {
   const auto& w = scene.water;
   const std::string name = fmt::format("{}|{}|{}|{}|{}|{}", h.file.value.string(), w.density, w.gravity,
                                        w.depth.metres(), h.ulen.value_or(0), h.iperout.value_or(0));
-  try {
+  return scene::placed(h.file.place, [&] {
     return kept.coefficients(name, [&] { return hydro::potential::read(h.file.value, options); });
-  } catch (const InputError& e) {
-    throw e.at(h.file.place);
-  }
+  });
 }
 
 /// Density and gravity of the data must be those of the scene; a file that states none was read with the scene's.
@@ -523,11 +522,7 @@ void check_waves_of_rao(const Scene& scene, const Prepared& prepared, std::vecto
   for (const auto& group : prepared.groups) {
     if (!group.excitation) continue;
     for (const double heading : scene.rao->headings) {
-      try {
-        group.table.excitation(group.table.lowest(), heading);
-      } catch (const InputError& e) {
-        throw e.at(scene.rao->headings_place);
-      }
+      scene::placed(scene.rao->headings_place, [&] { group.table.excitation(group.table.lowest(), heading); });
     }
   }
 }

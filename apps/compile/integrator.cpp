@@ -10,6 +10,7 @@
 #include "dynamics/integrate/sundials_bdf.hpp"
 #endif
 #include "hydro/base/error.hpp"
+#include "scene/placed.hpp"
 
 namespace froude::compile {
 namespace {
@@ -67,13 +68,11 @@ bool has_own_tolerance(const std::string& integrator) {
 
 std::unique_ptr<dynamics::Integrator> make_integrator(const scene::Solve& solve, const dynamics::Model& model) {
   if (solve.tolerance) refuse_tolerance(solve, model);
-  try {
+  return scene::placed(solve.integrator_place, [&] {
     auto out = by_name(solve, model);
     if (solve.tolerance && !has_own_tolerance(solve.integrator)) out->cut_steps(*solve.tolerance);
     return out;
-  } catch (const hydro::InputError& e) {
-    throw e.at(solve.integrator_place);
-  }
+  });
 }
 
 }  // namespace froude::compile

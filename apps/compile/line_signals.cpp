@@ -24,7 +24,10 @@ class Teller {
     out_.push_back({std::move(name),
                     unit,
                     std::move(meaning),
-                    [k = k_, read](const Moment& m) { return read(*m.lines[k]); },
+                    [k = k_, read](const Moment& m) {
+                      m.lines[k]->look();
+                      return read(*m.lines[k]);
+                    },
                     {},
                     why_});
   }

@@ -13,6 +13,7 @@
 #include "dynamics/line/exposure.hpp"
 #include "dynamics/line/path.hpp"
 #include "hydro/base/error.hpp"
+#include "scene/placed.hpp"
 
 namespace froude::compile {
 namespace {
@@ -213,7 +214,7 @@ std::string take_coefficients(const Scene& scene, const scene::Line& l, const Ru
                               std::span<dl::Segment> segments) {
   if (!l.coefficients) return "";
   const scene::Line::Coefficients& given = *l.coefficients;
-  try {
+  return scene::placed(given.place, [&] {
     const dl::CoefficientTable table(given.rows);
     const double ramp = scene.waves->ramp < scene.run->duration ? scene.waves->ramp : 0;
     const auto exposures = dl::exposure(*water.field, places, ramp, scene.run->duration);
@@ -233,9 +234,7 @@ std::string take_coefficients(const Scene& scene, const scene::Line& l, const Ru
     }
     return fmt::format("C_D {}, C_A {} by {} at KC {}{}", range(cd), range(ca), given.file, range(kc),
                        table.knows_reynolds() ? ", Re " + range(re) : "");
-  } catch (const InputError& e) {
-    throw e.at(given.place);
-  }
+  });
 }
 
 /// The same for all lines of a network.
@@ -477,9 +476,11 @@ void LineRun::begin() {
     if (part.snaps) snaps_.back().emplace(part.segments, part.snaps->slack_below, part.snaps->snap_above);
   }
   look();
+  looked_ = false;  // bodies may have been brought to their start meanwhile
 }
 
 void LineRun::note(double h) {
+  looked_ = false;
   for (std::size_t k = 0; k < snaps_.size(); ++k) {
     const LineModel::Part& part = model_.parts[k];
     if (snaps_[k]) snaps_[k]->note(state().time, h, state().tension.segment(part.first_segment, part.segments));
@@ -512,6 +513,8 @@ std::optional<dynamics::Exponent> LineRun::exponent() const {
 }
 
 void LineRun::look() {
+  if (looked_) return;
+  looked_ = true;
   const dl::Energies& e = energies();
   turnover_ = std::max(
       {turnover_, e.kinetic, e.axial, std::abs(e.height - first_height_), std::abs(e.supplied()), e.dissipated()});

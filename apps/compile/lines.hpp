@@ -87,8 +87,8 @@ class LineRun {
   }
   /// Empty where the scene does not ask for it, or the run has not lasted long enough.
   std::optional<dynamics::Exponent> exponent() const;
-  /// Brings tensions, forces and angles up to the state; before signals are read. Angles follow one another without
-  /// jumps from one call to the next.
+  /// Brings tensions, forces and angles up to the state, if they are not there; before signals are read. Angles follow
+  /// one another without jumps from one call to the next.
   void look();
 
   const dynamics::line::State& state() const { return driven_ != nullptr ? driven_->state() : state_; }
@@ -117,9 +117,10 @@ class LineRun {
   std::unique_ptr<dynamics::line::PerturbedTrajectory> perturbed_;
   std::vector<Angles> angles_;
   double first_height_ = 0, turnover_ = 0;
+  bool looked_ = false;  // since the last step
 };
 
-/// What lines tell of themselves, read off after look(). \return beside what the model tells of pulls on bodies
+/// What lines tell of themselves. \return beside what the model tells of pulls on bodies
 void add_line_signals(const std::vector<LineModel>& models, std::vector<Signal>& out);
 
 }  // namespace froude::compile

@@ -15,6 +15,7 @@
 #include "hydro/waves/kinematics/tank.hpp"
 #include "hydro/waves/synthesis/second_order.hpp"
 #include "hydro/waves/synthesis/summed_field.hpp"
+#include "scene/placed.hpp"
 
 namespace froude::compile {
 namespace {
@@ -111,13 +112,11 @@ hw::Sea random_sea(const scene::Scene& scene, const scene::RandomSea& sea, const
                    "a significant wave height");
     const Band band = band_of(sea, *system.spectrum, data, scene.accuracy);
     check_left_out(sea, *system.spectrum, band, data, scene.accuracy, place);
-    try {
+    scene::placed(sea.bins_place, [&] {
       systems.push_back(hw::Sea::irregular(*system.spectrum,
                                            {sea.bins, band.low, band.high, seed_of(sea, i), sea.amplitudes},
                                            {system.heading, system.spreading.get()}, scene.water, scene.current));
-    } catch (const InputError& e) {
-      throw e.at(sea.bins_place);
-    }
+    });
   }
   hw::Sea all = hw::Sea::together(systems);
   if (!sea.crest) return all;
@@ -143,15 +142,13 @@ hw::SteadyWave steady_wave(const scene::Scene& scene, const scene::RegularWave& 
                                   .length = hydro::AngularFrequency::from_period_s(wave.period),
                                   .water = scene.water,
                                   .mean_flow = hw::EulerianCurrent{current_along(scene)}};
-  try {
+  return scene::placed(scene.waves->place, [&] {
     const hw::SteadyWave steady = wave.theory == scene::RegularTheory::stokes_second  ? hw::stokes_second(input)
                                   : wave.theory == scene::RegularTheory::stokes_fifth ? hw::stokes_fifth(input)
                                                                                       : hw::stream_function(input);
     check_height(steady.height, wave.period, two_pi / steady.k, scene.water, scene.waves->place, "a wave height");
     return steady;
-  } catch (const InputError& e) {
-    throw e.at(scene.waves->place);
-  }
+  });
 }
 
 void require_no_current(const scene::Scene& scene, const char* what) {
@@ -178,14 +175,12 @@ std::unique_ptr<const hw::WaveField> tank_field(const scene::Scene& scene, const
                       .paddle = t.active_absorption ? hw::PaddleMode::absorbing : hw::PaddleMode::reflecting,
                       .round_trips = trips},
       .stretching = scene.waves->stretching};
-  try {
+  return scene::placed(scene.waves->place, [&] {
     const double slow = hw::arrival_time(scene.water, band, t.length * (2 * trips + 2));
     const double length = t.step * static_cast<double>(t.displacement.size());
     const auto motion = hw::record_spectrum(t.displacement, t.step, std::max(slow, until - length), band);
     return std::make_unique<hw::WaveTank>(tank, motion.harmonics);
-  } catch (const InputError& e) {
-    throw e.at(scene.waves->place);
-  }
+  });
 }
 
 }  // namespace
@@ -236,7 +231,7 @@ hw::Sea make_sea(const scene::Scene& scene, const std::optional<Band>& data) {
 hw::Sea free_waves(const scene::Scene& scene, const std::optional<Band>& data) {
   const scene::Waves& waves = *scene.waves;
   if (const auto* random = std::get_if<scene::RandomSea>(&waves.kind)) return random_sea(scene, *random, data);
-  try {
+  return scene::placed(waves.place, [&] {
     if (const auto* list = std::get_if<scene::WaveList>(&waves.kind))
       return hw::Sea::of(list->waves, scene.water, scene.current);
     const auto& regular = std::get<scene::RegularWave>(waves.kind);
@@ -244,9 +239,7 @@ hw::Sea free_waves(const scene::Scene& scene, const std::optional<Band>& data) {
     return hw::Sea::regular(hydro::WaveAmplitude::from_metres(regular.amplitude),
                             hydro::AngularFrequency::from_period_s(regular.period), waves.heading, scene.water, 0,
                             scene.current);
-  } catch (const InputError& e) {
-    throw e.at(waves.place);
-  }
+  });
 }
 
 std::unique_ptr<const hw::WaveField> make_field(const scene::Scene& scene) {
@@ -297,11 +290,7 @@ std::vector<std::string> wave_warnings(const scene::Scene& scene) {
 
 double wavenumber_in(const scene::Scene& scene, double omega, Angle heading) {
   if (scene.current.is_none()) return hw::wavenumber(omega, scene.water);
-  try {
-    return hw::doppler(omega, heading, scene.current, scene.water).k;
-  } catch (const InputError& e) {
-    throw e.at(scene.waves->place);
-  }
+  return scene::placed(scene.waves->place, [&] { return hw::doppler(omega, heading, scene.current, scene.water).k; });
 }
 
 double wavelength_of(const scene::Scene& scene, const scene::RegularWave& wave) {

@@ -16,6 +16,7 @@
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 #include "hydro/signal/welch.hpp"
+#include "scene/placed.hpp"
 
 namespace froude {
 namespace {
@@ -40,11 +41,9 @@ void require_one_way(const PoincareArguments& a) {
 }
 
 double level_of(const PoincareArguments& a, const Signal& across) {
-  try {
+  return scene::placed({.file = "--level"}, [&] {
     return hydro::parse_si(*a.level, hydro::parse_unit(across.units.empty() ? "1" : across.units).dimension);
-  } catch (const InputError& e) {
-    throw e.at({.file = "--level"});
-  }
+  });
 }
 
 Plane plane_of(const PoincareArguments& a) {
@@ -154,13 +153,7 @@ plot::Figure figure(const Plane& p, const std::string& file_name) {
 void poincare(const PoincareArguments& arguments, const Console& console) {
   require_outputs(named({{"-o", arguments.output}, {"--picture", arguments.picture}}),
                   {{"the record", arguments.file}});
-  Plane plane = [&] {
-    try {
-      return plane_of(arguments);
-    } catch (const InputError& e) {
-      throw e.at({.file = arguments.file.string()});
-    }
-  }();
+  Plane plane = scene::placed({.file = arguments.file.string()}, [&] { return plane_of(arguments); });
   hs::PoincareSection& s = plane.section;
   if (arguments.wrap) {
     wrap(plane.x, s.values[0]);

@@ -5,6 +5,7 @@
 #include "froude/command_line.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
+#include "scene/placed.hpp"
 
 namespace froude {
 namespace {
@@ -17,11 +18,7 @@ struct BemOptionTexts {
 
 std::optional<double> parsed(const std::string& option, const std::string& text, const hydro::Dimension& needed) {
   if (text.empty()) return std::nullopt;
-  try {
-    return hydro::parse_si(text, needed);
-  } catch (const hydro::InputError& error) {
-    throw error.at({.file = option});
-  }
+  return scene::placed({.file = option}, [&] { return hydro::parse_si(text, needed); });
 }
 
 hydro::potential::ReadOptions read_options(const BemOptionTexts& texts) {
@@ -293,11 +290,7 @@ void read_hydrostatics(const HydrostaticsTexts& texts, HydrostaticsArguments& ar
   namespace dim = hydro::dim;
   const auto vector = [](const std::string& option, const std::string& text) -> std::optional<Eigen::Vector3d> {
     if (text.empty()) return std::nullopt;
-    try {
-      return hydro::parse_vector(text, dim::length);
-    } catch (const hydro::InputError& error) {
-      throw error.at({.file = option});
-    }
+    return scene::placed({.file = option}, [&] { return hydro::parse_vector(text, dim::length); });
   };
   arguments.water.density = *parsed("--density", texts.density, dim::density);
   arguments.water.gravity = *parsed("--gravity", texts.gravity, dim::acceleration);
@@ -311,11 +304,7 @@ void read_hydrostatics(const HydrostaticsTexts& texts, HydrostaticsArguments& ar
   arguments.heave = parsed("--heave", texts.heave, dim::length);
   arguments.heel = hydro::Angle::from_radians(*parsed("--heel", texts.heel, dim::angle));
   arguments.trim = hydro::Angle::from_radians(*parsed("--trim", texts.trim, dim::angle));
-  try {
-    arguments.heels = hydro::parse_range(texts.heels, dim::angle);
-  } catch (const hydro::InputError& error) {
-    throw error.at({.file = "--gz"});
-  }
+  scene::placed({.file = "--gz"}, [&] { arguments.heels = hydro::parse_range(texts.heels, dim::angle); });
 }
 
 void add_hydrostatics(CLI::App& app, Request& request) {

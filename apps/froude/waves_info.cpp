@@ -22,6 +22,7 @@
 #include "hydro/waves/kinematics/limits.hpp"
 #include "hydro/waves/spectra/spectrum_tabulated.hpp"
 #include "hydro/waves/spectra/statistics.hpp"
+#include "scene/placed.hpp"
 #include "scene/scene.hpp"
 
 namespace froude {
@@ -383,13 +384,7 @@ Info of_file(const WavesInfoArguments& arguments) {
 }  // namespace
 
 void waves_info(const WavesInfoArguments& arguments, const Console& console) {
-  const Info info = [&] {
-    try {
-      return of_file(arguments);
-    } catch (const hydro::InputError& e) {
-      throw e.at({.file = arguments.file.string()});
-    }
-  }();
+  const Info info = scene::placed({.file = arguments.file.string()}, [&] { return of_file(arguments); });
   Report out;
   out.say("{}: {}", fact("file", arguments.file.string(), arguments.file.filename().string()), fact("what", info.what));
   tell(out.part("facts", info.facts).sentences("remarks", "  {}", info.remarks), console);

@@ -1,7 +1,6 @@
 /// \file  `[[connector]]`
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <numbers>
 
 #include "hydro/io/csv.hpp"
@@ -23,11 +22,11 @@ Binding<StiffnessSwitch> switching() {
                                 &PeriodSetting::from)
                            .key(positive("stiffness", dim::stiffness, "of each connector"), &PeriodSetting::value);
   return Binding<S>("[connector.switch]",
-                    "sets the stiffness by the period that dominates a motion, once two checks in turn agree")
-      .key(text("watch", "a motion, like \"m2.surge\""))
+                    "sets the stiffness by the period that dominates a signal, once two checks in turn agree")
+      .key(text("watch", "a signal of the run: \"m2.surge\", \"wave.elevation\", \"spring1.force\""), &S::watch)
       .key(positive("every", dim::time, "from one check to the next"), &S::every)
       .key(positive("window", dim::time,
-                    "of the motion that a check looks at; some periods; the first check is when it is full"),
+                    "of the signal that a check looks at; some periods; the first check is when it is full"),
            &S::window)
       .key(positive("hysteresis", dim::angular_velocity,
                     "by which the frequencies of two checks in turn may differ: \"0.001 Hz\""),
@@ -45,19 +44,6 @@ Binding<StiffnessSwitch> switching() {
                 "from", i == 0 ? "is not 0 s in the first setting" : "does not ascend",
                 "give settings from short periods to long ones, the first from \"0 s\"");
       });
-}
-
-/// "m2.surge": what is watched.
-void read_watch(const Record& record, const std::vector<Body>& bodies, StiffnessSwitch& out) {
-  const std::string& watch = record.text("watch");
-  const auto dot = watch.rfind('.');
-  const auto mode = dot == std::string::npos
-                        ? hydro::mode_names.end()
-                        : std::find(hydro::mode_names.begin(), hydro::mode_names.end(), watch.substr(dot + 1));
-  if (mode == hydro::mode_names.end())
-    throw record.wrong("watch", "is not a motion", "write a body and a mode, like \"m2.surge\"");
-  out.body = body_named(record, {watch.substr(0, dot), record["watch"].place}, bodies);
-  out.mode = static_cast<hydro::Mode>(mode - hydro::mode_names.begin());
 }
 
 Key stiffness() { return positive("stiffness", dim::stiffness, "tension per elongation"); }
@@ -174,7 +160,6 @@ const Table& connector_table() { return connector().table(); }
 void build_connectors(const Record& root, Names& names, Scene& scene) {
   for (const Record& record : root.tables("connector")) {
     Connector made = connector().read(record);
-    if (record.has("switch")) read_watch(record.table("switch"), scene.bodies, *std::get<Axial>(made.kind).switching);
     for (PointPair& pair : read_point_pairs(record, names, scene.bodies)) {
       static_cast<PointPair&>(made) = std::move(pair);
       check_apart(record, made, scene.bodies);

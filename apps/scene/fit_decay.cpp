@@ -8,7 +8,7 @@ namespace {
 
 void check_channels(const FitTables& t, const DecayModel& decay) {
   const Record& channels = t.channels();
-  if (decay.options.pendulum && channels.has("position"))
+  if (decay.motion.pendulum && channels.has("position"))
     throw t.model().wrong("restoring", "is by the sine of an angle, and the channel position is a length",
                           "name the channel angle, or take restoring = \"linear\"");
   if (channels.has("angle") == channels.has("position"))
@@ -71,7 +71,7 @@ Binding<DecayModel> decay_keys() {
       .key(text("restoring", "by x, or by sin x for a pendulum")
                .one_of({"linear", "sine"})
                .or_default("linear", "small angles, and all that floats"),
-           [](const Value& v, DecayModel& decay) { decay.options.pendulum = v.text == "sine"; })
+           [](const Value& v, DecayModel& decay) { decay.motion.pendulum = v.text == "sine"; })
       .optional(
           text("start",
                "with memory among the coefficients: the record begins where the body was let go from rest in calm "
@@ -88,9 +88,9 @@ void finish(const FitTables& t, FitScene& scene, DecayModel& decay) {
   if (decay.body && !(decay.body->stiffness > 0))
     throw t.model().table("body").refused("needs a stiffness: without one there is no natural period",
                                           "give what brings the body back");
-  decay.options.confidence = scene.confidence;
-  if (read_terms(t, decay.options.terms))
-    decay.memory = memory_of(t, decay.options);
+  decay.motion.confidence = scene.confidence;
+  if (read_terms(t, decay.motion.terms))
+    decay.memory = memory_of(t, decay.motion);
   else if (t.model().has("start"))
     throw t.model().wrong("start", "does not act without a memory",
                           "add \"memory\" to [ask] coefficients, or leave it out");

@@ -140,7 +140,7 @@ void read_delay(const Record& prepare, MorisonModel& out) {
     throw prepare.wrong("longest_delay", "does not act where the delay is given",
                         "leave it out, or set delay = \"estimate\"");
   if (!estimate) out.prepare.delay_s = prepare.si("delay");
-  if (prepare.has("delay_error")) out.options.delay_error_s = prepare.si("delay_error");
+  if (prepare.has("delay_error")) out.force.delay_error_s = prepare.si("delay_error");
   if (!estimate) return;
   if (!prepare.has("longest_delay"))
     throw prepare.wrong(
@@ -175,9 +175,9 @@ Binding<MorisonModel> morison_keys() {
                 .key(effect("offset", "a constant force is fitted as well"), &O::force_offset)
                 .tables("line", force_line(), &O::lines)
                 .optional(),
-            &M::options)
+            &M::force)
       .table("wave", probe_to_body(), &M::probe)
-      .part(Binding<O>("", "").table("uncertainty", cylinder_errors(), &O::cylinder_errors).optional(), &M::options);
+      .part(Binding<O>("", "").table("uncertainty", cylinder_errors(), &O::cylinder_errors).optional(), &M::force);
 }
 
 void finish(const FitTables& t, FitScene& scene, MorisonModel& morison) {
@@ -185,11 +185,11 @@ void finish(const FitTables& t, FitScene& scene, MorisonModel& morison) {
                 {"time", "force", "velocity", "acceleration", "position", "cross_velocity", "elevation",
                  "water_velocity", "water_acceleration"},
                 {"time", "force"}, scene);
-  morison.options.bands = true;
-  morison.options.confidence = scene.confidence;
-  morison.prepare.linear_drag = morison.options.linear_drag;
+  morison.force.bands = true;
+  morison.force.confidence = scene.confidence;
+  morison.prepare.linear_drag = morison.force.linear_drag;
   check_motion_channels(t.channels(), morison.cylinder.experiment);
-  if (morison.cylinder.experiment == Experiment::water_moves && morison.options.cylinder_errors.mass != 0)
+  if (morison.cylinder.experiment == Experiment::water_moves && morison.force.cylinder_errors.mass != 0)
     throw t.model().table("uncertainty").wrong("mass", "does not act: the body does not move", "leave it out");
   finish_probe(t, morison);
   if (t.root.has("prepare")) read_delay(t.root.table("prepare"), morison);

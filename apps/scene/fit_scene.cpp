@@ -165,7 +165,7 @@ Binding<FitScene> intervals() {
            [](const Value& method, FitScene& scene) {
              check_kind<MorisonModel>(scene, method);
              if (auto* morison = std::get_if<MorisonModel>(&scene.model))
-               morison->options.method = value_for(interval_methods, method.text);
+               morison->force.method = value_for(interval_methods, method.text);
            });
 }
 
@@ -199,7 +199,7 @@ const Binding<FitScene>& fit_ask() {
               to_models(leave + ": nothing is kept back there for its residuals", &MotionModel::accept_residuals,
                         &TowingModel::accept_residuals, &DecayModel::accept_residuals))
           .key(effect("robust", "morison: wild samples of the force pull less (Huber)"),
-               [](const Value& v, FitScene& scene) { only_in_fits_of<MorisonModel>(scene, v).options.robust = true; })
+               [](const Value& v, FitScene& scene) { only_in_fits_of<MorisonModel>(scene, v).force.robust = true; })
           .key(effect("profile",
                       "decay, motion: intervals of damping or parameters from the likelihood itself, which need not be "
                       "symmetric"),

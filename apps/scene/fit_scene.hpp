@@ -4,51 +4,34 @@
 ///        twice; nothing of libfit is called from here.
 #include <variant>
 
-#include "fit/decay_memory.hpp"
 #include "fit/forced_radiation.hpp"
 #include "fit/friction_ramp.hpp"
-#include "fit/morison.hpp"
-#include "fit/prepare.hpp"
-#include "fit/runs.hpp"
+#include "fit/problem/decay.hpp"
+#include "fit/problem/morison.hpp"
+#include "fit/problem/towing.hpp"
 #include "fit/simulated.hpp"
 #include "scene/scene.hpp"
 
 namespace froude::scene {
 
 /// Drag and inertia of a cylinder.
-struct MorisonModel {
+struct MorisonModel : ::fit::morison::Options {
   static constexpr const char* kind = "morison";
   ::fit::Cylinder cylinder;
   std::optional<::fit::ProbeToBody> probe;  ///< with the channel elevation
   std::optional<Located<std::filesystem::path>> zero_run;
-  ::fit::PrepareOptions prepare;
-  std::optional<double> longest_delay;    ///< s; the delay is to be estimated, within this
-  ::fit::MorisonOptions options;          ///< but for the errors of the force, which each run has of its own
-  std::vector<std::string> coefficients;  ///< among "cd", "cm", "ca"
-  /// Coefficients of all runs against KC, Re or β: one law, or all that the runs can tell.
-  struct RunLaw {
-    std::optional<::fit::Law> only;
-  };
-  std::optional<RunLaw> law;
-  bool cycles = false, sensitivity = false;
 };
 
 /// Drag of a cylinder at steady speed.
-struct TowingModel {
+struct TowingModel : ::fit::towing::Options {
   static constexpr const char* kind = "towing";
   ::fit::Cylinder cylinder;
-  bool accept_residuals = false;  ///< accept = ["residuals"]: a mean is told though runs differ too much
 };
 
 /// Period and damping of a body let go.
-struct DecayModel {
+struct DecayModel : ::fit::decay::Options {
   static constexpr const char* kind = "decay";
-  ::fit::PrepareOptions prepare;
-  ::fit::DecayOptions options;
-  std::optional<::fit::DecayMemoryOptions> memory;  ///< where asked for; with the same terms
-  std::optional<::fit::RestoredBody> body;          ///< where it is to tell added mass
-  bool profile = false, sensitivity = false, accept_residuals = false;
-  bool together = false;  ///< one set of coefficients for all files beside those of each
+  std::optional<::fit::RestoredBody> body;  ///< where it is to tell added mass
 };
 
 /// Added mass and damping from forced oscillations.

@@ -6,6 +6,8 @@
 
 #include <numbers>
 #include <string>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "scene/binding.hpp"
@@ -47,11 +49,20 @@ inline std::string not_of_kind(std::string_view kind) {
   return fmt::format("does not apply to a fit of kind \"{}\"", kind);
 }
 
+/// The model of the scene, if it is of this kind or has these options of libfit; else null.
+template <class M>
+M* model_of(FitScene& scene) {
+  return std::visit(
+      [](auto& model) -> M* {
+        if constexpr (std::is_base_of_v<M, std::remove_reference_t<decltype(model)>>) return &model;
+        return nullptr;
+      },
+      scene.model);
+}
 /// \throws hydro::InputError for a value that the scene gives though its kind of fit is none of these
 template <class... Models>
-void check_kind(const FitScene& scene, const Value& value, const std::string& remedy = "leave it out") {
-  if (!value.defaulted && !(std::holds_alternative<Models>(scene.model) || ...))
-    throw value.wrong(not_of_kind(scene.kind()), remedy);
+void check_kind(FitScene& scene, const Value& value, const std::string& remedy = "leave it out") {
+  if (!value.defaulted && !(model_of<Models>(scene) || ...)) throw value.wrong(not_of_kind(scene.kind()), remedy);
 }
 /// The model of a value that acts in this kind of fit only. \throws as check_kind()
 template <class M>
@@ -60,13 +71,14 @@ M& only_in_fits_of(FitScene& scene, const Value& value, const std::string& remed
   return std::get<M>(scene.model);
 }
 
-/// Takes a value into the member of whichever of these models the scene has; others refuse it, with this remedy.
+/// Takes a value into the member of whichever of these models, or options of libfit, the scene has; others refuse it,
+/// with this remedy.
 template <class M, class... Models>
 auto to_models(std::string remedy, M Models::*... members) {
   return [=](const Value& value, FitScene& scene) {
     check_kind<Models...>(scene, value, remedy);
     const auto take = [&]<class Model>(M Model::*member) {
-      if (auto* model = std::get_if<Model>(&scene.model)) detail::put(value, model->*member);
+      if (auto* model = model_of<Model>(scene)) detail::put(value, model->*member);
     };
     (take(members), ...);
   };

@@ -22,7 +22,8 @@ Binding<TowingModel> towing_keys() {
   return Binding<TowingModel>("", "drag at steady speed").part(cylinder_keys(), &TowingModel::cylinder);
 }
 
-void finish(const FitTables& t, FitScene& scene, TowingModel&) {
+void finish(const FitTables& t, FitScene& scene, TowingModel& towing) {
+  towing.confidence = scene.confidence;
   read_channels(t, {"speed", "force", "speed_sd", "force_sd"}, {"speed", "force"}, scene);
   for (const auto& c : wanted(t, {"cd", "cm", "ca"}, "[\"cd\"]", "ask for cd, cm or ca"))
     if (c.value != "cd")

@@ -7,13 +7,14 @@
 #include "hydro/base/dense.hpp"
 #include "scene/binding.hpp"
 #include "scene/build.hpp"
-#include "scene/schema_modes.hpp"
 
 namespace froude::scene {
 namespace {
 
 namespace dim = hydro::dim;
 using dynamics::Matrix6;
+
+bool rotates(std::size_t mode) { return hydro::is_rotation(static_cast<hydro::Mode>(mode)); }
 
 /// The entry of a symmetric matrix between two modes, both of which name its key: surge, surge_pitch.
 Key entry_key(std::size_t i, std::size_t j, const hydro::Dimension& translation, const std::string& what) {

@@ -25,15 +25,19 @@ bool matches(std::string_view pattern, std::string_view name) {
   return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
+hydro::InputError no_signal(const std::string& name, const Place& place, const std::vector<std::string>& known) {
+  const std::string near = hydro::nearest(name, known);
+  return hydro::InputError(fmt::format("no signal is called \"{}\"", name), place,
+                           near.empty() ? "signals are called like m1.surge, connector1.force, wave.elevation"
+                                        : fmt::format("did you mean \"{}\"?", near));
+}
+
 void check_patterns(const std::vector<std::string>& of, const std::vector<Place>& places,
                     const std::vector<std::string>& known) {
   for (std::size_t i = 0; i < of.size(); ++i) {
     const auto fits = [&](const std::string& name) { return matches(of[i], name); };
-    if (std::any_of(known.begin(), known.end(), fits)) continue;
-    const std::string near = hydro::nearest(of[i], known);
-    throw hydro::InputError(fmt::format("no signal is called \"{}\"", of[i]), i < places.size() ? places[i] : Place{},
-                            near.empty() ? "signals are called like m1.surge, connector1.force, wave.elevation"
-                                         : fmt::format("did you mean \"{}\"?", near));
+    if (std::none_of(known.begin(), known.end(), fits))
+      throw no_signal(of[i], i < places.size() ? places[i] : Place{}, known);
   }
 }
 

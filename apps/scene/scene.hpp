@@ -312,10 +312,9 @@ struct Line {
   bool fastened() const { return from.body || to.body; }
 };
 
-/// `[connector.switch]`: the stiffness by the period that dominates a motion, which `signal` is made of later.
+/// `[connector.switch]`: the stiffness by the period that dominates a signal.
 struct StiffnessSwitch : dynamics::PeriodSwitching {
-  int body;
-  hydro::Mode mode;  ///< of the body's origin from rest: what is watched
+  Located<std::string> watch;  ///< its name
 };
 
 /// The law of a connector along the line between its ends.
@@ -467,6 +466,8 @@ bool matches(std::string_view pattern, std::string_view name);
 std::vector<hydro::waves::GivenWave> read_wave_list(const std::filesystem::path& file, hydro::Angle heading,
                                                     bool phase_of_kx);
 
+/// What to throw where no signal has a name that is asked for: with the nearest of those `known`.
+hydro::InputError no_signal(const std::string& name, const Place& place, const std::vector<std::string>& known);
 /// Checks that every pattern of `of` fits one of the signals that exist.
 /// \throws hydro::InputError at the pattern, with the nearest signal
 void check_patterns(const std::vector<std::string>& of, const std::vector<Place>& places,

@@ -11,6 +11,7 @@
 #include "hydro/signal/welch.hpp"
 #include "scene/binding.hpp"
 #include "scene/build.hpp"
+#include "scene/placed.hpp"
 #include "scene/spectra.hpp"
 
 namespace froude::scene {
@@ -23,16 +24,6 @@ using hydro::io::CsvTable;
 namespace dim = hydro::dim;
 namespace hw = hydro::waves;
 using enum Group::Count;
-
-/// Runs `make`; what it throws without a place of its own gets that of a value of the scene.
-template <class F>
-auto placed(const Place& place, F make) {
-  try {
-    return make();
-  } catch (const InputError& e) {
-    throw e.at(place);
-  }
-}
 
 // Random seas
 
@@ -69,8 +60,8 @@ WaveSystem read_system(const Record& sea, Angle heading, const Scene& scene) {
   out.spectrum = placed(sea["kind"].place, [&] { return spectrum_kind(out.kind).build(sea, scene); });
   if (sea.has("spreading")) {
     const Record& record = sea.table("spreading");
-    out.spreading = placed(record["kind"].place,
-                           [&] { return spreading_kind(record.text("kind")).build(record, *out.spectrum, scene); });
+    out.spreading =
+        placed(record["kind"].place, [&] { return spreading_kind(record.text("kind")).build(record, *out.spectrum); });
   }
   return out;
 }

@@ -23,8 +23,9 @@ struct LoadVariations {
 inline LoadVariations load_variations(const dynamics::JointSet& joints, int joint, dynamics::End end,
                                       const dynamics::State& still, const Eigen::VectorXd& lambda) {
   LoadVariations out{Eigen::MatrixXd::Zero(6, still.velocity.size()), Eigen::MatrixXd::Zero(6, joints.count())};
+  const auto all = joints.load_variations(joint, end, still, lambda);
   for (int i = 0; i < 6; ++i) {
-    const dynamics::Variation told = joints.load_variation(joint, end, i, still, lambda);
+    const dynamics::Variation& told = all[static_cast<std::size_t>(i)];
     for (const auto& part : told.parts) out.by_motion.block<1, 6>(i, 6 * part.body) += part.by_motion;
     for (const auto& [column, factor] : told.by_multiplier) out.by_multiplier(i, column) += factor;
   }

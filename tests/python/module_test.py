@@ -120,6 +120,21 @@ class Module(unittest.TestCase):
         np.testing.assert_allclose(velocity[free], velocity[free][0], rtol=1e-9)  # nothing holds it any more
         self.assertEqual(run["spring.stiffness"][-1], 0)
 
+    def test_a_controller_reads_any_signal_until_it_has_decided(self):
+        forces, kept = [], []
+
+        def decide(sample):
+            forces.append(sample["spring.force"])
+            kept.append(sample)
+
+        run = froude.run(scene_of(spring), controllers={"spring": decide})
+        every = run.steps // (len(run.time) - 1)
+        np.testing.assert_array_equal(forces[every - 1::every], run["spring.force"][1:])
+        with self.assertRaisesRegex(froude.InputError, "after its controller had decided"):
+            kept[0].time
+        with self.assertRaisesRegex(froude.InputError, "did you mean \"spring.force\""):
+            froude.run(scene_of(spring), controllers={"spring": lambda sample: sample["spring.forc"]})
+
     def test_a_controller_that_takes_energy_out_calms_a_swing(self):
         def decide(sample):
             return 8.0 if sample["m.surge"] * sample.velocity("m")[0] > 0 else 4.0

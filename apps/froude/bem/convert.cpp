@@ -6,6 +6,7 @@
 #include "hydro/base/units.hpp"
 #include "hydro/potential/operations/operations.hpp"
 #include "hydro/potential/operations/transformations.hpp"
+#include "scene/placed.hpp"
 
 namespace froude {
 namespace {
@@ -16,11 +17,7 @@ using hydro::potential::Coefficients;
 /// What `parse` makes of an option's text; its complaint names the option.
 template <class Parse>
 auto of_option(const char* option, const std::string& text, Parse parse) {
-  try {
-    return parse(text);
-  } catch (const hydro::InputError& error) {
-    throw error.at({.file = option});
-  }
+  return scene::placed({.file = option}, [&] { return parse(text); });
 }
 
 Coefficients read_all(const BemConvertArguments& a) {

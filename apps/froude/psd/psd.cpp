@@ -7,6 +7,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
 #include "hydro/io/atomic_file.hpp"
+#include "scene/placed.hpp"
 #include "scene/scene.hpp"
 
 namespace froude {
@@ -89,11 +90,7 @@ Estimate estimate(const Signal& signal, const RunResult& record, const Analysis&
 /// A time of the command line, s.
 std::optional<double> time_of(const char* option, const std::optional<std::string>& text) {
   if (!text) return std::nullopt;
-  try {
-    return hydro::parse_si(*text, hydro::dim::time);
-  } catch (const hydro::InputError& e) {
-    throw e.at({.file = option});
-  }
+  return scene::placed({.file = option}, [&] { return hydro::parse_si(*text, hydro::dim::time); });
 }
 
 /// Leaves the part of the record from --from to --to, both included.
@@ -118,16 +115,14 @@ Analysis analyse(const PsdArguments& arguments) {
              .confidence = arguments.confidence,
              .input = arguments.input.value_or(""),
              .estimates = {}};
-  try {
+  scene::placed({.file = arguments.file.string()}, [&] {
     a.step = hs::even_step(record.time);
     a.options = welch_options(arguments, a.samples, a.step);
     const auto at =
         std::find_if(record.signals.begin(), record.signals.end(), [&](const Signal& s) { return s.name == a.input; });
     for (const Signal& s : record.signals)
       a.estimates.push_back(estimate(s, record, a, at == record.signals.end() ? nullptr : &*at));
-  } catch (const hydro::InputError& e) {
-    throw e.at({.file = arguments.file.string()});
-  }
+  });
   a.band = hs::confidence_band(a.estimates.front().welch.dof, arguments.confidence);
   return a;
 }

@@ -41,11 +41,11 @@ double DominantPeriodController::frequency() const {
   return dominant_frequency(value_, step);
 }
 
-std::optional<double> DominantPeriodController::sample(const State& state) {
-  time_.push_back(state.time);
-  value_.push_back(law_.signal(state));
-  if (state.time < next_check_) return {};
-  const auto old = std::lower_bound(time_.begin(), time_.end(), state.time - law_.window);
+std::optional<double> DominantPeriodController::sample(double time_s, double value) {
+  time_.push_back(time_s);
+  value_.push_back(value);
+  if (time_s < next_check_) return {};
+  const auto old = std::lower_bound(time_.begin(), time_.end(), time_s - law_.window);
   value_.erase(value_.begin(), value_.begin() + (old - time_.begin()));
   time_.erase(time_.begin(), old);
   if (time_.size() < 8) return {};
@@ -56,13 +56,13 @@ std::optional<double> DominantPeriodController::sample(const State& state) {
   const double now = frequency();
   const bool steady = last_frequency_ && std::abs(now - *last_frequency_) <= law_.hysteresis && now > 0;
   last_frequency_ = now;
-  if (!steady || state.time - last_switch_ < law_.dwell) return {};
+  if (!steady || time_s - last_switch_ < law_.dwell) return {};
   const auto after = std::upper_bound(law_.settings.begin(), law_.settings.end(), 1 / now,
                                       [](double period, const PeriodSetting& s) { return period < s.from; });
   const auto chosen = static_cast<std::size_t>(after - law_.settings.begin()) - 1;
   if (setting_ == chosen) return {};
   setting_ = chosen;
-  last_switch_ = state.time;
+  last_switch_ = time_s;
   return law_.settings[chosen].value;
 }
 

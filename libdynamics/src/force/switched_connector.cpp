@@ -10,8 +10,7 @@ namespace {
 template <class Use>
 void for_each(const std::vector<SwitchedConnectors>& groups, const std::vector<double>* stiffness, Use use) {
   for (std::size_t g = 0; g < groups.size(); ++g)
-    for (const AxialConnector& c : groups[g].connectors)
-      use(c, stiffness != nullptr ? (*stiffness)[g] : c.law.stiffness);
+    for (const AxialConnector& c : groups[g]) use(c, stiffness != nullptr ? (*stiffness)[g] : c.law.stiffness);
 }
 
 const std::vector<double>* set_in(const Instant& now) {
@@ -22,10 +21,7 @@ const std::vector<double>* set_in(const Instant& now) {
 
 SwitchMemory::SwitchMemory(const std::vector<SwitchedConnectors>& groups, const State& start)
     : switches(groups.size(), 0), groups_(groups), time_(start.time) {
-  for (const SwitchedConnectors& group : groups) {
-    stiffness.push_back(group.connectors.front().law.stiffness);
-    controllers_.push_back(group.controller());
-  }
+  for (const SwitchedConnectors& group : groups) stiffness.push_back(group.front().law.stiffness);
   power_ = flow(start).dissipated;
 }
 
@@ -35,29 +31,30 @@ EnergyFlow SwitchMemory::flow(const State& state) const {
   return out;
 }
 
-// A switch changes what the springs hold at once: the controller pays for it or takes it.
 void SwitchMemory::accept(const State& state) {
-  const EnergyFlow before = flow(state);
-  dissipated += (state.time - time_) * (power_ + before.dissipated) / 2;
-  jumped_ = false;
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const auto set = controllers_[g]->sample(state);
-    if (!set || *set == stiffness[g]) continue;
-    stiffness[g] = *set;
-    ++switches[g];
-    jumped_ = true;
-  }
-  const EnergyFlow after = flow(state);
-  dissipated -= after.stored - before.stored;
+  const double power = flow(state).dissipated;
+  dissipated += (state.time - time_) * (power_ + power) / 2;
   time_ = state.time;
+  power_ = power;
+}
+
+// A switch changes what the springs hold at once: the controller pays for it or takes it.
+bool SwitchMemory::set(std::size_t group, double stiffness_N_per_m, const State& now) {
+  if (stiffness[group] == stiffness_N_per_m) return false;
+  const EnergyFlow before = flow(now);
+  stiffness[group] = stiffness_N_per_m;
+  ++switches[group];
+  const EnergyFlow after = flow(now);
+  dissipated -= after.stored - before.stored;
   power_ = after.dissipated;
+  return true;
 }
 
 std::vector<Signal> SwitchedConnectorKind::signals() const {
   std::vector<Signal> out;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const auto stiffness = [g](const Memory* memory) { return static_cast<const SwitchMemory*>(memory)->stiffness[g]; };
-    for (const AxialConnector& c : groups_[g].connectors) {
+    for (const AxialConnector& c : groups_[g]) {
       const auto now = [first = c.law.stiffness, stiffness](const Memory* memory) {
         return memory == nullptr ? first : stiffness(memory);
       };
@@ -74,7 +71,7 @@ std::vector<Signal> SwitchedConnectorKind::signals() const {
 
 std::size_t SwitchedConnectorKind::elements() const {
   std::size_t count = 0;
-  for (const auto& group : groups_) count += group.connectors.size();
+  for (const auto& group : groups_) count += group.size();
   return count;
 }
 

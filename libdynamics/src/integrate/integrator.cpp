@@ -38,11 +38,11 @@ void Integrator::start(Workspace& workspace) {
     laws_.begin(workspace);
     begin(workspace);
   } else {
-    begin_anew(workspace);
+    loads_jumped(workspace);
   }
 }
 
-void Integrator::begin_anew(Workspace& workspace) {
+void Integrator::loads_jumped(Workspace& workspace) {
   active_.require_accelerations(workspace);
   begin(workspace);
 }
@@ -242,7 +242,7 @@ StepReport Integrator::step(Workspace& workspace, double h) {
   } else {
     advance(workspace, h, report);
   }
-  if (workspace.accept()) begin_anew(workspace);
+  workspace.accept();
   return report;
 }
 

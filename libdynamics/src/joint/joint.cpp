@@ -279,17 +279,16 @@ Vector6 JointSet::load_on(int joint, End end, const State& state, const Eigen::V
 }
 
 // Body axes turn with the body: δ(Rᵀf) = δf − θ × f where R is one (D17).
-Variation JointSet::load_variation(int joint, End end, int component, const State& still,
-                                   const Eigen::VectorXd& lambda) const {
+std::vector<Variation> JointSet::load_variations(int joint, End end, const State& still,
+                                                 const Eigen::VectorXd& lambda) const {
   const Joint& j = joints_[static_cast<std::size_t>(joint)];
   const auto body = static_cast<std::size_t>(end == End::first ? j.first : j.second.value());
   Eigen::MatrixXd told = Eigen::MatrixXd::Zero(6, 6);  // of a load about the centre of gravity, global axes
   told.topLeftCorner<3, 3>() = still.pose[body].attitude.toRotationMatrix().transpose();
   told.bottomRightCorner<3, 3>() = told.topLeftCorner<3, 3>();
   carry(arm_of(arms_[static_cast<std::size_t>(joint)], end), told);
-  const Variation::Row row = told.row(component);
-  RowOfTwo by_motion = RowOfTwo::Zero();
-  std::vector<std::pair<Eigen::Index, double>> by_multiplier;
+  Eigen::Matrix<double, 6, 12> by_motion = Eigen::Matrix<double, 6, 12>::Zero();
+  std::vector<std::pair<Eigen::Index, Vector6>> by_multiplier;
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const Constraint& c = constraints_[i];
     if (c.joint != joint) continue;
@@ -297,13 +296,16 @@ Variation JointSet::load_variation(int joint, End end, int component, const Stat
     const ConstraintEnds at = ends_of(c, still);
     const Vector6 p = part_of(std::visit([&](const auto& what) { return gradient(what, at); }, c.what), end);
     const Matrix12 H = std::visit([&](const auto& what) { return curvature(what, at); }, c.what);
-    by_motion -= lambda[index] * row * H.middleRows<6>(row_of(end));
-    by_motion.segment<3>(row_of(end) + 3) -=
-        lambda[index] * (row.head<3>() * cross_matrix(p.head<3>()) + row.tail<3>() * cross_matrix(p.tail<3>()));
-    by_multiplier.emplace_back(index, -row.dot(p));
+    by_motion -= lambda[index] * told * H.middleRows<6>(row_of(end));
+    by_motion.middleCols<3>(row_of(end) + 3) -= lambda[index] * (told.leftCols<3>() * cross_matrix(p.head<3>()) +
+                                                                 told.rightCols<3>() * cross_matrix(p.tail<3>()));
+    by_multiplier.emplace_back(index, -told * p);
   }
-  Variation out = variation_of_two(j.first, j.second, by_motion);
-  out.by_multiplier = std::move(by_multiplier);
+  std::vector<Variation> out;
+  for (int component = 0; component < 6; ++component) {
+    out.push_back(variation_of_two(j.first, j.second, by_motion.row(component)));
+    for (const auto& [index, column] : by_multiplier) out.back().by_multiplier.emplace_back(index, column[component]);
+  }
   return out;
 }
 
@@ -334,7 +336,9 @@ std::vector<Signal> JointSet::load_signals(int joint, End end, const std::string
          .value = [this, joint, end, i](const Reading& r) { return load_on(joint, end, r.state, r.multipliers)[i]; },
          .variation =
              [this, joint, end, i](const Still& still) {
-               return load_variation(joint, end, i, still.state, still.multipliers);
+               const auto all = [&] { return load_variations(joint, end, still.state, still.multipliers); };
+               return still.once(&arm_of(arms_[static_cast<std::size_t>(joint)], end),
+                                 all)[static_cast<std::size_t>(i)];
              }});
   return out;
 }

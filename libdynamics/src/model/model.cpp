@@ -221,14 +221,9 @@ Workspace::Workspace(const Model& model, State start)
   for (const auto& kind : model.forces()) memory.push_back(kind->make_memory(state));
 }
 
-bool Workspace::accept() {
-  bool jumped = false;
+void Workspace::accept() {
   for (auto& m : memory)
-    if (m) {
-      m->accept(state);
-      jumped = jumped || m->has_jumped();
-    }
-  return jumped;
+    if (m) m->accept(state);
 }
 
 }  // namespace dynamics

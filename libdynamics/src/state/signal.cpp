@@ -33,8 +33,8 @@ Variation variation_of_two(int first, const std::optional<int>& second, const Ro
 }
 
 // (Q7)
-std::complex<double> amplitude(const Variation& variation, const Eigen::VectorXcd& xi, const Eigen::VectorXcd& lambda,
-                               double omega, double heading) {
+std::complex<double> amplitude(const Variation& variation, const Eigen::Ref<const Eigen::VectorXcd>& xi,
+                               const Eigen::Ref<const Eigen::VectorXcd>& lambda, double omega, double heading) {
   const std::complex<double> i_omega(0, omega);
   std::complex<double> out = variation.by_wave ? variation.by_wave(omega, heading) : 0.0;
   for (const Variation::Part& part : variation.parts)

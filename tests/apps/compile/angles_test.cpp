@@ -130,7 +130,7 @@ TEST(Angles, ThatAControllerIsToldRunOn) {
       "ends = [\"(0, 0, 0) m\", \"(0, 0, 9) m\"]\nstiffness = \"1 N/m\"\nrest_length = \"as placed\"\n";
   simulate(parse(water + wheel("initial_velocity = { pitch = \"2 rad/s\" }") + hub("") + tether + ask("3 s")), {},
            {{"tether", [&](const Sample& sample) -> std::optional<double> {
-               told.push_back(sample.motion("wheel.pitch"));
+               told.push_back(sample["wheel.pitch"]);
                return {};
              }}});
   ASSERT_FALSE(told.empty());

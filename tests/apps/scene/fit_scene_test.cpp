@@ -148,7 +148,7 @@ uncertainty = { diameter = "0.5 mm", mass = "50 g" })");
   const auto& model = std::get<MorisonModel>(scene.model);
   const auto& p = model.prepare;
   EXPECT_EQ(p.delay_s, 0.73);
-  EXPECT_EQ(model.options.delay_error_s, 0.005);
+  EXPECT_EQ(model.force.delay_error_s, 0.005);
   EXPECT_NEAR(p.derivative_bandwidth_hz, 2, 1e-12);
   ASSERT_EQ(p.filters.size(), 2u);
   EXPECT_EQ(p.filters[0].kind, fit::FilterChoice::Kind::notch);
@@ -158,8 +158,8 @@ uncertainty = { diameter = "0.5 mm", mass = "50 g" })");
   EXPECT_EQ(p.window.kind, fit::WindowChoice::Kind::full_cycles);
   EXPECT_EQ(p.window.cycles, 5);
   EXPECT_EQ(p.outlier_deviations, 8);
-  EXPECT_EQ(model.options.cylinder_errors.diameter, 0.0005);
-  EXPECT_EQ(model.options.cylinder_errors.mass, 0.05);
+  EXPECT_EQ(model.force.cylinder_errors.diameter, 0.0005);
+  EXPECT_EQ(model.force.cylinder_errors.mass, 0.05);
   EXPECT_THAT(refused(with(with_steps, "delay = \"0.73 s\"", "delay = \"estimate\"")), HasSubstr("delay_error"));
   EXPECT_THAT(refused(with(with_steps, "delay = \"0.73 s\"\ndelay_error = \"5 ms\"", "delay = \"estimate\"")),
               HasSubstr("needs \"longest_delay\""));
@@ -182,7 +182,7 @@ profile = true
 )";
   const FitScene scene = read(decay);
   EXPECT_EQ(scene.kind(), "decay");
-  EXPECT_TRUE(std::get<DecayModel>(scene.model).options.pendulum);
+  EXPECT_TRUE(std::get<DecayModel>(scene.model).motion.pendulum);
   EXPECT_TRUE(std::get<DecayModel>(scene.model).profile);
   EXPECT_THAT(refused(with(decay, "angle", "velocity")), HasSubstr("does not apply to a fit of kind \"decay\""));
   EXPECT_THAT(refused(with(decay, ", angle = \"roll\"", "")), HasSubstr("needs either position or angle"));

@@ -37,23 +37,16 @@ TEST(DominantPeriod, IsThatOfTheLargerOscillation) {
   EXPECT_EQ(dominant_frequency(std::vector<double>(64, 2.0), 0.1), 0) << "nothing moves";
 }
 
-PeriodSwitching law() {
-  return {.signal = [](const State& s) { return s.velocity[0]; },
-          .every = 25,
-          .window = 100,
-          .hysteresis = 1e-3,
-          .settings = {{0, 1000}, {5, 3000}}};
-}
+PeriodSwitching law() { return {.every = 25, .window = 100, .hysteresis = 1e-3, .settings = {{0, 1000}, {5, 3000}}}; }
 
 /// The times and settings of a signal that has one period until `change` and another from then on.
 std::vector<std::pair<double, double>> settings_of(PeriodSwitching with, double first, double then, double change) {
   DominantPeriodController controller(std::move(with));
-  State s{0, {}, Eigen::VectorXd::Zero(6)};
   std::vector<std::pair<double, double>> out;
   for (int i = 0; i <= 12'000; ++i) {
-    s.time = 0.1 * i;
-    s.velocity[0] = std::sin(two_pi * s.time / (s.time < change ? first : then));
-    if (const auto set = controller.sample(s)) out.emplace_back(s.time, *set);
+    const double t = 0.1 * i;
+    if (const auto set = controller.sample(t, std::sin(two_pi * t / (t < change ? first : then))))
+      out.emplace_back(t, *set);
   }
   return out;
 }
@@ -96,16 +89,12 @@ TEST(DominantPeriod, RefusesSettingsThatDoNotAscendFromZero) {
 
 // What a switch takes out of a stretched spring is accounted: kinetic and stored energy fall by it, and the ledger
 // closes.
-TEST(Controllers, AccountForTheEnergyOfASwitch) {
+TEST(SwitchMemory, AccountsForTheEnergyOfASwitch) {
   const std::vector<RigidBody> bodies{RigidBody({.name = "mass", .mass = 2, .inertia = Eigen::Matrix3d::Identity()})};
   const Ends to_ground{{0, Eigen::Vector3d::Zero()}, PointOnGround{Eigen::Vector3d(10, 0, 0)}};
-  const auto at_two = [] {
-    return std::make_unique<FunctionController>(
-        [](const State& s) { return s.time > 2 ? std::optional<double>(20) : std::nullopt; });
-  };
   std::vector<std::unique_ptr<const ForceKind>> forces;
   forces.push_back(std::make_unique<SwitchedConnectorKind>(
-      std::vector<SwitchedConnectors>{{{{to_ground, {.stiffness = 50, .damping = 1}, 10}}, at_two}}));
+      std::vector<SwitchedConnectors>{SwitchedConnectors{{to_ground, {.stiffness = 50, .damping = 1}, 10}}}));
   const Model model(bodies, {}, std::move(forces));
   State start = rest_state(model.bodies());
   start.pose[0].centre.x() = 1;
@@ -113,11 +102,12 @@ TEST(Controllers, AccountForTheEnergyOfASwitch) {
   GeneralizedAlpha integrator(model, {.rho_infinity = 1});
   integrator.start(w);
   EnergyLedger ledger(model, w);
+  auto& memory = static_cast<SwitchMemory&>(*w.memory[0]);
   for (int i = 0; i < 5000; ++i) {
     integrator.step(w, 1e-3);
+    if (w.state.time > 2 && memory.set(0, 20, w.state)) integrator.loads_jumped(w);
     ledger.note(w);
   }
-  const auto& memory = static_cast<const SwitchMemory&>(*w.memory[0]);
   EXPECT_EQ(memory.switches[0], 1u);
   EXPECT_EQ(memory.stiffness[0], 20);
   EXPECT_NEAR(ledger.residual(), 0, 1e-5 * 25) << "of the trapezium rule, (ωh)² = 2.5e-5";

@@ -64,10 +64,7 @@ TEST(ForceLaws, HoldForAxialConnectors) {
 
 TEST(ForceLaws, HoldForConnectorsThatAControllerSets) {
   const Ends between{{0, Eigen::Vector3d(1, 0.5, 0.2)}, PointOnBody{1, Eigen::Vector3d(-1, 0.5, -0.1)}};
-  const auto idle = [] {
-    return std::make_unique<FunctionController>([](const State&) { return std::optional<double>(); });
-  };
-  laws::expect_force_laws(SwitchedConnectorKind({{{{between, {3000, 200}, 1.5}}, idle}}), bodies);
+  laws::expect_force_laws(SwitchedConnectorKind({SwitchedConnectors{{between, {3000, 200}, 1.5}}}), bodies);
 }
 
 TEST(ForceLaws, HoldForBushings) {

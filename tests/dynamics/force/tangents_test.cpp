@@ -155,10 +155,7 @@ TEST(Tangents, OfAxialConnectorsFollowFromTheirLength) {
 }
 
 TEST(Tangents, OfSwitchedConnectorsAreThoseOfTheStiffnessThatIsSet) {
-  const auto idle = [] {
-    return std::make_unique<FunctionController>([](const State&) { return std::optional<double>(); });
-  };
-  const SwitchedConnectorKind kind({{{{between, {3000, 200}, 1.5}}, idle}});
+  const SwitchedConnectorKind kind({SwitchedConnectors{{between, {3000, 200}, 1.5}}});
   laws::expect_automatic_tangents_everywhere(kind, bodies, [&](const JetBody& a, const JetBody& b, double) {
     JetLoads out;
     pull(out, between, a, b, 1.5, [](const Jet& x, const Jet& rate) { return 3000.0 * x + 200.0 * rate; });

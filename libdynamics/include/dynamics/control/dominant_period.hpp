@@ -1,8 +1,7 @@
 #pragma once
-/// \file  Switching by the period of a motion (Fagerbakke 2023, sections 4.2 and 6.8).
+/// \file  Switching by the period of a signal (Fagerbakke 2023, sections 4.2 and 6.8).
+#include <optional>
 #include <vector>
-
-#include "dynamics/control/controller.hpp"
 
 namespace dynamics {
 
@@ -13,12 +12,11 @@ struct PeriodSetting {
 };
 
 struct PeriodSwitching {
-  std::function<double(const State&)> signal;  ///< what is watched: the surge of a module
-  double every;                                ///< s, from one check to the next
-  double window;                               ///< s, of the motion that a check looks at: at least two periods
-  double hysteresis;                           ///< Hz, by which two checks in turn may differ to be taken as steady
-  double dwell = 0;                            ///< s, least time between switches
-  std::vector<PeriodSetting> settings;         ///< from short to long
+  double every;                         ///< s, from one check to the next
+  double window;                        ///< s, of the signal that a check looks at: at least two periods
+  double hysteresis;                    ///< Hz, by which two checks in turn may differ to be taken as steady
+  double dwell = 0;                     ///< s, least time between switches
+  std::vector<PeriodSetting> settings;  ///< from short to long
 };
 
 /// The frequency with the largest amplitude in evenly sampled values, Hz (D64): peak of the spectrum of the record
@@ -26,14 +24,16 @@ struct PeriodSwitching {
 /// oscillation. 0 where nothing moves.
 double dominant_frequency(const std::vector<double>& values, double step_s);
 
-/// Checks every so often what period dominates, from when the window is full of motion, and takes its setting once two
-/// checks in turn agree.
-class DominantPeriodController final : public Controller {
+/// Checks every so often what period dominates a signal, from when the window is full, and takes its setting once two
+/// checks in turn agree. It keeps what it has seen: one controller belongs to one run.
+class DominantPeriodController {
  public:
   /// \throws hydro::InputError for times that are not positive, a window that holds no two checks' worth of samples,
   /// settings that do not begin at 0 or do not ascend
   explicit DominantPeriodController(PeriodSwitching law);
-  std::optional<double> sample(const State& state) override;
+  /// Called once at the end of each full step, in order, with the time and what is watched, the surge of a module or
+  /// the elevation of the waves. \returns the new setting, or nothing to leave it
+  std::optional<double> sample(double time_s, double value);
 
  private:
   double frequency() const;

@@ -28,8 +28,6 @@ class Memory {
   virtual ~Memory() = default;
   /// A full step has been completed in `state`.
   virtual void accept(const State& state) = 0;
-  /// True if loads jumped in the last accept(): an integrator then begins anew.
-  virtual bool has_jumped() const { return false; }
 };
 
 /// The arguments of every evaluation. `memory` is what the kind itself made, or null.

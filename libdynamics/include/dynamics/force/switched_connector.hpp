@@ -1,22 +1,20 @@
 #pragma once
-/// \file  Axial connectors whose stiffness a controller sets.
-#include "dynamics/control/controller.hpp"
+/// \file  Axial connectors whose stiffness a controller sets between steps.
 #include "dynamics/force/connector.hpp"
 
 namespace dynamics {
 
-/// Connectors that one controller rules. Their law's stiffness is the one that they begin with.
-struct SwitchedConnectors {
-  std::vector<AxialConnector> connectors;
-  MakeController controller;
-};
+/// Connectors that have one stiffness. That of their law is the one that they begin with.
+using SwitchedConnectors = std::vector<AxialConnector>;
 
 /// The stiffness of each group, and the energy that its springs and dampers have taken since the start.
 class SwitchMemory final : public Memory {
  public:
   explicit SwitchMemory(const std::vector<SwitchedConnectors>& groups, const State& start);
   void accept(const State& state) override;
-  bool has_jumped() const override { return jumped_; }
+  /// From `now`, the end of a step, on a group has this stiffness, N/m. Loads jump: Integrator::loads_jumped() must
+  /// follow. \returns false, and nothing changes, if the group has it already
+  bool set(std::size_t group, double stiffness_N_per_m, const State& now);
 
   std::vector<double> stiffness;      ///< N/m, one a group
   std::vector<std::size_t> switches;  ///< how often each has changed
@@ -25,9 +23,7 @@ class SwitchMemory final : public Memory {
  private:
   EnergyFlow flow(const State& state) const;
   const std::vector<SwitchedConnectors>& groups_;
-  std::vector<std::unique_ptr<Controller>> controllers_;
   double time_, power_;
-  bool jumped_ = false;
 };
 
 /// Loads as those of AxialConnectorKind, with the stiffness that is set; it changes between steps, never within one.

@@ -36,6 +36,10 @@ class Integrator {
   /// holds the last good state
   StepReport step(Workspace& workspace, double h);
 
+  /// Between two steps, where a controller has changed an element: finds accelerations and the joints' loads anew and
+  /// goes on from them. \throws hydro::NumericsError if they cannot be found
+  void loads_jumped(Workspace& workspace);
+
   /// From now on cuts each step so that its local error, estimated by doing it in one and in two (D96), stays below
   /// `tolerance`, relative to the largest speeds of the run so far. Costs half as much again. What is kept at whole
   /// steps only, the memory of radiated waves, does not become finer. \throws hydro::InputError unless it is positive,
@@ -86,7 +90,6 @@ class Integrator {
     bool changes;  ///< at its end something does
   };
   Way go_to_change(Workspace& workspace, double h, StepReport& report);
-  void begin_anew(Workspace& workspace);
   void require_closed_joints(const State& state) const;
 
   const Model& model_;

@@ -154,9 +154,9 @@ class JointSet {
   /// Load of the joint on one of its bodies: force and moment about the joint's place in that body, in that body's
   /// axes, N and N m. What redundant constraints would carry is not in it. The second body must not be the ground.
   Vector6 load_on(int joint, End end, const State& state, const Eigen::VectorXd& lambda) const;
-  /// How one component of load_on() varies where the bodies are still: with their displacements while `lambda` acts,
-  /// and with λ.
-  Variation load_variation(int joint, End end, int component, const State& still, const Eigen::VectorXd& lambda) const;
+  /// How each of the six components of load_on() varies where the bodies are still: with their displacements while
+  /// `lambda` acts, and with λ.
+  std::vector<Variation> load_variations(int joint, End end, const State& still, const Eigen::VectorXd& lambda) const;
   /// Where the joint lets its second body (or the ground) move against the first: the stroke of a slider along the
   /// axis, m, or the angle of a hinge about it, rad, whole turns counted (D133). Zero at rest. For sliders and hinges
   /// only.

@@ -108,8 +108,8 @@ class Workspace {
     Memory* own = signal.kind ? memory[*signal.kind].get() : nullptr;
     return signal.value({state, acceleration, multipliers, model.joints().count(), own});
   }
-  /// A full step has been completed: memory moves on. \returns true if loads jumped by it
-  bool accept();
+  /// A full step has been completed: memory moves on.
+  void accept();
 };
 
 }  // namespace dynamics

@@ -8,6 +8,7 @@
 
 #include <complex>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -29,12 +30,6 @@ struct Reading {
   Memory* memory;                       ///< of the kind of force whose signal it is; null if it has none
 };
 
-/// A state without velocities, and the multipliers of the joints that carry what the loads ask of them there.
-struct Still {
-  const State& state;
-  const Eigen::VectorXd& multipliers;
-};
-
 /// How a signal varies with small motions about a still state: rows by the displacement (translation and small global
 /// rotation), velocity and acceleration of the centres of gravity of single bodies; by multipliers of joints; by waves.
 struct Variation {
@@ -49,6 +44,26 @@ struct Variation {
   std::function<std::complex<double>(double omega, double heading)> by_wave = {};
 };
 
+/// A state without velocities, and the multipliers of the joints that carry what the loads ask of them there; both must
+/// stay as they are.
+class Still {
+ public:
+  Still(const State& still, const Eigen::VectorXd& lambda) : state(still), multipliers(lambda) {}
+  const State& state;
+  const Eigen::VectorXd& multipliers;
+
+  /// Variations that an element tells several signals of at once: make() is called when the first of them asks.
+  template <class Make>
+  const std::vector<Variation>& once(const void* element, Make make) const {
+    const auto [at, fresh] = made_.try_emplace(element);
+    if (fresh) at->second = make();
+    return at->second;
+  }
+
+ private:
+  mutable std::map<const void*, std::vector<Variation>> made_;
+};
+
 /// Rows by the twelve displacements, velocities or accelerations of two bodies, (first, second).
 using RowOfTwo = Eigen::Matrix<double, 1, 12>;
 /// The variation of a number between two bodies; without a second the ground is there, which stays.
@@ -56,8 +71,8 @@ Variation variation_of_two(int first, const std::optional<int>& second, const Ro
                            const RowOfTwo& by_velocity = RowOfTwo::Zero());
 
 /// The amplitude that a variation tells, of displacements ξ (6N), multipliers λ and a wave, Re(… e^{iωt}) per metre.
-std::complex<double> amplitude(const Variation& variation, const Eigen::VectorXcd& xi, const Eigen::VectorXcd& lambda,
-                               double omega, double heading);
+std::complex<double> amplitude(const Variation& variation, const Eigen::Ref<const Eigen::VectorXcd>& xi,
+                               const Eigen::Ref<const Eigen::VectorXcd>& lambda, double omega, double heading);
 
 /// A signal of an element. Units are SI, words those of results: "hinge.angle", "rad", "angle of hinge, …".
 struct Signal {
