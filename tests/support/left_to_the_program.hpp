@@ -17,8 +17,8 @@ namespace support {
 /// The text of a scene that asks for a run alone, `longest` s at most, to an accuracy; step, memory and pieces of
 /// members are the program's to choose, whatever error its memory makes against the data.
 inline std::string left_to_the_program(const std::string& text, double accuracy, double longest) {
-  static const std::regex chosen(R"(^\s*(step|accuracy|rao|modes)\s*=.*)"), radiation(R"(radiation = \{.*\})"),
-      pieces(R"(, pieces = \d+)"), table(R"(^\s*\[.*)"), ask(R"(^\s*\[ask\].*)"),
+  static const std::regex chosen(R"(^\s*(step|accept_error|accuracy|rao|modes)\s*=.*)"),
+      radiation(R"(radiation = \{.*\})"), pieces(R"(, pieces = \d+)"), table(R"(^\s*\[.*)"), ask(R"(^\s*\[ask\].*)"),
       duration(R"((run = .*duration = ")([0-9.]+)( s", every = ")([0-9.]+)( s".*))");
   std::string out, inside, line;
   for (std::istringstream in(text); std::getline(in, line);) {
