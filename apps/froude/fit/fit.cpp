@@ -22,7 +22,7 @@ Report begun(const scene::FitScene& scene) {
   out.keep("scene", scene.file.filename().string()).keep("kind", scene.kind()).keep("confidence", scene.confidence);
   if (const auto* morison = std::get_if<scene::MorisonModel>(&scene.model))
     out.keep("motion", scene::word_of(morison->cylinder.experiment))
-        .keep("intervals", scene::word_of(morison->method));
+        .keep("intervals", scene::word_of(morison->force.method));
   if (const auto* motion = std::get_if<scene::MotionModel>(&scene.model))
     out.keep("of", motion->scene.value.filename().string());
   return out;
