@@ -15,9 +15,8 @@ namespace froude {
 namespace {
 
 /// Steps `factor` times as long: as many fewer a sample as may be, and then samples that are farther apart. Where that
-/// would leave hardly any, the steps of a sample are as many as come nearest.
-void lengthen(std::size_t factor, std::size_t& per_sample, std::size_t& stride, scene::AskRun& run) {
-  constexpr std::size_t few = 8;
+/// would leave fewer than `few`, the steps of a sample are as many as come nearest.
+void lengthen(std::size_t factor, std::size_t few, std::size_t& per_sample, std::size_t& stride, scene::AskRun& run) {
   const auto samples = static_cast<std::size_t>(std::llround(run.duration / run.every));
   const std::size_t common = std::gcd(per_sample, factor);
   if (samples < few * factor / common) {
@@ -28,6 +27,13 @@ void lengthen(std::size_t factor, std::size_t& per_sample, std::size_t& stride, 
   stride = factor / common;
   run.every *= static_cast<double>(stride);
   run.duration = static_cast<double>(samples / stride) * run.every;
+}
+
+/// Runs are compared by their samples, and a Lyapunov exponent wants hundreds.
+std::size_t enough_samples(const scene::Scene& scene) {
+  const bool exponent =
+      std::any_of(scene.lines.begin(), scene.lines.end(), [](const auto& line) { return line.lyapunov.has_value(); });
+  return exponent ? 400 : 8;
 }
 
 /// The loads that are put back have energies of their own: signals that only this run has.
@@ -96,7 +102,7 @@ scene::Scene Companions::scene_of(int level, std::size_t& stride) const {
   if (level < 0)
     per_sample <<= -level;
   else
-    lengthen(std::size_t{1} << level, per_sample, stride, *out.run);
+    lengthen(std::size_t{1} << level, enough_samples(scene_), per_sample, stride, *out.run);
   out.solve.step = scene::Located<double>{out.run->every / static_cast<double>(per_sample), scene_.run->place};
   return out;
 }

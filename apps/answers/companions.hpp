@@ -44,6 +44,11 @@ class Companions {
   std::optional<Run> completed_by(Missing what, int level);
   /// Level 0 with its start moved by a nanometre, a nanoradian, and as much in a second, this way and that.
   const Run& neighbour();
+  /// True if that run came to its end in steps longer than those of the level below: where there are few samples, and a
+  /// step for each, there are none.
+  bool is_longer(int level) {
+    return completes(level) && completes(level - 1) && run(level).step > 1.4 * run(level - 1).step;
+  }
   /// All that are made and came to their end.
   std::vector<const Run*> completed() const;
   /// Hands a run over; it is made anew if it is asked for again.

@@ -58,7 +58,7 @@ class Refinement {
   /// shorter steps, so what they foresee is not followed far.
   int first_level() {
     constexpr double farthest = 2;
-    if (!may_refine() || !companions_.completes(2) || !companions_.completes(1)) return 0;
+    if (!may_refine() || !companions_.is_longer(2)) return 0;
     const auto scale = scales(companions_.run(1), weight_);
     double worst = 0;  // at level 0
     for (std::size_t i = 0; i < scale.size(); ++i)
@@ -72,7 +72,7 @@ class Refinement {
   /// Judges all signals of a level. \returns false where no other level can be compared
   bool judge(int level) {
     judged_.clear();
-    const bool longer = companions_.completes(level + 1);
+    const bool longer = companions_.is_longer(level + 1);
     if (!longer && !companions_.completes(level - 1)) return false;
     const Run& run = companions_.run(level);
     scale_ = scales(run, weight_);
@@ -89,7 +89,7 @@ class Refinement {
   Judged by_longer(int level, std::size_t signal, double end) {
     const Beside fine = companions_.beside(level), coarse = companions_.beside(level + 1);
     std::optional<Beside> coarsest;
-    if (companions_.completes(level + 2)) coarsest = companions_.beside(level + 2);
+    if (companions_.is_longer(level + 2)) coarsest = companions_.beside(level + 2);
     const auto c = convergence(fine, coarse, coarsest, largest_ratio(), signal);
     const Judged out{c.error / scale_[signal], c.ratio, end};
     if (out.error <= scene_.accuracy || c.converges() || !parts_neighbours(signal)) return out;
@@ -127,13 +127,14 @@ class Refinement {
     looked_ = true;
     const int at = companions_.completes(level + 2) ? level + 2 : level + 1;
     constexpr const char* how = "a run with the loads put back that are left out";
-    compare(level, at, "memory", how, companions_.completed_by(memory, at));
-    compare(level, at, "coefficients", how, companions_.completed_by(coefficients, at));
+    compare(level, at, {.name = "memory", .how = how, .of_signal = {}}, companions_.completed_by(memory, at));
+    compare(level, at, {.name = "coefficients", .how = how, .of_signal = {}, .given = true},
+            companions_.completed_by(coefficients, at));
   }
-  void compare(int level, int at, const char* source, const char* how, const std::optional<Run>& with) {
+  void compare(int level, int at, ErrorEstimate::Source source, const std::optional<Run>& with) {
     if (!with) return;
     const Beside without{&companions_.run(at), 1}, put_back{&*with, 1};
-    others_.push_back({source, how, {}});
+    others_.push_back(std::move(source));
     for (std::size_t i = 0; i < judged_.size(); ++i) {
       Judged& j = judged_[i];
       if (j.until < companions_.run(level).time.back())
@@ -150,10 +151,11 @@ class Refinement {
     const double allowed = std::max(scene_.accuracy * scale_[signal], more * first);
     return std::min(until, agrees_until(without, put_back, signal, allowed));
   }
-  /// What of the accuracy is left for the step.
+  /// What of the accuracy is left for the step beside whatever else the program chooses.
   double left_for_step(std::size_t signal) const {
     double out = scene_.accuracy;
-    for (const auto& source : others_) out -= source.of_signal[signal];
+    for (const auto& source : others_)
+      if (!source.given) out -= source.of_signal[signal];
     return out;
   }
 
@@ -173,7 +175,7 @@ class Refinement {
       const Judged& j = judged_[i];
       const double left = left_for_step(i);
       if (j.error <= left) continue;
-      if (left <= 0) refuse_water(level, i);
+      if (left <= 0) refuse_memory(level, i);
       if (!may_refine()) continue;
       const int needed = levels_needed(j, room * left);
       if (level - needed < finest) refuse_step(level, i);
@@ -200,23 +202,18 @@ class Refinement {
                        tolerance ? "tolerance" : "step", j.ratio, tolerance ? "a tenth of it" : "half of it"),
            "");
   }
-  [[noreturn]] void refuse_water(int level, std::size_t signal) const {
-    const auto& worst = *std::max_element(others_.begin(), others_.end(), [&](const auto& a, const auto& b) {
-      return a.of_signal[signal] < b.of_signal[signal];
-    });
-    if (worst.name == "memory")
-      refuse(level, signal, worst.of_signal[signal], "the memory of radiated waves stands in the way",
-             "give radiation a finer memory_tolerance, ");
-    refuse(level, signal, worst.of_signal[signal],
-           "the spacing of the frequencies of the coefficients stands in the way",
-           "compute them at more frequencies, ");
+  [[noreturn]] void refuse_memory(int level, std::size_t signal) const {
+    refuse(level, signal, scene_.accuracy - left_for_step(signal), "the memory of radiated waves stands in the way",
+           "give radiation a finer memory_tolerance, ");
   }
 
   Run told(int level) {
     ErrorEstimate error{.asked = scene_.accuracy,
                         .accepted = scene_.solve.accept_error,
-                        .given = companions_.given() ? companions_.by_tolerance() ? "tolerance" : "step" : "",
-                        .sources = {{companions_.by_tolerance() ? "tolerance" : "step", companions_.how(), {}}},
+                        .sources = {{.name = companions_.by_tolerance() ? "tolerance" : "step",
+                                     .how = companions_.how(),
+                                     .of_signal = {},
+                                     .given = companions_.given()}},
                         .unpredictable = {},
                         .missing = {}};
     for (std::size_t i = 0; i < judged_.size(); ++i) {
@@ -243,7 +240,6 @@ class Refinement {
     Run out = companions_.take(level);
     out.error = {.asked = scene_.accuracy,
                  .accepted = scene_.solve.accept_error,
-                 .given = {},
                  .sources = {},
                  .unpredictable = {},
                  .missing = why};

@@ -113,7 +113,9 @@ std::string warning_of_error(const ErrorEstimate& e, const std::vector<S>& signa
   for (std::size_t i = 0; i < signals.size(); ++i)
     if (i != e.worst() && e.total(i) > e.asked)
       others.push_back(fmt::format("{} by {:.2g}", signals[i].name, e.total(i)));
-  const std::string why = e.accepted ? "which the scene accepts" : "with the " + e.given + " that the scene gives";
+  const std::string why =
+      e.accepted ? "which the scene accepts"
+                 : fmt::format("most of it from the {} that the scene gives", e.largest_source(e.worst()).name);
   return fmt::format("warning: {} is off by an estimated {:.2g} of its {}, {}{}", signals[e.worst()].name,
                      e.total(e.worst()), of, why, listed(others));
 }

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <map>
 
-#include "hydro/base/error.hpp"
-
 namespace froude {
 namespace {
 
@@ -64,48 +62,27 @@ std::vector<double> peaks(const std::vector<ComplexSignal>& signals) {
   return out;
 }
 
-/// The largest error of a signal, of its peak, and where.
-struct Worst {
-  double error = 0;
-  std::size_t at = 0;
-};
-
 /// (E3): the error of the whole by what half and a quarter of the frequencies change, in any unit.
 double extrapolated(double gap, double before) {
   constexpr double order_of_cubic = 16, least = 2;
   return gap > 0 ? gap / (std::clamp(before / gap, least, order_of_cubic) - 1) : 0;
 }
 
-Worst worst(const ComplexSignal& whole, const ComplexSignal& half, const ComplexSignal& quarter, double peak,
-            const std::vector<bool>& counts) {
-  Worst gap, before;
+/// The largest error of a signal, of its peak.
+double worst(const ComplexSignal& whole, const ComplexSignal& half, const ComplexSignal& quarter, double peak,
+             const std::vector<bool>& counts) {
+  double gap = 0, before = 0;
   for (std::size_t k = 0; k < whole.values.size(); ++k) {
     if (!counts[k % counts.size()] || peak == 0) continue;
-    if (const double d = std::abs(whole.values[k] - half.values[k]) / peak; d > gap.error) gap = {d, k};
-    if (const double d = std::abs(half.values[k] - quarter.values[k]) / peak; d > before.error) before = {d, k};
+    gap = std::max(gap, std::abs(whole.values[k] - half.values[k]) / peak);
+    before = std::max(before, std::abs(half.values[k] - quarter.values[k]) / peak);
   }
-  return {extrapolated(gap.error, before.error), gap.at};
-}
-
-/// \throws InputError unless the error is within the accuracy asked, or accepted. `of`: "peak, at 1 rad/s"
-void require(const scene::Scene& scene, const std::string& signal, double error, const std::string& of) {
-  if (error <= scene.accuracy || scene.solve.accept_error) return;
-  throw hydro::InputError(
-      fmt::format("an accuracy of {:.2g} is asked for, but {} is off by an estimated {:.2g} of its {}; the spacing of "
-                  "the frequencies of the coefficients stands in the way",
-                  scene.accuracy.value, signal, error, of),
-      scene.accuracy.place,
-      "compute them at more frequencies there, leave that signal out of `of`, ask for less accuracy, or take the error "
-      "by name: [solve] accept_error = true");
+  return extrapolated(gap, before);
 }
 
 ErrorEstimate nothing_yet(const scene::Scene& scene) {
-  return {.asked = scene.accuracy,
-          .accepted = scene.solve.accept_error,
-          .given = {},
-          .sources = {},
-          .unpredictable = {},
-          .missing = {}};
+  return {
+      .asked = scene.accuracy, .accepted = scene.solve.accept_error, .sources = {}, .unpredictable = {}, .missing = {}};
 }
 
 /// Why the coefficients cannot be thinned twice; empty if they can.
@@ -118,7 +95,10 @@ std::string too_few(const compile::Prepared& prepared) {
 }
 
 ErrorEstimate::Source spacing_source() {
-  return {"coefficients", "answers from every second and every fourth of their frequencies", {}};
+  return {.name = "coefficients",
+          .how = "answers from every second and every fourth of their frequencies",
+          .of_signal = {},
+          .given = true};
 }
 
 }  // namespace
@@ -135,9 +115,7 @@ ErrorEstimate error_of_spacing(const scene::Scene& scene, const compile::Prepare
   const auto peak = peaks(whole);
   out.sources.push_back(spacing_source());
   for (std::size_t i = 0; i < whole.size(); ++i) {
-    const Worst found = worst(whole[i], half[i], quarter[i], peak[i], counts);
-    require(scene, whole[i].name, found.error, fmt::format("peak, at {:.4g} rad/s", omega[found.at % omega.size()]));
-    out.sources.front().of_signal.push_back(found.error);
+    out.sources.front().of_signal.push_back(worst(whole[i], half[i], quarter[i], peak[i], counts));
   }
   return out;
 }
@@ -159,9 +137,7 @@ ErrorEstimate error_of_spacing(const scene::Scene& scene, const compile::Prepare
     for (std::size_t j = 0; j < signals.size(); ++j)
       if (signals[j].unit == signals[i].unit) largest = std::max(largest, size[static_cast<Eigen::Index>(j)]);
     const double scale = std::max(size[row], share_of_largest * largest);
-    const double error = scale > 0 ? extrapolated(gap[row], before[row]) / scale : 0;
-    require(scene, signals[i].name, error, "rms");
-    out.sources.front().of_signal.push_back(error);
+    out.sources.front().of_signal.push_back(scale > 0 ? extrapolated(gap[row], before[row]) / scale : 0);
   }
   return out;
 }

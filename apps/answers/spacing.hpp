@@ -17,7 +17,6 @@ using LinearAnswer = std::function<std::vector<ComplexSignal>(const compile::Pre
 /// their unit over that thousandth, by answers from every second and every fourth frequency. Values at frequencies of
 /// the data have none. `whole` is the answer from all of them, at `omega`, rad/s, heading by heading. Nothing without
 /// coefficients; ErrorEstimate::missing where they have too few frequencies.
-/// \throws hydro::InputError where it is above the accuracy that the scene asks for and does not accept
 ErrorEstimate error_of_spacing(const scene::Scene& scene, const compile::Prepared& prepared,
                                const std::vector<double>& omega, const std::vector<ComplexSignal>& whole,
                                const LinearAnswer& answer);

@@ -70,6 +70,7 @@ struct ErrorEstimate {
     std::string name;               ///< "step", "memory", …
     std::string how;                ///< it was estimated
     std::vector<double> of_signal;  ///< one a signal; 0 for energy residuals, which are errors themselves
+    bool given = false;             ///< the scene gives what makes it, and the run stands by that
   };
   /// A signal that no step can predict: what parts neighbours grows until they have nothing in common.
   struct Unpredictable {
@@ -78,8 +79,7 @@ struct ErrorEstimate {
     double deviation, scatter;  ///< its standard deviation, and by how much that differs between runs, rms
   };
   double asked = 0;
-  bool accepted = false;   ///< the scene takes whatever error there is
-  std::string given = {};  ///< "step" or "tolerance" where the scene gives it, and the run stands by that; else empty
+  bool accepted = false;  ///< the scene takes whatever error there is
   std::vector<Source> sources;
   std::vector<Unpredictable> unpredictable;
   std::string missing;  ///< why nothing is estimated; empty where it is

@@ -45,28 +45,16 @@ namespace {
 
 /// The data of a fit: modes that make waves, scaled to a largest damping of one, and the extrapolated damping beyond.
 struct Data {
-  std::vector<int> modes;   // of the caller that make waves
-  Eigen::VectorXd scale;    // of those, √max B_ii
-  std::size_t inside;       // frequencies of the table; the rest are of the tail
-  detail::Samples samples;  // what is fitted
-  Eigen::MatrixXd given;    // its values as they are given, weighted and stacked: what errors are measured against
+  std::vector<int> modes;  // of the caller that make waves
+  Eigen::VectorXd scale;   // of those, √max B_ii
+  std::size_t inside;      // frequencies of the table; the rest are of the tail
+  detail::Samples samples;
   Eigen::MatrixXd A_inf;
   double centre;  // rad/s, where the scaled damping is largest
 };
 
 Eigen::MatrixXd scaled(const Data& d, const Eigen::MatrixXd& m) {
   return d.scale.cwiseInverse().asDiagonal() * m(d.modes, d.modes) * d.scale.cwiseInverse().asDiagonal();
-}
-
-/// Scaled data without the digits that moving coefficients to another point and back leaves to rounding. Poles of a
-/// high order that the data hardly hold are found by steps that enlarge a rounding to a tenth of the error: two scenes
-/// that say the same of a body, its origin here or there, shall have the same memory.
-Eigen::MatrixXcd without_rounding(const Eigen::MatrixXcd& values) {
-  static constexpr double digits =
-      1 << 30;  // 1e-9 of the largest damping of the modes; files have five to seven digits
-  return values.unaryExpr([](const std::complex<double>& x) {
-    return std::complex<double>(std::nearbyint(x.real() * digits), std::nearbyint(x.imag() * digits)) / digits;
-  });
 }
 
 /// Frequencies at which the tail is followed, in units of the table's last one.
@@ -120,8 +108,6 @@ Data prepared(const DampingTable& given, const std::vector<Eigen::MatrixXd>& A,
       d.centre = omega;
     }
   }
-  d.given = detail::stacked(d.samples.weight.asDiagonal() * d.samples.values);
-  d.samples.values = without_rounding(d.samples.values);
   return d;
 }
 
@@ -139,7 +125,7 @@ detail::Fitting fitting(const Data& d, const std::vector<Pole>& poles, const Eig
 
 /// Largest |error| over the table's own frequencies of each pair, relative by the scaling, (1, pairs).
 Eigen::RowVectorXd errors(const Data& d, const detail::Fitting& f, const Eigen::MatrixXd& x) {
-  const Eigen::MatrixXd off = f.design * x - d.given;
+  const Eigen::MatrixXd off = f.design * x - f.right;
   const auto inside = static_cast<Eigen::Index>(d.inside), rows = off.rows() / 2;
   const Eigen::MatrixXd size =
       (off.topRows(inside).array().square() + off.middleRows(rows, inside).array().square()).sqrt();

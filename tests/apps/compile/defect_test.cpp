@@ -225,45 +225,6 @@ TEST(MemoryDefect, PredictsTheErrorOfTheMotionInTwentyScenesDrawnAtRandom) {
   }
 }
 
-/// A pontoon of which the origin is `below` the water and the centre of gravity where it always is, let go in heave.
-scene::Scene pontoon(double below) {
-  return froude_test::parse(
-      froude_test::water +
-      fmt::format("[[body]]\nname = \"m\"\nposition = \"(0, 0, {}) m\"\nmass = \"9088 kg\"\n"
-                  "centre_of_gravity = \"(0, 0, {}) m\"\nradii_of_gyration = \"(4.6, 4.6, 6.4) m\"\n"
-                  "initial = {{ heave = \"0.2 m\" }}\n",
-                  -below, 1.31 + below) +
-      "[body.hydrodynamics]\nfile = \"pontoon1.nc\"\nhydrostatics = true\n"
-      "radiation = { accept_error = 0.03 }\n"
-      "[ask]\nrun = { duration = \"20 s\", every = \"0.1 s\" }\n");
-}
-
-// The damping in pitch about a point 5 m lower is another, but memories are judged about centres of gravity, wherever
-// the origin of a body is and whatever point its file is about.
-TEST(Radiation, DoesNotDependOnWhereTheOriginOfABodyIs) {
-  const scene::Scene here = pontoon(0), there = pontoon(5);
-  const compile::Prepared prepared_here = compile::prepare(here), prepared_there = compile::prepare(there);
-  const auto a = compile::time_model(here, prepared_here), b = compile::time_model(there, prepared_there);
-  const auto radiation = [](const compile::TimeModel& model) {
-    for (const PlanLine& line : model.plan)
-      if (line.effect == "radiation") return line.method + ", " + line.size;
-    return std::string();
-  };
-  EXPECT_THAT(radiation(a), testing::HasSubstr("6 modes, off the data by up to"));
-  EXPECT_EQ(radiation(a), radiation(b));
-  const Eigen::MatrixXd &A = a.memories.at(0).A, &same = b.memories.at(0).A;
-  const auto scale = [&](const Eigen::MatrixXcd& m) -> Eigen::MatrixXcd {
-    const Eigen::VectorXd size = A.diagonal().cwiseSqrt().cwiseInverse();
-    return size.asDiagonal() * m * size.asDiagonal();
-  };
-  // Moments are moved by 5 m and back: some 1e-15 of the largest, and a fit of 50 poles multiplies that.
-  EXPECT_LT(scale(A - same).cwiseAbs().maxCoeff(), 1e-8);
-  for (const double omega : {0.5, 1.5, 2.5, 3.5})
-    EXPECT_LT(scale(a.memories[0].transform(omega) - b.memories[0].transform(omega)).cwiseAbs().maxCoeff(), 1e-8)
-        << omega;
-  EXPECT_LT(rms_between(run(here, a).heave, run(there, b).heave), 1e-9);
-}
-
 // Frequencies so far apart that the resonances of this water, some 0.3 rad/s wide, lie between three of them or none.
 TEST(DataDefect, PredictsWhatCoarseFrequenciesLeaveOpen) {
   for (const double spacing : {0.8, 0.4, 0.2, 0.1})

@@ -73,15 +73,16 @@ TEST(Estimate, RefinesTheStepUntilTheErrorIsWithinWhatIsAsked) {
 TEST(Estimate, WarnsWhereAGivenStepMissesTheAccuracy) {
   const auto run = simulate(parse(sledge("accuracy = 1e-3\n", "[solve]\nstep = \"0.05 s\"\n")));
   EXPECT_GT(true_error(run), 1e-3);
-  EXPECT_EQ(run.error.given, "step");
+  EXPECT_TRUE(run.error.sources[0].given);
   EXPECT_THAT(run.warnings(), testing::ElementsAre(AllOf(HasSubstr("sledge.surge is off by an estimated"),
-                                                         HasSubstr("with the step that the scene gives"))));
+                                                         HasSubstr("from the step that the scene gives"))));
 }
 
 TEST(Estimate, AnIntegratorWithAToleranceIsJudgedByIt) {
   const auto run =
       simulate(parse(sledge("", "[solve]\nintegrator = { name = \"explicit_pair\", tolerance = 1e-4 }\n")));
-  EXPECT_EQ(run.error.given, "tolerance");
+  EXPECT_EQ(run.error.sources[0].name, "tolerance");
+  EXPECT_TRUE(run.error.sources[0].given);
   // Errors of the pair do not fall quite as its tolerance.
   EXPECT_NEAR(std::log10(run.error.total(0) / true_error(run)), 0, std::log10(3.0));
 }
