@@ -50,7 +50,7 @@ SensorNoise noise_of(const Motion& motion, std::span<const double> measured) {
 }
 
 bool negligible(const Motion& m) {
-  constexpr double share = 1e-6;
+  constexpr double share = 1e-4;  // of the variance: of inertia, then, as much
   const double squares = std::inner_product(m.acceleration.begin(), m.acceleration.end(), m.acceleration.begin(), 0.0);
   return m.noise_acceleration * m.noise_acceleration * static_cast<double>(m.acceleration.size()) < share * squares;
 }

@@ -11,7 +11,7 @@
 namespace fit {
 
 /// Draws of the errors of velocity and acceleration that `motion` derived from `measured`, at its samples; empty where
-/// noise is less than a millionth of the acceleration's variance, or averaged out by a Fourier series.
+/// noise is less than a ten-thousandth of the acceleration's variance, or averaged out by a Fourier series.
 std::vector<MotionError> errors_of(const Motion& motion, std::span<const double> measured, bool from_velocity,
                                    std::uint64_t stream);
 
