@@ -18,7 +18,7 @@ struct Options {
   double confidence = 0.95;
   /// Of the search; they need bounds of every parameter. None: one, and where it is refused `starts_after_failure`
   /// more.
-  std::optional<int> starts;
+  std::optional<int> starts = {};
   int iterations_reach = 60;
   bool profile = false;           ///< intervals by profile likelihood
   bool accept_residuals = false;  ///< values are told though residuals exceed what the deviations allow (F66)
