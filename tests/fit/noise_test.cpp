@@ -77,8 +77,8 @@ TEST(MotionNoise, OfAPositionInStepsIsCovered) {
 }
 
 TEST(DecayInSteps, IsCoveredByTheIntervals) {
-  // Steps of 2 % of the amplitude at 100 Hz: a sample moves by a twentieth of a step where the body turns. Each set takes
-  // a second; of 20 with p = 0.95 fewer than 15 hold the truth in one test of 3000.
+  // Steps of 2 % of the amplitude at 100 Hz: a sample moves by a twentieth of a step where the body turns. Each set
+  // takes a second; of 20 with p = 0.95 fewer than 15 hold the truth in one test of 3000.
   constexpr int decays = 20;
   constexpr double enough = 15.0 / decays;
   double period = 0, linear = 0;
