@@ -3,38 +3,62 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <optional>
-#include <regex>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/scene.hpp"
 
 namespace support {
 
+namespace left {
+
+inline std::string without(std::string line, std::string_view begin, std::string_view end, std::string_view instead) {
+  const auto from = line.find(begin);
+  if (from == std::string::npos) return line;
+  const auto to = line.find(end, from);
+  return to == std::string::npos ? line : line.replace(from, to + end.size() - from, instead);
+}
+
+/// The number between `key` and ` s"` in a line.
+inline std::optional<double> seconds(const std::string& line, std::string_view key) {
+  const auto at = line.find(key);
+  return at == std::string::npos ? std::nullopt : std::optional(std::stod(line.substr(at + key.size())));
+}
+
+inline std::string shortened(std::string line, double longest) {
+  constexpr std::string_view duration = "duration = \"", every = "every = \"";
+  const auto lasts = seconds(line, duration), sampled = seconds(line, every);
+  if (!line.starts_with("run = ") || !lasts || !sampled || *lasts <= longest) return line;
+  const double kept = *sampled * std::floor(longest / *sampled + 1e-9);
+  return without(std::move(line), duration, " s\"", fmt::format("{}{:.10g} s\"", duration, kept));
+}
+
+inline bool is_chosen_by_the_program(const std::string& line) {
+  const std::string key = line.substr(0, line.find_first_of(" ="));
+  return key == "step" || key == "accept_error" || key == "accuracy" || key == "rao" || key == "modes";
+}
+
+}  // namespace left
+
 /// The text of a scene that asks for a run alone, `longest` s at most, to an accuracy; step, memory and pieces of
 /// members are the program's to choose, whatever error its memory makes against the data.
 inline std::string left_to_the_program(const std::string& text, double accuracy, double longest) {
-  static const std::regex chosen(R"(^\s*(step|accept_error|accuracy|rao|modes)\s*=.*)"),
-      radiation(R"(radiation = \{.*\})"), pieces(R"(, pieces = \d+)"), table(R"(^\s*\[.*)"), ask(R"(^\s*\[ask\].*)"),
-      duration(R"((run = .*duration = ")([0-9.]+)( s", every = ")([0-9.]+)( s".*))");
+  constexpr std::string_view pieces = ", pieces = ";
   std::string out, inside, line;
   for (std::istringstream in(text); std::getline(in, line);) {
-    std::smatch found;
-    if (std::regex_match(line, table)) inside = line;
-    const bool may_be_chosen = inside.starts_with("[ask]") || inside.starts_with("[solve]");
-    if (may_be_chosen && std::regex_match(line, chosen)) continue;
-    line = std::regex_replace(line, radiation, "radiation = { accept_error = 10 }");
-    line = std::regex_replace(line, pieces, "");
-    if (std::regex_match(line, found, duration) && std::stod(found[2]) > longest) {
-      const double every = std::stod(found[4]);
-      line = fmt::format("{}{:.10g}{}{}{}", found[1].str(), every * std::floor(longest / every + 1e-9), found[3].str(),
-                         found[4].str(), found[5].str());
-    }
-    out += line + "\n";
-    if (std::regex_match(line, ask)) out += fmt::format("accuracy = {}\n", accuracy);
+    if (line.starts_with("[")) inside = line;
+    const bool asks = inside.starts_with("[ask]");
+    if ((asks || inside.starts_with("[solve]")) && left::is_chosen_by_the_program(line)) continue;
+    line = left::without(line, "radiation = {", "}", "radiation = { accept_error = 10 }");
+    if (const auto at = line.find(pieces); at != std::string::npos)
+      line.erase(at, line.find_first_not_of("0123456789", at + pieces.size()) - at);
+    out += left::shortened(line, longest) + "\n";
+    if (line.starts_with("[ask]")) out += fmt::format("accuracy = {}\n", accuracy);
   }
   return out;
 }
@@ -96,11 +120,16 @@ inline froude::scene::Scene refined(froude::scene::Scene scene, const Finer& fin
 
 /// The name that a signal has where each segment is three: of node 4 that of node 12, of link 4 that of link 11.
 inline std::string name_where_cut(const std::string& name) {
-  static const std::regex numbered(R"((.*\.)(node|link)(\d+)(.*))");
-  std::smatch found;
-  if (!std::regex_match(name, found, numbered)) return name;
-  const int number = 3 * std::stoi(found[3]) - (found[2] == "link" ? 1 : 0);
-  return fmt::format("{}{}{}{}", found[1].str(), found[2].str(), number, found[4].str());
+  for (const std::string_view part : {".node", ".link"}) {
+    const auto at = name.find(part);
+    const auto from = at + part.size();
+    if (at == std::string::npos || from >= name.size() || !std::isdigit(static_cast<unsigned char>(name[from])))
+      continue;
+    const auto to = std::min(name.find_first_not_of("0123456789", from), name.size());
+    const int number = 3 * std::stoi(name.substr(from, to - from)) - (part == ".link" ? 1 : 0);
+    return fmt::format("{}{}{}", name.substr(0, from), number, name.substr(to));
+  }
+  return name;
 }
 
 }  // namespace support
