@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "convolve.hpp"
+#include "golden_section.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/harmonics.hpp"
@@ -218,19 +219,7 @@ Motion by_spline(std::span<const double> values, double step_s, double f, double
 /// The frequency near f of which a record holds most with its harmonics, by golden section; the record is long enough
 /// for one minimum within half a period of the whole of it.
 double refined(const std::function<double(double)>& left, double f, double duration) {
-  const double golden = (std::sqrt(5.0) - 1) / 2;
-  double low = f - 0.5 / duration, high = f + 0.5 / duration;
-  double a = high - golden * (high - low), b = low + golden * (high - low), at_a = left(a), at_b = left(b);
-  while (high - low > 1e-7 * f) {
-    if (at_a < at_b) {
-      high = b, b = a, at_b = at_a;
-      at_a = left(a = high - golden * (high - low));
-    } else {
-      low = a, a = b, at_a = at_b;
-      at_b = left(b = low + golden * (high - low));
-    }
-  }
-  return (low + high) / 2;
+  return least_by_golden_section(left, f - 0.5 / duration, f + 0.5 / duration, 1e-7 * f);
 }
 
 /// The series' derivative of this order, and the deviation of it for noise of 1 in each of the samples. (F45)

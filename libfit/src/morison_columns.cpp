@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "dynamics/force/morison.hpp"
+#include "golden_section.hpp"
 
 namespace fit {
 namespace {
@@ -136,21 +137,11 @@ Eigen::MatrixXd column_errors(const Cylinder& c, const MotionError& e, const Mor
 Eigen::VectorXd carried_error(const Cylinder& c, const MotionError& e) { return carried_force(c, as_record(e)); }
 
 double peak_frequency(std::span<const double> r, double step, double period) {  // (F50)
-  const double omega = 2 * std::numbers::pi / period, golden = (std::sqrt(5.0) - 1) / 2,
+  const double omega = 2 * std::numbers::pi / period,
                bin = 2 * std::numbers::pi / (step * static_cast<double>(r.size()));
-  double low = std::max(omega - bin, 0.1 * omega), high = omega + bin;
-  double left = high - golden * (high - low), right = low + golden * (high - low);
-  double at_left = power_at(r, step, left), at_right = power_at(r, step, right);
-  while (high - low > 1e-6 * bin) {
-    if (at_left > at_right) {
-      high = right, right = left, at_right = at_left;
-      at_left = power_at(r, step, left = high - golden * (high - low));
-    } else {
-      low = left, left = right, at_left = at_right;
-      at_right = power_at(r, step, right = low + golden * (high - low));
-    }
-  }
-  return (low + high) / (4 * std::numbers::pi);
+  const double at = least_by_golden_section([&](double w) { return -power_at(r, step, w); },
+                                            std::max(omega - bin, 0.1 * omega), omega + bin, 1e-6 * bin);
+  return at / (2 * std::numbers::pi);
 }
 
 }  // namespace fit

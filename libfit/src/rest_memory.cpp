@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "golden_section.hpp"
 #include "hydro/signal/fft.hpp"
 
 namespace fit {
@@ -33,19 +34,8 @@ double white_level(const Eigen::ArrayXd& power, const Eigen::ArrayXd& known) {
     const Eigen::ArrayXd model = known + std::exp(log_level);
     return (model.log() + power / model).sum();
   };
-  const double golden = (std::sqrt(5.0) - 1) / 2;
-  double high = std::log(2 * power.mean()), low = high - std::log(1e8);
-  double a = high - golden * (high - low), b = low + golden * (high - low), at_a = badness(a), at_b = badness(b);
-  while (high - low > 1e-3) {
-    if (at_a < at_b) {
-      high = b, b = a, at_b = at_a;
-      at_a = badness(a = high - golden * (high - low));
-    } else {
-      low = a, a = b, at_a = at_b;
-      at_b = badness(b = low + golden * (high - low));
-    }
-  }
-  return std::exp((low + high) / 2);
+  const double high = std::log(2 * power.mean());
+  return std::exp(least_by_golden_section(badness, high - std::log(1e8), high, 1e-3));
 }
 
 }  // namespace

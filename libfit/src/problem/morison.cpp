@@ -12,13 +12,8 @@ namespace {
 /// (F79) Drag that is negative beyond twice its interval feeds the motion, which no steady force of water does.
 void require_drag_that_brakes(const MorisonFit& fit, const Source& source) {
   const auto& [low, high] = fit.cd.interval;
-  if (!fit.cd.value || !(high + (high - low) / 2 < 0)) return;
-  throw Refused{{.reason = Refusal::Reason::wrong_sign,
-                 .why = fmt::format("drag comes out negative (cd {:.3g} to {:.3g}), as if the water drove the motion: "
-                                    "the force or the motion has the wrong sign, they stand in each other's place, or "
-                                    "one of them is recorded late",
-                                    low, high),
-                 .source = source.file.string()}};
+  if (!fit.cd.value || !is_surely_negative(fit.cd.interval)) return;
+  throw Refused{drives_the_motion(fmt::format("drag comes out negative (cd {:.3g} to {:.3g})", low, high), source)};
 }
 
 /// (F70) A delay that nobody asked for and that explains the larger part of what a fit leaves over: such a fit is of

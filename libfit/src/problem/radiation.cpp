@@ -13,13 +13,10 @@ constexpr std::size_t least_for_poles = 5;
 std::optional<Refusal> refusal_of(const std::vector<Point>& points) {
   for (const Point& p : points) {
     const auto& [low, high] = p.point.damping.interval;
-    if (!(high + (high - low) / 2 < 0)) continue;
-    return Refusal{.reason = Refusal::Reason::wrong_sign,
-                   .why = fmt::format("damping comes out negative at {:.4g} rad/s ({:.3g} to {:.3g}), as if the water "
-                                      "drove the motion: the force or the motion has the wrong sign, they stand in "
-                                      "each other's place, or one of them is recorded late",
-                                      p.point.omega, low, high),
-                   .source = p.source.file.string()};
+    if (!is_surely_negative(p.point.damping.interval)) continue;
+    return drives_the_motion(
+        fmt::format("damping comes out negative at {:.4g} rad/s ({:.3g} to {:.3g})", p.point.omega, low, high),
+        p.source);
   }
   return {};
 }

@@ -1,6 +1,16 @@
 #include "telling.hpp"
 
+#include <fmt/format.h>
+
 namespace fit {
+
+Refusal drives_the_motion(const std::string& what, const Source& source) {
+  return {.reason = Refusal::Reason::wrong_sign,
+          .why = fmt::format("{}, as if the water drove the motion: the force or the motion has the wrong sign, they "
+                             "stand in each other's place, or one of them is recorded late",
+                             what),
+          .source = source.file.string()};
+}
 
 Report begin_run(const Source& source) {
   return {.key = "run", .one_of_many = true, .facts = {{"file", source.name()}}};

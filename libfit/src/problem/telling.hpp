@@ -27,6 +27,11 @@ auto of_run(const Source& source, const Work& work) {
   }
 }
 
+/// (F79) Negative beyond twice its interval.
+inline bool is_surely_negative(const Interval& i) { return i.high + (i.high - i.low) / 2 < 0; }
+/// Of a damping or drag that is: `what` comes out negative.
+Refusal drives_the_motion(const std::string& what, const Source& source);
+
 /// The middle of the interval: the value also of what is not identifiable.
 inline double middle(const Coefficient& c) { return (c.interval.low + c.interval.high) / 2; }
 
