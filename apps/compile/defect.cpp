@@ -49,10 +49,12 @@ std::vector<double> with_parts(const std::vector<double>& omega, int parts) {
 /// turn there, and what a cubic misses is a hump.
 constexpr int parts_of_an_interval = 4;
 
+Eigen::MatrixXcd missing_at(const MemoryInRun& memory, double omega) {
+  return impedance(*memory.data, omega) - memory.transform(omega) - Complex(0, omega) * memory.A;
+}
 MissingImpedance missing_of(const MemoryInRun& memory) {
   MissingImpedance out{with_parts(memory.data->damping.omega, memory.poles ? 1 : parts_of_an_interval), {}};
-  for (const double omega : out.omega)
-    out.Z.push_back(impedance(*memory.data, omega) - memory.transform(omega) - Complex(0, omega) * memory.A);
+  for (const double omega : out.omega) out.Z.push_back(missing_at(memory, omega));
   return out;
 }
 
@@ -144,8 +146,7 @@ class LeftOut {
 MissingImpedance open_between_poles(const MemoryInRun& memory) {
   const auto& omega = memory.data->damping.omega;
   std::vector<Eigen::MatrixXcd> residual;
-  for (const double at : omega)
-    residual.push_back(impedance(*memory.data, at) - memory.transform(at) - Complex(0, at) * memory.A);
+  for (const double at : omega) residual.push_back(missing_at(memory, at));
   return {omega, missed_if_left_out(memory.poles->model(), omega, residual)};
 }
 
