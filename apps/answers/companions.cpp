@@ -8,6 +8,7 @@
 
 #include "answers/simulate.hpp"
 #include "compile/integrator.hpp"
+#include "compile/radiation.hpp"
 #include "compile/restart.hpp"
 #include "compile/step.hpp"
 
@@ -69,16 +70,11 @@ Companions::Companions(const scene::Scene& scene, compile::Prepared prepared,
 /// Which method is cheapest depends on the step, and what methods differ by is no error of the step.
 void Companions::hold_memories() {
   using enum scene::Memory::Method;
-  const auto radiates = [](const auto& group) { return group.radiation; };
-  if (std::none_of(prepared_.groups.begin(), prepared_.groups.end(), radiates)) return;
-  std::size_t stride = 1;
-  const compile::TimeModel model = compile::time_model(scene_of(0, stride), prepared_);
-  auto memory = model.memories.begin();
-  for (std::size_t i = 0; i < prepared_.groups.size(); ++i) {
-    if (!prepared_.groups[i].radiation) continue;
-    if (auto& method = prepared_.memory[i].method; method == automatic) method = memory->poles ? poles : partitioned;
-    ++memory;
-  }
+  compile::Radiation radiation(prepared_, step_, nullptr);
+  std::vector<std::string> told_with_the_runs;
+  for (std::size_t i = 0; i < prepared_.groups.size(); ++i)
+    if (auto& method = prepared_.memory[i].method; prepared_.groups[i].radiation && method == automatic)
+      method = radiation.of(i, told_with_the_runs).in_run.poles ? poles : partitioned;
 }
 
 double Companions::largest_ratio() const {
@@ -127,23 +123,22 @@ Beside Companions::beside(int level) {
 }
 
 /// The level is run once more for it: velocities at each step of all levels would take much memory.
-const compile::VelocityRecord& Companions::motion(int level) {
-  auto at = motions_.find(level);
-  if (at != motions_.end()) return at->second;
+const Companions::Followed& Companions::followed(int level) {
+  auto at = followed_.find(level);
+  if (at != followed_.end()) return at->second;
   std::size_t stride = 1;
-  const scene::Scene scene = scene_of(level, stride);
-  compile::VelocityRecord& out = motions_[level];
-  run_model(scene, compile::time_model(scene, prepared_), progress_, nullptr, &out);
-  return out;
+  scene::Scene scene = scene_of(level, stride);
+  compile::TimeModel model = compile::time_model(scene, prepared_);
+  compile::VelocityRecord motion;
+  run_model(scene, model, progress_, nullptr, &motion);
+  return followed_.emplace(level, Followed{std::move(scene), std::move(model), std::move(motion)}).first->second;
 }
 
 std::optional<Run> Companions::completed_by(Missing what, int level) {
   if (prepared_.groups.empty()) return std::nullopt;
-  std::size_t stride = 1;
-  const scene::Scene scene = scene_of(level, stride);
-  const compile::TimeModel model = compile::time_model(scene, prepared_);
-  const auto load = what == Missing::memory ? compile::memory_defect(model, motion(level))
-                                            : compile::data_defect(scene, prepared_, model, motion(level));
+  const auto& [scene, model, motion] = followed(level);
+  const auto load = what == Missing::memory ? compile::memory_defect(model, motion)
+                                            : compile::data_defect(scene, prepared_, model, motion);
   if (!load) return std::nullopt;
   Run out = run_model(scene, compile::time_model(scene, prepared_, {*load}), progress_);
   keep_signals_of(at(level), out);

@@ -59,10 +59,16 @@ class Companions {
     Run run;
     std::size_t stride;
   };
+  /// A level with the velocities of its bodies at each step.
+  struct Followed {
+    scene::Scene scene;
+    compile::TimeModel model;
+    compile::VelocityRecord motion;
+  };
   void hold_memories();
   Made made(int level) const;
   scene::Scene scene_of(int level, std::size_t& stride) const;
-  const compile::VelocityRecord& motion(int level);
+  const Followed& followed(int level);
 
   const scene::Scene& scene_;
   compile::Prepared prepared_;
@@ -70,7 +76,7 @@ class Companions {
   bool by_tolerance_, given_;
   double step_, tolerance_;  // s; of level 0
   std::map<int, Made> runs_;
-  std::map<int, compile::VelocityRecord> motions_;
+  std::map<int, Followed> followed_;
   std::optional<Run> neighbour_;
 };
 

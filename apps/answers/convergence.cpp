@@ -2,17 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
+#include <numeric>
 
 namespace froude {
 namespace {
-
-double rms(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double v : values) sum += v * v;
-  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, values.size())));
-}
 
 /// Differences at the samples that two runs share, and their times.
 template <class See>
@@ -44,18 +38,26 @@ double rounding_of(const std::string& unit, double weight) {
 
 }  // namespace
 
+bool is_residual(const std::string& signal) { return signal.starts_with("energy.") && signal.ends_with(".residual"); }
+
+double rms(std::span<const double> values) {
+  const double squares = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
+  return values.empty() ? 0 : std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+double deviation(std::span<const double> values) {
+  if (values.empty()) return 0;
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  double squares = 0;
+  for (const double x : values) squares += (x - mean) * (x - mean);
+  return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
 std::vector<double> scales(const Run& run, double weight) {
-  constexpr double share_of_largest = 1e-3;
   std::vector<double> out;
-  std::map<std::string, double> largest;
-  for (const Signal& s : run.signals) {
-    out.push_back(rms(s.values));
-    largest[s.units] = std::max(largest[s.units], out.back());
-  }
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const std::string& unit = run.signals[i].units;
-    out[i] = std::max({out[i], share_of_largest * largest[unit], rounding_of(unit, weight)});
-  }
+  for (const Signal& s : run.signals) out.push_back(rms(s.values));
+  out = at_least_a_thousandth(std::move(out), run.signals, &Signal::units);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = std::max(out[i], rounding_of(run.signals[i].units, weight));
   return out;
 }
 
@@ -103,15 +105,8 @@ double growth(const Run& run, const Run& neighbour, std::size_t signal, double l
 }
 
 double deviation(const Run& run, std::size_t signal, double from) {
-  double sum = 0, squares = 0, count = 0;
-  const auto& values = run.signals[signal].values;
-  for (std::size_t j = 0; j < values.size(); ++j) {
-    if (run.time[j] < from) continue;
-    sum += values[j];
-    squares += values[j] * values[j];
-    ++count;
-  }
-  return count > 0 ? std::sqrt(std::max(0.0, squares / count - std::pow(sum / count, 2))) : 0;
+  const auto before = std::lower_bound(run.time.begin(), run.time.end(), from) - run.time.begin();
+  return deviation(std::span(run.signals[signal].values).subspan(static_cast<std::size_t>(before)));
 }
 
 }  // namespace froude

@@ -1,9 +1,13 @@
 #pragma once
 /// \file  What runs of one scene with longer and longer steps tell of the error of the first: (E1). Private to
 ///        apps.
+#include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "froude/result.hpp"
@@ -16,6 +20,28 @@ struct Beside {
   std::size_t stride;
 };
 
+/// True for a residual of energy: an error itself, it is not judged by its own error.
+bool is_residual(const std::string& signal);
+
+double rms(std::span<const double> values);
+double deviation(std::span<const double> values);
+
+/// Sizes of signals, one each, but none less than a thousandth of the largest of its unit: motions that symmetry
+/// forbids are small, and matter to nobody. `unit`: the member of a signal that holds it.
+template <class S>
+std::vector<double> at_least_a_thousandth(std::vector<double> sizes, const std::vector<S>& signals,
+                                          std::string S::*unit) {
+  constexpr double share_of_largest = 1e-3;
+  std::map<std::string, double> largest;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    double& of_unit = largest[signals[i].*unit];
+    of_unit = std::max(of_unit, sizes[i]);
+  }
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+    sizes[i] = std::max(sizes[i], share_of_largest * largest[signals[i].*unit]);
+  return sizes;
+}
+
 /// What the errors of signals are relative to: the signal's rms, but no less than a thousandth of the largest of its
 /// unit, nor less than rounding leaves: 1e-9 in the SI unit, of what has N, J or W in it 1e-9 of `weight`, N, or 1e-9.
 std::vector<double> scales(const Run& run, double weight);
@@ -24,7 +50,7 @@ std::vector<double> scales(const Run& run, double weight);
 double difference(const Beside& fine, const Beside& coarse, std::size_t signal,
                   double until = std::numeric_limits<double>::infinity());
 
-/// The error of the first of runs whose steps have the ratio `factor`, in the unit of the signal.
+/// The error of the first of runs with longer and longer steps.
 struct Convergence {
   double error;
   double ratio;  ///< by which errors fall from one run to the next, as observed; 0 where it was not

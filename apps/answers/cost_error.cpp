@@ -2,23 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
+
+#include "answers/convergence.hpp"
 
 namespace froude {
 namespace {
-
-double rms(std::span<const double> values) {
-  const double squares = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
-  return std::sqrt(squares / static_cast<double>(values.size()));
-}
-
-double deviation(std::span<const double> values) {
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-  double squares = 0;
-  for (const double x : values) squares += (x - mean) * (x - mean);
-  return std::sqrt(squares / static_cast<double>(values.size()));
-}
 
 double largest(std::span<const double> values) {
   double out = 0;
@@ -38,16 +26,13 @@ double difference(ErrorMeasure measure, const Signal& answer, const Signal& refe
 /// Difference of each signal over its scale.
 std::vector<double> errors_by(ErrorMeasure measure, const std::vector<Signal>& answer,
                               const std::vector<Signal>& reference) {
-  constexpr double share_of_largest = 1e-3;  // motions that symmetry forbids are small, and matter to nobody
-  std::map<std::string, double> largest_of_unit;
-  for (const Signal& r : reference)
-    largest_of_unit[r.units] = std::max(largest_of_unit[r.units], size_of(measure, r.values));
+  std::vector<double> scale;
+  for (const Signal& r : reference) scale.push_back(size_of(measure, r.values));
+  scale = at_least_a_thousandth(std::move(scale), reference, &Signal::units);
   std::vector<double> out(reference.size());
-  for (std::size_t i = 0; i < reference.size(); ++i) {
-    const Signal& r = reference[i];
-    const double scale = std::max(size_of(measure, r.values), share_of_largest * largest_of_unit[r.units]);
-    if (scale > 0 && !r.name.ends_with(".residual")) out[i] = difference(measure, answer[i], r) / scale;
-  }
+  for (std::size_t i = 0; i < reference.size(); ++i)
+    if (scale[i] > 0 && !is_residual(reference[i].name))
+      out[i] = difference(measure, answer[i], reference[i]) / scale[i];
   return out;
 }
 

@@ -11,11 +11,6 @@
 namespace froude {
 namespace {
 
-/// An error is not judged by its own error.
-bool is_judged(const Signal& signal) {
-  return !signal.name.starts_with("energy.") || !signal.name.ends_with("residual");
-}
-
 /// Weight of all bodies, N.
 double weight_of(const compile::Prepared& prepared) {
   double out = 0;
@@ -23,10 +18,8 @@ double weight_of(const compile::Prepared& prepared) {
   return out;
 }
 
-/// What the step does to one signal.
-struct Judged {
-  double error;  // over the signal's rms
-  double ratio;  // by which errors fall from one level to the next; 0 where it was not seen
+/// What the step does to one signal, over its rms.
+struct Judged : Convergence {
   double until;  // s; until when the signal can be predicted
 };
 
@@ -48,7 +41,8 @@ class Refinement {
   }
 
  private:
-  static constexpr int finest = -6;  // a 64th of what was chosen first, at a hundred times its cost
+  static constexpr int finest = -6;       // a 64th of what was chosen first, at a hundred times its cost
+  static constexpr int most_at_once = 2;  // levels
 
   bool may_refuse() const { return !scene_.solve.accept_error; }
   bool may_refine() const { return !companions_.given() && may_refuse(); }
@@ -62,7 +56,7 @@ class Refinement {
     const auto scale = scales(companions_.run(1), weight_);
     double worst = 0;  // at level 0
     for (std::size_t i = 0; i < scale.size(); ++i)
-      if (is_judged(companions_.run(1).signals[i]))
+      if (!is_residual(companions_.run(1).signals[i].name))
         worst = std::max(worst, difference(companions_.beside(1), companions_.beside(2), i) / scale[i] /
                                     (largest_ratio() - 1) / largest_ratio());
     const double needed = std::ceil(std::log(worst / scene_.accuracy) / std::log(largest_ratio()));
@@ -79,8 +73,8 @@ class Refinement {
     for (std::size_t i = 0; i < run.signals.size(); ++i) {
       const double end = run.time.back();
       if (known_until_.size() <= i) known_until_.push_back(end);
-      if (!is_judged(run.signals[i]))
-        judged_.push_back({0, largest_ratio(), end});
+      if (is_residual(run.signals[i].name))
+        judged_.push_back({{0, largest_ratio()}, end});
       else
         judged_.push_back(longer ? by_longer(level, i, end) : by_shorter(level, i, end));
     }
@@ -91,18 +85,18 @@ class Refinement {
     std::optional<Beside> coarsest;
     if (companions_.is_longer(level + 2)) coarsest = companions_.beside(level + 2);
     const auto c = convergence(fine, coarse, coarsest, largest_ratio(), signal);
-    const Judged out{c.error / scale_[signal], c.ratio, end};
-    if (out.error <= scene_.accuracy || c.converges() || !parts_neighbours(signal)) return out;
-    return while_predictable(fine, coarse, coarsest, signal, out);
+    const Judged out{{c.error / scale_[signal], c.ratio}, end};
+    if (out.error <= scene_.accuracy || out.converges() || !parts_neighbours(signal)) return out;
+    return while_predictable(fine, coarse, coarsest, signal);
   }
   /// Where longer steps do not come to the end of the run.
   Judged by_shorter(int level, std::size_t signal, double end) {
     const Beside fine = companions_.beside(level - 1), coarse = companions_.beside(level);
     const double error =
         difference(fine, coarse, signal) + convergence(fine, coarse, {}, largest_ratio(), signal).error;
-    const Judged out{error / scale_[signal], 0, end};
+    const Judged out{{error / scale_[signal], 0}, end};
     if (out.error <= scene_.accuracy || !parts_neighbours(signal)) return out;
-    return while_predictable(fine, coarse, {}, signal, out);
+    return while_predictable(fine, coarse, {}, signal);
   }
   /// (E2)
   bool parts_neighbours(std::size_t signal) {
@@ -112,11 +106,11 @@ class Refinement {
   }
   /// Up to where what runs with other steps differ by leaves the signal within the accuracy asked.
   Judged while_predictable(const Beside& fine, const Beside& coarse, const std::optional<Beside>& coarsest,
-                           std::size_t signal, Judged out) const {
+                           std::size_t signal) const {
     const double allowed = scene_.accuracy * scale_[signal] * (largest_ratio() - 1);
-    out.until = std::min(known_until_[signal], agrees_until(fine, coarse, signal, allowed));
-    const auto c = convergence(fine, coarse, coarsest, largest_ratio(), signal, out.until);
-    return {c.error / scale_[signal], c.ratio, out.until};
+    const double until = std::min(known_until_[signal], agrees_until(fine, coarse, signal, allowed));
+    const auto c = convergence(fine, coarse, coarsest, largest_ratio(), signal, until);
+    return {{c.error / scale_[signal], c.ratio}, until};
   }
 
   /// What the memory of radiated waves and the spacing of coefficients do, which hardly depends on the step: seen once,
@@ -140,7 +134,7 @@ class Refinement {
       if (j.until < companions_.run(level).time.back())
         j.until = known_until_[i] = parted(without, put_back, i, j.until);
       others_.back().of_signal.push_back(
-          is_judged(with->signals[i]) ? difference(without, put_back, i, j.until) / scale_[i] : 0);
+          is_residual(with->signals[i].name) ? 0 : difference(without, put_back, i, j.until) / scale_[i]);
     }
   }
   /// From when on runs with other water have parted as neighbours do: they are farther apart than what is asked, and
@@ -162,15 +156,14 @@ class Refinement {
   /// By how many levels, as far as errors fall as they have. Steps that are too long to converge foretell nothing: then
   /// another try is made, as long as there is room for one more.
   int levels_needed(const Judged& j, double allowed) const {
-    if (j.ratio < 1.5) return 2;
+    if (!j.converges()) return most_at_once;
     return static_cast<int>(std::ceil(std::log(j.error / allowed) / std::log(std::min(j.ratio, largest_ratio()))));
   }
   /// The level to try next; the same where no finer one is needed, or may be tried.
   int finer_level(int level) const {
-    constexpr int most = 2;       // at once
     constexpr double room = 0.8;  // of what is left for the step, which is aimed at
     int out = level;
-    if (!may_refine() && !may_refuse()) return out;
+    if (!may_refuse()) return out;
     for (std::size_t i = 0; i < judged_.size(); ++i) {
       const Judged& j = judged_[i];
       const double left = left_for_step(i);
@@ -179,7 +172,7 @@ class Refinement {
       if (!may_refine()) continue;
       const int needed = levels_needed(j, room * left);
       if (level - needed < finest) refuse_step(level, i);
-      out = std::min(out, level - std::clamp(needed, 1, most));
+      out = std::min(out, level - std::clamp(needed, 1, most_at_once));
     }
     return out;
   }
@@ -208,14 +201,11 @@ class Refinement {
   }
 
   Run told(int level) {
-    ErrorEstimate error{.asked = scene_.accuracy,
-                        .accepted = scene_.solve.accept_error,
-                        .sources = {{.name = companions_.by_tolerance() ? "tolerance" : "step",
-                                     .how = companions_.how(),
-                                     .of_signal = {},
-                                     .given = companions_.given()}},
-                        .unpredictable = {},
-                        .missing = {}};
+    ErrorEstimate error = unknown_error(scene_);
+    error.sources.push_back({.name = companions_.by_tolerance() ? "tolerance" : "step",
+                             .how = companions_.how(),
+                             .of_signal = {},
+                             .given = companions_.given()});
     for (std::size_t i = 0; i < judged_.size(); ++i) {
       error.sources.front().of_signal.push_back(judged_[i].error);
       if (judged_[i].until < companions_.at(level).time.back()) error.unpredictable.push_back(beyond(level, i));
@@ -238,11 +228,7 @@ class Refinement {
   }
   Run without_estimate(int level, const char* why) {
     Run out = companions_.take(level);
-    out.error = {.asked = scene_.accuracy,
-                 .accepted = scene_.solve.accept_error,
-                 .sources = {},
-                 .unpredictable = {},
-                 .missing = why};
+    out.error = unknown_error(scene_, why);
     return out;
   }
 
@@ -257,6 +243,14 @@ class Refinement {
 };
 
 }  // namespace
+
+ErrorEstimate unknown_error(const scene::Scene& scene, std::string missing) {
+  return {.asked = scene.accuracy,
+          .accepted = scene.solve.accept_error,
+          .sources = {},
+          .unpredictable = {},
+          .missing = std::move(missing)};
+}
 
 Run run_to_accuracy(const scene::Scene& scene, const compile::Prepared& prepared,
                     const std::function<void(double)>& progress) {

@@ -1,12 +1,16 @@
 #pragma once
 /// \file  A run whose error is estimated, and that is refused where it misses the accuracy asked. Private to apps.
 #include <functional>
+#include <string>
 
 #include "compile/compile.hpp"
 #include "froude/result.hpp"
 #include "scene/scene.hpp"
 
 namespace froude {
+
+/// Of an answer to a scene, before anything is known of its error, or where nothing can be: `missing` says why.
+ErrorEstimate unknown_error(const scene::Scene& scene, std::string missing = {});
 
 /// Runs a scene so that the error of each signal asked for, Run::error, stays within [ask] accuracy: the step (or the
 /// tolerance) that the program chooses is refined until it does. What the scene itself gives stands, and its error is

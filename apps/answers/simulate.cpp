@@ -220,8 +220,7 @@ Run run_once(const scene::Scene& scene, const compile::Prepared& prepared, const
   const double preparation = seconds_since(begin);
   Run out = run_model(scene, model, done);
   out.preparation_s = preparation;
-  out.error.asked = scene.accuracy;
-  out.error.missing = "controllers of the caller decide, which can be asked once only";
+  out.error = unknown_error(scene, "controllers of the caller decide, which can be asked once only");
   return out;
 }
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+
+#include "answers/convergence.hpp"
+#include "answers/estimate.hpp"
 
 namespace froude {
 namespace {
@@ -49,17 +51,13 @@ bool is_between(const compile::Prepared& prepared, double omega) {
 }
 
 std::vector<double> peaks(const std::vector<ComplexSignal>& signals) {
-  constexpr double share_of_largest = 1e-3;
   std::vector<double> out;
-  std::map<std::string, double> largest;
   for (const auto& s : signals) {
     double peak = 0;
     for (const auto& v : s.values) peak = std::max(peak, std::abs(v));
     out.push_back(peak);
-    largest[s.units] = std::max(largest[s.units], peak);
   }
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = std::max(out[i], share_of_largest * largest[signals[i].units]);
-  return out;
+  return at_least_a_thousandth(std::move(out), signals, &ComplexSignal::units);
 }
 
 /// (E3): the error of the whole by what half and a quarter of the frequencies change, in any unit.
@@ -78,11 +76,6 @@ double worst(const ComplexSignal& whole, const ComplexSignal& half, const Comple
     before = std::max(before, std::abs(half.values[k] - quarter.values[k]) / peak);
   }
   return extrapolated(gap, before);
-}
-
-ErrorEstimate nothing_yet(const scene::Scene& scene) {
-  return {
-      .asked = scene.accuracy, .accepted = scene.solve.accept_error, .sources = {}, .unpredictable = {}, .missing = {}};
 }
 
 /// Why the coefficients cannot be thinned twice; empty if they can.
@@ -106,7 +99,7 @@ ErrorEstimate::Source spacing_source() {
 ErrorEstimate error_of_spacing(const scene::Scene& scene, const compile::Prepared& prepared,
                                const std::vector<double>& omega, const std::vector<ComplexSignal>& whole,
                                const LinearAnswer& answer) {
-  ErrorEstimate out = nothing_yet(scene);
+  ErrorEstimate out = unknown_error(scene);
   std::vector<bool> counts;
   for (const double w : omega) counts.push_back(is_between(prepared, w));
   if (std::none_of(counts.begin(), counts.end(), [](bool c) { return c; })) return out;
@@ -114,30 +107,25 @@ ErrorEstimate error_of_spacing(const scene::Scene& scene, const compile::Prepare
   const auto half = answer(thinned(2, scene, prepared)), quarter = answer(thinned(4, scene, prepared));
   const auto peak = peaks(whole);
   out.sources.push_back(spacing_source());
-  for (std::size_t i = 0; i < whole.size(); ++i) {
+  for (std::size_t i = 0; i < whole.size(); ++i)
     out.sources.front().of_signal.push_back(worst(whole[i], half[i], quarter[i], peak[i], counts));
-  }
   return out;
 }
 
 ErrorEstimate error_of_spacing(const scene::Scene& scene, const compile::Prepared& prepared,
                                const std::vector<compile::Signal>& signals, const Eigen::MatrixXcd& whole,
                                const std::function<Eigen::MatrixXcd(const compile::Prepared&)>& answer) {
-  ErrorEstimate out = nothing_yet(scene);
+  ErrorEstimate out = unknown_error(scene);
   if (prepared.groups.empty()) return out;
   if (out.missing = too_few(prepared); !out.missing.empty()) return out;
   const Eigen::MatrixXcd half = answer(thinned(2, scene, prepared)), quarter = answer(thinned(4, scene, prepared));
   const Eigen::VectorXd size = whole.rowwise().norm(), gap = (whole - half).rowwise().norm(),
                         before = (half - quarter).rowwise().norm();
+  const auto scale = at_least_a_thousandth({size.begin(), size.end()}, signals, &compile::Signal::unit);
   out.sources.push_back(spacing_source());
   for (std::size_t i = 0; i < signals.size(); ++i) {
-    constexpr double share_of_largest = 1e-3;
     const auto row = static_cast<Eigen::Index>(i);
-    double largest = 0;
-    for (std::size_t j = 0; j < signals.size(); ++j)
-      if (signals[j].unit == signals[i].unit) largest = std::max(largest, size[static_cast<Eigen::Index>(j)]);
-    const double scale = std::max(size[row], share_of_largest * largest);
-    out.sources.front().of_signal.push_back(scale > 0 ? extrapolated(gap[row], before[row]) / scale : 0);
+    out.sources.front().of_signal.push_back(scale[i] > 0 ? extrapolated(gap[row], before[row]) / scale[i] : 0);
   }
   return out;
 }

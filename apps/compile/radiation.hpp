@@ -1,5 +1,5 @@
 #pragma once
-/// \file  Private to compile/: radiation of one group of bodies in a run.
+/// \file  Private to apps: radiation of one group of bodies in a run.
 #include "compile/compile.hpp"
 #include "compile/kept.hpp"
 #include "dynamics/force/wave_loads.hpp"
