@@ -38,7 +38,7 @@ double rounding_of(const std::string& unit, double weight) {
 
 }  // namespace
 
-bool is_residual(const std::string& signal) { return signal.starts_with("energy.") && signal.ends_with(".residual"); }
+bool is_residual(const std::string& signal) { return signal.ends_with(".residual"); }
 
 double rms(std::span<const double> values) {
   const double squares = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);

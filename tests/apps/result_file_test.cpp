@@ -9,6 +9,7 @@
 
 #include "hydro/base/error.hpp"
 #include "hydro/io/hdf5.hpp"
+#include "support/scratch.hpp"
 #include "support/source_dir.hpp"
 
 namespace result_file_test {
@@ -28,7 +29,7 @@ namespace fs = std::filesystem;
 class ResultFile : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
+    folder_ = support::scratch_folder() /
               (std::string("froude_result_") + testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);

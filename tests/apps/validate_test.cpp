@@ -11,6 +11,7 @@
 #include "harness/report.hpp"
 #include "harness/validate.hpp"
 #include "hydro/io/atomic_file.hpp"
+#include "support/scratch.hpp"
 #include "support/source_dir.hpp"
 
 namespace froude::validation::validate_test {
@@ -42,7 +43,7 @@ class Harness : public testing::Test {
  protected:
   void SetUp() override {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() / (std::string("froude_validate_") + info->name());
+    folder_ = support::scratch_folder() / (std::string("froude_validate_") + info->name());
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_ / "swing");
     write("README.md", "# A swing\n\nQuestion.\n\n## Physics\n\nGravity.\n");

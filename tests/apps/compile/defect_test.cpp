@@ -14,6 +14,7 @@
 #include "hydro/base/random.hpp"
 #include "hydro/potential/formats/writers.hpp"
 #include "scenes.hpp"
+#include "support/scratch.hpp"
 #include "support/two_pole_body.hpp"
 
 namespace defect_test {
@@ -68,7 +69,7 @@ struct Buoy {
     c.X.push_back(Eigen::MatrixXcd::Zero(6, static_cast<Eigen::Index>(c.omega.size())));
     for (std::size_t i = 0; i < c.omega.size(); ++i) c.X.front()(2, static_cast<Eigen::Index>(i)) = X(c.omega[i]);
     c.source = "a buoy made for a test";
-    const auto path = std::filesystem::path(testing::TempDir()) / (name + ".h5");
+    const auto path = support::scratch_folder() / (name + ".h5");
     hydro::potential::write_froude(c, path);
     return path;
   }

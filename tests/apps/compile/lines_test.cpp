@@ -1,7 +1,5 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -13,6 +11,7 @@
 #include "dynamics/force/fastened_line.hpp"
 #include "dynamics/line/catenary.hpp"
 #include "hydro/base/error.hpp"
+#include "support/scratch.hpp"
 #include "support/source_dir.hpp"
 
 namespace lines_test {
@@ -95,7 +94,7 @@ TEST(Lines, TellWhereAPlaceOfReleaseWasBrought) {
 }
 
 TEST(Lines, FollowAPathAtTheirEnd) {
-  const auto folder = std::filesystem::temp_directory_path() / "froude_lines_test";
+  const auto folder = support::scratch_folder() / "froude_lines_test";
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "path.csv") << "time [s],x [m],y [m],z [m]\n0,2,0,0\n1,2.2,0,0.1\n2,2,0,0.2\n";
   const auto scene = scene::parse(water + loop + "[line.prescribed]\nend = \"to\"\nfile = \"path.csv\"\n" + ask,
@@ -198,10 +197,7 @@ TEST(Lines, TellHowFastNeighboursPart) {
 
 class LinesByTable : public testing::Test {
  protected:
-  LinesByTable()
-      : folder(std::filesystem::temp_directory_path() / fmt::format("froude_lines_by_table_{}", ::getpid())) {
-    std::filesystem::create_directories(folder);
-  }
+  LinesByTable() : folder(support::scratch_folder() / "lines_by_table") { std::filesystem::create_directories(folder); }
   ~LinesByTable() override { std::filesystem::remove_all(folder); }
   froude::Run run(const std::string& morison, const std::string& table, const std::string& more = "") const {
     std::ofstream(folder / "table.csv") << table;

@@ -10,6 +10,7 @@
 #include "answers/linear_response.hpp"
 #include "apps/compile/scenes.hpp"
 #include "hydro/potential/formats/writers.hpp"
+#include "support/scratch.hpp"
 #include "support/two_pole_body.hpp"
 
 namespace spacing_test {
@@ -48,7 +49,7 @@ std::filesystem::path write(double spacing) {
   c.A_inf = heave(added);
   c.C = heave(stiffness);
   c.source = "a float made for a test";
-  const auto path = std::filesystem::path(testing::TempDir()) / ("spacing_" + std::to_string(spacing) + ".h5");
+  const auto path = support::scratch_folder() / ("spacing_" + std::to_string(spacing) + ".h5");
   hydro::potential::write_froude(c, path);
   return path;
 }

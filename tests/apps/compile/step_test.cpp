@@ -13,6 +13,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/potential/formats/writers.hpp"
 #include "scenes.hpp"
+#include "support/scratch.hpp"
 #include "support/two_pole_body.hpp"
 
 namespace step_test {
@@ -54,7 +55,7 @@ struct Flap {
     c.A_inf = pitch(added);
     c.C = pitch(stiffness);
     c.source = "a flap made for a test";
-    const auto path = std::filesystem::path(testing::TempDir()) / (name + ".h5");
+    const auto path = support::scratch_folder() / (name + ".h5");
     hydro::potential::write_froude(c, path);
     return path;
   }
@@ -169,7 +170,7 @@ TEST(StepOfARun, FollowsASpringOfOneSecond) {
 // fits between samples, and no search ends on a jump.
 TEST(StepOfARun, StaysWhileAFitSearchesForAStiffness) {
   const double k = 100 * 4 * std::numbers::pi * std::numbers::pi;
-  const auto path = std::filesystem::path(testing::TempDir()) / "searched.toml";
+  const auto path = support::scratch_folder() / "searched.toml";
   std::ofstream(path) << spring(
       fmt::format("[[mooring]]\non = \"m\"\nkind = \"linear\"\nstiffness = {{ surge = \"{:.12g} N/m\" }}\n", k),
       "0.5 s", "[body.initial]\nsurge = \"0.1 m\"\n");
@@ -198,7 +199,7 @@ TEST(StepOfARun, StaysWhileAFitSearchesForAStiffness) {
 TEST(TrialsOfAFit, ReadNoFileAndFitNoPolesAgain) {
   const Flap flap;
   const auto file = flap.write("flap_searched");
-  const auto path = std::filesystem::path(testing::TempDir()) / "flap_searched.toml";
+  const auto path = support::scratch_folder() / "flap_searched.toml";
   const std::string radiation = "memory_tolerance = 1e-3, accept_error = 0.02";
   std::ofstream(path) << Flap::scene(file, radiation + ", method = \"poles\"", "0.1 s");
   scene::MotionModel fit;

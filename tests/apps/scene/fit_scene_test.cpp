@@ -4,6 +4,7 @@
 
 #include "apps/scene/scenes.hpp"
 #include "scene/fit_scene.hpp"
+#include "support/scratch.hpp"
 
 namespace froude::scene::fit_scene_test {
 namespace {
@@ -62,7 +63,7 @@ class FitScenes : public testing::Test {
     return {};
   }
 
-  fs::path folder_ = fs::path(testing::TempDir()) /
+  fs::path folder_ = support::scratch_folder() /
                      (std::string("fit_scenes_") + testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 

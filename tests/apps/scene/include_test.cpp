@@ -4,6 +4,7 @@
 
 #include "apps/scene/scenes.hpp"
 #include "hydro/base/error.hpp"
+#include "support/scratch.hpp"
 
 namespace froude::scene::include_test {
 namespace {
@@ -32,7 +33,7 @@ class Includes : public testing::Test {
     return {};
   }
 
-  fs::path folder_ = fs::path(testing::TempDir()) /
+  fs::path folder_ = support::scratch_folder() /
                      (std::string("includes_") + testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 

@@ -9,6 +9,7 @@
 #include "scene/fit_scene.hpp"
 #include "scene/read_value.hpp"
 #include "scene/schema.hpp"
+#include "support/scratch.hpp"
 #include "support/source_dir.hpp"
 
 namespace froude::scene::reference_test {
@@ -39,7 +40,7 @@ struct Folder {
   ~Folder() { fs::remove_all(path); }
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
-  fs::path path = fs::path(testing::TempDir()) /
+  fs::path path = support::scratch_folder() /
                   (std::string("starter_") + testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 

@@ -4,6 +4,7 @@
 
 #include "apps/scene/scenes.hpp"
 #include "hydro/waves/spectra/spectra.hpp"
+#include "support/scratch.hpp"
 
 namespace froude::scene::waves_test {
 namespace {
@@ -38,8 +39,8 @@ class SceneWaveFiles : public testing::Test {
     return "accepted";
   }
   std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("froude_waves_" + std::to_string(::getpid()) + "_" +
-                                                testing::UnitTest::GetInstance()->current_test_info()->name());
+      support::scratch_folder() /
+      (std::string("waves_") + testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 TEST(SceneSpectra, HaveTheHeightsAndPeriodsThatAreWritten) {

@@ -12,6 +12,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/hdf5.hpp"
+#include "support/scratch.hpp"
 
 namespace files_test {
 namespace {
@@ -26,7 +27,7 @@ using testing::ThrowsMessage;
 class Files : public testing::Test {
  protected:
   void SetUp() override {
-    folder = fs::temp_directory_path() /
+    folder = support::scratch_folder() /
              (std::string("froude_") + testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::remove_all(folder);
     fs::create_directory(folder);

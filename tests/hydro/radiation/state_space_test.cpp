@@ -10,6 +10,7 @@
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/hdf5.hpp"
 #include "support/random_passive.hpp"
+#include "support/scratch.hpp"
 
 namespace state_space_test {
 namespace {
@@ -24,7 +25,7 @@ PoleModel model() {
   return m;
 }
 
-std::filesystem::path scratch(const char* name) { return std::filesystem::path(testing::TempDir()) / name; }
+std::filesystem::path scratch(const char* name) { return support::scratch_folder() / name; }
 
 TEST(StateSpace, HasTheTransformOfTheModel) {
   const auto m = model();

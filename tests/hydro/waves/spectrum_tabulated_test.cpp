@@ -1,8 +1,6 @@
 #include "hydro/waves/spectra/spectrum_tabulated.hpp"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
-
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +9,7 @@
 
 #include "hydro/waves/spectra/spectra.hpp"
 #include "support/reference_data.hpp"
+#include "support/scratch.hpp"
 
 namespace hydro::waves::spectrum_tabulated_test {
 namespace {
@@ -24,8 +23,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// In a folder of its own process: tests run beside each other.
 class File {
  public:
-  explicit File(const std::string& text)
-      : path_(std::filesystem::path(testing::TempDir()) / std::to_string(::getpid()) / "spectrum.csv") {
+  explicit File(const std::string& text) : path_(support::scratch_folder() / "of_a_spectrum" / "spectrum.csv") {
     std::filesystem::create_directories(path_.parent_path());
     std::ofstream(path_) << text;
   }
