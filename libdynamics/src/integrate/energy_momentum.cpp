@@ -34,9 +34,10 @@ ConstraintEnds mean(const ConstraintEnds& a, const ConstraintEnds& b) {
 EnergyMomentum::EnergyMomentum(const Model& model) : NewtonIntegrator(model) { refuse_contacts(active()); }
 
 // In body axes W₁ = W₀ + h R₀ᵀα, and the body turns by h(W₀ + W₁)/2 about itself.
-State EnergyMomentum::end_of_step(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration) const {
+void EnergyMomentum::end_of_step(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration,
+                                 State& end) {
   const State& now = workspace.state;
-  State end = now;
+  end = now;
   end.time += h;
   end.velocity += h * acceleration;
   for (std::size_t i = 0; i < now.pose.size(); ++i) {
@@ -48,7 +49,6 @@ State EnergyMomentum::end_of_step(const Workspace& workspace, double h, const Ei
     end.pose[i].attitude = (R * cayley(h / 2 * (before + after))).normalized();
     end.velocity.segment<3>(row + 3) = end.pose[i].attitude * after;
   }
-  return end;
 }
 
 void EnergyMomentum::find_loads(Workspace& workspace, double h, Trial& trial) const {
@@ -56,7 +56,7 @@ void EnergyMomentum::find_loads(Workspace& workspace, double h, Trial& trial) co
   trial.loads_at = between(now, trial.state);
   const State& middle = *trial.loads_at;
   const Eigen::VectorXd mean_acceleration = (trial.state.velocity - now.velocity) / h;
-  trial.residual = model().residual(middle, mean_acceleration, workspace);
+  model().residual(middle, mean_acceleration, workspace, trial.residual);
   // In place of I α + ω × I ω at the midpoint, the gain of angular momentum over the step.
   for (std::size_t i = 0; i < now.pose.size(); ++i) {
     const auto row = 6 * static_cast<Eigen::Index>(i) + 3;

@@ -17,10 +17,9 @@ const char* GeneralizedAlpha::steps_stay_whole() const {
          "or implicit_euler with contacts";
 }
 
-Eigen::VectorXd GeneralizedAlpha::history() const {
-  Eigen::VectorXd out(algorithmic_.size() + 1);
+void GeneralizedAlpha::save_history(Eigen::VectorXd& out) const {
+  out.resize(algorithmic_.size() + 1);
   out << algorithmic_, last_;
-  return out;
 }
 
 void GeneralizedAlpha::set_history(const Eigen::VectorXd& was) {
@@ -41,19 +40,26 @@ NewtonIntegrator::Slopes GeneralizedAlpha::slopes(double h) const {
   return {place, speed, place, speed};
 }
 
-State GeneralizedAlpha::end_of_step(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration) const {
-  const Eigen::VectorXd &v = workspace.state.velocity, algorithmic = algorithmic_after(workspace, acceleration);
-  const Eigen::VectorXd move =
-      h * v + h * h * ((0.5 - alpha_.beta) * algorithmic_ + alpha_.beta * algorithmic);  // (D9)
-  return displaced(workspace.state, move, v + h * ((1 - alpha_.gamma) * algorithmic_ + alpha_.gamma * algorithmic), h);
+// (D9)
+void GeneralizedAlpha::end_of_step(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration,
+                                   State& out) {
+  find_algorithmic_after(workspace, acceleration);
+  const Eigen::VectorXd &v = workspace.state.velocity, &before = algorithmic_, &after = algorithmic_after_;
+  move_ = h * v + h * h * ((0.5 - alpha_.beta) * before + alpha_.beta * after);
+  velocity_after_ = v + h * ((1 - alpha_.gamma) * before + alpha_.gamma * after);
+  displace(workspace.state, move_, velocity_after_, h, out);
+}
+
+void GeneralizedAlpha::accepted(const Workspace& before, const Eigen::VectorXd& acceleration) {
+  find_algorithmic_after(before, acceleration);
+  algorithmic_ = algorithmic_after_;
 }
 
 // (D10)
-Eigen::VectorXd GeneralizedAlpha::algorithmic_after(const Workspace& workspace,
-                                                    const Eigen::VectorXd& acceleration) const {
-  return ((1 - alpha_.alpha_f) * acceleration + alpha_.alpha_f * workspace.acceleration -
-          alpha_.alpha_m * algorithmic_) /
-         (1 - alpha_.alpha_m);
+void GeneralizedAlpha::find_algorithmic_after(const Workspace& workspace, const Eigen::VectorXd& acceleration) {
+  algorithmic_after_ =
+      ((1 - alpha_.alpha_f) * acceleration + alpha_.alpha_f * workspace.acceleration - alpha_.alpha_m * algorithmic_) /
+      (1 - alpha_.alpha_m);
 }
 
 }  // namespace dynamics

@@ -47,11 +47,18 @@ void Integrator::loads_jumped(Workspace& workspace) {
   begin(workspace);
 }
 
-State Integrator::displaced(const State& now, const Eigen::VectorXd& move, Eigen::VectorXd velocity, double h) const {
-  State next = moved(now, move);
-  next.time += h;
-  next.velocity = std::move(velocity);
-  return next;
+void Integrator::displace(const State& now, const Eigen::VectorXd& move, const Eigen::VectorXd& velocity, double h,
+                          State& out) const {
+  dynamics::move(now, move, out);
+  out.time += h;
+  out.velocity = velocity;
+}
+
+State Integrator::displaced(const State& now, const Eigen::VectorXd& move, const Eigen::VectorXd& velocity,
+                            double h) const {
+  State out;
+  displace(now, move, velocity, h, out);
+  return out;
 }
 
 // Between two changes that all but coincide: constraints on places would leave their rounding, divided by the time, in
@@ -64,18 +71,19 @@ void Integrator::go_straight(Workspace& workspace, double h) const {
 
 // Angles are counted on where a part of a step is done; what turns by half a turn or more in it cannot be.
 bool Integrator::try_counted_step(Workspace& workspace, double h, StepReport& report) {
-  const Snapshot before = snapshot(workspace);
+  save(workspace, before_step_);
   if (!try_step(workspace, h, report)) return false;
   if (const auto hinge = model_.joints().turns_too_fast(workspace.state, h)) {
-    restore(workspace, before);
+    restore(workspace, before_step_);
     return fail(
         fmt::format("hinge \"{}\" turns by more than half a turn in the step, so that its angle cannot be counted",
                     model_.joints().joints()[static_cast<std::size_t>(*hinge)].name));
   }
   for (const auto& kind : model_.forces())
-    if (const std::string why = kind->breaks_off(before.state, workspace.state); !why.empty()) {
-      restore(workspace, before);
-      throw hydro::NumericsError(fmt::format("the run cannot go on from t = {:.6g} s: {}", before.state.time, why));
+    if (const std::string why = kind->breaks_off(before_step_.state, workspace.state); !why.empty()) {
+      restore(workspace, before_step_);
+      throw hydro::NumericsError(
+          fmt::format("the run cannot go on from t = {:.6g} s: {}", before_step_.state.time, why));
     }
   model_.joints().count_turns(workspace.state);
   return true;
@@ -156,7 +164,16 @@ void Integrator::advance_within(Workspace& workspace, double h, StepReport& repo
 }
 
 Integrator::Snapshot Integrator::snapshot(const Workspace& workspace) const {
-  return {workspace.state, workspace.acceleration, workspace.multipliers, history()};
+  Snapshot out;
+  save(workspace, out);
+  return out;
+}
+
+void Integrator::save(const Workspace& workspace, Snapshot& out) const {
+  out.state = workspace.state;
+  out.acceleration = workspace.acceleration;
+  out.multipliers = workspace.multipliers;
+  save_history(out.history);
 }
 
 void Integrator::restore(Workspace& workspace, const Snapshot& before) {

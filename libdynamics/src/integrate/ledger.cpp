@@ -35,7 +35,7 @@ EnergyFlow EnergyLedger::flow(std::size_t entry, Workspace& workspace) const {
 void EnergyLedger::note(Workspace& workspace) {
   const double h = workspace.state.time - time_;
   time_ = workspace.state.time;
-  kinetic_ = model_.kinetic_energy(workspace.state);
+  kinetic_ = model_.kinetic_energy(workspace.state, momentum_);
   for (std::size_t k = 0; k < entries_.size(); ++k) {
     const EnergyFlow now = flow(k, workspace);
     entries_[k].stored = now.stored;

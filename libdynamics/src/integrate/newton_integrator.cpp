@@ -20,30 +20,34 @@ double NewtonIntegrator::unresolved(double h) const {
 }
 
 void NewtonIntegrator::find_loads(Workspace& workspace, double, Trial& trial) const {
-  trial.residual = model().residual(trial.state, trial.acceleration, workspace);
+  model().residual(trial.state, trial.acceleration, workspace, trial.residual);
   trial.columns = active().columns(trial.gradients, trial.state);
 }
 
-NewtonIntegrator::Trial NewtonIntegrator::evaluate(Workspace& workspace, double h, Eigen::VectorXd acceleration,
-                                                   Eigen::VectorXd multipliers) const {
-  Trial out{std::move(acceleration), std::move(multipliers), {}, {}, {}, {}, {}, {}, 0};
-  out.state = end_of_step(workspace, h, out.acceleration);
+void NewtonIntegrator::evaluate(Workspace& workspace, double h, Trial& trial) {
+  end_of_step(workspace, h, trial.acceleration, trial.state);
   const JointSet& constraints = active().constraints();
-  out.gradients = constraints.gradients(out.state);
-  find_loads(workspace, h, out);
+  trial.gradients = constraints.gradients(trial.state);
+  find_loads(workspace, h, trial);
+  trial.open.resize(constraints.count());
   if (constraints.count() > 0) {
-    constraints.add_transposed(out.columns, out.multipliers, out.residual);
+    constraints.add_transposed(trial.columns, trial.multipliers, trial.residual);
     // Divided by ∂q/∂a, the distance by which a joint is open is an acceleration, as large as what closes it; a speed
     // by ∂v/∂a.
-    out.open = constraints.values(out.state) / slopes(h).end_place;
-    const Eigen::VectorXd speed = constraints.times(out.gradients, out.state.velocity) / slopes(h).end_speed;
-    for (Eigen::Index i = 0; i < out.open.size(); ++i)
-      if (constraints.is_on_velocity(i)) out.open[i] = speed[i];
+    trial.open = constraints.values(trial.state) / slopes(h).end_place;
+    const Eigen::VectorXd speed = constraints.times(trial.gradients, trial.state.velocity) / slopes(h).end_speed;
+    for (Eigen::Index i = 0; i < trial.open.size(); ++i)
+      if (constraints.is_on_velocity(i)) trial.open[i] = speed[i];
   }
   // Without joints `open` is empty and its norm zero.
-  out.size = std::hypot(out.residual.cwiseQuotient(active().scale()).norm(),
-                        out.open.cwiseProduct(active().constraint_scale()).norm());
-  return out;
+  trial.size = std::hypot(trial.residual.cwiseQuotient(active().scale()).norm(),
+                          trial.open.cwiseProduct(active().constraint_scale()).norm());
+}
+
+void NewtonIntegrator::evaluate_corrected(Workspace& workspace, double h, double part) {
+  trial_.acceleration = now_.acceleration - part * correction_.x;
+  trial_.multipliers = now_.multipliers - part * correction_.lambda;
+  evaluate(workspace, h, trial_);
 }
 
 // The step turns body i by exp(Δθ), which varies by J(Δθ) δΔθ; velocities vary by their own.
@@ -76,17 +80,25 @@ bool NewtonIntegrator::factorise(Workspace& workspace, double h, const Trial& no
 }
 
 // The correction is halved until the residual falls. \returns the part that was taken
-double NewtonIntegrator::search(Workspace& workspace, double h, const Trial& now, const KktSolver::Solution& correction,
-                                double move, Trial& trial) const {
+double NewtonIntegrator::search(Workspace& workspace, double h, double move) {
   double part = 1;
   for (; part > 1e-3; part /= 2) {
-    trial = evaluate(workspace, h, now.acceleration + part * correction.x, now.multipliers + part * correction.lambda);
-    if (trial.size <= now.size) break;
+    evaluate_corrected(workspace, h, part);
+    if (trial_.size <= now_.size) break;
     // At round-off the residual cannot fall any more: the full correction is as good as it gets.
-    const double reach = trial.acceleration.cwiseProduct(active().scale()).norm();
+    const double reach = trial_.acceleration.cwiseProduct(active().scale()).norm();
     if (part == 1 && (move <= newton_tolerance * reach || move <= unresolved(h))) break;
   }
   return part;
+}
+
+void NewtonIntegrator::finish(Workspace& workspace, bool anew) {
+  accepted(workspace, now_.acceleration);
+  goes_on_ = !anew;
+  before_ = workspace.acceleration;
+  std::swap(workspace.state, now_.state);
+  workspace.acceleration.swap(now_.acceleration);
+  workspace.multipliers.swap(now_.multipliers);
 }
 
 // (D98) `kept` factors are those of an earlier iterate or step: corrections by them leave a share of the residual,
@@ -96,45 +108,41 @@ bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& repo
   const Eigen::VectorXd& scale = active().scale();
   // Contacts that share a load by their compliance want it to the last digit.
   const bool keeps = (active().compliance().array() == 0).all();
-  const Eigen::VectorXd& a = workspace.acceleration;
-  const bool goes_on = before_.size() == a.size();  // in a straight line
-  Trial now = evaluate(workspace, h, goes_on ? Eigen::VectorXd(2 * a - before_) : a, workspace.multipliers);
-  before_.resize(0);
+  now_.acceleration = workspace.acceleration;
+  if (goes_on_) now_.acceleration = 2 * workspace.acceleration - before_;  // in a straight line
+  now_.multipliers = workspace.multipliers;
+  goes_on_ = false;
+  evaluate(workspace, h, now_);
   bool anew = false;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    if (!std::isfinite(now.size)) return fail("the loads are not finite");
+    if (!std::isfinite(now_.size)) return fail("the loads are not finite");
     ++report.newton_iterations;
     const bool kept = workspace.solver.of_step == h;
-    if (!kept && !factorise(workspace, h, now)) return fail("the iteration matrix is singular");
+    if (!kept && !factorise(workspace, h, now_)) return fail("the iteration matrix is singular");
     anew = anew || !kept;
-    const KktSolver::Solution correction = workspace.solver.solve(-now.residual, -now.open);
-    const double move = correction.x.cwiseProduct(scale).norm();
-    Trial trial;
+    workspace.solver.solve(now_.residual, now_.open, correction_);
+    const double move = correction_.x.cwiseProduct(scale).norm();
     double part = 1;
     if (kept)
-      trial = evaluate(workspace, h, now.acceleration + correction.x, now.multipliers + correction.lambda);
+      evaluate_corrected(workspace, h, part);
     else
-      part = search(workspace, h, now, correction, move, trial);
-    const double left = trial.size / now.size;
+      part = search(workspace, h, move);
+    const double left = trial_.size / now_.size;
     workspace.solver.of_step = keeps && part == 1 && left <= serves ? h : 0;
     if (kept && !(left <= 1 || move <= unresolved(h))) continue;
-    if (!std::isfinite(trial.size)) return fail("the loads are not finite");
-    now = std::move(trial);
+    if (!std::isfinite(trial_.size)) return fail("the loads are not finite");
+    std::swap(now_, trial_);
     const double reach =
-        now.acceleration.cwiseProduct(scale).norm() + now.state.velocity.cwiseProduct(scale).norm() / h;
-    const bool settled = keeps && now.size <= residual_tolerance * reach;
+        now_.acceleration.cwiseProduct(scale).norm() + now_.state.velocity.cwiseProduct(scale).norm() / h;
+    const bool settled = keeps && now_.size <= residual_tolerance * reach;
     if (part == 1 && (settled || (!kept && move <= newton_tolerance * reach) || move <= unresolved(h))) {
       workspace.solver.of_step = keeps ? h : 0;  // rounding, too, leaves much
-      accepted(workspace, now.acceleration);
-      if (!anew) before_ = workspace.acceleration;
-      workspace.state = std::move(now.state);
-      workspace.acceleration = std::move(now.acceleration);
-      workspace.multipliers = std::move(now.multipliers);
+      finish(workspace, anew);
       return true;
     }
   }
   Eigen::Index worst = 0;
-  now.residual.cwiseQuotient(scale).cwiseAbs().maxCoeff(&worst);
+  now_.residual.cwiseQuotient(scale).cwiseAbs().maxCoeff(&worst);
   return fail(fmt::format("Newton did not converge in {} iterations; worst equation: {}", most_iterations,
                           model().mode_name(static_cast<int>(worst))));
 }

@@ -123,15 +123,23 @@ bool KktSolver::factorise(const BlockMatrix& T, const std::vector<Gradient>& G, 
   return is_sparse() ? impl_->factorise_sparse(T, G, H, compliance) : impl_->factorise_dense(T, G, H, compliance);
 }
 
-KktSolver::Solution KktSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& c) const {
-  if (impl_->count() == 0) return {impl_->bodies_alone.solve(b), Eigen::VectorXd()};
-  Eigen::VectorXd right(b.size() + c.size()), out;
+void KktSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& c, Solution& out) const {
+  out.lambda.resize(c.size());
+  if (impl_->count() == 0) return impl_->bodies_alone.solve(b, out.x);
+  Eigen::VectorXd right(b.size() + c.size()), both;
   right << b, c;
   if (is_sparse())
-    out = impl_->sparse_lu.solve(right);
+    both = impl_->sparse_lu.solve(right);
   else
-    out = impl_->column_scale.cwiseProduct(impl_->dense_lu.solve(impl_->row_scale.cwiseProduct(right)));
-  return {out.head(b.size()), out.tail(c.size())};
+    both = impl_->column_scale.cwiseProduct(impl_->dense_lu.solve(impl_->row_scale.cwiseProduct(right)));
+  out.x = both.head(b.size());
+  out.lambda = both.tail(c.size());
+}
+
+KktSolver::Solution KktSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& c) const {
+  Solution out;
+  solve(b, c, out);
+  return out;
 }
 
 }  // namespace dynamics

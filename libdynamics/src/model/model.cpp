@@ -113,7 +113,13 @@ Eigen::MatrixXd Model::dry_mass(const State& state) const {
 }
 
 Eigen::VectorXd Model::mass_times(const State& state, const Eigen::VectorXd& x) const {
-  Eigen::VectorXd y(x.size());
+  Eigen::VectorXd out;
+  mass_times(state, x, out);
+  return out;
+}
+
+void Model::mass_times(const State& state, const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  y.resize(x.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const auto row = 6 * static_cast<Eigen::Index>(i);
     y.segment<3>(row) = bodies_[i].mass() * x.segment<3>(row);
@@ -127,18 +133,24 @@ Eigen::VectorXd Model::mass_times(const State& state, const Eigen::VectorXd& x) 
             x.segment<6>(6 * added.bodies[j]);
   MassSink sink(x, y);
   for (const auto& kind : forces_) kind->add_mass(state, sink);
-  return y;
 }
 
 Eigen::VectorXd Model::residual(const State& state, const Eigen::VectorXd& acceleration, Workspace& workspace) const {
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(modes());
-  LoadSink sink(load);
+  Eigen::VectorXd out;
+  residual(state, acceleration, workspace, out);
+  return out;
+}
+
+void Model::residual(const State& state, const Eigen::VectorXd& acceleration, Workspace& workspace,
+                     Eigen::VectorXd& r) const {
+  workspace.load.setZero(modes());
+  LoadSink sink(workspace.load);
   for (std::size_t k = 0; k < forces_.size(); ++k) {
     forces_[k]->add_load(workspace.instant(state, k), sink);
     ++workspace.evaluations[k];
   }
-  Eigen::VectorXd r = mass_times(state, acceleration);
-  r -= load;
+  mass_times(state, acceleration, r);
+  r -= workspace.load;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const auto row = 6 * static_cast<Eigen::Index>(i) + 3;
     const Eigen::Vector3d omega = state.velocity.segment<3>(row);
@@ -146,7 +158,6 @@ Eigen::VectorXd Model::residual(const State& state, const Eigen::VectorXd& accel
   }
   for (int i = 0; i < modes(); ++i)
     if (!is_free(i)) r[i] = 0;
-  return r;
 }
 
 void Model::tangent(const State& state, double c_a, double c_v, double c_q, Workspace& workspace,
@@ -172,7 +183,13 @@ void Model::tangent(const State& state, double c_a, double c_v, double c_q, Work
 }
 
 double Model::kinetic_energy(const State& state) const {
-  return 0.5 * state.velocity.dot(mass_times(state, state.velocity));
+  Eigen::VectorXd momentum;
+  return kinetic_energy(state, momentum);
+}
+
+double Model::kinetic_energy(const State& state, Eigen::VectorXd& momentum) const {
+  mass_times(state, state.velocity, momentum);
+  return 0.5 * state.velocity.dot(momentum);
 }
 
 Model::Linear Model::linear_at(const State& still) const {

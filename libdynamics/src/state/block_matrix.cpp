@@ -121,9 +121,17 @@ bool BlockSolver::factorise(const BlockMatrix& matrix) {
   return impl_->sparse_lu.info() == Eigen::Success;
 }
 
+void BlockSolver::solve(const Eigen::VectorXd& right, Eigen::VectorXd& out) const {
+  if (impl_->sparse)
+    out = impl_->sparse_lu.solve(right);
+  else
+    out = impl_->dense_lu.solve(right);
+}
+
 Eigen::VectorXd BlockSolver::solve(const Eigen::VectorXd& right) const {
-  if (!impl_->sparse) return impl_->dense_lu.solve(right);
-  return impl_->sparse_lu.solve(right);
+  Eigen::VectorXd out;
+  solve(right, out);
+  return out;
 }
 
 }  // namespace dynamics

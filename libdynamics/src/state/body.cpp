@@ -39,14 +39,20 @@ Vec3<World> Pose::point(const RigidBody& body, const Vec3<BodyAxes>& from_origin
   return Vec3<World>{centre} + R * (from_origin - body.properties().centre_of_gravity);
 }
 
-State moved(State state, const Eigen::VectorXd& displacement) {
-  for (std::size_t i = 0; i < state.pose.size(); ++i) {
+void move(const State& from, const Eigen::VectorXd& displacement, State& to) {
+  to = from;
+  for (std::size_t i = 0; i < to.pose.size(); ++i) {
     const auto row = 6 * static_cast<Eigen::Index>(i);
-    Pose& pose = state.pose[i];
+    Pose& pose = to.pose[i];
     pose.centre += displacement.segment<3>(row);
     pose.attitude = (rotation_exp(displacement.segment<3>(row + 3)) * pose.attitude).normalized();
   }
-  return state;
+}
+
+State moved(const State& state, const Eigen::VectorXd& displacement) {
+  State out;
+  move(state, displacement, out);
+  return out;
 }
 
 State rest_state(const std::vector<RigidBody>& bodies) {

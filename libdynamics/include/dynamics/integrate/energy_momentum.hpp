@@ -17,7 +17,7 @@ class EnergyMomentum final : public NewtonIntegrator {
  private:
   int order() const override { return 2; }
   Slopes slopes(double h) const override { return {h * h / 4, h / 2, h * h / 2, h}; }
-  State end_of_step(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration) const override;
+  void end_of_step(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration, State& out) override;
   void find_loads(Workspace& workspace, double h, Trial& trial) const override;
 };
 

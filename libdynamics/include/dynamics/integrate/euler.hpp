@@ -14,10 +14,12 @@ class ImplicitEuler final : public NewtonIntegrator {
  private:
   int order() const override { return 1; }
   Slopes slopes(double h) const override { return {h * h, h, h * h, h}; }
-  State end_of_step(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration) const override {
-    const Eigen::VectorXd v = workspace.state.velocity + h * acceleration;
-    return displaced(workspace.state, h * v, v, h);
+  void end_of_step(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration, State& out) override {
+    velocity_after_ = workspace.state.velocity + h * acceleration;
+    move_ = h * velocity_after_;
+    displace(workspace.state, move_, velocity_after_, h, out);
   }
+  Eigen::VectorXd move_, velocity_after_;  // of the step that is tried
 };
 
 /// v₁ = v₀ + h a₀, q₁ = q₀ + h v₁ (D27): explicit; unstable for ωh > 2. Below, the energy of a conservative motion

@@ -32,20 +32,19 @@ class GeneralizedAlpha final : public NewtonIntegrator {
     algorithmic_ = workspace.acceleration;
     last_ = 0;
   }
-  Eigen::VectorXd history() const override;
+  void save_history(Eigen::VectorXd& out) const override;
   void set_history(const Eigen::VectorXd& was) override;
   void prepare(const Workspace& workspace, double h) override;
 
   Slopes slopes(double h) const override;
-  State end_of_step(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration) const override;
-  void accepted(const Workspace& before, const Eigen::VectorXd& acceleration) override {
-    algorithmic_ = algorithmic_after(before, acceleration);
-  }
-  Eigen::VectorXd algorithmic_after(const Workspace& workspace, const Eigen::VectorXd& acceleration) const;
+  void end_of_step(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration, State& out) override;
+  void accepted(const Workspace& before, const Eigen::VectorXd& acceleration) override;
+  void find_algorithmic_after(const Workspace& workspace, const Eigen::VectorXd& acceleration);
 
   AlphaParameters alpha_;
   Eigen::VectorXd algorithmic_;  // the auxiliary acceleration of Arnold & Brüls
   double last_ = 0;              // the step that led to it, s; 0 if it is the acceleration itself
+  Eigen::VectorXd algorithmic_after_, move_, velocity_after_;  // of the step that is tried
 };
 
 }  // namespace dynamics

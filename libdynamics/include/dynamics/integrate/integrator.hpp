@@ -61,14 +61,17 @@ class Integrator {
   /// The accelerations of the workspace are new: at a start and after a change.
   virtual void begin(const Workspace&) {}
   /// What the method carries from step to step beside the workspace.
-  virtual Eigen::VectorXd history() const { return {}; }
+  virtual void save_history(Eigen::VectorXd& out) const { out.resize(0); }
   virtual void set_history(const Eigen::VectorXd&) {}
 
   const Model& model() const { return model_; }
   const ActiveSet& active() const { return active_; }
   bool fail(std::string why) { return failure_ = std::move(why), false; }
   /// The attitude and place after a displacement `move` (6N) and the new velocity.
-  State displaced(const State& now, const Eigen::VectorXd& move, Eigen::VectorXd velocity, double h) const;
+  State displaced(const State& now, const Eigen::VectorXd& move, const Eigen::VectorXd& velocity, double h) const;
+  /// The same, into a state that has room.
+  void displace(const State& now, const Eigen::VectorXd& move, const Eigen::VectorXd& velocity, double h,
+                State& out) const;
 
  private:
   struct Snapshot {
@@ -76,6 +79,7 @@ class Integrator {
     Eigen::VectorXd acceleration, multipliers, history;
   };
   Snapshot snapshot(const Workspace& workspace) const;
+  void save(const Workspace& workspace, Snapshot& out) const;
   void restore(Workspace& workspace, const Snapshot& before);
   bool try_counted_step(Workspace& workspace, double h, StepReport& report);
   void go_straight(Workspace& workspace, double h) const;
@@ -96,7 +100,8 @@ class Integrator {
   ActiveSet active_;
   SetValuedLaws laws_{model_, active_};
   std::string failure_;
-  double step_ = 0;  // the one asked for
+  Snapshot before_step_;  // the step that is tried; kept, so that a step asks for no memory
+  double step_ = 0;       // the one asked for
   std::optional<double> tolerance_;
   double part_ = 0;    // the step that a tolerance chose last, s
   double speeds_ = 0;  // the largest so far, in the metric of the masses

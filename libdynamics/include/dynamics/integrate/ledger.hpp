@@ -42,6 +42,7 @@ class EnergyLedger {
 
   std::vector<EnergyFlow> before_;
   std::vector<double> stored_at_start_;
+  Eigen::VectorXd momentum_;  // room for kinetic energies
   double kinetic_ = 0, initial_ = 0, time_ = 0, turnover_ = 0;
 };
 

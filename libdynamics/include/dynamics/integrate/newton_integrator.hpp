@@ -23,7 +23,7 @@ class NewtonIntegrator : public Integrator {
     std::optional<State> loads_at = {};        ///< where loads are taken, if not there
     std::vector<Gradient> gradients, columns;  ///< of the constraints at the end, and of their loads
     Eigen::VectorXd residual, open;  ///< forces that do not balance; how far joints are open, as accelerations
-    double size;                     ///< of both, scaled
+    double size = 0;                 ///< of both, scaled
   };
   /// How places and velocities move with the accelerations that Newton seeks, where loads are taken and at the end.
   struct Slopes {
@@ -34,22 +34,28 @@ class NewtonIntegrator : public Integrator {
   /// A step of h begins.
   virtual void prepare(const Workspace&, double /*h*/) {}
   virtual Slopes slopes(double h) const = 0;
-  virtual State end_of_step(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration) const = 0;
+  virtual void end_of_step(const Workspace& workspace, double h, const Eigen::VectorXd& acceleration, State& out) = 0;
   /// Fills residual (without joints) and columns, and loads_at if that is not the end of the step.
   virtual void find_loads(Workspace& workspace, double h, Trial& trial) const;
   /// The step is done; the workspace is still as before it.
   virtual void accepted(const Workspace&, const Eigen::VectorXd&) {}
 
   bool try_step(Workspace& workspace, double h, StepReport& report) final;
-  Trial evaluate(Workspace& workspace, double h, Eigen::VectorXd acceleration, Eigen::VectorXd multipliers) const;
+  /// Fills the trial from its accelerations and multipliers.
+  void evaluate(Workspace& workspace, double h, Trial& trial);
+  void evaluate_corrected(Workspace& workspace, double h, double part);
   std::vector<Gradient> by_step(const std::vector<Gradient>& G, const State& before, const State& after) const;
   double unresolved(double h) const;
   bool factorise(Workspace& workspace, double h, const Trial& now) const;
-  double search(Workspace& workspace, double h, const Trial& now, const KktSolver::Solution& correction, double move,
-                Trial& trial) const;
+  double search(Workspace& workspace, double h, double move);
+  void finish(Workspace& workspace, bool anew);
 
-  // Acceleration at the begin of the step before, for a first guess; empty if factors did not serve all through it.
+  // Acceleration at the begin of the step before, for a first guess, if factors served all through it.
   Eigen::VectorXd before_;
+  bool goes_on_ = false;
+  // What Newton holds and what it tries: kept from step to step, so that a step asks for no memory.
+  Trial now_, trial_;
+  KktSolver::Solution correction_;
 };
 
 }  // namespace dynamics

@@ -28,6 +28,8 @@ class KktSolver {
     Eigen::VectorXd x, lambda;
   };
   Solution solve(const Eigen::VectorXd& b, const Eigen::VectorXd& c) const;
+  /// The same, into vectors that have room.
+  void solve(const Eigen::VectorXd& b, const Eigen::VectorXd& c, Solution& out) const;
 
   double of_step = 0;  ///< s: the factors are those of the iteration matrix of such a step (D98); 0: of something else
 

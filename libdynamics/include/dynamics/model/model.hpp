@@ -44,16 +44,22 @@ class Model {
 
   /// M a + gyro − loads, without those of the joints; zero in modes that are not free, N and N m.
   Eigen::VectorXd residual(const State& state, const Eigen::VectorXd& acceleration, Workspace& workspace) const;
+  /// The same, into a vector that has room: it asks for no memory of its own.
+  void residual(const State& state, const Eigen::VectorXd& acceleration, Workspace& workspace,
+                Eigen::VectorXd& out) const;
   /// ∂residual/∂a · c_a + ∂residual/∂v · c_v + ∂residual/∂q · c_q, unit rows and columns in modes that are not free.
   void tangent(const State& state, double c_a, double c_v, double c_q, Workspace& workspace, BlockMatrix& out) const;
   /// Adds factor · M, all of the mass in (D8); and the product of M with x.
   void add_mass(const State& state, double factor, BlockMatrix& out) const;
   Eigen::VectorXd mass_times(const State& state, const Eigen::VectorXd& x) const;
+  void mass_times(const State& state, const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
   /// Mass of the bodies alone, (6N, 6N).
   Eigen::MatrixXd dry_mass(const State& state) const;
   Eigen::MatrixXd dry_mass_at_rest() const { return dry_mass(rest_state(bodies_)); }
   /// Kinetic energy of the bodies and of the water that moves with them, J.
   double kinetic_energy(const State& state) const;
+  /// The same, with room for momenta.
+  double kinetic_energy(const State& state, Eigen::VectorXd& momentum) const;
   /// The model for small motions about a state, of the kinds that are linear at rest and the joints (D17).
   struct Linear {
     Eigen::MatrixXd stiffness, damping;  ///< loads, joints' among them, ≈ −K δ − D v; (6N, 6N)
@@ -92,6 +98,7 @@ class Workspace {
   Eigen::VectorXd multipliers;                  ///< λ of the joints' constraints
   std::vector<std::unique_ptr<Memory>> memory;  ///< one a kind, null where it needs none
   std::vector<std::size_t> evaluations;         ///< of the load, one a kind: what a scene pays for
+  Eigen::VectorXd load;                         ///< of all kinds, where a residual was asked for last
   BlockMatrix matrix;
   KktSolver solver;
 

@@ -55,6 +55,8 @@ class BlockSolver {
   /// False if the matrix is singular to working precision or not finite.
   bool factorise(const BlockMatrix& matrix);
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
+  /// The same, into a vector that has room: of dense factors it asks for no memory.
+  void solve(const Eigen::VectorXd& right, Eigen::VectorXd& out) const;
 
  private:
   struct Impl;

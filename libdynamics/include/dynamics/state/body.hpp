@@ -73,7 +73,9 @@ struct State {
 };
 
 /// The state after every body has moved by `displacement` (translation and small global rotation), all else as it was.
-State moved(State state, const Eigen::VectorXd& displacement);
+State moved(const State& state, const Eigen::VectorXd& displacement);
+/// The same, into a state that has room: of the size of `from` it asks for no memory.
+void move(const State& from, const Eigen::VectorXd& displacement, State& to);
 
 /// Every body at rest where the model places it.
 State rest_state(const std::vector<RigidBody>& bodies);
