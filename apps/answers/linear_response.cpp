@@ -48,6 +48,9 @@ void require_linear(const scene::Scene& scene, const compile::Prepared& prepared
   if (!effects.empty())
     throw hydro::InputError(fmt::format("[ask.run] start = \"steady\" is for linear scenes: {}", effects.front()),
                             scene.run->place, "step it from \"as placed\" with a ramp, or leave the effect out");
+}
+
+void require_no_beginning(const scene::Scene& scene) {
   if (!scene.waves)
     throw hydro::InputError("[ask.run] start = \"steady\" needs waves: without them nothing moves", scene.run->place,
                             "add [waves]");
@@ -226,6 +229,7 @@ Responses respond(const scene::Scene& scene, const compile::Prepared& prepared) 
 Run steady_run(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept) {
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
+  require_no_beginning(scene);
   const compile::Prepared prepared = compile::prepare(scene, kept);
   require_linear(scene, prepared);
   const dynamics::Model model = compile::frequency_model(prepared);

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "answers/simulate.hpp"
+#include "compile/kept.hpp"
 #include "hydro/base/error.hpp"
 #include "scene/scene.hpp"
 #include "scenes.hpp"
@@ -50,6 +52,12 @@ accuracy = 3e-3
 )";
 }
 
+/// The coefficients of the cylinders are computed once for the scenes of a test.
+froude::Run simulated(const std::string& text) {
+  static const auto kept = std::make_shared<compile::Kept>();
+  return simulate(parse(text), {}, {}, kept);
+}
+
 double largest(const std::vector<double>& x, std::size_t from) {
   double out = 0;
   for (std::size_t i = from; i < x.size(); ++i) out = std::max(out, std::abs(x[i]));
@@ -61,8 +69,8 @@ double largest(const std::vector<double>& x, std::size_t from) {
 TEST(SteadyRun, AgreesWithTheSameSceneStepped) {
   const std::string sea =
       "kind = \"jonswap\"\nhs = \"0.1 m\"\ntp = \"6 s\"\nseed = 3\ncomponents = { repetition = \"400 s\" }\n";
-  const froude::Run steady = simulate(parse(scene_text(sea, "start = \"steady\"")));
-  const froude::Run stepped = simulate(parse(scene_text(sea + "ramp = \"20 s\"\n", "of = [\"*\"]")));
+  const froude::Run steady = simulated(scene_text(sea, "start = \"steady\""));
+  const froude::Run stepped = simulated(scene_text(sea + "ramp = \"20 s\"\n", "of = [\"*\"]"));
   EXPECT_EQ(steady.steps, 0u);
   constexpr std::size_t settled = 2500;
   for (const char* name : {"wave.elevation", "m1.surge", "m1.heave", "m1.pitch", "m2.surge", "m2.heave", "m2.pitch"}) {
@@ -76,7 +84,7 @@ TEST(SteadyRun, AgreesWithTheSameSceneStepped) {
 
 TEST(SteadyRun, OfARegularWaveIsItsRao) {
   const froude::Run run =
-      simulate(parse(scene_text("kind = \"regular\"\nheight = \"2 m\"\nperiod = \"5 s\"\n", "start = \"steady\"")));
+      simulated(scene_text("kind = \"regular\"\nheight = \"2 m\"\nperiod = \"5 s\"\n", "start = \"steady\""));
   const auto& heave = run.signal("m1.heave");
   EXPECT_NEAR(heave[0], heave[50], 1e-9 * largest(heave, 0)) << "a period later";
   EXPECT_THAT(run.notes, testing::Contains(HasSubstr("without stepping")));
@@ -85,7 +93,7 @@ TEST(SteadyRun, OfARegularWaveIsItsRao) {
 TEST(SteadyRun, IsRefusedWhereTheSceneIsNotLinear) {
   const std::string regular = "kind = \"regular\"\nheight = \"2 m\"\nperiod = \"5 s\"\n";
   const auto expect = [](const std::string& text, const char* message) {
-    EXPECT_THAT([&] { simulate(parse(text)); }, ThrowsMessage<hydro::InputError>(HasSubstr(message)));
+    EXPECT_THAT([&] { simulated(text); }, ThrowsMessage<hydro::InputError>(HasSubstr(message)));
   };
   expect(scene_text(regular, "start = \"steady\"",
                     "[[member]]\non = \"m*\"\nfrom = \"(0, 0, -1) m\"\nto = \"(0, 0, 0) m\"\ndiameter = \"1 m\"\ndrag "
