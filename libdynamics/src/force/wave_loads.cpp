@@ -7,16 +7,14 @@
 namespace dynamics {
 namespace {
 
-/// The velocities of some bodies in one column.
-Eigen::VectorXd gathered(const std::vector<int>& bodies, const Eigen::VectorXd& all) {
-  Eigen::VectorXd out(6 * static_cast<Eigen::Index>(bodies.size()));
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    out.segment<6>(6 * static_cast<Eigen::Index>(i)) = all.segment<6>(6 * bodies[i]);
-  return out;
-}
-
-void scatter(const std::vector<int>& bodies, const Eigen::VectorXd& load, LoadSink& out) {
-  for (std::size_t i = 0; i < bodies.size(); ++i) out.add(bodies[i], load.segment<6>(6 * static_cast<Eigen::Index>(i)));
+/// Calls use(body, load) for each body at a time.
+template <class Use>
+void for_each_load(const std::vector<Excitation>& elements, double time, const Use& use) {
+  for (const Excitation& e : elements)
+    e.load.use_at(time, [&](const auto& loads) {
+      for (std::size_t i = 0; i < e.bodies.size(); ++i)
+        use(e.bodies[i], Vector6(loads.template segment<6>(6 * static_cast<Eigen::Index>(i))));
+    });
 }
 
 }  // namespace
@@ -26,19 +24,24 @@ std::string ExcitationKind::method() const {
 }
 
 void ExcitationKind::add_load(const Instant& now, LoadSink& out) const {
-  for (const auto& e : elements_) scatter(e.bodies, e.load.at(now.state.time), out);
+  for_each_load(elements_, now.state.time, [&](int body, const Vector6& load) { out.add(body, load); });
 }
 
 EnergyFlow ExcitationKind::energy(const Instant& now) const {
   EnergyFlow flow;
-  for (const auto& e : elements_)
-    flow.supplied += e.load.at(now.state.time).dot(gathered(e.bodies, now.state.velocity));
+  for_each_load(elements_, now.state.time, [&](int body, const Vector6& load) {
+    flow.supplied += load.dot(now.state.velocity.segment<6>(6 * body));
+  });
   return flow;
 }
 
 namespace {
 
-Eigen::VectorXd at_modes(const std::vector<int>& modes, const Eigen::VectorXd& all) { return all(modes); }
+/// The numbers of some modes, into a vector that has room.
+void take_modes(const std::vector<int>& modes, const Eigen::VectorXd& all, Eigen::VectorXd& out) {
+  out.resize(static_cast<Eigen::Index>(modes.size()));
+  for (std::size_t i = 0; i < modes.size(); ++i) out[static_cast<Eigen::Index>(i)] = all[modes[i]];
+}
 
 /// The memories of all groups, and the history force of each integral: at the newest step itself, and at one
 /// time after it.
@@ -47,17 +50,23 @@ class RadiationState final : public Memory {
   RadiationState(const std::vector<RadiationMemory>& groups, const State& start)
       : groups_(groups), newest_(start.time) {
     for (const auto& g : groups_) {
-      past_.push_back(g.method->start(at_modes(g.modes, start.velocity)));
+      take_modes(g.modes, start.velocity, velocity_);
+      past_.push_back(g.method->start(velocity_));
       at_newest_.push_back(Eigen::VectorXd::Zero(g.method->modes()));
+      after_.push_back(at_newest_.back());
+      none_.push_back(Eigen::MatrixXd::Zero(g.method->modes(), g.method->modes()));
+      at_end_.push_back(g.method->instantaneous(1));
     }
   }
   void accept(const State& state) override {
     refresh(1);
     at_newest_ = after_;
-    for (std::size_t i = 0; i < groups_.size(); ++i) past_[i]->accept(at_modes(groups_[i].modes, state.velocity));
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+      take_modes(groups_[i].modes, state.velocity, velocity_);
+      past_[i]->accept(velocity_);
+    }
     newest_ = state.time;
     known_at_ = 0;
-    if (!begun_) weight_.clear();
     begun_ = true;
   }
   /// −(integral) of one group at the time and velocity of `state`; good until asked for another.
@@ -65,19 +74,23 @@ class RadiationState final : public Memory {
     const double fraction = fraction_of(state.time, groups_[group].method->step());
     if (fraction > 0) refresh(fraction);
     const Eigen::VectorXd& history_force = fraction > 0 ? after_[group] : at_newest_[group];
-    velocity_ = state.velocity(groups_[group].modes);
+    take_modes(groups_[group].modes, state.velocity, velocity_);
     load_ = -history_force;
     load_.noalias() -= weight(group, fraction) * velocity_;
     return load_;
   }
+  /// Of that load, W.
+  double power(std::size_t group, const State& state) { return load(group, state).dot(velocity_); }
   /// What multiplies the velocity of this very moment. At the start of a run nothing has been radiated yet.
   const Eigen::MatrixXd& weight(std::size_t group, double fraction) {
-    if (weight_.empty() || fraction != weight_at_) {
-      weight_.clear();
-      for (const auto& g : groups_) weight_.push_back(weight_of(*g.method, fraction));
-      weight_at_ = fraction;
+    if (fraction == 1) return at_end_[group];
+    if (fraction == 0) return begun_ ? at_end_[group] : none_[group];
+    if (fraction != within_at_) {
+      within_.clear();
+      for (const auto& g : groups_) within_.push_back(g.method->instantaneous(fraction));
+      within_at_ = fraction;
     }
-    return weight_[group];
+    return within_[group];
   }
   /// Time since the newest stored velocity in steps, 0 … 1.
   double fraction_of(double time, double step) const {
@@ -88,23 +101,18 @@ class RadiationState final : public Memory {
   }
 
  private:
-  Eigen::MatrixXd weight_of(const hydro::radiation::MemoryMethod& method, double fraction) const {
-    if (fraction > 0) return method.instantaneous(fraction);
-    return begun_ ? method.instantaneous(1) : Eigen::MatrixXd::Zero(method.modes(), method.modes());
-  }
   void refresh(double fraction) {
     if (fraction == known_at_) return;
-    after_.clear();
-    for (const auto& past : past_) after_.push_back(past->history_force(fraction));
+    for (std::size_t i = 0; i < past_.size(); ++i) past_[i]->find_history_force(fraction, after_[i]);
     known_at_ = fraction;
   }
 
   const std::vector<RadiationMemory>& groups_;
   std::vector<std::unique_ptr<hydro::radiation::MemoryState>> past_;
   std::vector<Eigen::VectorXd> at_newest_, after_;
-  std::vector<Eigen::MatrixXd> weight_;
-  Eigen::VectorXd velocity_, load_;               // kept to spare making them at each evaluation
-  double newest_, known_at_ = 0, weight_at_ = 0;  // fractions for which after_ and weight_ hold; 0: none, or the newest
+  std::vector<Eigen::MatrixXd> none_, at_end_, within_;  // what multiplies the velocity
+  Eigen::VectorXd velocity_, load_;                      // kept to spare making them at each evaluation
+  double newest_, known_at_ = 0, within_at_ = 0;         // fractions for which after_ and within_ hold; 0: none
   bool begun_ = false;
 };
 
@@ -141,10 +149,10 @@ void RadiationKind::add_jacobian(const Instant& now, JacobianSink& out) const {
 }
 
 EnergyFlow RadiationKind::energy(const Instant& now) const {
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(now.state.velocity.size());
-  LoadSink sink(load);
-  add_load(now, sink);
-  return {.stored = 0, .supplied = 0, .dissipated = -load.dot(now.state.velocity)};
+  EnergyFlow flow;
+  auto& memory = static_cast<RadiationState&>(*now.memory);
+  for (std::size_t g = 0; g < elements_.size(); ++g) flow.dissipated -= memory.power(g, now.state);
+  return flow;
 }
 
 }  // namespace dynamics

@@ -93,7 +93,7 @@ Eigen::Vector3d ActiveSet::direction(const Slide& slide, const State& state) con
   return slip.dot(slide.start) > still ? slip.normalized() : slide.start;
 }
 
-std::vector<Gradient> ActiveSet::columns(std::vector<Gradient> G, const State& state) const {
+void ActiveSet::add_sliding(const State& state, std::vector<Gradient>& G) const {
   for (const Slide& slide : slides_) {
     const Contact& c = contact_->element(slide.element);
     const Eigen::Vector3d n = contact_->closest_points(slide.element, state).normal, to = direction(slide, state);
@@ -104,7 +104,6 @@ std::vector<Gradient> ActiveSet::columns(std::vector<Gradient> G, const State& s
     column.first -= c.friction * slip.first;
     column.second -= c.friction * slip.second;
   }
-  return G;
 }
 
 // Across the slip u friction resists as a damper of μp/|u|: the slower the slip, the easier it turns.

@@ -21,24 +21,24 @@ double NewtonIntegrator::unresolved(double h) const {
 
 void NewtonIntegrator::find_loads(Workspace& workspace, double, Trial& trial) const {
   model().residual(trial.state, trial.acceleration, workspace, trial.residual);
-  trial.columns = active().columns(trial.gradients, trial.state);
+  trial.columns = trial.gradients;
+  active().add_sliding(trial.state, trial.columns);
 }
 
 void NewtonIntegrator::evaluate(Workspace& workspace, double h, Trial& trial) {
   end_of_step(workspace, h, trial.acceleration, trial.state);
   const JointSet& constraints = active().constraints();
-  trial.gradients = constraints.gradients(trial.state);
+  constraints.find_gradients(trial.state, trial.gradients);
   find_loads(workspace, h, trial);
-  trial.open.resize(constraints.count());
-  if (constraints.count() > 0) {
-    constraints.add_transposed(trial.columns, trial.multipliers, trial.residual);
-    // Divided by ∂q/∂a, the distance by which a joint is open is an acceleration, as large as what closes it; a speed
-    // by ∂v/∂a.
-    trial.open = constraints.values(trial.state) / slopes(h).end_place;
-    const Eigen::VectorXd speed = constraints.times(trial.gradients, trial.state.velocity) / slopes(h).end_speed;
-    for (Eigen::Index i = 0; i < trial.open.size(); ++i)
-      if (constraints.is_on_velocity(i)) trial.open[i] = speed[i];
-  }
+  constraints.add_transposed(trial.columns, trial.multipliers, trial.residual);
+  // Divided by ∂q/∂a, the distance by which a joint is open is an acceleration, as large as what closes it; a speed by
+  // ∂v/∂a.
+  constraints.find_values(trial.state, trial.open);
+  trial.open /= slopes(h).end_place;
+  for (Eigen::Index i = 0; i < trial.open.size(); ++i)
+    if (constraints.is_on_velocity(i))
+      trial.open[i] = constraints.times(i, trial.gradients[static_cast<std::size_t>(i)], trial.state.velocity) /
+                      slopes(h).end_speed;
   // Without joints `open` is empty and its norm zero.
   trial.size = std::hypot(trial.residual.cwiseQuotient(active().scale()).norm(),
                           trial.open.cwiseProduct(active().constraint_scale()).norm());

@@ -127,23 +127,32 @@ void JointSet::couple(BlockPattern& pattern) const {
     if (c.second) pattern.couple(c.first, *c.second);
 }
 
-Eigen::VectorXd JointSet::values(const State& state) const {
-  Eigen::VectorXd g(count());
+void JointSet::find_values(const State& state, Eigen::VectorXd& g) const {
+  g.resize(count());
   for (Eigen::Index i = 0; i < count(); ++i) {
     const Constraint& c = constraints_[static_cast<std::size_t>(i)];
     g[i] = std::visit([&](const auto& what) { return value(what, ends_of(c, state)); }, c.what);
   }
+}
+
+Eigen::VectorXd JointSet::values(const State& state) const {
+  Eigen::VectorXd g;
+  find_values(state, g);
   return g;
+}
+
+void JointSet::find_gradients(const State& state, std::vector<Gradient>& G) const {
+  G.resize(constraints_.size());
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    const Constraint& c = constraints_[i];
+    G[i] = std::visit([&](const auto& what) { return gradient(what, ends_of(c, state)); }, c.what);
+    keep_free(c.first, c.second, G[i]);
+  }
 }
 
 std::vector<Gradient> JointSet::gradients(const State& state) const {
   std::vector<Gradient> G;
-  G.reserve(constraints_.size());
-  for (const Constraint& c : constraints_) {
-    Gradient row = std::visit([&](const auto& what) { return gradient(what, ends_of(c, state)); }, c.what);
-    keep_free(c.first, c.second, row);
-    G.push_back(row);
-  }
+  find_gradients(state, G);
   return G;
 }
 
@@ -172,12 +181,13 @@ std::vector<Gradient> JointSet::over(const std::vector<Gradient>& G, const Eigen
 
 Eigen::VectorXd JointSet::times(const std::vector<Gradient>& G, const Eigen::VectorXd& x) const {
   Eigen::VectorXd out(count());
-  for (std::size_t i = 0; i < constraints_.size(); ++i) {
-    const Constraint& c = constraints_[i];
-    out[static_cast<Eigen::Index>(i)] =
-        G[i].first.dot(x.segment<6>(6 * c.first)) + (c.second ? G[i].second.dot(x.segment<6>(6 * *c.second)) : 0);
-  }
+  for (Eigen::Index i = 0; i < count(); ++i) out[i] = times(i, G[static_cast<std::size_t>(i)], x);
   return out;
+}
+
+double JointSet::times(Eigen::Index constraint, const Gradient& row, const Eigen::VectorXd& x) const {
+  const Constraint& c = constraints_[static_cast<std::size_t>(constraint)];
+  return row.first.dot(x.segment<6>(6 * c.first)) + (c.second ? row.second.dot(x.segment<6>(6 * *c.second)) : 0);
 }
 
 void JointSet::add_transposed(const std::vector<Gradient>& G, const Eigen::VectorXd& lambda,

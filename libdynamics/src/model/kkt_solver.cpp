@@ -73,6 +73,8 @@ struct KktSolver::Impl {
     for (Eigen::Index i = 0; i < count(); ++i) use(n + i, n + i, -compliance[i]);
   }
 
+  Eigen::VectorXd right, both;  // room for solve()
+
   Sparse system;
   std::vector<std::size_t> place;  // of each number, in the order of for_each_entry(), among the values of `system`
 
@@ -126,12 +128,16 @@ bool KktSolver::factorise(const BlockMatrix& T, const std::vector<Gradient>& G, 
 void KktSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& c, Solution& out) const {
   out.lambda.resize(c.size());
   if (impl_->count() == 0) return impl_->bodies_alone.solve(b, out.x);
-  Eigen::VectorXd right(b.size() + c.size()), both;
+  Eigen::VectorXd &right = impl_->right, &both = impl_->both;
+  right.resize(b.size() + c.size());
   right << b, c;
-  if (is_sparse())
+  if (is_sparse()) {
     both = impl_->sparse_lu.solve(right);
-  else
-    both = impl_->column_scale.cwiseProduct(impl_->dense_lu.solve(impl_->row_scale.cwiseProduct(right)));
+  } else {
+    right.array() *= impl_->row_scale.array();
+    both = impl_->dense_lu.solve(right);
+    both.array() *= impl_->column_scale.array();
+  }
   out.x = both.head(b.size());
   out.lambda = both.tail(c.size());
 }

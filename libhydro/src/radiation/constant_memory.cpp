@@ -7,12 +7,12 @@ namespace {
 
 class NoState final : public MemoryState {
  public:
-  explicit NoState(int modes) : nothing_(Eigen::VectorXd::Zero(modes)) {}
+  explicit NoState(int modes) : modes_(modes) {}
   void accept(const Eigen::VectorXd&) override {}
-  Eigen::VectorXd history_force(double) const override { return nothing_; }
+  void find_history_force(double, Eigen::VectorXd& out) const override { out.setZero(modes_); }
 
  private:
-  Eigen::VectorXd nothing_;
+  int modes_;
 };
 
 }  // namespace

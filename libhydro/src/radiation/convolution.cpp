@@ -94,8 +94,8 @@ class DirectState final : public MemoryState {
     history_.push(0.5 * velocity);  // the trapezium rule gives the first velocity half its weight
   }
   void accept(const Eigen::VectorXd& velocity) override { history_.push(velocity); }
-  Eigen::VectorXd history_force(double fraction) const override {
-    return convolution_.history_force(history_, fraction);
+  void find_history_force(double fraction, Eigen::VectorXd& out) const override {
+    out = convolution_.history_force(history_, fraction);
   }
 
  private:

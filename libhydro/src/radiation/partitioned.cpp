@@ -111,15 +111,18 @@ class PartitionedState final : public MemoryState {
     ++count_;
     take(velocity);
   }
-  Eigen::VectorXd history_force(double fraction) const override {
-    Eigen::VectorXd late = due_.row(at(0)).transpose();
+  void find_history_force(double fraction, Eigen::VectorXd& late) const override {
+    late = due_.row(at(0)).transpose();
     parts_.near.add(history_, 0, late);
-    if (fraction == 1) return parts_.step * late;
+    if (fraction == 1) {
+      late *= parts_.step;
+      return;
+    }
     const Eigen::VectorXd newest = history_.newest();  // the rest as DirectConvolution::history_force
     Eigen::VectorXd early = before_ + parts_.K0 * newest;
     parts_.near.add(history_, 1, early);
     const Eigen::MatrixXd K_newest = fraction * parts_.K1 + (1 - fraction) * parts_.K0;
-    return parts_.step * (fraction * late + (1 - fraction) * early + (fraction - 1) / 2 * (K_newest * newest));
+    late = parts_.step * (fraction * late + (1 - fraction) * early + (fraction - 1) / 2 * (K_newest * newest));
   }
 
  private:

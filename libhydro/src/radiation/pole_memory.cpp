@@ -32,7 +32,10 @@ Carry carry(const Pole& pole, double h) {
 class PoleState final : public MemoryState {
  public:
   PoleState(const PoleMemory& memory, const Eigen::VectorXd& velocity)
-      : memory_(memory), z_(Eigen::MatrixXd::Zero(velocity.size(), memory.model().order())), velocity_(velocity) {
+      : memory_(memory),
+        z_(Eigen::MatrixXd::Zero(velocity.size(), memory.model().order())),
+        ahead_(z_),
+        velocity_(velocity) {
     look_ahead();
   }
   void accept(const Eigen::VectorXd& velocity) override {
@@ -46,15 +49,20 @@ class PoleState final : public MemoryState {
     velocity_ = velocity;
     look_ahead();
   }
-  Eigen::VectorXd history_force(double fraction) const override {
-    if (fraction == 1) return history_force_;
-    return memory_.load(moved(memory_.carried_over(fraction * memory_.step())));
+  void find_history_force(double fraction, Eigen::VectorXd& out) const override {
+    if (fraction == 1) {
+      out = history_force_.head(z_.rows());
+      return;
+    }
+    Eigen::MatrixXd there(z_.rows(), z_.cols());
+    move(memory_.carried_over(fraction * memory_.step()), there);
+    memory_.find_load(there, out);
+    out.conservativeResize(z_.rows());
   }
 
  private:
-  /// The states without what the velocity at the end adds.
-  Eigen::MatrixXd moved(const std::vector<Carry>& carries) const {
-    Eigen::MatrixXd out(z_.rows(), z_.cols());
+  /// The states without what the velocity at the end adds, into a matrix of their size.
+  void move(const std::vector<Carry>& carries, Eigen::MatrixXd& out) const {
     Eigen::Index column = 0;
     for (std::size_t k = 0; k < carries.size(); ++k) {
       const Carry& c = carries[k];
@@ -69,16 +77,15 @@ class PoleState final : public MemoryState {
         ++column;
       }
     }
-    return out;
   }
   void look_ahead() {
-    ahead_ = moved(memory_.carried_over_a_step());
-    history_force_ = memory_.load(ahead_);
+    move(memory_.carried_over_a_step(), ahead_);
+    memory_.find_load(ahead_, history_force_);
   }
 
   const PoleMemory& memory_;
   Eigen::MatrixXd z_, ahead_;
-  Eigen::VectorXd velocity_, history_force_;
+  Eigen::VectorXd velocity_, history_force_;  // with the rows that find_load() adds
 };
 
 /// out = matrix · x, columns one after the other, `rows` a multiple of eight: two registers of sums are carried through
@@ -148,11 +155,10 @@ std::vector<PoleMemory::Carry> PoleMemory::carried_over(double h) const {
   return out;
 }
 
-Eigen::VectorXd PoleMemory::load(const Eigen::MatrixXd& z) const {
-  Eigen::VectorXd out(output_.rows());
+void PoleMemory::find_load(const Eigen::MatrixXd& z, Eigen::VectorXd& out) const {
+  out.resize(output_.rows());
   product(output_.data(), static_cast<std::size_t>(output_.rows()), z.data(), static_cast<std::size_t>(z.size()),
           out.data());
-  return out.head(modes());
 }
 
 }  // namespace hydro::radiation

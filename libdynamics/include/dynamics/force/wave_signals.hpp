@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include <complex>
+#include <optional>
 #include <vector>
 
 namespace dynamics {
@@ -21,8 +22,19 @@ class WaveSignals {
   std::size_t components() const { return omega_.size(); }
   double step() const { return step_; }
   Eigen::VectorXd at(double t) const;
+  /// Calls use(s) with the m signals; at whole steps s stands in the table, and no memory is asked for.
+  template <class Use>
+  void use_at(double t, const Use& use) const {
+    if (const auto sample = whole_step(t))
+      use(ramp_at(t) * table_.col(*sample));
+    else
+      use(ramp_at(t) * sum_at(t));
+  }
 
  private:
+  std::optional<Eigen::Index> whole_step(double t) const;
+  double ramp_at(double t) const;
+  Eigen::VectorXd sum_at(double t) const;
   std::vector<double> omega_;
   Eigen::MatrixXcd amplitudes_;
   Eigen::MatrixXd table_;

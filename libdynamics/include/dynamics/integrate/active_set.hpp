@@ -28,7 +28,12 @@ class ActiveSet {
   const JointSet& constraints() const { return constraints_; }
   /// Loads are −columns · λ: G, and friction along with the normal of a contact that slides, against its slip in
   /// `state` (D24).
-  std::vector<Gradient> columns(std::vector<Gradient> G, const State& state) const;
+  std::vector<Gradient> columns(std::vector<Gradient> G, const State& state) const {
+    add_sliding(state, G);
+    return G;
+  }
+  /// Makes G these columns.
+  void add_sliding(const State& state, std::vector<Gradient>& G) const;
   /// Adds by_speed times the derivative of that friction by the velocities that turn its direction.
   void add_turning(const State& state, const Eigen::VectorXd& multipliers, double by_speed, BlockMatrix& out) const;
   /// Accelerations and multipliers in a state: G a = −Ġ v (D16).

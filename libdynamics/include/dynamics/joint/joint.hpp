@@ -134,12 +134,18 @@ class JointSet {
   }
   /// g, (count): metres, and sines of angles; zero for constraints on velocities.
   Eigen::VectorXd values(const State& state) const;
+  /// The same, into a vector that has room.
+  void find_values(const State& state, Eigen::VectorXd& g) const;
   /// Columns of modes that are not free are zero.
   std::vector<Gradient> gradients(const State& state) const;
+  /// The same, into rows that have room.
+  void find_gradients(const State& state, std::vector<Gradient>& G) const;
   /// Rows over the numbers that belong to their modes, such as √ of masses; of the ground zero.
   std::vector<Gradient> over(const std::vector<Gradient>& G, const Eigen::VectorXd& scale) const;
   /// G x, for x a velocity or displacement of all bodies.
   Eigen::VectorXd times(const std::vector<Gradient>& G, const Eigen::VectorXd& x) const;
+  /// One row of it.
+  double times(Eigen::Index constraint, const Gradient& row, const Eigen::VectorXd& x) const;
   /// Adds Gᵀ λ.
   void add_transposed(const std::vector<Gradient>& G, const Eigen::VectorXd& lambda, Eigen::VectorXd& out) const;
   /// G, (count, 6N).

@@ -18,7 +18,13 @@ class MemoryState {
   /// A full step has been completed with this velocity, (n).
   virtual void accept(const Eigen::VectorXd& velocity) = 0;
   /// The history force at fraction·h after the newest step, 0 < fraction <= 1, (n), N.
-  virtual Eigen::VectorXd history_force(double fraction) const = 0;
+  Eigen::VectorXd history_force(double fraction) const {
+    Eigen::VectorXd out;
+    find_history_force(fraction, out);
+    return out;
+  }
+  /// The same, into a vector that has room.
+  virtual void find_history_force(double fraction, Eigen::VectorXd& out) const = 0;
 };
 
 /// One way of computing. Const and shareable; outlives the states it makes.

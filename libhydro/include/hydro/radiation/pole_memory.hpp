@@ -29,8 +29,9 @@ class PoleMemory final : public MemoryMethod {
   };
   std::vector<Carry> carried_over(double h) const;
   const std::vector<Carry>& carried_over_a_step() const { return full_; }
-  /// Σ over oscillations of the matrices times the states in `z`, one column an oscillation, (n, order).
-  Eigen::VectorXd load(const Eigen::MatrixXd& z) const;
+  /// Σ over oscillations of the matrices times the states in `z`, one column an oscillation, (n, order); rows of zeros
+  /// follow, up to a multiple of eight.
+  void find_load(const Eigen::MatrixXd& z, Eigen::VectorXd& out) const;
 
  private:
   PoleModel model_;
