@@ -303,10 +303,10 @@ TEST_F(Fit, OfASceneWhoseResidualsContradictTheStatedDeviationTellsNothing) {
   hydro::io::write_atomically(scene, text);
   const auto j = nlohmann::json::parse(told({.scene = scene}, true));
   ASSERT_EQ(j["accepted"].size(), 1u);
-  EXPECT_THAT(j["accepted"][0].get<std::string>(), HasSubstr("made from these residuals, 3."));
+  EXPECT_THAT(j["accepted"][0].get<std::string>(),
+              AllOf(HasSubstr("chain.link2.polar"), HasSubstr("made from these residuals, 3.")));
   EXPECT_LT(j["parameter"]["line_damping_linear"]["interval"][0].get<double>(), 0.006);  // as make_pendulums.py says
   EXPECT_GT(j["parameter"]["line_damping_linear"]["interval"][1].get<double>(), 0.006);
-  EXPECT_THAT(told({.scene = scene}), HasSubstr("accepted: chain.link2.polar"));
   EXPECT_THAT([&] { told({.scene = changed("oscillation.toml", "[ask]", "[ask]\naccept = [\"residuals\"]")}); },
               ThrowsMessage<InputError>(HasSubstr("does not apply to a fit of kind \"morison\"")));
 }
