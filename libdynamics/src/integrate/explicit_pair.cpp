@@ -13,13 +13,14 @@ namespace {
 constexpr int stages = 7;
 /// Dormand & Prince (1980), table 2: nodes, stages, weights of order 5, and those less the weights of order 4.
 constexpr std::array<double, stages> node{0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1, 1};
-constexpr double stage[stages][stages - 1] = {{},
-                                              {1.0 / 5},
-                                              {3.0 / 40, 9.0 / 40},
-                                              {44.0 / 45, -56.0 / 15, 32.0 / 9},
-                                              {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
-                                              {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
-                                              {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
+constexpr double stage_weight[stages][stages - 1] = {
+    {},
+    {1.0 / 5},
+    {3.0 / 40, 9.0 / 40},
+    {44.0 / 45, -56.0 / 15, 32.0 / 9},
+    {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
+    {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
+    {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
 constexpr std::array<double, stages> difference{71.0 / 57600,      0,          -71.0 / 16695, 71.0 / 1920,
                                                 -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
 
@@ -38,8 +39,8 @@ std::optional<ExplicitPair::Attempt> ExplicitPair::attempt(Workspace& workspace,
   for (std::size_t i = 0; i < stages && all; ++i) {
     move.setZero(), gain.setZero();
     for (std::size_t j = 0; j < i; ++j) {
-      move += h * stage[i][j] * moving[j];
-      gain += h * stage[i][j] * gaining[j];
+      move += h * stage_weight[i][j] * moving[j];
+      gain += h * stage_weight[i][j] * gaining[j];
     }
     workspace.state = displaced(start, move, start.velocity + gain, node[i] * h);
     const auto there = active().balance(workspace);
