@@ -27,7 +27,4 @@ int carry_out(const Request& request);
 /// Reads the command line, whose callbacks set `request.call`, and runs the request.
 int carry_out(CLI::App& app, Request& request, int argc, char** argv);
 
-/// The program `froude`: every command. \return the exit status
-int run_program(int argc, char** argv);
-
 }  // namespace froude

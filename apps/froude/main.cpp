@@ -1,3 +1,3 @@
-#include "froude/command_line.hpp"
+#include "froude/program.hpp"
 
 int main(int argc, char** argv) { return froude::run_program(argc, argv); }

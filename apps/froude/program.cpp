@@ -1,4 +1,6 @@
 // The command line of froude: words in, calls of commands.hpp out.
+#include "froude/program.hpp"
+
 #include <algorithm>
 #include <memory>
 
