@@ -9,11 +9,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC 12 warns of Eigen's vectors as freed before they are used, where none is; the address sanitizer looks itself.
   target_compile_options(froude_options INTERFACE -Wno-use-after-free)
   # A compiler that may keep what it has read, instead of looking for what it can forget, is done a fifth sooner; it then takes
-  # 1.5 GB. (GCC's manual, --param ggc-min-expand and ggc-min-heapsize)
+  # up to 2.2 GB, and ninja runs one or two more than there are cores. (GCC's manual, --param ggc-min-expand and
+  # ggc-min-heapsize)
   cmake_host_system_information(RESULT froude_megabytes QUERY TOTAL_PHYSICAL_MEMORY)
   cmake_host_system_information(RESULT froude_cores QUERY NUMBER_OF_LOGICAL_CORES)
   math(EXPR froude_share "${froude_megabytes} / ${froude_cores}")
-  if(froude_share GREATER 3000)
+  if(froude_share GREATER 3500)
     target_compile_options(froude_options INTERFACE --param=ggc-min-expand=300 --param=ggc-min-heapsize=1048576)
   endif()
 endif()
@@ -35,18 +36,38 @@ if(FROUDE_PRECOMPILED_HEADERS)
   froude_common_headers(froude_library_headers PIC HEADERS Eigen/Core fmt/format.h MERGED ${froude_wide_headers})
 endif()
 
-# froude_merge(TARGET [BATCH COUNT] [APART FILE…]): compiles ten files of a target, or COUNT, as one, which halves the time of a
-# build: a template that several use is made once. Files that name private things alike are compiled apart.
+# froude_merge(TARGET [BATCH COUNT] [APART FILE…] [ALONE FILE…]): compiles ten files of a target, or COUNT, as one, which halves the
+# time of a build: a template that several use is made once. APART are files that name private things as others do; they are one
+# unit of their own. ALONE are files that would make theirs longer than a core should be waited for. To be called when all files
+# of the target are known.
 function(froude_merge target)
-  cmake_parse_arguments(M "" "BATCH" "APART" ${ARGN})
+  cmake_parse_arguments(M "" "BATCH" "APART;ALONE" ${ARGN})
+  if(NOT FROUDE_MERGED_SOURCES)
+    return()
+  endif()
   if(NOT M_BATCH)
     set(M_BATCH 10)
   endif()
-  if(FROUDE_MERGED_SOURCES)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${M_BATCH})
-    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)  # no file of one target is a header
-    set_source_files_properties(${M_APART} TARGET_DIRECTORY ${target} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  target_compile_options(${target} PRIVATE -Wno-subobject-linkage)  # no file of one target is a header
+  get_target_property(folder ${target} SOURCE_DIR)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "\\.cpp$")
+  list(TRANSFORM M_APART PREPEND "${folder}/")
+  list(TRANSFORM M_ALONE PREPEND "${folder}/")
+  set(count 0)
+  foreach(source IN LISTS sources)
+    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder} NORMALIZE)
+    if(source IN_LIST M_ALONE)
+      continue()
+    elseif(source IN_LIST M_APART)
+      set(unit apart)
+    else()
+      math(EXPR unit "${count} / ${M_BATCH}")
+      math(EXPR count "${count} + 1")
+    endif()
+    set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${unit})
+  endforeach()
 endfunction()
 
 # froude_library(NAME [HEADERS]): a library froude_NAME with alias froude::NAME and the common options, not exported with them;

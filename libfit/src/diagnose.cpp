@@ -18,14 +18,12 @@
 namespace fit {
 namespace {
 
-constexpr double two_pi = 2 * std::numbers::pi;
-
 /// The force less what is carried whatever the coefficients are.
 Eigen::VectorXd target_of(const Cylinder& c, const ForceRecord& r) { return as_vector(r.force) - carried_force(c, r); }
 
 std::vector<double> harmonics_of(double period_s, int highest) {
   std::vector<double> omega;
-  for (int k = 1; k <= highest; ++k) omega.push_back(two_pi * k / period_s);
+  for (int k = 1; k <= highest; ++k) omega.push_back(2 * std::numbers::pi * k / period_s);
   return omega;
 }
 
@@ -50,7 +48,7 @@ std::vector<CycleFit> fit_cycles(const Cylinder& cylinder, const ForceRecord& re
 }
 
 FourierAverages fourier_averages(const Cylinder& c, const ForceRecord& r, double period_s) {  // (F29)
-  const double step = hydro::signal::even_step(r.time), omega = two_pi / period_s;
+  const double step = hydro::signal::even_step(r.time), omega = 2 * std::numbers::pi / period_s;
   hydro::require(period_s <= step * static_cast<double>(r.time.size() + 1),
                  "the record is shorter than its period of {:.4g} s", period_s);
   const Eigen::MatrixXd columns = morison_columns(c, r);

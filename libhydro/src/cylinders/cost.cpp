@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <chrono>
-#include <limits>
 
 #include "deep.hpp"
 #include "model.hpp"
@@ -10,8 +9,6 @@ namespace hydro::cylinders {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Complex multiplications a second of products of matrices on this machine, one thread.
 double measured_rate() {

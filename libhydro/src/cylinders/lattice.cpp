@@ -16,9 +16,9 @@ using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::Vector2d;
 
-constexpr double same_place = 1e-9;     // of a radius: what rounding leaves of places that are computed
-constexpr double typical_order = 3;     // of the waves between cylinders that stand apart, to compare lattices by
-constexpr std::size_t most_steps = 12;  // candidates for the sides of a cell
+constexpr double same_place = 1e-9;          // of a radius: what rounding leaves of places that are computed
+constexpr double typical_order = 3;          // of the waves between cylinders that stand apart, to compare lattices by
+constexpr std::size_t most_candidates = 12;  // for the sides of a cell
 
 double smallest_radius(const std::vector<Cylinder>& cylinders) {
   const auto less = [](const Cylinder& a, const Cylinder& b) { return a.radius < b.radius; };
@@ -46,7 +46,7 @@ std::vector<Vector2d> likely_steps(const std::vector<Cylinder>& cylinders) {
   });
   std::vector<Vector2d> steps;
   for (const auto& [led, way] : found)
-    if (steps.size() < most_steps) steps.push_back(way);
+    if (steps.size() < most_candidates) steps.push_back(way);
   return steps;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "bottom_mounted.hpp"
@@ -29,8 +28,6 @@ double relative_change(const MatrixXcd& M, const MatrixXcd& N) {
 /// Compression may be coarser than what is left out: its errors have random signs, and few add up.
 constexpr double precision_of_compression = 10;
 constexpr int most_terms = 300'000;  // 100 MB at 48 gap functions
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 double distance_across(const std::vector<Cylinder>& cylinders) {
   double largest = 0;
   for (const Cylinder& a : cylinders)

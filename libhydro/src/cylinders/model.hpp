@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include <deque>
+#include <limits>
 #include <vector>
 
 #include "groups.hpp"
@@ -11,6 +12,9 @@
 #include "truncated.hpp"
 
 namespace hydro::cylinders {
+
+/// The frequency at which added mass has its other limit.
+inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// How much of each infinite set is kept.
 struct Resolution {

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 #include <exception>
-#include <limits>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -21,8 +20,6 @@ using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using potential::Coefficients;
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Does job(i) for i = 0 … count − 1 on several threads. What is thrown first by index is thrown on.
 template <class Job>

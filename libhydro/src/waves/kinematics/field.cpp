@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "waves/imaginary.hpp"
+
 namespace hydro::waves {
 
 DepthProfile depth_profile(double kappa, double depth, double z) {
@@ -62,7 +64,6 @@ double HarmonicField::elevation(double t, double x, double y) const {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr Complex i(0, 1);
 
 // One harmonic's part of ∇φ, ∂∇φ/∂t, ∇∇φ and ∂φ/∂t at the height that stretching has chosen, (W17).
 struct Sums {
@@ -73,13 +74,13 @@ struct Sums {
   void add(const Harmonic& w, double kappa, const DepthProfile& profile, Complex turn) {
     const Complex phi = w.potential * turn;
     const Complex c = phi * profile.cosh, s = phi * profile.sinh;
-    const Complex ux = -i * w.kx * c, uy = -i * w.ky * c, uz = kappa * s;
+    const Complex ux = -imaginary * w.kx * c, uy = -imaginary * w.ky * c, uz = kappa * s;
     velocity += Eigen::Vector3d(ux.real(), uy.real(), uz.real());
-    const Complex rate = i * w.omega;
+    const Complex rate = imaginary * w.omega;
     acceleration += Eigen::Vector3d((rate * ux).real(), (rate * uy).real(), (rate * uz).real());
     potential_rate += (rate * c).real();
     const double xx = -w.kx * w.kx * c.real(), yy = -w.ky * w.ky * c.real(), xy = -w.kx * w.ky * c.real();
-    const double xz = (-i * w.kx * kappa * s).real(), yz = (-i * w.ky * kappa * s).real();
+    const double xz = (-imaginary * w.kx * kappa * s).real(), yz = (-imaginary * w.ky * kappa * s).real();
     gradient += (Eigen::Matrix3d() << xx, xy, xz, xy, yy, yz, xz, yz, -xx - yy).finished();
   }
 };

@@ -9,8 +9,6 @@
 namespace hydro::waves {
 namespace {
 
-constexpr double two_pi = 2 * std::numbers::pi;
-
 /// A piece of the band, the number that its random numbers go by, and where its component stands.
 struct Bin {
   double from, to, omega;
@@ -28,7 +26,7 @@ void require_bins(std::size_t count) { require(count > 0, "a sea needs at least 
 std::vector<Bin> cut_up(const FftGrid& grid, const Spectrum&, const Discretisation& cut) {
   require(std::isfinite(grid.repetition_s) && grid.repetition_s > 0,
           "the repetition period must be finite and positive, got {} s", grid.repetition_s);
-  const double d_omega = two_pi / grid.repetition_s;
+  const double d_omega = 2 * std::numbers::pi / grid.repetition_s;
   constexpr double rounding = 1e-9;
   const double first = std::max(1.0, std::ceil(cut.omega_min / d_omega - rounding));
   const double last = std::floor(cut.omega_max / d_omega + rounding);
@@ -119,7 +117,7 @@ Sea Sea::irregular(const Spectrum& spectrum, const Discretisation& cut, const Di
     if (directions.spreading != nullptr)
       heading += directions.spreading->quantile(headings.uniform(bin.number), bin.omega).radians();
     sea.add({AngularFrequency::from_rad_per_s(bin.omega), WaveAmplitude::from_metres(std::sqrt(2 * energy * scatter)),
-             two_pi * phases.uniform(bin.number), Angle::from_radians(heading)});
+             2 * std::numbers::pi * phases.uniform(bin.number), Angle::from_radians(heading)});
     if (grid != nullptr) sea.index_.push_back(bin.number);
   }
   sea.fraction_left_out_ = 1 - carried / spectrum.moment(0);

@@ -6,12 +6,12 @@
 
 #include "hydro/signal/fft.hpp"
 #include "hydro/waves/dispersion.hpp"
+#include "waves/imaginary.hpp"
 
 namespace hydro::waves {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr Complex i(0, 1);
 using std::numbers::pi;
 
 void check(const Tank& tank) {
@@ -110,22 +110,22 @@ TankMode::TankMode(const Tank& tank, double omega)
     const double c = evanescent_projection(kappa, depth_, tank.paddle.arm()).coefficient();
     kappa_.push_back(kappa);
     // (W75): reflected by the far end as the travelling mode is; exact for a wall.
-    amplitude_.push_back(-i * omega_ * c / (kappa * (1 - far_end_ * std::exp(-2 * kappa * length_))));
+    amplitude_.push_back(-imaginary * omega_ * c / (kappa * (1 - far_end_ * std::exp(-2 * kappa * length_))));
   }
 }
 
 Complex TankMode::elevation(double x) const {
   // ζ = −(1/g) ∂φ/∂t at z = 0.
-  return -i * omega_ / gravity_ * flow(x, 0).phi;
+  return -imaginary * omega_ / gravity_ * flow(x, 0).phi;
 }
 
-Complex TankMode::biesel() const { return -i * omega_ / gravity_ * unreflected_; }
+Complex TankMode::biesel() const { return -imaginary * omega_ / gravity_ * unreflected_; }
 
 TankMode::Flow TankMode::flow(double x, double z, double tangent) const {
   const Complex out = outgoing_ * std::polar(1.0, -k_ * x), back = returning_ * std::polar(1.0, -k_ * (length_ - x));
   DepthProfile p = depth_profile(k_, depth_, z);
   if (tangent > 0) p = {p.cosh + tangent * k_ * p.sinh, p.sinh + tangent * k_ * p.cosh};
-  const Complex sum = out + back, difference = -i * k_ * (out - back);
+  const Complex sum = out + back, difference = -imaginary * k_ * (out - back);
   Flow f{sum * p.cosh, difference * p.cosh, k_ * sum * p.sinh, -k_ * k_ * sum * p.cosh, k_ * difference * p.sinh};
   for (std::size_t n = 0; n < kappa_.size(); ++n) {
     const double kappa = kappa_[n];
@@ -187,7 +187,7 @@ Kinematics WaveTank::at(double t, const Eigen::Vector3d& point) const {
   for (std::size_t n = 0; n < modes_.size(); ++n) {
     const Complex motion = motion_[n].amplitude * std::polar(1.0, motion_[n].omega * t);
     const TankMode::Flow f = modes_[n].flow(point.x(), height.z, height.tangent);
-    const Complex rate = i * motion_[n].omega * motion;
+    const Complex rate = imaginary * motion_[n].omega * motion;
     out.velocity += Eigen::Vector3d((f.u * motion).real(), 0, (f.w * motion).real());
     out.acceleration += Eigen::Vector3d((f.u * rate).real(), 0, (f.w * rate).real());
     const double xx = (f.u_x * motion).real(), xz = (f.u_z * motion).real();

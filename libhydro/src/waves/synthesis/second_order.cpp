@@ -5,12 +5,12 @@
 #include <numbers>
 
 #include "hydro/waves/dispersion.hpp"
+#include "waves/imaginary.hpp"
 
 namespace hydro::waves {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr Complex i(0, 1);
 
 FreeWave negated(const FreeWave& w) { return {-w.sigma, -w.kx, -w.ky}; }
 
@@ -92,7 +92,7 @@ Harmonic bound(const Partner& one, const Partner& two, double ordering, const Wa
              .kx = one.wave.kx + two.wave.kx,
              .ky = one.wave.ky + two.wave.ky,
              .elevation = kernel.elevation * product,
-             .potential = i * kernel.potential * product};
+             .potential = imaginary * kernel.potential * product};
   if (h.omega < 0) h = {-h.omega, -h.kx, -h.ky, std::conj(h.elevation), std::conj(h.potential)};
   return h;
 }
@@ -198,8 +198,8 @@ BoundAtPoint bound_at_point(const Sea& sea, const Eigen::Vector3d& point, const 
     if (kappa == 0) return;
     const DepthProfile profile = depth_profile(kappa, h, point.z());
     const Complex phi = b.potential * turn;
-    out.u[bin] += -i * b.kx * profile.cosh * phi;
-    out.v[bin] += -i * b.ky * profile.cosh * phi;
+    out.u[bin] += -imaginary * b.kx * profile.cosh * phi;
+    out.v[bin] += -imaginary * b.ky * profile.cosh * phi;
     out.w[bin] += kappa * profile.sinh * phi;
   };
   for_each_pair(partners(sea), parts, sea.water(), add);
