@@ -46,15 +46,16 @@ std::unique_ptr<const dynamics::ForceKind> drag(const Scene& scene, const std::v
   return std::make_unique<dynamics::DragKind>(std::move(pieces), std::move(moving));
 }
 
+CutBy cut_by(const dynamics::SlenderMember& line) { return line.pieces > 0 ? CutBy::scene : CutBy::program; }
+
+int pieces_of(const Scene& scene, const scene::Member& m, const dynamics::SlenderMember& asked) {
+  return cut_by(asked) == CutBy::scene ? asked.pieces : needed_pieces(scene, (m.to - m.from).norm());
+}
+
 /// Where the member is on its body, cut as `asked` says or the accuracy needs.
 dynamics::SlenderMember slender(const Scene& scene, const scene::Member& m, const dynamics::SlenderMember& asked) {
   const Eigen::Vector3d centre = scene.bodies[static_cast<std::size_t>(m.body)].centre_of_gravity;
-  return {m.body,
-          m.from - centre,
-          m.to - centre,
-          m.diameter,
-          asked.pieces > 0 ? asked.pieces : needed_pieces(scene, (m.to - m.from).norm()),
-          asked.immersion};
+  return {m.body, m.from - centre, m.to - centre, m.diameter, pieces_of(scene, m, asked), asked.immersion};
 }
 
 dynamics::MorisonMember morison(const Scene& scene, const scene::Member& m) {
@@ -83,6 +84,20 @@ int needed_pieces(const Scene& scene, double length) {
     pieces = std::max(pieces, std::ceil(length * k / std::sqrt(6 * scene.accuracy)));
   }
   return static_cast<int>(pieces);
+}
+
+bool any_member_cut(const Scene& scene, CutBy by) {
+  return std::any_of(scene.members.begin(), scene.members.end(), [&](const scene::Member& m) {
+    return (m.morison && cut_by(m.morison->line) == by) || (m.slamming && cut_by(m.slamming->line) == by);
+  });
+}
+
+void cut_members_finer(PieceTimes times, Scene& scene) {
+  for (scene::Member& m : scene.members)
+    for (dynamics::SlenderMember* line :
+         {m.morison ? &m.morison->line : nullptr, m.slamming ? &m.slamming->line : nullptr})
+      if (line != nullptr)
+        line->pieces = (cut_by(*line) == CutBy::scene ? times.given : times.chosen) * pieces_of(scene, m, *line);
 }
 
 bool any_drag_at_rest(const Scene& scene) {

@@ -18,6 +18,17 @@ std::vector<dynamics::DragPiece> drag_at_rest(const scene::Scene& scene,
 /// end is missed by more than the accuracy asked.
 int needed_pieces(const scene::Scene& scene, double length);
 
+/// Who says into how many pieces members with Morison's load or impact are cut.
+enum class CutBy { scene, program };
+/// True if there are such members.
+bool any_member_cut(const scene::Scene& scene, CutBy by);
+/// How many times as many pieces such members get.
+struct PieceTimes {
+  int given = 1, chosen = 1;
+};
+/// The scene then gives them all.
+void cut_members_finer(PieceTimes times, scene::Scene& scene);
+
 /// What members that move ask of the waves of a run, around their places at rest; empty if there are none.
 std::optional<hydro::waves::FieldUse> water_of_members(const scene::Scene& scene, double highest_crest, double step);
 

@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "hydro/io/csv.hpp"
 #include "scene/binding.hpp"
 #include "scene/build.hpp"
+#include "scene/finer.hpp"
 
 namespace froude::scene {
 namespace {
@@ -33,7 +33,7 @@ const Binding<dl::Segment>& line_link() {
   return binding;
 }
 
-/// What the segments of a part have of their own; into which it is cut is for append_equal().
+/// What the segments of a part have of their own; into which it is cut is for append_even().
 const Binding<dl::Segment>& line_part() {
   static const Binding<dl::Segment> binding =
       Binding<dl::Segment>("[[line.part]]", "an even part of a line, in order from `from`: chain, rope, chain")
@@ -52,13 +52,12 @@ const Binding<dl::Segment>& line_part() {
   return binding;
 }
 
-/// Equal segments of a line or of one part of it; `mass_at` is the line's.
-void append_equal(const Record& record, const std::string& mass_at, dl::Segment segment, Line& out) {
-  const std::int64_t count = record["segments"].integer;
-  segment.length = record.si("length") / static_cast<double>(count);
-  segment.mass = record.si("mass_per_length") * segment.length;
-  segment.inertia = segment.mass * segment.length * segment.length / (mass_at == "nodes" ? 4 : 12);
-  out.segments.insert(out.segments.end(), static_cast<std::size_t>(count), segment);
+/// A line that is even, or one part of it; `mass_at` is the line's.
+void append_even(const Record& record, const std::string& mass_at, dl::Segment whole, Line& out) {
+  whole.length = record.si("length");
+  whole.mass = record.si("mass_per_length") * whole.length;
+  whole.inertia = whole.mass * whole.length * whole.length / (mass_at == "nodes" ? 4 : 12);
+  out.parts.push_back({whole, static_cast<int>(record["segments"].integer)});
 }
 
 /// Equal segments of a line, of its parts one after the other, or its links one by one.
@@ -73,40 +72,31 @@ void read_segments(const Record& record, Line& out) {
       if (part.has(key) && !record.has(key))
         throw part.wrong(key, fmt::format("is for this part, but the line has no {} for the others", key),
                          fmt::format("give [[line]] a {} too", key));
-    append_equal(part, record.text("mass_at"), segment, out);
+    append_even(part, record.text("mass_at"), segment, out);
   }
-  if (!record.has("length")) return;
-  for (const char* key : {"segments", "mass_per_length"})
-    if (!record.has(key)) throw record.refused(fmt::format("needs the key \"{}\" beside \"length\"", key));
-  append_equal(record, record.text("mass_at"), out.common, out);
+  if (record.has("length")) {
+    for (const char* key : {"segments", "mass_per_length"})
+      if (!record.has(key)) throw record.refused(fmt::format("needs the key \"{}\" beside \"length\"", key));
+    append_even(record, record.text("mass_at"), out.common, out);
+  }
+  if (!out.parts.empty()) out.segments = cut(out);
 }
 
-/// Marine growth on segments whose middle is between two distances along the line.
-struct Growth {
-  double thickness, density, from, to;  ///< m, kg/m³, m, m
-};
-
-const Binding<Growth>& line_growth() {
-  static const Binding<Growth> binding =
-      Binding<Growth>("[line.growth]",
-                      "a layer around the segments whose middle is between two distances along the line: it has mass, "
-                      "and widens the diameter that water and bed meet")
-          .key(quantity("thickness", dim::length, "of the layer").positive(), &Growth::thickness)
-          .key(quantity("density", dim::density, "of what grows, in air").positive(), &Growth::density)
+const Binding<Line::Growth>& line_growth() {
+  static const Binding<Line::Growth> binding =
+      Binding<Line::Growth>(
+          "[line.growth]",
+          "a layer around the segments whose middle is between two distances along the line: it has mass, "
+          "and widens the diameter that water and bed meet")
+          .key(quantity("thickness", dim::length, "of the layer").positive(), &Line::Growth::thickness)
+          .key(quantity("density", dim::density, "of what grows, in air").positive(), &Line::Growth::density)
           .key(quantity("from", dim::length, "distance from the line's first end")
                    .within(Limit::not_negative)
                    .or_default("0 m", "from there on"),
-               &Growth::from)
-          .key(quantity("to", dim::length, "likewise; left out: to the other end").positive().optional(), &Growth::to);
+               &Line::Growth::from)
+          .key(quantity("to", dim::length, "likewise; left out: to the other end").positive().optional(),
+               &Line::Growth::to);
   return binding;
-}
-
-/// A layer t around a diameter D adds ρ π t (D + t) per length, spread as the rest is. (D100)
-void grow(const Growth& growth, dl::Segment& s) {
-  const double before = s.mass, t = growth.thickness;
-  s.mass += growth.density * std::numbers::pi * t * (s.diameter + t) * s.length;
-  s.inertia *= s.mass / before;
-  s.diameter += 2 * t;
 }
 
 void add_growth(const Record& whole, Line& out) {
@@ -116,17 +106,14 @@ void add_growth(const Record& whole, Line& out) {
     throw record.refused("grows on links that are given one by one, each with its own mass",
                          "leave it out, or give the line a `length` or [[line.part]]");
   double length = 0;
-  for (const dl::Segment& s : out.segments) length += s.length;
-  Growth growth = line_growth().read(record);
+  for (const Line::EvenPart& part : out.parts) length += part.whole.length;
+  Line::Growth growth = line_growth().read(record);
   if (!record.has("to")) growth.to = length;
   if (!(growth.to > growth.from) || growth.to > length * (1 + 1e-9))
     throw record.refused(fmt::format("reaches from {} to {} m of a line of {} m", growth.from, growth.to, length),
                          "count both from the line's first end");
-  double along = 0;
-  for (dl::Segment& s : out.segments) {
-    if (const double middle = along + s.length / 2; middle > growth.from && middle < growth.to) grow(growth, s);
-    along += s.length;
-  }
+  out.growth = growth;
+  out.segments = cut(out);
 }
 
 Binding<Line> line_morison() {

@@ -292,10 +292,21 @@ struct Line {
     std::vector<double> time;            ///< s
     std::vector<Eigen::Vector3d> place;  ///< m
   };
+  /// An even part, which is cut into equal segments.
+  struct EvenPart {
+    dynamics::line::Segment whole;
+    int segments;
+  };
+  /// Marine growth on segments whose middle is between two distances along the line.
+  struct Growth {
+    double thickness, density, from, to;  ///< m, kg/m³, m, m
+  };
   std::string name;
   End from, to;
   dynamics::line::Segment common;                 ///< what segments have whose own table says nothing else
-  std::vector<dynamics::line::Segment> segments;  ///< each with all it has, marine growth too
+  std::vector<EvenPart> parts;                    ///< empty: its links are listed one by one
+  std::optional<Growth> growth;                   ///< on parts
+  std::vector<dynamics::line::Segment> segments;  ///< each with all it has, marine growth too: cut() of its parts
   dynamics::line::Node node;                      ///< each; at held ends without mass
   bool componentwise_damping = false;             ///< as dynamics::line::Description
   dynamics::line::Surroundings water;             ///< without the field of a run
