@@ -11,9 +11,13 @@
 #include "compile/radiation.hpp"
 #include "compile/restart.hpp"
 #include "compile/step.hpp"
+#include "hydro/base/error.hpp"
+#include "scene/finer.hpp"
 
 namespace froude {
 namespace {
+
+constexpr int twice = 2;
 
 /// Steps `factor` times as long: as many fewer a sample as may be, and then samples that are farther apart. Where that
 /// would leave fewer than `few`, the steps of a sample are as many as come nearest.
@@ -42,6 +46,29 @@ void keep_signals_of(const Run& other, Run& run) {
   std::vector<Signal> kept;
   for (const Signal& s : other.signals) kept.push_back({s.name, s.units, s.long_name, run.signal(s.name)});
   run.signals = std::move(kept);
+}
+
+/// The signals of another run as they are where lines are cut into `times` as many segments: of nodes at the same
+/// place, of links the mean of those that one was cut into.
+void take_signals_of(const Run& other, const scene::Scene& scene, int times, Run& run) {
+  std::vector<Signal> taken;
+  for (const Signal& s : other.signals) {
+    const auto names = scene::names_where_finer(scene, times, s.name);
+    taken.push_back({s.name, s.units, s.long_name, std::vector<double>(run.time.size(), 0.0)});
+    for (const std::string& name : names)
+      std::transform(taken.back().values.begin(), taken.back().values.end(), run.signal(name).begin(),
+                     taken.back().values.begin(),
+                     [n = static_cast<double>(names.size())](double sum, double value) { return sum + value / n; });
+  }
+  run.signals = std::move(taken);
+}
+
+/// Asks a run for the signals of another one, as they are named there, alone: a fine line has many.
+void ask_for_signals_of(const Run& other, const scene::Scene& scene, int times, scene::AskRun& ask) {
+  ask.of.clear();
+  for (const Signal& s : other.signals)
+    for (std::string& name : scene::names_where_finer(scene, times, s.name)) ask.of.push_back(std::move(name));
+  ask.of_places.assign(ask.of.size(), ask.place);
 }
 
 /// A start that lies beside that of the model, in directions that any run of this scene takes alike.
@@ -89,8 +116,9 @@ std::string Companions::how() const {
                        : "runs at 2 and 4 times the step";
 }
 
-scene::Scene Companions::scene_of(int level, std::size_t& stride) const {
+scene::Scene Companions::scene_of(int level, std::size_t& stride, compile::PieceTimes pieces) const {
   scene::Scene out = scene_;
+  compile::cut_members_finer(pieces, out);
   stride = 1;
   // Parts are no longer than a step: where the tolerance cuts none, it is the step that makes the error.
   if (by_tolerance_) out.solve.tolerance = tolerance_ * std::pow(10, level);
@@ -143,6 +171,45 @@ std::optional<Run> Companions::completed_by(Missing what, int level) {
   Run out = run_model(scene, compile::time_model(scene, prepared_, {*load}), progress_);
   keep_signals_of(at(level), out);
   return out;
+}
+
+bool Companions::has(Cut what) const {
+  using compile::CutBy;
+  if (what == Cut::segments) return scene::approximates_lines(scene_);
+  return compile::any_member_cut(scene_, what == Cut::given_pieces ? CutBy::scene : CutBy::program);
+}
+
+scene::Scene Companions::cut_scene(Cut what, int level) const {
+  std::size_t stride = 1;
+  if (what == Cut::given_pieces) return scene_of(level, stride, {twice, refined_pieces_});
+  if (what == Cut::chosen_pieces) return scene_of(level, stride, {1, twice * refined_pieces_});
+  scene::Scene out = scene::with_finer_lines(scene_of(level, stride), twice);
+  ask_for_signals_of(runs_.at(level).run, scene_, twice, *out.run);
+  return out;
+}
+
+Run Companions::cut_finer(Cut what, int level) {
+  const Run& whole = run(level);
+  const scene::Scene scene = cut_scene(what, level);
+  compile::Prepared prepared = prepared_;
+  Run out;
+  try {
+    prepared.fastened = compile::fastened_lines(scene, prepared.bodies);
+    out = run_model(scene, compile::time_model(scene, prepared), progress_);
+  } catch (const hydro::InputError& e) {
+    out.stopped = e.rule();
+  } catch (const hydro::NumericsError& e) {
+    out.stopped = e.what();
+  }
+  if (out.stopped.empty()) take_signals_of(whole, scene_, what == Cut::segments ? twice : 1, out);
+  return out;
+}
+
+void Companions::refine_pieces(int times) {
+  refined_pieces_ *= times;
+  runs_.clear();
+  followed_.clear();
+  neighbour_.reset();
 }
 
 const Run& Companions::neighbour() {

@@ -7,6 +7,7 @@
 #include "answers/convergence.hpp"
 #include "compile/compile.hpp"
 #include "compile/defect.hpp"
+#include "compile/members.hpp"
 #include "scene/scene.hpp"
 
 namespace froude {
@@ -42,6 +43,17 @@ class Companions {
   /// A level that came to its end with the loads put back that it misses, by its own motion; nothing where it misses
   /// none.
   std::optional<Run> completed_by(Missing what, int level);
+  /// What stands for something even by being cut into equal pieces: segments of lines; pieces of members, as many as
+  /// the scene says or as the program chooses.
+  enum class Cut { segments, given_pieces, chosen_pieces };
+  bool has(Cut what) const;
+  /// A level with twice as many of them: its signals, each where the level has it. One that did not come to its end, or
+  /// could not begin, says why.
+  Run cut_finer(Cut what, int level);
+  /// By how many times more pieces than the program chose first its members are cut.
+  int refined_pieces() const { return refined_pieces_; }
+  /// Its members have `times` as many pieces again; all runs are made anew.
+  void refine_pieces(int times);
   /// Level 0 with its start moved by a nanometre, a nanoradian, and as much in a second, this way and that.
   const Run& neighbour();
   /// True if that run came to its end in steps longer than those of the level below: where there are few samples, and a
@@ -67,7 +79,9 @@ class Companions {
   };
   void hold_memories();
   Made made(int level) const;
-  scene::Scene scene_of(int level, std::size_t& stride) const;
+  scene::Scene scene_of(int level, std::size_t& stride, compile::PieceTimes pieces) const;
+  scene::Scene scene_of(int level, std::size_t& stride) const { return scene_of(level, stride, {1, refined_pieces_}); }
+  scene::Scene cut_scene(Cut what, int level) const;
   const Followed& followed(int level);
 
   const scene::Scene& scene_;
@@ -75,6 +89,7 @@ class Companions {
   const std::function<void(double)>& progress_;
   bool by_tolerance_, given_;
   double step_, tolerance_;  // s; of level 0
+  int refined_pieces_ = 1;
   std::map<int, Made> runs_;
   std::map<int, Followed> followed_;
   std::optional<Run> neighbour_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "answers/companions.hpp"
@@ -35,6 +36,11 @@ class Refinement {
       if (!companions_.completes(level)) return without_estimate(level, "the run has stopped early");
       if (!judge(level)) return without_estimate(level, "runs with other steps do not come to their end");
       look_at_water(level);
+      look_at_cuts(level);
+      if (const int times = times_as_many_pieces(level); times > 1) {
+        begin_with_pieces(times);
+        continue;
+      }
       finer = finer_level(level);
       if (finer == level) return told(level);
     }
@@ -43,6 +49,8 @@ class Refinement {
  private:
   static constexpr int finest = -6;       // a 64th of what was chosen first, at a hundred times its cost
   static constexpr int most_at_once = 2;  // levels
+  static constexpr const char* twice_as_many = "a run with twice as many";
+  static constexpr const char* own_pieces = "quadrature";
 
   bool may_refuse() const { return !scene_.solve.accept_error; }
   bool may_refine() const { return !companions_.given() && may_refuse(); }
@@ -125,7 +133,9 @@ class Refinement {
     compare(level, at, {.name = "coefficients", .how = how, .of_signal = {}, .given = true},
             companions_.completed_by(coefficients, at));
   }
-  void compare(int level, int at, ErrorEstimate::Source source, const std::optional<Run>& with) {
+  /// `of_difference`: the error over what both runs differ by.
+  void compare(int level, int at, ErrorEstimate::Source source, const std::optional<Run>& with,
+               double of_difference = 1) {
     if (!with) return;
     const Beside without{&companions_.run(at), 1}, put_back{&*with, 1};
     others_.push_back(std::move(source));
@@ -133,9 +143,57 @@ class Refinement {
       Judged& j = judged_[i];
       if (j.until < companions_.run(level).time.back())
         j.until = known_until_[i] = parted(without, put_back, i, j.until);
-      others_.back().of_signal.push_back(
-          is_residual(with->signals[i].name) ? 0 : difference(without, put_back, i, j.until) / scale_[i]);
+      others_.back().of_signal.push_back(is_residual(with->signals[i].name)
+                                             ? 0
+                                             : of_difference * difference(without, put_back, i, j.until) / scale_[i]);
     }
+  }
+  /// What the pieces do into which lines and members are cut: seen once, at the longest step at which the run with
+  /// twice as many comes to its end. (E4)
+  void look_at_cuts(int level) {
+    using enum Companions::Cut;
+    if (looked_at_cuts_) return;
+    looked_at_cuts_ = true;
+    look_at(segments, {.name = "segments", .how = twice_as_many, .of_signal = {}, .given = true}, level);
+    look_at(given_pieces, {.name = "pieces", .how = twice_as_many, .of_signal = {}, .given = true}, level);
+    look_at(chosen_pieces, {.name = own_pieces, .how = twice_as_many, .of_signal = {}}, level);
+  }
+  void look_at(Companions::Cut what, const ErrorEstimate::Source& source, int level) {
+    constexpr double first_order = 2;  // the lowest order that there is: of d = e(N) - e(2N) the error is 2 d
+    if (!companions_.has(what)) return;
+    std::string why;
+    const int longest = companions_.is_longer(level + 1) ? level + 2 : level;
+    for (int at = longest; at >= level; --at) {
+      if (!companions_.completes(at)) continue;
+      const Run finer = companions_.cut_finer(what, at);
+      if (finer.stopped.empty()) return compare(level, at, source, finer, first_order);
+      why = finer.stopped;
+    }
+    unseen_.push_back(fmt::format("{}: a run with twice as many does not come to its end: {}", source.name, why));
+  }
+  /// By how many times more pieces the members of the program's own want: half of the accuracy asked is theirs.
+  int times_as_many_pieces(int level) const {
+    constexpr double share = 0.5;
+    constexpr int most = 64, most_more = 8;
+    if (!may_refuse()) return 1;
+    double worst = 0;
+    std::size_t signal = 0;
+    for (const auto& source : others_)
+      for (std::size_t i = 0; source.name == own_pieces && i < source.of_signal.size(); ++i)
+        if (source.of_signal[i] > worst) worst = source.of_signal[signal = i];
+    if (worst <= share * scene_.accuracy) return 1;
+    if (companions_.refined_pieces() >= most)
+      refuse(level, signal, worst,
+             fmt::format("the pieces of members stand in the way: {} times as many do not do", most), "");
+    const double wanted = std::min(std::ceil(worst / (share * scene_.accuracy)), 1.0 * most_more);
+    return static_cast<int>(std::bit_ceil(static_cast<unsigned>(wanted)));
+  }
+  void begin_with_pieces(int times) {
+    companions_.refine_pieces(times);
+    looked_ = looked_at_cuts_ = false;
+    others_.clear();
+    unseen_.clear();
+    known_until_.clear();
   }
   /// From when on runs with other water have parted as neighbours do: they are farther apart than what is asked, and
   /// than the water itself has brought them in the first quarter of the time in which the step predicts the signal.
@@ -168,7 +226,7 @@ class Refinement {
       const Judged& j = judged_[i];
       const double left = left_for_step(i);
       if (j.error <= left) continue;
-      if (left <= 0) refuse_memory(level, i);
+      if (left <= 0) refuse_memory(level, i);  // pieces are within half of what is asked
       if (!may_refine()) continue;
       const int needed = levels_needed(j, room * left);
       if (level - needed < finest) refuse_step(level, i);
@@ -211,7 +269,10 @@ class Refinement {
       if (judged_[i].until < companions_.at(level).time.back()) error.unpredictable.push_back(beyond(level, i));
     }
     error.sources.insert(error.sources.end(), others_.begin(), others_.end());
+    error.unseen = unseen_;
     Run out = companions_.take(level);
+    if (const int times = companions_.refined_pieces(); times > 1)
+      out.notes.push_back(fmt::format("members are cut into {} times as many pieces as were chosen first", times));
     out.error = std::move(error);
     return out;
   }
@@ -238,7 +299,8 @@ class Refinement {
   std::vector<double> scale_;
   std::vector<Judged> judged_;
   std::vector<double> known_until_;  // s, one a signal: what the water leaves of it
-  bool looked_ = false;
+  bool looked_ = false, looked_at_cuts_ = false;
+  std::vector<std::string> unseen_;
   std::vector<ErrorEstimate::Source> others_;
 };
 
@@ -249,6 +311,7 @@ ErrorEstimate unknown_error(const scene::Scene& scene, std::string missing) {
           .accepted = scene.solve.accept_error,
           .sources = {},
           .unpredictable = {},
+          .unseen = {},
           .missing = std::move(missing)};
 }
 

@@ -145,6 +145,10 @@ std::string warning_of_prediction(const Run& run) {
       s.name, first.until, listed(others), s.name, first.deviation, s.units, first.scatter);
 }
 
+std::string warning_of_unseen(const ErrorEstimate& e) {
+  return e.unseen.empty() ? "" : fmt::format("warning: no error is estimated of {}", fmt::join(e.unseen, "; "));
+}
+
 }  // namespace
 
 std::string Run::accuracy() const { return accuracy_of(error, signals, ""); }
@@ -158,8 +162,8 @@ std::vector<std::string> Responses::warnings() const {
 
 std::vector<std::string> Run::warnings() const {
   std::vector<std::string> out;
-  for (std::string warning :
-       {warning_of_residual(*this), warning_of_error(error, signals, "rms"), warning_of_prediction(*this)})
+  for (std::string warning : {warning_of_residual(*this), warning_of_error(error, signals, "rms"),
+                              warning_of_prediction(*this), warning_of_unseen(error)})
     if (!warning.empty()) out.push_back(std::move(warning));
   return out;
 }

@@ -64,7 +64,7 @@ struct LineExponent {
 std::string sentence(const LineExponent& exponent);
 
 /// How far the signals of a run are off by what is approximated: rms of the error over rms of the signal, over the
-/// whole run, or for as long as the signal can be predicted. (E1)-(E3), docs/theory/accuracy.md.
+/// whole run, or for as long as the signal can be predicted. (E1)-(E4), docs/theory/accuracy.md.
 struct ErrorEstimate {
   struct Source {
     std::string name;               ///< "step", "memory", …
@@ -82,7 +82,8 @@ struct ErrorEstimate {
   bool accepted = false;  ///< the scene takes whatever error there is
   std::vector<Source> sources;
   std::vector<Unpredictable> unpredictable;
-  std::string missing;  ///< why nothing is estimated; empty where it is
+  std::vector<std::string> unseen;  ///< sources of which nothing is known, each with the reason
+  std::string missing;              ///< why nothing is estimated; empty where it is
 
   double total(std::size_t signal) const;  ///< of all sources
   std::size_t worst() const;               ///< the signal whose total is largest
