@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
-#include <vector>
+#include <utility>
 
+#include "scene/finer.hpp"
 #include "scene/scene.hpp"
 
 namespace support {
@@ -70,29 +70,7 @@ struct Finer {
   bool memory = false;                         ///< as near to the data as a method comes, 1e-4 if one can
   bool links = false;                          ///< each segment of a line in three
 };
-
-/// Segments of lines that the scene cuts into equal ones; links that it lists are bodies by themselves.
-inline bool has_segments(const froude::scene::Scene& scene) {
-  return !scene.lines.empty() && scene.text.find("segments = ") != std::string::npos;
-}
-
-inline void cut_in_three(froude::scene::Line& line) {
-  std::vector<dynamics::line::Segment> all;
-  for (dynamics::line::Segment s : line.segments) {
-    s.length /= 3;
-    s.mass /= 3;
-    s.inertia /= 27;
-    all.insert(all.end(), 3, s);
-  }
-  line.segments = std::move(all);
-  line.node.mass /= 3;
-  line.node.damping /= 3;
-  line.node.quadratic_damping /= 3;
-  line.node.force /= 3;
-  for (auto* end : {&line.from, &line.to})
-    if (end->meets) end->meets->node *= 3;
-  if (line.release) line.release->node *= 3;
-}
+constexpr int three = 3;
 
 inline froude::scene::Scene refined(froude::scene::Scene scene, const Finer& finer) {
   if (finer.step) {
@@ -110,26 +88,17 @@ inline froude::scene::Scene refined(froude::scene::Scene scene, const Finer& fin
       body.hydrodynamics->memory.tolerance = 1e-4;
       body.hydrodynamics->memory.method = froude::scene::Memory::Method::automatic;
     }
-  if (finer.links && has_segments(scene)) {
-    for (auto& line : scene.lines) cut_in_three(line);
-    scene.run->of.clear();
-    scene.run->of_places.clear();
-  }
-  return scene;
+  if (!finer.links || !froude::scene::approximates_lines(scene)) return scene;
+  scene.run->of.clear();
+  scene.run->of_places.clear();
+  return froude::scene::with_finer_lines(std::move(scene), three);
 }
 
-/// The name that a signal has where each segment is three: of node 4 that of node 12, of link 4 that of link 11.
-inline std::string name_where_cut(const std::string& name) {
-  for (const std::string_view part : {".node", ".link"}) {
-    const auto at = name.find(part);
-    const auto from = at + part.size();
-    if (at == std::string::npos || from >= name.size() || !std::isdigit(static_cast<unsigned char>(name[from])))
-      continue;
-    const auto to = std::min(name.find_first_not_of("0123456789", from), name.size());
-    const int number = 3 * std::stoi(name.substr(from, to - from)) - (part == ".link" ? 1 : 0);
-    return fmt::format("{}{}{}", name.substr(0, from), number, name.substr(to));
-  }
-  return name;
+/// The name that a signal of `scene` has where each segment is three: of node 4 that of node 12, of link 4 that of link
+/// 11.
+inline std::string name_where_cut(const froude::scene::Scene& scene, const std::string& name) {
+  const auto names = froude::scene::names_where_finer(scene, three, name);
+  return names[names.size() / 2];
 }
 
 }  // namespace support

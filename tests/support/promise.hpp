@@ -59,8 +59,12 @@ class Runs {
 struct Reference {
   froude::Run run, second;
   std::string method;
-  bool cut;  ///< segments of lines are three each
+  std::optional<froude::scene::Scene> cut;  ///< whose lines have three segments for each of its own; empty: no lines
 };
+
+inline std::optional<froude::scene::Scene> cut_in_three(froude::scene::Scene scene) {
+  return froude::scene::approximates_lines(scene) ? std::optional(std::move(scene)) : std::nullopt;
+}
 
 /// Ten times finer than `finest`, s, by another method where one takes the scene, with components and pieces for the
 /// highest accuracy that its data allow. \throws hydro::NumericsError if there is none
@@ -79,7 +83,7 @@ inline Reference reference(const Runs& runs, double finest) {
         finer.step = finest / 5;
         froude::Run second = runs.accepted(accuracy, finer);
         return {std::move(first), std::move(second), *method ? method : "as the scene says",
-                has_segments(runs.read(accuracy))};
+                cut_in_three(runs.read(accuracy))};
       } catch (const std::runtime_error& e) {
         why += fmt::format("\n{} at {}: {}", method, accuracy, e.what());
       }
@@ -101,7 +105,7 @@ inline Judgement judge(const froude::Run& run, const Reference& reference, doubl
   for (std::size_t i = 0; i < run.signals.size(); ++i) {
     const auto& signal = run.signals[i];
     if (signal.name.find("residual") != std::string::npos) continue;  // an error itself
-    const std::string name = reference.cut ? name_where_cut(signal.name) : signal.name;
+    const std::string name = reference.cut ? name_where_cut(*reference.cut, signal.name) : signal.name;
     const auto &first = reference.run.signal(name), &second = reference.second.signal(name);
     const std::size_t count = agreed(first, second, size[i], accuracy / 5);
     const double error = relative_error(signal.values, first, size[i], count);
