@@ -188,14 +188,20 @@ scene::Scene Companions::cut_scene(Cut what, int level) const {
   return out;
 }
 
+/// Lines on bodies, and what watches nodes, are prepared; pieces of members are not.
+compile::Prepared Companions::prepared_for(Cut what, const scene::Scene& scene) const {
+  if (what != Cut::segments) return prepared_;
+  compile::Prepared out = compile::prepare(scene, prepared_.kept);
+  out.memory = prepared_.memory;
+  return out;
+}
+
 Run Companions::cut_finer(Cut what, int level) {
   const Run& whole = run(level);
   const scene::Scene scene = cut_scene(what, level);
-  compile::Prepared prepared = prepared_;
   Run out;
   try {
-    prepared.fastened = compile::fastened_lines(scene, prepared.bodies);
-    out = run_model(scene, compile::time_model(scene, prepared), progress_);
+    out = run_model(scene, compile::time_model(scene, prepared_for(what, scene)), progress_);
   } catch (const hydro::InputError& e) {
     out.stopped = e.rule();
   } catch (const hydro::NumericsError& e) {

@@ -82,6 +82,7 @@ class Companions {
   scene::Scene scene_of(int level, std::size_t& stride, compile::PieceTimes pieces) const;
   scene::Scene scene_of(int level, std::size_t& stride) const { return scene_of(level, stride, {1, refined_pieces_}); }
   scene::Scene cut_scene(Cut what, int level) const;
+  compile::Prepared prepared_for(Cut what, const scene::Scene& scene) const;
   const Followed& followed(int level);
 
   const scene::Scene& scene_;

@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <numeric>
+#include <variant>
 
 #include "answers/convergence.hpp"
 #include "answers/simulate.hpp"
@@ -222,10 +225,32 @@ TEST(Cuts, TooFewPiecesOfTheProgramAreMadeMore) {
   EXPECT_GT(told(taken, "quadrature", "sledge.surge"), 0.5e-2);
 }
 
-TEST(Cuts, WhatCouldNotBeSeenIsWarnedOf) {
-  froude::Run run;
-  run.error.unseen = {"segments: a run with twice as many does not come to its end: no"};
-  EXPECT_THAT(run.warnings(), ElementsAre(HasSubstr("no error is estimated of segments: a run with twice as many")));
+TEST(Cuts, AWatchedNodeIsTheSameOneWhereALineIsFiner) {
+  const std::string text = water +
+                           "[[body]]\nname = \"m\"\nmass = \"2 kg\"\nfree = [\"surge\"]\n"
+                           "[[connector]]\nname = \"spring\"\nkind = \"axial\"\nbetween = [\"m\", \"ground\"]\n"
+                           "ends = [\"(0, 0, 0) m\", \"(10, 0, 0) m\"]\nstiffness = \"0.5 N/m\"\nrest_length = \"as "
+                           "placed\"\n[connector.switch]\nwatch = \"rope.node3.x\"\nevery = \"10 s\"\nwindow = \"60 "
+                           "s\"\nhysteresis = \"0.001 Hz\"\nsettings = [{ from = \"0 s\", stiffness = \"0.6 N/m\" }]\n"
+                           "[[line]]\nname = \"rope\"\nfrom = \"(0, 0, 0) m\"\nlength = \"10 m\"\nsegments = 4\n"
+                           "mass_per_length = \"2 kg/m\"\n[ask]\nrun = { duration = \"90 s\", every = \"0.1 s\" }\n";
+  const auto fine = scene::with_finer_lines(parse(text), 2);
+  EXPECT_EQ(std::get<scene::AxialConnector>(fine.connectors[0].kind).switching->watch.value, "rope.node6.x");
+}
+
+TEST(Cuts, WhereTheFinerLineHasNoRunAWarningSaysSo) {
+  // One link, whose middle at -5 m has a Keulegan-Carpenter number of 15; those at -7.5 m of two have 11, which no row
+  // of the table has.
+  const std::filesystem::path folder = testing::TempDir();
+  std::ofstream(folder / "cuts_by_kc.csv") << "KC, cd, ca\n13, 2, 1\n30, 2, 1\n";
+  const auto run = simulate(scene::parse(
+      water + "[waves]\nkind = \"regular\"\nheight = \"1 m\"\nperiod = \"6 s\"\nheading = \"0 deg\"\nramp = \"6 s\"\n"
+              "[[line]]\nname = \"rope\"\nfrom = \"(0, 0, 0) m\"\nlength = \"10 m\"\nsegments = 1\n"
+              "mass_per_length = \"14 kg/m\"\ndiameter = \"0.12 m\"\n[line.morison]\nfile = \"cuts_by_kc.csv\"\n[ask]\n"
+              "run = { duration = \"12 s\", every = \"0.1 s\" }\n",
+      folder / "scene.toml"));
+  EXPECT_THAT(run.warnings(), Contains(AllOf(HasSubstr("no error is estimated of segments"), HasSubstr("segment 2"))));
+  EXPECT_EQ(run.error.sources.size(), 1);
 }
 
 }  // namespace
