@@ -6,6 +6,8 @@
 
 #include "fit/sensor.hpp"
 #include "fit/sensor_noise.hpp"
+#include "hydro/base/dense.hpp"
+#include "hydro/base/random.hpp"
 
 namespace fit {
 namespace {
@@ -97,18 +99,62 @@ void add_drag_errors(std::span<const double> velocity, std::span<const double> a
   }
 }
 
-std::vector<std::vector<double>> rounding_of(std::span<const double> values, double step_s,
-                                             std::uint64_t stream) {  // (F69)
-  const double step = step_of(values);
-  if (step == 0) return {};
-  const LocalPolynomial smooth = smoother_of(values, step_s);
-  const SensorNoise noise = sure_noise(noise_in(values, smooth), step);
-  if (!noise.rounds_with_memory()) return {};
-  const std::vector<double> signal = smoothed(values, smooth);
+namespace {
+
+/// Mean squares of draws: their mean, and by how much they may exceed it by chance, two deviations.
+std::pair<double, double> squares_of(const std::vector<std::vector<double>>& draws) {
+  Eigen::ArrayXd squares(std::ssize(draws));
+  for (Eigen::Index d = 0; d < squares.size(); ++d) {
+    const auto& draw = draws[static_cast<std::size_t>(d)];
+    squares[d] = Eigen::Map<const Eigen::VectorXd>(draw.data(), std::ssize(draw)).squaredNorm() /
+                 static_cast<double>(draw.size());
+  }
+  return {squares.mean(), 2 * std::sqrt((squares - squares.mean()).square().mean())};
+}
+
+/// What rounding does to signals that are up to a few steps larger or smaller, on the grid of the sensor.
+std::vector<std::vector<double>> rounded_alike(const std::vector<double>& signal, const Rounding& rounding,
+                                               double deviation, std::uint64_t stream) {
+  constexpr std::uint64_t seed = 69;
+  constexpr double steps = 4;  // so that most of the signal comes to lie anywhere within a step
+  const auto [low, high] = std::minmax_element(signal.begin(), signal.end());
+  const double middle = (*low + *high) / 2, furthest = (*high - *low) / 2;
   std::vector<std::vector<double>> out;
-  for (std::uint64_t draw = 0; draw < noise_draws; ++draw)
-    out.push_back(drawn_error(signal, noise, DrawnError::rounding, stream, draw));
+  for (std::uint64_t draw = 0; draw < noise_draws; ++draw) {
+    const hydro::RandomStream random(seed, stream * 1000 + draw);
+    const double larger = furthest > 0 ? steps * rounding.step / furthest * (2 * random.uniform(signal.size()) - 1) : 0;
+    std::vector<double> error(signal.size());
+    for (std::size_t j = 0; j < signal.size(); ++j) {
+      const double white = deviation > 0 ? deviation * random.normal(j) : 0.0;
+      const double moved = middle + (1 + larger) * (signal[j] - middle) + white;
+      error[j] = rounding_error(moved - rounding.level, rounding.step);
+    }
+    out.push_back(std::move(error));
+  }
   return out;
+}
+
+}  // namespace
+
+std::optional<Rounding> find_rounding(std::span<const double> values, double step_s) {  // (F69)
+  const double step = step_of(values);
+  if (step == 0) return std::nullopt;
+  const double total = noise_in(values, smoother_of(values, step_s));
+  if (!sure_noise(total, step).rounds_with_memory()) return std::nullopt;
+  return Rounding{step, values.front(), total};
+}
+
+std::vector<std::vector<double>> rounding_of(std::span<const double> values, const Eigen::MatrixXd& explained_by,
+                                             const Rounding& rounding, double step_s, std::uint64_t stream) {  // (F69)
+  const Eigen::Map<const Eigen::VectorXd> measured(values.data(), std::ssize(values));
+  const Eigen::VectorXd fitted = explained_by * hydro::dense::CompleteQr(explained_by).solve(measured);
+  const auto signal = smoothed({fitted.data(), values.size()}, smoother_of(values, step_s));
+  auto alone = rounded_alike(signal, rounding, 0, stream);
+  const auto [mean, by_chance] = squares_of(alone);
+  const double total =
+      std::min(rounding.total * rounding.total, (measured - fitted).squaredNorm() / static_cast<double>(values.size()));
+  const double white = total - mean - by_chance;
+  return white > 0 ? rounded_alike(signal, rounding, std::sqrt(white), stream) : alone;
 }
 
 }  // namespace fit

@@ -1,9 +1,11 @@
 #include "fit/prepare.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include "fit/correlated.hpp"
 #include "fit/cycles.hpp"
@@ -28,7 +30,8 @@ struct Work {
   RawRun run;
   double step = 0;
   Prepared out;
-  std::vector<double> pattern;  // position or velocity: where cycles are seen
+  std::vector<double> pattern;                    // position or velocity: where cycles are seen
+  std::vector<std::optional<Rounding>> rounding;  // of each channel of the force
 
   std::vector<std::vector<double>*> columns() {
     std::vector<std::vector<double>*> all{&run.time,
@@ -220,17 +223,42 @@ void sum_forces(Work& w) {
   if (w.run.force.size() > 1) w.tell("force: the sum of {} channels", w.run.force.size());
 }
 
+/// Which sensors of the force round with a memory; looked for in their own samples, before anything moves these. (F69)
+void find_rounding(Work& w) {
+  for (const ForceChannel& f : w.run.force) {
+    w.rounding.push_back(::fit::find_rounding(f.values, w.step));
+    if (w.rounding.back())
+      w.tell("steps: {} has less noise than half of one; what rounding may have done to it is in the intervals",
+             f.name);
+  }
+}
+
+/// What makes the force, in columns: drag, inertia, linear drag and an offset.
+Eigen::MatrixXd force_columns(const ForceRecord& r) {
+  const auto n = std::ssize(r.time);
+  const auto column = [n](const std::vector<double>& v) { return Eigen::Map<const Eigen::ArrayXd>(v.data(), n); };
+  Eigen::MatrixXd out(n, r.water_acceleration.empty() ? 4 : 5);
+  const auto u = column(r.velocity);
+  out.col(0) = r.drag_flow.empty() ? (u.abs() * u).eval() : column(r.drag_flow).eval();
+  out.col(1) = column(r.acceleration);
+  out.col(2) = u;
+  out.col(3).setOnes();
+  if (!r.water_acceleration.empty()) out.col(4) = column(r.water_acceleration);
+  return out;
+}
+
 /// What the steps of the force's sensors may have done; channels round by themselves. (F69)
 void add_rounding(Work& w) {
   auto& sum = w.out.record.rounding;
   std::uint64_t stream = 2;  // after those of the motions
-  for (const ForceChannel& f : w.run.force) {
-    const auto draws = rounding_of(f.values, w.step, ++stream);
-    if (draws.empty()) continue;
-    if (sum.empty()) sum.assign(draws.size(), std::vector<double>(f.values.size(), 0.0));
+  for (std::size_t i = 0; i < w.run.force.size(); ++i) {
+    ++stream;
+    if (!w.rounding[i]) continue;
+    const std::vector<double>& values = w.run.force[i].values;
+    const auto draws = rounding_of(values, force_columns(w.out.record), *w.rounding[i], w.step, stream);
+    if (sum.empty()) sum.assign(draws.size(), std::vector<double>(values.size(), 0.0));
     for (std::size_t d = 0; d < draws.size(); ++d)
       for (std::size_t j = 0; j < draws[d].size(); ++j) sum[d][j] += draws[d][j];
-    w.tell("steps: {} has less noise than half of one; what rounding may have done to it is in the intervals", f.name);
   }
 }
 
@@ -242,12 +270,8 @@ void take_delay(Work& w, double delay_s) {  // (F24)
   const auto force = later(w.out.record.force, lag, margin);
   std::vector<std::vector<double>> channels;
   for (const ForceChannel& f : w.run.force) channels.push_back(later(f.values, lag, margin));
-  auto rounding = std::move(w.out.record.rounding);
-  for (std::vector<double>& draw : rounding) draw = later(draw, lag, margin);
-  w.out.record.rounding.clear();
   w.cut(margin, w.run.time.size() - 2 * margin);
   w.out.record.force = force;
-  w.out.record.rounding = std::move(rounding);
   for (std::size_t i = 0; i < channels.size(); ++i) w.run.force[i].values = channels[i];
   w.tell("delay: the force is taken {:.4g} s earlier", delay_s);
 }
@@ -527,7 +551,7 @@ void add_force_errors(Work& w) {
 }  // namespace
 
 Prepared prepare(RawRun run, const PrepareOptions& options) {
-  Work w{.run = std::move(run), .step = 0, .out = {}, .pattern = {}};
+  Work w{.run = std::move(run), .step = 0, .out = {}, .pattern = {}, .rounding = {}};
   hydro::require(w.run.time.size() >= 3, "a record needs at least three samples, got {}", w.run.time.size());
   check(w.run);
   const int outlier_half = outlier_half_window(w.run.time, options);
@@ -537,12 +561,13 @@ Prepared prepare(RawRun run, const PrepareOptions& options) {
   take_outliers(w, outlier_half, options.outlier_deviations);
   resample(w, options.resample_hz);
   sum_forces(w);
-  add_rounding(w);
+  find_rounding(w);
   take_delay(w, options.delay_s);
   add_waves(w);
   add_motion(w, options);
   add_water(w, options);
   add_cross_flow(w);
+  add_rounding(w);
   filter_all(w, options.filters, options.linear_drag);
   cut_window(w, options.window, options.average_cycles);
   add_force_errors(w);

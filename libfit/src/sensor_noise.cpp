@@ -19,6 +19,8 @@ SensorNoise sure_noise(double total, double step) {
   return {std::sqrt(std::max(0.0, total * total - step * step / 6)), step};
 }
 
+double rounding_error(double value, double step) { return step * std::round(value / step) - value; }
+
 std::vector<double> drawn_error(std::span<const double> signal, const SensorNoise& noise, DrawnError what,
                                 std::uint64_t stream, std::uint64_t draw) {  // (F68)
   constexpr std::uint64_t seed = 68;
@@ -28,7 +30,7 @@ std::vector<double> drawn_error(std::span<const double> signal, const SensorNois
   for (std::size_t j = 0; j < signal.size(); ++j) {
     const double white = noise.deviation > 0 ? noise.deviation * random.normal(j) : 0.0;
     const double before = signal[j] + place + white;
-    const double rounding = noise.step > 0 ? noise.step * std::round(before / noise.step) - before : 0.0;
+    const double rounding = noise.step > 0 ? rounding_error(before, noise.step) : 0.0;
     error[j] = what == DrawnError::all ? white + rounding : rounding;
   }
   return error;

@@ -76,6 +76,15 @@ TEST(MotionNoise, OfAPositionInStepsIsCovered) {
   EXPECT_GE(share.second, least);
 }
 
+// Steps of 2 % of the force, next to no noise, and 80 samples in each period: rounding is the same in every cycle.
+TEST(ForceInSteps, IsCoveredByTheIntervals) {
+  for (const double noise : {0.0, 0.015}) {
+    const Share share = coverage_of_forces({.force = noise, .force_step = 0.3}, sets);
+    EXPECT_GE(share.first, least) << noise;
+    EXPECT_GE(share.second, least) << noise;
+  }
+}
+
 TEST(DecayInSteps, IsCoveredByTheIntervals) {
   // Steps of 2 % of the amplitude at 100 Hz: a sample moves by a twentieth of a step where the body turns. Each set
   // takes a second; of 20 with p = 0.95 fewer than 15 hold the truth in one test of 3000.

@@ -23,6 +23,9 @@ SensorNoise sensor_noise(double total, double step);
 /// to twice as large as δ²/12 of a step δ, and white noise that is taken for larger than it is would hide that.
 SensorNoise sure_noise(double total, double step);
 
+/// What rounding to a step adds to a value: between ±step/2.
+double rounding_error(double value, double step);
+
 /// What of the error is drawn.
 enum class DrawnError { all, rounding };
 /// Draw number `draw` of the error of a signal: the place of the signal within a step is drawn, even in it, and white

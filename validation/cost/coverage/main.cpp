@@ -1,0 +1,133 @@
+/// \file  Writes how often intervals of 95 % held the truth, by kinds of noise: docs/cost/coverage.md. See README.md.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <future>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "hydro/base/error.hpp"
+#include "hydro/io/atomic_file.hpp"
+#include "support/noisy_runs.hpp"
+
+namespace froude::cost {
+namespace {
+
+/// Of one made record: whether each interval held its truth, and whether all values were told.
+struct Held {
+  std::vector<bool> by_coefficient;
+  bool told;
+};
+
+struct Kind {
+  std::string what, noise;
+  std::vector<std::string> coefficients;
+  std::function<Held(std::uint64_t)> fit;
+};
+
+bool holds(const fit::Coefficient& c, double truth) { return c.interval.low <= truth && truth <= c.interval.high; }
+
+Kind force(const std::string& noise, const froude_test::Noise& made) {
+  return {"Morison", noise, {"cd", "ca"}, [made](std::uint64_t set) {
+            const auto solution = solve(froude_test::moved_run(made, set));
+            const fit::MorisonFit& f = solution.runs.at(0).fit;
+            return Held{{holds(f.cd, froude_test::moved_cd), holds(f.inertia, froude_test::moved_ca)},
+                        f.cd.value && f.inertia.value};
+          }};
+}
+
+Kind decay(const std::string& noise, double step, double step_s, double memory) {
+  return {"decay", noise, {"period", "linear", "quadratic"}, [=](std::uint64_t set) {
+            const auto [problem, omega] = froude_test::decay_in_steps(step, step_s, set, memory);
+            const auto solution = solve(problem);
+            if (solution.runs.empty()) return Held{{false, false, false}, false};
+            const auto& f = solution.runs[0].fit;
+            const auto &b = f.damping.at(0), &q = f.damping.at(1);
+            return Held{{holds(f.period, 2 * std::numbers::pi / omega), holds(b, froude_test::decay_linear),
+                         holds(q, froude_test::decay_quadratic)},
+                        f.period.value && b.value && q.value};
+          }};
+}
+
+std::vector<Kind> kinds() {
+  constexpr double at_20_hz = 0.05, at_50_hz = 0.02, at_100_hz = 0.01;
+  return {
+      force("white, 6 % of the force", {.force = 1}),
+      force("with a memory of 6 samples (φ = 0.85)", {.force = 1, .memory = 0.85}),
+      force("steps of 2 %, noise of a twentieth of one", {.force = 0.015, .force_step = 0.3}),
+      force("steps of 2 %, no noise", {.force_step = 0.3}),
+      force("steps of 2 %, no noise, 100 Hz", {.force_step = 0.3, .step_s = at_100_hz}),
+      force("steps of 2 %, noise of four tenths of one, 100 Hz",
+            {.force = 0.12, .force_step = 0.3, .step_s = at_100_hz}),
+      force("position alone, white, 0.5 mm, 20 Hz", {.position = 0.5e-3, .force = 1}),
+      force("position alone, white, 0.5 mm, 50 Hz", {.position = 0.5e-3, .force = 1, .step_s = at_50_hz}),
+      force("position in steps of 2 %, 100 Hz", {.force = 0.5, .position_step = 0.008, .step_s = at_100_hz}),
+      decay("white, 1.3 % of the first swing", 0, at_20_hz, 0),
+      decay("with a memory of 6 samples (φ = 0.85)", 0, at_20_hz, 0.85),
+      decay("steps of 2 %", 0.003, at_20_hz, 0),
+      decay("steps of 2 %, 100 Hz", 0.003, at_100_hz, 0),
+  };
+}
+
+/// Shares of sets in which each interval held the truth, and in which all values were told.
+std::string row_of(const Kind& kind, std::uint64_t sets) {
+  std::vector<double> share(kind.coefficients.size(), 0.0);
+  double told = 0;
+  const auto begin = std::chrono::steady_clock::now();
+  for (std::uint64_t set = 0; set < sets; ++set) {
+    const Held held = kind.fit(set);
+    for (std::size_t k = 0; k < share.size(); ++k) share[k] += held.by_coefficient[k];
+    told += held.told;
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const auto n = static_cast<double>(sets);
+  std::string covered;
+  for (std::size_t k = 0; k < share.size(); ++k)
+    covered += fmt::format("{}{} {:.1f}", k > 0 ? ", " : "", kind.coefficients[k], 100 * share[k] / n);
+  return fmt::format("| {} | {} | {} | {:.1f} | {:.3g} |\n", kind.what, kind.noise, covered, 100 * told / n,
+                     1e3 * seconds / n);
+}
+
+std::string page(const std::string& rows, std::uint64_t sets) {
+  return fmt::format(
+      "# Do intervals hold the truth?\n\nWritten by `price_coverage` (validation/cost/coverage), which says how. {} "
+      "made "
+      "records of each kind, intervals of 95 %: a share is known to {:.1f} %.\n\n"
+      "| fit | noise | covered [%] | values told [%] | time of a fit [ms] |\n| --- | --- | --- | --- | --- |\n{}",
+      sets, 100 * std::sqrt(0.95 * 0.05 / static_cast<double>(sets)), rows);
+}
+
+/// Each kind on a thread of its own, two at a time.
+void write(const std::filesystem::path& folder, std::uint64_t sets) {
+  const auto all = kinds();
+  std::vector<std::string> rows(all.size());
+  const auto every_other = [&](std::size_t first) {
+    for (std::size_t i = first; i < all.size(); i += 2) rows[i] = row_of(all[i], sets);
+  };
+  auto beside = std::async(std::launch::async, every_other, std::size_t{1});
+  every_other(0);
+  beside.get();
+  std::string text;
+  for (const std::string& row : rows) text += row;
+  hydro::io::write_atomically(folder / "coverage.md", page(text, sets));
+}
+
+}  // namespace
+}  // namespace froude::cost
+
+int main(int count, char** argument) {
+  if (count != 3) {
+    std::cerr << "usage: price_coverage FOLDER SETS\n";
+    return 2;
+  }
+  try {
+    froude::cost::write(argument[1], std::stoul(argument[2]));
+  } catch (const std::exception& e) {
+    std::cerr << "price_coverage: " << e.what() << "\n";
+    return 1;
+  }
+  return 0;
+}
