@@ -49,6 +49,7 @@ class Refinement {
  private:
   static constexpr int finest = -6;       // a 64th of what was chosen first, at a hundred times its cost
   static constexpr int most_at_once = 2;  // levels
+  static constexpr double room = 0.8;     // of what is left for the step, which is aimed at
   static constexpr const char* twice_as_many = "a run with twice as many";
   static constexpr const char* own_pieces = "quadrature";
 
@@ -94,7 +95,8 @@ class Refinement {
     if (companions_.is_longer(level + 2)) coarsest = companions_.beside(level + 2);
     const auto c = convergence(fine, coarse, coarsest, largest_ratio(), signal);
     const Judged out{{c.error / scale_[signal], c.ratio}, end};
-    if (out.error <= scene_.accuracy || out.converges() || !parts_neighbours(signal)) return out;
+    const bool settles = out.converges() && can_be_refined(level, out);
+    if (out.error <= scene_.accuracy || settles || !parts_neighbours(signal)) return out;
     return while_predictable(fine, coarse, coarsest, signal);
   }
   /// Where longer steps do not come to the end of the run.
@@ -106,6 +108,10 @@ class Refinement {
     if (out.error <= scene_.accuracy || !parts_neighbours(signal)) return out;
     return while_predictable(fine, coarse, {}, signal);
   }
+  /// True where a finer level would do, as far as errors go on to fall as they have.
+  bool can_be_refined(int level, const Judged& j) const {
+    return !may_refine() || level - levels_needed(j, room * scene_.accuracy) >= finest;
+  }
   /// (E2)
   bool parts_neighbours(std::size_t signal) {
     constexpr double much = 1e3;    // what parts in proportion to time comes to some 200
@@ -115,10 +121,13 @@ class Refinement {
   /// Up to where what runs with other steps differ by leaves the signal within the accuracy asked.
   Judged while_predictable(const Beside& fine, const Beside& coarse, const std::optional<Beside>& coarsest,
                            std::size_t signal) const {
-    const double allowed = scene_.accuracy * scale_[signal] * (largest_ratio() - 1);
-    const double until = std::min(known_until_[signal], agrees_until(fine, coarse, signal, allowed));
-    const auto c = convergence(fine, coarse, coarsest, largest_ratio(), signal, until);
-    return {{c.error / scale_[signal], c.ratio}, until};
+    constexpr double least = 1e-3;  // of what would do were errors to fall as those of the method
+    const double asked = scene_.accuracy * scale_[signal], most = asked * (largest_ratio() - 1);
+    for (double allowed = most;; allowed /= 2) {
+      const double until = std::min(known_until_[signal], agrees_until(fine, coarse, signal, allowed));
+      const auto c = convergence(fine, coarse, coarsest, largest_ratio(), signal, until);
+      if (c.error <= asked || allowed < least * most) return {{c.error / scale_[signal], c.ratio}, until};
+    }
   }
 
   /// What the memory of radiated waves and the spacing of coefficients do, which hardly depends on the step: seen once,
@@ -217,14 +226,23 @@ class Refinement {
     if (!j.converges()) return most_at_once;
     return static_cast<int>(std::ceil(std::log(j.error / allowed) / std::log(std::min(j.ratio, largest_ratio()))));
   }
+  /// True if it is the step that leaves next to nothing of a signal to be predicted: a tenth of the time in which a
+  /// neighbour a billionth beside comes as far off. Where steps do, each halving adds little to that time.
+  bool is_lost_at_once(std::size_t signal) const {
+    constexpr double share = 0.1;
+    const double until = judged_[signal].until;
+    if (!may_refine() || until >= known_until_[signal]) return false;
+    const Beside run = companions_.beside(0), neighbour{&companions_.neighbour(), 1};
+    return until < share * agrees_until(run, neighbour, signal, scene_.accuracy * scale_[signal]);
+  }
   /// The level to try next; the same where no finer one is needed, or may be tried.
   int finer_level(int level) const {
-    constexpr double room = 0.8;  // of what is left for the step, which is aimed at
     int out = level;
     if (!may_refuse()) return out;
     for (std::size_t i = 0; i < judged_.size(); ++i) {
       const Judged& j = judged_[i];
       const double left = left_for_step(i);
+      if (level > finest && is_lost_at_once(i)) out = std::min(out, level - 1);
       if (j.error <= left) continue;
       if (left <= 0) refuse_memory(level, i);  // pieces are within half of what is asked
       if (!may_refine()) continue;

@@ -119,11 +119,12 @@ inline Judgement judge(const froude::Run& run, const Reference& reference, doubl
 }
 
 /// Of a run that was refused: true if a step like the reference's, and all else as the program chooses it, does not
-/// keep the accuracy either.
+/// keep the accuracy either, or if the references themselves do not agree to the end.
 inline bool is_out_of_reach(const Runs& runs, const Reference& reference, double accuracy) {
   try {
     const froude::Run fine = runs.accepted(accuracy, {.step = reference.run.step});
-    return judge(fine, reference, accuracy).error > accuracy;
+    const Judgement j = judge(fine, reference, accuracy);
+    return j.error > accuracy || j.until < fine.time.back();
   } catch (const std::runtime_error&) {
     return true;  // there is no such run
   }

@@ -10,19 +10,26 @@
 
 namespace support {
 
-/// What errors of signals are relative to: each one's rms, but no less than a millionth of the largest of its unit,
-/// below which it is what symmetry and the end of iterations leave; 0 where all signals of the unit are zero.
+/// What errors of signals are relative to, as accuracy is promised (theory/accuracy.md): each one's rms, but no less
+/// than a thousandth of the largest of its unit. Below 1e-9, in SI or of the largest load or energy, stands what
+/// rounding leaves of what symmetry forbids.
 inline std::vector<double> sizes(const froude::Run& run) {
-  constexpr double least = 1e-6;
+  constexpr double least = 1e-3, rounding = 1e-9;
+  const auto is_load = [](const froude::Signal& s) { return s.units.find_first_of("NJW") != std::string::npos; };
   std::vector<double> out;
   std::map<std::string, double> largest;
+  double largest_load = 0;
   for (const auto& signal : run.signals) {
     double sum = 0;
     for (const double x : signal.values) sum += x * x;
     out.push_back(std::sqrt(sum / static_cast<double>(signal.values.size())));
     largest[signal.units] = std::max(largest[signal.units], out.back());
+    if (is_load(signal)) largest_load = std::max(largest_load, out.back());
   }
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = std::max(out[i], least * largest[run.signals[i].units]);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto& signal = run.signals[i];
+    out[i] = std::max({out[i], least * largest[signal.units], rounding * (is_load(signal) ? largest_load : 1.0)});
+  }
   return out;
 }
 

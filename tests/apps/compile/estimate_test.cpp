@@ -146,6 +146,16 @@ TEST(Estimate, SaysUntilWhenAChaoticMotionCanBePredicted) {
   EXPECT_GT(std::sqrt(beyond / all), 0.1);
 }
 
+// At a tenth errors fall from step to step, but not to what is asked before steps end: still no reason to refuse.
+TEST(Estimate, DoesNotRefuseAChaoticMotionWhoseErrorsFall) {
+  for (const char* accuracy : {"0.1", "0.03", "0.003"}) {
+    SCOPED_TRACE(accuracy);
+    const auto run = simulate(parse(double_pendulum("14") + "accuracy = " + accuracy + "\n"));
+    ASSERT_THAT(run.error.unpredictable, testing::SizeIs(1));
+    EXPECT_LE(run.error.total(0), std::stod(accuracy));
+  }
+}
+
 TEST(Estimate, ARegularMotionOfTheSamePendulumIsPredictedToTheEnd) {
   const auto run = simulate(parse(double_pendulum("0.5")));
   EXPECT_THAT(run.error.unpredictable, IsEmpty());
