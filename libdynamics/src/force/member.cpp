@@ -103,18 +103,19 @@ Row rise_by(const SlenderMember& member, const PlacedMember& at) {
 
 std::vector<WetPiece> wet_pieces(const SlenderMember& member, const PlacedMember& at, const WaveField& water, double t,
                                  bool derivatives) {
-  const auto g = heights(member, at, water, t);
   const double piece = at.length / member.pieces;
+  std::vector<WetPiece> out;
+  out.reserve(static_cast<std::size_t>(member.pieces));
+  if (member.immersion == Immersion::whole) {
+    for (int j = 0; j < member.pieces; ++j) out.push_back({piece, at.arm((j + 0.5) / member.pieces)});
+    return out;
+  }
+  const auto g = heights(member, at, water, t);
   const auto by = [&](std::size_t j) {
     return height_by(member, at, water, t, at.arm(static_cast<double>(j) / member.pieces));
   };
-  std::vector<WetPiece> out;
   for (std::size_t j = 0; j + 1 < g.size(); ++j) {
     const double start = static_cast<double>(j);
-    if (member.immersion == Immersion::whole) {
-      out.push_back({piece, at.arm((start + 0.5) / member.pieces)});
-      continue;
-    }
     const WetShare wet = wet_share(g[j], g[j + 1], at.rise);
     if (wet.share == 0) continue;
     out.push_back({piece * wet.share, at.arm((start + wet.place) / member.pieces)});

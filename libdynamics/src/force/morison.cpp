@@ -125,6 +125,7 @@ struct MemberFlow {
 std::vector<Kinematics> water_at(const WaveField& field, const PlacedMember& at, const std::vector<WetPiece>& pieces,
                                  double t, const Vector3d& shift = Vector3d::Zero()) {
   std::vector<Vector3d> points;
+  points.reserve(pieces.size());
   for (const WetPiece& p : pieces) points.push_back(at.centre + p.arm + shift);
   std::vector<Kinematics> out(points.size());
   field.at(t, points, out);
