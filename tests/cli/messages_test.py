@@ -423,38 +423,5 @@ class WrongPlaceToWrite(CommandLine):
         self.assertIn("standard output", result.stderr)
 
 
-class FitsWithoutAnEnd(CommandLine):
-    """No value leaves a fit that failed: neither on the screen, nor in JSON, nor in a file."""
-
-    def setUp(self):
-        super().setUp()
-        example = SOURCE / "examples" / "fit"
-        for name in ("pendulums.toml", "pendulums_scene.toml"):
-            shutil.copy(example / name, self.folder)
-        # Two windows of 2 s of the six are enough to fail.
-        rows = (example / "pendulums.csv").read_text(encoding="utf-8").splitlines(keepends=True)
-        self.write("pendulums.csv", "".join(rows[:103]))
-        self.scene = (self.folder / "pendulums.toml").read_text(encoding="utf-8")
-
-    def fails(self, old, new, status, *words):
-        self.assertIn(old, self.scene)
-        self.write("pendulums.toml", self.scene.replace(old, new))
-        told = self.froude("fit", "pendulums.toml", "-o", "fit.toml")
-        document = self.froude("--json", "fit", "pendulums.toml", "-o", "fit.toml")
-        for result in (told, document):
-            self.assertEqual(result.returncode, status, result.stderr)
-            for word in ("no value is told", *words):
-                self.assertIn(word, result.stderr)
-        self.assertNotIn("interval", told.stdout)
-        self.assertEqual(list(json.loads(document.stdout)), ["error"])
-        self.assertNotIn("fit.toml", self.leftovers())
-
-    def test_iterations_that_are_used_up_are_numerics_that_gave_up(self):
-        self.fails('window = "2 s"', 'window = "2 s"\niterations = 1', 3, "all 1 of its iterations", "starts")
-
-    def test_residuals_that_the_statement_does_not_allow_are_a_check_that_failed(self):
-        self.fails("0.6 deg", "0.1 deg", 1, "pendulums.toml:8:61:", "stated as 0.00175 rad, which allows", "accept")
-
-
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])
