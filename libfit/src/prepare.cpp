@@ -224,9 +224,9 @@ void sum_forces(Work& w) {
 }
 
 /// Which sensors of the force round with a memory; looked for in their own samples, before anything moves these. (F69)
-void find_rounding(Work& w) {
+void look_for_rounding(Work& w) {
   for (const ForceChannel& f : w.run.force) {
-    w.rounding.push_back(::fit::find_rounding(f.values, w.step));
+    w.rounding.push_back(find_rounding(f.values, w.step));
     if (w.rounding.back())
       w.tell("steps: {} has less noise than half of one; what rounding may have done to it is in the intervals",
              f.name);
@@ -561,7 +561,7 @@ Prepared prepare(RawRun run, const PrepareOptions& options) {
   take_outliers(w, outlier_half, options.outlier_deviations);
   resample(w, options.resample_hz);
   sum_forces(w);
-  find_rounding(w);
+  look_for_rounding(w);
   take_delay(w, options.delay_s);
   add_waves(w);
   add_motion(w, options);

@@ -98,7 +98,15 @@ struct Judgement {
   double until = std::numeric_limits<double>::infinity();  ///< s, up to which the references agree in all signals
 };
 
-/// Signals are judged for as long as the references differ by less than a fifth of the accuracy asked.
+/// Up to which time, s, a run says that a signal can be predicted.
+inline double predicted_until(const froude::Run& run, std::size_t signal) {
+  for (const auto& lost : run.error.unpredictable)
+    if (lost.signal == signal) return lost.until;
+  return std::numeric_limits<double>::infinity();
+}
+
+/// Signals are judged for as long as the references differ by less than a fifth of the accuracy asked, and the run says
+/// that they can be predicted.
 inline Judgement judge(const froude::Run& run, const Reference& reference, double accuracy) {
   const auto size = sizes(run);
   Judgement out;
@@ -107,9 +115,12 @@ inline Judgement judge(const froude::Run& run, const Reference& reference, doubl
     if (signal.name.find("residual") != std::string::npos) continue;  // an error itself
     const std::string name = reference.cut ? name_where_cut(*reference.cut, signal.name) : signal.name;
     const auto &first = reference.run.signal(name), &second = reference.second.signal(name);
-    const std::size_t count = agreed(first, second, size[i], accuracy / 5);
+    const std::size_t judged = agreed(first, second, size[i], accuracy / 5);
+    out.until = std::min(out.until, judged > 0 ? run.time[judged - 1] : 0);
+    const auto predicted =
+        std::upper_bound(run.time.begin(), run.time.end(), predicted_until(run, i)) - run.time.begin();
+    const std::size_t count = std::min(judged, static_cast<std::size_t>(predicted));
     const double error = relative_error(signal.values, first, size[i], count);
-    out.until = std::min(out.until, count > 0 ? run.time[count - 1] : 0);
     if (error < out.error) continue;
     out.error = error;
     out.unsure = relative_error(second, first, size[i], count);

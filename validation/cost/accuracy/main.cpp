@@ -193,7 +193,7 @@ std::string page(const Tables& tables) {
       "Errors are rms over the signal's rms, no less than a thousandth of the largest of its unit nor than what "
       "rounding leaves; shown is the signal "
       "whose error is largest. It is judged up to the time until which two references agree within a fifth of the "
-      "accuracy.\n\n"
+      "accuracy, and the run says that it can be predicted.\n\n"
       "| scene | asked | step [s] | estimated | true | signal | until [s] | estimated over true | promise | time [s] "
       "|\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n" +
