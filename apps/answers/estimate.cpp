@@ -224,6 +224,7 @@ class Refinement {
   /// another try is made, as long as there is room for one more.
   int levels_needed(const Judged& j, double allowed) const {
     if (!j.converges()) return most_at_once;
+    if (j.error <= allowed) return 0;
     return static_cast<int>(std::ceil(std::log(j.error / allowed) / std::log(std::min(j.ratio, largest_ratio()))));
   }
   /// True if it is the step that leaves next to nothing of a signal to be predicted: a tenth of the time in which a
