@@ -3,18 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+#include <span>
+
+#include "answers/statistics.hpp"
 
 namespace froude {
 namespace {
 
-/// Differences at the samples that two runs share, and their times.
+/// Both values at the samples that two runs share, and their times.
 template <class See>
-void each_difference(const Beside& fine, const Beside& coarse, std::size_t signal, const See& see) {
+void each_pair(const Beside& fine, const Beside& coarse, std::size_t signal, const See& see) {
   const auto& x = fine.run->signals[signal].values;
   const auto& y = coarse.run->signals[signal].values;
   const std::size_t step = coarse.stride / fine.stride;
-  for (std::size_t j = 0; j < y.size() && j * step < x.size(); ++j) see(coarse.run->time[j], x[j * step] - y[j]);
+  for (std::size_t j = 0; j < y.size() && j * step < x.size(); ++j) see(coarse.run->time[j], x[j * step], y[j]);
 }
 
 /// rms of what is added.
@@ -40,53 +42,56 @@ double rounding_of(const std::string& unit, double weight) {
 
 bool is_residual(const std::string& signal) { return signal.ends_with(".residual"); }
 
-double rms(std::span<const double> values) {
-  const double squares = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
-  return values.empty() ? 0 : std::sqrt(squares / static_cast<double>(values.size()));
-}
-
-double deviation(std::span<const double> values) {
-  if (values.empty()) return 0;
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-  double squares = 0;
-  for (const double x : values) squares += (x - mean) * (x - mean);
-  return std::sqrt(squares / static_cast<double>(values.size()));
-}
-
-std::vector<double> scales(const Run& run, double weight) {
-  std::vector<double> out;
-  for (const Signal& s : run.signals) out.push_back(rms(s.values));
-  out = at_least_a_thousandth(std::move(out), run.signals, &Signal::units);
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = std::max(out[i], rounding_of(run.signals[i].units, weight));
+std::vector<Sizes> sizes_of(const Run& run, double weight) {
+  std::vector<Statistics> seen;
+  std::vector<double> rms;
+  for (const Signal& s : run.signals) {
+    seen.push_back(statistics(s.values));
+    rms.push_back(seen.back().rms);
+  }
+  const std::vector<double> least = thousandth_of_largest(rms, run.signals, &Signal::units);
+  std::vector<Sizes> out;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const double floor = std::max(least[i], rounding_of(run.signals[i].units, weight));
+    out.push_back(
+        {std::max(seen[i].rms, floor), std::max(seen[i].deviation, floor), std::max(seen[i].extreme(), floor)});
+  }
   return out;
 }
 
-double difference(const Beside& fine, const Beside& coarse, std::size_t signal, double until) {
-  Mean mean;
-  each_difference(fine, coarse, signal, [&](double t, double d) {
-    if (t <= until) mean.add(d);
+Difference difference(const Beside& fine, const Beside& coarse, std::size_t signal, const Sizes& sizes, double until) {
+  std::vector<double> a, b, off;
+  each_pair(fine, coarse, signal, [&](double t, double x, double y) {
+    if (t > until) return;
+    a.push_back(x);
+    b.push_back(y);
+    off.push_back(x - y);
   });
-  return mean.rms();
+  const Statistics x = statistics(a), y = statistics(b);
+  const double ends = std::max(std::abs(x.lowest - y.lowest), std::abs(x.highest - y.highest));
+  return {statistics(off).rms / sizes.rms,
+          std::max(std::abs(x.deviation - y.deviation) / sizes.deviation, ends / sizes.extreme)};
 }
 
 // (E1)
 Convergence convergence(const Beside& fine, const Beside& coarse, const std::optional<Beside>& coarsest, double largest,
-                        std::size_t signal, double until) {
-  const double d = difference(fine, coarse, signal, until);
-  if (!coarsest) return {d, 0};
-  const double before = difference(coarse, *coarsest, signal, until);
-  if (d == 0) return {0, largest};
-  const double ratio = before / d;
-  return {d / (std::clamp(ratio, std::numbers::sqrt2, largest) - 1), ratio};
+                        std::size_t signal, const Sizes& sizes, double until) {
+  const Difference d = difference(fine, coarse, signal, sizes, until);
+  if (!coarsest) return {d.most(), 0};
+  const Difference before = difference(coarse, *coarsest, signal, sizes, until);
+  if (d.rms == 0) return {0, largest};
+  const double ratio = before.rms / d.rms, falls = std::clamp(ratio, std::numbers::sqrt2, largest);
+  const double statistics = std::max(d.statistics, before.statistics / std::max(ratio, std::numbers::sqrt2));
+  return {std::max(d.rms, statistics) / (falls - 1), ratio};
 }
 
 double agrees_until(const Beside& fine, const Beside& coarse, std::size_t signal, double allowed) {
   constexpr int blocks = 50;
   const double end = fine.run->time.back(), begin = fine.run->time.front();
   std::vector<Mean> means(blocks);
-  each_difference(fine, coarse, signal, [&](double t, double d) {
+  each_pair(fine, coarse, signal, [&](double t, double x, double y) {
     const double share = end > begin ? (t - begin) / (end - begin) : 0;
-    means[static_cast<std::size_t>(std::min(blocks - 1, static_cast<int>(share * blocks)))].add(d);
+    means[static_cast<std::size_t>(std::min(blocks - 1, static_cast<int>(share * blocks)))].add(x - y);
   });
   const auto first = std::find_if(means.begin(), means.end(), [&](const Mean& m) { return m.rms() > allowed; });
   return begin + (end - begin) * static_cast<double>(first - means.begin()) / blocks;
@@ -106,7 +111,7 @@ double growth(const Run& run, const Run& neighbour, std::size_t signal, double l
 
 double deviation(const Run& run, std::size_t signal, double from) {
   const auto before = std::lower_bound(run.time.begin(), run.time.end(), from) - run.time.begin();
-  return deviation(std::span(run.signals[signal].values).subspan(static_cast<std::size_t>(before)));
+  return statistics(std::span(run.signals[signal].values).subspan(static_cast<std::size_t>(before))).deviation;
 }
 
 }  // namespace froude

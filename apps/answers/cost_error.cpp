@@ -4,15 +4,10 @@
 #include <cmath>
 
 #include "answers/convergence.hpp"
+#include "answers/statistics.hpp"
 
 namespace froude {
 namespace {
-
-double largest(std::span<const double> values) {
-  double out = 0;
-  for (const double x : values) out = std::max(out, std::abs(x));
-  return out;
-}
 
 /// In the unit of the signal.
 double difference(ErrorMeasure measure, const Signal& answer, const Signal& reference) {
@@ -20,7 +15,7 @@ double difference(ErrorMeasure measure, const Signal& answer, const Signal& refe
     return std::abs(size_of(measure, answer.values) - size_of(measure, reference.values));
   std::vector<double> off(reference.values.size());
   for (std::size_t i = 0; i < off.size(); ++i) off[i] = answer.values[i] - reference.values[i];
-  return rms(off);
+  return statistics(off).rms;
 }
 
 /// Difference of each signal over its scale.
@@ -39,19 +34,17 @@ std::vector<double> errors_by(ErrorMeasure measure, const std::vector<Signal>& a
 }  // namespace
 
 double size_of(ErrorMeasure measure, std::span<const double> values) {
-  if (values.empty()) return 0;
+  const Statistics s = statistics(values);
   switch (measure) {
     case ErrorMeasure::rms:
-      return rms(values);
+      return s.rms;
     case ErrorMeasure::deviation:
-      return deviation(values);
+      return s.deviation;
     case ErrorMeasure::extreme:
     case ErrorMeasure::peak:
-      return largest(values);
-    case ErrorMeasure::range: {
-      const auto [low, high] = std::minmax_element(values.begin(), values.end());
-      return *high - *low;
-    }
+      return s.extreme();
+    case ErrorMeasure::range:
+      return s.highest - s.lowest;
   }
   return 0;
 }

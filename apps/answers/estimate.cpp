@@ -19,7 +19,7 @@ double weight_of(const compile::Prepared& prepared) {
   return out;
 }
 
-/// What the step does to one signal, over its rms.
+/// What the step does to one signal.
 struct Judged : Convergence {
   double until;  // s; until when the signal can be predicted
 };
@@ -62,11 +62,11 @@ class Refinement {
   int first_level() {
     constexpr double farthest = 2;
     if (!may_refine() || !companions_.is_longer(2)) return 0;
-    const auto scale = scales(companions_.run(1), weight_);
+    const auto sizes = sizes_of(companions_.run(1), weight_);
     double worst = 0;  // at level 0
-    for (std::size_t i = 0; i < scale.size(); ++i)
+    for (std::size_t i = 0; i < sizes.size(); ++i)
       if (!is_residual(companions_.run(1).signals[i].name))
-        worst = std::max(worst, difference(companions_.beside(1), companions_.beside(2), i) / scale[i] /
+        worst = std::max(worst, difference(companions_.beside(1), companions_.beside(2), i, sizes[i]).most() /
                                     (largest_ratio() - 1) / largest_ratio());
     const double needed = std::ceil(std::log(worst / scene_.accuracy) / std::log(largest_ratio()));
     return -static_cast<int>(std::clamp(needed, 0.0, farthest));
@@ -78,7 +78,7 @@ class Refinement {
     const bool longer = companions_.is_longer(level + 1);
     if (!longer && !companions_.completes(level - 1)) return false;
     const Run& run = companions_.run(level);
-    scale_ = scales(run, weight_);
+    sizes_ = sizes_of(run, weight_);
     for (std::size_t i = 0; i < run.signals.size(); ++i) {
       const double end = run.time.back();
       if (known_until_.size() <= i) known_until_.push_back(end);
@@ -93,8 +93,7 @@ class Refinement {
     const Beside fine = companions_.beside(level), coarse = companions_.beside(level + 1);
     std::optional<Beside> coarsest;
     if (companions_.is_longer(level + 2)) coarsest = companions_.beside(level + 2);
-    const auto c = convergence(fine, coarse, coarsest, largest_ratio(), signal);
-    const Judged out{{c.error / scale_[signal], c.ratio}, end};
+    const Judged out{convergence(fine, coarse, coarsest, largest_ratio(), signal, sizes_[signal]), end};
     const bool settles = out.converges() && can_be_refined(level, out);
     if (out.error <= scene_.accuracy || settles || !parts_neighbours(signal)) return out;
     return while_predictable(fine, coarse, coarsest, signal);
@@ -102,9 +101,9 @@ class Refinement {
   /// Where longer steps do not come to the end of the run.
   Judged by_shorter(int level, std::size_t signal, double end) {
     const Beside fine = companions_.beside(level - 1), coarse = companions_.beside(level);
-    const double error =
-        difference(fine, coarse, signal) + convergence(fine, coarse, {}, largest_ratio(), signal).error;
-    const Judged out{{error / scale_[signal], 0}, end};
+    constexpr double first_order =
+        2;  // the order taken without a third run: of d = e(2h) - e(h) the error e(2h) is 2 d
+    const Judged out{{first_order * difference(fine, coarse, signal, sizes_[signal]).most(), 0}, end};
     if (out.error <= scene_.accuracy || !parts_neighbours(signal)) return out;
     return while_predictable(fine, coarse, {}, signal);
   }
@@ -116,17 +115,18 @@ class Refinement {
   bool parts_neighbours(std::size_t signal) {
     constexpr double much = 1e3;    // what parts in proportion to time comes to some 200
     constexpr double least = 1e-9;  // of the signal: about as far as the start is moved
-    return growth(companions_.run(0), companions_.neighbour(), signal, least * scale_[signal]) > much;
+    return growth(companions_.run(0), companions_.neighbour(), signal, least * sizes_[signal].rms) > much;
   }
   /// Up to where what runs with other steps differ by leaves the signal within the accuracy asked.
   Judged while_predictable(const Beside& fine, const Beside& coarse, const std::optional<Beside>& coarsest,
                            std::size_t signal) const {
     constexpr double least = 1e-3;  // of what would do were errors to fall as those of the method
-    const double asked = scene_.accuracy * scale_[signal], most = asked * (largest_ratio() - 1);
+    const double asked = scene_.accuracy, most = asked * (largest_ratio() - 1);
     for (double allowed = most;; allowed /= 2) {
-      const double until = std::min(known_until_[signal], agrees_until(fine, coarse, signal, allowed));
-      const auto c = convergence(fine, coarse, coarsest, largest_ratio(), signal, until);
-      if (c.error <= asked || allowed < least * most) return {{c.error / scale_[signal], c.ratio}, until};
+      const double until =
+          std::min(known_until_[signal], agrees_until(fine, coarse, signal, allowed * sizes_[signal].rms));
+      const auto c = convergence(fine, coarse, coarsest, largest_ratio(), signal, sizes_[signal], until);
+      if (c.error <= asked || allowed < least * most) return {c, until};
     }
   }
 
@@ -154,7 +154,8 @@ class Refinement {
         j.until = known_until_[i] = parted(without, put_back, i, j.until);
       others_.back().of_signal.push_back(is_residual(with->signals[i].name)
                                              ? 0
-                                             : of_difference * difference(without, put_back, i, j.until) / scale_[i]);
+                                             : of_difference *
+                                                   difference(without, put_back, i, sizes_[i], j.until).most());
     }
   }
   /// What the pieces do into which lines and members are cut: seen once, at the longest step at which the run with
@@ -208,9 +209,9 @@ class Refinement {
   /// than the water itself has brought them in the first quarter of the time in which the step predicts the signal.
   double parted(const Beside& without, const Beside& put_back, std::size_t signal, double until) const {
     constexpr double more = 4;  // waves that have a ramp make as much of it
-    const double first = difference(without, put_back, signal, until / 4);
-    const double allowed = std::max(scene_.accuracy * scale_[signal], more * first);
-    return std::min(until, agrees_until(without, put_back, signal, allowed));
+    const double first = difference(without, put_back, signal, sizes_[signal], until / 4).rms;
+    const double allowed = std::max(scene_.accuracy.value, more * first);
+    return std::min(until, agrees_until(without, put_back, signal, allowed * sizes_[signal].rms));
   }
   /// What of the accuracy is left for the step beside whatever else the program chooses.
   double left_for_step(std::size_t signal) const {
@@ -234,7 +235,7 @@ class Refinement {
     const double until = judged_[signal].until;
     if (!may_refine() || until >= known_until_[signal]) return false;
     const Beside run = companions_.beside(0), neighbour{&companions_.neighbour(), 1};
-    return until < share * agrees_until(run, neighbour, signal, scene_.accuracy * scale_[signal]);
+    return until < share * agrees_until(run, neighbour, signal, scene_.accuracy * sizes_[signal].rms);
   }
   /// The level to try next; the same where no finer one is needed, or may be tried.
   int finer_level(int level) const {
@@ -257,7 +258,8 @@ class Refinement {
   [[noreturn]] void refuse(int level, std::size_t signal, double error, const std::string& why,
                            const std::string& remedy) const {
     throw hydro::InputError(
-        fmt::format("an accuracy of {:.2g} is asked for, but {} is off by an estimated {:.2g} of its rms; {}",
+        fmt::format("an accuracy of {:.2g} is asked for, but {} is off by an estimated {:.2g} of its rms, standard "
+                    "deviation or extreme; {}",
                     scene_.accuracy.value, companions_.at(level).signals[signal].name, error, why),
         scene_.accuracy.place,
         remedy +
@@ -315,7 +317,7 @@ class Refinement {
   const scene::Scene& scene_;
   Companions& companions_;
   double weight_;  // N
-  std::vector<double> scale_;
+  std::vector<Sizes> sizes_;
   std::vector<Judged> judged_;
   std::vector<double> known_until_;  // s, one a signal: what the water leaves of it
   bool looked_ = false, looked_at_cuts_ = false;

@@ -162,8 +162,9 @@ std::vector<std::string> Responses::warnings() const {
 
 std::vector<std::string> Run::warnings() const {
   std::vector<std::string> out;
-  for (std::string warning : {warning_of_residual(*this), warning_of_error(error, signals, "rms"),
-                              warning_of_prediction(*this), warning_of_unseen(error)})
+  for (std::string warning :
+       {warning_of_residual(*this), warning_of_error(error, signals, "rms, standard deviation or extreme"),
+        warning_of_prediction(*this), warning_of_unseen(error)})
     if (!warning.empty()) out.push_back(std::move(warning));
   return out;
 }

@@ -3,28 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "answers/statistics.hpp"
 #include "hydro/io/csv.hpp"
 
 namespace froude {
 namespace {
-
-struct Statistics {
-  double mean = 0, deviation = 0, lowest = 0, highest = 0;
-};
-
-Statistics statistics(const std::vector<double>& v) {
-  Statistics s{.lowest = v.front(), .highest = v.front()};
-  for (const double x : v) {
-    s.mean += x / static_cast<double>(v.size());
-    s.lowest = std::min(s.lowest, x);
-    s.highest = std::max(s.highest, x);
-  }
-  for (const double x : v) s.deviation += (x - s.mean) * (x - s.mean) / static_cast<double>(v.size());
-  s.deviation = std::sqrt(s.deviation);
-  return s;
-}
 
 bool is_energy(const Signal& s) { return s.name.starts_with("energy."); }
 

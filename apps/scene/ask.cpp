@@ -178,8 +178,8 @@ const Binding<Scene>& ask_binding() {
                                 .table("run", run(), &Scene::run)
                                 .table("waves", waves(), &Scene::ask_waves)
                                 .key(number("accuracy",
-                                            "the largest error of each signal that a run is asked for, rms over its "
-                                            "own rms; a run that misses it is refused")
+                                            "the largest error of each signal that a run is asked for, of its rms, its "
+                                            "standard deviation and its extremes; a run that misses it is refused")
                                          .within(Limit::open_fraction)
                                          .or_default("1e-2", "about what coefficients and measurements are good for"),
                                      &Scene::accuracy)

@@ -458,7 +458,7 @@ struct Scene {
   std::optional<AskModes> ask_modes;
   std::optional<AskRun> run;
   std::optional<AskWaves> ask_waves;
-  Located<double> accuracy{1e-2, {}};  ///< largest error of each signal asked for, rms over its own rms
+  Located<double> accuracy{1e-2, {}};  ///< largest error of each signal asked for
   Solve solve;
   std::vector<Echo> echo;
 };

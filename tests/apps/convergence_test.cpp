@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace convergence_test {
 namespace {
 
 using namespace froude;
+
+constexpr Sizes in_its_unit{1, 1, 1};
 
 /// cos t over 20 s, off by `error` times a shape that has the rms of the cosine.
 froude::Run run_with(double error, double every = 0.1) {
@@ -26,40 +29,74 @@ TEST(Convergence, ExtrapolatesByTheOrderSeen) {
   for (const double order : {1.0, 1.5, 2.0}) {
     const auto at = [&](double step) { return run_with(std::pow(step, order)); };
     const froude::Run fine = at(0.01), twice = at(0.02), fourfold = at(0.04);
-    const auto c = convergence({&fine, 1}, {&twice, 1}, Beside{&fourfold, 1}, 4, 0);
+    const auto c = convergence({&fine, 1}, {&twice, 1}, Beside{&fourfold, 1}, 4, 0, in_its_unit);
     EXPECT_NEAR(c.ratio, std::pow(2, order), 1e-6);  // rounding of differences of 1e-4
     // rms of sin over these 20 s, which are no whole periods: 0.69.
     const froude::Run exact = run_with(0);
-    EXPECT_NEAR(c.error, difference({&fine, 1}, {&exact, 1}, 0), 1e-6 * c.error);
+    EXPECT_NEAR(c.error, difference({&fine, 1}, {&exact, 1}, 0, in_its_unit).rms, 1e-6 * c.error);
   }
 }
 
 TEST(Convergence, TakesNoMoreThanTheMethodsOrderAndNoLessThanAHalf) {
   const froude::Run fine = run_with(0), twice = run_with(1e-3), fourfold = run_with(1e-1), alike = run_with(2.01e-3);
-  const double d = difference({&fine, 1}, {&twice, 1}, 0);
-  EXPECT_DOUBLE_EQ(convergence({&fine, 1}, {&twice, 1}, Beside{&fourfold, 1}, 4, 0).error, d / 3);
-  EXPECT_DOUBLE_EQ(convergence({&fine, 1}, {&twice, 1}, Beside{&alike, 1}, 4, 0).error, d / (std::sqrt(2.0) - 1));
-  EXPECT_DOUBLE_EQ(convergence({&fine, 1}, {&twice, 1}, {}, 4, 0).error, d);
+  const double d = difference({&fine, 1}, {&twice, 1}, 0, in_its_unit).rms;
+  EXPECT_DOUBLE_EQ(convergence({&fine, 1}, {&twice, 1}, Beside{&fourfold, 1}, 4, 0, in_its_unit).error, d / 3);
+  EXPECT_DOUBLE_EQ(convergence({&fine, 1}, {&twice, 1}, Beside{&alike, 1}, 4, 0, in_its_unit).error,
+                   d / (std::sqrt(2.0) - 1));
+  EXPECT_DOUBLE_EQ(convergence({&fine, 1}, {&twice, 1}, {}, 4, 0, in_its_unit).error, d);
+}
+
+TEST(Convergence, SeesErrorsOfStatisticsBesideALargeMean) {
+  // 100 + (1 + e) cos t: e of the deviation and of what lies above the mean, but some e/100 of rms and extreme.
+  const auto about_mean = [](double error) {
+    froude::Run out = run_with(0);
+    for (double& v : out.signals[0].values) v = 100 + (1 + error) * v;
+    return out;
+  };
+  const froude::Run fine = about_mean(1e-2), twice = about_mean(4e-2), fourfold = about_mean(16e-2);
+  const Sizes sizes = sizes_of(fine, 0)[0];
+  EXPECT_NEAR(sizes.deviation, 1.01 * std::sqrt(0.5), 0.03);  // no whole periods
+  const auto c = convergence({&fine, 1}, {&twice, 1}, Beside{&fourfold, 1}, 4, 0, sizes);
+  EXPECT_NEAR(c.ratio, 4, 1e-6);
+  EXPECT_NEAR(c.error, 1e-2 / 1.01, 1e-6);
+  EXPECT_LT(difference({&fine, 1}, {&twice, 1}, 0, sizes).rms, 3e-4);
+}
+
+TEST(Convergence, StatisticsOfTwoRunsMayAgreeByChance) {
+  const froude::Run fine = run_with(0);
+  froude::Run twice = fine, fourfold = fine;
+  std::reverse(twice.signals[0].values.begin(), twice.signals[0].values.end());
+  for (double& v : fourfold.signals[0].values) v *= 1.5;
+  const Sizes statistics_alone{1e9, 1, 1};
+  EXPECT_NEAR(difference({&fine, 1}, {&twice, 1}, 0, statistics_alone).statistics, 0, 1e-12);
+  const double before = difference({&twice, 1}, {&fourfold, 1}, 0, statistics_alone).statistics;
+  EXPECT_NEAR(before, 0.5, 1e-12);  // of the highest value, 1
+  const auto c = convergence({&fine, 1}, {&twice, 1}, Beside{&fourfold, 1}, 4, 0, statistics_alone);
+  EXPECT_LT(c.ratio, std::sqrt(2.0));
+  EXPECT_NEAR(c.error, before / std::sqrt(2.0) / (std::sqrt(2.0) - 1), 1e-12);
 }
 
 TEST(Convergence, ComparesSamplesThatRunsShare) {
   const froude::Run fine = run_with(0), sparse = run_with(1e-3, 0.4);
-  EXPECT_NEAR(difference({&fine, 1}, {&sparse, 4}, 0), 1e-3 * std::sqrt(0.5), 0.1e-3);  // few samples of the sine
-  EXPECT_NEAR(difference({&fine, 1}, {&sparse, 4}, 0, 0.1), 0, 1e-12);                  // sin 0
+  EXPECT_NEAR(difference({&fine, 1}, {&sparse, 4}, 0, in_its_unit).rms, 1e-3 * std::sqrt(0.5),
+              0.1e-3);                                                                   // few samples of the sine
+  EXPECT_NEAR(difference({&fine, 1}, {&sparse, 4}, 0, in_its_unit, 0.1).rms, 0, 1e-12);  // sin 0
 }
 
 TEST(Convergence, JudgesSmallSignalsAgainstTheLargestOfTheirUnit) {
   froude::Run run = run_with(0);
-  const double rms = scales(run, 0)[0];
+  const double rms = sizes_of(run, 0)[0].rms;
   for (const auto& [units, share] : {std::pair<const char*, double>{"m", 1e-8}, {"m", 1e-2}, {"N", 1e-12}}) {
     run.signals.push_back(run.signals[0]);
     run.signals.back().units = units;
     for (double& v : run.signals.back().values) v *= share;
   }
-  const auto out = scales(run, 1e4);
-  EXPECT_DOUBLE_EQ(out[1], 1e-3 * rms);
-  EXPECT_DOUBLE_EQ(out[2], 1e-2 * rms);
-  EXPECT_DOUBLE_EQ(out[3], 1e-9 * 1e4);
+  const auto out = sizes_of(run, 1e4);
+  EXPECT_DOUBLE_EQ(out[1].rms, 1e-3 * rms);
+  EXPECT_DOUBLE_EQ(out[2].rms, 1e-2 * rms);
+  EXPECT_DOUBLE_EQ(out[3].rms, 1e-9 * 1e4);
+  EXPECT_DOUBLE_EQ(out[2].extreme, 1e-2);
+  EXPECT_DOUBLE_EQ(out[1].extreme, 1e-3 * rms);
 }
 
 TEST(Convergence, SeesUntilWhenRunsAgreeAndHowNeighboursPart) {

@@ -115,7 +115,7 @@ inline Judgement judge(const froude::Run& run, const Reference& reference, doubl
     if (signal.name.find("residual") != std::string::npos) continue;  // an error itself
     const std::string name = reference.cut ? name_where_cut(*reference.cut, signal.name) : signal.name;
     const auto &first = reference.run.signal(name), &second = reference.second.signal(name);
-    const std::size_t judged = agreed(first, second, size[i], accuracy / 5);
+    const std::size_t judged = agreed(first, second, size[i].rms, accuracy / 5);
     out.until = std::min(out.until, judged > 0 ? run.time[judged - 1] : 0);
     const auto predicted =
         std::upper_bound(run.time.begin(), run.time.end(), predicted_until(run, i)) - run.time.begin();

@@ -63,8 +63,9 @@ struct LineExponent {
 };
 std::string sentence(const LineExponent& exponent);
 
-/// How far the signals of a run are off by what is approximated: rms of the error over rms of the signal, over the
-/// whole run, or for as long as the signal can be predicted. (E1)-(E4), docs/theory/accuracy.md.
+/// How far the signals of a run are off by what is approximated: the largest of rms of the error over rms of the
+/// signal, of its standard deviation's error over that, and of its lowest or highest value's over the one farther from
+/// 0; over the whole run, or for as long as the signal can be predicted. (E1)-(E4), docs/theory/accuracy.md.
 struct ErrorEstimate {
   struct Source {
     std::string name;               ///< "step", "memory", …

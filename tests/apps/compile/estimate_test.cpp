@@ -101,6 +101,43 @@ TEST(Estimate, WhatCannotBeMetIsRefusedOrAcceptedByName) {
   EXPECT_THAT(run.warnings(), testing::Contains(HasSubstr("which the scene accepts")));
 }
 
+/// The same sledge swinging about 100 m, where a tow of 40 kN holds it.
+std::string towed(const std::string& ask, const std::string& more = "") {
+  std::string text = sledge(ask, "[[load]]\non = \"sledge\"\nforce = \"(40, 0, 0) kN\"\n" + more);
+  return text.replace(text.find("\"1 m\""), 5, "\"101 m\"");
+}
+
+double deviation_error(const froude::Run& run) {
+  double mean = 0, squares = 0, exact = 0, exact_squares = 0;
+  const auto n = static_cast<double>(run.time.size());
+  for (std::size_t i = 0; i < run.time.size(); ++i) {
+    mean += run.signals[0].values[i] / n;
+    exact += std::cos(2 * run.time[i]) / n;
+  }
+  for (std::size_t i = 0; i < run.time.size(); ++i) {
+    squares += std::pow(run.signals[0].values[i] - mean, 2);
+    exact_squares += std::pow(std::cos(2 * run.time[i]) - exact, 2);
+  }
+  return std::sqrt(squares / exact_squares) - 1;
+}
+
+TEST(Estimate, BoundsTheStandardDeviationAboutALargeMean) {
+  // Implicit Euler damps by omega^2 h/2 a second: at h = 0.5 ms e^(-t/1000), which over 63 s takes 3 % of the
+  // deviation, but 3e-4 of the rms, which is that of 100 m.
+  const std::string euler = "[solve]\nintegrator = { name = \"implicit_euler\" }\nstep = \"0.5 ms\"\n";
+  const auto run = simulate(parse(towed("", euler)));
+  EXPECT_NEAR(deviation_error(run), -0.03, 0.005);
+  // What is left of the swing is e^(-c h), and the ratio is that of rms, which phases of 4 h saturate: next orders, 6 %
+  // of either.
+  EXPECT_NEAR(run.error.total(0) / -deviation_error(run), 1, 0.2);
+  EXPECT_THAT(run.warnings(), testing::Contains(HasSubstr("standard deviation")));
+  for (const double asked : {1e-1, 1e-2}) {
+    const auto kept = simulate(parse(towed("accuracy = " + std::to_string(asked) + "\n")));
+    EXPECT_LE(std::abs(deviation_error(kept)), asked);
+    EXPECT_LE(kept.error.total(0), asked);
+  }
+}
+
 TEST(Estimate, RefusesAnAccuracyBelowRounding) {
   EXPECT_THAT([] { parse(sledge("accuracy = 1e-10\n")); },
               ThrowsMessage<hydro::InputError>(HasSubstr("double precision")));
