@@ -58,11 +58,15 @@ namespace {
 template <class Do>
 void for_each_flow(const std::vector<DragPiece>& pieces, const std::optional<WaveSignals>& water, const State& state,
                    Do act) {
-  Eigen::VectorXd velocity = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(pieces.size()));
-  if (water) velocity = water->at(state.time);
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-    act(pieces[i],
-        flow_past(pieces[i], state, pieces[i].current + velocity.segment<3>(3 * static_cast<Eigen::Index>(i))));
+  const auto each = [&](const auto& velocity) {
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      act(pieces[i], flow_past(pieces[i], state,
+                               pieces[i].current + velocity.template segment<3>(3 * static_cast<Eigen::Index>(i))));
+  };
+  if (water)
+    water->use_at(state.time, each);
+  else
+    each(Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(pieces.size())));
 }
 }  // namespace
 

@@ -22,8 +22,11 @@ Vector6 load_of(const TurningExcitation& e, double yaw, double t) {
   const double place = (yaw - e.first_yaw) / e.spacing;
   const int k = std::clamp(static_cast<int>(std::floor(place)), 0, e.yaws - 2);
   const double share = place - k;
-  const Eigen::VectorXd all = e.load.at(t);
-  return (1 - share) * all.segment<6>(6 * k) + share * all.segment<6>(6 * (k + 1));
+  Vector6 out;
+  e.load.use_at(t, [&](const auto& all) {
+    out = (1 - share) * all.template segment<6>(6 * k) + share * all.template segment<6>(6 * (k + 1));
+  });
+  return out;
 }
 
 }  // namespace

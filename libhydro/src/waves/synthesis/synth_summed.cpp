@@ -163,12 +163,18 @@ std::vector<double> table_of(const HarmonicField& field, std::size_t count) {
   return table;
 }
 
-/// Scratch of one call: turns at this instant, cosines and sines at one place.
+/// Scratch of one call: turns at this instant, cosines and sines at one place. Its room is kept from call to call, one
+/// for each thread, so that the steps of a run ask for none.
 struct Scratch {
-  explicit Scratch(std::size_t count)
-      : values(3 * count), turns(values.data()), cosine(turns + count), sine(cosine + count) {}
-  std::vector<double> values;
+  explicit Scratch(std::size_t count) : turns(room(3 * count)), cosine(turns + count), sine(cosine + count) {}
   double *turns, *cosine, *sine;
+
+ private:
+  static double* room(std::size_t size) {
+    thread_local std::vector<double> values;
+    if (values.size() < size) values.resize(size);
+    return values.data();
+  }
 };
 
 }  // namespace
@@ -194,10 +200,10 @@ double SummedField::elevation(double t, double x, double y) const {
 void SummedField::elevations(double t, std::span<const Eigen::Vector2d> at, std::span<double> out) const {
   require(at.size() == out.size(), "{} places need as many for the answer, got {}", at.size(), out.size());
   const Content& c = *content_;
-  std::vector<double> turns(c.count);
-  turn_in_time(c.table.data(), c.count, t, turns.data());
+  const Scratch s(c.count);
+  turn_in_time(c.table.data(), c.count, t, s.turns);
   for (std::size_t i = 0; i < at.size(); ++i)
-    out[i] = turn_in_place(c.table.data(), c.count, turns.data(), at[i].x(), at[i].y(), nullptr, nullptr);
+    out[i] = turn_in_place(c.table.data(), c.count, s.turns, at[i].x(), at[i].y(), nullptr, nullptr);
 }
 
 Kinematics SummedField::at(double t, const Eigen::Vector3d& point) const {
@@ -211,7 +217,7 @@ void SummedField::at(double t, std::span<const Eigen::Vector3d> points, std::spa
           out.size());
   const Content& c = *content_;
   const double h = c.around.water.depth.metres();
-  Scratch s(c.count);
+  const Scratch s(c.count);
   turn_in_time(c.table.data(), c.count, t, s.turns);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3d& p = points[i];
