@@ -101,8 +101,7 @@ class Refinement {
   /// Where longer steps do not come to the end of the run.
   Judged by_shorter(int level, std::size_t signal, double end) {
     const Beside fine = companions_.beside(level - 1), coarse = companions_.beside(level);
-    constexpr double first_order =
-        2;  // the order taken without a third run: of d = e(2h) - e(h) the error e(2h) is 2 d
+    constexpr double first_order = 2;  // taken without a third run: of d = e(2h) - e(h) the error e(2h) is 2 d
     const Judged out{{first_order * difference(fine, coarse, signal, sizes_[signal]).most(), 0}, end};
     if (out.error <= scene_.accuracy || !parts_neighbours(signal)) return out;
     return while_predictable(fine, coarse, {}, signal);
