@@ -155,17 +155,23 @@ Eigen::VectorXd smallest(const Eigen::MatrixXd& Q, Eigen::Index n) {
   return out;
 }
 
-/// Each row's matrix with eigenvalues below `floor` raised to it.
-Eigen::MatrixXd raised(Eigen::MatrixXd Q, Eigen::Index n, double floor, double& lowest) {
-  lowest = std::numeric_limits<double>::infinity();
-  for (Eigen::Index i = 0; i < Q.rows(); ++i) {
-    const Eigen::MatrixXd m = unpacked(Q.row(i), n);
+/// Each row's matrix with eigenvalues below `floor` raised to it; the lowest of each row, `floor` where none is below.
+struct Raised {
+  Eigen::MatrixXd Q;
+  Eigen::VectorXd lowest;
+};
+
+Raised raised(Eigen::MatrixXd Q, Eigen::Index n, double floor) {
+  Raised out{std::move(Q), {}};
+  out.lowest.setConstant(out.Q.rows(), floor);
+  for (Eigen::Index i = 0; i < out.Q.rows(); ++i) {
+    const Eigen::MatrixXd m = unpacked(out.Q.row(i), n);
     if (positive(m, floor)) continue;
     const auto [values, vectors] = dense::symmetric_eigen(m);
-    lowest = std::min(lowest, values[0]);
-    Q.row(i) = packed(vectors * values.cwiseMax(floor).asDiagonal() * vectors.transpose());
+    out.lowest[i] = values[0];
+    out.Q.row(i) = packed(vectors * values.cwiseMax(floor).asDiagonal() * vectors.transpose());
   }
-  return Q;
+  return out;
 }
 
 /// The smallest x (‖design · x‖ least) with rows · x >= least, by its dual: non-negative multipliers, one at a time.
@@ -191,40 +197,44 @@ Eigen::VectorXd least_lift(const Eigen::MatrixXd& design, const Eigen::MatrixXd&
   return toward * multiplier;
 }
 
-/// Weight of each angle while the fit is pulled: that of B itself, so that the ends, where B is next to nothing, do not
-/// lead.
-Eigen::VectorXd importance(const std::vector<double>& theta) {
+/// sin² 2θ, by which B is Q.
+Eigen::VectorXd share_of_damping(const std::vector<double>& theta) {
   Eigen::VectorXd out(static_cast<Eigen::Index>(theta.size()));
   for (std::size_t i = 0; i < theta.size(); ++i)
-    out[static_cast<Eigen::Index>(i)] = std::max(0.1, std::pow(std::sin(2 * theta[i]), 2));
+    out[static_cast<Eigen::Index>(i)] = std::pow(std::sin(2 * theta[i]), 2);
   return out;
 }
 
 /// Towards the passive ones: fit the data and, at every angle, a matrix without negative eigenvalues near that of the
-/// fit before. The targets are placed beyond the nearest one, which reaches it sooner.
-Eigen::MatrixXd approached(const Fitting& fitting, const Eigen::MatrixXd& rows, const Eigen::VectorXd& importance,
-                           Eigen::Index n, double margin, Enforced& report) {
+/// fit before. The targets are placed beyond the nearest one, which reaches it sooner. Data and targets share one
+/// design, whose solution is a fixed part and a matrix times the targets.
+Eigen::MatrixXd approached(const Fitting& fitting, const Eigen::MatrixXd& rows, const Eigen::VectorXd& share,
+                           Eigen::Index n, const Margins& margins, Enforced& report) {
   // A turn costs an eigenproblem of n modes at each angle; large arrays get fewer turns and more lift.
   const double size = static_cast<double>(n);
   const int turns = n <= 40 ? 150 : std::max(10, static_cast<int>(150 * 40 * 40 / (size * size)));
   constexpr double beyond = 1.8;
-  const Eigen::Index inner = rows.cols();
-  const double weight =
-      3 * std::sqrt(static_cast<double>(fitting.design.rows()) / 2 / static_cast<double>(rows.rows()));
-  Eigen::MatrixXd design(fitting.design.rows() + rows.rows(), fitting.design.cols());
-  design << fitting.design, weight * importance.asDiagonal() * rows, Eigen::MatrixXd::Zero(rows.rows(), fitting.extra);
+  const Eigen::Index inner = rows.cols(), data = fitting.design.rows();
+  // Weight of each angle: that of B itself, so that the ends, where B is next to nothing, do not lead.
+  const Eigen::VectorXd weight =
+      3 * std::sqrt(static_cast<double>(data) / 2 / static_cast<double>(rows.rows())) * share.cwiseMax(0.1);
+  Eigen::MatrixXd design(data + rows.rows(), fitting.design.cols());
+  design << fitting.design, weight.asDiagonal() * rows, Eigen::MatrixXd::Zero(rows.rows(), fitting.extra);
   const Eigen::VectorXd scale = design.colwise().norm().cwiseMax(1e-300).cwiseInverse();
   const dense::HouseholderQr qr(design * scale.asDiagonal());
-  Eigen::MatrixXd right(design.rows(), fitting.right.cols());
-  right.topRows(fitting.right.rows()) = fitting.right;
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(design.rows(), fitting.right.cols());
+  right.topRows(data) = fitting.right;
+  const Eigen::MatrixXd fixed = scale.asDiagonal() * qr.solve(right);
+  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(design.rows(), rows.rows());
+  unit.bottomRows(rows.rows()).diagonal() = weight;
+  const Eigen::MatrixXd by_target = scale.asDiagonal() * qr.solve(unit);
   Eigen::MatrixXd x = least_squares(fitting.design, fitting.right);
   for (int turn = 0; turn < turns; ++turn) {
-    double lowest = 0;
-    const Eigen::MatrixXd now = rows * x.topRows(inner), target = raised(now, n, 2 * margin, lowest);
-    if (turn == 0) report.most_negative = std::min(0.0, lowest);
-    if (lowest > margin) break;
-    right.bottomRows(rows.rows()) = weight * importance.asDiagonal() * (now + beyond * (target - now));
-    x = scale.asDiagonal() * qr.solve(right);
+    const Eigen::MatrixXd now = rows * x.topRows(inner);
+    const Raised target = raised(now, n, 2 * margins.kept);
+    if (turn == 0) report.most_negative = std::min(0.0, target.lowest.minCoeff());
+    if ((target.lowest.array() * share.array()).minCoeff() > -margins.lifted) break;
+    x = fixed + by_target * (now + beyond * (target.Q - now));
   }
   return x;
 }
@@ -237,12 +247,13 @@ Eigen::MatrixXd least_squares(const Eigen::MatrixXd& design, const Eigen::Matrix
 }
 
 Enforced enforce(const WeightedDamping& weighted, const Eigen::MatrixXd& null, const Fitting& fitting, Eigen::Index n,
-                 double margin) {
+                 const Margins& margins) {
+  const double margin = margins.kept;
   std::vector<double> theta = angles(weighted);
   const Eigen::Index inner = null.cols();
   Enforced out;
   Eigen::MatrixXd rows = rows_at(weighted, theta) * null;
-  out.x = approached(fitting, rows, importance(theta), n, margin, out);
+  out.x = approached(fitting, rows, share_of_damping(theta), n, margins, out);
   // What is left is covered by damping that acts on all modes alike, as little of it as does.
   const Eigen::MatrixXd diagonal = packed(Eigen::MatrixXd::Identity(n, n));
   const Eigen::MatrixXd without = out.x;

@@ -57,9 +57,14 @@ struct Enforced {
   double most_negative = 0;  ///< eigenvalue of Q on the grid before
 };
 
-/// The solution nearest to the least-squares one that is passive with `margin`. (R17)
+struct Margins {
+  double kept;    ///< by which Q shall be positive at every angle
+  double lifted;  ///< what B may be short of that before damping on all modes alike makes it good
+};
+
+/// The solution nearest to the least-squares one that is passive with a margin. (R17)
 /// `null` spans coefficients that vanish at rest: coefficients = null · x.
 Enforced enforce(const WeightedDamping& weighted, const Eigen::MatrixXd& null, const Fitting& fitting, Eigen::Index n,
-                 double margin);
+                 const Margins& margins);
 
 }  // namespace hydro::radiation::detail

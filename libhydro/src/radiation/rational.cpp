@@ -67,6 +67,13 @@ std::vector<double> tail_frequencies(double last) {
 /// What places beyond the table weigh beside those inside, at 1.
 double weight_of_tail(double last, double omega) { return 0.1 * last / omega; }
 
+/// What damping weighs at slow motions, as of moored bodies: they feel little of it, of which an error that is small
+/// beside the largest may be a multiple.
+double weight_of_damping(double omega, double centre) {
+  constexpr double most = 30;  // more costs data between resonances, and gains nothing
+  return std::clamp(std::pow(centre / omega, 2), 1.0, most);
+}
+
 Data prepared(const DampingTable& given, const std::vector<Eigen::MatrixXd>& A,
               const std::optional<Eigen::MatrixXd>& A_inf) {
   const ExtrapolatedDamping whole = extrapolated(given, A, A_inf);
@@ -82,15 +89,13 @@ Data prepared(const DampingTable& given, const std::vector<Eigen::MatrixXd>& A,
   for (const double omega : tail_frequencies(given.omega.back())) d.samples.omega.push_back(omega);
   const auto n = static_cast<Eigen::Index>(d.modes.size());
   const auto rows = static_cast<Eigen::Index>(d.samples.omega.size());
-  d.samples.weight.resize(rows);
+  d.samples.weight.resize(2 * rows);
   d.samples.values.resize(rows, n * (n + 1) / 2);
   double most = -1;
   for (Eigen::Index r = 0; r < rows; ++r) {
     const auto i = static_cast<std::size_t>(r);
     const double omega = d.samples.omega[i];
     const bool inside = i < d.inside;
-    // The tail is a guess and only steers what the data leave open.
-    d.samples.weight[r] = inside ? 1 : weight_of_tail(given.omega.back(), omega);
     Eigen::MatrixXd B = Eigen::MatrixXd::Zero(n, n), above = B;
     if (inside) {
       B = scaled(d, given.B[i]);
@@ -101,6 +106,9 @@ Data prepared(const DampingTable& given, const std::vector<Eigen::MatrixXd>& A,
                                [&](std::size_t k) { return whole.table.B[k]; }));
       above = scaled(d, added_mass_above_limit(whole.table, omega));
     }
+    // The tail is a guess and only steers what the data leave open.
+    const double weight = inside ? 1 : weight_of_tail(given.omega.back(), omega);
+    d.samples.weight[r] = d.samples.weight[rows + r] = weight;
     d.samples.values.row(r).real() = detail::packed(dense::symmetric_part(B));
     d.samples.values.row(r).imag() = omega * detail::packed(dense::symmetric_part(above));
     if (B.trace() > most) {
@@ -108,6 +116,8 @@ Data prepared(const DampingTable& given, const std::vector<Eigen::MatrixXd>& A,
       d.centre = omega;
     }
   }
+  for (Eigen::Index r = 0; r < rows; ++r)
+    d.samples.weight[r] *= weight_of_damping(d.samples.omega[static_cast<std::size_t>(r)], d.centre);
   return d;
 }
 
@@ -119,13 +129,12 @@ detail::Fitting fitting(const Data& d, const std::vector<Pole>& poles, const Eig
     phi.row(r).head(null.cols()) = detail::basis_at(poles, omega) * null;
     phi(r, null.cols()) = {0, omega};  // a shift of A∞
   }
-  return {detail::stacked(d.samples.weight.asDiagonal() * phi),
-          detail::stacked(d.samples.weight.asDiagonal() * d.samples.values), 1};
+  return {d.samples.weighted(phi), d.samples.weighted(d.samples.values), 1};
 }
 
 /// Largest |error| over the table's own frequencies of each pair, relative by the scaling, (1, pairs).
 Eigen::RowVectorXd errors(const Data& d, const detail::Fitting& f, const Eigen::MatrixXd& x) {
-  const Eigen::MatrixXd off = f.design * x - f.right;
+  const Eigen::MatrixXd off = d.samples.weight.cwiseInverse().asDiagonal() * (f.design * x - f.right);
   const auto inside = static_cast<Eigen::Index>(d.inside), rows = off.rows() / 2;
   const Eigen::MatrixXd size =
       (off.topRows(inside).array().square() + off.middleRows(rows, inside).array().square()).sqrt();
@@ -137,39 +146,59 @@ Eigen::MatrixXd per_pair(const Data& d, const Eigen::RowVectorXd& e) {
   return detail::unpacked(e, static_cast<Eigen::Index>(d.modes.size()));
 }
 
+/// Sum of squares at each frequency, of real parts above imaginary parts.
+Eigen::VectorXd squares_at(const Eigen::MatrixXd& stacked) {
+  const Eigen::VectorXd both = stacked.rowwise().squaredNorm();
+  return both.head(both.size() / 2) + both.tail(both.size() / 2);
+}
+
 struct Attempt {
   std::vector<Pole> poles;
   Eigen::MatrixXd coefficients, shift;  // (columns, pairs), (1, pairs), scaled
+  Eigen::VectorXd missed;               // sum of squares over the pairs at each sample, weighted
   FitReport report;
 };
 
-Attempt attempt(const Data& d, const detail::Samples& compressed, int order, double slowest) {
+Attempt attempt(const Data& d, std::vector<Pole> poles) {
   Attempt a;
-  a.poles = detail::fitted_poles(compressed, order, slowest);
+  a.poles = std::move(poles);
   const Eigen::MatrixXd null = detail::vanishing_at_rest(a.poles);
   const detail::Fitting f = fitting(d, a.poles, null);
   const Eigen::MatrixXd x = detail::least_squares(f.design, f.right);
   a.coefficients = null * x.topRows(null.cols());
   a.shift = x.bottomRows(1);
+  a.missed = squares_at(f.design * x - f.right);
   a.report.order = static_cast<int>(detail::columns(a.poles));
   a.report.error_per_pair = per_pair(d, errors(d, f, x));
   a.report.error = a.report.error_before = a.report.error_per_pair.maxCoeff();
   return a;
 }
 
-void make_passive(const Data& d, double margin, Attempt& a) {
+void make_passive(const Data& d, const detail::Margins& margins, Attempt& a) {
   const Eigen::MatrixXd null = detail::vanishing_at_rest(a.poles);
   const detail::Fitting f = fitting(d, a.poles, null);
   const detail::WeightedDamping weighted(a.poles, d.centre);
-  const auto enforced = detail::enforce(weighted, null, f, static_cast<Eigen::Index>(d.modes.size()), margin);
+  const auto enforced = detail::enforce(weighted, null, f, static_cast<Eigen::Index>(d.modes.size()), margins);
   a.coefficients = null * enforced.x.topRows(null.cols());
   a.shift = enforced.x.bottomRows(1);
   a.report.error_per_pair = per_pair(d, errors(d, f, enforced.x));
   a.report.error = a.report.error_per_pair.maxCoeff();
   a.report.passive = enforced.passive;
-  a.report.margin = enforced.passive ? margin : 0;
+  a.report.margin = enforced.passive ? margins.kept : 0;
   a.report.most_negative = enforced.most_negative;
   a.report.lift = enforced.lift;
+}
+
+/// By a lift as soon as that is small, which is quick; where that costs the tolerance, by what needs hardly any.
+void make_passive(const Data& d, double tolerance, Attempt& a) {
+  const double margin = tolerance / 50;
+  Attempt quick = a;
+  make_passive(d, {.kept = margin, .lifted = tolerance / 5}, quick);
+  if (!quick.report.passive || quick.report.error > tolerance) {
+    make_passive(d, {.kept = margin, .lifted = -margin}, a);
+    if (a.report.passive || !quick.report.passive) return;
+  }
+  a = std::move(quick);
 }
 
 RationalFit unscaled(const Data& d, const Attempt& a) {
@@ -207,18 +236,23 @@ RationalFit fit(const DampingTable& damping, const std::vector<Eigen::MatrixXd>&
   const double negative = negative_share(damping);
   const Data d = prepared(damping, A, A_inf);
   require(!d.modes.empty(), "there is no damping to fit: no mode makes waves");
-  const detail::Samples compressed = detail::compressed(d.samples, 1e-2 * options.tolerance);
+  constexpr Eigen::Index enough = 16;  // columns: with as many as there are, poles are no better
+  const detail::Samples searched = detail::mixed(detail::compressed(d.samples, 1e-2 * options.tolerance), enough);
   double widest = 0;
   for (std::size_t i = 1; i < damping.omega.size(); ++i)
     widest = std::max(widest, damping.omega[i] - damping.omega[i - 1]);
   // A resonance much narrower than the spacing cannot be told from the data.
-  const double slowest = widest / 10, margin = options.tolerance / 50;
+  const double slowest = widest / 10;
   const int most = std::min(options.largest_order, static_cast<int>(3 * damping.omega.size() / 2));
   std::optional<Attempt> best;
-  for (int order = 2; order <= most; order += order < 12 ? 2 : order < 32 ? 4 : order < 64 ? 8 : 32) {
-    Attempt a = attempt(d, compressed, order, slowest);
+  std::vector<Pole> poles;
+  Eigen::VectorXd missed = squares_at(d.samples.weighted(d.samples.values));
+  for (int order = 2; order <= most; order += order < 12 ? 2 : order < 32 ? 4 : order < 64 ? 8 : 16) {
+    poles = detail::settled(searched, detail::grown(poles, order, d.samples.omega, missed), slowest);
+    Attempt a = attempt(d, poles);
+    missed = a.missed;
     const bool close = a.report.error <= options.tolerance;
-    if (close && options.enforce_passivity) make_passive(d, margin, a);
+    if (close && options.enforce_passivity) make_passive(d, options.tolerance, a);
     const bool met = a.report.error <= options.tolerance && (a.report.passive || !options.enforce_passivity);
     if (met || !best || a.report.error < best->report.error) best = std::move(a);
     if (!met) continue;
@@ -227,7 +261,7 @@ RationalFit fit(const DampingTable& damping, const std::vector<Eigen::MatrixXd>&
     best->report.negative_share = negative;
     return unscaled(d, *best);
   }
-  if (options.enforce_passivity && !best->report.passive) make_passive(d, margin, *best);
+  if (options.enforce_passivity && !best->report.passive) make_passive(d, options.tolerance, *best);
   best->report.why =
       fmt::format("no order up to {} meets the tolerance of {:.2g}; order {} comes nearest with {:.2g}{}", most,
                   options.tolerance, best->report.order, best->report.error,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hydro/base/dense.hpp"
+#include "hydro/base/random.hpp"
 #include "pole_basis.hpp"
 
 namespace hydro::radiation::detail {
@@ -13,19 +14,6 @@ Eigen::MatrixXcd basis(const std::vector<Pole>& poles, const std::vector<double>
   Eigen::MatrixXcd out(static_cast<Eigen::Index>(omega.size()), columns(poles));
   for (std::size_t i = 0; i < omega.size(); ++i) out.row(static_cast<Eigen::Index>(i)) = basis_at(poles, omega[i]);
   return out;
-}
-
-/// Lightly damped pairs, evenly over the frequencies; an odd order begins with a real pole.
-std::vector<Pole> spread_poles(const std::vector<double>& omega, int order) {
-  std::vector<Pole> poles;
-  const int pairs = order / 2;
-  const double last = omega.back();
-  if (order % 2 == 1) poles.push_back({last / 2, 0});
-  for (int i = 0; i < pairs; ++i) {
-    const double at = omega.front() + (last - omega.front()) * (i + 0.5) / pairs;
-    poles.push_back({0.02 * last / pairs + 0.01 * at, at});
-  }
-  return poles;
 }
 
 /// Zeros of σ(s) = d + Σ c_k φ_k(s): eigenvalues of A − b cᵀ/d, where φ_k is realised by blocks [−a b; −b −a] and b =
@@ -65,7 +53,7 @@ std::vector<Pole> relocated(const Samples& s, const std::vector<Pole>& poles, do
   Eigen::MatrixXcd numerator(rows, n);  // (σK̂) with its zero at rest, and iω for a shift of A∞
   numerator.leftCols(n - 1) = phi * vanishing_at_rest(poles);
   for (Eigen::Index i = 0; i < rows; ++i) numerator(i, n - 1) = {0, s.omega[static_cast<std::size_t>(i)]};
-  Eigen::MatrixXd F = stacked(s.weight.asDiagonal() * numerator);
+  Eigen::MatrixXd F = s.weighted(numerator);
   const Eigen::VectorXd sizes = F.colwise().norm().cwiseInverse();
   F = F * sizes.asDiagonal();
   const Eigen::MatrixXd Q = dense::HouseholderQr(F).thin_Q();
@@ -74,12 +62,12 @@ std::vector<Pole> relocated(const Samples& s, const std::vector<Pole>& poles, do
   // Each function's own coefficients are projected out; what is left of it asks something of σ alone.
   Eigen::MatrixXd system(functions * (n + 1) + 1, n + 1);
   for (Eigen::Index f = 0; f < functions; ++f) {
-    Eigen::MatrixXd X = stacked((s.weight.array() * s.values.col(f).array()).matrix().asDiagonal() * sigma);
+    Eigen::MatrixXd X = s.weighted(s.values.col(f).asDiagonal() * sigma);
     X -= Q * (Q.transpose() * X);
     system.middleRows(f * (n + 1), n + 1) = dense::HouseholderQr(X).R();
   }
   // Relaxed: the mean of Re σ is one, rather than its value at infinity, so that σ is not pulled by the start.
-  const double size = (s.weight.asDiagonal() * s.values).norm() / static_cast<double>(rows);
+  const double size = s.weighted(s.values).norm() / static_cast<double>(rows);
   system.bottomRows(1) = size * sigma.real().colwise().sum();
   Eigen::VectorXd right = Eigen::VectorXd::Zero(system.rows());
   right[system.rows() - 1] = size * static_cast<double>(rows);
@@ -91,6 +79,10 @@ std::vector<Pole> relocated(const Samples& s, const std::vector<Pole>& poles, do
 
 }  // namespace
 
+Eigen::MatrixXd Samples::weighted(const Eigen::MatrixXcd& functions) const {
+  return weight.asDiagonal() * stacked(functions);
+}
+
 Eigen::MatrixXd vanishing_at_rest(const std::vector<Pole>& poles) {
   const Eigen::VectorXd at_rest = basis_at(poles, 0).real().transpose();
   const Eigen::Index n = at_rest.size();
@@ -98,21 +90,50 @@ Eigen::MatrixXd vanishing_at_rest(const std::vector<Pole>& poles) {
 }
 
 Samples compressed(const Samples& s, double relative) {
-  const Eigen::MatrixXd Y = stacked(s.weight.asDiagonal() * s.values);
+  const Eigen::MatrixXd Y = s.weighted(s.values);
   const auto [values, vectors] = dense::symmetric_eigen(Y * Y.transpose());
   const Eigen::VectorXd size = values.cwiseMax(0).cwiseSqrt();
   const Eigen::Index n = size.size(), rows = n / 2;
   const auto kept = std::max<Eigen::Index>(1, (size.array() > relative * size[n - 1]).count());
   const Eigen::MatrixXd U = vectors.rightCols(kept) * size.tail(kept).asDiagonal();
   Samples out{s.omega, s.weight, Eigen::MatrixXcd(rows, kept)};
-  out.values.real() = s.weight.cwiseInverse().asDiagonal() * U.topRows(rows);
-  out.values.imag() = s.weight.cwiseInverse().asDiagonal() * U.bottomRows(rows);
+  out.values.real() = s.weight.head(rows).cwiseInverse().asDiagonal() * U.topRows(rows);
+  out.values.imag() = s.weight.tail(rows).cwiseInverse().asDiagonal() * U.bottomRows(rows);
   return out;
 }
 
-std::vector<Pole> fitted_poles(const Samples& samples, int order, double slowest) {
-  std::vector<Pole> poles = spread_poles(samples.omega, order);
-  constexpr int rounds = 15;  // poles settle within about ten
+Samples mixed(const Samples& s, Eigen::Index most) {
+  const Eigen::Index functions = s.values.cols();
+  if (functions <= most) return s;
+  const RandomStream normal(0, 0);
+  Eigen::MatrixXd mix(functions, most);
+  for (Eigen::Index i = 0; i < mix.size(); ++i)
+    mix.data()[i] = normal.normal(static_cast<std::uint64_t>(i)) / std::sqrt(static_cast<double>(most));
+  return {s.omega, s.weight, s.values * mix};
+}
+
+std::vector<Pole> grown(std::vector<Pole> poles, int order, const std::vector<double>& omega, Eigen::VectorXd missed) {
+  const auto spacing = [&](std::size_t i) {
+    const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, omega.size() - 1);
+    return (omega[after] - omega[before]) / static_cast<double>(after - before);
+  };
+  while (columns(poles) < order) {
+    Eigen::Index worst = 0;
+    missed.maxCoeff(&worst);
+    const auto at = static_cast<std::size_t>(worst);
+    const double width = std::max(spacing(at), 0.01 * omega[at]);
+    poles.push_back({width, omega[at]});
+    // What a pair explains no other is needed for.
+    for (std::size_t i = 0; i < omega.size(); ++i) {
+      const double apart = (omega[i] - omega[at]) / (2 * width);
+      missed[static_cast<Eigen::Index>(i)] *= 1 - std::exp(-apart * apart);
+    }
+  }
+  return poles;
+}
+
+std::vector<Pole> settled(const Samples& samples, std::vector<Pole> poles, double slowest) {
+  constexpr int rounds = 5;  // more gain nothing for poles that were settled before a few were added
   for (int i = 0; i < rounds; ++i) poles = relocated(samples, poles, slowest);
   std::sort(poles.begin(), poles.end(), [](const Pole& p, const Pole& q) { return p.omega < q.omega; });
   return poles;

@@ -11,8 +11,10 @@ namespace hydro::radiation::detail {
 /// Samples of many functions of frequency, one column a function, weighted by row.
 struct Samples {
   std::vector<double> omega;
-  Eigen::VectorXd weight;   ///< (omega)
+  Eigen::VectorXd weight;   ///< (2 omega): of real parts, then of imaginary ones
   Eigen::MatrixXcd values;  ///< (omega, functions)
+  /// Real parts above imaginary parts of functions at these frequencies, weighted.
+  Eigen::MatrixXd weighted(const Eigen::MatrixXcd& functions) const;
 };
 
 /// The matrix whose columns span the coefficients with Σ c_k φ_k(0) = 0, (columns, columns − 1): K̂ vanishes at ω = 0.
@@ -22,8 +24,15 @@ Eigen::MatrixXd vanishing_at_rest(const std::vector<Pole>& poles);
 /// largest.
 Samples compressed(const Samples& samples, double relative);
 
-/// `order` stable poles that the functions share, from pairs spread over the frequencies, by relaxed vector fitting.
-/// No pole decays more slowly than `slowest`.
-std::vector<Pole> fitted_poles(const Samples& compressed, int order, double slowest);
+/// At most so many columns, each a random mixture of all: sums of squares over the functions are kept in the mean, so a
+/// search for poles sees all of them at the price of these.
+Samples mixed(const Samples& samples, Eigen::Index most);
+
+/// With pairs added where most is `missed`, a sum of squares at each of `omega`, until there are `order` states.
+std::vector<Pole> grown(std::vector<Pole> poles, int order, const std::vector<double>& omega, Eigen::VectorXd missed);
+
+/// Stable poles that the functions share, moved from these by relaxed vector fitting, in order of frequency. None
+/// decays more slowly than `slowest`.
+std::vector<Pole> settled(const Samples& samples, std::vector<Pole> poles, double slowest);
 
 }  // namespace hydro::radiation::detail

@@ -33,7 +33,7 @@ struct PoleModel {
 
 struct FitOptions {
   double tolerance = 1e-3;  ///< of the force at each frequency of the data, relative to √(max B_ii max B_jj)
-  int largest_order = 128;  ///< real states a mode
+  int largest_order = 160;  ///< real states a mode
   bool enforce_passivity = true;
 };
 
