@@ -1,12 +1,13 @@
 #!/usr/bin/python3
-"""Compiles every source of the product by itself.
+"""Compiles every source and every public header of the product by itself.
 
     alone.py SOURCE_DIR SCRATCH_DIR
 
 The build that users get compiles several files as one, which would hide an include that a file forgets. Here each file is
 read alone (-fsyntax-only), by the compile commands of a build that merges nothing. A function that is declared inline and
-defined nowhere, such as Eigen's inverse() without <Eigen/LU>, is an error too: it would not link. A file whose text, headers
-and command are as in the last run is not read again. Python's standard library only.
+defined nowhere, such as Eigen's inverse() without <Eigen/LU>, is an error too: it would not link. A header
+that a source includes before anything else has been read alone with it; the other public ones are read as files of their own.
+A file whose text, headers and command are as in the last run is not read again. Python's standard library only.
 """
 import concurrent.futures
 import hashlib
@@ -20,6 +21,9 @@ import sys
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 TARGETS = ("libhydro", "libdynamics", "libfit", "apps", "python")
+# Where public headers lie, below which part, and the folder from which they are named.
+PUBLIC = (("libhydro", "include", "include"), ("libdynamics", "include", "include"), ("libfit", "include", "include"),
+          ("apps", "include", "include"), ("apps", "scene", "."))
 
 
 def configured(source, scratch):
@@ -78,12 +82,36 @@ def refuses_planted_faults(command, scratch):
             sys.exit(f"the check passes a planted fault: {file}")
 
 
+def headers_alone(files, commands, scratch):
+    """Files that hold nothing but one public header, for those that no source includes first; their commands are those
+    of a source beside the header, without a precompiled one."""
+    first = {match.group(1) for file in files if (match := re.search(r'^#include\s+["<]([^">]+)[">]', file.read_text(), re.M))}
+    out = {}
+    for part, folder, base in PUBLIC:
+        neighbour = next(file for file in files if part in file.parts)
+        top = next(above for above in neighbour.parents if above.name == part)
+        for header in sorted((top / folder).rglob("*.hpp")):
+            name = header.relative_to(top / base).as_posix()
+            if name in first:
+                continue
+            file = scratch / "headers" / (name.replace("/", "_") + ".cpp")
+            file.parent.mkdir(exist_ok=True)
+            text = f'#include "{name}"\n'
+            if not file.is_file() or file.read_text() != text:
+                file.write_text(text)
+            out[file] = re.sub(r"-include \S+", "", commands[str(neighbour)])
+    return out
+
+
 def main():
     source, scratch = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
     commands = configured(source, scratch)
     files = sorted(pathlib.Path(f) for f in commands if pathlib.Path(f).relative_to(source).parts[0] in TARGETS
                    if source in pathlib.Path(f).parents and scratch not in pathlib.Path(f).parents)
     refuses_planted_faults(commands[str(files[0])], scratch)
+    sources, extra = len(files), headers_alone(files, commands, scratch)
+    commands.update({str(file): command for file, command in extra.items()})
+    files += extra
     directories = [source / d for d in ("libhydro/include", "libdynamics/include", "libfit/include", "apps", "apps/include")]
     record = scratch / "alone.json"
     known = json.loads(record.read_text()) if record.is_file() else {}
@@ -98,7 +126,7 @@ def main():
             else:
                 known[str(file)] = prints[file]
                 record.write_text(json.dumps(known))
-    print(f"{len(files)} files were read alone, {faults} of them cannot be")
+    print(f"{sources} sources and {len(extra)} public headers were read alone, {faults} of them cannot be")
     sys.exit(faults > 0)
 
 
