@@ -490,7 +490,4 @@ void check_patterns(const Scene& scene, const std::vector<std::string>& known);
 /// end stops, lines whose segments go slack (D132).
 bool acts_one_way(const Scene& scene);
 
-/// The reference of all keys, generated from the very tables that the reader uses (Markdown).
-std::string key_reference();
-
 }  // namespace froude::scene
