@@ -308,7 +308,6 @@ struct Line {
   std::optional<Growth> growth;                   ///< on parts
   std::vector<dynamics::line::Segment> segments;  ///< each with all it has, marine growth too: cut() of its parts
   dynamics::line::Node node;                      ///< each; at held ends without mass
-  bool componentwise_damping = false;             ///< as dynamics::line::Description
   dynamics::line::Surroundings water;             ///< without the field of a run
   std::optional<Coefficients> coefficients;       ///< instead of those of the segments
   std::optional<dynamics::line::Bed> bed;
