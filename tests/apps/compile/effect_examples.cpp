@@ -70,6 +70,9 @@ std::vector<Example> of_body() {
            "[[point]]\non = \"m\"\nat = \"(1, 0, 0) m\"\ngives = \"position\"\n"
            "[[relative_motion]]\nbetween = [\"m\", \"ground\"]\nends = [\"(1, 0, 0) m\", \"(1, 0, 0) m\"]\n",
            {}),
+      body("wind", "",
+           "[[wind]]\non = \"m\"\nat = \"(0, 0, 4) m\"\narea = \"10 m^2\"\nspeed = \"12 m/s\"\nheading = \"30 deg\"\n",
+           {"wind"}),
       body("load", "", "[[load]]\non = \"m\"\nforce = \"(1, 0, 0) kN\"\n", {"load"}),
   };
 }
