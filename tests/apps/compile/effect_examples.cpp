@@ -246,6 +246,7 @@ std::vector<Example> of_seas() {
        "1\n"},
       {"torsethaugen", hs + tp},
       {"wallops", hs + tp},
+      {"donelan", "wind = \"12 m/s\"\n" + tp},
       {"swell", hs + tp + "width = \"0.1 rad/s\"\n"},
       {"measured", "file = \"elevation.csv\"\nsegment = \"20 s\"\n"},
       {"tabulated", "file = \"spectrum.csv\"\n"}};
