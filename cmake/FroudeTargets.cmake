@@ -70,6 +70,20 @@ function(froude_merge target)
   endforeach()
 endfunction()
 
+# froude_parts(TARGET LIST PATTERN NAME…): for each NAME the file whose name is PATTERN with it in place of *, added to TARGET,
+# and FROUDE_PART(NAME) in LIST.inc, which the owner of the list includes: one more part of a kind is a file and its name. A
+# static object that enters itself would be lost where nothing else of its file is used.
+function(froude_parts target list pattern)
+  set(lines)
+  foreach(name IN LISTS ARGN)
+    string(REPLACE "*" "${name}" file "${pattern}")
+    target_sources(${target} PRIVATE ${file})
+    string(APPEND lines "FROUDE_PART(${name})\n")
+  endforeach()
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/parts/${list}.inc CONTENT "${lines}" @ONLY)
+  target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/parts)
+endfunction()
+
 # froude_library(NAME [HEADERS]): a library froude_NAME with alias froude::NAME and the common options, not exported with them;
 # its files read the set HEADERS precompiled, or that of the libraries.
 function(froude_library name)

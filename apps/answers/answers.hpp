@@ -9,9 +9,7 @@
 #include "answers/linear_response.hpp"
 #include "answers/simulate.hpp"
 #include "compile/kept.hpp"
-#include "fit/report.hpp"
 #include "froude/result.hpp"
-#include "scene/fit_scene.hpp"
 #include "scene/scene.hpp"
 
 namespace froude {
@@ -27,9 +25,6 @@ Plan plan(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept 
 
 /// What the water does at the probes of a scene that asks for it. \throws hydro::InputError
 WaterSeries water_series(const scene::Scene& scene, const std::function<void(double)>& progress = {});
-
-/// What a fit of any kind tells. \throws hydro::InputError, hydro::NumericsError
-::fit::Report fitted(const scene::FitScene& scene);
 
 /// True if [ask.waves] is answered by whole series at once, instead of asking the field at each instant.
 bool is_synthesised(const scene::Scene& scene);

@@ -1,19 +1,172 @@
-#include <algorithm>
-#include <cmath>
-
-#include "answers/fit_kinds.hpp"
+/// \file  Fits of kind "morison": drag and inertia of a cylinder in unsteady flow.
+#include "answers/fit_morison.hpp"
+#include "answers/fit_kind.hpp"
+#include "answers/fit_measurements.hpp"
+#include "answers/fit_models.hpp"
 #include "scene/placed.hpp"
 
-namespace froude {
+namespace froude::scene {
 namespace {
 
 namespace dim = hydro::dim;
-using ::fit::Coefficient;
-using MorisonRun = ::fit::morison::FittedRun;
-using Morison = scene::MorisonModel;
+using ::fit::Cylinder;
+using ::fit::CylinderErrors;
+using ::fit::Experiment;
+using ::fit::ForceLine;
+using ::fit::MorisonOptions;
+using ::fit::ProbeToBody;
+
+const Words<Experiment> experiments{{"water moves", Experiment::water_moves},
+                                    {"body moves", Experiment::body_moves},
+                                    {"both move", Experiment::both_move}};
+
+void check_mass(const Record& model, Cylinder& cylinder) {
+  const bool known = model.has("mass_beyond_load_cells"), moves = cylinder.experiment != Experiment::water_moves;
+  if (known && !moves)
+    throw model.wrong("mass_beyond_load_cells", "does not act: the body does not move",
+                      "leave it out, or set motion = \"body moves\"");
+  if (!known && moves)
+    throw model.refused(
+        "needs \"mass_beyond_load_cells\" where the body moves: its inertia is part of the measured force",
+        "add mass_beyond_load_cells = \"5.9 kg\", contained water included; \"0 kg\" if it is taken off already");
+}
+
+Binding<Cylinder> cylinder_in_flow() {
+  return Binding<Cylinder>(cylinder_keys())
+      .words(text("motion",
+                  "\"water moves\": waves on a fixed body; \"body moves\": forced oscillation in still water; \"both "
+                  "move\": a body that moves in waves"),
+             experiments, &Cylinder::experiment)
+      .optional(quantity("mass_beyond_load_cells", dim::mass,
+                         "where the body moves: all that the load cells accelerate, contained water included")
+                    .within(Limit::not_negative),
+                &Cylinder::mass_beyond_load_cells)
+      .then(check_mass);
+}
+
+Binding<ForceLine> force_line() {
+  return Binding<ForceLine>("[[model.line]]",
+                            "morison: a force of one frequency beside drag and inertia (lift, vortices, a vibration), "
+                            "fitted with them so that it widens no interval")
+      .optional(positive("frequency", dim::angular_velocity, "of the line"), in_hertz(&ForceLine::hz))
+      .optional(number("multiple", "of the main frequency of the motion: 2 for lift").positive(), &ForceLine::multiple)
+      .exactly_one_of({"frequency", "multiple"});
+}
+
+Binding<ProbeToBody> probe_to_body() {
+  using P = ProbeToBody;
+  return Binding<P>("[model.wave]",
+                    "from the surface at a probe to the water at the body, by linear waves of one direction")
+      .key(quantity("depth", dim::length, "of the tank").one_of({"infinite"}).positive(), &P::water,
+           &hydro::Water::depth)
+      .key(positive("level", dim::length, "of the body's axis below still water"),
+           [](const Value& v, P& probe) { probe.level = -v.number; })
+      .key(quantity("ahead", dim::length, "of the body in front of the probe, the way waves go")
+               .or_default("0 m", "beside each other"),
+           &P::ahead)
+      .key(positive("gravity", dim::acceleration, "acceleration of free fall")
+               .or_default("9.81 m/s^2", "what hydrodynamic data are mostly computed with"),
+           &P::water, &hydro::Water::gravity)
+      .key(effect("regular", "the surface is one sinusoid, fitted to the probe: noise averages out, no ends are lost"),
+           &P::regular)
+      .key(effect("follow",
+                  "both move: the water is taken where the body is; its position counts along the waves from where "
+                  "\"ahead\" puts it; needs the channel position"),
+           &P::follow);
+}
+
+Binding<CylinderErrors> cylinder_errors() {
+  return Binding<CylinderErrors>("[model.uncertainty]", "standard uncertainties of what the cylinder is taken for")
+      .optional(positive("diameter", dim::length, "of the diameter"), &CylinderErrors::diameter)
+      .optional(positive("length", dim::length, "of the length"), &CylinderErrors::length)
+      .optional(positive("density", dim::density, "of the water's density"), &CylinderErrors::density)
+      .optional(positive("mass", dim::mass, "of the mass beyond the load cells"), &CylinderErrors::mass);
+}
+
+/// What only moving water, or only a moving body, has.
+void check_water_channels(const Record& channels, Experiment experiment) {
+  using enum Experiment;
+  if (experiment == body_moves)
+    for (const char* role : {"cross_velocity", "elevation"})
+      if (channels.has(role))
+        throw channels.wrong(role, "has no part where the body moves in still water", "leave it out");
+  for (const char* role : {"water_velocity", "water_acceleration"})
+    if (channels.has(role) && experiment != both_move)
+      throw channels.wrong(role, fmt::format("has no part with motion = \"{}\"", word_for(experiments, experiment)),
+                           "leave it out, or set motion = \"both move\"");
+  if (experiment == both_move && channels.has("elevation") == channels.has("water_velocity"))
+    throw channels.refused("needs either water_velocity or elevation where both move",
+                           "name the column of the water's motion; velocity and position are the body's");
+}
+
+/// Exactly one of the motion's channels, which others must not contradict.
+void check_motion_channels(const Record& channels, Experiment experiment) {
+  check_water_channels(channels, experiment);
+  const auto refuse_beside_elevation = [&](std::initializer_list<const char*> others) {
+    for (const char* other : others)
+      if (channels.has(other)) throw channels.wrong(other, "does not act beside the elevation", "keep one of the two");
+  };
+  if (channels.has("elevation") && experiment != Experiment::both_move)
+    return refuse_beside_elevation({"velocity", "position", "acceleration", "cross_velocity"});
+  if (channels.has("elevation")) refuse_beside_elevation({"water_acceleration", "cross_velocity"});
+  if (!channels.has("velocity") && !channels.has("position"))
+    throw channels.refused("needs velocity or position for a fit of kind \"morison\": drag needs the velocity",
+                           "add one of them; an acceleration alone does not give it, its integral drifts");
+  if (channels.has("velocity") && channels.has("position"))
+    throw channels.wrong("position", "does not act beside the velocity", "keep one of the two");
+}
+
+void finish_probe(const FitTables& t, MorisonModel& morison) {
+  const Record &model = t.model(), &channels = t.channels();
+  if (!morison.probe && channels.has("elevation"))
+    throw model.refused("needs \"wave\" for the channel elevation",
+                        "add wave = { depth = \"1.25 m\", level = \"0.48 m\" }");
+  if (!morison.probe) return;
+  const Record& wave = model.table("wave");
+  ProbeToBody& probe = *morison.probe;
+  probe.water.density = morison.cylinder.density;
+  if (probe.follow && !(morison.cylinder.experiment == Experiment::both_move && channels.has("position")))
+    throw wave.wrong("follow", "needs to know where the body is",
+                     "set motion = \"both move\" with the channel position, or leave it out");
+  if (!probe.water.depth.is_infinite() && -probe.level >= probe.water.depth.metres())
+    throw wave.wrong("level", "lies below the bottom", "give the depth of the axis below still water");
+  if (!channels.has("elevation"))
+    throw model.wrong("wave", "does not act: there is no channel elevation", "leave it out");
+}
+
+void read_delay(const Record& prepare, MorisonModel& out) {
+  if (!prepare.has("delay")) return;
+  const bool estimate = prepare.text("delay") == "estimate";
+  if (estimate && prepare.has("delay_error"))
+    throw prepare.wrong("delay_error", "does not act where the delay is estimated: its error is then estimated too",
+                        "leave it out");
+  if (!estimate && prepare.has("longest_delay"))
+    throw prepare.wrong("longest_delay", "does not act where the delay is given",
+                        "leave it out, or set delay = \"estimate\"");
+  if (!estimate) out.prepare.delay_s = prepare.si("delay");
+  if (prepare.has("delay_error")) out.force.delay_error_s = prepare.si("delay_error");
+  if (!estimate) return;
+  if (!prepare.has("longest_delay"))
+    throw prepare.wrong(
+        "delay", "needs \"longest_delay\"",
+        "add longest_delay = \"1 s\": less than half the main period, which would be the force turned round");
+  out.longest_delay = prepare.si("longest_delay");
+}
+
+/// What is made of cycles needs them.
+void check_cycles(const FitTables& t, const MorisonModel& morison) {
+  const bool cut = morison.prepare.window.kind == ::fit::WindowChoice::Kind::full_cycles;
+  if (morison.prepare.average_cycles && !cut)
+    throw t.root.table("prepare").wrong("mean_cycle", "needs cycles", "set window = { kind = \"full cycles\" }");
+  if (morison.cycles && !cut)
+    throw t.ask().wrong("cycles", "needs cycles", "set [prepare] window = { kind = \"full cycles\" }");
+  if (morison.cycles && morison.longest_delay)
+    throw t.ask().wrong("cycles", "cannot be had while the delay is being estimated",
+                        "give the delay that was estimated");
+}
 
 /// Loading cycles of a load cell: columns force and voltage, and cycle where there are several.
-::fit::Calibration calibration_of(const scene::Located<std::filesystem::path>& file, double confidence) {
+::fit::Calibration calibration_of(const Located<std::filesystem::path>& file, double confidence) {
   const auto table = hydro::io::CsvTable::read(file.value);
   const auto &force = table.column("force", dim::force), &volt = table.column("voltage", dim::voltage);
   std::vector<::fit::LoadCycle> cycles(1);
@@ -25,7 +178,7 @@ using Morison = scene::MorisonModel;
   return ::fit::calibrate(cycles, confidence);
 }
 
-std::vector<::fit::ForceChannel> force_channels(const scene::FitScene& scene, const Morison& model,
+std::vector<::fit::ForceChannel> force_channels(const FitScene& scene, const MorisonModel& model,
                                                 const hydro::io::CsvTable& table) {
   std::vector<::fit::ForceChannel> out;
   for (const auto& f : scene.force) {
@@ -41,7 +194,7 @@ std::vector<::fit::ForceChannel> force_channels(const scene::FitScene& scene, co
   return out;
 }
 
-::fit::RawRun raw_run(const scene::FitScene& scene, const Morison& model, const Measurements& measured) {
+::fit::RawRun raw_run(const FitScene& scene, const MorisonModel& model, const Measurements& measured) {
   return {.time = measured.time(),
           .force = force_channels(scene, model, measured.table),
           .position = measured.of_role("position", dim::length),
@@ -55,7 +208,7 @@ std::vector<::fit::ForceChannel> force_channels(const scene::FitScene& scene, co
 }
 
 /// Takes what one row of the table of runs says of its run.
-void take_row(const scene::Located<std::filesystem::path>& place, std::size_t row, Morison& model,
+void take_row(const Located<std::filesystem::path>& place, std::size_t row, MorisonModel& model,
               ::fit::morison::Run& run) {
   const auto table = hydro::io::CsvTable::read(place.value);
   const auto take = [&](const char* column, const hydro::Dimension& dimension, auto& value) {
@@ -70,146 +223,142 @@ void take_row(const scene::Located<std::filesystem::path>& place, std::size_t ro
   if (table.has("zero")) model.zero_run = {{place.value.parent_path() / table.text_column("zero")[row], place.place}};
 }
 
-::fit::morison::Run read_run(const scene::FitScene& scene, Morison model, const RunOfScene& of) {
+::fit::morison::Run read_run(const FitScene& scene, MorisonModel model, const RunOfScene& of) {
   ::fit::morison::Run run{.source = of.source, .cylinder = model.cylinder, .raw = {}};
   if (scene.run_table) take_row(*scene.run_table, of.row, model, run);
-  scene::placed({.file = of.source.file.string()},
-                [&] { run.raw = raw_run(scene, model, Measurements(scene, of.source.file)); });
+  placed({.file = of.source.file.string()},
+         [&] { run.raw = raw_run(scene, model, Measurements(scene, of.source.file)); });
   return run;
 }
 
-/// The mean of all cycles with its standard error, and the fit over one of them. Where the delay was estimated, cycles
-/// begin elsewhere in the record that was fitted, and the fit is left out.
-void add_mean_cycle(const MorisonRun& run, const ::fit::MeanForce& mean, Panels& panels) {
-  plot::Panel panel{.x = {"time in the cycle", "s"},
-                    .y = {"mean force", "N"},
-                    .series = {{fmt::format("mean of {} cycles", mean.cycles), mean.time, mean.force}},
-                    .bands = {{"± standard error", mean.time, mean.force, mean.force}}};
-  for (std::size_t k = 0; k < mean.force.size(); ++k) {
-    panel.bands[0].low[k] -= mean.standard_error[k];
-    panel.bands[0].high[k] += mean.standard_error[k];
-  }
-  if (!run.fit.delay) {
-    const auto& fitted = run.fit.fitted;
-    panel.series.push_back(
-        {"fitted", mean.time, {fitted.begin(), fitted.begin() + std::ssize(mean.time)}, true, false, true});
-  }
-  panels.push_back(std::move(panel));
+Binding<MorisonModel> morison_keys() {
+  using M = MorisonModel;
+  using O = MorisonOptions;
+  return Binding<M>("", "drag and inertia in unsteady flow (Morison et al., 1950)")
+      .part(cylinder_in_flow(), &M::cylinder)
+      .part(Binding<O>("", "")
+                .key(effect("linear_drag", "a drag that goes with the velocity is fitted as well"), &O::linear_drag)
+                .key(effect("offset", "a constant force is fitted as well"), &O::force_offset)
+                .tables("line", force_line(), &O::lines)
+                .optional(),
+            &M::force)
+      .table("wave", probe_to_body(), &M::probe)
+      .part(Binding<O>("", "").table("uncertainty", cylinder_errors(), &O::cylinder_errors).optional(), &M::force);
 }
 
-/// Measured and fitted force and what is left, the last five periods of one run.
-void add_run(const MorisonRun& run, Panels& panels) {
-  const auto& r = run.prepared.record;
-  const auto from = std::lower_bound(r.time.begin(), r.time.end(), r.time.back() - 5 * run.fit.period) - r.time.begin();
-  const auto tail = [&](const std::vector<double>& v) {
-    return v.empty() ? v : std::vector<double>(v.begin() + from, v.end());
-  };
-  const ::fit::MorisonFit& f = run.fit;
-  const Panels both = panels_of(FittedRecord{.legend = run.source.name() + ": measured",
-                                             .axis = {"force", "N"},
-                                             .confidence = f.confidence,
-                                             .time = tail(r.time),
-                                             .measured = tail(r.force),
-                                             .fitted = tail(f.fitted),
-                                             .sample_band = tail(f.sample_band),
-                                             .fit_band = tail(f.fit_band)});
-  panels.insert(panels.end(), both.begin(), both.end());
-  if (run.prepared.mean_force) add_mean_cycle(run, *run.prepared.mean_force, panels);
+const Words<::fit::IntervalMethod> interval_methods{{"effective samples", ::fit::IntervalMethod::effective_samples},
+                                                    {"cycle clusters", ::fit::IntervalMethod::cycle_clusters},
+                                                    {"block bootstrap", ::fit::IntervalMethod::block_bootstrap}};
+const Words<std::optional<::fit::Law>> laws{
+    {"constant", ::fit::Law::constant},   {"kc", ::fit::Law::kc}, {"re", ::fit::Law::re}, {"beta", ::fit::Law::beta},
+    {"kc and re", ::fit::Law::kc_and_re}, {"best", std::nullopt}};
+
+std::vector<Key> morison_channels() {
+  return {
+      text("time", "time"),
+      texts("force",
+            "measured force, positive along positive velocity: of the water on a fixed body, or what load cells "
+            "carry; several columns are added up, and \"-F2\" is F2 turned round"),
+      text("velocity", "of the water, or of the body, whichever moves; where both move, of the body").optional(),
+      text("acceleration", "as velocity; left out: from the velocity or position").optional(),
+      text("position", "as velocity, instead of it").optional(),
+      text("cross_velocity",
+           "where water moves: velocity across both the force and the axis: drag is then sqrt(u^2 + w^2) u")
+          .optional(),
+      text("elevation", "where water moves: surface at a probe, in place of the water's velocity; needs [model] wave")
+          .optional(),
+      text("water_velocity", "both move: of the water where the body is").optional(),
+      text("water_acceleration", "both move: as water_velocity; left out: from it").optional()};
 }
 
-/// An axis with room beside the first and last point.
-plot::Axis roomy(const std::string& label, const std::vector<double>& x) {
-  plot::Axis axis{.label = label};
-  if (x.empty()) return axis;
-  const auto [low, high] = std::minmax_element(x.begin(), x.end());
-  const double room = 0.05 * (*high > *low ? *high - *low : std::abs(*high) + 1);
-  axis.range = {{*low - room, *high + room}};
-  return axis;
+Binding<MorisonModel> morison_data() {
+  return Binding<MorisonModel>("", "")
+      .optional(text("runs",
+                     "CSV with one row for each run: the column file, and any of zero, delay, diameter, length, "
+                     "density, viscosity and mass_beyond_load_cells, which then hold for that run; other columns are "
+                     "carried into the results"))
+      .optional(texts("calibration",
+                      "one CSV for each force channel, with columns force and voltage (and cycle, where there are "
+                      "several): the channel is then in volts"))
+      .optional(text("zero", "CSV of a run at rest, with the same force channels: its mean is taken off"),
+                &MorisonModel::zero_run);
 }
 
-/// One coefficient over KC with its intervals, and the law where it asks for KC alone.
-plot::Panel coefficient_panel(const std::vector<MorisonRun>& runs, std::size_t i,
-                              const ::fit::morison::CoefficientLaw* law) {
-  const std::string name = runs[0].asked[i].name;
-  std::vector<double> kc;
-  std::vector<const Coefficient*> told;
-  for (const MorisonRun& run : runs) {
-    if (!run.asked[i].value) continue;
-    kc.push_back(run.fit.kc);
-    told.push_back(&run.asked[i]);
-  }
-  plot::Panel panel{.x = roomy("KC", kc), .y = {name}, .series = with_bars(name, runs[0].fit.confidence, kc, told)};
-  if (law == nullptr || kc.empty()) return panel;
-  const auto& best = law->laws.front();
-  if (best.law != ::fit::Law::kc && best.law != ::fit::Law::constant) return panel;
-  double middle = 0;
-  for (const double x : kc) middle += std::log(x) / static_cast<double>(kc.size());
-  plot::Series line{"law", {}, {}};
-  const auto [low, high] = std::minmax_element(kc.begin(), kc.end());
-  for (int k = 0; k <= 50; ++k) {
-    const double x = *low * std::pow(*high / *low, k / 50.0);
-    line.x.push_back(x);
-    line.y.push_back(best.coefficients[0] +
-                     (best.law == ::fit::Law::kc ? best.coefficients[1] * (std::log(x) - middle) : 0.0));
-  }
-  panel.series.push_back(line);
-  return panel;
+Binding<MorisonModel> morison_intervals() {
+  return Binding<MorisonModel>("", "").key(
+      text("method", "how the residuals' memory is counted")
+          .one_of(words_of(interval_methods))
+          .or_default("effective samples", "sharpest where residuals are stationary"),
+      [](const Value& v, MorisonModel& out) { out.force.method = value_for(interval_methods, v.text); });
 }
+
+Binding<MorisonModel> asked_of_forces() {
+  using M = MorisonModel;
+  return Binding<M>("", "")
+      .optional(texts("coefficients", "drag cd, inertia cm, added mass ca").one_of({"cd", "cm", "ca"}))
+      .key(effect("robust", "wild samples of the force pull less (Huber)"),
+           [](const Value&, M& out) { out.force.robust = true; })
+      .key(effect("cycles", "coefficients of each cycle too; needs [prepare] window in full cycles"), &M::cycles)
+      .optional(text("law", "coefficients of all runs against KC, Re or beta = Re/KC, with runs that differ by chance")
+                    .one_of(words_of(laws)),
+                [](const Value& v, M& out) { out.law = {value_for(laws, v.text)}; })
+      .key(effect("sensitivity", "the fit repeated with other cutoffs, bandwidths and halves of the window"),
+           &M::sensitivity);
+}
+
+class MorisonFits final : public FitKindOf<MorisonModel, ::fit::morison::Problem> {
+ public:
+  MorisonFits()
+      : FitKindOf({.word = "morison",
+                   .model = morison_keys(),
+                   .channels = morison_channels(),
+                   .data = morison_data(),
+                   .intervals = morison_intervals(),
+                   .ask = asked_of_forces()}) {}
+  bool has_table() const override { return true; }
+  std::vector<std::pair<std::string, std::string>> settings(const FitScene& scene) const override {
+    const auto& model = scene.model<MorisonModel>();
+    return {{"motion", word_for(experiments, model.cylinder.experiment)},
+            {"intervals", word_for(interval_methods, model.force.method)}};
+  }
+
+ private:
+  void finish(const FitTables& t, const FitScene& scene, MorisonModel& morison) const override {
+    morison.force.bands = true;
+    morison.force.confidence = scene.confidence;
+    morison.prepare.linear_drag = morison.force.linear_drag;
+    check_motion_channels(t.channels(), morison.cylinder.experiment);
+    if (morison.cylinder.experiment == Experiment::water_moves && morison.force.cylinder_errors.mass != 0)
+      throw t.model().table("uncertainty").wrong("mass", "does not act: the body does not move", "leave it out");
+    finish_probe(t, morison);
+    if (t.root.has("prepare")) read_delay(t.root.table("prepare"), morison);
+    check_cycles(t, morison);
+    const auto& coefficients = wanted(t, {"cd", "cm", "ca"}, "[\"cd\"]", "ask for cd, cm or ca");
+    morison.coefficients.assign(coefficients.begin(), coefficients.end());
+  }
+
+  ::fit::morison::Problem problem(const FitScene& scene, const MorisonModel& model) const override {
+    ::fit::morison::Problem out{.runs = {}, .options = model};
+    for (const RunOfScene& of : runs_of(
+             scene, {"file", "zero", "delay", "diameter", "length", "density", "viscosity", "mass_beyond_load_cells"}))
+      out.runs.push_back(read_run(scene, model, of));
+    return out;
+  }
+
+  Remedy remedy(const FitScene& scene, const ::fit::morison::Problem&, const Solution&) const override {
+    return {.text = fmt::format("write force = \"-{}\" among the channels, or turn the motion", scene.force[0].column)};
+  }
+
+  std::string table(const ::fit::morison::Problem&, const Solution& solution) const override {
+    return morison_table(solution);
+  }
+  Panels panels(const ::fit::morison::Problem&, const Solution& solution) const override {
+    return morison_panels(solution);
+  }
+};
 
 }  // namespace
 
-::fit::morison::Problem problem_of(const scene::FitScene& scene, const scene::MorisonModel& model) {
-  ::fit::morison::Problem out{.runs = {}, .options = model};
-  for (const RunOfScene& of : runs_of(
-           scene, {"file", "zero", "delay", "diameter", "length", "density", "viscosity", "mass_beyond_load_cells"}))
-    out.runs.push_back(read_run(scene, model, of));
-  return out;
-}
+std::unique_ptr<const FitKind> morison_fit() { return std::make_unique<MorisonFits>(); }
 
-Remedy remedy_of(const scene::FitScene& scene, const ::fit::morison::Problem&, const ::fit::morison::Solution&) {
-  return {.text = fmt::format("write force = \"-{}\" among the channels, or turn the motion", scene.force[0].column)};
-}
-
-Panels panels_of(const ::fit::morison::Problem&, const ::fit::morison::Solution& solution) {
-  const auto& [report, runs, laws] = solution;
-  Panels out;
-  if (runs.size() < 3) {
-    for (const MorisonRun& run : runs) add_run(run, out);
-    return out;
-  }
-  for (std::size_t i = 0; i < runs[0].asked.size(); ++i)
-    out.push_back(coefficient_panel(runs, i, laws.empty() ? nullptr : &laws[i]));
-  plot::Series map{"runs", {}, {}, false, true};
-  for (const MorisonRun& run : runs) {
-    if (!run.fit.re) continue;
-    map.x.push_back(run.fit.kc);
-    map.y.push_back(*run.fit.re);
-  }
-  if (!map.x.empty()) out.push_back({.x = roomy("KC", map.x), .y = roomy("Re", map.y), .series = {map}});
-  return out;
-}
-
-std::string table_of(const ::fit::morison::Problem&, const ::fit::morison::Solution& solution) {
-  const auto& runs = solution.runs;
-  std::string out =
-      "# One row for each run; a coefficient that the run does not tell has an empty value and its interval.\nfile";
-  for (const auto& [name, value] : runs[0].source.labels) out += "," + name;
-  out += ",KC,Re,beta,period [s]";
-  for (const Coefficient& c : runs[0].asked) out += fmt::format(",{0},{0}_low,{0}_high,{0}_error", c.name);
-  out += ",residual_rms [N],explained,cautions\n";
-  for (const MorisonRun& run : runs) {
-    out += run.source.name();
-    for (const auto& [name, value] : run.source.labels) out += "," + value;
-    const auto& f = run.fit;
-    out += fmt::format(",{:.6g},{},{},{:.6g}", f.kc, f.re ? fmt::format("{:.6g}", *f.re) : "",
-                       f.re ? fmt::format("{:.6g}", *f.re / f.kc) : "", f.period);
-    for (const Coefficient& c : run.asked)
-      out += fmt::format(",{},{:.6g},{:.6g},{:.3g}", c.value ? fmt::format("{:.6g}", *c.value) : "", c.interval.low,
-                         c.interval.high, c.standard_error);
-    out += fmt::format(",{:.4g},{:.6g},{}\n", f.residual_rms, f.explained,
-                       run.prepared.cautions.size() + (f.caution.empty() ? 0 : 1));
-  }
-  return out;
-}
-
-}  // namespace froude
+}  // namespace froude::scene

@@ -190,7 +190,8 @@ std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene,
     out.emplace_back("excitation is that of bodies as placed: their slow yaw acts in runs only");
   if (!scene.contacts.empty()) out.emplace_back("contacts are left out: bodies are taken not to touch");
   for (const auto& elements : prepared.elements)
-    if (const auto force = elements->force({prepared.bodies, prepared.water}); !force->linear_at_rest())
+    if (const auto force = elements->force({prepared.bodies, prepared.water, prepared.joints});
+        !force->linear_at_rest())
       out.push_back(
           fmt::format("[[{}]] is left out, {}: it is not linear about rest", elements->table(), force->method()));
   const auto on_body = [&](const std::vector<std::size_t>& network) {

@@ -6,6 +6,7 @@
 
 #include "answers/answers.hpp"
 #include "answers/cost.hpp"
+#include "answers/fit_kind.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "scene/document.hpp"
@@ -92,7 +93,7 @@ Cost Scene::cost(const CostOptions& options, const std::function<void(double)>& 
 }
 
 ::fit::Report Scene::fit() const {
-  if (const auto* asked = std::get_if<scene::FitScene>(&shared_->kind)) return fitted(*asked);
+  if (const auto* asked = std::get_if<scene::FitScene>(&shared_->kind)) return asked->of->answer(*asked).report;
   throw hydro::InputError("the scene has no [model]: it asks for motion, not for a fit", {.file = read().file.string()},
                           "call run() or rao()");
 }

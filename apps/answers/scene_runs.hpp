@@ -7,10 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "answers/fit_models.hpp"
+#include "answers/fit_scene.hpp"
 #include "answers/simulate.hpp"
 #include "compile/restart.hpp"
 #include "fit/simulated.hpp"
-#include "scene/fit_scene.hpp"
 #include "scene/override.hpp"
 
 namespace froude {

@@ -56,7 +56,7 @@ void add_springs(const Prepared& p, std::vector<std::unique_ptr<const dynamics::
   }
   if (!p.bushing.empty()) forces.push_back(std::make_unique<dynamics::BushingConnectorKind>(p.bushing));
   if (!p.ptos.empty()) forces.push_back(std::make_unique<dynamics::PtoKind>(p.ptos));
-  for (const auto& elements : p.elements) forces.push_back(elements->force({p.bodies, p.water}));
+  for (const auto& elements : p.elements) forces.push_back(elements->force({p.bodies, p.water, p.joints}));
 }
 
 Prepared prepare(const Scene& scene, std::shared_ptr<Kept> kept) {

@@ -41,8 +41,7 @@ dl::Description chain(const Scene& scene, const scene::Line& l, std::shared_ptr<
                     .segments = l.segments,
                     .held = {},
                     .gravity = scene.water.gravity,
-                    .water = l.water,
-                    .componentwise_damping = l.componentwise_damping};
+                    .water = l.water};
   for (const bool first : {true, false}) {
     dl::Node& node = first ? d.nodes.front() : d.nodes.back();
     if (l.end(first).at) {
@@ -110,7 +109,6 @@ void append(const dl::Description& more, bool first, bool rests, dl::Description
     d.held.push_back(h);
   }
   if (!more.bed.empty()) d.bed = more.bed;
-  d.componentwise_damping = d.componentwise_damping || more.componentwise_damping;
 }
 
 System description(const Scene& scene, const std::vector<std::size_t>& network,

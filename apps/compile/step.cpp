@@ -40,15 +40,9 @@ void add_stiffening(const Prepared& p, const dynamics::State& at,
   for (const auto& c : p.axial) consider(c);
   for (const auto& group : p.switched)
     for (const auto& c : group.connectors) consider(c);
-  std::vector<dynamics::Pto> stops;
-  for (dynamics::Pto pto : p.ptos) {
-    const double x = dynamics::pto_state(pto, at).coordinate, more = pto.law.stiffest() - pto.law.at(x, 0).by_x;
-    if (more <= 0) continue;
-    pto.law = {.line = {.stiffness = more}, .preload = -more * x, .lower = {}, .upper = {}};
-    stops.push_back(std::move(pto));
-  }
+  for (std::size_t i = 0, all = forces.size(); i < all; ++i)
+    if (auto more = forces[i]->stiffer_than_at(at)) forces.push_back(std::move(more));
   if (!taut.empty()) forces.push_back(std::make_unique<dynamics::AxialConnectorKind>(std::move(taut)));
-  if (!stops.empty()) forces.push_back(std::make_unique<dynamics::PtoKind>(std::move(stops)));
 }
 
 /// Added mass at infinite frequency of each group that radiates, or what its file has that is nearest to it.

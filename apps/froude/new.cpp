@@ -1,8 +1,8 @@
 // froude new: a scene to begin with, and the reference of all keys.
+#include "answers/fit_scene.hpp"
 #include "froude/commands.hpp"
 #include "froude/report.hpp"
 #include "hydro/io/atomic_file.hpp"
-#include "scene/scene.hpp"
 
 namespace froude {
 namespace {

@@ -30,8 +30,6 @@ class Names {
   std::map<std::string, int> unnamed_;
 };
 
-// Froude's own force elements, one file each.
-std::unique_ptr<const class ElementTable> load_element();
 // The tables that are declared beside their readers.
 const Table& probe_table();
 const Table& point_table();

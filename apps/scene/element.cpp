@@ -10,12 +10,20 @@
 
 namespace froude {
 namespace scene {
+
+// Each of the elements that are listed in CMakeLists.txt.
+#define FROUDE_PART(name) std::unique_ptr<const ElementTable> name##_element();
+#include "elements.inc"
+#undef FROUDE_PART
+
 namespace {
 
 std::vector<std::unique_ptr<const ElementTable>>& known() {
   static std::vector<std::unique_ptr<const ElementTable>> tables = [] {
     std::vector<std::unique_ptr<const ElementTable>> own;
-    own.push_back(load_element());
+#define FROUDE_PART(name) own.push_back(name##_element());
+#include "elements.inc"
+#undef FROUDE_PART
     return own;
   }();
   return tables;

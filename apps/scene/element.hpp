@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "dynamics/force/force_kind.hpp"
+#include "dynamics/joint/joint.hpp"
 #include "dynamics/state/point.hpp"
 #include "hydro/base/types.hpp"
 #include "scene/binding.hpp"
@@ -31,6 +32,7 @@ namespace froude {
 struct Site {
   const std::vector<dynamics::RigidBody>& bodies;  ///< in the order of the scene
   const hydro::Water& water;
+  const std::vector<dynamics::Joint>& joints;  ///< in the order of the scene
   /// A point of a body, given from its origin in body axes, m.
   dynamics::PointOnBody point(int body, const Eigen::Vector3d& from_origin) const;
 };

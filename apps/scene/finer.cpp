@@ -32,8 +32,7 @@ void add_growth(const Line::Growth& growth, std::vector<dl::Segment>& segments) 
 void cut_finer(int times, Line& line) {
   for (Line::EvenPart& part : line.parts) part.segments *= times;
   line.segments = cut(line);
-  line.node.damping /= times;
-  line.node.quadratic_damping /= times;
+  line.node.share /= times;
   if (line.release) line.release->node *= times;
 }
 

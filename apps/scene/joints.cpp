@@ -6,21 +6,31 @@
 #include "hydro/io/csv.hpp"
 #include "scene/binding.hpp"
 #include "scene/build.hpp"
+#include "scene/joint_property.hpp"
 
 namespace froude::scene {
-namespace {
-
 namespace dim = hydro::dim;
 
-/// What a kind of joint measures its coordinate in, and what a record of it calls that.
-struct Measure {
-  const char *joint, *coordinate_name, *load;
-  hydro::Dimension coordinate, force;
-  const char* no_damping;
-  std::string of(const std::string& table) const { return table + " of a " + joint; }
-};
-constexpr Measure of_slider{"slider", "stroke", "force", dim::length, dim::force, "0 N s/m"};
-constexpr Measure of_hinge{"hinge", "angle", "moment", dim::angle, dim::moment, "0 N m s/rad"};
+const Measure of_slider{"slider", "stroke", "force", dim::length, dim::force, "0 N s/m"};
+const Measure of_hinge{"hinge", "angle", "moment", dim::angle, dim::moment, "0 N m s/rad"};
+
+// Each of the properties that are listed in CMakeLists.txt.
+#define FROUDE_PART(name) std::unique_ptr<const JointProperty> name##_of_joints();
+#include "joint_properties.inc"
+#undef FROUDE_PART
+
+const std::vector<std::unique_ptr<const JointProperty>>& joint_properties() {
+  static const auto properties = [] {
+    std::vector<std::unique_ptr<const JointProperty>> all;
+#define FROUDE_PART(name) all.push_back(name##_of_joints());
+#include "joint_properties.inc"
+#undef FROUDE_PART
+    return all;
+  }();
+  return properties;
+}
+
+namespace {
 
 Binding<JointFriction> friction(const Measure& m) {
   using F = JointFriction;
@@ -129,10 +139,12 @@ Binding<Joint> of_kind(JointKind kind, const std::string& meaning, const std::st
 }
 /// One that has a coordinate.
 Binding<Joint> of_kind(JointKind kind, const std::string& meaning, const std::string& axis, const Measure& m) {
-  return of_kind(kind, meaning, axis)
-      .table("pto", pto(m), &Joint::pto)
-      .table("friction", friction(m), &Joint::friction)
-      .table("prescribed", prescribed(m), &Joint::prescribed);
+  auto out = of_kind(kind, meaning, axis)
+                 .table("pto", pto(m), &Joint::pto)
+                 .table("friction", friction(m), &Joint::friction)
+                 .table("prescribed", prescribed(m), &Joint::prescribed);
+  for (const auto& property : joint_properties()) out.key(inner_table(property->name(), property->keys(m)).optional());
+  return out;
 }
 
 void check_axes(const Record& record, const Joint& joint) {
@@ -209,6 +221,7 @@ const Binding<Joint>& joint_binding() {
 const Table& joint_table() { return joint_binding().table(); }
 
 void build_joints(const Record& root, Names& names, Scene& scene) {
+  std::vector<JointRecords> properties(joint_properties().size());
   for (const Record& record : root.tables("joint")) {
     const Joint made = joint_binding().read(record);
     const auto pairs = read_between(record, scene.bodies, GroundFirst::allowed);
@@ -222,9 +235,14 @@ void build_joints(const Record& root, Names& names, Scene& scene) {
         joint.at += scene.bodies[static_cast<std::size_t>(*pairs[p].first)].position -
                     scene.bodies[static_cast<std::size_t>(*pairs.front().first)].position;
       check_may_turn(record, joint, scene.bodies);
+      for (std::size_t i = 0; i < properties.size(); ++i)
+        if (const auto& key = joint_properties()[i]->name(); record.has(key))
+          properties[i].emplace_back(scene.joints.size(), &record.table(key));
       scene.joints.push_back(std::move(joint));
     }
   }
+  for (std::size_t i = 0; i < properties.size(); ++i)
+    if (!properties[i].empty()) scene.elements.push_back(joint_properties()[i]->read(properties[i], scene));
 }
 
 }  // namespace froude::scene

@@ -7,8 +7,24 @@
 #include "scene/binding.hpp"
 #include "scene/build.hpp"
 #include "scene/finer.hpp"
+#include "scene/line_property.hpp"
 
 namespace froude::scene {
+
+// Each of the properties that are listed in CMakeLists.txt.
+#define FROUDE_PART(name) LineProperty name##_of_lines();
+#include "line_properties.inc"
+#undef FROUDE_PART
+
+const std::vector<LineProperty>& line_properties() {
+#define FROUDE_PART(name) name##_of_lines(),
+  static const std::vector<LineProperty> properties{
+#include "line_properties.inc"
+  };
+#undef FROUDE_PART
+  return properties;
+}
+
 namespace {
 
 namespace dim = hydro::dim;
@@ -82,40 +98,6 @@ void read_segments(const Record& record, Line& out) {
   if (!out.parts.empty()) out.segments = cut(out);
 }
 
-const Binding<Line::Growth>& line_growth() {
-  static const Binding<Line::Growth> binding =
-      Binding<Line::Growth>(
-          "[line.growth]",
-          "a layer around the segments whose middle is between two distances along the line: it has mass, "
-          "and widens the diameter that water and bed meet")
-          .key(quantity("thickness", dim::length, "of the layer").positive(), &Line::Growth::thickness)
-          .key(quantity("density", dim::density, "of what grows, in air").positive(), &Line::Growth::density)
-          .key(quantity("from", dim::length, "distance from the line's first end")
-                   .within(Limit::not_negative)
-                   .or_default("0 m", "from there on"),
-               &Line::Growth::from)
-          .key(quantity("to", dim::length, "likewise; left out: to the other end").positive().optional(),
-               &Line::Growth::to);
-  return binding;
-}
-
-void add_growth(const Record& whole, Line& out) {
-  if (!whole.has("growth")) return;
-  const Record& record = whole.table("growth");
-  if (whole.has("link"))
-    throw record.refused("grows on links that are given one by one, each with its own mass",
-                         "leave it out, or give the line a `length` or [[line.part]]");
-  double length = 0;
-  for (const Line::EvenPart& part : out.parts) length += part.whole.length;
-  Line::Growth growth = line_growth().read(record);
-  if (!record.has("to")) growth.to = length;
-  if (!(growth.to > growth.from) || growth.to > length * (1 + 1e-9))
-    throw record.refused(fmt::format("reaches from {} to {} m of a line of {} m", growth.from, growth.to, length),
-                         "count both from the line's first end");
-  out.growth = growth;
-  out.segments = cut(out);
-}
-
 Binding<Line> line_morison() {
   return Binding<Line>("[line.morison]",
                        "drag, Froude-Krylov load and added mass of the segments where they are at each instant")
@@ -164,18 +146,6 @@ Line::Coefficients read_coefficients(const Record& record, const Scene& scene) {
   for (std::size_t i = 0; i < table.rows(); ++i)
     out.rows.push_back({kc[i], has_re ? table.column("Re")[i] : 1, cd[i], ca[i]});
   return out;
-}
-
-Binding<Line> line_damping() {
-  return Binding<Line>("[line.damping]", "of each node, against its velocity")
-      .key(quantity("linear", dim::mass / dim::time, "b_l of -b_l v").positive().optional(), &Line::node,
-           &dl::Node::damping)
-      .key(quantity("quadratic", dim::mass / dim::length, "b_q of -b_q |v| v").positive().optional(), &Line::node,
-           &dl::Node::quadratic_damping)
-      .key(effect("componentwise", "-b_q |v_i| v_i for each component instead, which depends on the axes")
-               .only_beside("quadratic"),
-           &Line::componentwise_damping)
-      .at_least_one_of({"linear", "quadratic"});
 }
 
 Binding<dl::Bed> line_bed() {
@@ -228,29 +198,6 @@ Binding<Line::PrescribedMotion> line_prescribed() {
   return Binding<Line::PrescribedMotion>("[line.prescribed]", "the motion of one end, along a path")
       .words(text("end", "which: \"from\" or \"to\""), {{"from", true}, {"to", false}}, &Line::PrescribedMotion::first)
       .key(text("file", "CSV beside the scene with time, x, y, z; a cubic spline goes through its points"));
-}
-
-Binding<Line::Snaps> line_snaps() {
-  return Binding<Line::Snaps>("[line.snaps]",
-                              "counts slack and snaps over the steps of a run, and tells the largest tension")
-      .key(quantity("slack_below", dim::force, "a link with this tension or less is slack").within(Limit::not_negative),
-           &Line::Snaps::slack_below)
-      .key(quantity("snap_above", dim::force, "a link that was slack snaps when it reaches this").positive(),
-           &Line::Snaps::snap_above)
-      .then([](const Record& record, const Line::Snaps& out) {
-        if (!(out.snap_above > out.slack_below))
-          throw record.wrong("snap_above", "is not above slack_below", "a snap is tighter than slack");
-      });
-}
-
-Binding<Line::Lyapunov> line_lyapunov() {
-  return Binding<Line::Lyapunov>(
-             "[line.lyapunov]",
-             "the largest Lyapunov exponent of a run: a second line a millionth of a segment beside "
-             "the first tells how fast neighbours part")
-      .key(quantity("from", dim::time, "growth counts from here on, when the start is forgotten").positive(),
-           &Line::Lyapunov::from)
-      .place(&Line::Lyapunov::place);
 }
 
 Binding<Line> line_clamp() {
@@ -390,36 +337,35 @@ Binding<Line> line_itself() {
 }
 
 const Binding<Line>& line() {
-  static const Binding<Line> binding =
-      line_itself()
-          .table("clamp", line_clamp())
-          .only_beside({"bending_stiffness"})
-          .key(effect("tension_only", "segments go slack instead of being pressed").only_beside("axial_stiffness"),
-               &Line::common, &dl::Segment::tension_only)
-          .key(effect("catenary_segments",
-                      "segments hang through between their nodes by their weight in water, and rest on the bed in "
-                      "part: moorings with few segments; with lines = \"generalized_alpha\"")
-                   .only_beside("axial_stiffness"),
-               &Line::common, &dl::Segment::catenary)
-          .key(effect("buoyancy", "weight of the water that it displaces").only_beside("diameter"), &Line::water,
-               &dl::Surroundings::buoyancy)
-          .key(effect("partial_immersion", "only what is under the waves is wet; left out: all of it, always")
-                   .only_beside("diameter"))
-          .table("morison", line_morison())
-          .only_beside({"diameter"})
-          .table("damping", line_damping())
-          .key(inner_table("growth", line_growth().table()).optional().only_beside("diameter"))
-          .table("bed", line_bed(), &Line::bed)
-          .only_beside({"diameter"})
-          .table("release", line_release(), &Line::release)
-          .table("prescribed", line_prescribed(), &Line::prescribed)
-          .table("snaps", line_snaps(), &Line::snaps)
-          .table("lyapunov", line_lyapunov(), &Line::lyapunov)
-          .exactly_one_of({"length", "part", "link"})
-          .at_most_one_of({"tension_only", "catenary_segments"})
-          .then(read_surroundings)
-          .then(read_segments)
-          .then(add_growth);
+  static const Binding<Line> binding = [] {
+    auto whole =
+        line_itself()
+            .table("clamp", line_clamp())
+            .only_beside({"bending_stiffness"})
+            .key(effect("tension_only", "segments go slack instead of being pressed").only_beside("axial_stiffness"),
+                 &Line::common, &dl::Segment::tension_only)
+            .key(effect("catenary_segments",
+                        "segments hang through between their nodes by their weight in water, and rest on the bed in "
+                        "part: moorings with few segments; with lines = \"generalized_alpha\"")
+                     .only_beside("axial_stiffness"),
+                 &Line::common, &dl::Segment::catenary)
+            .key(effect("buoyancy", "weight of the water that it displaces").only_beside("diameter"), &Line::water,
+                 &dl::Surroundings::buoyancy)
+            .key(effect("partial_immersion", "only what is under the waves is wet; left out: all of it, always")
+                     .only_beside("diameter"))
+            .table("morison", line_morison())
+            .only_beside({"diameter"})
+            .table("bed", line_bed(), &Line::bed)
+            .only_beside({"diameter"})
+            .table("release", line_release(), &Line::release)
+            .table("prescribed", line_prescribed(), &Line::prescribed)
+            .exactly_one_of({"length", "part", "link"})
+            .at_most_one_of({"tension_only", "catenary_segments"})
+            .then(read_surroundings)
+            .then(read_segments);
+    for (const LineProperty& property : line_properties()) whole.key(property.key);
+    return whole;
+  }();
   return binding;
 }
 
@@ -433,10 +379,8 @@ void place_line(const Record& record, const Scene& scene, Line& line) {
   if (line.release) check_release(record.table("release"), line);
   if (line.prescribed) read_path(record.table("prescribed"), line, *line.prescribed);
   if (record.has("clamp")) check_clamp(record.table("clamp"), line);
-  if (line.lyapunov && line.fastened())
-    throw record.table("lyapunov")
-        .refused("asks for neighbours of a line that is on a body, whose own neighbours are not followed",
-                 "hold the line by the ground");
+  for (const LineProperty& property : line_properties())
+    if (record.has(property.key.name)) property.read(record.table(property.key.name), record, line);
   if (!line.bed) return;
   if (scene.water.depth.is_infinite())
     throw record.table("bed").refused("needs a bed, but the water is infinitely deep", "give [water] a depth");

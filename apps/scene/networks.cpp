@@ -168,9 +168,6 @@ void require_alike(const Line& l, const Line& first) {
     differs("one of them alone has buoyancy", "give it to both or to neither");
   if (l.water.wet != first.water.wet)
     differs("one of them alone is immersed in part", "give partial_immersion to both or to neither");
-  const auto damped = [](const Line& x) { return x.node.damping > 0 || x.node.quadratic_damping > 0; };
-  if (damped(l) && damped(first) && l.componentwise_damping != first.componentwise_damping)
-    differs("one of them alone has its damping componentwise", "give it to both or to neither");
 }
 
 void require_one_bed(const Line& l, const Line& other) {

@@ -115,14 +115,4 @@ std::string reference_of(const Table& root) {
   return out;
 }
 
-std::string key_reference() {
-  return "# Keys of a scene\n\n"
-         "Written by `froude new --keys` from the tables that the reader itself uses; `scenes.md` explains how they go "
-         "together.\n"
-         "A quantity is text with its unit, any unit of its kind; the unit named here is SI. A default stands with its "
-         "reason.\n"
-         "\n## Scenes of motion\n" +
-         reference_of(motion_schema()) + "\n## Scenes of fits\n" + reference_of(fit_schema());
-}
-
 }  // namespace froude::scene

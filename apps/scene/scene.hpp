@@ -308,7 +308,6 @@ struct Line {
   std::optional<Growth> growth;                   ///< on parts
   std::vector<dynamics::line::Segment> segments;  ///< each with all it has, marine growth too: cut() of its parts
   dynamics::line::Node node;                      ///< each; at held ends without mass
-  bool componentwise_damping = false;             ///< as dynamics::line::Description
   dynamics::line::Surroundings water;             ///< without the field of a run
   std::optional<Coefficients> coefficients;       ///< instead of those of the segments
   std::optional<dynamics::line::Bed> bed;
@@ -489,8 +488,5 @@ void check_patterns(const Scene& scene, const std::vector<std::string>& known);
 /// True if a force of the scene jumps in stiffness where it begins to act, and generalised-α steps it: cables, tables,
 /// end stops, lines whose segments go slack (D132).
 bool acts_one_way(const Scene& scene);
-
-/// The reference of all keys, generated from the very tables that the reader uses (Markdown).
-std::string key_reference();
 
 }  // namespace froude::scene

@@ -110,7 +110,6 @@ std::string_view rule_of(Limit limit);
 bool keeps(Limit limit, double value);
 
 const Table& motion_schema();  ///< root of a scene of motion
-const Table& fit_schema();     ///< root of a scene that fits coefficients to measurements
 
 /// Markdown of one root and of all tables below it.
 std::string reference_of(const Table& root);

@@ -6,6 +6,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/io/csv.hpp"
 #include "hydro/signal/welch.hpp"
+#include "hydro/waves/spectra/donelan.hpp"
 #include "hydro/waves/spectra/spectra.hpp"
 #include "hydro/waves/spectra/spectrum_tabulated.hpp"
 #include "scene/binding.hpp"
@@ -165,6 +166,13 @@ const std::vector<SpectrumKind>& spectra() {
                    .key(tp(), &put_peak_period),
                [](const Sea& s, const Scene& scene) -> Spectrum {
                  return shared(hw::wallops(s.hs, s.tp(), scene.water.gravity));
+               }),
+      spectrum("donelan",
+               Binding<Sea>("", "random sea that a wind raises, whose tail falls as omega^-4: the height follows")
+                   .key(positive("wind", dim::velocity, "10 m above the sea"), &Sea::wind)
+                   .key(tp(), &put_peak_period),
+               [](const Sea& s, const Scene& scene) -> Spectrum {
+                 return shared(hw::donelan(s.wind, s.tp(), scene.water.gravity));
                }),
       spectrum("swell",
                hs("random swell, Gaussian in frequency")

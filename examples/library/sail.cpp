@@ -2,6 +2,7 @@
 // velocity v of the point where it acts.  sail SCENE
 #include <fmt/core.h>
 
+#include <dynamics/force/point_force.hpp>
 #include <froude/element.hpp>
 #include <froude/scene.hpp>
 #include <memory>
@@ -28,55 +29,30 @@ const fs::Binding<Sail>& keys() {
   return keys;
 }
 
-struct PlacedSail {
-  dynamics::PointOnBody point;
-  Sail sail;
-  double k() const { return 0.5 * 1.225 * sail.drag * sail.area; }  ///< with the density of air, kg/m³
+/// The law by the velocity v of the point; what of the body's motion that is, dynamics::PointForceKind knows.
+struct SailLaw {
+  Eigen::Vector3d wind;
+  double k;  ///< 1/2 rho C A, kg/m
+  Eigen::Vector3d force(const Eigen::Vector3d& v) const { return k * (wind - v).norm() * (wind - v); }
+  /// -k (|u| + u u^T / |u|), u = w - v.
+  Eigen::Matrix3d by_velocity(const Eigen::Vector3d& v) const {
+    const Eigen::Vector3d u = wind - v;
+    if (u.isZero()) return Eigen::Matrix3d::Zero();
+    return -k * (u.norm() * Eigen::Matrix3d::Identity() + u * u.transpose() / u.norm());
+  }
 };
-
-/// All sails of a scene. With J = (1, -[r]x) of the point at r from the centre of gravity its velocity is J times that
-/// of the body, and the body's load J^T times the force.
-class SailKind final : public dynamics::ForceKind {
- public:
-  explicit SailKind(std::vector<PlacedSail> sails) : sails_(std::move(sails)) {}
-  std::string effect() const override { return "sail"; }
-  std::size_t elements() const override { return sails_.size(); }
-  std::string method() const override { return "quadratic drag of the air at the point's velocity"; }
-  void add_load(const dynamics::Instant& now, dynamics::LoadSink& out) const override {
-    for (const PlacedSail& s : sails_) out.add(s.point.body, load_of(s, now.state));
-  }
-  /// By velocity -k J^T (|u| + u u^T / |u|) J, u = w - v; that the lever turns is left to the iteration.
-  void add_jacobian(const dynamics::Instant& now, dynamics::JacobianSink& out) const override {
-    for (const PlacedSail& s : sails_) {
-      const Eigen::Vector3d u = s.sail.wind - velocity_of(s.point, now.state);
-      if (u.isZero()) continue;
-      const Eigen::Matrix3d by_point = -s.k() * (u.norm() * Eigen::Matrix3d::Identity() + u * u.transpose() / u.norm());
-      const auto J = dynamics::place_by_displacement(arm_of(s.point, now.state));
-      out.add(s.point.body, s.point.body, dynamics::Matrix6::Zero(), J.transpose() * by_point * J);
-    }
-  }
-  dynamics::EnergyFlow energy(const dynamics::Instant& now) const override {
-    dynamics::EnergyFlow flow;
-    for (const PlacedSail& s : sails_) flow.supplied += load_of(s, now.state).dot(now.state.twist(s.point.body));
-    return flow;
-  }
-
- private:
-  static dynamics::Vector6 load_of(const PlacedSail& s, const dynamics::State& state) {
-    const Eigen::Vector3d u = s.sail.wind - velocity_of(s.point, state);
-    return dynamics::place_by_displacement(arm_of(s.point, state)).transpose() * (s.k() * u.norm() * u);
-  }
-  std::vector<PlacedSail> sails_;
-};
+constexpr double density_of_air = 1.225;  // kg/m^3
 
 }  // namespace
 
 int main(int argc, char** argv) try {
   if (argc != 2) return fmt::print(stderr, "sail SCENE\n"), 2;
   froude::add_element(froude::on_bodies<Sail>("sail", keys(), [](const auto& all, const froude::Site& site) {
-    std::vector<PlacedSail> sails;
-    for (const auto& one : all) sails.push_back({site.point(one.body, one.value.at), one.value});
-    return std::make_unique<SailKind>(std::move(sails));
+    std::vector<dynamics::AtPoint<SailLaw>> sails;
+    for (const auto& [name, body, sail] : all)
+      sails.push_back({site.point(body, sail.at), {sail.wind, 0.5 * density_of_air * sail.drag * sail.area}, name});
+    return std::make_unique<dynamics::PointForceKind<SailLaw>>(
+        std::move(sails), dynamics::PointForceWords{"sail", "quadratic drag of the air at the point's velocity"});
   }));
   const froude::Scene scene = froude::read(argv[1]);
   for (const auto& section : scene.plan().sections)

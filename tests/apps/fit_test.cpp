@@ -50,6 +50,23 @@ class Fit : public testing::Test {
   std::filesystem::path folder;
 };
 
+TEST_F(Fit, OfStiffnessHasTheTruthInItsIntervalsAndIsWhatASceneTakes) {
+  const auto j = nlohmann::json::parse(told({.scene = examples / "restoring.toml"}, true));
+  const auto holds = [&](const char* name, double truth) {
+    return j[name]["interval"][0].get<double>() < truth && truth < j[name]["interval"][1].get<double>();
+  };
+  EXPECT_TRUE(holds("stiffness", 820)) << j["stiffness"];  // the values that make_restoring.py put in
+  EXPECT_TRUE(holds("cubic", 450)) << j["cubic"];
+  EXPECT_THAT(j["coefficients"]["stiffness"].get<std::string>(), testing::EndsWith(" N/m"));
+  EXPECT_THAT(j["coefficients"]["cubic"].get<std::string>(), testing::EndsWith(" N/m^3"));
+  told({.scene = examples / "restoring.toml", .picture = folder / "curve.svg"});
+  EXPECT_THAT(hydro::io::read_text(folder / "curve.svg"), AllOf(HasSubstr("restoring_1.csv"), HasSubstr("fitted")));
+  EXPECT_THAT([&] { told({.scene = changed("restoring.toml", "[\"stiffness\", \"cubic\"]", "[\"cubic\"]")}); },
+              ThrowsMessage<InputError>(HasSubstr("leaves the stiffness out")));
+  EXPECT_THAT([&] { told({.scene = changed("restoring.toml", "[\"stiffness\", \"cubic\"]", "[\"cd\"]")}); },
+              ThrowsMessage<InputError>(HasSubstr("does not apply to a fit of kind \"restoring\"")));
+}
+
 TEST_F(Fit, OfTheExampleHasTheTruthInItsIntervals) {
   const auto j = nlohmann::json::parse(told({.scene = examples / "oscillation.toml"}, true));
   const auto& run = j["run"][0];

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Checks that the documents and the code still agree.
 
-    checks.py tags|includes|links|quotes|words ROOT
+    checks.py tags|includes|links|quotes|words|extending ROOT
 
 Each check returns a list of complaints, one line each with file and line; the program fails if there is any.
 Python's standard library only.
@@ -386,6 +386,42 @@ STRANGERS = [(re.compile(pattern), term, folders) for pattern, term, folders in 
     (r"\b(?:cylinders->|out\.)sorts\b|\bsorts? of constraint", "types", EVERYWHERE),
     (r"\bha(?:s|ve) no part in a\b", "does not apply to", EVERYWHERE),
 )]
+# What docs/guide/extending.md tells of each extension point, in this order.
+EXTENSION_POINTS = ("A force element", "A joint property", "A line property", "A spectrum", "A coefficient reader", "A fit model")
+STEPS = ("Interface", "Files", "Listed in", "Links", "Tests", "Entry")
+LINK = re.compile(r"\[(`?)([^\]`]+)`?\]\(([^)\s]+)\)")
+
+
+def named_in(path, number, line, root):
+    """Complaints on links of a line: each leads to a file, and a name in code type stands in it, as a whole word."""
+    for quoted, name, target in LINK.findall(line):
+        aim = (path.parent / target).resolve()
+        if not aim.exists():
+            yield f"{path.relative_to(root)}:{number}: {target} is not there"
+        elif quoted and not re.search(rf"(?<!\w){re.escape(name)}(?!\w)", aim.read_text(encoding="utf-8")):
+            yield f"{path.relative_to(root)}:{number}: {target} has no {name}"
+
+
+def check_extending(root):
+    """docs/guide/extending.md: every point with its steps, their files and names, and as many files as it says."""
+    path, complaints, found = root / "docs" / "guide" / "extending.md", [], {}
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        complaints += named_in(path, number, line, root)
+        if line.startswith("## "):
+            found[line[3:]] = []
+        step = re.match(r"\| ([A-Z][a-z ]+?)(?: \((\d+)\))? \| (.*)", line)
+        if not step or not found:
+            continue
+        list(found.values())[-1].append(step.group(1))
+        own = [name for quoted, name, _ in LINK.findall(step.group(3)) if not quoted and name.startswith(("the ", "its ", "keys "))]
+        if step.group(2) and int(step.group(2)) != len(own):
+            complaints.append(f"{path.relative_to(root)}:{number}: {len(own)} files are named where {step.group(2)} are told of")
+    for point in EXTENSION_POINTS:
+        if tuple(found.get(point, ())) != STEPS:
+            complaints.append(f"{path.relative_to(root)}:1: \"{point}\" does not have the steps {', '.join(STEPS)}")
+    return complaints
+
+
 WORDED_SUFFIXES = {".hpp", ".cpp", ".py", ".md", ".toml"}
 
 
@@ -414,7 +450,8 @@ def check_words(root):
     return complaints
 
 
-CHECKS = {"tags": check_tags, "includes": check_includes, "links": check_links, "quotes": check_quotes, "words": check_words}
+CHECKS = {"tags": check_tags, "includes": check_includes, "links": check_links, "quotes": check_quotes, "words": check_words,
+          "extending": check_extending}
 
 
 def main(arguments):

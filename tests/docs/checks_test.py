@@ -192,6 +192,31 @@ class Quotes(ChecksCase):
         self.refuses("quotes", self.FILE | {"README.md": "<!-- file: b.cpp -->\n```cpp\nint a;\n```\n"}, "no file b.cpp")
 
 
+class Extending(ChecksCase):
+    def page(self, **changed):
+        steps = {"Interface": "[`Kind`](../../a.hpp)", "Files (1)": "[the law](../../a.hpp)", "Listed in": "-", "Links": "-", "Tests": "-", "Entry": "-"}
+        steps.update(changed)
+        table = "".join(f"| {step} | {what} |\n" for step, what in steps.items())
+        return "".join(f"## {point}\n| | |\n|---|---|\n{table}" for point in checks.EXTENSION_POINTS)
+
+    def test_accepts_names_that_stand_where_they_are_said_to(self):
+        self.accepts("extending", {"docs/guide/extending.md": self.page(), "a.hpp": "class Kind {};\n"})
+
+    def test_refuses_a_name_that_is_not_there(self):
+        self.refuses("extending", {"docs/guide/extending.md": self.page(), "a.hpp": "class Kinds {};\n"}, "docs/guide/extending.md:4", "no Kind")
+
+    def test_refuses_a_file_that_is_not_there(self):
+        self.refuses("extending", {"docs/guide/extending.md": self.page()}, "../../a.hpp is not there")
+
+    def test_refuses_another_number_of_files_than_is_said(self):
+        page = self.page().replace("Files (1)", "Files (2)")
+        self.refuses("extending", {"docs/guide/extending.md": page, "a.hpp": "class Kind {};\n"}, "1 files are named where 2 are told of")
+
+    def test_refuses_a_point_without_its_steps(self):
+        page = self.page().replace("| Tests | - |\n", "", 1)
+        self.refuses("extending", {"docs/guide/extending.md": page, "a.hpp": "class Kind {};\n"}, "A force element", "does not have the steps")
+
+
 class Words(ChecksCase):
     def test_refuses_strangers_with_file_line_and_term(self):
         for path, line, term in (

@@ -8,6 +8,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "fit/problem/decay.hpp"
+#include "fit/problem/friction.hpp"
+#include "fit/problem/morison.hpp"
+#include "fit/problem/motion.hpp"
+#include "fit/problem/radiation.hpp"
+#include "fit/problem/towing.hpp"
 #include "hydro/base/error.hpp"
 #include "support/coloured_noise.hpp"
 #include "support/morison_records.hpp"

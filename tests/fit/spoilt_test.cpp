@@ -115,9 +115,8 @@ TEST(SpoiltMotion, InWindowsBeginsWhereTheSamplesAre) {
 fit::Report decayed(const std::function<double(double, double)>& f, const fit::DampingTerms& terms, double noise,
                     bool accept = false) {
   auto fit = spoilt::decay("", spoilt::let_go(f, 0.5, noise, 1), terms, {});
-  auto& problem = std::get<fit::decay::Problem>(fit.problem);
-  problem.options.accept_residuals = accept;
-  return fit::solve(problem);
+  fit.problem.as<fit::decay::Problem>()->options.accept_residuals = accept;
+  return fit::solve(fit.problem);
 }
 
 TEST(SpoiltDecay, WhoseHalvesContradictEachOtherIsRefused) {

@@ -15,6 +15,12 @@
 #include <vector>
 
 #include "fit/problem/any.hpp"
+#include "fit/problem/decay.hpp"
+#include "fit/problem/friction.hpp"
+#include "fit/problem/morison.hpp"
+#include "fit/problem/motion.hpp"
+#include "fit/problem/radiation.hpp"
+#include "fit/problem/towing.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/random.hpp"
 #include "support/coloured_noise.hpp"

@@ -5,7 +5,6 @@
 #include "fit/simulated.hpp"
 #include "harness/case.hpp"
 #include "hydro/base/random.hpp"
-#include "scene/fit_scene.hpp"
 
 namespace froude::validation::huijgen_damping {
 namespace {
@@ -69,7 +68,7 @@ struct Tally {
 }  // namespace
 
 Outcome outcome(const Folders& folders) {
-  const auto fit = std::get<scene::MotionModel>(scene::read_fit(folders.own() / "fit.toml").model);
+  const auto fit = scene::read_fit(folders.own() / "fit.toml").model<scene::MotionModel>();
   const MeasuredRun exact = truth(fit);
   SceneRuns runs(fit, exact);
   Tally tally;

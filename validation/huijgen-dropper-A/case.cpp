@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "dynamics/line/equilibrium.hpp"
+#include "dynamics/line/node_damping.hpp"
 #include "dynamics/line/stepper.hpp"
 #include "harness/case.hpp"
 #include "hydro/base/error.hpp"
@@ -62,7 +63,8 @@ struct Swing {
 Swing swing(const Angles& angles, const dl::Stepper::Settings& settings, double h, bool damped) {
   dl::Description d = support::dropper();
   if (damped)
-    for (dl::Node& n : d.nodes) n.damping = 0.002, n.quadratic_damping = 0.001;
+    for (dl::Node& n : d.nodes)
+      n.forces = {std::make_shared<dl::NodeDamping>(dl::NodeDamping::Coefficients{0.002, 0.001})};
   const dl::Line line(d);
   dl::State s = support::in_plane(line, angles);
   dl::Stepper stepper(line, settings);

@@ -1,6 +1,6 @@
 #include <ostream>
 
-#include "answers/fit_kinds.hpp"
+#include "answers/fit_kind.hpp"
 #include "froude/fit/report.hpp"
 #include "froude/outputs.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -20,15 +20,11 @@ struct Outcome {
 Report begun(const scene::FitScene& scene) {
   Report out;
   out.keep("scene", scene.file.filename().string()).keep("kind", scene.kind()).keep("confidence", scene.confidence);
-  if (const auto* morison = std::get_if<scene::MorisonModel>(&scene.model))
-    out.keep("motion", scene::word_of(morison->cylinder.experiment))
-        .keep("intervals", scene::word_of(morison->force.method));
-  if (const auto* motion = std::get_if<scene::MotionModel>(&scene.model))
-    out.keep("of", motion->scene.value.filename().string());
+  for (const auto& [name, value] : scene.of->settings(scene)) out.keep(name, value);
   return out;
 }
 
-std::exception_ptr exception_of(const ::fit::Refusal& refusal, const Remedy& remedy) {
+std::exception_ptr exception_of(const ::fit::Refusal& refusal, const scene::Remedy& remedy) {
   const hydro::InputError error(refusal.why, remedy.place, remedy.text);
   switch (refusal.reason) {
     case ::fit::Refusal::Reason::residuals_too_large:
@@ -45,18 +41,16 @@ std::exception_ptr exception_of(const ::fit::Refusal& refusal, const Remedy& rem
   return std::make_exception_ptr(hydro::NumericsError(fmt::format("{}{}. {}", of, refusal.why, remedy.text)));
 }
 
-template <class Model>
-Outcome outcome_of(const scene::FitScene& scene, const Model& model) {
-  const auto problem = problem_of(scene, model);
-  const auto solution = solve(problem);
-  const ::fit::Report& report = solution.report;
+Outcome outcome_of(const scene::FitScene& scene) {
+  scene::FitAnswer answer = scene.of->answer(scene);
+  const ::fit::Report& report = answer.report;
   Outcome out{.report = begun(scene).part("", told(report, scene.confidence)),
               .picture = {.title = scene.title.empty() ? scene.file.filename().string() : scene.title,
-                          .panels = panels_of(problem, solution)},
-              .table = report.refused ? std::string() : table_of(problem, solution),
+                          .panels = std::move(answer.panels)},
+              .table = std::move(answer.table),
               .refused = {}};
   if (!report.refused) return out;
-  out.refused = exception_of(*report.refused, remedy_of(scene, problem, solution));
+  out.refused = exception_of(*report.refused, answer.remedy);
   if (report.refused->reason != ::fit::Refusal::Reason::profile_without_an_end) out.picture.title += ": no fit";
   return out;
 }
@@ -88,13 +82,10 @@ void fit(const FitArguments& arguments, const Console& console) {
   const scene::FitScene scene = scene::read_fit(arguments.scene);
   require_outputs(named({{"-o", arguments.output}, {"--table", arguments.table}, {"--picture", arguments.picture}}),
                   files_of_scene(arguments.scene));
-  const bool has_table = std::holds_alternative<scene::MorisonModel>(scene.model) ||
-                         std::holds_alternative<scene::RadiationModel>(scene.model) ||
-                         std::holds_alternative<scene::DecayModel>(scene.model);
-  if (arguments.table && !has_table)
+  if (arguments.table && !scene.of->has_table())
     throw hydro::InputError(fmt::format("a fit of kind \"{}\" has no table of runs", scene.kind()), {},
                             "leave out --table");
-  deliver(std::visit([&](const auto& model) { return outcome_of(scene, model); }, scene.model), arguments, console);
+  deliver(outcome_of(scene), arguments, console);
 }
 
 }  // namespace froude

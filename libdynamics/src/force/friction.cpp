@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "coordinate_force.hpp"
+#include "dynamics/force/coordinate_force.hpp"
 #include "hydro/base/error.hpp"
 
 namespace dynamics {

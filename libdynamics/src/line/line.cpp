@@ -39,7 +39,7 @@ void check(const Segment& s, std::size_t j) {
 
 void check(const Node& n, std::size_t i) {
   require(std::isfinite(n.mass) && n.mass >= 0, "node {} must not have the mass {} kg", i, n.mass);
-  require(n.damping >= 0 && n.quadratic_damping >= 0, "the damping of node {} must not be negative", i);
+  for (const auto& force : n.forces) require(force != nullptr, "node {} has a force that is none", i);
   require(n.force.allFinite(), "the force on node {} is not finite", i);
   require(n.sphere.diameter >= 0 && n.sphere.cd >= 0 && n.sphere.ca >= 0,
           "diameter and coefficients of the sphere at node {} must not be negative", i);

@@ -116,7 +116,7 @@ void Loads::look_at_water(const Motion& now) {
 
 void Loads::add(const Motion& now, const By& by, Places& force, Blocks* derivative) {
   force += line_.constant_load();
-  add_damping(now, by, force, derivative);
+  add_node_forces(now, by, force, derivative);
   const bool wet = line_.description().water.wet != Wet::nothing;
   if (!wet && !line_.has_spheres()) return;
   look_at_water(now);
@@ -124,21 +124,15 @@ void Loads::add(const Motion& now, const By& by, Places& force, Blocks* derivati
   if (line_.has_spheres()) add_spheres(now, by, force, derivative);
 }
 
-void Loads::add_damping(const Motion& now, const By& by, Places& force, Blocks* derivative) const {
+void Loads::add_node_forces(const Motion& now, const By& by, Places& force, Blocks* derivative) const {
   for (int i = 0; i < line_.nodes(); ++i) {
     const Node& node = line_.node(i);
-    if (node.damping == 0 && node.quadratic_damping == 0) continue;
-    const Vector3d v = now.v.col(i);
-    const double speed = v.norm();
-    Matrix3d by_v = node.damping * Matrix3d::Identity();
-    if (line_.description().componentwise_damping) {
-      force.col(i) -= node.damping * v + node.quadratic_damping * v.cwiseAbs().cwiseProduct(v);
-      by_v.diagonal() += 2 * node.quadratic_damping * v.cwiseAbs();
-    } else {
-      force.col(i) -= (node.damping + node.quadratic_damping * speed) * v;
-      if (speed > 0) by_v += node.quadratic_damping * (speed * Matrix3d::Identity() + v * v.transpose() / speed);
-    }
-    if (derivative != nullptr) derivative->diagonal[static_cast<std::size_t>(i)] -= by.v * by_v;
+    if (node.forces.empty()) continue;
+    const NodeForce::At at{now.t, now.x.col(i), now.v.col(i)};
+    NodeForce::Derivatives d;
+    for (const auto& of : node.forces) force.col(i) += node.share * of->force(at, derivative != nullptr ? &d : nullptr);
+    if (derivative != nullptr)
+      derivative->diagonal[static_cast<std::size_t>(i)] += node.share * (by.x * d.by_place + by.v * d.by_velocity);
   }
 }
 
@@ -174,7 +168,7 @@ void Loads::add_water(int j, const Motion& now, const By& by, Places& force, Blo
 LoadPowers Loads::powers(const Motion& now) {
   LoadPowers out;
   Places force = Places::Zero(3, line_.nodes());
-  add_damping(now, {0, 0, 0}, force, nullptr);
+  add_node_forces(now, {0, 0, 0}, force, nullptr);
   out.damping = -force.cwiseProduct(now.v).sum();
   const auto& surroundings = line_.description().water;
   const bool wet = surroundings.wet != Wet::nothing;

@@ -1,6 +1,6 @@
 #pragma once
-/// \file  What pulls at the nodes of a line besides its segments and its bed: constant loads, damping, water. (D73),
-/// (D74)
+/// \file  What pulls at the nodes of a line besides its segments and its bed: constant loads, forces by places and
+/// velocities of nodes, water. (D73), (D74)
 #include <Eigen/Core>
 
 #include <vector>
@@ -29,7 +29,7 @@ struct Blocks {
 
 /// Powers of these loads, W.
 struct LoadPowers {
-  double damping = 0;                                  ///< dissipated
+  double damping = 0;                                  ///< taken by what acts on nodes by their velocities
   double drag_supplied = 0, drag_dissipated = 0;       ///< F·u and F·(u − w) (D46)
   double inertia_supplied = 0, buoyancy_supplied = 0;  ///< the latter of what is wet in part
 };
@@ -45,7 +45,7 @@ class Loads {
 
  private:
   void look_at_water(const Motion& now);
-  void add_damping(const Motion& now, const By& by, Places& force, Blocks* derivative) const;
+  void add_node_forces(const Motion& now, const By& by, Places& force, Blocks* derivative) const;
   void add_water(int j, const Motion& now, const By& by, Places& force, Blocks* derivative) const;
   void add_spheres(const Motion& now, const By& by, Places& force, Blocks* derivative) const;
   void add_sphere_powers(const Motion& now, LoadPowers& out) const;

@@ -28,11 +28,11 @@ struct Format {
   Coefficients (*read)(const std::filesystem::path& path, const ReadOptions& options);
 };
 extern const Format froude_files, bemio_files, capytaine_files, aqwa_ah1_files, aqwa_lis_files, hams_files, veres_files,
-    hdb_files, nemoh_files, wamit_files;
+    hdb_files, nemoh_files, wamit_printed_files, wamit_files;
 /// In the order in which they are asked: WAMIT's tables have no mark, so any text that no other knows is one.
-inline constexpr std::array<const Format*, 10> formats{&froude_files,   &bemio_files,    &capytaine_files, &nemoh_files,
-                                                       &aqwa_ah1_files, &aqwa_lis_files, &hams_files,      &veres_files,
-                                                       &hdb_files,      &wamit_files};
+inline constexpr std::array<const Format*, 11> formats{
+    &froude_files, &bemio_files, &capytaine_files, &nemoh_files,         &aqwa_ah1_files, &aqwa_lis_files,
+    &hams_files,   &veres_files, &hdb_files,       &wamit_printed_files, &wamit_files};
 
 /// The entry of `folder` of this name, in whatever case its letters are; as written first. An empty path if there is
 /// none.

@@ -70,6 +70,9 @@ std::vector<Example> of_body() {
            "[[point]]\non = \"m\"\nat = \"(1, 0, 0) m\"\ngives = \"position\"\n"
            "[[relative_motion]]\nbetween = [\"m\", \"ground\"]\nends = [\"(1, 0, 0) m\", \"(1, 0, 0) m\"]\n",
            {}),
+      body("wind", "",
+           "[[wind]]\non = \"m\"\nat = \"(0, 0, 4) m\"\narea = \"10 m^2\"\nspeed = \"12 m/s\"\nheading = \"30 deg\"\n",
+           {"wind"}),
       body("load", "", "[[load]]\non = \"m\"\nforce = \"(1, 0, 0) kN\"\n", {"load"}),
   };
 }
@@ -142,6 +145,8 @@ std::vector<Example> of_joints() {
                        base + fmt::format("pto = {{ stops = {{ upper = \"0.1 {}\", stiffness = \"10 {}\" }} }}\n",
                                           u.coordinate, u.stiffness),
                        {"pto"}));
+    out.push_back(
+        body(named("spring"), "", base + fmt::format("spring = {{ file = \"{}_spring.csv\" }}\n", u.kind), {"spring"}));
     out.push_back(body(named("latch"), "", base + "pto = { latch = { hold = \"1 s\" } }\n", {"latch"}));
     out.push_back(body(named("friction"), "", base + fmt::format("friction = {{ dynamic = \"10 {}\" }}\n", u.load),
                        {"friction"}));
@@ -243,6 +248,7 @@ std::vector<Example> of_seas() {
        "1\n"},
       {"torsethaugen", hs + tp},
       {"wallops", hs + tp},
+      {"donelan", "wind = \"12 m/s\"\n" + tp},
       {"swell", hs + tp + "width = \"0.1 rad/s\"\n"},
       {"measured", "file = \"elevation.csv\"\nsegment = \"20 s\"\n"},
       {"tabulated", "file = \"spectrum.csv\"\n"}};
@@ -308,6 +314,8 @@ Files::Files() : folder_(std::filesystem::path(testing::TempDir()) / fmt::format
                              std::filesystem::copy_options::overwrite_existing);
   const auto write = [&](const char* name, const std::string& text) { std::ofstream(folder_ / name) << text; };
   write("tension.csv", "elongation [m],tension [N]\n-1,-1000\n1,1000\n");
+  write("slider_spring.csv", "stroke [m],force [N]\n-1,-1000\n1,1000\n");
+  write("hinge_spring.csv", "angle [rad],moment [N m]\n-1,-1000\n1,1000\n");
   write("waves.csv", "period [s],amplitude [m],phase [rad]\n4,0.05,0\n5,0.05,1\n");
   write("path.csv", "time [s],x [m],y [m],z [m]\n0,0,0,-1\n1,0.1,0,-1\n3,0.3,0,-1\n");
   write("spectrum.csv", "omega [rad/s],density [m^2 s/rad]\n0.5,0\n1,0.05\n1.5,0.02\n2,0\n");

@@ -2,8 +2,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "answers/fit_models.hpp"
+#include "answers/fit_scene.hpp"
 #include "apps/scene/scenes.hpp"
-#include "scene/fit_scene.hpp"
 #include "support/scratch.hpp"
 
 namespace froude::scene::fit_scene_test {
@@ -76,7 +77,7 @@ TEST_F(FitScenes, AreReadInSi) {
   ASSERT_EQ(scene.force.size(), 1u);
   EXPECT_EQ(scene.force[0].column, "F");
   EXPECT_EQ(scene.kind(), "morison");
-  const auto& model = std::get<MorisonModel>(scene.model);
+  const auto& model = scene.model<MorisonModel>();
   EXPECT_EQ(model.cylinder.experiment, fit::Experiment::body_moves);
   EXPECT_EQ(model.cylinder.length, 0.5);
   EXPECT_EQ(model.cylinder.mass_beyond_load_cells, 5.9);
@@ -89,7 +90,7 @@ TEST_F(FitScenes, AreReadInSi) {
   EXPECT_EQ(towed.channels.size(), 2u);
   EXPECT_EQ(towed.confidence, 0.9);
   EXPECT_EQ(towed.kind(), "towing");
-  EXPECT_FALSE(std::get<TowingModel>(towed.model).cylinder.viscosity);
+  EXPECT_FALSE(towed.model<TowingModel>().cylinder.viscosity);
 }
 
 TEST_F(FitScenes, FindTheirFiles) {
@@ -146,7 +147,7 @@ uncertainty = { diameter = "0.5 mm", mass = "50 g" })");
   EXPECT_FALSE(scene.force[0].turned);
   EXPECT_EQ(scene.force[1].column, "F2");
   EXPECT_TRUE(scene.force[1].turned);
-  const auto& model = std::get<MorisonModel>(scene.model);
+  const auto& model = scene.model<MorisonModel>();
   const auto& p = model.prepare;
   EXPECT_EQ(p.delay_s, 0.73);
   EXPECT_EQ(model.force.delay_error_s, 0.005);
@@ -183,8 +184,8 @@ profile = true
 )";
   const FitScene scene = read(decay);
   EXPECT_EQ(scene.kind(), "decay");
-  EXPECT_TRUE(std::get<DecayModel>(scene.model).motion.pendulum);
-  EXPECT_TRUE(std::get<DecayModel>(scene.model).profile);
+  EXPECT_TRUE(scene.model<DecayModel>().motion.pendulum);
+  EXPECT_TRUE(scene.model<DecayModel>().profile);
   EXPECT_THAT(refused(with(decay, "angle", "velocity")), HasSubstr("does not apply to a fit of kind \"decay\""));
   EXPECT_THAT(refused(with(decay, ", angle = \"roll\"", "")), HasSubstr("needs either position or angle"));
   EXPECT_THAT(refused(with(decay, "angle = \"roll\"", "position = \"z\"")),
@@ -199,8 +200,8 @@ profile = true
   const FitScene cut =
       read(with(decay, "[ask]",
                 "[prepare]\nlongest_gap = \"1 s\"\nwindow = { kind = \"span\", from = \"3 s\", to = \"9 s\" }\n[ask]"));
-  EXPECT_EQ(std::get<DecayModel>(cut.model).prepare.window.from, 3);
-  EXPECT_EQ(std::get<DecayModel>(cut.model).prepare.longest_gap_s, 1);
+  EXPECT_EQ(cut.model<DecayModel>().prepare.window.from, 3);
+  EXPECT_EQ(cut.model<DecayModel>().prepare.longest_gap_s, 1);
   EXPECT_THAT(refused(with(oscillation, "\"ca\"", "\"cubic\"")),
               HasSubstr("does not apply to a fit of kind \"morison\""));
   EXPECT_THAT(refused(with(decay, "[ask]", "[ask]\ntogether = true")), HasSubstr("needs two files at least"));
@@ -219,7 +220,7 @@ start = "in motion"
 coefficients = ["memory", "quadratic"]
 )";
   const auto starts_empty = [&](const std::string& text) {
-    return std::get<DecayModel>(read(text).model).memory.value().starts_empty;
+    return read(text).model<DecayModel>().memory.value().starts_empty;
   };
   EXPECT_FALSE(starts_empty(memory));
   EXPECT_TRUE(starts_empty(with(memory, "in motion", "let go from rest")));
@@ -258,7 +259,7 @@ body = { mass = "120 kg", stiffness = "2500 N/m", stiffness_error = 0.002 }
 [ask]
 )");
   EXPECT_EQ(radiation.kind(), "radiation");
-  EXPECT_EQ(std::get<RadiationModel>(radiation.model).body.stiffness, 2500);
+  EXPECT_EQ(radiation.model<RadiationModel>().body.stiffness, 2500);
   std::ofstream(folder_ / "scene.toml") << sphere;
   const FitScene motion = read(R"(schema = 1
 [data]
@@ -276,7 +277,7 @@ parameter = [{ key = "water.density", lowest = "900 kg/m^3" }]
 profile = true
 )");
   EXPECT_EQ(motion.kind(), "motion");
-  const auto& model = std::get<MotionModel>(motion.model);
+  const auto& model = motion.model<MotionModel>();
   EXPECT_EQ(model.parameters.at(0).number.name, "water.density");
   EXPECT_EQ(model.parameters.at(0).number.lowest, 900);
   EXPECT_FALSE(std::isfinite(model.parameters.at(0).number.highest));
@@ -289,7 +290,7 @@ TEST_F(FitScenes, TakeTheWaterFromAProbe) {
                                       "water moves\"\nwave = { depth = \"1.25 m\", level = \"0.48 m\" }"),
                                  "\"ca\"", "\"cm\"");
   const FitScene scene = read(waves);
-  const auto& probe = std::get<MorisonModel>(scene.model).probe;
+  const auto& probe = scene.model<MorisonModel>().probe;
   ASSERT_TRUE(probe);
   EXPECT_EQ(probe->level, -0.48);
   EXPECT_EQ(probe->water.depth.metres(), 1.25);

@@ -1,4 +1,9 @@
+#include <filesystem>
+#include <fstream>
+
 #include "apps/scene/scenes.hpp"
+#include "scene/element.hpp"
+#include "support/scratch.hpp"
 
 namespace froude::scene::joints_test {
 namespace {
@@ -90,6 +95,23 @@ TEST(JointsOfAScene, AreLedByASineOrARecord) {
   EXPECT_THAT(
       refusal(with("prescribed = { amplitude = \"5 deg\", period = \"2 s\" }\nfriction = { dynamic = \"3 N m\" }")),
       HasSubstr("neither sticks nor slips"));
+}
+
+TEST(JointsOfAScene, HaveASpringByATable) {
+  const auto path = support::scratch_folder() / "spring_of_a_joint.csv";
+  const auto scene_with = [&](const std::string& rows) {
+    std::ofstream(path) << "angle [deg],moment [N m]\n" << rows;
+    return jointed(hinges + "spring = { file = \"" + path.filename().string() + "\" }\n");
+  };
+  const auto read = [&](const std::string& rows) { return parse(scene_with(rows), path.parent_path() / "scene.toml"); };
+  const Scene scene = read("-90,100\n0,0\n90,50\n");
+  ASSERT_EQ(scene.elements.size(), 1u);
+  EXPECT_EQ(scene.elements[0]->table(), "joint.spring");
+  EXPECT_EQ(scene.elements[0]->count(), 4u);  // one for each of the hinges
+  EXPECT_THAT([&] { read("0,0\n0,5\n"); },
+              testing::ThrowsMessage<hydro::InputError>(HasSubstr("has the angle 0 after 0")));
+  EXPECT_THAT([&] { read("0,0\n"); }, testing::ThrowsMessage<hydro::InputError>(HasSubstr("fewer than two points")));
+  std::filesystem::remove(path);
 }
 
 TEST(JointsOfAScene, MayLatch) {

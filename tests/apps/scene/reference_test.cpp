@@ -3,10 +3,11 @@
 #include <functional>
 #include <sstream>
 
+#include "answers/fit_models.hpp"
+#include "answers/fit_scene.hpp"
 #include "apps/scene/scenes.hpp"
 #include "froude/commands.hpp"
 #include "hydro/io/atomic_file.hpp"
-#include "scene/fit_scene.hpp"
 #include "scene/read_value.hpp"
 #include "scene/schema.hpp"
 #include "support/scratch.hpp"
@@ -115,7 +116,7 @@ TEST(NewScene, WritesAStarterThatCanBeRead) {
   EXPECT_TRUE(scene.rao && scene.run);
   new_scene("fit", folder.path / "fit.toml", false, console);
   std::ofstream(folder.path / "runs" / "a.csv") << "t,F,u\n";
-  EXPECT_EQ(std::get<MorisonModel>(read_fit(folder.path / "fit.toml").model).coefficients.size(), 2u);
+  EXPECT_EQ(read_fit(folder.path / "fit.toml").model<MorisonModel>().coefficients.size(), 2u);
   EXPECT_THAT(out.str(), HasSubstr("wrote "));
 }
 

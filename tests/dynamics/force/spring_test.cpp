@@ -93,6 +93,17 @@ TEST(ForceLaws, HoldForPowerTakeOffOnSlidersAndHinges) {
                               bodies);
 }
 
+TEST(ForceLaws, HoldForSpringsByATableOnSlidersAndHinges) {
+  // It has two places of rest, at −1 and 1, and pushes away from 0.
+  const LineLaw bistable{.table_x = {-2, -0.5, 0.5, 2}, .table_force = {-100, 50, -50, 100}};
+  for (const JointKind kind : {JointKind::slider, JointKind::hinge})
+    laws::expect_force_laws(
+        CoordinateForceKind<LineLaw>({{JointCoordinate(bodies, joint(kind), 0), bistable, 1, "a"},
+                                      {JointCoordinate(bodies, joint(kind, std::nullopt), 1), bistable, -1, "b"}},
+                                     {"spring", "by a table", "the spring"}),
+        bodies);
+}
+
 TEST(Pto, OfAHingeTurnsTheSecondBodyBackAndTheFirstForth) {
   State s = rest_state(bodies);
   s.pose[1].attitude = rotation_exp(0.1 * Eigen::Vector3d(0.2, 1, 0.4).normalized());

@@ -12,6 +12,7 @@
 #include "dynamics/integrate/start_with_lines.hpp"
 #include "dynamics/line/catenary.hpp"
 #include "dynamics/line/equilibrium.hpp"
+#include "dynamics/line/node_damping.hpp"
 #include "dynamics/model/equilibrium.hpp"
 #include "hydro/waves/kinematics/field.hpp"
 #include "laws/force_kind_laws.hpp"
@@ -30,10 +31,14 @@ using Eigen::Vector3d;
 
 constexpr double gravity = 9.81;
 
+std::shared_ptr<const NodeForce> quadratic_damping() {
+  return std::make_shared<NodeDamping>(NodeDamping::Coefficients{.quadratic = 0.5});
+}
+
 /// `n` springs in a row of 5 m and 10 kg, held at both ends.
 Description springs(int n, double axial_stiffness) {
   Description d;
-  d.nodes.assign(static_cast<std::size_t>(n) + 1, Node{.quadratic_damping = 0.5});
+  d.nodes.assign(static_cast<std::size_t>(n) + 1, Node{.forces = {quadratic_damping()}});
   Segment s = Segment::rod(5.0 / n, 10.0 / n);
   s.axial_stiffness = axial_stiffness;
   s.axial_damping = 1e-3 * axial_stiffness;
@@ -77,7 +82,7 @@ TEST(FastenedLine, MovesItsBodyAsABobOfItsOwn) {
       Description whole = springs(4, stiffness);
       const Line held(whole);
       whole.held.pop_back();
-      whole.nodes.back() = Node{.mass = mass, .quadratic_damping = 0.5};
+      whole.nodes.back() = Node{.mass = mass, .forces = {quadratic_damping()}};
       const Line line(whole);
       dynamics::line::State bobs = equilibrium(held, hanging_shape(held, ends_at(held, place)));
       Stepper stepper(line, {.scheme = Scheme::generalised_alpha});
@@ -333,7 +338,7 @@ TEST(FastenedLine, HangsStillWhereEquilibriumPutsIt) {
 // A mass on a spring with a third of the spring's mass: sqrt(k/(M + m/3)), next term (m/M)²/45.
 TEST(FastenedLine, SwingsAtTheFrequencyOfAMassOnAHeavySpring) {
   Description d = springs(8, 2e4);
-  for (Node& node : d.nodes) node.quadratic_damping = 0;
+  for (Node& node : d.nodes) node.forces.clear();
   for (Segment& s : d.segments) s.axial_damping = 0;
   const double M = 100, k = 2e4 / 5, omega = std::sqrt(k / (M + 10.0 / 3)), bottom = -5 - (M + 5) * gravity / k;
   const std::vector<RigidBody> bodies{bob(M, {0, 0, bottom})};

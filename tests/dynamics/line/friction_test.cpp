@@ -5,6 +5,7 @@
 
 #include "dynamics/line/driven.hpp"
 #include "dynamics/line/equilibrium.hpp"
+#include "dynamics/line/node_damping.hpp"
 #include "dynamics/line/stepper.hpp"
 #include "support/line_models.hpp"
 
@@ -148,7 +149,7 @@ struct Dragged {
     s.axial_damping = 1e5;
     s.catenary = true;
     s.diameter = 0.036;
-    d.nodes.assign(16, Node{.damping = 1});
+    d.nodes.assign(16, Node{.forces = {std::make_shared<NodeDamping>(NodeDamping::Coefficients{1})}});
     d.segments.assign(15, s);
     d.held = {{.node = 0}, {.node = 15}};
     d.gravity = g;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "dynamics/line/node_damping.hpp"
 #include "hydro/base/random.hpp"
 #include "hydro/waves/kinematics/sea.hpp"
 #include "springs.hpp"
@@ -20,9 +21,13 @@ std::shared_ptr<const hw::WaveField> still(double current = 0) {
                                              hw::Current::uniform({current, 0}));
 }
 
+std::shared_ptr<const NodeForce> damping(bool componentwise) {
+  return std::make_shared<NodeDamping>(NodeDamping::Coefficients{0.3, 0.7, componentwise});
+}
+
 Description wet_line(Wet wet, double current) {
   Description d;
-  d.nodes.assign(5, Node{.mass = 1, .damping = 0.3, .quadratic_damping = 0.7});
+  d.nodes.assign(5, Node{.mass = 1, .forces = {damping(false)}});
   Segment s = Segment::rod(1, 2);
   s.diameter = 0.2;
   s.cd = 1.3;
@@ -54,7 +59,7 @@ Places force(const Line& line, const Places& x, const Places& v, const Places& a
 TEST(LineLoads, DerivativesAreThoseOfTheLoads) {
   for (const bool componentwise : {false, true}) {
     Description d = wet_line(Wet::all, 0.4);
-    d.componentwise_damping = componentwise;
+    for (Node& n : d.nodes) n.forces = {damping(componentwise)};
     const Line line(d);
     const Sample s(3);
     const By by{.x = 0.6, .v = 1.7, .a = 2.9};
@@ -113,7 +118,7 @@ TEST(LineLoads, AddedMassOfARodIsAcrossItsAxisAlone) {
 TEST(LineLoads, WhatIsOutOfTheWaterFeelsNoneOfIt) {
   Description d = wet_line(Wet::below_surface, 0.5);
   d.gravity = 0;
-  for (Node& n : d.nodes) n.damping = n.quadratic_damping = 0;
+  for (Node& n : d.nodes) n.forces.clear();
   const Line line(d);
   Places x(3, 5), zero = Places::Zero(3, 5);
   // Upright, from 2.5 m below to 1.5 m above: 2.5 m are wet.

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 
+#include "dynamics/line/node_damping.hpp"
 #include "hydro/base/error.hpp"
 #include "support/line_models.hpp"
 #include "support/plain_pendulums.hpp"
@@ -141,7 +142,7 @@ TEST(PerturbedTrajectory, ComesBackToADampedPendulumAtItsRate) {
   const double h = 0.01;
   for (const double beta : {0.3, 5.0}) {
     Description d = pendulums(1);
-    d.nodes[1].damping = 2 * beta;
+    d.nodes[1].forces = {std::make_shared<NodeDamping>(NodeDamping::Coefficients{2 * beta})};
     const Line line(d);
     const std::complex<double> root = -beta + std::sqrt(std::complex<double>(beta * beta - g)),
                                factor = (1.0 + root * h / 2.0) / (1.0 - root * h / 2.0);

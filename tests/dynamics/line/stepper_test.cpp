@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "dynamics/line/equilibrium.hpp"
+#include "dynamics/line/node_damping.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/waves/kinematics/sea.hpp"
 #include "support/line_models.hpp"
@@ -248,7 +249,8 @@ struct Everything {
     const auto sea = hw::Sea::regular(hydro::WaveAmplitude::from_metres(1.5), hydro::AngularFrequency::from_period_s(7),
                                       hydro::Angle::from_degrees(40), water);
     constexpr int n = 20;
-    d.nodes.assign(n + 1, Node{.mass = 1, .damping = 0.5, .quadratic_damping = 0.2});
+    d.nodes.assign(n + 1,
+                   Node{.mass = 1, .forces = {std::make_shared<NodeDamping>(NodeDamping::Coefficients{0.5, 0.2})}});
     Segment s = Segment::rod(2, 40);
     s.axial_stiffness = 1e6;
     s.axial_damping = 1e4;

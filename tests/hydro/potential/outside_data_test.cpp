@@ -164,6 +164,23 @@ TEST(Ellipsoid, IsTheSameFromWamitAndCapytaine) {
   EXPECT_NEAR((*capytaine.C)(2, 2) / (*wamit.C)(2, 2), 1, 0.01);  // waterplane of a polygon
 }
 
+// One run in two forms: the .out prints what the numeric files hold, with seven digits, five of C, and whole degrees.
+TEST(Ellipsoid, IsTheSameFromWamitsPrintedOutput) {
+  FROUDE_REQUIRE_DATA(folder, "bem_formats");
+  const froude_test::TemporaryFolder alone;
+  fs::copy_file(folder / "ellipsoid_wamit/ellipsoid.out", alone / "ellipsoid.out");
+  const Coefficients printed = read(alone / "ellipsoid.out", {1000, {}, {}, {}, {}});
+  const Coefficients files = read(folder / "ellipsoid_wamit/ellipsoid.1", water(1000, WaterDepth::infinite()));
+  ASSERT_EQ(printed.omega.size(), files.omega.size());
+  EXPECT_LT(largest_relative_error(printed.A, files.A), 5.1e-7);
+  EXPECT_LT(largest_relative_error(printed.B, files.B), 2e-6);  // times a period of seven digits
+  EXPECT_LT(largest_relative_error(listed(printed.A_inf), listed(files.A_inf)), 5.1e-7);
+  EXPECT_LT(largest_relative_error(listed(printed.A_zero), listed(files.A_zero)), 5.1e-7);
+  EXPECT_LT(largest_relative_error(listed(printed.C), listed(files.C)), 5.1e-5);
+  EXPECT_EQ(printed.heading, files.heading);
+  EXPECT_LT(largest_relative_error(printed.X, files.X), 0.5 * degree + 5.1e-7);
+}
+
 TEST(Cylinder, IsTheSameFromWamitAndCapytaine) {
   FROUDE_REQUIRE_DATA(folder, "bem_formats");
   const Coefficients capytaine = read(folder / "cylinder_capytaine/cylinder_hydrodynamics.nc");

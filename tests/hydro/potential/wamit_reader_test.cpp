@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "hydro/base/error.hpp"
 #include "wamit_text.hpp"
 
@@ -306,6 +309,99 @@ TEST(WamitReader, TakesTheHeightAloneOfACentreOfGravity) {
   EXPECT_THAT(c.notes, Contains(HasSubstr("the height alone")));
   folder.write("g.out", out_file(1, "0.100000 0.200000 -0.750000"));
   EXPECT_EQ(*read(folder / "g.1", deep).body[0].centre_of_gravity, Eigen::Vector3d(10.1, 0.2, -0.75));
+}
+
+/// The whole of a .out file, with 16 digits of what WAMIT prints seven of; phases as it is asked to print them.
+std::string printed(const WamitText& text, const char* method = "DIFFRACTION") {
+  const int n = 6 * text.body.bodies;
+  const double rho = text.water.density, g = text.water.gravity;
+  const auto scale = [&](int i, int j) { return std::pow(text.ulen, WamitText::power(i, j)); };
+  std::string out = fmt::format("  WAMIT  Version 7.2\n Gravity: {}  Length scale: {}\n Water depth: {}\n", g,
+                                text.ulen, text.water.depth.metres());
+  for (int b = 0; b < text.body.bodies; ++b) {
+    const auto C = [&](int i, int j) {
+      return fmt::format(" {:.15e}", text.body.C(6 * b + i, 6 * b + j) / (rho * g * scale(i, j) / text.ulen));
+    };
+    out += fmt::format(
+        " XBODY = {} YBODY = 0 ZBODY = 0 PHIBODY = 0.0\n Hydrostatic and gravitational restoring coefficients:\n"
+        " C(3,3),C(3,4),C(3,5):{}{}{}\n C(4,4),C(4,5),C(4,6):{}{}{}\n        C(5,5),C(5,6):{}{}\n",
+        10 * b, C(2, 2), C(2, 3), C(2, 4), C(3, 3), C(3, 4), C(3, 5), C(4, 4), C(4, 5));
+  }
+  const auto radiation = [&](const std::string& per, const std::string& title, auto A, auto B, bool limit) {
+    out += fmt::format("\n Wave period {}   Wavenumber (kL) = 1\n\n    {} COEFFICIENTS\n     I     J    A(I,J)\n\n",
+                       per, title);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        out += fmt::format(" {:5d} {:5d} {:.15e}{}\n", i + 1, j + 1, A(i, j) / (rho * scale(i, j)),
+                           limit ? "" : fmt::format(" {:.15e}", B(i, j) / (rho * scale(i, j))));
+    out += "\n\n";
+  };
+  const SmoothBody& body = text.body;
+  const auto none = [](int, int) { return 0.0; };
+  radiation(
+      "= infinite", "ADDED-MASS", [&](int i, int j) { return body.A_zero(i, j); }, none, true);
+  radiation(
+      "= zero", "ADDED-MASS", [&](int i, int j) { return body.A_inf(i, j); }, none, true);
+  for (const double w : text.omega) {
+    radiation(
+        fmt::format("(sec) = {:.15e}", 2 * std::numbers::pi / w), "ADDED-MASS AND DAMPING",
+        [&](int i, int j) { return body.A(i, j, w); }, [&](int i, int j) { return body.B(i, j, w) / w; }, false);
+    out += fmt::format("    {} EXCITING FORCES AND MOMENTS\n", method);
+    for (const double degrees : text.heading_deg) {
+      out += fmt::format("\n  Wave Heading (deg) : {}\n\n     I     Mod[Xh(I)]     Pha[Xh(I)]\n\n", degrees);
+      for (int i = 0; i < n; ++i) {
+        const auto X = body.X(i, w, hydro::Angle::from_degrees(degrees).radians()) /
+                       (rho * g * std::pow(text.ulen, i % 6 < 3 ? 2 : 3));
+        out += fmt::format(" {:5d} {:.15e} {:.15e}\n", i + 1, std::abs(X),
+                           hydro::Angle::from_radians(std::arg(X)).degrees());
+      }
+    }
+    out +=
+        "\n    RESPONSE AMPLITUDE OPERATORS\n\n  Wave Heading (deg) : 77\n\n     I     Mod[RAO(I)]\n\n     1  9  9\n";
+  }
+  return out;
+}
+
+// (P34)
+TEST(WamitPrinted, IsReadByItself) {
+  for (const double ulen : {1.0, 2.0}) {
+    const WamitText text{.body = {.bodies = 2}, .ulen = ulen};
+    TemporaryFolder folder;
+    // Volumes and centres are printed for ULEN 1 alone, where the reader asks for them.
+    std::string file = printed(text);
+    if (ulen == 1)
+      for (auto at = file.find("PHIBODY = 0.0\n"); at != std::string::npos; at = file.find("PHIBODY = 0.0\n", at + 1))
+        file.insert(at + 14,
+                    " Volumes (VOLX,VOLY,VOLZ): 7 7 7\n Center of Buoyancy (Xb,Yb,Zb): 0 0 -1\n Center of Gravity  "
+                    "(Xg,Yg,Zg): 0 0 -2\n");
+    const Coefficients c = read(folder.write("x.out", file), {text.water.density, {}, {}, {}, {}});
+    Coefficients expected = text.expected();
+    for (Eigen::Index i = 0; i < c.modes(); ++i)
+      for (Eigen::Index j = i + 1; j < c.modes(); ++j)
+        if (j % 6 < 5) (*expected.C)(j, i) = (*expected.C)(i, j);                     // the file has one triangle
+    for (Eigen::Index b = 0; b < c.modes(); b += 6) (*expected.C)(b + 2, b + 5) = 0;  // C(3,6) is zero, and not printed
+    expect_same_numbers(c, expected);
+    EXPECT_EQ(c.body[1].reference_point->x(), 10);
+    EXPECT_EQ(c.water.depth.metres(), text.water.depth.metres());
+    EXPECT_THAT(c.notes, Contains(HasSubstr("whole degrees")));
+  }
+}
+
+TEST(WamitPrinted, TellsWhatItLacks) {
+  const WamitText text{.ulen = 2};
+  TemporaryFolder folder;
+  const auto options = hydro::potential::ReadOptions{text.water.density, {}, {}, {}, {}};
+  EXPECT_THAT(read(folder.write("x.out", printed(text, "HASKIND")), options).notes,
+              Contains(HasSubstr("from Haskind's relation")));
+  EXPECT_THAT(read(folder.write("x.out", printed(text, "NO")), options).notes, Contains(HasSubstr("no excitation")));
+  const std::string whole = printed(text), head = whole.substr(0, whole.find(" Wave period"));
+  const auto refused = [&](const std::string& file, const char* why) {
+    EXPECT_THAT([&] { read(folder.write("y.out", file), options); }, ThrowsMessage<InputError>(HasSubstr(why)));
+  };
+  refused(head, "no results");
+  refused(head + " Wave period (sec) = 5\n nothing\n", "no added mass at this period");
+  refused(head + " Wave period (sec) = 5\n ADDED-MASS\n I J A(I,J)\n\n 7 7 1 1\n", "mode 7 is one too many");
+  EXPECT_THAT([&] { read(folder / "x.out"); }, ThrowsMessage<InputError>(HasSubstr("density")));
 }
 
 TEST(WamitReader, AsksForWaterThatTheFilesDoNotHold) {

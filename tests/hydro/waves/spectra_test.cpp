@@ -1,4 +1,5 @@
 #include "hydro/waves/spectra/spectra.hpp"
+#include "hydro/waves/spectra/donelan.hpp"
 
 #include <gmock/gmock.h>
 
@@ -46,6 +47,8 @@ std::vector<Named> one_of_each() {
           named("Torsethaugen, wind sea", torsethaugen(6, 8), 6),
           named("Torsethaugen, swell", torsethaugen(3, 16), 3),
           named("Wallops", wallops(6.5, 10), 6.5),
+          named("Donelan, young", donelan(15, 4), donelan(15, 4).hs()),
+          named("Donelan, old", donelan(12, 9), donelan(12, 9).hs()),
           named("Gaussian swell", GaussianSwell(1.5, 15, 0.04), 1.5),
           named("sum", sum(Jonswap(3, 7, 2), GaussianSwell(1, 14, 0.03)), std::sqrt(10.0))};
 }
@@ -278,6 +281,27 @@ TEST(Wallops, AgreesWithAnotherProgram) {
   const double lambda = g * 100 / two_pi,
                hs = 4 * lambda * std::pow(2, -2.5) / (std::numbers::sqrt2 * std::numbers::pi);
   EXPECT_NEAR(wallops_exponent(hs, 10), 5, 1e-13);
+}
+
+// (W100) As its authors write it, by frequency in hertz.
+TEST(Donelan, HasTheFormOfItsPaper) {
+  for (const auto& [wind, tp] : {std::pair{15.0, 4.0}, {8.0, 3.0}, {12.0, 7.2}}) {
+    const PeakedSpectrum spectrum = donelan(wind, tp);
+    const double fp = 1 / tp, age = wind / (g * tp / two_pi);
+    const double alpha = 0.006 * std::pow(age, 0.55), gamma = age < 1 ? 1.7 : 1.7 + 6 * std::log10(age),
+                 sigma = 0.08 * (1 + 4 / std::pow(age, 3));
+    for (const double f : {0.6 * fp, 0.9 * fp, fp, 1.2 * fp, 2 * fp, 5 * fp}) {
+      const double by_hertz = alpha * g * g * std::pow(two_pi, -4) / fp * std::pow(f, -4) *
+                              std::exp(-std::pow(fp / f, 4)) *
+                              std::pow(gamma, std::exp(-std::pow(f - fp, 2) / (2 * std::pow(sigma * fp, 2))));
+      EXPECT_NEAR(two_pi * spectrum.density(two_pi * f) / by_hertz, 1, 1e-12) << wind << ' ' << f / fp;
+    }
+  }
+}
+
+TEST(Donelan, RefusesWindsThatWereNotMeasured) {
+  EXPECT_THAT([] { donelan(5, 10); }, ThrowsMessage<InputError>(HasSubstr("0.83 to 5 times was measured")));
+  EXPECT_THAT([] { donelan(60, 4); }, ThrowsMessage<InputError>(HasSubstr("0.83 to 5 times was measured")));
 }
 
 TEST(Torsethaugen, DividesTheEnergyBetweenTwoSystems) {

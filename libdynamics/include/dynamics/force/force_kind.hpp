@@ -137,6 +137,10 @@ class ForceKind {
   /// What its elements tell of themselves, called after them: forces, strokes, powers. Energies belong to the ledger.
   virtual std::vector<Signal> signals() const { return {}; }
 
+  /// What its springs may still gain in stiffness over what they have in `at`, with no load there, for the choice of a
+  /// step; null: nothing.
+  virtual std::unique_ptr<const ForceKind> stiffer_than_at(const State& /*at*/) const { return nullptr; }
+
   /// Why this kind has no load for what happened between two states that follow each other; empty if it has.
   virtual std::string breaks_off(const State& /*before*/, const State& /*after*/) const { return {}; }
 

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <vector>
 
+#include "dynamics/line/node_force.hpp"
 #include "hydro/waves/kinematics/field.hpp"
 
 namespace dynamics::line {
@@ -55,9 +56,10 @@ struct Sphere {
 
 struct Node {
   double mass = 0;                                  ///< a bob, clump or pin besides the segments' own, kg
-  double damping = 0, quadratic_damping = 0;        ///< −b_l v − b_q |v| v, kg/s and kg/m (D73)
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< constant, N
   Sphere sphere = {};
+  std::vector<std::shared_ptr<const NodeForce>> forces = {};  ///< by its place and velocity, as NodeDamping
+  double share = 1;                                           ///< of each of them that acts here
 };
 
 /// Where a node is at each time, whatever pulls at it. Immutable.
@@ -101,8 +103,7 @@ struct Description {
   double gravity = 9.81;      ///< m/s²; 0: no weight
   std::vector<Bed> bed = {};  ///< none or one
   Surroundings water = {};
-  bool componentwise_damping = false;  ///< −b_q |v_i| v_i instead, as Huijgen 2024, eq. 4.14 with its sign put right
-  std::vector<int> begins = {};        ///< of a network: the first node of each chain after the first
+  std::vector<int> begins = {};             ///< of a network: the first node of each chain after the first
   std::vector<std::vector<int>> ties = {};  ///< sets of free nodes that are one place each
 };
 

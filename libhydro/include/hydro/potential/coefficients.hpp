@@ -68,15 +68,8 @@ struct ReadOptions {
                                     ///< for other formats
 };
 
-/// Reads any supported file and says in `source` what it was taken for. Formats are told apart by content, not by name:
-///   WAMIT      a numeric file or the common stem; .1, .3 (or .2, or .3fk and .3sc), .hst and .out of the stem are read
-///   NEMOH      the folder, its Nemoh.cal or a file of its results; versions 2 and 3
-///   AQWA       the .AH1 file, or the .LIS file of one structure
-///   HAMS       its ControlFile.in, or the folder that holds Input and Output
-///   VERES      the .re7 file of ShipX, with the .re8 file beside it
-///   HDB        the .hdb file of Diodore, one structure
-///   Capytaine  netCDF, classic or HDF5
-///   BEMIO, Froude  .h5
+/// Reads a file of any format and says in `source` what it was taken for; docs/guide/coefficients.md lists the formats
+/// and which file or folder to give of each. Formats are told apart by content, not by name.
 /// \throws InputError with file, line and remedy
 Coefficients read(const std::filesystem::path& path, const ReadOptions& options = {});
 

@@ -86,19 +86,21 @@ class PanelSpectrum : public Spectrum {
   std::optional<Tail> tail_;
 };
 
-/// u^−p e^{−(p/q) u^−q} γ^r with u = ω/ω_p and r = e^{−(u−1)²/(2σ²)}, σ = 0.07 below and 0.09 above the peak (W30): a
-/// power law, cut off below the peak, which stands at u = 1 for every p and q, and may be enhanced γ-fold there.
+/// u^−p e^{−(p/q) u^−q} γ^r with u = ω/ω_p and r = e^{−(u−1)²/(2σ²)} (W30): a power law, cut off below the peak, which
+/// stands at u = 1 for every p and q, and may be enhanced γ-fold there.
 struct PeakShape {
-  double p = 5;      ///< tail ω^−p
-  double q = 4;      ///< how abruptly the spectrum ends below its peak
-  double gamma = 1;  ///< peak enhancement
+  double p = 5;                                   ///< tail ω^−p
+  double q = 4;                                   ///< how abruptly the spectrum ends below its peak
+  double gamma = 1;                               ///< peak enhancement
+  double sigma_below = 0.07, sigma_above = 0.09;  ///< how wide it is either side of the peak, over ω_p: JONSWAP's
 };
 
 /// A spectrum of that shape with given Hs and Tp. Moments exist for n < p − 1 and are right to 1e-13 relative; bands,
 /// however narrow, to 1e-12. The factor that makes m_0 = Hs²/16 is integrated, not approximated.
 class PeakedSpectrum : public PanelSpectrum {
  public:
-  /// \throws InputError unless hs_m and tp_s are finite and > 0, 1.5 <= p <= 60, 1 <= q <= 20 and 1 <= gamma <= 20
+  /// \throws InputError unless hs_m and tp_s are finite and > 0, 1.5 <= p <= 60, 1 <= q <= 20, 1 <= gamma <= 20 and
+  /// 0.01 <= σ <= 1
   PeakedSpectrum(double hs_m, double tp_s, const PeakShape& shape);
 
   double peak_omega() const final { return unit(); }

@@ -1,15 +1,12 @@
-#include "answers/fit_kinds.hpp"
+#include "answers/fit_measurements.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
 #include <utility>
-#include <variant>
 
-#include "answers/answers.hpp"
-
-namespace froude {
+namespace froude::scene {
 namespace {
 
 namespace dim = hydro::dim;
@@ -37,7 +34,7 @@ plot::Series band_outline(const std::string& name, const std::vector<double>& t,
 
 }  // namespace
 
-Measurements::Measurements(const scene::FitScene& of, const std::filesystem::path& file)
+Measurements::Measurements(const FitScene& of, const std::filesystem::path& file)
     : scene(of), table(hydro::io::CsvTable::read(file)) {}
 
 std::vector<double> Measurements::of_role(const char* role, const hydro::Dimension& dimension) const {
@@ -63,7 +60,7 @@ std::vector<double> turned(std::vector<double> values, bool turn) {
   return values;
 }
 
-std::vector<RunOfScene> runs_of(const scene::FitScene& scene, const std::vector<std::string>& taken) {
+std::vector<RunOfScene> runs_of(const FitScene& scene, const std::vector<std::string>& taken) {
   std::vector<RunOfScene> out;
   for (const auto& file : scene.files) out.push_back({{file.value}});
   if (!scene.run_table) return out;
@@ -103,8 +100,4 @@ std::vector<plot::Series> with_bars(const std::string& name, double confidence, 
   return {values, bars};
 }
 
-::fit::Report fitted(const scene::FitScene& scene) {
-  return std::visit([&](const auto& model) { return solve(problem_of(scene, model)).report; }, scene.model);
-}
-
-}  // namespace froude
+}  // namespace froude::scene

@@ -1,5 +1,5 @@
 /// \file  [prepare]: the steps between a measurement and its fit.
-#include "scene/fit_tables.hpp"
+#include "answers/fit_kind.hpp"
 
 namespace froude::scene {
 namespace {

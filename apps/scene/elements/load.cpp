@@ -1,6 +1,5 @@
 /// \file  `[[load]]`: a force and a moment that stay as they are.
 #include "dynamics/force/constant_load.hpp"
-#include "scene/build.hpp"
 #include "scene/element.hpp"
 
 namespace froude::scene {

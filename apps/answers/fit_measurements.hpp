@@ -1,0 +1,49 @@
+#pragma once
+/// \file  What kinds of fit share between a scene and libfit: columns by their roles, runs, and pictures of a record
+///        with what was fitted to it. Private to apps.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "answers/fit_kind.hpp"
+#include "fit/coefficient.hpp"
+#include "fit/problem/source.hpp"
+#include "hydro/io/csv.hpp"
+
+namespace froude::scene {
+
+/// A file of measurements, by the roles that a scene gives its columns.
+struct Measurements {
+  const FitScene& scene;
+  hydro::io::CsvTable table;
+
+  Measurements(const FitScene& of, const std::filesystem::path& file);
+  /// SI; empty where no column has that role.
+  std::vector<double> of_role(const char* role, const hydro::Dimension& dimension) const;
+  std::vector<double> time() const;
+  std::vector<double> motion() const;  ///< angle, or else position
+  std::vector<double> load() const;    ///< torque, or else the one force, with its sign as the scene has it
+};
+std::vector<double> turned(std::vector<double> values, bool turn);
+
+/// Runs of a scene: its files, or the rows of its table of runs, of which columns that are not `taken` are labels.
+struct RunOfScene {
+  ::fit::Source source;
+  std::size_t row = 0;  ///< of the table of runs
+};
+std::vector<RunOfScene> runs_of(const FitScene& scene, const std::vector<std::string>& taken = {});
+
+/// What was measured over time, what was fitted to it, and half widths of the bands about that, if it has any.
+struct FittedRecord {
+  std::string legend;  ///< of what was measured
+  plot::Axis axis;
+  double confidence;  ///< of the bands
+  std::vector<double> time, measured, fitted, sample_band, fit_band;
+};
+/// A panel of both, and one of what is left.
+Panels panels_of(const FittedRecord& record);
+/// Values with their intervals as bars, over `x`.
+std::vector<plot::Series> with_bars(const std::string& name, double confidence, const std::vector<double>& x,
+                                    const std::vector<const ::fit::Coefficient*>& y);
+
+}  // namespace froude::scene

@@ -1,0 +1,75 @@
+#pragma once
+/// \file  What [model] says of each kind of fit. What libfit takes as an option stands here as libfit's own type, so
+///        that no option and no default is written twice.
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fit/forced_radiation.hpp"
+#include "fit/friction_ramp.hpp"
+#include "fit/problem/decay.hpp"
+#include "fit/problem/morison.hpp"
+#include "fit/problem/towing.hpp"
+#include "fit/simulated.hpp"
+#include "scene/scene.hpp"
+
+namespace froude::scene {
+
+template <class T>
+class Binding;
+struct FitTables;
+
+/// Drag and inertia of a cylinder.
+struct MorisonModel : ::fit::morison::Options {
+  ::fit::Cylinder cylinder;
+  std::optional<::fit::ProbeToBody> probe;  ///< with the channel elevation
+  std::optional<Located<std::filesystem::path>> zero_run;
+};
+
+/// Drag of a cylinder at steady speed.
+struct TowingModel : ::fit::towing::Options {
+  ::fit::Cylinder cylinder;
+};
+
+/// Period and damping of a body let go.
+struct DecayModel : ::fit::decay::Options {
+  std::optional<::fit::RestoredBody> body;  ///< where it is to tell added mass
+};
+
+/// Added mass and damping from forced oscillations.
+struct RadiationModel {
+  ::fit::RestoredBody body;
+};
+
+/// Numbers of a scene of motion, and what its run should tell.
+struct MotionModel {
+  struct Parameter {
+    ::fit::SimulationParameter number;  ///< named by its key, as number_at() reads it
+    std::string unit;                   ///< as the scene writes it; the values are in it
+    Place place;
+  };
+  struct Signal {
+    std::string column, of;          ///< of the file; of the run
+    Located<std::string> deviation;  ///< of the noise, with its unit
+  };
+  Located<std::filesystem::path> scene = {};
+  double window = 0;               ///< s; 0: the record is one run from the scene's start
+  std::optional<int> starts = {};  ///< of the search; none: one, and others where it is refused
+  int iterations = 60;
+  std::vector<Parameter> parameters = {};
+  std::vector<Signal> signals = {};
+  bool profile = false, accept_residuals = false;
+  Place place = {};  ///< of [model]
+};
+
+// What two kinds have alike.
+
+/// Keys of [model] that describe a cylinder and its water: in fit_towing.cpp.
+Binding<::fit::Cylinder> cylinder_keys();
+/// [model.body]: in fit_radiation.cpp.
+Binding<::fit::RestoredBody> restored_body();
+/// \throws hydro::InputError for a mass beside an angle, an inertia beside a position
+void check_restored(const FitTables& tables);
+
+}  // namespace froude::scene
