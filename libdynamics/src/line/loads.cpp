@@ -173,9 +173,9 @@ void Loads::add_water(int j, const Motion& now, const By& by, Places& force, Blo
 
 LoadPowers Loads::powers(const Motion& now) {
   LoadPowers out;
-  Places force = Places::Zero(3, line_.nodes());
-  add_damping(now, {0, 0, 0}, force, nullptr);
-  out.damping = -force.cwiseProduct(now.v).sum();
+  damping_.setZero(3, line_.nodes());
+  add_damping(now, {0, 0, 0}, damping_, nullptr);
+  out.damping = -damping_.cwiseProduct(now.v).sum();
   const auto& surroundings = line_.description().water;
   const bool wet = surroundings.wet != Wet::nothing;
   if (!wet && !line_.has_spheres()) return out;
