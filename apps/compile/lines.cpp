@@ -517,10 +517,8 @@ void LineRun::look() {
   turnover_ = std::max(
       {turnover_, e.kinetic, e.axial, std::abs(e.height - first_height_), std::abs(e.supplied()), e.dissipated()});
   if (driven_ != nullptr) {
-    balance_ = driven_->balance();
-  } else if (auto found = stepper_->balance(state_)) {
-    balance_ = std::move(*found);
-  } else {
+    driven_->find_balance(balance_);
+  } else if (!stepper_->find_balance(state_, balance_)) {
     balance_ = {.acceleration = dl::Places::Zero(3, model_.line->nodes()),
                 .tension = state_.tension,
                 .holding = dl::Places::Zero(3, model_.line->nodes())};

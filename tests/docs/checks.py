@@ -106,7 +106,7 @@ MAY_USE_OF = {("validation", "tests"): {"support"}, ("tests", "validation"): {"h
 # Rooms inside a folder have floors too, where it is listed; "." is what stands in the folder itself.
 FLOORS = {
     "libhydro": ("base", "io", "signal", "waves", "radiation", "hydrostatics", "potential", "cylinders"),
-    "libdynamics": ("spatial", "time", "line", "state", "control", "joint", "force", "model", "integrate", "frequency"),
+    "libdynamics": ("algebra", "spatial", "time", "line", "state", "control", "joint", "force", "model", "integrate", "frequency"),
     "apps": ("scene", "include", "compile", "answers", "froude"),
     "validation": ("harness", "*"),
     "tests": ("support", "laws", "*"),

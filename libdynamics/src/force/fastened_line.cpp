@@ -13,10 +13,15 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using line::DrivenLine;
 
-/// Where bodies have the ends of a line.
+/// Where bodies have the ends of a line, into a vector that has room.
+void find_ends(const FastenedLine& l, const State& state, std::vector<DrivenLine::End>& out) {
+  out.clear();
+  for (const auto& end : l.ends) out.push_back({place_of(end.at, state), velocity_of(end.at, state)});
+}
+
 std::vector<DrivenLine::End> ends_of(const FastenedLine& l, const State& state) {
   std::vector<DrivenLine::End> out;
-  for (const auto& end : l.ends) out.push_back({place_of(end.at, state), velocity_of(end.at, state)});
+  find_ends(l, state, out);
   return out;
 }
 
@@ -26,12 +31,13 @@ std::vector<int> nodes_of(const FastenedLine& l) {
   return out;
 }
 
-/// Pulls of a line: in its step, or at rest.
-DrivenLine::Pulls pulls_of(const FastenedLine& l, std::size_t i, const Instant& now) {
-  if (now.memory != nullptr)
-    return static_cast<FastenedLineMemory*>(now.memory)->line(i).pulls(now.state.time, ends_of(l, now.state));
+/// Pulls of a line: in its step, where its memory has them, or at rest, in `at_rest`.
+const DrivenLine::Pulls& pulls_of(const FastenedLine& l, std::size_t i, const Instant& now,
+                                  DrivenLine::Pulls& at_rest) {
+  if (now.memory != nullptr) return static_cast<FastenedLineMemory*>(now.memory)->pulls(i, now.state);
   const auto found = pulls_at_rest(line::Line(l.still), line_at_rest(l, now.state), nodes_of(l));
-  return {-found.force, -found.by_place, -found.by_velocity};
+  at_rest = {-found.force, -found.by_place, -found.by_velocity};
+  return at_rest;
 }
 
 /// Energy held by a line: what moves counts too, since a body cannot tell one from the other.
@@ -83,7 +89,15 @@ line::Places FastenedLineMemory::accelerations_of_ends(const State& state, const
 }
 
 void FastenedLineMemory::accept(const State& state) {
-  for (std::size_t i = 0; i < lines_.size(); ++i) lines_[i]->accept(state.time, ends_of(elements_[i], state));
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    find_ends(elements_[i], state, ends_);
+    lines_[i]->accept(state.time, ends_);
+  }
+}
+
+const DrivenLine::Pulls& FastenedLineMemory::pulls(std::size_t i, const State& state) {
+  find_ends(elements_[i], state, ends_);
+  return lines_[i]->pulls(state.time, ends_);
 }
 
 void FastenedLineKind::couple(BlockPattern& pattern) const {
@@ -98,8 +112,9 @@ std::unique_ptr<Memory> FastenedLineKind::make_memory(const State& state) const 
 }
 
 void FastenedLineKind::add_load(const Instant& now, LoadSink& out) const {
+  DrivenLine::Pulls at_rest;
   for (std::size_t i = 0; i < elements_.size(); ++i) {
-    const DrivenLine::Pulls p = pulls_of(elements_[i], i, now);
+    const DrivenLine::Pulls& p = pulls_of(elements_[i], i, now, at_rest);
     for (std::size_t k = 0; k < elements_[i].ends.size(); ++k) {
       const auto& end = elements_[i].ends[k];
       const Vector3d force = p.force.col(static_cast<Eigen::Index>(k));
@@ -112,9 +127,10 @@ void FastenedLineKind::add_load(const Instant& now, LoadSink& out) const {
 
 // (D90): moments turn with the arm, and a turning arm changes the velocity of its end by ω × (δθ × r).
 void FastenedLineKind::add_jacobian(const Instant& now, JacobianSink& out) const {
+  DrivenLine::Pulls at_rest;
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     const auto& ends = elements_[i].ends;
-    const DrivenLine::Pulls p = pulls_of(elements_[i], i, now);
+    const DrivenLine::Pulls& p = pulls_of(elements_[i], i, now, at_rest);
     for (std::size_t k = 0; k < ends.size(); ++k)
       for (std::size_t m = 0; m < ends.size(); ++m) {
         const auto row = 3 * static_cast<Eigen::Index>(k), column = 3 * static_cast<Eigen::Index>(m);
@@ -148,7 +164,8 @@ namespace {
 
 /// How the pull on one end varies about rest: as its direction goes, with the static stiffness.
 Variation pull_variation(const FastenedLine& l, std::size_t k, const State& still) {
-  const DrivenLine::Pulls p = pulls_of(l, 0, {still, nullptr});
+  DrivenLine::Pulls at_rest;
+  const DrivenLine::Pulls& p = pulls_of(l, 0, {still, nullptr}, at_rest);
   const Vector3d along = p.force.col(static_cast<Eigen::Index>(k)).normalized();
   Variation out;
   for (std::size_t m = 0; m < l.ends.size(); ++m) {
@@ -174,7 +191,8 @@ std::vector<Signal> FastenedLineKind::signals() const {
            .meaning = fmt::format("pull of {} on its body", elements_[i].ends[k].name),
            .value =
                [this, i, k](const Reading& r) {
-                 const auto pulls = pulls_of(elements_[i], i, {r.state, r.memory});
+                 DrivenLine::Pulls at_rest;
+                 const auto& pulls = pulls_of(elements_[i], i, {r.state, r.memory}, at_rest);
                  return pulls.force.col(static_cast<Eigen::Index>(k)).norm();
                },
            .variation = [this, i, k](const Still& still) { return pull_variation(elements_[i], k, still.state); }});

@@ -31,14 +31,20 @@ PlacedMember placed(const SlenderMember& member, const State& state) {
 }
 
 std::vector<double> heights(const SlenderMember& member, const PlacedMember& at, const WaveField& water, double t) {
-  std::vector<double> g(static_cast<std::size_t>(member.pieces) + 1, std::numeric_limits<double>::infinity());
-  if (member.immersion == Immersion::whole) return g;
+  std::vector<double> g;
+  find_heights(member, at, water, t, g);
+  return g;
+}
+
+void find_heights(const SlenderMember& member, const PlacedMember& at, const WaveField& water, double t,
+                  std::vector<double>& g) {
+  g.assign(static_cast<std::size_t>(member.pieces) + 1, std::numeric_limits<double>::infinity());
+  if (member.immersion == Immersion::whole) return;
   for (std::size_t j = 0; j < g.size(); ++j) {
     const Eigen::Vector3d p = at.centre + at.arm(static_cast<double>(j) / member.pieces);
     g[j] = -p.z();
     if (member.immersion == Immersion::surface) g[j] += water.elevation(t, p.x(), p.y());
   }
-  return g;
 }
 
 double wetness(double height, double rise) { return std::clamp(0.5 + height / rise, 0.0, 1.0); }
@@ -103,14 +109,22 @@ Row rise_by(const SlenderMember& member, const PlacedMember& at) {
 
 std::vector<WetPiece> wet_pieces(const SlenderMember& member, const PlacedMember& at, const WaveField& water, double t,
                                  bool derivatives) {
-  const double piece = at.length / member.pieces;
   std::vector<WetPiece> out;
+  find_wet_pieces(member, at, water, t, derivatives, out);
+  return out;
+}
+
+void find_wet_pieces(const SlenderMember& member, const PlacedMember& at, const WaveField& water, double t,
+                     bool derivatives, std::vector<WetPiece>& out) {
+  const double piece = at.length / member.pieces;
+  out.clear();
   out.reserve(static_cast<std::size_t>(member.pieces));
   if (member.immersion == Immersion::whole) {
     for (int j = 0; j < member.pieces; ++j) out.push_back({piece, at.arm((j + 0.5) / member.pieces)});
-    return out;
+    return;
   }
-  const auto g = heights(member, at, water, t);
+  thread_local std::vector<double> g;  // its room is kept from call to call
+  find_heights(member, at, water, t, g);
   const auto by = [&](std::size_t j) {
     return height_by(member, at, water, t, at.arm(static_cast<double>(j) / member.pieces));
   };
@@ -124,7 +138,6 @@ std::vector<WetPiece> wet_pieces(const SlenderMember& member, const PlacedMember
     out.back().length_by = piece * (wet.share_by[0] * first + wet.share_by[1] * second + wet.share_by[2] * rise);
     out.back().place_by = piece * (wet.place_by[0] * first + wet.place_by[1] * second + wet.place_by[2] * rise);
   }
-  return out;
 }
 
 }  // namespace dynamics

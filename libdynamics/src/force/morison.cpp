@@ -115,44 +115,52 @@ ForceDerivatives inertia_derivatives(const PerLength& c, const Flow& f, const Fl
   return {across_by(f, y, y_by_q, d.axis_by_q), across_by(f, y, -c.added * d.turning_by_v, Matrix3x6::Zero())};
 }
 
-/// The wet pieces of a member and the water at each.
+/// The wet pieces of a member, the water at each, and how that changes with place.
 struct MemberFlow {
   PlacedMember at;
   std::vector<WetPiece> pieces;
-  std::vector<Kinematics> water;
+  std::vector<Kinematics> water, moved;
+  std::vector<WaterGradients> gradients;
+  std::vector<Vector3d> points;  // that the water is asked for
 };
 
-std::vector<Kinematics> water_at(const WaveField& field, const PlacedMember& at, const std::vector<WetPiece>& pieces,
-                                 double t, const Vector3d& shift = Vector3d::Zero()) {
-  std::vector<Vector3d> points;
-  points.reserve(pieces.size());
-  for (const WetPiece& p : pieces) points.push_back(at.centre + p.arm + shift);
-  std::vector<Kinematics> out(points.size());
-  field.at(t, points, out);
-  return out;
+/// A kind of force is shared between threads and has no room of its own: each thread keeps that of one member, so that
+/// a step asks for no memory.
+MemberFlow& kept_flow() {
+  thread_local MemberFlow flow;
+  return flow;
 }
 
-MemberFlow flow_of(const MorisonMember& m, const WaveField& field, const State& state, bool derivatives) {
-  MemberFlow out{placed(m.line, state), {}, {}};
-  out.pieces = wet_pieces(m.line, out.at, field, state.time, derivatives);
-  out.water = water_at(field, out.at, out.pieces, state.time);
+void find_water(const WaveField& field, double t, const Vector3d& shift, MemberFlow& flow,
+                std::vector<Kinematics>& out) {
+  flow.points.clear();
+  for (const WetPiece& p : flow.pieces) flow.points.push_back(flow.at.centre + p.arm + shift);
+  out.resize(flow.points.size());
+  field.at(t, flow.points, out);
+}
+
+/// It stands until the next is asked for.
+MemberFlow& flow_of(const MorisonMember& m, const WaveField& field, const State& state, bool derivatives) {
+  MemberFlow& out = kept_flow();
+  out.at = placed(m.line, state);
+  find_wet_pieces(m.line, out.at, field, state.time, derivatives, out.pieces);
+  find_water(field, state.time, Vector3d::Zero(), out, out.water);
   return out;
 }
 
 /// At each piece, one-sided over a millionth of the diameter: error of about (κD) 1e-6 relative. Kinematics::gradient
 /// will not do, which is that of the flow under the stretched profile, not of what stretching makes of it.
-std::vector<WaterGradients> gradients_at(const MorisonMember& m, const WaveField& field, const MemberFlow& flow,
-                                         double t) {
+void find_gradients(const MorisonMember& m, const WaveField& field, double t, MemberFlow& flow) {
   const double e = 1e-6 * m.line.diameter;
-  std::vector<WaterGradients> out(flow.pieces.size());
+  flow.gradients.resize(flow.pieces.size());
   for (int axis = 0; axis < 3; ++axis) {
-    const auto moved = water_at(field, flow.at, flow.pieces, t, e * Vector3d::Unit(axis));
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      out[i].velocity.col(axis) = (moved[i].velocity - flow.water[i].velocity) / e;
-      out[i].acceleration.col(axis) = (moved[i].material_acceleration() - flow.water[i].material_acceleration()) / e;
+    find_water(field, t, e * Vector3d::Unit(axis), flow, flow.moved);
+    for (std::size_t i = 0; i < flow.gradients.size(); ++i) {
+      const Kinematics &there = flow.moved[i], &here = flow.water[i];
+      flow.gradients[i].velocity.col(axis) = (there.velocity - here.velocity) / e;
+      flow.gradients[i].acceleration.col(axis) = (there.material_acceleration() - here.material_acceleration()) / e;
     }
   }
-  return out;
 }
 
 }  // namespace
@@ -171,7 +179,7 @@ std::string MorisonKind::method() const {
 void MorisonKind::add_load(const Instant& now, LoadSink& out) const {
   for (const MorisonMember& m : members_) {
     const PerLength c(m, water_->water().density);
-    const MemberFlow flow = flow_of(m, *water_, now.state, false);
+    const MemberFlow& flow = flow_of(m, *water_, now.state, false);
     Vector6 load = Vector6::Zero();
     for (std::size_t i = 0; i < flow.pieces.size(); ++i) {
       const Flow f = flow_past(flow.at, flow.pieces[i].arm, flow.water[i]);
@@ -186,13 +194,13 @@ void MorisonKind::add_load(const Instant& now, LoadSink& out) const {
 void MorisonKind::add_jacobian(const Instant& now, JacobianSink& out) const {
   for (const MorisonMember& m : members_) {
     const PerLength c(m, water_->water().density);
-    const MemberFlow flow = flow_of(m, *water_, now.state, true);
-    const auto gradients = gradients_at(m, *water_, flow, now.state.time);
+    MemberFlow& flow = flow_of(m, *water_, now.state, true);
+    find_gradients(m, *water_, now.state.time, flow);
     Matrix6 by_q = Matrix6::Zero(), by_v = Matrix6::Zero();
     for (std::size_t i = 0; i < flow.pieces.size(); ++i) {
       const WetPiece& piece = flow.pieces[i];
       const Flow f = flow_past(flow.at, piece.arm, flow.water[i]);
-      const FlowDerivatives d = differentiate(f, piece, gradients[i]);
+      const FlowDerivatives d = differentiate(f, piece, flow.gradients[i]);
       const ForceDerivatives D = drag_derivatives(c, f, d), I = inertia_derivatives(c, f, d);
       const Vector3d per_length = drag(c, f) + inertia(c, f);
       const Matrix3x6 force_by_q = piece.length * (D.by_q + I.by_q) + per_length * piece.length_by;
@@ -214,7 +222,9 @@ void MorisonKind::add_mass(const State& state, MassSink& out) const {
     const PlacedMember at = placed(m.line, state);
     const Matrix3d across = Matrix3d::Identity() - at.axis * at.axis.transpose();
     Matrix6 mass = Matrix6::Zero();
-    for (const WetPiece& piece : wet_pieces(m.line, at, *water_, state.time, false)) {
+    auto& pieces = kept_flow().pieces;
+    find_wet_pieces(m.line, at, *water_, state.time, false, pieces);
+    for (const WetPiece& piece : pieces) {
       Matrix3x6 velocity;  // of the point by that of the body
       velocity << Matrix3d::Identity(), -cross_matrix(piece.arm);
       mass += c.added * piece.length * velocity.transpose() * across * velocity;
@@ -228,7 +238,7 @@ EnergyFlow MorisonKind::energy(const Instant& now) const {
   EnergyFlow flow;
   for (const MorisonMember& m : members_) {
     const PerLength c(m, water_->water().density);
-    const MemberFlow member = flow_of(m, *water_, now.state, false);
+    const MemberFlow& member = flow_of(m, *water_, now.state, false);
     for (std::size_t i = 0; i < member.pieces.size(); ++i) {
       const Flow f = flow_past(member.at, member.pieces[i].arm, member.water[i]);
       const Vector3d resistance = drag(c, f);

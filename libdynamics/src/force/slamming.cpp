@@ -57,14 +57,14 @@ class Struck final : public Memory {
  private:
   /// Calls act(piece, whether it is under now, function that makes the strike of this instant).
   template <class Act>
-  void for_each(const State& state, Act act) {
+  void for_each(const State& state, const Act& act) {
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
       const SlammingMember& m = kind_.members()[k];
       const PlacedMember at = placed(m.line, state);
-      const auto g = heights(m.line, at, kind_.water(), state.time);
+      find_heights(m.line, at, kind_.water(), state.time, heights_);
       const double level = level_of(m, at);
       for (std::size_t j = 0; j < pieces_[k].size(); ++j)
-        act(pieces_[k][j], (g[j] + g[j + 1]) / 2 > level, [&] { return strike(m, at, j, state.time); });
+        act(pieces_[k][j], (heights_[j] + heights_[j + 1]) / 2 > level, [&] { return strike(m, at, j, state.time); });
     }
   }
   std::optional<Piece::Strike> strike(const SlammingMember& m, const PlacedMember& at, std::size_t piece,
@@ -81,6 +81,7 @@ class Struck final : public Memory {
 
   const SlammingKind& kind_;
   std::vector<std::vector<Piece>> pieces_;
+  std::vector<double> heights_;  // of the member that is looked at; kept, so that a step asks for no memory
 };
 
 /// Calls act(body, arm, force, velocity of the piece, velocity of the water at contact) for each piece under load.

@@ -39,14 +39,22 @@ ContactMemory& ActiveSet::contact_memory(Workspace& workspace) const {
 }
 
 void ActiveSet::find_constraint_scale(const State& state) {
-  const auto G = constraints_.over(constraints_.gradients(state), scale_);
   constraint_scale_.resize(constraints_.count());
-  for (std::size_t i = 0; i < G.size(); ++i) constraint_scale_[static_cast<Eigen::Index>(i)] = 1 / norm(G[i]);
+  for (Eigen::Index i = 0; i < constraint_scale_.size(); ++i) {
+    const Constraint& c = constraints_.constraints()[static_cast<std::size_t>(i)];
+    Gradient row = constraints_.gradient_of(c, state);
+    row.first.array() /= scale_.segment<6>(6 * c.first).array();
+    if (c.second)
+      row.second.array() /= scale_.segment<6>(6 * *c.second).array();
+    else
+      row.second.setZero();
+    constraint_scale_[i] = 1 / norm(row);
+  }
 }
 
 /// False if its bodies cannot move that way at all.
 bool ActiveSet::moves(const Constraint& constraint, const State& state) const {
-  const Gradient g = model_.joints().with_only(constraint).gradients(state).front();
+  const Gradient g = model_.joints().gradient_of(constraint, state);
   return g.first.norm() + (constraint.second ? g.second.norm() : 0) > 0;
 }
 
@@ -69,7 +77,7 @@ void ActiveSet::close(std::size_t element, Workspace& workspace) {
 }
 
 void ActiveSet::rebuild(Workspace& workspace) {
-  constraints_ = model_.joints();
+  constraints_.cut(model_.joints().count());
   slides_.clear();
   if (friction_ != nullptr) {
     const FrictionMemory& memory = friction_memory(workspace);
@@ -83,7 +91,7 @@ void ActiveSet::rebuild(Workspace& workspace) {
   constexpr double share = 1e-7;  // of the inverse mass: an iteration more, and loads to 1e-9
   compliance_ = share * constraint_scale_.cwiseAbs2().cwiseInverse();
   compliance_.head(exact).setZero();
-  workspace.solver = KktSolver(model_.pattern(), constraints_);
+  workspace.solver.take(model_.pattern(), constraints_);
 }
 
 // What has stopped or come back keeps the direction that it had: the step is cut there.
@@ -126,30 +134,51 @@ void ActiveSet::add_turning(const State& state, const Eigen::VectorXd& multiplie
   }
 }
 
-// The second pass takes out what the compliance of contacts has left.
 std::optional<ActiveSet::Balance> ActiveSet::balance(Workspace& workspace) const {
-  const auto G = constraints_.gradients(workspace.state), load = columns(G, workspace.state);
-  const Eigen::VectorXd r = model_.residual(workspace.state, Eigen::VectorXd::Zero(model_.modes()), workspace);
-  const Eigen::VectorXd convective = constraints_.convective(workspace.state);
+  Balance out;
+  if (!find_balance(workspace, out.acceleration, out.multipliers)) return {};
+  return out;
+}
+
+// The second pass takes out what the compliance of contacts has left.
+bool ActiveSet::find_balance(Workspace& workspace, Eigen::VectorXd& acceleration, Eigen::VectorXd& multipliers) const {
+  Workspace::Balancing& room = workspace.balancing;
+  constraints_.find_gradients(workspace.state, room.gradients);
+  room.columns = room.gradients;
+  add_sliding(workspace.state, room.columns);
+  room.still.setZero(model_.modes());
+  model_.residual(workspace.state, room.still, workspace, room.residual);
+  constraints_.find_convective(workspace.state, room.convective);
   model_.tangent(workspace.state, 1, 0, 0, workspace, workspace.matrix);
-  if (!r.allFinite() || !workspace.solver.factorise(workspace.matrix, load, G, compliance_)) return {};
-  auto [a, lambda] = workspace.solver.solve(-r, -convective);
+  if (!room.residual.allFinite() ||
+      !workspace.solver.factorise(workspace.matrix, room.columns, room.gradients, compliance_))
+    return false;
+  room.left = -room.residual;
+  room.open = -room.convective;
+  workspace.solver.solve(room.left, room.open, room.found);
+  acceleration = room.found.x;
+  multipliers = room.found.lambda;
   const bool again = compliance_.size() > 0 && compliance_.maxCoeff() > 0;
   for (int pass = 0; pass < (again ? 2 : 0); ++pass) {
-    Eigen::VectorXd left = -r - workspace.matrix * a;
-    constraints_.add_transposed(load, -lambda, left);
-    const auto [more_a, more_lambda] = workspace.solver.solve(left, -convective - constraints_.times(G, a));
-    a += more_a;
-    lambda += more_lambda;
+    workspace.matrix.multiply(acceleration, room.left);
+    room.left = -room.residual - room.left;
+    room.minus_multipliers = -multipliers;
+    constraints_.add_transposed(room.columns, room.minus_multipliers, room.left);
+    for (Eigen::Index i = 0; i < room.open.size(); ++i)
+      room.open[i] =
+          -room.convective[i] - constraints_.times(i, room.gradients[static_cast<std::size_t>(i)], acceleration);
+    workspace.solver.solve(room.left, room.open, room.found);
+    acceleration += room.found.x;
+    multipliers += room.found.lambda;
   }
-  return Balance{std::move(a), std::move(lambda)};
+  return true;
 }
 
 bool ActiveSet::solve_accelerations(Workspace& workspace) const {
-  auto found = balance(workspace);
-  if (!found) return false;
-  workspace.acceleration = std::move(found->acceleration);
-  workspace.multipliers = std::move(found->multipliers);
+  Workspace::Balancing& room = workspace.balancing;
+  if (!find_balance(workspace, room.acceleration, room.multipliers)) return false;
+  workspace.acceleration = room.acceleration;
+  workspace.multipliers = room.multipliers;
   return true;
 }
 

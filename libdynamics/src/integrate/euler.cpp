@@ -7,11 +7,12 @@ namespace dynamics {
 SemiImplicitEuler::SemiImplicitEuler(const Model& model) : Integrator(model) { refuse_contacts(active()); }
 
 bool SemiImplicitEuler::try_step(Workspace& workspace, double h, StepReport&) {
-  const auto now = active().balance(workspace);
-  if (!now) return fail("the loads are not finite or the mass is singular");
-  const Eigen::VectorXd v = workspace.state.velocity + h * now->acceleration;
-  return arrive(model(), active(), displaced(workspace.state, h * v, v, h), workspace) ||
-         fail("the loads are not finite or the mass is singular");
+  constexpr const char* why = "the loads are not finite or the mass is singular";
+  if (!active().find_balance(workspace, acceleration_, multipliers_)) return fail(why);
+  velocity_ = workspace.state.velocity + h * acceleration_;
+  move_ = h * velocity_;
+  displace(workspace.state, move_, velocity_, h, end_);
+  return arrive(model(), active(), end_, workspace) || fail(why);
 }
 
 }  // namespace dynamics

@@ -10,7 +10,7 @@
 namespace dynamics {
 namespace {
 
-constexpr int stages = 7;
+constexpr std::size_t stages = 7;
 /// Dormand & Prince (1980), table 2: nodes, stages, weights of order 5, and those less the weights of order 4.
 constexpr std::array<double, stages> node{0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1, 1};
 constexpr double stage_weight[stages][stages - 1] = {
@@ -31,55 +31,55 @@ ExplicitPair::ExplicitPair(const Model& model, const Settings& settings) : Integ
   refuse_contacts(active());
 }
 
-std::optional<ExplicitPair::Attempt> ExplicitPair::attempt(Workspace& workspace, double h) const {
-  const State start = workspace.state;
-  std::array<Eigen::VectorXd, stages> moving, gaining;
-  Eigen::VectorXd move = Eigen::VectorXd::Zero(start.velocity.size()), gain = move;
-  bool all = true;
-  for (std::size_t i = 0; i < stages && all; ++i) {
-    move.setZero(), gain.setZero();
+/// From `start_` on; the workspace ends in the state of the last stage, which is the end by order 5.
+bool ExplicitPair::find_stages(Workspace& workspace, double h) {
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    move_.setZero(start_.velocity.size()), gain_.setZero(start_.velocity.size());
     for (std::size_t j = 0; j < i; ++j) {
-      move += h * stage_weight[i][j] * moving[j];
-      gain += h * stage_weight[i][j] * gaining[j];
+      move_ += h * stage_weight[i][j] * moving_[j];
+      gain_ += h * stage_weight[i][j] * gaining_[j];
     }
-    workspace.state = displaced(start, move, start.velocity + gain, node[i] * h);
-    const auto there = active().balance(workspace);
-    all = there && there->acceleration.allFinite();
-    if (!all) break;
-    moving[i] = displacement_rate(move, workspace.state.velocity);
-    gaining[i] = there->acceleration;
+    velocity_ = start_.velocity + gain_;
+    displace(start_, move_, velocity_, node[i] * h, workspace.state);
+    if (!active().find_balance(workspace, gaining_[i], multipliers_) || !gaining_[i].allFinite()) return false;
+    find_displacement_rate(move_, workspace.state.velocity, moving_[i]);
   }
-  Attempt out{workspace.state, 0};  // the last stage is the end by order 5
-  workspace.state = start;
+  return true;
+}
+
+std::optional<double> ExplicitPair::attempt(Workspace& workspace, double h) {
+  start_ = workspace.state;
+  const bool all = find_stages(workspace, h);
+  end_ = workspace.state;
+  workspace.state = start_;
   if (!all) return {};
-  Eigen::VectorXd off = Eigen::VectorXd::Zero(move.size()), off_speed = off;
-  for (std::size_t i = 0; i < stages; ++i) {
-    off += difference[i] * moving[i];
-    off_speed += h * difference[i] * gaining[i];
+  off_.setZero(start_.velocity.size()), off_speed_.setZero(start_.velocity.size());
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    off_ += difference[i] * moving_[i];
+    off_speed_ += h * difference[i] * gaining_[i];
   }
   const auto size = [&](const Eigen::VectorXd& x) { return x.cwiseProduct(active().scale()).norm(); };
-  const double allowed = settings_.tolerance * (size(start.velocity) + h * size(gaining[0]) + 1e-300);
-  out.error = std::max(size(off), size(off_speed)) / allowed;
-  return out;
+  const double allowed = settings_.tolerance * (size(start_.velocity) + h * size(gaining_[0]) + 1e-300);
+  return std::max(size(off_), size(off_speed_)) / allowed;
 }
 
 bool ExplicitPair::try_step(Workspace& workspace, double h, StepReport& report) {
   constexpr double shortest = 1e-7;  // of the step asked for
-  const State start = workspace.state;
-  const Eigen::VectorXd acceleration = workspace.acceleration, multipliers = workspace.multipliers;
+  begin_ = workspace.state;
+  begin_acceleration_ = workspace.acceleration;
+  begin_multipliers_ = workspace.multipliers;
   double step = std::isinf(settings_.tolerance) || last_ == 0 ? h : std::min(h, last_);
   for (double done = 0; done < h * (1 - 1e-12);) {
     step = std::min(step, h - done);
-    const auto tried = attempt(workspace, step);
-    const double error = tried ? tried->error : 1e10;
-    const bool good = tried && error <= 1 && arrive(model(), active(), tried->end, workspace);
+    const double error = attempt(workspace, step).value_or(1e10);
+    const bool good = error <= 1 && arrive(model(), active(), end_, workspace);
     if (good) done += step, last_ = step;
     if (!good) ++report.halvings;
     step *= good && error == 0 ? 5 : std::clamp(0.9 * std::pow(error, -0.2), 0.2, 5.0);
     if (step > shortest * h) continue;
-    workspace.state = start;
-    workspace.acceleration = acceleration;
-    workspace.multipliers = multipliers;
+    workspace.state = begin_;
+    workspace.acceleration = begin_acceleration_;
+    workspace.multipliers = begin_multipliers_;
     return fail("the explicit pair cannot meet its tolerance: something is too stiff for it");
   }
   return true;

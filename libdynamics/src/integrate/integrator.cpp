@@ -119,23 +119,22 @@ void Integrator::note_speeds(const Workspace& workspace, double h) {
   speeds_ = std::max(speeds_, size(workspace.state.velocity) + h * size(workspace.acceleration));
 }
 
-// (D96) The workspace ends where two halves lead.
+// (D96) From `before_part_`; the workspace ends where two halves lead.
 double Integrator::local_error(Workspace& workspace, double h, StepReport& report) {
-  const Snapshot before = snapshot(workspace);
   advance_halving(workspace, h, 0, report);
-  const State whole = workspace.state;
+  whole_ = workspace.state;
   if (speeds_ == 0) note_speeds(workspace, h);  // bodies that begin at rest tell nothing of what is to come
-  restore(workspace, before);
+  restore(workspace, before_part_);
   for (int half = 0; half < 2; ++half) advance_halving(workspace, h / 2, 0, report);
-  Eigen::VectorXd places(model_.modes());
-  for (std::size_t i = 0; i < whole.pose.size(); ++i) {
-    const Pose &one = whole.pose[i], &two = workspace.state.pose[i];
-    places.segment<6>(6 * static_cast<Eigen::Index>(i)) << one.centre - two.centre,
+  off_.resize(model_.modes());
+  for (std::size_t i = 0; i < whole_.pose.size(); ++i) {
+    const Pose &one = whole_.pose[i], &two = workspace.state.pose[i];
+    off_.segment<6>(6 * static_cast<Eigen::Index>(i)) << one.centre - two.centre,
         rotation_log(one.attitude * two.attitude.conjugate());
   }
-  const auto size = [&](const Eigen::VectorXd& x) { return x.cwiseProduct(active_.scale()).norm(); };
-  const double off = std::max(size(places) / h, size(whole.velocity - workspace.state.velocity));
-  return off / (std::pow(2, order()) - 1);
+  const double of_places = off_.cwiseProduct(active_.scale()).norm() / h;
+  off_ = whole_.velocity - workspace.state.velocity;
+  return std::max(of_places, off_.cwiseProduct(active_.scale()).norm()) / (std::pow(2, order()) - 1);
 }
 
 void Integrator::advance_within(Workspace& workspace, double h, StepReport& report) {
@@ -143,7 +142,7 @@ void Integrator::advance_within(Workspace& workspace, double h, StepReport& repo
   if (part_ == 0) part_ = h;
   for (double left = h; left > h * change_resolution;) {
     const double part = std::min(part_, left);
-    const Snapshot before = snapshot(workspace);
+    save(workspace, before_part_);
     const double error = local_error(workspace, part, report), allowed = tolerance_.value() * speeds_;
     const double better = part * (error > 0 ? std::clamp(0.9 * std::pow(allowed / error, 1.0 / order()), 0.2, 5.0) : 5);
     if (error <= allowed) {
@@ -154,19 +153,13 @@ void Integrator::advance_within(Workspace& workspace, double h, StepReport& repo
       part_ = part < part_ ? std::max(part_, better) : better;
       continue;
     }
-    restore(workspace, before);
+    restore(workspace, before_part_);
     part_ = better;
     if (part_ < shortest * step_)
       throw hydro::NumericsError(
           fmt::format("the run cannot go on from t = {:.6g} s: its tolerance of {:.3g} asks for steps below {:.3g} s",
                       workspace.state.time, *tolerance_, part_));
   }
-}
-
-Integrator::Snapshot Integrator::snapshot(const Workspace& workspace) const {
-  Snapshot out;
-  save(workspace, out);
-  return out;
 }
 
 void Integrator::save(const Workspace& workspace, Snapshot& out) const {
@@ -184,7 +177,8 @@ void Integrator::restore(Workspace& workspace, const Snapshot& before) {
 }
 
 Integrator::Way Integrator::go_to_change(Workspace& workspace, double h, StepReport& report) {
-  const Snapshot before = snapshot(workspace);
+  const Snapshot& before = before_change_;
+  save(workspace, before_change_);
   const auto margin_after = [&](double way) {
     restore(workspace, before);
     advance(workspace, way, report);
@@ -232,16 +226,16 @@ void Integrator::advance_to_changes(Workspace& workspace, double h, StepReport& 
   std::size_t changes = 0;
   laws_.begin_step();
   for (double left = h; left > h * change_resolution;) {
-    const State before = workspace.state;
-    const Eigen::VectorXd slip = laws_.slip_power(workspace);
+    const double begin_of_way = workspace.state.time;
+    laws_.begin_work(workspace);
     const Way way = go_to_change(workspace, left, report);
     laws_.share_loads(workspace);
-    laws_.note_work(before, slip, workspace);
+    laws_.note_work(workspace);
     left -= way.time;
     if (!way.changes) continue;
     if (++changes > most)
       throw hydro::NumericsError(fmt::format(
-          "friction or contacts change more than {} times in the step from t = {:.6g} s", most, before.time));
+          "friction or contacts change more than {} times in the step from t = {:.6g} s", most, begin_of_way));
     const auto events = laws_.change(workspace, laws_.least_margin(workspace), h);
     report.events.insert(report.events.end(), events.begin(), events.end());
     constexpr std::size_t many = 20;  // in one step: what goes on faster and faster is at its end

@@ -28,8 +28,7 @@ std::vector<std::string> EnergyLedger::effects(const Model& model) {
 EnergyFlow EnergyLedger::flow(std::size_t entry, Workspace& workspace) const {
   const State& now = workspace.state;
   if (entry < model_.forces().size()) return model_.forces()[entry]->energy(workspace.instant(now, entry));
-  const Eigen::VectorXd rates = model_.joints().prescribed_rates(now.time);
-  return {.supplied = -workspace.multipliers.head(rates.size()).dot(rates)};
+  return {.supplied = -model_.joints().prescribed_power(workspace.multipliers, now.time)};
 }
 
 void EnergyLedger::note(Workspace& workspace) {

@@ -51,9 +51,10 @@ void NewtonIntegrator::evaluate_corrected(Workspace& workspace, double h, double
 }
 
 // The step turns body i by exp(Δθ), which varies by J(Δθ) δΔθ; velocities vary by their own.
-std::vector<Gradient> NewtonIntegrator::by_step(const std::vector<Gradient>& G, const State& before,
-                                                const State& after) const {
-  std::vector<Gradient> out = G;
+void NewtonIntegrator::find_gradients_by_step(const State& before) {
+  const State& after = now_.state;
+  std::vector<Gradient>& out = by_step_;
+  out = now_.gradients;
   const auto turned = [&](int body, Vector6& row) {
     const auto i = static_cast<std::size_t>(body);
     const Eigen::Vector3d turn = rotation_log(after.pose[i].attitude * before.pose[i].attitude.conjugate());
@@ -65,18 +66,18 @@ std::vector<Gradient> NewtonIntegrator::by_step(const std::vector<Gradient>& G, 
     turned(c.first, out[i].first);
     if (c.second) turned(*c.second, out[i].second);
   }
-  return out;
 }
 
 // Leaving J out of the loads' derivatives costs Newton some speed, not the solution; joints have it, to close fully.
-bool NewtonIntegrator::factorise(Workspace& workspace, double h, const Trial& now) const {
+bool NewtonIntegrator::factorise(Workspace& workspace, double h) {
+  const Trial& now = now_;
   const Slopes slope = slopes(h);
   const State& loads_at = now.loads_at ? *now.loads_at : now.state;
   model().tangent(loads_at, 1, slope.load_speed, slope.load_place, workspace, workspace.matrix);
   active().constraints().add_curvature(loads_at, now.multipliers, slope.load_place, workspace.matrix);
   active().add_turning(loads_at, now.multipliers, slope.load_speed, workspace.matrix);
-  return workspace.solver.factorise(workspace.matrix, now.columns, by_step(now.gradients, workspace.state, now.state),
-                                    active().compliance());
+  find_gradients_by_step(workspace.state);
+  return workspace.solver.factorise(workspace.matrix, now.columns, by_step_, active().compliance());
 }
 
 // The correction is halved until the residual falls. \returns the part that was taken
@@ -118,7 +119,7 @@ bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& repo
     if (!std::isfinite(now_.size)) return fail("the loads are not finite");
     ++report.newton_iterations;
     const bool kept = workspace.solver.of_step == h;
-    if (!kept && !factorise(workspace, h, now_)) return fail("the iteration matrix is singular");
+    if (!kept && !factorise(workspace, h)) return fail("the iteration matrix is singular");
     anew = anew || !kept;
     workspace.solver.solve(now_.residual, now_.open, correction_);
     const double move = correction_.x.cwiseProduct(scale).norm();

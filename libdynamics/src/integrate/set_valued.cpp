@@ -14,17 +14,21 @@ double SetValuedLaws::slow(const Workspace& workspace) const {
 }
 
 // What accelerations, and loads per mass, are known to, m/s².
-double SetValuedLaws::rounding(const ActiveSet::Balance& loads) const {
-  const Eigen::VectorXd by_mass = loads.multipliers.cwiseQuotient(active_.constraint_scale().cwiseAbs2());
-  const double heaviest = by_mass.size() > 0 ? by_mass.cwiseAbs().maxCoeff() : 0;
-  return 1e-8 * std::max({loads.acceleration.cwiseAbs().maxCoeff(), heaviest, 1e-3});
+double SetValuedLaws::rounding(const Eigen::VectorXd& acceleration, const Eigen::VectorXd& multipliers) const {
+  const auto by_mass = multipliers.cwiseQuotient(active_.constraint_scale().cwiseAbs2());
+  const double heaviest = multipliers.size() > 0 ? by_mass.cwiseAbs().maxCoeff() : 0;
+  return 1e-8 * std::max({acceleration.cwiseAbs().maxCoeff(), heaviest, 1e-3});
 }
 
 // Second rate of the gap, m/s².
 double SetValuedLaws::pull(std::size_t element, const Workspace& workspace) const {
-  const JointSet alone = model_.joints().with_only(active_.contact()->closed(element));
-  const auto G = alone.gradients(workspace.state);
-  return alone.times(G, workspace.acceleration)[0] + alone.convective(workspace.state)[0];
+  const Constraint c = active_.contact()->closed(element);
+  const Gradient row = model_.joints().gradient_of(c, workspace.state);
+  const auto of_body = [&](const Vector6& part, int body) {
+    return part.dot(workspace.acceleration.segment<6>(6 * body));
+  };
+  return of_body(row.first, c.first) + (c.second ? of_body(row.second, *c.second) : 0) +
+         model_.joints().convective_of(c, workspace.state);
 }
 
 void SetValuedLaws::classify_friction(Workspace& workspace) const {
@@ -156,14 +160,13 @@ std::vector<Event> SetValuedLaws::change(Workspace& workspace, const Margin& at,
   return events;
 }
 
-SetValuedLaws::Margin SetValuedLaws::least_margin(Workspace& workspace) const {
+SetValuedLaws::Margin SetValuedLaws::least_margin(Workspace& workspace) {
   Margin least;
   const auto consider = [&](Event::Law law, std::size_t element, double value, int becomes) {
     if (value < least.value) least = {law, element, value, becomes};
   };
   const bool holds = active_.constraints().count() > model_.joints().count();
-  const auto loads = holds ? active_.balance(workspace) : ActiveSet::Balance{workspace.acceleration, {}};
-  if (!loads)
+  if (holds && !active_.find_balance(workspace, loads_.acceleration, loads_.multipliers))
     throw hydro::NumericsError(fmt::format(
         "no loads can be found at t = {} s: they are not finite or the mass is singular", workspace.state.time));
   if (active_.friction() != nullptr) {
@@ -174,13 +177,13 @@ SetValuedLaws::Margin SetValuedLaws::least_margin(Workspace& workspace) const {
         consider(Event::Law::friction, i, memory.direction[i] * active_.friction()->rate(i, workspace.state), 0);
         continue;
       }
-      const double load = loads->multipliers[row++];
+      const double load = loads_.multipliers[row++];
       consider(Event::Law::friction, i, 1 - active_.friction()->utilisation(i, load, memory, workspace.state.time),
                load > 0 ? 1 : -1);
     }
   }
   if (active_.contact() == nullptr) return least;
-  const double rounding = holds ? this->rounding(*loads) : 0;
+  const double rounding = holds ? this->rounding(loads_.acceleration, loads_.multipliers) : 0;
   Margin borne;  // of the loads of contacts
   const auto bears = [&](std::size_t element, double value, int becomes) {
     if (value < borne.value) borne = {Event::Law::contact, element, value, becomes};
@@ -192,15 +195,15 @@ SetValuedLaws::Margin SetValuedLaws::least_margin(Workspace& workspace) const {
       contact(active_.contact()->gap(i, workspace.state) + active_.rounding(), ContactState::sticks);
     if (c.row < 0) continue;
     const double mass = active_.constraint_scale()[c.row] * active_.constraint_scale()[c.row];
-    const double load = -loads->multipliers[c.row], friction = active_.contact()->element(i).friction;
+    const double load = -loads_.multipliers[c.row], friction = active_.contact()->element(i).friction;
     bears(i, load / mass + rounding, ContactState::open);
     if (c.is == ContactState::sticks)
-      bears(i, (friction * load - loads->multipliers.segment(c.row + 1, c.held).norm()) / mass + rounding,
+      bears(i, (friction * load - loads_.multipliers.segment(c.row + 1, c.held).norm()) / mass + rounding,
             ContactState::slides);
     else if (friction > 0)
       contact(c.slip.dot(active_.contact()->motion(i, workspace.state).slip), ContactState::sticks);
   }
-  if (borne.value < 0) borne = margin_of_share(borne, loads->multipliers, rounding, workspace);
+  if (borne.value < 0) borne = margin_of_share(borne, loads_.multipliers, rounding, workspace);
   if (borne.value < least.value) least = borne;
   return least;
 }
@@ -218,7 +221,7 @@ std::optional<double> SetValuedLaws::passing(const State& before, Workspace& wor
 // What holds with more than it can is let go, the most loaded first: the others may then hold. Half of the rounding
 // that least_margin() grants, so that what it found is let go.
 bool SetValuedLaws::release(Workspace& workspace) {
-  const double rounding = this->rounding({workspace.acceleration, workspace.multipliers});
+  const double rounding = this->rounding(workspace);
   double most = 0;
   std::function<void()> let_go;
   if (active_.friction() != nullptr) {
@@ -271,7 +274,7 @@ bool SetValuedLaws::close_what_would_overlap(Workspace& workspace) {
     if (c.is != ContactState::open) continue;
     const ContactLaw::Motion motion = active_.contact()->motion(i, workspace.state);
     if (motion.closest_points.gap > closed || std::abs(motion.parting) > slow(workspace)) continue;
-    if (pull(i, workspace) >= -rounding({workspace.acceleration, workspace.multipliers})) continue;
+    if (pull(i, workspace) >= -rounding(workspace)) continue;
     c.is = active_.contact()->element(i).friction > 0 ? ContactState::sticks : ContactState::slides;
     any = true;
   }
@@ -290,27 +293,32 @@ void SetValuedLaws::settle(Workspace& workspace) {
                   workspace.state.time));
 }
 
-Eigen::VectorXd SetValuedLaws::slip_power(Workspace& workspace) const {
-  if (active_.contact() == nullptr) return {};
-  Eigen::VectorXd power = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(active_.contact()->elements()));
+/// Power of the slip of each contact, W.
+void SetValuedLaws::find_slip_power(Workspace& workspace, Eigen::VectorXd& power) const {
+  if (active_.contact() == nullptr) return;
+  power.setZero(static_cast<Eigen::Index>(active_.contact()->elements()));
   for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
     const ContactState& c = active_.contact_memory(workspace).contact[i];
     if (c.is != ContactState::slides || c.row < 0) continue;
     power[static_cast<Eigen::Index>(i)] = active_.contact()->element(i).friction * -workspace.multipliers[c.row] *
                                           active_.contact()->motion(i, workspace.state).slip.norm();
   }
-  return power;
 }
 
-void SetValuedLaws::note_work(const State& before, const Eigen::VectorXd& power_before, Workspace& workspace) const {
+void SetValuedLaws::begin_work(Workspace& workspace) {
+  before_ = workspace.state;
+  find_slip_power(workspace, slip_power_before_);
+}
+
+void SetValuedLaws::note_work(Workspace& workspace) {
   if (active_.friction() != nullptr)
-    active_.friction()->note_work(before, workspace.state, active_.friction_memory(workspace));
+    active_.friction()->note_work(before_, workspace.state, active_.friction_memory(workspace));
   if (active_.contact() == nullptr) return;
-  const Eigen::VectorXd power = slip_power(workspace);
+  find_slip_power(workspace, slip_power_);
   auto& contacts = active_.contact_memory(workspace).contact;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    contacts[i].dissipated += (workspace.state.time - before.time) * (power_before[at] + power[at]) / 2;
+    contacts[i].dissipated += (workspace.state.time - before_.time) * (slip_power_before_[at] + slip_power_[at]) / 2;
   }
 }
 

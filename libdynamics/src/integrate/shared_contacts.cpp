@@ -62,7 +62,7 @@ SetValuedLaws::Margin SetValuedLaws::margin_of_share(const Margin& even, const V
 void SetValuedLaws::share_loads(Workspace& workspace) {
   if (active_.contact() == nullptr) return;
   bool all_bear = !shares_;
-  const double granted = rounding({workspace.acceleration, workspace.multipliers});
+  const double granted = rounding(workspace);
   for (std::size_t i = 0; all_bear && i < active_.contact()->elements(); ++i) {
     const ContactState& c = active_.contact_memory(workspace).contact[i];
     if (c.row < 0) continue;

@@ -39,7 +39,8 @@ bool SundialsBdf::try_step(Workspace& workspace, double h, StepReport& report) {
   const auto outcome = solver_->run(rates, y, allowed, h);
   workspace.state = start;
   report.newton_iterations += static_cast<int>(outcome.iterations);
-  if (!outcome.good || !arrive(model(), active(), state_of(y, h), workspace))
+  State end = state_of(y, h);
+  if (!outcome.good || !arrive(model(), active(), end, workspace))
     return fail(fmt::format("CVODE gives up after {:.3g} s of the step", outcome.reached));
   return true;
 }

@@ -82,9 +82,6 @@ std::vector<ConstraintLaw> constraints_of(const Joint& joint, const JointArms& a
   return out;
 }
 
-/// Of a joint's place in the frame of one of its two.
-const Eigen::Vector3d& arm_of(const JointArms& arms, End end) { return end == End::first ? arms.first : arms.second; }
-
 void set_locked_to_zero(Vector6& row, const std::array<bool, 6>& free) {
   for (int i = 0; i < 6; ++i)
     if (!free[static_cast<std::size_t>(i)]) row[i] = 0;
@@ -143,11 +140,13 @@ Eigen::VectorXd JointSet::values(const State& state) const {
 
 void JointSet::find_gradients(const State& state, std::vector<Gradient>& G) const {
   G.resize(constraints_.size());
-  for (std::size_t i = 0; i < constraints_.size(); ++i) {
-    const Constraint& c = constraints_[i];
-    G[i] = std::visit([&](const auto& what) { return gradient(what, ends_of(c, state)); }, c.what);
-    keep_free(c.first, c.second, G[i]);
-  }
+  for (std::size_t i = 0; i < constraints_.size(); ++i) G[i] = gradient_of(constraints_[i], state);
+}
+
+Gradient JointSet::gradient_of(const Constraint& c, const State& state) const {
+  Gradient row = std::visit([&](const auto& what) { return gradient(what, ends_of(c, state)); }, c.what);
+  keep_free(c.first, c.second, row);
+  return row;
 }
 
 std::vector<Gradient> JointSet::gradients(const State& state) const {
@@ -231,17 +230,25 @@ void JointSet::add_curvature(const State& state, const Eigen::VectorXd& lambda, 
 }
 
 Eigen::VectorXd JointSet::convective(const State& state) const {
-  Eigen::VectorXd out(count());
-  for (std::size_t i = 0; i < constraints_.size(); ++i) {
-    const Constraint& c = constraints_[i];
-    Vector12 v = Vector12::Zero();
-    v.head<6>() = state.twist(c.first);
-    if (c.second) v.tail<6>() = state.twist(*c.second);
-    const Matrix12 H = std::visit([&](const auto& what) { return curvature(what, ends_of(c, state)); }, c.what);
-    out[static_cast<Eigen::Index>(i)] = v.dot(H * v);
-    if (const auto* prescribed = std::get_if<PrescribedConstraint>(&c.what))
-      out[static_cast<Eigen::Index>(i)] -= prescribed->motion(state.time).acceleration;
-  }
+  Eigen::VectorXd out;
+  find_convective(state, out);
+  return out;
+}
+
+void JointSet::find_convective(const State& state, Eigen::VectorXd& out) const {
+  out.resize(count());
+  for (std::size_t i = 0; i < constraints_.size(); ++i)
+    out[static_cast<Eigen::Index>(i)] = convective_of(constraints_[i], state);
+}
+
+double JointSet::convective_of(const Constraint& c, const State& state) const {
+  Vector12 v = Vector12::Zero();
+  v.head<6>() = state.twist(c.first);
+  if (c.second) v.tail<6>() = state.twist(*c.second);
+  const Matrix12 H = std::visit([&](const auto& what) { return curvature(what, ends_of(c, state)); }, c.what);
+  double out = v.dot(H * v);
+  if (const auto* prescribed = std::get_if<PrescribedConstraint>(&c.what))
+    out -= prescribed->motion(state.time).acceleration;
   return out;
 }
 
@@ -257,116 +264,12 @@ Eigen::VectorXd JointSet::prescribed_rates(double time) const {
   return out;
 }
 
-namespace {
-
-/// Rows of one end in the gradient or curvature of a constraint: the first six or the last.
-constexpr int row_of(End end) { return end == End::first ? 0 : 6; }
-
-Vector6 part_of(const Gradient& g, End end) { return end == End::first ? g.first : g.second; }
-
-/// A load about the centre of gravity, carried to a point `arm` from there.
-void carry(const Eigen::Vector3d& arm, Eigen::Ref<Eigen::MatrixXd> load) {
-  load.bottomRows<3>() -= cross_matrix(arm) * load.topRows<3>();
-}
-
-}  // namespace
-
-Vector6 JointSet::load_on(int joint, End end, const State& state, const Eigen::VectorXd& lambda) const {
-  const Joint& j = joints_[static_cast<std::size_t>(joint)];
-  const auto body = static_cast<std::size_t>(end == End::first ? j.first : j.second.value());
-  const Eigen::Matrix3d to_body = state.pose[body].attitude.toRotationMatrix().transpose();
-  Vector6 load = Vector6::Zero();
-  for (std::size_t i = 0; i < constraints_.size(); ++i) {
-    const Constraint& c = constraints_[i];
-    if (c.joint != joint) continue;
-    const Gradient g = std::visit([&](const auto& what) { return gradient(what, ends_of(c, state)); }, c.what);
-    load -= lambda[static_cast<Eigen::Index>(i)] * part_of(g, end);
-  }
-  Eigen::MatrixXd out(6, 1);
-  out << to_body * load.head<3>(), to_body * load.tail<3>();
-  carry(arm_of(arms_[static_cast<std::size_t>(joint)], end), out);
-  return out;
-}
-
-// Body axes turn with the body: δ(Rᵀf) = δf − θ × f where R is one (D17).
-std::vector<Variation> JointSet::load_variations(int joint, End end, const State& still,
-                                                 const Eigen::VectorXd& lambda) const {
-  const Joint& j = joints_[static_cast<std::size_t>(joint)];
-  const auto body = static_cast<std::size_t>(end == End::first ? j.first : j.second.value());
-  Eigen::MatrixXd told = Eigen::MatrixXd::Zero(6, 6);  // of a load about the centre of gravity, global axes
-  told.topLeftCorner<3, 3>() = still.pose[body].attitude.toRotationMatrix().transpose();
-  told.bottomRightCorner<3, 3>() = told.topLeftCorner<3, 3>();
-  carry(arm_of(arms_[static_cast<std::size_t>(joint)], end), told);
-  Eigen::Matrix<double, 6, 12> by_motion = Eigen::Matrix<double, 6, 12>::Zero();
-  std::vector<std::pair<Eigen::Index, Vector6>> by_multiplier;
-  for (std::size_t i = 0; i < constraints_.size(); ++i) {
-    const Constraint& c = constraints_[i];
-    if (c.joint != joint) continue;
-    const auto index = static_cast<Eigen::Index>(i);
-    const ConstraintEnds at = ends_of(c, still);
-    const Vector6 p = part_of(std::visit([&](const auto& what) { return gradient(what, at); }, c.what), end);
-    const Matrix12 H = std::visit([&](const auto& what) { return curvature(what, at); }, c.what);
-    by_motion -= lambda[index] * told * H.middleRows<6>(row_of(end));
-    by_motion.middleCols<3>(row_of(end) + 3) -= lambda[index] * (told.leftCols<3>() * cross_matrix(p.head<3>()) +
-                                                                 told.rightCols<3>() * cross_matrix(p.tail<3>()));
-    by_multiplier.emplace_back(index, -told * p);
-  }
-  std::vector<Variation> out;
-  for (int component = 0; component < 6; ++component) {
-    out.push_back(variation_of_two(j.first, j.second, by_motion.row(component)));
-    for (const auto& [index, column] : by_multiplier) out.back().by_multiplier.emplace_back(index, column[component]);
-  }
-  return out;
-}
-
-Signal JointSet::coordinate_signal(int joint) const {
-  const Joint& j = joints_[static_cast<std::size_t>(joint)];
-  const bool turns = j.kind == JointKind::hinge;
-  return {
-      .name = j.name + (turns ? ".angle" : ".stroke"),
-      .unit = turns ? "rad" : "m",
-      .meaning = fmt::format("{} of {}, the second against the first", turns ? "angle" : "stroke", j.name),
-      .value = [along = coordinate_of(joint), sign = j.sign](const Reading& r) { return sign * along.value(r.state); },
-      .variation =
-          [along = coordinate_of(joint), sign = j.sign](const Still& still) {
-            return variation_of_two(along.first(), along.second(),
-                                    sign * joined(along.gradient(still.state)).transpose());
-          }};
-}
-
-std::vector<Signal> JointSet::load_signals(int joint, End end, const std::string& body) const {
-  constexpr const char* component[] = {"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"};
-  const std::string on = joints_[static_cast<std::size_t>(joint)].name + "." + body;
-  std::vector<Signal> out;
-  for (int i = 0; i < 6; ++i)
-    out.push_back(
-        {.name = fmt::format("{}.{}", on, component[i]),
-         .unit = load_unit(i),
-         .meaning = fmt::format("load of the joint on {}, about the joint, body axes", on),
-         .value = [this, joint, end, i](const Reading& r) { return load_on(joint, end, r.state, r.multipliers)[i]; },
-         .variation =
-             [this, joint, end, i](const Still& still) {
-               const auto all = [&] { return load_variations(joint, end, still.state, still.multipliers); };
-               return still.once(&arm_of(arms_[static_cast<std::size_t>(joint)], end),
-                                 all)[static_cast<std::size_t>(i)];
-             }});
-  return out;
-}
-
-std::vector<Signal> JointSet::signals(const std::vector<RigidBody>& bodies) const {
-  std::vector<Signal> out;
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    const Joint& joint = joints_[j];
-    const int index = static_cast<int>(j);
-    if (joint.kind == JointKind::hinge || joint.kind == JointKind::slider) out.push_back(coordinate_signal(index));
-    const auto add_loads = [&](End end, int body) {
-      for (Signal& s : load_signals(index, end, bodies[static_cast<std::size_t>(body)].name()))
-        out.push_back(std::move(s));
-    };
-    add_loads(End::first, joint.first);
-    if (joint.second) add_loads(End::second, *joint.second);
-  }
-  return out;
+double JointSet::prescribed_power(const Eigen::VectorXd& lambda, double time) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < constraints_.size(); ++i)
+    if (const auto* prescribed = std::get_if<PrescribedConstraint>(&constraints_[i].what))
+      sum += lambda[static_cast<Eigen::Index>(i)] * prescribed->motion(time).rate;
+  return sum;
 }
 
 JointCoordinate JointSet::coordinate_of(int joint) const {

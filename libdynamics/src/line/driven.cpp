@@ -70,6 +70,8 @@ struct DrivenLine::Work {
     Pulls pulls = {};
     std::string failure = {};
   } tried = {};
+  State moved;  // room for look()
+  Stepper::Balance balance;
 
   Work(Description d, std::vector<int> nodes, double rho)
       : prescribed(std::move(nodes)),
@@ -83,7 +85,7 @@ struct DrivenLine::Work {
   void stay() const;
   void try_step(double t);
   void look(const std::vector<End>& ends);
-  Pulls nothing(double value) const;
+  void pull(double force);
 };
 
 DrivenLine::DrivenLine(Description description, std::vector<int> prescribed, double rho_infinity)
@@ -94,9 +96,12 @@ DrivenLine::DrivenLine(Description description, std::vector<int> prescribed, dou
 
 DrivenLine::~DrivenLine() = default;
 
-DrivenLine::Pulls DrivenLine::Work::nothing(double value) const {
+/// Pulls with that in each direction, whatever the ends do.
+void DrivenLine::Work::pull(double force) {
   const auto n = static_cast<Eigen::Index>(prescribed.size());
-  return {Places::Constant(3, n, value), Eigen::MatrixXd::Zero(3 * n, 3 * n), Eigen::MatrixXd::Zero(3 * n, 3 * n)};
+  tried.pulls.force.setConstant(3, n, force);
+  tried.pulls.by_place.setZero(3 * n, 3 * n);
+  tried.pulls.by_velocity.setZero(3 * n, 3 * n);
 }
 
 /// Everything stays where it was accepted.
@@ -146,28 +151,30 @@ void DrivenLine::Work::try_step(double t) {
   tried.state = state;
   try {
     stepper.step(tried.state, h);
-    auto found = stepper.response(prescribed, (1 - alpha.alpha_m) / ((1 - alpha.alpha_f) * alpha.gamma * h));
-    tried.pulls = {-found.force, -found.by_place, -found.by_velocity};
+    const Response& found = stepper.response(prescribed, (1 - alpha.alpha_m) / ((1 - alpha.alpha_f) * alpha.gamma * h));
+    tried.pulls.force = -found.force;
+    tried.pulls.by_place = -found.by_place;
+    tried.pulls.by_velocity = -found.by_velocity;
   } catch (const hydro::NumericsError& e) {
     tried.failure = e.what();
-    tried.pulls = nothing(std::numeric_limits<double>::quiet_NaN());
+    pull(std::numeric_limits<double>::quiet_NaN());
   }
 }
 
 /// Pulls of this instant, its ends moved to where they are asked for.
 void DrivenLine::Work::look(const std::vector<End>& ends) {
   stay();
-  State at = state;
+  moved = state;
   for (std::size_t k = 0; k < prescribed.size(); ++k) {
-    at.position.col(prescribed[k]) = ends[k].position;
-    at.velocity.col(prescribed[k]) = ends[k].velocity;
+    moved.position.col(prescribed[k]) = ends[k].position;
+    moved.velocity.col(prescribed[k]) = ends[k].velocity;
     ways[k]->end.velocity = ends[k].velocity;
   }
-  tried.pulls = nothing(0);
-  const auto found = stepper.balance(at);
+  pull(0);
+  const bool found = stepper.find_balance(moved, balance);
   for (std::size_t k = 0; k < prescribed.size(); ++k)
     tried.pulls.force.col(static_cast<Eigen::Index>(k)) =
-        found ? Vector3d(-found->holding.col(prescribed[k]))
+        found ? Vector3d(-balance.holding.col(prescribed[k]))
               : Vector3d(Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
 }
 
@@ -204,10 +211,9 @@ const State& DrivenLine::state() const { return work_->state; }
 const Energies& DrivenLine::energies() const { return work_->stepper.energies(); }
 Stepper::Flow DrivenLine::flow() const { return work_->stepper.flow(); }
 
-Stepper::Balance DrivenLine::balance() {
-  auto found = work_->stepper.balance(work_->state);
-  hydro::ensure(found.has_value(), "a line with masses has accelerations");
-  return std::move(*found);
+void DrivenLine::find_balance(Stepper::Balance& out) {
+  const bool found = work_->stepper.find_balance(work_->state, out);
+  hydro::ensure(found, "a line with masses has accelerations");
 }
 
 }  // namespace dynamics::line

@@ -13,15 +13,13 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 }  // namespace
 
-Stage instant(const State& state, const Places& a) {
-  return {.t = state.time,
-          .end = state.time,
-          .h = 0,
-          .x_by = 0,
-          .v_by = 0,
-          .a_by = 1,
-          .v_from = state.velocity,
-          .a_from = a};
+void set_instant(const State& state, const Places& a, Stage& out) {
+  out.t = out.end = state.time;
+  out.h = out.x_by = out.v_by = 0;
+  out.a_by = 1;
+  out.v_from = state.velocity;
+  out.a_from = a;
+  out.mean = out.still = false;
 }
 
 Equations::Equations(const Line& line)
@@ -29,9 +27,16 @@ Equations::Equations(const Line& line)
       loads_(line),
       matrix_(4 * line.nodes(), line.bends() ? Reach::next_neighbours : Reach::neighbours),
       rhs_(4 * line.nodes()),
-      law_(line.segments()) {
+      law_(line.segments()),
+      by_{Places(3, line.nodes()), VectorXd(line.segments())},
+      from_(by_),
+      follow_{.here = {}, .end = {}, .by = {}, .y = {}, .matrix = matrix_, .of_rest = {}, .total = {}} {
   blocks_.set_zero(line.nodes(), line.segments());
-  x_ = v_ = a_ = force_ = residual_ = Places::Zero(3, line.nodes());
+  x_ = v_ = a_ = force_ = residual_ = none_ = whole_ = Places::Zero(3, line.nodes());
+  for (int j = 0; j < line.segments(); ++j) {
+    any_inextensible_ = any_inextensible_ || line.segment(j).is_inextensible();
+    any_catenary_ = any_catenary_ || line.segment(j).catenary;
+  }
   push_.resize(static_cast<std::size_t>(line.nodes()));
   sag_.resize(static_cast<std::size_t>(line.segments()));
   if (line.is_network()) network_ = std::make_unique<NetworkSolver>(line);
@@ -247,16 +252,14 @@ void Equations::scale_for(const Stage& stage, const VectorXd& T) {
   scale_ = std::max(scale_, line_.hardest_bending());
 }
 
-/// As much of a correction as brings what is left over down, halved up to twelve times; its size is returned.
-double Equations::search(const Stage& stage, const State& before, const Correction& by, double size, bool enough,
-                         Places& u, VectorXd& T) {
+/// As much of the correction, added to `from_`, as brings what is left over down, halved up to twelve times; its size
+/// is returned.
+double Equations::search(const Stage& stage, const State& before, double size, bool enough, Places& u, VectorXd& T) {
   constexpr int halvings = 12;
-  const Places from = u;
-  const VectorXd from_T = T;
   double share = 1, left = 0;
   for (int cut = 0; cut < halvings; ++cut, share /= 2) {
-    u = from + share * by.u;
-    T = from_T + share * by.T;
+    u = from_.u + share * by_.u;
+    T = from_.T + share * by_.T;
     left = assemble(stage, before, u, T, true);
     if (left <= (1 - 1e-4 * share) * size || enough) break;
   }
@@ -283,24 +286,23 @@ Equations::Outcome Equations::solve(const Stage& stage, const State& before, dou
   const double balanced = 4e-16 * extent * std::sqrt(static_cast<double>(rhs_.size()));  // all that doubles can tell
   // At rest a straight line between two places has a length that nothing can change: its rounding asks for no tension.
   met_ = stage.still ? 4e-16 * extent : 0;
-  Correction by{Places(3, line_.nodes()), VectorXd(line_.segments())};
   Outcome out;
   out.size = assemble(stage, before, u, T, true);
   for (out.iterations = 1; out.iterations <= most; ++out.iterations) {
-    if (!std::isfinite(out.size) || !solve_linear(by.u, by.T)) {
+    if (!std::isfinite(out.size) || !solve_linear(by_.u, by_.T)) {
       out.why = "its equations are singular or not finite";
       break;
     }
-    const Places last_u = u;
-    const VectorXd last_T = T;
-    const double step = by.u.cwiseAbs().maxCoeff(), pull = by.T.cwiseAbs().maxCoeff();
-    const double size = search(stage, before, by, out.size, step <= rounding, u, T);
+    from_.u = u;
+    from_.T = T;
+    const double step = by_.u.cwiseAbs().maxCoeff(), pull = by_.T.cwiseAbs().maxCoeff();
+    const double size = search(stage, before, out.size, step <= rounding, u, T);
     const bool small = step <= std::max(tolerance * u.cwiseAbs().maxCoeff(), rounding) &&
                        pull <= std::max(tolerance * T.cwiseAbs().maxCoeff(), scale_ * step);
     const bool falls = size <= out.size;
     if (!falls && (out.size <= balanced || !small)) {
-      u = last_u;
-      T = last_T;
+      u = from_.u;
+      T = from_.T;
       out.converged = out.size <= balanced;
       if (!out.converged) out.why = "no part of Newton's correction brings it nearer to balance";
       break;

@@ -24,6 +24,17 @@ struct Stage {
   bool still = false;       ///< at rest: no masses, held nodes without velocity (D86)
   double relax = 0;         ///< (relax) u resists: steps towards rest, N/m
   double rounding = 1e-14;  ///< of places, below which no correction means anything, relative to the farthest
+
+  void set(double of_balance, double of_end, double duration) {
+    t = of_balance;
+    end = of_end;
+    h = duration;
+  }
+  void set_factors(double x, double v, double a) {
+    x_by = x;
+    v_by = v;
+    a_by = a;
+  }
 };
 
 /// Powers at a stage, W; means over the step if the stage is one.
@@ -33,8 +44,8 @@ struct Powers : LoadPowers {
   double held = 0;            ///< supplied by what holds nodes
 };
 
-/// The balance of a state with accelerations a, as a stage.
-Stage instant(const State& state, const Places& a);
+/// Makes `out` the balance of a state with accelerations a: an instant, which it asks no memory for once it has room.
+void set_instant(const State& state, const Places& a, Stage& out);
 
 class Equations {
  public:
@@ -60,12 +71,12 @@ class Equations {
 
   /// What nodes with prescribed motion need at the end of a step with places u and tensions T, and how it follows them
   /// while the rest of the line moves as the step has it; their accelerations follow their velocities by `a_by_v`.
-  /// (D90)
-  Response response(const Stage& stage, const State& before, const Places& u, const Eigen::VectorXd& T,
-                    const std::vector<int>& prescribed, double a_by_v);
+  /// (D90) The answer stands until the next one.
+  const Response& response(const Stage& stage, const State& before, const Places& u, const Eigen::VectorXd& T,
+                           const std::vector<int>& prescribed, double a_by_v);
 
   /// What held nodes need besides loads and pulls, N.
-  Places holding(const State& state, const Places& a, const Eigen::VectorXd& T);
+  void find_holding(const State& state, const Places& a, const Eigen::VectorXd& T, Places& out);
 
   Powers powers(const Stage& stage, const State& before, const Places& u, const Eigen::VectorXd& T);
   /// Stored in stretched segments, and in the bed, J.
@@ -102,8 +113,12 @@ class Equations {
   static int place_index(int node) { return 4 * node + 1; }
   void move(const Stage& stage, const State& before, const Places& u);
   Pull pull(int j, const Stage& stage, const State& before, double T) const;
-  BandMatrix::Columns columns_of(const std::vector<int>& prescribed);
-  Eigen::MatrixXd rows_times(const std::vector<int>& prescribed, const BandMatrix::Columns& y);
+  void find_columns(const std::vector<int>& prescribed, Eigen::Ref<BandMatrix::Columns> out);
+  void add_rows_times(const std::vector<int>& prescribed, const BandMatrix::Columns& y, Eigen::MatrixXd& out);
+  void find_columns_of_motion(const Stage& stage, const Eigen::VectorXd& T, const std::vector<int>& prescribed,
+                              double a_by_v);
+  void follow(double v_by, double a_by, const Eigen::VectorXd& T);
+  bool solve_columns();
   /// From the first to the second node of a segment, of places or velocities.
   Eigen::Vector3d along(const Places& x, int j) const { return x.col(line_.first(j) + 1) - x.col(line_.first(j)); }
   void keep_held();
@@ -128,8 +143,7 @@ class Equations {
     Eigen::VectorXd T;
   };
   void scale_for(const Stage& stage, const Eigen::VectorXd& T);
-  double search(const Stage& stage, const State& before, const Correction& by, double size, bool enough, Places& u,
-                Eigen::VectorXd& T);
+  double search(const Stage& stage, const State& before, double size, bool enough, Places& u, Eigen::VectorXd& T);
   int worst_node() const;
   void scale_by_mass();
   void assemble_projection(const Places& along, const Places& x);
@@ -144,8 +158,22 @@ class Equations {
   std::vector<Push> push_;              // of the bed, each node
   std::vector<Sag> sag_;                // each segment
   Eigen::Matrix2Xd friction_, strain_;  // on each node, N, and what the bed has given way under it, m; empty without
-  double scale_ = 1;                    // what makes newtons and metres comparable, N/m
-  double met_ = 0;                      // m: what is left of a kept length and asks for no correction
+  bool any_inextensible_ = false, any_catenary_ = false;
+  // What is made on the way, kept from call to call, so that a step asks for no memory.
+  Correction by_, from_;  // Newton's, and what it is added to
+  Places none_, whole_;   // zeros; what is left over with all that acts
+  Stage instant_;
+  State still_;
+  struct {
+    Stage here;
+    State end;
+    BandMatrix::Columns by, y;  // by what the prescribed nodes do; what the rest of the line does then
+    BandMatrix matrix;
+    Eigen::MatrixXd of_rest, total;  // of the force on the prescribed nodes
+    Response found = {};
+  } follow_;
+  double scale_ = 1;  // what makes newtons and metres comparable, N/m
+  double met_ = 0;    // m: what is left of a kept length and asks for no correction
 };
 
 }  // namespace dynamics::line

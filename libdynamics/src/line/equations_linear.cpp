@@ -16,26 +16,24 @@ void Equations::scale_by_mass() {
 
 bool Equations::accelerations(const State& state, Places& a, VectorXd& T) {
   scale_by_mass();
-  a = Places::Zero(3, line_.nodes());
-  T = VectorXd::Zero(line_.segments());
-  const Stage now = instant(state, a);
-  move(now, state, a);
+  a.setZero(3, line_.nodes());
+  T.setZero(line_.segments());
+  set_instant(state, a, instant_);
+  move(instant_, state, a);
   for (int j = 0; j < line_.segments(); ++j)
-    if (line_.segment(j).catenary) T[j] = tension_of_sag(j, now, state);
-  assemble(now, state, a, T, true);
-  const Places prescribed = a_;  // of nodes along paths
-  VectorXd dT(line_.segments());
-  if (!solve_linear(a, dT)) return false;
-  T += dT;
-  a += prescribed;
+    if (line_.segment(j).catenary) T[j] = tension_of_sag(j, instant_, state);
+  assemble(instant_, state, a, T, true);
+  if (!solve_linear(a, by_.T)) return false;
+  T += by_.T;
+  a += a_;  // of nodes along paths
   return true;
 }
 
-Places Equations::holding(const State& state, const Places& a, const VectorXd& T) {
-  assemble(instant(state, a), state, Places::Zero(3, line_.nodes()), T, false);
-  Places out = Places::Zero(3, line_.nodes());
+void Equations::find_holding(const State& state, const Places& a, const VectorXd& T, Places& out) {
+  set_instant(state, a, instant_);
+  assemble(instant_, state, none_, T, false);
+  out.setZero(3, line_.nodes());
   for (const Held& h : line_.description().held) out.col(h.node) = residual_.col(h.node);
-  return out;
 }
 
 /// M δ + Gᵀ μ = 0 and G δ = −law_ in the matrix, G the lengths that are kept, along `along`, and their derivative at x.
@@ -62,30 +60,24 @@ void Equations::assemble_projection(const Places& along, const Places& x) {
 }
 
 bool Equations::project_velocity(const State& state, Places& v) {
-  bool any = false;
-  for (int j = 0; j < line_.segments(); ++j) any = any || line_.segment(j).is_inextensible();
-  if (!any) return true;
+  if (!any_inextensible_) return true;
   assemble_projection(state.position, state.position);
   for (int j = 0; j < line_.segments(); ++j)
     if (line_.segment(j).is_inextensible()) law_[j] = along(state.position, j).normalized().dot(along(v, j));
-  Places dv(3, line_.nodes());
-  VectorXd impulse(line_.segments());
-  if (!solve_linear(dv, impulse)) return false;
-  v += dv;
+  if (!solve_linear(by_.u, by_.T)) return false;
+  v += by_.u;
   return true;
 }
 
 bool Equations::project_place(const Places& from, double tolerance, Places& x) {
-  Places dx(3, line_.nodes());
-  VectorXd impulse(line_.segments());
   constexpr int most = 50;
   for (int i = 0; i < most; ++i) {
     assemble_projection(from, x);
     for (int j = 0; j < line_.segments(); ++j)
       if (line_.segment(j).is_inextensible()) law_[j] = along(x, j).norm() - line_.segment(j).length;
     const double open = law_.cwiseAbs().maxCoeff();
-    if (!solve_linear(dx, impulse)) return false;
-    x += dx;
+    if (!solve_linear(by_.u, by_.T)) return false;
+    x += by_.u;
     if (open <= tolerance) return true;
   }
   return false;
@@ -100,11 +92,11 @@ Powers Equations::powers(const Stage& stage, const State& before, const Places& 
   if (rubs()) out.friction = -friction_.cwiseProduct(v_.topRows<2>()).sum();
   // What holds a node gives its force times the way; but of the force on the masses, times the mean of the velocities,
   // as their kinetic energy has it.
-  const Places all = residual_;
+  whole_ = residual_;
   residual_.setZero();
   add_mass(a_);
   for (const Held& h : line_.description().held) {
-    const Vector3d inertia = residual_.col(h.node), rest = all.col(h.node) - inertia, v = v_.col(h.node);
+    const Vector3d inertia = residual_.col(h.node), rest = whole_.col(h.node) - inertia, v = v_.col(h.node);
     const Vector3d mean = stage.mean ? Vector3d(before.velocity.col(h.node) + stage.h / 2 * a_.col(h.node)) : v;
     out.held += inertia.dot(mean) + rest.dot(v);
   }
@@ -121,17 +113,18 @@ double Equations::kinetic(const Places& v) const {
 
 double Equations::stored_in_segments(const State& state) {
   double sum = 0;
-  State still = state;
-  still.velocity.setZero();
-  const Places none = Places::Zero(3, line_.nodes());
-  move(instant(still, none), still, none);
+  if (any_catenary_) {
+    still_ = state;
+    still_.velocity.setZero();
+    set_instant(still_, none_, instant_);
+    move(instant_, still_, none_);
+  }
   for (int j = 0; j < line_.segments(); ++j) {
     const Segment& s = line_.segment(j);
     if (s.is_inextensible()) continue;
     if (s.catenary) {
-      const double T = tension_of_sag(j, instant(still, none), still), r = along(x_, j).norm();
-      sum += T * (r - s.length) - T * T * s.length / (2 * s.axial_stiffness) +
-             pull(j, instant(still, none), still, T).sag.stored;
+      const double T = tension_of_sag(j, instant_, still_), r = along(x_, j).norm();
+      sum += T * (r - s.length) - T * T * s.length / (2 * s.axial_stiffness) + pull(j, instant_, still_, T).sag.stored;
       continue;
     }
     double stretch = along(state.position, j).norm() - s.length;

@@ -167,9 +167,9 @@ void Loads::add_water(int j, const Motion& now, const By& by, Places& force, Blo
 
 LoadPowers Loads::powers(const Motion& now) {
   LoadPowers out;
-  Places force = Places::Zero(3, line_.nodes());
-  add_node_forces(now, {0, 0, 0}, force, nullptr);
-  out.damping = -force.cwiseProduct(now.v).sum();
+  node_forces_.setZero(3, line_.nodes());
+  add_node_forces(now, {0, 0, 0}, node_forces_, nullptr);
+  out.damping = -node_forces_.cwiseProduct(now.v).sum();
   const auto& surroundings = line_.description().water;
   const bool wet = surroundings.wet != Wet::nothing;
   if (!wet && !line_.has_spheres()) return out;

@@ -53,6 +53,7 @@ class Loads {
   const Line& line_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<hydro::waves::Kinematics> water_;
+  Places node_forces_;  // force of it alone; kept, so that powers() asks for no memory
 };
 
 }  // namespace dynamics::line

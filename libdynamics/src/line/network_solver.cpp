@@ -1,28 +1,38 @@
 #include "network_solver.hpp"
 
-#include <Eigen/KLUSupport>
-#include <Eigen/Sparse>
-
 #include <algorithm>
 #include <cmath>
+
+#include "algebra/kept_lu.hpp"
 
 namespace dynamics::line {
 namespace {
 
 int place_row(int node) { return 4 * node + 1; }
 
-/// Tells how much its factors hold.
-struct CountedLu : Eigen::KLU<Eigen::SparseMatrix<double>> {
-  long entries() const { return m_numeric == nullptr ? 0 : m_numeric->lnz + m_numeric->unz; }
-};
-
 }  // namespace
 
 struct NetworkSolver::Border {
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::SparseMatrix<double> matrix;
-  CountedLu lu;
-  bool ordered = false;
+  std::vector<std::size_t> place;  // of each entry, in their order, among the values of `matrix`
+  KeptSparseLu lu;
+
+  /// Entries of one place are added up, in their order.
+  void fill(int size) {
+    if (place.empty()) sort(size);
+    std::fill_n(matrix.valuePtr(), matrix.nonZeros(), 0.0);
+    for (std::size_t k = 0; k < entries.size(); ++k) matrix.valuePtr()[place[k]] += entries[k].value();
+  }
+
+ private:
+  void sort(int size) {
+    matrix.resize(size, size);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    place.reserve(entries.size());
+    for (const auto& e : entries)
+      place.push_back(static_cast<std::size_t>(&matrix.coeffRef(e.row(), e.col()) - matrix.valuePtr()));
+  }
 };
 
 NetworkSolver::NetworkSolver(const Line& line) : size_(4 * line.nodes()), matrix_(std::make_unique<Border>()) {
@@ -34,7 +44,7 @@ NetworkSolver::NetworkSolver(const Line& line) : size_(4 * line.nodes()), matrix
 
 NetworkSolver::~NetworkSolver() = default;
 
-long NetworkSolver::factor_entries() const { return matrix_->ordered ? matrix_->lu.entries() : 0; }
+long NetworkSolver::factor_entries() const { return matrix_->lu.entries(); }
 
 /// Between two stops one tension goes to the border: a straight stretch of fixed lengths has one more of them than its
 /// nodes can balance while both stops stay where they are. The rest hangs from one stop, which always has a solution.
@@ -93,9 +103,11 @@ void NetworkSolver::find_rows(const Line& line) {
 void NetworkSolver::take_out(BandMatrix& matrix, const BandMatrix::Columns& b) {
   const int half = matrix.half(), room = 2 * half + 1;
   width_ = static_cast<int>(b.cols());
-  work_.setZero(size_, width_ + columns);
-  work_.leftCols(width_) = b;
-  kept_.resize(static_cast<Eigen::Index>(rows_.size()), width_);
+  room_ = width_ == 1 ? &single_ : &several_;
+  BandMatrix::Columns& work = room_->work;
+  work.setZero(size_, width_ + columns);
+  work.leftCols(width_) = b;
+  room_->kept.resize(static_cast<Eigen::Index>(rows_.size()), width_);
   saved_.assign(rows_.size() * static_cast<std::size_t>(room), 0);
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     const int at = rows_[k].at;
@@ -108,8 +120,8 @@ void NetworkSolver::take_out(BandMatrix& matrix, const BandMatrix::Columns& b) {
     }
     scale_[k] = largest > 0 ? largest : 1;
     matrix(at, at) = scale_[k];
-    kept_.row(static_cast<Eigen::Index>(k)) = b.row(at);
-    work_.row(at).setZero();
+    room_->kept.row(static_cast<Eigen::Index>(k)) = b.row(at);
+    work.row(at).setZero();
   }
 }
 
@@ -118,7 +130,7 @@ void NetworkSolver::put_units() {
     const Row& row = rows_[k];
     const int column =
         row.own < 0 ? 6 : 3 * colour_of_[static_cast<std::size_t>(row.at / 4)] + (row.at - row.own_begin);
-    work_(row.at, width_ + column) = scale_[k];
+    room_->work(row.at, width_ + column) = scale_[k];
   }
 }
 
@@ -130,8 +142,8 @@ void NetworkSolver::add_up(const Row& row, int span, const double* entries, int 
   for (int q = from; q < to; ++q) {
     const double value = entries[q - first];
     if (value == 0) continue;
-    const double* y = &work_(q, 0);
-    for (int m = 0; m < width_; ++m) right_(row.equation, m) -= value * y[m];
+    const double* y = &room_->work(q, 0);
+    for (int m = 0; m < width_; ++m) room_->right(row.equation, m) -= value * y[m];
     for (int k = 0; k < columns; ++k) sum[k] += value * y[width_ + k];
   }
   for (int end = 0; end < 2; ++end)
@@ -149,46 +161,44 @@ void NetworkSolver::add_to_border(const Row& row, const double* entries, int fir
 
 bool NetworkSolver::solve_border() {
   Border& b = *matrix_;
-  double sum = right_.sum();
+  double sum = room_->right.sum();
   for (const auto& e : b.entries) sum += e.value();
   if (!std::isfinite(sum)) return false;
-  b.matrix.resize(unknowns_, unknowns_);
-  b.matrix.setFromTriplets(b.entries.begin(), b.entries.end());
-  if (!b.ordered) b.lu.analyzePattern(b.matrix);
-  b.ordered = true;
-  b.lu.factorize(b.matrix);
-  if (b.lu.info() != Eigen::Success) return false;
-  right_ = b.lu.solve(right_).eval();
-  return right_.allFinite();
+  b.fill(unknowns_);
+  if (!b.lu.factorise(b.matrix)) return false;
+  b.lu.solve_in_place(room_->right);
+  return room_->right.allFinite();
 }
 
-void NetworkSolver::put_back(BandMatrix::Columns& b) const {
-  b = work_.leftCols(width_);
-  Eigen::MatrixXd z(columns, width_);
+void NetworkSolver::put_back(BandMatrix::Columns& b) {
+  const BandMatrix::Columns& work = room_->work;
+  const Eigen::MatrixXd& right = room_->right;
+  b = work.leftCols(width_);
+  Eigen::MatrixXd& z = room_->parts;
   for (const Span& s : spans_) {
-    z.setZero();
+    z.setZero(columns, width_);
     for (int end = 0; end < 2; ++end)
-      if (s.tie[end] >= 0) z.middleRows<3>(3 * s.colour[end]) = right_.middleRows<3>(3 * s.tie[end]);
-    if (s.tension_row >= 0) z.row(6) = right_.row(s.tension_at);
+      if (s.tie[end] >= 0) z.middleRows<3>(3 * s.colour[end]) = right.middleRows<3>(3 * s.tie[end]);
+    if (s.tension_row >= 0) z.row(6) = right.row(s.tension_at);
     for (int q = s.begin; q < s.end; ++q) {
-      const double* y = &work_(q, width_);
+      const double* y = &work(q, width_);
       for (int m = 0; m < width_; ++m)
         for (int k = 0; k < columns; ++k) b(q, m) += y[k] * z(k, m);
     }
   }
-  for (const Row& row : rows_) b.row(row.at) = right_.row(row.equation);
+  for (const Row& row : rows_) b.row(row.at) = right.row(row.equation);
 }
 
 bool NetworkSolver::solve(BandMatrix& matrix, BandMatrix::Columns& b) {
   take_out(matrix, b);
   put_units();
-  if (!matrix.solve(work_)) return false;
-  right_.setZero(unknowns_, width_);
+  if (!matrix.solve(room_->work)) return false;
+  room_->right.setZero(unknowns_, width_);
   matrix_->entries.clear();
   const int half = matrix.half(), room = 2 * half + 1;
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     const Row& row = rows_[k];
-    right_.row(row.equation) += kept_.row(static_cast<Eigen::Index>(k));
+    room_->right.row(row.equation) += room_->kept.row(static_cast<Eigen::Index>(k));
     const int first = std::max(0, row.at - half), last = std::min(size_, row.at + half + 1);
     add_to_border(row, &saved_[k * static_cast<std::size_t>(room)] + (first - row.at + half), first, last);
   }

@@ -53,7 +53,7 @@ class NetworkSolver {
   void add_to_border(const Row& row, const double* entries, int first, int last);
   void add_up(const Row& row, int span, const double* entries, int from, int to, int first);
   bool solve_border();
-  void put_back(BandMatrix::Columns& b) const;
+  void put_back(BandMatrix::Columns& b);
 
   struct Border;
   int size_, unknowns_ = 0, width_ = 1;
@@ -62,8 +62,15 @@ class NetworkSolver {
   std::vector<int> colour_of_;  // of each node that is tied
   std::vector<double> saved_;   // entries of rows_, one after the other
   std::vector<double> scale_;   // of their units in the band
-  BandMatrix::Columns work_, kept_, one_;
-  Eigen::MatrixXd right_;  // of the border, then its solution
+  /// Kept from call to call: one for a single right-hand side and one for several, so that neither makes room anew
+  /// where calls take turns.
+  struct Room {
+    BandMatrix::Columns work, kept;
+    Eigen::MatrixXd right, parts;  // of the border, then its solution; what a span takes of that
+  };
+  Room single_, several_;
+  Room* room_ = &single_;
+  BandMatrix::Columns one_;
   std::unique_ptr<Border> matrix_;
 };
 

@@ -35,6 +35,7 @@ struct PerturbedTrajectory::Work {
   Equations equations;
   Stepper stepper;
   State state;
+  Places own;           // room for bring()
   double length, time;  // ℓ, √(ℓ/g)
   int free = 0;
   std::optional<Growth> growth = {};
@@ -65,7 +66,7 @@ struct PerturbedTrajectory::Work {
     const double rounding = 1e-14 * std::max(line.length(), beside.position.cwiseAbs().maxCoeff());
     // What the line's velocities have along lengths, which steps turn round and never damp (D79), its neighbour has
     // too, and nothing of its own: else that would soon be all that is between them where neighbours come together.
-    Places own = beside.velocity;
+    own = beside.velocity;
     if (!equations.project_place(beside.position, rounding, state.position) ||
         !equations.project_velocity(state, state.velocity) || !equations.project_velocity(beside, own))
       throw hydro::NumericsError("a neighbouring motion cannot be brought to the line's lengths");

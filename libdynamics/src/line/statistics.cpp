@@ -18,7 +18,7 @@ TensionStatistics::TensionStatistics(int segments, double slack_below, double sn
       slack_below, snap_above);
 }
 
-void TensionStatistics::note(double t_s, double h, const Eigen::VectorXd& tension) {
+void TensionStatistics::note(double t_s, double h, Eigen::Ref<const Eigen::VectorXd> tension) {
   bool any = false;
   for (Eigen::Index j = 0; j < tension.size(); ++j) {
     const auto at = static_cast<std::size_t>(j);

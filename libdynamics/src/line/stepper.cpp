@@ -42,15 +42,20 @@ struct Stepper::Work {
     State from;
     Places u;
     VectorXd T;
-  } last = {};  // step of generalised-α
+  } last = {};  // step
   struct {
     Places a, algorithmic;
     Energies energies;
     Powers before;
   } kept = {};
+  // Where a step that is tried began, and what it makes on the way: kept from step to step, so that it asks for no
+  // memory.
+  State before_step, next;
+  Places a_before_step, algorithmic_before_step, velocity_before, known, none;
+  Stage now;
   std::string failure;
 
-  Work(const Line& l, const Settings& s) : line(l), settings(s), equations(l) {}
+  Work(const Line& l, const Settings& s) : line(l), settings(s), equations(l), none(Places::Zero(3, l.nodes())) {}
 
   bool try_step(State& state, double h, StepReport& report);
   bool energy_momentum(State& state, double h, StepReport& report);
@@ -62,6 +67,7 @@ struct Stepper::Work {
   void require_lengths(const State& state) const;
   void require_ties(const State& state) const;
   bool settle(State& state);
+  Powers powers_now(const State& state);
   void note_powers(const Powers& mean, double h);
   void note_state(const State& state);
   void advance(State& state, double h, int depth, StepReport& report);
@@ -99,8 +105,11 @@ Stepper::Flow Stepper::flow() const {
 }
 
 void Stepper::keep() {
-  const Work& w = *work_;
-  work_->kept = {w.a, w.algorithmic, w.energies, w.before};
+  Work& w = *work_;
+  w.kept.a = w.a;
+  w.kept.algorithmic = w.algorithmic;
+  w.kept.energies = w.energies;
+  w.kept.before = w.before;
 }
 
 void Stepper::go_back() {
@@ -111,16 +120,21 @@ void Stepper::go_back() {
   w.before = w.kept.before;
 }
 
-Response Stepper::response(const std::vector<int>& prescribed, double a_by_v) {
+const Response& Stepper::response(const std::vector<int>& prescribed, double a_by_v) {
   Work& w = *work_;
   return w.equations.response(w.last.stage, w.last.from, w.last.u, w.last.T, prescribed, a_by_v);
 }
 
 std::optional<Stepper::Balance> Stepper::balance(const State& state) {
   Balance out;
-  if (!work_->equations.accelerations(state, out.acceleration, out.tension)) return std::nullopt;
-  out.holding = work_->equations.holding(state, out.acceleration, out.tension);
+  if (!find_balance(state, out)) return std::nullopt;
   return out;
+}
+
+bool Stepper::find_balance(const State& state, Balance& out) {
+  if (!work_->equations.accelerations(state, out.acceleration, out.tension)) return false;
+  work_->equations.find_holding(state, out.acceleration, out.tension, out.holding);
+  return true;
 }
 
 /// Held nodes where their paths have them.
@@ -174,7 +188,7 @@ void Stepper::start(State& state) {
   if (state.grip.cols() != line.nodes()) state.grip = state.position.topRows<2>();
   go_on(state);
   w.energies = {};
-  w.before = w.equations.powers(instant(state, w.a), state, Places::Zero(3, line.nodes()), state.tension);
+  w.before = w.powers_now(state);
   w.note_state(state);
   w.energies.lost_friction = 0;
   w.energies.at_start = w.energies.total();
@@ -191,7 +205,7 @@ void Stepper::go_on(State& state) {
 /// Accelerations and tensions of the state. Where masses leave them open, tensions to begin Newton with: the weight.
 bool Stepper::Work::settle(State& state) {
   if (equations.accelerations(state, a, state.tension)) return true;
-  a = Places::Zero(3, line.nodes());
+  a = none;
   state.tension = VectorXd::Constant(line.segments(), line.constant_load().colwise().norm().sum());
   return false;
 }
@@ -205,6 +219,11 @@ void Stepper::Work::note_state(const State& state) {
   const double shear = equations.stored_in_shear(state);
   energies.lost_friction -= shear - energies.shear;  // of what friction took, this is held
   energies.shear = shear;
+}
+
+Powers Stepper::Work::powers_now(const State& state) {
+  set_instant(state, a, now);
+  return equations.powers(now, state, none, state.tension);
 }
 
 void Stepper::Work::note_powers(const Powers& mean, double h) {
@@ -230,44 +249,36 @@ bool Stepper::Work::solve(const Stage& stage, const State& state, Places& u, Vec
 
 // (D79)
 bool Stepper::Work::energy_momentum(State& state, double h, StepReport& report) {
-  const Stage stage{.t = state.time + h / 2,
-                    .end = state.time + h,
-                    .h = h,
-                    .x_by = 0.5,
-                    .v_by = 1 / h,
-                    .a_by = 2 / (h * h),
-                    .v_from = Places::Zero(3, line.nodes()),
-                    .a_from = -2 / h * state.velocity,
-                    .mean = true};
-  Places u;
-  VectorXd T;
-  if (!solve(stage, state, u, T, report)) return false;
-  note_powers(equations.powers(stage, state, u, T), h);
-  const Places old = state.velocity;
+  Stage& stage = last.stage;
+  Places& u = last.u;
+  stage.set(state.time + h / 2, state.time + h, h);
+  stage.set_factors(0.5, 1 / h, 2 / (h * h));
+  stage.v_from = none;
+  stage.a_from = -2 / h * state.velocity;
+  stage.mean = true;
+  if (!solve(stage, state, u, last.T, report)) return false;
+  note_powers(equations.powers(stage, state, u, last.T), h);
+  velocity_before = state.velocity;
   state.position += u;
-  state.velocity = 2 / h * u - old;
-  state.tension = T;
+  state.velocity = 2 / h * u - velocity_before;
+  state.tension = last.T;
   state.time = stage.end;
   prescribe(state);
-  a = (state.velocity - old) / h;
+  a = (state.velocity - velocity_before) / h;
   return true;
 }
 
 // (D80), with the parameters of (D11).
 bool Stepper::Work::generalised_alpha(State& state, double h, StepReport& report) {
   const auto [alpha_m, alpha_f, g, beta] = AlphaParameters(settings.rho_infinity);
-  const Places known = h * state.velocity + h * h * (0.5 - beta) * algorithmic;
+  known = h * state.velocity + h * h * (0.5 - beta) * algorithmic;
   const double a_by = (1 - alpha_m) / ((1 - alpha_f) * h * h * beta);
-  last.stage = {.t = state.time + h,
-                .end = state.time + h,
-                .h = h,
-                .x_by = 1,
-                .v_by = g / (h * beta),
-                .a_by = a_by,
-                .v_from = state.velocity + h * (1 - g) * algorithmic - g / (h * beta) * known,
-                .a_from = (alpha_m * algorithmic - alpha_f * a) / (1 - alpha_f) - a_by * known};
-  const Stage& stage = last.stage;
+  Stage& stage = last.stage;
   Places& u = last.u;
+  stage.set(state.time + h, state.time + h, h);
+  stage.set_factors(1, g / (h * beta), a_by);
+  stage.v_from = state.velocity + h * (1 - g) * algorithmic - g / (h * beta) * known;
+  stage.a_from = (alpha_m * algorithmic - alpha_f * a) / (1 - alpha_f) - a_by * known;
   if (!solve(stage, state, u, last.T, report)) return false;
   last.from = state;
   state.position += u;
@@ -283,18 +294,14 @@ bool Stepper::Work::generalised_alpha(State& state, double h, StepReport& report
 // (D81)
 bool Stepper::Work::gamma(State& state, double h, StepReport& report) {
   const double g = settings.gamma;
-  const Stage stage{.t = state.time + h,
-                    .end = state.time + h,
-                    .h = h,
-                    .x_by = 1,
-                    .v_by = 1 / (h * g),
-                    .a_by = 1 / (h * h * g * g),
-                    .v_from = -(1 - g) / g * state.velocity,
-                    .a_from = -1 / (h * g * g) * state.velocity - (1 - g) / g * a};
-  Places u;
-  VectorXd T;
-  if (!solve(stage, state, u, T, report)) return false;
-  State next = state;
+  Stage& stage = last.stage;
+  Places& u = last.u;
+  stage.set(state.time + h, state.time + h, h);
+  stage.set_factors(1, 1 / (h * g), 1 / (h * h * g * g));
+  stage.v_from = -(1 - g) / g * state.velocity;
+  stage.a_from = -1 / (h * g * g) * state.velocity - (1 - g) / g * a;
+  if (!solve(stage, state, u, last.T, report)) return false;
+  next = state;
   next.position += u;
   next.velocity = stage.v_from + stage.v_by * u;
   next.time = stage.end;
@@ -306,7 +313,7 @@ bool Stepper::Work::gamma(State& state, double h, StepReport& report) {
 
 // (D82)
 bool Stepper::Work::euler(State& state, double h) {
-  State next = state;
+  next = state;
   next.time = state.time + h;
   const bool place_first = settings.scheme == Scheme::explicit_euler;
   next.velocity += h * a;
@@ -330,21 +337,22 @@ bool Stepper::Work::try_step(State& state, double h, StepReport& report) {
   if (settings.scheme == Scheme::energy_momentum) {
     if (!energy_momentum(state, h, report)) return false;
   } else {
-    const State old = state;
-    const Places old_a = a, old_algorithmic = algorithmic;
+    before_step = state;
+    a_before_step = a;
+    algorithmic_before_step = algorithmic;
     const bool done = settings.scheme == Scheme::generalised_alpha ? generalised_alpha(state, h, report)
                       : settings.scheme == Scheme::gamma           ? gamma(state, h, report)
                                                                    : euler(state, h);
     if (!done || !state.position.allFinite() || !state.velocity.allFinite()) {
-      state = old;
-      a = old_a;
-      algorithmic = old_algorithmic;
+      state = before_step;
+      a = a_before_step;
+      algorithmic = algorithmic_before_step;
       return false;
     }
-    const Powers now = equations.powers(instant(state, a), state, Places::Zero(3, line.nodes()), state.tension);
+    const Powers after = powers_now(state);
     note_powers(before, h / 2);
-    note_powers(now, h / 2);
-    before = now;
+    note_powers(after, h / 2);
+    before = after;
   }
   equations.take_grip(state);
   note_state(state);

@@ -1,14 +1,12 @@
 #include "dynamics/model/kkt_solver.hpp"
 
-#include <Eigen/KLUSupport>
-#include <Eigen/LU>
-#include <Eigen/Sparse>
+#include <algorithm>
+
+#include "algebra/kept_lu.hpp"
 
 namespace dynamics {
 
 struct KktSolver::Impl {
-  using Sparse = Eigen::SparseMatrix<double>;
-
   Impl(const BlockPattern& pattern, const JointSet& joints) : bodies_alone(pattern) {
     for (const Constraint& c : joints.constraints()) ends.push_back({c.first, c.second});
   }
@@ -17,10 +15,16 @@ struct KktSolver::Impl {
     int first;
     std::optional<int> second;
   };
+  bool fits(const JointSet& joints) const {
+    return std::ranges::equal(ends, joints.constraints(), [](const ConstraintBodies& one, const Constraint& other) {
+      return one.first == other.first && one.second == other.second;
+    });
+  }
   std::vector<ConstraintBodies> ends;  // one for each constraint
   BlockSolver bodies_alone;
-  Eigen::PartialPivLU<Eigen::MatrixXd> dense_lu;
-  Eigen::KLU<Sparse> sparse_lu;
+  Eigen::MatrixXd whole;  // what the dense factors are of
+  KeptDenseLu dense_lu;
+  KeptSparseLu sparse_lu;
 
   // Calls f(row or column of the bodies, constraint, which body's part) for all numbers of G.
   template <class Use>
@@ -35,17 +39,15 @@ struct KktSolver::Impl {
 
   bool factorise_dense(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H,
                        const Eigen::VectorXd& compliance) {
-    const Eigen::MatrixXd bodies = T.dense();
-    const Eigen::Index n = bodies.rows();
-    Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n + count(), n + count());
-    whole.topLeftCorner(n, n) = bodies;
+    const Eigen::Index n = 6 * T.pattern().bodies();
+    whole.setZero(n + count(), n + count());
+    T.find_dense(whole.topLeftCorner(n, n));
     whole.diagonal().tail(count()) = -compliance;
     for_each(G, [&](Eigen::Index mode, Eigen::Index i, double value) { whole(mode, n + i) = value; });
     for_each(H, [&](Eigen::Index mode, Eigen::Index i, double value) { whole(n + i, mode) = value; });
     if (!whole.allFinite()) return false;
     equilibrate(whole);
-    dense_lu.compute(whole);
-    return dense_lu.rcond() > 1e-15;
+    return dense_lu.factorise(whole);
   }
 
   // Forces and metres, kilograms and numbers lie far apart in size: rows and columns scaled to one before the factors.
@@ -75,7 +77,7 @@ struct KktSolver::Impl {
 
   Eigen::VectorXd right, both;  // room for solve()
 
-  Sparse system;
+  KeptSparseLu::Matrix system;
   std::vector<std::size_t> place;  // of each number, in the order of for_each_entry(), among the values of `system`
 
   /// Sorts once where numbers go: their places come back as values.
@@ -91,7 +93,6 @@ struct KktSolver::Impl {
     place.resize(entries.size());
     for (Eigen::Index k = 0; k < system.nonZeros(); ++k)
       place[static_cast<std::size_t>(system.valuePtr()[k])] = static_cast<std::size_t>(k);
-    sparse_lu.analyzePattern(system);
   }
 
   bool factorise_sparse(const BlockMatrix& T, const std::vector<Gradient>& G, const std::vector<Gradient>& H,
@@ -103,9 +104,7 @@ struct KktSolver::Impl {
       system.valuePtr()[place[k++]] = value;
       finite = finite && std::isfinite(value);
     });
-    if (!finite) return false;
-    sparse_lu.factorize(system);
-    return sparse_lu.info() == Eigen::Success;
+    return finite && sparse_lu.factorise(system);
   }
   Eigen::Index count() const { return static_cast<Eigen::Index>(ends.size()); }
 };
@@ -115,6 +114,11 @@ KktSolver::KktSolver(const BlockPattern& pattern, const JointSet& joints)
 KktSolver::~KktSolver() = default;
 KktSolver::KktSolver(KktSolver&&) noexcept = default;
 KktSolver& KktSolver::operator=(KktSolver&&) noexcept = default;
+
+void KktSolver::take(const BlockPattern& pattern, const JointSet& joints) {
+  of_step = 0;
+  if (!impl_->fits(joints)) impl_ = std::make_unique<Impl>(pattern, joints);
+}
 
 bool KktSolver::is_sparse() const { return impl_->bodies_alone.is_sparse(); }
 
@@ -132,10 +136,11 @@ void KktSolver::solve(const Eigen::VectorXd& b, const Eigen::VectorXd& c, Soluti
   right.resize(b.size() + c.size());
   right << b, c;
   if (is_sparse()) {
-    both = impl_->sparse_lu.solve(right);
+    both = right;
+    impl_->sparse_lu.solve_in_place(both);
   } else {
     right.array() *= impl_->row_scale.array();
-    both = impl_->dense_lu.solve(right);
+    impl_->dense_lu.solve(right, both);
     both.array() *= impl_->column_scale.array();
   }
   out.x = both.head(b.size());

@@ -1,11 +1,8 @@
 #include "dynamics/state/block_matrix.hpp"
 
-#include <Eigen/KLUSupport>
-#include <Eigen/LU>
-#include <Eigen/Sparse>
-
 #include <algorithm>
 
+#include "algebra/kept_lu.hpp"
 #include "hydro/base/error.hpp"
 
 namespace dynamics {
@@ -42,20 +39,30 @@ void BlockMatrix::set_zero() {
 }
 
 Eigen::VectorXd BlockMatrix::operator*(const Eigen::VectorXd& x) const {
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(x.size());
+  Eigen::VectorXd y;
+  multiply(x, y);
+  return y;
+}
+
+void BlockMatrix::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  y.setZero(x.size());
   std::size_t k = 0;
   for (int i = 0; i < pattern_->bodies(); ++i)
     for (const int j : pattern_->columns(i)) y.segment<6>(6 * i) += blocks_[k++] * x.segment<6>(6 * j);
-  return y;
 }
 
 Eigen::MatrixXd BlockMatrix::dense() const {
   const Eigen::Index n = 6 * static_cast<Eigen::Index>(pattern_->bodies());
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(n, n);
+  Eigen::MatrixXd out(n, n);
+  find_dense(out);
+  return out;
+}
+
+void BlockMatrix::find_dense(Eigen::Ref<Eigen::MatrixXd> out) const {
+  out.setZero();
   std::size_t k = 0;
   for (int i = 0; i < pattern_->bodies(); ++i)
     for (const int j : pattern_->columns(i)) out.block<6, 6>(6 * i, 6 * j) = blocks_[k++];
-  return out;
 }
 
 namespace {
@@ -70,9 +77,10 @@ bool prefers_sparse(const BlockPattern& p) {
 
 struct BlockSolver::Impl {
   bool sparse;
-  Eigen::PartialPivLU<Eigen::MatrixXd> dense_lu;
-  Eigen::SparseMatrix<double> matrix;
-  Eigen::KLU<Eigen::SparseMatrix<double>> sparse_lu;
+  Eigen::MatrixXd dense;
+  KeptDenseLu dense_lu;
+  KeptSparseLu::Matrix matrix;
+  KeptSparseLu sparse_lu;
 
   /// Column pointers and rows of the pattern; values are filled in the same order at each factorisation.
   void analyse(const BlockPattern& pattern) {
@@ -84,7 +92,6 @@ struct BlockSolver::Impl {
           for (int c = 0; c < 6; ++c) entries.emplace_back(6 * i + r, 6 * j + c, 1.0);
     matrix.resize(6 * pattern.bodies(), 6 * pattern.bodies());
     matrix.setFromTriplets(entries.begin(), entries.end());
-    sparse_lu.analyzePattern(matrix);
   }
   /// The pattern is symmetric, so the rows in column j are those of the block columns in block row j.
   void fill(const BlockMatrix& source) {
@@ -108,24 +115,22 @@ bool BlockSolver::is_sparse() const { return impl_->sparse; }
 
 bool BlockSolver::factorise(const BlockMatrix& matrix) {
   if (!impl_->sparse) {
-    const Eigen::MatrixXd dense = matrix.dense();
-    if (!dense.allFinite()) return false;
-    impl_->dense_lu.compute(dense);
-    return impl_->dense_lu.rcond() > 1e-15;
+    const Eigen::Index n = 6 * static_cast<Eigen::Index>(matrix.pattern().bodies());
+    impl_->dense.resize(n, n);
+    matrix.find_dense(impl_->dense);
+    return impl_->dense.allFinite() && impl_->dense_lu.factorise(impl_->dense);
   }
   if (impl_->matrix.size() == 0) impl_->analyse(matrix.pattern());
   impl_->fill(matrix);
   const auto values = Eigen::Map<const Eigen::VectorXd>(impl_->matrix.valuePtr(), impl_->matrix.nonZeros());
   if (!values.allFinite()) return false;
-  impl_->sparse_lu.factorize(impl_->matrix);
-  return impl_->sparse_lu.info() == Eigen::Success;
+  return impl_->sparse_lu.factorise(impl_->matrix);
 }
 
 void BlockSolver::solve(const Eigen::VectorXd& right, Eigen::VectorXd& out) const {
-  if (impl_->sparse)
-    out = impl_->sparse_lu.solve(right);
-  else
-    out = impl_->dense_lu.solve(right);
+  if (!impl_->sparse) return impl_->dense_lu.solve(right, out);
+  out = right;
+  impl_->sparse_lu.solve_in_place(out);
 }
 
 Eigen::VectorXd BlockSolver::solve(const Eigen::VectorXd& right) const {

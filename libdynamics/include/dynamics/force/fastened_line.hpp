@@ -34,12 +34,15 @@ class FastenedLineMemory final : public Memory {
   void start(const State& state, const line::Places& accelerations);
   /// Accelerations (3, all ends) of the points that hold them, where bodies have `acceleration`, (6N).
   line::Places accelerations_of_ends(const State& state, const Eigen::VectorXd& acceleration) const;
+  /// Of line i if bodies are there; they stand until the next are asked of it.
+  const line::DrivenLine::Pulls& pulls(std::size_t i, const State& state);
   line::DrivenLine& line(std::size_t i) { return *lines_[i]; }
   const line::DrivenLine& line(std::size_t i) const { return *lines_[i]; }
 
  private:
   const std::vector<FastenedLine>& elements_;
   std::vector<std::unique_ptr<line::DrivenLine>> lines_;
+  std::vector<line::DrivenLine::End> ends_;  // of the line that is asked; kept, so that a step asks for no memory
 };
 
 /// With memory, a load is the pull of a line at the end of a step that leads its ends to where the state has the

@@ -43,6 +43,9 @@ PlacedMember placed(const SlenderMember& member, const State& state);
 /// Without a surface (Immersion::whole): +∞.
 std::vector<double> heights(const SlenderMember& member, const PlacedMember& at, const hydro::waves::WaveField& water,
                             double t_s);
+/// The same, into a vector that has room.
+void find_heights(const SlenderMember& member, const PlacedMember& at, const hydro::waves::WaveField& water, double t_s,
+                  std::vector<double>& out);
 
 /// The share of a section that is wet, its height below the surface over the diameter, 0 … 1, (W80) for any slope.
 double wetness(double height_m, double rise_m);
@@ -60,6 +63,9 @@ struct WetPiece {
 /// millionth of the diameter.
 std::vector<WetPiece> wet_pieces(const SlenderMember& member, const PlacedMember& at,
                                  const hydro::waves::WaveField& water, double t_s, bool derivatives);
+/// The same, into a vector that has room.
+void find_wet_pieces(const SlenderMember& member, const PlacedMember& at, const hydro::waves::WaveField& water,
+                     double t_s, bool derivatives, std::vector<WetPiece>& out);
 
 /// ∫β dσ over 0 … 1 and the mean place ∫βσ dσ/∫β dσ, β = wetness of a height that runs straight from g₀ to g₁, with
 /// derivatives by (g₀, g₁, h). The place is ½ where nothing is wet. (D42)

@@ -42,6 +42,8 @@ class ActiveSet {
   };
   /// Of the workspace's state; none if they cannot be had.
   std::optional<Balance> balance(Workspace& workspace) const;
+  /// The same, into vectors that have room. \returns false if they cannot be had
+  bool find_balance(Workspace& workspace, Eigen::VectorXd& acceleration, Eigen::VectorXd& multipliers) const;
   /// Takes them into the workspace. \returns false if they cannot be had
   bool solve_accelerations(Workspace& workspace) const;
   /// The same. \throws hydro::NumericsError with the time if they cannot be had

@@ -32,6 +32,8 @@ class SemiImplicitEuler final : public Integrator {
  private:
   int order() const override { return 1; }
   bool try_step(Workspace& workspace, double h, StepReport& report) override;
+  State end_;  // of the step that is tried; kept, as the others, so that a step asks for no memory
+  Eigen::VectorXd acceleration_, multipliers_, velocity_, move_;
 };
 
 }  // namespace dynamics

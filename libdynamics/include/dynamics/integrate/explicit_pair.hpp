@@ -1,5 +1,7 @@
 #pragma once
 /// \file  An explicit pair of orders 5 and 4 that chooses its own steps, for motions without stiffness.
+#include <array>
+
 #include "dynamics/integrate/integrator.hpp"
 
 namespace dynamics {
@@ -21,15 +23,20 @@ class ExplicitPair final : public Integrator {
   int order() const override { return 5; }
   const char* steps_stay_whole() const override { return "the pair has one of its own"; }
   bool try_step(Workspace& workspace, double h, StepReport& report) override;
-  /// One step of both orders: the end by order 5, and the estimated error relative to what is allowed.
-  struct Attempt {
-    State end;
-    double error;
-  };
-  std::optional<Attempt> attempt(Workspace& workspace, double h) const;
+  /// One step of both orders: `end_` by order 5. \returns the estimated error relative to what is allowed; none where
+  /// there are no accelerations
+  std::optional<double> attempt(Workspace& workspace, double h);
+  bool find_stages(Workspace& workspace, double h);
 
+  static constexpr int stages = 7;
   Settings settings_;
   double last_ = 0;  // step that was taken last, s
+  // Kept, so that a step asks for no memory: where the step begins and what is asked for, what a stage comes from, what
+  // stages give.
+  State begin_, start_, end_;
+  Eigen::VectorXd multipliers_, begin_acceleration_, begin_multipliers_;
+  Eigen::VectorXd move_, gain_, velocity_, off_, off_speed_;
+  std::array<Eigen::VectorXd, stages> moving_, gaining_;
 };
 
 }  // namespace dynamics

@@ -78,7 +78,6 @@ class Integrator {
     State state;
     Eigen::VectorXd acceleration, multipliers, history;
   };
-  Snapshot snapshot(const Workspace& workspace) const;
   void save(const Workspace& workspace, Snapshot& out) const;
   void restore(Workspace& workspace, const Snapshot& before);
   bool try_counted_step(Workspace& workspace, double h, StepReport& report);
@@ -100,8 +99,11 @@ class Integrator {
   ActiveSet active_;
   SetValuedLaws laws_{model_, active_};
   std::string failure_;
-  Snapshot before_step_;  // the step that is tried; kept, so that a step asks for no memory
-  double step_ = 0;       // the one asked for
+  // What is tried: a step, the way to a change, a part of a step. Kept, so that a step asks for no memory.
+  Snapshot before_step_, before_change_, before_part_;
+  State whole_;          // where one step leads that is done in two halves too
+  Eigen::VectorXd off_;  // by how much they differ
+  double step_ = 0;      // the one asked for
   std::optional<double> tolerance_;
   double part_ = 0;    // the step that a tolerance chose last, s
   double speeds_ = 0;  // the largest so far, in the metric of the masses

@@ -44,9 +44,9 @@ class NewtonIntegrator : public Integrator {
   /// Fills the trial from its accelerations and multipliers.
   void evaluate(Workspace& workspace, double h, Trial& trial);
   void evaluate_corrected(Workspace& workspace, double h, double part);
-  std::vector<Gradient> by_step(const std::vector<Gradient>& G, const State& before, const State& after) const;
+  void find_gradients_by_step(const State& before);
   double unresolved(double h) const;
-  bool factorise(Workspace& workspace, double h, const Trial& now) const;
+  bool factorise(Workspace& workspace, double h);
   double search(Workspace& workspace, double h, double move);
   void finish(Workspace& workspace, bool anew);
 
@@ -56,6 +56,7 @@ class NewtonIntegrator : public Integrator {
   // What Newton holds and what it tries: kept from step to step, so that a step asks for no memory.
   Trial now_, trial_;
   KktSolver::Solution correction_;
+  std::vector<Gradient> by_step_;  // gradients of `now_` by what moves a step, not its end
 };
 
 }  // namespace dynamics

@@ -30,7 +30,7 @@ class SetValuedLaws {
     int becomes = 0;        ///< as in Event
     bool together = false;  ///< contacts that share their loads are at their limit, not this one alone (D130)
   };
-  Margin least_margin(Workspace& workspace) const;
+  Margin least_margin(Workspace& workspace);
   /// Of what is open at both ends of a step, `before` and the workspace's state, and was not all through it: the share
   /// of the step at which the first is seen to overlap (D131).
   std::optional<double> passing(const State& before, Workspace& workspace) const;
@@ -48,10 +48,10 @@ class SetValuedLaws {
   /// become those of the share nearest to even that all can bear (D130).
   void share_loads(Workspace& workspace);
 
-  /// Power of the slip of each contact, W, in the workspace's state.
-  Eigen::VectorXd slip_power(Workspace& workspace) const;
-  /// Adds the work of what slipped from `before` on.
-  void note_work(const State& before, const Eigen::VectorXd& power_before, Workspace& workspace) const;
+  /// From the workspace's state on work is counted.
+  void begin_work(Workspace& workspace);
+  /// Adds the work of what slipped since.
+  void note_work(Workspace& workspace);
   /// Points that stick on round shapes roll: they are taken anew where they touch now.
   /// \returns true if accelerations had to be found anew too
   bool follow_rolling(Workspace& workspace);
@@ -80,7 +80,9 @@ class SetValuedLaws {
   bool decide_together(Workspace& workspace) const;
   bool close_what_would_overlap(Workspace& workspace);
   double slow(const Workspace& workspace) const;
-  double rounding(const ActiveSet::Balance& loads) const;
+  double rounding(const Eigen::VectorXd& acceleration, const Eigen::VectorXd& multipliers) const;
+  double rounding(const Workspace& workspace) const { return rounding(workspace.acceleration, workspace.multipliers); }
+  void find_slip_power(Workspace& workspace, Eigen::VectorXd& power) const;
   double pull(std::size_t element, const Workspace& workspace) const;
   struct Seen {
     int is;  ///< as Event::becomes
@@ -93,6 +95,10 @@ class SetValuedLaws {
   ActiveSet& active_;
   double step_ = 0;
   bool shares_ = false;  // the multipliers are no longer those of equal pads
+  // Kept from step to step, so that a step asks for no memory.
+  ActiveSet::Balance loads_;  // of the state that is looked at
+  State before_;              // where work is counted from, and powers of the slip of each contact, W
+  Eigen::VectorXd slip_power_before_, slip_power_;
 };
 
 }  // namespace dynamics

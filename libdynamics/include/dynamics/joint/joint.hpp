@@ -140,6 +140,9 @@ class JointSet {
   std::vector<Gradient> gradients(const State& state) const;
   /// The same, into rows that have room.
   void find_gradients(const State& state, std::vector<Gradient>& G) const;
+  /// Of a constraint between the same bodies, whether it is one of the set or not; and what convective() has of it.
+  Gradient gradient_of(const Constraint& constraint, const State& state) const;
+  double convective_of(const Constraint& constraint, const State& state) const;
   /// Rows over the numbers that belong to their modes, such as √ of masses; of the ground zero.
   std::vector<Gradient> over(const std::vector<Gradient>& G, const Eigen::VectorXd& scale) const;
   /// G x, for x a velocity or displacement of all bodies.
@@ -154,9 +157,13 @@ class JointSet {
   void add_curvature(const State& state, const Eigen::VectorXd& lambda, double factor, BlockMatrix& out) const;
   /// Ġ v − s̈(t), (count): the acceleration that the constraints have without any of the bodies'.
   Eigen::VectorXd convective(const State& state) const;
+  /// The same, into a vector that has room.
+  void find_convective(const State& state, Eigen::VectorXd& out) const;
   bool are_prescribed() const;  ///< one of them at least
   /// ṡ(t), (count): what G v is while the joints stay closed; zero but for prescribed motions.
   Eigen::VectorXd prescribed_rates(double time) const;
+  /// λ·ṡ(t): what prescribed motions take, W. `lambda` may go on with multipliers that are not the joints'.
+  double prescribed_power(const Eigen::VectorXd& lambda, double time) const;
   /// Load of the joint on one of its bodies: force and moment about the joint's place in that body, in that body's
   /// axes, N and N m. What redundant constraints would carry is not in it. The second body must not be the ground.
   Vector6 load_on(int joint, End end, const State& state, const Eigen::VectorXd& lambda) const;
@@ -179,6 +186,8 @@ class JointSet {
   void keep_free(int first, std::optional<int> second, Gradient& row) const;
   /// Adds a constraint that belongs to no joint's own.
   void add(Constraint constraint) { constraints_.push_back(std::move(constraint)); }
+  /// Takes out all constraints but the first; their room stays.
+  void cut(Eigen::Index count) { constraints_.erase(constraints_.begin() + count, constraints_.end()); }
 
  private:
   JointCoordinate coordinate_of(int joint) const;

@@ -47,7 +47,7 @@ class DrivenLine {
   const State& state() const;
   const Energies& energies() const;
   Stepper::Flow flow() const;
-  Stepper::Balance balance();
+  void find_balance(Stepper::Balance& out);
 
  private:
   struct Work;

@@ -15,7 +15,7 @@ class TensionStatistics {
   TensionStatistics(int segments, double slack_below, double snap_above);
 
   /// A step of `h` seconds ended at `t_s` with these tensions, N, (segments).
-  void note(double t_s, double h, const Eigen::VectorXd& tension);
+  void note(double t_s, double h, Eigen::Ref<const Eigen::VectorXd> tension);
 
   struct Largest {
     double tension = -std::numeric_limits<double>::infinity(), time = 0;  ///< N, s

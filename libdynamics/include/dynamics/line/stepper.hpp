@@ -85,8 +85,8 @@ class Stepper {
   void go_back();
 
   /// What the nodes `prescribed` needed at the end of the last step, while the rest of the line moves with the step;
-  /// their accelerations follow their velocities by `a_by_v`. Of generalised-α alone. (D90)
-  Response response(const std::vector<int>& prescribed, double a_by_v);
+  /// their accelerations follow their velocities by `a_by_v`. Of generalised-α alone. (D90) It stands until the next.
+  const Response& response(const std::vector<int>& prescribed, double a_by_v);
 
   /// What balances a state, whatever the step did (D77); nothing if masses leave it open.
   struct Balance {
@@ -95,6 +95,8 @@ class Stepper {
     Places holding;  ///< the force on each held node by what holds it, N; zero for free ones
   };
   std::optional<Balance> balance(const State& state);
+  /// The same, into matrices that have room. \returns false if masses leave it open
+  bool find_balance(const State& state, Balance& out);
 
  private:
   struct Work;

@@ -31,6 +31,9 @@ class KktSolver {
   /// The same, into vectors that have room.
   void solve(const Eigen::VectorXd& b, const Eigen::VectorXd& c, Solution& out) const;
 
+  /// Becomes a solver for other constraints; its room stays if they join the same bodies, one for one.
+  void take(const BlockPattern& pattern, const JointSet& joints);
+
   double of_step = 0;  ///< s: the factors are those of the iteration matrix of such a step (D98); 0: of something else
 
  private:

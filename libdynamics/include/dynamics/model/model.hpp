@@ -101,6 +101,12 @@ class Workspace {
   Eigen::VectorXd load;                         ///< of all kinds, where a residual was asked for last
   BlockMatrix matrix;
   KktSolver solver;
+  /// Room for what balances a state (ActiveSet::find_balance()), kept so that a step asks for no memory.
+  struct Balancing {
+    std::vector<Gradient> gradients, columns;
+    Eigen::VectorXd still, residual, convective, left, open, minus_multipliers, acceleration, multipliers;
+    KktSolver::Solution found;
+  } balancing;
 
   /// The memory of that type; null if no kind has one.
   template <class OfKind>

@@ -37,7 +37,11 @@ class BlockMatrix {
   const Matrix6& block(int row, int column) const { return blocks_[pattern_->index(row, column)]; }
   const BlockPattern& pattern() const { return *pattern_; }
   Eigen::VectorXd operator*(const Eigen::VectorXd& x) const;
+  /// The same, into a vector that has room.
+  void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
   Eigen::MatrixXd dense() const;
+  /// The same, into a matrix, or a part of one, of that size.
+  void find_dense(Eigen::Ref<Eigen::MatrixXd> out) const;
 
  private:
   const BlockPattern* pattern_;
@@ -55,7 +59,7 @@ class BlockSolver {
   /// False if the matrix is singular to working precision or not finite.
   bool factorise(const BlockMatrix& matrix);
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
-  /// The same, into a vector that has room: of dense factors it asks for no memory.
+  /// The same, into a vector that has room.
   void solve(const Eigen::VectorXd& right, Eigen::VectorXd& out) const;
 
  private:

@@ -90,7 +90,8 @@ struct Sums {
 Kinematics HarmonicField::at(double t, const Eigen::Vector3d& point) const {
   const double h = water_.depth.metres();
   require(point.z() >= -h, "a point at z = {} m lies below the bed at z = {} m", point.z(), -h);
-  std::vector<Complex> turn(harmonics_.size());
+  thread_local std::vector<Complex> turn;  // its room is kept, so that the steps of a run ask for none
+  turn.resize(harmonics_.size());
   Kinematics out{};
   for (std::size_t n = 0; n < turn.size(); ++n) {
     const Harmonic& w = harmonics_[n];
