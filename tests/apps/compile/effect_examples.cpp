@@ -308,6 +308,33 @@ const std::vector<Example>& examples() {
   return all;
 }
 
+std::vector<Example> held_by_laws() {
+  const std::string slider = R"([[joint]]
+between = ["ground", "m"]
+at = "(0, 0, 0) m"
+kind = "slider"
+axis = "x"
+friction = { dynamic = "1 kN" }
+)";
+  const std::string plane = R"([[contact]]
+between = ["m", "ground"]
+kind = "plane"
+points = "(±4, ±4, 0) m"
+at = "(0, 0, 0) m"
+normal = "z"
+restitution = 0
+friction = 0.1
+)";
+  const std::string weight = "weight = true\n", moves = "initial_velocity = { surge = \"4 m/s\" }\n";
+  std::string first_of_many = slider;  // so many that their factors are sparse, and with friction anew in each step
+  first_of_many.replace(first_of_many.find("\"m\""), 3, "\"m1\"");
+  const std::string copies = "copies = { count = 9, step = \"(13, 0, 0) m\" }\n";
+  return {body("friction that slips", moves, slider, {"friction"}),
+          body("friction that holds one of many", copies, first_of_many, {"friction"}),
+          body("contacts that are closed", weight, plane, {"weight", "contact"}),
+          body("contacts that slip", weight + moves, plane, {"weight", "contact"})};
+}
+
 Files::Files() : folder_(std::filesystem::path(testing::TempDir()) / fmt::format("froude_effects_{}", ::getpid())) {
   std::filesystem::create_directories(folder_);
   std::filesystem::copy_file(froude_test::examples / "data/pontoon1.nc", folder_ / "pontoon1.nc",

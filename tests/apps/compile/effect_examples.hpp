@@ -17,6 +17,9 @@ struct Example {
 /// A scene that names no effect: a body alone.
 Example without_effects();
 const std::vector<Example>& examples();
+/// What examples do not show of friction and contacts, which begin there at rest and apart: a module that slips on a
+/// slider, that stands on a plane, that slips on it; and many modules, one of which friction holds.
+std::vector<Example> held_by_laws();
 
 /// Where the examples find their files: coefficients, and tables that are written there.
 class Files {

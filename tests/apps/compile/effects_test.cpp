@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "answers/linear_response.hpp"
@@ -164,59 +163,19 @@ Asked allocations(const Example& example) {
   return {(four - one) / 3, one - (four - one) / 3};
 }
 
-using Counts = std::map<std::string, double>;
-
-/// What each kind of force asks for in a step; or, by its own name, what an example does that has more. All that is not
-/// listed asks for nothing: bodies, connectors, linear moorings, hydrostatics, excitation, drag, radiation, joints,
-/// power take-off. These are vectors that functions return: wet pieces of a member, water at them, positions of a
-/// line's nodes. Numbers may fall, and are then to be lowered here; none may rise.
-const Counts& kinds_ask() {
-  static const Counts counts{{"contact", 10}, {"morison", 26}, {"slamming", 5}};
-  return counts;
-}
-const Counts& examples_ask() {
-  static const Counts counts{{"Morison, wet in part", 75},
-                             {"latch of a hinge", 10},
-                             {"latch of a slider", 10},
-                             {"friction of a hinge", 51},
-                             {"friction of a slider", 51},
-                             {"prescribed motion of a hinge", 1},
-                             {"prescribed motion of a slider", 1},
-                             {"line", 20},
-                             {"parts of a line", 20},
-                             {"links of a line", 20},
-                             {"clamp", 20},
-                             {"tension only", 19},
-                             {"catenary segments", 43},
-                             {"buoyancy of a line", 34},
-                             {"a line wet in part", 34},
-                             {"Morison on a line", 34},
-                             {"damping of a line", 20},
-                             {"growth", 34},
-                             {"bed", 20},
-                             {"release", 27},
-                             {"prescribed end", 28},
-                             {"snaps", 20},
-                             {"Lyapunov exponent", 44},
-                             {"junction", 76},
-                             {"a line on a body", 163}};
-  return counts;
-}
-
-double allowed(const Example& example) {
-  if (const auto own = examples_ask().find(example.name); own != examples_ask().end()) return own->second;
-  double sum = 0;
-  for (const std::string& kind : example.kinds)
-    if (const auto of_kind = kinds_ask().find(kind); of_kind != kinds_ask().end()) sum += of_kind->second;
-  return sum;
-}
-
-TEST(Effects, AskForNoMoreMemoryInAStepThanIsListed) {
+TEST(Effects, AskForNoMemoryInAStepNorToTellASample) {
   for (const Example& example : effects::examples()) {
     const Asked asked = allocations(example);
-    EXPECT_LE(asked.step, allowed(example)) << example.name;
-    // All signals of lines that meet, or that pull at a body, are told anew.
-    EXPECT_LE(asked.sample, example.lines > 0 ? 111 : 30) << example.name;
+    EXPECT_EQ(asked.step, 0) << example.name;
+    EXPECT_EQ(asked.sample, 0) << example.name;
+  }
+}
+
+TEST(Effects, AskForNoMemoryInAStepWhileLawsHoldOrSlip) {
+  for (const Example& example : effects::held_by_laws()) {
+    const Asked asked = allocations(example);
+    EXPECT_EQ(asked.step, 0) << example.name;
+    EXPECT_EQ(asked.sample, 0) << example.name;
   }
 }
 
