@@ -70,7 +70,7 @@ double weight_of_tail(double last, double omega) { return 0.1 * last / omega; }
 /// What damping weighs at slow motions, as of moored bodies: they feel little of it, of which an error that is small
 /// beside the largest may be a multiple.
 double weight_of_damping(double omega, double centre) {
-  constexpr double most = 30;  // more costs data between resonances, and gains nothing
+  constexpr double most = 10;  // more costs data between resonances, and gains little
   return std::clamp(std::pow(centre / omega, 2), 1.0, most);
 }
 
@@ -116,8 +116,18 @@ Data prepared(const DampingTable& given, const std::vector<Eigen::MatrixXd>& A,
       d.centre = omega;
     }
   }
-  for (Eigen::Index r = 0; r < rows; ++r)
-    d.samples.weight[r] *= weight_of_damping(d.samples.omega[static_cast<std::size_t>(r)], d.centre);
+  return d;
+}
+
+/// Frequencies too few to weigh, or to leave poles of one order where those of the order before were: each of them
+/// draws the whole of a model.
+constexpr std::size_t few_frequencies = 16;
+
+/// The same with damping weighted where motions are slow.
+Data weighted(Data d) {
+  if (d.inside < few_frequencies) return d;
+  for (std::size_t i = 0; i < d.samples.omega.size(); ++i)
+    d.samples.weight[static_cast<Eigen::Index>(i)] *= weight_of_damping(d.samples.omega[i], d.centre);
   return d;
 }
 
@@ -201,6 +211,61 @@ void make_passive(const Data& d, double tolerance, Attempt& a) {
   a = std::move(quick);
 }
 
+/// How poles of one order after the other are found: from those of the order before, which is quick, or each anew from
+/// poles spread over all frequencies.
+enum class Search { onward, anew };
+
+/// Attempts of rising order, until one meets the tolerance; that is then the last.
+struct Attempts {
+  std::vector<Attempt> all;
+  bool met = false;
+};
+
+Attempts attempts(const Data& d, const FitOptions& options, int most, Search search) {
+  constexpr Eigen::Index enough = 16;           // columns: with as many as there are, poles are no better
+  constexpr int rounds = 15, rounds_after = 5;  // by which they settle, and where all but a few were settled
+  const auto& omega = d.samples.omega;
+  const detail::Samples searched = detail::mixed(detail::compressed(d.samples, 1e-2 * options.tolerance), enough);
+  double widest = 0;
+  for (std::size_t i = 1; i < d.inside; ++i) widest = std::max(widest, omega[i] - omega[i - 1]);
+  const double slowest = widest / 10;  // a resonance much narrower than the spacing cannot be told from the data
+  Attempts out;
+  std::vector<Pole> poles;
+  Eigen::VectorXd missed = squares_at(d.samples.weighted(d.samples.values));
+  for (int order = 2; order <= most && !out.met; order += order < 12 ? 2 : order < 32 ? 4 : order < 64 ? 8 : 16) {
+    poles = search == Search::anew
+                ? detail::settled(searched, detail::spread(omega, order), rounds, slowest)
+                : detail::settled(searched, detail::grown(poles, order, omega, missed), rounds_after, slowest);
+    Attempt a = attempt(d, poles);
+    missed = a.missed;
+    if (a.report.error <= options.tolerance && options.enforce_passivity) make_passive(d, options.tolerance, a);
+    out.met = a.report.error <= options.tolerance && (a.report.passive || !options.enforce_passivity);
+    out.all.push_back(std::move(a));
+  }
+  return out;
+}
+
+/// Of those that all miss the tolerance. The nearest to the data may be far from passive, so a few are made passive,
+/// the nearest first, until none that is left was nearer before.
+Attempt nearest(const Data& d, const FitOptions& options, std::vector<Attempt> tried) {
+  std::sort(tried.begin(), tried.end(),
+            [](const Attempt& a, const Attempt& b) { return a.report.error < b.report.error; });
+  if (!options.enforce_passivity) return std::move(tried.front());
+  constexpr std::size_t few = 3;  // beyond, orders are so low that they miss more than passivity takes
+  const auto better = [](const FitReport& a, const FitReport& b) {
+    return a.passive != b.passive ? a.passive : a.error < b.error;
+  };
+  const double margin = options.tolerance / 50;
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < std::min(few, tried.size()); ++i) {
+    const FitReport& so_far = tried[best].report;
+    if (i > 0 && so_far.passive && so_far.error <= tried[i].report.error) break;
+    if (!tried[i].report.passive) make_passive(d, {.kept = margin, .lifted = -margin}, tried[i]);
+    if (better(tried[i].report, so_far)) best = i;
+  }
+  return std::move(tried[best]);
+}
+
 RationalFit unscaled(const Data& d, const Attempt& a) {
   const Eigen::Index n = d.A_inf.rows(), inner = static_cast<Eigen::Index>(d.modes.size());
   const auto whole = [&](const Eigen::RowVectorXd& row) {
@@ -233,42 +298,50 @@ RationalFit fit(const DampingTable& damping, const std::vector<Eigen::MatrixXd>&
   require(damping.omega.size() >= 4, "a rational fit needs four frequencies at least, got {}", damping.omega.size());
   require(options.tolerance > 0 && options.largest_order >= 2,
           "a fit needs a positive tolerance and an order of 2 at least");
-  const double negative = negative_share(damping);
-  const Data d = prepared(damping, A, A_inf);
+  const Data even = prepared(damping, A, A_inf), d = weighted(even);
   require(!d.modes.empty(), "there is no damping to fit: no mode makes waves");
-  constexpr Eigen::Index enough = 16;  // columns: with as many as there are, poles are no better
-  const detail::Samples searched = detail::mixed(detail::compressed(d.samples, 1e-2 * options.tolerance), enough);
-  double widest = 0;
-  for (std::size_t i = 1; i < damping.omega.size(); ++i)
-    widest = std::max(widest, damping.omega[i] - damping.omega[i - 1]);
-  // A resonance much narrower than the spacing cannot be told from the data.
-  const double slowest = widest / 10;
   const int most = std::min(options.largest_order, static_cast<int>(3 * damping.omega.size() / 2));
-  std::optional<Attempt> best;
-  std::vector<Pole> poles;
-  Eigen::VectorXd missed = squares_at(d.samples.weighted(d.samples.values));
-  for (int order = 2; order <= most; order += order < 12 ? 2 : order < 32 ? 4 : order < 64 ? 8 : 16) {
-    poles = detail::settled(searched, detail::grown(poles, order, d.samples.omega, missed), slowest);
-    Attempt a = attempt(d, poles);
-    missed = a.missed;
-    const bool close = a.report.error <= options.tolerance;
-    if (close && options.enforce_passivity) make_passive(d, options.tolerance, a);
-    const bool met = a.report.error <= options.tolerance && (a.report.passive || !options.enforce_passivity);
-    if (met || !best || a.report.error < best->report.error) best = std::move(a);
-    if (!met) continue;
-    best->report.why =
-        fmt::format("order {} is the lowest that meets the tolerance of {:.2g}", best->report.order, options.tolerance);
-    best->report.negative_share = negative;
-    return unscaled(d, *best);
-  }
-  if (options.enforce_passivity && !best->report.passive) make_passive(d, options.tolerance, *best);
-  best->report.why =
-      fmt::format("no order up to {} meets the tolerance of {:.2g}; order {} comes nearest with {:.2g}{}", most,
-                  options.tolerance, best->report.order, best->report.error,
-                  best->report.passive || !options.enforce_passivity ? "" : ", and is not certified passive");
-  best->report.negative_share = negative;
-  return unscaled(d, *best);
+  const auto told = [&](const Data& of, Attempt a, std::string why) {
+    a.report.why = std::move(why);
+    a.report.negative_share = negative_share(damping);
+    return unscaled(of, a);
+  };
+  const auto lowest = [&](const Data& of, Attempts found) {
+    return told(of, found.all.back(),
+                fmt::format("order {} is the lowest that meets the tolerance of {:.2g}", found.all.back().report.order,
+                            options.tolerance));
+  };
+  const bool few = damping.omega.size() < few_frequencies;
+  Attempts found = attempts(d, options, most, few ? Search::anew : Search::onward);
+  if (found.met) return lowest(d, std::move(found));
+  // Weights and quick ways may stand in the way of a tolerance that could just be met.
+  if (!few)
+    if (Attempts others = attempts(even, options, most, Search::anew); others.met)
+      return lowest(even, std::move(others));
+  Attempt best = nearest(d, options, std::move(found.all));
+  const FitReport& report = best.report;
+  return told(d, best,
+              fmt::format("no order up to {} meets the tolerance of {:.2g}; order {} comes nearest with {:.2g}{}", most,
+                          options.tolerance, report.order, report.error,
+                          report.passive || !options.enforce_passivity ? "" : ", and is not certified passive"));
 }
+
+namespace {
+
+/// Where the damping of all modes, each over its largest, is largest, rad/s.
+double centre_of(const PoleModel& model, const std::vector<double>& omega) {
+  Eigen::MatrixXd diagonals(model.modes(), static_cast<Eigen::Index>(omega.size()));
+  for (std::size_t k = 0; k < omega.size(); ++k)
+    diagonals.col(static_cast<Eigen::Index>(k)) = model.transform(omega[k]).real().diagonal();
+  const Eigen::VectorXd largest = diagonals.rowwise().maxCoeff();
+  const double least = 1e-6 * largest.maxCoeff();  // as prepared()
+  Eigen::Index at = 0;
+  const Eigen::RowVectorXd share = (largest.array() > least).select(largest.array().inverse(), 0).transpose();
+  (share * diagonals).maxCoeff(&at);
+  return omega[static_cast<std::size_t>(at)];
+}
+
+}  // namespace
 
 std::vector<Eigen::MatrixXcd> missed_if_left_out(const PoleModel& model, const std::vector<double>& omega,
                                                  const std::vector<Eigen::MatrixXcd>& residual) {
@@ -284,6 +357,12 @@ std::vector<Eigen::MatrixXcd> missed_if_left_out(const PoleModel& model, const s
     if (at > omega.back()) phi.row(r) *= weight_of_tail(omega.back(), at);
   }
   Eigen::MatrixXd design = detail::stacked(phi);
+  const double centre = centre_of(model, omega);
+  Eigen::VectorXd weight(rows);  // of damping, as fit() weighs it
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    weight[r] = omega.size() < few_frequencies ? 1 : weight_of_damping(places[static_cast<std::size_t>(r)], centre);
+    design.row(r) *= weight[r];
+  }
   for (auto column : design.colwise()) column /= column.norm();
   const Eigen::MatrixXd Q = dense::HouseholderQr(design).thin_Q();
   constexpr double least = 1e-6;  // of what a datum leaves free; a model that goes through all data leaves nothing
@@ -293,7 +372,9 @@ std::vector<Eigen::MatrixXcd> missed_if_left_out(const PoleModel& model, const s
     Eigen::Matrix<double, 2, Eigen::Dynamic> both(2, Q.cols());
     both << Q.row(r), Q.row(r + rows);
     const Eigen::Matrix2d h = both * both.transpose();
-    const Eigen::Matrix2d more = ((1 + least) * Eigen::Matrix2d::Identity() - h).inverse() * h;
+    const Eigen::DiagonalMatrix<double, 2> weights(weight[r], 1);
+    const Eigen::Matrix2d more =
+        weights.inverse() * (((1 + least) * Eigen::Matrix2d::Identity() - h).inverse() * h) * weights;
     Eigen::MatrixXcd missed(residual[k].rows(), residual[k].cols());
     missed.real() = more(0, 0) * residual[k].real() + more(0, 1) * residual[k].imag();
     missed.imag() = more(1, 0) * residual[k].real() + more(1, 1) * residual[k].imag();

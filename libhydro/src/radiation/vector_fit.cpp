@@ -132,8 +132,18 @@ std::vector<Pole> grown(std::vector<Pole> poles, int order, const std::vector<do
   return poles;
 }
 
-std::vector<Pole> settled(const Samples& samples, std::vector<Pole> poles, double slowest) {
-  constexpr int rounds = 5;  // more gain nothing for poles that were settled before a few were added
+std::vector<Pole> spread(const std::vector<double>& omega, int order) {
+  std::vector<Pole> poles;
+  const int pairs = order / 2;
+  const double last = omega.back();
+  for (int i = 0; i < pairs; ++i) {
+    const double at = omega.front() + (last - omega.front()) * (i + 0.5) / pairs;
+    poles.push_back({0.02 * last / pairs + 0.01 * at, at});
+  }
+  return poles;
+}
+
+std::vector<Pole> settled(const Samples& samples, std::vector<Pole> poles, int rounds, double slowest) {
   for (int i = 0; i < rounds; ++i) poles = relocated(samples, poles, slowest);
   std::sort(poles.begin(), poles.end(), [](const Pole& p, const Pole& q) { return p.omega < q.omega; });
   return poles;

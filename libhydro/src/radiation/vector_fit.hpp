@@ -31,8 +31,11 @@ Samples mixed(const Samples& samples, Eigen::Index most);
 /// With pairs added where most is `missed`, a sum of squares at each of `omega`, until there are `order` states.
 std::vector<Pole> grown(std::vector<Pole> poles, int order, const std::vector<double>& omega, Eigen::VectorXd missed);
 
-/// Stable poles that the functions share, moved from these by relaxed vector fitting, in order of frequency. None
-/// decays more slowly than `slowest`.
-std::vector<Pole> settled(const Samples& samples, std::vector<Pole> poles, double slowest);
+/// Lightly damped pairs, evenly over the frequencies, of an even number of states.
+std::vector<Pole> spread(const std::vector<double>& omega, int order);
+
+/// Stable poles that the functions share, moved from these by so many rounds of relaxed vector fitting, in order of
+/// frequency. None decays more slowly than `slowest`.
+std::vector<Pole> settled(const Samples& samples, std::vector<Pole> poles, int rounds, double slowest);
 
 }  // namespace hydro::radiation::detail

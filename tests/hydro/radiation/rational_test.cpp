@@ -66,8 +66,8 @@ TEST(RationalFit, IsNearerWhereSlowMotionsFeelLittleDamping) {
   for (const auto& B : damping.B) largest = std::max(largest, surge.dot(B * surge));
   for (std::size_t k = 0; c.omega[k] < 0.6; ++k) {
     const double off = surge.dot((fit.model.transform(c.omega[k]).real() - damping.B[k]) * surge);
-    // A tenth of the tolerance; 153 of 14 N s/m at 0.36 rad/s, were all frequencies alike.
-    EXPECT_LT(std::abs(off), 1e-3 * largest) << c.omega[k] << " rad/s";
+    // A fifth of the tolerance. Were all frequencies alike, it would be nearly all of it at the first.
+    EXPECT_LT(std::abs(off), 2e-3 * largest) << c.omega[k] << " rad/s";
   }
 }
 
