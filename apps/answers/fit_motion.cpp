@@ -29,6 +29,25 @@ double deviation_of(const Motion::Signal& s, const std::string& unit, const hydr
   });
 }
 
+/// Signals and weights of a film, whose angles and places must be what the run's signals are.
+void add_film(const Motion& model, const MeasuredRun& measured, const std::vector<std::string>& units,
+              ::fit::motion::Problem& out) {
+  for (std::size_t c = 0; c < units.size(); ++c) {
+    const Motion::Signal& s = model.signals[c];
+    const char* needed = s.marker.empty() ? "rad" : "m";
+    if (units[c] != needed)
+      throw hydro::InputError(
+          fmt::format("\"{}\" is in {}; {} of a film is in {}", s.of, units[c].empty() ? "1" : units[c],
+                      s.marker.empty() ? "the angle of a line" : "a coordinate", needed),
+          s.deviation.place, "name a signal of the run that is what the film shows");
+    out.signals.push_back({s.of, units[c], measured.deviations[c]});
+  }
+  for (std::size_t w = 0; w < measured.first.size(); ++w) {
+    const auto from = measured.whitening.begin() + measured.first[w];
+    out.whitening.emplace_back(from, from + measured.rows(w));
+  }
+}
+
 /// A column of all windows, one after the other.
 std::vector<double> joined(const std::vector<Eigen::MatrixXd>& windows, std::size_t column) {
   std::vector<double> out;
@@ -59,6 +78,10 @@ std::vector<double> joined(const std::vector<Eigen::MatrixXd>& windows, std::siz
   for (const auto& q : model.parameters) out.parameters.push_back({q.number, q.unit});
   for (std::size_t w = 0; w < measured.first.size(); ++w)
     out.measured.emplace_back(measured.values.middleRows(measured.first[w], measured.rows(w)));
+  if (model.camera) {
+    add_film(model, measured, units, out);
+    return out;
+  }
   const auto table = hydro::io::CsvTable::read(scene.files[0].value);
   for (std::size_t c = 0; c < units.size(); ++c)
     out.signals.push_back({model.signals[c].of, units[c], deviation_of(model.signals[c], units[c], table)});

@@ -109,8 +109,37 @@ Binding<MotionModel> motion_keys() {
       });
 }
 
+namespace {
+
+/// Signals of tracks need [camera], and all signals come from the same file.
+void check_track(const FitTables& t, const FitScene& scene, const MotionModel& motion) {
+  for (const auto& s : motion.signals) {
+    if (s.column.empty() == motion.camera.has_value()) continue;
+    throw InputError(motion.camera
+                         ? fmt::format("\"{}\" comes from a column, and with [camera] the files are tracks", s.of)
+                         : fmt::format("\"{}\" comes from markers, and the scene has no [camera]", s.of),
+                     s.deviation.place,
+                     motion.camera ? "name a line (between) or a marker"
+                                   : "add [camera] with the scale of the picture and what else is known");
+  }
+  const bool timed = scene.channels.count("time") > 0;
+  if (!motion.camera) {
+    if (!motion.columns.empty() || t.data().has("units"))
+      throw t.data().refused("has columns or units of a track, and the scene has no [camera]", "add [camera]");
+    return;
+  }
+  if (timed == (motion.camera->frame_rate > 0))
+    throw t.data().refused(
+        timed ? "names a column of time, and [camera] a frame rate" : "does not say when frames were taken",
+        timed ? "leave out one of them"
+              : "add channels = { time = \"name of a column\" }, or [camera] frame_rate = \"25 Hz\"");
+}
+
+}  // namespace
+
 void finish(const FitTables& t, FitScene& scene, MotionModel& motion) {
-  read_channels(t, {"time"}, {"time"}, scene);
+  read_channels(t, {"time"}, motion.camera ? std::vector<std::string>{} : std::vector<std::string>{"time"}, scene);
+  check_track(t, scene, motion);
   if (motion.signals.empty())
     throw t.data().refused(
         "needs what was measured",

@@ -11,6 +11,7 @@
 namespace froude::scene {
 namespace {
 
+namespace dim = hydro::dim;
 namespace fs = std::filesystem;
 using hydro::InputError;
 
@@ -104,14 +105,48 @@ std::vector<FitScene::ForceChannel> read_force(const Record& data, const FitScen
   return out;
 }
 
+void check_signal(const Record& record, MotionModel::Signal& out) {
+  if (record.has("column") != record.has("deviation"))
+    throw record.has("column")
+        ? record.refused("needs the key \"deviation\"", "add deviation = \"0.5 deg\": it weighs the columns")
+        : record.wrong("deviation", "does not go with a track", "the track's own covariances weigh it: leave it out");
+  if (record.has("between") && out.between.size() != 2)
+    throw record.wrong("between", "must name two markers",
+                       "the angle is that of the line from the first to the second");
+  if (record.has("marker") && !record.has("along"))
+    throw record.refused("needs the key \"along\"", "add along = \"x\", \"y\" or \"z\"");
+  if (!record.has("deviation")) out.deviation.place = record.place();
+}
+
+const Table& track_units() {
+  static const Table table{
+      .title = "[data.units]",
+      .meaning = "of a track whose columns do not say",
+      .keys = {text("time", "\"s\", \"ms\"").optional(), text("position", "\"px\", or a length: \"mm\"").optional()}};
+  return table;
+}
+
 const Binding<MotionModel::Signal>& data_signal() {
   using Signal = MotionModel::Signal;
   static const auto table =
       Binding<Signal>("[[data.signal]]", "motion: a column of the files, and what of a run it should be")
-          .key(text("column", "of the files, with its unit"), &Signal::column)
+          .optional(text("column", "of the files, with its unit"), &Signal::column)
+          .optional(
+              texts("between",
+                    "two markers of a track: the signal is the angle of the line from the first to the second, "
+                    "counted as that signal is: below the horizontal (polar), or about the axis across the picture"),
+              &Signal::between)
+          .optional(text("marker", "a marker of a track: the signal is one of its coordinates"), &Signal::marker)
           .key(text("of", "signal of the run: \"buoy.heave\", \"dropper.link2.polar\""), &Signal::of)
-          .key(text("deviation", "standard deviation of the noise, \"0.5 deg\": weighs the columns"),
-               &Signal::deviation);
+          .optional(text("deviation",
+                         "standard deviation of the noise, \"0.5 deg\": weighs the columns; a track has its own"),
+                    &Signal::deviation)
+          .optional(text("along", "which coordinate").one_of({"x", "y", "z"}).only_beside("marker"), &Signal::along)
+          .optional(quantity("zero", dim::angle, "direction of the line where the signal is zero; left out: 0")
+                        .only_beside("between"),
+                    &Signal::zero)
+          .exactly_one_of({"column", "between", "marker"})
+          .then(check_signal);
   return table;
 }
 
@@ -129,7 +164,18 @@ const Binding<FitScene>& fit_data() {
                 check_kind<MorisonModel, DecayModel>(scene, runs);
                 detail::put(runs, scene.run_table);
               })
-          .key(inner_table("channels", data_channels()))
+          .key(inner_table("channels", data_channels()).or_default("", "see its keys"))
+          .optional(texts("columns", "motion, of a track: names of all its columns, where the file has none"),
+                    [](const Value& names, FitScene& scene) {
+                      only_in_fits_of<MotionModel>(scene, names).columns = names.texts;
+                    })
+          .optional(inner_table("units", track_units()),
+                    [](const Value& units, FitScene& scene) {
+                      auto& motion = only_in_fits_of<MotionModel>(scene, units, "write units in the header: force [N]");
+                      const Record& record = units.records.front();
+                      if (record.has("time")) motion.time_unit = record.text("time");
+                      if (record.has("position")) motion.position_unit = record.text("position");
+                    })
           .optional(inner_tables("signal", data_signal().table()),
                     [](const Value& signals, FitScene& scene) {
                       auto& out = only_in_fits_of<MotionModel>(scene, signals, "name [data.channels] instead").signals;
@@ -288,8 +334,9 @@ const Table& fit_schema() {
       .title = "a fit",
       .meaning = "coefficients from measurements",
       .keys = {integer("schema", "version of this grammar, 1"), text("title", "for people").optional(),
-               inner_table("data", fit_data().table()), inner_table("prepare", prepare_binding().table()).optional(),
-               inner_table("model", fit_model().table()), inner_table("ask", fit_ask().table())}};
+               inner_table("data", fit_data().table()), inner_table("camera", camera_binding().table()).optional(),
+               inner_table("prepare", prepare_binding().table()).optional(), inner_table("model", fit_model().table()),
+               inner_table("ask", fit_ask().table())}};
   return table;
 }
 
@@ -309,6 +356,9 @@ FitScene parse_fit(std::string_view text, const fs::path& file) {
   const Record root = read_record(document, fit_schema(), scene.echo);
   if (root.has("title")) scene.title = root.text("title");
   fit_model().read_into(root.table("model"), scene);
+  if (root.has("camera"))
+    only_in_fits_of<MotionModel>(scene, root["camera"], "leave it out: a track is fitted by running a scene").camera =
+        camera_binding().read(root.table("camera"));
   if (root.has("prepare")) read_prepare(root.table("prepare"), scene);
   fit_data().read_into(root.table("data"), scene);
   fit_ask().read_into(root.table("ask"), scene);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "scene/film.hpp"
 #include "scene/scene.hpp"
 #include "scene/schema.hpp"
 
@@ -122,7 +123,9 @@ std::string key_reference() {
          "A quantity is text with its unit, any unit of its kind; the unit named here is SI. A default stands with its "
          "reason.\n"
          "\n## Scenes of motion\n" +
-         reference_of(motion_schema()) + "\n## Scenes of fits\n" + reference_of(fit_schema());
+         reference_of(motion_schema()) + "\n## Scenes of fits\n" + reference_of(fit_schema()) +
+         "\n## Scenes of films\n" + reference_of(film_schema()) + "\n## Calibrations\n" +
+         reference_of(calibration_binding().table());
 }
 
 }  // namespace froude::scene
