@@ -299,12 +299,13 @@ RationalFit fit(const DampingTable& damping, const std::vector<Eigen::MatrixXd>&
   require(damping.omega.size() >= 4, "a rational fit needs four frequencies at least, got {}", damping.omega.size());
   require(options.tolerance > 0 && options.largest_order >= 2,
           "a fit needs a positive tolerance and an order of 2 at least");
+  const double negative = negative_share(damping);  // refuses a source of power
   const Data even = prepared(damping, A, A_inf), d = weighted(even);
   require(!d.modes.empty(), "there is no damping to fit: no mode makes waves");
   const int most = std::min(options.largest_order, static_cast<int>(3 * damping.omega.size() / 2));
   const auto told = [&](const Data& of, Attempt a, std::string why) {
     a.report.why = std::move(why);
-    a.report.negative_share = negative_share(damping);
+    a.report.negative_share = negative;
     return unscaled(of, a);
   };
   const auto lowest = [&](const Data& of, Attempts found) {
