@@ -205,16 +205,14 @@ Eigen::VectorXd share_of_damping(const std::vector<double>& theta) {
   return out;
 }
 
-/// Towards the passive ones: fit the data and, at every angle, a matrix without negative eigenvalues near that of the
-/// fit before. The targets are placed beyond the nearest one, which reaches it sooner. Data and targets share one
-/// design, whose solution is a fixed part and a matrix times the targets.
-Eigen::MatrixXd approached(const Fitting& fitting, const Eigen::MatrixXd& rows, const Eigen::VectorXd& share,
-                           Eigen::Index n, const Margins& margins, Enforced& report) {
-  // A turn costs an eigenproblem of n modes at each angle; large arrays get fewer turns and more lift.
-  const double size = static_cast<double>(n);
-  const int turns = n <= 40 ? 150 : std::max(10, static_cast<int>(150 * 40 * 40 / (size * size)));
-  constexpr double beyond = 1.8;
-  const Eigen::Index inner = rows.cols(), data = fitting.design.rows();
+/// Data and targets of Q at the angles of `rows`, fitted together: x = fixed + by_target · targets.
+struct Targeted {
+  Eigen::MatrixXd fixed, by_target;
+  Eigen::VectorXd weight;  // of each angle
+};
+
+Targeted targeted(const Fitting& fitting, const Eigen::MatrixXd& rows, const Eigen::VectorXd& share) {
+  const Eigen::Index data = fitting.design.rows();
   // Weight of each angle: that of B itself, so that the ends, where B is next to nothing, do not lead.
   const Eigen::VectorXd weight =
       3 * std::sqrt(static_cast<double>(data) / 2 / static_cast<double>(rows.rows())) * share.cwiseMax(0.1);
@@ -224,19 +222,57 @@ Eigen::MatrixXd approached(const Fitting& fitting, const Eigen::MatrixXd& rows, 
   const dense::HouseholderQr qr(design * scale.asDiagonal());
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(design.rows(), fitting.right.cols());
   right.topRows(data) = fitting.right;
-  const Eigen::MatrixXd fixed = scale.asDiagonal() * qr.solve(right);
   Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(design.rows(), rows.rows());
   unit.bottomRows(rows.rows()).diagonal() = weight;
-  const Eigen::MatrixXd by_target = scale.asDiagonal() * qr.solve(unit);
-  Eigen::MatrixXd x = least_squares(fitting.design, fitting.right);
+  return {scale.asDiagonal() * qr.solve(right), scale.asDiagonal() * qr.solve(unit), weight};
+}
+
+/// Whether what Q is short of its margin is nothing, or no more of B than damping on all modes alike may make good.
+bool near_enough(const Margins& margins, const Eigen::VectorXd& lowest, const Eigen::VectorXd& share) {
+  const Eigen::ArrayXd missing = (margins.kept - lowest.array()).max(0);
+  return margins.lifted > 0 ? (missing * share.array()).maxCoeff() <= margins.lifted : missing.maxCoeff() == 0;
+}
+
+/// Towards the passive ones: fit the data and, at every angle, a matrix without negative eigenvalues near that of the
+/// fit before; the way so far is continued each time (Nesterov's acceleration), and begun anew where the distance from
+/// the targets grows. Turns end where Q is near enough and the data are missed by no less than a turn before, or where
+/// Q comes no nearer since the data pull as hard.
+Eigen::MatrixXd approached(const Fitting& fitting, const Eigen::MatrixXd& rows, const Eigen::VectorXd& share,
+                           Eigen::Index n, const Margins& margins, Enforced& report) {
+  // A turn costs an eigenproblem of n modes at each angle; large arrays get fewer turns and more lift.
+  const double size = static_cast<double>(n);
+  const int turns = n <= 40 ? 150 : std::max(10, static_cast<int>(150 * 40 * 40 / (size * size)));
+  constexpr double beyond = 1.8;    // targets beyond the nearest matrix are reached sooner
+  constexpr int once_in = 10;       // turns, in which the distance shall fall
+  constexpr double falling = 0.99;  // to this share of it, and what the data are missed by in one turn
+  const Eigen::Index inner = rows.cols();
+  const Targeted fit = targeted(fitting, rows, share);
+  Eigen::MatrixXd x = least_squares(fitting.design, fitting.right), point = x;
+  double momentum = 1, last = HUGE_VAL, reference = HUGE_VAL, missed_before = HUGE_VAL;
+  bool was_near = false;
   for (int turn = 0; turn < turns; ++turn) {
-    const Eigen::MatrixXd now = rows * x.topRows(inner);
+    const Eigen::MatrixXd now = rows * point.topRows(inner);
     const Raised target = raised(now, n, 2 * margins.kept);
     if (turn == 0) report.most_negative = std::min(0.0, target.lowest.minCoeff());
-    if ((target.lowest.array() * share.array()).minCoeff() > -margins.lifted) break;
-    x = fixed + by_target * (now + beyond * (target.Q - now));
+    const double missed = (fitting.design * point - fitting.right).norm();
+    const bool near = near_enough(margins, target.lowest, share);
+    if (near && was_near && missed > falling * missed_before) break;
+    was_near = near;
+    missed_before = missed;
+    const double distance = (fit.weight.asDiagonal() * (target.Q - now)).norm();
+    if (turn % once_in == 0) {
+      if (!near && distance > falling * reference) break;
+      reference = distance;
+    }
+    if (distance > last) momentum = 1;
+    last = distance;
+    Eigen::MatrixXd next = fit.fixed + fit.by_target * (now + beyond * (target.Q - now));
+    const double momentum_next = (1 + std::sqrt(1 + 4 * momentum * momentum)) / 2;
+    point = next + (momentum - 1) / momentum_next * (next - x);
+    x = std::move(next);
+    momentum = momentum_next;
   }
-  return x;
+  return point;
 }
 
 }  // namespace

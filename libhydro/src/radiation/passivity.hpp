@@ -11,6 +11,8 @@ namespace hydro::radiation::detail {
 /// A symmetric matrix as its upper triangle in one row, off-diagonal entries times √2 so that lengths agree.
 Eigen::RowVectorXd packed(const Eigen::MatrixXd& symmetric);
 Eigen::MatrixXd unpacked(const Eigen::RowVectorXd& row, Eigen::Index n);
+/// Place of the pair i <= j in that row.
+inline Eigen::Index packed_place(Eigen::Index i, Eigen::Index j) { return j * (j + 1) / 2 + i; }
 
 /// Q(θ) = B(ω)/sin² 2θ with ω = c tan θ, 0 <= θ <= π/2: finite at both ends, where B itself goes to zero. (R15)
 /// Everything is linear in the coefficients, so this class only makes rows that multiply them.
@@ -59,7 +61,7 @@ struct Enforced {
 
 struct Margins {
   double kept;    ///< by which Q shall be positive at every angle
-  double lifted;  ///< what B may be short of that before damping on all modes alike makes it good
+  double lifted;  ///< what B may be short of that before damping on all modes alike makes it good; 0: nothing
 };
 
 /// The solution nearest to the least-squares one that is passive with a margin. (R17)

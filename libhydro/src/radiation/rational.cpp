@@ -50,7 +50,8 @@ struct Data {
   std::size_t inside;      // frequencies of the table; the rest are of the tail
   detail::Samples samples;
   Eigen::MatrixXd A_inf;
-  double centre;  // rad/s, where the scaled damping is largest
+  double centre;                                  // rad/s, where the scaled damping is largest
+  std::vector<std::vector<Eigen::Index>> groups;  // of the modes above that feel each other, through others or not
 };
 
 Eigen::MatrixXd scaled(const Data& d, const Eigen::MatrixXd& m) {
@@ -74,8 +75,41 @@ double weight_of_damping(double omega, double centre) {
   return std::clamp(std::pow(centre / omega, 2), 1.0, most);
 }
 
+/// Modes that move each other by more than `least` of their damping anywhere: a hull with a plane of symmetry has two
+/// such groups.
+std::vector<std::vector<Eigen::Index>> groups(const Data& d, double least) {
+  const auto n = static_cast<Eigen::Index>(d.modes.size());
+  const auto inside = static_cast<Eigen::Index>(d.inside);
+  const Eigen::MatrixXd together =
+      detail::unpacked(d.samples.values.topRows(inside).cwiseAbs().colwise().maxCoeff(), n);
+  std::vector<std::vector<Eigen::Index>> out;
+  std::vector<bool> taken(d.modes.size(), false);
+  for (Eigen::Index first = 0; first < n; ++first) {
+    if (taken[static_cast<std::size_t>(first)]) continue;
+    taken[static_cast<std::size_t>(first)] = true;
+    std::vector<Eigen::Index> group{first};
+    for (std::size_t at = 0; at < group.size(); ++at)
+      for (Eigen::Index other = 0; other < n; ++other)
+        if (!taken[static_cast<std::size_t>(other)] && together(group[at], other) > least) {
+          taken[static_cast<std::size_t>(other)] = true;
+          group.push_back(other);
+        }
+    std::sort(group.begin(), group.end());
+    out.push_back(std::move(group));
+  }
+  return out;
+}
+
+/// Places of a group's pairs among all that are packed.
+std::vector<Eigen::Index> pairs_of(const std::vector<Eigen::Index>& group) {
+  std::vector<Eigen::Index> out;
+  for (std::size_t j = 0; j < group.size(); ++j)
+    for (std::size_t i = 0; i <= j; ++i) out.push_back(detail::packed_place(group[i], group[j]));
+  return out;
+}
+
 Data prepared(const DampingTable& given, const std::vector<Eigen::MatrixXd>& A,
-              const std::optional<Eigen::MatrixXd>& A_inf) {
+              const std::optional<Eigen::MatrixXd>& A_inf, double tolerance) {
   const ExtrapolatedDamping whole = extrapolated(given, A, A_inf);
   Data d;
   d.A_inf = whole.A_inf;
@@ -116,6 +150,7 @@ Data prepared(const DampingTable& given, const std::vector<Eigen::MatrixXd>& A,
       d.centre = omega;
     }
   }
+  d.groups = groups(d, tolerance / 1000);  // what is left out between them is of no account beside the tolerance
   return d;
 }
 
@@ -169,12 +204,23 @@ struct Attempt {
   FitReport report;
 };
 
+/// The coefficients that data ask for; none between modes of different groups.
+Eigen::MatrixXd solution(const Data& d, const detail::Fitting& f) {
+  const Eigen::MatrixXd all = detail::least_squares(f.design, f.right);
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(all.rows(), all.cols());
+  for (const auto& group : d.groups) {
+    const auto pairs = pairs_of(group);
+    x(Eigen::all, pairs) = all(Eigen::all, pairs);
+  }
+  return x;
+}
+
 Attempt attempt(const Data& d, std::vector<Pole> poles) {
   Attempt a;
   a.poles = std::move(poles);
   const Eigen::MatrixXd null = detail::vanishing_at_rest(a.poles);
   const detail::Fitting f = fitting(d, a.poles, null);
-  const Eigen::MatrixXd x = detail::least_squares(f.design, f.right);
+  const Eigen::MatrixXd x = solution(d, f);
   a.coefficients = null * x.topRows(null.cols());
   a.shift = x.bottomRows(1);
   a.missed = squares_at(f.design * x - f.right);
@@ -188,24 +234,32 @@ void make_passive(const Data& d, const detail::Margins& margins, Attempt& a) {
   const Eigen::MatrixXd null = detail::vanishing_at_rest(a.poles);
   const detail::Fitting f = fitting(d, a.poles, null);
   const detail::WeightedDamping weighted(a.poles, d.centre);
-  const auto enforced = detail::enforce(weighted, null, f, static_cast<Eigen::Index>(d.modes.size()), margins);
-  a.coefficients = null * enforced.x.topRows(null.cols());
-  a.shift = enforced.x.bottomRows(1);
-  a.report.error_per_pair = per_pair(d, errors(d, f, enforced.x));
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(f.design.cols(), f.right.cols());
+  a.report.passive = true;
+  a.report.most_negative = a.report.lift = 0;
+  for (const auto& group : d.groups) {
+    const auto pairs = pairs_of(group);
+    const auto enforced = detail::enforce(weighted, null, {f.design, f.right(Eigen::all, pairs), f.extra},
+                                          static_cast<Eigen::Index>(group.size()), margins);
+    x(Eigen::all, pairs) = enforced.x;
+    a.report.passive = a.report.passive && enforced.passive;
+    a.report.most_negative = std::min(a.report.most_negative, enforced.most_negative);
+    a.report.lift = std::max(a.report.lift, enforced.lift);
+  }
+  a.coefficients = null * x.topRows(null.cols());
+  a.shift = x.bottomRows(1);
+  a.report.error_per_pair = per_pair(d, errors(d, f, x));
   a.report.error = a.report.error_per_pair.maxCoeff();
-  a.report.passive = enforced.passive;
-  a.report.margin = enforced.passive ? margins.kept : 0;
-  a.report.most_negative = enforced.most_negative;
-  a.report.lift = enforced.lift;
+  a.report.margin = a.report.passive ? margins.kept : 0;
 }
 
 /// By a lift as soon as that is small, which is quick; where that costs the tolerance, by what needs hardly any.
 void make_passive(const Data& d, double tolerance, Attempt& a) {
   const double margin = tolerance / 50;
   Attempt quick = a;
-  make_passive(d, {.kept = margin, .lifted = tolerance / 5}, quick);
+  make_passive(d, {.kept = margin, .lifted = tolerance / 20}, quick);
   if (!quick.report.passive || quick.report.error > tolerance) {
-    make_passive(d, {.kept = margin, .lifted = -margin}, a);
+    make_passive(d, {.kept = margin, .lifted = 0}, a);
     if (a.report.passive || !quick.report.passive) return;
   }
   a = std::move(quick);
@@ -261,7 +315,7 @@ Attempt nearest(const Data& d, const FitOptions& options, std::vector<Attempt> t
   for (std::size_t i = 0; i < std::min(few, tried.size()); ++i) {
     const FitReport& so_far = tried[best].report;
     if (i > 0 && so_far.passive && so_far.error <= tried[i].report.error) break;
-    if (!tried[i].report.passive) make_passive(d, {.kept = margin, .lifted = -margin}, tried[i]);
+    if (!tried[i].report.passive) make_passive(d, {.kept = margin, .lifted = 0}, tried[i]);
     if (better(tried[i].report, so_far)) best = i;
   }
   return std::move(tried[best]);
@@ -300,7 +354,7 @@ RationalFit fit(const DampingTable& damping, const std::vector<Eigen::MatrixXd>&
   require(options.tolerance > 0 && options.largest_order >= 2,
           "a fit needs a positive tolerance and an order of 2 at least");
   const double negative = negative_share(damping);  // refuses a source of power
-  const Data even = prepared(damping, A, A_inf), d = weighted(even);
+  const Data even = prepared(damping, A, A_inf, options.tolerance), d = weighted(even);
   require(!d.modes.empty(), "there is no damping to fit: no mode makes waves");
   const int most = std::min(options.largest_order, static_cast<int>(3 * damping.omega.size() / 2));
   const auto told = [&](const Data& of, Attempt a, std::string why) {

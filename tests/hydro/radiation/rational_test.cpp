@@ -137,6 +137,33 @@ TEST(RationalFit, MakesNoisyDataPassiveAndSaysWhatThatCost) {
   EXPECT_THAT(fit.report.why, HasSubstr("no order up to"));
 }
 
+// As of a hull with a plane of symmetry, whose modes of one kind move those of the other by what its data's last digits
+// make of nothing. What is above a thousandth of the tolerance is data, not round-off.
+TEST(RationalFit, TakesModesApartThatDoNotMoveEachOther) {
+  for (const bool coupled : {false, true}) {
+    const auto exact = support::random_passive(3, 4, 4);
+    auto data = support::data_of(exact, 6, 60);
+    Eigen::VectorXd largest = Eigen::VectorXd::Zero(4);
+    for (const auto& B : data.damping.B) largest = largest.cwiseMax(B.diagonal());
+    for (std::size_t k = 0; k < data.A.size(); ++k)
+      for (const int i : {0, 2})
+        for (const int j : {1, 3}) {
+          const double size = std::sqrt(largest[i] * largest[j]), sign = k % 2 == 0 ? 1 : -1;
+          data.damping.B[k](i, j) = data.damping.B[k](j, i) =
+              coupled ? 1e-3 * data.damping.B[k](i, j) : 1e-6 * sign * size;
+          data.A[k](i, j) = data.A[k](j, i) = coupled ? 1e-3 * data.A[k](i, j) : 0;
+        }
+    const auto fit = hydro::radiation::fit(data.damping, data.A, data.A_inf, {.tolerance = 1e-2});
+    EXPECT_LE(fit.report.error, 1e-2);
+    EXPECT_TRUE(fit.report.passive);
+    EXPECT_GE(smallest_damping(fit.model, largest.cwiseSqrt().cwiseInverse()), 0) << "of all four, not only by twos";
+    double between = 0;
+    for (const double t : {0.0, 0.5, 2.0})
+      between = std::max({between, std::abs(fit.model.kernel(t)(0, 1)), std::abs(fit.model.kernel(t)(2, 3))});
+    EXPECT_EQ(between > 0, coupled);
+  }
+}
+
 TEST(RationalFit, LeavesOutModesThatMakeNoWaves) {
   auto table = body.damping_table(8, 80, 3);
   auto A = body.added_mass(table, 7);
