@@ -15,6 +15,7 @@ SimulationProblem simulated(const Problem& problem) {
   for (const Parameter& p : problem.parameters) out.parameters.push_back(p.number);
   out.measured = problem.measured;
   for (const Signal& s : problem.signals) out.deviations.push_back(s.deviation);
+  out.whitening = problem.whitening;
   out.confidence = problem.options.confidence;
   out.iterations_reach = problem.options.iterations_reach;
   out.accept_residuals = problem.options.accept_residuals;
@@ -57,7 +58,9 @@ std::string word_of(std::string key) {
 
 double widest(const std::vector<Eigen::MatrixXd>& bands, std::size_t column) {
   double out = 0;
-  for (const auto& band : bands) out = std::max(out, band.col(static_cast<Eigen::Index>(column)).maxCoeff());
+  for (const auto& band : bands)
+    for (const double width : band.col(static_cast<Eigen::Index>(column)))
+      if (width > out) out = width;  // NaN where nothing was measured
   return out;
 }
 
@@ -224,7 +227,9 @@ Solution solve(const Problem& problem) {
                               ? fit_simulation_from(simulation, search, *options.starts)
                               : fit_simulation_insisting(simulation, search, options.starts ? 0 : starts_after_failure);
   Solution out{.report = {}, .fit = std::move(several.best), .trouble = {}};
-  if (!out.fit.refused.empty()) out.trouble = trouble_of_channels(problem, search, out.fit);
+  // Errors that channels share would be another matter once two of them are exchanged.
+  if (!out.fit.refused.empty() && problem.whitening.empty())
+    out.trouble = trouble_of_channels(problem, search, out.fit);
   out.report = told(problem, out.fit);
   if (several.tried > 1) add_starts(problem, several, out.report);
   out.report.refused = refusal_of(problem, out.fit, out.trouble);
