@@ -8,12 +8,10 @@ Where froude-film is not built beside froude, what `froude track` then says is a
 import csv
 import json
 import math
-import re
 import shutil
 import subprocess
 import sys
 import tempfile
-import tomllib
 import unittest
 from pathlib import Path
 
@@ -74,11 +72,14 @@ class ForeignTrack(WithFolder):
         x, z = (float(middle[f"joint_{c} [m]"]) for c in "xz")
         self.assertAlmostEqual(float(middle["chain.link1.polar [rad]"]), math.atan2(-z, x), delta=0.005)
         self.assertAlmostEqual(math.hypot(x, z), 0.5, delta=0.005)
-        # The rate against the change of the angle over two frames.
+        # The rate, summed by trapezia over two seconds, against the change of the angle: off by h^2/12 times that of the
+        # acceleration, 0.005 rad, and as much noise.
         times = [float(row["t [s]"]) for row in rows]
         angles = [float(row["chain.link1.polar [rad]"]) for row in rows]
-        rate = (angles[151] - angles[149]) / (times[151] - times[149])
-        self.assertAlmostEqual(float(middle["chain.link1.polar_velocity [rad/s]"]), rate, delta=0.1)
+        rates = [float(row["chain.link1.polar_velocity [rad/s]"]) for row in rows]
+        summed = sum((rates[i] + rates[i + 1]) / 2 * (times[i + 1] - times[i]) for i in range(100, 150))
+        self.assertAlmostEqual(summed, angles[150] - angles[100], delta=0.02)
+        self.assertGreater(max(rates[100:150]) - min(rates[100:150]), 1)
 
 
 @unittest.skipIf(HAS_FILMS, "films are read here")
@@ -131,7 +132,7 @@ class Films(WithFolder):
         for name in ("line_damping_linear", "line_damping_quadratic"):
             with self.subTest(parameter=name):
                 low, high = told["parameter"][name]["interval"]
-                # Twice the half-width of 95 % is left by one film in ten thousand; coverage is what huijgen-damping-id counts.
+                # Twice the half-width of 95 % is left by one film in ten thousand.
                 self.assertLess(abs((low + high) / 2 - 0.01), high - low)
                 self.assertLess(high - low, 0.001)
 
@@ -158,13 +159,9 @@ class Films(WithFolder):
         self.assertIn("frames lie in the time", self.refused("track", "film.avi", "--from", "90 s", *track))
         self.assertIn("would be replaced", self.refused("track", "film.avi", "--markers", "2", "-o", "film.avi"))
 
-    def test_a_film_without_motion_says_so(self):
-        text = (self.folder / "film" / "film.toml").read_text()
-        text = re.sub(r"node = \"chain.node1\"", 'at = "(0.4, 0, -0.3) m"', text)
-        text = re.sub(r"node = \"chain.node2\"", 'at = "(0.6, 0, -0.2) m"', text)
-        (self.folder / "film" / "still.toml").write_text(text)
-        self.done("film", "film/still.toml", "-o", "still.avi")
-        self.assertIn("nothing moves in this film", self.refused("track", "still.avi", "--markers", "3", "-o", "x.csv"))
+    def test_a_film_in_which_no_marker_moves_says_so(self):
+        self.assertIn("nothing moves in this film",
+                      self.refused("track", "film.avi", "--markers", "1", "--first", "(322, 120)", "-o", "x.csv"))
 
     def test_a_lens_of_another_size_is_refused(self):
         lens = (self.folder / "film" / "lens.toml").read_text().replace("width = 640", "width = 1280")
