@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "answers/camera_track.hpp"
 #include "hydro/base/error.hpp"
@@ -161,6 +162,12 @@ Eigen::MatrixXd SceneRuns::follow(std::size_t window, const Eigen::VectorXd& par
       column = Eigen::Map<const Eigen::VectorXd>(values.data() + skipped, rows);
     else
       column = measured_.told(window, values);
+    // A film tells the angle of a line up to whole turns: the run is compared with the nearest. (V11)
+    if (!asked_.signals[c].between.empty())
+      for (Eigen::Index i = 0; i < rows; ++i)
+        if (const double seen = measured_.values(measured_.first[window] + i, static_cast<Eigen::Index>(c));
+            std::isfinite(seen))
+          column[i] = seen + std::remainder(column[i] - seen, 2 * std::numbers::pi);
   }
   return out;
 }
