@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 #include "answers/fit_kind.hpp"
 #include "answers/fit_measurements.hpp"
@@ -111,7 +112,8 @@ void add_film(const MotionModel& model, const MeasuredRun& measured, const std::
           fmt::format("\"{}\" is in {}; {} of a film is in {}", s.of, units[c].empty() ? "1" : units[c],
                       s.marker.empty() ? "the angle of a line" : "a coordinate", needed),
           s.deviation.place, "name a signal of the run that is what the film shows");
-    out.signals.push_back({s.of, units[c], measured.deviations[c]});
+    // A film tells the angle of a line up to whole turns.
+    out.signals.push_back({s.of, units[c], measured.deviations[c], s.marker.empty() ? 2 * std::numbers::pi : 0});
   }
   for (std::size_t w = 0; w < measured.first.size(); ++w) {
     const auto from = measured.whitening.begin() + measured.first[w];
@@ -333,7 +335,7 @@ class MotionFits final : public FitKindOf<MotionModel, ::fit::motion::Problem> {
     const ::fit::SimulationFit& fit = solution.fit;
     Panels out;
     for (std::size_t c = 0; c < problem.signals.size(); ++c) {
-      const auto& [name, unit, deviation] = problem.signals[c];
+      const auto& [name, unit, deviation, period] = problem.signals[c];
       Panels both = panels_of(FittedRecord{.legend = "measured",
                                            .axis = {name, unit},
                                            .confidence = problem.options.confidence,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "answers/camera_track.hpp"
 #include "hydro/base/error.hpp"
@@ -93,7 +92,7 @@ Eigen::Index MeasuredRun::run_length(std::size_t window) const {
   return begin.empty() ? rows(window) : begin[window + 1] - begin[window];
 }
 
-Eigen::VectorXd MeasuredRun::told(std::size_t window, const std::vector<double>& run) const {  // (F81)
+Eigen::VectorXd MeasuredRun::told(std::size_t window, const std::vector<double>& run) const {  // (F91)
   Eigen::VectorXd out(rows(window));
   constexpr int points = 6;
   const auto last = static_cast<double>(std::ssize(run) - points);
@@ -162,12 +161,6 @@ Eigen::MatrixXd SceneRuns::follow(std::size_t window, const Eigen::VectorXd& par
       column = Eigen::Map<const Eigen::VectorXd>(values.data() + skipped, rows);
     else
       column = measured_.told(window, values);
-    // A film tells the angle of a line up to whole turns: the run is compared with the nearest. (V11)
-    if (!asked_.signals[c].between.empty())
-      for (Eigen::Index i = 0; i < rows; ++i)
-        if (const double seen = measured_.values(measured_.first[window] + i, static_cast<Eigen::Index>(c));
-            std::isfinite(seen))
-          column[i] = seen + std::remainder(column[i] - seen, 2 * std::numbers::pi);
   }
   return out;
 }

@@ -123,7 +123,7 @@ void draw(const Path& file, const std::vector<double>& time, const std::vector<S
 void kinematics(const KinematicsArguments& a, const Console& console) {
   require_outputs(named({{"-o", a.output}, {"--picture", a.picture}}), files_of_scene(a.scene));
   const scene::FitScene scene = scene::read_fit(a.scene);
-  const auto* model = std::get_if<scene::MotionModel>(&scene.model);
+  const auto* model = std::any_cast<scene::MotionModel>(&scene.settings);
   if (model == nullptr || !model->camera)
     throw InputError("the scene has no track: it is no fit of kind \"motion\" with [camera]", scene.model_place,
                      "name a scene whose files are tracks");

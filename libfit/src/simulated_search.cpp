@@ -61,6 +61,7 @@ class Shooting {
     return piece.seen * x.segment(piece.column, piece.seen.cols());
   }
   void check() const;
+  Eigen::MatrixXd motion_of(std::size_t w, const Eigen::VectorXd& theta, const Eigen::VectorXd& start);
   Eigen::VectorXd residuals(std::size_t w, const Eigen::VectorXd& theta, const Eigen::VectorXd& start);
   Eigen::MatrixXd start_columns(std::size_t w, const Eigen::VectorXd& theta, const Eigen::VectorXd& start,
                                 const Eigen::VectorXd& here, const Eigen::MatrixXd& directions);
@@ -103,17 +104,40 @@ void Shooting::check() const {
                    problem_.deviations.size(), m.rows(), m.cols());
   }
   for (const double d : problem_.deviations) hydro::require(d > 0, "a channel's deviation must be positive, got {}", d);
+  hydro::require(problem_.periods.empty() || problem_.periods.size() == problem_.deviations.size(),
+                 "{} channels have {} periods", problem_.deviations.size(), problem_.periods.size());
+  for (const double period : problem_.periods)
+    hydro::require(period >= 0, "a channel's period must not be negative, got {}", period);
 }
 
-/// Of one window over the deviations, one channel after the other.
-Eigen::VectorXd Shooting::residuals(std::size_t w, const Eigen::VectorXd& theta, const Eigen::VectorXd& start) {
+/// A column moved by whole periods, sample by sample, to where it is nearest to what was measured; where nothing was,
+/// by as many as before.
+void to_nearest_period(double period, const Eigen::Ref<const Eigen::VectorXd>& measured,
+                       Eigen::Ref<Eigen::VectorXd> motion) {
+  double moved = 0;
+  for (Eigen::Index i = 0; i < motion.size(); ++i) {
+    if (std::isfinite(measured[i])) moved = period * std::round((measured[i] - motion[i]) / period);
+    motion[i] += moved;
+  }
+}
+
+/// Of one window, as measured.
+Eigen::MatrixXd Shooting::motion_of(std::size_t w, const Eigen::VectorXd& theta, const Eigen::VectorXd& start) {
   ++followed_;
   Eigen::MatrixXd motion = simulation_.follow(w, theta, start);
   const Eigen::MatrixXd& measured = problem_.measured[w];
   hydro::require(motion.rows() == measured.rows() && motion.cols() == measured.cols(),
                  "the simulation gave {} samples of {} channels, {} of {} were measured", motion.rows(), motion.cols(),
                  measured.rows(), measured.cols());
-  motion -= measured;
+  for (std::size_t c = 0; c < problem_.periods.size(); ++c)
+    if (const auto column = static_cast<Eigen::Index>(c); problem_.periods[c] > 0)
+      to_nearest_period(problem_.periods[c], measured.col(column), motion.col(column));
+  return motion;
+}
+
+/// Of one window over the deviations, one channel after the other.
+Eigen::VectorXd Shooting::residuals(std::size_t w, const Eigen::VectorXd& theta, const Eigen::VectorXd& start) {
+  Eigen::MatrixXd motion = motion_of(w, theta, start) - problem_.measured[w];
   for (Eigen::Index c = 0; c < motion.cols(); ++c) motion.col(c) /= problem_.deviations[static_cast<std::size_t>(c)];
   whiten(problem_, w, motion);
   return motion.reshaped();
@@ -363,8 +387,7 @@ EndOfSearch Shooting::end() {  // (F41)
   evaluate(x, r, nullptr);
   std::vector<Eigen::MatrixXd> motion;
   if (!problem_.whitening.empty())
-    for (std::size_t w = 0; w < pieces_.size(); ++w)
-      motion.push_back(simulation_.follow(w, x.head(p()), start_of(x, w)));
+    for (std::size_t w = 0; w < pieces_.size(); ++w) motion.push_back(motion_of(w, x.head(p()), start_of(x, w)));
   return {std::move(report), std::move(x), std::move(r), jacobian_, pieces_, all_starts_, followed_, std::move(motion)};
 }
 
@@ -394,7 +417,7 @@ double Shooting::cost_nearby() {
 
 }  // namespace
 
-void whiten(const SimulationProblem& problem, std::size_t window, Eigen::MatrixXd& residuals) {  // (F80)
+void whiten(const SimulationProblem& problem, std::size_t window, Eigen::MatrixXd& residuals) {  // (F90)
   if (problem.whitening.empty()) return;
   for (Eigen::Index i = 0; i < residuals.rows(); ++i) {
     const Eigen::VectorXd own = residuals.row(i).array().isNaN().select(0, residuals.row(i)).transpose();

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <sstream>
 
+#include "answers/camera.hpp"
 #include "fit/camera/render.hpp"
 #include "froude/film/board.hpp"
 #include "froude/film/commands.hpp"
 #include "froude/film/video.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/random.hpp"
-#include "answers/camera.hpp"
 #include "support/scratch.hpp"
 
 namespace calibrate_test {

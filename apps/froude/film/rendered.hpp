@@ -3,13 +3,13 @@
 #include <cstddef>
 #include <vector>
 
+#include "answers/film.hpp"
 #include "fit/camera/render.hpp"
 #include "fit/camera/track.hpp"
-#include "answers/film.hpp"
 
 namespace froude::film {
 
-/// The scene is run once. Between the run's samples places are polynomials of degree 5 (F81).
+/// The scene is run once. Between the run's samples places are polynomials of degree 5 (F91).
 class RenderedFilm {
  public:
   /// \throws hydro::InputError for a scene that asks for no run, a node without signals, a camera whose lens is of

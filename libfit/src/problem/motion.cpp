@@ -14,7 +14,10 @@ SimulationProblem simulated(const Problem& problem) {
   SimulationProblem out;
   for (const Parameter& p : problem.parameters) out.parameters.push_back(p.number);
   out.measured = problem.measured;
-  for (const Signal& s : problem.signals) out.deviations.push_back(s.deviation);
+  for (const Signal& s : problem.signals) {
+    out.deviations.push_back(s.deviation);
+    out.periods.push_back(s.period);
+  }
   out.whitening = problem.whitening;
   out.confidence = problem.options.confidence;
   out.iterations_reach = problem.options.iterations_reach;
@@ -32,7 +35,7 @@ Eigen::VectorXd first_of(const Problem& problem) {
 /// "x differs by 0.057 m rms; its deviation is stated as 0.002 m, which allows 0.0026 m"
 std::string difference(const Problem& problem, const SimulationFit& fit, std::size_t c) {
   const StatedResiduals& s = fit.stated[c];
-  const auto& [name, unit, deviation] = problem.signals[c];
+  const auto& [name, unit, deviation, period] = problem.signals[c];
   return fmt::format("{} differs by {:.3g} {} rms; its deviation is stated as {:.3g} {}, which allows {:.3g} {}", name,
                      fit.rms[c], unit, s.stated, unit, s.allowed, unit);
 }

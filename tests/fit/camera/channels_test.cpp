@@ -190,6 +190,24 @@ TEST(WeightedFit, IsThatOfGeneralisedLeastSquares) {
   EXPECT_GT(f.inside, 0.88);
 }
 
+TEST(WeightedFit, OfAnglesThatWereMeasuredUpToWholeTurnsIsThatOfTheAngles) {
+  constexpr double turn = 2 * std::numbers::pi;
+  fit::SimulationProblem p = weighted(1, {8.0, 5.0});
+  p.parameters = {{"first", 7}, {"second", 6}};
+  Shapes shapes;
+  const fit::SimulationFit whole = fit_simulation(shapes, p);
+  for (double& angle : p.measured[0].reshaped()) angle = std::remainder(angle, turn);
+  p.periods = {turn, turn};
+  const fit::SimulationFit f = fit_simulation(shapes, p);
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(*f.parameters[k].value, *whole.parameters[k].value, 1e-6);
+  const Eigen::ArrayXXd left = (f.motion[0] - p.measured[0]).array();
+  EXPECT_LT(left.isNaN().select(0, left).abs().maxCoeff(), 1) << "the motion is told where it was measured";
+  p.periods = {turn, 0};
+  EXPECT_FALSE(fit_simulation(shapes, p).refused.empty()) << "as they are, the residuals of the second are turns";
+  p.periods = {turn};
+  EXPECT_THAT(refused([&] { fit_simulation(shapes, p); }), HasSubstr("2 channels have 1 periods"));
+}
+
 TEST(WeightedFit, CoversTheTruth) {
   int inside = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {

@@ -31,7 +31,8 @@ struct Parameter {
 
 struct Signal {
   std::string name, unit;
-  double deviation;  ///< of the noise, in that unit
+  double deviation;   ///< of the noise, in that unit
+  double period = 0;  ///< as SimulationProblem's
 };
 
 struct Problem {
