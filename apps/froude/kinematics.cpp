@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <numbers>
 
 #include "answers/camera_track.hpp"
@@ -104,13 +105,21 @@ double mean_of(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
+/// What all columns of a unit are.
+std::string quantity_in(const std::string& unit) {
+  static const std::map<std::string, std::string> names{
+      {"m", "place"},   {"m/s", "velocity"},           {"m/s^2", "acceleration"},
+      {"rad", "angle"}, {"rad/s", "angular velocity"}, {"rad/s^2", "angular acceleration"}};
+  return names.at(unit);
+}
+
 void draw(const Path& file, const std::vector<double>& time, const std::vector<SmoothedColumn>& columns) {
   plot::Figure figure{.title = "Smoothed motion", .panels = {}};
   for (const SmoothedColumn& c : columns) {
     auto panel = std::find_if(figure.panels.begin(), figure.panels.end(),
                               [&](const plot::Panel& p) { return p.y.unit == c.unit; });
     if (panel == figure.panels.end()) {
-      figure.panels.push_back({.x = {"time", "s"}, .y = {"", c.unit}, .series = {}});
+      figure.panels.push_back({.x = {"time", "s"}, .y = {quantity_in(c.unit), c.unit}, .series = {}});
       panel = std::prev(figure.panels.end());
     }
     panel->series.push_back({c.name, time, c.value});

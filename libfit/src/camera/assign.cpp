@@ -207,28 +207,38 @@ class Assignment {
     for (Eigen::Index round = 0;; ++round) {
       std::vector<std::size_t> out = least_assignment(cost);
       for (auto& j : out) j = std::min(j, found.size());
-      const auto worst = broken(out, found, cost);
+      const auto worst = broken(all, out, found, cost);
       if (worst.first == count() || round > n * m) return out;
       cost(static_cast<Eigen::Index>(worst.first), static_cast<Eigen::Index>(worst.second)) = never;
     }
   }
 
+  /// Where a marker is: what it was given, or where it is expected.
+  static Sighting place_of(const Prediction& expected, std::size_t given, const std::vector<Sighting>& found) {
+    return given < found.size() ? found[given] : Sighting{expected.place(), expected.covariance.topLeftCorner<2, 2>()};
+  }
+
   /// (V10) Of the pairs that break a known length, the marker that is further from its prediction, and what it was
   /// given.
-  std::pair<std::size_t, std::size_t> broken(const std::vector<std::size_t>& given, const std::vector<Sighting>& found,
-                                             const Eigen::MatrixXd& cost) const {
+  std::pair<std::size_t, std::size_t> broken(const std::vector<Prediction>& all, const std::vector<std::size_t>& given,
+                                             const std::vector<Sighting>& found, const Eigen::MatrixXd& cost) const {
     std::pair<std::size_t, std::size_t> out{count(), 0};
     double worst = 0;
     for (const LengthBetween& l : lengths_) {
-      if (given[l.from] == found.size() || given[l.to] == found.size()) continue;
-      const Sighting &a = found[given[l.from]], &b = found[given[l.to]];
+      const std::size_t seen = (given[l.from] < found.size()) + (given[l.to] < found.size());
+      if (seen == 0) continue;
+      const Sighting a = place_of(all[l.from], given[l.from], found), b = place_of(all[l.to], given[l.to], found);
       const Eigen::Vector2d d = b.at - a.at;
       const double now = d.norm();
       const double own = now > 0 ? d.dot((a.covariance + b.covariance) * d) / (now * now) : 0;
-      if (std::abs(now - l.length) < 5 * std::sqrt(own + l.deviation * l.deviation)) continue;
-      for (const std::size_t k : {l.from, l.to})
+      // Whips are stronger than what predictions allow for.
+      const double deviations = seen == 2 ? 5 : 8;
+      if (std::abs(now - l.length) < deviations * std::sqrt(own + l.deviation * l.deviation)) continue;
+      for (const std::size_t k : {l.from, l.to}) {
+        if (given[k] == found.size()) continue;
         if (const double c = cost(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(given[k])); c >= worst)
           worst = c, out = {k, given[k]};
+      }
     }
     return out;
   }

@@ -140,6 +140,21 @@ TEST(Assignment, KnownLengthRefusesAFalseOneThatPredictionsWouldTake) {
   EXPECT_EQ(found.missing[1], 3u);
 }
 
+TEST(Assignment, KnownLengthLeavesAHiddenMarkerWithoutItsNeighboursDisc) {
+  auto frames = film(300, 2, link);
+  for (std::size_t i = 150; i < 165; ++i)
+    std::erase_if(frames[i].found, [&](const Sighting& s) { return (s.at - link(1, frames[i].time)).norm() < 3; });
+  // A knock, so that the pivot is not where it is expected, while the bob may be anywhere.
+  for (Sighting& s : frames[160].found) s.at.y() += 25;
+  const AssignOptions plain{.names = {"pivot", "bob"}, .order = AssignOptions::Order::top_to_bottom};
+  AssignOptions held = plain;
+  held.lengths = {{"pivot", "bob", 40, 0.2}};
+  EXPECT_TRUE(assign(frames, plain).track.markers[1].seen[160]) << "or the length would not be what tells";
+  const auto found = assign(frames, held);
+  EXPECT_EQ(wrong(found.track, link), 0);
+  EXPECT_EQ(found.missing, (std::vector<std::size_t>{1, 15}));
+}
+
 TEST(Assignment, SaysWhatToDo) {
   auto frames = film(20, 2, crossing);
   const auto told = [&](const AssignOptions& options) { return refused([&] { assign(frames, options); }); };
