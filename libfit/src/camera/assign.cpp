@@ -75,10 +75,14 @@ struct Prediction {
     covariance = F * covariance * F.transpose() + Q;
   }
   Eigen::Vector2d place() const { return state.head<2>(); }
-  double distance(const Sighting& s) const {
+  /// Of a sighting: its squared distance over the variance of both, and how much wider that is than its own. (V9)
+  struct Missed {
+    double distance, spread;
+  };
+  Missed missed(const Sighting& s) const {
     const Eigen::Matrix2d both = covariance.topLeftCorner<2, 2>() + s.covariance;
-    const Eigen::Vector2d missed = s.at - place();
-    return missed.dot(both.inverse() * missed);
+    const Eigen::Vector2d d = s.at - place();
+    return {d.dot(both.inverse() * d), std::log(both.determinant() / s.covariance.determinant())};
   }
   void take(const Sighting& s) {
     const Eigen::Matrix<double, 4, 2> gain =
@@ -197,13 +201,19 @@ class Assignment {
   /// What is given to each marker, found.size() where nothing is.
   std::vector<std::size_t> given(const std::vector<Prediction>& all, const std::vector<Sighting>& found) const {
     const auto n = static_cast<Eigen::Index>(count()), m = std::ssize(found);
-    const double never = 1e6 * gate_;
-    Eigen::MatrixXd cost = Eigen::MatrixXd::Constant(n, m + n, gate_);  // the last n columns are gaps
+    Eigen::MatrixXd cost = Eigen::MatrixXd::Constant(n, m + n, std::numeric_limits<double>::infinity());
+    double widest = 0;
     for (Eigen::Index k = 0; k < n; ++k)
       for (Eigen::Index j = 0; j < m; ++j) {
-        const double d = all[static_cast<std::size_t>(k)].distance(found[static_cast<std::size_t>(j)]);
-        cost(k, j) = d < gate_ ? d : never;
+        const auto [distance, spread] = all[static_cast<std::size_t>(k)].missed(found[static_cast<std::size_t>(j)]);
+        if (distance >= gate_) continue;
+        cost(k, j) = distance + spread;
+        widest = std::max(widest, spread);
       }
+    // The last n columns are gaps, each dearer than any sighting that a gate lets pass.
+    cost.rightCols(n).setConstant(gate_ + widest);
+    const double never = 1e6 * (gate_ + widest);
+    cost = cost.cwiseMin(never);
     for (Eigen::Index round = 0;; ++round) {
       std::vector<std::size_t> out = least_assignment(cost);
       for (auto& j : out) j = std::min(j, found.size());
@@ -218,8 +228,7 @@ class Assignment {
     return given < found.size() ? found[given] : Sighting{expected.place(), expected.covariance.topLeftCorner<2, 2>()};
   }
 
-  /// (V10) Of the pairs that break a known length, the marker that is further from its prediction, and what it was
-  /// given.
+  /// (V10) Of the pairs that break a known length, the marker whose sighting is less likely, and what it was given.
   std::pair<std::size_t, std::size_t> broken(const std::vector<Prediction>& all, const std::vector<std::size_t>& given,
                                              const std::vector<Sighting>& found, const Eigen::MatrixXd& cost) const {
     std::pair<std::size_t, std::size_t> out{count(), 0};
