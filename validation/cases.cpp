@@ -15,6 +15,7 @@ namespace fagerbakke_switching { Outcome outcome(const Folders& folders); }
 namespace hendriksen_calibration { Outcome outcome(const Folders& folders); }
 namespace hendriksen_oscillation { Outcome outcome(const Folders& folders); }
 namespace hendriksen_towing { Outcome outcome(const Folders& folders); }
+namespace flume_box { Outcome outcome(const Folders& folders); }
 namespace f3of { Outcome outcome(const Folders& folders); }
 namespace formats { Outcome outcome(const Folders& folders); }
 namespace fpso_rao { Outcome outcome(const Folders& folders); }
@@ -22,6 +23,7 @@ namespace hendriksen_waves { Outcome outcome(const Folders& folders); }
 namespace huijgen_cone { Outcome outcome(const Folders& folders); }
 namespace huijgen_damping { Outcome outcome(const Folders& folders); }
 namespace huijgen_double { Outcome outcome(const Folders& folders); }
+namespace huijgen_damping_id { Outcome outcome(const Folders& folders); }
 namespace huijgen_string { Outcome outcome(const Folders& folders); }
 namespace huijgen_dropper_static { Outcome outcome(const Folders& folders); }
 namespace huijgen_dropper { Outcome of_a(const Folders& folders); Outcome of_b(const Folders& folders); Outcome of_c(const Folders& folders); }
@@ -67,6 +69,7 @@ const std::vector<Case>& cases() {
       {"zanten-waves", zanten_waves::outcome},
       {"huijgen-cone", huijgen_cone::outcome},
       {"huijgen-damping", huijgen_damping::outcome},
+      {"huijgen-damping-id", huijgen_damping_id::outcome},
       {"huijgen-double", huijgen_double::outcome},
       {"huijgen-string", huijgen_string::outcome},
       {"huijgen-dropper-static", huijgen_dropper_static::outcome},
@@ -102,6 +105,7 @@ const std::vector<Case>& cases() {
       {"moorings", moorings::outcome, {"mooring_lines"}},
       {"oc3-line", oc3_line_case::outcome},
       {"pendulums", pendulums::outcome, {"pendulum_encoder", "pendulum_camera"}},
+      {"flume-box", flume_box::outcome, {"wave_flume_box"}},
       {"roll-decay", roll_decay::outcome, {"ecn_roll_decay"}},
   };
   return all;

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "answers/camera.hpp"
 #include "answers/fit_scene.hpp"
 #include "answers/plot.hpp"
 #include "fit/prepare.hpp"
@@ -82,8 +83,11 @@ const std::vector<std::unique_ptr<const FitKind>>& fit_kinds();
 const Binding<::fit::PrepareOptions>& prepare_binding();
 [[nodiscard]] hydro::InputError prepares_nothing(const FitTables& tables);
 
+/// [camera], where a kind takes no tracks.
+[[nodiscard]] hydro::InputError films_nothing(const FitTables& tables);
+
 /// A kind by what [model] says, Model, and by the Problem of libfit, whose namespace has solve(). A Model with a member
-/// `prepare` takes [prepare].
+/// `prepare` takes [prepare], one with a member `camera` takes [camera].
 template <class Model, class Problem>
 class FitKindOf : public FitKind {
  public:
@@ -98,6 +102,12 @@ class FitKindOf : public FitKind {
         prepare_binding().read_into(tables.root.table("prepare"), model.prepare);
       else
         throw prepares_nothing(tables);
+    }
+    if (tables.root.has("camera")) {
+      if constexpr (requires { model.camera; })
+        model.camera = camera_binding().read(tables.root.table("camera"));
+      else
+        throw films_nothing(tables);
     }
     declared_.data.read_into(tables.data(), model);
     declared_.intervals.read_into(tables.ask().table("intervals"), model);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "answers/camera.hpp"
 #include "fit/forced_radiation.hpp"
 #include "fit/friction_ramp.hpp"
 #include "fit/problem/decay.hpp"
@@ -50,8 +51,11 @@ struct MotionModel {
     Place place;
   };
   struct Signal {
-    std::string column, of;          ///< of the file; of the run
-    Located<std::string> deviation;  ///< of the noise, with its unit
+    std::string column = {}, of = {};     ///< of the file; of the run
+    Located<std::string> deviation = {};  ///< of the noise, with its unit; of a track, where its place is the signal's
+    std::vector<std::string> between = {};  ///< two markers of a track: the angle of the line through them
+    std::string marker = {}, along = {};    ///< one marker: its coordinate x, y or z
+    double zero = 0;                        ///< rad, direction of the line where the signal is zero
   };
   Located<std::filesystem::path> scene = {};
   double window = 0;               ///< s; 0: the record is one run from the scene's start
@@ -60,7 +64,10 @@ struct MotionModel {
   std::vector<Parameter> parameters = {};
   std::vector<Signal> signals = {};
   bool profile = false, accept_residuals = false;
-  Place place = {};  ///< of [model]
+  std::optional<CameraTable> camera = {};          ///< files are tracks
+  std::vector<Located<std::string>> columns = {};  ///< names of a track's columns, where the file has none
+  std::string time_unit = {}, position_unit = {};  ///< of a track, where the file has none
+  Place place = {};                                ///< of [model]
 };
 
 // What two kinds have alike.

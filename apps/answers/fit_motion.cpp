@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 #include "answers/fit_kind.hpp"
 #include "answers/fit_measurements.hpp"
@@ -100,6 +101,26 @@ double deviation_of(const MotionModel::Signal& s, const std::string& unit, const
   });
 }
 
+/// Signals and weights of a film, whose angles and places must be what the run's signals are.
+void add_film(const MotionModel& model, const MeasuredRun& measured, const std::vector<std::string>& units,
+              ::fit::motion::Problem& out) {
+  for (std::size_t c = 0; c < units.size(); ++c) {
+    const MotionModel::Signal& s = model.signals[c];
+    const char* needed = s.marker.empty() ? "rad" : "m";
+    if (units[c] != needed)
+      throw hydro::InputError(
+          fmt::format("\"{}\" is in {}; {} of a film is in {}", s.of, units[c].empty() ? "1" : units[c],
+                      s.marker.empty() ? "the angle of a line" : "a coordinate", needed),
+          s.deviation.place, "name a signal of the run that is what the film shows");
+    // A film tells the angle of a line up to whole turns.
+    out.signals.push_back({s.of, units[c], measured.deviations[c], s.marker.empty() ? 2 * std::numbers::pi : 0});
+  }
+  for (std::size_t w = 0; w < measured.first.size(); ++w) {
+    const auto from = measured.whitening.begin() + measured.first[w];
+    out.whitening.emplace_back(from, from + measured.rows(w));
+  }
+}
+
 /// A column of all windows, one after the other.
 std::vector<double> joined(const std::vector<Eigen::MatrixXd>& windows, std::size_t column) {
   std::vector<double> out;
@@ -143,15 +164,89 @@ Binding<MotionModel> motion_keys() {
       });
 }
 
+void check_signal(const Record& record, MotionModel::Signal& out) {
+  if (record.has("column") != record.has("deviation"))
+    throw record.has("column")
+        ? record.refused("needs the key \"deviation\"", "add deviation = \"0.5 deg\": it weighs the columns")
+        : record.wrong("deviation", "does not go with a track", "the track's own covariances weigh it: leave it out");
+  if (record.has("between") && out.between.size() != 2)
+    throw record.wrong("between", "must name two markers",
+                       "the angle is that of the line from the first to the second");
+  if (record.has("marker") && !record.has("along"))
+    throw record.refused("needs the key \"along\"", "add along = \"x\", \"y\" or \"z\"");
+  if (!record.has("deviation")) out.deviation.place = record.place();
+}
+
+const Table& track_units() {
+  static const Table table{
+      .title = "[data.units]",
+      .meaning = "of a track whose columns do not say",
+      .keys = {text("time", "\"s\", \"ms\"").optional(), text("position", "\"px\", or a length: \"mm\"").optional()}};
+  return table;
+}
+
 const Binding<MotionModel::Signal>& data_signal() {
   using Signal = MotionModel::Signal;
   static const auto table =
       Binding<Signal>("[[data.signal]]", "a column of the files, and what of a run it should be")
-          .key(text("column", "of the files, with its unit"), &Signal::column)
+          .optional(text("column", "of the files, with its unit"), &Signal::column)
+          .optional(
+              texts("between",
+                    "two markers of a track: the signal is the angle of the line from the first to the second, "
+                    "counted as that signal is: below the horizontal (polar), or about the axis across the picture"),
+              &Signal::between)
+          .optional(text("marker", "a marker of a track: the signal is one of its coordinates"), &Signal::marker)
           .key(text("of", "signal of the run: \"buoy.heave\", \"dropper.link2.polar\""), &Signal::of)
-          .key(text("deviation", "standard deviation of the noise, \"0.5 deg\": weighs the columns"),
-               &Signal::deviation);
+          .optional(text("deviation",
+                         "standard deviation of the noise, \"0.5 deg\": weighs the columns; a track has its own"),
+                    &Signal::deviation)
+          .optional(text("along", "which coordinate").one_of({"x", "y", "z"}).only_beside("marker"), &Signal::along)
+          .optional(quantity("zero", dim::angle, "direction of the line where the signal is zero; left out: 0")
+                        .only_beside("between"),
+                    &Signal::zero)
+          .exactly_one_of({"column", "between", "marker"})
+          .then(check_signal);
   return table;
+}
+
+Binding<MotionModel> data_of_motions() {
+  return Binding<MotionModel>("", "")
+      .optional(texts("columns", "of a track: names of all its columns, where the file has none"),
+                [](const Value& names, MotionModel& motion) { motion.columns = names.texts; })
+      .optional(inner_table("units", track_units()),
+                [](const Value& units, MotionModel& motion) {
+                  const Record& record = units.records.front();
+                  if (record.has("time")) motion.time_unit = record.text("time");
+                  if (record.has("position")) motion.position_unit = record.text("position");
+                })
+      .tables("signal", data_signal(), &MotionModel::signals)
+      .optional();
+}
+
+/// Signals of tracks need [camera], and all signals come from the same file.
+void check_track(const FitTables& t, const FitScene& scene, const MotionModel& motion) {
+  for (const auto& s : motion.signals) {
+    if (s.column.empty() == motion.camera.has_value()) continue;
+    throw InputError(motion.camera
+                         ? fmt::format("\"{}\" comes from a column, and with [camera] the files are tracks", s.of)
+                         : fmt::format("\"{}\" comes from markers, and the scene has no [camera]", s.of),
+                     s.deviation.place,
+                     motion.camera ? "name a line (between) or a marker"
+                                   : "add [camera] with the scale of the picture and what else is known");
+  }
+  const bool timed = scene.channels.count("time") > 0;
+  if (!motion.camera) {
+    if (!timed)
+      throw t.channels().refused("needs \"time\" for a fit of kind \"motion\"", "add time = \"name of a column\"");
+    if (!motion.columns.empty() || t.data().has("units"))
+      throw t.data().refused("has columns or units of a track, and the scene has no [camera]", "add [camera]");
+    return;
+  }
+  if (timed == (motion.camera->frame_rate > 0))
+    throw t.data().refused(
+        timed ? "names a column of time, and [camera] a frame rate" : "does not say when frames were taken",
+        timed ? "leave out one of them"
+              : "add channels = { time = \"name of a column\" }, or [camera] frame_rate = \"25 Hz\"");
 }
 
 Binding<MotionModel> asked_of_motions() {
@@ -166,18 +261,18 @@ Binding<MotionModel> asked_of_motions() {
 class MotionFits final : public FitKindOf<MotionModel, ::fit::motion::Problem> {
  public:
   MotionFits()
-      : FitKindOf(
-            {.word = "motion",
-             .model = motion_keys(),
-             .channels = {text("time", "time")},
-             .data = Binding<MotionModel>("", "").tables("signal", data_signal(), &MotionModel::signals).optional(),
-             .ask = asked_of_motions()}) {}
+      : FitKindOf({.word = "motion",
+                   .model = motion_keys(),
+                   .channels = {text("time", "time").optional()},
+                   .data = data_of_motions(),
+                   .ask = asked_of_motions()}) {}
   std::vector<std::pair<std::string, std::string>> settings(const FitScene& scene) const override {
     return {{"of", scene.model<MotionModel>().scene.value.filename().string()}};
   }
 
  private:
-  void finish(const FitTables& t, const FitScene&, MotionModel& motion) const override {
+  void finish(const FitTables& t, const FitScene& scene, MotionModel& motion) const override {
+    check_track(t, scene, motion);
     if (motion.signals.empty())
       throw t.data().refused(
           "needs what was measured",
@@ -205,6 +300,10 @@ class MotionFits final : public FitKindOf<MotionModel, ::fit::motion::Problem> {
     for (const auto& q : model.parameters) out.parameters.push_back({q.number, q.unit});
     for (std::size_t w = 0; w < measured.first.size(); ++w)
       out.measured.emplace_back(measured.values.middleRows(measured.first[w], measured.rows(w)));
+    if (model.camera) {
+      add_film(model, measured, units, out);
+      return out;
+    }
     const auto table = hydro::io::CsvTable::read(scene.files[0].value);
     for (std::size_t c = 0; c < units.size(); ++c)
       out.signals.push_back({model.signals[c].of, units[c], deviation_of(model.signals[c], units[c], table)});
@@ -236,7 +335,7 @@ class MotionFits final : public FitKindOf<MotionModel, ::fit::motion::Problem> {
     const ::fit::SimulationFit& fit = solution.fit;
     Panels out;
     for (std::size_t c = 0; c < problem.signals.size(); ++c) {
-      const auto& [name, unit, deviation] = problem.signals[c];
+      const auto& [name, unit, deviation, period] = problem.signals[c];
       Panels both = panels_of(FittedRecord{.legend = "measured",
                                            .axis = {name, unit},
                                            .confidence = problem.options.confidence,

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "answers/film.hpp"
 #include "answers/fit_kind.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "scene/build.hpp"
@@ -131,7 +132,7 @@ const Binding<FitScene>& data_of_all() {
       Binding<FitScene>("[data]", "the measurements")
           .optional(texts("files", "CSV, relative to the scene; * stands for any characters of a file's name"),
                     put_files)
-          .key(inner_table("channels", data_channels()));
+          .key(inner_table("channels", data_channels()).or_default("", "see its keys"));
   return table;
 }
 
@@ -252,6 +253,11 @@ hydro::InputError prepares_nothing(const FitTables& tables) {
                                               "leave it out: its steps are those of a force, or of a decay");
 }
 
+hydro::InputError films_nothing(const FitTables& tables) {
+  return tables.root.table("camera").refused(not_of_kind(tables.model().text("kind")),
+                                             "leave it out: a track is fitted by running a scene, in kind \"motion\"");
+}
+
 const std::vector<Located<std::string>>& wanted(const FitTables& t, const std::vector<std::string>& known,
                                                 const char* example, const char* remedy) {
   if (!t.ask().has("coefficients"))
@@ -271,8 +277,9 @@ const Table& fit_schema() {
       .title = "a fit",
       .meaning = "coefficients from measurements",
       .keys = {integer("schema", "version of this grammar, 1"), text("title", "for people").optional(),
-               inner_table("data", fit_data()), inner_table("prepare", prepare_binding().table()).optional(),
-               inner_table("model", fit_model()), inner_table("ask", fit_ask())}};
+               inner_table("data", fit_data()), inner_table("camera", camera_binding().table()).optional(),
+               inner_table("prepare", prepare_binding().table()).optional(), inner_table("model", fit_model()),
+               inner_table("ask", fit_ask())}};
   return table;
 }
 
@@ -283,7 +290,9 @@ std::string key_reference() {
          "A quantity is text with its unit, any unit of its kind; the unit named here is SI. A default stands with its "
          "reason.\n"
          "\n## Scenes of motion\n" +
-         reference_of(motion_schema()) + "\n## Scenes of fits\n" + reference_of(fit_schema());
+         reference_of(motion_schema()) + "\n## Scenes of fits\n" + reference_of(fit_schema()) +
+         "\n## Scenes of films\n" + reference_of(film_schema()) + "\n## Calibrations\n" +
+         reference_of(calibration_binding().table());
 }
 
 bool is_fit(const fs::path& file) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "answers/camera_track.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
@@ -12,6 +13,9 @@ namespace froude {
 
 namespace dim = hydro::dim;
 using hydro::InputError;
+
+/// In steps: a frame so near to a sample of the run is at it.
+constexpr double on_sample = 1e-9;
 
 Eigen::Index MeasuredRun::rows(std::size_t window) const {
   return (window + 1 < first.size() ? first[window + 1] : values.rows()) - first[window];
@@ -32,7 +36,94 @@ MeasuredRun MeasuredRun::of(std::vector<double> time, Eigen::MatrixXd values, do
   return out;
 }
 
+namespace {
+
+/// Of frames that are even but for gaps: how many periods of a frame each comes after the first. Empty: they are
+/// uneven.
+std::vector<double> whole_periods(const std::vector<double>& time, double& period) {
+  std::vector<double> out{0};
+  for (std::size_t i = 1; i < time.size(); ++i)
+    out.push_back(out.back() + std::max(1.0, std::round((time[i] - time[i - 1]) / period)));
+  period = (time.back() - time.front()) / out.back();
+  for (std::size_t i = 0; i < time.size(); ++i)
+    if (std::abs(time[i] - time.front() - out[i] * period) > 0.02 * period) return {};  // as hydro::signal::even_step()
+  return out;
+}
+
+}  // namespace
+
+MeasuredRun MeasuredRun::of_film(std::vector<double> time, Eigen::MatrixXd values, double window_s) {
+  hydro::require(time.size() >= 8, "the film has {} frames in the time that is fitted, 8 are needed", time.size());
+  std::vector<double> between;
+  for (std::size_t i = 1; i < time.size(); ++i) between.push_back(time[i] - time[i - 1]);
+  std::nth_element(between.begin(), between.begin() + std::ssize(between) / 2, between.end());
+  double period = between[between.size() / 2];
+  std::vector<double> at = whole_periods(time, period);
+  const double start = time.front();
+  if (at.empty()) {
+    period = between[between.size() / 2];
+    for (const double t : time) at.push_back((t - start) / period);
+  }
+  MeasuredRun out{std::move(time), std::move(values), period, 0, {}, std::move(at)};
+  const double last = out.at.back();
+  const auto length = static_cast<Eigen::Index>(window_s > 0 ? std::lround(window_s / period) : std::lround(last) + 1);
+  hydro::require(length >= 8, "a window of {} s holds {} frames, 8 are needed", window_s, length);
+  for (Eigen::Index k = 0; k == 0 || static_cast<double>(k + length) <= last + 1; k += length) {
+    const auto row = std::lower_bound(out.at.begin(), out.at.end(), static_cast<double>(k) - 1e-9) - out.at.begin();
+    if (!out.first.empty() && row - out.first.back() < 8)
+      throw InputError(fmt::format("the window from {:.6g} s on has {} frames, 8 are needed",
+                                   out.time[static_cast<std::size_t>(out.first.back())], row - out.first.back()),
+                       {}, "take longer windows, or the part of the film before or after the gap");
+    out.first.push_back(row);
+    out.begin.push_back(k);
+  }
+  return out;
+}
+
+Eigen::Index MeasuredRun::run_samples(std::size_t window) const {
+  if (at.empty()) return rows(window);
+  const auto from = at.begin() + first[window], to = from + rows(window);
+  const bool between = std::any_of(from, to, [](double x) { return std::abs(x - std::round(x)) >= on_sample; });
+  const Eigen::Index around = between ? 3 : 0;  // a polynomial of degree 5 takes as many on either side
+  return static_cast<Eigen::Index>(std::ceil(*(to - 1) - on_sample)) - begin[window] + 1 + around;
+}
+
+Eigen::Index MeasuredRun::run_length(std::size_t window) const {
+  return begin.empty() ? rows(window) : begin[window + 1] - begin[window];
+}
+
+Eigen::VectorXd MeasuredRun::told(std::size_t window, const std::vector<double>& run) const {  // (F91)
+  Eigen::VectorXd out(rows(window));
+  constexpr int points = 6;
+  const auto last = static_cast<double>(std::ssize(run) - points);
+  for (Eigen::Index i = 0; i < out.size(); ++i) {
+    const double x = at[static_cast<std::size_t>(first[window] + i)] - static_cast<double>(begin[window]);
+    if (std::abs(x - std::round(x)) < on_sample) {
+      out[i] = run[static_cast<std::size_t>(std::lround(x))];
+      continue;
+    }
+    const double from = std::clamp(std::floor(x) - 2, 0.0, last);
+    double sum = 0;
+    for (int j = 0; j < points; ++j) {
+      double weight = 1;
+      for (int k = 0; k < points; ++k)
+        if (k != j) weight *= (x - from - k) / (j - k);
+      sum += weight * run[static_cast<std::size_t>(from) + static_cast<std::size_t>(j)];
+    }
+    out[i] = sum;
+  }
+  return out;
+}
+
 MeasuredRun MeasuredRun::read(const scene::FitScene& fit, const scene::MotionModel& model) {
+  if (model.camera) {
+    const ::fit::camera::Track track = track_in_plane(fit, model);
+    auto channels = ::fit::camera::channels_of(track, channels_asked(model));
+    MeasuredRun out = of_film(track.time, std::move(channels.values), model.window);
+    out.whitening = std::move(channels.whitening);
+    out.deviations = std::move(channels.deviations);
+    return out;
+  }
   if (fit.files.size() != 1)
     throw InputError(fmt::format("a fit of kind \"motion\" takes one file, got {}", fit.files.size()),
                      fit.files[1].place, "fit each record by itself");
@@ -61,11 +152,15 @@ Eigen::MatrixXd SceneRuns::follow(std::size_t window, const Eigen::VectorXd& par
   const bool whole = charts_.empty();
   if (!whole) compile::start_from(charts_.at(window).at(*model_, start), *model_);
   const Eigen::Index skipped = whole ? measured_.before : 0, rows = measured_.rows(window);
-  const Run record = run(skipped + rows - 1, nullptr);
+  const Run record = run(skipped + measured_.run_samples(window) - 1, nullptr);
   Eigen::MatrixXd out(rows, std::ssize(asked_.signals));
   for (std::size_t c = 0; c < asked_.signals.size(); ++c) {
     const auto& values = record.signal(asked_.signals[c].of);
-    out.col(static_cast<Eigen::Index>(c)) = Eigen::Map<const Eigen::VectorXd>(values.data() + skipped, rows);
+    auto column = out.col(static_cast<Eigen::Index>(c));
+    if (measured_.at.empty())
+      column = Eigen::Map<const Eigen::VectorXd>(values.data() + skipped, rows);
+    else
+      column = measured_.told(window, values);
   }
   return out;
 }
@@ -76,7 +171,7 @@ void SceneRuns::hand_on(std::size_t window, const Eigen::VectorXd& parameters, c
   compiled(parameters);
   compile::start_from(charts_.back().at(*model_, start), *model_);
   compile::MovingState end;
-  run(measured_.rows(window), &end);
+  run(measured_.run_length(window), &end);
   charts_.emplace_back(*model_, std::move(end));
 }
 
@@ -106,7 +201,11 @@ void SceneRuns::compiled(const Eigen::VectorXd& parameters) {
                      "take start = \"steady\" out of its [ask] run");
   // The record says how often and how long; what the scene asks for does not matter here.
   scene_.run->every = measured_.step;
-  scene_.run->duration = measured_.step * static_cast<double>(measured_.before + std::ssize(measured_.time) - 1);
+  scene_.run->duration =
+      measured_.at.empty()
+          ? measured_.step * static_cast<double>(measured_.before + std::ssize(measured_.time) - 1)
+          : measured_.step *
+                static_cast<double>(measured_.begin.back() + measured_.run_samples(measured_.begin.size() - 1) - 1);
   // The scene's step, or the next smaller one that divides the distance of samples, which a file may have rounded.
   if (auto& step = scene_.solve.step)
     step->value = measured_.step / std::max(1.0, std::ceil(measured_.step / step->value - 1e-3));

@@ -18,16 +18,31 @@ namespace froude {
 
 /// What was measured, in windows.
 struct MeasuredRun {
-  std::vector<double> time;         ///< s, even
-  Eigen::MatrixXd values;           ///< one column a signal, SI
-  double step;                      ///< s
+  std::vector<double> time;         ///< s, even but for a film's
+  Eigen::MatrixXd values;           ///< one column a signal, SI; NaN where a film did not show it
+  double step;                      ///< s, of the run
   Eigen::Index before;              ///< samples of the run that come before the first one measured
   std::vector<Eigen::Index> first;  ///< sample of each window
+  /// Of a film: where each frame lies among the run's samples, in steps from the run's start, and the run's sample at
+  /// which each window begins; empty: frames are the run's samples.
+  std::vector<double> at = {};
+  std::vector<Eigen::Index> begin = {};
+  std::vector<Eigen::MatrixXd> whitening = {};  ///< of a film: one a frame, as fit::SimulationProblem's
+  std::vector<double> deviations = {};          ///< of a film: one a signal, SI
 
   Eigen::Index rows(std::size_t window) const;
+  /// Samples of the run that it takes to tell a window's, and from one window's start to the next.
+  Eigen::Index run_samples(std::size_t window) const;
+  Eigen::Index run_length(std::size_t window) const;
+  /// The values of a window from the run's samples, of which the first is the window's start (or the run's, where there
+  /// is one window).
+  Eigen::VectorXd told(std::size_t window, const std::vector<double>& run) const;
   /// Cuts the record into windows of this length; what is left over makes the last one longer. 0: one window.
   /// \throws hydro::InputError for fewer than 8 samples in a window, or a start between samples of the run
   static MeasuredRun of(std::vector<double> time, Eigen::MatrixXd values, double window_s);
+  /// Frames at their own times, the first at the run's start: with gaps, and uneven. Between samples the run is a
+  /// polynomial of degree 5 (F91). \throws hydro::InputError as of(), and for a window in which fewer than 8 frames lie
+  static MeasuredRun of_film(std::vector<double> time, Eigen::MatrixXd values, double window_s);
   /// The file of a fit scene, the signals of its model. \throws hydro::InputError as of(), and for more than one file
   static MeasuredRun read(const scene::FitScene& fit, const scene::MotionModel& model);
 };

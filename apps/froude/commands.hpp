@@ -141,6 +141,16 @@ struct CostArguments {
 /// Error and time of every setting of a scene's approximations, and the cheapest within a tolerance.
 void cost(const CostArguments& arguments, const Console& console);
 
+struct KinematicsArguments {
+  Path scene;                             ///< of a fit of kind "motion" with [camera]
+  std::string bandwidth;                  ///< "5 Hz"
+  std::vector<std::string> lengths = {};  ///< "pivot joint 0.5 m 0.5 mm": markers, their distance, its deviation
+  Path output;                            ///< .csv
+  std::optional<Path> picture = {};       ///< .svg
+};
+/// Places, velocities and accelerations of a track's markers, and angles of lines, by a smoother.
+void kinematics(const KinematicsArguments& arguments, const Console& console);
+
 struct HydrostaticsArguments {
   Path mesh;  ///< .stl, .obj or .gdf
   hydro::hydrostatics::MeshOptions options;
@@ -174,5 +184,7 @@ void new_scene(const std::string& kind, const std::optional<Path>& output, bool 
 /// Becomes the program froude-validate, which stands beside the one that is running, with these arguments.
 /// \throws hydro::InputError if it is not there
 [[noreturn]] void validate(std::vector<std::string> arguments);
+/// The same with froude-film; the first argument is the command: track, calibrate or film. \throws as validate()
+[[noreturn]] void about_films(std::vector<std::string> arguments);
 
 }  // namespace froude

@@ -435,8 +435,36 @@ void add_cost(CLI::App& app, Request& request) {
   });
 }
 
-/// Stands in the help only: main_program() hands over to another program before the options of a command are read.
-void add_validate(CLI::App& app) {
+void add_kinematics(CLI::App& app, Request& request) {
+  auto* command = app.add_subcommand(
+      "kinematics", "places, velocities and accelerations of a track's markers and angles of lines, by a smoother");
+  command->footer(
+      "Example:\n  froude kinematics examples/fit/film_track.toml --bandwidth \"4 Hz\" -o motion.csv --picture "
+      "motion.svg");
+  auto arguments = std::make_shared<KinematicsArguments>();
+  command->add_option("scene", arguments->scene, "fit scene (.toml) of kind \"motion\" with [camera]")->required();
+  command->add_option("--bandwidth", arguments->bandwidth, "what moves slower keeps 99 % and more: \"4 Hz\"")
+      ->required();
+  command->add_option(
+      "--length", arguments->lengths,
+      "a distance that stays, and its deviation: \"pivot joint 0.5 m 0.5 mm\"; several by repeating it");
+  command->add_option("-o,--output", arguments->output, "table with standard deviations (.csv)")->required();
+  command->add_option("--picture", arguments->picture, "plot (.svg)");
+  command->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      kinematics(*arguments, console);
+      return done;
+    };
+  });
+}
+
+constexpr const char* commands_about_films[] = {"track", "calibrate", "film"};
+
+/// Stand in the help only: main_program() hands over to other programs before the options of these commands are read.
+void add_other_programs(CLI::App& app) {
+  app.add_subcommand("track", "bright discs of a film, frame by frame, with the covariance of each place");
+  app.add_subcommand("calibrate", "lens and plane of motion from pictures of a checkerboard");
+  app.add_subcommand("film", "a film of a run, whose truth is known");
   app.add_subcommand("validate",
                      "compares with closed forms, experiments and other codes; status 1 if a limit is broken");
 }
@@ -462,29 +490,44 @@ void describe(CLI::App& app, Request& request) {
   add_psd(app, request);
   add_poincare(app, request);
   add_fit(app, request);
+  add_kinematics(app, request);
   add_scene_command(app, request, "plan", "what a scene will run, by which method, and why the rest will not", &plan,
                     false);
   add_cost(app, request);
-  add_validate(app);
+  add_other_programs(app);
 }
 
-/// What follows `validate`, together with what stands before it: only flags do, and they belong to every command.
-std::optional<std::vector<std::string>> arguments_of_validate(int argc, char** argv) {
-  std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
-  const auto command = std::find_if_not(arguments.begin(), arguments.end(),
+/// A command that is a program of its own, with what follows it and what stands before it: only flags do, and they
+/// belong to every command.
+struct OtherProgram {
+  std::string command;
+  std::vector<std::string> arguments;
+};
+std::optional<OtherProgram> other_program(int argc, char** argv) {
+  OtherProgram out{{}, {argv + std::min(argc, 1), argv + argc}};
+  const auto command = std::find_if_not(out.arguments.begin(), out.arguments.end(),
                                         [](const std::string& argument) { return argument.starts_with('-'); });
-  if (command == arguments.end() || *command != "validate") return std::nullopt;
-  arguments.erase(command);
-  return arguments;
+  if (command == out.arguments.end()) return std::nullopt;
+  out.command = *command;
+  const bool film = std::find(std::begin(commands_about_films), std::end(commands_about_films), out.command) !=
+                    std::end(commands_about_films);
+  if (!film && out.command != "validate") return std::nullopt;
+  out.arguments.erase(command);
+  if (film) out.arguments.insert(out.arguments.begin(), out.command);
+  return out;
 }
 
 }  // namespace
 
 int run_program(int argc, char** argv) {
   Request request;
-  if (const auto arguments = arguments_of_validate(argc, argv)) {
-    request.json = std::find(arguments->begin(), arguments->end(), "--json") != arguments->end();
-    request.call = [&](const Console&) -> int { validate(*arguments); };
+  if (const auto other = other_program(argc, argv)) {
+    const auto& arguments = other->arguments;
+    request.json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
+    request.call = [&](const Console&) -> int {
+      if (other->command == "validate") validate(arguments);
+      about_films(arguments);
+    };
     return carry_out(request);
   }
   CLI::App app;

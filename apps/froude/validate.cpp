@@ -1,26 +1,27 @@
 // froude validate: hands over to froude-validate. The cases and their plain reference solutions are in that program, so
-// that froude holds what it is judged by nowhere.
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
-
+// that froude holds what it is judged by nowhere. The commands about films are in froude-film, so that no other loads
+// OpenCV.
 #include "froude/commands.hpp"
+#include "froude/other_program.hpp"
 
 namespace froude {
 
 void validate(std::vector<std::string> arguments) {
-  std::error_code unknown;
-  const std::string program =
-      (std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path() / "froude-validate").string();
-  arguments.insert(arguments.begin(), program);
-  std::vector<char*> words;
-  for (std::string& argument : arguments) words.push_back(argument.data());
-  words.push_back(nullptr);
-  execv(program.c_str(), words.data());
-  throw hydro::InputError(
-      fmt::format("the validation cases are in a program of their own, which cannot be run: {}", std::strerror(errno)),
-      {.file = program}, "install froude-validate beside froude; in a build tree, build the target froude-validate");
+  become("froude-validate", std::move(arguments), [](const std::string& path, const std::string& why) {
+    return hydro::InputError(
+        fmt::format("the validation cases are in a program of their own, which cannot be run: {}", why), {.file = path},
+        "install froude-validate beside froude; in a build tree, build the target froude-validate");
+  });
+}
+
+void about_films(std::vector<std::string> arguments) {
+  const std::string command = arguments.front();
+  become("froude-film", std::move(arguments), [&](const std::string&, const std::string& why) {
+    return hydro::InputError(fmt::format(
+        "`froude {}` needs OpenCV, and froude-film, which is built where OpenCV is: {}; `scripts/setup camera` "
+        "installs it, `scripts/build release froude-film` then builds that",
+        command, why));
+  });
 }
 
 }  // namespace froude

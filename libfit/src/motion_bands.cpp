@@ -1,6 +1,7 @@
 #include "motion_bands.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace fit {
 
@@ -9,7 +10,7 @@ MotionBands motion_bands(const std::vector<Eigen::MatrixXd>& left, const Eigen::
                          const std::vector<double>& rms, double quantile) {  // (F46)
   const Eigen::VectorXd variance = (jacobian * covariance).cwiseProduct(jacobian).rowwise().sum().cwiseMax(0);
   MotionBands out{};
-  double inside = 0;
+  double inside = 0, measured = 0;
   Eigen::Index at = 0;
   for (const Eigen::MatrixXd& window : left) {
     Eigen::MatrixXd of_fit = variance.segment(at, window.size()).reshaped(window.rows(), window.cols()),
@@ -21,10 +22,14 @@ MotionBands motion_bands(const std::vector<Eigen::MatrixXd>& left, const Eigen::
     }
     out.of_fit.emplace_back(quantile * of_fit.cwiseSqrt());
     out.of_sample.emplace_back(quantile * of_sample.cwiseSqrt());
+    const auto unmeasured = window.array().isNaN().eval();
+    for (auto* band : {&out.of_fit.back(), &out.of_sample.back()})
+      *band = unmeasured.select(std::numeric_limits<double>::quiet_NaN(), band->array());
     inside += static_cast<double>((window.cwiseAbs().array() <= out.of_sample.back().array()).count());
+    measured += static_cast<double>((!unmeasured).count());
     at += window.size();
   }
-  out.inside = inside / static_cast<double>(at);
+  out.inside = inside / measured;
   return out;
 }
 

@@ -26,13 +26,20 @@ struct EndOfSearch {
   Eigen::VectorXd r;  ///< residuals over deviations: windows one after the other, in each one channel after the other
   Eigen::MatrixXd jacobian;
   std::vector<WindowOfSearch> windows;
-  Eigen::Index starts_all;  ///< numbers of all windows' starts, seen or not
-  long followed;            ///< windows that it took
+  Eigen::Index starts_all;                   ///< numbers of all windows' starts, seen or not
+  long followed;                             ///< windows that it took
+  std::vector<Eigen::MatrixXd> motion = {};  ///< as measured; only of problems with `whitening`
 
   Eigen::VectorXd start(std::size_t w) const {
     return windows[w].seen * x.segment(windows[w].column, windows[w].seen.cols());
   }
 };
+
+/// Makes the residuals of a window, each over its deviation, independent; those that were not measured become zero.
+/// (F90)
+void whiten(const SimulationProblem& problem, std::size_t window, Eigen::MatrixXd& residuals);
+/// Rows of residuals that were measured: windows one after the other, in each one channel after the other.
+std::vector<Eigen::Index> measured_rows(const SimulationProblem& problem);
 
 /// \throws as fit_simulation()
 EndOfSearch search_simulation(Simulation& simulation, const SimulationProblem& problem);

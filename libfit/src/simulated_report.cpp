@@ -15,13 +15,14 @@ namespace {
 /// What can be told of the end of a search.
 class Told {
  public:
-  Told(const SimulationProblem& problem, EndOfSearch end) : problem_(problem), end_(std::move(end)) {}
+  Told(const SimulationProblem& problem, EndOfSearch end)
+      : problem_(problem), end_(std::move(end)), told_(measured_rows(problem)) {}
   SimulationFit all();
 
  private:
   Eigen::Index p() const { return std::ssize(problem_.parameters); }
   Eigen::Index channels() const { return std::ssize(problem_.deviations); }
-  Eigen::Index rows() const { return end_.r.size(); }
+  Eigen::Index rows() const { return std::ssize(told_); }
   Eigen::Index unknowns() const { return end_.x.size(); }
   void find_covariance();
   void tell_parameters();
@@ -29,10 +30,12 @@ class Told {
   void tell_bands();
   void tell_identifiability();
   void judge();
+  Eigen::MatrixXd jacobian_of_channels() const;
   void compare_with_stated();
 
   const SimulationProblem& problem_;
   EndOfSearch end_;
+  std::vector<Eigen::Index> told_;  // rows that were measured
   CoefficientCovariance covariance_;
   std::vector<bool> unseen_ = std::vector<bool>(problem_.parameters.size(), false);
   SimulationFit fit_{};
@@ -106,13 +109,13 @@ void count_memory(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& r, con
 
 void Told::find_covariance() {
   CoefficientCovariance& u = covariance_;
-  const Eigen::VectorXd& r = end_.r;
+  const Eigen::VectorXd r = end_.r(told_);
   u.covariance = u.white_covariance = Eigen::MatrixXd::Zero(unknowns(), unknowns());
   u.effective_samples = Eigen::VectorXd::Zero(unknowns());
   u.dof = u.white_dof = static_cast<double>(std::max<Eigen::Index>(1, rows() - unknowns()));
   u.dof_raised = false;
   const bool perfect = r.norm() < 1e-9 * std::sqrt(static_cast<double>(rows()));
-  if (!perfect) count_memory(end_.jacobian, r, end_.search.identifiable, u);
+  if (!perfect) count_memory(end_.jacobian(told_, Eigen::all), r, end_.search.identifiable, u);
 }
 
 void Told::tell_parameters() {
@@ -138,25 +141,50 @@ void Told::tell_parameters() {
 
 void Told::tell_motion() {
   const auto deviations = Eigen::Map<const Eigen::RowVectorXd>(problem_.deviations.data(), channels());
-  Eigen::RowVectorXd squares = Eigen::RowVectorXd::Zero(channels());
+  Eigen::RowVectorXd squares = Eigen::RowVectorXd::Zero(channels()), samples = squares;
   for (std::size_t w = 0; w < end_.windows.size(); ++w) {
     const auto& measured = problem_.measured[w];
-    const Eigen::MatrixXd left =
-        end_.r.segment(end_.windows[w].row, measured.size()).reshaped(measured.rows(), channels()) *
-        deviations.asDiagonal();
-    squares += left.cwiseAbs2().colwise().sum();
-    fit_.motion.emplace_back(measured + left);
+    if (end_.motion.empty())
+      fit_.motion.emplace_back(
+          measured + end_.r.segment(end_.windows[w].row, measured.size()).reshaped(measured.rows(), channels()) *
+                         deviations.asDiagonal());
+    else
+      fit_.motion.push_back(std::move(end_.motion[w]));
+    const Eigen::ArrayXXd left = (fit_.motion.back() - measured).array();
+    squares += left.isNaN().select(0, left).square().colwise().sum().matrix();
+    samples += (!left.isNaN()).cast<double>().colwise().sum().matrix();
     fit_.starts.push_back(end_.start(w));
   }
-  for (const double s : squares)
-    fit_.rms.push_back(std::sqrt(s * static_cast<double>(channels()) / static_cast<double>(rows())));
+  for (Eigen::Index c = 0; c < channels(); ++c) fit_.rms.push_back(std::sqrt(squares[c] / std::max(1.0, samples[c])));
+}
+
+/// Of the channels themselves over their deviations: zero where nothing was measured. (F90)
+Eigen::MatrixXd Told::jacobian_of_channels() const {
+  if (problem_.whitening.empty()) return end_.jacobian;
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(end_.jacobian.rows(), end_.jacobian.cols());
+  for (std::size_t w = 0; w < end_.windows.size(); ++w) {
+    const Eigen::Index n = problem_.measured[w].rows();
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Eigen::MatrixXd& whitening = problem_.whitening[w][static_cast<std::size_t>(i)];
+      std::vector<Eigen::Index> read, row;
+      for (Eigen::Index c = 0; c < channels(); ++c)
+        if (!whitening.row(c).isZero(0)) {
+          read.push_back(c);
+          row.push_back(end_.windows[w].row + c * n + i);
+        }
+      if (!read.empty())
+        out(row, Eigen::all) = hydro::dense::inverse(whitening(read, read)) * end_.jacobian(row, Eigen::all);
+    }
+  }
+  return out;
 }
 
 void Told::tell_bands() {  // (F46)
   std::vector<Eigen::MatrixXd> left;
   for (std::size_t w = 0; w < fit_.motion.size(); ++w) left.emplace_back(fit_.motion[w] - problem_.measured[w]);
   const double quantile = hydro::signal::student_t_quantile((1 + problem_.confidence) / 2, covariance_.dof);
-  auto bands = motion_bands(left, end_.jacobian, covariance_.covariance, problem_.deviations, fit_.rms, quantile);
+  auto bands =
+      motion_bands(left, jacobian_of_channels(), covariance_.covariance, problem_.deviations, fit_.rms, quantile);
   fit_.fit_band = std::move(bands.of_fit);
   fit_.sample_band = std::move(bands.of_sample);
   fit_.inside = bands.inside;
@@ -166,13 +194,13 @@ void Told::tell_bands() {  // (F46)
 void Told::compare_with_stated() {
   const double taken = static_cast<double>(unknowns()) / static_cast<double>(rows());
   for (Eigen::Index c = 0; c < channels(); ++c) {
-    Eigen::VectorXd own(rows() / channels());
-    Eigen::Index filled = 0;
+    std::vector<Eigen::Index> own_rows;
     for (std::size_t w = 0; w < end_.windows.size(); ++w) {
-      const Eigen::Index n = problem_.measured[w].rows();
-      own.segment(filled, n) = end_.r.segment(end_.windows[w].row + c * n, n);
-      filled += n;
+      const Eigen::Index n = problem_.measured[w].rows(), begin = end_.windows[w].row + c * n;
+      const auto from = std::lower_bound(told_.begin(), told_.end(), begin);
+      own_rows.insert(own_rows.end(), from, std::lower_bound(from, told_.end(), begin + n));
     }
+    const Eigen::VectorXd own = end_.r(own_rows);
     const double deviation = problem_.deviations[static_cast<std::size_t>(c)];
     fit_.stated.push_back(against_stated(own * deviation, deviation, taken));
   }

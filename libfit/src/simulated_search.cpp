@@ -25,6 +25,23 @@ std::vector<Eigen::Index> rows_of_first(Eigen::Index wanted, Eigen::Index sample
   return out;
 }
 
+/// Whether all that counts is there: without whitening everything, else what is not NaN and has matrices of its shape.
+bool is_measured(const SimulationProblem& problem, std::size_t w) {
+  const auto& m = problem.measured[w];
+  if (problem.whitening.empty()) return m.allFinite();
+  const auto& all = problem.whitening[w];
+  if (std::ssize(all) != m.rows()) return false;
+  Eigen::Index told = 0;
+  for (Eigen::Index i = 0; i < m.rows(); ++i) {
+    const auto& one = all[static_cast<std::size_t>(i)];
+    if (one.rows() != m.cols() || one.cols() != m.cols() || !one.allFinite()) return false;
+    for (Eigen::Index c = 0; c < m.cols(); ++c)
+      if (!std::isfinite(m(i, c)) && !one.col(c).isZero(0)) return false;
+    told += !one.isZero(0);
+  }
+  return told >= 8;
+}
+
 class Shooting {
  public:
   Shooting(Simulation& simulation, const SimulationProblem& problem) : simulation_(simulation), problem_(problem) {
@@ -44,6 +61,7 @@ class Shooting {
     return piece.seen * x.segment(piece.column, piece.seen.cols());
   }
   void check() const;
+  Eigen::MatrixXd motion_of(std::size_t w, const Eigen::VectorXd& theta, const Eigen::VectorXd& start);
   Eigen::VectorXd residuals(std::size_t w, const Eigen::VectorXd& theta, const Eigen::VectorXd& start);
   Eigen::MatrixXd start_columns(std::size_t w, const Eigen::VectorXd& theta, const Eigen::VectorXd& start,
                                 const Eigen::VectorXd& here, const Eigen::MatrixXd& directions);
@@ -74,26 +92,54 @@ class Shooting {
 
 void Shooting::check() const {
   hydro::require(!problem_.measured.empty(), "a fit needs a record at least");
+  hydro::require(problem_.whitening.empty() || problem_.whitening.size() == problem_.measured.size(),
+                 "{} windows have {} lists of whitening matrices", problem_.measured.size(), problem_.whitening.size());
   for (const auto& q : problem_.parameters)
     hydro::require(q.lowest < q.highest && q.first >= q.lowest && q.first <= q.highest && std::isfinite(q.first),
                    "{} begins at {}, which must lie between {} and {}", q.name, q.first, q.lowest, q.highest);
-  for (const auto& m : problem_.measured)
-    hydro::require(m.rows() >= 8 && m.cols() == std::ssize(problem_.deviations) && m.allFinite(),
+  for (std::size_t w = 0; w < problem_.measured.size(); ++w) {
+    const auto& m = problem_.measured[w];
+    hydro::require(m.rows() >= 8 && m.cols() == std::ssize(problem_.deviations) && is_measured(problem_, w),
                    "a window needs 8 samples at least of {} channels, all finite; got {} of {}",
                    problem_.deviations.size(), m.rows(), m.cols());
+  }
   for (const double d : problem_.deviations) hydro::require(d > 0, "a channel's deviation must be positive, got {}", d);
+  hydro::require(problem_.periods.empty() || problem_.periods.size() == problem_.deviations.size(),
+                 "{} channels have {} periods", problem_.deviations.size(), problem_.periods.size());
+  for (const double period : problem_.periods)
+    hydro::require(period >= 0, "a channel's period must not be negative, got {}", period);
 }
 
-/// Of one window over the deviations, one channel after the other.
-Eigen::VectorXd Shooting::residuals(std::size_t w, const Eigen::VectorXd& theta, const Eigen::VectorXd& start) {
+/// A column moved by whole periods, sample by sample, to where it is nearest to what was measured; where nothing was,
+/// by as many as before.
+void to_nearest_period(double period, const Eigen::Ref<const Eigen::VectorXd>& measured,
+                       Eigen::Ref<Eigen::VectorXd> motion) {
+  double moved = 0;
+  for (Eigen::Index i = 0; i < motion.size(); ++i) {
+    if (std::isfinite(measured[i])) moved = period * std::round((measured[i] - motion[i]) / period);
+    motion[i] += moved;
+  }
+}
+
+/// Of one window, as measured.
+Eigen::MatrixXd Shooting::motion_of(std::size_t w, const Eigen::VectorXd& theta, const Eigen::VectorXd& start) {
   ++followed_;
   Eigen::MatrixXd motion = simulation_.follow(w, theta, start);
   const Eigen::MatrixXd& measured = problem_.measured[w];
   hydro::require(motion.rows() == measured.rows() && motion.cols() == measured.cols(),
                  "the simulation gave {} samples of {} channels, {} of {} were measured", motion.rows(), motion.cols(),
                  measured.rows(), measured.cols());
-  motion -= measured;
+  for (std::size_t c = 0; c < problem_.periods.size(); ++c)
+    if (const auto column = static_cast<Eigen::Index>(c); problem_.periods[c] > 0)
+      to_nearest_period(problem_.periods[c], measured.col(column), motion.col(column));
+  return motion;
+}
+
+/// Of one window over the deviations, one channel after the other.
+Eigen::VectorXd Shooting::residuals(std::size_t w, const Eigen::VectorXd& theta, const Eigen::VectorXd& start) {
+  Eigen::MatrixXd motion = motion_of(w, theta, start) - problem_.measured[w];
   for (Eigen::Index c = 0; c < motion.cols(); ++c) motion.col(c) /= problem_.deviations[static_cast<std::size_t>(c)];
+  whiten(problem_, w, motion);
   return motion.reshaped();
 }
 
@@ -339,7 +385,10 @@ EndOfSearch Shooting::end() {  // (F41)
   evaluate(x, r, nullptr);  // what the first values cannot do is told as it is
   SearchReport report = search(x);
   evaluate(x, r, nullptr);
-  return {std::move(report), std::move(x), std::move(r), jacobian_, pieces_, all_starts_, followed_};
+  std::vector<Eigen::MatrixXd> motion;
+  if (!problem_.whitening.empty())
+    for (std::size_t w = 0; w < pieces_.size(); ++w) motion.push_back(motion_of(w, x.head(p()), start_of(x, w)));
+  return {std::move(report), std::move(x), std::move(r), jacobian_, pieces_, all_starts_, followed_, std::move(motion)};
 }
 
 double Shooting::least_cost() {
@@ -367,6 +416,25 @@ double Shooting::cost_nearby() {
 }
 
 }  // namespace
+
+void whiten(const SimulationProblem& problem, std::size_t window, Eigen::MatrixXd& residuals) {  // (F90)
+  if (problem.whitening.empty()) return;
+  for (Eigen::Index i = 0; i < residuals.rows(); ++i) {
+    const Eigen::VectorXd own = residuals.row(i).array().isNaN().select(0, residuals.row(i)).transpose();
+    residuals.row(i) = (problem.whitening[window][static_cast<std::size_t>(i)] * own).transpose();
+  }
+}
+
+std::vector<Eigen::Index> measured_rows(const SimulationProblem& problem) {
+  std::vector<Eigen::Index> out;
+  Eigen::Index row = 0;
+  for (std::size_t w = 0; w < problem.measured.size(); ++w)
+    for (Eigen::Index c = 0; c < problem.measured[w].cols(); ++c)
+      for (Eigen::Index i = 0; i < problem.measured[w].rows(); ++i, ++row)
+        if (problem.whitening.empty() || !problem.whitening[w][static_cast<std::size_t>(i)].row(c).isZero(0))
+          out.push_back(row);
+  return out;
+}
 
 EndOfSearch search_simulation(Simulation& simulation, const SimulationProblem& problem) {
   return Shooting(simulation, problem).end();

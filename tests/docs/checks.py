@@ -15,8 +15,8 @@ CODE_SUFFIXES = {".hpp", ".cpp", ".py"}
 SKIPPED_FOLDERS = {".git", "build", "out", "__pycache__"}
 
 # (R3): a letter of a theory page and a number. Not after a name or a bracket, where it would be a call: f(F1).
-TAG = re.compile(r"(?<![\w)\]])\(([PWRDQSFCH])(\d+)\)")
-TAG_RANGE = re.compile(r"(?<![\w)\]])\(([PWRDQSFCH])(\d+)\)\s*[-–]\s*\(([PWRDQSFCH])(\d+)\)")
+TAG = re.compile(r"(?<![\w)\]])\(([PWRDQSFCHV])(\d+)\)")
+TAG_RANGE = re.compile(r"(?<![\w)\]])\(([PWRDQSFCHV])(\d+)\)\s*[-–]\s*\(([PWRDQSFCHV])(\d+)\)")
 
 
 def files_below(root, folders, suffixes):
@@ -60,7 +60,7 @@ def defined_tags(root):
     places, complaints = {}, []
     for path in files_below(root, ["docs/theory"], {".md"}):
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
-            heading = re.match(r"### ((?:\([PWRDQSFCH]\d+\)(?:\s*[-–,]\s*)?)+)", line)
+            heading = re.match(r"### ((?:\([PWRDQSFCHV]\d+\)(?:\s*[-–,]\s*)?)+)", line)
             for tag in sorted(tags_in(heading.group(1))) if heading else ():
                 place = f"{path.relative_to(root)}:{number}"
                 if tag in places:

@@ -25,13 +25,13 @@ class Refusals(unittest.TestCase):
         file.write_text(f"#!/bin/bash\n{script}\n")
         file.chmod(0o755)
 
-    def setup_with(self, **programs):
+    def setup_with(self, *arguments, **programs):
         """scripts/setup on a machine of these programs alone, beside the plain tools."""
         for tool in TOOLS:
             (self.bin / tool).symlink_to(f"/bin/{tool}" if os.path.exists(f"/bin/{tool}") else f"/usr/bin/{tool}")
         for name, script in programs.items():
             self.stand_in(name.replace("_", "-"), script)
-        return subprocess.run(["/bin/bash", SOURCE / "scripts/setup"], env={"PATH": str(self.bin)}, capture_output=True,
+        return subprocess.run(["/bin/bash", SOURCE / "scripts/setup", *arguments], env={"PATH": str(self.bin)}, capture_output=True,
                               text=True)
 
     def test_nothing_is_done_where_all_packages_are_there(self):
@@ -47,6 +47,17 @@ class Refusals(unittest.TestCase):
         ran = self.setup_with(dpkg_query="exit 1", apt_get="echo 'Could not resolve'; exit 100", id="echo 0")
         self.assertEqual(ran.returncode, 1)
         self.assertRegex(ran.stderr.splitlines()[-1], r"^setup: .* is there a network\? .*libceres-dev")
+
+    def test_an_optional_part_is_installed_by_its_name_and_not_waited_for_else(self):
+        ran = self.setup_with("camera", dpkg_query="exit 1", apt_get="exit 1", id="echo 1000")
+        self.assertRegex(ran.stderr, r"libopencv-videoio-dev")
+        self.assertNotIn("libceres-dev", ran.stderr)
+        self.assertNotIn("opencv", (SOURCE / "scripts/apt-packages.txt").read_text())
+
+    def test_a_part_that_there_is_not_is_refused(self):
+        ran = self.setup_with("camra", dpkg_query="echo installed", apt_get="exit 1")
+        self.assertEqual(ran.returncode, 1)
+        self.assertRegex(ran.stderr, r'no part "camra"; there is scripts/setup camera')
 
     def test_a_system_without_apt_is_told_so(self):
         ran = self.setup_with(id="echo 0")

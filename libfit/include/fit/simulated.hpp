@@ -45,6 +45,13 @@ struct SimulationProblem {
   std::vector<SimulationParameter> parameters;
   std::vector<Eigen::MatrixXd> measured;  ///< one a window, shape (samples, channels)
   std::vector<double> deviations;         ///< of the noise, one a channel: weighs them
+  /// Where samples differ in their errors, share them between channels, or were not measured: of each window, one a
+  /// sample, shape (channels, channels), what makes of the errors of all channels, each over its deviation, independent
+  /// ones of variance 1. Rows and columns of what was not measured, and is NaN, are zero. Empty: as `deviations` say.
+  std::vector<std::vector<Eigen::MatrixXd>> whitening = {};
+  /// One a channel that was measured up to whole multiples of it, as an angle is by a film: the motion is compared at
+  /// the nearest. Zero: of one that was measured as it is. Empty: of all. (V11)
+  std::vector<double> periods = {};
   double confidence = 0.95;
   int iterations_reach = 60;
   bool accept_residuals = false;  ///< values are told though residuals exceed what the deviations allow

@@ -14,7 +14,11 @@ SimulationProblem simulated(const Problem& problem) {
   SimulationProblem out;
   for (const Parameter& p : problem.parameters) out.parameters.push_back(p.number);
   out.measured = problem.measured;
-  for (const Signal& s : problem.signals) out.deviations.push_back(s.deviation);
+  for (const Signal& s : problem.signals) {
+    out.deviations.push_back(s.deviation);
+    out.periods.push_back(s.period);
+  }
+  out.whitening = problem.whitening;
   out.confidence = problem.options.confidence;
   out.iterations_reach = problem.options.iterations_reach;
   out.accept_residuals = problem.options.accept_residuals;
@@ -31,7 +35,7 @@ Eigen::VectorXd first_of(const Problem& problem) {
 /// "x differs by 0.057 m rms; its deviation is stated as 0.002 m, which allows 0.0026 m"
 std::string difference(const Problem& problem, const SimulationFit& fit, std::size_t c) {
   const StatedResiduals& s = fit.stated[c];
-  const auto& [name, unit, deviation] = problem.signals[c];
+  const auto& [name, unit, deviation, period] = problem.signals[c];
   return fmt::format("{} differs by {:.3g} {} rms; its deviation is stated as {:.3g} {}, which allows {:.3g} {}", name,
                      fit.rms[c], unit, s.stated, unit, s.allowed, unit);
 }
@@ -57,7 +61,9 @@ std::string word_of(std::string key) {
 
 double widest(const std::vector<Eigen::MatrixXd>& bands, std::size_t column) {
   double out = 0;
-  for (const auto& band : bands) out = std::max(out, band.col(static_cast<Eigen::Index>(column)).maxCoeff());
+  for (const auto& band : bands)
+    for (const double width : band.col(static_cast<Eigen::Index>(column)))
+      if (width > out) out = width;  // NaN where nothing was measured
   return out;
 }
 
@@ -224,7 +230,9 @@ Solution solve(const Problem& problem) {
                               ? fit_simulation_from(simulation, search, *options.starts)
                               : fit_simulation_insisting(simulation, search, options.starts ? 0 : starts_after_failure);
   Solution out{.report = {}, .fit = std::move(several.best), .trouble = {}};
-  if (!out.fit.refused.empty()) out.trouble = trouble_of_channels(problem, search, out.fit);
+  // Errors that channels share would be another matter once two of them are exchanged.
+  if (!out.fit.refused.empty() && problem.whitening.empty())
+    out.trouble = trouble_of_channels(problem, search, out.fit);
   out.report = told(problem, out.fit);
   if (several.tried > 1) add_starts(problem, several, out.report);
   out.report.refused = refusal_of(problem, out.fit, out.trouble);

@@ -31,7 +31,8 @@ struct Parameter {
 
 struct Signal {
   std::string name, unit;
-  double deviation;  ///< of the noise, in that unit
+  double deviation;   ///< of the noise, in that unit
+  double period = 0;  ///< as SimulationProblem's
 };
 
 struct Problem {
@@ -39,8 +40,9 @@ struct Problem {
   std::shared_ptr<Simulation> simulation;  ///< follows the signals with trial parameters
   std::vector<Parameter> parameters;
   std::vector<Signal> signals;
-  std::vector<double> time;               ///< s, of all samples: for those who look at them
-  std::vector<Eigen::MatrixXd> measured;  ///< one a window, shape (samples, signals)
+  std::vector<double> time;                                  ///< s, of all samples: for those who look at them
+  std::vector<Eigen::MatrixXd> measured;                     ///< one a window, shape (samples, signals)
+  std::vector<std::vector<Eigen::MatrixXd>> whitening = {};  ///< as SimulationProblem's
   Options options;
 };
 

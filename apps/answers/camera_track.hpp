@@ -1,0 +1,22 @@
+#pragma once
+/// \file  The track that a fit scene names, as places in its plane of motion and as channels of its fit. Private to
+/// apps.
+#include <string>
+#include <vector>
+
+#include "answers/fit_models.hpp"
+#include "answers/fit_scene.hpp"
+#include "fit/camera/channels.hpp"
+#include "fit/camera/track.hpp"
+
+namespace froude {
+
+/// What [camera] says of this track: lens, scale, pivot. \throws hydro::InputError
+::fit::camera::View view_of(const scene::CameraTable& camera, const ::fit::camera::Track& track);
+/// The frames that the scene takes, in metres of the plane of motion. \throws hydro::InputError with the file or the
+/// place in the scene
+::fit::camera::Track track_in_plane(const scene::FitScene& scene, const scene::MotionModel& model);
+/// The signals of the model, in their order. \throws hydro::InputError at a signal that does not lie in the picture
+std::vector<::fit::camera::Channel> channels_asked(const scene::MotionModel& model);
+
+}  // namespace froude

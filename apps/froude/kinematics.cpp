@@ -1,0 +1,177 @@
+// `froude kinematics`: what a track tells of motion, smoothed.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <numbers>
+
+#include "answers/camera_track.hpp"
+#include "answers/plot.hpp"
+#include "fit/camera/smooth.hpp"
+#include "froude/commands.hpp"
+#include "froude/outputs.hpp"
+#include "froude/report.hpp"
+#include "hydro/base/units.hpp"
+#include "hydro/io/atomic_file.hpp"
+#include "hydro/io/csv.hpp"
+#include "scene/placed.hpp"
+
+namespace froude {
+namespace {
+
+namespace fc = ::fit::camera;
+namespace dim = hydro::dim;
+using hydro::InputError;
+
+/// "pivot joint 0.5 m 0.5 mm"
+fc::KnownLength known_length(const std::string& text) {
+  const auto wrong = [&] {
+    return InputError(fmt::format("\"{}\" is no distance between two markers", text), {.file = "--length"},
+                      "write both, their distance and its deviation: \"pivot joint 0.5 m 0.5 mm\"");
+  };
+  std::vector<std::string> words;
+  for (std::size_t from = 0; (from = text.find_first_not_of(' ', from)) != std::string::npos;) {
+    const std::size_t to = std::min(text.find(' ', from), text.size());
+    words.push_back(text.substr(from, to - from));
+    from = to;
+  }
+  if (words.size() != 6) throw wrong();
+  return scene::placed({.file = "--length"}, [&] {
+    return fc::KnownLength{words[0], words[1], hydro::parse_si(words[2] + " " + words[3], dim::length),
+                           hydro::parse_si(words[4] + " " + words[5], dim::length)};
+  });
+}
+
+/// One number at each frame, with its standard deviation.
+struct SmoothedColumn {
+  std::string name, unit;
+  std::vector<double> value, deviation;
+};
+
+void add(const std::string& name, const std::string& unit, std::vector<SmoothedColumn>& out) {
+  out.push_back({name, unit, {}, {}});
+}
+
+std::vector<SmoothedColumn> marker_columns(const fc::SmoothTrack& track, std::size_t m, char along) {
+  std::vector<SmoothedColumn> out;
+  for (const char axis : {along, 'z'})
+    for (const auto& [what, unit] :
+         {std::pair{"", "m"}, std::pair{"_velocity", "m/s"}, std::pair{"_acceleration", "m/s^2"}})
+      add(fmt::format("{}_{}{}", track.markers[m], axis, what), unit, out);
+  for (std::size_t i = 0; i < track.time.size(); ++i) {
+    const fc::MarkerMotion now = track.marker(m, i);
+    for (Eigen::Index c = 0; c < 2; ++c) {
+      const double value[] = {now.place[c], now.velocity[c], now.acceleration[c]},
+                   deviation[] = {now.place_sd[c], now.velocity_sd[c], now.acceleration_sd[c]};
+      for (std::size_t d = 0; d < 3; ++d) {
+        SmoothedColumn& column = out[static_cast<std::size_t>(3 * c) + d];
+        column.value.push_back(value[d]);
+        column.deviation.push_back(deviation[d]);
+      }
+    }
+  }
+  return out;
+}
+
+/// As the signal of the run counts it, without jumps.
+std::vector<SmoothedColumn> angle_columns(const fc::SmoothTrack& track, const fc::Channel& channel,
+                                          const std::string& of) {
+  const auto number = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::find(track.markers.begin(), track.markers.end(), name) -
+                                    track.markers.begin());
+  };
+  const double sign = channel.downwards ? -1 : 1, turn = 2 * std::numbers::pi;
+  std::vector<SmoothedColumn> out;
+  add(of, "rad", out);
+  add(of + "_velocity", "rad/s", out);
+  add(of + "_acceleration", "rad/s^2", out);
+  double last = 0;
+  for (std::size_t i = 0; i < track.time.size(); ++i) {
+    const fc::AngleMotion now = track.angle(number(channel.marker), number(channel.to), i);
+    last += std::remainder(sign * now.angle - channel.zero - last, turn);
+    const double value[] = {last, sign * now.rate, sign * now.acceleration},
+                 deviation[] = {now.angle_sd, now.rate_sd, now.acceleration_sd};
+    for (std::size_t d = 0; d < 3; ++d) {
+      out[d].value.push_back(value[d]);
+      out[d].deviation.push_back(deviation[d]);
+    }
+  }
+  return out;
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += v;
+  return sum / static_cast<double>(values.size());
+}
+
+/// What all columns of a unit are.
+std::string quantity_in(const std::string& unit) {
+  static const std::map<std::string, std::string> names{
+      {"m", "place"},   {"m/s", "velocity"},           {"m/s^2", "acceleration"},
+      {"rad", "angle"}, {"rad/s", "angular velocity"}, {"rad/s^2", "angular acceleration"}};
+  return names.at(unit);
+}
+
+void draw(const Path& file, const std::vector<double>& time, const std::vector<SmoothedColumn>& columns) {
+  plot::Figure figure{.title = "Smoothed motion", .panels = {}};
+  for (const SmoothedColumn& c : columns) {
+    auto panel = std::find_if(figure.panels.begin(), figure.panels.end(),
+                              [&](const plot::Panel& p) { return p.y.unit == c.unit; });
+    if (panel == figure.panels.end()) {
+      figure.panels.push_back({.x = {"time", "s"}, .y = {quantity_in(c.unit), c.unit}, .series = {}});
+      panel = std::prev(figure.panels.end());
+    }
+    panel->series.push_back({c.name, time, c.value});
+  }
+  hydro::io::write_atomically(file, plot::svg(figure));
+}
+
+}  // namespace
+
+void kinematics(const KinematicsArguments& a, const Console& console) {
+  require_outputs(named({{"-o", a.output}, {"--picture", a.picture}}), files_of_scene(a.scene));
+  const scene::FitScene scene = scene::read_fit(a.scene);
+  const auto* model = std::any_cast<scene::MotionModel>(&scene.settings);
+  if (model == nullptr || !model->camera)
+    throw InputError("the scene has no track: it is no fit of kind \"motion\" with [camera]", scene.model_place,
+                     "name a scene whose files are tracks");
+  fc::SmoothOptions options{
+      .bandwidth_hz =
+          scene::placed({.file = "--bandwidth"}, [&] { return hydro::parse_si(a.bandwidth, dim::angular_velocity); }) /
+          (2 * std::numbers::pi)};
+  for (const std::string& length : a.lengths) options.lengths.push_back(known_length(length));
+  const fc::Track places = track_in_plane(scene, *model);
+  const fc::SmoothTrack track =
+      scene::placed({.file = scene.files[0].value.string()}, [&] { return fc::smooth(places, options); });
+  std::vector<SmoothedColumn> columns;
+  const auto take = [&](std::vector<SmoothedColumn> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(columns));
+  };
+  for (std::size_t m = 0; m < track.markers.size(); ++m) take(marker_columns(track, m, model->camera->axis.back()));
+  const auto channels = channels_asked(*model);
+  for (std::size_t c = 0; c < channels.size(); ++c)
+    if (channels[c].kind == fc::Channel::Kind::angle) take(angle_columns(track, channels[c], model->signals[c].of));
+  std::vector<hydro::io::CsvColumn> written{{"t", "s", &track.time}};
+  for (const SmoothedColumn& c : columns) {
+    written.push_back({c.name, c.unit, &c.value});
+    written.push_back({c.name + "_deviation", c.unit, &c.deviation});
+  }
+  hydro::io::write_csv(a.output, written,
+                       {fmt::format("smoothed by froude {}: gain 0.99 at {:g} Hz, half at {:.4g} Hz", FROUDE_VERSION,
+                                    options.bandwidth_hz, track.cutoff_hz)});
+  if (a.picture) draw(*a.picture, track.time, columns);
+  Report report;
+  report.say("{} frames of {} markers, gain 0.99 at {:g} Hz and half at {:.4g} Hz; {} known lengths{}",
+             fact("frames", track.time.size()), fact("markers", track.markers.size()),
+             fact("bandwidth_hz", options.bandwidth_hz), fact("cutoff_hz", track.cutoff_hz),
+             fact("lengths", options.lengths.size()),
+             track.rounds > 0 ? fmt::format(", straight after {} rounds", track.rounds) : "");
+  for (const SmoothedColumn& c : columns)
+    report.row("column", "  {} [{}]: mean standard deviation {:.3g}", fact("name", c.name), fact("unit", c.unit),
+               fact("mean_deviation", mean_of(c.deviation)));
+  report.wrote(a.output).wrote(a.picture);
+  tell(report, console);
+}
+
+}  // namespace froude

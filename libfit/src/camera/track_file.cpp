@@ -1,0 +1,375 @@
+#include "fit/camera/track_file.hpp"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <limits>
+#include <map>
+
+#include "hydro/base/error.hpp"
+#include "hydro/base/units.hpp"
+#include "hydro/io/atomic_file.hpp"
+
+namespace fit::camera {
+namespace {
+
+using hydro::InputError;
+using hydro::Place;
+constexpr double unseen = std::numeric_limits<double>::quiet_NaN();
+
+struct TrackLine {
+  std::string_view text;
+  int number;
+};
+
+/// Lines that are neither blank nor comments (#, %).
+std::vector<TrackLine> lines_of(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  std::vector<TrackLine> out;
+  for (int number = 1; !text.empty(); ++number) {
+    const auto end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    const std::string_view body = hydro::trimmed(line);
+    if (!body.empty() && body.front() != '#' && body.front() != '%') out.push_back({line, number});
+  }
+  return out;
+}
+
+/// "# picture: 1280 x 720 px", which write_track() leaves among its comments.
+Eigen::Vector2i size_in(std::string_view text) {
+  const auto at = text.find("# picture: ");
+  int width = 0, height = 0;
+  if (at == std::string_view::npos ||
+      std::sscanf(std::string(text.substr(at, 60)).c_str(), "# picture: %d x %d px", &width, &height) != 2)
+    return {0, 0};
+  return {width, height};
+}
+
+std::vector<std::string_view> cells_of(std::string_view line, char separator) {
+  std::vector<std::string_view> out;
+  if (separator == ' ') {
+    for (std::size_t at = 0; (at = line.find_first_not_of(" \t", at)) != std::string_view::npos;) {
+      const auto end = std::min(line.find_first_of(" \t", at), line.size());
+      out.push_back(line.substr(at, end - at));
+      at = end;
+    }
+    return out;
+  }
+  for (std::size_t from = 0;;) {
+    const auto to = std::min(line.find(separator, from), line.size());
+    std::string_view cell = hydro::trimmed(line.substr(from, to - from));
+    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
+    out.push_back(cell);
+    if (to == line.size()) return out;
+    from = to + 1;
+  }
+}
+
+/// What stands between the cells: whatever of these the last line has, which is a row.
+char separator_of(const std::vector<TrackLine>& lines) {
+  for (const char c : {';', '\t', ','})
+    if (lines.back().text.find(c) != std::string_view::npos) return c;
+  return ' ';
+}
+
+/// NaN for a cell without a place; nothing for text.
+std::optional<double> number_in(std::string_view cell, char separator) {
+  std::string lower(cell);
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (lower.empty() || lower == "nan" || lower == "na" || lower == "-") return unseen;
+  if (separator != ',' && lower.find('.') == std::string::npos) std::replace(lower.begin(), lower.end(), ',', '.');
+  const char* begin = lower.data() + (lower.front() == '+');
+  double value = 0;
+  const auto [end, code] = std::from_chars(begin, lower.data() + lower.size(), value);
+  if (code != std::errc{} || end != lower.data() + lower.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+bool is_row(const std::vector<std::string_view>& cells, char separator) {
+  bool any = false;
+  for (const auto cell : cells) {
+    const auto value = number_in(cell, separator);
+    if (!value) return false;
+    any = any || !std::isnan(*value);
+  }
+  return any;
+}
+
+/// The numbers of a file under the names of their columns.
+struct RawTrack {
+  std::string file;
+  Place header;
+  std::vector<std::string> names, units;
+  std::vector<std::vector<double>> columns;
+  std::vector<int> line_of_row;
+
+  std::optional<std::size_t> find(std::string_view name) const {
+    const auto at = std::find(names.begin(), names.end(), name);
+    return at == names.end() ? std::nullopt : std::optional<std::size_t>(at - names.begin());
+  }
+  std::size_t need(const std::string& name) const {
+    if (const auto at = find(name)) return *at;
+    const std::string near = hydro::nearest(name, names);
+    throw InputError(fmt::format("the track has no column \"{}\"", name), header,
+                     near.empty() ? fmt::format("its columns are {}", fmt::join(names, ", "))
+                                  : fmt::format("did you mean \"{}\"?", near));
+  }
+};
+
+/// "bob_x [px]" as a name and a unit.
+void add_name(std::string_view cell, RawTrack& out) {
+  const auto open = cell.find_first_of("[("), close = cell.find_first_of("])");
+  const bool has_unit = open != std::string_view::npos && close != std::string_view::npos && close > open;
+  out.names.emplace_back(hydro::trimmed(cell.substr(0, has_unit ? open : cell.size())));
+  out.units.emplace_back(has_unit ? hydro::trimmed(cell.substr(open + 1, close - open - 1)) : std::string_view());
+}
+
+void take_names(const std::vector<TrackLine>& lines, std::size_t first_row, std::size_t count, char separator,
+                const TrackColumns& asked, RawTrack& out) {
+  if (!asked.names.empty()) {
+    if (asked.names.size() != count)
+      throw InputError(fmt::format("the rows have {} columns, {} names are given", count, asked.names.size()),
+                       {out.file, lines[first_row].number, 0, std::string(lines[first_row].text), 0},
+                       "name each column, in the order of the file");
+    for (const std::string& name : asked.names) add_name(name, out);
+    return;
+  }
+  for (std::size_t i = first_row; i-- > 0;) {
+    const auto cells = cells_of(lines[i].text, separator);
+    if (cells.size() != count) continue;
+    out.header = {out.file, lines[i].number, 0, std::string(lines[i].text), 0};
+    for (const auto cell : cells) add_name(cell, out);
+    return;
+  }
+  throw InputError("no line names the columns of this track",
+                   {out.file, lines[first_row].number, 0, std::string(lines[first_row].text), 0},
+                   fmt::format("name its {} columns in the scene: [data] columns = [\"x\", \"y\", ...]", count));
+}
+
+RawTrack raw_track(std::string_view text, const std::string& file_name, const TrackColumns& asked) {
+  RawTrack out{
+      .file = file_name, .header = {.file = file_name}, .names = {}, .units = {}, .columns = {}, .line_of_row = {}};
+  const auto lines = lines_of(text);
+  if (lines.empty()) throw InputError("the track is empty", {.file = file_name}, "write rows of time and places");
+  const char separator = separator_of(lines);
+  std::size_t first = 0;
+  while (first < lines.size() && !is_row(cells_of(lines[first].text, separator), separator)) ++first;
+  if (first == lines.size())
+    throw InputError("the track has no row of numbers", {.file = file_name}, "write rows of time and places");
+  const std::size_t count = cells_of(lines[first].text, separator).size();
+  take_names(lines, first, count, separator, asked, out);
+  out.columns.resize(count);
+  for (std::size_t i = first; i < lines.size(); ++i) {
+    const auto cells = cells_of(lines[i].text, separator);
+    const Place place{file_name, lines[i].number, 0, std::string(lines[i].text), 0};
+    if (cells.size() != count)
+      throw InputError(fmt::format("the row has {} cells, {} columns are named", cells.size(), count), place,
+                       "leave the cell of a marker that was not seen empty");
+    for (std::size_t c = 0; c < count; ++c) {
+      const auto value = number_in(cells[c], separator);
+      if (!value)
+        throw InputError(fmt::format("\"{}\" is no number", cells[c]), place,
+                         "leave the cell of a marker that was not seen empty; a second track needs a file of its own");
+      out.columns[c].push_back(*value);
+    }
+    out.line_of_row.push_back(lines[i].number);
+  }
+  return out;
+}
+
+bool is_pixel(const std::string& unit) { return unit == "px" || unit == "pixel" || unit == "pixels"; }
+
+/// The marker that a column belongs to, and which of its numbers it is ("x", "y", "xx", "xy", "yy"); nothing for
+/// others.
+std::optional<std::pair<std::string, std::string>> role_of(const std::string& name) {
+  std::string lower = name;
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  for (const char* role : {"xx", "xy", "yy", "x", "y"}) {
+    const std::string word = role;
+    if (lower == word) return {{"marker", word}};
+    const std::size_t n = lower.size(), m = word.size();
+    if (n < m + 2) continue;
+    const auto parts = [](char c) { return c == '_' || c == '.' || c == ' '; };
+    if (lower.ends_with(word) && parts(lower[n - m - 1])) return {{name.substr(0, n - m - 1), word}};
+    if (lower.starts_with(word) && parts(lower[m])) return {{name.substr(m + 1), word}};
+  }
+  return std::nullopt;
+}
+
+/// Columns of x, y and covariances of each marker, in the order in which they stand.
+struct MarkerColumns {
+  std::string name;
+  std::map<std::string, std::size_t> at;  // role → column
+};
+
+std::vector<MarkerColumns> markers_of(const RawTrack& raw, const TrackColumns& asked) {
+  std::vector<MarkerColumns> out;
+  for (const auto& m : asked.markers) out.push_back({m.marker, {{"x", raw.need(m.x)}, {"y", raw.need(m.y)}}});
+  if (!out.empty()) return out;
+  for (std::size_t c = 0; c < raw.names.size(); ++c) {
+    const auto role = role_of(raw.names[c]);
+    if (!role) continue;
+    auto at = std::find_if(out.begin(), out.end(), [&](const auto& m) { return m.name == role->first; });
+    if (at == out.end()) at = out.insert(out.end(), {role->first, {}});
+    at->at[role->second] = c;
+  }
+  std::erase_if(out, [](const auto& m) { return !m.at.contains("x") || !m.at.contains("y"); });
+  if (out.empty())
+    throw InputError(fmt::format("the track has no marker: its columns are {}", fmt::join(raw.names, ", ")), raw.header,
+                     "name pairs of columns NAME_x, NAME_y, or say which they are: [[camera.marker]]");
+  return out;
+}
+
+/// One question for all that has no unit.
+void ask_for_units(const RawTrack& raw, const std::vector<MarkerColumns>& markers, const TrackColumns& asked) {
+  std::vector<std::string> without;
+  const bool no_time =
+      asked.frames_per_second == 0 && raw.units[raw.need(asked.time)].empty() && asked.time_unit.empty();
+  if (no_time) without.push_back(asked.time);
+  bool no_place = false;
+  for (const auto& m : markers)
+    for (const char* role : {"x", "y"})
+      if (const std::size_t c = m.at.at(role); raw.units[c].empty() && asked.position_unit.empty()) {
+        no_place = true;
+        without.push_back(raw.names[c]);
+      }
+  if (without.empty()) return;
+  throw InputError(
+      fmt::format("in which units are the columns {}? The file does not say", fmt::join(without, ", ")), raw.header,
+      fmt::format("say it in the scene: [data] units = {{ {}{}{} }}, or \"mm\" in place of \"px\"",
+                  no_time ? "time = \"s\"" : "", no_time && no_place ? ", " : "", no_place ? "position = \"px\"" : ""));
+}
+
+std::vector<double> times_of(const RawTrack& raw, const TrackColumns& asked) {
+  std::vector<double> out;
+  if (asked.frames_per_second > 0) {
+    for (std::size_t i = 0; i < raw.line_of_row.size(); ++i)
+      out.push_back(static_cast<double>(i) / asked.frames_per_second);
+    return out;
+  }
+  const std::size_t c = raw.need(asked.time);
+  const std::string& unit = raw.units[c].empty() ? asked.time_unit : raw.units[c];
+  const double factor = hydro::parse_si("1 " + unit, hydro::dim::time);
+  for (std::size_t i = 0; i < raw.columns[c].size(); ++i) {
+    const double t = factor * raw.columns[c][i];
+    const Place place{raw.file, raw.line_of_row[i], 0, {}, 0};
+    if (std::isnan(t)) throw InputError("the row has no time", place, "each frame needs its time");
+    if (!out.empty() && !(t > out.back()))
+      throw InputError(
+          fmt::format("time goes from {:.9g} s to {:.9g} s", out.back(), t), place,
+          "times must increase: give a second run a file of its own, and leave out frames that stand twice");
+    out.push_back(t);
+  }
+  return out;
+}
+
+/// What one of a column's numbers is in px or m; px² or m² of a covariance.
+double factor_of(const RawTrack& raw, std::size_t c, const TrackColumns& asked, bool squared, bool& in_metres) {
+  std::string unit = raw.units[c];
+  if (unit.empty()) unit = asked.position_unit + (squared ? "^2" : "");
+  const bool pixels = is_pixel(squared && unit.ends_with("^2") ? unit.substr(0, unit.size() - 2) : unit);
+  in_metres = !pixels;
+  if (pixels) return 1;
+  try {
+    return hydro::parse_si("1 " + unit, squared ? hydro::dim::area : hydro::dim::length);
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("column \"{}\": {}", raw.names[c], e.rule()), raw.header,
+                     "write px, or a length: mm, m");
+  }
+}
+
+Marker marker_of(const RawTrack& raw, const MarkerColumns& columns, const TrackColumns& asked, Track& track) {
+  Marker out{columns.name, {}};
+  bool metres[2];
+  double factor[2];
+  const std::size_t x = columns.at.at("x"), y = columns.at.at("y");
+  factor[0] = factor_of(raw, x, asked, false, metres[0]);
+  factor[1] = factor_of(raw, y, asked, false, metres[1]);
+  if (metres[0] != metres[1] || (!track.markers.empty() && metres[0] != track.in_metres))
+    throw InputError(fmt::format("marker \"{}\" mixes pixels and metres", columns.name), raw.header,
+                     "all places of a track are in one unit");
+  track.in_metres = metres[0];
+  const bool errors = columns.at.contains("xx") && columns.at.contains("xy") && columns.at.contains("yy");
+  for (std::size_t i = 0; i < raw.line_of_row.size(); ++i) {
+    out.seen.emplace_back();
+    const Eigen::Vector2d at(factor[0] * raw.columns[x][i], factor[1] * raw.columns[y][i]);
+    if (!at.allFinite()) continue;
+    Sighting s{.at = at};
+    if (errors) {
+      const auto entry = [&](const char* role) {
+        bool unused = false;
+        const std::size_t c = columns.at.at(role);
+        return factor_of(raw, c, asked, true, unused) * raw.columns[c][i];
+      };
+      Eigen::Matrix2d told;
+      told << entry("xx"), entry("xy"), entry("xy"), entry("yy");
+      if (told.array().isNaN().all()) {
+        out.seen.back() = s;
+        continue;
+      }
+      s.covariance = told;
+      if (!(s.covariance(0, 0) > 0 && s.covariance.determinant() > 0))
+        throw InputError(fmt::format("the covariance of marker \"{}\" is none", columns.name),
+                         {raw.file, raw.line_of_row[i], 0, {}, 0}, "xx, yy and xx yy - xy^2 must be positive");
+    }
+    out.seen.back() = s;
+  }
+  return out;
+}
+
+}  // namespace
+
+Track parse_track(std::string_view text, const std::string& file_name, const TrackColumns& asked) {
+  const RawTrack raw = raw_track(text, file_name, asked);
+  const auto markers = markers_of(raw, asked);
+  ask_for_units(raw, markers, asked);
+  Track out;
+  out.size = size_in(text);
+  out.time = times_of(raw, asked);
+  for (const auto& m : markers) out.markers.push_back(marker_of(raw, m, asked, out));
+  return out;
+}
+
+Track read_track(const std::filesystem::path& path, const TrackColumns& columns) {
+  return parse_track(hydro::io::read_text(path), path.string(), columns);
+}
+
+void write_track(const std::filesystem::path& path, const Track& track, const std::vector<std::string>& comments) {
+  fmt::memory_buffer out;
+  const auto add = [&]<class... Args>(fmt::format_string<Args...> text, Args&&... args) {
+    fmt::format_to(std::back_inserter(out), text, std::forward<Args>(args)...);
+  };
+  for (const std::string& comment : comments) add("# {}\n", comment);
+  if (track.size.x() > 0) add("# picture: {} x {} px\n", track.size.x(), track.size.y());
+  const char* unit = track.in_metres ? "m" : "px";
+  add("t [s]");
+  for (const Marker& m : track.markers)
+    add(",{0}_x [{1}],{0}_y [{1}],{0}_xx [{1}^2],{0}_xy [{1}^2],{0}_yy [{1}^2]", m.name, unit);
+  for (std::size_t i = 0; i < track.frames(); ++i) {
+    add("\n{:.9g}", track.time[i]);
+    for (const Marker& m : track.markers) {
+      if (!m.seen[i]) {
+        add(",,,,,");
+        continue;
+      }
+      const Sighting& s = *m.seen[i];
+      add(",{:.8g},{:.8g}", s.at.x(), s.at.y());
+      if (s.has_covariance())
+        add(",{:.6g},{:.6g},{:.6g}", s.covariance(0, 0), s.covariance(0, 1), s.covariance(1, 1));
+      else
+        add(",,,");
+    }
+  }
+  add("\n");
+  hydro::io::write_atomically(path, std::string_view(out.data(), out.size()));
+}
+
+}  // namespace fit::camera
