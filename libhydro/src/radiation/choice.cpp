@@ -67,7 +67,7 @@ double direct_cost(double modes, double lags) {
 struct Weighed {
   std::optional<ExtrapolatedDamping> whole;
   std::shared_ptr<const MemorySurvey> survey;
-  std::optional<RetardationKernel> kernel;
+  std::optional<MemoryGrid> grid;  // of the kernel, which is made only if it is taken
   std::optional<RationalFit> fit;
 };
 
@@ -79,19 +79,19 @@ void weigh_convolutions(const DampingTable& damping, const std::vector<Eigen::Ma
   const MemorySurvey& survey = *w.survey;
   const double length =
       demand.length ? *demand.length : survey.length(demand.tolerance / 2);  // half is left for the tail
-  w.kernel = RetardationKernel::averaged(w.whole->table, {demand.step, std::max(length, 2 * demand.step)}, survey);
-  out.lags = w.kernel->samples();
-  out.truncation = w.kernel->truncation();
+  w.grid = MemoryGrid{demand.step, std::max(length, 2 * demand.step)};
+  out.lags = w.grid->samples();
+  out.truncation = survey.remaining_after(w.grid->kept());
   out.misfit = w.whole->misfit;
   out.shift = w.whole->shift;
-  const auto error = error_against(damping, A, w.whole->A_inf, transforms(survey, w.kernel->length(), damping.omega));
-  const double n = w.kernel->modes(), lags = static_cast<double>(w.kernel->samples());
+  const auto error = error_against(damping, A, w.whole->A_inf, transforms(survey, w.grid->kept(), damping.omega));
+  const auto modes = static_cast<int>(damping.B.front().rows());
+  const double n = modes, lags = static_cast<double>(out.lags);
   if (demand.method.value_or(Method::direct) == Method::direct)
     out.alternatives.push_back({Method::direct, error.value, error.at_omega, direct_cost(n, lags), false});
   if (demand.method.value_or(Method::partitioned) == Method::partitioned)
-    out.alternatives.push_back(
-        {Method::partitioned, error.value, error.at_omega,
-         overhead + part_product * PartitionedConvolution::mean_step(w.kernel->modes(), w.kernel->samples()), false});
+    out.alternatives.push_back({Method::partitioned, error.value, error.at_omega,
+                                overhead + part_product * PartitionedConvolution::mean_step(modes, out.lags), false});
 }
 
 void weigh_poles(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& A,
@@ -147,13 +147,14 @@ ChosenMemory choose(const DampingTable& damping, const std::vector<Eigen::Matrix
     return out;
   }
   out.A_inf = w.whole->A_inf;
-  out.transform = [survey = w.survey, length = w.kernel->length()](double omega) {
+  const auto kernel = RetardationKernel::averaged(w.whole->table, *w.grid, *w.survey);
+  out.transform = [survey = w.survey, length = kernel.length()](double omega) {
     return survey->transform(omega, length);
   };
   if (taken.method == Method::direct)
-    out.memory = std::make_shared<DirectConvolution>(*w.kernel);
+    out.memory = std::make_shared<DirectConvolution>(kernel);
   else
-    out.memory = std::make_shared<PartitionedConvolution>(*w.kernel);
+    out.memory = std::make_shared<PartitionedConvolution>(kernel);
   return out;
 }
 

@@ -201,6 +201,8 @@ void require_told(const DampingTable& damping, const MemoryGrid& grid) {
 
 }  // namespace
 
+std::size_t MemoryGrid::samples() const { return std::max<std::size_t>(1, steps_in(length, step)) + 1; }
+
 Eigen::MatrixXd retardation(const DampingTable& damping, double t_s) { return CosineTransform(damping).at(t_s); }
 
 double negative_share(const DampingTable& damping) {
@@ -278,8 +280,7 @@ RetardationKernel RetardationKernel::sampled(const Transform& K, const DampingTa
                                              const MemorySurvey& survey) {
   RetardationKernel kernel;
   kernel.step_ = grid.step;
-  const std::size_t last = std::max<std::size_t>(1, steps_in(grid.length, grid.step));
-  K.each(grid.step, last + 1, [&](std::size_t, Eigen::MatrixXd at) { kernel.K_.push_back(std::move(at)); });
+  K.each(grid.step, grid.samples(), [&](std::size_t, Eigen::MatrixXd at) { kernel.K_.push_back(std::move(at)); });
   kernel.error_ = missing_tail(damping) + bend(damping);
   kernel.negative_share_ = most_negative(damping);
   kernel.truncation_ = survey.remaining_after(kernel.length());

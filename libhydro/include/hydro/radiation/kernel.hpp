@@ -17,6 +17,9 @@ struct DampingTable {
 struct MemoryGrid {
   double step;    ///< s, > 0
   double length;  ///< s, a whole number of steps is kept
+
+  std::size_t samples() const;  ///< of a kernel on it: one step at least, and the sample at 0
+  double kept() const { return step * static_cast<double>(samples() - 1); }  ///< s
 };
 
 /// How much of the memory is left after a time, looked at once for the whole of it. (R5)
