@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <future>
 #include <iostream>
@@ -108,14 +109,26 @@ std::string page(const std::vector<std::string>& rows) {
   return text;
 }
 
-/// Kinds on two threads, the page after each, as far as it is.
-void write(const std::filesystem::path& folder, std::uint64_t sets) {
+/// The row of a kind that the page in `folder` has; "" if it has none.
+std::string row_before(const std::filesystem::path& folder, const Kind& kind) {
+  std::ifstream page(folder / "coverage.md");
+  const std::string begin = fmt::format("| {} | {} |", kind.what, kind.noise);
+  for (std::string line; std::getline(page, line);)
+    if (line.starts_with(begin)) return line + "\n";
+  return {};
+}
+
+/// Kinds on two threads, the page after each, as far as it is. `fit`: the fits that are asked for, "" for all; the
+/// others keep their rows.
+void write(const std::filesystem::path& folder, std::uint64_t sets, const std::string& fit) {
   const auto all = kinds();
   std::vector<std::string> rows(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) rows[i] = row_before(folder, all[i]);
   std::atomic<std::size_t> next = 0;
   std::mutex writing;
   const auto work = [&] {
     for (std::size_t i = next++; i < all.size(); i = next++) {
+      if (!fit.empty() && all[i].what != fit) continue;
       std::string row = row_of(all[i], sets / all[i].share);
       const std::lock_guard lock(writing);
       rows[i] = std::move(row);
@@ -131,12 +144,12 @@ void write(const std::filesystem::path& folder, std::uint64_t sets) {
 }  // namespace froude::cost
 
 int main(int count, char** argument) {
-  if (count != 3) {
-    std::cerr << "usage: price_coverage FOLDER SETS\n";
+  if (count != 3 && count != 4) {
+    std::cerr << "usage: price_coverage FOLDER SETS [FIT]\n";
     return 2;
   }
   try {
-    froude::cost::write(argument[1], std::stoul(argument[2]));
+    froude::cost::write(argument[1], std::stoul(argument[2]), count == 4 ? argument[3] : "");
   } catch (const std::exception& e) {
     std::cerr << "price_coverage: " << e.what() << "\n";
     return 1;
