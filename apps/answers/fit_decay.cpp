@@ -19,20 +19,6 @@ void check_channels(const FitTables& t, const DecayModel& decay) {
                            "name the column of the motion");
 }
 
-/// A motion is fitted as it was recorded: few steps come before.
-void check_steps(const FitTables& t, const DecayModel& decay) {
-  if (!t.root.has("prepare")) return;
-  const Record& prepare = t.root.table("prepare");
-  for (const Key& key : prepare_binding().table().keys) {
-    if (key.name == "longest_gap" || key.name == "outliers" || key.name == "window") continue;
-    if (prepare.has(key.name) && !prepare[key.name].defaulted)
-      throw prepare.wrong(key.name, not_of_kind("decay"),
-                          "leave it out: what is fitted is the motion as it was recorded");
-  }
-  if (decay.prepare.window.kind == ::fit::WindowChoice::Kind::full_cycles)
-    throw prepare.table("window").wrong("kind", "must be \"span\" for a decay, which has no cycles of full amplitude");
-}
-
 /// The terms that are asked for; true if a memory is among them.
 bool read_terms(const FitTables& t, ::fit::DampingTerms& terms) {
   terms = {.linear = false};
@@ -173,7 +159,9 @@ class DecayFits final : public FitKindOf<DecayModel, ::fit::decay::Problem> {
 
  private:
   void finish(const FitTables& t, const FitScene& scene, DecayModel& decay) const override {
-    check_steps(t, decay);
+    only_prepares(t, {"longest_gap", "outliers", "window"},
+                  "leave it out: what is fitted is the motion as it was recorded",
+                  "which has no cycles of full amplitude");
     check_channels(t, decay);
     if (decay.body) check_restored(t);
     if (decay.body && !(decay.body->stiffness > 0))

@@ -82,6 +82,13 @@ const std::vector<std::unique_ptr<const FitKind>>& fit_kinds();
 /// [prepare]. \throws hydro::InputError where a kind has no such steps
 const Binding<::fit::PrepareOptions>& prepare_binding();
 [[nodiscard]] hydro::InputError prepares_nothing(const FitTables& tables);
+/// Of kinds that know some of these `steps` alone; `remedy` for others, and why a window of full cycles is none of
+/// them: "which has no cycles of full amplitude". \throws hydro::InputError
+void only_prepares(const FitTables& tables, const std::vector<std::string>& steps, const char* remedy,
+                   const char* no_cycles);
+
+/// What the lines of a scene are, for its report: "gauge by gauge.csv: 25 ± 0.01 V/m, hysteresis …".
+std::vector<std::string> told_lines(const FitScene& scene);
 
 /// [camera], where a kind takes no tracks.
 [[nodiscard]] hydro::InputError films_nothing(const FitTables& tables);
@@ -120,6 +127,7 @@ class FitKindOf : public FitKind {
     const Problem given = problem(scene, scene.model<Model>());
     const Solution found = solve(given);
     FitAnswer out{.report = found.report, .panels = panels(given, found), .table = {}, .remedy = {}};
+    for (std::string& line : told_lines(scene)) out.report.remarks.push_back(std::move(line));
     if (out.report.refused)
       out.remedy = remedy(scene, given, found);
     else

@@ -3,8 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
+
+#include "fit/channel_line.hpp"
+#include "hydro/base/error.hpp"
+#include "scene/placed.hpp"
 
 namespace froude::scene {
 namespace {
@@ -32,7 +37,91 @@ plot::Series band_outline(const std::string& name, const std::vector<double>& t,
   return out;
 }
 
+/// Loading cycles of a load cell: columns force and voltage, and cycle where there are several.
+::fit::Calibration calibration_of(const Located<std::filesystem::path>& file, double confidence) {
+  const auto table = hydro::io::CsvTable::read(file.value);
+  const auto &force = table.column("force", dim::force), &volt = table.column("voltage", dim::voltage);
+  std::vector<::fit::LoadCycle> cycles(1);
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    if (i > 0 && table.has("cycle") && table.column("cycle")[i] != table.column("cycle")[i - 1]) cycles.emplace_back();
+    cycles.back().force.push_back(force[i]);
+    cycles.back().voltage.push_back(volt[i]);
+  }
+  return ::fit::calibrate(cycles, confidence);
+}
+
+/// The line of a channel, with the dimensions of what it reads and what it gives.
+struct LineOfChannel {
+  ::fit::ChannelLine line;
+  hydro::Dimension reading, reference;
+};
+
+const FitScene::Line* line_of(const FitScene& scene, const std::string& column) {
+  for (const FitScene::Line& line : scene.lines)
+    if (line.column == column) return &line;
+  return nullptr;
+}
+
+std::string unit_of(const hydro::io::CsvTable& table, const std::string& column) {
+  const std::string& text = table.unit_text(column);
+  return !text.empty() && hydro::parse_unit(text).factor == 1 ? text : table.dimension(column).si();
+}
+
+LineOfChannel read_line(const FitScene::Line& of, double confidence) {
+  return placed({.file = of.file.value.string()}, [&]() -> LineOfChannel {
+    const auto table = hydro::io::CsvTable::read(of.file.value);
+    return {::fit::fit_channel_line({.reference = table.column(of.reference), .reading = table.column(of.reading)},
+                                    confidence),
+            table.dimension(of.reading), table.dimension(of.reference)};
+  });
+}
+
 }  // namespace
+
+std::vector<double> Measurements::column(const std::string& name) const {
+  const FitScene::Line* of = line_of(scene, name);
+  if (of == nullptr) return table.column(name);
+  const auto [line, reading, reference] = read_line(*of, scene.confidence);
+  std::vector<double> out = table.column(name, reading);
+  for (double& v : out) v = line.reference(v);
+  return out;
+}
+
+std::vector<double> Measurements::column(const std::string& name, const hydro::Dimension& needed) const {
+  const FitScene::Line* of = line_of(scene, name);
+  if (of == nullptr) return table.column(name, needed);
+  const hydro::Dimension given = dimension(name);
+  if (!hydro::compatible(given, needed))
+    throw hydro::InputError(
+        fmt::format("the line of \"{}\" gives {}, and {} is needed", name, given.name(), needed.name()), of->place,
+        fmt::format("its references want a unit such as {}", needed.si()));
+  return column(name);
+}
+
+hydro::Dimension Measurements::dimension(const std::string& name) const {
+  const FitScene::Line* of = line_of(scene, name);
+  return of == nullptr ? table.dimension(name) : read_line(*of, scene.confidence).reference;
+}
+
+std::string Measurements::unit(const std::string& name) const {
+  const FitScene::Line* of = line_of(scene, name);
+  return of == nullptr ? unit_of(table, name) : read_line(*of, scene.confidence).reference.si();
+}
+
+std::vector<std::string> told_lines(const FitScene& scene) {
+  std::vector<std::string> out;
+  for (const FitScene::Line& of : scene.lines) {
+    const auto [line, reading, reference] = read_line(of, scene.confidence);
+    out.push_back(fmt::format(
+        "{} by {}: {:.5g} ± {:.2g} {}/{}{}; the error of the slope, {:.2g} %, is the same in all runs "
+        "and in no interval",
+        of.column, of.file.value.filename().string(), *line.slope.value, line.slope.standard_error, reading.si(),
+        reference.si(),
+        line.hysteresis ? fmt::format(", hysteresis {:.2g} % of its range", 100 * *line.hysteresis) : std::string(),
+        100 * line.slope.standard_error / std::abs(*line.slope.value)));
+  }
+  return out;
+}
 
 Measurements::Measurements(const FitScene& of, const std::filesystem::path& file)
     : scene(of), table(hydro::io::CsvTable::read(file)) {}
@@ -40,7 +129,7 @@ Measurements::Measurements(const FitScene& of, const std::filesystem::path& file
 std::vector<double> Measurements::of_role(const char* role, const hydro::Dimension& dimension) const {
   const auto at = scene.channels.find(role);
   if (at == scene.channels.end()) return {};
-  return table.column(at->second, dimension);
+  return column(at->second, dimension);
 }
 
 std::vector<double> Measurements::time() const { return of_role("time", dim::time); }
@@ -51,8 +140,32 @@ std::vector<double> Measurements::motion() const {
 
 std::vector<double> Measurements::load() const {
   if (scene.force.empty()) return of_role("torque", dim::moment);
-  return turned(table.column(scene.force[0].column, dim::force), scene.force[0].turned);
+  return turned(column(scene.force[0].column, dim::force), scene.force[0].turned);
 }
+
+std::vector<::fit::ForceChannel> Measurements::force_channels(
+    const std::optional<Located<std::filesystem::path>>& zero_run) const {
+  std::vector<::fit::ForceChannel> out;
+  for (const auto& f : scene.force) {
+    const auto& dimension = f.calibration ? dim::voltage : dim::force;
+    ::fit::ForceChannel channel{f.column, turned(column(f.column, dimension), f.turned), {}};
+    if (f.calibration) channel.calibration = calibration_of(*f.calibration, scene.confidence);
+    // A channel that is turned round has its line through the same points with the voltage's sign changed.
+    if (f.calibration && f.turned) channel.calibration->offset *= -1;
+    if (zero_run) channel.zero_run = turned(Measurements(scene, zero_run->value).column(f.column, dimension), f.turned);
+    out.push_back(std::move(channel));
+  }
+  return out;
+}
+
+Key calibration_key() {
+  return texts(
+      "calibration",
+      "one CSV for each force channel, with columns force and voltage (and cycle, where there are several): the "
+      "channel is then in volts");
+}
+
+Key zero_key() { return text("zero", "CSV of a run at rest, with the same force channels: its mean is taken off"); }
 
 std::vector<double> turned(std::vector<double> values, bool turn) {
   if (turn)
@@ -85,6 +198,21 @@ Panels panels_of(const FittedRecord& r) {
     residual.series.push_back(band_outline(level + " of the fit", r.time, r.fit_band, false));
   }
   return {std::move(both), std::move(residual)};
+}
+
+plot::Series thinned(const std::string& name, const std::vector<double>& x, const std::vector<double>& y) {
+  const std::size_t block = std::max<std::size_t>(1, x.size() / 1000);
+  plot::Series out{name, {}, {}};
+  for (std::size_t from = 0; from + block <= x.size(); from += block) {
+    double sum_x = 0, sum_y = 0;
+    for (std::size_t i = from; i < from + block; ++i) {
+      sum_x += x[i];
+      sum_y += y[i];
+    }
+    out.x.push_back(sum_x / static_cast<double>(block));
+    out.y.push_back(sum_y / static_cast<double>(block));
+  }
+  return out;
 }
 
 std::vector<plot::Series> with_bars(const std::string& name, double confidence, const std::vector<double>& x,

@@ -2,11 +2,13 @@
 /// \file  What kinds of fit share between a scene and libfit: columns by their roles, runs, and pictures of a record
 ///        with what was fitted to it. Private to apps.
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "answers/fit_kind.hpp"
 #include "fit/coefficient.hpp"
+#include "fit/prepare.hpp"
 #include "fit/problem/source.hpp"
 #include "hydro/io/csv.hpp"
 
@@ -18,12 +20,24 @@ struct Measurements {
   hydro::io::CsvTable table;
 
   Measurements(const FitScene& of, const std::filesystem::path& file);
+  /// SI, by the channel's line where it has one. \throws hydro::InputError as the table's column(), and for a line
+  /// whose readings have another dimension than the column
+  std::vector<double> column(const std::string& name) const;
+  std::vector<double> column(const std::string& name, const hydro::Dimension& dimension) const;
+  hydro::Dimension dimension(const std::string& name) const;
+  /// The SI unit as the header writes it, "N", or else in base units.
+  std::string unit(const std::string& name) const;
   /// SI; empty where no column has that role.
   std::vector<double> of_role(const char* role, const hydro::Dimension& dimension) const;
   std::vector<double> time() const;
   std::vector<double> motion() const;  ///< angle, or else position
   std::vector<double> load() const;    ///< torque, or else the one force, with its sign as the scene has it
+  /// All force channels with their calibrations, and the same of a run at rest.
+  std::vector<::fit::ForceChannel> force_channels(const std::optional<Located<std::filesystem::path>>& zero_run) const;
 };
+/// [data] calibration and zero, of kinds whose force may have several channels.
+Key calibration_key();
+Key zero_key();
 std::vector<double> turned(std::vector<double> values, bool turn);
 
 /// Runs of a scene: its files, or the rows of its table of runs, of which columns that are not `taken` are labels.
@@ -42,6 +56,8 @@ struct FittedRecord {
 };
 /// A panel of both, and one of what is left.
 Panels panels_of(const FittedRecord& record);
+/// A long record as means over a 1000th of it each, which is all that a picture shows.
+plot::Series thinned(const std::string& name, const std::vector<double>& x, const std::vector<double>& y);
 /// Values with their intervals as bars, over `x`.
 std::vector<plot::Series> with_bars(const std::string& name, double confidence, const std::vector<double>& x,
                                     const std::vector<const ::fit::Coefficient*>& y);

@@ -31,6 +31,8 @@ struct MorisonModel : ::fit::morison::Options {
 /// Drag of a cylinder at steady speed.
 struct TowingModel : ::fit::towing::Options {
   ::fit::Cylinder cylinder;
+  bool recorded = false;  ///< files hold records over time, not means
+  std::optional<Located<std::filesystem::path>> zero_run;
 };
 
 /// Period and damping of a body let go.
@@ -74,6 +76,8 @@ struct MotionModel {
 
 /// Keys of [model] that describe a cylinder and its water: in fit_towing.cpp.
 Binding<::fit::Cylinder> cylinder_keys();
+/// [model.uncertainty] without the mass: in fit_towing.cpp.
+Binding<::fit::CylinderErrors> cylinder_errors();
 /// [model.body]: in fit_radiation.cpp.
 Binding<::fit::RestoredBody> restored_body();
 /// \throws hydro::InputError for a mass beside an angle, an inertia beside a position

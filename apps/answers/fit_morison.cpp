@@ -10,7 +10,6 @@ namespace {
 
 namespace dim = hydro::dim;
 using ::fit::Cylinder;
-using ::fit::CylinderErrors;
 using ::fit::Experiment;
 using ::fit::ForceLine;
 using ::fit::MorisonOptions;
@@ -75,12 +74,9 @@ Binding<ProbeToBody> probe_to_body() {
            &P::follow);
 }
 
-Binding<CylinderErrors> cylinder_errors() {
-  return Binding<CylinderErrors>("[model.uncertainty]", "standard uncertainties of what the cylinder is taken for")
-      .optional(positive("diameter", dim::length, "of the diameter"), &CylinderErrors::diameter)
-      .optional(positive("length", dim::length, "of the length"), &CylinderErrors::length)
-      .optional(positive("density", dim::density, "of the water's density"), &CylinderErrors::density)
-      .optional(positive("mass", dim::mass, "of the mass beyond the load cells"), &CylinderErrors::mass);
+Binding<::fit::CylinderErrors> cylinder_errors_with_mass() {
+  return Binding<::fit::CylinderErrors>(cylinder_errors())
+      .optional(positive("mass", dim::mass, "of the mass beyond the load cells"), &::fit::CylinderErrors::mass);
 }
 
 /// What only moving water, or only a moving body, has.
@@ -165,38 +161,9 @@ void check_cycles(const FitTables& t, const MorisonModel& morison) {
                         "give the delay that was estimated");
 }
 
-/// Loading cycles of a load cell: columns force and voltage, and cycle where there are several.
-::fit::Calibration calibration_of(const Located<std::filesystem::path>& file, double confidence) {
-  const auto table = hydro::io::CsvTable::read(file.value);
-  const auto &force = table.column("force", dim::force), &volt = table.column("voltage", dim::voltage);
-  std::vector<::fit::LoadCycle> cycles(1);
-  for (std::size_t i = 0; i < table.rows(); ++i) {
-    if (i > 0 && table.has("cycle") && table.column("cycle")[i] != table.column("cycle")[i - 1]) cycles.emplace_back();
-    cycles.back().force.push_back(force[i]);
-    cycles.back().voltage.push_back(volt[i]);
-  }
-  return ::fit::calibrate(cycles, confidence);
-}
-
-std::vector<::fit::ForceChannel> force_channels(const FitScene& scene, const MorisonModel& model,
-                                                const hydro::io::CsvTable& table) {
-  std::vector<::fit::ForceChannel> out;
-  for (const auto& f : scene.force) {
-    const auto& dimension = f.calibration ? dim::voltage : dim::force;
-    ::fit::ForceChannel channel{f.column, turned(table.column(f.column, dimension), f.turned), {}};
-    if (f.calibration) channel.calibration = calibration_of(*f.calibration, scene.confidence);
-    // A channel that is turned round has its line through the same points with the voltage's sign changed.
-    if (f.calibration && f.turned) channel.calibration->offset *= -1;
-    if (model.zero_run)
-      channel.zero_run = turned(hydro::io::CsvTable::read(model.zero_run->value).column(f.column, dimension), f.turned);
-    out.push_back(std::move(channel));
-  }
-  return out;
-}
-
-::fit::RawRun raw_run(const FitScene& scene, const MorisonModel& model, const Measurements& measured) {
+::fit::RawRun raw_run(const MorisonModel& model, const Measurements& measured) {
   return {.time = measured.time(),
-          .force = force_channels(scene, model, measured.table),
+          .force = measured.force_channels(model.zero_run),
           .position = measured.of_role("position", dim::length),
           .velocity = measured.of_role("velocity", dim::velocity),
           .acceleration = measured.of_role("acceleration", dim::acceleration),
@@ -226,8 +193,7 @@ void take_row(const Located<std::filesystem::path>& place, std::size_t row, Mori
 ::fit::morison::Run read_run(const FitScene& scene, MorisonModel model, const RunOfScene& of) {
   ::fit::morison::Run run{.source = of.source, .cylinder = model.cylinder, .raw = {}};
   if (scene.run_table) take_row(*scene.run_table, of.row, model, run);
-  placed({.file = of.source.file.string()},
-         [&] { run.raw = raw_run(scene, model, Measurements(scene, of.source.file)); });
+  placed({.file = of.source.file.string()}, [&] { run.raw = raw_run(model, Measurements(scene, of.source.file)); });
   return run;
 }
 
@@ -243,7 +209,8 @@ Binding<MorisonModel> morison_keys() {
                 .optional(),
             &M::force)
       .table("wave", probe_to_body(), &M::probe)
-      .part(Binding<O>("", "").table("uncertainty", cylinder_errors(), &O::cylinder_errors).optional(), &M::force);
+      .part(Binding<O>("", "").table("uncertainty", cylinder_errors_with_mass(), &O::cylinder_errors).optional(),
+            &M::force);
 }
 
 const Words<::fit::IntervalMethod> interval_methods{{"effective samples", ::fit::IntervalMethod::effective_samples},
@@ -277,11 +244,8 @@ Binding<MorisonModel> morison_data() {
                      "CSV with one row for each run: the column file, and any of zero, delay, diameter, length, "
                      "density, viscosity and mass_beyond_load_cells, which then hold for that run; other columns are "
                      "carried into the results"))
-      .optional(texts("calibration",
-                      "one CSV for each force channel, with columns force and voltage (and cycle, where there are "
-                      "several): the channel is then in volts"))
-      .optional(text("zero", "CSV of a run at rest, with the same force channels: its mean is taken off"),
-                &MorisonModel::zero_run);
+      .optional(calibration_key())
+      .optional(zero_key(), &MorisonModel::zero_run);
 }
 
 Binding<MorisonModel> morison_intervals() {

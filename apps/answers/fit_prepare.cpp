@@ -1,4 +1,6 @@
 /// \file  [prepare]: the steps between a measurement and its fit.
+#include <algorithm>
+
 #include "answers/fit_kind.hpp"
 
 namespace froude::scene {
@@ -117,7 +119,8 @@ const Binding<PrepareOptions>& prepare_binding() {
   static const auto table =
       Binding<PrepareOptions>("[prepare]",
                               "steps between the measurement and a fit of kind \"morison\"; each is told in the "
-                              "report. A decay has longest_gap, outliers and a window of kind \"span\"")
+                              "report. A decay has longest_gap, outliers and a window of kind \"span\", records of "
+                              "towing these and filters of the force")
           .optional(positive("longest_gap", dim::time, "rows missing no longer than this are bridged"),
                     &PrepareOptions::longest_gap_s)
           .table("outliers", outliers())
@@ -140,6 +143,20 @@ const Binding<PrepareOptions>& prepare_binding() {
                       "needs window = full cycles"),
                &PrepareOptions::average_cycles);
   return table;
+}
+
+void only_prepares(const FitTables& t, const std::vector<std::string>& steps, const char* remedy,
+                   const char* no_cycles) {
+  if (!t.root.has("prepare")) return;
+  const std::string& kind = t.model().text("kind");
+  const Record& prepare = t.root.table("prepare");
+  for (const Key& key : prepare_binding().table().keys)
+    if (std::find(steps.begin(), steps.end(), key.name) == steps.end() && prepare.has(key.name) &&
+        !prepare[key.name].defaulted)
+      throw prepare.wrong(key.name, not_of_kind(kind), remedy);
+  if (prepare.has("window") && prepare.table("window").text("kind") != "span")
+    throw prepare.table("window").wrong("kind",
+                                        fmt::format("must be \"span\" for a fit of kind \"{}\", {}", kind, no_cycles));
 }
 
 }  // namespace froude::scene

@@ -126,13 +126,52 @@ const Table& data_channels() {
   return table;
 }
 
+Binding<FitScene::Line> channel_line() {
+  using L = FitScene::Line;
+  return Binding<L>("[[data.line]]",
+                    "a channel that stands in the files as readings, volts of a gauge or potentiometer: its line gives "
+                    "what was measured")
+      .key(text("column", "of the data files"), &L::column)
+      .key(text("file", "CSV of points at known references, as a fit of kind \"calibration\" takes it"), &L::file)
+      .key(text("reading", "column of that file: what the channel gave, in the unit of the data"), &L::reading)
+      .key(text("reference", "column of that file: what was set, in the unit that the channel measures"), &L::reference)
+      .place(&L::place);
+}
+
+/// A line that nothing reads would be left out in silence.
+void check_lines(const FitTables& tables, const FitScene& scene) {
+  const std::string& kind = scene.kind();
+  for (const FitScene::Line& line : scene.lines) {
+    if (kind == "motion" || kind == "calibration")
+      throw InputError(fmt::format("[[data.line]] {}", not_of_kind(kind)), line.place,
+                       "leave it out: write the column in the unit that is measured");
+    std::vector<std::string> read;
+    for (const auto& [role, column] : scene.channels) read.push_back(column);
+    for (const auto& force : scene.force) read.push_back(force.column);
+    if (tables.channels().has("response"))
+      for (const auto& one : tables.channels()["response"].texts) read.push_back(one.value);
+    if (std::find(read.begin(), read.end(), line.column) == read.end())
+      throw InputError(fmt::format("[[data.line]] column = \"{}\" is no channel of this fit", line.column), line.place,
+                       fmt::format("the channels are {}", fmt::join(read, ", ")));
+    for (const auto& force : scene.force)
+      if (force.column == line.column && force.calibration)
+        throw InputError(fmt::format("\"{}\" has a calibration and a line", line.column), line.place,
+                         "keep one of the two: a calibration counts its errors in the intervals");
+    if (std::count_if(scene.lines.begin(), scene.lines.end(), [&](const auto& l) { return l.column == line.column; }) >
+        1)
+      throw InputError(fmt::format("\"{}\" has two lines", line.column), line.place, "keep one of them");
+  }
+}
+
 /// Without the keys of the kinds.
 const Binding<FitScene>& data_of_all() {
   static const auto table =
       Binding<FitScene>("[data]", "the measurements")
           .optional(texts("files", "CSV, relative to the scene; * stands for any characters of a file's name"),
                     put_files)
-          .key(inner_table("channels", data_channels()).or_default("", "see its keys"));
+          .key(inner_table("channels", data_channels()).or_default("", "see its keys"))
+          .tables("line", channel_line(), &FitScene::lines)
+          .optional();
   return table;
 }
 
@@ -194,7 +233,7 @@ void read_channels(const Record& channels, FitScene& scene) {
       for (const Key& own : roles) names.push_back(own.name);
       throw channels.wrong(role, not_of_kind(scene.kind()), fmt::format("its channels are {}", fmt::join(names, ", ")));
     }
-    if (role == "force") continue;  // may be several, see read_force()
+    if (key.holds == Holds::texts) continue;  // may be several: the kind reads them, the force read_force()
     if (channels.text(role).empty()) throw channels.wrong(role, "is empty", "write the name of a column");
     scene.channels[role] = channels.text(role);
   }
@@ -317,6 +356,7 @@ FitScene parse_fit(std::string_view text, const fs::path& file) {
   read_measurements(tables, scene);
   scene.settings = scene.of->read(tables, scene);
   scene.force = read_force(tables.data(), scene);
+  check_lines(tables, scene);
   return scene;
 }
 

@@ -29,6 +29,13 @@ struct FitScene {
     std::optional<Located<std::filesystem::path>> calibration;
   };
   std::vector<ForceChannel> force;  ///< their sum is the force
+  struct Line {
+    std::string column;                   ///< of the data files: the readings of a channel
+    Located<std::filesystem::path> file;  ///< of its calibration
+    std::string reading, reference;       ///< columns of that file
+    Place place;
+  };
+  std::vector<Line> lines;  ///< channels that stand in the files as readings
 
   const FitKind* of = nullptr;  ///< its kind, which lives as long as the program
   std::any settings;            ///< what the tables say of that kind

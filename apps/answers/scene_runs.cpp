@@ -92,7 +92,7 @@ Eigen::Index MeasuredRun::run_length(std::size_t window) const {
   return begin.empty() ? rows(window) : begin[window + 1] - begin[window];
 }
 
-Eigen::VectorXd MeasuredRun::told(std::size_t window, const std::vector<double>& run) const {  // (F91)
+Eigen::VectorXd MeasuredRun::told(std::size_t window, const std::vector<double>& run) const {  // (F102)
   Eigen::VectorXd out(rows(window));
   constexpr int points = 6;
   const auto last = static_cast<double>(std::ssize(run) - points);

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "hydro/base/error.hpp"
+#include "scene/placed.hpp"
 
 namespace froude {
 namespace {
@@ -64,6 +65,11 @@ hydro::InputError usage_error(const CLI::App& app, const CLI::ParseError& error)
 }
 
 }  // namespace
+
+std::optional<double> parsed(const std::string& option, const std::string& text, const hydro::Dimension& needed) {
+  if (text.empty()) return std::nullopt;
+  return scene::placed({.file = option}, [&] { return hydro::parse_si(text, needed); });
+}
 
 void add_common_flags(CLI::App& app, Request& request) {
   app.set_version_flag("--version", "froude " FROUDE_VERSION);

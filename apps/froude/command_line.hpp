@@ -4,8 +4,11 @@
 #include <CLI/CLI.hpp>
 
 #include <functional>
+#include <optional>
+#include <string>
 
 #include "froude/commands.hpp"
+#include "hydro/base/units.hpp"
 
 namespace froude {
 
@@ -16,6 +19,9 @@ struct Request {
   bool json = false, quiet = false;
   std::function<int(const Console&)> call;
 };
+
+/// A quantity of an option in SI; none where the option is left out. \throws hydro::InputError naming the option
+std::optional<double> parsed(const std::string& option, const std::string& text, const hydro::Dimension& needed);
 
 /// Adds --version, --json and --quiet.
 void add_common_flags(CLI::App& app, Request& request);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "froude/command_line.hpp"
+#include "froude/experiment_options.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
 #include "scene/placed.hpp"
@@ -17,11 +18,6 @@ struct BemOptionTexts {
   std::string density, gravity, depth, ulen;
   int iperout = 0;
 };
-
-std::optional<double> parsed(const std::string& option, const std::string& text, const hydro::Dimension& needed) {
-  if (text.empty()) return std::nullopt;
-  return scene::placed({.file = option}, [&] { return hydro::parse_si(text, needed); });
-}
 
 hydro::potential::ReadOptions read_options(const BemOptionTexts& texts) {
   hydro::potential::ReadOptions options;
@@ -493,6 +489,7 @@ void describe(CLI::App& app, Request& request) {
   add_kinematics(app, request);
   add_scene_command(app, request, "plan", "what a scene will run, by which method, and why the rest will not", &plan,
                     false);
+  add_experiment(app, request);
   add_cost(app, request);
   add_other_programs(app);
 }

@@ -9,77 +9,22 @@
 #include <numbers>
 
 #include "fit/correlated.hpp"
+#include "harmonic_series.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/random.hpp"
 #include "hydro/signal/distributions.hpp"
 #include "hydro/signal/welch.hpp"
-#include "morison_columns.hpp"
 #include "restored_body.hpp"
 
 namespace fit {
 namespace {
 
-using RadiationComplex = std::complex<double>;
 constexpr int force_harmonics = 3;
 
 /// Student's t that an interval was made with.
 double quantile_of(const Coefficient& c) {
   return c.standard_error > 0 ? (c.interval.high - c.interval.low) / (2 * c.standard_error) : 0;
-}
-
-/// 1, then cos kωt and −sin kωt for k = 1 …: Re a e^{ikωt} has the parts of a as its coefficients.
-Eigen::MatrixXd harmonic_columns(const Eigen::VectorXd& time, double omega, int highest) {
-  Eigen::MatrixXd columns(time.size(), 1 + 2 * highest);
-  columns.col(0).setOnes();
-  for (int k = 1; k <= highest; ++k) {
-    columns.col(2 * k - 1) = (k * omega * time.array()).cos();
-    columns.col(2 * k) = -(k * omega * time.array()).sin();
-  }
-  return columns;
-}
-
-/// A series of harmonics with its errors.
-struct HarmonicFit {
-  Eigen::VectorXd x, fitted;
-  Eigen::MatrixXd covariance;
-  double dof, rms;
-  bool repeats = false;  // what is left hardly forgets within the record
-  RadiationComplex amplitude(int k) const { return {x[2 * k - 1], x[2 * k]}; }
-  /// Standard error of one part of the first amplitude, the mean of both.
-  double error() const { return std::sqrt((covariance(1, 1) + covariance(2, 2)) / 2); }
-};
-
-HarmonicFit fit_series(const Eigen::VectorXd& time, const Eigen::VectorXd& values, double omega, int highest,
-                       double step) {
-  const Eigen::MatrixXd columns = harmonic_columns(time, omega, highest);
-  HarmonicFit fit;
-  fit.x = hydro::dense::PivotedQr(columns).solve(values);
-  fit.fitted = columns * fit.x;
-  const Eigen::VectorXd left = values - fit.fitted;
-  const auto n = static_cast<double>(values.size());
-  fit.rms = std::sqrt(left.squaredNorm() / n);
-  fit.covariance = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
-  fit.dof = n - static_cast<double>(columns.cols());
-  if (left.squaredNorm() <= 1e-24 * values.squaredNorm()) return fit;  // made by the model itself
-  // A fortieth of the shortest period among the columns, as correlated_covariance() has it.
-  const int block = std::max(1, static_cast<int>(2 * std::numbers::pi / (highest * omega * step) / 40));
-  const auto u = correlated_covariance(columns, left, block, LongMemory::widen);
-  fit.covariance = u.covariance;
-  fit.dof = u.dof;
-  fit.repeats = u.dof_raised;
-  return fit;
-}
-
-/// The frequency of a motion, rad/s.
-double frequency_of(const Eigen::VectorXd& motion, double step) {
-  const std::span<const double> values(motion.data(), static_cast<std::size_t>(motion.size()));
-  const auto w = hydro::signal::welch(values, step, {.segment = values.size() / 2 * 2, .overlap = 0});
-  const double rough = hydro::signal::peak(w.spectrum, hydro::signal::whole(w.spectrum)).period_s();
-  hydro::require(rough * 3 <= step * static_cast<double>(values.size()),
-                 "a steady oscillation needs three cycles at least; the record holds {:.2g} of {:.4g} s",
-                 step * static_cast<double>(values.size()) / rough, rough);
-  return 2 * std::numbers::pi * peak_frequency(values, step, rough);
 }
 
 /// Standard error without what is the same throughout.
@@ -149,14 +94,15 @@ RadiationPoint fit_radiation(std::span<const double> time, std::span<const doubl
   hydro::require(x.allFinite() && f.allFinite(), "motion or force holds a value that is not finite");
   hydro::require(x.maxCoeff() > x.minCoeff(), "the body does not move");
   const double omega = frequency_of(x.array() - x.mean(), step);
-  const HarmonicFit moved = fit_series(t, x, omega, 1, step), carried = fit_series(t, f, omega, force_harmonics, step);
-  const RadiationComplex x1 = moved.amplitude(1), f1 = carried.amplitude(1);
+  const HarmonicSeries moved = fit_series(t, x, omega, 1, step),
+                       carried = fit_series(t, f, omega, force_harmonics, step);
+  const std::complex<double> x1 = moved.amplitude(1), f1 = carried.amplitude(1);
   const double amplitude = std::abs(x1);
   hydro::require(moved.rms < 0.1 * amplitude / std::numbers::sqrt2,
                  "{:.2g} % of the motion is not in one sinusoid of {:.4g} Hz: it is not steady, or not one frequency",
                  100 * moved.rms * std::numbers::sqrt2 / amplitude, omega / (2 * std::numbers::pi));
   // F₁ = −(C − ω²(M + A) + iωB) X₁
-  const RadiationComplex d = -f1 / x1;
+  const std::complex<double> d = -f1 / x1;
   RadiationPoint p{.omega = omega,
                    .amplitude = amplitude,
                    .added_mass = {},

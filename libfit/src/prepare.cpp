@@ -32,6 +32,7 @@ struct Work {
   Prepared out;
   std::vector<double> pattern;                    // position or velocity: where cycles are seen
   std::vector<std::optional<Rounding>> rounding;  // of each channel of the force
+  std::vector<double> zero_errors;                // of each channel of the force, N
 
   std::vector<std::vector<double>*> columns() {
     std::vector<std::vector<double>*> all{&run.time,
@@ -92,6 +93,17 @@ std::vector<std::pair<std::string, std::vector<double>*>> measured(RawRun& run) 
 /// A motion was recorded beside that of the water.
 bool moves(const RawRun& run) { return !run.velocity.empty() || !run.position.empty(); }
 
+void check_columns(RawRun& run) {
+  for (const auto& [name, column] : measured(run)) {
+    hydro::require(column->size() == run.time.size(), "{} has {} samples, time {}", name, column->size(),
+                   run.time.size());
+    const auto [low, high] = std::minmax_element(column->begin(), column->end());
+    if (!(*high > *low))
+      throw InputError(fmt::format("{} is {:.6g} throughout: the sensor gave no signal", name, *low), {},
+                       "look whether it was connected, or leave the channel out");
+  }
+}
+
 void check(RawRun& run) {
   hydro::require(!run.force.empty(), "a run needs a force");
   hydro::require(run.velocity.empty() || run.position.empty(), "a run has a position or a velocity, not both");
@@ -104,14 +116,7 @@ void check(RawRun& run) {
   hydro::require(run.elevation.empty() == !run.probe, "an elevation needs to know where probe and body are");
   hydro::require(!run.probe || !run.probe->follow || !run.position.empty(),
                  "the water is to be taken where the body is, and its position is not known");
-  for (const auto& [name, column] : measured(run)) {
-    hydro::require(column->size() == run.time.size(), "{} has {} samples, time {}", name, column->size(),
-                   run.time.size());
-    const auto [low, high] = std::minmax_element(column->begin(), column->end());
-    if (!(*high > *low))
-      throw InputError(fmt::format("{} is {:.6g} throughout: the sensor gave no signal", name, *low), {},
-                       "look whether it was connected, or leave the channel out");
-  }
+  check_columns(run);
 }
 
 void fill_gaps(Work& w, double longest) {  // (F22)
@@ -124,9 +129,10 @@ void fill_gaps(Work& w, double longest) {  // (F22)
   }
 }
 
-void look_at_sensors(Work& w) {  // (F19), (F20)
+/// `rests` stays at one value where nothing is wrong: a carriage.
+void look_at_sensors(Work& w, const std::vector<double>* rests = nullptr) {  // (F19), (F20)
   for (const auto& [name, column] : measured(w.run)) {
-    if (const auto c = find_clipping(*column))
+    if (const auto c = find_clipping(*column); c && column != rests)
       w.warn("{} stands at {} in {:.2g} % of its samples: the sensor was at its stop, and larger values are lost", name,
              c->at_low > 0 && c->at_high > 0 ? fmt::format("{:.4g} or {:.4g}", c->low, c->high)
                                              : fmt::format("{:.4g}", c->at_low > 0 ? c->low : c->high),
@@ -205,12 +211,13 @@ void to_force(Work& w, ForceChannel& f) {
     zero_error = error_of_mean(f.zero_run, zero);
   }
   for (double& v : f.values) v = (v - zero) / slope;
+  w.zero_errors.push_back(zero_error / std::abs(slope));
   if (f.calibration)
     w.tell("calibration: {} has {:.5g} ± {:.2g} V/N, hysteresis {:.2g} % of its range", f.name, slope,
            f.calibration->slope_error, 100 * f.calibration->hysteresis);
   if (!f.zero_run.empty())
-    w.tell("zero: {:.4g} N ± {:.2g} N taken off {}, the mean of {} samples at rest", zero / slope,
-           zero_error / std::abs(slope), f.name, f.zero_run.size());
+    w.tell("zero: {:.4g} N ± {:.2g} N taken off {}, the mean of {} samples at rest", zero / slope, w.zero_errors.back(),
+           f.name, f.zero_run.size());
 }
 
 void sum_forces(Work& w) {
@@ -548,19 +555,29 @@ void add_force_errors(Work& w) {
   }
 }
 
-}  // namespace
-
-Prepared prepare(RawRun run, const PrepareOptions& options) {
-  Work w{.run = std::move(run), .step = 0, .out = {}, .pattern = {}, .rounding = {}};
+Work begun(RawRun run) {
+  Work w{.run = std::move(run), .step = 0, .out = {}, .pattern = {}, .rounding = {}, .zero_errors = {}};
   hydro::require(w.run.time.size() >= 3, "a record needs at least three samples, got {}", w.run.time.size());
-  check(w.run);
+  return w;
+}
+
+/// What every record with a force goes through before anything is made of it.
+void force_on_grid(Work& w, const PrepareOptions& options, const std::vector<double>* rests = nullptr) {
   const int outlier_half = outlier_half_window(w.run.time, options);
   fill_gaps(w, options.longest_gap_s);
-  look_at_sensors(w);
+  look_at_sensors(w, rests);
   compare_channels(w.run);
   take_outliers(w, outlier_half, options.outlier_deviations);
   resample(w, options.resample_hz);
   sum_forces(w);
+}
+
+}  // namespace
+
+Prepared prepare(RawRun run, const PrepareOptions& options) {
+  Work w = begun(std::move(run));
+  check(w.run);
+  force_on_grid(w, options);
   look_for_rounding(w);
   take_delay(w, options.delay_s);
   add_waves(w);
@@ -591,6 +608,44 @@ PreparedMotion prepare_motion(const std::string& name, std::vector<double> time,
   take_outliers(w, outlier_half, options.outlier_deviations);
   cut_window(w, options.window, false);
   return {w.step, std::move(w.run.time), std::move(w.run.position), std::move(w.out.steps), std::move(w.out.cautions)};
+}
+
+PreparedTow prepare_towing(RawTow run, const PrepareOptions& options) {
+  hydro::require(
+      options.delay_s == 0 && !options.average_cycles && options.window.kind != WindowChoice::Kind::full_cycles,
+      "a record of towing is not moved in time or cut into cycles");
+  hydro::require(!run.force.empty(), "a run needs a force");
+  RawRun raw{.time = std::move(run.time),
+             .force = std::move(run.force),
+             .position = std::move(run.speed),
+             .position_name = "speed",
+             .velocity = {},
+             .acceleration = {}};
+  Work w = begun(std::move(raw));
+  check_columns(w.run);
+  force_on_grid(w, options, &w.run.position);
+  double reach_s = 0;
+  for (const FilterChoice& choice : options.filters) {
+    const ZeroPhaseFilter filter = made(choice, w.step);
+    reach_s += static_cast<double>(filter.settling()) * w.step;
+    std::vector<double> sum = filter.apply(w.out.record.force);
+    std::vector<std::vector<double>> single;
+    for (const ForceChannel& f : w.run.force) single.push_back(filter.apply(f.values));
+    w.cut(filter.settling(), sum.size());
+    w.out.record.force = std::move(sum);
+    for (std::size_t i = 0; i < single.size(); ++i) w.run.force[i].values = std::move(single[i]);
+    w.tell("{} over the force: 1 % to {:.3g} Hz, no delay, {:.3g} s given up at each end", filter.name(),
+           filter.bandwidth_hz(), static_cast<double>(filter.settling()) * w.step);
+  }
+  return {.step = w.step,
+          .time = std::move(w.run.time),
+          .speed = std::move(w.run.position),
+          .force = std::move(w.out.record.force),
+          .channels = std::move(w.run.force),
+          .zero_errors = std::move(w.zero_errors),
+          .filter_reach_s = reach_s,
+          .steps = std::move(w.out.steps),
+          .cautions = std::move(w.out.cautions)};
 }
 
 std::string sign_trouble(const Cylinder& cylinder, const MorisonFit& fit) {  // (F26)

@@ -36,7 +36,7 @@ struct EndOfSearch {
 };
 
 /// Makes the residuals of a window, each over its deviation, independent; those that were not measured become zero.
-/// (F90)
+/// (F101)
 void whiten(const SimulationProblem& problem, std::size_t window, Eigen::MatrixXd& residuals);
 /// Rows of residuals that were measured: windows one after the other, in each one channel after the other.
 std::vector<Eigen::Index> measured_rows(const SimulationProblem& problem);

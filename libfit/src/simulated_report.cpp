@@ -158,7 +158,7 @@ void Told::tell_motion() {
   for (Eigen::Index c = 0; c < channels(); ++c) fit_.rms.push_back(std::sqrt(squares[c] / std::max(1.0, samples[c])));
 }
 
-/// Of the channels themselves over their deviations: zero where nothing was measured. (F90)
+/// Of the channels themselves over their deviations: zero where nothing was measured. (F101)
 Eigen::MatrixXd Told::jacobian_of_channels() const {
   if (problem_.whitening.empty()) return end_.jacobian;
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(end_.jacobian.rows(), end_.jacobian.cols());

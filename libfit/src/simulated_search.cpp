@@ -417,7 +417,7 @@ double Shooting::cost_nearby() {
 
 }  // namespace
 
-void whiten(const SimulationProblem& problem, std::size_t window, Eigen::MatrixXd& residuals) {  // (F90)
+void whiten(const SimulationProblem& problem, std::size_t window, Eigen::MatrixXd& residuals) {  // (F101)
   if (problem.whitening.empty()) return;
   for (Eigen::Index i = 0; i < residuals.rows(); ++i) {
     const Eigen::VectorXd own = residuals.row(i).array().isNaN().select(0, residuals.row(i)).transpose();

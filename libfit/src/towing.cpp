@@ -12,7 +12,7 @@
 namespace fit {
 namespace {
 
-void check(const Cylinder& c, std::span<const TowingRun> runs, double confidence) {
+void check(const Cylinder& c) {
   hydro::require(c.diameter > 0 && c.length > 0 && c.density > 0,
                  "diameter, length and density must be positive, got {} m, {} m, {} kg/m³", c.diameter, c.length,
                  c.density);
@@ -20,24 +20,38 @@ void check(const Cylinder& c, std::span<const TowingRun> runs, double confidence
                  c.viscosity.value_or(0));
   hydro::require(c.mass_beyond_load_cells == 0,
                  "steady towing has no inertia force: leave out the mass beyond the load cells");
+}
+
+void check(const TowingRun& r) {
+  hydro::require(std::isfinite(r.speed) && r.speed > 0, "the speed must be positive, got {} m/s", r.speed);
+  hydro::require(std::isfinite(r.force), "the force is not finite");
+  hydro::require(r.force_deviation >= 0 && std::isfinite(r.force_deviation) && r.speed_deviation >= 0 &&
+                     std::isfinite(r.speed_deviation),
+                 "the deviations must not be negative, got {} m/s and {} N", r.speed_deviation, r.force_deviation);
+}
+
+void check(const Cylinder& c, std::span<const TowingRun> runs, double confidence) {
+  check(c);
   hydro::require(!runs.empty(), "there are no towing runs");
   hydro::require(confidence > 0 && confidence < 1, "a confidence level must lie between 0 and 1, got {}", confidence);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const TowingRun& r = runs[i];
-    hydro::require(std::isfinite(r.speed) && r.speed > 0, "run {}: the speed must be positive, got {} m/s", i + 1,
-                   r.speed);
-    hydro::require(std::isfinite(r.force), "run {}: the force is not finite", i + 1);
-    hydro::require(r.force_deviation >= 0 && std::isfinite(r.force_deviation) && r.speed_deviation >= 0 &&
-                       std::isfinite(r.speed_deviation),
-                   "run {}: the deviations must not be negative, got {} m/s and {} N", i + 1, r.speed_deviation,
-                   r.force_deviation);
+    try {
+      check(r);
+    } catch (const hydro::InputError& e) {
+      throw hydro::InputError(fmt::format("run {}: {}", i + 1, e.rule()));
+    }
     hydro::require(
         (r.force_deviation + r.speed_deviation > 0) == (runs[0].force_deviation + runs[0].speed_deviation > 0),
         "run {}: deviations must be stated for all runs or for none", i + 1);
   }
 }
 
-TowingPoint point(const Cylinder& c, const TowingRun& r) {  // (F12)
+}  // namespace
+
+TowingPoint towing_point(const Cylinder& c, const TowingRun& r) {  // (F12)
+  check(c);
+  check(r);
   const double unit = c.length * dynamics::MorisonPerLength(c.diameter, c.density, 1, 0).drag(r.speed, r.speed);
   const double cd = r.force / unit;
   TowingPoint p{cd, std::hypot(r.force_deviation / unit, 2 * cd * r.speed_deviation / r.speed), {}};
@@ -45,13 +59,11 @@ TowingPoint point(const Cylinder& c, const TowingRun& r) {  // (F12)
   return p;
 }
 
-}  // namespace
-
 TowingFit fit_towing(const Cylinder& cylinder, std::span<const TowingRun> runs, double confidence) {  // (F13)
   check(cylinder, runs, confidence);
   TowingFit fit{};
   fit.confidence = confidence;
-  for (const TowingRun& run : runs) fit.points.push_back(point(cylinder, run));
+  for (const TowingRun& run : runs) fit.points.push_back(towing_point(cylinder, run));
   const auto n = static_cast<double>(runs.size());
   const bool stated = fit.points[0].cd_deviation > 0;
   hydro::require(stated || n > 1, "one run without deviations has no uncertainty: state them, or add runs");

@@ -64,7 +64,7 @@ TEST(Film, OfUnevenFramesIsBetweenTheRunsSamples) {
     wave.push_back(std::cos(omega * run.step * static_cast<double>(i)));
   const Eigen::VectorXd told = run.told(0, wave);
   for (std::size_t i = 0; i < 50; ++i)
-    EXPECT_NEAR(told[static_cast<Eigen::Index>(i)], std::cos(omega * time[i]), 0.024 * std::pow(0.3, 6));  // (F91)
+    EXPECT_NEAR(told[static_cast<Eigen::Index>(i)], std::cos(omega * time[i]), 0.024 * std::pow(0.3, 6));  // (F102)
 }
 
 TEST(Film, RefusesAWindowWithoutFrames) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -213,6 +214,94 @@ TEST_F(Fit, OfTowingGivesEachRunAndAllTogether) {
   EXPECT_THAT(text, AllOf(HasSubstr("1.191"), HasSubstr("1.200"), HasSubstr("1.175"), HasSubstr("1.173"),
                           HasSubstr("1.163"), HasSubstr("together: cd 1.18")));
   EXPECT_THAT(hydro::io::read_text(folder / "t.svg"), HasSubstr("C_D"));
+}
+
+TEST_F(Fit, OfRecordsOfTowsGivesTheNumbersOfTheTableThatTheyAreMadeWith) {
+  const auto j = nlohmann::json::parse(told({.scene = examples / "tows.toml",
+                                             .output = folder / "t.toml",
+                                             .table = folder / "t.csv",
+                                             .picture = folder / "t.svg"},
+                                            true));
+  ASSERT_EQ(j["run"].size(), 5u);
+  // Means and deviations of make_tows.py, C_D of the means.
+  const double cd[] = {1.191, 1.200, 1.175, 1.173, 1.163}, force[] = {25.32, 17.33, 10.44, 5.53, 2.14},
+               deviation[] = {0.24, 0.15, 0.12, 0.10, 0.07};
+  for (std::size_t i = 0; i < 5; ++i) {
+    const auto& run = j["run"][i];
+    EXPECT_LT(run["cd"]["interval"][0].get<double>(), cd[i]);
+    EXPECT_GT(run["cd"]["interval"][1].get<double>(), cd[i]);
+    EXPECT_NEAR(run["force"]["mean"].get<double>(), force[i],
+                0.3 * deviation[i]);  // √(2·0.25 s/40 s) = 0.11 of it, and the zero's
+    EXPECT_NEAR(run["force"]["deviation"].get<double>(), deviation[i], 0.3 * deviation[i]);  // of 80 independent ones
+  }
+  EXPECT_THAT(hydro::io::read_text(folder / "t.svg"), AllOf(HasSubstr("steady part"), HasSubstr("C_D")));
+  EXPECT_THAT(hydro::io::read_text(folder / "t.csv"), HasSubstr("tow_5.csv,"));
+  const std::string text = told({.scene = examples / "tows.toml"});
+  EXPECT_THAT(text, AllOf(HasSubstr("coefficient of variation"), HasSubstr("steady part: the carriage moves from"),
+                          HasSubstr("cd over 5 runs")));
+}
+
+TEST_F(Fit, OfRecordsOfTowsRefusesWhatDoesNotGoTogether) {
+  const auto refused = [&](const char* from, const char* to) {
+    return [=, this] { told({.scene = changed("tows.toml", from, to)}); };
+  };
+  EXPECT_THAT(refused("force = [\"-F1\", \"-F2\"]", "force = [\"F1\", \"F2\"]"),
+              ThrowsMessage<InputError>(HasSubstr("wrong sign")));
+  EXPECT_THAT(refused("time = \"t\", ", ""), ThrowsMessage<InputError>(HasSubstr("does not apply to a fit of kind")));
+  EXPECT_THAT(refused("zero_at_rest = true\n", "zero_at_rest = true\ntolerance = 2\n"),
+              ThrowsMessage<InputError>(HasSubstr("tolerance")));
+  EXPECT_THAT(refused("[prepare]", "[prepare]\ndelay = \"0.1 s\""), ThrowsMessage<InputError>(HasSubstr("delay")));
+  EXPECT_THAT(refused("[prepare]", "[prepare]\nwindow = { kind = \"full cycles\" }"),
+              ThrowsMessage<InputError>(HasSubstr("must be \"span\"")));
+  EXPECT_THAT(refused("coefficients = [\"cd\"]", "coefficients = [\"cd\"]\naccept = [\"residuals\"]"),
+              ThrowsMessage<InputError>(HasSubstr("does not act on records")));
+}
+
+TEST_F(Fit, OfRegularWavesHasTheTruthInItsIntervals) {
+  const auto j = nlohmann::json::parse(
+      told({.scene = examples / "waves_runs.toml", .table = folder / "w.csv", .picture = folder / "w.svg"}, true));
+  ASSERT_EQ(j["run"].size(), 8u);
+  int held = 0;
+  for (const auto& run : j["run"]) {
+    const double omega = run["omega_rad_s"], r = omega * 1.5 / (2 * M_PI);  // the body of make_waves_runs.py
+    const std::complex<double> heave = 1.0 / std::complex<double>(1 - r * r, 2 * 0.15 * r);
+    const std::pair<double, double> truth[] = {{std::abs(heave), std::arg(heave)}, {900, 0.3 * omega}};
+    for (std::size_t c = 0; c < 2; ++c) {
+      const auto& response = run["response"][c];
+      const auto& interval = response["rao"]["interval"];
+      held += interval[0].get<double>() < truth[c].first && truth[c].first < interval[1].get<double>() ? 1 : 0;
+      EXPECT_NEAR(std::remainder(response["phase_rad"].get<double>() - truth[c].second, 2 * M_PI), 0,
+                  4 * response["phase_error_rad"].get<double>() + 0.02);  // 3 m of k, known to 1e-3 with the period
+    }
+    EXPECT_NEAR(run["response"][1]["motion"]["amplitudes"][1].get<double>(), 0.08 * 900 * 0.03, 0.3);
+  }
+  EXPECT_GE(held, 13);  // 15.2 of 16 expected, with a deviation of 0.9
+  ASSERT_EQ(j["repeated"].size(), 2u);
+  EXPECT_EQ(j["repeated"][0]["runs"].get<int>(), 3);
+  EXPECT_THAT(hydro::io::read_text(folder / "w.svg"), AllOf(HasSubstr("heave RAO"), HasSubstr("by peaks")));
+  EXPECT_THAT(hydro::io::read_text(folder / "w.csv"), HasSubstr("run_8.csv,"));
+}
+
+TEST_F(Fit, OfRegularWavesRefusesWhatDoesNotGoTogether) {
+  const auto refused = [&](const char* from, const char* to) {
+    return [=, this] { told({.scene = changed("waves_runs.toml", from, to)}); };
+  };
+  EXPECT_THAT(refused("end = \"60 m\"", "end = \"22 m\""),
+              ThrowsMessage<InputError>(HasSubstr("lies before the gauge")));
+  EXPECT_THAT(refused("end = \"60 m\"", "end = \"24 m\""), ThrowsMessage<InputError>(HasSubstr("no three periods of")));
+  EXPECT_THAT(refused("[\"heave\", \"F\"]", "[\"heave\", \"heave\"]"), ThrowsMessage<InputError>(HasSubstr("twice")));
+  EXPECT_THAT(refused("[\"heave\", \"F\"]", "[\"heav\"]"), ThrowsMessage<InputError>(HasSubstr("heave")));
+  EXPECT_THAT(refused("[\"heave\", \"F\"]", "[]"), ThrowsMessage<InputError>(HasSubstr("is empty")));
+  EXPECT_THAT(refused("tank = {", "#"), ThrowsMessage<InputError>(HasSubstr("tank")));
+  EXPECT_THAT(refused("ramp = \"2 s\"", "ramp = \"2 s\"\nharmonics = 0"),
+              ThrowsMessage<InputError>(HasSubstr("between 1 and 20")));
+  EXPECT_THAT(refused("[ask]", "[prepare]\nlow_pass = { kind = \"butterworth\", cutoff = \"3 Hz\" }\n[ask]"),
+              ThrowsMessage<InputError>(HasSubstr("peaks have a band of their own")));
+}
+
+TEST_F(Fit, OfOneRunInRegularWavesDrawsItsRecord) {
+  told({.scene = changed("waves_runs.toml", "run_*.csv", "run_3.csv"), .picture = folder / "w.svg"});
+  EXPECT_THAT(hydro::io::read_text(folder / "w.svg"), AllOf(HasSubstr("elevation"), HasSubstr("fitted")));
 }
 
 TEST_F(Fit, NeedsMoreThanAnAcceleration) {
@@ -523,6 +612,75 @@ TEST_F(Fit, OfASceneMayBeginAtSeveralPoints) {
   EXPECT_EQ(j["starts"]["agree"], 2);  // both find what the windows tell: the second search hands them on anew
   EXPECT_LT(j["parameter"]["line_damping_linear"]["interval"][0].get<double>(), 0.006);
   EXPECT_GT(j["parameter"]["line_damping_linear"]["interval"][1].get<double>(), 0.006);
+}
+
+/// The day at a tank, from volts on: what make_tank_day.py put in.
+class TankDay : public Fit {
+ protected:
+  TankDay() { std::filesystem::copy(froude_test::source_dir() / "examples/tank_day", folder); }
+  nlohmann::json tree(const char* scene) { return nlohmann::json::parse(told({.scene = folder / scene}, true)); }
+  std::filesystem::path changed(const char* scene, const std::string& from, const std::string& to) {
+    std::string text = hydro::io::read_text(folder / scene);
+    text.replace(text.find(from), from.size(), to);
+    hydro::io::write_atomically(folder / "changed.toml", text);
+    return folder / "changed.toml";
+  }
+  static bool holds(const nlohmann::json& coefficient, double truth) {
+    return coefficient["interval"][0].get<double>() < truth && truth < coefficient["interval"][1].get<double>();
+  }
+};
+
+TEST_F(TankDay, CalibratesItsGauge) {
+  const auto j = tree("gauge.toml")["run"][0];
+  EXPECT_TRUE(holds(j["slope"], 25)) << j["slope"];
+  EXPECT_TRUE(holds(j["drift"], 2e-3 / 60)) << j["drift"];
+  EXPECT_LT(j["hysteresis"].get<double>(), 0.01);
+  EXPECT_THAT(told({.scene = folder / "gauge.toml"}), HasSubstr("drifts by 0.03"));
+}
+
+TEST_F(TankDay, TellsDragOfItsTows) {
+  const auto j = tree("tows.toml");
+  for (const auto& run : j["run"]) EXPECT_TRUE(holds(run["cd"], 1.18)) << run["cd"];
+  EXPECT_THAT(told({.scene = folder / "tows.toml"}), HasSubstr("calibration: V1 has 0.0933"));
+}
+
+TEST_F(TankDay, TellsDragAndAddedMassOfItsSwing) {
+  const auto run = tree("swing.toml")["run"][0];
+  EXPECT_TRUE(holds(run["cd"], 2.3)) << run["cd"];
+  EXPECT_TRUE(holds(run["ca"], 1.1)) << run["ca"];
+}
+
+TEST_F(TankDay, TellsTheResponseOfItsFloat) {
+  const auto j = tree("waves.toml");
+  for (const auto& run : j["run"]) {
+    const auto& r = run["response"][0];
+    // Slopes of gauge and potentiometer are known to 0.1 %, which is in no interval, and the potentiometer's steps
+    // repeat.
+    EXPECT_NEAR(r["rao"]["value"].get<double>(), 1.4, 0.01);
+    EXPECT_NEAR(r["phase_rad"].get<double>(), -0.5, 0.02);
+  }
+  EXPECT_NEAR(j["repeated"][0]["median"].get<double>(), 1.4, 0.01);
+  EXPECT_THAT(told({.scene = folder / "waves.toml"}),
+              AllOf(HasSubstr("gauge by gauge.csv"), HasSubstr("in no interval")));
+}
+
+TEST_F(TankDay, RefusesLinesThatGoNowhere) {
+  const auto refused = [&](const char* from, const char* to) {
+    return [=, this] { told({.scene = changed("waves.toml", from, to)}); };
+  };
+  EXPECT_THAT(refused("column = \"gauge\"", "column = \"guage\""),
+              ThrowsMessage<InputError>(HasSubstr("is no channel of this fit")));
+  EXPECT_THAT(refused("column = \"float\"", "column = \"gauge\""), ThrowsMessage<InputError>(HasSubstr("two lines")));
+  EXPECT_THAT(refused("reference = \"level\"", "reference = \"t\""), ThrowsMessage<InputError>(HasSubstr("is needed")));
+  EXPECT_THAT(refused("file = \"gauge.csv\"", "file = \"gauche.csv\""),
+              ThrowsMessage<InputError>(HasSubstr("gauche.csv")));
+  EXPECT_THAT(
+      [&] {
+        told({.scene = changed("gauge.toml", "time = \"t\" }",
+                               "time = \"t\" }\nline = [{ column = \"reading\", file = \"gauge.csv\", reading = "
+                               "\"reading\", reference = \"level\" }]")});
+      },
+      ThrowsMessage<InputError>(HasSubstr("does not apply to a fit of kind \"calibration\"")));
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ TEST(Problem, IsRefusedWhereForceAndMotionHaveContrarySigns) {
 }
 
 fit::towing::Problem towed(double at_last) {
-  fit::towing::Problem out{.cylinder = froude_test::held_cylinder, .runs = {}, .options = {}};
+  fit::towing::Problem out{.cylinder = froude_test::held_cylinder, .runs = {}, .records = {}, .options = {}};
   for (const double speed : {0.3, 0.5, 0.7, 0.9}) {
     const double cd = speed > 0.8 ? at_last : 1.2;
     out.runs.push_back({speed, 0.001, 0.5 * 997 * 0.12 * 0.5 * cd * speed * speed, 0.05});

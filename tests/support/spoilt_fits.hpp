@@ -237,7 +237,7 @@ inline SpoiltFit heaved(const std::string& how, std::uint64_t seed, double sign,
 /// A cylinder towed at four speeds, C_D = 1.2, speed and force in each other's place.
 inline SpoiltFit towed(const std::string& how, std::uint64_t seed) {
   const hydro::RandomStream random(78, seed);
-  fit::towing::Problem out{.cylinder = held_cylinder, .runs = {}, .options = {}};
+  fit::towing::Problem out{.cylinder = held_cylinder, .runs = {}, .records = {}, .options = {}};
   for (int i = 0; i < 4; ++i) {
     const double speed = 0.3 + 0.2 * i, error = 0.05 * random.normal(static_cast<std::uint64_t>(i));
     out.runs.push_back({.speed = 0.5 * 997 * 0.12 * 0.5 * 1.2 * speed * speed + error,

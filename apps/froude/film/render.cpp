@@ -19,7 +19,7 @@ namespace {
 
 namespace fc = ::fit::camera;
 
-/// Samples of a run at any time, by the polynomial of degree 5 through those around it. (F91)
+/// Samples of a run at any time, by the polynomial of degree 5 through those around it. (F102)
 double between(const std::vector<double>& values, double step, double time) {
   constexpr int points = 6;
   const double x = time / step, last = static_cast<double>(std::ssize(values) - points);

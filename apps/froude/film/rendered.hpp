@@ -9,7 +9,7 @@
 
 namespace froude::film {
 
-/// The scene is run once. Between the run's samples places are polynomials of degree 5 (F91).
+/// The scene is run once. Between the run's samples places are polynomials of degree 5 (F102).
 class RenderedFilm {
  public:
   /// \throws hydro::InputError for a scene that asks for no run, a node without signals, a camera whose lens is of

@@ -14,6 +14,7 @@
 #include "hydro/base/units.hpp"
 #include "hydro/io/csv.hpp"
 #include "hydro/io/hdf5.hpp"
+#include "hydro/signal/distributions.hpp"
 
 namespace froude::spectra {
 namespace {
@@ -161,6 +162,14 @@ std::vector<Column> columns_of(const Analysis& a) {
                            phase,
                            {e.signal.name + ".coherence", "", e.transfer->coherence},
                            {e.signal.name + ".gain_relative_error", "", e.transfer->gain_relative_error}});
+    // Of n_d complex pairs one complex coefficient is taken: Student's t with 2(n_d − 1) degrees of freedom. (S9)
+    const double t = hydro::signal::student_t_quantile((1 + a.confidence) / 2, 2 * (e.transfer->averages - 1));
+    for (const auto& [end, sign] : {std::pair{"low", -1.0}, {"high", 1.0}}) {
+      Column edge{fmt::format("{}.gain_h1_{}", e.signal.name, end), unit, h1.values};
+      for (std::size_t k = 0; k < edge.values.size(); ++k)
+        edge.values[k] *= 1 + sign * t * e.transfer->gain_relative_error[k];
+      out.push_back(std::move(edge));
+    }
   }
   return out;
 }
@@ -261,9 +270,16 @@ plot::Figure figure(const Analysis& a, const std::string& file_name) {
     if (c.name.ends_with(".gain_h1")) {
       // A gain between unrelated signals is noise; it would set the scale of the axis.
       plot::Series gain{c.name.substr(0, c.name.size() - 8) + ", where coherent", f, c.values};
-      for (std::size_t k = 0; k < f.size(); ++k)
+      plot::Band band{fmt::format("{:g} %", 100 * a.confidence), {}, {}, {}};
+      for (std::size_t k = 0; k < f.size(); ++k) {
         if (columns[i + 3].values[k] < threshold) gain.y[k] = std::numeric_limits<double>::quiet_NaN();
+        if (columns[i + 3].values[k] < threshold) continue;
+        band.x.push_back(f[k]);
+        band.low.push_back(columns[i + 5].values[k]);
+        band.high.push_back(columns[i + 6].values[k]);
+      }
       panel("gain", c.unit).series.push_back(std::move(gain));
+      panel("gain", c.unit).bands.push_back(std::move(band));
     }
     if (c.name.ends_with(".coherence"))
       panel("coherence", "").series.push_back({c.name.substr(0, c.name.size() - 10), f, c.values});

@@ -109,6 +109,25 @@ struct PreparedMotion {
 PreparedMotion prepare_motion(const std::string& name, std::vector<double> time_s, std::vector<double> values,
                               const PrepareOptions& options);
 
+/// A record of a carriage that tows a body, as it was recorded.
+struct RawTow {
+  std::vector<double> time;         ///< s
+  std::vector<double> speed;        ///< of the carriage, m/s
+  std::vector<ForceChannel> force;  ///< as RawRun; positive where the water resists a positive speed
+};
+
+struct PreparedTow {
+  double step;                               ///< s
+  std::vector<double> time, speed, force;    ///< the force in N, filtered; the speed as it was measured
+  std::vector<ForceChannel> channels;        ///< of that force, N, zero taken off
+  std::vector<double> zero_errors;           ///< N; standard error of the zero of each channel, 0 where none is known
+  double filter_reach_s;                     ///< what a filter gives at one time leans on samples so far away
+  std::vector<std::string> steps, cautions;  ///< as Prepared
+};
+/// Even grid, sensors looked at, outliers, another rate, calibration and zero, filters over the force. The window is
+/// left to who looks for the steady part. \throws hydro::InputError as prepare(), and for a delay or cycles
+PreparedTow prepare_towing(RawTow run, const PrepareOptions& options);
+
 /// Why the force (or the motion) must have the wrong sign; empty where it need not: drag or all inertia comes out
 /// negative with its whole interval and the other is not positive with its own, which no flow does; (F26).
 std::string sign_trouble(const Cylinder& cylinder, const MorisonFit& fit);

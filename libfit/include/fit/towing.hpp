@@ -24,6 +24,9 @@ struct TowingPoint {
   std::optional<double> re;
 };
 
+/// C_D of one run, (F12). \throws hydro::InputError for a run or a cylinder that fit_towing() refuses
+TowingPoint towing_point(const Cylinder& cylinder, const TowingRun& run);
+
 struct TowingFit {
   std::vector<TowingPoint> points;  ///< in the order of the runs
   Coefficient cd;     ///< weighted mean of the runs; `white_interval` is that of the stated deviations alone

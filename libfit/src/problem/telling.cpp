@@ -45,10 +45,10 @@ Report over_runs(const std::string& name, const std::string& unit, const RandomE
                  std::size_t count, double confidence) {
   Report out{.key = name};
   out.heading = fmt::format(
-      "{} over {} {}s: {:.4g} {}, {:g} % interval {:.4g} to {:.4g}; from {} to {} ±{:.2g}; the next between {:.4g} "
+      "{} over {} {}s: {:.4g}{}{}, {:g} % interval {:.4g} to {:.4g}; from {} to {} ±{:.2g}; the next between {:.4g} "
       "and {:.4g}",
-      name, count, runs, law.coefficients[0], unit, 100 * confidence, law.intervals[0].low, law.intervals[0].high, runs,
-      runs, law.between, law.prediction.low, law.prediction.high);
+      name, count, runs, law.coefficients[0], unit.empty() ? "" : " ", unit, 100 * confidence, law.intervals[0].low,
+      law.intervals[0].high, runs, runs, law.between, law.prediction.low, law.prediction.high);
   out.facts = {{"value", law.coefficients[0]},
                {"interval", law.intervals[0]},
                {"between_" + runs + "s", law.between},

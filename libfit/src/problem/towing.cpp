@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "towing_records.hpp"
+
 namespace fit::towing {
 namespace {
 
@@ -46,7 +48,11 @@ std::optional<Refusal> refusal_of(const TowingFit& fit, const Options& options) 
 }  // namespace
 
 Solution solve(const Problem& problem) {
-  Solution out{.report = {}, .fit = fit_towing(problem.cylinder, problem.runs, problem.options.confidence)};
+  if (!problem.records.empty()) return solve_records(problem);
+  Solution out{.report = {},
+               .fit = fit_towing(problem.cylinder, problem.runs, problem.options.confidence),
+               .records = {},
+               .law = {}};
   Report& report = out.report;
   report.refused = refusal_of(out.fit, problem.options);
   report.heading =

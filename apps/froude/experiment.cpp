@@ -1,0 +1,120 @@
+#include "froude/experiment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "froude/report.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/waves/dispersion.hpp"
+#include "hydro/waves/kinematics/limits.hpp"
+#include "scene/placed.hpp"
+
+namespace froude {
+namespace {
+
+namespace hw = hydro::waves;
+
+void tell_lengths(const OscillationPlanArguments& a, const ::fit::OscillationNumbers& n, Report& out) {
+  ::fit::PlannedOscillation plan = a.record;
+  plan.cylinder.diameter = *n.diameter;
+  plan.amplitude = *n.amplitude;
+  plan.period = *n.period;
+  const auto tried = ::fit::lengths_for(plan, a.wanted, *a.width);
+  out.say("lengths, each fitted {} times to made records:", fact("made_records", 20));
+  out.say("{:>8} {:>10} {:>12} {:>8} {:>12} {:>8}", "cycles", "time [s]", "cd +-", "held", "ca +-", "held");
+  for (const auto& l : tried)
+    out.row("length", "{:>8} {:>10} {:>12} {:>8} {:>12} {:>8}", fact("cycles", l.cycles),
+            fact("time_s", l.cycles * plan.period, fmt::format("{:.4g}", l.cycles * plan.period)),
+            fact("cd_half_width", l.cd_half_width, fmt::format("{:.3g}", l.cd_half_width)),
+            fact("cd_held", l.cd_held, fmt::format("{:.2g}", l.cd_held)),
+            fact("ca_half_width", l.inertia_half_width, fmt::format("{:.3g}", l.inertia_half_width)),
+            fact("ca_held", l.inertia_held, fmt::format("{:.2g}", l.inertia_held)));
+  const auto& last = tried.back();
+  const bool cd = a.wanted == ::fit::Wanted::cd;
+  const double reached = cd ? last.cd_half_width : last.inertia_half_width;
+  if (reached > *a.width)
+    throw hydro::InputError(fmt::format("{} cycles have a half width of {:.3g} still, and {:.3g} is wanted",
+                                        last.cycles, reached, *a.width),
+                            {.file = "--width"}, "less noise, a larger motion, or a wider interval");
+  out.say("{} cycles, {:.4g} s, tell {} to ±{:.3g}", fact("cycles", last.cycles),
+          fact("time_s", last.cycles * plan.period), fact("of", cd ? "cd" : "ca"), fact("half_width", reached));
+}
+
+/// What the water does at the axis of a cylinder across the waves, by linear theory.
+void tell_cylinder(const WavePlanArguments& a, double k, double omega, Report& out) {
+  if (a.diameter.has_value() != a.level.has_value())
+    throw hydro::InputError("--diameter and --level belong together", {.file = "command line"}, "give both, or none");
+  if (!a.diameter) return;
+  const auto& depth = a.tank.water.depth;
+  hydro::require(*a.level >= 0 && (depth.is_infinite() || *a.level < depth.metres()),
+                 "--level must lie between the surface and the bottom, got {} m", *a.level);
+  const double z = -*a.level;
+  const double fall =
+      depth.is_infinite() ? std::exp(k * z) : std::cosh(k * (z + depth.metres())) / std::sinh(k * depth.metres());
+  const double speed = a.height / 2 * omega * fall;
+  out.say("at the axis the water goes at {:.4g} m/s at most along the waves: KC {:.4g}", fact("speed", speed),
+          fact("kc", speed * a.period / *a.diameter));
+}
+
+}  // namespace
+
+void plan_oscillation(const OscillationPlanArguments& a, const Console& console) {
+  const auto n = scene::placed({.file = "command line"}, [&] { return ::fit::complete(a.known, a.viscosity); });
+  Report out;
+  out.say("diameter {:.5g} m, amplitude {:.5g} m, period {:.5g} s, largest speed {:.5g} m/s",
+          fact("diameter", *n.diameter), fact("amplitude", *n.amplitude), fact("period_s", *n.period),
+          fact("speed", *n.speed));
+  out.say("KC {:.4g}, Re {:.4g}, beta {:.4g}", fact("kc", *n.kc), fact("re", *n.re), fact("beta", *n.beta));
+  if (a.width) tell_lengths(a, n, out);
+  tell(out, console);
+}
+
+void plan_tow(const TowPlanArguments& a, const Console& console) {
+  if (a.diameter.has_value() + a.speed.has_value() + a.re.has_value() != 2)
+    throw hydro::InputError("of diameter, speed and Re two are needed", {.file = "command line"},
+                            "give two of --diameter, --speed and --re");
+  hydro::require(!a.re || *a.re > 0, "--re must be positive, got {}", a.re.value_or(0));
+  const double speed = a.speed ? *a.speed : *a.re * a.viscosity / *a.diameter,
+               diameter = a.diameter ? *a.diameter : *a.re * a.viscosity / speed;
+  const double steady = ::fit::steady_tow_s(a.length, speed, a.acceleration);
+  hydro::require(steady > 0, "with {} m/s² the carriage does not reach {:.4g} m/s in {} m", a.acceleration, speed,
+                 a.length);
+  Report out;
+  out.say("diameter {:.5g} m, speed {:.5g} m/s, Re {:.4g}", fact("diameter", diameter), fact("speed", speed),
+          fact("re", speed * diameter / a.viscosity));
+  out.say("at one speed for {:.4g} s, after {:.3g} s of acceleration: {:.4g} m, {:.4g} diameters",
+          fact("steady_s", steady), fact("ramp_s", speed / a.acceleration), fact("steady_m", steady * speed),
+          fact("diameters", steady * speed / diameter));
+  tell(out, console);
+}
+
+void plan_waves(const WavePlanArguments& a, const Console& console) {
+  const double omega = 2 * std::numbers::pi / a.period;
+  const auto limits = hw::wave_limits(
+      {.height_m = a.height, .length = hydro::AngularFrequency::from_period_s(a.period), .water = a.tank.water});
+  const auto times = scene::placed({.file = "command line"}, [&] { return ::fit::wave_times(omega, a.tank); });
+  const double k = hw::wavenumber(omega, a.tank.water), from = times.front + a.ramp + a.settle_periods * a.period;
+  Report out;
+  out.say("wave: length {:.4g} m, steepness H/λ {:.4g}, {} water (kh {:.4g}), region {}",
+          fact("wavelength", limits.wavelength), fact("steepness", limits.steepness),
+          fact("depth_regime", std::string(hw::name(limits.depth_regime))), fact("kh", k * a.tank.water.depth.metres()),
+          fact("region", std::string(hw::name(limits.region))));
+  out.say("highest wave of that length {:.4g} m, of which this is {:.3g}", fact("highest", limits.highest),
+          fact("share_of_highest", a.height / limits.highest));
+  tell_cylinder(a, k, omega, out);
+  out.say("energy goes at {:.4g} m/s: the waves are at gauge and body after {:.4g} s, and steady from {:.4g} s on",
+          fact("group_velocity", times.group_velocity), fact("front_s", times.front), fact("steady_from_s", from));
+  if (std::isfinite(times.back_from_end)) {
+    const double periods = (times.back_from_end - from) / a.period;
+    out.say("they come back from the end after {:.4g} s, and from the wavemaker after {:.4g} s",
+            fact("back_from_end_s", times.back_from_end), fact("back_from_maker_s", times.back_from_maker));
+    out.say("{}", periods >= 1 ? fmt::format("{:.0f} whole periods are steady and without them", std::floor(periods))
+                               : std::string("no period is steady and without them"));
+    out.keep("steady_periods", std::max(0.0, std::floor(periods)));
+  }
+  out.sentences("warnings", "caution: {}", limits.warnings);
+  tell(out, console);
+}
+
+}  // namespace froude

@@ -1,0 +1,223 @@
+#include "fit/problem/regular_waves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hydro/base/error.hpp"
+#include "hydro/signal/distributions.hpp"
+#include "telling.hpp"
+
+namespace fit::regular_waves {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+double period_of(const RegularWaveFit& fit) { return 2 * std::numbers::pi / fit.omega; }
+double amplitude_of(const Oscillation& o) { return std::abs(o.harmonics[0]); }
+
+/// All channels of a run on one even grid, with what was done to them.
+FittedRun prepared(const Run& run, const PrepareOptions& options, Report& report) {
+  FittedRun out;
+  PrepareOptions steps = options;
+  steps.window = {};  // times are those of the whole record
+  std::vector<std::string> done;
+  const auto on_grid = [&](const std::string& name, const std::vector<double>& values) {
+    PreparedMotion p = prepare_motion(name, run.time, values, steps);
+    out.time = std::move(p.time);
+    for (std::string& step : p.steps)
+      if (std::find(done.begin(), done.end(), step) == done.end()) done.push_back(std::move(step));
+    for (const std::string& caution : p.cautions) report.warn(caution);
+    return std::move(p.values);
+  };
+  out.elevation = on_grid("elevation", run.elevation);
+  for (const WaveChannel& c : run.responses) out.responses.push_back(on_grid(c.name, c.values));
+  report.steps = std::move(done);
+  return out;
+}
+
+std::string list_of(const Oscillation& o) {
+  std::string out;
+  for (std::size_t k = 1; k < o.harmonics.size(); ++k)
+    out += fmt::format("{}{}: {:.3g} %", k > 1 ? ", " : "", k + 1, 100 * std::abs(o.harmonics[k]) / amplitude_of(o));
+  return out;
+}
+
+Facts facts_of(const Oscillation& o) {
+  std::vector<double> amplitudes, phases;
+  for (const auto& a : o.harmonics) {
+    amplitudes.push_back(std::abs(a));
+    phases.push_back(std::arg(a));
+  }
+  Facts out{{"mean", o.mean}, {"amplitudes", amplitudes}, {"phases_rad", phases}, {"residual_rms", o.residual_rms}};
+  if (!o.half_heights.empty()) append(out, {{"by_peaks", o.by_peaks}, {"by_peaks_error", o.by_peaks_error}});
+  return out;
+}
+
+Report told(const WaveResponse& r, const std::string& unit) {
+  Report out{.key = "response", .one_of_many = true};
+  const Oscillation& m = r.motion;
+  out.heading = fmt::format(
+      "  {}: amplitude {:.4g} {} ± {:.2g}, mean {:.4g}{}{}{}", r.name, amplitude_of(m), unit, m.error, m.mean,
+      m.harmonics.size() > 1 ? "; harmonics " : "", list_of(m),
+      m.half_heights.empty() ? "" : fmt::format("; by peaks {:.4g} ± {:.2g}", m.by_peaks, m.by_peaks_error));
+  out.facts = {{"name", r.name},
+               {"unit", unit},
+               {"motion", facts_of(m)},
+               {"phase_rad", r.phase},
+               {"phase_error_rad", r.phase_error}};
+  if (std::isfinite(r.rao_by_peaks)) out.facts.emplace_back("rao_by_peaks", r.rao_by_peaks);
+  out.estimates = {
+      {.coefficient = r.rao,
+       .unit = unit + "/m",
+       .more = fmt::format("; phase {:.1f} ± {:.1f} deg{}", r.phase / degree, r.phase_error / degree,
+                           std::isfinite(r.rao_by_peaks) ? fmt::format("; by peaks {:.4g}", r.rao_by_peaks) : "")}};
+  return out;
+}
+
+/// How the window came about.
+std::string window_of(const FittedRun& run, const Options& options) {
+  const RegularWaveFit& fit = run.fit;
+  const std::string held = fmt::format("window: {} periods of {:.5g} s, from {:.4g} s to {:.4g} s", fit.cycles,
+                                       period_of(fit), run.time[fit.from], run.time[fit.to - 1]);
+  if (!fit.times) return held + ", as named";
+  const WaveTimes& t = *fit.times;
+  return fmt::format(
+      "{}: energy goes at {:.4g} m/s, is at gauge and body at {:.4g} s, and with a ramp of {:.3g} s and {:g} "
+      "periods "
+      "to settle the waves are steady; {}",
+      held, t.group_velocity, options.started + t.front, options.ramp, options.settle_periods,
+      std::isfinite(t.back_from_end)
+          ? fmt::format("from the end they come back at {:.4g} s", options.started + t.back_from_end)
+          : std::string("no end of the tank is named from which they come back"));
+}
+
+FittedRun fitted(const Problem& problem, const Run& run, Report& report) {
+  FittedRun out = prepared(run, problem.options.prepare, report);
+  std::vector<WaveChannel> responses = run.responses;
+  for (std::size_t i = 0; i < responses.size(); ++i) responses[i].values = out.responses[i];
+  std::optional<std::pair<double, double>> span;
+  if (const auto& w = problem.options.prepare.window; w.kind == WindowChoice::Kind::span) span = {w.from, w.to};
+  out.fit = fit_regular_waves(out.time, out.elevation, responses, problem.options, span);
+  return out;
+}
+
+void tell(const Problem& problem, const Run& run, const FittedRun& found, Report& report) {
+  const RegularWaveFit& fit = found.fit;
+  report.heading = fmt::format("{}: period {:.5g} s, wave amplitude {:.4g} m ± {:.2g}{}{}", run.source.name(),
+                               period_of(fit), amplitude_of(fit.wave), fit.wave.error,
+                               fit.wave.harmonics.size() > 1 ? "; harmonics " : "", list_of(fit.wave));
+  append(report.facts, {{"omega_rad_s", fit.omega},
+                        {"period_s", period_of(fit)},
+                        {"from_s", found.time[fit.from]},
+                        {"to_s", found.time[fit.to - 1]},
+                        {"cycles", fit.cycles},
+                        {"wave", facts_of(fit.wave)}});
+  report.steps->push_back(window_of(found, problem.options));
+  for (const std::string& caution : fit.cautions) report.warn(caution);
+  for (std::size_t i = 0; i < fit.responses.size(); ++i)
+    report.parts.push_back(told(fit.responses[i], problem.units[i]));
+  add_labels(report, run.source);
+}
+
+/// Runs of one period within 1 % and one height within 10 %: two settings of a wavemaker differ by more.
+bool same_wave(const RegularWaveFit& a, const RegularWaveFit& b) {
+  return std::abs(a.omega / b.omega - 1) < 0.01 && std::abs(amplitude_of(a.wave) / amplitude_of(b.wave) - 1) < 0.1;
+}
+
+std::vector<std::vector<std::size_t>> groups_of(const std::vector<FittedRun>& runs) {
+  std::vector<std::vector<std::size_t>> out;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto at =
+        std::find_if(out.begin(), out.end(), [&](const auto& g) { return same_wave(runs[g[0]].fit, runs[i].fit); });
+    if (at == out.end())
+      out.push_back({i});
+    else
+      at->push_back(i);
+  }
+  return out;
+}
+
+Repeats repeats_of(const std::vector<FittedRun>& runs, const std::vector<std::size_t>& group, std::size_t response,
+                   double confidence) {  // (F97)
+  Repeats out{.name = runs[group[0]].fit.responses[response].name,
+              .period = 0,
+              .wave_amplitude = 0,
+              .runs = group,
+              .mean = 0,
+              .deviation = 0,
+              .interval = {},
+              .lower_quartile = 0,
+              .median = 0,
+              .upper_quartile = 0};
+  const auto n = static_cast<double>(group.size());
+  std::vector<double> values;
+  for (const std::size_t i : group) {
+    const RegularWaveFit& fit = runs[i].fit;
+    values.push_back(middle(fit.responses[response].rao));
+    out.mean += values.back() / n;
+    out.period += period_of(fit) / n;
+    out.wave_amplitude += amplitude_of(fit.wave) / n;
+  }
+  for (const double v : values) out.deviation += (v - out.mean) * (v - out.mean) / (n - 1);
+  out.deviation = std::sqrt(out.deviation);
+  const double half = out.deviation / std::sqrt(n) * hydro::signal::student_t_quantile((1 + confidence) / 2, n - 1);
+  out.interval = {out.mean - half, out.mean + half};
+  out.lower_quartile = quantile_of(values, 0.25);
+  out.median = quantile_of(values, 0.5);
+  out.upper_quartile = quantile_of(values, 0.75);
+  return out;
+}
+
+void tell(const Repeats& r, const std::string& unit, double confidence, Report& report) {
+  Report part{.key = "repeated", .one_of_many = true};
+  part.heading = fmt::format(
+      "{} runs of {:.4g} s and {:.3g} m: {} median {:.4g} {}/m, quartiles {:.4g} and {:.4g}; mean {:.4g}, {:g} % "
+      "interval "
+      "{:.4g} to {:.4g}",
+      r.runs.size(), r.period, r.wave_amplitude, r.name, r.median, unit, r.lower_quartile, r.upper_quartile, r.mean,
+      100 * confidence, r.interval.low, r.interval.high);
+  part.facts = {{"response", r.name},
+                {"runs", r.runs.size()},
+                {"period_s", r.period},
+                {"wave_amplitude", r.wave_amplitude},
+                {"median", r.median},
+                {"lower_quartile", r.lower_quartile},
+                {"upper_quartile", r.upper_quartile},
+                {"mean", r.mean},
+                {"deviation", r.deviation},
+                {"interval", r.interval}};
+  report.parts.push_back(std::move(part));
+}
+
+}  // namespace
+
+double quantile_of(std::vector<double> values, double q) {
+  hydro::require(!values.empty() && q >= 0 && q <= 1, "a quantile needs values and a share between 0 and 1, got {}", q);
+  std::sort(values.begin(), values.end());
+  const double at = q * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  if (below + 1 >= values.size()) return values.back();
+  return values[below] + (at - static_cast<double>(below)) * (values[below + 1] - values[below]);
+}
+
+Solution solve(const Problem& problem) {
+  hydro::require(!problem.runs.empty(), "there are no runs in waves");
+  Solution out;
+  for (const Run& run : problem.runs) {
+    hydro::require(run.responses.size() == problem.units.size(), "{} responses and {} units", run.responses.size(),
+                   problem.units.size());
+    Report report = begin_run(run.source);
+    out.runs.push_back(of_run(run.source, [&] { return fitted(problem, run, report); }));
+    tell(problem, run, out.runs.back(), report);
+    out.report.parts.push_back(std::move(report));
+  }
+  for (const auto& group : groups_of(out.runs))
+    for (std::size_t i = 0; group.size() > 1 && i < problem.units.size(); ++i) {
+      out.repeats.push_back(repeats_of(out.runs, group, i, problem.options.confidence));
+      tell(out.repeats.back(), problem.units[i], problem.options.confidence, out.report);
+    }
+  return out;
+}
+
+}  // namespace fit::regular_waves

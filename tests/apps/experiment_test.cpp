@@ -1,0 +1,76 @@
+// `froude experiment` through the functions that the command line calls.
+#include "froude/experiment.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "hydro/base/error.hpp"
+
+namespace experiment_command_test {
+namespace {
+
+using hydro::InputError;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+template <class Arguments>
+nlohmann::json told(void (*command)(const Arguments&, const froude::Console&), const Arguments& arguments) {
+  std::ostringstream out, err;
+  command(arguments, {out, err, true});
+  return nlohmann::json::parse(out.str());
+}
+
+TEST(Experiment, OfAnOscillationTellsAllItsNumbers) {
+  const auto j =
+      told(froude::plan_oscillation, {.known = {.diameter = 0.12, .period = 4, .kc = 20}, .viscosity = 1.05e-6});
+  EXPECT_NEAR(j["speed"].get<double>(), 20 * 0.12 / 4, 1e-12);
+  EXPECT_NEAR(j["re"].get<double>(), 0.6 * 0.12 / 1.05e-6, 1e-6);
+  EXPECT_FALSE(j.contains("length"));
+}
+
+TEST(Experiment, OfAnOscillationTellsHowLongItsRecordMustBe) {
+  froude::OscillationPlanArguments a{
+      .known = {.diameter = 0.12, .period = 4, .kc = 20}, .viscosity = 1.05e-6, .width = 0.05};
+  a.record.noise = 2;
+  a.record.memory = 0.1;
+  a.record.step = 0.02;
+  a.record.cylinder = {
+      .diameter = 0, .length = 0.5, .density = 997, .viscosity = {}, .experiment = fit::Experiment::body_moves};
+  const auto j = told(froude::plan_oscillation, a);
+  EXPECT_LE(j["half_width"].get<double>(), 0.05);
+  EXPECT_EQ(j["length"].back()["cycles"], j["cycles"]);
+  a.width = 1e-6;
+  EXPECT_THAT([&] { told(froude::plan_oscillation, a); }, ThrowsMessage<InputError>(HasSubstr("is wanted")));
+}
+
+TEST(Experiment, OfATowTellsItsTime) {
+  const auto j = told(froude::plan_tow, {.diameter = 0.12, .re = 8e4, .viscosity = 1.05e-6, .length = 60});
+  EXPECT_NEAR(j["speed"].get<double>(), 0.7, 1e-12);
+  EXPECT_NEAR(j["steady_s"].get<double>(), 60 / 0.7 - 0.7, 1e-9);
+  EXPECT_THAT([] { told(froude::plan_tow, {.diameter = 0.12, .viscosity = 1e-6, .length = 60}); },
+              ThrowsMessage<InputError>(HasSubstr("two are needed")));
+  EXPECT_THAT([] { told(froude::plan_tow, {.diameter = 0.12, .speed = 3, .viscosity = 1e-6, .length = 5}); },
+              ThrowsMessage<InputError>(HasSubstr("does not reach")));
+}
+
+TEST(Experiment, OfWavesTellsWhenTheyAreSteady) {
+  froude::WavePlanArguments a{.period = 1.6, .height = 0.06};
+  a.tank = {.water = {.depth = hydro::WaterDepth::from_metres(1.25)}, .gauge = 20, .body = 23, .end = 60};
+  a.ramp = 2;
+  const auto j = told(froude::plan_waves, a);
+  const double c = j["group_velocity"];
+  EXPECT_NEAR(j["front_s"].get<double>(), 23 / c, 1e-12);
+  EXPECT_NEAR(j["back_from_end_s"].get<double>(), 97 / c, 1e-12);
+  EXPECT_EQ(j["steady_periods"].get<double>(), std::floor((97 / c - 23 / c - 2 - 8) / 1.6));
+  EXPECT_EQ(j["depth_regime"], "intermediate");
+  a.diameter = 0.12;
+  EXPECT_THAT([&] { told(froude::plan_waves, a); }, ThrowsMessage<InputError>(HasSubstr("belong together")));
+  a.level = 0.48;
+  EXPECT_GT(told(froude::plan_waves, a)["kc"].get<double>(), 0);
+}
+
+}  // namespace
+}  // namespace experiment_command_test

@@ -1,0 +1,132 @@
+// Plans of experiments: numbers that belong together, and lengths whose interval comes out as planned.
+#include "fit/experiment.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "hydro/base/error.hpp"
+#include "support/morison_records.hpp"
+
+namespace experiment_test {
+namespace {
+
+using fit::complete;
+using fit::OscillationNumbers;
+using std::numbers::pi;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+constexpr double viscosity = 1.05e-6;
+
+// The definitions, one by one.
+void expect_consistent(const OscillationNumbers& n) {
+  EXPECT_NEAR(*n.speed, 2 * pi * *n.amplitude / *n.period, 1e-12 * *n.speed);
+  EXPECT_NEAR(*n.kc, *n.speed * *n.period / *n.diameter, 1e-12 * *n.kc);
+  EXPECT_NEAR(*n.re, *n.speed * *n.diameter / viscosity, 1e-12 * *n.re);
+  EXPECT_NEAR(*n.beta, *n.re / *n.kc, 1e-12 * *n.beta);
+}
+
+TEST(Oscillation, IsCompleteFromAnyThreeThatTellIt) {
+  const OscillationNumbers all = complete({.diameter = 0.12, .amplitude = 0.54, .period = 4.62}, viscosity);
+  expect_consistent(all);
+  EXPECT_NEAR(*all.kc, 2 * pi * 0.54 / 0.12, 1e-10);
+  using N = OscillationNumbers;
+  const std::vector<std::optional<double> N::*> members{&N::diameter, &N::amplitude, &N::period, &N::speed,
+                                                        &N::kc,       &N::re,        &N::beta};
+  int told = 0, open = 0;
+  for (std::size_t i = 0; i < members.size(); ++i)
+    for (std::size_t j = i + 1; j < members.size(); ++j)
+      for (std::size_t k = j + 1; k < members.size(); ++k) {
+        N given;
+        for (const std::size_t m : {i, j, k}) given.*members[m] = all.*members[m];
+        try {
+          const N again = complete(given, viscosity);
+          for (const auto member : members) EXPECT_NEAR(*(again.*member), *(all.*member), 1e-9 * *(all.*member));
+          ++told;
+        } catch (const hydro::InputError&) {
+          ++open;
+        }
+      }
+  // 35 choices; five of them are of numbers of which two give the third: D A KC, A T U, D U Re, D T β, KC Re β.
+  EXPECT_EQ(told, 30);
+  EXPECT_EQ(open, 5);
+}
+
+TEST(Oscillation, SaysWhatIsLeftOpenAndWhatContradicts) {
+  EXPECT_THAT([] { complete({.diameter = 0.12, .kc = 20}, viscosity); },
+              ThrowsMessage<hydro::InputError>(HasSubstr("leaves open: period, speed, Re, beta")));
+  EXPECT_THAT([] { complete({}, viscosity); }, ThrowsMessage<hydro::InputError>(HasSubstr("everything")));
+  EXPECT_THAT([] { complete({.diameter = 0.12, .amplitude = 0.5, .period = 4, .kc = 30}, viscosity); },
+              ThrowsMessage<hydro::InputError>(HasSubstr("contradicts itself")));
+  EXPECT_THAT([] { complete({.diameter = -1, .amplitude = 0.5, .period = 4}, viscosity); },
+              ThrowsMessage<hydro::InputError>(HasSubstr("diameter must be positive")));
+  EXPECT_THROW(complete({.diameter = 1, .amplitude = 0.5, .period = 4}, 0), hydro::InputError);
+}
+
+fit::PlannedOscillation plan() {
+  return {.cylinder = froude_test::moved_cylinder,
+          .amplitude = 0.36,
+          .period = 4,
+          .cd = 1.2,
+          .inertia = 1,
+          .noise = 2,
+          .memory = 0.1,
+          .step = 0.02};
+}
+
+// White noise: σ_C = σ/√(Σ J²), and Σ J² of |u|u over whole periods is n (½ρDLU²)² 3/8.
+TEST(PlannedLengths, OfWhiteNoiseHaveTheWidthOfTheirColumns) {
+  auto white = plan();
+  white.memory = 0;
+  const auto& c = white.cylinder;
+  const double u = 2 * pi * white.amplitude / white.period, unit = 0.5 * c.density * c.diameter * c.length * u * u,
+               n = 20 * white.period / white.step, expected = 1.96 * white.noise / (unit * std::sqrt(3.0 / 8 * n));
+  // The autoregression's own scatter: 5 % of a median over 40 records.
+  EXPECT_NEAR(fit::told_by(white, 20, 40).cd_half_width, expected, 0.07 * expected);
+}
+
+TEST(PlannedLengths, ShrinkWithTheRootOfTheCyclesAndHoldTheTruth) {
+  const auto a = fit::told_by(plan(), 10, 100), b = fit::told_by(plan(), 40, 100);
+  EXPECT_NEAR(a.cd_half_width / b.cd_half_width, 2, 0.2);
+  for (const double held : {a.cd_held, a.inertia_held, b.cd_held, b.inertia_held})
+    EXPECT_GE(held, 0.88);  // 0.95 of 100, with a deviation of 2.2
+}
+
+TEST(PlannedLengths, ReachTheWidthThatIsAskedFor) {
+  const double width = fit::told_by(plan(), 25).cd_half_width;
+  const auto tried = fit::lengths_for(plan(), fit::Wanted::cd, width);
+  ASSERT_FALSE(tried.empty());
+  EXPECT_LE(tried.back().cd_half_width, width);
+  EXPECT_NEAR(tried.back().cycles, 25, 6);  // bisection ends within a tenth; medians scatter by 5 %, cycles by 10 %
+  for (std::size_t i = 1; i < tried.size(); ++i) EXPECT_LT(tried[i - 1].cycles, tried[i].cycles);
+}
+
+TEST(PlannedLengths, SayWhereNoLengthWithinReachIsEnough) {
+  const auto tried = fit::lengths_for(plan(), fit::Wanted::cd, 1e-5, 24, 4);
+  EXPECT_GT(tried.back().cd_half_width, 1e-5);
+  EXPECT_LE(tried.back().cycles, 24);
+}
+
+TEST(PlannedLengths, RefuseWhatMakesNoSense) {
+  auto p = plan();
+  p.noise = 0;
+  EXPECT_THAT([&] { fit::told_by(p, 5); }, ThrowsMessage<hydro::InputError>(HasSubstr("noise of the force")));
+  p = plan();
+  p.step = 1;
+  EXPECT_THAT([&] { fit::told_by(p, 5); }, ThrowsMessage<hydro::InputError>(HasSubstr("eight samples")));
+  EXPECT_THROW(fit::told_by(plan(), 1), hydro::InputError);
+  EXPECT_THROW(fit::lengths_for(plan(), fit::Wanted::cd, 0), hydro::InputError);
+}
+
+// From rest to U takes U²/2a, as does the way to rest: L = U²/a + U t.
+TEST(SteadyTow, IsWhatTheRampsLeave) {
+  EXPECT_DOUBLE_EQ(fit::steady_tow_s(60, 0.85, 1), 60 / 0.85 - 0.85);
+  EXPECT_EQ(fit::steady_tow_s(1, 2, 1), 0);
+  EXPECT_THROW(fit::steady_tow_s(0, 1, 1), hydro::InputError);
+}
+
+}  // namespace
+}  // namespace experiment_test
