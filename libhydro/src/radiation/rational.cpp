@@ -253,9 +253,13 @@ void make_passive(const Data& d, const detail::Margins& margins, Attempt& a) {
   a.report.margin = a.report.passive ? margins.kept : 0;
 }
 
+/// By which Q is kept positive: a small part of the tolerance, yet not so small that a certificate, which must tell it
+/// from zero everywhere, takes more intervals than it has.
+double margin_for(double tolerance) { return std::min(std::max(tolerance / 50, 2e-5), tolerance / 4); }
+
 /// By a lift as soon as that is small, which is quick; where that costs the tolerance, by what needs hardly any.
 void make_passive(const Data& d, double tolerance, Attempt& a) {
-  const double margin = tolerance / 50;
+  const double margin = margin_for(tolerance);
   Attempt quick = a;
   make_passive(d, {.kept = margin, .lifted = tolerance / 20}, quick);
   if (!quick.report.passive || quick.report.error > tolerance) {
@@ -310,7 +314,7 @@ Attempt nearest(const Data& d, const FitOptions& options, std::vector<Attempt> t
   const auto better = [](const FitReport& a, const FitReport& b) {
     return a.passive != b.passive ? a.passive : a.error < b.error;
   };
-  const double margin = options.tolerance / 50;
+  const double margin = margin_for(options.tolerance);
   std::size_t best = 0;
   for (std::size_t i = 0; i < std::min(few, tried.size()); ++i) {
     const FitReport& so_far = tried[best].report;
