@@ -39,6 +39,7 @@ namespace morison { Outcome outcome(const Folders& folders); }
 namespace order { Outcome outcome(const Folders& folders); }
 namespace orszaghova_expansion { Outcome outcome(const Folders& folders); }
 namespace orszaghova_map { Outcome outcome(const Folders& folders); }
+namespace pendulum_camera { Outcome outcome(const Folders& folders); }
 namespace pendulums { Outcome outcome(const Folders& folders); }
 namespace rm3_decay { Outcome outcome(const Folders& folders); }
 namespace rm3_regular { Outcome outcome(const Folders& folders); }
@@ -104,6 +105,7 @@ const std::vector<Case>& cases() {
       {"ball-drops", ball_drops::outcome, {"drag_ball_drops"}},
       {"moorings", moorings::outcome, {"mooring_lines"}},
       {"oc3-line", oc3_line_case::outcome},
+      {"pendulum-camera", pendulum_camera::outcome, {"pendulum_camera"}},
       {"pendulums", pendulums::outcome, {"pendulum_encoder", "pendulum_camera"}},
       {"flume-box", flume_box::outcome, {"wave_flume_box"}},
       {"roll-decay", roll_decay::outcome, {"ecn_roll_decay"}},

@@ -162,8 +162,14 @@ const Binding<CameraTable>& camera_binding() {
           .optional(
               positive("frame_rate", dim::angular_velocity, "\"400 Hz\": rows are frames, where there is no time"),
               in_hertz(&CameraTable::frame_rate))
+          .optional(quantity("offset", dim::time,
+                             "added to the track's times, so that they are those of a record or of the waves: `froude "
+                             "kinematics --record` finds it; left out: the film's own times"),
+                    &CameraTable::offset)
           .optional(
-              quantity("from", dim::time, "the run begins at this time of the track; left out: at its first frame"),
+              quantity(
+                  "from", dim::time,
+                  "the run begins at this time, whether or not a frame was taken then; left out: at the first frame"),
               &CameraTable::from)
           .optional(quantity("to", dim::time, "what comes later is left out"), &CameraTable::to)
           .tables("marker", marker_keys(), &CameraTable::markers)

@@ -36,7 +36,8 @@ struct CameraTable {
   double rotation = 0;                       ///< rad
   std::string deviation = {};                ///< of places that the track tells no errors of: "0.3 px", "1 mm"
   double frame_rate = 0;                     ///< Hz; 0: the track has times
-  std::optional<double> from = {}, to = {};  ///< s, in the track's time
+  double offset = 0;                         ///< s, added to the track's times
+  std::optional<double> from = {}, to = {};  ///< s, in these times
   std::vector<::fit::camera::TrackColumns::Of> markers = {};
   Place place = {};
 

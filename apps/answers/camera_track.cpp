@@ -87,19 +87,20 @@ fc::View view_of(const scene::CameraTable& camera, const fc::Track& track) {
   return out;
 }
 
-fc::Track track_in_plane(const scene::FitScene& scene, const scene::MotionModel& model) {
+TrackInPlane track_in_plane(const scene::FitScene& scene, const scene::MotionModel& model) {
   if (scene.files.size() != 1)
     throw InputError(fmt::format("a fit of a track takes one file, got {}", scene.files.size()), scene.files[1].place,
                      "fit each film by itself");
   const scene::CameraTable& camera = *model.camera;
   const auto file = scene.files[0].value;
   return scene::placed({.file = file.string()}, [&] {
-    const fc::Track track = fc::read_track(file, columns_of(scene, model));
-    const fc::Track part = fc::cut(track, camera.from.value_or(track.time.front()),
-                                   camera.to.value_or(std::numeric_limits<double>::infinity()));
+    fc::Track track = fc::read_track(file, columns_of(scene, model));
+    for (double& t : track.time) t += camera.offset;
+    const double begin = camera.from.value_or(track.time.front());
+    const fc::Track part = fc::cut(track, begin, camera.to.value_or(std::numeric_limits<double>::infinity()));
     const double deviation =
         scene::placed(camera.place, [&] { return deviation_of(camera.deviation, track.in_metres); });
-    return fc::in_plane(part, view_of(camera, part), deviation);
+    return TrackInPlane{fc::in_plane(part, view_of(camera, part), deviation), begin};
   });
 }
 

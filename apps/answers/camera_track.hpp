@@ -13,9 +13,13 @@ namespace froude {
 
 /// What [camera] says of this track: lens, scale, pivot. \throws hydro::InputError
 ::fit::camera::View view_of(const scene::CameraTable& camera, const ::fit::camera::Track& track);
+struct TrackInPlane {
+  ::fit::camera::Track places;  ///< m, with times from the run's start
+  double begin;                 ///< s, where that is in the track's own times, [camera] offset counted
+};
 /// The frames that the scene takes, in metres of the plane of motion. \throws hydro::InputError with the file or the
 /// place in the scene
-::fit::camera::Track track_in_plane(const scene::FitScene& scene, const scene::MotionModel& model);
+TrackInPlane track_in_plane(const scene::FitScene& scene, const scene::MotionModel& model);
 /// The signals of the model, in their order. \throws hydro::InputError at a signal that does not lie in the picture
 std::vector<::fit::camera::Channel> channels_asked(const scene::MotionModel& model);
 

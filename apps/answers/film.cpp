@@ -97,7 +97,7 @@ FilmScene read_film(const std::filesystem::path& file) {
   out.camera = camera_binding().read(root.table("camera"));
   if (root.has("title")) out.title = root.text("title");
   const Record& camera = root.table("camera");
-  for (const char* key : {"distance", "deviation", "frame_rate", "from", "to", "marker"})
+  for (const char* key : {"distance", "deviation", "frame_rate", "offset", "from", "to", "marker"})
     if (camera.has(key)) throw camera.wrong(key, "is of a track, and does not apply to a film", "leave it out");
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(out.scene.value, unknown))

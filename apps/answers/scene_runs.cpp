@@ -59,11 +59,12 @@ MeasuredRun MeasuredRun::of_film(std::vector<double> time, Eigen::MatrixXd value
   std::nth_element(between.begin(), between.begin() + std::ssize(between) / 2, between.end());
   double period = between[between.size() / 2];
   std::vector<double> at = whole_periods(time, period);
-  const double start = time.front();
   if (at.empty()) {
     period = between[between.size() / 2];
-    for (const double t : time) at.push_back((t - start) / period);
+    for (const double t : time) at.push_back((t - time.front()) / period);
   }
+  // The run begins at 0, the first frame may come a part of a period after.
+  for (double& one : at) one += time.front() / period;
   MeasuredRun out{std::move(time), std::move(values), period, 0, {}, std::move(at)};
   const double last = out.at.back();
   const auto length = static_cast<Eigen::Index>(window_s > 0 ? std::lround(window_s / period) : std::lround(last) + 1);
@@ -117,7 +118,7 @@ Eigen::VectorXd MeasuredRun::told(std::size_t window, const std::vector<double>&
 
 MeasuredRun MeasuredRun::read(const scene::FitScene& fit, const scene::MotionModel& model) {
   if (model.camera) {
-    const ::fit::camera::Track track = track_in_plane(fit, model);
+    const ::fit::camera::Track track = track_in_plane(fit, model).places;
     auto channels = ::fit::camera::channels_of(track, channels_asked(model));
     MeasuredRun out = of_film(track.time, std::move(channels.values), model.window);
     out.whitening = std::move(channels.whitening);

@@ -9,6 +9,7 @@
 
 #include "compile/compile.hpp"
 #include "compile/connections.hpp"
+#include "compile/restart.hpp"
 #include "dynamics/line/equilibrium.hpp"
 #include "dynamics/line/exposure.hpp"
 #include "dynamics/line/path.hpp"
@@ -344,6 +345,30 @@ LineModel fastened_model(const Scene& scene, const std::vector<std::size_t>& net
           .fastened = at};
 }
 
+/// (D114)
+void start_as_measured(const scene::Line& l, LineModel& m) {
+  constexpr double largest = 0.03;        // of a link's length that a measured one may differ by
+  constexpr double worth_telling = 1e-6;  // of the line's length
+  const dl::Line& line = *m.line;
+  dl::State& s = m.start;
+  for (std::size_t i = 0; i < l.start->at.size(); ++i) {
+    s.position.col(static_cast<Eigen::Index>(i) + 1) = l.start->at[i];
+    s.velocity.col(static_cast<Eigen::Index>(i) + 1) = l.start->velocity[i];
+  }
+  for (int j = 0; j < line.segments(); ++j) {
+    const double is = (s.position.col(j + 1) - s.position.col(j)).norm(), length = line.segment(j).length;
+    if (line.segment(j).is_inextensible() && std::abs(is - length) > largest * length)
+      throw InputError(
+          fmt::format("link {} is {:.4g} m long where the line starts, and {:.4g} m by itself", j + 1, is, length),
+          l.start->place, "give the places of its nodes to 3 % of a link and better");
+  }
+  const dl::Places given = s.position;
+  restore_lengths(line, s);
+  if (const double by = (s.position - given).colwise().norm().maxCoeff(); by > worth_telling * line.length())
+    m.parts.front().released =
+        fmt::format("the places where it starts were brought by up to {:.2g} m to where its links reach", by);
+}
+
 LineModel free_model(const Scene& scene, const std::vector<std::size_t>& network, const RunWater& water) {
   dl::State rest = at_rest(scene, network);
   System system = description(scene, network, water.field);
@@ -357,6 +382,7 @@ LineModel free_model(const Scene& scene, const std::vector<std::size_t>& network
                            .rho_infinity = scene.solve.rho_infinity,
                            .gamma = scene.solve.gamma}};
   if (const scene::Line& l = scene.lines[network.front()]; l.release) m.parts.front().released = brought(l);
+  if (const scene::Line& l = scene.lines[network.front()]; l.start) start_as_measured(l, m);
   for (const std::size_t i : network)
     if (scene.lines[i].lyapunov) m.lyapunov = scene.lines[i].lyapunov;
   if (m.lyapunov) ask_for_neighbours(scene, m);

@@ -86,8 +86,8 @@ void add_to_free(const dl::Line& line, const Eigen::VectorXd& change, dl::Places
   for (int i = 0; i < line.nodes(); ++i) places.col(i) = places.col(line.same_as(i)).eval();
 }
 
-/// The smallest change of the free nodes' places that brings links to their lengths, by Newton; then of their
-/// velocities.
+}  // namespace
+
 void restore_lengths(const dl::Line& line, dl::State& s) {
   for (int i = 0;; ++i) {
     const Eigen::VectorXd off = length_errors(line, s, false);
@@ -99,8 +99,6 @@ void restore_lengths(const dl::Line& line, dl::State& s) {
   const Eigen::VectorXd off = length_errors(line, s, true);
   add_to_free(line, length_gradients(line, s).completeOrthogonalDecomposition().solve(-off), s.velocity);
 }
-
-}  // namespace
 
 MovingState start_of(const TimeModel& model) {
   MovingState out{model.start, {}, {}};

@@ -17,6 +17,10 @@ struct MovingState {
 };
 MovingState start_of(const TimeModel& model);
 
+/// The smallest change of the free nodes' places that brings links to their lengths, by Newton; then of their
+/// velocities. \throws hydro::NumericsError if they cannot be
+void restore_lengths(const dynamics::line::Line& line, dynamics::line::State& state);
+
 /// Why a run of this model cannot go on from places and velocities alone: what has a memory. Empty if it can.
 std::string kept_memory(const TimeModel& model);
 

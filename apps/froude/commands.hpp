@@ -145,8 +145,14 @@ struct KinematicsArguments {
   Path scene;                             ///< of a fit of kind "motion" with [camera]
   std::string bandwidth;                  ///< "5 Hz"
   std::vector<std::string> lengths = {};  ///< "pivot joint 0.5 m 0.5 mm": markers, their distance, its deviation
-  Path output;                            ///< .csv
-  std::optional<Path> picture = {};       ///< .svg
+  std::optional<Path> record = {};        ///< .csv, of another clock
+  std::string record_time = "t";          ///< its column of time
+  std::string match = {};          ///< "chain.link1.polar = angle": a signal of the scene and a column of the record
+  std::optional<Path> start = {};  ///< .toml: a table [line.start]
+  std::string start_at = {}, nodes = {};    ///< "1.2 s" of the track; markers at the line's nodes, in their order
+  std::optional<std::string> release = {};  ///< a marker: when is it let go?
+  Path output;                              ///< .csv
+  std::optional<Path> picture = {};         ///< .svg
 };
 /// Places, velocities and accelerations of a track's markers, and angles of lines, by a smoother.
 void kinematics(const KinematicsArguments& arguments, const Console& console);

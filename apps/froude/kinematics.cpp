@@ -1,12 +1,16 @@
 // `froude kinematics`: what a track tells of motion, smoothed.
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <map>
 #include <numbers>
+#include <span>
 
 #include "answers/camera_track.hpp"
 #include "answers/plot.hpp"
+#include "fit/camera/instants.hpp"
 #include "fit/camera/smooth.hpp"
 #include "froude/commands.hpp"
 #include "froude/outputs.hpp"
@@ -129,8 +133,94 @@ void draw(const Path& file, const std::vector<double>& time, const std::vector<S
 
 }  // namespace
 
+namespace {
+
+/// How late the record's clock is. \throws hydro::InputError at the option or the file that is wrong
+fc::Offset offset_of(const KinematicsArguments& a, const scene::MotionModel& model, const fc::Track& places,
+                     const std::vector<fc::Channel>& channels) {
+  const auto equals = a.match.find('=');
+  const std::string of(hydro::trimmed(std::string_view(a.match).substr(0, equals)));
+  const auto signal =
+      std::find_if(model.signals.begin(), model.signals.end(), [&](const auto& s) { return s.of == of; });
+  if (equals == std::string::npos || signal == model.signals.end())
+    throw InputError(fmt::format("\"{}\" names no signal of the scene and a column", a.match), {.file = "--match"},
+                     fmt::format("write --match \"{} = name of a column\"", model.signals.front().of));
+  const auto table = hydro::io::CsvTable::read(*a.record);
+  const std::vector<double> time = table.column(a.record_time, dim::time);
+  const auto& column = table.column(std::string(hydro::trimmed(std::string_view(a.match).substr(equals + 1))));
+  const Eigen::VectorXd value = fc::channels_of(places, channels).values.col(signal - model.signals.begin());
+  return scene::placed({.file = a.record->string()}, [&] {
+    return fc::offset_between(places.time, std::span(value.data(), static_cast<std::size_t>(value.size())), time,
+                              column);
+  });
+}
+
+/// Where the markers of a line's nodes are and how they move at an instant, as a scene of motion takes it.
+std::string start_of_line(const KinematicsArguments& a, const scene::CameraTable& camera, const fc::SmoothTrack& track,
+                          double begin) {
+  const double at =
+      scene::placed({.file = "--start-at"}, [&] { return hydro::parse_si(a.start_at, dim::time); }) - begin;
+  if (!(at >= track.time.front() && at <= track.time.back()))
+    throw InputError(fmt::format("the track has no {}: it goes from {:.6g} s to {:.6g} s", a.start_at,
+                                 track.time.front() + begin, track.time.back() + begin),
+                     {.file = "--start-at"}, "name a time between");
+  const auto nearest = std::min_element(track.time.begin(), track.time.end(),
+                                        [&](double s, double t) { return std::abs(s - at) < std::abs(t - at); });
+  const double since = at - *nearest;
+  std::vector<std::string> places, velocities;
+  double place_sd = 0, velocity_sd = 0;
+  for (std::size_t from = 0; from <= a.nodes.size();) {
+    const std::size_t to = std::min(a.nodes.find(',', from), a.nodes.size());
+    const std::string name(hydro::trimmed(std::string_view(a.nodes).substr(from, to - from)));
+    from = to + 1;
+    const auto marker = std::find(track.markers.begin(), track.markers.end(), name);
+    if (marker == track.markers.end())
+      throw InputError(fmt::format("the track has no marker \"{}\"", name), {.file = "--nodes"},
+                       fmt::format("its markers are {}", fmt::join(track.markers, ", ")));
+    const fc::MarkerMotion m = track.marker(static_cast<std::size_t>(marker - track.markers.begin()),
+                                            static_cast<std::size_t>(nearest - track.time.begin()));
+    const Eigen::Vector2d place = m.place + since * (m.velocity + since / 2 * m.acceleration),
+                          velocity = m.velocity + since * m.acceleration;
+    place_sd = std::max(place_sd, m.place_sd.maxCoeff());
+    velocity_sd = std::max(velocity_sd, m.velocity_sd.maxCoeff());
+    const auto vector = [&](const Eigen::Vector2d& v, double across, const char* unit) {
+      Eigen::Vector3d all(across, across, v.y());
+      all[camera.along()] = v.x();
+      return fmt::format("\"({:.6g}, {:.6g}, {:.6g}) {}\"", all.x(), all.y(), all.z(), unit);
+    };
+    places.push_back(vector(place, camera.pivot_at[1 - camera.along()], "m"));
+    velocities.push_back(vector(velocity, 0, "m/s"));
+  }
+  return fmt::format(
+      "# {} at {}, smoothed by froude {}; standard deviations up to {:.2g} m and {:.2g} m/s\n"
+      "[line.start]\nat = [{}]\nvelocity = [{}]\n",
+      a.scene.filename().string(), a.start_at, FROUDE_VERSION, place_sd, velocity_sd, fmt::join(places, ", "),
+      fmt::join(velocities, ", "));
+}
+
+/// What the film tells of clocks and of the model's release, in the track's own times, with what to write in [camera].
+void say_instants(const KinematicsArguments& a, const scene::MotionModel& model, const TrackInPlane& track,
+                  const std::vector<fc::Channel>& channels, Report& report) {
+  if (a.record) {
+    const fc::Offset o = offset_of(a, model, track.places, channels);
+    report.say(
+        "{}: [camera] offset = \"{:.6g} s\", standard deviation {:.2g} s; correlation {:.5g}, elsewhere {:.3g} at most",
+        a.record->filename().string(), fact("offset_s", model.camera->offset + o.lag - track.begin),
+        fact("offset_deviation_s", o.deviation), fact("correlation", o.correlation),
+        fact("correlation_elsewhere", o.runner_up));
+  }
+  if (!a.release) return;
+  const fc::Release r = scene::placed({.file = "--release"}, [&] { return fc::release_of(track.places, *a.release); });
+  report.say("{} is let go: [camera] from = \"{:.6g} s\", standard deviation {:.2g} s", *a.release,
+             fact("release_s", r.at + track.begin), fact("release_deviation_s", r.deviation));
+}
+
+}  // namespace
+
 void kinematics(const KinematicsArguments& a, const Console& console) {
-  require_outputs(named({{"-o", a.output}, {"--picture", a.picture}}), files_of_scene(a.scene));
+  std::vector<NamedFile> inputs = files_of_scene(a.scene);
+  if (a.record) inputs.push_back({"--record", *a.record});
+  require_outputs(named({{"-o", a.output}, {"--picture", a.picture}, {"--start", a.start}}), inputs);
   const scene::FitScene scene = scene::read_fit(a.scene);
   const auto* model = std::any_cast<scene::MotionModel>(&scene.settings);
   if (model == nullptr || !model->camera)
@@ -141,9 +231,9 @@ void kinematics(const KinematicsArguments& a, const Console& console) {
           scene::placed({.file = "--bandwidth"}, [&] { return hydro::parse_si(a.bandwidth, dim::angular_velocity); }) /
           (2 * std::numbers::pi)};
   for (const std::string& length : a.lengths) options.lengths.push_back(known_length(length));
-  const fc::Track places = track_in_plane(scene, *model);
+  const TrackInPlane in_plane = track_in_plane(scene, *model);
   const fc::SmoothTrack track =
-      scene::placed({.file = scene.files[0].value.string()}, [&] { return fc::smooth(places, options); });
+      scene::placed({.file = scene.files[0].value.string()}, [&] { return fc::smooth(in_plane.places, options); });
   std::vector<SmoothedColumn> columns;
   const auto take = [&](std::vector<SmoothedColumn> more) {
     std::move(more.begin(), more.end(), std::back_inserter(columns));
@@ -161,6 +251,7 @@ void kinematics(const KinematicsArguments& a, const Console& console) {
                        {fmt::format("smoothed by froude {}: gain 0.99 at {:g} Hz, half at {:.4g} Hz", FROUDE_VERSION,
                                     options.bandwidth_hz, track.cutoff_hz)});
   if (a.picture) draw(*a.picture, track.time, columns);
+  if (a.start) hydro::io::write_atomically(*a.start, start_of_line(a, *model->camera, track, in_plane.begin));
   Report report;
   report.say("{} frames of {} markers, gain 0.99 at {:g} Hz and half at {:.4g} Hz; {} known lengths{}",
              fact("frames", track.time.size()), fact("markers", track.markers.size()),
@@ -170,7 +261,8 @@ void kinematics(const KinematicsArguments& a, const Console& console) {
   for (const SmoothedColumn& c : columns)
     report.row("column", "  {} [{}]: mean standard deviation {:.3g}", fact("name", c.name), fact("unit", c.unit),
                fact("mean_deviation", mean_of(c.deviation)));
-  report.wrote(a.output).wrote(a.picture);
+  say_instants(a, *model, in_plane, channels, report);
+  report.wrote(a.output).wrote(a.picture).wrote(a.start);
   tell(report, console);
 }
 

@@ -444,6 +444,16 @@ void add_kinematics(CLI::App& app, Request& request) {
   command->add_option(
       "--length", arguments->lengths,
       "a distance that stays, and its deviation: \"pivot joint 0.5 m 0.5 mm\"; several by repeating it");
+  auto* record = command->add_option("--record", arguments->record,
+                                     "CSV of another clock that shows a signal of the scene, too: how late is it?");
+  command->add_option("--record-time", arguments->record_time, "its column of time")->capture_default_str();
+  record->needs(command->add_option("--match", arguments->match,
+                                    "a signal of the scene and a column of the record: \"chain.link1.polar = angle\""));
+  auto* start = command->add_option("--start", arguments->start, "a table [line.start] for a scene of motion (.toml)");
+  start->needs(command->add_option("--start-at", arguments->start_at, "the time of it: \"1.2 s\" of the track"));
+  start->needs(command->add_option("--nodes", arguments->nodes,
+                                   "markers at the line's free nodes, in their order: \"joint, bob\""));
+  command->add_option("--release", arguments->release, "a marker that is let go: when?");
   command->add_option("-o,--output", arguments->output, "table with standard deviations (.csv)")->required();
   command->add_option("--picture", arguments->picture, "plot (.svg)");
   command->callback([=, &request] {

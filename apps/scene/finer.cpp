@@ -28,12 +28,29 @@ void add_growth(const Line::Growth& growth, std::vector<dl::Segment>& segments) 
   }
 }
 
+/// Between nodes that were given, straight.
+std::vector<Eigen::Vector3d> with_nodes_between(const std::vector<Eigen::Vector3d>& given, const Eigen::Vector3d& first,
+                                                const std::optional<Eigen::Vector3d>& last, int times) {
+  std::vector<Eigen::Vector3d> all{first}, out;
+  all.insert(all.end(), given.begin(), given.end());
+  if (last) all.push_back(*last);
+  for (std::size_t i = 1; i < all.size(); ++i)
+    for (int k = 1; k <= times; ++k)
+      out.push_back(all[i - 1] + (all[i] - all[i - 1]) * (static_cast<double>(k) / times));
+  if (last) out.pop_back();
+  return out;
+}
+
 /// What acts at each node stands for what acts along the line.
 void cut_finer(int times, Line& line) {
   for (Line::EvenPart& part : line.parts) part.segments *= times;
   line.segments = cut(line);
   line.node.share /= times;
   if (line.release) line.release->node *= times;
+  if (!line.start) return;
+  const auto at_rest = line.to.at ? std::optional<Eigen::Vector3d>(Eigen::Vector3d::Zero()) : std::nullopt;
+  line.start->at = with_nodes_between(line.start->at, *line.from.at, line.to.at, times);
+  line.start->velocity = with_nodes_between(line.start->velocity, Eigen::Vector3d::Zero(), at_rest, times);
 }
 
 /// "rope.link12.tension" in its pieces: "rope", "link", 12, ".tension".

@@ -280,6 +280,11 @@ struct Line {
     int node;
     Eigen::Vector3d at;  ///< m
   };
+  /// Of its nodes in their order, without the ends that are held.
+  struct Start {
+    std::vector<Eigen::Vector3d> at, velocity;  ///< m, m/s
+    Place place;
+  };
   struct Snaps {
     double slack_below, snap_above;  ///< N
   };
@@ -312,6 +317,7 @@ struct Line {
   std::optional<Coefficients> coefficients;       ///< instead of those of the segments
   std::optional<dynamics::line::Bed> bed;
   std::optional<Release> release;
+  std::optional<Start> start;
   std::optional<PrescribedMotion> prescribed;
   std::optional<Snaps> snaps;
   std::optional<Lyapunov> lyapunov;

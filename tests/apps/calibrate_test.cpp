@@ -11,8 +11,8 @@
 #include "froude/film/board.hpp"
 #include "froude/film/commands.hpp"
 #include "froude/film/video.hpp"
-#include "hydro/base/error.hpp"
 #include "hydro/base/random.hpp"
+#include "support/refused.hpp"
 #include "support/scratch.hpp"
 
 namespace calibrate_test {
@@ -20,6 +20,7 @@ namespace {
 
 namespace fc = fit::camera;
 namespace ff = froude::film;
+using support::refused;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -127,16 +128,6 @@ TEST(Calibration, TellsTheLensThePoseAndWhatItDoesNotKnow) {
               2e-4);
   EXPECT_THAT(out.str(), AllOf(HasSubstr("12 pictures of 640 x 480 px"), HasSubstr("focal_x"),
                                HasSubstr("standard deviation"), HasSubstr("plane of motion: ")));
-}
-
-template <class Call>
-std::string refused(Call call) {
-  try {
-    call();
-  } catch (const hydro::InputError& e) {
-    return e.what();
-  }
-  return "nothing was refused";
 }
 
 TEST(Calibration, SaysWhatToDo) {

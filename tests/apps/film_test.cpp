@@ -9,6 +9,7 @@
 #include "answers/scene_runs.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
+#include "support/refused.hpp"
 #include "support/scratch.hpp"
 #include "support/source_dir.hpp"
 
@@ -16,19 +17,10 @@ namespace film_test {
 namespace {
 
 using froude::MeasuredRun;
+using support::refused;
 using testing::AllOf;
 using testing::HasSubstr;
 namespace scene = froude::scene;
-
-template <class Call>
-std::string refused(Call call) {
-  try {
-    call();
-  } catch (const hydro::InputError& e) {
-    return e.what();
-  }
-  return "nothing was refused";
-}
 
 std::vector<double> even(int frames) {
   std::vector<double> out;
@@ -67,6 +59,18 @@ TEST(Film, OfUnevenFramesIsBetweenTheRunsSamples) {
     EXPECT_NEAR(told[static_cast<Eigen::Index>(i)], std::cos(omega * time[i]), 0.024 * std::pow(0.3, 6));  // (F102)
 }
 
+TEST(Film, BeginsWhereTheRunDoesWhetherOrNotAFrameWasTakenThen) {
+  std::vector<double> time = even(60);
+  for (double& t : time) t += 0.013;  // [camera] from lies a third of a period before the first frame
+  const auto run = MeasuredRun::of_film(time, Eigen::MatrixXd::Zero(60, 1), 0);
+  EXPECT_NEAR(run.at[0], 0.013 / 0.04, 1e-9);
+  std::vector<double> wave;
+  for (Eigen::Index i = 0; i < run.run_samples(0); ++i) wave.push_back(std::cos(3 * run.step * static_cast<double>(i)));
+  const Eigen::VectorXd told = run.told(0, wave);
+  for (std::size_t i = 0; i < 60; ++i)
+    EXPECT_NEAR(told[static_cast<Eigen::Index>(i)], std::cos(3 * time[i]), 1e-6) << i;
+}
+
 TEST(Film, RefusesAWindowWithoutFrames) {
   std::vector<double> time = even(100);
   time.erase(time.begin() + 22, time.begin() + 38);
@@ -84,7 +88,7 @@ std::string told(const std::string& old, const std::string& now) {
   return refused([&] {
     const auto fit = scene::parse_fit(text, folder / "film_track.toml");
     const auto& model = fit.model<scene::MotionModel>();
-    ::fit::camera::channels_of(froude::track_in_plane(fit, model), froude::channels_asked(model));
+    ::fit::camera::channels_of(froude::track_in_plane(fit, model).places, froude::channels_asked(model));
   });
 }
 

@@ -8,6 +8,7 @@ Where froude-film is not built beside froude, films themselves are not tested.
 import csv
 import json
 import math
+import re
 import shutil
 import subprocess
 import sys
@@ -80,6 +81,46 @@ class ForeignTrack(WithFolder):
         summed = sum((rates[i] + rates[i + 1]) / 2 * (times[i + 1] - times[i]) for i in range(100, 150))
         self.assertAlmostEqual(summed, angles[150] - angles[100], delta=0.02)
         self.assertGreater(max(rates[100:150]) - min(rates[100:150]), 1)
+
+
+class Instants(WithFolder):
+    """Clocks, the release and the start of a scene, from the example of another program's track."""
+
+    def kinematics(self, *more):
+        return self.done("kinematics", "fit/film_track.toml", "--bandwidth", "4 Hz", "-o", self.folder / "m.csv", *more)
+
+    def test_a_record_of_another_clock_is_found_by_its_correlation(self):
+        self.kinematics()
+        rows = rows_of(self.folder / "m.csv")
+        lines = ["t [s],angle [deg]"] + [f"{float(r['t [s]']) + 3.21:.6f},{57.29578 * float(r['chain.link1.polar [rad]']):.6f}"
+                                         for r in rows]
+        (self.folder / "record.csv").write_text("\n".join(lines) + "\n")
+        told = json.loads(self.kinematics("--record", "record.csv", "--match", "chain.link1.polar = angle", "--json"))
+        self.assertAlmostEqual(told["offset_s"], 3.21, delta=0.002)  # a smoothed record, whose noise is 0.001 rad
+        self.assertLess(told["offset_deviation_s"], 0.001)
+        self.assertIn("names no signal", self.refused("kinematics", "fit/film_track.toml", "--bandwidth", "4 Hz", "-o", "x.csv",
+                                                      "--record", "record.csv", "--match", "angle"))
+
+    def test_a_line_starts_where_the_film_shows_it(self):
+        self.kinematics("--start", "start.toml", "--start-at", "2 s", "--nodes", "joint, bob")
+        start = (self.folder / "start.toml").read_text()
+        scene = re.sub(r"\[line.release\].*?\n\n", start + "\n", (self.folder / "fit" / "pendulums_scene.toml").read_text(),
+                       flags=re.S)
+        (self.folder / "fit" / "from_film.toml").write_text(scene)
+        self.done("run", "fit/from_film.toml", "-o", "from_film.h5", "--csv", "from_film.csv")
+        run, film = rows_of(self.folder / "from_film.csv"), rows_of(self.folder / "m.csv")
+        first = next(i for i, row in enumerate(film) if float(row["t [s]"]) > 2 - 1e-6)
+        for k in (0, 5, 10):  # 0.4 s, in which 2 mm and 0.02 m/s grow to a hundredth of a radian or two
+            with self.subTest(sample=k):
+                at = next(row for row in run if abs(float(row[next(iter(row))]) - (float(film[first + k]["t [s]"]) - 2)) < 0.021)
+                name = next(column for column in at if "link1" in column)
+                self.assertAlmostEqual(float(at[name]), float(film[first + k]["chain.link1.polar [rad]"]), delta=0.06)
+        self.assertIn("has no marker", self.refused("kinematics", "fit/film_track.toml", "--bandwidth", "4 Hz", "-o", "x.csv",
+                                                    "--start", "s.toml", "--start-at", "2 s", "--nodes", "joint, bobb"))
+
+    def test_a_film_that_begins_in_motion_tells_no_release(self):
+        self.assertIn("are needed to tell its release",
+                      self.refused("kinematics", "fit/film_track.toml", "--bandwidth", "4 Hz", "-o", "x.csv", "--release", "bob"))
 
 
 class WithoutFilms(WithFolder):

@@ -161,8 +161,8 @@ struct Tally {
     half_linear += half(l) / b_l;
     half_quadratic += half(q) / b_q;
     error += (middle(l) - b_l) / l.standard_error;
-    estimates.x.push_back(middle(l));
-    estimates.y.push_back(middle(q));
+    estimates.x.push_back(1e3 * middle(l));
+    estimates.y.push_back(1e3 * middle(q));
   }
 };
 
@@ -177,22 +177,23 @@ Outcome outcome(const Folders& folders) {
     tally.add(f.parameters[0], f.parameters[1]);
     if (seed == 1) first = std::move(f);
   }
-  return {.numbers = {{"share of seeds with b_l and b_q both in their intervals of 95 %", tally.both / seeds, ""},
-                      {"share of seeds with b_l in its interval of 95 %", tally.linear / seeds, ""},
-                      {"share of seeds with b_q in its interval of 95 %", tally.quadratic / seeds, ""},
-                      {"mean half-width of the interval of b_l, of b_l", tally.half_linear / seeds, ""},
-                      {"mean half-width of the interval of b_q, of b_q", tally.half_quadratic / seeds, ""},
-                      {"mean error of b_l, of its standard error", tally.error / seeds, ""},
-                      {"rms error of places in the tracks", route.rms(), "px"},
-                      {"mean of squared errors of places over their covariances, of 2", route.over_covariance(), ""},
-                      {"share of markers found", route.share_found(), ""},
-                      {"seeds", seeds, ""}},
-          .pictures = {{"estimates",
-                        "Both dampings from 100 films of the same motion; the truth is at 0.002 and 0.001.",
-                        {.title = "Damping of the model dropper, from films",
-                         .panels = {{.x = {"b_l", "kg/s"},
-                                     .y = {"b_q", "kg/m"},
-                                     .series = {tally.estimates, {"truth", {b_l}, {b_q}, false, true}}}}}}}};
+  return {
+      .numbers = {{"share of seeds with b_l and b_q both in their intervals of 95 %", tally.both / seeds, ""},
+                  {"share of seeds with b_l in its interval of 95 %", tally.linear / seeds, ""},
+                  {"share of seeds with b_q in its interval of 95 %", tally.quadratic / seeds, ""},
+                  {"mean half-width of the interval of b_l, of b_l", tally.half_linear / seeds, ""},
+                  {"mean half-width of the interval of b_q, of b_q", tally.half_quadratic / seeds, ""},
+                  {"mean error of b_l, of its standard error", tally.error / seeds, ""},
+                  {"rms error of places in the tracks", route.rms(), "px"},
+                  {"mean of squared errors of places over their covariances, of 2", route.over_covariance(), ""},
+                  {"share of markers found", route.share_found(), ""},
+                  {"seeds", seeds, ""}},
+      .pictures = {{"estimates",
+                    "Both dampings from 100 films of the same motion; the truth is at 2 g/s and 1 g/m.",
+                    {.title = "Damping of the model dropper, from films",
+                     .panels = {{.x = {"b_l", "g/s"},
+                                 .y = {"b_q", "g/m"},
+                                 .series = {tally.estimates, {"truth", {1e3 * b_l}, {1e3 * b_q}, false, true}}}}}}}};
 }
 
 #endif

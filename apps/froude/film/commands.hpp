@@ -20,6 +20,9 @@ struct TrackArguments {
   std::optional<std::string> colour = {};  ///< "#e02020": what is near to it is bright
   std::string order = "left to right";     ///< of the markers in the first frame
   std::optional<std::string> first = {};   ///< where they are there: "(412, 220), (530, 310)"
+  std::optional<Path> pattern = {};        ///< a picture of the marker, in place of discs
+  double likeness = 0.8;                   ///< of a place to it, normalised correlation, at least
+  std::optional<std::string> tags = {};    ///< family: markers are tags, and `markers` says their numbers, "pivot = 3"
   std::vector<std::string> lengths = {};   ///< "pin0 pin1 120 px 2 px": markers, their distance, its deviation
   std::optional<std::string> frame_rate = {}, from = {}, to = {};
   Path output;

@@ -27,7 +27,10 @@ void add_track(CLI::App& app, Request& request) {
       "    --annotated annotated.avi --picture ways.png");
   auto a = std::make_shared<TrackArguments>();
   command->add_option("film", a->film, "the film: whatever OpenCV's FFmpeg decodes")->required();
-  command->add_option("-m,--markers", a->markers, "names of the markers, \"pivot, joint, bob\", or how many")
+  command
+      ->add_option("-m,--markers", a->markers,
+                   "names of the markers, \"pivot, joint, bob\", or how many; of tags with their numbers, \"pivot = 3, "
+                   "bob = 7\"")
       ->required();
   command->add_option("--radius", a->radius, "of the discs")->capture_default_str();
   command->add_option("--contrast", a->contrast, "grey levels of 255 above their surroundings, at least")
@@ -35,6 +38,15 @@ void add_track(CLI::App& app, Request& request) {
   command->add_option("--roundness", a->roundness, "short over long axis, at least")->capture_default_str();
   command->add_flag("--dark", a->dark, "discs are darker than their surroundings");
   command->add_option("--colour", a->colour, "discs are of this colour: \"#e02020\"")->excludes("--dark");
+  auto* pattern = command
+                      ->add_option("--template", a->pattern,
+                                   "a picture of the marker (.png), cut out of a frame, in place of discs")
+                      ->excludes("--dark");
+  command->add_option("--likeness", a->likeness, "to the template, at least: normalised correlation")
+      ->needs(pattern)
+      ->capture_default_str();
+  command->add_option("--tags", a->tags, "family of tags, \"apriltag 36h11\", whose numbers --markers says")
+      ->excludes("--dark", "--colour", "--template");
   command->add_option("--order", a->order, "of the markers in the first frame")
       ->check(CLI::IsMember({"left to right", "top to bottom"}))
       ->capture_default_str();
@@ -43,7 +55,7 @@ void add_track(CLI::App& app, Request& request) {
   command->add_option("--frame-rate", a->frame_rate, "\"25 Hz\"; default: times as the file has them");
   command->add_option("--from", a->from, "leave out what comes before: \"1.2 s\"");
   command->add_option("--to", a->to, "leave out what comes after");
-  command->add_option("-o,--output", a->output, "the track (.csv)")->required();
+  command->add_option("-o,--output", a->output, "the track (.csv, or .h5)")->required();
   command->add_option("--annotated", a->annotated, "the film with what was found (.avi, .mkv or .mp4)");
   command->add_option("--picture", a->picture, "the first frame with the ways of all markers (.png)");
   call(*command, request, a, &track);

@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <thread>
 
 #include "fit/camera/detect.hpp"
+#include "fit/camera/shapes.hpp"
 #include "fit/camera/track_file.hpp"
 #include "froude/film/commands.hpp"
+#include "froude/film/markers.hpp"
 #include "froude/outputs.hpp"
 #include "froude/progress.hpp"
 #include "froude/report.hpp"
@@ -44,8 +47,10 @@ std::vector<std::string> split(const std::string& text, char at) {
   return out;
 }
 
+/// Without numbers of tags.
 std::vector<std::string> names_of(const std::string& markers) {
   std::vector<std::string> out = split(markers, ',');
+  for (std::string& name : out) name = hydro::trimmed(std::string_view(name).substr(0, name.find('=')));
   if (out.size() == 1 && std::all_of(out[0].begin(), out[0].end(), [](unsigned char c) { return std::isdigit(c); })) {
     const int count = static_cast<int>(hydro::parse_number(out[0]));
     if (count < 1 || count > 1000) throw wrong("--markers", "a film has 1 to 1000 markers", "write --markers 8");
@@ -56,8 +61,27 @@ std::vector<std::string> names_of(const std::string& markers) {
   for (const std::string& name : out) {
     if (std::count(out.begin(), out.end(), name) > 1)
       throw wrong("--markers", fmt::format("names \"{}\" twice", name), "give each marker a name of its own");
-    if (name.find_first_of(";[]()\"#%\t ") != std::string::npos)
+    if (name.find_first_of(";[]()\"#%/\t ") != std::string::npos)
       throw wrong("--markers", fmt::format("\"{}\" is no name", name), "take letters, digits, _ and -");
+  }
+  return out;
+}
+
+/// Of tags, in the order of the markers.
+std::vector<int> numbers_of(const std::string& markers, int count) {
+  std::vector<int> out;
+  for (const std::string& marker : split(markers, ',')) {
+    const auto at = marker.find('=');
+    if (at == std::string::npos)
+      throw wrong("--markers", fmt::format("does not say which tag \"{}\" is", marker),
+                  "write the number of each: \"pivot = 3, bob = 7\"");
+    const double number = pixels("--markers", std::string_view(marker).substr(at + 1));
+    if (!(number >= 0 && number < count) || number != std::floor(number))
+      throw wrong("--markers", fmt::format("there is no tag {} in this family", number),
+                  fmt::format("its tags are 0 to {}", count - 1));
+    if (std::find(out.begin(), out.end(), static_cast<int>(number)) != out.end())
+      throw wrong("--markers", fmt::format("names tag {} twice", number), "give each marker a tag of its own");
+    out.push_back(static_cast<int>(number));
   }
   return out;
 }
@@ -108,13 +132,75 @@ fc::AssignOptions assignment_of(const TrackArguments& a) {
   return out;
 }
 
+/// What one picture shows.
+struct Found {
+  fc::Detection detection = {};
+  std::vector<std::optional<fc::Sighting>> named = {};  ///< of tags, which say which marker they are
+};
+
+/// How markers are told from all else.
+class Finder {
+ public:
+  explicit Finder(const TrackArguments& a) : discs_(discs_of(a)), likeness_(a.likeness) {
+    if (a.pattern) pattern_ = film::read_picture(*a.pattern);
+    if (a.pattern && !(likeness_ > 0 && likeness_ <= 1))
+      throw wrong("--likeness", "must lie between 0 and 1", "0.8 passes what is hidden in part, too");
+    if (!a.tags) return;
+    tags_ = scene::placed({.file = "--tags"}, [&] { return std::make_shared<film::TagReader>(*a.tags); });
+    numbers_ = numbers_of(a.markers, tags_->count());
+  }
+
+  Found in(const fc::Picture& picture) const {
+    if (tags_) return tags_in(picture);
+    if (pattern_) return {like_pattern(picture)};
+    return {fc::detect(picture, discs_)};
+  }
+  bool tags() const { return tags_ != nullptr; }
+  bool discs() const { return !tags_ && !pattern_; }
+
+ private:
+  Found tags_in(const fc::Picture& picture) const {
+    Found out;
+    out.named.resize(numbers_.size());
+    for (const film::Tag& tag : tags_->read(picture)) {
+      const auto middle = fc::middle_of_square(picture, tag.corners);
+      if (!middle) {
+        ++out.detection.small;
+        continue;
+      }
+      out.detection.discs.push_back({.centre = *middle, .radius_px = 0, .contrast = 0, .axis_ratio = 1});
+      const auto at = std::find(numbers_.begin(), numbers_.end(), tag.number);
+      if (at != numbers_.end()) out.named[static_cast<std::size_t>(at - numbers_.begin())] = *middle;
+    }
+    return out;
+  }
+
+  fc::Detection like_pattern(const fc::Picture& picture) const {
+    fc::Detection out;
+    for (const Eigen::Vector2d& near : film::places_like(picture, *pattern_, likeness_)) {
+      if (const auto middle = fc::middle_of_pattern(picture, *pattern_, near))
+        out.discs.push_back({.centre = *middle, .radius_px = 0, .contrast = 0, .axis_ratio = 1});
+      else
+        ++out.at_edge;
+    }
+    return out;
+  }
+
+  fc::DetectOptions discs_;
+  double likeness_;
+  std::optional<fc::Picture> pattern_;
+  std::shared_ptr<const film::TagReader> tags_;
+  std::vector<int> numbers_;
+};
+
 /// What was found in the frames that are taken.
 struct Seen {
   std::vector<fc::Frame> frames;
-  std::vector<std::size_t> number;  ///< of each in the film
-  std::vector<std::size_t> empty;   ///< frames of the film in which nothing was found
-  std::size_t repeated = 0;         ///< frames that are the one before once more, which cameras write for lost ones
-  fc::Detection left_out;           ///< sums over the frames; no discs
+  std::vector<std::vector<std::optional<fc::Sighting>>> named;  ///< of tags, one a frame
+  std::vector<std::size_t> number;                              ///< of each in the film
+  std::vector<std::size_t> empty;                               ///< frames of the film in which nothing was found
+  std::size_t repeated = 0;  ///< frames that are the one before once more, which cameras write for lost ones
+  fc::Detection left_out;    ///< sums over the frames; no discs
   fc::Picture first;
   bool uneven = false;
 };
@@ -124,7 +210,7 @@ class Watching {
  public:
   Watching(const TrackArguments& a, film::FilmReader& reader)
       : reader_(reader),
-        options_(discs_of(a)),
+        finder_(a),
         colour_(colour_asked(a)),
         from_(time_of("--from", a.from, 0)),
         to_(time_of("--to", a.to, std::numeric_limits<double>::infinity())) {
@@ -177,22 +263,24 @@ class Watching {
   }
 
   void look(const std::vector<fc::Picture>& pictures) {
-    std::vector<fc::Detection> found(pictures.size());
+    std::vector<Found> found(pictures.size());
     const std::size_t threads = std::max(1u, std::thread::hardware_concurrency());
     std::vector<std::thread> all;
     for (std::size_t t = 0; t < threads; ++t)
       all.emplace_back([&, t] {
-        for (std::size_t i = t; i < pictures.size(); i += threads) found[i] = fc::detect(pictures[i], options_);
+        for (std::size_t i = t; i < pictures.size(); i += threads) found[i] = finder_.in(pictures[i]);
       });
     for (auto& thread : all) thread.join();
     for (std::size_t i = 0; i < pictures.size(); ++i) {
       const std::size_t k = out_.frames.size() - pictures.size() + i;
-      for (const fc::Disc& d : found[i].discs) out_.frames[k].found.push_back(d.centre);
-      if (found[i].discs.empty()) out_.empty.push_back(out_.number[k]);
-      out_.left_out.small += found[i].small;
-      out_.left_out.large += found[i].large;
-      out_.left_out.drawn_out += found[i].drawn_out;
-      out_.left_out.at_edge += found[i].at_edge;
+      const fc::Detection& here = found[i].detection;
+      for (const fc::Disc& d : here.discs) out_.frames[k].found.push_back(d.centre);
+      if (finder_.tags()) out_.named.push_back(std::move(found[i].named));
+      if (here.discs.empty()) out_.empty.push_back(out_.number[k]);
+      out_.left_out.small += here.small;
+      out_.left_out.large += here.large;
+      out_.left_out.drawn_out += here.drawn_out;
+      out_.left_out.at_edge += here.at_edge;
     }
   }
 
@@ -209,13 +297,37 @@ class Watching {
   }
 
   film::FilmReader& reader_;
-  fc::DetectOptions options_;
+  Finder finder_;
   std::optional<film::Colour> colour_;
   double from_, to_, rate_ = 0;
   std::size_t read_ = 0;
   fc::Picture before_;
   Seen out_;
 };
+
+/// Tags say themselves which marker they are. \throws hydro::InputError for one that is never seen
+fc::Assigned by_their_tags(const Seen& seen, const std::vector<std::string>& names) {
+  fc::Assigned out{.track = {},
+                   .sightings = 0,
+                   .left_over = 0,
+                   .missing = std::vector<std::size_t>(names.size(), 0),
+                   .acceleration = 0};
+  for (const std::string& name : names) out.track.markers.push_back({name, {}});
+  for (std::size_t i = 0; i < seen.frames.size(); ++i) {
+    out.track.time.push_back(seen.frames[i].time);
+    out.left_over += seen.frames[i].found.size();
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const auto& at = out.track.markers[k].seen.emplace_back(seen.named[i][k]);
+      ++(at ? out.sightings : out.missing[k]);
+    }
+  }
+  out.left_over -= out.sightings;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (out.missing[k] == seen.frames.size())
+      throw wrong("--markers", fmt::format("the tag of \"{}\" is in no frame", names[k]),
+                  "look at a frame: is its number right, is it whole, flat and larger than 12 px?");
+  return out;
+}
 
 /// Largest step between frames, px.
 double fastest(const fc::Track& track) {
@@ -304,20 +416,30 @@ void draw(const Path& file, const Seen& seen, const fc::Track& track) {
     for (const auto& s : track.markers[k].seen)
       if (s) path.push_back(s->at);
     drawn.path(path, film::colour_of(k));
-    const Eigen::Vector2d& first = track.markers[k].seen.front()->at;
+    const Eigen::Vector2d& first = path.front();  // each marker is seen somewhere
     drawn.cross(first, 8, film::colour_of(k));
     drawn.label(first + Eigen::Vector2d(10, -10), track.markers[k].name, film::colour_of(k));
   }
   drawn.write(file);
 }
 
-Report told(const TrackArguments& a, const Eigen::Vector2i& size, const Seen& seen, const fc::Assigned& assigned) {
+void say_what_was_found(const TrackArguments& a, const Seen& seen, const fc::Assigned& assigned, Report& report) {
+  const std::size_t markers = assigned.track.markers.size();
+  if (a.tags) {
+    report.say("tags of {}: {} of the {} markers, {} others", fact("tags", *a.tags), fact("given", assigned.sightings),
+               markers, fact("left_over", assigned.left_over));
+    report.say("tags whose edges could not be told: {}", fact("without_edges", seen.left_out.small));
+    return;
+  }
+  if (a.pattern) {
+    report.say("places like {}, correlation {:g} at least: {} given to {} markers, {} left over",
+               fact("template", a.pattern->filename().string()), fact("likeness", a.likeness),
+               fact("given", assigned.sightings), markers, fact("left_over", assigned.left_over));
+    report.say("places that are like it and do not fit it, or lie at an edge: {}",
+               fact("at_edge", seen.left_out.at_edge));
+    return;
+  }
   const fc::DetectOptions discs = discs_of(a);
-  Report report;
-  report.keep("film", a.film.filename().string());
-  report.say("{}: {} x {} px, {} frames from {:.6g} s to {:.6g} s", a.film.filename().string(), fact("width", size.x()),
-             fact("height", size.y()), fact("frames", seen.frames.size()), fact("from_s", seen.frames.front().time),
-             fact("to_s", seen.frames.back().time));
   report.say(
       "discs of radius {:g} to {:g} px, {:g} levels above their surroundings at least, short over long axis {:g} at "
       "least: {} given to {} markers, {} left over",
@@ -329,7 +451,18 @@ Report told(const TrackArguments& a, const Eigen::Vector2i& size, const Seen& se
       "another",
       fact("small", seen.left_out.small), fact("large", seen.left_out.large),
       fact("drawn_out", seen.left_out.drawn_out), fact("at_edge", seen.left_out.at_edge));
-  report.say("predictions allow for accelerations of {:.3g} px/s^2", fact("acceleration_px_s2", assigned.acceleration));
+}
+
+Report told(const TrackArguments& a, const Eigen::Vector2i& size, const Seen& seen, const fc::Assigned& assigned) {
+  Report report;
+  report.keep("film", a.film.filename().string());
+  report.say("{}: {} x {} px, {} frames from {:.6g} s to {:.6g} s", a.film.filename().string(), fact("width", size.x()),
+             fact("height", size.y()), fact("frames", seen.frames.size()), fact("from_s", seen.frames.front().time),
+             fact("to_s", seen.frames.back().time));
+  say_what_was_found(a, seen, assigned, report);
+  if (!a.tags)
+    report.say("predictions allow for accelerations of {:.3g} px/s^2",
+               fact("acceleration_px_s2", assigned.acceleration));
   add_markers(assigned, report);
   report.sentences("cautions", "note: {}", cautions_of(seen, assigned));
   return report;
@@ -341,7 +474,6 @@ void track(const TrackArguments& a, const Console& console) {
   require_outputs(named({{"-o", a.output}, {"--annotated", a.annotated}, {"--picture", a.picture}}),
                   {{"the film", a.film}});
   const fc::AssignOptions options = assignment_of(a);
-  discs_of(a);
   film::FilmReader reader(a.film);
   Progress progress(console.err, "track", console.show_progress);
   const Seen seen = Watching(a, reader).all(progress);
@@ -353,10 +485,15 @@ void track(const TrackArguments& a, const Console& console) {
     throw InputError(fmt::format("{} frames lie in the time that is asked for", seen.frames.size()), place,
                      "widen --from and --to");
   if (seen.empty.size() == seen.frames.size())
-    throw InputError(
-        "no frame shows a disc of this size and contrast", place,
-        "look at a frame: radii (--radius), contrast (--contrast), --dark or --colour must be those of the markers");
-  fc::Assigned assigned = scene::placed(place, [&] { return fc::assign(seen.frames, options); });
+    throw InputError(a.tags      ? "no frame shows a tag of this family"
+                     : a.pattern ? "no frame shows a place that is like the template"
+                                 : "no frame shows a disc of this size and contrast",
+                     place,
+                     "look at a frame: family (--tags) or template, radii (--radius), contrast (--contrast), --dark or "
+                     "--colour must "
+                     "be those of the markers");
+  fc::Assigned assigned = a.tags ? by_their_tags(seen, options.names)
+                                 : scene::placed(place, [&] { return fc::assign(seen.frames, options); });
   assigned.track.size = reader.size();
   fc::write_track(
       a.output, assigned.track,

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "froude/film/grey.hpp"
 #include "hydro/base/error.hpp"
 
 namespace froude::film {
@@ -18,11 +19,6 @@ using hydro::InputError;
 
 /// OpenCV tells of each codec that it tries; what matters is told here.
 void be_quiet() { cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT); }
-
-/// The same pixels, not copied.
-cv::Mat grey_of(const Picture& picture) {
-  return {picture.height, picture.width, CV_8UC1, const_cast<std::uint8_t*>(picture.grey.data())};
-}
 
 cv::Mat coloured(const Picture& picture) {
   cv::Mat out;

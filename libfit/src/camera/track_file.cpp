@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -14,6 +15,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
 #include "hydro/io/atomic_file.hpp"
+#include "hydro/io/hdf5.hpp"
 
 namespace fit::camera {
 namespace {
@@ -43,12 +45,12 @@ std::vector<TrackLine> lines_of(std::string_view text) {
   return out;
 }
 
-/// "# picture: 1280 x 720 px", which write_track() leaves among its comments.
-Eigen::Vector2i size_in(std::string_view text) {
-  const auto at = text.find("# picture: ");
+/// "1280 x 720 px", which write_track() leaves in the file, CSV after "# picture: ".
+Eigen::Vector2i size_in(std::string_view text, std::string_view before) {
+  const auto at = text.find(before);
   int width = 0, height = 0;
   if (at == std::string_view::npos ||
-      std::sscanf(std::string(text.substr(at, 60)).c_str(), "# picture: %d x %d px", &width, &height) != 2)
+      std::sscanf(std::string(text.substr(at + before.size(), 60)).c_str(), "%d x %d px", &width, &height) != 2)
     return {0, 0};
   return {width, height};
 }
@@ -184,6 +186,38 @@ RawTrack raw_track(std::string_view text, const std::string& file_name, const Tr
   }
   return out;
 }
+
+/// Columns are the one-dimensional datasets of the root.
+RawTrack raw_track_of_hdf5(const std::filesystem::path& path, const TrackColumns& asked) {
+  const hydro::io::Hdf5Reader file(path);
+  RawTrack out{.file = path.string(),
+               .header = {.file = path.string()},
+               .names = {},
+               .units = {},
+               .columns = {},
+               .line_of_row = {}};
+  if (!asked.names.empty())
+    throw InputError("an HDF5 file names its columns itself", out.header, "leave out [data] columns");
+  for (const std::string& name : file.children("/")) {
+    if (!file.has("/" + name) || file.is_text("/" + name)) continue;
+    hydro::io::Array column = file.numbers("/" + name);
+    if (column.shape.size() != 1) continue;
+    if (!out.columns.empty() && column.values.size() != out.columns[0].size())
+      throw InputError(fmt::format("the dataset /{} has {} rows, /{} has {}", name, column.values.size(), out.names[0],
+                                   out.columns[0].size()),
+                       out.header, "each frame is a row of every column");
+    out.names.push_back(name);
+    out.units.push_back(file.has_attribute("/" + name, "units") ? file.text_attribute("/" + name, "units") : "");
+    out.columns.push_back(std::move(column.values));
+  }
+  if (out.columns.empty() || out.columns[0].empty())
+    throw InputError("the track has no one-dimensional dataset with numbers", out.header,
+                     "write time and places as datasets of the root, one a column");
+  for (std::size_t i = 0; i < out.columns[0].size(); ++i) out.line_of_row.push_back(static_cast<int>(i + 1));
+  return out;
+}
+
+bool is_hdf5(std::string_view text) { return text.starts_with("\x89HDF\r\n\x1a\n"); }
 
 bool is_pixel(const std::string& unit) { return unit == "px" || unit == "pixel" || unit == "pixels"; }
 
@@ -327,49 +361,105 @@ Marker marker_of(const RawTrack& raw, const MarkerColumns& columns, const TrackC
 
 }  // namespace
 
-Track parse_track(std::string_view text, const std::string& file_name, const TrackColumns& asked) {
-  const RawTrack raw = raw_track(text, file_name, asked);
+namespace {
+
+Track track_of(const RawTrack& raw, const TrackColumns& asked) {
   const auto markers = markers_of(raw, asked);
   ask_for_units(raw, markers, asked);
   Track out;
-  out.size = size_in(text);
   out.time = times_of(raw, asked);
   for (const auto& m : markers) out.markers.push_back(marker_of(raw, m, asked, out));
   return out;
 }
 
-Track read_track(const std::filesystem::path& path, const TrackColumns& columns) {
-  return parse_track(hydro::io::read_text(path), path.string(), columns);
+/// A column as it is written; NaN is an empty cell.
+struct WrittenColumn {
+  std::string name, unit;
+  int digits;
+  std::vector<double> values = {};
+};
+
+std::vector<WrittenColumn> columns_of(const Track& track) {
+  const std::string unit = track.in_metres ? "m" : "px", squared = unit + "^2";
+  std::vector<WrittenColumn> out{{"t", "s", 9, track.time}};
+  for (const Marker& m : track.markers) {
+    std::array<WrittenColumn, 5> own{{{m.name + "_x", unit, 8},
+                                      {m.name + "_y", unit, 8},
+                                      {m.name + "_xx", squared, 6},
+                                      {m.name + "_xy", squared, 6},
+                                      {m.name + "_yy", squared, 6}}};
+    for (const auto& s : m.seen) {
+      const bool errors = s && s->has_covariance();
+      const double all[] = {s ? s->at.x() : unseen, s ? s->at.y() : unseen, errors ? s->covariance(0, 0) : unseen,
+                            errors ? s->covariance(0, 1) : unseen, errors ? s->covariance(1, 1) : unseen};
+      for (std::size_t c = 0; c < own.size(); ++c) own[c].values.push_back(all[c]);
+    }
+    out.insert(out.end(), std::make_move_iterator(own.begin()), std::make_move_iterator(own.end()));
+  }
+  return out;
 }
 
-void write_track(const std::filesystem::path& path, const Track& track, const std::vector<std::string>& comments) {
+std::string size_of(const Track& track) { return fmt::format("{} x {} px", track.size.x(), track.size.y()); }
+
+void write_hdf5(const std::filesystem::path& path, const Track& track, const std::vector<std::string>& comments) {
+  hydro::io::Hdf5Writer file;
+  for (const WrittenColumn& c : columns_of(track)) {
+    const std::string dataset = "/" + c.name;
+    file.write(dataset, c.values, {c.values.size()});
+    file.attribute(dataset, "units", c.unit);
+    if (c.name == "t")
+      file.make_dimension(dataset);
+    else
+      file.attach_dimension(dataset, 0, "/t");
+  }
+  file.attribute("/", "comment", fmt::format("{}", fmt::join(comments, "\n")));
+  if (track.size.x() > 0) file.attribute("/", "picture", size_of(track));
+  file.save(path);
+}
+
+void write_csv(const std::filesystem::path& path, const Track& track, const std::vector<std::string>& comments) {
   fmt::memory_buffer out;
   const auto add = [&]<class... Args>(fmt::format_string<Args...> text, Args&&... args) {
     fmt::format_to(std::back_inserter(out), text, std::forward<Args>(args)...);
   };
   for (const std::string& comment : comments) add("# {}\n", comment);
-  if (track.size.x() > 0) add("# picture: {} x {} px\n", track.size.x(), track.size.y());
-  const char* unit = track.in_metres ? "m" : "px";
-  add("t [s]");
-  for (const Marker& m : track.markers)
-    add(",{0}_x [{1}],{0}_y [{1}],{0}_xx [{1}^2],{0}_xy [{1}^2],{0}_yy [{1}^2]", m.name, unit);
-  for (std::size_t i = 0; i < track.frames(); ++i) {
-    add("\n{:.9g}", track.time[i]);
-    for (const Marker& m : track.markers) {
-      if (!m.seen[i]) {
-        add(",,,,,");
-        continue;
-      }
-      const Sighting& s = *m.seen[i];
-      add(",{:.8g},{:.8g}", s.at.x(), s.at.y());
-      if (s.has_covariance())
-        add(",{:.6g},{:.6g},{:.6g}", s.covariance(0, 0), s.covariance(0, 1), s.covariance(1, 1));
-      else
-        add(",,,");
-    }
-  }
-  add("\n");
+  if (track.size.x() > 0) add("# picture: {}\n", size_of(track));
+  const auto columns = columns_of(track);
+  const auto add_row = [&](const auto& cell) {
+    for (std::size_t c = 0; c < columns.size(); ++c) add("{}{}", c > 0 ? "," : "", cell(columns[c]));
+    add("\n");
+  };
+  add_row([](const WrittenColumn& c) { return fmt::format("{} [{}]", c.name, c.unit); });
+  for (std::size_t i = 0; i < track.frames(); ++i)
+    add_row([&](const WrittenColumn& c) {
+      return std::isnan(c.values[i]) ? std::string() : fmt::format("{:.{}g}", c.values[i], c.digits);
+    });
   hydro::io::write_atomically(path, std::string_view(out.data(), out.size()));
+}
+
+}  // namespace
+
+Track parse_track(std::string_view text, const std::string& file_name, const TrackColumns& asked) {
+  Track out = track_of(raw_track(text, file_name, asked), asked);
+  out.size = size_in(text, "# picture: ");
+  return out;
+}
+
+Track read_track(const std::filesystem::path& path, const TrackColumns& columns) {
+  const std::string text = hydro::io::read_text(path);
+  if (!is_hdf5(text)) return parse_track(text, path.string(), columns);
+  Track out = track_of(raw_track_of_hdf5(path, columns), columns);
+  const hydro::io::Hdf5Reader file(path);
+  if (file.has_attribute("/", "picture")) out.size = size_in(file.text_attribute("/", "picture"), "");
+  return out;
+}
+
+void write_track(const std::filesystem::path& path, const Track& track, const std::vector<std::string>& comments) {
+  const auto ending = path.extension();
+  if (ending == ".h5" || ending == ".nc")
+    write_hdf5(path, track, comments);
+  else
+    write_csv(path, track, comments);
 }
 
 }  // namespace fit::camera

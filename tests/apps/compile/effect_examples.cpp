@@ -227,6 +227,9 @@ std::vector<Example> of_lines() {
       line("growth", wide + "buoyancy = true\ngrowth = { thickness = \"10 mm\", density = \"1200 kg/m^3\" }\n"),
       line("bed", wide + "bed = { stiffness = \"3 MPa/m\" }\n"),
       line("release", "release = { node = 4, at = \"(3, 0, -3) m\" }\n"),
+      line("start",
+           "start = { at = [\"(0.1, 0, -1.995) m\", \"(0.2, 0, -2.99) m\", \"(0.3, 0, -3.985) m\", \"(0.4, 0, -4.98) "
+           "m\"] }\n"),
       line("prescribed end", "prescribed = { end = \"from\", file = \"path.csv\" }\n"),
       line("snaps", elastic + "tension_only = true\nsnaps = { slack_below = \"1 N\", snap_above = \"1 kN\" }\n"),
       line("Lyapunov exponent", "lyapunov = { from = \"0.5 s\" }\n"),

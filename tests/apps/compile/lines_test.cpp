@@ -50,6 +50,44 @@ TEST(Lines, AloneInASceneStayAtRestWhereNothingMovesThem) {
   EXPECT_NEAR(record.signal("d.from.force").back(), record.signal("d.to.force").back(), 1e-9);
 }
 
+/// A bob on a link without mass, as a film sees it: a place and a velocity.
+std::string filmed(const std::string& start) {
+  return water +
+         "[[line]]\nname = \"p\"\nfrom = \"(0, 0, 0) m\"\nnode_mass = \"2 kg\"\nlink = [{ length = \"1 m\", mass = \"0 "
+         "kg\" }]\n"
+         "[line.start]\n" +
+         start + ask + "[solve]\nstep = \"0.0025 s\"\n";
+}
+
+TEST(Lines, StartAsTheyWereMeasuredAndSwingOnFromThere) {
+  // Small swings: θ = θ₀ cos ωt + θ̇₀/ω sin ωt, ω² = g/L, about the vertical; amplitude 0.06: ω is lower by 2e-4.
+  const auto record =
+      simulate(parse(filmed("at = [\"(0.05, 0, -0.99875) m\"]\nvelocity = [\"(0.1, 0, 0.005) m/s\"]\n")));
+  const double omega = std::sqrt(9.80665);
+  for (const std::size_t i : {std::size_t{0}, std::size_t{50}, std::size_t{120}, std::size_t{200}}) {
+    const double t = record.time[i];
+    EXPECT_NEAR(record.signal("p.node1.x")[i], 0.05 * std::cos(omega * t) + 0.1 / omega * std::sin(omega * t), 1e-4)
+        << t;
+  }
+  EXPECT_NEAR(record.signal("p.node1.y").back(), 0, 1e-12);
+}
+
+TEST(Lines, StartAsTheyWereMeasuredWithLinksBroughtToTheirLengths) {
+  const auto measured = parse(filmed("at = [\"(0.606, 0, -0.808) m\"]\n"));  // 1 % too far out
+  const auto record = simulate(measured);
+  EXPECT_NEAR(record.signal("p.node1.x").front(), 0.6, 1e-9);
+  EXPECT_NEAR(record.signal("p.node1.z").front(), -0.8, 1e-9);
+  EXPECT_THAT([] { simulate(parse(filmed("at = [\"(0.66, 0, -0.88) m\"]\n"))); },
+              ThrowsMessage<hydro::InputError>(
+                  AllOf(HasSubstr("link 1 is 1.1 m long where the line starts"), HasSubstr("3 %"))));
+  EXPECT_THAT([] { parse(filmed("at = [\"(0.6, 0, -0.8) m\", \"(1, 0, -1) m\"]\n")); },
+              ThrowsMessage<hydro::InputError>(HasSubstr("has 2 nodes, the line has 1 that are not held")));
+  EXPECT_THAT([] { parse(filmed("at = [\"(0.6, 0, -0.8)\"]\n")); },
+              ThrowsMessage<hydro::InputError>(HasSubstr("unit")));
+  EXPECT_THAT([] { parse(filmed("at = [\"(0.6, 0, -0.8) m\"]\n[line.release]\nnode = 1\nat = \"(1, 0, 0) m\"\n")); },
+              ThrowsMessage<hydro::InputError>(HasSubstr("so does [line.release]")));
+}
+
 TEST(Lines, StandBesideBodiesInTheSameRun) {
   const auto both =
       simulate(parse(water + loop +

@@ -10,6 +10,7 @@
 
 #include "hydro/base/error.hpp"
 #include "hydro/base/random.hpp"
+#include "support/refused.hpp"
 
 namespace camera_assign_test {
 namespace {
@@ -18,18 +19,9 @@ using fit::camera::assign;
 using fit::camera::AssignOptions;
 using fit::camera::Frame;
 using fit::camera::Sighting;
+using support::refused;
 using testing::AllOf;
 using testing::HasSubstr;
-
-template <class Call>
-std::string refused(Call call) {
-  try {
-    call();
-  } catch (const hydro::InputError& e) {
-    return e.what();
-  }
-  return "nothing was refused";
-}
 
 TEST(LeastAssignment, IsTheLeastOfAllPermutations) {
   const hydro::RandomStream random(4, 17);

@@ -12,6 +12,7 @@
 #include "fit/simulated.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/random.hpp"
+#include "support/refused.hpp"
 
 namespace camera_channels_test {
 namespace {
@@ -21,17 +22,8 @@ using fit::camera::Channels;
 using fit::camera::Sighting;
 using fit::camera::Track;
 using std::numbers::pi;
+using support::refused;
 using testing::HasSubstr;
-
-template <class Call>
-std::string refused(Call call) {
-  try {
-    call();
-  } catch (const hydro::InputError& e) {
-    return e.what();
-  }
-  return "nothing was refused";
-}
 
 const Eigen::Matrix2d errors = (Eigen::Matrix2d() << 4e-6, 1e-6, 1e-6, 2e-6).finished();
 

@@ -3,9 +3,13 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "fit/camera/track_file.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/io/hdf5.hpp"
+#include "support/refused.hpp"
 #include "support/scratch.hpp"
 
 namespace camera_track_test {
@@ -14,18 +18,9 @@ namespace {
 using fit::camera::parse_track;
 using fit::camera::Track;
 using fit::camera::TrackColumns;
+using support::refused;
 using testing::AllOf;
 using testing::HasSubstr;
-
-template <class Call>
-std::string refused(Call call) {
-  try {
-    call();
-  } catch (const hydro::InputError& e) {
-    return e.what();
-  }
-  return "nothing was refused";
-}
 
 TEST(TrackFile, OfAnotherProgramIsReadAsItIs) {
   const Track t = parse_track(
@@ -90,15 +85,44 @@ TEST(TrackFile, ComesBackWithGapsAndCovariances) {
   t.markers[0].seen[0] = {{1.5, 2.25}, errors};
   t.markers[0].seen[2] = {{3.5, 4.25}, errors};
   t.markers[1].seen[1] = {{7, 8}};
-  const auto file = support::scratch_folder() / "track.csv";
-  write_track(file, t, {"made by a test"});
-  const Track back = fit::camera::read_track(file, {.time = "t"});
-  EXPECT_EQ(back.size, t.size);
-  ASSERT_EQ(back.markers.size(), 2u);
-  EXPECT_FALSE(back.markers[0].seen[1]);
-  EXPECT_EQ(back.markers[0].seen[2]->at, t.markers[0].seen[2]->at);
-  EXPECT_EQ(back.markers[0].seen[2]->covariance, errors);
-  EXPECT_FALSE(back.marker("b.c").seen[1]->has_covariance());
+  for (const char* name : {"track.csv", "track.h5"}) {
+    const auto file = support::scratch_folder() / name;
+    write_track(file, t, {"made by a test"});
+    const Track back = fit::camera::read_track(file, {.time = "t"});
+    EXPECT_EQ(back.size, t.size);
+    ASSERT_EQ(back.markers.size(), 2u) << name;
+    EXPECT_FALSE(back.markers[0].seen[1]);
+    EXPECT_EQ(back.markers[0].seen[2]->at, t.markers[0].seen[2]->at);
+    EXPECT_EQ(back.markers[0].seen[2]->covariance, errors);
+    EXPECT_FALSE(back.marker("b.c").seen[1]->has_covariance());
+  }
+}
+
+TEST(TrackFile, OfHdf5IsThatOfAnotherProgramTooAndSaysWhatItLacks) {
+  const auto file = support::scratch_folder() / "other.h5";
+  const auto written = [&](std::size_t rows, const char* unit) {
+    hydro::io::Hdf5Writer h;
+    const std::vector<double> values{0, 1, 3};
+    for (const char* name : {"/time", "/bob_x"}) h.write(name, values, {3});
+    h.write("/bob_y", std::span(values).first(rows), {rows});
+    if (*unit != 0)
+      for (const char* name : {"/bob_x", "/bob_y"}) h.attribute(name, "units", unit);
+    h.attribute("/time", "units", "s");
+    h.save(file);
+  };
+  const auto told = [&](const TrackColumns& columns) {
+    return refused([&] { fit::camera::read_track(file, columns); });
+  };
+  written(3, "mm");
+  const Track t = fit::camera::read_track(file, {.time = "time"});
+  EXPECT_TRUE(t.in_metres);
+  EXPECT_DOUBLE_EQ(t.marker("bob").seen[2]->at.y(), 0.003);
+  EXPECT_THAT(told({.time = "tim"}), HasSubstr("did you mean \"time\"?"));
+  EXPECT_THAT(told({.names = {"t", "x", "y"}, .time = "t"}), HasSubstr("names its columns itself"));
+  written(3, "");
+  EXPECT_THAT(told({.time = "time"}), HasSubstr("in which units are the columns bob_x, bob_y?"));
+  written(2, "px");
+  EXPECT_THAT(told({.time = "time"}), HasSubstr("has 2 rows"));
 }
 
 TEST(Track, GoesToMetresWithItsErrors) {

@@ -6,13 +6,14 @@
 
 #include "fit/camera/lens.hpp"
 #include "fit/camera/view.hpp"
-#include "hydro/base/error.hpp"
+#include "support/refused.hpp"
 
 namespace camera_view_test {
 namespace {
 
 using fit::camera::Lens;
 using fit::camera::View;
+using support::refused;
 using testing::HasSubstr;
 
 /// Huijgen (2024), table 7.2, with the tangential part that it has not.
@@ -22,16 +23,6 @@ Lens huijgen() {
           .radial = {-0.0494, 0.0301, 0},
           .tangential = {0.001, -0.0005},
           .size = {3024, 2016}};
-}
-
-template <class Call>
-std::string refused(Call call) {
-  try {
-    call();
-  } catch (const hydro::InputError& e) {
-    return e.what();
-  }
-  return "nothing was refused";
 }
 
 TEST(Lens, IsUndoneByItsInverseOverTheWholePicture) {

@@ -1,8 +1,13 @@
-/// \file  What the discs of a film cost: frames a second of one core, and of all, at 1280 × 720. See README.md.
+/// \file  What films cost: frames a second of the search for discs, and of `froude track`, at 1280 × 720. See
+/// README.md.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <ostream>
 #include <thread>
 #include <vector>
 
@@ -10,16 +15,23 @@
 #include "fit/camera/render.hpp"
 #include "hydro/base/error.hpp"
 
+#ifdef FROUDE_FILMS
+#include "fit/camera/track_file.hpp"
+#include "froude/film/commands.hpp"
+#include "froude/film/video.hpp"
+#endif
+
 namespace {
 
 namespace fc = fit::camera;
 constexpr int frames = 64, markers = 8;
 
-/// Eight discs of ten pixels on a circle that turns.
+/// Eight discs of ten pixels on a circle that turns once in all frames, which may follow each other again and again.
 std::vector<Eigen::Vector2d> places(double t) {
+  const double omega = 2 * std::numbers::pi / (0.04 * frames);
   std::vector<Eigen::Vector2d> out;
   for (int k = 0; k < markers; ++k)
-    out.emplace_back(0.64 + 0.25 * std::cos(2 * t + 0.785 * k), -0.36 + 0.25 * std::sin(2 * t + 0.785 * k));
+    out.emplace_back(0.64 + 0.25 * std::cos(omega * t + 0.785 * k), -0.36 + 0.25 * std::sin(omega * t + 0.785 * k));
   return out;
 }
 
@@ -47,6 +59,64 @@ double error_of(const fc::Filming& film, const fc::Detection& found, double t) {
   return std::sqrt(squares / markers);
 }
 
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void time_detection(const std::vector<fc::Picture>& pictures, const fc::DetectOptions& options) {
+  for (const unsigned threads : {1u, std::max(1u, std::thread::hardware_concurrency())}) {
+    double best = 1e9;
+    for (int round = 0; round < 5; ++round) {
+      const auto start = std::chrono::steady_clock::now();
+      std::vector<std::thread> all;
+      for (unsigned t = 0; t < threads; ++t)
+        all.emplace_back([&, t] {
+          for (std::size_t i = t; i < pictures.size(); i += threads) detect(pictures[i], options);
+        });
+      for (auto& thread : all) thread.join();
+      best = std::min(best, seconds_since(start));
+    }
+    fmt::print("discs, {} thread{}: {:.0f} frames a second\n", threads, threads == 1 ? "" : "s",
+               static_cast<double>(pictures.size()) / best);
+  }
+}
+
+#ifdef FROUDE_FILMS
+/// The whole of `froude track`, from a film of these pictures four times over to a track.
+void time_track(const fc::Filming& film, const std::vector<fc::Picture>& pictures, const char* name) {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / name, track = file.string() + ".csv";
+  {
+    froude::film::FilmWriter writer(file, film.size, 25);
+    for (int i = 0; i < 4 * frames; ++i) writer.add(pictures[static_cast<std::size_t>(i % frames)]);
+  }
+  std::string first;
+  for (const Eigen::Vector2d& place : places(0)) {
+    const Eigen::Vector2d pixel = pixel_of(film.view, place);
+    first += fmt::format("{}({:.0f}, {:.0f})", first.empty() ? "" : ", ", pixel.x(), pixel.y());
+  }
+  std::ostream nowhere(nullptr);
+  double best = 1e9;
+  for (int round = 0; round < 3; ++round) {
+    const auto start = std::chrono::steady_clock::now();
+    froude::track(
+        {.film = file, .markers = fmt::to_string(markers), .radius = "6 px .. 15 px", .first = first, .output = track},
+        {nowhere, nowhere});
+    best = std::min(best, seconds_since(start));
+  }
+  const fc::Track found = fc::read_track(track, {.time = "t"});
+  for (std::size_t k = 0; k < found.markers.size(); ++k)
+    for (std::size_t i = 0; i < frames; ++i) {
+      const auto& seen = found.markers[k].seen[i];
+      const Eigen::Vector2d truth = pixel_of(film.view, places(0.04 * static_cast<double>(i))[k]);
+      hydro::require(seen && (seen->at - truth).norm() < 0.5, "a disc was missed in frame {}", i + 1);
+    }
+  fmt::print("froude track of {} ({:.0f} kB a frame): {:.0f} frames a second\n", name,
+             static_cast<double>(std::filesystem::file_size(file)) / 1000 / (4 * frames), 4 * frames / best);
+  std::filesystem::remove(file);
+  std::filesystem::remove(track);
+}
+#endif
+
 }  // namespace
 
 int main() {
@@ -59,18 +129,8 @@ int main() {
   for (int i = 0; i < frames; ++i)
     error = std::max(error, error_of(film, detect(pictures[static_cast<std::size_t>(i)], options), 0.04 * i));
   fmt::print("{} frames of 1280 x 720 px with {} discs, error {:.3f} px at most\n", frames, markers, error);
-  for (const unsigned threads : {1u, std::max(1u, std::thread::hardware_concurrency())}) {
-    double best = 1e9;
-    for (int round = 0; round < 5; ++round) {
-      const auto start = std::chrono::steady_clock::now();
-      std::vector<std::thread> all;
-      for (unsigned t = 0; t < threads; ++t)
-        all.emplace_back([&, t] {
-          for (std::size_t i = t; i < pictures.size(); i += threads) detect(pictures[i], options);
-        });
-      for (auto& thread : all) thread.join();
-      best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-    }
-    fmt::print("{} thread{}: {:.0f} frames a second\n", threads, threads == 1 ? "" : "s", frames / best);
-  }
+  time_detection(pictures, options);
+#ifdef FROUDE_FILMS
+  for (const char* name : {"cost_camera.mp4", "cost_camera.avi"}) time_track(film, pictures, name);
+#endif
 }

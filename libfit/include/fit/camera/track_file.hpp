@@ -5,6 +5,8 @@
 ///   t [s]; bob_x [px]; bob_y [px]           ";", tabs, "," or blanks between; units here or from who reads
 ///   0,00; 512,31; 388,02                    decimal comma where a comma does not separate
 ///   0,04; ; NaN                             a marker that was not seen: empty, NaN, NA or -
+///
+///        or HDF5 (netCDF-4), whose columns are the one-dimensional datasets of the root, with attributes `units`.
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -32,7 +34,8 @@ struct TrackColumns {
 Track read_track(const std::filesystem::path& path, const TrackColumns& columns);
 Track parse_track(std::string_view text, const std::string& file_name, const TrackColumns& columns);
 
-/// As read_track() takes it without being told anything but `time = "t"`. \throws hydro::InputError
+/// As read_track() takes it without being told anything but `time = "t"`: HDF5 for the endings .h5 and .nc, else CSV,
+/// which rounds places to eight digits. \throws hydro::InputError
 void write_track(const std::filesystem::path& path, const Track& track, const std::vector<std::string>& comments);
 
 }  // namespace fit::camera
