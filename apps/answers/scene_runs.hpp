@@ -41,7 +41,8 @@ struct MeasuredRun {
   /// \throws hydro::InputError for fewer than 8 samples in a window, or a start between samples of the run
   static MeasuredRun of(std::vector<double> time, Eigen::MatrixXd values, double window_s);
   /// Frames at their own times, counted from the run's start: with gaps, and uneven. Between samples the run is a
-  /// polynomial of degree 5 (F102). \throws hydro::InputError as of(), and for a window in which fewer than 8 frames lie
+  /// polynomial of degree 5 (F102). \throws hydro::InputError as of(), and for a window in which fewer than 8 frames
+  /// lie
   static MeasuredRun of_film(std::vector<double> time, Eigen::MatrixXd values, double window_s);
   /// The file of a fit scene, the signals of its model. \throws hydro::InputError as of(), and for more than one file
   static MeasuredRun read(const scene::FitScene& fit, const scene::MotionModel& model);
