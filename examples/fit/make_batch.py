@@ -10,8 +10,9 @@ batch/run_1.csv …
 """
 import math
 import random
-import sys
 from pathlib import Path
+
+from made_files import write_or_check
 
 DIAMETER, LENGTH, DENSITY, MASS, C_A = 0.12, 0.5, 997.0, 5.9, 1.0
 RUNS = ((0.18, 2.7), (0.24, 4.1), (0.30, 3.6), (0.36, 4.4), (0.42, 3.1), (0.48, 4.8), (0.54, 4.0))  # m, s
@@ -48,17 +49,5 @@ def files():
     return out
 
 
-def main():
-    folder = Path(__file__).with_name("batch")
-    for name, text in files().items():
-        path = folder / name
-        if sys.argv[1:] == ["--check"]:
-            if path.read_text(encoding="utf-8") != text:
-                sys.exit(f"{path} is not what this script makes")
-        else:
-            folder.mkdir(exist_ok=True)
-            path.write_text(text, encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    write_or_check((Path(__file__).with_name("batch") / name, text) for name, text in files().items())

@@ -8,8 +8,9 @@
 """
 import math
 import random
-import sys
 from pathlib import Path
+
+from made_files import write_or_check
 
 PERIOD, LINEAR, QUADRATIC, OFFSET = 6.4, 0.02, 0.6, 0.01  # s, 1/s, 1/rad, rad
 STEP, SAMPLES, SUBSTEPS = 0.1, 900, 10
@@ -44,12 +45,5 @@ def text():
     return "\n".join(rows) + "\n"
 
 
-def main():
-    path = Path(__file__).with_name("decay.csv")
-    if sys.argv[1:] == ["--check"]:
-        sys.exit(0 if path.read_text(encoding="utf-8") == text() else f"{path} is not what this script makes")
-    path.write_text(text(), encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    write_or_check([(Path(__file__).with_name("decay.csv"), text())])

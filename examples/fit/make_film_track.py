@@ -10,9 +10,9 @@ are lost in some frames. The program writes a title, decimal commas and semicolo
 """
 import math
 import random
-import sys
 from pathlib import Path
 
+from made_files import write_or_check
 from make_pendulums import LENGTHS, SAMPLES, STEP, start, step
 
 PIXELS, TILT, PIVOT = 1000, math.radians(2), (640, 120)  # per metre; of the camera, anticlockwise; where the links hang
@@ -53,12 +53,5 @@ def text():
     return "\n".join(rows) + "\n"
 
 
-def main():
-    path = Path(__file__).with_name("film_track.txt")
-    if sys.argv[1:] == ["--check"]:
-        sys.exit(0 if path.read_text(encoding="utf-8") == text() else f"{path} is not what this script makes")
-    path.write_text(text(), encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    write_or_check([(Path(__file__).with_name("film_track.txt"), text())])

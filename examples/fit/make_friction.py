@@ -10,8 +10,9 @@ stays, and at the end the load is taken off. Each test has levels of its own abo
 """
 import math
 import random
-import sys
 from pathlib import Path
+
+from made_files import write_or_check
 
 STATIC, DYNAMIC, BETWEEN = 3.70, 3.00, 0.03  # N m; deviation from test to test
 STEP, SLIDES, ENDS = 0.01, 3.0, 1.0  # s
@@ -41,14 +42,5 @@ def tests():
         yield Path(__file__).with_name(f"friction_{number}.csv"), "\n".join(head + rows) + "\n"
 
 
-def main():
-    for path, text in tests():
-        if sys.argv[1:] == ["--check"]:
-            if path.read_text(encoding="utf-8") != text:
-                sys.exit(f"{path} is not what this script makes")
-        else:
-            path.write_text(text, encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    write_or_check(tests())

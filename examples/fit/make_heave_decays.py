@@ -11,8 +11,9 @@ Noise of the sensor with a memory of 0.1 s. Standard library only.
 """
 import math
 import random
-import sys
 from pathlib import Path
+
+from made_files import write_or_check
 
 MASS, LIMIT, STIFFNESS = 120.0, 60.0, 2500.0  # kg, kg, N/m
 STRENGTH, DECAY, TURN = 400.0, 1.2, 2.8  # N/m, 1/s, rad/s
@@ -57,15 +58,5 @@ def files():
     yield folder / "runs.csv", "\n".join(table) + "\n"
 
 
-def main():
-    for path, text in files():
-        if sys.argv[1:] == ["--check"]:
-            if path.read_text(encoding="utf-8") != text:
-                sys.exit(f"{path} is not what this script makes")
-        else:
-            path.parent.mkdir(exist_ok=True)
-            path.write_text(text, encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    write_or_check(files())

@@ -14,8 +14,9 @@ Lift is a force of 1.1 Hz that the formula does not know. Python's standard libr
 """
 import math
 import random
-import sys
 from pathlib import Path
+
+from made_files import write_or_check
 
 C_D, C_A = 1.4, 0.8
 DIAMETER, LENGTH, DENSITY, MASS = 0.12, 0.5, 997.0, 5.9
@@ -57,12 +58,5 @@ def text():
     return "\n".join(head + list(rows())) + "\n"
 
 
-def main():
-    path = Path(__file__).with_name("in_waves.csv")
-    if sys.argv[1:] == ["--check"]:
-        sys.exit(0 if path.read_text(encoding="utf-8") == text() else f"{path} is not what this script makes")
-    path.write_text(text(), encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    write_or_check([(Path(__file__).with_name("in_waves.csv"), text())])

@@ -10,8 +10,9 @@ A cylinder (diameter 0.12 m, length 0.5 m) is moved to and fro in still water of
 """
 import math
 import random
-import sys
 from pathlib import Path
+
+from made_files import write_or_check
 
 C_D, C_A = 1.2, 1.0
 DIAMETER, LENGTH, DENSITY, MASS = 0.12, 0.5, 997.0, 5.9
@@ -47,12 +48,5 @@ def text():
     return "\n".join(head + list(rows())) + "\n"
 
 
-def main():
-    path = Path(__file__).with_name("oscillation.csv")
-    if sys.argv[1:] == ["--check"]:
-        sys.exit(0 if path.read_text(encoding="utf-8") == text() else f"{path} is not what this script makes")
-    path.write_text(text(), encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    write_or_check([(Path(__file__).with_name("oscillation.csv"), text())])

@@ -10,8 +10,9 @@ angles, by Runge-Kutta steps. Standard library only.
 """
 import math
 import random
-import sys
 from pathlib import Path
+
+from made_files import write_or_check
 
 LENGTHS, BOB, GRAVITY = (0.5, 0.4), 0.1, 9.81  # m, kg, m/s^2
 LINEAR, QUADRATIC = 0.006, 0.004  # kg/s, kg/m
@@ -66,12 +67,5 @@ def text():
     return "\n".join(rows) + "\n"
 
 
-def main():
-    path = Path(__file__).with_name("pendulums.csv")
-    if sys.argv[1:] == ["--check"]:
-        sys.exit(0 if path.read_text(encoding="utf-8") == text() else f"{path} is not what this script makes")
-    path.write_text(text(), encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    write_or_check([(Path(__file__).with_name("pendulums.csv"), text())])

@@ -13,8 +13,9 @@ and load cells carry F = -(M + A) x'' - B x' - C x. Standard library only.
 """
 import math
 import random
-import sys
 from pathlib import Path
+
+from made_files import write_or_check
 
 MASS, STIFFNESS, A_INF = 120.0, 2500.0, 60.0  # kg, N/m, kg
 STRENGTH, DECAY, TURN = 400.0, 1.2, 2.8  # N/m, 1/s, rad/s
@@ -50,14 +51,5 @@ def tests():
         yield Path(__file__).with_name(f"radiation_{number}.csv"), "\n".join(head + rows) + "\n"
 
 
-def main():
-    for path, text in tests():
-        if sys.argv[1:] == ["--check"]:
-            if path.read_text(encoding="utf-8") != text:
-                sys.exit(f"{path} is not what this script makes")
-        else:
-            path.write_text(text, encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    write_or_check(tests())

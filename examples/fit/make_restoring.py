@@ -8,8 +8,9 @@ stiffness that is known, because it is written here.
 Two pulls, each with its own zero of the load cell; the second goes to the other side. Standard library only.
 """
 import random
-import sys
 from pathlib import Path
+
+from made_files import write_or_check
 
 STIFFNESS, CUBIC = 820.0, 450.0  # N/m, N/m^3
 NOISE = 3.0  # N
@@ -28,14 +29,5 @@ def tests():
         yield Path(__file__).with_name(f"restoring_{number}.csv"), "\n".join(head + rows) + "\n"
 
 
-def main():
-    for path, text in tests():
-        if sys.argv[1:] == ["--check"]:
-            if path.read_text(encoding="utf-8") != text:
-                sys.exit(f"{path} is not what this script makes")
-        else:
-            path.write_text(text, encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    write_or_check(tests())

@@ -11,8 +11,9 @@ were calibrated, the structure vibrates at 8 Hz, and the force is recorded 0.12 
 """
 import math
 import random
-import sys
 from pathlib import Path
+
+from made_files import write_or_check
 
 C_D, C_A = 2.4, 1.1
 DIAMETER, LENGTH, DENSITY, MASS = 0.12, 0.5, 997.0, 5.9
@@ -98,15 +99,5 @@ def files():
     }
 
 
-def main():
-    for name, text in files().items():
-        path = Path(__file__).with_name(name)
-        if sys.argv[1:] == ["--check"]:
-            if path.read_text(encoding="utf-8") != text:
-                sys.exit(f"{path} is not what this script makes")
-        else:
-            path.write_text(text, encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    write_or_check((Path(__file__).with_name(name), text) for name, text in files().items())

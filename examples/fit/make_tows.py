@@ -12,8 +12,9 @@ only.
 """
 import math
 import random
-import sys
 from pathlib import Path
+
+from made_files import write_or_check
 
 # Speed, its deviation, force, its deviation: m/s and N.
 TABLE = ((0.843, 0.0012, 25.32, 0.24), (0.695, 0.0012, 17.33, 0.15), (0.545, 0.0012, 10.44, 0.12),
@@ -64,15 +65,5 @@ def record(number):
     return "\n".join(rows) + "\n"
 
 
-def main():
-    for number in range(len(TABLE)):
-        path, text = Path(__file__).with_name(f"tow_{number + 1}.csv"), record(number)
-        if sys.argv[1:] == ["--check"]:
-            if path.read_text(encoding="utf-8") != text:
-                sys.exit(f"{path} is not what this script makes")
-        else:
-            path.write_text(text, encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    write_or_check((Path(__file__).with_name(f"tow_{i + 1}.csv"), record(i)) for i in range(len(TABLE)))

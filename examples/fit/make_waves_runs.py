@@ -13,8 +13,9 @@ only.
 import cmath
 import math
 import random
-import sys
 from pathlib import Path
+
+from made_files import write_or_check
 
 PERIODS = (1.2, 1.4, 1.6, 1.6, 1.6, 1.9, 2.2, 2.6)  # s
 AMPLITUDE, DEPTH, GRAVITY = 0.03, 1.25, 9.81  # m
@@ -71,15 +72,5 @@ def record(number):
     return "\n".join(rows) + "\n"
 
 
-def main():
-    for number in range(len(PERIODS)):
-        path, text = Path(__file__).parent / "waves_runs" / f"run_{number + 1}.csv", record(number)
-        if sys.argv[1:] == ["--check"]:
-            if path.read_text(encoding="utf-8") != text:
-                sys.exit(f"{path} is not what this script makes")
-        else:
-            path.write_text(text, encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    write_or_check((Path(__file__).parent / "waves_runs" / f"run_{i + 1}.csv", record(i)) for i in range(len(PERIODS)))

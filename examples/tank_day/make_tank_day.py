@@ -12,6 +12,9 @@ import random
 import sys
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).parents[1] / "fit"))
+from made_files import write_or_check
+
 DIAMETER, LENGTH, DENSITY, MASS = 0.12, 0.5, 997.0, 5.9
 TOWED_CD, SWUNG_CD, SWUNG_CA = 1.18, 2.3, 1.1
 CELLS = ((0.0933, 0.31), (0.0935, -0.22))  # V/N, V at rest that day
@@ -135,15 +138,6 @@ def files():
     return out
 
 
-def main():
-    for name, rows in files().items():
-        path, text = Path(__file__).with_name(name), "# A made measurement, written by make_tank_day.py.\n" + "\n".join(rows) + "\n"
-        if sys.argv[1:] == ["--check"]:
-            if path.read_text(encoding="utf-8") != text:
-                sys.exit(f"{path} is not what this script makes")
-        else:
-            path.write_text(text, encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    first = "# A made measurement, written by make_tank_day.py.\n"
+    write_or_check((Path(__file__).with_name(name), first + "\n".join(rows) + "\n") for name, rows in files().items())
