@@ -16,6 +16,7 @@
 #include "fit/simulated.hpp"
 #include "froude/film/commands.hpp"
 #include "froude/film/rendered.hpp"
+#include "harness/damping_tally.hpp"
 #endif
 
 namespace froude::validation::huijgen_damping_id {
@@ -47,10 +48,6 @@ struct Scratch {
     fs::remove_all(path, left);
   }
 };
-
-double half(const ::fit::Coefficient& c) { return (c.interval.high - c.interval.low) / 2; }
-double middle(const ::fit::Coefficient& c) { return (c.interval.low + c.interval.high) / 2; }
-bool holds(const ::fit::Coefficient& c, double value) { return std::abs(middle(c) - value) <= half(c); }
 
 /// The whole way of one seed: film, track, fit.
 class Route {
@@ -149,28 +146,12 @@ void Route::compare() {
     }
 }
 
-/// Sums over the seeds.
-struct Tally {
-  double both = 0, linear = 0, quadratic = 0, half_linear = 0, half_quadratic = 0, error = 0;
-  plot::Series estimates{"b_q against b_l, 100 films", {}, {}, false, true};
-
-  void add(const ::fit::Coefficient& l, const ::fit::Coefficient& q) {
-    linear += holds(l, b_l);
-    quadratic += holds(q, b_q);
-    both += holds(l, b_l) && holds(q, b_q);
-    half_linear += half(l) / b_l;
-    half_quadratic += half(q) / b_q;
-    error += (middle(l) - b_l) / l.standard_error;
-    estimates.x.push_back(1e3 * middle(l));
-    estimates.y.push_back(1e3 * middle(q));
-  }
-};
-
 }  // namespace
 
 Outcome outcome(const Folders& folders) {
   Route route(folders);
-  Tally tally;
+  DampingTally tally{
+      .b_l = b_l, .b_q = b_q, .estimates = {"b_q against b_l, 100 films", {}, {}, false, true}, .drawn_in = 1e3};
   ::fit::SimulationFit first;
   for (int seed = 1; seed <= seeds; ++seed) {
     auto f = route.fitted(static_cast<std::uint64_t>(seed), seed == 1 ? nullptr : &first);

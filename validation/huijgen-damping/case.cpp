@@ -4,6 +4,7 @@
 #include "answers/scene_runs.hpp"
 #include "fit/simulated.hpp"
 #include "harness/case.hpp"
+#include "harness/damping_tally.hpp"
 #include "hydro/base/random.hpp"
 
 namespace froude::validation::huijgen_damping {
@@ -44,34 +45,13 @@ MeasuredRun filmed(MeasuredRun run, std::uint64_t seed) {
   return ::fit::fit_simulation(runs, p);
 }
 
-double half(const ::fit::Coefficient& c) { return (c.interval.high - c.interval.low) / 2; }
-double middle(const ::fit::Coefficient& c) { return (c.interval.low + c.interval.high) / 2; }
-bool holds(const ::fit::Coefficient& c, double value) { return std::abs(middle(c) - value) <= half(c); }
-
-/// Sums over the seeds.
-struct Tally {
-  double both = 0, linear = 0, quadratic = 0, half_linear = 0, half_quadratic = 0, error = 0;
-  plot::Series estimates{"b_q against b_l, 100 seeds", {}, {}, false, true};
-
-  void add(const ::fit::Coefficient& l, const ::fit::Coefficient& q) {
-    linear += holds(l, b_l);
-    quadratic += holds(q, b_q);
-    both += holds(l, b_l) && holds(q, b_q);
-    half_linear += half(l) / b_l;
-    half_quadratic += half(q) / b_q;
-    error += (middle(l) - b_l) / l.standard_error;
-    estimates.x.push_back(middle(l));
-    estimates.y.push_back(middle(q));
-  }
-};
-
 }  // namespace
 
 Outcome outcome(const Folders& folders) {
   const auto fit = scene::read_fit(folders.own() / "fit.toml").model<scene::MotionModel>();
   const MeasuredRun exact = truth(fit);
   SceneRuns runs(fit, exact);
-  Tally tally;
+  DampingTally tally{.b_l = b_l, .b_q = b_q, .estimates = {"b_q against b_l, 100 seeds", {}, {}, false, true}};
   ::fit::SimulationFit first;
   double followed = 0;
   for (int seed = 1; seed <= seeds; ++seed) {
