@@ -96,9 +96,9 @@ class Study {
     for (std::size_t k = 0; k < ladders_.size(); ++k) {
       references_.push_back(reference_of(k));
       finest.push_back(&references_.back()->finest);
-      note_unpredictable(ask(own_but(k, references_[k]->next)), ask(own_but(k, references_[k]->finest)));
+      note_unpredictable(ask(own_), ask(own_but(k, references_[k]->next)), ask(own_but(k, references_[k]->finest)));
     }
-    tell_unpredictable(finest);
+    tell_unpredictable();
     std::vector<std::string> settings;
     for (const Rung* rung : finest) settings.push_back(rung->approximation + " " + rung->setting);
     out_.reference = fmt::format("{}", fmt::join(settings, "; "));
@@ -118,27 +118,24 @@ class Study {
     throw hydro::NumericsError(fmt::format("no reference for {}: {}", own_[k]->approximation, why));
   }
 
-  /// Chaotic motions, and those that grow out of rounding, differ however fine two settings are.
-  void note_unpredictable(const Answer& next, const Answer& finest) {
+  /// Chaotic motions, and those that grow out of rounding, differ however fine two settings are: errors of a method
+  /// fall with its step, sixfold from that of the scene to the finest where it is of first order.
+  void note_unpredictable(const Answer& own, const Answer& next, const Answer& finest) {
     constexpr double nothing_alike = 0.3;  // of rms; answers that have nothing in common differ by √2
+    constexpr double does_not_fall = 0.5, small = 0.01;
     if (!run_) return;
-    const std::vector<double> errors = rms_errors(next.signals, finest.signals);
-    for (std::size_t i = 0; i < errors.size(); ++i)
-      if (errors[i] > nothing_alike) unpredictable_.insert(finest.signals[i].name);
+    const std::vector<double> left = rms_errors(next.signals, finest.signals),
+                              first = rms_errors(own.signals, next.signals);
+    for (std::size_t i = 0; i < left.size(); ++i)
+      if (left[i] > nothing_alike || (left[i] > small && left[i] > does_not_fall * first[i]))
+        unpredictable_.insert(finest.signals[i].name);
   }
-  /// \throws NumericsError if no signal is left by which errors could be told
-  void tell_unpredictable(const Choice& finest) {
+  void tell_unpredictable() {
     if (unpredictable_.empty()) return;
-    const std::string names = fmt::format("{}", fmt::join(unpredictable_, ", "));
-    if (options_.measure == ErrorMeasure::rms && unpredictable_.size() == ask(own_).signals.size())
-      throw hydro::NumericsError(
-          fmt::format("no setting predicts any signal at each instant: even with {} they differ from those of the next "
-                      "finest settings; compare statistics, --by deviation",
-                      setting_of(finest)));
-    out_.notes.push_back(fmt::format(
-        "no setting predicts these signals at each instant, since even the finest two differ by more than 0.3 of their "
-        "rms; only their statistics count: {}",
-        names));
+    out_.notes.push_back(
+        fmt::format("no setting predicts {} of {} signals at each instant, since even the finest two differ, and no "
+                    "finer ones would by less; by rms they count with their standard deviations: {}",
+                    unpredictable_.size(), ask(own_).signals.size(), fmt::join(unpredictable_, ", ")));
   }
 
   // Rungs, one approximation at a time.
@@ -287,6 +284,18 @@ class Study {
     for (const std::size_t i : by_time())
       if (error_of(out_.rungs[i]) <= *options_.tolerance) {
         chosen_ = out_.chosen = i;
+        return;
+      }
+    choose_by_chance();
+  }
+  /// Where motions cannot be predicted, the reference is one of many, and what two of them differ by is chance: of
+  /// settings that differ from it by no more, the cheapest is as good as any.
+  void choose_by_chance() {
+    if (unpredictable_.empty() || out_.uncertainty.error <= *options_.tolerance) return;
+    for (const std::size_t i : by_time())
+      if (error_of(out_.rungs[i]) <= out_.uncertainty.error) {
+        chosen_ = out_.chosen = i;
+        out_.by_chance = out_.uncertainty.error;
         return;
       }
   }

@@ -59,9 +59,13 @@ CostErrors errors_of(const std::vector<Signal>& answer, const std::vector<Signal
   for (std::size_t m = 0; m < error_measures; ++m) {
     const auto measure = static_cast<ErrorMeasure>(m);
     if ((measure == ErrorMeasure::peak) != responses) continue;
-    const std::vector<double> errors = errors_by(measure, answer, reference);
+    std::vector<double> errors = errors_by(measure, answer, reference);
+    if (measure == ErrorMeasure::rms && !unpredictable.empty()) {
+      const std::vector<double> of_deviations = errors_by(ErrorMeasure::deviation, answer, reference);
+      for (std::size_t i = 0; i < errors.size(); ++i)
+        if (unpredictable.contains(reference[i].name)) errors[i] = of_deviations[i];
+    }
     for (std::size_t i = 0; i < errors.size(); ++i) {
-      if (measure == ErrorMeasure::rms && unpredictable.contains(reference[i].name)) continue;
       if (out[m].signal.empty() || errors[i] > out[m].error) out[m] = {errors[i], reference[i].name};
     }
   }

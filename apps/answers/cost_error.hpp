@@ -18,8 +18,8 @@ double size_of(ErrorMeasure measure, std::span<const double> values);
 std::vector<double> rms_errors(const std::vector<Signal>& answer, const std::vector<Signal>& reference);
 
 /// Of the signals that are worst, by each measure: those of a run, or the peak alone of responses' amplitudes, over
-/// scales as above. By rms those that `unpredictable` names do not count. Signals are those of the reference, in its
-/// order.
+/// scales as above. By rms those that `unpredictable` names count with the error of their deviation. Signals are those
+/// of the reference, in its order.
 CostErrors errors_of(const std::vector<Signal>& answer, const std::vector<Signal>& reference, bool responses,
                      const std::set<std::string>& unpredictable = {});
 

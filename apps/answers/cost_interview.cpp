@@ -52,11 +52,11 @@ std::string Interview::text_of(const Question& question) const {
 
 const Answer& Interview::ask(const Question& question, double patience_s) {
   Answer out;
+  std::string text;
   try {
-    const std::string text = text_of(question);
+    text = text_of(question);
     if (const auto known = answers_.find(text); known != answers_.end()) return known->second;
     out = answered(text, question.coefficients, patience_s);
-    return answers_[text] = std::move(out);
   } catch (const hydro::InputError& e) {
     out.refused = e.rule();
   } catch (const hydro::NumericsError& e) {
@@ -64,7 +64,8 @@ const Answer& Interview::ask(const Question& question, double patience_s) {
   } catch (const TakesTooLong&) {
     out.refused = fmt::format("takes more than {:.2g} s", patience_s);
   }
-  return refusals_.emplace_back(std::move(out));
+  // A refusal is kept as well: a search of poles that ends without any takes as long as one that finds them.
+  return text.empty() ? refusals_.emplace_back(std::move(out)) : answers_[text] = std::move(out);
 }
 
 void Interview::repeat(const Question& question) {

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -116,11 +117,21 @@ Report summary_of(const AnswerCost& answer, const std::optional<double>& toleran
   const auto own = std::find_if(answer.rungs.begin(), answer.rungs.end(), [](const auto& r) { return r.as_scene; });
   out.say("the scene as it is: {:.2g} off ({} of {}), {:.3g} s", error_of(*own, answer.measure).error,
           name_of(answer.measure), error_of(*own, answer.measure).signal, own->time_s());
-  if (answer.chosen)
-    out.keep("chosen", *answer.chosen)
-        .say("cheapest within {:.2g}: {}", *tolerance, sentence(answer.rungs[*answer.chosen], answer.measure));
+  if (answer.chosen) {
+    const std::string cheapest = sentence(answer.rungs[*answer.chosen], answer.measure);
+    out.keep("chosen", *answer.chosen);
+    if (answer.by_chance)
+      out.say("cheapest that is off by no more than chance: {}", cheapest)
+          .say(
+              "a run of this length leaves {:.1g} to chance; about {:.0f} times as long, or as many seeds, would tell "
+              "{:.2g}",
+              fact("by_chance", *answer.by_chance), fact("longer", std::pow(*answer.by_chance / *tolerance, 2)),
+              *tolerance);
+    else
+      out.say("cheapest within {:.2g}: {}", *tolerance, cheapest);
+  }
   std::vector<std::string> warnings;
-  if (tolerance && answer.uncertainty.error > *tolerance)
+  if (tolerance && answer.uncertainty.error > *tolerance && !answer.by_chance)
     warnings.push_back(
         fmt::format("errors below {:.1g} are not known: so much the reference itself may be off, by its {}",
                     answer.uncertainty.error, answer.uncertainty.signal));

@@ -112,7 +112,18 @@ std::pair<double, double> squares_of(const std::vector<std::vector<double>>& dra
   return {squares.mean(), 2 * std::sqrt((squares - squares.mean()).square().mean())};
 }
 
-/// What rounding does to signals that are up to a few steps larger or smaller, on the grid of the sensor.
+/// A signal as it is, or smoothed where noise moves it within a step: noise of its columns is not the sensor's. Smoothing
+/// flattens a motion where it turns, which is where it stays on one step for long: only where it must be.
+std::vector<double> without_noise(std::span<const double> signal, const Rounding& rounding,
+                                  const DerivativeWeights& smooth) {
+  constexpr double next_to_nothing = 0.05;  // of a step: it blurs a twentieth of the samples' roundings
+  if (noise_of_differences(signal) < next_to_nothing * rounding.step) return {signal.begin(), signal.end()};
+  return smoothed(signal, smooth);
+}
+
+/// What rounding does to signals that are up to a few steps larger or smaller, on the grid of the sensor. Their sizes are
+/// drawn one from each of as many equal parts of that range: what rounding does changes from step to step, and sizes that
+/// lie anywhere leave more of its mean square to chance.
 std::vector<std::vector<double>> rounded_alike(const std::vector<double>& signal, const Rounding& rounding,
                                                double deviation, std::uint64_t stream) {
   constexpr std::uint64_t seed = 69;
@@ -122,7 +133,8 @@ std::vector<std::vector<double>> rounded_alike(const std::vector<double>& signal
   std::vector<std::vector<double>> out;
   for (std::uint64_t draw = 0; draw < noise_draws; ++draw) {
     const hydro::RandomStream random(seed, stream * 1000 + draw);
-    const double larger = furthest > 0 ? steps * rounding.step / furthest * (2 * random.uniform(signal.size()) - 1) : 0;
+    const double size = (static_cast<double>(draw) + random.uniform(signal.size())) / noise_draws,
+                 larger = furthest > 0 ? steps * rounding.step / furthest * (2 * size - 1) : 0;
     std::vector<double> error(signal.size());
     for (std::size_t j = 0; j < signal.size(); ++j) {
       const double white = deviation > 0 ? deviation * random.normal(j) : 0.0;
@@ -148,7 +160,7 @@ std::vector<std::vector<double>> rounding_of(std::span<const double> values, con
                                              const Rounding& rounding, double step_s, std::uint64_t stream) {  // (F69)
   const Eigen::Map<const Eigen::VectorXd> measured(values.data(), std::ssize(values));
   const Eigen::VectorXd fitted = explained_by * hydro::dense::CompleteQr(explained_by).solve(measured);
-  const auto signal = smoothed({fitted.data(), values.size()}, smoother_of(values, step_s));
+  const auto signal = without_noise({fitted.data(), values.size()}, rounding, smoother_of(values, step_s));
   auto alone = rounded_alike(signal, rounding, 0, stream);
   const auto [mean, by_chance] = squares_of(alone);
   const double total =

@@ -46,7 +46,8 @@ RestMemory rest_memory(const Eigen::VectorXd& record, const Eigen::MatrixXd& kno
   for (Eigen::Index d = 0; d < known.cols(); ++d)
     of_known += tapered_periodogram(known.col(d)) / static_cast<double>(known.cols());
   RestMemory rest{white_level(power, of_known), Eigen::VectorXd(lags + 1)};
-  const Eigen::ArrayXd white = power / (of_known + rest.level);
+  // Where the known part is the larger one, the ratio tells of its chance alone, and counts as white by as much.
+  const Eigen::ArrayXd model = of_known + rest.level, white = 1 + (power / model - 1) * (rest.level / model);
   const double step = 2 * std::numbers::pi / static_cast<double>(record.size());
   for (Eigen::Index lag = 0; lag <= lags; ++lag) {
     double sum = 0;

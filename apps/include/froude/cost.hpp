@@ -64,7 +64,10 @@ struct AnswerCost {
   std::vector<CostRung> rungs;
   std::vector<CostOfComponents> components;
   std::optional<std::size_t> chosen;  ///< the cheapest within the tolerance asked for, if there is one
-  std::vector<std::string> notes;     ///< what was left as it is and why
+  /// Set where a run cannot be predicted and one of its length leaves more than the tolerance to chance: so much, by
+  /// which two of the finest settings differ. `chosen` is then the cheapest that differs by no more.
+  std::optional<double> by_chance = {};
+  std::vector<std::string> notes;  ///< what was left as it is and why
 
   /// The least error of all; the rungs are not empty.
   const CostRung& most_accurate() const;
