@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <exception>
+#include <future>
 #include <numeric>
 #include <random>
 
@@ -84,8 +86,8 @@ void disturb(compile::TimeModel& model) {
 }  // namespace
 
 Companions::Companions(const scene::Scene& scene, compile::Prepared prepared,
-                       const std::function<void(double)>& progress)
-    : scene_(scene), prepared_(std::move(prepared)), progress_(progress) {
+                       const std::function<void(double)>& progress, int threads)
+    : scene_(scene), prepared_(std::move(prepared)), progress_(progress), threads_(threads) {
   const scene::Solve& solve = scene.solve;
   by_tolerance_ = solve.tolerance || compile::has_own_tolerance(solve.integrator);
   given_ = by_tolerance_ ? solve.tolerance.has_value() : solve.step.has_value();
@@ -131,13 +133,20 @@ scene::Scene Companions::scene_of(int level, std::size_t& stride, compile::Piece
   return out;
 }
 
-Companions::Made Companions::made(int level) const {
+/// It is the longest steps whose motion is asked for, if any's; where it is large, the level is rather run once more.
+bool Companions::keeps_motion(int level, const compile::TimeModel& model) const {
+  constexpr std::size_t most = std::size_t{1} << 21U;  // numbers, of 16 MiB
+  return level > 0 && !prepared_.groups.empty() && model.steps * static_cast<std::size_t>(model.model.modes()) < most;
+}
+
+Companions::Made Companions::made(int level, const std::function<void(double)>& progress) const {
   Made out;
   const scene::Scene scene = scene_of(level, out.stride);
   const auto begin = std::chrono::steady_clock::now();
   const compile::TimeModel model = compile::time_model(scene, prepared_);
   const double preparation = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  out.run = run_model(scene, model, progress_);
+  if (keeps_motion(level, model)) out.motion.emplace();
+  out.run = run_model(scene, model, progress, nullptr, out.motion ? &*out.motion : nullptr);
   out.run.preparation_s = preparation;
   return out;
 }
@@ -146,30 +155,63 @@ const Run& Companions::run(int level) { return *beside(level).run; }
 
 Beside Companions::beside(int level) {
   auto at = runs_.find(level);
-  if (at == runs_.end()) at = runs_.emplace(level, made(level)).first;
+  if (at == runs_.end()) {
+    auto known = foreseen_.extract(level);
+    at = runs_.emplace(level, known ? std::move(known.mapped()) : made(level, progress_)).first;
+  }
   return {&at->second.run, at->second.stride};
 }
 
-/// The level is run once more for it: velocities at each step of all levels would take much memory.
+/// The one of the level, with the shortest steps, takes as long as all above it.
+void Companions::foresee(int level, int above) {
+  if (threads_ < 2 || runs_.contains(level) || foreseen_.contains(level)) return;
+  auto longer = std::async(std::launch::async, [&] {
+    std::map<int, Made> out;
+    try {
+      for (int other = level + 1; other <= level + above; ++other)
+        if (!runs_.contains(other) && !foreseen_.contains(other)) out.emplace(other, made(other, {}));
+    } catch (const std::exception&) {  // thrown again where the run is asked for, if ever
+    }
+    return out;
+  });
+  Made one = made(level, progress_);
+  foreseen_.merge(longer.get());
+  foreseen_.emplace(level, std::move(one));
+}
+
+/// The level is run once more for it, unless it has kept them: velocities at each step of all levels would take much
+/// memory.
 const Companions::Followed& Companions::followed(int level) {
-  auto at = followed_.find(level);
-  if (at != followed_.end()) return at->second;
+  const auto known = followed_.find(level);
+  if (known != followed_.end()) return known->second;
   std::size_t stride = 1;
   scene::Scene scene = scene_of(level, stride);
   compile::TimeModel model = compile::time_model(scene, prepared_);
-  compile::VelocityRecord motion;
-  run_model(scene, model, progress_, nullptr, &motion);
-  return followed_.emplace(level, Followed{std::move(scene), std::move(model), std::move(motion)}).first->second;
+  std::optional<compile::VelocityRecord> motion = std::move(runs_.at(level).motion);
+  if (!motion) run_model(scene, model, progress_, nullptr, &motion.emplace());
+  return followed_.emplace(level, Followed{std::move(scene), std::move(model), std::move(*motion)}).first->second;
 }
 
-std::optional<Run> Companions::completed_by(Missing what, int level) {
-  if (prepared_.groups.empty()) return std::nullopt;
-  const auto& [scene, model, motion] = followed(level);
-  const auto load = what == Missing::memory ? compile::memory_defect(model, motion)
-                                            : compile::data_defect(scene, prepared_, model, motion);
+std::optional<Run> Companions::with_load(int level, const std::optional<compile::LoadRecord>& load,
+                                         const std::function<void(double)>& progress) {
   if (!load) return std::nullopt;
-  Run out = run_model(scene, compile::time_model(scene, prepared_, {*load}), progress_);
+  const auto& [scene, model, motion] = followed(level);
+  Run out = run_model(scene, compile::time_model(scene, prepared_, {*load}), progress);
   keep_signals_of(at(level), out);
+  return out;
+}
+
+Companions::WithWater Companions::completed_by_water(int level) {
+  if (prepared_.groups.empty()) return {};
+  const auto& [scene, model, motion] = followed(level);
+  const auto coefficients = [&](const std::function<void(double)>& progress) {
+    return with_load(level, compile::data_defect(scene, prepared_, model, motion), progress);
+  };
+  std::future<std::optional<Run>> beside;
+  if (threads_ > 1) beside = std::async(std::launch::async, coefficients, std::function<void(double)>());
+  WithWater out;
+  out.memory = with_load(level, compile::memory_defect(model, motion), progress_);
+  out.coefficients = beside.valid() ? beside.get() : coefficients(progress_);
   return out;
 }
 
@@ -214,6 +256,7 @@ Run Companions::cut_finer(Cut what, int level) {
 void Companions::refine_pieces(int times) {
   refined_pieces_ *= times;
   runs_.clear();
+  foreseen_.clear();
   followed_.clear();
   neighbour_.reset();
 }

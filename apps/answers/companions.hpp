@@ -3,6 +3,7 @@
 ///        Private to apps.
 #include <functional>
 #include <map>
+#include <optional>
 
 #include "answers/convergence.hpp"
 #include "compile/compile.hpp"
@@ -17,9 +18,11 @@ namespace froude {
 /// level below half of it, and a tenth.
 class Companions {
  public:
-  /// Scene and progress are referred to and must live as long. `progress`: told the share done of each run. The step of
-  /// level 0 is chosen here. \throws hydro::InputError as compile::choose_step()
-  Companions(const scene::Scene& scene, compile::Prepared prepared, const std::function<void(double)>& progress);
+  /// Scene and progress are referred to and must live as long. `progress`: told the share done of each run, in the
+  /// caller's thread. The step of level 0 is chosen here. `threads`: 1 or 2; runs are the same with either.
+  /// \throws hydro::InputError as compile::choose_step()
+  Companions(const scene::Scene& scene, compile::Prepared prepared, const std::function<void(double)>& progress,
+             int threads);
 
   /// True if a tolerance is varied, not a step.
   bool by_tolerance() const { return by_tolerance_; }
@@ -32,17 +35,20 @@ class Companions {
 
   /// The run of a level, made once. \throws hydro::InputError
   const Run& run(int level);
+  /// That it and as many `above` it will be asked for: with two threads they are made beside each other.
+  void foresee(int level, int above);
   /// The same, of which `fine` is another: how many of its samples lie from one of `level` to the next.
   Beside beside(int level);
   /// One that is made already.
   const Run& at(int level) const { return runs_.at(level).run; }
   /// True if that run came to its end.
   bool completes(int level) { return run(level).stopped.empty(); }
-  /// What approximations of the water keep from a run.
-  enum class Missing { memory, coefficients };
-  /// A level that came to its end with the loads put back that it misses, by its own motion; nothing where it misses
-  /// none.
-  std::optional<Run> completed_by(Missing what, int level);
+  /// A level that came to its end with the loads put back that approximations of the water keep from it, by its own
+  /// motion: those of the memory, and those of the spacing of coefficients; nothing where it misses none.
+  struct WithWater {
+    std::optional<Run> memory, coefficients;
+  };
+  WithWater completed_by_water(int level);
   /// What stands for something even by being cut into equal pieces: segments of lines; pieces of members, as many as
   /// the scene says or as the program chooses.
   enum class Cut { segments, given_pieces, chosen_pieces };
@@ -67,18 +73,22 @@ class Companions {
   Run take(int level);
 
  private:
-  struct Made {
-    Run run;
-    std::size_t stride;
-  };
   /// A level with the velocities of its bodies at each step.
   struct Followed {
     scene::Scene scene;
     compile::TimeModel model;
     compile::VelocityRecord motion;
   };
+  struct Made {
+    Run run;
+    std::size_t stride;
+    std::optional<compile::VelocityRecord> motion;  ///< where it may be asked for, and is small
+  };
   void hold_memories();
-  Made made(int level) const;
+  Made made(int level, const std::function<void(double)>& progress) const;
+  bool keeps_motion(int level, const compile::TimeModel& model) const;
+  std::optional<Run> with_load(int level, const std::optional<compile::LoadRecord>& load,
+                               const std::function<void(double)>& progress);
   scene::Scene scene_of(int level, std::size_t& stride, compile::PieceTimes pieces) const;
   scene::Scene scene_of(int level, std::size_t& stride) const { return scene_of(level, stride, {1, refined_pieces_}); }
   scene::Scene cut_scene(Cut what, int level) const;
@@ -88,10 +98,12 @@ class Companions {
   const scene::Scene& scene_;
   compile::Prepared prepared_;
   const std::function<void(double)>& progress_;
+  int threads_;
   bool by_tolerance_, given_;
   double step_, tolerance_;  // s; of level 0
   int refined_pieces_ = 1;
   std::map<int, Made> runs_;
+  std::map<int, Made> foreseen_;  // and not asked for yet
   std::map<int, Followed> followed_;
   std::optional<Run> neighbour_;
 };

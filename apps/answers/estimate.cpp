@@ -33,6 +33,7 @@ class Refinement {
   Run settled() {
     int level = first_level();
     for (int finer = level;; level = finer) {
+      companions_.foresee(level, 2);
       if (!companions_.completes(level)) return without_estimate(level, "the run has stopped early");
       if (!judge(level)) return without_estimate(level, "runs with other steps do not come to their end");
       look_at_water(level);
@@ -61,7 +62,9 @@ class Refinement {
   /// shorter steps, so what they foresee is not followed far.
   int first_level() {
     constexpr double farthest = 2;
-    if (!may_refine() || !companions_.is_longer(2)) return 0;
+    if (!may_refine()) return 0;
+    companions_.foresee(1, 1);
+    if (!companions_.is_longer(2)) return 0;
     const auto sizes = sizes_of(companions_.run(1), weight_);
     double worst = 0;  // at level 0
     for (std::size_t i = 0; i < sizes.size(); ++i)
@@ -132,14 +135,13 @@ class Refinement {
   /// What the memory of radiated waves and the spacing of coefficients do, which hardly depends on the step: seen once,
   /// at the longest step that there is.
   void look_at_water(int level) {
-    using enum Companions::Missing;
     if (looked_ || !companions_.completes(level + 1)) return;
     looked_ = true;
     const int at = companions_.completes(level + 2) ? level + 2 : level + 1;
     constexpr const char* how = "a run with the loads put back that are left out";
-    compare(level, at, {.name = "memory", .how = how, .of_signal = {}}, companions_.completed_by(memory, at));
-    compare(level, at, {.name = "coefficients", .how = how, .of_signal = {}, .given = true},
-            companions_.completed_by(coefficients, at));
+    const auto [memory, coefficients] = companions_.completed_by_water(at);
+    compare(level, at, {.name = "memory", .how = how, .of_signal = {}}, memory);
+    compare(level, at, {.name = "coefficients", .how = how, .of_signal = {}, .given = true}, coefficients);
   }
   /// `of_difference`: the error over what both runs differ by.
   void compare(int level, int at, ErrorEstimate::Source source, const std::optional<Run>& with,
@@ -336,8 +338,8 @@ ErrorEstimate unknown_error(const scene::Scene& scene, std::string missing) {
 }
 
 Run run_to_accuracy(const scene::Scene& scene, const compile::Prepared& prepared,
-                    const std::function<void(double)>& progress) {
-  Companions companions(scene, prepared, progress);
+                    const std::function<void(double)>& progress, int threads) {
+  Companions companions(scene, prepared, progress, threads);
   return Refinement(scene, prepared, companions).settled();
 }
 

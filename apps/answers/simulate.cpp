@@ -244,7 +244,7 @@ Run run_model(const scene::Scene& scene, const compile::TimeModel& model, const 
 }
 
 Run simulate(const scene::Scene& scene, const std::function<void(double)>& done, const std::vector<Control>& controls,
-             const std::shared_ptr<compile::Kept>& kept) {
+             const std::shared_ptr<compile::Kept>& kept, int threads) {
   if (scene.run->steady) {
     if (!controls.empty())
       throw hydro::InputError("[ask.run] start = \"steady\" takes no step at which a controller could decide",
@@ -255,7 +255,7 @@ Run simulate(const scene::Scene& scene, const std::function<void(double)>& done,
   compile::Prepared prepared = compile::prepare(scene, kept);
   compile::set_controllers(controls, prepared);
   const double preparation = seconds_since(begin);
-  Run record = controls.empty() ? run_to_accuracy(scene, prepared, done) : run_once(scene, prepared, done);
+  Run record = controls.empty() ? run_to_accuracy(scene, prepared, done, threads) : run_once(scene, prepared, done);
   record.preparation_s += preparation;
   record.estimating_s = seconds_since(begin) - record.preparation_s - record.stepping_s;
   return record;

@@ -19,9 +19,11 @@ Run run_model(const scene::Scene& scene, const compile::TimeModel& model, const 
               compile::MovingState* end = nullptr, compile::VelocityRecord* motion = nullptr);
 
 /// Compiles and runs a scene that asks for a run. `done` is told the share of the steps completed; `controls` rule
-/// connectors.
+/// connectors. `threads`: 1 or 2, which the runs that estimate the error take beside the run itself; the answer is the
+/// same with either.
 /// \throws hydro::InputError; numerics that give up end the record early with a reason instead
 Run simulate(const scene::Scene& scene, const std::function<void(double)>& done = {},
-             const std::vector<Control>& controls = {}, const std::shared_ptr<compile::Kept>& kept = nullptr);
+             const std::vector<Control>& controls = {}, const std::shared_ptr<compile::Kept>& kept = nullptr,
+             int threads = 1);
 
 }  // namespace froude

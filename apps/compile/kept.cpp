@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compile/fit_folder.hpp"
 #include "hydro/base/dense.hpp"
 
 namespace froude::compile {
@@ -26,13 +27,19 @@ Eigen::MatrixXd SymmetricData::of(const Eigen::MatrixXd& whole, const std::vecto
   return hydro::dense::symmetric_part(m);
 }
 
-const hydro::radiation::RationalFit& RadiationFits::of(const SymmetricData& data, double tolerance) {
+const RadiationFits::Known& RadiationFits::of(const SymmetricData& data, double tolerance) {
   const std::scoped_lock one_at_a_time(mutex_);
   for (const auto& known : known_)
-    if (known->tolerance == tolerance && known->data == data) return known->fit;
-  auto fit = hydro::radiation::fit(data.damping, data.A, data.A_inf, {.tolerance = tolerance});
-  known_.push_back(std::make_unique<const Known>(Known{data, tolerance, std::move(fit)}));
-  return known_.back()->fit;
+    if (known->tolerance == tolerance && known->data == data) return *known;
+  const auto folder = fit_folder();
+  auto kept = folder ? folder->find(data, tolerance) : std::nullopt;
+  if (kept)
+    known_.push_back(std::make_unique<const Known>(Known{data, tolerance, std::move(*kept), folder->path()}));
+  else
+    known_.push_back(std::make_unique<const Known>(
+        Known{data, tolerance, hydro::radiation::fit(data.damping, data.A, data.A_inf, {.tolerance = tolerance}), {}}));
+  if (folder && !kept) folder->keep(data, tolerance, known_.back()->fit);
+  return *known_.back();
 }
 
 const hydro::potential::Coefficients& Kept::coefficients(const std::string& name,

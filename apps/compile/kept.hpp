@@ -1,5 +1,6 @@
 #pragma once
 /// \file  Private to apps: what is dear to make and serves every model of a scene, also after its numbers have changed.
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -30,18 +31,20 @@ struct SymmetricData {
   Eigen::MatrixXd of(const Eigen::MatrixXd& whole, const std::vector<int>& modes);
 };
 
-/// A fit takes seconds, the run of one regular wave a tenth of one. One thread at a time.
+/// A fit takes seconds, the run of one regular wave a tenth of one. One thread at a time. What the process keeps from
+/// one start to the next, fit_folder(), is looked through first.
 class RadiationFits {
  public:
-  const hydro::radiation::RationalFit& of(const SymmetricData& data, double tolerance);
-  std::size_t made() const { return known_.size(); }  ///< so far, whatever was asked again
-
- private:
   struct Known {
     SymmetricData data;
     double tolerance;
     hydro::radiation::RationalFit fit;
+    std::optional<std::filesystem::path> kept_in;  ///< by an earlier process
   };
+  const Known& of(const SymmetricData& data, double tolerance);
+  std::size_t made() const { return known_.size(); }  ///< so far, whatever was asked again
+
+ private:
   std::mutex mutex_;
   std::vector<std::unique_ptr<const Known>> known_;
 };

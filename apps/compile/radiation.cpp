@@ -176,10 +176,17 @@ const Radiation::Chosen& Radiation::chosen_for(std::size_t group, const std::vec
   if (asked.method == partitioned) demand.method = hydro::radiation::Method::partitioned;
   if (asked.method == poles) demand.method = hydro::radiation::Method::poles;
   require_no_source(data.damping, c, asked.place);
-  ChosenMemory memory = choose(data.damping, data.A, data.A_inf, demand,
-                               [&] { return prepared_.kept->fits().of(data, asked.tolerance); });
+  std::optional<std::filesystem::path> kept_in;
+  ChosenMemory memory = choose(data.damping, data.A, data.A_inf, demand, [&] {
+    const auto& known = prepared_.kept->fits().of(data, asked.tolerance);
+    kept_in = known.kept_in;
+    return known.fit;
+  });
   require_within(c, memory, asked);
   note_what_was_done(c, memory, data.asymmetry, asked, notes);
+  if (kept_in)
+    notes.push_back(fmt::format("{}: poles were fitted to these data before and kept in {}; FROUDE_CACHE=off fits anew",
+                                c.source, kept_in->string()));
   chosen_.push_back(std::make_unique<const Chosen>(Chosen{asked, made, std::move(memory)}));
   return *chosen_.back();
 }

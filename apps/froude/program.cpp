@@ -6,6 +6,7 @@
 
 #include "froude/command_line.hpp"
 #include "froude/experiment_options.hpp"
+#include "froude/kept_fits.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
 #include "scene/placed.hpp"
@@ -540,6 +541,12 @@ int run_program(int argc, char** argv) {
   CLI::App app;
   app.name("froude");
   describe(app, request);
+  app.final_callback([&request] {
+    request.call = [call = std::move(request.call)](const Console& console) {
+      keep_fits_in(users_folder_of_fits());
+      return call(console);
+    };
+  });
   return carry_out(app, request, argc, argv);
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 #include "answers/simulate.hpp"
 #include "froude/progress.hpp"
@@ -87,7 +88,9 @@ void run(const SceneArguments& arguments, const Console& console) {
   require_asked(scene.run.has_value(), scene, "run", "run = { duration = \"600 s\", every = \"0.05 s\" }");
   const Path file = checked_output(arguments, ".run.h5");
   Progress progress(console.err, "run", console.show_progress);
-  const Run record = simulate(scene, [&](double done) { progress.update(done); });
+  const int threads = std::thread::hardware_concurrency() > 1 ? 2 : 1;
+  const Run record = simulate(
+      scene, [&](double done) { progress.update(done); }, {}, nullptr, threads);
   record.write(file);
   if (arguments.csv) write_series_csv(*arguments.csv, record.time, record.signals);
   if (arguments.picture)

@@ -242,6 +242,34 @@ class PartOfARecord(CommandLine):
         refuses(["--from", "200 s"], "table.csv", "the record ends at 99.9 s, before --from 200 s", "leave --from out")
 
 
+class KeptFits(CommandLine):
+    def planned(self, **environment):
+        environment = {**os.environ, "XDG_CACHE_HOME": str(self.folder / "cache"), "FROUDE_CACHE": "on", **environment}
+        self.write("scene.toml", SCENE)
+        return self.froude("plan", "scene.toml", env=environment)
+
+    def kept(self):
+        return sorted((self.folder / "cache").rglob("*.fit"))
+
+    def test_serve_the_next_start_of_the_program(self):
+        first, second = self.planned(), self.planned()
+        self.assertEqual((first.returncode, second.returncode), (0, 0), first.stderr + second.stderr)
+        self.assertEqual(len(self.kept()), 1)
+        note = [line for line in second.stdout.splitlines() if "were fitted to these data before" in line]
+        self.assertEqual(len(note), 1, second.stdout)
+        self.assertIn(f"kept in {self.folder}/cache/froude; FROUDE_CACHE=off fits anew", note[0])
+        self.assertEqual([line for line in second.stdout.splitlines() if line not in note], first.stdout.splitlines())
+        self.kept()[0].write_bytes(b"spoilt")
+        self.assertEqual(self.planned().stdout, first.stdout)
+        self.assertEqual(self.planned().stdout, second.stdout)
+
+    def test_can_be_switched_off(self):
+        told = self.planned(FROUDE_CACHE="off")
+        self.assertEqual(told.returncode, 0, told.stderr)
+        self.assertEqual(self.kept(), [])
+        self.refuses(self.planned(FROUDE_CACHE="of"), "FROUDE_CACHE=of", '"on" nor "off"')
+
+
 class WrongCommandLine(CommandLine):
     def test_an_unknown_command_with_the_nearest_one(self):
         self.refuses(self.froude("rum", "scene.toml"), '"rum"', '"run"', "froude --help")

@@ -14,14 +14,24 @@ struct DragFlow {
       across;  // global; relative = u − v, across: its part across the axis
 };
 
-DragFlow flow_past(const DragPiece& piece, const State& state, const Eigen::Vector3d& water) {
+/// What all pieces of one body share.
+struct BodyMotion {
+  Eigen::Matrix3d R;
+  Eigen::Vector3d velocity, omega;
+};
+
+BodyMotion motion_of(int body, const State& state) {
+  const auto twist = state.twist(body);
+  return {state.pose[static_cast<std::size_t>(body)].attitude.toRotationMatrix(), twist.head<3>(), twist.tail<3>()};
+}
+
+DragFlow flow_past(const DragPiece& piece, const BodyMotion& body, const Eigen::Vector3d& water) {
   DragFlow f;
-  const Eigen::Matrix3d R = state.pose[static_cast<std::size_t>(piece.body)].attitude.toRotationMatrix();
-  f.arm = R * piece.arm;
-  f.axis = R * piece.axis;
-  f.omega = state.twist(piece.body).tail<3>();
+  f.arm = body.R * piece.arm;
+  f.axis = body.R * piece.axis;
+  f.omega = body.omega;
   f.water = water;
-  f.relative = water - state.twist(piece.body).head<3>() - f.omega.cross(f.arm);
+  f.relative = water - body.velocity - f.omega.cross(f.arm);
   f.across = f.relative - f.axis * f.axis.dot(f.relative);
   return f;
 }
@@ -59,9 +69,13 @@ template <class Do>
 void for_each_flow(const std::vector<DragPiece>& pieces, const std::optional<WaveSignals>& water, const State& state,
                    Do act) {
   const auto each = [&](const auto& velocity) {
-    for (std::size_t i = 0; i < pieces.size(); ++i)
-      act(pieces[i], flow_past(pieces[i], state,
+    BodyMotion body;
+    int of = -1;  // pieces of one body mostly lie together
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      if (pieces[i].body != of) body = motion_of(of = pieces[i].body, state);
+      act(pieces[i], flow_past(pieces[i], body,
                                pieces[i].current + velocity.template segment<3>(3 * static_cast<Eigen::Index>(i))));
+    }
   };
   if (water)
     water->use_at(state.time, each);
@@ -71,12 +85,19 @@ void for_each_flow(const std::vector<DragPiece>& pieces, const std::optional<Wav
 }  // namespace
 
 void DragKind::add_load(const Instant& now, LoadSink& out) const {
+  Vector6 load = Vector6::Zero();
+  int on = -1;
   for_each_flow(pieces_, water_, now.state, [&](const DragPiece& piece, const DragFlow& f) {
+    if (piece.body != on) {
+      if (on >= 0) out.add(on, load);
+      load.setZero();
+      on = piece.body;
+    }
     const Eigen::Vector3d force = piece.factor * f.across.norm() * f.across;
-    Vector6 load;
-    load << force, f.arm.cross(force);
-    out.add(piece.body, load);
+    load.head<3>() += force;
+    load.tail<3>() += f.arm.cross(force);
   });
+  if (on >= 0) out.add(on, load);
 }
 
 void DragKind::add_jacobian(const Instant& now, JacobianSink& out) const {

@@ -1,6 +1,8 @@
 #include "dynamics/integrate/newton_integrator.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/error.hpp"
@@ -93,9 +95,10 @@ double NewtonIntegrator::search(Workspace& workspace, double h, double move) {
   return part;
 }
 
-void NewtonIntegrator::finish(Workspace& workspace, bool anew) {
+void NewtonIntegrator::finish(Workspace& workspace, int went_on) {
   accepted(workspace, now_.acceleration);
-  goes_on_ = !anew;
+  goes_on_ = went_on;
+  before_that_.swap(before_);
   before_ = workspace.acceleration;
   std::swap(workspace.state, now_.state);
   workspace.acceleration.swap(now_.acceleration);
@@ -109,10 +112,11 @@ bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& repo
   const Eigen::VectorXd& scale = active().scale();
   // Contacts that share a load by their compliance want it to the last digit.
   const bool keeps = (active().compliance().array() == 0).all();
+  const int went_on = std::exchange(goes_on_, 0);
   now_.acceleration = workspace.acceleration;
-  if (goes_on_) now_.acceleration = 2 * workspace.acceleration - before_;  // in a straight line
+  if (went_on == 1) now_.acceleration = 2 * workspace.acceleration - before_;                   // in a straight line
+  if (went_on == 2) now_.acceleration = 3 * (workspace.acceleration - before_) + before_that_;  // along a parabola
   now_.multipliers = workspace.multipliers;
-  goes_on_ = false;
   evaluate(workspace, h, now_);
   bool anew = false;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
@@ -138,7 +142,7 @@ bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& repo
     const bool settled = keeps && now_.size <= residual_tolerance * reach;
     if (part == 1 && (settled || (!kept && move <= newton_tolerance * reach) || move <= unresolved(h))) {
       workspace.solver.of_step = keeps ? h : 0;  // rounding, too, leaves much
-      finish(workspace, anew);
+      finish(workspace, anew ? 0 : std::min(went_on + 1, 2));
       return true;
     }
   }

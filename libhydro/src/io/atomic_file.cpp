@@ -8,7 +8,6 @@
 #include <cstring>
 #include <fstream>
 #include <optional>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -159,9 +158,19 @@ std::string read_text(const fs::path& path) {
   if (!in)
     throw InputError(fmt::format("cannot read \"{}\": {}", path.string(), reason(errno ? errno : EIO)), {},
                      "check the path; paths in a scene are relative to the scene file");
-  std::ostringstream out;
-  out << in.rdbuf();
-  return std::move(out).str();
+  // Of a file at once, with no room that grows beside it; what has no size, such as a FIFO, grows as it comes.
+  std::string out;
+  std::error_code none;
+  if (fs::is_regular_file(path, none)) out.reserve(fs::file_size(path, none) + 1);
+  constexpr std::size_t part = std::size_t{1} << 16U;
+  std::size_t size = 0;
+  do {
+    out.resize(out.capacity() > size ? out.capacity() : size + part);
+    in.read(out.data() + size, static_cast<std::streamsize>(out.size() - size));
+    size += static_cast<std::size_t>(in.gcount());
+  } while (in);
+  out.resize(size);
+  return out;
 }
 
 }  // namespace hydro::io

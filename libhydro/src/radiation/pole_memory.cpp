@@ -1,5 +1,6 @@
 #include "hydro/radiation/pole_memory.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "hydro/base/error.hpp"
@@ -35,29 +36,29 @@ class PoleState final : public MemoryState {
       : memory_(memory),
         z_(Eigen::MatrixXd::Zero(velocity.size(), memory.model().order())),
         ahead_(z_),
-        velocity_(velocity) {
+        velocity_(velocity.size()) {
+    take_velocity(velocity);
     look_ahead();
   }
-  void accept(const Eigen::VectorXd& velocity) override {
-    z_ = ahead_;
+  void accept(const Eigen::VectorXd& velocity_of_modes) override {
+    take_velocity(velocity_of_modes);
+    z_.swap(ahead_);
     Eigen::Index column = 0;
     for (std::size_t k = 0; k < memory_.model().poles.size(); ++k) {
       const Carry& c = memory_.carried_over_a_step()[k];
-      z_.col(column++) += c.after.real() * velocity;
-      if (memory_.model().poles[k].omega > 0) z_.col(column++) += c.after.imag() * velocity;
+      z_.col(column++) += c.after.real() * velocity_;
+      if (memory_.model().poles[k].omega > 0) z_.col(column++) += c.after.imag() * velocity_;
     }
-    velocity_ = velocity;
     look_ahead();
   }
   void find_history_force(double fraction, Eigen::VectorXd& out) const override {
     if (fraction == 1) {
-      out = history_force_.head(z_.rows());
+      out = history_force_;
       return;
     }
     Eigen::MatrixXd there(z_.rows(), z_.cols());
     move(memory_.carried_over(fraction * memory_.step()), there);
     memory_.find_load(there, out);
-    out.conservativeResize(z_.rows());
   }
 
  private:
@@ -78,37 +79,52 @@ class PoleState final : public MemoryState {
       }
     }
   }
+  void take_velocity(const Eigen::VectorXd& of_modes) {
+    for (Eigen::Index i = 0; i < velocity_.size(); ++i)
+      velocity_[i] = of_modes[memory_.sequence()[static_cast<std::size_t>(i)]];
+  }
   void look_ahead() {
     move(memory_.carried_over_a_step(), ahead_);
     memory_.find_load(ahead_, history_force_);
   }
 
   const PoleMemory& memory_;
-  Eigen::MatrixXd z_, ahead_;
-  Eigen::VectorXd velocity_, history_force_;  // with the rows that find_load() adds
+  Eigen::MatrixXd z_, ahead_;  // rows in the memory's sequence, as of velocity_
+  Eigen::VectorXd velocity_, history_force_;
 };
 
-/// out = matrix · x, columns one after the other, `rows` a multiple of eight: two registers of sums are carried through
-/// all columns.
-FROUDE_EVERY_MACHINE void product(const double* matrix, std::size_t rows, const double* x, std::size_t columns,
-                                  double* out) {
+/// out = [M₁ M₂ …] · [x₁; x₂; …], matrices of `count` columns one after the other, `rows` a multiple of eight, each x
+/// `apart` numbers from the one before: two registers of sums are carried through all columns.
+FROUDE_EVERY_MACHINE void product(const double* matrix, std::size_t rows, const double* x, std::size_t matrices,
+                                  std::size_t count, std::size_t apart, double* out) {
   for (std::size_t r = 0; r < rows; r += 8) {
     Four low{}, high{}, low_too{}, high_too{};
     const double* column = matrix + r;
-    std::size_t c = 0;
-    for (; c + 2 <= columns; c += 2, column += 2 * rows) {
-      low += *reinterpret_cast<const Four*>(column) * x[c];
-      high += *reinterpret_cast<const Four*>(column + 4) * x[c];
-      low_too += *reinterpret_cast<const Four*>(column + rows) * x[c + 1];
-      high_too += *reinterpret_cast<const Four*>(column + rows + 4) * x[c + 1];
-    }
-    if (c < columns) {
-      low += *reinterpret_cast<const Four*>(column) * x[c];
-      high += *reinterpret_cast<const Four*>(column + 4) * x[c];
+    for (std::size_t m = 0; m < matrices; ++m) {
+      const double* of = x + m * apart;
+      std::size_t c = 0;
+      for (; c + 2 <= count; c += 2, column += 2 * rows) {
+        low += *reinterpret_cast<const Four*>(column) * of[c];
+        high += *reinterpret_cast<const Four*>(column + 4) * of[c];
+        low_too += *reinterpret_cast<const Four*>(column + rows) * of[c + 1];
+        high_too += *reinterpret_cast<const Four*>(column + rows + 4) * of[c + 1];
+      }
+      if (c < count) {
+        low += *reinterpret_cast<const Four*>(column) * of[c];
+        high += *reinterpret_cast<const Four*>(column + 4) * of[c];
+        column += rows;
+      }
     }
     *reinterpret_cast<Four*>(out + r) = low + low_too;
     *reinterpret_cast<Four*>(out + r + 4) = high + high_too;
   }
+}
+
+/// True where the model has anything between two modes.
+bool moves(const PoleModel& m, Eigen::Index i, Eigen::Index j) {
+  for (std::size_t k = 0; k < m.poles.size(); ++k)
+    if (m.C[k](i, j) != 0 || m.C[k](j, i) != 0 || m.S[k](i, j) != 0 || m.S[k](j, i) != 0) return true;
+  return false;
 }
 
 Eigen::MatrixXd weighted(const PoleModel& m, const std::vector<Carry>& carries) {
@@ -128,11 +144,31 @@ PoleMemory::PoleMemory(PoleModel model, double step) : model_(std::move(model)),
     require(p.decay > 0 && p.omega >= 0, "pole −{} ± {}i does not decay", p.decay, p.omega);
   full_ = carried_over(step);
   instantaneous_ = weighted(model_, full_);
-  output_ = Eigen::MatrixXd::Zero((modes() + 7) / 8 * 8, modes() * model_.order());
-  Eigen::Index at = 0;
-  for (std::size_t k = 0; k < model_.poles.size(); ++k) {
-    output_.block(0, at++ * modes(), modes(), modes()) = model_.C[k];
-    if (model_.poles[k].omega > 0) output_.block(0, at++ * modes(), modes(), modes()) = model_.S[k];
+  group_modes();
+}
+
+void PoleMemory::group_modes() {
+  std::vector<bool> taken(static_cast<std::size_t>(modes()), false);
+  for (int first = 0; first < modes(); ++first) {
+    if (taken[static_cast<std::size_t>(first)]) continue;
+    std::vector<int> group{first};
+    taken[static_cast<std::size_t>(first)] = true;
+    for (std::size_t at = 0; at < group.size(); ++at)
+      for (int other = 0; other < modes(); ++other)
+        if (!taken[static_cast<std::size_t>(other)] && moves(model_, group[at], other)) {
+          taken[static_cast<std::size_t>(other)] = true;
+          group.push_back(other);
+        }
+    std::sort(group.begin(), group.end());
+    const Eigen::Index count = std::ssize(group);
+    Group& made = groups_.emplace_back(Group{std::ssize(sequence_), count, {}});
+    made.output = Eigen::MatrixXd::Zero((count + 7) / 8 * 8, count * model_.order());
+    Eigen::Index at = 0;
+    for (std::size_t k = 0; k < model_.poles.size(); ++k) {
+      made.output.block(0, at++ * count, count, count) = model_.C[k](group, group);
+      if (model_.poles[k].omega > 0) made.output.block(0, at++ * count, count, count) = model_.S[k](group, group);
+    }
+    sequence_.insert(sequence_.end(), group.begin(), group.end());
   }
 }
 
@@ -156,9 +192,15 @@ std::vector<PoleMemory::Carry> PoleMemory::carried_over(double h) const {
 }
 
 void PoleMemory::find_load(const Eigen::MatrixXd& z, Eigen::VectorXd& out) const {
-  out.resize(output_.rows());
-  product(output_.data(), static_cast<std::size_t>(output_.rows()), z.data(), static_cast<std::size_t>(z.size()),
-          out.data());
+  out.resize(modes());
+  for (const Group& g : groups_) {
+    thread_local Eigen::VectorXd of_group;  // its room is kept from step to step
+    if (of_group.size() < g.output.rows()) of_group.resize(g.output.rows());
+    product(g.output.data(), static_cast<std::size_t>(g.output.rows()), z.data() + g.first,
+            static_cast<std::size_t>(z.cols()), static_cast<std::size_t>(g.count), static_cast<std::size_t>(z.rows()),
+            of_group.data());
+    for (Eigen::Index i = 0; i < g.count; ++i) out[sequence_[static_cast<std::size_t>(g.first + i)]] = of_group[i];
+  }
 }
 
 }  // namespace hydro::radiation

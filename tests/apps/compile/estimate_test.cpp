@@ -9,7 +9,9 @@
 #include <numbers>
 
 #include "answers/simulate.hpp"
+#include "compile/kept.hpp"
 #include "hydro/base/error.hpp"
+#include "support/source_dir.hpp"
 
 namespace estimate_test {
 namespace {
@@ -198,6 +200,34 @@ TEST(Estimate, ARegularMotionOfTheSamePendulumIsPredictedToTheEnd) {
   EXPECT_THAT(run.error.unpredictable, IsEmpty());
   EXPECT_THAT(run.warnings(), IsEmpty());
   EXPECT_EQ(run.error.total(1), 0);  // energy.residual is an error itself
+}
+
+// Modules whose water is looked at: all runs that are made beside each other.
+TEST(Estimate, IsTheSameOnTwoThreads) {
+  scene::Scene scene = scene::read(froude_test::source_dir() / "examples/pontoon5.toml");
+  scene.run->duration = 20;
+  const auto kept = std::make_shared<compile::Kept>();
+  const froude::Run one = simulate(scene, {}, {}, kept, 1), two = simulate(scene, {}, {}, kept, 2);
+  ASSERT_EQ(one.signals.size(), two.signals.size());
+  for (std::size_t i = 0; i < one.signals.size(); ++i) {
+    EXPECT_EQ(one.signals[i].values, two.signals[i].values) << one.signals[i].name;
+    EXPECT_EQ(one.error.total(i), two.error.total(i)) << one.signals[i].name;
+  }
+  ASSERT_EQ(one.error.sources.size(), two.error.sources.size());
+  EXPECT_EQ(one.error.sources.size(), 3) << "step, memory, coefficients";
+  ASSERT_EQ(one.error.unpredictable.size(), two.error.unpredictable.size());
+  for (std::size_t i = 0; i < one.error.unpredictable.size(); ++i) {
+    EXPECT_EQ(one.error.unpredictable[i].until, two.error.unpredictable[i].until);
+    EXPECT_EQ(one.error.unpredictable[i].scatter, two.error.unpredictable[i].scatter);
+  }
+}
+
+TEST(Estimate, RefinesOnTwoThreadsAsOnOne) {
+  const auto scene = parse(sledge("accuracy = 1e-4\n"));
+  const auto one = simulate(scene), two = simulate(scene, {}, {}, nullptr, 2);
+  EXPECT_EQ(one.step, two.step);
+  EXPECT_EQ(one.signals[0].values, two.signals[0].values);
+  EXPECT_EQ(one.error.total(0), two.error.total(0));
 }
 
 TEST(Estimate, ControllersOfTheCallerAreAskedOnce) {

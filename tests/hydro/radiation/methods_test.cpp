@@ -178,6 +178,44 @@ TEST(PoleMemory, CarriesSlowPolesWithoutLossOfDigits) {
   EXPECT_NEAR(c.before.real() / 0.01, 0.5 - 1e-9 / 3, 1e-15);
 }
 
+// Modes that do not move each other are summed apart from each other, wherever they stand.
+TEST(PoleMemory, OfGroupsOfModesIsTheSumOverAllModes) {
+  constexpr double h = 0.3;
+  const std::vector<std::vector<int>> groups{{0, 3, 4}, {1, 6}, {2}, {5, 7, 8, 9, 10, 11, 12, 13, 14}};
+  constexpr int modes = 15;
+  const PoleModel shape = support::random_passive(3, 1, 3);  // its poles; matrices are drawn below
+  PoleModel model{shape.poles, {}, {}};
+  for (std::size_t k = 0; k < model.poles.size(); ++k) {
+    Eigen::MatrixXd C = Eigen::MatrixXd::Zero(modes, modes), S = C;
+    for (const auto& group : groups) {
+      const auto n = std::ssize(group);
+      const Eigen::VectorXd numbers = random_velocity(77 + k, static_cast<int>(2 * n * n));
+      C(group, group) = numbers.head(n * n).reshaped(n, n);
+      if (model.poles[k].omega > 0) S(group, group) = numbers.tail(n * n).reshaped(n, n);
+    }
+    model.C.push_back(C + C.transpose());
+    model.S.push_back(S + S.transpose());
+  }
+  const PoleMemory memory(model, h);
+  const auto state = memory.start(Eigen::VectorXd::Zero(modes));
+  // z of each oscillation of each mode by itself, carried on as (R14) has it, and summed with whole matrices.
+  std::vector<Eigen::VectorXcd> z(model.poles.size(), Eigen::VectorXcd::Zero(modes));
+  Eigen::VectorXd before = Eigen::VectorXd::Zero(modes);
+  for (std::uint64_t i = 1; i < 40; ++i) {
+    const Eigen::VectorXd v = random_velocity(i, modes);
+    Eigen::VectorXd plain = Eigen::VectorXd::Zero(modes);
+    for (std::size_t k = 0; k < z.size(); ++k) {
+      const auto& c = memory.carried_over_a_step()[k];
+      const Eigen::VectorXcd there = c.growth * z[k] + c.before * before;
+      plain += model.C[k] * there.real() + model.S[k] * there.imag();
+      z[k] = there + c.after * v;
+    }
+    EXPECT_LT((state->history_force(1) - plain).norm(), 1e-13 * plain.norm() + 1e-15) << i;  // rounding of sums
+    before = v;
+    state->accept(v);
+  }
+}
+
 // (R14): the sampled load is the transform folded with squared sinc weights, so no motion can take energy from it.
 TEST(PoleMemory, NeverGivesEnergyToARandomMotionAtAnyStep) {
   for (std::uint64_t seed = 0; seed < 12; ++seed)

@@ -48,11 +48,11 @@ class NewtonIntegrator : public Integrator {
   double unresolved(double h) const;
   bool factorise(Workspace& workspace, double h);
   double search(Workspace& workspace, double h, double move);
-  void finish(Workspace& workspace, bool anew);
+  void finish(Workspace& workspace, int went_on);
 
-  // Acceleration at the begin of the step before, for a first guess, if factors served all through it.
-  Eigen::VectorXd before_;
-  bool goes_on_ = false;
+  // Accelerations at the begin of the two steps before, for a first guess, as far as factors served all through them.
+  Eigen::VectorXd before_, before_that_;
+  int goes_on_ = 0;  // of how many steps
   // What Newton holds and what it tries: kept from step to step, so that a step asks for no memory.
   Trial now_, trial_;
   KktSolver::Solution correction_;
