@@ -105,6 +105,7 @@ void write_cycles(const Path& path, const Counted& c) {
 void fatigue(const FatigueArguments& arguments, const Console& console) {
   require_outputs(named({{"-o", arguments.output}, {"--picture", arguments.picture}}),
                   {{"the record", arguments.file}});
+  require_csv(arguments.output);
   const std::optional<SnOfUnit> sn = sn_curve(arguments.sn);
   const Counted counted = scene::placed({.file = arguments.file.string()}, [&] { return count(arguments); });
   if (sn) require_one_fits(*sn, {counted.signal.units});

@@ -185,6 +185,18 @@ struct Scatter {
   std::vector<Scene> scenes;
 };
 
+/// A row's numbers are those of a sea. `all`: the sum of shares.
+void require_sea(const hydro::io::CsvTable& table, std::size_t row, double all) {
+  for (const char* name : {"hs", "tp"})
+    if (!(table.column(name)[row] > 0))
+      throw hydro::InputError(fmt::format("{} of a sea must be positive", name), table.place_of(name, row),
+                              "for calm write a small height: shares are divided by their sum, which calm counts in");
+  if (!(table.column("share")[row] >= 0) || !(all > 0))
+    throw hydro::InputError("the share of a sea must not be negative, and one at least must come",
+                            table.place_of("share", row),
+                            "write how often the sea comes, in any measure: shares are divided by their sum");
+}
+
 Scatter scatter_of(const ResponseArguments& arguments) {
   const auto table = hydro::io::CsvTable::read(*arguments.scatter);
   const auto &hs = table.column("hs", hydro::dim::length), &tp = table.column("tp", hydro::dim::time),
@@ -194,10 +206,7 @@ Scatter scatter_of(const ResponseArguments& arguments) {
   const Parameter height = scene.parameter("waves.hs"), period = scene.parameter("waves.tp");
   Scatter out;
   for (std::size_t i = 0; i < table.rows(); ++i) {
-    if (!(share[i] >= 0) || !(all > 0))
-      throw hydro::InputError("the share of a sea must not be negative, and one at least must come",
-                              table.place_of("share", i),
-                              "write how often the sea comes, in any unit: shares are divided by their sum");
+    require_sea(table, i, all);
     if (share[i] == 0) continue;
     out.share.push_back(share[i] / all);
     out.scenes.push_back(scene::placed(table.place_of("hs", i), [&] {
@@ -347,6 +356,7 @@ void response(const ResponseArguments& arguments, const Console& console) {
   std::vector<NamedFile> inputs = files_of_scene(arguments.scene);
   if (arguments.scatter) inputs.push_back({"--scatter", *arguments.scatter});
   require_outputs(named({{"-o", arguments.output}, {"--picture", arguments.picture}}), inputs);
+  require_csv(arguments.output);
   const Asked asked = asked_of(arguments);
   const scene::Scene scene = scene::read(arguments.scene);
   require_asked(scene.rao.has_value(), scene, "rao", "rao = { periods = \"3 s .. 25 s, 45 values\" }");
@@ -368,7 +378,7 @@ void response(const ResponseArguments& arguments, const Console& console) {
   }
   const ResponseSpectra found = response_spectra({&scene}).front();
   if (asked.sn) require_one_fits(*asked.sn, units_of(found));
-  Report report = report_of(scene, found, asked);
+  Report report = scene::placed({.file = "--duration"}, [&] { return report_of(scene, found, asked); });
   if (arguments.output) write_spectra(*arguments.output, found);
   if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, found)));
   tell(report.wrote(arguments.output).wrote(arguments.picture), console);
