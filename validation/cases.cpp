@@ -17,6 +17,7 @@ namespace hendriksen_oscillation { Outcome outcome(const Folders& folders); }
 namespace hendriksen_towing { Outcome outcome(const Folders& folders); }
 namespace flume_box { Outcome outcome(const Folders& folders); }
 namespace f3of { Outcome outcome(const Folders& folders); }
+namespace floquet { Outcome outcome(const Folders& folders); }
 namespace formats { Outcome outcome(const Folders& folders); }
 namespace fpso_rao { Outcome outcome(const Folders& folders); }
 namespace hendriksen_waves { Outcome outcome(const Folders& folders); }
@@ -90,6 +91,7 @@ const std::vector<Case>& cases() {
       {"cylinder", cylinder::outcome},
       {"two-pole", two_pole::outcome},
       {"orszaghova-expansion", orszaghova_expansion::outcome},
+      {"floquet", floquet::outcome},
       {"orszaghova-map", orszaghova_map::outcome},
       {"order", order::outcome},
       {"stick", stick::outcome},

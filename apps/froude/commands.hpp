@@ -88,6 +88,7 @@ struct PsdArguments {
   Path file;                                ///< CSV, or a result of `froude run`
   std::vector<std::string> signals = {};    ///< empty: all (with a time column), `*` allowed
   std::optional<std::string> segment = {};  ///< length of a Welch segment, e.g. "100 s"
+  std::optional<std::size_t> tapers = {};   ///< instead of segments: so many over the whole record
   std::optional<std::string> from = {};     ///< leave out what comes before, e.g. "60 s"
   std::optional<std::string> to = {};       ///< leave out what comes after, e.g. "360 s"
   double confidence = 0.95;
@@ -111,6 +112,35 @@ struct PoincareArguments {
 };
 /// A Poincaré section of a record, with the error of each point by interpolation.
 void poincare(const PoincareArguments& arguments, const Console& console);
+
+/// An S–N curve on the command line.
+struct SnArguments {
+  std::optional<std::string> range = {};                            ///< e.g. "50 MPa"
+  std::optional<double> cycles = {}, slope = {}, slope_below = {};  ///< that the range may come; below it the last
+};
+
+struct FatigueArguments {
+  Path file;           ///< CSV, or a result of `froude run`
+  std::string signal;  ///< whose cycles are counted
+  SnArguments sn = {};
+  std::optional<std::string> from = {};  ///< leave out what comes before
+  std::optional<Path> output = {};       ///< .csv of the cycles
+  std::optional<Path> picture = {};      ///< .svg
+};
+/// Rainflow cycles of a record and their damage.
+void fatigue(const FatigueArguments& arguments, const Console& console);
+
+struct ResponseArguments {
+  Path scene;
+  std::string duration = "3 h";                      ///< over which largest values are told
+  std::vector<double> quantiles = {0.5, 0.9, 0.99};  ///< of the largest values
+  SnArguments sn = {};
+  std::optional<Path> scatter = {};  ///< .csv of seas and how often they come
+  std::optional<Path> output = {};   ///< .csv of spectra; of a scatter diagram levels and how often they are exceeded
+  std::optional<Path> picture = {};  ///< .svg of the same
+};
+/// Spectra of responses in the sea of a scene, their statistics, largest values and damage.
+void response(const ResponseArguments& arguments, const Console& console);
 
 struct FitArguments {
   Path scene;

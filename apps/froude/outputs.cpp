@@ -71,6 +71,12 @@ std::vector<NamedFile> named(const std::vector<std::pair<std::string, std::optio
   return out;
 }
 
+void require_csv(const std::optional<Path>& table) {
+  if (!table || !table->has_extension() || table->extension() == ".csv") return;
+  throw hydro::InputError(fmt::format("a table is CSV, so its file cannot end in \"{}\"", table->extension().string()),
+                          {.file = table->string()}, "end it in .csv");
+}
+
 void require_outputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const NamedFile& output = outputs[i];

@@ -23,6 +23,9 @@ std::vector<NamedFile> named(const std::vector<std::pair<std::string, std::optio
 /// name of a file is that file (hydro::io::same_file). \throws hydro::InputError naming the file and both of its uses
 void require_outputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs);
 
+/// \throws hydro::InputError if a table that was asked for has another ending than .csv
+void require_csv(const std::optional<Path>& table);
+
 /// A scene of motion or a fit, and every file that it names: each text in it that leads to a file counts, so no key can
 /// be forgotten; of records all that match a `*`; of coefficients the whole set; of a scene and of a table of runs the
 /// files that they name in turn. \throws hydro::InputError if the scene is no TOML

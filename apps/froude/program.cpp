@@ -349,6 +349,7 @@ void add_psd(CLI::App& app, Request& request) {
   command->add_option("file", arguments->file, "CSV with units in its header, or a result of `froude run`")->required();
   command->add_option("-s,--signal", arguments->signals, "signals to take; * stands for any text; default: all");
   command->add_option("--segment", arguments->segment, "length of a Welch segment: \"100 s\"");
+  command->add_option("--tapers", arguments->tapers, "instead of segments: so many sine tapers over the whole record");
   command->add_option("--from", arguments->from, "leave out what comes before: \"60 s\"");
   command->add_option("--to", arguments->to, "leave out what comes after: \"360 s\"");
   command->add_option("--confidence", arguments->confidence, "level of the interval")->capture_default_str();
@@ -388,6 +389,59 @@ void add_poincare(CLI::App& app, Request& request) {
   command->callback([=, &request] {
     request.call = [=](const Console& console) {
       poincare(*arguments, console);
+      return done;
+    };
+  });
+}
+
+void add_sn_curve(CLI::App& command, SnArguments& sn) {
+  command.add_option("--sn-range", sn.range, "S-N curve: a range, in the unit of the signal: \"50 MPa\"");
+  command.add_option("--sn-cycles", sn.cycles, "how often it comes until failure: 1e7");
+  command.add_option("--sn-slope", sn.slope, "m of N = cycles (S/range)^-m: 3");
+  command.add_option("--sn-slope-below", sn.slope_below, "m of smaller ranges, if it is another: 5");
+}
+
+void add_fatigue(CLI::App& app, Request& request) {
+  auto* command = app.add_subcommand("fatigue", "rainflow cycles of a record and their damage by an S-N curve");
+  command->footer(
+      "Example:\n  froude fatigue run.h5 --signal connector1.force --sn-range \"80 kN\" --sn-cycles 1e6 --sn-slope 3 "
+      "--picture cycles.svg");
+  auto arguments = std::make_shared<FatigueArguments>();
+  command->add_option("file", arguments->file, "CSV with units in its header, or a result of `froude run`")->required();
+  command->add_option("-s,--signal", arguments->signal, "whose cycles are counted")->required();
+  command->add_option("--from", arguments->from, "leave out what comes before: \"60 s\"");
+  add_sn_curve(*command, arguments->sn);
+  command->add_option("-o,--output", arguments->output, "range, mean and count of each cycle (.csv)");
+  command->add_option("--picture", arguments->picture, "plot (.svg)");
+  command->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      fatigue(*arguments, console);
+      return done;
+    };
+  });
+}
+
+void add_response(CLI::App& app, Request& request) {
+  auto* command = app.add_subcommand(
+      "response",
+      "spectra of responses in the sea of a scene: statistics, largest values, fatigue, a lifetime of seas");
+  command->footer(
+      "Examples:\n  froude response examples/seastate.toml --duration \"3 h\" --picture response.svg\n"
+      "  froude response examples/seastate.toml --scatter examples/data/scatter.csv --duration \"25 yr\"");
+  auto arguments = std::make_shared<ResponseArguments>();
+  command->add_option("scene", arguments->scene, "scene file (.toml) with [waves] of a spectrum and [ask] rao")
+      ->required();
+  command->add_option("--duration", arguments->duration, "for which largest values are told")->capture_default_str();
+  command->add_option("--quantile", arguments->quantiles, "of the largest value; several by repeating it")
+      ->capture_default_str();
+  add_sn_curve(*command, arguments->sn);
+  command->add_option("--scatter", arguments->scatter,
+                      "seas of a lifetime (.csv): columns hs, tp and share, how often each comes");
+  command->add_option("-o,--output", arguments->output, "spectra; of a scatter diagram exceedances (.csv)");
+  command->add_option("--picture", arguments->picture, "plot of the same (.svg)");
+  command->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      response(*arguments, console);
       return done;
     };
   });
@@ -496,6 +550,8 @@ void describe(CLI::App& app, Request& request) {
   add_hydrostatics(app, request);
   add_psd(app, request);
   add_poincare(app, request);
+  add_response(app, request);
+  add_fatigue(app, request);
   add_fit(app, request);
   add_kinematics(app, request);
   add_scene_command(app, request, "plan", "what a scene will run, by which method, and why the rest will not", &plan,

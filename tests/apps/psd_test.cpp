@@ -75,6 +75,16 @@ TEST_F(Psd, TellsHeightAndPeriodOfARegularWave) {
   EXPECT_FALSE(j["signals"]["still"].contains("hs"));
 }
 
+TEST_F(Psd, TakesTapersInThePlaceOfSegments) {
+  const auto j = json({.file = csv(), .signals = {"wave"}, .tapers = 5});
+  EXPECT_EQ(j["tapers"], 5);
+  EXPECT_EQ(j["degrees_of_freedom"], 10);
+  // 75 whole waves, weighed smoothly: what the tapers make of their ends is 3e-7.
+  EXPECT_NEAR(j["signals"]["wave"]["hs"].get<double>(), 2 * std::numbers::sqrt2 * 1.5, 1e-5);
+  EXPECT_THAT([&] { json({.file = csv(), .segment = "80 s", .tapers = 5}); },
+              ThrowsMessage<InputError>(HasSubstr("--tapers takes the whole record")));
+}
+
 TEST_F(Psd, FindsTheResponseToTheInput) {
   const auto j = json({.file = csv(), .signals = {"h*"}, .segment = "80 s", .input = "wave"});
   const auto& t = j["signals"]["heave"]["transfer"];

@@ -8,7 +8,7 @@ import unittest
 from pathlib import Path
 
 FROUDE, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
-PAGES = ("experiments.md", "tank-day.md")
+PAGES = ("experiments.md", "tank-day.md", "response.md")
 
 
 def commands_of(page):

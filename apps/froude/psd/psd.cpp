@@ -7,6 +7,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
 #include "hydro/io/atomic_file.hpp"
+#include "hydro/signal/multitaper.hpp"
 #include "scene/placed.hpp"
 #include "scene/scene.hpp"
 
@@ -66,7 +67,8 @@ hs::WelchOptions welch_options(const PsdArguments& arguments, std::size_t sample
 
 Estimate estimate(const Signal& signal, const RunResult& record, const Analysis& analysis, const Signal* input) {
   Estimate e{.signal = signal,
-             .welch = hs::welch(signal.values, analysis.step, analysis.options),
+             .welch = analysis.tapers ? hs::multitaper(signal.values, analysis.step, *analysis.tapers)
+                                      : hs::welch(signal.values, analysis.step, analysis.options),
              .moments = {},
              .peak = {},
              .statistics = {},
@@ -103,7 +105,15 @@ void cut_out(RunResult& record, const PsdArguments& arguments) {
   if (to) drop_after(record, *to, arguments.file);
 }
 
+/// Transfer functions are made of segments, not of tapers.
+void require_one_way(const PsdArguments& arguments) {
+  if (arguments.tapers && (arguments.segment || arguments.input))
+    throw hydro::InputError("--tapers takes the whole record at once, --segment and --input cut it into segments",
+                            {.file = "command line"}, "leave out --tapers, or the other");
+}
+
 Analysis analyse(const PsdArguments& arguments) {
+  require_one_way(arguments);
   RunResult record = read_record(arguments.file);
   record.signals = chosen(record, arguments);
   hydro::require(!record.time.empty(), "the record has no samples");
@@ -111,13 +121,14 @@ Analysis analyse(const PsdArguments& arguments) {
   Analysis a{.samples = record.time.size(),
              .step = 0,
              .options = {},
+             .tapers = arguments.tapers,
              .band = {},
              .confidence = arguments.confidence,
              .input = arguments.input.value_or(""),
              .estimates = {}};
   scene::placed({.file = arguments.file.string()}, [&] {
     a.step = hs::even_step(record.time);
-    a.options = welch_options(arguments, a.samples, a.step);
+    if (!a.tapers) a.options = welch_options(arguments, a.samples, a.step);
     const auto at =
         std::find_if(record.signals.begin(), record.signals.end(), [&](const Signal& s) { return s.name == a.input; });
     for (const Signal& s : record.signals)

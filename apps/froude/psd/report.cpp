@@ -1,7 +1,6 @@
 #include "froude/psd/report.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -9,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "froude/density_unit.hpp"
 #include "froude/report.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
@@ -18,40 +18,6 @@
 
 namespace froude::spectra {
 namespace {
-
-/// A unit that hydro::parse_unit reads: "1/m/s" is written "m^-1 s^-1".
-std::string unit_of(const hydro::Dimension& dimension) {
-  const std::string si = dimension.si();
-  if (!si.starts_with("1/")) return si;
-  std::string out;
-  for (std::size_t at = 1; at < si.size();) {
-    const auto end = std::min(si.find('/', at + 1), si.size());
-    const std::string factor = si.substr(at + 1, end - at - 1);
-    const auto caret = factor.find('^');
-    out += (out.empty() ? "" : " ") + factor.substr(0, caret) + "^-" +
-           (caret == std::string::npos ? "1" : factor.substr(caret + 1));
-    at = end;
-  }
-  return out;
-}
-
-bool is_one_symbol(const std::string& unit) {
-  return !unit.empty() && std::all_of(unit.begin(), unit.end(), [](unsigned char c) { return std::isalpha(c) != 0; });
-}
-
-/// Of a density: "m" → "m^2/Hz"; the SI base units where the signal's unit is composed.
-std::string density_unit(const std::string& unit) {
-  if (unit.empty()) return "Hz^-1";
-  if (is_one_symbol(unit)) return unit + "^2/Hz";
-  const auto dimension = hydro::parse_unit(unit).dimension;
-  return unit_of(dimension * dimension) + "/Hz";
-}
-
-std::string gain_unit(const std::string& output, const std::string& input) {
-  if (output == input) return "";
-  if (is_one_symbol(output) && is_one_symbol(input)) return output + "/" + input;
-  return unit_of(hydro::parse_unit(output).dimension / hydro::parse_unit(input).dimension);
-}
 
 /// A number of what may be absent.
 template <class Whole, class Number>
@@ -193,9 +159,13 @@ double interesting_hz(const Analysis& a) {
 Report report_of(const Analysis& a) {
   const hs::WelchSpectrum& w = a.estimates.front().welch;
   Report out, signals;
-  out.say("{} samples every {:.6g} s; {} segments of {} ({:.6g} s), Hann, half overlapping", fact("samples", a.samples),
-          fact("step_s", a.step), fact("segments", w.segments), fact("segment_samples", a.options.segment),
-          static_cast<double>(a.options.segment) * a.step);
+  if (a.tapers)
+    out.say("{} samples every {:.6g} s; {} sine tapers over all of them", fact("samples", a.samples),
+            fact("step_s", a.step), fact("tapers", *a.tapers));
+  else
+    out.say("{} samples every {:.6g} s; {} segments of {} ({:.6g} s), Hann, half overlapping",
+            fact("samples", a.samples), fact("step_s", a.step), fact("segments", w.segments),
+            fact("segment_samples", a.options.segment), static_cast<double>(a.options.segment) * a.step);
   out.say(
       "resolution {:.4g} Hz, {:.3g} degrees of freedom: with {:g} % the density in truth is {:.3g} to {:.3g} times the "
       "estimate",
@@ -222,8 +192,9 @@ void write_table(const Path& path, const Analysis& a) {
       for (double& v : c.values) v *= factor;
       table.push_back({c.name, c.unit, &c.values});
     }
-    hydro::io::write_csv(
-        path, table, {fmt::format("one-sided densities by Welch, {:g} % band from low to high", 100 * a.confidence)});
+    hydro::io::write_csv(path, table,
+                         {fmt::format("one-sided densities by {}, {:g} % band from low to high",
+                                      a.tapers ? "sine tapers" : "Welch", 100 * a.confidence)});
     return;
   }
   hydro::require(kind == ".h5", "the table is written as .csv or .h5, not as \"{}\"", path.filename().string());

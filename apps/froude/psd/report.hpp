@@ -29,8 +29,9 @@ struct Estimate {
 
 struct Analysis {
   std::size_t samples;
-  double step;  ///< s
-  hs::WelchOptions options;
+  double step;                        ///< s
+  hs::WelchOptions options;           ///< where there are segments
+  std::optional<std::size_t> tapers;  ///< in their place
   hs::BandFactors band;
   double confidence;
   std::string input;  ///< empty: none

@@ -1,0 +1,228 @@
+// `froude response` and `froude fatigue` through the functions that main.cpp calls.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+
+#include "answers/linear_response.hpp"
+#include "answers/response_spectra.hpp"
+#include "froude/commands.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/io/atomic_file.hpp"
+#include "hydro/io/csv.hpp"
+#include "hydro/waves/spectra/spectrum.hpp"
+#include "support/scratch.hpp"
+
+namespace response_test {
+namespace {
+
+using froude::FatigueArguments, froude::ResponseArguments, hydro::InputError;
+using testing::HasSubstr, testing::ThrowsMessage;
+
+/// An upright cylinder, alike from all sides, with a linear mooring.
+std::string scene_text(const std::string& waves, const std::string& ask = "") {
+  return R"(schema = 1
+[water]
+density = "1000 kg/m^3"
+depth = "60 m"
+[waves]
+)" + waves +
+         R"(
+[[body]]
+name = "buoy"
+mass = "603.2 t"
+centre_of_gravity = "(0, 0, -8) m"
+radii_of_gyration = "(4, 4, 3) m"
+[body.hydrodynamics]
+excitation = true
+radiation = {}
+hydrostatics = true
+[body.hydrodynamics.cylinders]
+at = "(0, 0, 0) m"
+diameter = "8 m"
+draught = "12 m"
+frequencies = "0.2 rad/s .. 1.8 rad/s, 33 values"
+[[mooring]]
+on = "buoy"
+kind = "linear"
+stiffness = { surge = "40 kN/m", sway = "40 kN/m" }
+damping = { surge = "60 kN s/m", sway = "60 kN s/m", heave = "60 kN s/m" }
+[ask]
+accuracy = 2e-3
+)" + ask +
+         R"(rao = { periods = "4 s .. 25 s, 40 values", of = ["buoy.surge", "buoy.sway", "buoy.heave", "mooring1.surge"] }
+)";
+}
+
+const std::string long_crested = "kind = \"jonswap\"\nhs = \"3 m\"\ntp = \"9 s\"\nheading = \"0 deg\"\n";
+const std::string short_crested = long_crested + "spreading = { kind = \"cos2s\", s = 6 }\n";
+
+std::filesystem::path file_of(const std::string& text) {
+  const auto path = support::scratch_folder() / "scene.toml";
+  hydro::io::write_atomically(path, text);
+  return path;
+}
+
+template <class Arguments>
+nlohmann::json json_of(void (*command)(const Arguments&, const froude::Console&), const Arguments& arguments) {
+  std::ostringstream out, err;
+  command(arguments, {out, err, true});
+  return nlohmann::json::parse(out.str());
+}
+
+froude::ResponseSpectra spectra_of(const std::string& text) {
+  const auto scene = froude::scene::parse(text, "scene.toml");
+  return froude::response_spectra({&scene}).front();
+}
+
+double variance(const froude::ResponseSpectra& r, std::size_t signal) {
+  const auto& density = r.signals[signal].spectrum.density;
+  if (std::all_of(density.begin(), density.end(), [](double d) { return d == 0; })) return 0;  // does not respond
+  return hydro::signal::moments(r.signals[signal].spectrum, hydro::signal::whole(r.signals[signal].spectrum)).m0;
+}
+
+TEST(ResponseSpectra, AreASumOverManyFrequencies) {
+  auto scene = froude::scene::parse(scene_text(long_crested), "scene.toml");
+  const auto found = froude::response_spectra({&scene}).front();
+  const auto& sea = std::get<froude::scene::RandomSea>(scene.waves->kind);
+  // The plain sum: 4 000 frequencies side by side.
+  const double low = scene.rao->omega.front(), high = scene.rao->omega.back();
+  constexpr int n = 4000;
+  scene.rao->omega.clear();
+  for (int i = 0; i < n; ++i) scene.rao->omega.push_back(low + (high - low) * (i + 0.5) / n);
+  const auto plain = froude::respond(scene);
+  for (std::size_t s = 0; s < found.signals.size(); ++s) {
+    double sum = 0;
+    for (std::size_t w = 0; w < n; ++w)
+      sum += sea.systems.front().spectrum->density(plain.omega[w]) * std::norm(plain.signals[s].values[w]) *
+             (high - low) / n;
+    EXPECT_NEAR(variance(found, s), sum, 2e-3 * sum + 1e-12) << found.signals[s].name;  // the accuracy asked
+  }
+  EXPECT_LT(found.error, 2e-3);
+  EXPECT_GT(found.sea.frequency_hz.size(), 40u);
+}
+
+TEST(ResponseSpectra, HaveTheVarianceOfARunInThatSea) {
+  const auto steady = froude::scene::parse(
+      scene_text(
+          long_crested + "components = { repetition = \"3000 s\", lowest = \"0.04 Hz\", highest = \"0.25 Hz\" }\n",
+          "run = { duration = \"3000 s\", every = \"0.5 s\", start = \"steady\", of = [\"buoy.surge\", "
+          "\"buoy.heave\"] }\n"),
+      "scene.toml");
+  const auto found = froude::response_spectra({&steady}).front();
+  const froude::Run run = froude::steady_run(steady);
+  for (const std::size_t s : {0u, 2u}) {
+    const auto& x = run.signal(found.signals[s].name);
+    double sum = 0, squares = 0;
+    for (std::size_t j = 0; j + 1 < x.size(); ++j) {  // one repetition: its last sample is its first
+      sum += x[j];
+      squares += x[j] * x[j];
+    }
+    const double n = static_cast<double>(x.size() - 1), mean = sum / n;
+    // Twice the accuracy asked; bins of 1/3000 Hz that hold their energy shift the response within them.
+    EXPECT_NEAR(squares / n - mean * mean, variance(found, s), 4e-3 * variance(found, s)) << found.signals[s].name;
+  }
+}
+
+TEST(ResponseSpectra, OfARoundBodyInAShortCrestedSeaShareTheSurgeByTheSecondHarmonic) {
+  // Surge goes with cos β and sway with sin β: their variances are (1 ± r₂)/2 of the long-crested one, and for
+  // cos^2s(θ/2) r₂ = s(s − 1)/((s + 1)(s + 2)). Heave does not feel the heading.
+  const double r2 = 6.0 * 5 / (7 * 8);
+  const auto plane = spectra_of(scene_text(long_crested)), spread = spectra_of(scene_text(short_crested));
+  EXPECT_NEAR(variance(spread, 0) / variance(plane, 0), (1 + r2) / 2, 3e-3);  // twice the accuracy asked
+  EXPECT_NEAR(variance(spread, 1) / variance(plane, 0), (1 - r2) / 2, 3e-3);
+  EXPECT_NEAR(variance(spread, 2) / variance(plane, 2), 1, 4e-3);
+  EXPECT_EQ(variance(plane, 0) > 0, true);
+  EXPECT_GE(spread.headings, 36u);
+  EXPECT_EQ(plane.headings, 1u);
+}
+
+TEST(ResponseCommand, TellsStatisticsLargestValuesAndDamage) {
+  const auto path = file_of(scene_text(long_crested));
+  const froude::SnArguments sn{.range = "400 kN", .cycles = 1e6, .slope = 3};
+  const auto table_file = support::scratch_folder() / "spectra.csv";
+  const auto j =
+      json_of<ResponseArguments>(&froude::response, {.scene = path, .duration = "3 h", .sn = sn, .output = table_file});
+  const auto& heave = j["signals"]["buoy.heave"];
+  EXPECT_DOUBLE_EQ(heave["significant_amplitude"].get<double>(), 2 * std::sqrt(heave["m0"].get<double>()));
+  EXPECT_DOUBLE_EQ(heave["tz_s"].get<double>(), std::sqrt(heave["m0"].get<double>() / heave["m2"].get<double>()));
+  const auto& largest = j["largest"]["buoy.heave"];
+  const double n = 3 * 3600 / heave["tz_s"].get<double>();
+  EXPECT_NEAR(largest["most_probable"].get<double>(),
+              heave["standard_deviation"].get<double>() * std::sqrt(2 * std::log(n)), 1e-9);
+  EXPECT_LT(largest["not_exceeded"][0]["rice"], largest["not_exceeded"][2]["rice"]);
+  EXPECT_TRUE(j["damage"].contains("mooring1.surge"));
+  EXPECT_FALSE(j["damage"].contains("buoy.heave"));  // metres are no force
+  EXPECT_FALSE(j["signals"].contains("buoy.sway"));  // head sea: a note says so
+  EXPECT_THAT(j["notes"].dump(), HasSubstr("buoy.sway does not respond"));
+  const auto table = hydro::io::CsvTable::read(table_file);
+  EXPECT_EQ(table.unit_text("buoy.heave"), "m^2/Hz");
+}
+
+TEST(ResponseCommand, OverOneSeaIsThatSea) {
+  const auto scatter = support::scratch_folder() / "scatter.csv";
+  hydro::io::write_atomically(scatter, "hs [m], tp [s], share\n300e-2, 9, 17\n6, 9, 0\n");
+  const auto path = file_of(scene_text(long_crested));
+  const froude::SnArguments sn{.range = "400 kN", .cycles = 1e6, .slope = 3, .slope_below = 5};
+  const auto one = json_of<ResponseArguments>(&froude::response, {.scene = path, .duration = "1000 h", .sn = sn});
+  const auto life = json_of<ResponseArguments>(&froude::response,
+                                               {.scene = path, .duration = "1000 h", .sn = sn, .scatter = scatter});
+  // Of a sea N independent peaks are counted, (1 − q)^N, of a life Poisson's, e^{−Nq}: they differ by q of ln N.
+  for (int q = 0; q < 3; ++q)
+    EXPECT_NEAR(life["signals"]["buoy.heave"]["not_exceeded"][q]["largest"].get<double>() /
+                    one["largest"]["buoy.heave"]["not_exceeded"][q]["rice"].get<double>(),
+                1, 1e-6);
+  EXPECT_NEAR(life["signals"]["mooring1.surge"]["damage"].get<double>() /
+                  one["damage"]["mooring1.surge"]["damage_dirlik"].get<double>(),
+              1, 1e-12);
+}
+
+TEST(ResponseCommand, NamesWhatIsWrong) {
+  const auto refused = [](const ResponseArguments& a, const char* said) {
+    EXPECT_THAT([&] { json_of<ResponseArguments>(&froude::response, a); }, ThrowsMessage<InputError>(HasSubstr(said)));
+  };
+  refused(
+      {.scene = file_of(scene_text("kind = \"regular\"\nheight = \"2 m\"\nperiod = \"8 s\"\nheading = \"0 deg\"\n"))},
+      "need a random sea");
+  const auto path = file_of(scene_text(long_crested));
+  refused({.scene = path, .duration = "3 m"}, "--duration");
+  refused({.scene = path, .quantiles = {1.5}}, "between 0 and 1");
+  refused({.scene = path, .sn = {.range = "400 kN"}}, "a range, the cycles");
+  refused({.scene = path, .sn = {.range = "400 Pa", .cycles = 1e6, .slope = 3}}, "of no signal");
+  const auto scatter = support::scratch_folder() / "wrong.csv";
+  hydro::io::write_atomically(scatter, "hs [m], tp [s], share\n3, 9, -1\n");
+  refused({.scene = path, .scatter = scatter}, "wrong.csv:2: error: the share of a sea must not be negative");
+  hydro::io::write_atomically(scatter, "hs [m], tp [s], share\n-3, 9, 1\n");
+  refused({.scene = path, .scatter = scatter}, "wrong.csv:2: error: hs of a sea must be positive");
+  refused({.scene = path, .duration = "2 s"}, "--duration: error: a duration of 2 s holds");
+  refused({.scene = path, .output = "spectra.h5"}, "cannot end in \".h5\"");
+}
+
+TEST(FatigueCommand, CountsASineOnce) {
+  std::vector<double> time, force;
+  for (int j = 0; j <= 4000; ++j) {  // a hundred periods of forty samples, from crest to crest
+    time.push_back(0.25 * j);
+    force.push_back(100e3 * std::cos(2 * std::numbers::pi * j / 40));
+  }
+  const auto path = support::scratch_folder() / "force.csv";
+  hydro::io::write_csv(path, {{"time", "s", &time}, {"force", "kN", &force}});
+  const auto j = json_of<FatigueArguments>(
+      &froude::fatigue, {.file = path, .signal = "force", .sn = {.range = "100 kN", .cycles = 1e4, .slope = 3}});
+  EXPECT_DOUBLE_EQ(j["cycles"].get<double>(), 100);
+  EXPECT_NEAR(j["largest_range"].get<double>(), 200e3, 1e-6);
+  EXPECT_NEAR(j["damage"].get<double>(), 100 * 8 / 1e4, 1e-12);
+  EXPECT_NEAR(j["equivalent_range"].get<double>(), 200e3, 1e-5);
+  EXPECT_THAT(
+      [&] {
+        json_of<FatigueArguments>(&froude::fatigue,
+                                  {.file = path, .signal = "force", .sn = {.range = "1 m", .cycles = 1, .slope = 3}});
+      },
+      ThrowsMessage<InputError>(HasSubstr("of no signal")));
+}
+
+}  // namespace
+}  // namespace response_test

@@ -1,0 +1,80 @@
+#include "dynamics/frequency/floquet.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "hydro/base/error.hpp"
+#include "support/hill_determinant.hpp"
+
+namespace floquet_test {
+namespace {
+
+using namespace dynamics::frequency;
+using testing::HasSubstr, testing::ThrowsMessage;
+constexpr double two_pi = 2 * std::numbers::pi;
+
+using support::Mathieu;
+
+PeriodicMatrix matrix_of(const Mathieu& m) {
+  return [m](double t) { return Eigen::Matrix2d{{0, 1}, {-(m.delta + m.epsilon * std::cos(t)), -2 * m.c}}; };
+}
+
+TEST(Floquet, MultipliersOfASteadySystemAreThoseOfItsModes) {
+  // s = −c ± i √(δ − c²)
+  const auto mu = floquet_multipliers(matrix_of(Mathieu{2, 0, 0.1}), two_pi);
+  const std::complex<double> s(-0.1, std::sqrt(2 - 0.01)), expected = std::exp(s * two_pi);
+  EXPECT_NEAR(std::abs(mu(0)), std::exp(-0.1 * two_pi), 1e-11);
+  EXPECT_NEAR(mu(0).real(), expected.real(), 1e-11);
+  EXPECT_NEAR(std::abs(mu(0).imag()), std::abs(expected.imag()), 1e-11);
+}
+
+TEST(Floquet, DeterminantIsThatOfLiouville) {
+  const PeriodicMatrix a = [](double t) {
+    Eigen::Matrix3d m;
+    m << -0.2 + std::sin(t), 1, 0.3, -2 - std::cos(2 * t), 0.1 * std::cos(t), 0.5, 0.2, std::sin(3 * t), -0.4;
+    return Eigen::MatrixXd(m);
+  };
+  // The trace is −0.6 on average.
+  const auto mu = floquet_multipliers(a, two_pi);
+  const std::complex<double> product = mu.prod();
+  EXPECT_NEAR(product.real(), std::exp(-0.6 * two_pi), 1e-11);
+  EXPECT_NEAR(product.imag(), 0, 1e-11);
+  EXPECT_GE(std::abs(mu(0)), std::abs(mu(1)));
+}
+
+TEST(Floquet, MultipliersWithoutDampingComeInReciprocalPairs) {
+  const auto mu = floquet_multipliers(matrix_of(Mathieu{0.25, 0.3, 0}), two_pi);
+  EXPECT_GT(std::abs(mu(0)), 1.1);
+  EXPECT_NEAR(std::abs(mu(0) * mu(1) - 1.0), 0, 1e-11);
+  EXPECT_LT(mu(0).real(), 0);  // its period doubles
+}
+
+TEST(Floquet, BoundariesOfDampedMathieuAreThoseOfHillsDeterminants) {
+  for (const double c : {0.02, 0.1})
+    for (const double delta : {0.1, 0.25, 0.5, 0.9, 1.0, 1.3}) {
+      const double ours = support::first_zero([&](double epsilon) {
+        return std::abs(floquet_multipliers(matrix_of({delta, epsilon, c}), two_pi)(0)) - 1;
+      });
+      const double hills = support::hill_boundary(delta, c);
+      ASSERT_LT(hills, 4) << delta << " " << c;
+      EXPECT_NEAR(ours, hills, 1e-6)
+          << delta << " " << c;  // roots are found to 1e-12, multipliers to 1e-11 over slopes of 0.1 and more
+    }
+}
+
+TEST(Floquet, NamesWhatIsWrong) {
+  EXPECT_THAT(
+      [] {
+        monodromy(matrix_of(Mathieu{1, 0, 0}), 0);
+      },
+      ThrowsMessage<hydro::InputError>(HasSubstr("period must be positive, got 0 s")));
+  EXPECT_THAT([] { monodromy([](double) { return Eigen::MatrixXd::Zero(2, 3); }, 1); },
+              ThrowsMessage<hydro::InputError>(HasSubstr("square and finite, got 2 x 3")));
+}
+
+}  // namespace
+}  // namespace floquet_test
