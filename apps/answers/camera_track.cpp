@@ -87,7 +87,7 @@ fc::View view_of(const scene::CameraTable& camera, const fc::Track& track) {
   return out;
 }
 
-TrackInPlane track_in_plane(const scene::FitScene& scene, const scene::MotionModel& model) {
+FilmedTrack filmed_track(const scene::FitScene& scene, const scene::MotionModel& model) {
   if (scene.files.size() != 1)
     throw InputError(fmt::format("a fit of a track takes one file, got {}", scene.files.size()), scene.files[1].place,
                      "fit each film by itself");
@@ -97,10 +97,18 @@ TrackInPlane track_in_plane(const scene::FitScene& scene, const scene::MotionMod
     fc::Track track = fc::read_track(file, columns_of(scene, model));
     for (double& t : track.time) t += camera.offset;
     const double begin = camera.from.value_or(track.time.front());
-    const fc::Track part = fc::cut(track, begin, camera.to.value_or(std::numeric_limits<double>::infinity()));
+    fc::Track part = fc::cut(track, begin, camera.to.value_or(std::numeric_limits<double>::infinity()));
     const double deviation =
         scene::placed(camera.place, [&] { return deviation_of(camera.deviation, track.in_metres); });
-    return TrackInPlane{fc::in_plane(part, view_of(camera, part), deviation), begin};
+    fc::View view = view_of(camera, part);
+    return FilmedTrack{std::move(part), begin, std::move(view), deviation};
+  });
+}
+
+TrackInPlane track_in_plane(const scene::FitScene& scene, const scene::MotionModel& model) {
+  const FilmedTrack filmed = filmed_track(scene, model);
+  return scene::placed({.file = scene.files[0].value.string()}, [&] {
+    return TrackInPlane{fc::in_plane(filmed.track, filmed.view, filmed.deviation), filmed.begin};
   });
 }
 

@@ -13,6 +13,16 @@ namespace froude {
 
 /// What [camera] says of this track: lens, scale, pivot. \throws hydro::InputError
 ::fit::camera::View view_of(const scene::CameraTable& camera, const ::fit::camera::Track& track);
+/// The frames that the scene takes, as the track has them.
+struct FilmedTrack {
+  ::fit::camera::Track track;  ///< times from the run's start
+  double begin;                ///< s, where that is in the track's own times, [camera] offset counted
+  ::fit::camera::View view;
+  double deviation;  ///< of sightings without covariance, in the track's unit; 0: none is stated
+};
+/// \throws hydro::InputError with the file or the place in the scene
+FilmedTrack filmed_track(const scene::FitScene& scene, const scene::MotionModel& model);
+
 struct TrackInPlane {
   ::fit::camera::Track places;  ///< m, with times from the run's start
   double begin;                 ///< s, where that is in the track's own times, [camera] offset counted

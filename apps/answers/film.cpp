@@ -11,15 +11,17 @@ namespace dim = hydro::dim;
 
 const Binding<FilmScene::Marker>& film_marker() {
   using Marker = FilmScene::Marker;
-  static const auto table = Binding<Marker>("[[film.marker]]", "a reflecting disc on a sticker, and on what it sits")
-                                .key(name_key("", "of the marker"), &Marker::name)
-                                .optional(text("node",
-                                               "of the run, whose signals NODE.x and so on it follows: "
-                                               "\"dropper.node3\""),
-                                          &Marker::node)
-                                .optional(vector("at", dim::length, "it stays there"), &Marker::at)
-                                .exactly_one_of({"node", "at"})
-                                .place(&Marker::place);
+  static const auto table =
+      Binding<Marker>("[[film.marker]]", "a reflecting disc on a sticker, or a tag, and on what it sits")
+          .key(name_key("", "of the marker"), &Marker::name)
+          .optional(text("node",
+                         "of the run, whose signals NODE.x and so on it follows: "
+                         "\"dropper.node3\""),
+                    &Marker::node)
+          .optional(vector("at", dim::length, "it stays there"), &Marker::at)
+          .optional(integer("tag", "its number, where the film shows tags"), &Marker::tag)
+          .exactly_one_of({"node", "at"})
+          .place(&Marker::place);
   return table;
 }
 
@@ -50,6 +52,23 @@ Binding<FilmScene> light_keys() {
       });
 }
 
+/// Discs on stickers, or tags with numbers.
+void check_what_markers_are(const Record& record, const FilmScene& film) {
+  const bool tags = !film.tags.empty();
+  for (const char* key : {"disc_radius", "sticker_radius"})
+    if (record.has(key) == tags)
+      throw tags ? record.wrong(key, "is of discs, and the film shows tags", "leave it out")
+                 : record.refused(fmt::format("has no {}", key), "say how large discs and stickers are, or take tags");
+  if ((film.tag_side > 0) != tags) throw record.refused("has only one of tags and tag_side", "say both, or neither");
+  for (const auto& m : film.markers)
+    if (m.tag.has_value() != tags)
+      throw hydro::InputError(
+          fmt::format("marker \"{}\" {}", m.name, tags ? "has no tag" : "has a tag, and the film shows discs"), m.place,
+          tags ? "write the number of each: tag = 3" : "say which family: [film] tags");
+  if (!tags && film.sticker_radius <= film.disc_radius)
+    throw record.wrong("sticker_radius", "must be larger than disc_radius");
+}
+
 const Binding<FilmScene>& film_binding() {
   static const auto table =
       Binding<FilmScene>("[film]", "what is filmed, and how")
@@ -61,8 +80,16 @@ const Binding<FilmScene>& film_binding() {
           .key(positive("frame_rate", dim::angular_velocity, "\"25 Hz\""), in_hertz(&FilmScene::frame_rate))
           .key(quantity("exposure", dim::time, "a frame shows the mean of this time").or_default("0 s", "an instant"),
                &FilmScene::exposure)
-          .key(positive("disc_radius", dim::length, "of the bright discs"), &FilmScene::disc_radius)
-          .key(positive("sticker_radius", dim::length, "of the black stickers around them"), &FilmScene::sticker_radius)
+          .optional(positive("disc_radius", dim::length, "of the bright discs; needed without tags"),
+                    &FilmScene::disc_radius)
+          .optional(positive("sticker_radius", dim::length, "of the black stickers around them; needed without tags"),
+                    &FilmScene::sticker_radius)
+          .optional(text("tags",
+                         "a family of tags, \"apriltag 36h11\", upright on a white rim, in place of discs: each marker "
+                         "has the number of its `tag`"),
+                    &FilmScene::tags)
+          .optional(positive("tag_side", dim::length, "of the tags' black squares; needed with tags"),
+                    &FilmScene::tag_side)
           .optional(positive("bar_width", dim::length, "of grey bars from each marker to the next; left out: none"),
                     &FilmScene::bar_width)
           .part(light_keys())
@@ -71,8 +98,7 @@ const Binding<FilmScene>& film_binding() {
           .then([](const Record& record, FilmScene& film) {
             if (film.exposure < 0 || film.exposure * film.frame_rate > 1)
               throw record.wrong("exposure", "must lie between nothing and the time between frames");
-            if (film.sticker_radius <= film.disc_radius)
-              throw record.wrong("sticker_radius", "must be larger than disc_radius");
+            check_what_markers_are(record, film);
           });
   return table;
 }

@@ -14,6 +14,7 @@ struct FilmScene {
     std::string name;
     std::string node = {};                   ///< signals NODE.x, NODE.y and NODE.z of the run
     std::optional<Eigen::Vector3d> at = {};  ///< in place of a node: it stays there
+    std::optional<int> tag = {};             ///< its number
     Place place = {};
   };
   std::string title;
@@ -24,6 +25,8 @@ struct FilmScene {
   double frame_rate = 0;                                      ///< Hz
   double exposure = 0;                                        ///< s
   double disc_radius = 0, sticker_radius = 0, bar_width = 0;  ///< m
+  std::string tags = {};                                      ///< family of tags in place of discs; empty: discs
+  double tag_side = 0;                                        ///< m, of their black squares
   double blur = 0, noise = 0, fall_of_light = 0, flicker = 0, lost = 0;
   std::uint64_t seed = 1;
   Place place = {};

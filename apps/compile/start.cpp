@@ -1,3 +1,5 @@
+#include "compile/start.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,12 +22,17 @@ dynamics::Vector6 by_mode(const std::map<hydro::Mode, double>& values) {
   return out;
 }
 
-/// Puts the body where a share of its `initial` has brought it: R = Rz(yaw) Ry(pitch) Rx(roll), as angles are told.
-void place(const scene::Body& b, double share, dynamics::Pose& pose) {
-  const dynamics::Vector6 moved = share * by_mode(b.initial);
+/// Puts the body where its origin has moved: R = Rz(yaw) Ry(pitch) Rx(roll), as angles are told.
+void place(const scene::Body& b, const dynamics::Vector6& moved, dynamics::Pose& pose) {
   pose.attitude = dynamics::attitude_of(moved.tail<3>());
   pose.counted = moved.tail<3>();
   pose.centre = b.position + moved.head<3>() + pose.attitude * b.centre_of_gravity;
+}
+
+/// Of the centre of gravity, from that of the origin; angular velocity as it is.
+dynamics::Vector6 velocity_of_centre(const scene::Body& b, const dynamics::Pose& pose, dynamics::Vector6 velocity) {
+  velocity.head<3>() += velocity.tail<3>().cross(pose.attitude * b.centre_of_gravity);
+  return velocity;
 }
 
 /// Into as many stages bodies are turned to where they begin that a hinge between two of them turns by less than half
@@ -67,7 +74,51 @@ void close_what_digits_leave(const Scene& scene, const dynamics::Model& model, d
   dynamics::close_joint_velocities(model, none_kept, state);
 }
 
+/// What a body's origin has moved by, and how fast it moves; angles near those that were counted.
+BodyStart start_of(const scene::Body& b, const dynamics::Pose& pose, const dynamics::Vector6& velocity) {
+  const Eigen::Vector3d arm = pose.attitude * b.centre_of_gravity;
+  dynamics::Vector6 moved, moves = velocity;
+  moved << pose.centre - arm - b.position, dynamics::roll_pitch_yaw(pose.attitude, pose.counted);
+  moves.head<3>() -= moves.tail<3>().cross(arm);
+  BodyStart out;
+  for (int k = 0; k < 6; ++k) {
+    const auto mode = static_cast<hydro::Mode>(k);
+    if (!b.free[static_cast<std::size_t>(k)]) continue;
+    out.displacement[mode] = moved[k];
+    out.velocity[mode] = moves[k];
+  }
+  return out;
+}
+
 }  // namespace
+
+ClosedStart closed_start(const Scene& scene, const std::vector<BodyStart>& measured) {
+  const Prepared prepared = prepare(scene);
+  const dynamics::Model model(prepared.bodies, {}, {}, prepared.joints);
+  dynamics::State state = dynamics::rest_state(prepared.bodies);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const scene::Body& b = scene.bodies[i];
+    place(b, by_mode(measured[i].displacement), state.pose[i]);
+    state.velocity.segment<6>(6 * static_cast<Eigen::Index>(i)) =
+        velocity_of_centre(b, state.pose[i], by_mode(measured[i].velocity));
+  }
+  ClosedStart out;
+  if (const auto off = dynamics::worst_misfit(model, state))
+    out.opened = fmt::format("joint \"{}\" by {}", scene.joints[static_cast<std::size_t>(off->joint)].name,
+                             told(off->off, off->of_angle, ""));
+  const std::vector<bool> none_kept(scene.bodies.size(), false);
+  dynamics::close_joints(model, none_kept, state);
+  if (const auto off = dynamics::worst_misfit(model, state); off && off->off > off->allowed)
+    throw InputError(fmt::format("joint \"{}\" cannot be closed from where its bodies were measured",
+                                 scene.joints[static_cast<std::size_t>(off->joint)].name),
+                     scene.joints[static_cast<std::size_t>(off->joint)].place,
+                     "see whether the markers sit where the scene has its points and joints");
+  dynamics::close_joint_velocities(model, none_kept, state);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    out.bodies.push_back(
+        start_of(scene.bodies[i], state.pose[i], state.velocity.segment<6>(6 * static_cast<Eigen::Index>(i))));
+  return out;
+}
 
 dynamics::State placed_state(const Scene& scene, const Prepared& p, const dynamics::Model& model,
                              std::vector<std::string>& notes) {
@@ -80,15 +131,15 @@ dynamics::State placed_state(const Scene& scene, const Prepared& p, const dynami
   const int stages = stages_of(scene);
   for (int stage = 1; stage <= stages; ++stage) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-      if (placed[i]) place(scene.bodies[i], static_cast<double>(stage) / stages, state.pose[i]);
+      if (placed[i])
+        place(scene.bodies[i], static_cast<double>(stage) / stages * by_mode(scene.bodies[i].initial), state.pose[i]);
     dynamics::close_joints(model, placed, state);
     model.joints().count_turns(state);
   }
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const auto& b = scene.bodies[i];
-    dynamics::Vector6 velocity = by_mode(b.initial_velocity);
-    velocity.head<3>() += velocity.tail<3>().cross(state.pose[i].attitude * b.centre_of_gravity);
-    state.velocity.segment<6>(6 * static_cast<Eigen::Index>(i)) = velocity;
+    state.velocity.segment<6>(6 * static_cast<Eigen::Index>(i)) =
+        velocity_of_centre(b, state.pose[i], by_mode(b.initial_velocity));
   }
   if (scene.run->from_equilibrium) return state;
   dynamics::close_joint_velocities(model, given, state);

@@ -173,14 +173,17 @@ void cost(const CostArguments& arguments, const Console& console);
 
 struct KinematicsArguments {
   Path scene;                             ///< of a fit of kind "motion" with [camera]
-  std::string bandwidth;                  ///< "5 Hz"
+  std::string bandwidth;                  ///< "5 Hz"; empty in space
   std::vector<std::string> lengths = {};  ///< "pivot joint 0.5 m 0.5 mm": markers, their distance, its deviation
   std::optional<Path> record = {};        ///< .csv, of another clock
   std::string record_time = "t";          ///< its column of time
   std::string match = {};          ///< "chain.link1.polar = angle": a signal of the scene and a column of the record
-  std::optional<Path> start = {};  ///< .toml: a table [line.start]
-  std::string start_at = {}, nodes = {};    ///< "1.2 s" of the track; markers at the line's nodes, in their order
+  std::optional<Path> start = {};  ///< .toml: the scene of motion with its bodies' starts, or a table [line.start]
+  std::string start_at = {};       ///< "1.2 s" of the track
+  std::string nodes = {};          ///< markers at the line's nodes, in their order; empty: the start is that of bodies
   std::optional<std::string> release = {};  ///< a marker: when is it let go?
+  bool space = false;                       ///< six motions of bodies, from the lens and markers on them
+  std::optional<Path> second = {};          ///< scene of another camera that saw the same markers: places in space
   Path output;                              ///< .csv
   std::optional<Path> picture = {};         ///< .svg
 };

@@ -13,6 +13,8 @@
 #include "fit/camera/instants.hpp"
 #include "fit/camera/smooth.hpp"
 #include "froude/commands.hpp"
+#include "froude/kinematics_bodies.hpp"
+#include "froude/kinematics_space.hpp"
 #include "froude/outputs.hpp"
 #include "froude/report.hpp"
 #include "hydro/base/units.hpp"
@@ -46,22 +48,12 @@ fc::KnownLength known_length(const std::string& text) {
   });
 }
 
-/// One number at each frame, with its standard deviation.
-struct SmoothedColumn {
-  std::string name, unit;
-  std::vector<double> value, deviation;
-};
-
-void add(const std::string& name, const std::string& unit, std::vector<SmoothedColumn>& out) {
-  out.push_back({name, unit, {}, {}});
-}
-
 std::vector<SmoothedColumn> marker_columns(const fc::SmoothTrack& track, std::size_t m, char along) {
   std::vector<SmoothedColumn> out;
   for (const char axis : {along, 'z'})
     for (const auto& [what, unit] :
          {std::pair{"", "m"}, std::pair{"_velocity", "m/s"}, std::pair{"_acceleration", "m/s^2"}})
-      add(fmt::format("{}_{}{}", track.markers[m], axis, what), unit, out);
+      out.push_back({fmt::format("{}_{}{}", track.markers[m], axis, what), unit, {}, {}});
   for (std::size_t i = 0; i < track.time.size(); ++i) {
     const fc::MarkerMotion now = track.marker(m, i);
     for (Eigen::Index c = 0; c < 2; ++c) {
@@ -85,10 +77,8 @@ std::vector<SmoothedColumn> angle_columns(const fc::SmoothTrack& track, const fc
                                     track.markers.begin());
   };
   const double sign = channel.downwards ? -1 : 1, turn = 2 * std::numbers::pi;
-  std::vector<SmoothedColumn> out;
-  add(of, "rad", out);
-  add(of + "_velocity", "rad/s", out);
-  add(of + "_acceleration", "rad/s^2", out);
+  std::vector<SmoothedColumn> out{
+      {of, "rad", {}, {}}, {of + "_velocity", "rad/s", {}, {}}, {of + "_acceleration", "rad/s^2", {}, {}}};
   double last = 0;
   for (std::size_t i = 0; i < track.time.size(); ++i) {
     const fc::AngleMotion now = track.angle(number(channel.marker), number(channel.to), i);
@@ -155,9 +145,8 @@ fc::Offset offset_of(const KinematicsArguments& a, const scene::MotionModel& mod
   });
 }
 
-/// Where the markers of a line's nodes are and how they move at an instant, as a scene of motion takes it.
-std::string start_of_line(const KinematicsArguments& a, const scene::CameraTable& camera, const fc::SmoothTrack& track,
-                          double begin) {
+/// The frame that is nearest to --start-at, and how long before that instant it was taken.
+NearFrame frame_at_start(const KinematicsArguments& a, const fc::SmoothTrack& track, double begin) {
   const double at =
       scene::placed({.file = "--start-at"}, [&] { return hydro::parse_si(a.start_at, dim::time); }) - begin;
   if (!(at >= track.time.front() && at <= track.time.back()))
@@ -166,7 +155,12 @@ std::string start_of_line(const KinematicsArguments& a, const scene::CameraTable
                      {.file = "--start-at"}, "name a time between");
   const auto nearest = std::min_element(track.time.begin(), track.time.end(),
                                         [&](double s, double t) { return std::abs(s - at) < std::abs(t - at); });
-  const double since = at - *nearest;
+  return {static_cast<std::size_t>(nearest - track.time.begin()), at - *nearest};
+}
+
+/// Where the markers of a line's nodes are and how they move at an instant, as a scene of motion takes it.
+std::string start_of_line(const KinematicsArguments& a, const scene::CameraTable& camera, const fc::SmoothTrack& track,
+                          const NearFrame& at) {
   std::vector<std::string> places, velocities;
   double place_sd = 0, velocity_sd = 0;
   for (std::size_t from = 0; from <= a.nodes.size();) {
@@ -177,10 +171,9 @@ std::string start_of_line(const KinematicsArguments& a, const scene::CameraTable
     if (marker == track.markers.end())
       throw InputError(fmt::format("the track has no marker \"{}\"", name), {.file = "--nodes"},
                        fmt::format("its markers are {}", fmt::join(track.markers, ", ")));
-    const fc::MarkerMotion m = track.marker(static_cast<std::size_t>(marker - track.markers.begin()),
-                                            static_cast<std::size_t>(nearest - track.time.begin()));
-    const Eigen::Vector2d place = m.place + since * (m.velocity + since / 2 * m.acceleration),
-                          velocity = m.velocity + since * m.acceleration;
+    const fc::MarkerMotion m = track.marker(static_cast<std::size_t>(marker - track.markers.begin()), at.frame);
+    const Eigen::Vector2d place = m.place + at.since * (m.velocity + at.since / 2 * m.acceleration),
+                          velocity = m.velocity + at.since * m.acceleration;
     place_sd = std::max(place_sd, m.place_sd.maxCoeff());
     velocity_sd = std::max(velocity_sd, m.velocity_sd.maxCoeff());
     const auto vector = [&](const Eigen::Vector2d& v, double across, const char* unit) {
@@ -220,12 +213,14 @@ void say_instants(const KinematicsArguments& a, const scene::MotionModel& model,
 void kinematics(const KinematicsArguments& a, const Console& console) {
   std::vector<NamedFile> inputs = files_of_scene(a.scene);
   if (a.record) inputs.push_back({"--record", *a.record});
+  if (a.second) inputs.push_back({"--second", *a.second});
   require_outputs(named({{"-o", a.output}, {"--picture", a.picture}, {"--start", a.start}}), inputs);
+  if (a.space || a.second) return kinematics_in_space(a, console);
+  if (a.bandwidth.empty())
+    throw InputError("places are smoothed by a bandwidth, and none is given", {.file = "--bandwidth"},
+                     "write --bandwidth \"4 Hz\": motion that is slower keeps 99 % and more");
   const scene::FitScene scene = scene::read_fit(a.scene);
-  const auto* model = std::any_cast<scene::MotionModel>(&scene.settings);
-  if (model == nullptr || !model->camera)
-    throw InputError("the scene has no track: it is no fit of kind \"motion\" with [camera]", scene.model_place,
-                     "name a scene whose files are tracks");
+  const scene::MotionModel* model = &model_of_track(scene);
   fc::SmoothOptions options{
       .bandwidth_hz =
           scene::placed({.file = "--bandwidth"}, [&] { return hydro::parse_si(a.bandwidth, dim::angular_velocity); }) /
@@ -240,8 +235,11 @@ void kinematics(const KinematicsArguments& a, const Console& console) {
   };
   for (std::size_t m = 0; m < track.markers.size(); ++m) take(marker_columns(track, m, model->camera->axis.back()));
   const auto channels = channels_asked(*model);
+  const FilmedBodies bodies(*model, track);
   for (std::size_t c = 0; c < channels.size(); ++c)
-    if (channels[c].kind == fc::Channel::Kind::angle) take(angle_columns(track, channels[c], model->signals[c].of));
+    if (channels[c].kind == fc::Channel::Kind::angle && !bodies.tells(model->signals[c].of))
+      take(angle_columns(track, channels[c], model->signals[c].of));
+  take(bodies.columns());
   std::vector<hydro::io::CsvColumn> written{{"t", "s", &track.time}};
   for (const SmoothedColumn& c : columns) {
     written.push_back({c.name, c.unit, &c.value});
@@ -251,8 +249,20 @@ void kinematics(const KinematicsArguments& a, const Console& console) {
                        {fmt::format("smoothed by froude {}: gain 0.99 at {:g} Hz, half at {:.4g} Hz", FROUDE_VERSION,
                                     options.bandwidth_hz, track.cutoff_hz)});
   if (a.picture) draw(*a.picture, track.time, columns);
-  if (a.start) hydro::io::write_atomically(*a.start, start_of_line(a, *model->camera, track, in_plane.begin));
   Report report;
+  if (a.start) {
+    const NearFrame at = frame_at_start(a, track, in_plane.begin);
+    if (a.nodes.empty()) {
+      const FilmedStart start = bodies.start(at, *a.start, a.start_at);
+      hydro::io::write_atomically(*a.start, start.text);
+      report.say("bodies begin with standard deviations up to {:.2g} m and {:.2g} rad, {:.2g} m/s and {:.2g} rad/s{}",
+                 fact("start_deviation_m", start.deviation[0]), fact("start_deviation_rad", start.deviation[1]),
+                 fact("start_deviation_m_s", start.deviation[2]), fact("start_deviation_rad_s", start.deviation[3]),
+                 start.opened.empty() ? "" : fmt::format("; as measured, {} at most", start.opened));
+    } else {
+      hydro::io::write_atomically(*a.start, start_of_line(a, *model->camera, track, at));
+    }
+  }
   report.say("{} frames of {} markers, gain 0.99 at {:g} Hz and half at {:.4g} Hz; {} known lengths{}",
              fact("frames", track.time.size()), fact("markers", track.markers.size()),
              fact("bandwidth_hz", options.bandwidth_hz), fact("cutoff_hz", track.cutoff_hz),
@@ -261,6 +271,7 @@ void kinematics(const KinematicsArguments& a, const Console& console) {
   for (const SmoothedColumn& c : columns)
     report.row("column", "  {} [{}]: mean standard deviation {:.3g}", fact("name", c.name), fact("unit", c.unit),
                fact("mean_deviation", mean_of(c.deviation)));
+  bodies.say(report);
   say_instants(a, *model, in_plane, channels, report);
   report.wrote(a.output).wrote(a.picture).wrote(a.start);
   tell(report, console);

@@ -494,8 +494,8 @@ void add_kinematics(CLI::App& app, Request& request) {
       "motion.svg");
   auto arguments = std::make_shared<KinematicsArguments>();
   command->add_option("scene", arguments->scene, "fit scene (.toml) of kind \"motion\" with [camera]")->required();
-  command->add_option("--bandwidth", arguments->bandwidth, "what moves slower keeps 99 % and more: \"4 Hz\"")
-      ->required();
+  command->add_option("--bandwidth", arguments->bandwidth,
+                      "what moves slower keeps 99 % and more: \"4 Hz\"; needed but for --space and --second");
   command->add_option(
       "--length", arguments->lengths,
       "a distance that stays, and its deviation: \"pivot joint 0.5 m 0.5 mm\"; several by repeating it");
@@ -504,13 +504,24 @@ void add_kinematics(CLI::App& app, Request& request) {
   command->add_option("--record-time", arguments->record_time, "its column of time")->capture_default_str();
   record->needs(command->add_option("--match", arguments->match,
                                     "a signal of the scene and a column of the record: \"chain.link1.polar = angle\""));
-  auto* start = command->add_option("--start", arguments->start, "a table [line.start] for a scene of motion (.toml)");
+  auto* start = command->add_option("--start", arguments->start,
+                                    "the scene of motion whose bodies begin as filmed, or, with --nodes, a table "
+                                    "[line.start] for it (.toml)");
   start->needs(command->add_option("--start-at", arguments->start_at, "the time of it: \"1.2 s\" of the track"));
-  start->needs(command->add_option("--nodes", arguments->nodes,
-                                   "markers at the line's free nodes, in their order: \"joint, bob\""));
+  command->add_option("--nodes", arguments->nodes, "markers at the line's free nodes, in their order: \"joint, bob\"")
+      ->needs(start);
   command->add_option("--release", arguments->release, "a marker that is let go: when?");
   command->add_option("-o,--output", arguments->output, "table with standard deviations (.csv)")->required();
   command->add_option("--picture", arguments->picture, "plot (.svg)");
+  auto* space = command->add_flag("--space", arguments->space,
+                                  "six motions of bodies frame by frame, by the lens and four markers on each");
+  auto* second = command->add_option("--second", arguments->second,
+                                     "fit scene of another camera: places in space of the markers that both saw");
+  for (const char* of_smoothing : {"--bandwidth", "--length", "--record", "--start", "--release", "--picture"}) {
+    space->excludes(of_smoothing);
+    second->excludes(of_smoothing);
+  }
+  space->excludes(second);
   command->callback([=, &request] {
     request.call = [=](const Console& console) {
       kinematics(*arguments, console);

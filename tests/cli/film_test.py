@@ -8,6 +8,7 @@ Where froude-film is not built beside froude, films themselves are not tested.
 import csv
 import json
 import math
+import random
 import re
 import shutil
 import subprocess
@@ -17,6 +18,9 @@ import unittest
 from pathlib import Path
 
 FROUDE, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+sys.path.insert(0, str(SOURCE / "examples" / "film"))
+import make_float
+
 HAS_FILMS = (FROUDE.parent / "froude-film").exists()
 FIRST = "(322, 120), (411, 260), (519, 187)"
 
@@ -123,6 +127,139 @@ class Instants(WithFolder):
                       self.refused("kinematics", "fit/film_track.toml", "--bandwidth", "4 Hz", "-o", "x.csv", "--release", "bob"))
 
 
+class Arms(WithFolder):
+    """Two hinged arms, their places projected by their own closed form: bodies, poses and starts."""
+
+    LENGTHS = (0.3, 0.25)
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        # Where the arms of the scene go, every 20 ms, and what a camera of 2.5 mm a pixel sees of it.
+        scene = cls.folder / "film" / "arms_scene.toml"
+        cls.ran = cls.froude("run", scene, "-o", "arms.h5", "--csv", "arms_run.csv")
+        cls.exact = rows_of(cls.folder / "arms_run.csv")
+        noise = random.Random(5)
+        lines = ["t [s],pivot_x [px],pivot_y [px],elbow_x [px],elbow_y [px],tip_x [px],tip_y [px]"]
+        for row in cls.exact:
+            places = [(0, 0)] + [(float(row[f"{name}.x [m]"]), float(row[f"{name}.z [m]"])) for name in ("hinge", "tip")]
+            pixels = [f"{c + noise.gauss(0, 0.05):.5f}" for x, z in places for c in (320 + x / 0.0025, 200 - z / 0.0025)]
+            lines.append(",".join([row["time [s]"], *pixels]))
+        (cls.folder / "film" / "arms.csv").write_text("\n".join(lines) + "\n")
+        fit = (cls.folder / "film" / "arms_fit.toml").read_text()
+        (cls.folder / "film" / "arms_fit.toml").write_text(fit.replace('calibration = "lens.toml"', 'deviation = "0.05 px"'))
+
+    def kinematics(self, *more):
+        return json.loads(self.done("kinematics", "film/arms_fit.toml", "--bandwidth", "9 Hz", "-o", "arms_motion.csv", "--json",
+                                    *more))
+
+    def test_poses_of_bodies_are_those_of_the_run(self):
+        told = self.kinematics()
+        self.assertEqual([b["name"] for b in told["body"]], ["upper", "lower"])
+        for b in told["body"]:
+            self.assertLess(b["stray"], 2)
+        self.assertEqual(told["cautions"], [])
+        motion = rows_of(self.folder / "arms_motion.csv")
+        for body, at in (("upper", 0), ("lower", -0.3)):
+            inside = 0
+            for film, run in zip(motion[3:-3], self.exact[3:-3]):
+                off = float(film[f"{body}.pitch [rad]"]) - float(run[f"{body}.pitch [rad]"])
+                inside += abs(off) < 1.96 * float(film[f"{body}.pitch_deviation [rad]"])
+                # The origin of the lower arm is the hinge, which hangs at rest at z = -0.3 m.
+                x, z = (float(run["hinge.x [m]"]), float(run["hinge.z [m]"])) if body == "lower" else (0, 0)
+                self.assertAlmostEqual(float(film[f"{body}.surge [m]"]), x, delta=0.001)
+                self.assertAlmostEqual(float(film[f"{body}.heave [m]"]), z - at, delta=0.001)
+            # Four times in five, whips of the lower arm among them, which the bandwidth cuts a little.
+            self.assertGreater(inside / (len(motion) - 6), 0.8, body)
+
+    def test_a_bandwidth_that_cuts_the_motion_is_seen_by_its_rigid_bodies(self):
+        told = json.loads(self.done("kinematics", "film/arms_fit.toml", "--bandwidth", "3 Hz", "-o", "low.csv", "--json"))
+        self.assertTrue(any("bandwidth is too low" in caution for caution in told["cautions"]), told["cautions"])
+
+    def test_a_scene_of_hinged_bodies_begins_as_filmed(self):
+        told = self.kinematics("--start", "film/arms_start.toml", "--start-at", "1 s")
+        self.assertLess(told["start_deviation_rad"], 0.002)
+        self.done("run", "film/arms_start.toml", "-o", "start.h5", "--csv", "start.csv")
+        begun = rows_of(self.folder / "start.csv")
+        for k, radians in ((0, 0.002), (10, 0.01), (25, 0.02)):  # speeds to 0.03 rad/s: 0.006 rad after 0.2 s, and it grows
+            for name in ("upper.pitch [rad]", "lower.pitch [rad]"):
+                with self.subTest(sample=k, of=name):
+                    self.assertAlmostEqual(float(begun[k][name]), float(self.exact[50 + k][name]), delta=radians)
+
+    def test_a_start_between_frames_is_that_instant(self):
+        self.kinematics("--start", "film/arms_start.toml", "--start-at", "1.01 s")
+        self.done("run", "film/arms_start.toml", "-o", "start.h5", "--csv", "start.csv")
+        first = rows_of(self.folder / "start.csv")[0]
+        for name in ("upper.pitch [rad]", "lower.pitch [rad]"):
+            # The run half-way between two samples, by the cubic through four of them: off by 3/128 h^4 of the fourth
+            # derivative, (15 rad/s)^4 at most: 0.2 mrad.
+            a, b, c, d = (float(self.exact[k][name]) for k in (49, 50, 51, 52))
+            self.assertAlmostEqual(float(first[name]), (9 * (b + c) - a - d) / 16, delta=0.002)
+
+    def test_what_tells_no_start_is_refused(self):
+        common = ("--bandwidth", "9 Hz", "-o", "x.csv", "--start-at", "1 s", "--start")
+        self.assertIn("name markers as", self.refused("kinematics", "fit/film_track.toml", "--bandwidth", "4 Hz", "-o", "x.csv",
+                                                      "--start", "s.toml", "--start-at", "2 s"))
+        self.assertIn("the track has no 9 s",
+                      self.refused("kinematics", "film/arms_fit.toml", *common[:-2], "9 s", "--start", "s.toml"))
+        self.assertIn("none is given", self.refused("kinematics", "film/arms_fit.toml", "-o", "x.csv"))
+
+
+class Space(WithFolder):
+    """The example of a floating body with five markers before two cameras."""
+
+    def test_one_camera_tells_six_motions(self):
+        told = json.loads(self.done("kinematics", "film/float_left.toml", "--space", "-o", "six.csv", "--json"))
+        self.assertEqual(told["body"][0]["frames"], 120)
+        self.assertAlmostEqual(told["body"][0]["stray"], 1, delta=0.1)  # of 480 numbers left over: 0.032; three of them
+        inside = 0
+        rows = rows_of(self.folder / "six.csv")
+        for row in rows:
+            for name, exact in zip(("surge", "sway", "heave", "roll", "pitch", "yaw"), make_float.motion(float(row["t [s]"]))):
+                unit = "m" if name in ("surge", "sway", "heave") else "rad"
+                off = float(row[f"float.{name} [{unit}]"]) - exact
+                inside += abs(off) < 1.96 * float(row[f"float.{name}_deviation [{unit}]"])
+                self.assertLess(abs(off), 0.02)
+        self.assertAlmostEqual(inside / (6 * len(rows)), 0.95, delta=0.03)
+
+    def test_two_cameras_that_are_not_in_step_tell_places(self):
+        told = json.loads(self.done("kinematics", "film/float_left.toml", "--second", "film/float_right.toml", "-o", "places.csv",
+                                    "--json"))
+        self.assertEqual([m["name"] for m in told["marker"]], list(make_float.MARKERS))
+        self.assertEqual(told["behind"], 0)
+        inside = of = 0
+        for row in rows_of(self.folder / "places.csv"):
+            for m in make_float.MARKERS:
+                if not row[f"{m}_x [m]"]:
+                    continue
+                for c, exact in zip("xyz", make_float.place(m, float(row["t [s]"]))):
+                    off = float(row[f"{m}_{c} [m]"]) - exact
+                    inside += abs(off) < 1.96 * math.sqrt(float(row[f"{m}_{c}{c} [m^2]"]))
+                    of += 1
+        self.assertGreater(of, 3 * 5 * 114)
+        self.assertAlmostEqual(inside / of, 0.95, delta=0.03)
+        # Along the lines of sight: (4 m)^2 / (1500 px 1.3 m) 0.2 px sqrt 2 is 2.3 mm, what lies between frames less.
+        for m in told["marker"]:
+            self.assertAlmostEqual(m["deviation_y_m"], 0.0023, delta=0.0006)
+            self.assertAlmostEqual(m["stray"], 1, delta=0.25)
+
+    def test_a_clock_that_is_late_is_seen(self):
+        text = (self.folder / "film" / "float_right.toml").read_text()
+        (self.folder / "film" / "late.toml").write_text(text.replace('offset = "-0.3 s"', 'offset = "-0.2 s"'))
+        told = json.loads(self.done("kinematics", "film/float_left.toml", "--second", "film/late.toml", "-o", "late.csv", "--json"))
+        self.assertGreater(max(m["stray"] for m in told["marker"]), 10)
+
+    def test_what_tells_no_place_in_space_is_refused(self):
+        self.assertIn("--plane", self.refused("kinematics", "fit/film_track.toml", "--space", "-o", "x.csv"))
+        left, scene = ((self.folder / "film" / f"float_{name}.toml").read_text() for name in ("left", "scene"))
+        (self.folder / "film" / "few_scene.toml").write_text(scene.replace('"mast"', '"pole"').replace('"stern"', '"tail"'))
+        (self.folder / "film" / "few.toml").write_text(left.replace("float_scene.toml", "few_scene.toml"))
+        self.assertIn("four markers on it", self.refused("kinematics", "film/few.toml", "--space", "-o", "x.csv"))
+        ran = self.froude("kinematics", "film/float_left.toml", "--second", "fit/film_track.toml", "-o", "x.csv")
+        self.assertEqual(ran.returncode, 2, ran.stderr)
+        self.assertFalse((self.folder / "x.csv").exists())
+
+
 class WithoutFilms(WithFolder):
     def test_one_line_says_what_is_missing_and_how_to_get_it(self):
         alone = shutil.copy(FROUDE, self.folder / "froude")  # beside which there is no froude-film
@@ -188,6 +325,47 @@ class Films(WithFolder):
                   for row in rows_of(self.folder / "mp4.csv") if row["bob_x [px]"] and round(float(row["t [s]"]), 2) in truth]
         self.assertGreater(len(errors), 250)
         self.assertLess(math.sqrt(sum(e * e for e in errors) / len(errors)), 0.5)
+
+    def error_of(self, track, truth, names):
+        """rms of places against the truth, px, and how many there are."""
+        exact = {round(float(row["t [s]"]), 3): row for row in rows_of(self.folder / truth)}
+        errors = [float(row[f"{name}_{c} [px]"]) - float(exact[round(float(row["t [s]"]), 3)][f"{name}_{c} [px]"])
+                  for row in rows_of(self.folder / track) for name in names for c in "xy" if row[f"{name}_x [px]"]]
+        return math.sqrt(sum(e * e for e in errors) / len(errors)), len(errors)
+
+    def test_tags_of_the_example_are_tracked(self):
+        self.done("film", "film/tags.toml", "-o", "tags.avi", "--truth", "tags_truth.csv")
+        ran = self.froude("track", "tags.avi", "--tags", "apriltag 36h11", "--markers", "pivot = 3, elbow = 7, tip = 11", "-o",
+                          "tags.csv", "--annotated", "tags_annotated.avi", "--picture", "tags.png")
+        if "no module aruco" in ran.stderr or "reads no tags" in ran.stderr:
+            self.skipTest("OpenCV has no tags here")
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        off, places = self.error_of("tags.csv", "tags_truth.csv", ("pivot", "elbow", "tip"))
+        self.assertLess(off, 0.1)
+        self.assertGreater(places, 0.9 * 2 * 3 * len(rows_of(self.folder / "tags_truth.csv")))
+
+    def test_the_template_of_the_example_is_found(self):
+        made = subprocess.run([sys.executable, str(SOURCE / "examples" / "film" / "make_marker.py"), self.folder / "made.png"],
+                              timeout=60)
+        self.assertEqual(made.returncode, 0)
+        self.assertEqual((self.folder / "made.png").read_bytes(), (self.folder / "film" / "marker.png").read_bytes())
+        self.done("track", "film.avi", "--template", "film/marker.png", "--markers", "pivot, joint, bob", "--first", FIRST, "-o",
+                  "template.csv")
+        off, places = self.error_of("template.csv", "truth.csv", ("pivot", "joint", "bob"))
+        self.assertLess(off, 0.1)
+        self.assertGreater(places, 0.9 * 2 * 3 * len(rows_of(self.folder / "truth.csv")))
+
+    def test_a_film_of_neither_discs_nor_tags_is_refused(self):
+        text = (self.folder / "film" / "tags.toml").read_text()
+        for old, new, said in (("tag_side", "# tag_side", "only one of tags and tag_side"),
+                               (", tag = 3", "", "\"pivot\" has no tag"),
+                               ("tag = 3", "tag = 900", "are 0 to 586"),
+                               ("tags =", "# tags =", "disc_radius"),
+                               ('tags = "apriltag 36h11"', 'tags = "apriltag"', "no family"),
+                               ("tag_side", 'disc_radius = "1 mm"\ntag_side', "is of discs")):
+            (self.folder / "film" / "wrong.toml").write_text(text.replace(old, new, 1))
+            with self.subTest(put=new):
+                self.assertIn(said, self.refused("film", "film/wrong.toml", "-o", "x.avi"))
 
     def test_what_cannot_be_read_says_what_to_do(self):
         (self.folder / "text.mp4").write_text("no film")

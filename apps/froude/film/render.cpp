@@ -8,6 +8,7 @@
 #include "answers/simulate.hpp"
 #include "fit/camera/track_file.hpp"
 #include "froude/film/commands.hpp"
+#include "froude/film/markers.hpp"
 #include "froude/film/rendered.hpp"
 #include "froude/outputs.hpp"
 #include "froude/progress.hpp"
@@ -70,6 +71,16 @@ RenderedFilm::RenderedFilm(const scene::FilmScene& film) : film_(film) {
                             film.place, "take the size of the calibration");
   filming_.disc_radius = film.disc_radius;
   filming_.sticker_radius = film.sticker_radius;
+  if (!film.tags.empty())
+    scene::placed(film.place, [&] {
+      const TagReader tags(film.tags);
+      for (const auto& m : film.markers) {
+        hydro::require(*m.tag >= 0 && *m.tag < tags.count(), "\"{}\" has tag {}, and the tags of {} are 0 to {}",
+                       m.name, *m.tag, film.tags, tags.count() - 1);
+        filming_.patterns.push_back(tags.drawn(*m.tag, 1));
+      }
+      filming_.cell = film.tag_side / (filming_.patterns.front().width - 2);  // a white rim, a cell wide
+    });
   filming_.bar_width = film.bar_width;
   for (std::size_t k = 1; k < film.markers.size(); ++k) filming_.bars.emplace_back(k - 1, k);
   filming_.exposure_s = film.exposure;

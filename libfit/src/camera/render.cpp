@@ -54,6 +54,40 @@ class Drawing {
         cover(light_(y, x), static_cast<float>(level), share(spots, x, y, radius));
   }
 
+  /// (V24) A pattern of square cells, upright, its middle at each of these places for an equal part of the exposure.
+  /// Samples lie in a box whose variance is that of a pixel and of the blur together.
+  void add_pattern(const std::vector<Eigen::Vector2d>& places, const Picture& cells, double cell) {
+    constexpr int across = 6;
+    const double box = std::sqrt(1 + 12 * filming_.blur_px * filming_.blur_px);
+    const Eigen::Vector2d size(cells.width, cells.height);
+    for (const Eigen::Vector2d& place : places) {
+      const Eigen::Vector2d pixel = pixel_of(filming_.view, place);
+      const Eigen::Vector2d reach =
+          (point_slope(filming_.view, pixel).inverse().cwiseAbs() * (cell / 2 * size)).array() + box;
+      const Eigen::Array2i last(static_cast<int>(light_.cols()) - 1, static_cast<int>(light_.rows()) - 1),
+          from = (pixel - reach).array().floor().cast<int>().max(0),
+          to = (pixel + reach).array().ceil().cast<int>().min(last);
+      for (int y = from.y(); y <= to.y(); ++y)
+        for (int x = from.x(); x <= to.x(); ++x) {
+          const Eigen::Vector2d middle(x, y), point = point_of(filming_.view, middle);
+          const Eigen::Matrix2d slope = point_slope(filming_.view, middle);
+          float level = 0, share = 0;
+          for (int i = 0; i < across; ++i)
+            for (int j = 0; j < across; ++j) {
+              const Eigen::Vector2d off((i + 0.5) / across - 0.5, (j + 0.5) / across - 0.5),
+                  at = (point + box * (slope * off) - place) / cell;
+              const double right = filming_.view.leftwards ? -at.x() : at.x();       // it faces the camera
+              const Eigen::Array2d in(right + size.x() / 2, size.y() / 2 - at.y());  // rows count down
+              if ((in < 0).any() || (in >= size.array()).any()) continue;
+              level += cells.at(static_cast<int>(in.x()), static_cast<int>(in.y()));
+              share += 1;
+            }
+          if (share == 0) continue;
+          cover(light_(y, x), level / share, share / static_cast<float>(across * across * std::ssize(places)));
+        }
+    }
+  }
+
   /// A bar between two places, sharp: what it does to discs is that it ends under their stickers.
   void add_bar(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
     const Eigen::Vector2d a = pixel_of(filming_.view, from), b = pixel_of(filming_.view, to);
@@ -139,7 +173,8 @@ enum Stream : std::uint64_t { rows_of_noise = 9001, flicker = 9002, losses = 900
 
 Light light_of(const Filming& filming, const Places& places, double time_s) {  // (V15)
   hydro::require(
-      (filming.size.array() > 0).all() && filming.disc_radius > 0 && filming.exposure_s >= 0,
+      (filming.size.array() > 0).all() && (filming.disc_radius > 0 || !filming.patterns.empty()) &&
+          filming.exposure_s >= 0,
       "a film needs a size and a radius of its discs that are positive, and an exposure that is not negative");
   Light out = Light::Constant(filming.size.y(), filming.size.x(), static_cast<float>(filming.background));
   Drawing frame(filming, out);
@@ -147,6 +182,10 @@ Light light_of(const Filming& filming, const Places& places, double time_s) {  /
   if (filming.bar_width > 0)
     for (const auto& [a, b] : filming.bars) frame.add_bar(middle.at(a), middle.at(b));
   const auto moving = places_in_exposure(filming, places, time_s);
+  if (!filming.patterns.empty()) {
+    for (std::size_t k = 0; k < moving.size(); ++k) frame.add_pattern(moving[k], filming.patterns.at(k), filming.cell);
+    return out;
+  }
   for (const auto& one : moving)
     if (filming.sticker_radius > 0) frame.add_disc(one, filming.sticker_radius, filming.sticker);
   for (const auto& one : moving) frame.add_disc(one, filming.disc_radius, filming.disc);

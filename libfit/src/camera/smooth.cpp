@@ -12,7 +12,7 @@
 namespace fit::camera {
 namespace {
 
-constexpr Eigen::Index numbers_of_marker = 6, place_y = 3;
+constexpr Eigen::Index place_y = 3;
 
 /// (V5) 1/(1 + (f/f_c)⁶) is 0.99 at the bandwidth.
 double cutoff_of(double bandwidth_hz) { return bandwidth_hz * std::pow(0.99 / 0.01, 1.0 / 6); }

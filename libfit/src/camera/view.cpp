@@ -69,4 +69,22 @@ Eigen::Matrix2d point_slope(const View& view, const Eigen::Vector2d& pixel) {  /
   return out;
 }
 
+Eye eye_of(const View& view, int along, double across_at) {  // (V21)
+  hydro::require(view.lens && view.pose,
+                 "a camera is in space where a board in the plane of motion told its pose: calibrate with --plane");
+  const Eigen::Matrix3d board = matrix_of(*view.pose);
+  const auto seen = [&](const Eigen::Vector2d& in_plane) -> Eigen::Vector3d {
+    return board.leftCols<2>() * (upright(view).transpose() * in_plane);
+  };
+  const Eigen::Vector3d right = seen({1, 0}), up = seen({0, 1});
+  Eye out{*view.lens, {}, {}};
+  if (along == 0)
+    out.rotation << right, up.cross(right), up;
+  else
+    out.rotation << right.cross(up), right, up;
+  out.translation = board.leftCols<2>() * flat(view, view.pivot) + view.pose->translation - seen(view.pivot_at) -
+                    across_at * out.rotation.col(1 - along);
+  return out;
+}
+
 }  // namespace fit::camera

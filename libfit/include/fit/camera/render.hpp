@@ -17,10 +17,12 @@ namespace fit::camera {
 /// A camera that films. Places in the plane of motion are m, along the axis and up.
 struct Filming {
   View view = {};
-  Eigen::Vector2i size = {640, 480};                            ///< px
-  double disc_radius = 0.008, sticker_radius = 0.016;           ///< m
-  double exposure_s = 0;                                        ///< a frame shows the mean of this time, about its own
-  double blur_px = 0.5;                                         ///< standard deviation of the optics' blur
+  Eigen::Vector2i size = {640, 480};                   ///< px
+  double disc_radius = 0.008, sticker_radius = 0.016;  ///< m
+  std::vector<Picture> patterns = {};  ///< one a marker, in place of discs: grey levels of its cells, upright
+  double cell = 0;                     ///< m, side of a cell
+  double exposure_s = 0;               ///< a frame shows the mean of this time, about its own
+  double blur_px = 0.5;                ///< standard deviation of the optics' blur
   double background = 90, disc = 210, sticker = 20, bar = 140;  ///< grey levels
   double bar_width = 0;                                         ///< m, of the bars that are drawn between `bars`
   std::vector<std::pair<std::size_t, std::size_t>> bars = {};   ///< markers that a bar joins

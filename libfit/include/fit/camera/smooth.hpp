@@ -35,6 +35,9 @@ struct AngleMotion {
   double angle_sd, rate_sd, acceleration_sd;
 };
 
+/// Numbers of a frame that are one marker's.
+inline constexpr Eigen::Index numbers_of_marker = 6;
+
 /// All markers together at each frame. Numbers of a frame: marker by marker, along x: place, velocity, acceleration;
 /// then along y.
 struct SmoothTrack {

@@ -36,4 +36,14 @@ Eigen::Vector2d pixel_of(const View& view, const Eigen::Vector2d& point);
 /// ∂ point / ∂ pixel, by central differences of a thousandth of a pixel: good to 1e-6.
 Eigen::Matrix2d point_slope(const View& view, const Eigen::Vector2d& pixel);
 
+/// A camera in the scene: X_camera = rotation X_scene + translation, camera axes x right, y down, z ahead.
+struct Eye {
+  Lens lens;
+  Eigen::Matrix3d rotation;
+  Eigen::Vector3d translation;  ///< m
+};
+/// (V21) From the pose of a board in the plane of motion; `along` is the coordinate of the scene along the picture (0:
+/// x, 1: y), `across_at` where the plane is on the other horizontal one, m. \throws hydro::InputError without a pose
+Eye eye_of(const View& view, int along, double across_at);
+
 }  // namespace fit::camera

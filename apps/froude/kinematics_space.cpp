@@ -1,0 +1,199 @@
+#include "froude/kinematics_space.hpp"
+
+#include <fmt/ranges.h>
+
+#include <Eigen/LU>
+#include <any>
+#include <array>
+#include <cmath>
+
+#include "answers/camera_track.hpp"
+#include "dynamics/spatial/rotation.hpp"
+#include "fit/camera/space.hpp"
+#include "froude/kinematics_bodies.hpp"
+#include "froude/report.hpp"
+#include "hydro/io/atomic_file.hpp"
+#include "scene/placed.hpp"
+
+namespace froude {
+namespace {
+
+namespace fc = ::fit::camera;
+using Eigen::Vector3d;
+using hydro::InputError;
+
+/// Rows of numbers under a time, of which a frame may have none.
+class TableWithGaps {
+ public:
+  explicit TableWithGaps(const std::vector<std::string>& columns)
+      : text_(fmt::format("t [s],{}\n", fmt::join(columns, ","))) {}
+  void time(double t) { text_ += fmt::format("{}{:.10g}", text_.back() == '\n' ? "" : "\n", t); }
+  void add(const std::vector<double>& numbers) {
+    for (const double x : numbers) text_ += fmt::format(",{:.10g}", x);
+  }
+  void gap(std::size_t columns) { text_ += std::string(columns, ','); }
+  void write(const Path& file) const { hydro::io::write_atomically(file, text_ + "\n"); }
+
+ private:
+  std::string text_;
+};
+
+struct OneCamera {
+  FilmedTrack filmed;
+  fc::Eye eye;
+};
+OneCamera camera_of(const scene::FitScene& scene) {
+  const scene::MotionModel& model = model_of_track(scene);
+  const scene::CameraTable& camera = *model.camera;
+  FilmedTrack filmed = filmed_track(scene, model);
+  const fc::Eye eye = scene::placed(
+      camera.place, [&] { return fc::eye_of(filmed.view, camera.along(), camera.pivot_at[1 - camera.along()]); });
+  return {std::move(filmed), eye};
+}
+
+/// Motions from rest of a body, each followed by its standard deviation; angles near those before.
+std::vector<double> motions_of(const fc::SpacePose& pose, const scene::Body& body, Vector3d& angles) {
+  angles = dynamics::roll_pitch_yaw(pose.attitude, angles);
+  const Vector3d moved = pose.place - body.position;
+  // A small turn of roll, pitch and yaw about the axes that each of them has: yaw first, then pitch, then roll.
+  Eigen::Matrix3d turns;
+  turns << pose.attitude * Vector3d::UnitX(), dynamics::attitude_of({0, 0, angles.z()}) * Vector3d::UnitY(),
+      Vector3d::UnitZ();
+  Eigen::Matrix<double, 6, 6> slope = Eigen::Matrix<double, 6, 6>::Identity();
+  slope.bottomRightCorner<3, 3>() = turns.inverse();
+  const Eigen::Matrix<double, 6, 1> sd =
+      (slope * pose.covariance * slope.transpose()).diagonal().cwiseMax(0).cwiseSqrt();
+  std::vector<double> out;
+  for (int k = 0; k < 6; ++k) {
+    out.push_back(k < 3 ? moved[k] : angles[k - 3]);
+    out.push_back(sd[k]);
+  }
+  return out;
+}
+
+struct FilmedInSpace {
+  const scene::Body* body;
+  std::size_t markers;
+  fc::SpacePoses poses;
+};
+
+std::vector<FilmedInSpace> bodies_in_space(const scene::Scene& scene, const OneCamera& camera) {
+  std::vector<std::string> markers;
+  for (const auto& m : camera.filmed.track.markers) markers.push_back(m.name);
+  std::vector<FilmedInSpace> out;
+  for (int b = 0; b < static_cast<int>(scene.bodies.size()); ++b) {
+    const scene::Body& body = scene.bodies[static_cast<std::size_t>(b)];
+    const auto on = markers_on(scene, b, markers);
+    if (on.size() < 4) continue;
+    out.push_back({&body, on.size(), scene::placed(body.place, [&] {
+                     return fc::poses_in_space(camera.filmed.track, camera.eye, on, body.position,
+                                               camera.filmed.deviation);
+                   })});
+  }
+  if (out.empty())
+    throw InputError("no body of the scene has four markers on it, named as its points and joints", {.file = "--space"},
+                     fmt::format("name [[point]]s of the scene as the markers are: {}", fmt::join(markers, ", ")));
+  return out;
+}
+
+void six_motions(const KinematicsArguments& a, Report& report) {
+  const scene::FitScene fit = scene::read_fit(a.scene);
+  const OneCamera camera = camera_of(fit);
+  const scene::Scene scene = scene::read(model_of_track(fit).scene.value);
+  const auto bodies = bodies_in_space(scene, camera);
+  std::vector<std::string> columns;
+  for (const auto& b : bodies)
+    for (std::size_t k = 0; k < 6; ++k)
+      for (const char* of : {"", "_deviation"})
+        columns.push_back(fmt::format("{}.{}{} [{}]", b.body->name, hydro::mode_names[k], of, k < 3 ? "m" : "rad"));
+  TableWithGaps table(columns);
+  std::vector<Vector3d> angles(bodies.size(), Vector3d::Zero());
+  for (std::size_t i = 0; i < camera.filmed.track.frames(); ++i) {
+    table.time(camera.filmed.track.time[i]);
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      if (const auto& pose = bodies[b].poses.pose[i])
+        table.add(motions_of(*pose, *bodies[b].body, angles[b]));
+      else
+        table.gap(12);
+  }
+  table.write(a.output);
+  for (const auto& b : bodies) {
+    double squares = 0;
+    int frames = 0;
+    for (const auto& pose : b.poses.pose)
+      if (pose) squares += pose->stray * pose->stray, ++frames;
+    report.row("body",
+               "{}: pose of {} markers in {} of {} frames; fewer than four were seen in {}, a mirrored pose is as "
+               "likely in {}, none fits in {}; pixels stray by {:.2g} of their errors",
+               fact("name", b.body->name), fact("markers", b.markers), fact("frames", frames), b.poses.pose.size(),
+               fact("too_few", b.poses.too_few), fact("ambiguous", b.poses.ambiguous), fact("lost", b.poses.lost),
+               fact("stray", frames > 0 ? std::sqrt(squares / frames) : 0.0));
+  }
+}
+
+void places_by_two(const KinematicsArguments& a, Report& report) {
+  const scene::FitScene first_fit = scene::read_fit(a.scene), second_fit = scene::read_fit(*a.second);
+  const auto seen_by = [](const OneCamera& c, double later) {
+    fc::SeenByEye out{c.filmed.track, c.eye, c.filmed.deviation};
+    for (double& t : out.track.time) t += later;
+    return out;
+  };
+  const OneCamera first = camera_of(first_fit), second = camera_of(second_fit);
+  const fc::SpaceTrack points = scene::placed({.file = "--second"}, [&] {
+    return fc::joined(seen_by(first, 0), seen_by(second, second.filmed.begin - first.filmed.begin));
+  });
+  std::vector<std::string> columns;
+  for (const auto& m : points.markers) {
+    for (const char* axis : {"x", "y", "z"}) columns.push_back(fmt::format("{}_{} [m]", m, axis));
+    for (const char* axes : {"xx", "xy", "xz", "yy", "yz", "zz"})
+      columns.push_back(fmt::format("{}_{} [m^2]", m, axes));
+  }
+  TableWithGaps table(columns);
+  for (std::size_t i = 0; i < points.time.size(); ++i) {
+    table.time(points.time[i]);
+    for (const auto& of_marker : points.point)
+      if (const auto& p = of_marker[i]) {
+        const Eigen::Matrix3d& c = p->covariance;
+        table.add({p->at.x(), p->at.y(), p->at.z(), c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2)});
+      } else {
+        table.gap(9);
+      }
+  }
+  table.write(a.output);
+  report.say("{} frames, {} places of {} markers; rays of {} more do not meet", fact("frames", points.time.size()),
+             fact("points", points.points), fact("markers", points.markers.size()), fact("behind", points.behind));
+  for (std::size_t m = 0; m < points.markers.size(); ++m) {
+    double squares = 0;
+    Vector3d variance = Vector3d::Zero();
+    int frames = 0;
+    for (const auto& p : points.point[m])
+      if (p) squares += p->stray * p->stray, variance += p->covariance.diagonal(), ++frames;
+    if (frames == 0) continue;
+    const Vector3d sd = (variance / frames).cwiseSqrt();
+    report.row("marker",
+               "{}: in {} frames, standard deviations {:.2g}, {:.2g} and {:.2g} m along x, y and z; rays pass each "
+               "other by {:.2g} of their errors",
+               fact("name", points.markers[m]), fact("frames", frames), fact("deviation_x_m", sd.x()),
+               fact("deviation_y_m", sd.y()), fact("deviation_z_m", sd.z()),
+               fact("stray", std::sqrt(squares / frames)));
+  }
+}
+
+}  // namespace
+
+const scene::MotionModel& model_of_track(const scene::FitScene& scene) {
+  const auto* model = std::any_cast<scene::MotionModel>(&scene.settings);
+  if (model == nullptr || !model->camera)
+    throw InputError("the scene has no track: it is no fit of kind \"motion\" with [camera]", scene.model_place,
+                     "name a scene whose files are tracks");
+  return *model;
+}
+
+void kinematics_in_space(const KinematicsArguments& a, const Console& console) {
+  Report report;
+  a.space ? six_motions(a, report) : places_by_two(a, report);
+  report.wrote(a.output);
+  tell(report, console);
+}
+
+}  // namespace froude
