@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "gauss_newton.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 
@@ -36,28 +37,24 @@ class Body {
   PlanarMotion at(std::size_t frame) const {
     const hydro::dense::Cholesky errors(covariance(frame));
     if (!errors) throw hydro::NumericsError("the covariance of markers on a body is singular");
+    const Eigen::MatrixXd whitening = hydro::dense::inverse(errors.L());
     const Eigen::VectorXd seen = observed(frame);
     Eigen::VectorXd q = first_guess(frame);
-    constexpr int most = 50;
-    constexpr double settled = 1e-6;  // of a standard deviation
-    for (int round = 0; round < most; ++round) {
-      Eigen::VectorXd missed = seen;
-      const Eigen::MatrixXd slope = model(q, missed);
-      const Eigen::MatrixXd weighted = errors.solve(slope);
-      const Eigen::MatrixXd information = slope.transpose() * weighted;
-      const hydro::dense::Cholesky normal(information);
-      if (!normal) throw hydro::NumericsError("the pose of a body cannot be told from its markers");
-      const Eigen::VectorXd step = normal.solve(weighted.transpose() * missed);
-      q += step;
-      if (step.dot(information * step) > settled * settled) continue;
-      PlanarMotion out;
-      out.place = q.segment<3>(0), out.velocity = q.segment<3>(3), out.acceleration = q.segment<3>(6);
-      out.covariance = normal.solve(Eigen::MatrixXd::Identity(9, 9));
-      out.stray = std::sqrt(missed.dot(errors.solve(missed).col(0)) / static_cast<double>(missed.size() - 9));
-      return out;
-    }
-    throw hydro::NumericsError(fmt::format(
-        "at {:.6g} s no pose of the body fits its markers: they are not where it has them", track_.time[frame]));
+    const auto solved = least_squares({[&](Eigen::VectorXd& missed, Eigen::MatrixXd& slope) {
+                                         missed = seen;
+                                         slope = whitening * model(q, missed);
+                                         missed = (whitening * missed).eval();
+                                         return true;
+                                       },
+                                       [&](const Eigen::VectorXd& step) { q += step; }});
+    if (!solved)
+      throw hydro::NumericsError(fmt::format(
+          "at {:.6g} s no pose of the body fits its markers: they are not where it has them", track_.time[frame]));
+    PlanarMotion out;
+    out.place = q.segment<3>(0), out.velocity = q.segment<3>(3), out.acceleration = q.segment<3>(6);
+    out.covariance = solved->covariance;
+    out.stray = std::sqrt(solved->squares / static_cast<double>(seen.size() - 9));
+    return out;
   }
 
  private:

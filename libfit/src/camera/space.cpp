@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 
 #include "dynamics/spatial/rotation.hpp"
+#include "gauss_newton.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 
@@ -41,41 +41,6 @@ Eigen::Matrix2d whitening_of(const Eigen::Matrix2d& covariance) {
   return out;
 }
 
-/// Gauss–Newton for a few pixels: steps are halved until what is missed falls.
-struct FewPixels {
-  /// Missed, over its errors, and its slopes at the numbers as they are; false where a point is behind a camera.
-  std::function<bool(Eigen::VectorXd& missed, Eigen::MatrixXd& slope)> model;
-  std::function<void(const Eigen::VectorXd& step)> move;
-};
-struct Solved {
-  double squares;  ///< what is left over
-  Eigen::MatrixXd covariance;
-};
-std::optional<Solved> solve(const FewPixels& problem) {
-  constexpr int most = 60, halvings = 20;
-  constexpr double settled = 1e-6;  // of a standard deviation
-  Eigen::VectorXd missed;
-  Eigen::MatrixXd slope;
-  if (!problem.model(missed, slope)) return std::nullopt;
-  for (int round = 0; round < most; ++round) {
-    const double before = missed.squaredNorm();
-    const Eigen::MatrixXd information = slope.transpose() * slope;
-    const hydro::dense::Cholesky normal(information);
-    if (!normal) return std::nullopt;
-    Eigen::VectorXd step = normal.solve(slope.transpose() * missed);
-    if (step.dot(information * step) < settled * settled)
-      return Solved{before, normal.solve(Eigen::MatrixXd::Identity(step.size(), step.size()))};
-    problem.move(step);
-    // Near the end rounding keeps the sum from falling.
-    for (int k = 0; !problem.model(missed, slope) || missed.squaredNorm() > before * (1 + 1e-9); ++k) {
-      if (k == halvings) return std::nullopt;
-      problem.move(-step / 2);
-      step /= 2;
-    }
-  }
-  return std::nullopt;
-}
-
 /// A marker of the body in a frame.
 struct SeenOnBody {
   Vector3d at;  // on the body
@@ -86,7 +51,7 @@ struct SeenOnBody {
 /// (V22) The pose that lies downhill of a first one.
 std::optional<SpacePose> downhill(const Eye& eye, const std::vector<SeenOnBody>& seen, SpacePose pose,
                                   double& squares) {
-  const FewPixels problem{[&](Eigen::VectorXd& missed, Eigen::MatrixXd& slope) {
+  const FewNumbers sought{[&](Eigen::VectorXd& missed, Eigen::MatrixXd& slope) {
                             const auto rows = 2 * std::ssize(seen);
                             missed.resize(rows);
                             slope.resize(rows, 6);
@@ -105,7 +70,7 @@ std::optional<SpacePose> downhill(const Eye& eye, const std::vector<SeenOnBody>&
                             pose.place += step.head<3>();
                             pose.attitude = (rotation_exp(step.tail<3>()) * pose.attitude).normalized();
                           }};
-  const auto solved = solve(problem);
+  const auto solved = least_squares(sought);
   if (!solved) return std::nullopt;
   squares = solved->squares;
   pose.covariance = solved->covariance;
@@ -239,20 +204,20 @@ std::optional<SpacePoint> triangulated(const Eye& first, const Sighting& at_firs
   if (!start) return std::nullopt;
   Vector3d point = *start;
   const std::array<std::pair<const Eye*, const Sighting*>, 2> both{{{&first, &at_first}, {&second, &at_second}}};
-  const auto solved = solve({[&](Eigen::VectorXd& missed, Eigen::MatrixXd& slope) {
-                               missed.resize(4);
-                               slope.resize(4, 3);
-                               for (std::size_t k = 0; k < 2; ++k) {
-                                 const auto& [eye, seen] = both[k];
-                                 if (!((eye->rotation * point + eye->translation).z() > 0)) return false;
-                                 const Eigen::Matrix2d whitening = whitening_of(seen->covariance);
-                                 const auto row = 2 * static_cast<Eigen::Index>(k);
-                                 missed.segment<2>(row) = whitening * (seen->at - pixel_of(*eye, point));
-                                 slope.block<2, 3>(row, 0) = whitening * pixel_slope(*eye, point);
-                               }
-                               return true;
-                             },
-                             [&](const Eigen::VectorXd& step) { point += step; }});
+  const auto solved = least_squares({[&](Eigen::VectorXd& missed, Eigen::MatrixXd& slope) {
+                                       missed.resize(4);
+                                       slope.resize(4, 3);
+                                       for (std::size_t k = 0; k < 2; ++k) {
+                                         const auto& [eye, seen] = both[k];
+                                         if (!((eye->rotation * point + eye->translation).z() > 0)) return false;
+                                         const Eigen::Matrix2d whitening = whitening_of(seen->covariance);
+                                         const auto row = 2 * static_cast<Eigen::Index>(k);
+                                         missed.segment<2>(row) = whitening * (seen->at - pixel_of(*eye, point));
+                                         slope.block<2, 3>(row, 0) = whitening * pixel_slope(*eye, point);
+                                       }
+                                       return true;
+                                     },
+                                     [&](const Eigen::VectorXd& step) { point += step; }});
   if (!solved) return std::nullopt;
   return SpacePoint{point, solved->covariance, std::sqrt(solved->squares)};
 }
