@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 
 #include <any>
+#include <filesystem>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -71,6 +73,9 @@ class FitKind {
   virtual std::any read(const FitTables& tables, const FitScene& scene) const = 0;
   /// Opens the data files and fits. \throws hydro::InputError, hydro::NumericsError
   virtual FitAnswer answer(const FitScene& scene) const = 0;
+  /// Opens the data files and compares them with what the model tells, unfitted: at the values of an earlier fit's
+  /// file, or where a fit would begin. \throws hydro::InputError, also for kinds whose model tells nothing by itself
+  virtual FitAnswer predict(const FitScene& scene, const std::optional<std::filesystem::path>& fitted) const;
   virtual bool has_table() const { return false; }
   /// Facts to be told beside the kind, by name.
   virtual std::vector<std::pair<std::string, std::string>> settings(const FitScene&) const { return {}; }

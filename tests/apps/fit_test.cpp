@@ -350,6 +350,87 @@ TEST_F(Fit, OfASceneFindsTheDampingThatAnIndependentRecordHas) {
   EXPECT_THAT(hydro::io::read_text(folder / "p.toml"), HasSubstr("line_damping_linear = \"0.00"));
 }
 
+// Three records at two rates, one of them uneven, one with a start that is fitted to it alone; as make_swings.py says.
+TEST_F(Fit, OfSeveralRecordsHasTheTruthInItsIntervalsAndFitsTheOneHeldBack) {
+  const auto fitted = folder / "swings_fit.toml";
+  const auto j = nlohmann::json::parse(
+      told({.scene = examples / "swings.toml", .output = fitted, .picture = folder / "swings.svg"}, true));
+  const auto holds = [&](const char* name, double truth) {
+    const auto& interval = j["parameter"][name]["interval"];
+    return interval[0].get<double>() < truth && truth < interval[1].get<double>();
+  };
+  EXPECT_TRUE(holds("line_damping_linear", 0.006)) << j.dump(1);
+  EXPECT_TRUE(holds("line_damping_quadratic", 0.004)) << j.dump(1);
+  EXPECT_TRUE(holds("line_release_at_x_of_second", 0.2)) << j.dump(1);
+  EXPECT_TRUE(holds("line_release_at_z_of_second", -0.8)) << j.dump(1);
+  ASSERT_EQ(j["record"].size(), 3u);
+  EXPECT_EQ(j["record"][2]["file"], "third.csv");
+  // Rows before the release are not fitted; what is left is the noise, 0.01 rad, whose rms of 190 samples is good to 5
+  // %.
+  EXPECT_EQ(j["record"][2]["signal"][0]["samples"], 190);
+  for (const auto& record : j["record"])
+    for (const auto& signal : record["signal"]) EXPECT_NEAR(signal["rms"].get<double>(), 0.01, 0.002) << record;
+  EXPECT_THAT(hydro::io::read_text(folder / "swings.svg"), AllOf(HasSubstr("first.csv"), HasSubstr("third.csv")));
+
+  const auto held_back = nlohmann::json::parse(told(
+      {.scene = examples / "held_back.toml", .picture = folder / "held.svg", .predict = true, .at = fitted}, true));
+  EXPECT_EQ(held_back["parameter"][0]["value"], j["parameter"]["line_damping_linear"]["value"]);
+  for (const auto& signal : held_back["signal"]) {
+    EXPECT_NEAR(signal["rms"].get<double>(), 0.01, 0.0015) << signal;
+    EXPECT_GT(signal["explained"].get<double>(), 0.998) << signal;
+  }
+  EXPECT_THAT(hydro::io::read_text(folder / "held.svg"), HasSubstr("predicted"));
+  // The scene's own damping is another: what it explains is much less.
+  const auto guessed = nlohmann::json::parse(told({.scene = examples / "held_back.toml", .predict = true}, true));
+  EXPECT_GT(guessed["signal"][0]["rms"].get<double>(), 0.1);
+}
+
+TEST_F(Fit, OfSeveralRecordsSaysWhatIsWrongWithOne) {
+  const auto refuses = [&](const char* from, const char* to, const char* with) {
+    const auto scene = changed("swings.toml", from, to);
+    EXPECT_THAT([&] { told({.scene = scene}); }, ThrowsMessage<InputError>(HasSubstr(with))) << to;
+  };
+  refuses("swings/second.csv", "swings/secnd.csv", "is no file");
+  refuses("swings/second.csv\"", "swings/first.csv\"", "two records are called \"first\"");
+  refuses("value = \"0.35 m\"", "value = \"0.35 s\"", "has another dimension");
+  refuses("line.release.at.x\", value", "line.release.at.w\", value", "line.release.at.w");
+  refuses("{ key = \"line.release.at.z\", value", "{ key = \"line.release.at.x\", value", "set twice");
+  refuses("{ key = \"line.release.at.x\", value", "{ key = \"line.damping.linear\", value", "has another dimension");
+  refuses("{ key = \"line.release.at.x\", first = \"0.25 m\", lowest = \"0 m\", highest = \"0.5 m\" }",
+          "{ key = \"line.damping.linear\" }", "fitted to all records already");
+  refuses("start = \"0.4 s\"", "start = \"0.4 s\"\nend = \"0.3 s\"", "must be later than the start");
+  refuses("start = \"0.4 s\"", "start = \"0.4 s\"\nend = \"0.5 s\"", "there are 3 samples");
+  refuses("channels =", "files = [\"pendulums.csv\"]\nchannels =", "files");
+}
+
+TEST_F(Fit, PredictsByAnEarlierFitOfTheSameNumbersAlone) {
+  const auto refuses = [&](const froude::FitArguments& arguments, const char* with) {
+    EXPECT_THAT([&] { told(arguments); }, ThrowsMessage<InputError>(HasSubstr(with)));
+  };
+  const auto write = [&](const char* name, const char* text) {
+    hydro::io::write_atomically(folder / name, text);
+    return folder / name;
+  };
+  const auto scene = examples / "held_back.toml";
+  const char* linear = "[parameter.a]\nkey = \"line.damping.linear\"\nunit = \"kg/s\"\n";
+  refuses({.scene = scene, .predict = true, .at = write("none.toml", "a = 1\n")}, "has no tables [parameter");
+  refuses({.scene = scene, .predict = true, .at = write("no.toml", linear)}, "has no value");
+  refuses({.scene = scene, .predict = true, .at = write("one.toml", (std::string(linear) + "value = 0.006\n").c_str())},
+          "this fit has no \"line.damping.quadratic\"; it has line.damping.linear");
+  refuses({.scene = scene,
+           .predict = true,
+           .at = write("unit.toml", "[parameter.a]\nkey = \"line.damping.linear\"\nunit = \"m\"\nvalue = 1.0\n")},
+          "is in m, and in kg/s in the scene");
+  refuses({.scene = examples / "pendulums.toml", .predict = true}, "[model] has a window");
+  refuses({.scene = examples / "restoring.toml", .predict = true}, "no scene that tells a record by itself");
+  // Grams a second are a thousandth of the scene's unit.
+  const auto grams = write("grams.toml",
+                           "[parameter.a]\nkey = \"line.damping.linear\"\nunit = \"g/s\"\nvalue = 6.0\n"
+                           "[parameter.b]\nkey = \"line.damping.quadratic\"\nunit = \"kg/m\"\nvalue = 0.004\n");
+  const auto j = nlohmann::json::parse(told({.scene = scene, .predict = true, .at = grams}, true));
+  EXPECT_NEAR(j["parameter"][0]["value"].get<double>(), 0.006, 1e-15);
+}
+
 TEST_F(Fit, OfASceneGivesProfilesWhereAsked) {
   const auto scene = changed("pendulums.toml", "[ask]", "[ask]\nprofile = true");
   const auto j = nlohmann::json::parse(told({.scene = scene}, true));
