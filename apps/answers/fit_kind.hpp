@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 
 #include <any>
+#include <filesystem>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -71,6 +73,9 @@ class FitKind {
   virtual std::any read(const FitTables& tables, const FitScene& scene) const = 0;
   /// Opens the data files and fits. \throws hydro::InputError, hydro::NumericsError
   virtual FitAnswer answer(const FitScene& scene) const = 0;
+  /// Opens the data files and compares them with what the model tells, unfitted: at the values of an earlier fit's
+  /// file, or where a fit would begin. \throws hydro::InputError, also for kinds whose model tells nothing by itself
+  virtual FitAnswer predict(const FitScene& scene, const std::optional<std::filesystem::path>& fitted) const;
   virtual bool has_table() const { return false; }
   /// Facts to be told beside the kind, by name.
   virtual std::vector<std::pair<std::string, std::string>> settings(const FitScene&) const { return {}; }
@@ -87,8 +92,9 @@ const Binding<::fit::PrepareOptions>& prepare_binding();
 void only_prepares(const FitTables& tables, const std::vector<std::string>& steps, const char* remedy,
                    const char* no_cycles);
 
-/// What the lines of a scene are, for its report: "gauge by gauge.csv: 25 ± 0.01 V/m, hysteresis …".
-std::vector<std::string> told_lines(const FitScene& scene);
+/// What the lines of a scene are, for its report: "gauge by gauge.csv: 25 ± 0.01 V/m, hysteresis …"; whether intervals
+/// count the errors of their slopes.
+std::vector<std::string> told_lines(const FitScene& scene, bool counted);
 
 /// [camera], where a kind takes no tracks.
 [[nodiscard]] hydro::InputError films_nothing(const FitTables& tables);
@@ -127,7 +133,7 @@ class FitKindOf : public FitKind {
     const Problem given = problem(scene, scene.model<Model>());
     const Solution found = solve(given);
     FitAnswer out{.report = found.report, .panels = panels(given, found), .table = {}, .remedy = {}};
-    for (std::string& line : told_lines(scene)) out.report.remarks.push_back(std::move(line));
+    for (std::string& line : told_lines(scene, counts_lines())) out.report.remarks.push_back(std::move(line));
     if (out.report.refused)
       out.remedy = remedy(scene, given, found);
     else
@@ -158,6 +164,8 @@ class FitKindOf : public FitKind {
   virtual Problem problem(const FitScene& scene, const Model& model) const = 0;
   virtual Panels panels(const Problem& problem, const Solution& solution) const = 0;
   virtual Remedy remedy(const FitScene&, const Problem&, const Solution&) const { return {}; }
+  /// Whether the intervals count the errors of the slopes of [[data.line]].
+  virtual bool counts_lines() const { return false; }
   /// Of kinds that have one; asked where no value is refused.
   virtual std::string table(const Problem&, const Solution&) const { return {}; }
 

@@ -108,17 +108,24 @@ std::string Measurements::unit(const std::string& name) const {
   return of == nullptr ? unit_of(table, name) : read_line(*of, scene.confidence).reference.si();
 }
 
-std::vector<std::string> told_lines(const FitScene& scene) {
+std::pair<double, double> Measurements::slope_error(const std::string& name) const {
+  const FitScene::Line* of = line_of(scene, name);
+  if (of == nullptr) return {0, 0};
+  const ::fit::Coefficient slope = read_line(*of, scene.confidence).line.slope;
+  const double size = std::abs(*slope.value);
+  return {slope.standard_error / size, (slope.interval.high - slope.interval.low) / 2 / size};
+}
+
+std::vector<std::string> told_lines(const FitScene& scene, bool counted) {
   std::vector<std::string> out;
   for (const FitScene::Line& of : scene.lines) {
     const auto [line, reading, reference] = read_line(of, scene.confidence);
     out.push_back(fmt::format(
-        "{} by {}: {:.5g} ± {:.2g} {}/{}{}; the error of the slope, {:.2g} %, is the same in all runs "
-        "and in no interval",
+        "{} by {}: {:.5g} ± {:.2g} {}/{}{}; the error of the slope, {:.2g} %, is the same in all runs and in {}",
         of.column, of.file.value.filename().string(), *line.slope.value, line.slope.standard_error, reading.si(),
         reference.si(),
         line.hysteresis ? fmt::format(", hysteresis {:.2g} % of its range", 100 * *line.hysteresis) : std::string(),
-        100 * line.slope.standard_error / std::abs(*line.slope.value)));
+        100 * line.slope.standard_error / std::abs(*line.slope.value), counted ? "the intervals" : "no interval"));
   }
   return out;
 }

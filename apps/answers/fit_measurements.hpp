@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "answers/fit_kind.hpp"
@@ -27,6 +28,8 @@ struct Measurements {
   hydro::Dimension dimension(const std::string& name) const;
   /// The SI unit as the header writes it, "N", or else in base units.
   std::string unit(const std::string& name) const;
+  /// Of the column's line over its slope: standard error, and half width of its interval; zero without a line.
+  std::pair<double, double> slope_error(const std::string& name) const;
   /// SI; empty where no column has that role.
   std::vector<double> of_role(const char* role, const hydro::Dimension& dimension) const;
   std::vector<double> time() const;

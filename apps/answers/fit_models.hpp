@@ -59,11 +59,23 @@ struct MotionModel {
     std::string marker = {}, along = {};    ///< one marker: its coordinate x, y or z
     double zero = 0;                        ///< rad, direction of the line where the signal is zero
   };
+  /// One of several, with what its scene has otherwise.
+  struct Record {
+    std::string name = {};
+    Located<std::filesystem::path> file = {};
+    double start = 0;                                          ///< s, in the file's time: when the run begins
+    std::optional<double> end = {};                            ///< s, in the file's time
+    std::optional<Located<std::filesystem::path>> scene = {};  ///< empty: that of the model
+    std::vector<Parameter> set = {};                           ///< held at their first values
+    std::vector<Parameter> parameters = {};                    ///< fitted to this record alone
+    Place place = {};
+  };
   Located<std::filesystem::path> scene = {};
   double window = 0;               ///< s; 0: the record is one run from the scene's start
   std::optional<int> starts = {};  ///< of the search; none: one, and others where it is refused
   int iterations = 60;
-  std::vector<Parameter> parameters = {};
+  std::vector<Parameter> parameters = {};  ///< which all records share
+  std::vector<Record> records = {};        ///< one at least; of tracks one
   std::vector<Signal> signals = {};
   bool profile = false, accept_residuals = false;
   std::optional<CameraTable> camera = {};          ///< files are tracks

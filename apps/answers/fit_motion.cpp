@@ -2,15 +2,22 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
+#include <memory>
 #include <numbers>
+#include <numeric>
+#include <optional>
+#include <utility>
 
 #include "answers/fit_kind.hpp"
 #include "answers/fit_measurements.hpp"
 #include "answers/fit_models.hpp"
+#include "answers/fit_motion_records.hpp"
+#include "answers/fit_motion_values.hpp"
 #include "answers/scene_runs.hpp"
 #include "fit/problem/motion.hpp"
-#include "hydro/io/atomic_file.hpp"
-#include "scene/override.hpp"
+#include "fit/several_records.hpp"
+#include "hydro/io/csv.hpp"
 #include "scene/placed.hpp"
 
 namespace froude::scene {
@@ -19,53 +26,6 @@ namespace {
 namespace dim = hydro::dim;
 namespace fs = std::filesystem;
 using hydro::InputError;
-
-const Table& model_parameter() {
-  static const Table table{
-      .title = "[[model.parameter]]",
-      .meaning = "motion: a number of the scene that is fitted",
-      .keys = {text("key", "its path: \"line.damping.linear\", \"body[1].initial.heave\", \"load.at.x\""),
-               text("first", "where the search begins, \"0.001 kg/s\"; left out: what the scene writes").optional(),
-               text("lowest", "bound, with its unit").optional(), text("highest", "bound, with its unit").optional()}};
-  return table;
-}
-
-/// "0.001 kg/s" in the unit that the scene writes at that place.
-double in_unit(const Record& record, const char* key, const std::string& unit) {
-  const hydro::Unit written = hydro::parse_unit(unit);
-  try {
-    const hydro::Quantity q = hydro::parse_quantity(record.text(key));
-    if (hydro::compatible(q.dimension, written.dimension)) return q.si / written.factor;
-  } catch (const InputError& e) {
-    throw e.at(record[key].place);
-  }
-  throw record.wrong(key, fmt::format("has another dimension than the scene's {}", unit.empty() ? "number" : unit),
-                     "write it in that unit");
-}
-
-std::vector<MotionModel::Parameter> read_parameters(const Record& model, const fs::path& scene) {
-  const std::string text = hydro::io::read_text(scene);
-  std::vector<MotionModel::Parameter> out;
-  for (const Record& p : model.tables("parameter")) {
-    const auto written = number_at(text, scene, p.text("key"), p["key"].place);
-    MotionModel::Parameter q{{p.text("key"), written.value}, written.unit, p.place()};
-    for (const auto& other : out)
-      if (other.number.name == q.number.name) throw p.wrong("key", "stands twice", "fit each number once");
-    const auto take = [&](const char* key, double& value) {
-      if (p.has(key)) value = in_unit(p, key, q.unit);
-    };
-    take("first", q.number.first);
-    take("lowest", q.number.lowest);
-    take("highest", q.number.highest);
-    if (q.number.first < q.number.lowest || q.number.first > q.number.highest)
-      throw p.refused(fmt::format("begins at {} {}, outside its bounds", q.number.first, q.unit),
-                      "widen them, or give first");
-    out.push_back(std::move(q));
-  }
-  if (out.empty())
-    throw model.refused("of kind \"motion\" needs a number to fit", "add a [[model.parameter]] with its key");
-  return out;
-}
 
 constexpr std::int64_t most_iterations = 100'000;
 
@@ -81,13 +41,33 @@ void check_search(const Record& model, const MotionModel& motion) {
           q.place, "give lowest and highest, or leave out [model] starts");
 }
 
-/// The runs of a scene with the record that they follow.
-struct FollowedRecord {
-  const MeasuredRun measured;
-  SceneRuns runs;
+/// All records, and what follows them as one simulation.
+struct FollowedRecords {
+  /// The runs of a scene with the record that they follow.
+  struct One {
+    const MeasuredRun measured;
+    SceneRuns runs;
 
-  FollowedRecord(const FitScene& scene, const MotionModel& model)
-      : measured(MeasuredRun::read(scene, model)), runs(model, measured) {}
+    One(const FitScene& scene, const MotionModel& model, const MotionModel::Record& record,
+        std::shared_ptr<compile::Kept> kept)
+        : measured(MeasuredRun::read(scene, model, record)), runs(model, measured, record, std::move(kept)) {}
+  };
+  std::vector<std::unique_ptr<One>> all;
+  std::optional<::fit::SeveralRecords> simulation;
+
+  FollowedRecords(const FitScene& scene, const MotionModel& model) {
+    std::vector<::fit::SeveralRecords::Record> simulated;
+    const auto shared = std::ssize(model.parameters);
+    auto own = shared;  // those of records come after those that all share
+    for (const auto& record : model.records) {
+      all.push_back(std::make_unique<One>(scene, model, record, all.empty() ? nullptr : all[0]->runs.kept()));
+      std::vector<Eigen::Index> takes(static_cast<std::size_t>(shared));
+      std::iota(takes.begin(), takes.end(), 0);
+      for (std::size_t k = 0; k < record.parameters.size(); ++k) takes.push_back(own++);
+      simulated.push_back({&all.back()->runs, all.back()->measured.first.size(), std::move(takes)});
+    }
+    simulation.emplace(std::move(simulated));
+  }
 };
 
 /// The deviation of a signal's noise, SI, and the dimension of its column against that of the run.
@@ -121,11 +101,12 @@ void add_film(const MotionModel& model, const MeasuredRun& measured, const std::
   }
 }
 
-/// A column of all windows, one after the other.
-std::vector<double> joined(const std::vector<Eigen::MatrixXd>& windows, std::size_t column) {
+/// A column of some windows, one after the other; empty where there are none.
+std::vector<double> joined(const std::vector<Eigen::MatrixXd>& windows, std::size_t first, std::size_t count,
+                           std::size_t column) {
   std::vector<double> out;
-  for (const auto& w : windows) {
-    const auto own = w.col(static_cast<Eigen::Index>(column));
+  for (std::size_t w = first; w < std::min(windows.size(), first + count); ++w) {
+    const auto own = windows[w].col(static_cast<Eigen::Index>(column));
     out.insert(out.end(), own.begin(), own.end());
   }
   return out;
@@ -135,7 +116,7 @@ Binding<MotionModel> motion_keys() {
   return Binding<MotionModel>(
              "", "numbers of a scene of motion, by running it: what its run tells against what was measured")
       .key(text("scene", "the scene of motion, relative to this one"), &MotionModel::scene)
-      .key(inner_tables("parameter", model_parameter()))
+      .key(inner_tables("parameter", model_parameter()).optional())
       .optional(
           positive("window", dim::time,
                    "the record is cut into pieces so long, each with a start of its own that is fitted too: for long "
@@ -220,6 +201,8 @@ Binding<MotionModel> data_of_motions() {
                   if (record.has("position")) motion.position_unit = record.text("position");
                 })
       .tables("signal", data_signal(), &MotionModel::signals)
+      .optional()
+      .tables("record", motion_record(), &MotionModel::records)
       .optional();
 }
 
@@ -234,6 +217,9 @@ void check_track(const FitTables& t, const FitScene& scene, const MotionModel& m
                      motion.camera ? "name a line (between) or a marker"
                                    : "add [camera] with the scale of the picture and what else is known");
   }
+  if (motion.camera && t.data().has("record"))
+    throw t.data().tables("record").front().refused("does not go with [camera], which takes one track",
+                                                    "name the track in files = [...], and fit each film by itself");
   const bool timed = scene.channels.count("time") > 0;
   if (!motion.camera) {
     if (!timed)
@@ -258,6 +244,49 @@ Binding<MotionModel> asked_of_motions() {
            &MotionModel::profile);
 }
 
+/// Windows of a record, its source, and the parameters that are its own.
+void add_record(const MotionModel::Record& record, const FollowedRecords::One& one, ::fit::motion::Problem& out) {
+  const MeasuredRun& measured = one.measured;
+  for (std::size_t w = 0; w < measured.first.size(); ++w)
+    out.measured.emplace_back(measured.values.middleRows(measured.first[w], measured.rows(w)));
+  out.records.push_back({.source = {record.file.value}, .time = measured.time, .windows = measured.first.size()});
+  for (const auto& q : record.parameters) {
+    ::fit::SimulationParameter number = q.number;
+    number.name += " of " + record.name;
+    out.parameters.push_back({std::move(number), q.unit, record.name, q.number.name});
+  }
+}
+
+/// Two panels for each signal of each record: what was measured with what a run tells, and what is left.
+Panels panels_of_records(const ::fit::motion::Problem& problem, const std::vector<Eigen::MatrixXd>& motion,
+                         const std::vector<Eigen::MatrixXd>& sample_band, const std::vector<Eigen::MatrixXd>& fit_band,
+                         const char* told) {
+  Panels out;
+  std::size_t first = 0;
+  for (const auto& record : problem.records) {
+    for (std::size_t c = 0; c < problem.signals.size(); ++c) {
+      const auto& signal = problem.signals[c];
+      const auto all_of = [&](const auto& windows) { return joined(windows, first, record.windows, c); };
+      const std::string legend = problem.records.size() > 1 ? record.source.name() : "measured";
+      Panels both = panels_of(FittedRecord{.legend = legend,
+                                           .axis = {signal.name, signal.unit},
+                                           .confidence = problem.options.confidence,
+                                           .time = record.time,
+                                           .measured = all_of(problem.measured),
+                                           .fitted = all_of(motion),
+                                           .sample_band = all_of(sample_band),
+                                           .fit_band = all_of(fit_band)});
+      both[0].series[1].name = told;
+      both[1].series[0].name = fmt::format("measured − {}", told);
+      both[1].series[0].line = false;  // windows begin anew: what is left has jumps between them
+      both[1].series[0].marks = true;
+      out.insert(out.end(), both.begin(), both.end());
+    }
+    first += record.windows;
+  }
+  return out;
+}
+
 class MotionFits final : public FitKindOf<MotionModel, ::fit::motion::Problem> {
  public:
   MotionFits()
@@ -269,10 +298,24 @@ class MotionFits final : public FitKindOf<MotionModel, ::fit::motion::Problem> {
   std::vector<std::pair<std::string, std::string>> settings(const FitScene& scene) const override {
     return {{"of", scene.model<MotionModel>().scene.value.filename().string()}};
   }
+  FitAnswer predict(const FitScene& scene, const std::optional<fs::path>& fitted) const override {
+    const auto& model = scene.model<MotionModel>();
+    if (model.window > 0)
+      throw InputError("a prediction is one run from the scene's start, and [model] has a window", scene.model_place,
+                       "leave out `window`: the start of each window is what a fit finds");
+    const ::fit::motion::Problem given = problem(scene, model);
+    const GivenValues values = fitted ? values_of_fit(given, *fitted) : first_values(given);
+    ::fit::motion::Prediction out = ::fit::motion::predict(given, values.at, values.from);
+    return {.report = std::move(out.report),
+            .panels = panels_of_records(given, out.motion, {}, {}, "predicted"),
+            .table = {},
+            .remedy = {}};
+  }
 
  private:
   void finish(const FitTables& t, const FitScene& scene, MotionModel& motion) const override {
     check_track(t, scene, motion);
+    read_records(t, scene, motion);
     if (motion.signals.empty())
       throw t.data().refused(
           "needs what was measured",
@@ -283,30 +326,30 @@ class MotionFits final : public FitKindOf<MotionModel, ::fit::motion::Problem> {
   }
 
   ::fit::motion::Problem problem(const FitScene& scene, const MotionModel& model) const override {
-    const auto followed = std::make_shared<FollowedRecord>(scene, model);
-    const MeasuredRun& measured = followed->measured;
-    ::fit::motion::Problem out{.source = {scene.files[0].value},
-                               .simulation = {followed, &followed->runs},
+    const auto followed = std::make_shared<FollowedRecords>(scene, model);
+    ::fit::motion::Problem out{.records = {},
+                               .simulation = {followed, &*followed->simulation},
                                .parameters = {},
                                .signals = {},
-                               .time = measured.time,
                                .measured = {},
                                .options = {.confidence = scene.confidence,
                                            .starts = model.starts,
                                            .iterations_reach = model.iterations,
                                            .profile = model.profile,
                                            .accept_residuals = model.accept_residuals}};
-    const std::vector<std::string> units = followed->runs.units();
     for (const auto& q : model.parameters) out.parameters.push_back({q.number, q.unit});
-    for (std::size_t w = 0; w < measured.first.size(); ++w)
-      out.measured.emplace_back(measured.values.middleRows(measured.first[w], measured.rows(w)));
+    for (std::size_t r = 0; r < model.records.size(); ++r) add_record(model.records[r], *followed->all[r], out);
+    const std::vector<std::string> units = followed->all[0]->runs.units();
     if (model.camera) {
-      add_film(model, measured, units, out);
+      add_film(model, followed->all[0]->measured, units, out);
       return out;
     }
-    const auto table = hydro::io::CsvTable::read(scene.files[0].value);
-    for (std::size_t c = 0; c < units.size(); ++c)
-      out.signals.push_back({model.signals[c].of, units[c], deviation_of(model.signals[c], units[c], table)});
+    for (const auto& record : model.records) {
+      const auto table = hydro::io::CsvTable::read(record.file.value);
+      out.signals.clear();  // of all records the same: each is looked at for the dimensions of its columns
+      for (std::size_t c = 0; c < units.size(); ++c)
+        out.signals.push_back({model.signals[c].of, units[c], deviation_of(model.signals[c], units[c], table)});
+    }
     return out;
   }
 
@@ -333,22 +376,7 @@ class MotionFits final : public FitKindOf<MotionModel, ::fit::motion::Problem> {
 
   Panels panels(const ::fit::motion::Problem& problem, const Solution& solution) const override {
     const ::fit::SimulationFit& fit = solution.fit;
-    Panels out;
-    for (std::size_t c = 0; c < problem.signals.size(); ++c) {
-      const auto& [name, unit, deviation, period] = problem.signals[c];
-      Panels both = panels_of(FittedRecord{.legend = "measured",
-                                           .axis = {name, unit},
-                                           .confidence = problem.options.confidence,
-                                           .time = problem.time,
-                                           .measured = joined(problem.measured, c),
-                                           .fitted = joined(fit.motion, c),
-                                           .sample_band = joined(fit.sample_band, c),
-                                           .fit_band = joined(fit.fit_band, c)});
-      both[1].series[0].line = false;  // windows begin anew: what is left has jumps between them
-      both[1].series[0].marks = true;
-      out.insert(out.end(), both.begin(), both.end());
-    }
-    return out;
+    return panels_of_records(problem, fit.motion, fit.sample_band, fit.fit_band, "fitted");
   }
 };
 

@@ -71,6 +71,7 @@ class RegularWaveFits final : public FitKindOf<RegularWaveModel, WaveProblem> {
                    .channels = {text("time", "time"), text("elevation", "the surface at the gauge"),
                                 texts("response", "motions or forces, each a column with its unit")}}) {}
   bool has_table() const override { return true; }
+  bool counts_lines() const override { return true; }
 
  private:
   void finish(const FitTables& t, const FitScene& scene, RegularWaveModel& model) const override {
@@ -104,6 +105,13 @@ class RegularWaveFits final : public FitKindOf<RegularWaveModel, WaveProblem> {
       out.units = std::move(units);
       out.runs.push_back(std::move(run));
     }
+    const Measurements first(scene, out.runs.at(0).source.file);
+    const auto slope_error = [&](const std::string& column) {
+      const auto [standard, half_width] = first.slope_error(column);
+      return ::fit::regular_waves::SlopeError{standard, half_width};
+    };
+    out.elevation_slope = slope_error(scene.channels.at("elevation"));
+    for (const std::string& column : model.responses) out.response_slopes.push_back(slope_error(column));
     return out;
   }
 

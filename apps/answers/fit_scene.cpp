@@ -188,7 +188,7 @@ const Table& fit_data() {
   static const Table table = [] {
     Table all = data_of_all().table();
     append_of_kinds(&FitKeys::data, all.keys);
-    all.groups.push_back({Group::Count::exactly_one, {"files", "runs"}});
+    all.groups.push_back({Group::Count::exactly_one, {"files", "runs", "record"}});
     return all;
   }();
   return table;
@@ -282,6 +282,11 @@ void read_measurements(const FitTables& tables, FitScene& scene) {
 }
 
 }  // namespace
+
+FitAnswer FitKind::predict(const FitScene& scene, const std::optional<std::filesystem::path>&) const {
+  throw InputError(fmt::format("a fit of kind \"{}\" has no scene that tells a record by itself", scene.kind()),
+                   scene.model_place, "--predict is for kind \"motion\"");
+}
 
 std::string not_of_kind(std::string_view kind) { return fmt::format("does not apply to a fit of kind \"{}\"", kind); }
 

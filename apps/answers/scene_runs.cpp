@@ -8,13 +8,14 @@
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 #include "hydro/signal/welch.hpp"
+#include "scene/placed.hpp"
 
 namespace froude {
 
 namespace dim = hydro::dim;
 using hydro::InputError;
 
-/// In steps: a frame so near to a sample of the run is at it.
+/// In steps: a sample measured so near to a sample of the run is at it.
 constexpr double on_sample = 1e-9;
 
 Eigen::Index MeasuredRun::rows(std::size_t window) const {
@@ -38,7 +39,7 @@ MeasuredRun MeasuredRun::of(std::vector<double> time, Eigen::MatrixXd values, do
 
 namespace {
 
-/// Of frames that are even but for gaps: how many periods of a frame each comes after the first. Empty: they are
+/// Of samples that are even but for gaps: how many of their distances each comes after the first. Empty: they are
 /// uneven.
 std::vector<double> whole_periods(const std::vector<double>& time, double& period) {
   std::vector<double> out{0};
@@ -52,8 +53,8 @@ std::vector<double> whole_periods(const std::vector<double>& time, double& perio
 
 }  // namespace
 
-MeasuredRun MeasuredRun::of_film(std::vector<double> time, Eigen::MatrixXd values, double window_s) {
-  hydro::require(time.size() >= 8, "the film has {} frames in the time that is fitted, 8 are needed", time.size());
+MeasuredRun MeasuredRun::of_uneven(std::vector<double> time, Eigen::MatrixXd values, double window_s) {
+  hydro::require(time.size() >= 8, "there are {} samples in the time that is fitted, 8 are needed", time.size());
   std::vector<double> between;
   for (std::size_t i = 1; i < time.size(); ++i) between.push_back(time[i] - time[i - 1]);
   std::nth_element(between.begin(), between.begin() + std::ssize(between) / 2, between.end());
@@ -63,18 +64,18 @@ MeasuredRun MeasuredRun::of_film(std::vector<double> time, Eigen::MatrixXd value
     period = between[between.size() / 2];
     for (const double t : time) at.push_back((t - time.front()) / period);
   }
-  // The run begins at 0, the first frame may come a part of a period after.
+  // The run begins at 0, the first sample may come a part of a period after.
   for (double& one : at) one += time.front() / period;
   MeasuredRun out{std::move(time), std::move(values), period, 0, {}, std::move(at)};
   const double last = out.at.back();
   const auto length = static_cast<Eigen::Index>(window_s > 0 ? std::lround(window_s / period) : std::lround(last) + 1);
-  hydro::require(length >= 8, "a window of {} s holds {} frames, 8 are needed", window_s, length);
+  hydro::require(length >= 8, "a window of {} s holds {} samples, 8 are needed", window_s, length);
   for (Eigen::Index k = 0; k == 0 || static_cast<double>(k + length) <= last + 1; k += length) {
     const auto row = std::lower_bound(out.at.begin(), out.at.end(), static_cast<double>(k) - 1e-9) - out.at.begin();
     if (!out.first.empty() && row - out.first.back() < 8)
-      throw InputError(fmt::format("the window from {:.6g} s on has {} frames, 8 are needed",
+      throw InputError(fmt::format("the window from {:.6g} s on has {} samples, 8 are needed",
                                    out.time[static_cast<std::size_t>(out.first.back())], row - out.first.back()),
-                       {}, "take longer windows, or the part of the film before or after the gap");
+                       {}, "take longer windows, or the part of the record before or after the gap");
     out.first.push_back(row);
     out.begin.push_back(k);
   }
@@ -116,30 +117,74 @@ Eigen::VectorXd MeasuredRun::told(std::size_t window, const std::vector<double>&
   return out;
 }
 
-MeasuredRun MeasuredRun::read(const scene::FitScene& fit, const scene::MotionModel& model) {
+namespace {
+
+/// Where the samples can be the run's own.
+bool on_the_runs_samples(const std::vector<double>& time) {
+  try {
+    const double before = time.front() / hydro::signal::even_step(time);
+    return std::abs(before - std::round(before)) < 0.02;  // as of()
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// \throws hydro::InputError where time does not go on
+void require_increasing(const hydro::io::CsvTable& table, const std::string& column) {
+  const auto& time = table.column(column, dim::time);
+  for (std::size_t i = 1; i < time.size(); ++i)
+    if (!(time[i] > time[i - 1]))
+      throw InputError("time does not go on from one row to the next", table.place_of(column, i),
+                       "put the rows in the order of their times, and take out those that stand twice");
+}
+
+}  // namespace
+
+MeasuredRun MeasuredRun::read(const scene::FitScene& fit, const scene::MotionModel& model,
+                              const scene::MotionModel::Record& record) {
   if (model.camera) {
     const ::fit::camera::Track track = track_in_plane(fit, model).places;
     auto channels = ::fit::camera::channels_of(track, channels_asked(model));
-    MeasuredRun out = of_film(track.time, std::move(channels.values), model.window);
+    MeasuredRun out = of_uneven(track.time, std::move(channels.values), model.window);
     out.whitening = std::move(channels.whitening);
     out.deviations = std::move(channels.deviations);
     return out;
   }
-  if (fit.files.size() != 1)
-    throw InputError(fmt::format("a fit of kind \"motion\" takes one file, got {}", fit.files.size()),
-                     fit.files[1].place, "fit each record by itself");
-  const auto table = hydro::io::CsvTable::read(fit.files[0].value);
-  std::vector<double> time = table.column(fit.channels.at("time"), dim::time);
+  const auto table = hydro::io::CsvTable::read(record.file.value);
+  const std::string& clock = fit.channels.at("time");
+  require_increasing(table, clock);
+  const auto& all = table.column(clock, dim::time);
+  // A time that was rounded may come a little before the start that a scene writes.
+  const double rounding = 1e-9 * std::max(1.0, std::abs(record.start));
+  const auto from = std::lower_bound(all.begin(), all.end(), record.start - rounding),
+             to = record.end ? std::upper_bound(from, all.end(), *record.end + rounding) : all.end();
+  const auto skipped = from - all.begin();
+  std::vector<double> time(from, to);
+  for (double& t : time) t -= record.start;
   Eigen::MatrixXd values(std::ssize(time), std::ssize(model.signals));
   for (std::size_t c = 0; c < model.signals.size(); ++c) {
     const auto& column = table.column(model.signals[c].column);
-    values.col(static_cast<Eigen::Index>(c)) = Eigen::Map<const Eigen::VectorXd>(column.data(), std::ssize(column));
+    values.col(static_cast<Eigen::Index>(c)) =
+        Eigen::Map<const Eigen::VectorXd>(column.data() + skipped, std::ssize(time));
   }
-  return of(std::move(time), std::move(values), model.window);
+  return scene::placed({.file = record.file.value.string()}, [&] {
+    return time.size() >= 8 && on_the_runs_samples(time) ? of(std::move(time), std::move(values), model.window)
+                                                         : of_uneven(std::move(time), std::move(values), model.window);
+  });
 }
 
-SceneRuns::SceneRuns(const scene::MotionModel& model, const MeasuredRun& measured)
-    : asked_(model), measured_(measured), source_(hydro::io::read_text(model.scene.value), model.scene.value) {
+const scene::MotionModel::Record& SceneRuns::as_the_model_says() {
+  static const scene::MotionModel::Record record;
+  return record;
+}
+
+SceneRuns::SceneRuns(const scene::MotionModel& model, const MeasuredRun& measured,
+                     const scene::MotionModel::Record& record, std::shared_ptr<compile::Kept> kept)
+    : asked_(model),
+      measured_(measured),
+      record_(record),
+      source_(hydro::io::read_text(scene_file().value), scene_file().value) {
+  prepared_.kept = std::move(kept);
   compiled({});
   if (model.window > 0) begin_windows();
 }
@@ -187,18 +232,32 @@ std::vector<std::string> SceneRuns::units() {
   return out;
 }
 
+const scene::Located<std::filesystem::path>& SceneRuns::scene_file() const {
+  return record_.scene ? *record_.scene : asked_.scene;
+}
+
+/// What is written over the scene's own.
+std::vector<scene::OverriddenNumber> SceneRuns::numbers(const Eigen::VectorXd& parameters) const {
+  std::vector<scene::OverriddenNumber> out;
+  for (const auto& one : record_.set) out.push_back({one.number.name, one.number.first});
+  const std::size_t shared = asked_.parameters.size();
+  for (Eigen::Index j = 0; j < parameters.size(); ++j) {
+    const auto k = static_cast<std::size_t>(j);
+    const auto& q = k < shared ? asked_.parameters[k] : record_.parameters.at(k - shared);
+    out.push_back({q.number.name, parameters[j]});
+  }
+  return out;
+}
+
 /// Compiles the scene with these numbers, unless that is what was compiled last. None: as it is written.
 void SceneRuns::compiled(const Eigen::VectorXd& parameters) {
   if (model_ && parameters.size() == numbers_.size() && parameters == numbers_) return;
-  std::vector<scene::OverriddenNumber> numbers;
-  for (Eigen::Index k = 0; k < parameters.size(); ++k)
-    numbers.push_back({asked_.parameters[static_cast<std::size_t>(k)].number.name, parameters[k]});
-  scene_ = source_.with(numbers);
+  scene_ = source_.with(numbers(parameters));
   if (!scene_.run)
-    throw InputError("the scene to be fitted asks for no run", asked_.scene.place,
+    throw InputError("the scene to be fitted asks for no run", scene_file().place,
                      "add [ask] run = { duration = \"60 s\", every = \"0.05 s\" } to it");
   if (scene_.run->steady)
-    throw InputError("a steady run has no start and no decay", asked_.scene.place,
+    throw InputError("a steady run has no start and no decay", scene_file().place,
                      "take start = \"steady\" out of its [ask] run");
   // The record says how often and how long; what the scene asks for does not matter here.
   scene_.run->every = measured_.step;

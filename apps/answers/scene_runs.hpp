@@ -3,6 +3,8 @@
 ///        validation follow. Private to apps/froude.
 #include <Eigen/Core>
 
+#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,13 +20,13 @@ namespace froude {
 
 /// What was measured, in windows.
 struct MeasuredRun {
-  std::vector<double> time;         ///< s, even but for a film's
+  std::vector<double> time;         ///< s, from the run's start
   Eigen::MatrixXd values;           ///< one column a signal, SI; NaN where a film did not show it
   double step;                      ///< s, of the run
   Eigen::Index before;              ///< samples of the run that come before the first one measured
   std::vector<Eigen::Index> first;  ///< sample of each window
-  /// Of a film: where each frame lies among the run's samples, in steps from the run's start, and the run's sample at
-  /// which each window begins; empty: frames are the run's samples.
+  /// Of uneven samples: where each lies among the run's samples, in steps from the run's start, and the run's sample at
+  /// which each window begins; empty: they are the run's samples.
   std::vector<double> at = {};
   std::vector<Eigen::Index> begin = {};
   std::vector<Eigen::MatrixXd> whitening = {};  ///< of a film: one a frame, as fit::SimulationProblem's
@@ -40,19 +42,24 @@ struct MeasuredRun {
   /// Cuts the record into windows of this length; what is left over makes the last one longer. 0: one window.
   /// \throws hydro::InputError for fewer than 8 samples in a window, or a start between samples of the run
   static MeasuredRun of(std::vector<double> time, Eigen::MatrixXd values, double window_s);
-  /// Frames at their own times, counted from the run's start: with gaps, and uneven. Between samples the run is a
-  /// polynomial of degree 5 (F102). \throws hydro::InputError as of(), and for a window in which fewer than 8 frames
+  /// Samples at their own times, counted from the run's start: with gaps, and uneven. Between samples the run is a
+  /// polynomial of degree 5 (F102). \throws hydro::InputError as of(), and for a window in which fewer than 8 samples
   /// lie
-  static MeasuredRun of_film(std::vector<double> time, Eigen::MatrixXd values, double window_s);
-  /// The file of a fit scene, the signals of its model. \throws hydro::InputError as of(), and for more than one file
-  static MeasuredRun read(const scene::FitScene& fit, const scene::MotionModel& model);
+  static MeasuredRun of_uneven(std::vector<double> time, Eigen::MatrixXd values, double window_s);
+  /// A record of a fit scene, the signals of its model, as of() where its samples are even and begin at one of the
+  /// run's, else as of_uneven(). \throws hydro::InputError as these, naming the file
+  static MeasuredRun read(const scene::FitScene& fit, const scene::MotionModel& model,
+                          const scene::MotionModel::Record& record);
 };
 
 /// The runs. \throws hydro::InputError, in all it does, for scenes that cannot be run, or not in windows
 class SceneRuns final : public ::fit::Simulation {
  public:
-  /// Both are referred to and must live as long.
-  SceneRuns(const scene::MotionModel& model, const MeasuredRun& measured);
+  /// Of the numbers that all records share, then those of this record. All are referred to and must live as long.
+  /// `kept`: what other records have read.
+  SceneRuns(const scene::MotionModel& model, const MeasuredRun& measured,
+            const scene::MotionModel::Record& record = as_the_model_says(),
+            std::shared_ptr<compile::Kept> kept = nullptr);
 
   Eigen::Index coordinates(std::size_t window) override;
   Eigen::MatrixXd follow(std::size_t window, const Eigen::VectorXd& parameters, const Eigen::VectorXd& start) override;
@@ -61,15 +68,19 @@ class SceneRuns final : public ::fit::Simulation {
   /// Units of the signals, in their order. \throws hydro::InputError at a signal that there is not
   std::vector<std::string> units();
   /// What all trials share: coefficients as they were read, and their poles.
-  compile::Kept& kept() { return *prepared_.kept; }
+  const std::shared_ptr<compile::Kept>& kept() const { return prepared_.kept; }
 
  private:
+  static const scene::MotionModel::Record& as_the_model_says();
+  const scene::Located<std::filesystem::path>& scene_file() const;
+  std::vector<scene::OverriddenNumber> numbers(const Eigen::VectorXd& parameters) const;
   void compiled(const Eigen::VectorXd& parameters);
   Run run(Eigen::Index samples, compile::MovingState* end);
   void begin_windows();
 
   const scene::MotionModel& asked_;
   const MeasuredRun& measured_;
+  const scene::MotionModel::Record& record_;
   scene::ChangeableScene source_;
   scene::Scene scene_;
   compile::Prepared prepared_;

@@ -155,6 +155,18 @@ std::optional<Band> band_of_data(const Prepared& prepared) {
   return band;
 }
 
+/// Beyond its record nobody knows the waves, and its components would repeat.
+void require_recorded(const Scene& scene) {
+  const auto* list = std::get_if<scene::WaveList>(&scene.waves->kind);
+  if (list == nullptr || !list->recorded) return;
+  const auto& [begin, end, left_out] = *list->recorded;
+  if (begin > 1e-9 || scene.run->duration > end + 1e-9)
+    throw InputError(
+        fmt::format("the waves were recorded from {:.6g} s to {:.6g} s, and the run goes from 0 s to {:.6g} s", begin,
+                    end, scene.run->duration),
+        scene.waves->place, "ask for a shorter run, or give a record whose time covers it");
+}
+
 /// The sea of a run, where a load that is linear in the waves, or the same sea for all that move in it, needs one.
 hydro::waves::Sea run_sea(const Scene& scene, const std::optional<Band>& band) {
   const scene::Waves& waves = *scene.waves;
@@ -162,6 +174,7 @@ hydro::waves::Sea run_sea(const Scene& scene, const std::optional<Band>& band) {
     throw InputError("the wave loads come from coefficients for water without a current", *scene.current_place,
                      "take [current] out, or the bodies' excitation");
   hydro::waves::Sea sea = make_sea(scene, band);
+  require_recorded(scene);
   if (sea.components().size() > 1 && sea.repetition_s() < scene.run->duration * (1 - 1e-9))
     throw InputError(fmt::format("the sea repeats after {:.6g} s, before the run of {:.6g} s ends", sea.repetition_s(),
                                  scene.run->duration),

@@ -237,8 +237,8 @@ hw::Sea free_waves(const scene::Scene& scene, const std::optional<Band>& data) {
     const auto& regular = std::get<scene::RegularWave>(waves.kind);
     check_breaking(2 * regular.amplitude, two_pi / regular.period, scene, waves.heading, "a wave height");
     return hw::Sea::regular(hydro::WaveAmplitude::from_metres(regular.amplitude),
-                            hydro::AngularFrequency::from_period_s(regular.period), waves.heading, scene.water, 0,
-                            scene.current);
+                            hydro::AngularFrequency::from_period_s(regular.period), waves.heading, scene.water,
+                            regular.phase, scene.current);
   });
 }
 
@@ -276,6 +276,11 @@ std::vector<std::string> wave_warnings(const scene::Scene& scene) {
         .warnings;
   }
   std::vector<std::string> out;
+  constexpr double much = 0.01;  // of the variance: 0.5 % of the height, which gauges tell no better
+  if (const auto* list = std::get_if<scene::WaveList>(&waves.kind);
+      list != nullptr && list->recorded && list->recorded->left_out > much)
+    out.push_back(fmt::format("{:.2g} % of the variance of the recorded waves lies outside the band that is taken",
+                              100 * list->recorded->left_out));
   if (const auto* random = std::get_if<scene::RandomSea>(&waves.kind))
     for (const auto& system : random->systems) {
       const double hs = system.spectrum->hs(), tp = two_pi / system.spectrum->peak_omega();

@@ -147,6 +147,8 @@ struct FitArguments {
   std::optional<Path> output = {};  ///< .toml of the estimates
   std::optional<Path> table = {};   ///< .csv with one row for each run
   std::optional<Path> picture = {};
+  bool predict = false;         ///< nothing is fitted
+  std::optional<Path> at = {};  ///< .toml of an earlier fit, whose values are taken; beside `predict`
 };
 void fit(const FitArguments& arguments, const Console& console);
 

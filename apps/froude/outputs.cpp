@@ -43,7 +43,7 @@ class SceneFiles {
       for (const Path& file : files_of_text(key, fs::absolute(scene).parent_path() / node.text)) add_file(key, file);
   }
   void add_file(const std::string& key, const Path& file) {
-    if (key == "model.scene") return add_scene("the scene of the key " + key, file);
+    if (key == "model.scene" || key == "data.record.scene") return add_scene("the scene of the key " + key, file);
     files.push_back({"the key " + key + " of the scene", file});
     if (key == "data.runs") add_runs(file);
   }

@@ -456,6 +456,10 @@ void add_fit(CLI::App& app, Request& request) {
   command->add_option("--table", arguments->table,
                       "one row for each run: KC, Re, beta, coefficients, intervals (.csv)");
   command->add_option("--picture", arguments->picture, "plot (.svg)");
+  auto* predict = command->add_flag("--predict", arguments->predict,
+                                    "fit nothing: compare the records with a run of the scene, kind \"motion\"");
+  command->add_option("--at", arguments->at, "values of an earlier fit (.toml), of its -o; left out: the scene's")
+      ->needs(predict);
   command->callback([=, &request] {
     request.call = [=](const Console& console) {
       fit(*arguments, console);

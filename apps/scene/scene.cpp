@@ -81,11 +81,11 @@ Scene ChangeableScene::with(const std::vector<OverriddenNumber>& numbers) const 
   const Record root = read_record(document, motion_schema(), scene.echo);
   if (root.has("title")) scene.title = root.text("title");
   scene.water = build_water(root.table("water"));
-  if (root.has("waves")) scene.waves = build_waves(root.table("waves"), scene);
   if (root.has("current")) {
     scene.current = build_current(root.table("current"), file_);
     scene.current_place = root.table("current").place();
   }
+  if (root.has("waves")) scene.waves = build_waves(root.table("waves"), scene);
   Names names;
   build_probes(root, names, scene);
   scene.bodies = build_bodies(root, names);

@@ -54,6 +54,7 @@ struct RegularWave {
   double amplitude;  ///< m, half the height
   double period;     ///< s
   RegularTheory theory = RegularTheory::linear;
+  double phase = 0;  ///< rad, φ of (W8), of linear waves
 };
 
 /// One system of waves with a spectrum of its own.
@@ -87,6 +88,12 @@ struct WaveList {
   std::vector<hydro::waves::GivenWave> waves;
   std::filesystem::path file;
   bool second_order = false;
+  /// Where the waves are the components of a record at a gauge: what there is of it.
+  struct Recorded {
+    double begin, end;  ///< s, of the record
+    double left_out;    ///< of its variance, outside the band
+  };
+  std::optional<Recorded> recorded = {};
 };
 
 struct FocusedPackets {

@@ -4,11 +4,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "hydro/io/csv.hpp"
 #include "hydro/signal/welch.hpp"
+#include "hydro/waves/dispersion.hpp"
+#include "hydro/waves/kinematics/current.hpp"
+#include "hydro/waves/kinematics/tank.hpp"
 #include "scene/binding.hpp"
 #include "scene/build.hpp"
 #include "scene/placed.hpp"
@@ -163,7 +168,16 @@ Binding<RegularWave> regular() {
               {"stokes5", RegularTheory::stokes_fifth},
               {"stream", RegularTheory::stream_function}},
              &RegularWave::theory)
-      .exactly_one_of({"height", "amplitude"});
+      .optional(quantity("phase", dim::angle,
+                         "of a linear wave, added to omega t - k x: the surface at the origin is amplitude times the "
+                         "cosine of it at t = 0; left out: 0, a crest"),
+                &RegularWave::phase)
+      .exactly_one_of({"height", "amplitude"})
+      .then([](const Record& waves, RegularWave& wave) {
+        if (wave.theory != RegularTheory::linear && waves.has("phase"))
+          throw waves.wrong("phase", "belongs to linear waves",
+                            "leave it out: a crest of this theory is at the origin at t = 0");
+      });
 }
 
 /// A column `name` with a unit in the header, or a column "name_s" whose name ends in one of `units`; SI. Empty if
@@ -236,6 +250,67 @@ Binding<WaveList> listed() {
         out.waves = read_wave_list(out.file, Angle::from_radians(waves.si("heading")),
                                    waves.text("phase_of") == "k x - omega t");
       });
+}
+
+/// Keys of a record at a gauge; its waves need the water, and are read by recorded_waves().
+Binding<WaveList> recorded() {
+  return Binding<WaveList>("", "the waves that a gauge recorded, component by component")
+      .key(text("file", "CSV beside the scene: time, even, and the surface at the gauge; its time is that of a run"),
+           &WaveList::file)
+      .key(text("column", "of the surface, with its unit").or_default("elevation", "the usual name"))
+      .key(text("time", "column of the time").or_default("time", "the usual name"))
+      .key(vector("gauge", dim::length, "where it stood, as (x, y, 0): waves go on from there by linear dispersion"))
+      .key(positive("lowest", dim::angular_velocity,
+                    "frequency of a component that is taken; in Hz it is 2π times less"))
+      .key(positive("highest", dim::angular_velocity, "frequency of a component that is taken"))
+      .key(quantity("taper", dim::time,
+                    "over so long the record, less its mean, grows from nothing at its beginning and falls to nothing "
+                    "at its end, by half a cosine; there the waves are not those that were measured")
+               .within(Limit::not_negative));
+}
+
+/// 0 … 1 at t of a record from begin to end.
+double tapered(double t, double begin, double end, double taper) {
+  const double inside = std::min(t - begin, end - t);
+  return inside >= taper ? 1 : (1 - std::cos(std::numbers::pi * inside / taper)) / 2;
+}
+
+/// The record's surface, less its mean, tapered.
+std::vector<double> surface_of(const Record& waves, const CsvTable& table, const std::vector<double>& time) {
+  std::vector<double> out = table.column(waves.text("column"), dim::length);
+  const double mean = std::accumulate(out.begin(), out.end(), 0.0) / static_cast<double>(out.size());
+  const double taper = waves.si("taper");
+  if (2 * taper > time.back() - time.front())
+    throw waves.wrong("taper", fmt::format("is more than half the record of {:.4g} s", time.back() - time.front()),
+                      "take a shorter one");
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = (out[i] - mean) * tapered(time[i], time.front(), time.back(), taper);
+  return out;
+}
+
+double wavenumber_of(double omega, Angle heading, const Scene& scene) {
+  return scene.current.is_none() ? hw::wavenumber(omega, scene.water)
+                                 : hw::doppler(omega, heading, scene.current, scene.water).k;
+}
+
+/// The Fourier components of a record at a gauge, each with the phase that it has at the origin. (W101)
+void read_recorded(const Record& waves, Angle heading, const Scene& scene, WaveList& out) {
+  const Eigen::Vector3d gauge = waves.vector("gauge");
+  if (gauge.z() != 0) throw waves.wrong("gauge", "lies above or below still water", "write (x, y, 0)");
+  const CsvTable table = CsvTable::read(out.file);
+  const auto& time = table.column(waves.text("time"), dim::time);
+  const double step = placed({.file = out.file.string()}, [&] { return hydro::signal::even_step(time); });
+  const std::vector<double> surface = surface_of(waves, table, time);
+  const auto record = placed(waves.place(), [&] {
+    return hw::record_spectrum(surface, step, 0, {waves.si("lowest"), waves.si("highest")});
+  });
+  const double ahead = gauge.x() * std::cos(heading.radians()) + gauge.y() * std::sin(heading.radians());
+  for (const auto& [omega, amplitude] : record.harmonics) {
+    const double phase = std::arg(amplitude) - omega * time.front() + wavenumber_of(omega, heading, scene) * ahead;
+    out.waves.push_back({AngularFrequency::from_rad_per_s(omega),
+                         hydro::WaveAmplitude::from_metres(std::abs(amplitude)), phase, heading});
+  }
+  out.recorded = {time.front(), time.back(), record.fraction_left_out};
 }
 
 void read_packets(const Value& file, FocusedPackets& out) {
@@ -328,6 +403,7 @@ Binding<Waves> all_waves() {
           .place(&Waves::place)
           .variant("regular", regular(), &Waves::kind)
           .variant("components", listed(), &Waves::kind)
+          .variant("record", recorded(), &Waves::kind)
           .variant("focused_packets", focused_packets(), &Waves::kind)
           .variant("tank", tank(), &Waves::kind);
   for (const auto& [keys, build] : spectra()) {
@@ -364,6 +440,7 @@ const Binding<Waves>& waves_binding() {
 Waves build_waves(const Record& waves, const Scene& scene) {
   Waves out = waves_binding().read(waves);
   if (auto* sea = std::get_if<RandomSea>(&out.kind)) sea->systems = read_systems(waves, out.heading, scene);
+  if (waves.text("kind") == "record") read_recorded(waves, out.heading, scene, std::get<WaveList>(out.kind));
   if (std::holds_alternative<WaveTank>(out.kind) && scene.water.depth.is_infinite())
     throw waves.refused("of kind tank needs a bed", "give [water] a depth in metres");
   return out;

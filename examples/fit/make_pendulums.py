@@ -19,8 +19,7 @@ LINEAR, QUADRATIC = 0.006, 0.004  # kg/s, kg/m
 STEP, SAMPLES, SUBSTEPS, NOISE = 0.04, 300, 20, 0.01  # s; rad
 
 
-def start():
-    x, z = 0.6, -0.2
+def start(x=0.6, z=-0.2):
     a, b = LENGTHS
     distance = math.hypot(x, z)
     below = math.atan2(-z, x) + math.acos((a * a + distance**2 - b * b) / (2 * a * distance))

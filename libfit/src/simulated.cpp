@@ -24,6 +24,9 @@ class Held final : public Simulation {
   void hand_on(std::size_t window, const Eigen::VectorXd& others, const Eigen::VectorXd& start) override {
     whole_.hand_on(window, with(others), start);
   }
+  bool moves(std::size_t window, std::size_t other) const override {
+    return whole_.moves(window, other < static_cast<std::size_t>(parameter_) ? other : other + 1);
+  }
 
  private:
   Eigen::VectorXd with(const Eigen::VectorXd& others) const {

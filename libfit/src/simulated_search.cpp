@@ -50,6 +50,7 @@ class Shooting {
   }
 
   EndOfSearch end();
+  std::vector<Eigen::MatrixXd> motions(const Eigen::VectorXd& theta);
   double least_cost();  ///< that of end(), which tells more of it
   double cost_nearby();
 
@@ -285,6 +286,7 @@ void Shooting::parameter_column(Eigen::Index k, const Eigen::VectorXd& x, Eigen:
   high[k] = std::min(q.highest, x[k] + step);
   for (const auto* side : {&high, &low})
     for (std::size_t w = 0; w < pieces_.size(); ++w) {
+      if (!simulation_.moves(w, static_cast<std::size_t>(k))) continue;
       auto part = jacobian.block(pieces_[w].row, k, problem_.measured[w].size(), 1);
       if (side == &high)
         part = residuals(w, high, start_of(x, w));
@@ -391,6 +393,16 @@ EndOfSearch Shooting::end() {  // (F41)
   return {std::move(report), std::move(x), std::move(r), jacobian_, pieces_, all_starts_, followed_, std::move(motion)};
 }
 
+std::vector<Eigen::MatrixXd> Shooting::motions(const Eigen::VectorXd& theta) {
+  hydro::require(theta.size() == p(), "{} parameters have {} values", p(), theta.size());
+  std::vector<Eigen::MatrixXd> out;
+  for (std::size_t w = 0; w < problem_.measured.size(); ++w) {
+    hydro::require(simulation_.coordinates(w) == 0, "a window with a start of its own cannot be followed unfitted");
+    out.push_back(motion_of(w, theta, Eigen::VectorXd(0)));
+  }
+  return out;
+}
+
 double Shooting::least_cost() {
   Eigen::VectorXd x = problem_.begin ? go_on(problem_.begin->end) : find_starts();
   if (unknowns_ > 0) {
@@ -438,6 +450,11 @@ std::vector<Eigen::Index> measured_rows(const SimulationProblem& problem) {
 
 EndOfSearch search_simulation(Simulation& simulation, const SimulationProblem& problem) {
   return Shooting(simulation, problem).end();
+}
+
+std::vector<Eigen::MatrixXd> follow_all(Simulation& simulation, const SimulationProblem& problem,
+                                        const Eigen::VectorXd& parameters) {
+  return Shooting(simulation, problem).motions(parameters);
 }
 
 double least_cost(Simulation& simulation, const SimulationProblem& problem) {

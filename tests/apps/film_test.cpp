@@ -32,7 +32,7 @@ TEST(Film, WithLostFramesIsEvenButForGaps) {
   std::vector<double> time = even(60);
   time.erase(time.begin() + 20, time.begin() + 23);
   for (double& t : time) t = 1e-4 * std::round(1e4 * t) + (t > 1 ? 2e-4 : 0);  // as files round
-  const auto run = MeasuredRun::of_film(time, Eigen::MatrixXd::Zero(57, 1), 0.8);
+  const auto run = MeasuredRun::of_uneven(time, Eigen::MatrixXd::Zero(57, 1), 0.8);
   EXPECT_NEAR(run.step, 0.04, 1e-5);
   EXPECT_EQ(run.at[20], 23);
   EXPECT_EQ(run.first, (std::vector<Eigen::Index>{0, 20, 37}));  // frames that are lost make a window's rows fewer
@@ -49,7 +49,7 @@ TEST(Film, WithLostFramesIsEvenButForGaps) {
 TEST(Film, OfUnevenFramesIsBetweenTheRunsSamples) {
   std::vector<double> time = even(50);
   for (std::size_t i = 1; i < 50; ++i) time[i] += 0.009 * std::sin(2.3 * static_cast<double>(i));
-  const auto run = MeasuredRun::of_film(time, Eigen::MatrixXd::Zero(50, 1), 0);
+  const auto run = MeasuredRun::of_uneven(time, Eigen::MatrixXd::Zero(50, 1), 0);
   const double omega = 0.3 / run.step;
   std::vector<double> wave;
   for (Eigen::Index i = 0; i < run.run_samples(0); ++i)
@@ -62,7 +62,7 @@ TEST(Film, OfUnevenFramesIsBetweenTheRunsSamples) {
 TEST(Film, BeginsWhereTheRunDoesWhetherOrNotAFrameWasTakenThen) {
   std::vector<double> time = even(60);
   for (double& t : time) t += 0.013;  // [camera] from lies a third of a period before the first frame
-  const auto run = MeasuredRun::of_film(time, Eigen::MatrixXd::Zero(60, 1), 0);
+  const auto run = MeasuredRun::of_uneven(time, Eigen::MatrixXd::Zero(60, 1), 0);
   EXPECT_NEAR(run.at[0], 0.013 / 0.04, 1e-9);
   std::vector<double> wave;
   for (Eigen::Index i = 0; i < run.run_samples(0); ++i) wave.push_back(std::cos(3 * run.step * static_cast<double>(i)));
@@ -74,8 +74,8 @@ TEST(Film, BeginsWhereTheRunDoesWhetherOrNotAFrameWasTakenThen) {
 TEST(Film, RefusesAWindowWithoutFrames) {
   std::vector<double> time = even(100);
   time.erase(time.begin() + 22, time.begin() + 38);
-  EXPECT_THAT(refused([&] { MeasuredRun::of_film(time, Eigen::MatrixXd::Zero(84, 1), 0.8); }),
-              AllOf(HasSubstr("the window from 0.8 s on has 4 frames"), HasSubstr("longer windows")));
+  EXPECT_THAT(refused([&] { MeasuredRun::of_uneven(time, Eigen::MatrixXd::Zero(84, 1), 0.8); }),
+              AllOf(HasSubstr("the window from 0.8 s on has 4 samples"), HasSubstr("longer windows")));
 }
 
 /// The example of a foreign track with one text in place of another, and what reading it says.

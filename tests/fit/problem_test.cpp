@@ -198,11 +198,10 @@ class Fall final : public fit::Simulation {
 TEST(Problem, OfAMotionTellsTheParametersOfAnySimulation) {
   const auto x = sampled(500, 0.01, 8, [](double t) { return 2 * std::exp(-0.3 * t); });
   fit::motion::Problem problem{
-      .source = {"fall.csv"},
+      .records = {{.source = {"fall.csv"}, .time = times(500)}},
       .simulation = std::make_shared<Fall>(),
       .parameters = {{{.name = "begins.at", .first = 1.5}, "m"}, {{.name = "rate", .first = 0.5}, "1/s"}},
       .signals = {{"x", "m", 0.012}},
-      .time = times(500),
       .measured = {Eigen::Map<const Eigen::VectorXd>(x.data(), std::ssize(x))},
       .options = {.profile = true}};
   const Report report = fit::solve(problem);

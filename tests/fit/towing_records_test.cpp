@@ -126,6 +126,18 @@ TEST(TowingRecords, CountWhatIsTheSameInAllRunsOnce) {
   EXPECT_NEAR(half(with), std::hypot(half(without), 1.959964 * 0.1 * with.law->coefficients[0]), 1e-4);
 }
 
+// A slope that is known to 1 % makes every force wrong by as much, and C_D with it, the same in all runs.
+TEST(TowingRecords, CountTheErrorOfTheSlopeOfACell) {
+  auto problem = problem_of({recorded({0.7, 0.001, 17, 0.15}, 40)});
+  fit::ForceChannel& cell = problem.records[0].raw.force[0];
+  for (double& v : cell.values) v *= 0.02;  // V/N
+  cell.calibration.emplace();
+  cell.calibration->slope = 0.02;
+  cell.calibration->slope_error = 0.01 * 0.02;
+  const auto& cd = solve(problem).records[0].cd;
+  EXPECT_NEAR(cd.systematic_error, 0.01 * *cd.value, 1e-6);
+}
+
 TEST(TowingRecords, TakeASpanThatIsNamed) {
   auto problem = problem_of({recorded({0.7, 0.001, 17, 0.15}, 7)});
   problem.options.prepare.window = {.kind = fit::WindowChoice::Kind::span, .from = 30, .to = 50};

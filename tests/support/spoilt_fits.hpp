@@ -121,7 +121,7 @@ inline Eigen::MatrixXd pair_record(const Eigen::VectorXd& truth, std::uint64_t s
 /// Of ω₁², ω₂², κ and b, which begin at `first`; in one run, or in windows.
 inline fit::motion::Problem pair_problem(const Eigen::MatrixXd& record, const Eigen::Vector4d& first, int windows = 1) {
   const std::vector<Eigen::Index> lengths(static_cast<std::size_t>(windows), samples / windows);
-  fit::motion::Problem out{.source = {"pair.csv"},
+  fit::motion::Problem out{.records = {{.source = {"pair.csv"}, .time = {}, .windows = lengths.size()}},
                            .simulation = std::make_shared<MeasuredFlow>(
                                [](const Eigen::VectorXd& y, const Eigen::VectorXd& q) {
                                  return pair_rate(y, with({q[0], q[1], q[2], q[3], 0, 0}));
@@ -129,10 +129,9 @@ inline fit::motion::Problem pair_problem(const Eigen::MatrixXd& record, const Ei
                                pair_begin, step, lengths, 2),
                            .parameters = {},
                            .signals = {{"x1", "m", noise}, {"x2", "m", noise}},
-                           .time = {},
                            .measured = {},
                            .options = {}};
-  for (Eigen::Index j = 0; j < samples; ++j) out.time.push_back(step * static_cast<double>(j));
+  for (Eigen::Index j = 0; j < samples; ++j) out.records[0].time.push_back(step * static_cast<double>(j));
   const char* names[] = {"k1", "k2", "coupling", "damping"};
   for (int k = 0; k < 4; ++k) out.parameters.push_back({{.name = names[k], .first = first[k], .lowest = 0}, "1/s"});
   for (int w = 0; w < windows; ++w)

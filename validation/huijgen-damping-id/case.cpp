@@ -64,7 +64,7 @@ class Route {
     track_film();
     const scene::FitScene scene = scene::read_fit(scratch_.path / "fit.toml");
     const auto& model = scene.model<scene::MotionModel>();
-    MeasuredRun run = MeasuredRun::read(scene, model);
+    MeasuredRun run = MeasuredRun::read(scene, model, model.records.at(0));
     ::fit::SimulationProblem p;
     for (const auto& q : model.parameters) p.parameters.push_back(q.number);
     for (std::size_t w = 0; w < run.first.size(); ++w) {

@@ -1,4 +1,5 @@
 #include <ostream>
+#include <vector>
 
 #include "answers/fit_kind.hpp"
 #include "froude/fit/report.hpp"
@@ -41,8 +42,8 @@ std::exception_ptr exception_of(const ::fit::Refusal& refusal, const scene::Reme
   return std::make_exception_ptr(hydro::NumericsError(fmt::format("{}{}. {}", of, refusal.why, remedy.text)));
 }
 
-Outcome outcome_of(const scene::FitScene& scene) {
-  scene::FitAnswer answer = scene.of->answer(scene);
+Outcome outcome_of(const scene::FitScene& scene, const FitArguments& arguments) {
+  scene::FitAnswer answer = arguments.predict ? scene.of->predict(scene, arguments.at) : scene.of->answer(scene);
   const ::fit::Report& report = answer.report;
   Outcome out{.report = begun(scene).part("", told(report, scene.confidence)),
               .picture = {.title = scene.title.empty() ? scene.file.filename().string() : scene.title,
@@ -70,7 +71,8 @@ void deliver(const Outcome& outcome, const FitArguments& arguments, const Consol
     std::rethrow_exception(outcome.refused);
   }
   write(arguments.table, outcome.table);
-  const std::string comment = fmt::format("Estimates of `froude fit`, version {}. SI units.", FROUDE_VERSION);
+  const std::string comment = fmt::format("{} of `froude fit`, version {}. SI units.",
+                                          arguments.predict ? "Prediction" : "Estimates", FROUDE_VERSION);
   if (arguments.output) write(arguments.output, toml_of(outcome.report.tree(), comment));
   write(arguments.picture, picture);
   if (console.json) tell(outcome.report, console);
@@ -80,12 +82,14 @@ void deliver(const Outcome& outcome, const FitArguments& arguments, const Consol
 
 void fit(const FitArguments& arguments, const Console& console) {
   const scene::FitScene scene = scene::read_fit(arguments.scene);
+  std::vector<NamedFile> inputs = files_of_scene(arguments.scene);
+  if (arguments.at) inputs.push_back({"the values of an earlier fit", *arguments.at});
   require_outputs(named({{"-o", arguments.output}, {"--table", arguments.table}, {"--picture", arguments.picture}}),
-                  files_of_scene(arguments.scene));
+                  inputs);
   if (arguments.table && !scene.of->has_table())
     throw hydro::InputError(fmt::format("a fit of kind \"{}\" has no table of runs", scene.kind()), {},
                             "leave out --table");
-  deliver(outcome_of(scene), arguments, console);
+  deliver(outcome_of(scene, arguments), arguments, console);
 }
 
 }  // namespace froude

@@ -30,6 +30,8 @@ class Simulation {
   /// The end of this window becomes the start of the next, about which its coordinates count. A window that is handed
   /// on again, by another search, makes what was handed on after it void.
   virtual void hand_on(std::size_t window, const Eigen::VectorXd& parameters, const Eigen::VectorXd& start) = 0;
+  /// Whether this parameter can move this window: where it cannot, no sensitivity is run for.
+  virtual bool moves(std::size_t /*window*/, std::size_t /*parameter*/) const { return true; }
 };
 
 struct SimulationParameter {
@@ -99,6 +101,12 @@ struct SimulationFit {
 /// \throws hydro::InputError: shapes that do not fit (also of `begin`), first values outside their bounds, what the
 /// simulation throws at the first values
 SimulationFit fit_simulation(Simulation& simulation, const SimulationProblem& problem);
+
+/// The samples of all windows with these parameters, shape as measured; nothing is fitted. The simulation must have no
+/// coordinates of starts. \throws hydro::InputError for shapes that do not fit or a window with a start of its own, and
+/// what the simulation throws
+std::vector<Eigen::MatrixXd> follow_all(Simulation& simulation, const SimulationProblem& problem,
+                                        const Eigen::VectorXd& parameters);
 
 /// Interval of one parameter from the likelihood itself: it is held at trial values, all else is fitted again from
 /// where `fit` ended, and the ends are where the cost has risen as in (F37), or the parameter's bound where it has not

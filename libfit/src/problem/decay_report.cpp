@@ -191,7 +191,7 @@ Report told_over(const Problem& problem, const std::vector<FittedRun>& runs) {
 }
 
 /// What a scene of motion may include, of one run or of all together.
-Facts coefficients_of(const FittedRun& run) {
+Facts coefficients_of(const FittedRun& run, bool turns) {
   Facts out;
   const auto put = [&](const Coefficient& c) {
     if (c.value) out.emplace_back(c.name, *c.value);
@@ -199,6 +199,10 @@ Facts coefficients_of(const FittedRun& run) {
   put(run.fit.period);
   for (const Coefficient& c : run.fit.damping) put(c);
   if (run.water) put(run.water->added_mass);
+  if (run.water)
+    for (const Coefficient& c : run.water->damping)
+      if (c.value)
+        out.emplace_back(c.name + "_damping", fmt::format("{:.10g} {}", *c.value, unit_with_mass(c.name, turns)));
   if (!run.memory) return out;
   for (const Coefficient& c : run.memory->memory) put(c);
   return out;
@@ -234,7 +238,7 @@ const char* unit_with_mass(const std::string& coefficient, bool turns) {
 Report told(const Problem& problem, const std::vector<FittedRun>& runs, const std::optional<FittedRun>& together) {
   Report report, over = told_over(problem, runs);
   if (together || runs.size() == 1)
-    report.facts = {{"coefficients", coefficients_of(together ? *together : runs[0])}};
+    report.facts = {{"coefficients", coefficients_of(together ? *together : runs[0], problem.turns)}};
   else if (!over.parts.empty())
     report.facts = {{"coefficients", coefficients_over(over)}};
   for (const FittedRun& run : runs) report.parts.push_back(told(problem, run));

@@ -1,6 +1,7 @@
 #include "fit/problem/motion.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "fit/verdict.hpp"
@@ -54,7 +55,8 @@ std::vector<std::string> accepted(const Problem& problem, const SimulationFit& f
 
 /// "line[1].damping.linear" as a word: line1_damping_linear.
 std::string word_of(std::string key) {
-  std::replace(key.begin(), key.end(), '.', '_');
+  std::replace_if(
+      key.begin(), key.end(), [](char c) { return c == '.' || c == ' '; }, '_');
   std::erase_if(key, [](char c) { return c == '[' || c == ']'; });
   return key;
 }
@@ -67,19 +69,25 @@ double widest(const std::vector<Eigen::MatrixXd>& bands, std::size_t column) {
   return out;
 }
 
+/// Which number of a scene it is.
+Facts identity_of(const Parameter& p) {
+  Facts out{{"key", p.record.empty() ? p.number.name : p.path}, {"unit", p.unit}};
+  if (!p.record.empty()) out.emplace_back("record", p.record);
+  return out;
+}
+
 /// Values of the parameters, and what a scene of motion may include of them.
 void add_values(const Problem& problem, const SimulationFit& fit, Report& report) {
   Facts coefficients;
   report.group = "parameter";
   for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
     const Coefficient& c = fit.parameters[k];
-    const auto& [number, unit] = problem.parameters[k];
-    const std::string key = word_of(c.name);
+    const std::string &unit = problem.parameters[k].unit, key = word_of(c.name);
     if (c.value && unit.empty()) coefficients.emplace_back(key, *c.value);
     if (c.value && !unit.empty()) coefficients.emplace_back(key, fmt::format("{:.10g} {}", *c.value, unit));
     Estimate e{c, unit};
     e.key = key;
-    e.facts = {{"key", number.name}, {"unit", unit}};
+    e.facts = identity_of(problem.parameters[k]);
     if (c.value && fit.by_likelihood[k])
       e.more = " by its likelihood, which the second derivative does not describe";
     else if (c.value)
@@ -113,6 +121,63 @@ void add_signals(const Problem& problem, const SimulationFit& fit, Report& repor
              100 * problem.options.confidence);
 }
 
+/// What is left of one signal, and what a motion explains of it.
+struct Explained {
+  double rms, part;
+  Eigen::Index samples;
+};
+/// Of the windows from `first` on. (F104)
+Explained explained(const std::vector<Eigen::MatrixXd>& measured, const std::vector<Eigen::MatrixXd>& motion,
+                    std::size_t first, std::size_t windows, std::size_t signal) {
+  double sum = 0, squares = 0, left = 0;
+  Eigen::Index n = 0;
+  for (std::size_t w = first; w < first + windows; ++w)
+    for (Eigen::Index i = 0; i < measured[w].rows(); ++i) {
+      const double x = measured[w](i, static_cast<Eigen::Index>(signal));
+      if (std::isnan(x)) continue;  // not measured
+      ++n, sum += x, squares += x * x;
+      left += std::pow(x - motion[w](i, static_cast<Eigen::Index>(signal)), 2);
+    }
+  const double samples = static_cast<double>(std::max<Eigen::Index>(1, n));
+  return {std::sqrt(left / samples), 1 - left / std::max(squares - sum * sum / samples, 1e-300), n};
+}
+
+/// "heave differs by 0.0021 m rms, 1.05 times its deviation of 0.002 m; explained 99.31 %"
+Report told(const Problem& problem, const std::vector<Eigen::MatrixXd>& motion, std::size_t first,
+            std::size_t windows) {
+  Report out;
+  std::vector<Facts> all;
+  for (std::size_t c = 0; c < problem.signals.size(); ++c) {
+    const Signal& s = problem.signals[c];
+    const Explained e = explained(problem.measured, motion, first, windows, c);
+    out.say("{} differs by {:.3g} {} rms, {:.3g} times its deviation of {:.3g} {}; explained {:.2f} %", s.name, e.rms,
+            s.unit, e.rms / s.deviation, s.deviation, s.unit, 100 * e.part);
+    all.push_back({{"of", s.name},
+                   {"unit", s.unit},
+                   {"samples", e.samples},
+                   {"rms", e.rms},
+                   {"deviation", s.deviation},
+                   {"explained", e.part}});
+  }
+  out.facts.emplace_back("signal", std::move(all));
+  return out;
+}
+
+/// What is left in each of several records.
+void add_records(const Problem& problem, const std::vector<Eigen::MatrixXd>& motion, Report& report) {
+  if (problem.records.size() < 2) return;
+  std::size_t first = 0;
+  for (const Record& record : problem.records) {
+    Report one = told(problem, motion, first, record.windows);
+    one.key = "record";
+    one.one_of_many = true;
+    one.heading = record.source.name();
+    one.facts.insert(one.facts.begin(), Fact("file", record.source.name()));
+    report.parts.push_back(std::move(one));
+    first += record.windows;
+  }
+}
+
 void add_accepted(const Problem& problem, const SimulationFit& fit, Report& report) {
   const std::vector<std::string> all = accepted(problem, fit);
   report.facts.emplace_back("accepted", all);
@@ -123,9 +188,9 @@ void add_accepted(const Problem& problem, const SimulationFit& fit, Report& repo
 std::vector<std::string> point(const Problem& problem, const Eigen::VectorXd& at) {
   std::vector<std::string> out;
   for (std::size_t k = 0; k < problem.parameters.size(); ++k) {
-    const auto& [number, unit] = problem.parameters[k];
-    out.push_back(
-        fmt::format("{} {:.6g}{}{}", number.name, at[static_cast<Eigen::Index>(k)], unit.empty() ? "" : " ", unit));
+    const std::string& unit = problem.parameters[k].unit;
+    out.push_back(fmt::format("{} {:.6g}{}{}", problem.parameters[k].number.name, at[static_cast<Eigen::Index>(k)],
+                              unit.empty() ? "" : " ", unit));
   }
   return out;
 }
@@ -158,20 +223,24 @@ void add_starts(const Problem& problem, const SeveralStarts& several, Report& re
   add_other_ends(problem, several, report);
 }
 
-std::string heading_of(const Problem& problem, const SimulationFit& fit) {
+/// "pair.csv: 300 samples of 2 signals in 1 window"
+std::string heading_of(const Problem& problem) {
   Eigen::Index samples = 0;
   for (const Eigen::MatrixXd& window : problem.measured) samples += window.rows();
-  return fmt::format("{}: {} samples of {} signals in {} window{}, {} runs of a window", problem.source.name(), samples,
-                     problem.signals.size(), problem.measured.size(), problem.measured.size() == 1 ? "" : "s",
-                     fit.windows_followed);
+  std::vector<std::string> names;
+  for (const Record& record : problem.records) names.push_back(record.source.name());
+  return fmt::format("{}: {} samples of {} signals in {} window{}", fmt::join(names, ", "), samples,
+                     problem.signals.size(), problem.measured.size(), problem.measured.size() == 1 ? "" : "s");
 }
 
 Report told(const Problem& problem, const SimulationFit& fit) {
   const bool values = fit.refused.empty();
-  Report report{.heading = heading_of(problem, fit), .facts = {{"search", fit.search.why}}};
+  Report report{.heading = fmt::format("{}, {} runs of a window", heading_of(problem), fit.windows_followed),
+                .facts = {{"search", fit.search.why}}};
   if (values) add_values(problem, fit, report);
   add_signals(problem, fit, report);
   if (values) add_accepted(problem, fit, report);
+  add_records(problem, fit.motion, report);
   if (fit.starts_all > 0)
     report.say("of {} numbers of the windows' starts the signals see {}, which are fitted too", fit.starts_all,
                fit.starts_seen);
@@ -239,6 +308,27 @@ Solution solve(const Problem& problem) {
   if (out.report.refused || !options.profile) return out;
   if (several.best_of + 1 < several.searches.size()) out.fit = again(problem, search, several);
   add_profiles(problem, search, out.fit, out.report);
+  return out;
+}
+
+Prediction predict(const Problem& problem, const Eigen::VectorXd& at, const std::vector<std::string>& from) {
+  hydro::require(std::ssize(problem.parameters) == at.size() && problem.parameters.size() == from.size(),
+                 "{} parameters have {} values from {} places", problem.parameters.size(), at.size(), from.size());
+  Prediction out{.report = {}, .motion = follow_all(*problem.simulation, simulated(problem), at)};
+  out.report = told(problem, out.motion, 0, problem.measured.size());
+  out.report.heading = heading_of(problem) + "; nothing is fitted";
+  std::vector<Facts> parameters;
+  std::vector<std::string> remarks;
+  const std::vector<std::string> values = point(problem, at);
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    Facts one = identity_of(problem.parameters[k]);
+    append(one, {{"value", at[static_cast<Eigen::Index>(k)]}, {"from", from[k]}});
+    parameters.push_back(std::move(one));
+    remarks.push_back(fmt::format("{}, from {}", values[k], from[k]));
+  }
+  out.report.remarks.insert(out.report.remarks.begin(), remarks.begin(), remarks.end());
+  if (!parameters.empty()) out.report.facts.emplace_back("parameter", std::move(parameters));
+  add_records(problem, out.motion, out.report);
   return out;
 }
 

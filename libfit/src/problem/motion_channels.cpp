@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hydro/base/error.hpp"
+#include "hydro/signal/welch.hpp"
 
 namespace fit::motion {
 namespace {
@@ -123,14 +124,26 @@ std::string explained(const Problem& problem, const std::string& what, const Sim
   return fmt::format("{}: with that put right the fit ends where {}, which the deviations allow", what, left);
 }
 
+bool is_even(const std::vector<double>& time) {
+  if (time.size() < 2) return false;
+  try {
+    hydro::signal::even_step(time);
+    return true;
+  } catch (const hydro::InputError&) {
+    return false;
+  }
+}
+
 /// A channel that is recorded later or earlier than the others, or than the run's start. Its delay is found with a fit
 /// at each round, since a fit leans towards what is wrong.
 std::string trouble_of_delay(const Problem& problem, const SimulationProblem& search, const SimulationFit& failed,
                              std::size_t channel) {
   constexpr int rounds = 8;
   constexpr double settled = 0.05;  // of a sample
-  if (problem.time.size() < 2) return {};
-  const double step = problem.time[1] - problem.time[0];
+  const std::vector<double>& time = problem.records.front().time;
+  // Records of several have seams, over which a delay cannot be moved; uneven samples have no step.
+  if (problem.records.size() > 1 || !is_even(time)) return {};
+  const double step = time[1] - time[0];
   const auto c = static_cast<Eigen::Index>(channel);
   const Eigen::VectorXd record = joined(problem.measured, c);
   double samples = delay_of(record, joined(failed.motion, c));

@@ -92,6 +92,22 @@ std::string window_of(const FittedRun& run, const Options& options) {
           : std::string("no end of the tank is named from which they come back"));
 }
 
+/// Of the ratio of a response to the elevation.
+SlopeError slope_error_of(const Problem& problem, std::size_t response) {
+  const SlopeError own = problem.response_slopes.empty() ? SlopeError{} : problem.response_slopes.at(response);
+  return {std::hypot(own.standard, problem.elevation_slope.standard),
+          std::hypot(own.half_width, problem.elevation_slope.half_width)};
+}
+
+/// (F105) A ratio of two readings takes the relative errors of both slopes.
+void count_slopes(const SlopeError& slope, Coefficient& c) {
+  const double centre = (c.interval.low + c.interval.high) / 2;
+  const double half = std::hypot((c.interval.high - c.interval.low) / 2, centre * slope.half_width);
+  c.systematic_error = std::abs(centre) * slope.standard;
+  c.standard_error = std::hypot(c.standard_error, c.systematic_error);
+  c.interval = {centre - half, centre + half};
+}
+
 FittedRun fitted(const Problem& problem, const Run& run, Report& report) {
   FittedRun out = prepared(run, problem.options.prepare, report);
   std::vector<WaveChannel> responses = run.responses;
@@ -99,6 +115,8 @@ FittedRun fitted(const Problem& problem, const Run& run, Report& report) {
   std::optional<std::pair<double, double>> span;
   if (const auto& w = problem.options.prepare.window; w.kind == WindowChoice::Kind::span) span = {w.from, w.to};
   out.fit = fit_regular_waves(out.time, out.elevation, responses, problem.options, span);
+  for (std::size_t i = 0; i < out.fit.responses.size(); ++i)
+    count_slopes(slope_error_of(problem, i), out.fit.responses[i].rao);
   return out;
 }
 
@@ -139,7 +157,7 @@ std::vector<std::vector<std::size_t>> groups_of(const std::vector<FittedRun>& ru
 }
 
 Repeats repeats_of(const std::vector<FittedRun>& runs, const std::vector<std::size_t>& group, std::size_t response,
-                   double confidence) {  // (F97)
+                   const SlopeError& slope, double confidence) {  // (F97)
   Repeats out{.name = runs[group[0]].fit.responses[response].name,
               .period = 0,
               .wave_amplitude = 0,
@@ -161,7 +179,8 @@ Repeats repeats_of(const std::vector<FittedRun>& runs, const std::vector<std::si
   }
   for (const double v : values) out.deviation += (v - out.mean) * (v - out.mean) / (n - 1);
   out.deviation = std::sqrt(out.deviation);
-  const double half = out.deviation / std::sqrt(n) * hydro::signal::student_t_quantile((1 + confidence) / 2, n - 1);
+  const double scatter = out.deviation / std::sqrt(n) * hydro::signal::student_t_quantile((1 + confidence) / 2, n - 1),
+               half = std::hypot(scatter, out.mean * slope.half_width);  // (F105)
   out.interval = {out.mean - half, out.mean + half};
   out.lower_quartile = quantile_of(values, 0.25);
   out.median = quantile_of(values, 0.5);
@@ -214,7 +233,7 @@ Solution solve(const Problem& problem) {
   }
   for (const auto& group : groups_of(out.runs))
     for (std::size_t i = 0; group.size() > 1 && i < problem.units.size(); ++i) {
-      out.repeats.push_back(repeats_of(out.runs, group, i, problem.options.confidence));
+      out.repeats.push_back(repeats_of(out.runs, group, i, slope_error_of(problem, i), problem.options.confidence));
       tell(out.repeats.back(), problem.units[i], problem.options.confidence, out.report);
     }
   return out;

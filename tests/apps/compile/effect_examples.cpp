@@ -73,6 +73,10 @@ std::vector<Example> of_body() {
       body("wind", "",
            "[[wind]]\non = \"m\"\nat = \"(0, 0, 4) m\"\narea = \"10 m^2\"\nspeed = \"12 m/s\"\nheading = \"30 deg\"\n",
            {"wind"}),
+      body("damping", "",
+           "[[damping]]\non = \"m\"\nlinear = { heave = \"2 kN s/m\" }\nquadratic = { pitch = \"3 kN m s^2/rad^2\" "
+           "}\n",
+           {"damping"}),
       body("load", "", "[[load]]\non = \"m\"\nforce = \"(1, 0, 0) kN\"\n", {"load"}),
   };
 }
@@ -259,6 +263,10 @@ std::vector<Example> of_seas() {
       sea("regular", "kind = \"regular\"\nheight = \"0.5 m\"\nperiod = \"4 s\"\n"),
       sea("components", "kind = \"components\"\nfile = \"waves.csv\"\n"),
       sea("components of second order", "kind = \"components\"\nfile = \"waves.csv\"\nsecond_order = true\n"),
+      sea("record",
+          "kind = \"record\"\nfile = \"elevation.csv\"\ngauge = \"(-5, 0, 0) m\"\nlowest = \"0.7 rad/s\"\nhighest = "
+          "\"2 "
+          "rad/s\"\ntaper = \"2 s\"\n"),
       sea("focused packets",
           "kind = \"focused_packets\"\nfile = \"waves.csv\"\nfocus = { position = \"(0, 0, 0) m\", time = \"1 s\" }\n"),
       sea("tank",

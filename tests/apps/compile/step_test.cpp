@@ -213,7 +213,7 @@ TEST(TrialsOfAFit, ReadNoFileAndFitNoPolesAgain) {
   std::filesystem::remove(file);  // whoever reads it again finds nothing
   for (int i = 0; i < 10; ++i)
     EXPECT_NEAR(runs.follow(0, Eigen::VectorXd::Constant(1, 0.1 + 0.01 * i), {})(0, 0), 0.1 + 0.01 * i, 1e-12);
-  EXPECT_EQ(runs.kept().fits().made(), 1u);
+  EXPECT_EQ(runs.kept()->fits().made(), 1u);
 }
 
 const std::string rod = froude_test::water + R"([[body]]

@@ -27,6 +27,8 @@ struct Options {
 struct Parameter {
   SimulationParameter number;
   std::string unit;  ///< that its values are in
+  /// Of a parameter of one record alone: the record, and what it is called there. Empty: all records share it.
+  std::string record = {}, path = {};
 };
 
 struct Signal {
@@ -35,12 +37,18 @@ struct Signal {
   double period = 0;  ///< as SimulationProblem's
 };
 
-struct Problem {
+/// What was measured in one go. Records share parameters; each begins with the start of its own simulation.
+struct Record {
   Source source;
+  std::vector<double> time;  ///< s, of all samples: for those who look at them
+  std::size_t windows = 1;   ///< among the problem's, after those of the records before
+};
+
+struct Problem {
+  std::vector<Record> records;
   std::shared_ptr<Simulation> simulation;  ///< follows the signals with trial parameters
   std::vector<Parameter> parameters;
   std::vector<Signal> signals;
-  std::vector<double> time;                                  ///< s, of all samples: for those who look at them
   std::vector<Eigen::MatrixXd> measured;                     ///< one a window, shape (samples, signals)
   std::vector<std::vector<Eigen::MatrixXd>> whitening = {};  ///< as SimulationProblem's
   Options options;
@@ -54,5 +62,15 @@ struct Solution {
 };
 /// \throws hydro::InputError as fit_simulation() and fit_simulation_from()
 Solution solve(const Problem& problem);
+
+/// What the simulation tells with given parameters, against what was measured; nothing is fitted.
+struct Prediction {
+  /// Of each signal, in all records and in each: rms of the residuals, the deviation stated, and the part of the
+  /// measured squares about their mean that is explained, 1 − Σ(x − x̂)²/Σ(x − x̄)², which may be negative. (F104)
+  Report report;
+  std::vector<Eigen::MatrixXd> motion;  ///< as measured
+};
+/// `from` says of each parameter where its value is from: "fit.toml". \throws hydro::InputError as follow_all()
+Prediction predict(const Problem& problem, const Eigen::VectorXd& at, const std::vector<std::string>& from);
 
 }  // namespace fit::motion

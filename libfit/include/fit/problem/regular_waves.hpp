@@ -23,10 +23,18 @@ struct Run {
   std::vector<WaveChannel> responses;
 };
 
+/// Of the slope of a channel's line, over the slope: the same in all runs.
+struct SlopeError {
+  double standard = 0;    ///< standard error
+  double half_width = 0;  ///< of its interval at the confidence of the fit
+};
+
 struct Problem {
   std::vector<Run> runs;           ///< the same responses in all
   std::vector<std::string> units;  ///< SI, of the responses: "m", "rad", "N"
   Options options;
+  SlopeError elevation_slope = {};
+  std::vector<SlopeError> response_slopes = {};  ///< one a response; empty: exact
 };
 
 /// What was fitted to one run, and the record that it was fitted to.
@@ -42,7 +50,7 @@ struct Repeats {
   double period, wave_amplitude;  ///< means
   std::vector<std::size_t> runs;
   double mean, deviation;  ///< of the RAO over runs
-  Interval interval;       ///< of the mean, Student with one less than there are runs
+  Interval interval;       ///< of the mean, Student with one less than there are runs, and of the slopes of channels
   double lower_quartile, median, upper_quartile;
 };
 
