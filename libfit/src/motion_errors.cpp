@@ -112,8 +112,8 @@ std::pair<double, double> squares_of(const std::vector<std::vector<double>>& dra
   return {squares.mean(), 2 * std::sqrt((squares - squares.mean()).square().mean())};
 }
 
-/// A signal as it is, or smoothed where noise moves it within a step: noise of its columns is not the sensor's. Smoothing
-/// flattens a motion where it turns, which is where it stays on one step for long: only where it must be.
+/// A signal as it is, or smoothed where noise moves it within a step: noise of its columns is not the sensor's.
+/// Smoothing flattens a motion where it turns, which is where it stays on one step for long: only where it must be.
 std::vector<double> without_noise(std::span<const double> signal, const Rounding& rounding,
                                   const DerivativeWeights& smooth) {
   constexpr double next_to_nothing = 0.05;  // of a step: it blurs a twentieth of the samples' roundings
@@ -121,9 +121,9 @@ std::vector<double> without_noise(std::span<const double> signal, const Rounding
   return smoothed(signal, smooth);
 }
 
-/// What rounding does to signals that are up to a few steps larger or smaller, on the grid of the sensor. Their sizes are
-/// drawn one from each of as many equal parts of that range: what rounding does changes from step to step, and sizes that
-/// lie anywhere leave more of its mean square to chance.
+/// What rounding does to signals that are up to a few steps larger or smaller, on the grid of the sensor. Their sizes
+/// are drawn one from each of as many equal parts of that range: what rounding does changes from step to step, and
+/// sizes that lie anywhere leave more of its mean square to chance.
 std::vector<std::vector<double>> rounded_alike(const std::vector<double>& signal, const Rounding& rounding,
                                                double deviation, std::uint64_t stream) {
   constexpr std::uint64_t seed = 69;
