@@ -197,10 +197,11 @@ void say_instants(const KinematicsArguments& a, const scene::MotionModel& model,
   if (a.record) {
     const fc::Offset o = offset_of(a, model, track.places, channels);
     report.say(
-        "{}: [camera] offset = \"{:.6g} s\", standard deviation {:.2g} s; correlation {:.5g}, elsewhere {:.3g} at most",
+        "{}: [camera] offset = \"{:.6g} s\", standard deviation {:.2g} s, within {:.2g} s with 95 %; "
+        "correlation {:.5g}, elsewhere {:.3g} at most",
         a.record->filename().string(), fact("offset_s", model.camera->offset + o.lag - track.begin),
-        fact("offset_deviation_s", o.deviation), fact("correlation", o.correlation),
-        fact("correlation_elsewhere", o.runner_up));
+        fact("offset_deviation_s", o.deviation), fact("offset_half_width_s", o.half_width),
+        fact("correlation", o.correlation), fact("correlation_elsewhere", o.runner_up));
   }
   if (!a.release) return;
   const fc::Release r = scene::placed({.file = "--release"}, [&] { return fc::release_of(track.places, *a.release); });

@@ -1,5 +1,6 @@
 #include "fit/camera/instants.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,7 @@
 
 #include "fit/correlated.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/signal/distributions.hpp"
 
 namespace fit::camera {
 namespace {
@@ -83,32 +85,147 @@ Peaks peaks_of(const std::vector<double>& lags, const std::vector<double>& corre
   return out;
 }
 
-/// (V18) Zero, factor and lag by Gauss and Newton from there; the lag's deviation with the memory of what is left over.
-/// Slopes are taken over the longer step, h, on either side: noise of the record would make them too steep.
-Offset refined(Peaks from, std::span<const double> time, std::span<const double> value, const Between& record,
-               double step, double h) {
-  Offset out{.lag = from.lag, .deviation = 0, .correlation = from.correlation, .runner_up = from.runner_up};
-  for (int round = 0; round < 50; ++round) {
-    std::vector<Eigen::RowVector3d> rows;
-    std::vector<double> values;
-    for (std::size_t i = 0; i < time.size(); ++i) {
-      const double t = time[i] + out.lag;
-      if (std::isnan(value[i]) || !record.covers(t - h) || !record.covers(t + h)) continue;
-      rows.emplace_back(1, record.at(t), (record.at(t + h) - record.at(t - h)) / (2 * h));
-      values.push_back(value[i]);
+struct Local {
+  double value, slope;
+};
+
+/// The samples of a record that are told, and the cubic through so many of them on each side of an instant. (V18)
+class Smooth {
+ public:
+  Smooth(std::span<const double> time, std::span<const double> value) {
+    for (std::size_t i = 0; i < time.size(); ++i)
+      if (std::isfinite(value[i])) time_.push_back(time[i]), value_.push_back(value[i]);
+    step_ = median_step(time_);
+  }
+  std::size_t size() const { return time_.size(); }
+  double time(std::size_t i) const { return time_[i]; }
+  double value(std::size_t i) const { return value_[i]; }
+  /// Whether that many samples stand on each side, without a gap of half of them, two on each side within reach.
+  bool covers(double t, std::size_t side) const {
+    const std::size_t next = first_after(t);
+    if (next <= side || next + side >= size()) return false;
+    const double reach = reach_of(t, next, side);
+    return time_[next + side] - time_[next - side - 1] < 2 * step_ * static_cast<double>(2 * side + 1) &&
+           (side == 2 || (t - time_[next - 2] < reach && time_[next + 1] - t < reach));
+  }
+  /// By least squares, the nearer the heavier (tricube); through two on each side it is the interpolation.
+  Local at(double t, std::size_t side) const {
+    const std::size_t next = first_after(t);
+    const double reach = reach_of(t, next, side);
+    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+    for (std::size_t i = next - side; i < next + side; ++i) {
+      const double u = (time_[i] - t) / reach;
+      const double near = side == 2 ? 1 : std::max(0.0, 1 - std::abs(u * u * u)), weight = near * near * near;
+      const Eigen::Vector4d powers(1, u, u * u, u * u * u);
+      normal += weight * powers * powers.transpose();
+      right += weight * value_[i] * powers;
     }
-    Eigen::MatrixXd basis(std::ssize(rows), 3);
-    for (std::size_t i = 0; i < rows.size(); ++i) basis.row(static_cast<Eigen::Index>(i)) = rows[i];
-    const Eigen::Map<const Eigen::VectorXd> right(values.data(), std::ssize(values));
-    const Eigen::Vector3d fitted = (basis.transpose() * basis).inverse() * (basis.transpose() * right);
-    const double move = fitted[2] / fitted[1];
-    if (!std::isfinite(move)) throw InputError("film and record tell no offset: their slopes do not");
-    out.lag += std::clamp(move, -step, step);
-    if (std::abs(move) > 1e-3 * step) continue;
-    basis.col(2) *= fitted[1];
-    const Eigen::VectorXd left = basis * Eigen::Vector3d(fitted[0], fitted[1], 0) - right;
-    if (left.norm() > 1e-12 * right.norm())
-      out.deviation = std::sqrt(correlated_covariance(basis, left, 1, LongMemory::widen).covariance(2, 2));
+    const Eigen::Vector4d cubic = normal.ldlt().solve(right);
+    return {cubic[0], cubic[1] / reach};
+  }
+
+ private:
+  std::size_t first_after(double t) const {
+    return static_cast<std::size_t>(std::upper_bound(time_.begin(), time_.end(), t) - time_.begin());
+  }
+  /// Up to the nearer of the two samples that no longer count: so none comes or goes with a weight.
+  double reach_of(double t, std::size_t next, std::size_t side) const {
+    return std::min(t - time_[next - side - 1], time_[next + side] - t);
+  }
+  std::vector<double> time_, value_;
+  double step_;
+};
+
+constexpr Eigen::Index fewest = 16;  // samples that tell a lag
+
+/// Two records of one motion, the second the denser, and how it is smoothed.
+struct Pair {
+  Smooth sparse, dense;
+  double sparse_step, dense_step;
+};
+
+/// Samples of the sparse record that the dense one covers at a lag: columns of one, the dense one smoothed and its
+/// slope; the sparse values and their own smooth slope; the dense one as finely as the sparse one is sampled.
+struct Compared {
+  Eigen::MatrixXd basis;
+  Eigen::VectorXd sparse, sparse_slope, dense;
+};
+
+std::size_t samples_within(double time, double step, std::size_t of) {
+  return std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(time / step)), 2,
+                                 std::max<std::size_t>(2, of / 16));
+}
+
+Compared compared(const Pair& p, double lag, std::size_t side) {
+  const std::size_t fine = samples_within(p.sparse_step, p.dense_step, p.dense.size()),
+                    own = samples_within(static_cast<double>(side) * p.dense_step, p.sparse_step, p.sparse.size());
+  std::vector<std::size_t> taken;
+  for (std::size_t i = 0; i < p.sparse.size(); ++i) {
+    const double t = p.sparse.time(i);
+    if (p.sparse.covers(t, own) && p.dense.covers(t + lag, std::max(side, fine))) taken.push_back(i);
+  }
+  const auto n = static_cast<Eigen::Index>(taken.size());
+  Compared out{Eigen::MatrixXd(n, 3), Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const std::size_t i = taken[static_cast<std::size_t>(k)];
+    const double t = p.sparse.time(i);
+    const Local there = p.dense.at(t + lag, side);
+    out.basis.row(k) << 1, there.value, there.slope;
+    out.sparse[k] = p.sparse.value(i);
+    out.sparse_slope[k] = p.sparse.at(t, own).slope;
+    out.dense[k] = p.dense.at(t + lag, fine).value;
+  }
+  return out;
+}
+
+/// How many samples on each side smooth the dense record best: so that it tells the sparse one best, whose noise is
+/// another. (V18)
+std::size_t best_side(const Pair& p, double lag) {
+  std::size_t best = 2;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t side = 2; side == 2 || side <= p.dense.size() / 16; side += std::max<std::size_t>(1, side / 4)) {
+    const Compared c = compared(p, lag, side);
+    if (c.sparse.size() < fewest) break;
+    const Eigen::Vector3d fitted = (c.basis.transpose() * c.basis).ldlt().solve(c.basis.transpose() * c.sparse);
+    const double mean_square = (c.sparse - c.basis * fitted).squaredNorm() / static_cast<double>(c.sparse.size() - 3);
+    if (mean_square < least) least = mean_square, best = side;
+    if (mean_square > 1.5 * least) break;  // the motion itself is smoothed away
+  }
+  return best;
+}
+
+/// (V18) The lag by Gauss and Newton from there, with its deviation, which has the noise of both and its memory.
+Offset refined(const Peaks& from, const Pair& p) {
+  Offset out{
+      .lag = from.lag, .deviation = 0, .half_width = 0, .correlation = from.correlation, .runner_up = from.runner_up};
+  const std::size_t side = best_side(p, out.lag);
+  double longest = p.sparse_step / 2, before = 0;
+  for (int round = 0; round < 50; ++round) {
+    Compared c = compared(p, out.lag, side);
+    if (c.sparse.size() < fewest)
+      throw InputError(fmt::format("film and record tell no offset: {} samples stand beside each other, {} are needed",
+                                   c.sparse.size(), fewest));
+    const auto level = c.basis.leftCols<2>();
+    const Eigen::Matrix2d inverse = (level.transpose() * level).inverse();
+    const Eigen::Vector2d fitted = inverse * (level.transpose() * c.sparse);
+    Eigen::Ref<Eigen::VectorXd> slope = c.basis.col(2);
+    slope -= level * (inverse * (level.transpose() * slope));
+    const Eigen::VectorXd left = (c.sparse - fitted[1] * c.dense).array() - fitted[0];
+    const double information = slope.dot(c.sparse_slope), move = slope.dot(left) / information;
+    if (!std::isfinite(move) || information * from.correlation <= 0)
+      throw InputError("film and record tell no offset: their slopes do not");
+    // Samples come and go at the ends as the lag moves: where the move jumps from one sign to the other is the end,
+    // too.
+    if (move * before < 0) longest /= 2;
+    before = std::clamp(move, -longest, longest);
+    out.lag += before;
+    if (std::abs(before) > 5e-4 * p.dense_step) continue;
+    if (left.norm() > 1e-12 * c.sparse.norm()) {
+      const CoefficientCovariance u = correlated_covariance(c.basis, left, 1, LongMemory::widen);
+      out.deviation = std::sqrt(u.covariance(2, 2)) * slope.squaredNorm() / std::abs(information);
+      out.half_width = hydro::signal::student_t_quantile(0.975, u.dof) * out.deviation;
+    }
     return out;
   }
   throw InputError("film and record tell no offset: no lag brings them nearest");
@@ -137,7 +254,7 @@ Offset offset_between(std::span<const double> time, std::span<const double> valu
     correlations.push_back(correlation_at(lag, time, value, whole, least));
   }
   hydro::require(!lags.empty(), "film and record have no time in common, whatever the offset");
-  const Peaks peaks = peaks_of(lags, correlations);
+  Peaks peaks = peaks_of(lags, correlations);
   if (std::abs(peaks.correlation) < 0.7)
     throw InputError(
         fmt::format("film and record do not show the same: their largest correlation is {:.3g}, at {:.4g} s",
@@ -154,7 +271,13 @@ Offset offset_between(std::span<const double> time, std::span<const double> valu
                     "or more away",
                     std::abs(peaks.correlation), peaks.lag, peaks.runner_up),
         {}, "take more of both records: their beginning, a change, not the steady part alone");
-  return refined(peaks, time, value, whole, step, std::max(median_step(time), median_step(record_time)));
+  const Smooth film_itself(time, value), record_itself(record_time, record);
+  const double film_step = median_step(time), record_step = median_step(record_time);
+  if (film_step >= record_step) return refined(peaks, {film_itself, record_itself, film_step, record_step});
+  peaks.lag *= -1;
+  Offset found = refined(peaks, {record_itself, film_itself, record_step, film_step});
+  found.lag *= -1;
+  return found;
 }
 
 namespace {
