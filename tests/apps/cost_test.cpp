@@ -150,10 +150,17 @@ TEST(Cost, RunsThatCannotBePredictedAreJudgedByTheirStatistics) {
     if (rung.refused.empty()) {
       EXPECT_EQ(error(rung, ErrorMeasure::rms), error(rung, ErrorMeasure::deviation)) << rung.setting;
     }
-  ASSERT_TRUE(run.by_chance && run.chosen);
-  EXPECT_GT(*run.by_chance, tolerance);
+  EXPECT_GT(run.uncertainty.error, tolerance);
+  // Which of them come within chance is chance itself: rounding of another build makes other motions.
+  const auto within = std::count_if(run.rungs.begin(), run.rungs.end(), [&](const CostRung& rung) {
+    return rung.refused.empty() && error(rung, ErrorMeasure::rms) <= run.uncertainty.error;
+  });
+  ASSERT_EQ(run.chosen.has_value(), within > 0);
+  EXPECT_EQ(cost.scene.has_value(), within > 0);
+  if (within == 0) return;
+  ASSERT_TRUE(run.by_chance);
+  EXPECT_EQ(*run.by_chance, run.uncertainty.error);
   EXPECT_LE(error(run.rungs[*run.chosen], ErrorMeasure::rms), *run.by_chance);
-  EXPECT_TRUE(cost.scene);
 }
 
 /// A pendulum whose rod is a member in waves: its pieces and the step are approximations that add up.
