@@ -427,7 +427,7 @@ void add_response(CLI::App& app, Request& request) {
       "spectra of responses in the sea of a scene: statistics, largest values, fatigue, a lifetime of seas");
   command->footer(
       "Examples:\n  froude response examples/seastate.toml --duration \"3 h\" --picture response.svg\n"
-      "  froude response examples/seastate.toml --scatter examples/data/scatter.csv --duration \"25 yr\"");
+      "  froude response examples/seastate.toml --scatter examples/data/scatter.csv --duration \"219150 h\"");
   auto arguments = std::make_shared<ResponseArguments>();
   command->add_option("scene", arguments->scene, "scene file (.toml) with [waves] of a spectrum and [ask] rao")
       ->required();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "dynamics/spatial/rotation.hpp"
 #include "gauss_newton.hpp"
@@ -78,21 +79,27 @@ std::optional<SpacePose> downhill(const Eye& eye, const std::vector<SeenOnBody>&
   return pose;
 }
 
-/// The direction along which the markers lie least apart.
-Vector3d normal_of(const std::vector<SeenOnBody>& seen, Vector3d& mean) {
-  mean.setZero();
-  for (const auto& s : seen) mean += s.at / static_cast<double>(seen.size());
-  Matrix3d spread = Matrix3d::Zero();
-  for (const auto& s : seen) spread += (s.at - mean) * (s.at - mean).transpose();
-  return hydro::dense::symmetric_eigen(spread).vectors.col(0);
+/// Where markers lie on a body: their mean, and Σ (x − x̄)(x − x̄)ᵀ.
+struct Spread {
+  Vector3d mean = Vector3d::Zero();
+  Matrix3d squares = Matrix3d::Zero();
+};
+template <class Markers>
+Spread spread_of(const Markers& markers) {
+  Spread out;
+  for (const auto& m : markers) out.mean += m.at / static_cast<double>(markers.size());
+  for (const auto& m : markers) out.squares += (m.at - out.mean) * (m.at - out.mean).transpose();
+  return out;
 }
 
 /// The pose that shows nearly the same of markers in one plane: half a turn about the line of sight, and back within
 /// the plane.
 SpacePose mirrored(const Eye& eye, const std::vector<SeenOnBody>& seen, const SpacePose& pose) {
-  constexpr double half = 3.14159265358979323846;
-  Vector3d mean;
-  const Vector3d normal = normal_of(seen, mean), middle = pose.place + pose.attitude * mean,
+  constexpr double half = std::numbers::pi;
+  const auto [mean, squares] = spread_of(seen);
+  // They lie least apart along the normal.
+  const Vector3d normal = hydro::dense::symmetric_eigen(squares).vectors.col(0);
+  const Vector3d middle = pose.place + pose.attitude * mean,
                  sight = (middle + eye.rotation.transpose() * eye.translation).normalized();
   SpacePose out = pose;
   out.attitude = rotation_exp(half * sight) * pose.attitude * rotation_exp(half * normal);
@@ -111,14 +118,8 @@ bool alike(const SpacePose& a, const SpacePose& b) {
 
 void check_markers(const Track& track, const std::vector<MarkerInSpace>& markers) {
   hydro::require(markers.size() >= 4, "four markers on a body tell its pose in space, got {}", markers.size());
-  Vector3d mean = Vector3d::Zero();
-  for (const auto& m : markers) {
-    track.marker(m.marker);
-    mean += m.at / static_cast<double>(markers.size());
-  }
-  Matrix3d spread = Matrix3d::Zero();
-  for (const auto& m : markers) spread += (m.at - mean) * (m.at - mean).transpose();
-  const Eigen::VectorXd across = hydro::dense::symmetric_eigenvalues(spread);
+  for (const auto& m : markers) track.marker(m.marker);
+  const Eigen::VectorXd across = hydro::dense::symmetric_eigenvalues(spread_of(markers).squares);
   constexpr double thin = 1e-4;  // squared: a hundredth of the length
   hydro::require(across[1] > thin * across[2], "the markers on a body lie on one line, which tells no turn about it");
 }

@@ -1,10 +1,10 @@
 #include "hydro/radiation/pole_memory.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "hydro/base/error.hpp"
 #include "machine.hpp"
+#include "mode_groups.hpp"
 
 namespace hydro::radiation {
 namespace {
@@ -148,18 +148,8 @@ PoleMemory::PoleMemory(PoleModel model, double step) : model_(std::move(model)),
 }
 
 void PoleMemory::group_modes() {
-  std::vector<bool> taken(static_cast<std::size_t>(modes()), false);
-  for (int first = 0; first < modes(); ++first) {
-    if (taken[static_cast<std::size_t>(first)]) continue;
-    std::vector<int> group{first};
-    taken[static_cast<std::size_t>(first)] = true;
-    for (std::size_t at = 0; at < group.size(); ++at)
-      for (int other = 0; other < modes(); ++other)
-        if (!taken[static_cast<std::size_t>(other)] && moves(model_, group[at], other)) {
-          taken[static_cast<std::size_t>(other)] = true;
-          group.push_back(other);
-        }
-    std::sort(group.begin(), group.end());
+  const auto feels = [&](Eigen::Index i, Eigen::Index j) { return moves(model_, i, j); };
+  for (const auto& group : detail::groups_of_modes(modes(), feels)) {
     const Eigen::Index count = std::ssize(group);
     Group& made = groups_.emplace_back(Group{std::ssize(sequence_), count, {}});
     made.output = Eigen::MatrixXd::Zero((count + 7) / 8 * 8, count * model_.order());

@@ -9,6 +9,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/base/interpolation.hpp"
 #include "hydro/radiation/tail.hpp"
+#include "mode_groups.hpp"
 #include "passivity.hpp"
 #include "pole_basis.hpp"
 #include "vector_fit.hpp"
@@ -82,22 +83,7 @@ std::vector<std::vector<Eigen::Index>> groups(const Data& d, double least) {
   const auto inside = static_cast<Eigen::Index>(d.inside);
   const Eigen::MatrixXd together =
       detail::unpacked(d.samples.values.topRows(inside).cwiseAbs().colwise().maxCoeff(), n);
-  std::vector<std::vector<Eigen::Index>> out;
-  std::vector<bool> taken(d.modes.size(), false);
-  for (Eigen::Index first = 0; first < n; ++first) {
-    if (taken[static_cast<std::size_t>(first)]) continue;
-    taken[static_cast<std::size_t>(first)] = true;
-    std::vector<Eigen::Index> group{first};
-    for (std::size_t at = 0; at < group.size(); ++at)
-      for (Eigen::Index other = 0; other < n; ++other)
-        if (!taken[static_cast<std::size_t>(other)] && together(group[at], other) > least) {
-          taken[static_cast<std::size_t>(other)] = true;
-          group.push_back(other);
-        }
-    std::sort(group.begin(), group.end());
-    out.push_back(std::move(group));
-  }
-  return out;
+  return detail::groups_of_modes(n, [&](Eigen::Index i, Eigen::Index j) { return together(i, j) > least; });
 }
 
 /// Places of a group's pairs among all that are packed.

@@ -16,6 +16,15 @@ double normal_above(double z) { return std::erfc(z / std::numbers::sqrt2) / 2; }
 
 constexpr double far = 40;  ///< standard deviations: e^{−far²/2} is below the smallest double
 
+/// Of a function that falls from −far to far.
+template <class Function>
+double where_zero(const Function& f) {
+  std::uintmax_t most = 200;
+  const auto [low, high] =
+      boost::math::tools::toms748_solve(f, -far, far, boost::math::tools::eps_tolerance<double>(50), most);
+  return (low + high) / 2;
+}
+
 }  // namespace
 
 GaussianPeaks::GaussianPeaks(const Moments& m, PeakLaw law) {
@@ -40,10 +49,7 @@ double GaussianPeaks::level_exceeded_by(double share) const {
   require(share > 0 && share < 1, "the share of peaks above a level must be between 0 and 1, got {}", share);
   if (epsilon_ == 0) return deviation_ * std::sqrt(-2 * std::log(share));
   const auto excess = [&](double eta) { return share_above(eta * deviation_) - share; };
-  std::uintmax_t most = 200;
-  const auto [low, high] =
-      boost::math::tools::toms748_solve(excess, -far, far, boost::math::tools::eps_tolerance<double>(50), most);
-  return deviation_ * (low + high) / 2;
+  return deviation_ * where_zero(excess);
 }
 
 double GaussianPeaks::peaks_in(double duration_s) const {
@@ -103,10 +109,7 @@ double largest_of_life(std::span<const StationaryPart> life, double duration_s, 
   const auto excess = [&](double eta) {
     return std::log(std::max(expected_peaks_above(life, eta * deviation, duration_s), 1e-300) / wanted);
   };
-  std::uintmax_t most = 200;
-  const auto [low, high] =
-      boost::math::tools::toms748_solve(excess, -far, far, boost::math::tools::eps_tolerance<double>(50), most);
-  return deviation * (low + high) / 2;
+  return deviation * where_zero(excess);
 }
 
 }  // namespace hydro::signal

@@ -31,7 +31,7 @@ class PoleMemory final : public MemoryMethod {
   std::vector<Carry> carried_over(double h) const;
   const std::vector<Carry>& carried_over_a_step() const { return full_; }
   /// The modes, those that move each other one after the other: the order of the states of a run.
-  const std::vector<int>& sequence() const { return sequence_; }
+  const std::vector<Eigen::Index>& sequence() const { return sequence_; }
   /// Σ over oscillations of the matrices times the states in `z`, one column an oscillation, (n, order), rows in
   /// sequence(); the load as modes are numbered.
   void find_load(const Eigen::MatrixXd& z, Eigen::VectorXd& out) const;
@@ -46,7 +46,7 @@ class PoleMemory final : public MemoryMethod {
     Eigen::MatrixXd output;  // [C₁ S₁ C₂ …] without the S of real poles, rows of zeros up to a multiple of eight
   };
   void group_modes();
-  std::vector<int> sequence_;
+  std::vector<Eigen::Index> sequence_;
   std::vector<Group> groups_;
   Eigen::MatrixXd instantaneous_;  // over a full step
 };
