@@ -134,7 +134,7 @@ TEST(TowingRecords, CountTheErrorOfTheSlopeOfACell) {
   cell.calibration.emplace();
   cell.calibration->slope = 0.02;
   cell.calibration->slope_error = 0.01 * 0.02;
-  const auto& cd = solve(problem).records[0].cd;
+  const auto cd = solve(problem).records[0].cd;
   EXPECT_NEAR(cd.systematic_error, 0.01 * *cd.value, 1e-6);
 }
 
