@@ -108,9 +108,14 @@ std::string Measurements::unit(const std::string& name) const {
   return of == nullptr ? unit_of(table, name) : read_line(*of, scene.confidence).reference.si();
 }
 
-std::pair<double, double> Measurements::slope_error(const std::string& name) const {
+::fit::SlopeError Measurements::slope_error_of_role(const char* role) const {
+  const auto at = scene.channels.find(role);
+  return at == scene.channels.end() ? ::fit::SlopeError{} : slope_error(at->second);
+}
+
+::fit::SlopeError Measurements::slope_error(const std::string& name) const {
   const FitScene::Line* of = line_of(scene, name);
-  if (of == nullptr) return {0, 0};
+  if (of == nullptr) return {};
   const ::fit::Coefficient slope = read_line(*of, scene.confidence).line.slope;
   const double size = std::abs(*slope.value);
   return {slope.standard_error / size, (slope.interval.high - slope.interval.low) / 2 / size};

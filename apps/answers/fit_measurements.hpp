@@ -9,6 +9,7 @@
 
 #include "answers/fit_kind.hpp"
 #include "fit/coefficient.hpp"
+#include "fit/parts.hpp"
 #include "fit/prepare.hpp"
 #include "fit/problem/source.hpp"
 #include "hydro/io/csv.hpp"
@@ -28,8 +29,10 @@ struct Measurements {
   hydro::Dimension dimension(const std::string& name) const;
   /// The SI unit as the header writes it, "N", or else in base units.
   std::string unit(const std::string& name) const;
-  /// Of the column's line over its slope: standard error, and half width of its interval; zero without a line.
-  std::pair<double, double> slope_error(const std::string& name) const;
+  /// Of the column's line; zero without one.
+  ::fit::SlopeError slope_error(const std::string& name) const;
+  /// Of the column of a role; zero without one.
+  ::fit::SlopeError slope_error_of_role(const char* role) const;
   /// SI; empty where no column has that role.
   std::vector<double> of_role(const char* role, const hydro::Dimension& dimension) const;
   std::vector<double> time() const;
