@@ -43,6 +43,10 @@ class DelayFits final : public FitKindOf<DelayModel, DelayProblem> {
                       "file of the first"),
                  &DelayModel::second_file)}) {}
 
+  std::string said_of_line(const FitScene&, const std::string&) const override {
+    return ", and a delay does not depend on it";
+  }
+
  private:
   void finish(const FitTables& t, const FitScene& scene, DelayModel& model) const override {
     only_prepares(t, {"window"}, "leave it out: both channels are compared as they were recorded",

@@ -27,7 +27,7 @@ Binding<IrregularWaveModel> irregular_wave_keys() {
                          "length of a segment: longer ones resolve more, shorter ones scatter less; left out: so that "
                          "the shortest run holds eight side by side"),
                 &M::segment_s)
-      .table("tank", wave_tank(), &M::tank);
+      .table("tank", wave_tank(), static_cast<std::optional<::fit::WaveTank> M::*>(&M::tank));
 }
 
 /// The frequencies that hold 99.9 % of the waves.
@@ -51,7 +51,6 @@ class IrregularWaveFits final : public FitKindOf<IrregularWaveModel, IrregularPr
                    .channels = {text("time", "time"), text("elevation", "the surface at the gauge"),
                                 texts("response", "motions or forces, each a column with its unit")}}) {}
   bool has_table() const override { return true; }
-  bool counts_lines() const override { return true; }
 
  private:
   void finish(const FitTables& t, const FitScene& scene, IrregularWaveModel& model) const override {

@@ -64,7 +64,6 @@ class RegularWaveFits final : public FitKindOf<RegularWaveModel, WaveProblem> {
                    .channels = {text("time", "time"), text("elevation", "the surface at the gauge"),
                                 texts("response", "motions or forces, each a column with its unit")}}) {}
   bool has_table() const override { return true; }
-  bool counts_lines() const override { return true; }
 
  private:
   void finish(const FitTables& t, const FitScene& scene, RegularWaveModel& model) const override {
@@ -158,8 +157,8 @@ class RegularWaveFits final : public FitKindOf<RegularWaveModel, WaveProblem> {
 
 }  // namespace
 
-Binding<WaveTank> wave_tank() {
-  using T = WaveTank;
+Binding<::fit::WaveTank> wave_tank() {
+  using T = ::fit::WaveTank;
   return Binding<T>("[model.tank]", "where waves are made, measured and sent back")
       .key(quantity("depth", dim::length, "of the water").one_of({"infinite"}).positive(), &T::water,
            &hydro::Water::depth)

@@ -31,9 +31,8 @@ void read_wave_runs(const FitScene& scene, const std::vector<std::string>& respo
     out.units = std::move(units);
     out.runs.push_back(std::move(run));
   }
-  const Measurements first(scene, out.runs.at(0).source.file);
-  out.elevation_slope = first.slope_error(scene.channels.at("elevation"));
-  for (const std::string& column : responses) out.response_slopes.push_back(first.slope_error(column));
+  out.elevation_slope = slope_error_of(scene, {"elevation"});
+  for (const std::string& column : responses) out.response_slopes.push_back(slope_error(scene, column));
 }
 
 }  // namespace froude::scene
