@@ -3,13 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "fit/problem/decay.hpp"
 #include "fit/problem/friction.hpp"
 #include "fit/problem/morison.hpp"
+#include "fit/problem/motion.hpp"
 #include "fit/problem/radiation.hpp"
 #include "fit/problem/restoring.hpp"
 #include "fit/problem/towing.hpp"
@@ -198,6 +201,40 @@ TEST(SlopeErrors, OfAMotionGoToDragTwiceAndToInertia) {
     EXPECT_NEAR(with.inertia.systematic_error, std::abs(*moved.inertia.value - *before.inertia.value),
                 0.01 * with.inertia.systematic_error);
     EXPECT_GT(with.cd.standard_error, before.cd.standard_error);
+  }
+}
+
+/// A decaying exponential of a level: not proportional to what is measured, so that no power tells the answer.
+class Fall final : public fit::Simulation {
+ public:
+  Eigen::Index coordinates(std::size_t) override { return 0; }
+  Eigen::MatrixXd follow(std::size_t, const Eigen::VectorXd& p, const Eigen::VectorXd&) override {
+    const Eigen::ArrayXd t = Eigen::ArrayXd::LinSpaced(500, 0, 4.99);
+    Eigen::MatrixXd out(500, 2);
+    out.col(0) = 0.5 + p[0] * (-p[1] * t).exp();
+    out.col(1) = p[0] * t;
+    return out;
+  }
+  void hand_on(std::size_t, const Eigen::VectorXd&, const Eigen::VectorXd&) override {}
+};
+
+TEST(SlopeErrors, OfASignalGoToTheParametersOfASimulation) {
+  const Eigen::MatrixXd truth = Fall().follow(0, Eigen::Vector2d(2, 0.3), {});
+  fit::motion::Problem plain{
+      .records = {{.source = {"fall.csv"}, .time = {}}},
+      .simulation = std::make_shared<Fall>(),
+      .parameters = {{{.name = "begins.at", .first = 1.5}, "m"}, {{.name = "rate", .first = 0.5}, "1/s"}},
+      .signals = {{"x", "m", 0.02}, {"y", "m", 0.02}},
+      .measured = {truth}};
+  for (Eigen::Index c = 0; c < 2; ++c) {
+    const auto noise = froude_test::ar1_noise(500, 0, 0.02, static_cast<std::uint64_t>(40 + c));
+    for (Eigen::Index i = 0; i < 500; ++i) plain.measured[0](i, c) += noise[static_cast<std::size_t>(i)];
+  }
+  for (std::size_t c = 0; c < 2; ++c) {
+    auto larger = plain, stated = plain;
+    larger.measured[0].col(static_cast<Eigen::Index>(c)) *= 1 + epsilon;
+    stated.signals[c].slope = slope;
+    expect_counts(plain, larger, stated, {"begins.at", "rate"});
   }
 }
 
