@@ -96,6 +96,29 @@ void turn_phases(const std::optional<WaveTank>& tank, double moved_s, hs::Transf
   }
 }
 
+/// (F107) Where waves of other frequencies than the peak's are so early or late of the shift that a segment loses them.
+std::string loss_of(const Problem& problem, const Solution& found, double step) {
+  const auto& tank = problem.options.tank;
+  if (!tank) return {};
+  constexpr double told = 0.03, heard = 0.05;  // of the gain; of the highest density
+  const std::size_t peak = peak_of(found.waves);
+  const auto omega = [&](std::size_t k) { return 2 * std::numbers::pi * found.waves.frequency_hz[k]; };
+  const double apart = tank->body - tank->gauge, length = static_cast<double>(found.segment_samples) * step,
+               shift = apart / hydro::waves::group_velocity(omega(peak), tank->water);
+  double most = 0, at = 0;
+  for (std::size_t k = 1; k < found.waves.density.size(); ++k) {
+    if (found.waves.density[k] < heard * found.waves.density[peak]) continue;
+    const double left = apart / hydro::waves::group_velocity(omega(k), tank->water) - shift,
+                 loss = std::pow(std::numbers::pi * left / length, 2) * 2 / 3;
+    if (loss > most) most = loss, at = found.waves.frequency_hz[k];
+  }
+  if (most < told) return {};
+  return fmt::format(
+      "waves go from the gauge to the body at other speeds than the highest ones: at {:.3g} Hz the gain "
+      "is {:.2g} % too small; take longer segments, or a gauge nearer to the body",
+      at, 100 * std::min(1.0, most));
+}
+
 /// (S9) with the errors of both slopes (F105).
 Coefficient gain_at(const hs::TransferEstimate& t, std::size_t k, const SlopeError& slope, double confidence) {
   const double gain = std::abs(t.h1[k]), error = gain * t.gain_relative_error[k];
@@ -164,6 +187,7 @@ void tell(const Problem& problem, Solution& found, double step) {
                         {"coherence_threshold", t.coherence_threshold},
                         {"frequency_hz", t.frequency_hz},
                         {"wave_density_m2_hz", found.waves.density}});
+  report.warn(loss_of(problem, found, step));
   for (std::size_t i = 0; i < found.responses.size(); ++i)
     report.parts.push_back(told(found.responses[i], problem.units[i], found));
 }
