@@ -30,17 +30,15 @@ Binding<IrregularWaveModel> irregular_wave_keys() {
       .table("tank", wave_tank(), static_cast<std::optional<::fit::WaveTank> M::*>(&M::tank));
 }
 
-/// The frequencies that hold 99.9 % of the waves.
+/// The frequencies of waves as high as a hundredth of the highest density, and one more on each side.
 std::pair<double, double> waves_between(const hydro::signal::SpectrumPerHz& waves) {
-  double all = 0, below = 0;
-  for (const double s : waves.density) all += s;
-  std::size_t low = waves.density.size() - 1, high = 0;
-  for (std::size_t k = 0; k < waves.density.size(); ++k) {
-    below += waves.density[k];
-    if (below > 0.0005 * all) low = std::min(low, k);
-    if (below < 0.9995 * all) high = k + 1;
-  }
-  return {waves.frequency_hz[low], waves.frequency_hz[std::min(high, waves.density.size() - 1)]};
+  const auto& s = waves.density;
+  const double least = 0.01 * *std::max_element(s.begin() + 1, s.end());
+  const auto high = [&](double density) { return density >= least; };
+  const auto low = std::find_if(s.begin() + 1, s.end(), high) - s.begin() - 1,
+             top = s.rend() - std::find_if(s.rbegin(), s.rend(), high);
+  return {waves.frequency_hz[static_cast<std::size_t>(low)],
+          waves.frequency_hz[std::min(static_cast<std::size_t>(top), s.size() - 1)]};
 }
 
 class IrregularWaveFits final : public FitKindOf<IrregularWaveModel, IrregularProblem> {
@@ -117,11 +115,11 @@ class IrregularWaveFits final : public FitKindOf<IrregularWaveModel, IrregularPr
     plot::Series h1{"H1", r.transfer.frequency_hz, {}}, h2{"H2", h1.x, {}, true, false, true}, phase{"", h1.x, {}};
     plot::Band band{fmt::format("{:g} %", 100 * confidence), {}, {}, {}};
     for (std::size_t k = 0; k < r.gain.size(); ++k) {
-      const bool told = r.gain[k].value.has_value();
+      const bool told = r.gain[k].value && h1.x[k] >= x.range->first && h1.x[k] <= x.range->second;
       h1.y.push_back(told ? *r.gain[k].value : none);
       h2.y.push_back(told ? std::abs(r.transfer.h2[k]) : none);
       phase.y.push_back(told ? std::arg(r.transfer.h1[k]) * 180 / std::numbers::pi : none);
-      if (!told || h1.x[k] < x.range->first || h1.x[k] > x.range->second) continue;
+      if (!told) continue;
       band.x.push_back(h1.x[k]);
       band.low.push_back(r.gain[k].interval.low);
       band.high.push_back(r.gain[k].interval.high);

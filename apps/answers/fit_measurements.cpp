@@ -54,6 +54,7 @@ plot::Series band_outline(const std::string& name, const std::vector<double>& t,
 struct LineOfChannel {
   ::fit::ChannelLine line;
   hydro::Dimension reading, reference;
+  std::string reading_unit, reference_unit;  ///< SI, as the header writes them
 };
 
 const FitScene::Line* line_of(const FitScene& scene, const std::string& column) {
@@ -80,7 +81,7 @@ std::string unit_of(const hydro::io::CsvTable& table, const std::string& column)
           .hysteresis = line.hysteresis.value_or(0),
           .pairs = line.pairs,
           .range = line.range,
-          .unit = of.reading.si() + "/" + of.reference.si()};
+          .unit = of.reading_unit + "/" + of.reference_unit};
 }
 
 LineOfChannel read_line(const FitScene::Line& of, double confidence) {
@@ -88,7 +89,8 @@ LineOfChannel read_line(const FitScene::Line& of, double confidence) {
     const auto table = hydro::io::CsvTable::read(of.file.value);
     return {::fit::fit_channel_line({.reference = table.column(of.reference), .reading = table.column(of.reading)},
                                     confidence),
-            table.dimension(of.reading), table.dimension(of.reference)};
+            table.dimension(of.reading), table.dimension(of.reference), unit_of(table, of.reading),
+            unit_of(table, of.reference)};
   });
 }
 
@@ -97,9 +99,9 @@ LineOfChannel read_line(const FitScene::Line& of, double confidence) {
 std::vector<double> Measurements::column(const std::string& name) const {
   const FitScene::Line* of = line_of(scene, name);
   if (of == nullptr) return table.column(name);
-  const auto [line, reading, reference] = read_line(*of, scene.confidence);
-  std::vector<double> out = table.column(name, reading);
-  for (double& v : out) v = line.reference(v);
+  const LineOfChannel by = read_line(*of, scene.confidence);
+  std::vector<double> out = table.column(name, by.reading);
+  for (double& v : out) v = by.line.reference(v);
   return out;
 }
 
@@ -121,7 +123,7 @@ hydro::Dimension Measurements::dimension(const std::string& name) const {
 
 std::string Measurements::unit(const std::string& name) const {
   const FitScene::Line* of = line_of(scene, name);
-  return of == nullptr ? unit_of(table, name) : read_line(*of, scene.confidence).reference.si();
+  return of == nullptr ? unit_of(table, name) : read_line(*of, scene.confidence).reference_unit;
 }
 
 ::fit::SlopeError slope_error(const FitScene& scene, const std::string& column) {
@@ -147,10 +149,10 @@ std::string Measurements::unit(const std::string& name) const {
 std::vector<std::string> told_lines(const FitScene& scene) {
   std::vector<std::string> out;
   for (const FitScene::Line& of : scene.lines) {
-    const auto [line, reading, reference] = read_line(of, scene.confidence);
+    const auto [line, reading, reference, reading_unit, reference_unit] = read_line(of, scene.confidence);
     out.push_back(fmt::format(
         "{} by {}: {:.5g} ± {:.2g} {}/{}{}; the error of the slope, {:.2g} %, is the same in all runs{}", of.column,
-        of.file.value.filename().string(), *line.slope.value, line.slope.standard_error, reading.si(), reference.si(),
+        of.file.value.filename().string(), *line.slope.value, line.slope.standard_error, reading_unit, reference_unit,
         line.hysteresis ? fmt::format(", hysteresis {:.2g} % of its range", 100 * *line.hysteresis) : std::string(),
         100 * line.slope.standard_error / std::abs(*line.slope.value), scene.of->said_of_line(scene, of.column)));
   }
