@@ -179,6 +179,7 @@ class DecayFits final : public FitKindOf<DecayModel, ::fit::decay::Problem> {
 
   ::fit::decay::Problem problem(const FitScene& scene, const DecayModel& model) const override {
     ::fit::decay::Problem out{.turns = scene.turns(), .runs = {}, .body = model.body, .options = model};
+    out.motion_slope = motion_slope(scene);
     for (const auto& [source, row] : runs_of(scene, {"file"})) {
       const Measurements measured(scene, source.file);
       out.runs.push_back({source, measured.time(), measured.motion()});

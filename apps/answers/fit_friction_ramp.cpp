@@ -41,6 +41,7 @@ class FrictionRampFits final : public FitKindOf<RampOptions, ::fit::friction::Pr
 
   ::fit::friction::Problem problem(const FitScene& scene, const RampOptions& options) const override {
     ::fit::friction::Problem out{.slides = !scene.turns(), .runs = {}, .options = options};
+    out.load_slope = load_slope(scene);
     for (const auto& [source, row] : runs_of(scene)) {
       const Measurements measured(scene, source.file);
       out.runs.push_back({source, measured.time(), measured.load()});

@@ -77,6 +77,10 @@ class FitKind {
   /// file, or where a fit would begin. \throws hydro::InputError, also for kinds whose model tells nothing by itself
   virtual FitAnswer predict(const FitScene& scene, const std::optional<std::filesystem::path>& fitted) const;
   virtual bool has_table() const { return false; }
+  /// What becomes of the error of the slope of a column's [[data.line]], which is the same in all runs.
+  virtual std::string said_of_line(const FitScene&, const std::string& /*column*/) const {
+    return " and in the intervals";
+  }
   /// Facts to be told beside the kind, by name.
   virtual std::vector<std::pair<std::string, std::string>> settings(const FitScene&) const { return {}; }
 };
@@ -92,9 +96,8 @@ const Binding<::fit::PrepareOptions>& prepare_binding();
 void only_prepares(const FitTables& tables, const std::vector<std::string>& steps, const char* remedy,
                    const char* no_cycles);
 
-/// What the lines of a scene are, for its report: "gauge by gauge.csv: 25 ± 0.01 V/m, hysteresis …"; whether intervals
-/// count the errors of their slopes.
-std::vector<std::string> told_lines(const FitScene& scene, bool counted);
+/// What the lines of a scene are, for its report: "gauge by gauge.csv: 25 ± 0.01 V/m, hysteresis …".
+std::vector<std::string> told_lines(const FitScene& scene);
 
 /// [camera], where a kind takes no tracks.
 [[nodiscard]] hydro::InputError films_nothing(const FitTables& tables);
@@ -133,7 +136,7 @@ class FitKindOf : public FitKind {
     const Problem given = problem(scene, scene.model<Model>());
     const Solution found = solve(given);
     FitAnswer out{.report = found.report, .panels = panels(given, found), .table = {}, .remedy = {}};
-    for (std::string& line : told_lines(scene, counts_lines())) out.report.remarks.push_back(std::move(line));
+    for (std::string& line : told_lines(scene)) out.report.remarks.push_back(std::move(line));
     if (out.report.refused)
       out.remedy = remedy(scene, given, found);
     else
@@ -164,8 +167,6 @@ class FitKindOf : public FitKind {
   virtual Problem problem(const FitScene& scene, const Model& model) const = 0;
   virtual Panels panels(const Problem& problem, const Solution& solution) const = 0;
   virtual Remedy remedy(const FitScene&, const Problem&, const Solution&) const { return {}; }
-  /// Whether the intervals count the errors of the slopes of [[data.line]].
-  virtual bool counts_lines() const { return false; }
   /// Of kinds that have one; asked where no value is refused.
   virtual std::string table(const Problem&, const Solution&) const { return {}; }
 

@@ -54,6 +54,7 @@ plot::Series band_outline(const std::string& name, const std::vector<double>& t,
 struct LineOfChannel {
   ::fit::ChannelLine line;
   hydro::Dimension reading, reference;
+  std::string reading_unit, reference_unit;  ///< SI, as the header writes them
 };
 
 const FitScene::Line* line_of(const FitScene& scene, const std::string& column) {
@@ -67,12 +68,29 @@ std::string unit_of(const hydro::io::CsvTable& table, const std::string& column)
   return !text.empty() && hydro::parse_unit(text).factor == 1 ? text : table.dimension(column).si();
 }
 
+/// As that of a load cell, so that a force counts all its errors.
+::fit::Calibration calibration_of(const LineOfChannel& of) {
+  const ::fit::ChannelLine& line = of.line;
+  return {.slope = *line.slope.value,
+          .offset = *line.offset.value,
+          .slope_error = line.slope.standard_error,
+          .offset_error = line.offset.standard_error,
+          .slope_interval = line.slope.interval,
+          .residual_deviation = line.residual_deviation,
+          .nonlinearity = line.nonlinearity,
+          .hysteresis = line.hysteresis.value_or(0),
+          .pairs = line.pairs,
+          .range = line.range,
+          .unit = of.reading_unit + "/" + of.reference_unit};
+}
+
 LineOfChannel read_line(const FitScene::Line& of, double confidence) {
   return placed({.file = of.file.value.string()}, [&]() -> LineOfChannel {
     const auto table = hydro::io::CsvTable::read(of.file.value);
     return {::fit::fit_channel_line({.reference = table.column(of.reference), .reading = table.column(of.reading)},
                                     confidence),
-            table.dimension(of.reading), table.dimension(of.reference)};
+            table.dimension(of.reading), table.dimension(of.reference), unit_of(table, of.reading),
+            unit_of(table, of.reference)};
   });
 }
 
@@ -81,9 +99,9 @@ LineOfChannel read_line(const FitScene::Line& of, double confidence) {
 std::vector<double> Measurements::column(const std::string& name) const {
   const FitScene::Line* of = line_of(scene, name);
   if (of == nullptr) return table.column(name);
-  const auto [line, reading, reference] = read_line(*of, scene.confidence);
-  std::vector<double> out = table.column(name, reading);
-  for (double& v : out) v = line.reference(v);
+  const LineOfChannel by = read_line(*of, scene.confidence);
+  std::vector<double> out = table.column(name, by.reading);
+  for (double& v : out) v = by.line.reference(v);
   return out;
 }
 
@@ -105,27 +123,38 @@ hydro::Dimension Measurements::dimension(const std::string& name) const {
 
 std::string Measurements::unit(const std::string& name) const {
   const FitScene::Line* of = line_of(scene, name);
-  return of == nullptr ? unit_of(table, name) : read_line(*of, scene.confidence).reference.si();
+  return of == nullptr ? unit_of(table, name) : read_line(*of, scene.confidence).reference_unit;
 }
 
-std::pair<double, double> Measurements::slope_error(const std::string& name) const {
-  const FitScene::Line* of = line_of(scene, name);
-  if (of == nullptr) return {0, 0};
+::fit::SlopeError slope_error(const FitScene& scene, const std::string& column) {
+  const FitScene::Line* of = line_of(scene, column);
+  if (of == nullptr) return {};
   const ::fit::Coefficient slope = read_line(*of, scene.confidence).line.slope;
   const double size = std::abs(*slope.value);
   return {slope.standard_error / size, (slope.interval.high - slope.interval.low) / 2 / size};
 }
 
-std::vector<std::string> told_lines(const FitScene& scene, bool counted) {
+::fit::SlopeError slope_error_of(const FitScene& scene, std::initializer_list<const char*> roles) {
+  for (const char* role : roles)
+    if (const auto at = scene.channels.find(role); at != scene.channels.end()) return slope_error(scene, at->second);
+  return {};
+}
+
+::fit::SlopeError motion_slope(const FitScene& scene) { return slope_error_of(scene, {"angle", "position"}); }
+
+::fit::SlopeError load_slope(const FitScene& scene) {
+  return scene.force.empty() ? slope_error_of(scene, {"torque"}) : slope_error(scene, scene.force[0].column);
+}
+
+std::vector<std::string> told_lines(const FitScene& scene) {
   std::vector<std::string> out;
   for (const FitScene::Line& of : scene.lines) {
-    const auto [line, reading, reference] = read_line(of, scene.confidence);
+    const auto [line, reading, reference, reading_unit, reference_unit] = read_line(of, scene.confidence);
     out.push_back(fmt::format(
-        "{} by {}: {:.5g} ± {:.2g} {}/{}{}; the error of the slope, {:.2g} %, is the same in all runs and in {}",
-        of.column, of.file.value.filename().string(), *line.slope.value, line.slope.standard_error, reading.si(),
-        reference.si(),
+        "{} by {}: {:.5g} ± {:.2g} {}/{}{}; the error of the slope, {:.2g} %, is the same in all runs{}", of.column,
+        of.file.value.filename().string(), *line.slope.value, line.slope.standard_error, reading_unit, reference_unit,
         line.hysteresis ? fmt::format(", hysteresis {:.2g} % of its range", 100 * *line.hysteresis) : std::string(),
-        100 * line.slope.standard_error / std::abs(*line.slope.value), counted ? "the intervals" : "no interval"));
+        100 * line.slope.standard_error / std::abs(*line.slope.value), scene.of->said_of_line(scene, of.column)));
   }
   return out;
 }
@@ -154,12 +183,18 @@ std::vector<::fit::ForceChannel> Measurements::force_channels(
     const std::optional<Located<std::filesystem::path>>& zero_run) const {
   std::vector<::fit::ForceChannel> out;
   for (const auto& f : scene.force) {
-    const auto& dimension = f.calibration ? dim::voltage : dim::force;
-    ::fit::ForceChannel channel{f.column, turned(column(f.column, dimension), f.turned), {}};
+    const FitScene::Line* of = line_of(scene, f.column);
+    if (of != nullptr) column(f.column, dim::force);  // refuses another dimension
+    const hydro::Dimension dimension = of != nullptr   ? read_line(*of, scene.confidence).reading
+                                       : f.calibration ? dim::voltage
+                                                       : dim::force;
+    ::fit::ForceChannel channel{f.column, turned(table.column(f.column, dimension), f.turned), {}};
     if (f.calibration) channel.calibration = calibration_of(*f.calibration, scene.confidence);
+    if (of != nullptr) channel.calibration = calibration_of(read_line(*of, scene.confidence));
     // A channel that is turned round has its line through the same points with the voltage's sign changed.
-    if (f.calibration && f.turned) channel.calibration->offset *= -1;
-    if (zero_run) channel.zero_run = turned(Measurements(scene, zero_run->value).column(f.column, dimension), f.turned);
+    if (channel.calibration && f.turned) channel.calibration->offset *= -1;
+    if (zero_run)
+      channel.zero_run = turned(Measurements(scene, zero_run->value).table.column(f.column, dimension), f.turned);
     out.push_back(std::move(channel));
   }
   return out;

@@ -2,6 +2,7 @@
 /// \file  What kinds of fit share between a scene and libfit: columns by their roles, runs, and pictures of a record
 ///        with what was fitted to it. Private to apps.
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "answers/fit_kind.hpp"
 #include "fit/coefficient.hpp"
+#include "fit/parts.hpp"
 #include "fit/prepare.hpp"
 #include "fit/problem/source.hpp"
 #include "hydro/io/csv.hpp"
@@ -28,8 +30,7 @@ struct Measurements {
   hydro::Dimension dimension(const std::string& name) const;
   /// The SI unit as the header writes it, "N", or else in base units.
   std::string unit(const std::string& name) const;
-  /// Of the column's line over its slope: standard error, and half width of its interval; zero without a line.
-  std::pair<double, double> slope_error(const std::string& name) const;
+
   /// SI; empty where no column has that role.
   std::vector<double> of_role(const char* role, const hydro::Dimension& dimension) const;
   std::vector<double> time() const;
@@ -38,6 +39,13 @@ struct Measurements {
   /// All force channels with their calibrations, and the same of a run at rest.
   std::vector<::fit::ForceChannel> force_channels(const std::optional<Located<std::filesystem::path>>& zero_run) const;
 };
+/// Error of the slope of a column's line, which is that of all files; zero where it has none.
+::fit::SlopeError slope_error(const FitScene& scene, const std::string& column);
+/// Of the column of the first of these roles that the scene names; zero where it names none.
+::fit::SlopeError slope_error_of(const FitScene& scene, std::initializer_list<const char*> roles);
+::fit::SlopeError motion_slope(const FitScene& scene);  ///< of Measurements::motion()
+::fit::SlopeError load_slope(const FitScene& scene);    ///< of Measurements::load()
+
 /// [data] calibration and zero, of kinds whose force may have several channels.
 Key calibration_key();
 Key zero_key();

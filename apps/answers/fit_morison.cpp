@@ -190,6 +190,15 @@ void take_row(const Located<std::filesystem::path>& place, std::size_t row, Mori
   if (table.has("zero")) model.zero_run = {{place.value.parent_path() / table.text_column("zero")[row], place.place}};
 }
 
+/// (F105) What velocity and acceleration are from.
+void add_slopes(const FitScene& scene, MorisonOptions& options) {
+  if (scene.lines.empty() || scene.model<MorisonModel>().cylinder.experiment == Experiment::both_move) return;
+  const auto of = [&](std::initializer_list<const char*> roles) { return slope_error_of(scene, roles).standard; };
+  options.velocity_slope = of({"velocity", "position", "elevation"});
+  options.acceleration_slope = of({"acceleration", "velocity", "position", "elevation"});
+  options.one_motion = scene.channels.count("acceleration") == 0;
+}
+
 ::fit::morison::Run read_run(const FitScene& scene, MorisonModel model, const RunOfScene& of) {
   ::fit::morison::Run run{.source = of.source, .cylinder = model.cylinder, .raw = {}};
   if (scene.run_table) take_row(*scene.run_table, of.row, model, run);
@@ -280,6 +289,14 @@ class MorisonFits final : public FitKindOf<MorisonModel, ::fit::morison::Problem
                    .intervals = morison_intervals(),
                    .ask = asked_of_forces()}) {}
   bool has_table() const override { return true; }
+  std::string said_of_line(const FitScene& scene, const std::string& column) const override {
+    for (const auto& force : scene.force)
+      if (force.column == column) return " and in the intervals";
+    const bool both = scene.model<MorisonModel>().cylinder.experiment == Experiment::both_move;
+    const auto across = scene.channels.find("cross_velocity");
+    return both || (across != scene.channels.end() && across->second == column) ? " and in no interval"
+                                                                                : " and in the intervals";
+  }
   std::vector<std::pair<std::string, std::string>> settings(const FitScene& scene) const override {
     const auto& model = scene.model<MorisonModel>();
     return {{"motion", word_for(experiments, model.cylinder.experiment)},
@@ -303,6 +320,7 @@ class MorisonFits final : public FitKindOf<MorisonModel, ::fit::morison::Problem
 
   ::fit::morison::Problem problem(const FitScene& scene, const MorisonModel& model) const override {
     ::fit::morison::Problem out{.runs = {}, .options = model};
+    add_slopes(scene, out.options.force);
     for (const RunOfScene& of : runs_of(
              scene, {"file", "zero", "delay", "diameter", "length", "density", "viscosity", "mass_beyond_load_cells"}))
       out.runs.push_back(read_run(scene, model, of));

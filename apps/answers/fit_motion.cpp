@@ -71,9 +71,9 @@ struct FollowedRecords {
 };
 
 /// The deviation of a signal's noise, SI, and the dimension of its column against that of the run.
-double deviation_of(const MotionModel::Signal& s, const std::string& unit, const hydro::io::CsvTable& table) {
+double deviation_of(const MotionModel::Signal& s, const std::string& unit, const Measurements& measured) {
   const hydro::Dimension needed = hydro::parse_unit(unit).dimension;
-  table.column(s.column, needed);  // refuses a column of another dimension
+  measured.column(s.column, needed);  // refuses a column of another dimension
   return placed(s.deviation.place, [&] {
     const double out = hydro::parse_si(s.deviation.value, needed);
     hydro::require(out > 0, "the deviation of \"{}\" must be positive, got {}", s.of, out);
@@ -345,10 +345,11 @@ class MotionFits final : public FitKindOf<MotionModel, ::fit::motion::Problem> {
       return out;
     }
     for (const auto& record : model.records) {
-      const auto table = hydro::io::CsvTable::read(record.file.value);
+      const Measurements measured(scene, record.file.value);
       out.signals.clear();  // of all records the same: each is looked at for the dimensions of its columns
       for (std::size_t c = 0; c < units.size(); ++c)
-        out.signals.push_back({model.signals[c].of, units[c], deviation_of(model.signals[c], units[c], table)});
+        out.signals.push_back({model.signals[c].of, units[c], deviation_of(model.signals[c], units[c], measured), 0,
+                               slope_error(scene, model.signals[c].column)});
     }
     return out;
   }

@@ -62,6 +62,8 @@ class RadiationFits final : public FitKindOf<RadiationModel, ::fit::radiation::P
   ::fit::radiation::Problem problem(const FitScene& scene, const RadiationModel& model) const override {
     ::fit::radiation::Problem out{
         .turns = scene.turns(), .runs = {}, .body = model.body, .options = {.confidence = scene.confidence}};
+    out.force_slope = load_slope(scene);
+    out.motion_slope = motion_slope(scene);
     for (const auto& [source, row] : runs_of(scene)) {
       const Measurements measured(scene, source.file);
       out.runs.push_back({source, measured.time(), measured.motion(), measured.load()});

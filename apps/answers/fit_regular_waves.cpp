@@ -5,6 +5,7 @@
 
 #include "answers/fit_kind.hpp"
 #include "answers/fit_measurements.hpp"
+#include "answers/fit_waves.hpp"
 #include "fit/problem/regular_waves.hpp"
 
 namespace froude::scene {
@@ -19,25 +20,17 @@ struct RegularWaveModel : ::fit::regular_waves::Options {
   std::vector<std::string> responses;  ///< columns
 };
 
-Binding<WaveTank> wave_tank() {
-  using T = WaveTank;
-  return Binding<T>("[model.tank]", "where waves are made, measured and sent back")
-      .key(quantity("depth", dim::length, "of the water").one_of({"infinite"}).positive(), &T::water,
-           &hydro::Water::depth)
-      .key(quantity("gauge", dim::length, "of the gauge from the wavemaker").within(Limit::not_negative), &T::gauge)
-      .key(quantity("body", dim::length, "of the body from the wavemaker").within(Limit::not_negative), &T::body)
-      .optional(positive("end", dim::length,
-                         "of the beach or wall from the wavemaker: the window ends where waves come back from it"),
-                &T::end)
-      .key(positive("gravity", dim::acceleration, "acceleration of free fall")
-               .or_default("9.81 m/s^2", "what hydrodynamic data are mostly computed with"),
-           &T::water, &hydro::Water::gravity);
+Binding<WaveTank> tank_with_end() {
+  return wave_tank().optional(
+      positive("end", dim::length,
+               "of the beach or wall from the wavemaker: the window ends where waves come back from it"),
+      &WaveTank::end);
 }
 
 Binding<RegularWaveModel> regular_wave_keys() {
   using M = RegularWaveModel;
   return Binding<M>("", "response amplitudes, force amplitudes and harmonics from runs in regular waves, one file each")
-      .table("tank", wave_tank(), static_cast<WaveTank M::*>(&M::tank))
+      .table("tank", tank_with_end(), static_cast<WaveTank M::*>(&M::tank))
       .needed()
       .optional(quantity("started", dim::time, "when the wavemaker starts, on the clock of the records; left out: 0 s"),
                 &M::started)
@@ -71,7 +64,6 @@ class RegularWaveFits final : public FitKindOf<RegularWaveModel, WaveProblem> {
                    .channels = {text("time", "time"), text("elevation", "the surface at the gauge"),
                                 texts("response", "motions or forces, each a column with its unit")}}) {}
   bool has_table() const override { return true; }
-  bool counts_lines() const override { return true; }
 
  private:
   void finish(const FitTables& t, const FitScene& scene, RegularWaveModel& model) const override {
@@ -79,39 +71,14 @@ class RegularWaveFits final : public FitKindOf<RegularWaveModel, WaveProblem> {
     if (model.tank.body >= model.tank.end || model.tank.gauge >= model.tank.end)
       throw t.model().table("tank").wrong("end", "lies before the gauge or the body",
                                           "give its distance from the wavemaker");
-    for (const auto& one : t.channels()["response"].texts) {
-      if (std::find(model.responses.begin(), model.responses.end(), one.value) != model.responses.end())
-        throw t.channels().wrong("response", fmt::format("holds \"{}\" twice", one.value));
-      model.responses.push_back(one.value);
-    }
-    if (model.responses.empty()) throw t.channels().wrong("response", "is empty", "write the name of a column");
+    model.responses = responses_of(t);
     only_prepares(t, {"longest_gap", "outliers", "window"}, "leave it out: peaks have a band of their own",
                   "for the window is whole periods in any case");
   }
 
   WaveProblem problem(const FitScene& scene, const RegularWaveModel& model) const override {
     WaveProblem out{.runs = {}, .units = {}, .options = model};
-    for (const auto& [source, row] : runs_of(scene)) {
-      const Measurements measured(scene, source.file);
-      ::fit::regular_waves::Run run{source, measured.time(), measured.of_role("elevation", dim::length), {}};
-      std::vector<std::string> units;
-      for (const std::string& column : model.responses) {
-        run.responses.push_back({column, measured.column(column)});
-        units.push_back(measured.unit(column));
-      }
-      if (!out.units.empty() && out.units != units)
-        throw hydro::InputError("the responses have other units than in the first file", {.file = source.file.string()},
-                                "write the same kind of quantity in all files");
-      out.units = std::move(units);
-      out.runs.push_back(std::move(run));
-    }
-    const Measurements first(scene, out.runs.at(0).source.file);
-    const auto slope_error = [&](const std::string& column) {
-      const auto [standard, half_width] = first.slope_error(column);
-      return ::fit::regular_waves::SlopeError{standard, half_width};
-    };
-    out.elevation_slope = slope_error(scene.channels.at("elevation"));
-    for (const std::string& column : model.responses) out.response_slopes.push_back(slope_error(column));
+    read_wave_runs(scene, model.responses, out);
     return out;
   }
 
@@ -189,6 +156,29 @@ class RegularWaveFits final : public FitKindOf<RegularWaveModel, WaveProblem> {
 };
 
 }  // namespace
+
+Binding<::fit::WaveTank> wave_tank() {
+  using T = ::fit::WaveTank;
+  return Binding<T>("[model.tank]", "where waves are made, measured and sent back")
+      .key(quantity("depth", dim::length, "of the water").one_of({"infinite"}).positive(), &T::water,
+           &hydro::Water::depth)
+      .key(quantity("gauge", dim::length, "of the gauge from the wavemaker").within(Limit::not_negative), &T::gauge)
+      .key(quantity("body", dim::length, "of the body from the wavemaker").within(Limit::not_negative), &T::body)
+      .key(positive("gravity", dim::acceleration, "acceleration of free fall")
+               .or_default("9.81 m/s^2", "what hydrodynamic data are mostly computed with"),
+           &T::water, &hydro::Water::gravity);
+}
+
+std::vector<std::string> responses_of(const FitTables& t) {
+  std::vector<std::string> out;
+  for (const auto& one : t.channels()["response"].texts) {
+    if (std::find(out.begin(), out.end(), one.value) != out.end())
+      throw t.channels().wrong("response", fmt::format("holds \"{}\" twice", one.value));
+    out.push_back(one.value);
+  }
+  if (out.empty()) throw t.channels().wrong("response", "is empty", "write the name of a column");
+  return out;
+}
 
 std::unique_ptr<const FitKind> regular_waves_fit() { return std::make_unique<RegularWaveFits>(); }
 

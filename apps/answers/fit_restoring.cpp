@@ -48,6 +48,8 @@ class RestoringFits final : public FitKindOf<RestoringOptions, ::fit::restoring:
 
   ::fit::restoring::Problem problem(const FitScene& scene, const RestoringOptions& options) const override {
     ::fit::restoring::Problem out{.turns = scene.turns(), .runs = {}, .options = options};
+    out.load_slope = load_slope(scene);
+    out.motion_slope = motion_slope(scene);
     for (const auto& [source, row] : runs_of(scene)) {
       const Measurements measured(scene, source.file);
       out.runs.push_back({source, measured.motion(), measured.load()});

@@ -142,14 +142,19 @@ Binding<FitScene::Line> channel_line() {
 void check_lines(const FitTables& tables, const FitScene& scene) {
   const std::string& kind = scene.kind();
   for (const FitScene::Line& line : scene.lines) {
-    if (kind == "motion" || kind == "calibration")
+    if (kind == "calibration")
       throw InputError(fmt::format("[[data.line]] {}", not_of_kind(kind)), line.place,
                        "leave it out: write the column in the unit that is measured");
+    if (tables.root.has("camera"))
+      throw InputError("[[data.line]] does not go with [camera]: a track has a scale of its own", line.place,
+                       "leave it out");
     std::vector<std::string> read;
     for (const auto& [role, column] : scene.channels) read.push_back(column);
     for (const auto& force : scene.force) read.push_back(force.column);
     if (tables.channels().has("response"))
       for (const auto& one : tables.channels()["response"].texts) read.push_back(one.value);
+    if (kind == "motion")
+      for (const Record& signal : tables.data().tables("signal")) read.push_back(signal.text("column"));
     if (std::find(read.begin(), read.end(), line.column) == read.end())
       throw InputError(fmt::format("[[data.line]] column = \"{}\" is no channel of this fit", line.column), line.place,
                        fmt::format("the channels are {}", fmt::join(read, ", ")));

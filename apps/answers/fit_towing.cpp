@@ -95,6 +95,8 @@ class TowingFits final : public FitKindOf<TowingModel, ::fit::towing::Problem> {
 
   ::fit::towing::Problem problem(const FitScene& scene, const TowingModel& model) const override {
     ::fit::towing::Problem out{model.cylinder, {}, {}, model};
+    out.options.speed_slope = slope_error_of(scene, {"speed"});
+    if (!model.recorded) out.options.force_slope = load_slope(scene);
     for (const auto& file : scene.files) {
       const Measurements measured(scene, file.value);
       if (model.recorded)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "answers/camera_track.hpp"
+#include "answers/fit_measurements.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
@@ -150,7 +151,8 @@ MeasuredRun MeasuredRun::read(const scene::FitScene& fit, const scene::MotionMod
     out.deviations = std::move(channels.deviations);
     return out;
   }
-  const auto table = hydro::io::CsvTable::read(record.file.value);
+  const scene::Measurements measured(fit, record.file.value);
+  const hydro::io::CsvTable& table = measured.table;
   const std::string& clock = fit.channels.at("time");
   require_increasing(table, clock);
   const auto& all = table.column(clock, dim::time);
@@ -163,7 +165,7 @@ MeasuredRun MeasuredRun::read(const scene::FitScene& fit, const scene::MotionMod
   for (double& t : time) t -= record.start;
   Eigen::MatrixXd values(std::ssize(time), std::ssize(model.signals));
   for (std::size_t c = 0; c < model.signals.size(); ++c) {
-    const auto& column = table.column(model.signals[c].column);
+    const std::vector<double> column = measured.column(model.signals[c].column);
     values.col(static_cast<Eigen::Index>(c)) =
         Eigen::Map<const Eigen::VectorXd>(column.data() + skipped, std::ssize(time));
   }

@@ -12,6 +12,7 @@
 #include "answers/plot.hpp"
 #include "fit/camera/instants.hpp"
 #include "fit/camera/smooth.hpp"
+#include "fit/offset.hpp"
 #include "froude/commands.hpp"
 #include "froude/kinematics_bodies.hpp"
 #include "froude/kinematics_space.hpp"
@@ -126,8 +127,8 @@ void draw(const Path& file, const std::vector<double>& time, const std::vector<S
 namespace {
 
 /// How late the record's clock is. \throws hydro::InputError at the option or the file that is wrong
-fc::Offset offset_of(const KinematicsArguments& a, const scene::MotionModel& model, const fc::Track& places,
-                     const std::vector<fc::Channel>& channels) {
+::fit::Offset offset_of(const KinematicsArguments& a, const scene::MotionModel& model, const fc::Track& places,
+                        const std::vector<fc::Channel>& channels) {
   const auto equals = a.match.find('=');
   const std::string of(hydro::trimmed(std::string_view(a.match).substr(0, equals)));
   const auto signal =
@@ -140,8 +141,8 @@ fc::Offset offset_of(const KinematicsArguments& a, const scene::MotionModel& mod
   const auto& column = table.column(std::string(hydro::trimmed(std::string_view(a.match).substr(equals + 1))));
   const Eigen::VectorXd value = fc::channels_of(places, channels).values.col(signal - model.signals.begin());
   return scene::placed({.file = a.record->string()}, [&] {
-    return fc::offset_between(places.time, std::span(value.data(), static_cast<std::size_t>(value.size())), time,
-                              column);
+    return ::fit::offset_between(places.time, std::span(value.data(), static_cast<std::size_t>(value.size())), time,
+                                 column);
   });
 }
 
@@ -195,7 +196,7 @@ std::string start_of_line(const KinematicsArguments& a, const scene::CameraTable
 void say_instants(const KinematicsArguments& a, const scene::MotionModel& model, const TrackInPlane& track,
                   const std::vector<fc::Channel>& channels, Report& report) {
   if (a.record) {
-    const fc::Offset o = offset_of(a, model, track.places, channels);
+    const ::fit::Offset o = offset_of(a, model, track.places, channels);
     report.say(
         "{}: [camera] offset = \"{:.6g} s\", standard deviation {:.2g} s, within {:.2g} s with 95 %; "
         "correlation {:.5g}, elsewhere {:.3g} at most",

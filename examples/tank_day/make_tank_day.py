@@ -128,6 +128,55 @@ def waves(period, seed):
     return rows
 
 
+def gain(frequency):
+    """What the float does of irregular waves: m/m and the phase by which it is late, rad."""
+    ratio = frequency / 0.9
+    return 1 / math.hypot(1 - ratio**2, 0.5 * ratio), math.atan2(0.5 * ratio, 1 - ratio**2)
+
+
+def sea(seed, height):
+    """Amplitude, frequency and phase of the waves of a run: a JONSWAP-like hump about 0.65 Hz."""
+    source, out = random.Random(660 + seed), []
+    for i in range(160):
+        f = 0.3 + 0.006 * (i + source.random())
+        density = f**-5 * math.exp(-1.25 * (0.65 / f)**4)
+        out.append([math.sqrt(density), f, source.uniform(0, 2 * math.pi)])
+    scale = height / 4 / math.sqrt(sum(a * a / 2 for a, _, _ in out))
+    return [(a * scale, f, p) for a, f, p in out]
+
+
+def irregular(seed):
+    """Gauge and float beside each other, abreast of the waves."""
+    source, step, waves_of_run = random.Random(670 + seed), 0.08, sea(seed, 0.06)
+    answer = [(a * gain(f)[0], f, p - gain(f)[1]) for a, f, p in waves_of_run]
+    rows = ["t [s],gauge [V],float [V]"]
+    for j in range(round(160 / step)):
+        level, height = (sum(a * math.cos(2 * math.pi * f * j * step + p) for a, f, p in of)
+                         for of in (waves_of_run, answer))
+        reading = POTENTIOMETER[1] + POTENTIOMETER[0] * (height + source.gauss(0, 2e-3)) + source.gauss(0, 0.006)
+        rows.append(f"{j * step:.2f},{GAUGE[1] + GAUGE[0] * (level + source.gauss(0, 5e-4)):.3f},"
+                    f"{POTENTIOMETER_STEP * round(reading / POTENTIOMETER_STEP):.2f}")
+    return rows
+
+
+LATE_FILM = 3.418  # s: the film's clock is ahead of the potentiometer's by this
+
+
+def filmed():
+    """The float let go, by its potentiometer and, at other instants, by a tracked marker in pixels."""
+    source = random.Random(680)
+
+    def height(t):
+        since = max(0.0, t - 2)
+        return 0.06 * math.exp(-0.35 * since) * math.cos(2 * math.pi * 0.9 * since)
+
+    own = [f"{0.02 * j:.2f},{POTENTIOMETER[1] + POTENTIOMETER[0] * height(0.02 * j) + source.gauss(0, 0.01):.3f}"
+           for j in range(750)]
+    film = [f"{0.04 * j:.2f},{512 - 2400 * height(0.04 * j - LATE_FILM) + source.gauss(0, 1.5):.2f}"
+            for j in range(400)]
+    return ["t [s],float [V]"] + own, ["t [s],y"] + film
+
+
 def files():
     out = {"cell_1.csv": cell_line(0), "cell_2.csv": cell_line(1), "gauge.csv": gauge_line(),
            "potentiometer.csv": potentiometer_line(), "zero.csv": zero(), "swing.csv": swing()}
@@ -135,6 +184,8 @@ def files():
         out[f"tow_{i}.csv"] = tow(speed, i)
     for i in (1, 2, 3):
         out[f"waves_{i}.csv"] = waves(1.6, i)
+        out[f"sea_{i}.csv"] = irregular(i)
+    out["let_go.csv"], out["let_go_film.csv"] = filmed()
     return out
 
 

@@ -269,6 +269,15 @@ std::vector<SystematicError> budget(const Cylinder& c, const ForceRecord& r, con
   add("diameter", d * (2 * carried[0] - x[0]), 2 * d * (carried[1] - x[1]));
   add("length", l * (carried[0] - x[0]), l * (carried[1] - x[1]));
   add("density", rho * (carried[0] - x[0]), rho * (carried[1] - x[1]));
+  // A motion larger by ε makes drag smaller by 2ε, and what goes with the acceleration, M among it, by ε. (F105)
+  const double drag = -2 * options.velocity_slope * x[0],
+               inertia = -options.acceleration_slope * (x[1] + c.mass_beyond_load_cells / (c.density * c.volume()));
+  if (options.one_motion) {
+    add("slope of the motion", drag, inertia);
+  } else {
+    add("slope of the velocity", drag, 0);
+    add("slope of the acceleration", 0, inertia);
+  }
   if (s.mass == 0) return out;
   Eigen::VectorXd own = as_vector(r.acceleration);
   if (both) own = as_vector(r.water_acceleration) - own;

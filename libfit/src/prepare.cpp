@@ -213,8 +213,9 @@ void to_force(Work& w, ForceChannel& f) {
   for (double& v : f.values) v = (v - zero) / slope;
   w.zero_errors.push_back(zero_error / std::abs(slope));
   if (f.calibration)
-    w.tell("calibration: {} has {:.5g} ± {:.2g} V/N, hysteresis {:.2g} % of its range", f.name, slope,
-           f.calibration->slope_error, 100 * f.calibration->hysteresis);
+    w.tell("calibration: {} has {:.5g} ± {:.2g} {}, {}", f.name, slope, f.calibration->slope_error, f.calibration->unit,
+           f.calibration->pairs > 0 ? fmt::format("hysteresis {:.2g} % of its range", 100 * f.calibration->hysteresis)
+                                    : std::string("hysteresis not known"));
   if (!f.zero_run.empty())
     w.tell("zero: {:.4g} N ± {:.2g} N taken off {}, the mean of {} samples at rest", zero / slope, w.zero_errors.back(),
            f.name, f.zero_run.size());

@@ -2,6 +2,7 @@
 /// \file  The line of a load cell, its uncertainty and its hysteresis; (F14)-(F15), docs/theory/fit.md.
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "fit/coefficient.hpp"
@@ -25,6 +26,7 @@ struct Calibration {
   double hysteresis;                 ///< largest |V_up − V_down| at equal load, over the range of voltages; 0 … 1
   std::size_t pairs;                 ///< loads that occur on both branches
   double range;                      ///< largest minus smallest voltage, V
+  std::string unit = "V/N";          ///< of the slope, where readings are no volts
 
   /// Force for a voltage, N.
   double force(double volt) const { return (volt - offset) / slope; }

@@ -103,6 +103,10 @@ struct MorisonOptions {
   CylinderErrors cylinder_errors = {};
   std::vector<ForceError> force_errors = {};
   double delay_error_s = 0;  ///< standard uncertainty of the delay that was taken off the force
+  /// Standard errors of the slopes of the channels that velocity and acceleration are from, over the slopes (F105): of
+  /// one channel for both where `one_motion`. Not where both move.
+  double velocity_slope = 0, acceleration_slope = 0;
+  bool one_motion = true;
 };
 
 /// Share of one source in the uncertainty that does not average out; (F26).

@@ -218,6 +218,20 @@ std::vector<Interval> profiles_of(const DecayFit& fit) {
   return out;
 }
 
+/// (F105) Terms of a motion twice as large are as many times smaller as their power of the velocity is above one; the
+/// period of a pendulum goes with 1 + x²/16.
+double power_of(const std::string& term) {
+  return term == "quadratic" ? -1 : term == "cubic" ? -2 : term == "coulomb" ? 1 : 0;
+}
+
+void count_slopes(const Problem& problem, FittedRun& run) {
+  for (Coefficient& c : run.fit.damping) count_slope(problem.motion_slope, power_of(c.name) * middle(c), c);
+  if (run.water)
+    for (Coefficient& c : run.water->damping) count_slope(problem.motion_slope, power_of(c.name) * middle(c), c);
+  const double x = problem.options.motion.pendulum ? run.decrement.amplitude.front() : 0;
+  count_slope(problem.motion_slope, middle(run.fit.period) * x * x / 8, run.fit.period);
+}
+
 /// Fits the records of a run with one set of coefficients.
 FittedRun fitted(const Problem& problem, const Source& source, std::vector<Record> records) try {
   const Options& options = problem.options;
@@ -234,6 +248,7 @@ FittedRun fitted(const Problem& problem, const Source& source, std::vector<Recor
   if (options.memory) add_memory(problem, windows, run);
   run.left = residuals_of(run, windows[0]);
   if (options.profile) run.profiles = profiles_of(run.fit);
+  count_slopes(problem, run);
   return run;
 } catch (const SearchFailed& e) {
   throw Refused{{.reason = Refusal::Reason::search_without_end,

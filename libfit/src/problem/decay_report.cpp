@@ -176,13 +176,12 @@ Report told_over(const Problem& problem, const std::vector<FittedRun>& runs) {
   if (runs.size() < 3) return report;
   const double confidence = problem.options.motion.confidence;
   const auto add = [&](const std::string& name, const auto& coefficient_of) {
-    std::vector<RunEstimate> estimates;
+    std::vector<Coefficient> estimates;
     for (const FittedRun& run : runs)
-      if (const Coefficient& c = coefficient_of(run); c.standard_error > 0)
-        estimates.push_back({middle(c), c.standard_error, 0, 0, 0});
+      if (const Coefficient& c = coefficient_of(run); c.standard_error > 0) estimates.push_back(c);
     if (estimates.size() == runs.size())
-      report.parts.push_back(over_runs(name, unit_of(name, problem.turns),
-                                       fit_runs(estimates, Law::constant, confidence), "run", runs.size(), confidence));
+      report.parts.push_back(over_runs(name, unit_of(name, problem.turns), together(estimates, confidence), "run",
+                                       runs.size(), confidence));
   };
   add("period", [](const FittedRun& run) -> const Coefficient& { return run.fit.period; });
   for (std::size_t k = 0; k < runs[0].fit.damping.size(); ++k)

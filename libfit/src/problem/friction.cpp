@@ -21,10 +21,23 @@ Report told(const Source& source, const FrictionRamp& f, const std::string& unit
 }
 
 /// One level of all tests together. A brake that slips to either side has two signs and one level.
-RandomEffects level_of_all(const std::vector<FrictionRamp>& fits, Coefficient FrictionRamp::*level, double confidence) {
-  std::vector<RunEstimate> runs;
-  for (const FrictionRamp& f : fits) runs.push_back({std::abs(*(f.*level).value), (f.*level).standard_error, 0, 0, 0});
-  return fit_runs(runs, Law::constant, confidence);
+RandomEffects level_of_all(const std::vector<FrictionRamp>& fits, Coefficient FrictionRamp::*level,
+                           const Problem& problem) {
+  std::vector<Coefficient> runs;
+  for (const FrictionRamp& f : fits) {
+    runs.push_back(f.*level);
+    // The same in all tests is the slope of the channel; when each slipped is its own.
+    runs.back().systematic_error = std::abs(middle(runs.back())) * problem.load_slope.standard;
+  }
+  return together(runs, problem.options.confidence, true);
+}
+
+/// (F105) Levels are proportional to the load.
+FrictionRamp fitted(const Run& run, const Problem& problem) {
+  FrictionRamp out = fit_friction_ramp(run.time, run.load, problem.options);
+  for (Coefficient* c : {&out.static_level, &out.dynamic_level, &out.drop})
+    count_slope(problem.load_slope, middle(*c), *c);
+  return out;
 }
 
 /// Adds each level of all tests together, and what a scene of motion may include.
@@ -39,7 +52,7 @@ void add_levels(const std::vector<FrictionRamp>& fits, const Problem& problem, R
     const Coefficient& first = fits[0].*level;
     if (fits.size() == 1) include(first.name, std::abs(*first.value));
     if (fits.size() < 3) continue;
-    const RandomEffects all = level_of_all(fits, level, problem.options.confidence);
+    const RandomEffects all = level_of_all(fits, level, problem);
     include(first.name, all.coefficients[0]);
     together.parts.push_back(over_runs(first.name, unit, all, "test", fits.size(), problem.options.confidence));
   }
@@ -55,7 +68,7 @@ Solution solve(const Problem& problem) {
   hydro::require(!problem.runs.empty(), "a fit of friction needs one test at least");
   Solution out;
   for (const Run& run : problem.runs) {
-    out.fits.push_back(of_run(run.source, [&] { return fit_friction_ramp(run.time, run.load, problem.options); }));
+    out.fits.push_back(of_run(run.source, [&] { return fitted(run, problem); }));
     out.report.parts.push_back(told(run.source, out.fits.back(), unit_of_load(problem)));
   }
   add_levels(out.fits, problem, out.report);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "fit/verdict.hpp"
+#include "hydro/base/dense.hpp"
 #include "motion_channels.hpp"
 #include "telling.hpp"
 
@@ -36,7 +37,7 @@ Eigen::VectorXd first_of(const Problem& problem) {
 /// "x differs by 0.057 m rms; its deviation is stated as 0.002 m, which allows 0.0026 m"
 std::string difference(const Problem& problem, const SimulationFit& fit, std::size_t c) {
   const StatedResiduals& s = fit.stated[c];
-  const auto& [name, unit, deviation, period] = problem.signals[c];
+  const auto& [name, unit, deviation, period, slope] = problem.signals[c];
   return fmt::format("{} differs by {:.3g} {} rms; its deviation is stated as {:.3g} {}, which allows {:.3g} {}", name,
                      fit.rms[c], unit, s.stated, unit, s.allowed, unit);
 }
@@ -271,6 +272,34 @@ std::optional<Refusal> refusal_of(const Problem& problem, const SimulationFit& f
 }
 
 /// Intervals by the likelihood of each parameter that has a value and an error.
+/// (F105) What one channel larger by ε does to the parameters, to first order and per ε: the search's own step there.
+Eigen::VectorXd sensitivity(const Problem& problem, const SimulationFit& fit, Eigen::Index channel) {
+  const Eigen::MatrixXd& jacobian = fit.end.jacobian;
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(jacobian.rows());
+  Eigen::Index row = 0;
+  for (const Eigen::MatrixXd& measured : problem.measured) {
+    change.segment(row + channel * measured.rows(), measured.rows()) =
+        measured.col(channel) / problem.signals[static_cast<std::size_t>(channel)].deviation;
+    row += measured.size();
+  }
+  std::vector<Eigen::Index> seen;
+  for (std::size_t j = 0; j < fit.search.identifiable.size(); ++j)
+    if (fit.search.identifiable[j]) seen.push_back(static_cast<Eigen::Index>(j));
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(jacobian.cols());
+  if (!seen.empty()) out(seen) = hydro::dense::HouseholderQr(Eigen::MatrixXd(jacobian(Eigen::all, seen))).solve(change);
+  return out;
+}
+
+void count_slopes(const Problem& problem, SimulationFit& fit) {
+  if (!fit.refused.empty()) return;
+  for (std::size_t c = 0; c < problem.signals.size(); ++c) {
+    if (problem.signals[c].slope.standard == 0) continue;
+    const Eigen::VectorXd change = sensitivity(problem, fit, static_cast<Eigen::Index>(c));
+    for (std::size_t k = 0; k < fit.parameters.size(); ++k)
+      count_slope(problem.signals[c].slope, change[static_cast<Eigen::Index>(k)], fit.parameters[k]);
+  }
+}
+
 void add_profiles(const Problem& problem, const SimulationProblem& simulated, const SimulationFit& fit,
                   Report& report) {
   try {
@@ -302,6 +331,7 @@ Solution solve(const Problem& problem) {
   // Errors that channels share would be another matter once two of them are exchanged.
   if (!out.fit.refused.empty() && problem.whitening.empty())
     out.trouble = trouble_of_channels(problem, search, out.fit);
+  count_slopes(problem, out.fit);
   out.report = told(problem, out.fit);
   if (several.tried > 1) add_starts(problem, several, out.report);
   out.report.refused = refusal_of(problem, out.fit, out.trouble);

@@ -21,6 +21,15 @@ std::optional<Refusal> refusal_of(const std::vector<Point>& points) {
   return {};
 }
 
+/// (F105) A − C/ω² + M and B are proportional to force over motion.
+RadiationPoint with_slopes(const Problem& problem, RadiationPoint p) {
+  const SlopeError slope = slope_error_of({{problem.force_slope, 1}, {problem.motion_slope, -1}});
+  const RestoredBody& body = problem.body;
+  count_slope(slope, middle(p.added_mass) + body.mass - body.stiffness / (p.omega * p.omega), p.added_mass);
+  count_slope(slope, middle(p.damping), p.damping);
+  return p;
+}
+
 std::optional<RadiationMemory> memory_of(const std::vector<Point>& points, double confidence) {
   if (points.size() < least_for_poles) return {};
   std::vector<RadiationPoint> all;
@@ -93,7 +102,8 @@ Solution solve(const Problem& problem) {
   Solution out;
   for (const Run& run : problem.runs)
     out.points.push_back({run.source, of_run(run.source, [&] {
-                            return fit_radiation(run.time, run.motion, run.force, problem.body, confidence);
+                            return with_slopes(
+                                problem, fit_radiation(run.time, run.motion, run.force, problem.body, confidence));
                           })});
   std::sort(out.points.begin(), out.points.end(),
             [](const Point& a, const Point& b) { return a.point.omega < b.point.omega; });

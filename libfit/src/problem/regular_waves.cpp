@@ -7,6 +7,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
 #include "telling.hpp"
+#include "wave_records.hpp"
 
 namespace fit::regular_waves {
 namespace {
@@ -15,26 +16,6 @@ constexpr double degree = std::numbers::pi / 180;
 
 double period_of(const RegularWaveFit& fit) { return 2 * std::numbers::pi / fit.omega; }
 double amplitude_of(const Oscillation& o) { return std::abs(o.harmonics[0]); }
-
-/// All channels of a run on one even grid, with what was done to them.
-FittedRun prepared(const Run& run, const PrepareOptions& options, Report& report) {
-  FittedRun out;
-  PrepareOptions steps = options;
-  steps.window = {};  // times are those of the whole record
-  std::vector<std::string> done;
-  const auto on_grid = [&](const std::string& name, const std::vector<double>& values) {
-    PreparedMotion p = prepare_motion(name, run.time, values, steps);
-    out.time = std::move(p.time);
-    for (std::string& step : p.steps)
-      if (std::find(done.begin(), done.end(), step) == done.end()) done.push_back(std::move(step));
-    for (const std::string& caution : p.cautions) report.warn(caution);
-    return std::move(p.values);
-  };
-  out.elevation = on_grid("elevation", run.elevation);
-  for (const WaveChannel& c : run.responses) out.responses.push_back(on_grid(c.name, c.values));
-  report.steps = std::move(done);
-  return out;
-}
 
 std::string list_of(const Oscillation& o) {
   std::string out;
@@ -92,35 +73,27 @@ std::string window_of(const FittedRun& run, const Options& options) {
           : std::string("no end of the tank is named from which they come back"));
 }
 
-/// Of the ratio of a response to the elevation.
 SlopeError slope_error_of(const Problem& problem, std::size_t response) {
-  const SlopeError own = problem.response_slopes.empty() ? SlopeError{} : problem.response_slopes.at(response);
-  return {std::hypot(own.standard, problem.elevation_slope.standard),
-          std::hypot(own.half_width, problem.elevation_slope.half_width)};
+  return fit::slope_error_of(problem.elevation_slope, problem.response_slopes, response);
 }
 
-/// (F105) A ratio of two readings takes the relative errors of both slopes.
-void count_slopes(const SlopeError& slope, Coefficient& c) {
-  const double centre = (c.interval.low + c.interval.high) / 2;
-  const double half = std::hypot((c.interval.high - c.interval.low) / 2, centre * slope.half_width);
-  c.systematic_error = std::abs(centre) * slope.standard;
-  c.standard_error = std::hypot(c.standard_error, c.systematic_error);
-  c.interval = {centre - half, centre + half};
-}
-
-FittedRun fitted(const Problem& problem, const Run& run, Report& report) {
-  FittedRun out = prepared(run, problem.options.prepare, report);
+FittedRun fitted(const Problem& problem, const WaveRun& run, Report& report) {
+  PrepareOptions steps = problem.options.prepare;
+  steps.window = {};  // times are those of the whole record
+  FittedRun out{prepared(run, steps, report), {}};
   std::vector<WaveChannel> responses = run.responses;
   for (std::size_t i = 0; i < responses.size(); ++i) responses[i].values = out.responses[i];
   std::optional<std::pair<double, double>> span;
   if (const auto& w = problem.options.prepare.window; w.kind == WindowChoice::Kind::span) span = {w.from, w.to};
   out.fit = fit_regular_waves(out.time, out.elevation, responses, problem.options, span);
-  for (std::size_t i = 0; i < out.fit.responses.size(); ++i)
-    count_slopes(slope_error_of(problem, i), out.fit.responses[i].rao);
+  for (std::size_t i = 0; i < out.fit.responses.size(); ++i) {
+    Coefficient& rao = out.fit.responses[i].rao;
+    count_slope(slope_error_of(problem, i), middle(rao), rao);
+  }
   return out;
 }
 
-void tell(const Problem& problem, const Run& run, const FittedRun& found, Report& report) {
+void tell(const Problem& problem, const WaveRun& run, const FittedRun& found, Report& report) {
   const RegularWaveFit& fit = found.fit;
   report.heading = fmt::format("{}: period {:.5g} s, wave amplitude {:.4g} m ± {:.2g}{}{}", run.source.name(),
                                period_of(fit), amplitude_of(fit.wave), fit.wave.error,
@@ -179,9 +152,8 @@ Repeats repeats_of(const std::vector<FittedRun>& runs, const std::vector<std::si
   }
   for (const double v : values) out.deviation += (v - out.mean) * (v - out.mean) / (n - 1);
   out.deviation = std::sqrt(out.deviation);
-  const double scatter = out.deviation / std::sqrt(n) * hydro::signal::student_t_quantile((1 + confidence) / 2, n - 1),
-               half = std::hypot(scatter, out.mean * slope.half_width);  // (F105)
-  out.interval = {out.mean - half, out.mean + half};
+  const double half = out.deviation / std::sqrt(n) * hydro::signal::student_t_quantile((1 + confidence) / 2, n - 1);
+  out.interval = with_slope(slope, out.mean, out.mean, {out.mean - half, out.mean + half});  // (F105)
   out.lower_quartile = quantile_of(values, 0.25);
   out.median = quantile_of(values, 0.5);
   out.upper_quartile = quantile_of(values, 0.75);
@@ -223,7 +195,7 @@ double quantile_of(std::vector<double> values, double q) {
 Solution solve(const Problem& problem) {
   hydro::require(!problem.runs.empty(), "there are no runs in waves");
   Solution out;
-  for (const Run& run : problem.runs) {
+  for (const WaveRun& run : problem.runs) {
     hydro::require(run.responses.size() == problem.units.size(), "{} responses and {} units", run.responses.size(),
                    problem.units.size());
     Report report = begin_run(run.source);

@@ -101,13 +101,16 @@ Curve fit_curve(const System& s, const Options& options) {
 }
 
 /// Coefficients of all tests together, and what a scene of motion may include.
-void add_coefficients(const System& s, const Curve& curve, bool turns, Report& report) {
+void add_coefficients(const System& s, const Curve& curve, const Problem& problem, Report& report) {
+  const bool turns = problem.turns;
   const std::string load = turns ? "N m" : "N", motion = turns ? "rad" : "m";
   Facts include;
   for (Eigen::Index j = 0; j < s.terms; ++j) {
     const Eigen::Index at = s.runs + j;
     const std::string unit = fmt::format("{}/{}{}", load, motion, j == 0 ? "" : "^3");
-    const Coefficient c = told(j == 0 ? "stiffness" : "cubic", curve.x[at], curve.error[at], curve.t, curve.dof);
+    Coefficient c = told(j == 0 ? "stiffness" : "cubic", curve.x[at], curve.error[at], curve.t, curve.dof);
+    count_slope(slope_error_of({{problem.load_slope, 1}, {problem.motion_slope, j == 0 ? -1.0 : -3.0}}), curve.x[at],
+                c);
     if (c.value) include.emplace_back(c.name, fmt::format("{:.10g} {}", *c.value, unit));
     report.estimates.push_back({c, unit});
   }
@@ -138,7 +141,7 @@ Solution solve(const Problem& problem) {
   report.heading = fmt::format("load = preload + stiffness x{} over {} points of {} test{}",
                                s.terms == 2 ? " + cubic x^3" : "", s.columns.rows(), s.runs, s.runs > 1 ? "s" : "");
   report.facts = {{"points", s.columns.rows()}, {"residual_deviation", curve.deviation}};
-  add_coefficients(s, curve, problem.turns, report);
+  add_coefficients(s, curve, problem, report);
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < problem.runs.size(); ++r) {
     const Eigen::Index points = std::ssize(problem.runs[r].motion);

@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "hydro/signal/distributions.hpp"
+
 namespace fit {
 
 Refusal drives_the_motion(const std::string& what, const Source& source) {
@@ -39,6 +44,23 @@ void add_residuals(Report& report, const ResidualReport& left, const std::string
   Facts facts{{"harmonic_share", left.harmonic_share}, {"lag_one", left.lag_one}, {"ljung_box_p", left.ljung_box_p}};
   if (!unit.empty()) facts.emplace_back("harmonic_amplitudes_" + unit, amplitudes);
   report.facts.emplace_back("residuals", std::move(facts));
+}
+
+RandomEffects together(const std::vector<Coefficient>& of, double confidence, bool sizes) {
+  std::vector<RunEstimate> runs;
+  double common = 0;
+  for (const Coefficient& c : of) {
+    const double value = sizes ? std::abs(middle(c)) : middle(c);
+    const double own =
+        std::sqrt(std::max(0.0, c.standard_error * c.standard_error - c.systematic_error * c.systematic_error));
+    runs.push_back({value, own, 0, 0, 0});
+    common += c.systematic_error / static_cast<double>(of.size());
+  }
+  RandomEffects law = fit_runs(runs, Law::constant, confidence);
+  const double mean = law.coefficients[0], same = common * hydro::signal::normal_quantile((1 + confidence) / 2);
+  for (Interval* i : {&law.intervals[0], &law.prediction})
+    *i = {mean - std::hypot(mean - i->low, same), mean + std::hypot(i->high - mean, same)};
+  return law;
 }
 
 Report over_runs(const std::string& name, const std::string& unit, const RandomEffects& law, const std::string& runs,

@@ -53,6 +53,11 @@ void add_rows(Report& report, const char* key, const std::vector<Row>& rows, con
   if (!all.empty()) report.facts.emplace_back(key, std::move(all));
 }
 
+/// Runs that were fitted each by itself, put together: each as far as its own error goes without what is the same in
+/// all, which is then counted once (F93). Values are those in the middle of the intervals, without their sign where
+/// asked.
+RandomEffects together(const std::vector<Coefficient>& runs, double confidence, bool sizes = false);
+
 /// One coefficient over several runs, tests …, each fitted alone, without a law.
 Report over_runs(const std::string& name, const std::string& unit, const RandomEffects& law, const std::string& runs,
                  std::size_t count, double confidence);

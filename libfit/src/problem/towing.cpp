@@ -53,6 +53,8 @@ Solution solve(const Problem& problem) {
                .fit = fit_towing(problem.cylinder, problem.runs, problem.options.confidence),
                .records = {},
                .law = {}};
+  count_slope(slope_error_of({{problem.options.force_slope, 1}, {problem.options.speed_slope, -2}}), *out.fit.cd.value,
+              out.fit.cd);  // (F105)
   Report& report = out.report;
   report.refused = refusal_of(out.fit, problem.options);
   report.heading =

@@ -124,7 +124,8 @@ void add_coefficient(const Problem& problem, RecordedTow& r) {
                     slope = point(errors.common, 0);
   r.re = scatter.re;
   const double common = std::hypot(
-      slope.cd_deviation, scatter.cd * std::hypot(e.diameter / c.diameter, e.length / c.length, e.density / c.density));
+      slope.cd_deviation, scatter.cd * std::hypot(e.diameter / c.diameter, e.length / c.length, e.density / c.density),
+      2 * scatter.cd * problem.options.speed_slope.standard);  // C_D ~ U⁻² (F105)
   const double t = hydro::signal::student_t_quantile((1 + problem.options.confidence) / 2, r.force.dof);
   r.cd = with_parts("cd", scatter.cd, scatter.cd_deviation, t, std::hypot(own.cd_deviation, common),
                     problem.options.confidence);
@@ -201,21 +202,10 @@ Report told(const Source& source, const RecordedTow& r) {
 
 /// Three records and more: their mean, with what runs differ by beyond their own errors, and what is the same in all.
 Report told_law(const Problem& problem, Solution& out) {
-  std::vector<RunEstimate> runs;
-  double common = 0;
-  for (const RecordedTow& r : out.records) {
-    const double own = std::sqrt(
-        std::max(0.0, r.cd.standard_error * r.cd.standard_error - r.cd.systematic_error * r.cd.systematic_error));
-    runs.push_back({*r.cd.value, own, 0, 0, 0});
-    common += r.cd.systematic_error / *r.cd.value / static_cast<double>(out.records.size());
-  }
-  RandomEffects law = fit_runs(runs, Law::constant, problem.options.confidence);
-  const double mean = law.coefficients[0],
-               same = common * mean * hydro::signal::normal_quantile((1 + problem.options.confidence) / 2);
-  for (Interval* i : {&law.intervals[0], &law.prediction})
-    *i = {mean - std::hypot(mean - i->low, same), mean + std::hypot(i->high - mean, same)};
-  out.law = law;
-  return over_runs("cd", "", law, "run", runs.size(), problem.options.confidence);
+  std::vector<Coefficient> runs;
+  for (const RecordedTow& r : out.records) runs.push_back(r.cd);
+  out.law = together(runs, problem.options.confidence);
+  return over_runs("cd", "", *out.law, "run", runs.size(), problem.options.confidence);
 }
 
 }  // namespace

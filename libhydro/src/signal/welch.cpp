@@ -139,42 +139,76 @@ double coherence_threshold(double averages, double level) {  // (S10)
   return 1 - std::pow(1 - level, 1 / (averages - 1));
 }
 
-TransferEstimate transfer(std::span<const double> input, std::span<const double> output, double step_s,
-                          const WelchOptions& options) {
-  require(input.size() == output.size(), "the input has {} samples, the output {}", input.size(), output.size());
-  check(input, step_s, options);
-  check(output, step_s, options);
-  const std::size_t segments = segments_in(input.size(), options);
-  require(segments >= 2, "a transfer function needs at least two segments of {} samples, the record of {} holds one",
-          options.segment, input.size());
-  const std::vector<double> w = window_of(options);
-  const double input_mean = mean_of(input), output_mean = mean_of(output);
-  const std::size_t bins = options.segment / 2 + 1;
-  std::vector<double> sxx(bins, 0.0), syy(bins, 0.0);
-  std::vector<std::complex<double>> sxy(bins, 0.0);
+double welch_dof(std::span<const std::size_t> segments, const WelchOptions& options) {  // (S21)
+  double all = 0, sum = 0;
+  for (const std::size_t k : segments) {
+    const auto of_run = static_cast<double>(k);
+    all += of_run;
+    sum += of_run * of_run / welch_dof(k, options);
+  }
+  return all * all / sum;
+}
+
+namespace {
+
+/// Sums over segments: |X|², |Y|² and conj(X) Y.
+struct CrossSums {
+  std::vector<double> xx, yy;
+  std::vector<std::complex<double>> xy;
+};
+
+void add_segments(const InputOutput& run, std::size_t segments, std::span<const double> window,
+                  const WelchOptions& options, CrossSums& sums) {
+  const double input_mean = mean_of(run.input), output_mean = mean_of(run.output);
   for (std::size_t i = 0; i < segments; ++i) {
-    const auto x = segment_fft(input, input_mean, i, w, options);
-    const auto y = segment_fft(output, output_mean, i, w, options);
-    for (std::size_t k = 0; k < bins; ++k) {
-      sxx[k] += std::norm(x[k]);
-      syy[k] += std::norm(y[k]);
-      sxy[k] += std::conj(x[k]) * y[k];
+    const auto x = segment_fft(run.input, input_mean, i, window, options);
+    const auto y = segment_fft(run.output, output_mean, i, window, options);
+    for (std::size_t k = 0; k < sums.xx.size(); ++k) {
+      sums.xx[k] += std::norm(x[k]);
+      sums.yy[k] += std::norm(y[k]);
+      sums.xy[k] += std::conj(x[k]) * y[k];
     }
   }
+}
+
+}  // namespace
+
+TransferEstimate transfer(std::span<const InputOutput> runs, double step_s, const WelchOptions& options) {
+  require(!runs.empty(), "a transfer function needs a record");
+  std::vector<std::size_t> segments;
+  for (const auto& [input, output] : runs) {
+    require(input.size() == output.size(), "the input has {} samples, the output {}", input.size(), output.size());
+    check(input, step_s, options);
+    check(output, step_s, options);
+    segments.push_back(segments_in(input.size(), options));
+  }
+  require(std::accumulate(segments.begin(), segments.end(), std::size_t{0}) >= 2,
+          "a transfer function needs at least two segments of {} samples, the record of {} holds one", options.segment,
+          runs[0].input.size());
+  const std::vector<double> w = window_of(options);
+  const std::size_t bins = options.segment / 2 + 1;
+  CrossSums sums{std::vector<double>(bins), std::vector<double>(bins), std::vector<std::complex<double>>(bins)};
+  for (std::size_t r = 0; r < runs.size(); ++r) add_segments(runs[r], segments[r], w, options, sums);
   TransferEstimate t{frequencies(options, step_s), {}, {}, {}, {}, welch_dof(segments, options) / 2, 0};
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 0; k < bins; ++k) {
-    const double cross = std::norm(sxy[k]);
+    const double cross = std::norm(sums.xy[k]);
     const double coherence =
-        cross > 0 ? std::min(1.0, cross / (sxx[k] * syy[k])) : 0.0;  // 1 is exceeded by rounding only
+        cross > 0 ? std::min(1.0, cross / (sums.xx[k] * sums.yy[k])) : 0.0;  // 1 is exceeded by rounding only
     t.coherence.push_back(coherence);
-    t.h1.push_back(sxx[k] > 0 ? sxy[k] / sxx[k] : nan);            // (S8)
-    t.h2.push_back(cross > 0 ? syy[k] / std::conj(sxy[k]) : nan);  // (S8)
+    t.h1.push_back(sums.xx[k] > 0 ? sums.xy[k] / sums.xx[k] : nan);        // (S8)
+    t.h2.push_back(cross > 0 ? sums.yy[k] / std::conj(sums.xy[k]) : nan);  // (S8)
     t.gain_relative_error.push_back(cross > 0 ? std::sqrt((1 - coherence) / (2 * coherence * t.averages))
                                               : nan);  // (S9)
   }
   t.coherence_threshold = coherence_threshold(t.averages, 0.95);
   return t;
+}
+
+TransferEstimate transfer(std::span<const double> input, std::span<const double> output, double step_s,
+                          const WelchOptions& options) {
+  const InputOutput run{input, output};
+  return transfer(std::span(&run, 1), step_s, options);
 }
 
 }  // namespace hydro::signal

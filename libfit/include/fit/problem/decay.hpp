@@ -9,6 +9,7 @@
 #include "fit/decay_memory.hpp"
 #include "fit/diagnose.hpp"
 #include "fit/forced_radiation.hpp"
+#include "fit/parts.hpp"
 #include "fit/prepare.hpp"
 #include "fit/problem/source.hpp"
 #include "fit/report.hpp"
@@ -35,6 +36,7 @@ struct Problem {
   bool turns;  ///< the motion is an angle
   std::vector<Run> runs;
   std::optional<RestoredBody> body;  ///< where it is to tell added mass
+  SlopeError motion_slope = {};      ///< of the channel of the motion
   Options options;
 };
 

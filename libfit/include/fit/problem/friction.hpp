@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fit/friction_ramp.hpp"
+#include "fit/parts.hpp"
 #include "fit/problem/source.hpp"
 #include "fit/report.hpp"
 
@@ -21,6 +22,7 @@ struct Problem {
   bool slides;  ///< a slider, whose load is a force; else a hinge, whose load is a torque
   std::vector<Run> runs;
   Options options;
+  SlopeError load_slope = {};  ///< of the line of the load's channel
 };
 const char* unit_of_load(const Problem& problem);  ///< "N", "N m"
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fit/parts.hpp"
 #include "fit/problem/source.hpp"
 #include "fit/report.hpp"
 #include "fit/simulated.hpp"
@@ -35,6 +36,7 @@ struct Signal {
   std::string name, unit;
   double deviation;   ///< of the noise, in that unit
   double period = 0;  ///< as SimulationProblem's
+  SlopeError slope = {};  ///< of the line of its channel
 };
 
 /// What was measured in one go. Records share parameters; each begins with the start of its own simulation.

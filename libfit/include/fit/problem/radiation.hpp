@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fit/forced_radiation.hpp"
+#include "fit/parts.hpp"
 #include "fit/problem/source.hpp"
 #include "fit/report.hpp"
 
@@ -27,6 +28,7 @@ struct Problem {
   std::vector<Run> runs;
   RestoredBody body;
   Options options;
+  SlopeError motion_slope = {}, force_slope = {};  ///< of the lines of their channels
 };
 
 /// Units of what is told, of a translation or a turn.

@@ -6,8 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "fit/parts.hpp"
 #include "fit/prepare.hpp"
-#include "fit/problem/source.hpp"
+#include "fit/problem/wave_run.hpp"
 #include "fit/regular_waves.hpp"
 #include "fit/report.hpp"
 
@@ -17,20 +18,8 @@ struct Options : RegularWaveOptions {
   PrepareOptions prepare = {};  ///< longest gap, outliers, and a window of kind span in place of the times of the tank
 };
 
-struct Run {
-  Source source;
-  std::vector<double> time, elevation;
-  std::vector<WaveChannel> responses;
-};
-
-/// Of the slope of a channel's line, over the slope: the same in all runs.
-struct SlopeError {
-  double standard = 0;    ///< standard error
-  double half_width = 0;  ///< of its interval at the confidence of the fit
-};
-
 struct Problem {
-  std::vector<Run> runs;           ///< the same responses in all
+  std::vector<WaveRun> runs;       ///< the same responses in all
   std::vector<std::string> units;  ///< SI, of the responses: "m", "rad", "N"
   Options options;
   SlopeError elevation_slope = {};
@@ -38,10 +27,8 @@ struct Problem {
 };
 
 /// What was fitted to one run, and the record that it was fitted to.
-struct FittedRun {
+struct FittedRun : WaveRecord {
   RegularWaveFit fit;
-  std::vector<double> time, elevation;  ///< on an even grid, outliers bridged
-  std::vector<std::vector<double>> responses;
 };
 
 /// Runs of one period and one height, and one response in them; (F97).

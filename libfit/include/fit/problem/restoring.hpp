@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "fit/parts.hpp"
 #include "fit/problem/source.hpp"
 #include "fit/report.hpp"
 
@@ -26,6 +27,7 @@ struct Problem {
   bool turns;  ///< the motion is an angle, the load a moment
   std::vector<Run> runs;
   Options options;
+  SlopeError motion_slope = {}, load_slope = {};  ///< of the lines of their channels
 };
 
 struct Solution {

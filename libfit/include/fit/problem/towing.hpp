@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fit/morison.hpp"
+#include "fit/parts.hpp"
 #include "fit/prepare.hpp"
 #include "fit/problem/source.hpp"
 #include "fit/report.hpp"
@@ -16,6 +17,8 @@ namespace fit::towing {
 struct Options {
   double confidence = 0.95;
   bool accept_residuals = false;  ///< a mean is told though runs differ by more than their deviations allow
+  SlopeError speed_slope = {};    ///< of the carriage's speed
+  SlopeError force_slope = {};    ///< of the force, of means; a record's channels have theirs in a calibration
   // Of records alone:
   PrepareOptions prepare = {};
   double tolerance = 0.02;     ///< of an even speed, relative (F90)

@@ -79,4 +79,15 @@ struct TransferEstimate {
 TransferEstimate transfer(std::span<const double> input, std::span<const double> output, double step_s,
                           const WelchOptions& options);
 
+/// Input and output of one run, sampled at the same instants.
+struct InputOutput {
+  std::span<const double> input, output;
+};
+/// Of the segments of all runs together, each as heavy as any other; (S8), (S21). Runs of one segment count too.
+/// \throws InputError as above, for fewer than two segments in all, and for no run
+TransferEstimate transfer(std::span<const InputOutput> runs, double step_s, const WelchOptions& options);
+
+/// Degrees of freedom of the mean of so many segments of several records; (S21).
+double welch_dof(std::span<const std::size_t> segments, const WelchOptions& options);
+
 }  // namespace hydro::signal

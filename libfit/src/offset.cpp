@@ -1,0 +1,356 @@
+#include "fit/offset.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "fit/correlated.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/signal/distributions.hpp"
+#include "hydro/signal/fft.hpp"
+#include "median_step.hpp"
+
+namespace fit {
+namespace {
+
+using hydro::InputError;
+
+/// A record between its samples, by the cubic through the two on each side.
+class Between {
+ public:
+  Between(std::span<const double> time, std::span<const double> value) : time_(time), value_(value) {}
+  bool covers(double t) const { return t >= time_[1] && t < time_[time_.size() - 2]; }
+  double at(double t) const {
+    const auto next = std::upper_bound(time_.begin(), time_.end(), t) - time_.begin();
+    const auto first = static_cast<std::size_t>(next - 2);
+    double sum = 0;
+    for (std::size_t j = first; j < first + 4; ++j) {
+      double weight = 1;
+      for (std::size_t k = first; k < first + 4; ++k)
+        if (k != j) weight *= (t - time_[k]) / (time_[j] - time_[k]);
+      sum += weight * value_[j];
+    }
+    return sum;
+  }
+
+ private:
+  std::span<const double> time_, value_;
+};
+
+/// Of each `stride`th sample of the first that the second covers at a lag: their correlation; 0 where they are fewer
+/// than `least`.
+double correlation_at(double lag, std::span<const double> time, std::span<const double> value, const Between& record,
+                      double least, std::size_t stride) {
+  double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+  for (std::size_t i = 0; i < time.size(); i += stride) {
+    if (std::isnan(value[i]) || !record.covers(time[i] + lag)) continue;
+    const double x = value[i], y = record.at(time[i] + lag);
+    n += 1, a += x, b += y, aa += x * x, bb += y * y, ab += x * y;
+  }
+  const double xx = aa - a * a / n, yy = bb - b * b / n;
+  return n >= least && xx > 0 && yy > 0 ? (ab - a * b / n) / std::sqrt(xx * yy) : 0;
+}
+
+/// The lag of the largest correlation of the sign asked for, and the largest of those on another swing.
+struct Peaks {
+  double lag = 0, correlation = 0, runner_up_lag = 0, runner_up = 0;
+  bool at_end = false;
+};
+
+/// How well a correlation fits a sign.
+double fitting(double correlation, OffsetOptions::Sign sign) {
+  using enum OffsetOptions::Sign;
+  return sign == either ? std::abs(correlation) : sign == same ? correlation : -correlation;
+}
+
+Peaks peaks_of(const std::vector<double>& lags, const std::vector<double>& correlations, OffsetOptions::Sign sign) {
+  const auto better = [&](double a, double b) { return fitting(a, sign) < fitting(b, sign); };
+  const auto best = std::max_element(correlations.begin(), correlations.end(), better) - correlations.begin();
+  const auto at = [&](std::ptrdiff_t i) { return correlations[static_cast<std::size_t>(i)]; };
+  Peaks out{.lag = lags[static_cast<std::size_t>(best)], .correlation = at(best)};
+  out.at_end = best == 0 || best + 1 == std::ssize(lags);
+  // A swing ends where the correlation changes its sign.
+  std::ptrdiff_t low = best, high = best;
+  while (low >= 0 && at(low) * at(best) > 0) --low;
+  while (high < std::ssize(lags) && at(high) * at(best) > 0) ++high;
+  for (std::ptrdiff_t i = 0; i < std::ssize(lags); ++i)
+    if ((i < low || i > high) && fitting(at(i), sign) > out.runner_up)
+      out.runner_up = fitting(at(i), sign), out.runner_up_lag = lags[static_cast<std::size_t>(i)];
+  return out;
+}
+
+struct Local {
+  double value, slope;
+};
+
+/// The samples of a record that are told, and the cubic through so many of them on each side of an instant. (V18)
+class Smooth {
+ public:
+  Smooth(std::span<const double> time, std::span<const double> value) {
+    for (std::size_t i = 0; i < time.size(); ++i)
+      if (std::isfinite(value[i])) time_.push_back(time[i]), value_.push_back(value[i]);
+    step_ = median_step(time_);
+  }
+  std::size_t size() const { return time_.size(); }
+  double time(std::size_t i) const { return time_[i]; }
+  double value(std::size_t i) const { return value_[i]; }
+  /// Whether that many samples stand on each side, without a gap of half of them, two on each side within reach.
+  bool covers(double t, std::size_t side) const {
+    const std::size_t next = first_after(t);
+    if (next <= side || next + side >= size()) return false;
+    const double reach = reach_of(t, next, side);
+    return time_[next + side] - time_[next - side - 1] < 2 * step_ * static_cast<double>(2 * side + 1) &&
+           (side == 2 || (t - time_[next - 2] < reach && time_[next + 1] - t < reach));
+  }
+  /// By least squares, the nearer the heavier (tricube); through two on each side it is the interpolation.
+  Local at(double t, std::size_t side) const {
+    const std::size_t next = first_after(t);
+    const double reach = reach_of(t, next, side);
+    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+    for (std::size_t i = next - side; i < next + side; ++i) {
+      const double u = (time_[i] - t) / reach;
+      const double near = side == 2 ? 1 : std::max(0.0, 1 - std::abs(u * u * u)), weight = near * near * near;
+      const Eigen::Vector4d powers(1, u, u * u, u * u * u);
+      normal += weight * powers * powers.transpose();
+      right += weight * value_[i] * powers;
+    }
+    const Eigen::Vector4d cubic = normal.ldlt().solve(right);
+    return {cubic[0], cubic[1] / reach};
+  }
+
+ private:
+  std::size_t first_after(double t) const {
+    return static_cast<std::size_t>(std::upper_bound(time_.begin(), time_.end(), t) - time_.begin());
+  }
+  /// Up to the nearer of the two samples that no longer count: so none comes or goes with a weight.
+  double reach_of(double t, std::size_t next, std::size_t side) const {
+    return std::min(t - time_[next - side - 1], time_[next + side] - t);
+  }
+  std::vector<double> time_, value_;
+  double step_;
+};
+
+constexpr Eigen::Index fewest = 16;  // samples that tell a lag
+
+/// Two records of one motion, the second the denser, and how it is smoothed.
+struct Pair {
+  Smooth sparse, dense;
+  double sparse_step, dense_step;
+};
+
+/// Samples of the sparse record that the dense one covers at a lag: columns of one, the dense one smoothed and its
+/// slope; the sparse values and their own smooth slope; the dense one as finely as the sparse one is sampled.
+struct Compared {
+  Eigen::MatrixXd basis;
+  Eigen::VectorXd sparse, sparse_slope, dense;
+};
+
+std::size_t samples_within(double time, double step, std::size_t of) {
+  return std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(time / step)), 2,
+                                 std::max<std::size_t>(2, of / 16));
+}
+
+Compared compared(const Pair& p, double lag, std::size_t side) {
+  const std::size_t fine = samples_within(p.sparse_step, p.dense_step, p.dense.size()),
+                    own = samples_within(static_cast<double>(side) * p.dense_step, p.sparse_step, p.sparse.size());
+  std::vector<std::size_t> taken;
+  for (std::size_t i = 0; i < p.sparse.size(); ++i) {
+    const double t = p.sparse.time(i);
+    if (p.sparse.covers(t, own) && p.dense.covers(t + lag, std::max(side, fine))) taken.push_back(i);
+  }
+  const auto n = static_cast<Eigen::Index>(taken.size());
+  Compared out{Eigen::MatrixXd(n, 3), Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const std::size_t i = taken[static_cast<std::size_t>(k)];
+    const double t = p.sparse.time(i);
+    const Local there = p.dense.at(t + lag, side);
+    out.basis.row(k) << 1, there.value, there.slope;
+    out.sparse[k] = p.sparse.value(i);
+    out.sparse_slope[k] = p.sparse.at(t, own).slope;
+    out.dense[k] = p.dense.at(t + lag, fine).value;
+  }
+  return out;
+}
+
+/// How many samples on each side smooth the dense record best: so that it tells the sparse one best, whose noise is
+/// another. (V18)
+std::size_t best_side(const Pair& p, double lag) {
+  std::size_t best = 2;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t side = 2; side == 2 || side <= p.dense.size() / 16; side += std::max<std::size_t>(1, side / 4)) {
+    const Compared c = compared(p, lag, side);
+    if (c.sparse.size() < fewest) break;
+    const Eigen::Vector3d fitted = (c.basis.transpose() * c.basis).ldlt().solve(c.basis.transpose() * c.sparse);
+    const double mean_square = (c.sparse - c.basis * fitted).squaredNorm() / static_cast<double>(c.sparse.size() - 3);
+    if (mean_square < least) least = mean_square, best = side;
+    if (mean_square > 1.5 * least) break;  // the motion itself is smoothed away
+  }
+  return best;
+}
+
+/// (V18) The lag by Gauss and Newton from there, with its deviation, which has the noise of both and its memory.
+Offset refined(const Peaks& from, const Pair& p, const OffsetOptions& options) {
+  Offset out{.lag = from.lag,
+             .deviation = 0,
+             .half_width = 0,
+             .correlation = from.correlation,
+             .runner_up = from.runner_up,
+             .level = 0,
+             .scale = 0,
+             .chance = 0};
+  const std::size_t side = best_side(p, out.lag);
+  double longest = p.sparse_step / 2, before = 0;
+  const auto none = [&](const std::string& why) {
+    return InputError(fmt::format("{} and {} tell no offset: {}", options.first, options.second, why));
+  };
+  for (int round = 0; round < 50; ++round) {
+    Compared c = compared(p, out.lag, side);
+    if (c.sparse.size() < fewest)
+      throw none(fmt::format("{} samples stand beside each other, {} are needed", c.sparse.size(), fewest));
+    const auto level = c.basis.leftCols<2>();
+    const Eigen::Matrix2d inverse = (level.transpose() * level).inverse();
+    const Eigen::Vector2d fitted = inverse * (level.transpose() * c.sparse);
+    Eigen::Ref<Eigen::VectorXd> slope = c.basis.col(2);
+    slope -= level * (inverse * (level.transpose() * slope));
+    const Eigen::VectorXd left = (c.sparse - fitted[1] * c.dense).array() - fitted[0];
+    const double information = slope.dot(c.sparse_slope), move = slope.dot(left) / information;
+    if (!std::isfinite(move) || information * from.correlation <= 0) throw none("their slopes do not");
+    // Samples come and go at the ends as the lag moves: where the move jumps from one sign to the other is the end,
+    // too.
+    if (move * before < 0) longest /= 2;
+    before = std::clamp(move, -longest, longest);
+    out.lag += before;
+    if (std::abs(before) > 5e-4 * p.dense_step) continue;
+    out.level = fitted[0], out.scale = fitted[1];
+    if (left.norm() > 1e-12 * c.sparse.norm()) {
+      const CoefficientCovariance u = correlated_covariance(c.basis, left, 1, LongMemory::widen);
+      out.deviation = std::sqrt(u.covariance(2, 2)) * slope.squaredNorm() / std::abs(information);
+      out.half_width = hydro::signal::student_t_quantile((1 + options.confidence) / 2, u.dof) * out.deviation;
+    }
+    return out;
+  }
+  throw none("no lag brings them nearest");
+}
+
+/// Of the sparse one as the first, or the other way round.
+Offset refined(const Peaks& peaks, const Smooth& first, double first_step, const Smooth& second, double second_step,
+               const OffsetOptions& options) {
+  if (first_step >= second_step) return refined(peaks, {first, second, first_step, second_step}, options);
+  Peaks turned = peaks;
+  turned.lag *= -1;
+  Offset found = refined(turned, {second, first, second_step, first_step}, options);
+  found.lag *= -1;
+  found.level /= -found.scale;
+  found.scale = 1 / found.scale;
+  return found;
+}
+
+/// Squares of a record's Fourier coefficients but the mean, at as many frequencies as `samples` even ones have.
+std::vector<double> periodogram(const Smooth& record, std::size_t samples) {
+  std::vector<double> even(samples);
+  const double first = record.time(0), span = record.time(record.size() - 1) - first;
+  std::size_t j = 0;
+  double mean = 0;
+  for (std::size_t i = 0; i < samples; ++i) {
+    const double t = first + span * static_cast<double>(i) / static_cast<double>(samples);
+    while (j + 2 < record.size() && record.time(j + 1) <= t) ++j;
+    const double s = (t - record.time(j)) / (record.time(j + 1) - record.time(j));
+    even[i] = (1 - s) * record.value(j) + s * record.value(j + 1);
+    mean += even[i] / static_cast<double>(samples);
+  }
+  for (double& x : even) x -= mean;
+  std::vector<double> out;
+  for (const auto& x : hydro::signal::real_fft(even)) out.push_back(std::norm(x));
+  return out;
+}
+
+/// (F106) That two records of these spectra which have nothing in common correlate so much at one of the lags.
+double chance_of(double correlation, const Smooth& first, const Smooth& second, double lags) {
+  const double span =
+      std::min(first.time(first.size() - 1) - first.time(0), second.time(second.size() - 1) - second.time(0));
+  const std::size_t n = std::min(first.size(), second.size());
+  const std::vector<double> x = periodogram(first, n), y = periodogram(second, n);
+  const double sum_x = std::accumulate(x.begin(), x.end(), 0.0), sum_y = std::accumulate(y.begin(), y.end(), 0.0),
+               both = std::inner_product(x.begin(), x.end(), y.begin(), 0.0), square = correlation * correlation;
+  const double independent = std::max(1.0, (1 + square) * sum_x * sum_y / both), tried = 1 + lags * independent / span;
+  return std::min(1.0, tried * std::pow(1 - std::min(1.0, square), independent - 1));
+}
+
+/// Where the correlation is looked for: lags at which half of the shorter lies within the other.
+struct Lags {
+  double first, last, step;
+};
+
+Lags lags_between(std::span<const double> time, std::span<const double> other, double longest) {
+  const double step = std::min(median_step(time), median_step(other)) / 2, span = time.back() - time.front(),
+               other_span = other.back() - other.front(), half = std::min(span, other_span) / 2;
+  return {std::max(-longest, other.front() - time.back() + half), std::min(longest, other.back() - time.front() - half),
+          step};
+}
+
+void check(std::span<const double> time, std::span<const double> value, std::span<const double> other_time,
+           std::span<const double> other, std::size_t seen, const OffsetOptions& o) {
+  hydro::require(time.size() == value.size() && other_time.size() == other.size() && seen >= 16 && other.size() >= 16,
+                 "an offset needs 16 samples at least of both, got {} of the {} and {} of the {}", seen, o.first,
+                 other.size(), o.second);
+  for (std::size_t i = 0; i < other.size(); ++i)
+    hydro::require(std::isfinite(other[i]) && (i == 0 || other_time[i] > other_time[i - 1]),
+                   "the {} must be finite and its times ascend, which they do not at sample {}", o.second, i + 1);
+}
+
+void require_one_lag(const Peaks& peaks, double samples, const OffsetOptions& o) {
+  if (std::abs(peaks.correlation) < 0.7 || fitting(peaks.correlation, o.sign) < 0)
+    throw InputError(fmt::format("{} and {} do not show the same: their largest correlation is {:.3g}, at {:.4g} s",
+                                 o.first, o.second, peaks.correlation, peaks.lag),
+                     {}, "name a signal and a column that move together");
+  // Of normal errors, how many times as likely the better one is, as a logarithm; errors with a memory tell less.
+  const double sure = 8, exact = 1e-6;
+  const auto unexplained = [exact](double r) { return std::max(exact, 1 - r * r); };
+  if (samples / 2 * std::log(unexplained(peaks.runner_up) / unexplained(peaks.correlation)) < sure)
+    throw InputError(fmt::format("two offsets fit nearly alike: the correlation is {:.4g} at {:.4g} s, and {:.4g} at "
+                                 "{:.4g} s: the {} repeats itself after {:.4g} s",
+                                 std::abs(peaks.correlation), peaks.lag, peaks.runner_up, peaks.runner_up_lag, o.first,
+                                 std::abs(peaks.lag - peaks.runner_up_lag)),
+                     {}, o.remedy);
+  if (peaks.at_end && std::isfinite(o.longest))
+    throw InputError(fmt::format("{} and {} are most alike at the longest offset that is looked for, {:.4g} s: theirs "
+                                 "may lie beyond",
+                                 o.first, o.second, peaks.lag),
+                     {}, "look further, or for offsets that the records can tell");
+}
+
+}  // namespace
+
+Offset offset_between(std::span<const double> time, std::span<const double> value, std::span<const double> other_time,
+                      std::span<const double> other, const OffsetOptions& options) {
+  const auto seen =
+      static_cast<std::size_t>(std::count_if(value.begin(), value.end(), [](double v) { return std::isfinite(v); }));
+  check(time, value, other_time, other, seen, options);
+  const Between whole(other_time, other);
+  const auto [first, last, step] = lags_between(time, other_time, options.longest);
+  hydro::require(first <= last, "{} and {} have no time in common, whatever the offset", options.first, options.second);
+  const double span = time.back() - time.front(), half = std::min(span, other_time.back() - other_time.front()) / 2;
+  // Of long records each sample at each lag would take minutes; the swing is found by fewer.
+  constexpr double most = 1e8;
+  const auto stride =
+      static_cast<std::size_t>(std::ceil(static_cast<double>(value.size()) * ((last - first) / step + 1) / most));
+  const double samples = static_cast<double>(seen) / static_cast<double>(stride),
+               least = std::max(16.0, 0.9 * samples * half / span);
+  std::vector<double> lags, correlations;
+  for (double lag = first; lag <= last; lag += step) {
+    lags.push_back(lag);
+    correlations.push_back(correlation_at(lag, time, value, whole, least, stride));
+  }
+  const Peaks peaks = peaks_of(lags, correlations, options.sign);
+  require_one_lag(peaks, samples, options);
+  const Smooth one(time, value), two(other_time, other);
+  Offset found = refined(peaks, one, median_step(time), two, median_step(other_time), options);
+  found.chance = chance_of(found.correlation, one, two, last - first);
+  return found;
+}
+
+}  // namespace fit
