@@ -222,7 +222,7 @@ class SeveralFilms(WithFolder):
 
     def test_a_film_with_a_pause_is_no_record_of_windows_without_frames(self):
         text = (self.folder / "fit" / "film_tracks.toml").read_text().replace('end = "5 s"', 'end = "20 s"')
-        (self.folder / "fit" / "paused.toml").write_text(text.replace('window = "2 s"', 'window = "1 s"'))
+        (self.folder / "fit" / "paused.toml").write_text(text.replace('window = "2 s"', 'window = "0.6 s"'))
         error = self.refused("fit", "fit/paused.toml")
         self.assertIn("film_track_2.txt", error)
         self.assertIn("two [[data.record]]s", error)
@@ -537,11 +537,11 @@ class Films(WithFolder):
 
     def test_what_cannot_be_read_says_what_to_do(self):
         (self.folder / "text.mp4").write_text("no film")
-        track = ["--markers", "2", "-o", "x.csv"]
+        track = ["--markers", "2", "-o", "x.csv", "--to", "0.4 s"]
         self.assertIn("ffmpeg -i text.mp4", self.refused("track", "text.mp4", *track))
         self.assertIn("no such film", self.refused("track", "nothing.mp4", *track))
         self.assertIn("--first", self.refused("track", "film.avi", *track))
-        self.assertIn("4 are named", self.refused("track", "film.avi", "--markers", "4", "-o", "x.csv"))
+        self.assertIn("4 are named", self.refused("track", "film.avi", "--markers", "4", "-o", "x.csv", "--to", "0.4 s"))
         self.assertIn("no frame shows a disc", self.refused("track", "film.avi", "--radius", "40 px .. 60 px", *track))
         self.assertIn("--radius", self.refused("track", "film.avi", "--radius", "4 px", *track))
         self.assertIn("no colour", self.refused("track", "film.avi", "--colour", "red", *track))
@@ -550,7 +550,7 @@ class Films(WithFolder):
 
     def test_a_film_in_which_no_marker_moves_says_so(self):
         self.assertIn("nothing moves in this film",
-                      self.refused("track", "film.avi", "--markers", "1", "--first", "(322, 120)", "-o", "x.csv"))
+                      self.refused("track", "film.avi", "--markers", "1", "--first", "(322, 120)", "-o", "x.csv", "--to", "1 s"))
 
     def test_a_lens_of_another_size_is_refused(self):
         lens = (self.folder / "film" / "lens.toml").read_text().replace("width = 640", "width = 1280")
