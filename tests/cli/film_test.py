@@ -67,6 +67,12 @@ class ForeignTrack(WithFolder):
                 self.assertGreater(high, truth)
                 self.assertLess(high - low, truth)
 
+    def test_what_no_smoother_can_do_is_refused(self):
+        common = ("kinematics", "fit/film_track.toml", "-o", "x.csv", "--bandwidth")
+        self.assertIn("no motion up to 400 Hz", self.refused(*common, "400 Hz"))
+        self.assertIn('or "0.13 Hz"', self.refused(*common, "4"))
+        self.assertIn("apart in the track", self.refused(*common, "4 Hz", "--length", "joint bob 0.9 m 1 mm"))
+
     def test_kinematics_are_those_of_the_angles(self):
         out = self.folder / "motion.csv"
         self.done("kinematics", "fit/film_track.toml", "--bandwidth", "4 Hz", "--length", "joint bob 0.4 m 1 mm", "-o", out,
@@ -540,6 +546,15 @@ class Films(WithFolder):
         track = ["--markers", "2", "-o", "x.csv", "--to", "0.4 s"]
         self.assertIn("ffmpeg -i text.mp4", self.refused("track", "text.mp4", *track))
         self.assertIn("no such film", self.refused("track", "nothing.mp4", *track))
+        self.assertIn("two are needed", self.refused("track", "film/marker.png", *track))
+        (self.folder / "cut.avi").write_bytes((self.folder / "film.avi").read_bytes()[:2_000_000])
+        cut = json.loads(self.done("track", "cut.avi", "--markers", "pivot, joint, bob", "--first", FIRST, "--radius",
+                                   "4 px .. 10 px", "-o", "cut.csv", "--json"))
+        self.assertTrue(any("300 frames, and" in caution for caution in cut["cautions"]), cut["cautions"])
+        self.assertTrue(any("rolling shutter" in caution for caution in cut["cautions"]), cut["cautions"])
+        self.assertIn("no such picture", self.refused("track", "film.avi", "--template", "nothing.png", *track))
+        self.assertIn("--frame-rate", self.refused("track", "film.avi", "--frame-rate", "25", *track))
+        self.assertIn("first place of \"m1\"", self.refused("track", "film.avi", "--first", "(10, 10), (411, 260)", *track))
         self.assertIn("--first", self.refused("track", "film.avi", *track))
         self.assertIn("4 are named", self.refused("track", "film.avi", "--markers", "4", "-o", "x.csv", "--to", "0.4 s"))
         self.assertIn("no frame shows a disc", self.refused("track", "film.avi", "--radius", "40 px .. 60 px", *track))
