@@ -63,8 +63,9 @@ struct MotionModel {
   struct Record {
     std::string name = {};
     Located<std::filesystem::path> file = {};
-    std::optional<double> start = {};  ///< s, in the file's time: when the run begins; none: 0, of a track as [camera] says
-    std::optional<double> end = {};    ///< s, in the file's time
+    std::optional<double> start =
+        {};  ///< s, in the file's time: when the run begins; none: 0, of a track as [camera] says
+    std::optional<double> end = {};                            ///< s, in the file's time
     std::optional<Located<std::filesystem::path>> scene = {};  ///< empty: that of the model
     std::vector<Parameter> set = {};                           ///< held at their first values
     std::vector<Parameter> parameters = {};                    ///< fitted to this record alone

@@ -189,8 +189,7 @@ FilmAsked film_asked(const scene::FitScene& scene, const std::optional<std::stri
                      "name a scene whose files are tracks");
   std::vector<std::string> names;
   for (const auto& record : model->records) {
-    if (record.name == name || (!name && model->records.size() == 1))
-      return {*model, record, model->camera_of(record)};
+    if (record.name == name || (!name && model->records.size() == 1)) return {*model, record, model->camera_of(record)};
     names.push_back(record.name);
   }
   throw InputError(name ? fmt::format("the scene has no film \"{}\"", *name)

@@ -92,7 +92,8 @@ fc::Track filmed(const std::string& name, const std::vector<fc::MarkerInSpace>& 
     first += fmt::format("{}({:.0f}, {:.0f})", first.empty() ? "" : ", ", at.x(), at.y());
   }
   std::ostringstream out, err;
-  froude::track({.film = film, .markers = names, .radius = "4 px .. 10 px", .first = first, .output = track}, {out, err});
+  froude::track({.film = film, .markers = names, .radius = "4 px .. 10 px", .first = first, .output = track},
+                {out, err});
   return fc::read_track(track, {.time = "t"});
 }
 
@@ -142,16 +143,16 @@ TEST(FilmedPoses, InThePlaneOfMotionAreThoseOfTheBodyWithinTheirErrors) {
     squares += off.dot(now.covariance.topLeftCorner<3, 3>().inverse() * off) / (3 * frames);
     for (int k = 0; k < 3; ++k) slow_enough += std::abs(rates[k]) < 1.96 * std::sqrt(now.covariance(3 + k, 3 + k));
   }
-  // Deviations of a smoother count what its band may cut off: squares over them are 5/6 of 1. What is smoothed with half
-  // of the gain at 8.6 Hz tells some 55 independent instants of 80: √(2/3/55) = 0.11; three of them. Rates are inside
-  // at least as often as 95 %, less 3 %.
+  // Deviations of a smoother count what its band may cut off: squares over them are 5/6 of 1. What is smoothed with
+  // half of the gain at 8.6 Hz tells some 55 independent instants of 80: √(2/3/55) = 0.11; three of them. Rates are
+  // inside at least as often as 95 %, less 3 %.
   EXPECT_NEAR(squares, 0.83, 0.33);
   EXPECT_GT(slow_enough / (3.0 * frames), 0.92);
 }
 
 struct ByOpenCv {
-  Eigen::Matrix3d rotation;     // body to camera
-  Vector3d translation;         // of the body's origin, camera axes
+  Eigen::Matrix3d rotation;  // body to camera
+  Vector3d translation;      // of the body's origin, camera axes
   Eigen::Matrix3d translation_covariance;
 };
 

@@ -11,8 +11,8 @@ Outcome outcome(const Folders&) {
   for (const auto& of : froude_test::two_clocks) {
     const auto errors = froude_test::errors_of_offsets(of, sets);
     out.numbers.push_back({fmt::format("coverage, {}", of.name), static_cast<double>(errors.within) / sets, ""});
-    out.numbers.push_back({fmt::format("mean of squared errors over their variances, {}", of.name),
-                           errors.squares / sets, ""});
+    out.numbers.push_back(
+        {fmt::format("mean of squared errors over their variances, {}", of.name), errors.squares / sets, ""});
   }
   return out;
 }

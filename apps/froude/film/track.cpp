@@ -199,7 +199,7 @@ struct Seen {
   std::vector<std::vector<std::optional<fc::Sighting>>> named;  ///< of tags, one a frame
   std::vector<std::size_t> number;                              ///< of each in the film
   std::vector<std::size_t> empty;                               ///< frames of the film in which nothing was found
-  std::size_t read = 0;      ///< frames of the film, taken or not
+  std::size_t read = 0;                                         ///< frames of the film, taken or not
   std::size_t repeated = 0;  ///< frames that are the one before once more, which cameras write for lost ones
   fc::Detection left_out;    ///< sums over the frames; no discs
   fc::Picture first;
@@ -373,11 +373,10 @@ std::vector<std::string> cautions_of(const TrackArguments& a, std::size_t stated
                     seen.empty.size(), frames, seen.empty.front()));
   for (std::size_t k = 0; k < assigned.missing.size(); ++k)
     if (2 * assigned.missing[k] > frames)
-      out.push_back(
-          fmt::format("{} is missing in {} of {} frames: was it lost at a crossing? {}",
-                      assigned.track.markers[k].name, assigned.missing[k], frames,
-                      a.lengths.empty() ? "Known lengths (--length) help"
-                                        : "Or is a known length (--length) not that of the picture?"));
+      out.push_back(fmt::format("{} is missing in {} of {} frames: was it lost at a crossing? {}",
+                                assigned.track.markers[k].name, assigned.missing[k], frames,
+                                a.lengths.empty() ? "Known lengths (--length) help"
+                                                  : "Or is a known length (--length) not that of the picture?"));
   if (seen.repeated > 0)
     out.push_back(fmt::format("{} frames repeat the one before, pixel by pixel: they are lost frames, and left out",
                               seen.repeated));

@@ -69,8 +69,7 @@ FilmReader::FilmReader(const Path& file) : video_(std::make_unique<Video>()) {
   if (!std::filesystem::is_regular_file(file, unknown))
     throw InputError("there is no such film", {.file = file.string()}, "name a film: .mp4, .mov, .avi, .mkv");
   if (!video_->capture.open(file.string(), cv::CAP_FFMPEG) || size().x() <= 0 || size().y() <= 0)
-    throw InputError("this is no film that OpenCV can decode", {.file = file.string()},
-                     how_to_convert(file));
+    throw InputError("this is no film that OpenCV can decode", {.file = file.string()}, how_to_convert(file));
 }
 
 FilmReader::~FilmReader() = default;

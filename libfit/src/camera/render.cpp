@@ -112,8 +112,8 @@ class Drawing {
     Eigen::Matrix2d slope;
   };
 
-  /// Of one pixel: its middle is mapped to the plane of motion as the lens has it, samples around it by the slope at the
-  /// disc, since what that differs by across a disc only softens its edge a little otherwise.
+  /// Of one pixel: its middle is mapped to the plane of motion as the lens has it, samples around it by the slope at
+  /// the disc, since what that differs by across a disc only softens its edge a little otherwise.
   float share(const std::vector<Spot>& spots, int x, int y, double radius) const {
     const Eigen::Vector2d middle(x, y), point = point_of(filming_.view, middle);
     bool near = false, within = true;
@@ -240,8 +240,8 @@ Box box_of(const Board& board, const View& view, const Eigen::Vector2i& size) {
   const Eigen::Array2d low(-1, -1), side(board.columns + 1, board.rows + 1);
   Eigen::Array2d least = Eigen::Array2d::Constant(1e9), most = -least;
   for (int i = 0; i < pieces; ++i)
-    for (const Eigen::Array2d& at : {Eigen::Array2d(i, 0), Eigen::Array2d(pieces, i), Eigen::Array2d(pieces - i, pieces),
-                                     Eigen::Array2d(0, pieces - i)}) {
+    for (const Eigen::Array2d& at : {Eigen::Array2d(i, 0), Eigen::Array2d(pieces, i),
+                                     Eigen::Array2d(pieces - i, pieces), Eigen::Array2d(0, pieces - i)}) {
       const Eigen::Array2d corner = board.square * (low + side * at / pieces);
       const Eigen::Array2d pixel = pixel_of(view, Eigen::Vector2d(corner.x(), -corner.y()));
       least = least.min(pixel);

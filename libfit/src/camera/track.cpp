@@ -31,7 +31,8 @@ Track cut(const Track& track, double from, double to) {
   if (out.frames() < 2)
     throw InputError(fmt::format("the track runs from {:.6g} s to {:.6g} s; from {:.6g} s to {:.6g} s it has {} frames",
                                  track.time.front(), track.time.back(), from, to, out.frames()),
-                     {}, "take a part of it that is longer: from and to of [camera], start and end of a [[data.record]]");
+                     {},
+                     "take a part of it that is longer: from and to of [camera], start and end of a [[data.record]]");
   return out;
 }
 
