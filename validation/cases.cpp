@@ -6,6 +6,7 @@ namespace froude::validation {
 
 // clang-format off
 namespace ball_drops { Outcome outcome(const Folders& folders); }
+namespace clock_offset { Outcome outcome(const Folders& folders); }
 namespace cylinder { Outcome outcome(const Folders& folders); }
 namespace dispersion { Outcome outcome(const Folders& folders); }
 namespace fagerbakke_arrays { Outcome outcome(const Folders& folders); }
@@ -84,6 +85,7 @@ const std::vector<Case>& cases() {
       {"hendriksen-waves", hendriksen_waves::outcome},
       {"morison", morison::outcome},
       {"interval-coverage", interval_coverage::outcome},
+      {"clock-offset", clock_offset::outcome},
       {"sea-dat", sea_dat::outcome, {"waves_measured"}},
       {"dispersion", dispersion::outcome},
       {"spectra", spectra::outcome},

@@ -46,11 +46,12 @@ double deviation_of(const std::string& text, bool in_metres) {
   return out;
 }
 
-fc::TrackColumns columns_of(const scene::FitScene& scene, const scene::MotionModel& model) {
+fc::TrackColumns columns_of(const scene::FitScene& scene, const scene::MotionModel& model,
+                            const scene::CameraTable& camera) {
   fc::TrackColumns out{.names = {},
                        .time = scene.channels.count("time") > 0 ? scene.channels.at("time") : std::string(),
-                       .frames_per_second = model.camera->frame_rate,
-                       .markers = model.camera->markers,
+                       .frames_per_second = camera.frame_rate,
+                       .markers = camera.markers,
                        .time_unit = model.time_unit,
                        .position_unit = model.position_unit};
   for (const auto& name : model.columns) out.names.push_back(name.value);
@@ -87,17 +88,15 @@ fc::View view_of(const scene::CameraTable& camera, const fc::Track& track) {
   return out;
 }
 
-FilmedTrack filmed_track(const scene::FitScene& scene, const scene::MotionModel& model) {
-  if (scene.files.size() != 1)
-    throw InputError(fmt::format("a fit of a track takes one file, got {}", scene.files.size()), scene.files[1].place,
-                     "fit each film by itself");
-  const scene::CameraTable& camera = *model.camera;
-  const auto file = scene.files[0].value;
-  return scene::placed({.file = file.string()}, [&] {
-    fc::Track track = fc::read_track(file, columns_of(scene, model));
+FilmedTrack filmed_track(const scene::FitScene& scene, const scene::MotionModel& model,
+                         const scene::MotionModel::Record& record) {
+  const scene::CameraTable& camera = model.camera_of(record);
+  return scene::placed({.file = record.file.value.string()}, [&] {
+    fc::Track track = fc::read_track(record.file.value, columns_of(scene, model, camera));
     for (double& t : track.time) t += camera.offset;
-    const double begin = camera.from.value_or(track.time.front());
-    fc::Track part = fc::cut(track, begin, camera.to.value_or(std::numeric_limits<double>::infinity()));
+    const double begin = record.start.value_or(camera.from.value_or(track.time.front()));
+    const double end = record.end.value_or(camera.to.value_or(std::numeric_limits<double>::infinity()));
+    fc::Track part = fc::cut(track, begin, end);
     const double deviation =
         scene::placed(camera.place, [&] { return deviation_of(camera.deviation, track.in_metres); });
     fc::View view = view_of(camera, part);
@@ -105,26 +104,27 @@ FilmedTrack filmed_track(const scene::FitScene& scene, const scene::MotionModel&
   });
 }
 
-TrackInPlane track_in_plane(const scene::FitScene& scene, const scene::MotionModel& model) {
-  const FilmedTrack filmed = filmed_track(scene, model);
-  return scene::placed({.file = scene.files[0].value.string()}, [&] {
+TrackInPlane track_in_plane(const scene::FitScene& scene, const scene::MotionModel& model,
+                            const scene::MotionModel::Record& record) {
+  const FilmedTrack filmed = filmed_track(scene, model, record);
+  return scene::placed({.file = record.file.value.string()}, [&] {
     return TrackInPlane{fc::in_plane(filmed.track, filmed.view, filmed.deviation), filmed.begin};
   });
 }
 
-std::vector<fc::Channel> channels_asked(const scene::MotionModel& model) {
+std::vector<fc::Channel> channels_asked(const scene::MotionModel& model, const scene::CameraTable& camera) {
   std::vector<fc::Channel> out;
   for (const auto& s : model.signals) {
     if (s.marker.empty()) {
       // About +y the x axis turns down; about +x the y axis turns up. Polar angles of links are below the horizontal.
-      const bool downwards = model.camera->along() == 0 || s.of.ends_with(".polar");
+      const bool downwards = camera.along() == 0 || s.of.ends_with(".polar");
       out.push_back({fc::Channel::Kind::angle, s.between[0], s.between[1], downwards, s.zero});
       continue;
     }
-    const bool up = s.along == "z", across = s.along != std::string(1, model.camera->axis.back());
+    const bool up = s.along == "z", across = s.along != std::string(1, camera.axis.back());
     if (!up && across)
       throw InputError(fmt::format("the coordinate {} of \"{}\" does not lie in the picture, whose axes are {} and z",
-                                   s.along, s.of, model.camera->axis.back()),
+                                   s.along, s.of, camera.axis.back()),
                        s.deviation.place, "take another coordinate, or say what the picture shows: [camera] axis");
     out.push_back({up ? fc::Channel::Kind::up : fc::Channel::Kind::along, s.marker});
   }

@@ -63,11 +63,13 @@ struct MotionModel {
   struct Record {
     std::string name = {};
     Located<std::filesystem::path> file = {};
-    double start = 0;                                          ///< s, in the file's time: when the run begins
+    std::optional<double> start =
+        {};  ///< s, in the file's time: when the run begins; none: 0, of a track as [camera] says
     std::optional<double> end = {};                            ///< s, in the file's time
     std::optional<Located<std::filesystem::path>> scene = {};  ///< empty: that of the model
     std::vector<Parameter> set = {};                           ///< held at their first values
     std::vector<Parameter> parameters = {};                    ///< fitted to this record alone
+    std::optional<CameraTable> camera = {};                    ///< of a track, in place of that of the scene
     Place place = {};
   };
   Located<std::filesystem::path> scene = {};
@@ -75,13 +77,16 @@ struct MotionModel {
   std::optional<int> starts = {};  ///< of the search; none: one, and others where it is refused
   int iterations = 60;
   std::vector<Parameter> parameters = {};  ///< which all records share
-  std::vector<Record> records = {};        ///< one at least; of tracks one
+  std::vector<Record> records = {};        ///< one at least
   std::vector<Signal> signals = {};
   bool profile = false, accept_residuals = false;
   std::optional<CameraTable> camera = {};          ///< files are tracks
   std::vector<Located<std::string>> columns = {};  ///< names of a track's columns, where the file has none
   std::string time_unit = {}, position_unit = {};  ///< of a track, where the file has none
   Place place = {};                                ///< of [model]
+
+  /// Of a track.
+  const CameraTable& camera_of(const Record& record) const { return record.camera ? *record.camera : *camera; }
 };
 
 // What two kinds have alike.

@@ -45,7 +45,7 @@ void check_search(const Record& model, const MotionModel& motion) {
 struct FollowedRecords {
   /// The runs of a scene with the record that they follow.
   struct One {
-    const MeasuredRun measured;
+    MeasuredRun measured;
     SceneRuns runs;
 
     One(const FitScene& scene, const MotionModel& model, const MotionModel::Record& record,
@@ -67,6 +67,10 @@ struct FollowedRecords {
       simulated.push_back({&all.back()->runs, all.back()->measured.first.size(), std::move(takes)});
     }
     simulation.emplace(std::move(simulated));
+    if (!model.camera) return;
+    std::vector<MeasuredRun*> films;
+    for (const auto& one : all) films.push_back(&one->measured);
+    share_deviations(films);
   }
 };
 
@@ -81,9 +85,9 @@ double deviation_of(const MotionModel::Signal& s, const std::string& unit, const
   });
 }
 
-/// Signals and weights of a film, whose angles and places must be what the run's signals are.
-void add_film(const MotionModel& model, const MeasuredRun& measured, const std::vector<std::string>& units,
-              ::fit::motion::Problem& out) {
+/// Signals of films, whose angles and places must be what the run's signals are.
+void add_signals_of_films(const MotionModel& model, const std::vector<double>& deviations,
+                          const std::vector<std::string>& units, ::fit::motion::Problem& out) {
   for (std::size_t c = 0; c < units.size(); ++c) {
     const MotionModel::Signal& s = model.signals[c];
     const char* needed = s.marker.empty() ? "rad" : "m";
@@ -93,11 +97,7 @@ void add_film(const MotionModel& model, const MeasuredRun& measured, const std::
                       s.marker.empty() ? "the angle of a line" : "a coordinate", needed),
           s.deviation.place, "name a signal of the run that is what the film shows");
     // A film tells the angle of a line up to whole turns.
-    out.signals.push_back({s.of, units[c], measured.deviations[c], s.marker.empty() ? 2 * std::numbers::pi : 0});
-  }
-  for (std::size_t w = 0; w < measured.first.size(); ++w) {
-    const auto from = measured.whitening.begin() + measured.first[w];
-    out.whitening.emplace_back(from, from + measured.rows(w));
+    out.signals.push_back({s.of, units[c], deviations[c], s.marker.empty() ? 2 * std::numbers::pi : 0});
   }
 }
 
@@ -217,9 +217,10 @@ void check_track(const FitTables& t, const FitScene& scene, const MotionModel& m
                      motion.camera ? "name a line (between) or a marker"
                                    : "add [camera] with the scale of the picture and what else is known");
   }
-  if (motion.camera && t.data().has("record"))
-    throw t.data().tables("record").front().refused("does not go with [camera], which takes one track",
-                                                    "name the track in files = [...], and fit each film by itself");
+  for (const auto& record : motion.records)
+    if (record.camera && !motion.camera)
+      throw InputError("the record has a camera, and the scene has none", record.camera->place,
+                       "add [camera], which says that files are tracks: a record's own stands in its place");
   const bool timed = scene.channels.count("time") > 0;
   if (!motion.camera) {
     if (!timed)
@@ -228,11 +229,12 @@ void check_track(const FitTables& t, const FitScene& scene, const MotionModel& m
       throw t.data().refused("has columns or units of a track, and the scene has no [camera]", "add [camera]");
     return;
   }
-  if (timed == (motion.camera->frame_rate > 0))
-    throw t.data().refused(
-        timed ? "names a column of time, and [camera] a frame rate" : "does not say when frames were taken",
-        timed ? "leave out one of them"
-              : "add channels = { time = \"name of a column\" }, or [camera] frame_rate = \"25 Hz\"");
+  for (const auto& record : motion.records)
+    if (timed == (motion.camera_of(record).frame_rate > 0))
+      throw t.data().refused(
+          timed ? "names a column of time, and [camera] a frame rate" : "does not say when frames were taken",
+          timed ? "leave out one of them"
+                : "add channels = { time = \"name of a column\" }, or [camera] frame_rate = \"25 Hz\"");
 }
 
 Binding<MotionModel> asked_of_motions() {
@@ -244,12 +246,19 @@ Binding<MotionModel> asked_of_motions() {
            &MotionModel::profile);
 }
 
-/// Windows of a record, its source, and the parameters that are its own.
+/// Windows of a record with their weights, its source, and the parameters that are its own.
 void add_record(const MotionModel::Record& record, const FollowedRecords::One& one, ::fit::motion::Problem& out) {
   const MeasuredRun& measured = one.measured;
   for (std::size_t w = 0; w < measured.first.size(); ++w)
     out.measured.emplace_back(measured.values.middleRows(measured.first[w], measured.rows(w)));
-  out.records.push_back({.source = {record.file.value}, .time = measured.time, .windows = measured.first.size()});
+  for (std::size_t w = 0; w < measured.first.size() && !measured.whitening.empty(); ++w) {
+    const auto from = measured.whitening.begin() + measured.first[w];
+    out.whitening.emplace_back(from, from + measured.rows(w));
+  }
+  out.records.push_back({.source = {record.file.value},
+                         .time = measured.time,
+                         .windows = measured.first.size(),
+                         .name = record.name == record.file.value.stem() ? std::string() : record.name});
   for (const auto& q : record.parameters) {
     ::fit::SimulationParameter number = q.number;
     number.name += " of " + record.name;
@@ -267,7 +276,7 @@ Panels panels_of_records(const ::fit::motion::Problem& problem, const std::vecto
     for (std::size_t c = 0; c < problem.signals.size(); ++c) {
       const auto& signal = problem.signals[c];
       const auto all_of = [&](const auto& windows) { return joined(windows, first, record.windows, c); };
-      const std::string legend = problem.records.size() > 1 ? record.source.name() : "measured";
+      const std::string legend = problem.records.size() > 1 ? record.title() : "measured";
       Panels both = panels_of(FittedRecord{.legend = legend,
                                            .axis = {signal.name, signal.unit},
                                            .confidence = problem.options.confidence,
@@ -314,8 +323,8 @@ class MotionFits final : public FitKindOf<MotionModel, ::fit::motion::Problem> {
 
  private:
   void finish(const FitTables& t, const FitScene& scene, MotionModel& motion) const override {
-    check_track(t, scene, motion);
     read_records(t, scene, motion);
+    check_track(t, scene, motion);
     if (motion.signals.empty())
       throw t.data().refused(
           "needs what was measured",
@@ -341,7 +350,7 @@ class MotionFits final : public FitKindOf<MotionModel, ::fit::motion::Problem> {
     for (std::size_t r = 0; r < model.records.size(); ++r) add_record(model.records[r], *followed->all[r], out);
     const std::vector<std::string> units = followed->all[0]->runs.units();
     if (model.camera) {
-      add_film(model, followed->all[0]->measured, units, out);
+      add_signals_of_films(model, followed->all[0]->measured.deviations, units, out);
       return out;
     }
     for (const auto& record : model.records) {

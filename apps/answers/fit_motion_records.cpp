@@ -140,11 +140,14 @@ const Binding<MotionModel::Record>& motion_record() {
           .key(text("file", "CSV, relative to the scene; need not be evenly sampled"), &R::file)
           .optional(text("name", "of the record in the report; left out: that of its file"), &R::name)
           .optional(quantity("start", dim::time,
-                             "time in the file at which the run begins; rows before are not fitted; left out: 0"),
+                             "time in the file at which the run begins; rows before are not fitted; left out: 0, of a "
+                             "track [camera] from, or its first frame"),
                     &R::start)
           .optional(quantity("end", dim::time, "time in the file after which no row is fitted"), &R::end)
           .optional(text("scene", "that is run for this record, relative to the fit; left out: that of [model]"),
                     &R::scene)
+          .table("camera", camera_binding(), &R::camera)
+          .optional()
           .key(inner_tables("set", record_set()).optional())
           .key(inner_tables("parameter", record_parameter()).optional())
           .place(&R::place)
@@ -154,7 +157,7 @@ const Binding<MotionModel::Record>& motion_record() {
               throw record.wrong("file", "is no file", fmt::format("looked for {}", out.file.value.string()));
             if (out.scene && !fs::is_regular_file(out.scene->value, unknown))
               throw record.wrong("scene", "is no file", fmt::format("looked for {}", out.scene->value.string()));
-            if (out.end && *out.end <= out.start)
+            if (out.end && out.start && *out.end <= *out.start)
               throw record.wrong("end", "must be later than the start", "give it in the file's own time");
             if (out.name.empty()) out.name = out.file.value.stem().string();
           });

@@ -76,7 +76,9 @@ MeasuredRun MeasuredRun::of_uneven(std::vector<double> time, Eigen::MatrixXd val
     if (!out.first.empty() && row - out.first.back() < 8)
       throw InputError(fmt::format("the window from {:.6g} s on has {} samples, 8 are needed",
                                    out.time[static_cast<std::size_t>(out.first.back())], row - out.first.back()),
-                       {}, "take longer windows, or the part of the record before or after the gap");
+                       {},
+                       "take longer windows, or the parts before and after the gap as two [[data.record]]s of one "
+                       "file, each with its start and end");
     out.first.push_back(row);
     out.begin.push_back(k);
   }
@@ -144,12 +146,14 @@ void require_increasing(const hydro::io::CsvTable& table, const std::string& col
 MeasuredRun MeasuredRun::read(const scene::FitScene& fit, const scene::MotionModel& model,
                               const scene::MotionModel::Record& record) {
   if (model.camera) {
-    const ::fit::camera::Track track = track_in_plane(fit, model).places;
-    auto channels = ::fit::camera::channels_of(track, channels_asked(model));
-    MeasuredRun out = of_uneven(track.time, std::move(channels.values), model.window);
-    out.whitening = std::move(channels.whitening);
-    out.deviations = std::move(channels.deviations);
-    return out;
+    const ::fit::camera::Track track = track_in_plane(fit, model, record).places;
+    return scene::placed({.file = record.file.value.string()}, [&] {
+      auto channels = ::fit::camera::channels_of(track, channels_asked(model, model.camera_of(record)));
+      MeasuredRun out = of_uneven(track.time, std::move(channels.values), model.window);
+      out.whitening = std::move(channels.whitening);
+      out.deviations = std::move(channels.deviations);
+      return out;
+    });
   }
   const scene::Measurements measured(fit, record.file.value);
   const hydro::io::CsvTable& table = measured.table;
@@ -157,12 +161,12 @@ MeasuredRun MeasuredRun::read(const scene::FitScene& fit, const scene::MotionMod
   require_increasing(table, clock);
   const auto& all = table.column(clock, dim::time);
   // A time that was rounded may come a little before the start that a scene writes.
-  const double rounding = 1e-9 * std::max(1.0, std::abs(record.start));
-  const auto from = std::lower_bound(all.begin(), all.end(), record.start - rounding),
+  const double start = record.start.value_or(0), rounding = 1e-9 * std::max(1.0, std::abs(start));
+  const auto from = std::lower_bound(all.begin(), all.end(), start - rounding),
              to = record.end ? std::upper_bound(from, all.end(), *record.end + rounding) : all.end();
   const auto skipped = from - all.begin();
   std::vector<double> time(from, to);
-  for (double& t : time) t -= record.start;
+  for (double& t : time) t -= start;
   Eigen::MatrixXd values(std::ssize(time), std::ssize(model.signals));
   for (std::size_t c = 0; c < model.signals.size(); ++c) {
     const std::vector<double> column = measured.column(model.signals[c].column);
@@ -173,6 +177,23 @@ MeasuredRun MeasuredRun::read(const scene::FitScene& fit, const scene::MotionMod
     return time.size() >= 8 && on_the_runs_samples(time) ? of(std::move(time), std::move(values), model.window)
                                                          : of_uneven(std::move(time), std::move(values), model.window);
   });
+}
+
+void share_deviations(const std::vector<MeasuredRun*>& films) {  // (V12)
+  Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(std::ssize(films.front()->deviations));
+  double frames = 0;
+  for (const MeasuredRun* film : films) {
+    const auto own = static_cast<double>(film->values.rows());
+    squares += own * Eigen::Map<const Eigen::ArrayXd>(film->deviations.data(), squares.size()).square();
+    frames += own;
+  }
+  const Eigen::ArrayXd shared = (squares / frames).sqrt();
+  for (MeasuredRun* film : films) {
+    Eigen::Map<Eigen::ArrayXd> own(film->deviations.data(), shared.size());
+    const Eigen::VectorXd larger = shared / own;
+    for (Eigen::MatrixXd& whitening : film->whitening) whitening = whitening * larger.asDiagonal();
+    own = shared;
+  }
 }
 
 const scene::MotionModel::Record& SceneRuns::as_the_model_says() {

@@ -52,6 +52,10 @@ struct MeasuredRun {
                           const scene::MotionModel::Record& record);
 };
 
+/// Gives films of one fit the same deviations, rms over the frames of all, and whitening that goes with them: weights
+/// stay what they are.
+void share_deviations(const std::vector<MeasuredRun*>& films);
+
 /// The runs. \throws hydro::InputError, in all it does, for scenes that cannot be run, or not in windows
 class SceneRuns final : public ::fit::Simulation {
  public:

@@ -175,6 +175,7 @@ void cost(const CostArguments& arguments, const Console& console);
 
 struct KinematicsArguments {
   Path scene;                             ///< of a fit of kind "motion" with [camera]
+  std::optional<std::string> film = {};   ///< which of its records, by name; none: the one that there is
   std::string bandwidth;                  ///< "5 Hz"; empty in space
   std::vector<std::string> lengths = {};  ///< "pivot joint 0.5 m 0.5 mm": markers, their distance, its deviation
   std::optional<Path> record = {};        ///< .csv, of another clock

@@ -193,14 +193,14 @@ std::string start_of_line(const KinematicsArguments& a, const scene::CameraTable
 }
 
 /// What the film tells of clocks and of the model's release, in the track's own times, with what to write in [camera].
-void say_instants(const KinematicsArguments& a, const scene::MotionModel& model, const TrackInPlane& track,
+void say_instants(const KinematicsArguments& a, const FilmAsked& film, const TrackInPlane& track,
                   const std::vector<fc::Channel>& channels, Report& report) {
   if (a.record) {
-    const ::fit::Offset o = offset_of(a, model, track.places, channels);
+    const ::fit::Offset o = offset_of(a, film.model, track.places, channels);
     report.say(
         "{}: [camera] offset = \"{:.6g} s\", standard deviation {:.2g} s, within {:.2g} s with 95 %; "
         "correlation {:.5g}, elsewhere {:.3g} at most",
-        a.record->filename().string(), fact("offset_s", model.camera->offset + o.lag - track.begin),
+        a.record->filename().string(), fact("offset_s", film.camera.offset + o.lag - track.begin),
         fact("offset_deviation_s", o.deviation), fact("offset_half_width_s", o.half_width),
         fact("correlation", o.correlation), fact("correlation_elsewhere", o.runner_up));
   }
@@ -222,25 +222,25 @@ void kinematics(const KinematicsArguments& a, const Console& console) {
     throw InputError("places are smoothed by a bandwidth, and none is given", {.file = "--bandwidth"},
                      "write --bandwidth \"4 Hz\": motion that is slower keeps 99 % and more");
   const scene::FitScene scene = scene::read_fit(a.scene);
-  const scene::MotionModel* model = &model_of_track(scene);
+  const FilmAsked film = film_asked(scene, a.film);
   fc::SmoothOptions options{
       .bandwidth_hz =
           scene::placed({.file = "--bandwidth"}, [&] { return hydro::parse_si(a.bandwidth, dim::angular_velocity); }) /
           (2 * std::numbers::pi)};
   for (const std::string& length : a.lengths) options.lengths.push_back(known_length(length));
-  const TrackInPlane in_plane = track_in_plane(scene, *model);
+  const TrackInPlane in_plane = track_in_plane(scene, film.model, film.record);
   const fc::SmoothTrack track =
-      scene::placed({.file = scene.files[0].value.string()}, [&] { return fc::smooth(in_plane.places, options); });
+      scene::placed({.file = film.record.file.value.string()}, [&] { return fc::smooth(in_plane.places, options); });
   std::vector<SmoothedColumn> columns;
   const auto take = [&](std::vector<SmoothedColumn> more) {
     std::move(more.begin(), more.end(), std::back_inserter(columns));
   };
-  for (std::size_t m = 0; m < track.markers.size(); ++m) take(marker_columns(track, m, model->camera->axis.back()));
-  const auto channels = channels_asked(*model);
-  const FilmedBodies bodies(*model, track);
+  for (std::size_t m = 0; m < track.markers.size(); ++m) take(marker_columns(track, m, film.camera.axis.back()));
+  const auto channels = channels_asked(film.model, film.camera);
+  const FilmedBodies bodies(film.scene_of_motion(), film.camera, track);
   for (std::size_t c = 0; c < channels.size(); ++c)
-    if (channels[c].kind == fc::Channel::Kind::angle && !bodies.tells(model->signals[c].of))
-      take(angle_columns(track, channels[c], model->signals[c].of));
+    if (channels[c].kind == fc::Channel::Kind::angle && !bodies.tells(film.model.signals[c].of))
+      take(angle_columns(track, channels[c], film.model.signals[c].of));
   take(bodies.columns());
   std::vector<hydro::io::CsvColumn> written{{"t", "s", &track.time}};
   for (const SmoothedColumn& c : columns) {
@@ -262,7 +262,7 @@ void kinematics(const KinematicsArguments& a, const Console& console) {
                  fact("start_deviation_m_s", start.deviation[2]), fact("start_deviation_rad_s", start.deviation[3]),
                  start.opened.empty() ? "" : fmt::format("; as measured, {} at most", start.opened));
     } else {
-      hydro::io::write_atomically(*a.start, start_of_line(a, *model->camera, track, at));
+      hydro::io::write_atomically(*a.start, start_of_line(a, film.camera, track, at));
     }
   }
   report.say("{} frames of {} markers, gain 0.99 at {:g} Hz and half at {:.4g} Hz; {} known lengths{}",
@@ -274,7 +274,7 @@ void kinematics(const KinematicsArguments& a, const Console& console) {
     report.row("column", "  {} [{}]: mean standard deviation {:.3g}", fact("name", c.name), fact("unit", c.unit),
                fact("mean_deviation", mean_of(c.deviation)));
   bodies.say(report);
-  say_instants(a, *model, in_plane, channels, report);
+  say_instants(a, film, in_plane, channels, report);
   report.wrote(a.output).wrote(a.picture).wrote(a.start);
   tell(report, console);
 }

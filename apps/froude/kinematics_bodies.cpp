@@ -69,9 +69,10 @@ std::vector<fc::MarkerInSpace> markers_on(const scene::Scene& scene, int body,
   return out;
 }
 
-FilmedBodies::FilmedBodies(const scene::MotionModel& model, const fc::SmoothTrack& track)
-    : file_(model.scene.value), scene_(scene::read(file_)) {
-  const int along = model.camera->along();
+FilmedBodies::FilmedBodies(const std::filesystem::path& scene_of_motion, const scene::CameraTable& camera,
+                           const fc::SmoothTrack& track)
+    : file_(scene_of_motion), scene_(scene::read(file_)) {
+  const int along = camera.along();
   modes_ =
       along == 0 ? std::array{Mode::surge, Mode::heave, Mode::pitch} : std::array{Mode::sway, Mode::heave, Mode::roll};
   for (int b = 0; b < static_cast<int>(scene_.bodies.size()); ++b) {

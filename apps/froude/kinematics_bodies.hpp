@@ -41,7 +41,8 @@ struct FilmedStart {
 class FilmedBodies {
  public:
   /// \throws hydro::InputError for a scene of motion that is wrong, markers that all sit at one place of a body
-  FilmedBodies(const scene::MotionModel& model, const ::fit::camera::SmoothTrack& track);
+  FilmedBodies(const std::filesystem::path& scene_of_motion, const scene::CameraTable& camera,
+               const ::fit::camera::SmoothTrack& track);
 
   /// True for the name of one of the motions, "upper.pitch".
   bool tells(std::string_view signal) const;

@@ -42,10 +42,9 @@ struct OneCamera {
   FilmedTrack filmed;
   fc::Eye eye;
 };
-OneCamera camera_of(const scene::FitScene& scene) {
-  const scene::MotionModel& model = model_of_track(scene);
-  const scene::CameraTable& camera = *model.camera;
-  FilmedTrack filmed = filmed_track(scene, model);
+OneCamera camera_of(const scene::FitScene& scene, const FilmAsked& film) {
+  const scene::CameraTable& camera = film.camera;
+  FilmedTrack filmed = filmed_track(scene, film.model, film.record);
   const fc::Eye eye = scene::placed(
       camera.place, [&] { return fc::eye_of(filmed.view, camera.along(), camera.pivot_at[1 - camera.along()]); });
   return {std::move(filmed), eye};
@@ -98,8 +97,9 @@ std::vector<FilmedInSpace> bodies_in_space(const scene::Scene& scene, const OneC
 
 void six_motions(const KinematicsArguments& a, Report& report) {
   const scene::FitScene fit = scene::read_fit(a.scene);
-  const OneCamera camera = camera_of(fit);
-  const scene::Scene scene = scene::read(model_of_track(fit).scene.value);
+  const FilmAsked film = film_asked(fit, a.film);
+  const OneCamera camera = camera_of(fit, film);
+  const scene::Scene scene = scene::read(film.scene_of_motion());
   const auto bodies = bodies_in_space(scene, camera);
   std::vector<std::string> columns;
   for (const auto& b : bodies)
@@ -138,7 +138,8 @@ void places_by_two(const KinematicsArguments& a, Report& report) {
     for (double& t : out.track.time) t += later;
     return out;
   };
-  const OneCamera first = camera_of(first_fit), second = camera_of(second_fit);
+  const OneCamera first = camera_of(first_fit, film_asked(first_fit, a.film)),
+                  second = camera_of(second_fit, film_asked(second_fit, {}));
   const fc::SpaceTrack points = scene::placed({.file = "--second"}, [&] {
     return fc::joined(seen_by(first, 0), seen_by(second, second.filmed.begin - first.filmed.begin));
   });
@@ -181,12 +182,19 @@ void places_by_two(const KinematicsArguments& a, Report& report) {
 
 }  // namespace
 
-const scene::MotionModel& model_of_track(const scene::FitScene& scene) {
+FilmAsked film_asked(const scene::FitScene& scene, const std::optional<std::string>& name) {
   const auto* model = std::any_cast<scene::MotionModel>(&scene.settings);
   if (model == nullptr || !model->camera)
     throw InputError("the scene has no track: it is no fit of kind \"motion\" with [camera]", scene.model_place,
                      "name a scene whose files are tracks");
-  return *model;
+  std::vector<std::string> names;
+  for (const auto& record : model->records) {
+    if (record.name == name || (!name && model->records.size() == 1)) return {*model, record, model->camera_of(record)};
+    names.push_back(record.name);
+  }
+  throw InputError(name ? fmt::format("the scene has no film \"{}\"", *name)
+                        : fmt::format("the scene has {} films, of which one is looked at", names.size()),
+                   {.file = "--film"}, fmt::format("its films are {}", fmt::join(names, ", ")));
 }
 
 void kinematics_in_space(const KinematicsArguments& a, const Console& console) {

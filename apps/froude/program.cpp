@@ -498,6 +498,9 @@ void add_kinematics(CLI::App& app, Request& request) {
       "motion.svg");
   auto arguments = std::make_shared<KinematicsArguments>();
   command->add_option("scene", arguments->scene, "fit scene (.toml) of kind \"motion\" with [camera]")->required();
+  command->add_option("--film", arguments->film,
+                      "which track of a scene with several: the name of its [[data.record]], or of its file without "
+                      "the ending");
   command->add_option("--bandwidth", arguments->bandwidth,
                       "what moves slower keeps 99 % and more: \"4 Hz\"; needed but for --space and --second");
   command->add_option(

@@ -100,8 +100,11 @@ void check_name(const Site& at) {
 void read_quantity(const Site& at, Value& value) {
   const auto& words = at.key.words;
   if (at.node.is(Node::Type::integer) || at.node.is(Node::Type::number))
-    at.refuse(fmt::format("has no unit; {} is needed", at.key.dimension.name()),
-              fmt::format("write it with its unit, like \"{} {}\"", at.node.raw, si_unit(at.key.dimension)));
+    at.refuse(
+        fmt::format("has no unit; {} is needed", at.key.dimension.name()),
+        fmt::format("write it with its unit, like {}\"{} {}\"",
+                    at.key.dimension == hydro::dim::angular_velocity ? fmt::format("\"{} Hz\" or ", at.node.raw) : "",
+                    at.node.raw, si_unit(at.key.dimension)));
   if (!at.node.is(Node::Type::text)) refuse_type(at);
   if (std::find(words.begin(), words.end(), at.node.text) != words.end()) {
     value.text = at.node.text;

@@ -78,6 +78,27 @@ TEST(Film, RefusesAWindowWithoutFrames) {
               AllOf(HasSubstr("the window from 0.8 s on has 4 samples"), HasSubstr("longer windows")));
 }
 
+TEST(Film, BesideAnotherKeepsItsWeights) {
+  Eigen::Matrix2d first, second;
+  first << 1, 0, -0.5, 1.2;
+  second << 1, 0, 0.3, 1.1;
+  const auto film = [](const Eigen::Matrix2d& whitening, double angle, double place, int frames) {
+    std::vector<double> time = even(frames);
+    auto out = MeasuredRun::of_uneven(time, Eigen::MatrixXd::Zero(frames, 2), 0);
+    out.deviations = {angle, place};
+    out.whitening.assign(time.size(), whitening);
+    return out;
+  };
+  MeasuredRun a = film(first, 0.001, 0.02, 30), b = film(second, 0.003, 0.01, 60);
+  froude::share_deviations({&a, &b});
+  EXPECT_EQ(a.deviations, b.deviations);
+  EXPECT_NEAR(a.deviations[0], std::sqrt((30 * 1e-6 + 60 * 9e-6) / 90), 1e-15);
+  // The same error is as many independent ones as before.
+  const Eigen::Vector2d error(0.002, -0.015), shared(a.deviations[0], a.deviations[1]);
+  EXPECT_LT((a.whitening[7] * error.cwiseQuotient(shared) - first * Eigen::Vector2d(2, -0.75)).norm(), 1e-14);
+  EXPECT_LT((b.whitening[7] * error.cwiseQuotient(shared) - second * Eigen::Vector2d(2.0 / 3, -1.5)).norm(), 1e-14);
+}
+
 /// The example of a foreign track with one text in place of another, and what reading it says.
 std::string told(const std::string& old, const std::string& now) {
   const auto folder = froude_test::source_dir() / "examples/fit";
@@ -88,7 +109,8 @@ std::string told(const std::string& old, const std::string& now) {
   return refused([&] {
     const auto fit = scene::parse_fit(text, folder / "film_track.toml");
     const auto& model = fit.model<scene::MotionModel>();
-    ::fit::camera::channels_of(froude::track_in_plane(fit, model).places, froude::channels_asked(model));
+    const auto places = froude::track_in_plane(fit, model, model.records.at(0)).places;
+    ::fit::camera::channels_of(places, froude::channels_asked(model, *model.camera));
   });
 }
 

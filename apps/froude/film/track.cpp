@@ -199,6 +199,7 @@ struct Seen {
   std::vector<std::vector<std::optional<fc::Sighting>>> named;  ///< of tags, one a frame
   std::vector<std::size_t> number;                              ///< of each in the film
   std::vector<std::size_t> empty;                               ///< frames of the film in which nothing was found
+  std::size_t read = 0;                                         ///< frames of the film, taken or not
   std::size_t repeated = 0;  ///< frames that are the one before once more, which cameras write for lost ones
   fc::Detection left_out;    ///< sums over the frames; no discs
   fc::Picture first;
@@ -214,10 +215,12 @@ class Watching {
         colour_(colour_asked(a)),
         from_(time_of("--from", a.from, 0)),
         to_(time_of("--to", a.to, std::numeric_limits<double>::infinity())) {
-    if (a.frame_rate)
-      rate_ = scene::placed({.file = "--frame-rate"},
-                            [&] { return hydro::parse_si(*a.frame_rate, dim::angular_velocity); }) /
-              (2 * std::numbers::pi);
+    if (!a.frame_rate) return;
+    rate_ =
+        scene::placed({.file = "--frame-rate"}, [&] { return hydro::parse_si(*a.frame_rate, dim::angular_velocity); }) /
+        (2 * std::numbers::pi);
+    if (!(rate_ > 0))
+      throw wrong("--frame-rate", fmt::format("\"{}\" must be positive", *a.frame_rate), "write it like \"25 Hz\"");
   }
 
   Seen all(Progress& progress) {
@@ -230,6 +233,7 @@ class Watching {
       progress.update(std::min(1.0, static_cast<double>(read_) / frames));
     }
     settle_times();
+    out_.read = read_;
     return std::move(out_);
   }
 
@@ -354,9 +358,14 @@ void add_markers(const fc::Assigned& assigned, Report& report) {
   }
 }
 
-std::vector<std::string> cautions_of(const Seen& seen, const fc::Assigned& assigned) {
+std::vector<std::string> cautions_of(const TrackArguments& a, std::size_t stated, const Seen& seen,
+                                     const fc::Assigned& assigned) {
   std::vector<std::string> out;
   const std::size_t frames = assigned.track.frames();
+  // Files that only tell how long they last state a frame or two more than there are.
+  if (!a.to && static_cast<double>(stated) > 1.02 * static_cast<double>(seen.read) + 2)
+    out.push_back(fmt::format("the file states {} frames, and {} can be decoded: was it cut off? The track ends there",
+                              stated, seen.read));
   if (!seen.empty.empty())
     out.push_back(
         fmt::format("no marker in {} of {} frames, the first of them frame {}: is the light there even, are radii "
@@ -364,9 +373,10 @@ std::vector<std::string> cautions_of(const Seen& seen, const fc::Assigned& assig
                     seen.empty.size(), frames, seen.empty.front()));
   for (std::size_t k = 0; k < assigned.missing.size(); ++k)
     if (2 * assigned.missing[k] > frames)
-      out.push_back(
-          fmt::format("{} is missing in {} of {} frames: was it lost at a crossing? Known lengths (--length) help",
-                      assigned.track.markers[k].name, assigned.missing[k], frames));
+      out.push_back(fmt::format("{} is missing in {} of {} frames: was it lost at a crossing? {}",
+                                assigned.track.markers[k].name, assigned.missing[k], frames,
+                                a.lengths.empty() ? "Known lengths (--length) help"
+                                                  : "Or is a known length (--length) not that of the picture?"));
   if (seen.repeated > 0)
     out.push_back(fmt::format("{} frames repeat the one before, pixel by pixel: they are lost frames, and left out",
                               seen.repeated));
@@ -453,8 +463,9 @@ void say_what_was_found(const TrackArguments& a, const Seen& seen, const fc::Ass
       fact("drawn_out", seen.left_out.drawn_out), fact("at_edge", seen.left_out.at_edge));
 }
 
-Report told(const TrackArguments& a, const Eigen::Vector2i& size, const Seen& seen, const fc::Assigned& assigned) {
+Report told(const TrackArguments& a, const film::FilmReader& reader, const Seen& seen, const fc::Assigned& assigned) {
   Report report;
+  const Eigen::Vector2i size = reader.size();
   report.keep("film", a.film.filename().string());
   report.say("{}: {} x {} px, {} frames from {:.6g} s to {:.6g} s", a.film.filename().string(), fact("width", size.x()),
              fact("height", size.y()), fact("frames", seen.frames.size()), fact("from_s", seen.frames.front().time),
@@ -464,7 +475,7 @@ Report told(const TrackArguments& a, const Eigen::Vector2i& size, const Seen& se
     report.say("predictions allow for accelerations of {:.3g} px/s^2",
                fact("acceleration_px_s2", assigned.acceleration));
   add_markers(assigned, report);
-  report.sentences("cautions", "note: {}", cautions_of(seen, assigned));
+  report.sentences("cautions", "note: {}", cautions_of(a, reader.frames(), seen, assigned));
   return report;
 }
 
@@ -478,6 +489,9 @@ void track(const TrackArguments& a, const Console& console) {
   Progress progress(console.err, "track", console.show_progress);
   const Seen seen = Watching(a, reader).all(progress);
   const hydro::Place place{.file = a.film.string()};
+  if (seen.read < 2)
+    throw InputError(fmt::format("{} of its frames can be decoded, two are needed", seen.read), place,
+                     "is the file a film, and whole? " + film::how_to_convert(a.film));
   if (seen.frames.size() == 1 && seen.repeated > 0)
     throw InputError("all frames show the same picture: nothing moves in this film", place,
                      "take the film, or the part of it (--from, --to), in which the model moves");
@@ -501,7 +515,7 @@ void track(const TrackArguments& a, const Console& console) {
                    a.film.filename().string(), FROUDE_VERSION)});
   if (a.picture) draw(*a.picture, seen, assigned.track);
   if (a.annotated) annotate(a, seen, assigned.track, progress);
-  Report report = told(a, reader.size(), seen, assigned);
+  Report report = told(a, reader, seen, assigned);
   report.wrote(a.output).wrote(a.annotated).wrote(a.picture);
   tell(report, console);
 }

@@ -53,6 +53,10 @@ std::string ending(const Path& file) {
 
 }  // namespace
 
+std::string how_to_convert(const Path& file) {
+  return "convert it, for example: ffmpeg -i " + file.filename().string() + " -c:v ffv1 film.avi";
+}
+
 struct FilmReader::Video {
   cv::VideoCapture capture;
   cv::Mat frame, grey;
@@ -65,8 +69,7 @@ FilmReader::FilmReader(const Path& file) : video_(std::make_unique<Video>()) {
   if (!std::filesystem::is_regular_file(file, unknown))
     throw InputError("there is no such film", {.file = file.string()}, "name a film: .mp4, .mov, .avi, .mkv");
   if (!video_->capture.open(file.string(), cv::CAP_FFMPEG) || size().x() <= 0 || size().y() <= 0)
-    throw InputError("this is no film that OpenCV can decode", {.file = file.string()},
-                     "convert it, for example: ffmpeg -i " + file.filename().string() + " -c:v ffv1 film.avi");
+    throw InputError("this is no film that OpenCV can decode", {.file = file.string()}, how_to_convert(file));
 }
 
 FilmReader::~FilmReader() = default;
@@ -156,6 +159,10 @@ void Annotation::write(const Path& file) const {
 }
 
 Picture read_picture(const Path& file) {
+  be_quiet();
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(file, unknown))
+    throw InputError("there is no such picture", {.file = file.string()}, "name a .png, .jpg or .tif");
   const cv::Mat grey = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
   if (grey.empty())
     throw InputError("this is no picture that OpenCV can read", {.file = file.string()}, "name a .png, .jpg or .tif");

@@ -18,6 +18,9 @@ namespace froude::film {
 using Path = std::filesystem::path;
 using Colour = std::array<std::uint8_t, 3>;  ///< red, green, blue
 
+/// What to do with a film that cannot be decoded.
+std::string how_to_convert(const Path& file);
+
 /// The frames of a film, one after the other.
 class FilmReader {
  public:

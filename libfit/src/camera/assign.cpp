@@ -162,16 +162,30 @@ class Assignment {
     }
     for (std::size_t k = 0; k < count(); ++k) {
       const Eigen::Vector2d& at = options_.first[k];
-      const auto nearest = std::min_element(found.begin(), found.end(), [&](const Sighting& a, const Sighting& b) {
-        return (a.at - at).squaredNorm() < (b.at - at).squaredNorm();
-      });
+      const auto distance = [&](const Sighting& s) { return (s.at - at).norm(); };
+      const auto nearer = [&](const Sighting& a, const Sighting& b) { return distance(a) < distance(b); };
+      const auto nearest = std::min_element(found.begin(), found.end(), nearer);
       const auto index = static_cast<std::size_t>(nearest - found.begin());
+      check_nearest(k, *nearest, distance);
       hydro::require(std::find(out.begin(), out.end(), index) == out.end(),
                      "two markers, \"{}\" one of them, are nearest to one place of the first frame, ({:.5g}, {:.5g})",
                      options_.names[k], nearest->at.x(), nearest->at.y());
       out.push_back(index);
     }
     return out;
+  }
+
+  /// A first place that is not twice as far from all other bright places as from the nearest means none of them.
+  template <class Distance>
+  void check_nearest(std::size_t k, const Sighting& nearest, Distance distance) const {
+    for (const Sighting& other : frames_[0].found)
+      if (&other != &nearest && distance(other) < 2 * distance(nearest))
+        throw hydro::InputError(
+            fmt::format("the first place of \"{}\", ({:.5g}, {:.5g}), is {:.3g} px from the bright place at ({:.5g}, "
+                        "{:.5g}) and {:.3g} px from another at ({:.5g}, {:.5g})",
+                        options_.names[k], options_.first[k].x(), options_.first[k].y(), distance(nearest),
+                        nearest.at.x(), nearest.at.y(), distance(other), other.at.x(), other.at.y()),
+            {}, "read the marker's pixel from the first frame: froude track --picture shows it");
   }
 
   double least_distance() const {

@@ -39,7 +39,7 @@ class Drawing {
       const Eigen::Vector2d pixel = pixel_of(filming_.view, place);
       const Eigen::Matrix2d slope = point_slope(filming_.view, pixel);
       const double scale = std::sqrt(std::abs(slope.determinant()));
-      spots.push_back({place, scale});
+      spots.push_back({place, scale, slope});
       // Where the disc ends along x and y: rows of the inverse slope.
       const Eigen::Matrix2d inverse = slope.inverse();
       const Eigen::Vector2d reach =
@@ -109,10 +109,11 @@ class Drawing {
   struct Spot {
     Eigen::Vector2d place;
     double scale;  // m/px
+    Eigen::Matrix2d slope;
   };
 
-  /// Of one pixel: its middle is mapped to the plane of motion as the lens has it, samples around it by the slope
-  /// there.
+  /// Of one pixel: its middle is mapped to the plane of motion as the lens has it, samples around it by the slope at
+  /// the disc, since what that differs by across a disc only softens its edge a little otherwise.
   float share(const std::vector<Spot>& spots, int x, int y, double radius) const {
     const Eigen::Vector2d middle(x, y), point = point_of(filming_.view, middle);
     bool near = false, within = true;
@@ -123,13 +124,13 @@ class Drawing {
     }
     if (!near) return 0;
     if (within) return 1;
-    const Eigen::Matrix2d slope = point_slope(filming_.view, middle);
     float sum = 0;
     const int across = samples_across(filming_.blur_px);
     for (int i = 0; i < across; ++i)
       for (int j = 0; j < across; ++j) {
-        const Eigen::Vector2d off((i + 0.5) / across - 0.5, (j + 0.5) / across - 0.5), at = point + slope * off;
-        for (const Spot& s : spots) sum += share_of((radius - (at - s.place).norm()) / s.scale, filming_.blur_px);
+        const Eigen::Vector2d off((i + 0.5) / across - 0.5, (j + 0.5) / across - 0.5);
+        for (const Spot& s : spots)
+          sum += share_of((radius - (point + s.slope * off - s.place).norm()) / s.scale, filming_.blur_px);
       }
     return sum / static_cast<float>(across * across * static_cast<int>(spots.size()));
   }
@@ -229,6 +230,28 @@ double square_wave(double at, double width) {
   return std::fmod(edge, 2) == 0 ? side : -side;
 }
 
+/// Which pixels a board may cover: those around its outline, which the lens bends between its corners.
+struct Box {
+  Eigen::Array2i from, to;  // both counted
+};
+Box box_of(const Board& board, const View& view, const Eigen::Vector2i& size) {
+  constexpr int pieces = 16;
+  constexpr double margin = 4;  // px: of the bend between two points, and of the blur
+  const Eigen::Array2d low(-1, -1), side(board.columns + 1, board.rows + 1);
+  Eigen::Array2d least = Eigen::Array2d::Constant(1e9), most = -least;
+  for (int i = 0; i < pieces; ++i)
+    for (const Eigen::Array2d& at : {Eigen::Array2d(i, 0), Eigen::Array2d(pieces, i),
+                                     Eigen::Array2d(pieces - i, pieces), Eigen::Array2d(0, pieces - i)}) {
+      const Eigen::Array2d corner = board.square * (low + side * at / pieces);
+      const Eigen::Array2d pixel = pixel_of(view, Eigen::Vector2d(corner.x(), -corner.y()));
+      least = least.min(pixel);
+      most = most.max(pixel);
+    }
+  const Eigen::Array2i last = size.array() - 1;
+  return {(least - margin).max(0).min(last.cast<double>()).cast<int>(),
+          (most + margin).max(0).min(last.cast<double>()).cast<int>()};
+}
+
 }  // namespace
 
 Light light_of_board(const Filming& filming, const Board& board, const PlanePose& pose) {
@@ -237,13 +260,22 @@ Light light_of_board(const Filming& filming, const Board& board, const PlanePose
   View view{.lens = filming.view.lens, .pose = pose};
   // Axes of the board: y down, counted from its first inner corner, which the pivot is to be.
   view.pivot = pixel_of(*view.lens, Eigen::Vector2d(pose.translation.head<2>() / pose.translation.z()));
-  Light out(filming.size.y(), filming.size.x());
+  Light out = Light::Constant(filming.size.y(), filming.size.x(), static_cast<float>(wall));
   constexpr int across = 4;
-  for (int y = 0; y < out.rows(); ++y)
-    for (int x = 0; x < out.cols(); ++x) {
-      const Eigen::Vector2d pixel(x, y), middle = point_of(view, pixel) / board.square;
-      const Eigen::Vector2d right = point_of(view, pixel + Eigen::Vector2d(0.5, 0)) / board.square - middle,
-                            down = point_of(view, pixel + Eigen::Vector2d(0, 0.5)) / board.square - middle;
+  const Box box = box_of(board, view, filming.size);
+  const auto squares = [&](int x, int y) -> Eigen::Vector2d { return point_of(view, {x, y}) / board.square; };
+  std::vector<Eigen::Vector2d> row, below;
+  const auto fill = [&](int y, std::vector<Eigen::Vector2d>& points) {
+    points.clear();
+    for (int x = box.from.x(); x <= box.to.x() + 1; ++x) points.push_back(squares(x, y));
+  };
+  fill(box.from.y(), below);
+  for (int y = box.from.y(); y <= box.to.y(); ++y) {
+    std::swap(row, below);
+    fill(y + 1, below);
+    for (int x = box.from.x(); x <= box.to.x(); ++x) {
+      const auto k = static_cast<std::size_t>(x - box.from.x());
+      const Eigen::Vector2d middle = row[k], right = (row[k + 1] - middle) / 2, down = (below[k] - middle) / 2;
       // A ramp of width w has the variance w²/12, as blur of w/3.46.
       const Eigen::Vector2d sample = (2.0 / across + 2 * 3.46 * filming.blur_px) * (right.cwiseAbs() + down.cwiseAbs());
       double sum = 0;
@@ -257,6 +289,7 @@ Light light_of_board(const Filming& filming, const Board& board, const PlanePose
         }
       out(y, x) = static_cast<float>(sum / (across * across));
     }
+  }
   return out;
 }
 

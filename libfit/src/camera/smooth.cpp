@@ -29,6 +29,7 @@ class Smoother {
     hydro::require(options.bandwidth_hz > 0, "the bandwidth of a smoother must be positive, got {} Hz",
                    options.bandwidth_hz);
     hydro::require(track.frames() >= 3, "a track to be smoothed needs three frames, got {}", track.frames());
+    check_rate(options.bandwidth_hz);
     omega_ = 2 * std::numbers::pi * cutoff_of(options.bandwidth_hz);
     for (const Marker& m : track.markers) add(m);
     for (const KnownLength& l : options.lengths) add(l);
@@ -63,6 +64,15 @@ class Smoother {
  private:
   Eigen::Index size() const { return numbers_of_marker * std::ssize(track_.markers); }
 
+  /// (V5) Places tell no motion that is faster than half of the rate at which they were seen.
+  void check_rate(double bandwidth_hz) const {
+    const double rate = static_cast<double>(track_.frames() - 1) / (track_.time.back() - track_.time.front());
+    if (2 * bandwidth_hz > rate)
+      throw hydro::InputError(
+          fmt::format("{:.4g} frames a second tell no motion up to {:g} Hz", rate, bandwidth_hz), {},
+          fmt::format("take a bandwidth below half of that, and of what the motion needs: \"{:.2g} Hz\"", rate / 6));
+  }
+
   void add(const Marker& m) {
     double variance = 0;
     int seen = 0;
@@ -89,6 +99,28 @@ class Smoother {
       return numbers_of_marker * (&track_.marker(name) - track_.markers.data());
     };
     lengths_.push_back({number(l.from), number(l.to), l.length, l.deviation});
+    check_seen(l);
+  }
+
+  /// A known length that the sightings contradict is another, or the scale is.
+  void check_seen(const KnownLength& l) const {
+    const Marker &from = track_.marker(l.from), &to = track_.marker(l.to);
+    double sum = 0, variance = 0, frames = 0;
+    for (std::size_t i = 0; i < track_.frames(); ++i) {
+      if (!from.seen[i] || !to.seen[i]) continue;
+      sum += (to.seen[i]->at - from.seen[i]->at).norm();
+      variance += (from.seen[i]->covariance + to.seen[i]->covariance).trace() / 2;
+      ++frames;
+    }
+    if (frames == 0) return;
+    constexpr double chance = 5;  // deviations of what is stated and of one sighting: noise makes no mean of them
+    const double seen = sum / frames, error = std::sqrt(l.deviation * l.deviation + variance / frames);
+    if (std::abs(seen - l.length) < chance * error) return;
+    throw hydro::InputError(
+        fmt::format("\"{}\" and \"{}\" are {:.4g} apart in the track, and {:.4g} with a deviation of {:.2g} is said to "
+                    "be known",
+                    l.from, l.to, seen, l.length, l.deviation),
+        {}, "is it this length, or is the scale wrong? A length that is known less well has a larger deviation");
   }
 
   /// A start that says nothing: ten times the range of the motion, at the cutoff.

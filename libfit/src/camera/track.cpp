@@ -28,9 +28,11 @@ Track cut(const Track& track, double from, double to) {
     out.time.push_back(track.time[i] - from);
     for (std::size_t k = 0; k < track.markers.size(); ++k) out.markers[k].seen.push_back(track.markers[k].seen[i]);
   }
-  hydro::require(out.frames() >= 2,
-                 "the track runs from {:.6g} s to {:.6g} s; from {:.6g} s to {:.6g} s it has {} frames",
-                 track.time.front(), track.time.back(), from, to, out.frames());
+  if (out.frames() < 2)
+    throw InputError(fmt::format("the track runs from {:.6g} s to {:.6g} s; from {:.6g} s to {:.6g} s it has {} frames",
+                                 track.time.front(), track.time.back(), from, to, out.frames()),
+                     {},
+                     "take a part of it that is longer: from and to of [camera], start and end of a [[data.record]]");
   return out;
 }
 

@@ -291,7 +291,13 @@ std::vector<double> times_of(const RawTrack& raw, const TrackColumns& asked) {
   }
   const std::size_t c = raw.need(asked.time);
   const std::string& unit = raw.units[c].empty() ? asked.time_unit : raw.units[c];
-  const double factor = hydro::parse_si("1 " + unit, hydro::dim::time);
+  const double factor = [&] {
+    try {
+      return hydro::parse_si("1 " + unit, hydro::dim::time);
+    } catch (const InputError& e) {
+      throw InputError(fmt::format("column \"{}\": {}", raw.names[c], e.rule()), raw.header, "write s or ms");
+    }
+  }();
   for (std::size_t i = 0; i < raw.columns[c].size(); ++i) {
     const double t = factor * raw.columns[c][i];
     const Place place{raw.file, raw.line_of_row[i], 0, {}, 0};

@@ -172,8 +172,9 @@ void add_records(const Problem& problem, const std::vector<Eigen::MatrixXd>& mot
     Report one = told(problem, motion, first, record.windows);
     one.key = "record";
     one.one_of_many = true;
-    one.heading = record.source.name();
+    one.heading = record.title();
     one.facts.insert(one.facts.begin(), Fact("file", record.source.name()));
+    if (!record.name.empty()) one.facts.insert(one.facts.begin(), Fact("name", record.name));
     report.parts.push_back(std::move(one));
     first += record.windows;
   }
@@ -229,7 +230,7 @@ std::string heading_of(const Problem& problem) {
   Eigen::Index samples = 0;
   for (const Eigen::MatrixXd& window : problem.measured) samples += window.rows();
   std::vector<std::string> names;
-  for (const Record& record : problem.records) names.push_back(record.source.name());
+  for (const Record& record : problem.records) names.push_back(record.title());
   return fmt::format("{}: {} samples of {} signals in {} window{}", fmt::join(names, ", "), samples,
                      problem.signals.size(), problem.measured.size(), problem.measured.size() == 1 ? "" : "s");
 }

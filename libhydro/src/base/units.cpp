@@ -240,7 +240,8 @@ void check_dimension(std::string_view text, const Dimension& given, const Dimens
   const std::string found = given == dim::none && needed != dim::none ? fmt::format("\"{}\" has no unit", text)
                                                                       : fmt::format("\"{}\" is {}", text, given.name());
   throw InputError(fmt::format("{}; {} is needed", found, needed.name()), {},
-                   fmt::format("write it like \"{}\"", needed.example()));
+                   fmt::format("write it like \"{}\"{}", needed.example(),
+                               needed == dim::angular_velocity ? " or \"0.13 Hz\"" : ""));
 }
 }  // namespace
 

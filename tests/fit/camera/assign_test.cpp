@@ -163,6 +163,8 @@ TEST(Assignment, SaysWhatToDo) {
               AllOf(HasSubstr("first frame has 2 markers"), HasSubstr("3 are named"), HasSubstr("--radius")));
   EXPECT_THAT(told({.names = {"a"}}), AllOf(HasSubstr("2 bright places, 1 markers are named"), HasSubstr("--first")));
   EXPECT_THAT(told({.names = {"a", "b"}, .first = {{100, 200}, {101, 200}}}), HasSubstr("nearest to one place"));
+  EXPECT_THAT(told({.names = {"a", "b"}, .first = {{175, 195}, {10, 400}}}),
+              AllOf(HasSubstr("first place of \"b\", (10, 400)"), HasSubstr("--picture")));
   EXPECT_THAT(told({.names = {"a", "b"}, .lengths = {{"a", "x", 1, 1}}}), HasSubstr("there is no marker \"x\""));
   frames[7].time = frames[6].time;
   EXPECT_THAT(told({.names = {"a", "b"}}), AllOf(HasSubstr("frame 8"), HasSubstr("--frame-rate")));

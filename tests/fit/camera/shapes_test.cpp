@@ -22,15 +22,21 @@ template <class Shade>
 Picture picture_of(Shade shade, double noise, std::uint64_t seed) {
   const hydro::RandomStream random(seed, 61);
   constexpr int across = 8;
+  const auto level_of = [&](const Eigen::Vector2d& pixel) {
+    const auto at = [&](double right, double down) { return shade(pixel + Eigen::Vector2d(right, down)); };
+    const double middle = at(0, 0);
+    if (at(-0.5, -0.5) == middle && at(0.5, -0.5) == middle && at(0.5, 0.5) == middle && at(-0.5, 0.5) == middle)
+      return middle;  // no edge goes through it
+    double sum = 0;
+    for (int a = 0; a < across; ++a)
+      for (int b = 0; b < across; ++b) sum += at((a + 0.5) / across - 0.5, (b + 0.5) / across - 0.5);
+    return sum / (across * across);
+  };
   Picture out(120, 100);
   std::uint64_t i = 0;
   for (int y = 0; y < out.height; ++y)
     for (int x = 0; x < out.width; ++x) {
-      double sum = 0;
-      for (int a = 0; a < across; ++a)
-        for (int b = 0; b < across; ++b)
-          sum += shade(Eigen::Vector2d(x - 0.5 + (a + 0.5) / across, y - 0.5 + (b + 0.5) / across));
-      const double level = sum / (across * across) + noise * random.normal(i++);
+      const double level = level_of(Eigen::Vector2d(x, y)) + noise * random.normal(i++);
       out.row(y)[x] = static_cast<std::uint8_t>(std::clamp(std::lround(level), 0L, 255L));
     }
   return out;

@@ -161,6 +161,11 @@ TEST(Smoother, SaysWhatItLacks) {
                 smooth(t, {.bandwidth_hz = 3, .lengths = {{"a", "c", 1, 1}}});
               }),
               HasSubstr("no marker \"c\""));
+  EXPECT_THAT(refused([&] { smooth(t, {.bandwidth_hz = 400}); }), HasSubstr("no motion up to 400 Hz"));
+  EXPECT_THAT(refused([&] {
+                smooth(t, {.bandwidth_hz = 3, .lengths = {{"a", "b", 90, 1}}});
+              }),
+              HasSubstr("\"a\" and \"b\" are 100 apart in the track, and 90"));
   t.markers[0].seen.assign(20, std::nullopt);
   EXPECT_THAT(refused([&] { smooth(t, {.bandwidth_hz = 3}); }), HasSubstr("\"a\" is in no frame"));
 }

@@ -74,6 +74,7 @@ TEST(TrackFile, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(told("t,u,v\n0,1,2\n"), HasSubstr("the track has no marker: its columns are t, u, v"));
   EXPECT_THAT(told("time,x,y\n0,1,2\n"), AllOf(HasSubstr("no column \"t\""), HasSubstr("time")));
   EXPECT_THAT(told("t,x [furlong],y [px]\n0,1,2\n"), HasSubstr("write px, or a length"));
+  EXPECT_THAT(told("t [m],x,y\n0,1,2\n"), AllOf(HasSubstr("f.csv:1"), HasSubstr("column \"t\"")));
   EXPECT_THAT(told("# only a comment\n"), HasSubstr("the track is empty"));
 }
 

@@ -46,8 +46,8 @@ struct Assigned {
 /// marker that nothing is given to is a gap, over which its prediction grows uncertain. How large accelerations are is
 /// taken from a first pass, in which a quarter of the least distance between markers is allowed between two frames.
 /// \throws hydro::InputError: fewer than two frames, times that do not increase, fewer places than markers in the first
-/// frame, more of them without `first`, two markers nearest to one place, an unknown name in `lengths`, a film in which
-/// nothing moves more than its errors
+/// frame, more of them without `first`, a first place that is nearly as near to another, two markers nearest to one
+/// place, an unknown name in `lengths`, a film in which nothing moves more than its errors
 Assigned assign(const std::vector<Frame>& frames, const AssignOptions& options);
 
 }  // namespace fit::camera

@@ -49,7 +49,8 @@ struct Board {
   int columns = 9, rows = 6;  ///< of corners between squares
   double square = 0.025;      ///< m
 };
-/// The board at this pose: its first inner corner is the origin of its axes.
+/// The board at this pose: its first inner corner is the origin of its axes. \throws hydro::InputError for a board that
+/// is not all before the camera
 Light light_of_board(const Filming& filming, const Board& board, const PlanePose& pose);
 
 }  // namespace fit::camera

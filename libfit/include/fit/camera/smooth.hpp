@@ -56,8 +56,9 @@ struct SmoothTrack {
 
 /// Kalman's filter forwards and the smoother of Rauch, Tung & Striebel (1965) backwards over jerk that is white noise.
 /// Covariances hold noise of the sightings and what the band cuts off of a motion with that jerk: those of
-/// accelerations are wider by √6 than noise alone. \throws hydro::InputError: no bandwidth, a marker that is never
-/// seen, sightings without covariance, a length or deviation that is not positive, an unknown marker;
+/// accelerations are wider by √6 than noise alone. \throws hydro::InputError: no bandwidth or one above half of the
+/// frames' rate, a length that differs by five deviations from what is seen, a marker that is never seen, sightings
+/// without covariance, a length or deviation that is not positive, an unknown marker;
 /// hydro::NumericsError where lengths and sightings contradict each other so that no round of linearisation ends
 SmoothTrack smooth(const Track& track, const SmoothOptions& options);
 

@@ -44,6 +44,8 @@ struct Record {
   Source source;
   std::vector<double> time;  ///< s, of all samples: for those who look at them
   std::size_t windows = 1;   ///< among the problem's, after those of the records before
+  std::string name = {};     ///< where that is not its file's
+  std::string title() const { return name.empty() ? source.name() : source.name() + " (" + name + ")"; }
 };
 
 struct Problem {
