@@ -139,7 +139,9 @@ TEST(Delay, OfTwoChannelsOfOneRecordIsWithinItsInterval) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     const Sea sea(seed, 0.6, 0.3);
     const double late = 0.31 + 0.001 * static_cast<double>(seed);
-    const auto found = solve(fit::delay::Problem{{two_probes(seed, sea, sea, late, 0.3)}, {}});
+    fit::delay::Problem problem{{two_probes(seed, sea, sea, late, 0.3)}, {}};
+    problem.options.search.longest = 1.5;
+    const auto found = solve(problem);
     const fit::Estimate* delay = found.report.find("delay");
     ASSERT_NE(delay, nullptr);
     held += delay->coefficient.interval.low < late && late < delay->coefficient.interval.high;
@@ -198,12 +200,11 @@ TEST(Delay, OfANarrowBandIsToldWithinTheBoundsAndTheSignThatAreKnown) {
   EXPECT_THAT(refused([&] { solved(0.1, same); }), HasSubstr("at the longest offset that is looked for"));
 }
 
-// A search over some 40 s of lags finds a correlation in any two narrow seas: 1 of 100 is let through, 3 with a chance
-// of 8 %, in 100 pairs.
+// A search over 80 s of lags finds some correlation in any two narrow seas. Of 30 pairs 0.3 may be let through.
 TEST(Delay, OfWhatHasNothingInCommonIsRefused) {
   int told = 0;
   double largest = 0;
-  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     const Sea first(seed, 0.6, 0.03), second(1000 + seed, 0.6, 0.03);
     try {
       const auto found = solve(fit::delay::Problem{{two_probes(seed, first, second, 0, 0.1)}, {}});
@@ -212,7 +213,7 @@ TEST(Delay, OfWhatHasNothingInCommonIsRefused) {
     } catch (const hydro::InputError&) {
     }
   }
-  EXPECT_LE(told, 3) << largest;
+  EXPECT_LE(told, 1) << largest;
 }
 
 }  // namespace
