@@ -16,6 +16,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "hydro/base/digest.hpp"
 #include "hydro/base/error.hpp"
 
 namespace froude::sweep {
@@ -122,6 +123,22 @@ void require_distinct(const std::vector<Column>& axes, const std::vector<Column>
                      "name fewer signals or statistics");
 }
 
+std::string text_of(const Cell& cell) {
+  if (const auto* number = std::get_if<double>(&cell)) return fmt::format("{}", *number);
+  const auto* text = std::get_if<std::string>(&cell);
+  return text == nullptr ? "" : *text;
+}
+
+/// By which a row is known to be what was written: SQLite does not look whether bytes of a value have changed on the
+/// disk.
+std::string seal_of(const Row& row) {
+  std::string all = fmt::format("{}\n{}\n{}\n{}\n{}\n{}", row.number, name_of(row.state), row.reason, row.warnings,
+                                row.series, row.digest);
+  for (const auto* cells : {&row.axes, &row.numbers})
+    for (const Cell& cell : *cells) all += '\n' + text_of(cell);
+  return fmt::format("{:016x}", hydro::digest(all));
+}
+
 /// The first line in which two definitions differ.
 std::pair<std::string, std::string> difference(const std::string& a, const std::string& b) {
   std::istringstream in_a(a), in_b(b);
@@ -223,7 +240,7 @@ void Store::create() {
       "CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT);"
       "CREATE TABLE columns (name TEXT, unit TEXT, of TEXT, is_text INTEGER);"
       "CREATE TABLE series (\"case\" INTEGER PRIMARY KEY, file TEXT, digest TEXT);"
-      "CREATE TABLE work (\"case\" INTEGER PRIMARY KEY, seconds REAL);"
+      "CREATE TABLE work (\"case\" INTEGER PRIMARY KEY, seconds REAL, seal TEXT);"
       "CREATE TABLE cases (\"case\" INTEGER PRIMARY KEY, state TEXT NOT NULL, reason TEXT, warnings TEXT" +
       axes + ")");
   Statement column(folder_, database_.get(), "INSERT INTO columns VALUES (?, ?, 'axis', ?)");
@@ -281,7 +298,7 @@ void Store::put(std::span<const Row> rows) {
   for (std::size_t i = 0; i < identity_.axes.size() + columns_.size(); ++i) places += ", ?";
   Statement cases(folder_, database_.get(), "INSERT OR REPLACE INTO cases VALUES (" + places + ")");
   Statement series(folder_, database_.get(), "INSERT OR REPLACE INTO series VALUES (?, ?, ?)");
-  Statement work(folder_, database_.get(), "INSERT OR REPLACE INTO work VALUES (?, ?)");
+  Statement work(folder_, database_.get(), "INSERT OR REPLACE INTO work VALUES (?, ?, ?)");
   const auto or_null = [](const std::string& text) { return text.empty() ? Cell() : Cell(text); };
   execute("BEGIN IMMEDIATE");
   for (const Row& row : rows) {
@@ -290,7 +307,7 @@ void Store::put(std::span<const Row> rows) {
     for (std::size_t i = 0; i < columns_.size(); ++i) cases.add(row.numbers.empty() ? Cell() : row.numbers[i]);
     cases.run();
     if (!row.series.empty()) series.add(row.number).add(Cell(row.series)).add(Cell(row.digest)).run();
-    if (row.state != State::skipped) work.add(row.number).add(Cell(row.seconds)).run();
+    work.add(row.number).add(row.state == State::skipped ? Cell() : Cell(row.seconds)).add(Cell(seal_of(row))).run();
   }
   execute("COMMIT");
 }
@@ -299,11 +316,12 @@ std::vector<Row> Store::rows() const {
   std::vector<std::string> names;
   for (const auto* all : {&identity_.axes, &columns_})
     for (const Column& c : *all) names.push_back("cases." + identifier(c.name));
-  Statement all(folder_, database_.get(),
-                fmt::format("SELECT cases.\"case\", state, reason, warnings, file, digest, seconds, {} FROM cases "
-                            "LEFT JOIN series ON series.\"case\" = cases.\"case\" "
-                            "LEFT JOIN work ON work.\"case\" = cases.\"case\" ORDER BY cases.\"case\"",
-                            fmt::join(names, ", ")));
+  Statement all(
+      folder_, database_.get(),
+      fmt::format("SELECT cases.\"case\", state, reason, warnings, file, digest, seconds, seal, {} FROM cases "
+                  "LEFT JOIN series ON series.\"case\" = cases.\"case\" "
+                  "LEFT JOIN work ON work.\"case\" = cases.\"case\" ORDER BY cases.\"case\"",
+                  fmt::join(names, ", ")));
   std::vector<Row> out;
   while (all.step()) {
     const auto state = std::find(state_names.begin(), state_names.end(), all.text(1)) - state_names.begin();
@@ -317,11 +335,11 @@ std::vector<Row> Store::rows() const {
             .series = all.text(4),
             .digest = all.text(5),
             .seconds = all.real(6)};
-    int at = 7;
+    int at = 8;
     for (std::size_t i = 0; i < identity_.axes.size(); ++i) row.axes.push_back(all.cell(at++));
     if (row.state == State::done)
       for (std::size_t i = 0; i < columns_.size(); ++i) row.numbers.push_back(all.cell(at++));
-    out.push_back(std::move(row));
+    if (all.text(7) == seal_of(row)) out.push_back(std::move(row));
   }
   return out;
 }

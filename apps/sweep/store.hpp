@@ -2,7 +2,7 @@
 /// \file  Where the cases of a sweep are kept: an SQLite database in a folder that one process at a time may write.
 ///
 /// Tables: `cases`, one row a case with its axes and numbers, named as in the study; `columns`, their units; `series`,
-/// files of time series and the digests of their bytes; `work`, seconds; `study`, what the sweep is of.
+/// files of time series and the digests of their bytes; `work`, seconds and seals of rows; `study`, what the sweep is of.
 #include <cstddef>
 #include <filesystem>
 #include <map>
@@ -61,7 +61,8 @@ class Store {
   /// All of them or none. What was known of a case is replaced. \throws hydro::InputError where the disk is full or the
   /// like
   void put(std::span<const Row> rows);
-  /// By rising number. \throws hydro::InputError for a damaged database
+  /// By rising number, without those that are no longer as they were written. \throws hydro::InputError for a damaged
+  /// database
   std::vector<Row> rows() const;
   /// True if all cases are over.
   void close(bool whole);

@@ -210,6 +210,16 @@ class Sweeps(unittest.TestCase):
         self.assertIn("not a database", self.sweep("study.toml", "-o", "out", status=2).stderr)
         self.assertEqual(database.read_bytes(), b"x" * 4096)
 
+    def test_a_number_that_has_changed_on_the_disk_is_found_and_made_again(self):
+        self.sweep("study.toml", "-o", "out")
+        before = self.table("out")
+        database = sqlite3.connect(self.folder / "out" / "sweep.sqlite")
+        database.execute('UPDATE cases SET "block.surge.range" = 7 WHERE "case" = 5')
+        database.commit()
+        database.close()
+        again = json.loads(self.sweep("study.toml", "-o", "out", "--json").stdout)
+        self.assertEqual((again["answered"], self.table("out")), (1, before))
+
     def test_no_file_that_is_read_is_written(self):
         picture = '[[picture]]\nfile = "p.svg"\nof = "block.surge.range"\nx = "mass"\n'
         for planted in ("table.csv", "p.csv", "p.svg"):
