@@ -11,6 +11,7 @@
 #include "froude/report.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
+#include "scene/placed.hpp"
 #include "sweep/table.hpp"
 
 namespace froude {
@@ -67,7 +68,9 @@ int threads_of(const SweepArguments& arguments) {
 /// A study with its cases, and all files that they read.
 struct Task {
   explicit Task(const Path& file)
-      : study(sweep::read_study(file)), inputs(files_of_scene(study.scene.value)), cases(study, text(), paths(inputs)) {
+      : study(sweep::read_study(file)),
+        inputs(scene::placed(study.scene.place, [&] { return files_of_scene(study.scene.value); })),
+        cases(study, text(), paths(inputs)) {
     inputs.push_back({"the study", file});
   }
   Task(const Task&) = delete;  // the cases refer to the study

@@ -358,7 +358,7 @@ std::vector<Cell> Cases::cells(std::size_t number) const {
   for (std::size_t a = 0; a < values_.size(); ++a) {
     const AxisValue& value = values_[a][at[a]];
     if (!columns_[a].is_text)
-      out.emplace_back(*value.number);
+      out.emplace_back(*value.number + 0.0);  // no -0, as SQLite
     else
       out.emplace_back(unquoted(value.toml));
   }

@@ -2,7 +2,8 @@
 /// \file  Where the cases of a sweep are kept: an SQLite database in a folder that one process at a time may write.
 ///
 /// Tables: `cases`, one row a case with its axes and numbers, named as in the study; `columns`, their units; `series`,
-/// files of time series and the digests of their bytes; `work`, seconds and seals of rows; `study`, what the sweep is of.
+/// files of time series and the digests of their bytes; `work`, seconds and seals of rows; `study`, what the sweep is
+/// of.
 #include <cstddef>
 #include <filesystem>
 #include <map>

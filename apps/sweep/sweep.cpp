@@ -83,7 +83,9 @@ Case answered(const Study& study, const Cases& cases, std::size_t number, const 
     Answered found = answer(study, cases.scene(number), kept, progress);
     out.row.state = State::done;
     out.row.warnings = fmt::format("{}", fmt::join(found.warnings, "; "));
-    for (const Number& n : found.numbers) out.row.numbers.push_back(std::isfinite(n.value) ? Cell(n.value) : Cell());
+    // SQLite knows no -0, which + 0.0 takes the sign from.
+    for (const Number& n : found.numbers)
+      out.row.numbers.push_back(std::isfinite(n.value) ? Cell(n.value + 0.0) : Cell());
     out.columns = columns_of(found.numbers);
     out.series = std::move(found.run);
   } catch (const InputError& e) {
@@ -112,7 +114,7 @@ class Work {
     choose();
     find_columns();
     if (!todo_.empty() && !interrupted()) {
-      if (watch_.expected) watch_.expected(todo_.size() - next_, seconds_a_case_);
+      if (watch_.expected && next_ < todo_.size()) watch_.expected(todo_.size() - next_, seconds_a_case_);
       go_on();
     }
     Tally out = tally_of(store_);
@@ -166,6 +168,14 @@ class Work {
     }
   }
 
+  /// What cases share. Where each has coefficients of its own, older ones go: a fit takes a megabyte for five bodies.
+  std::shared_ptr<compile::Kept> kept() {
+    constexpr std::size_t most = 128;
+    const std::scoped_lock lock(mutex_);
+    if (kept_->made() > most) kept_ = std::make_shared<compile::Kept>();
+    return kept_;
+  }
+
   /// None where it was interrupted.
   std::optional<Case> one(std::size_t number) {
     const auto begin = Clock::now();
@@ -175,7 +185,7 @@ class Work {
     };
     std::optional<Case> out;
     try {
-      out = answered(study_, cases_, number, kept_, guard);
+      out = answered(study_, cases_, number, kept(), guard);
     } catch (const Interrupted&) {
       return out;
     }
@@ -265,7 +275,7 @@ class Work {
   const Options& options_;
   const Watch& watch_;
   const Clock::time_point begin_ = Clock::now();
-  const std::shared_ptr<compile::Kept> kept_ = std::make_shared<compile::Kept>();
+  std::shared_ptr<compile::Kept> kept_ = std::make_shared<compile::Kept>();
   std::vector<std::size_t> todo_;
   std::size_t over_ = 0;
   double seconds_a_case_ = 0;
@@ -273,7 +283,7 @@ class Work {
   std::atomic<bool> stop_ = false;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<Row> ready_;  // guarded, as are the two below
+  std::vector<Row> ready_;  // guarded, as are the two below and kept_
   int active_ = 0;
   std::exception_ptr failure_;
 };
