@@ -112,9 +112,10 @@ std::string duration(double seconds) {
   return seconds < 6000 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.1f} h", seconds / 3600);
 }
 
+/// From a case that may have paid for what all share.
 Report expected(std::size_t cases, double seconds_a_case, int threads) {
   const double whole = seconds_a_case * static_cast<double>(cases) / threads;
-  return Report().say("a case takes {}; {} cases on {} thread{} about {}",
+  return Report().say("a case takes up to {}; {} cases on {} thread{} up to {}",
                       fact("seconds_a_case", seconds_a_case, duration(seconds_a_case)), fact("cases_to_do", cases),
                       fact("threads", threads), threads == 1 ? "" : "s", fact("expected_s", whole, duration(whole)));
 }
@@ -150,14 +151,16 @@ int status_of(const Tally& tally) {
 
 // What is done
 
-/// One case, told and not kept.
+/// One case, answered twice and not kept: the second time is that of a case among many.
 void plan_sweep(const Task& task, int threads, const Console& console) {
   std::size_t skipped = 0, first = 0;
   for (std::size_t n = task.cases.count(); n > 0; --n) task.cases.skipped(n) ? ++skipped : first = n;
   Report out;
   out.say("{} cases, {} of them skipped", fact("cases", task.cases.count()), fact("skipped", skipped));
   if (first > 0) {
-    const sweep::Row row = answer_case(task.study, task.cases, first, std::make_shared<compile::Kept>());
+    const auto kept = std::make_shared<compile::Kept>();
+    answer_case(task.study, task.cases, first, kept);  // makes what all cases share
+    const sweep::Row row = answer_case(task.study, task.cases, first, kept);
     if (!row.reason.empty()) out.say("case {} failed: {}", first, fact("reason", row.reason));
     out.part("", expected(task.cases.count() - skipped, row.seconds, threads));
   }

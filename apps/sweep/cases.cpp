@@ -145,14 +145,15 @@ Points latin_hypercube(const Sample& sample, std::size_t axes) {
 
 /// Sobol's sequence, all of whose bits are turned over or not as the seed says, which keeps how evenly it lies.
 Points sobol(const Sample& sample, std::size_t axes) {
-  boost::random::sobol sequence(axes);
+  boost::random::sobol sequence(axes);  // begins behind its first point, the origin
   Points out(static_cast<std::size_t>(sample.number), std::vector<double>(axes));
-  for (auto& point : out)
+  for (std::size_t n = 0; n < out.size(); ++n)
     for (std::size_t a = 0; a < axes; ++a) {
       const hydro::RandomStream random(static_cast<std::uint64_t>(sample.seed), a);
       constexpr int bits = 53;
       const auto shift = static_cast<std::uint64_t>(std::ldexp(random.uniform(0), bits));
-      point[a] = std::ldexp(static_cast<double>((sequence() >> (64 - bits)) ^ shift), -bits);
+      const std::uint64_t drawn = n == 0 ? 0 : sequence() >> (64 - bits);
+      out[n][a] = std::ldexp(static_cast<double>(drawn ^ shift), -bits);
     }
   return out;
 }

@@ -80,7 +80,7 @@ Binding<Skip> skip_binding() {
       .place(&Skip::place);
 }
 
-Binding<Output> of_run() {
+Binding<Output> run_binding() {
   return Binding<Output>("", "statistics of signals of the run")
       .key(texts("of", "signals, of those that the scene gives; * stands for any characters"), put_texts(&Output::of))
       .key(texts("statistic",
@@ -92,7 +92,7 @@ Binding<Output> of_run() {
            &Output::from)
       .sets(&Output::kind, Output::Kind::run);
 }
-Binding<Output> of_rao() {
+Binding<Output> rao_binding() {
   return Binding<Output>("", "of amplitudes over frequencies and headings, per metre of wave amplitude")
       .key(texts("of", "signals, of those that the scene gives; * stands for any characters"), put_texts(&Output::of))
       .key(texts("statistic", "the largest amplitude and its period, of the frequencies that are asked")
@@ -100,14 +100,14 @@ Binding<Output> of_rao() {
            &Output::statistics)
       .sets(&Output::kind, Output::Kind::rao);
 }
-Binding<Output> of_modes() {
+Binding<Output> modes_binding() {
   return Binding<Output>("", "of the modes of free motion, the first having the longest period")
       .key(integer("count", "of modes").positive().or_default("1", "the slowest"), &Output::count)
       .key(texts("statistic", "columns are called mode1.period").one_of(statistics_of(Output::Kind::modes)),
            &Output::statistics)
       .sets(&Output::kind, Output::Kind::modes);
 }
-Binding<Output> of_fit() {
+Binding<Output> fit_binding() {
   return Binding<Output>("", "numbers of a fit, of a scene with a [model]; a fit that may not tell them fails")
       .key(texts("of", "coefficients"), put_texts(&Output::of))
       .key(texts("statistic", "the value, and the ends of its interval").one_of(statistics_of(Output::Kind::fit)),
@@ -119,10 +119,10 @@ Binding<Output> output_binding() {
   using enum Output::Kind;
   return Binding<Output>("[[output]]", "numbers that each case tells, one column each")
       .key(text("kind", "the answer that it takes them from"))
-      .variant(name_of(run), of_run())
-      .variant(name_of(rao), of_rao())
-      .variant(name_of(modes), of_modes())
-      .variant(name_of(fit), of_fit())
+      .variant(name_of(run), run_binding())
+      .variant(name_of(rao), rao_binding())
+      .variant(name_of(modes), modes_binding())
+      .variant(name_of(fit), fit_binding())
       .place(&Output::place);
 }
 

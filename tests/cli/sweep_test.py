@@ -248,8 +248,7 @@ class Sweeps(unittest.TestCase):
     def test_the_example_has_its_pictures(self):
         shutil.copytree(SOURCE / "examples", self.folder / "examples")
         said = json.loads(self.sweep("examples/sweep/study.toml", "-o", "out", "--json").stdout)
-        self.assertEqual((said["cases"], said["failed"]), (42, 0))
-        self.assertGreater(said["skipped"], 0)
+        self.assertEqual((said["cases"], said["failed"], said["skipped"]), (28, 0, 4))
         for name in ("power.svg", "power.csv", "stroke.svg", "stroke.csv"):
             self.assertTrue((self.folder / "out" / name).exists(), name)
 
