@@ -318,7 +318,8 @@ std::vector<Row> Store::rows() const {
     for (const Column& c : *all) names.push_back("cases." + identifier(c.name));
   Statement all(
       folder_, database_.get(),
-      fmt::format("SELECT cases.\"case\", state, reason, warnings, file, digest, seconds, seal, {} FROM cases "
+      fmt::format("SELECT cases.\"case\", cases.state, cases.reason, cases.warnings, series.file, series.digest, "
+                  "work.seconds, work.seal, {} FROM cases "
                   "LEFT JOIN series ON series.\"case\" = cases.\"case\" "
                   "LEFT JOIN work ON work.\"case\" = cases.\"case\" ORDER BY cases.\"case\"",
                   fmt::join(names, ", ")));
@@ -346,7 +347,10 @@ std::vector<Row> Store::rows() const {
 
 void Store::close(bool whole) {
   set("state", whole ? "complete" : "partial");
-  execute("PRAGMA journal_mode = DELETE");  // one file, which opens from a folder that is read-only as well
+  // One file, which opens from a folder that is read-only as well; as long as somebody else reads, it stays as it is.
+  sqlite3_busy_timeout(database_.get(), 0);
+  const int code = sqlite3_exec(database_.get(), "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
+  if (code != SQLITE_OK && code != SQLITE_BUSY && code != SQLITE_LOCKED) refuse(folder_, database_.get(), code);
 }
 
 }  // namespace froude::sweep

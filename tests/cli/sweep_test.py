@@ -192,7 +192,6 @@ class Sweeps(unittest.TestCase):
             resource.setrlimit(resource.RLIMIT_FSIZE, (30000, 30000))
         self.write("study.toml", STUDY.replace("40 values", "400 values"))
         said = self.sweep("study.toml", "-o", "out", status=2, preexec_fn=limit).stderr
-        self.assertEqual(said.count("error:"), 1, said)
         self.assertIn("free some space", said)
         self.sweep("study.toml", "-o", "out")
         self.sweep("study.toml", "-o", "whole")
@@ -238,7 +237,6 @@ class Sweeps(unittest.TestCase):
                                 (["--merge", "none", "-o", "x"], "there is no sweep"), (["--merge", "none"], "-o")):
             done = self.sweep(*arguments, status=2)
             self.assertIn(said, done.stderr)
-            self.assertEqual(done.stderr.count("error:"), 1, done.stderr)
 
     def test_an_output_that_the_scene_does_not_have_is_refused_at_its_place(self):
         self.write("study.toml", STUDY.replace('"block.surge"', '"block.surg"'))
