@@ -59,7 +59,7 @@ SKIP = '[[skip]]\nof = "steepness"\nabove = 0.9\n'
 
 
 def sweep(*arguments, **options):
-    return subprocess.run([str(FROUDE), "sweep", *map(str, arguments)], cwd=SCRATCH, capture_output=True, text=True,
+    return subprocess.run([str(FROUDE), "sweep", *map(str, arguments)], cwd=SCRATCH, capture_output=True, errors="replace",
                           env=ENVIRONMENT, **options)
 
 
