@@ -139,6 +139,15 @@ std::string seal_of(const Row& row) {
   return fmt::format("{:016x}", hydro::digest(all));
 }
 
+/// The same of what is known beside the rows: names and units of their columns above all.
+std::string seal_of(const Identity& identity, const std::vector<Column>& columns) {
+  std::string all = fmt::format("{}\n{}\n{}\n{}\n{}", identity.definition, identity.name, identity.study,
+                                identity.scene, identity.cases);
+  for (const auto* of : {&identity.axes, &columns})
+    for (const Column& c : *of) all += fmt::format("\n{}\n{}\n{}", c.name, c.unit, c.is_text);
+  return fmt::format("{:016x}", hydro::digest(all));
+}
+
 /// The first line in which two definitions differ.
 std::pair<std::string, std::string> difference(const std::string& a, const std::string& b) {
   std::istringstream in_a(a), in_b(b);
@@ -253,6 +262,7 @@ void Store::create() {
   set("cases", std::to_string(identity_.cases));
   set("version", FROUDE_VERSION);
   set("state", "partial");
+  set("seal", seal_of(identity_, {}));
   execute("COMMIT");
 }
 
@@ -270,6 +280,7 @@ void Store::read() {
   while (columns.step())
     (columns.text(2) == "axis" ? identity_.axes : columns_)
         .push_back({columns.text(0), columns.text(1), columns.number(3) != 0});
+  if (all["seal"] != seal_of(identity_, columns_)) refuse(folder_, nullptr, SQLITE_CORRUPT);
 }
 
 void Store::require_same(const Identity& asked) const {
@@ -288,6 +299,7 @@ void Store::set_columns(const std::vector<Column>& columns) {
     execute(fmt::format("ALTER TABLE cases ADD COLUMN {} REAL", identifier(c.name)));
     column.add(Cell(c.name)).add(Cell(c.unit)).run();
   }
+  set("seal", seal_of(identity_, columns));
   execute("COMMIT");
   columns_ = columns;
 }
