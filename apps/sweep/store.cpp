@@ -267,6 +267,9 @@ void Store::create() {
 }
 
 void Store::read() {
+  // Rows out of their order would be found by one question and not by another.
+  Statement check(folder_, database_.get(), "PRAGMA quick_check(1)");
+  if (!check.step() || check.text(0) != "ok") refuse(folder_, nullptr, SQLITE_CORRUPT);
   Statement entries(folder_, database_.get(), "SELECT key, value FROM study");
   std::map<std::string, std::string> all;
   while (entries.step()) all[entries.text(0)] = entries.text(1);
