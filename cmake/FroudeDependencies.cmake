@@ -9,6 +9,7 @@ find_package(HDF5 1.10 REQUIRED COMPONENTS C HL)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(FFTW3 REQUIRED IMPORTED_TARGET fftw3)
 pkg_check_modules(NETCDF REQUIRED IMPORTED_TARGET netcdf)
+find_package(SQLite3 3.37 REQUIRED)
 # By hand: Debian's CMake package of SUNDIALS asks for PETSc, Trilinos and MPI, of which nothing is used here.
 if(FROUDE_SUNDIALS AND NOT TARGET froude::sundials)
   find_path(SUNDIALS_INCLUDE_DIR cvode/cvode.h REQUIRED)

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "answers/plot_field.hpp"
 #include "hydro/base/error.hpp"
 
 namespace froude::plot {
@@ -16,7 +17,8 @@ namespace {
 constexpr std::array<const char*, 7> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                              "#e69f00", "#56b4e9", "#333333"};
 constexpr double left_margin = 84, right_margin = 24, title_height = 44, panel_bottom = 62, panel_gap = 10;
-constexpr double legend_row = 20, legend_swatch = 28, character_width = 7.2;  // of the 13 px legend text
+constexpr double legend_row = 20, legend_swatch = 28, character_width = 7.2,
+                 scale_width = 110;  // of the 13 px legend text
 
 using Range = std::pair<double, double>;
 using Buffer = fmt::memory_buffer;
@@ -70,6 +72,9 @@ std::string axis_text(const Axis& axis) {
 }
 
 Frame frame_of(const Panel& panel, double top, double width, double height) {
+  if (panel.field)
+    return {left_margin,   top,          width, height, extent(panel.field->xs), extent(panel.field->ys),
+            panel.x.scale, panel.y.scale};
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Range x{infinity, -infinity}, y{infinity, -infinity};
   for (const Series& s : panel.series) {
@@ -179,6 +184,48 @@ void draw_band(Buffer& out, const Band& b, const Frame& f, const char* colour) {
     put(out, "<path fill=\"{}\" fill-opacity=\"0.2\" stroke=\"none\" d=\"{}Z\"/>\n", colour, fmt::to_string(path));
 }
 
+Range range_of(const Field& field) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Range out{infinity, -infinity};
+  for (const auto& row : field.values) widen(out, row, Scale::linear);
+  return fitted(field.value, out, false);
+}
+
+void draw_field(Buffer& out, const Field& field, const Frame& f) {
+  const Range range = range_of(field);
+  constexpr double overlap = 0.3;  // px, so that no seams show between tiles
+  for (const Tile& t : tiles_of(field))
+    put(out, "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\"/>\n", f.px(t.x0),
+        f.py(t.y1), f.px(t.x1) - f.px(t.x0) + overlap, f.py(t.y0) - f.py(t.y1) + overlap,
+        colour_at(Frame::fraction(t.value, range, Scale::linear)));
+  for (const double level : ticks(range.first, range.second, Scale::linear)) {
+    Buffer path;
+    for (const auto& p : contour(field, level))
+      put(path, "M{:.1f} {:.1f}L{:.1f} {:.1f}", f.px(p.x1), f.py(p.y1), f.px(p.x2), f.py(p.y2));
+    put(out, "<path class=\"contour\" d=\"{}\"/>\n", fmt::to_string(path));
+  }
+}
+
+/// Colours and what they stand for, with a line where a contour is.
+void draw_scale(Buffer& out, const Field& field, const Frame& f, double left) {
+  const Range range = range_of(field);
+  constexpr int steps = 64;
+  constexpr double bar = 18;
+  const auto at = [&](double share) { return f.top + f.height * (1 - share); };
+  for (int i = 0; i < steps; ++i)
+    put(out, "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{}\" height=\"{:.1f}\" fill=\"{}\"/>\n", left,
+        at((i + 1.0) / steps), bar, f.height / steps + 0.3, colour_at((i + 0.5) / steps));
+  for (const double t : ticks(range.first, range.second, Scale::linear)) {
+    const double y = at(Frame::fraction(t, range, Scale::linear));
+    put(out, "<path class=\"contour\" d=\"M{:.1f} {:.1f}h{}\"/>\n", left, y, bar);
+    put(out, "<text class=\"tick\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", left + bar + 6, y + 4.5, tick_label(t));
+  }
+  put(out,
+      "<text class=\"label\" x=\"0\" y=\"0\" text-anchor=\"middle\" transform=\"translate({:.1f} {:.1f}) "
+      "rotate(-90)\">{}</text>\n",
+      left + scale_width - 16, f.top + f.height / 2, axis_text(field.value));
+}
+
 void draw_legend(Buffer& out, const Panel& panel, double left, double top) {
   double y = top + 12;
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
@@ -216,6 +263,8 @@ double legend_width(const Figure& figure) {
     for (const Series& s : panel.series) longest = std::max(longest, characters(s.name));
     for (const Band& b : panel.bands) longest = std::max(longest, characters(b.name));
   }
+  if (std::any_of(figure.panels.begin(), figure.panels.end(), [](const Panel& p) { return p.field.has_value(); }))
+    return scale_width;
   return longest == 0 ? 0 : 14 + legend_swatch + character_width * static_cast<double>(longest);
 }
 
@@ -235,17 +284,21 @@ void draw_panel(Buffer& out, const Panel& panel, const Frame& f, std::size_t num
   put(out, "<clipPath id=\"panel{}\"><rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/></clipPath>\n",
       number, f.left, f.top, f.width, f.height);
   put(out, "<g clip-path=\"url(#panel{})\">\n", number);
+  if (panel.field) draw_field(out, *panel.field, f);
   for (std::size_t i = 0; i < panel.bands.size(); ++i) draw_band(out, panel.bands[i], f, colours[i % colours.size()]);
   for (std::size_t i = 0; i < panel.series.size(); ++i)
     draw_series(out, panel.series[i], f, style_of(i, panel.series[i]));
   put(out, "</g>\n");
-  draw_legend(out, panel, f.left + f.width + 14, f.top);
+  if (panel.field)
+    draw_scale(out, *panel.field, f, f.left + f.width + 14);
+  else
+    draw_legend(out, panel, f.left + f.width + 14, f.top);
 }
 
 constexpr const char* style_sheet =
     "text{font-family:sans-serif;fill:#222}.title{font-size:17px;font-weight:bold}.label{font-size:14px}"
     ".tick,.legend{font-size:13px}.grid{stroke:#ddd;stroke-width:1}.frame{fill:none;stroke:#666;stroke-width:1}"
-    ".curve{fill:none;stroke-width:1.6;stroke-linejoin:round}";
+    ".curve{fill:none;stroke-width:1.6;stroke-linejoin:round}.contour{fill:none;stroke:#fff;stroke-width:1.2}";
 
 std::vector<double> linear_ticks(double low, double high, int wanted) {
   const double raw = (high - low) / wanted;

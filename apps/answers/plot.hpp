@@ -32,10 +32,18 @@ struct Band {
   std::vector<double> x, low, high;  ///< of equal length
 };
 
+/// Values at the points of a grid, drawn as colours with contours at round values, and a scale in place of a legend.
+struct Field {
+  Axis value;
+  std::vector<double> xs, ys;               ///< rising, two and more each
+  std::vector<std::vector<double>> values;  ///< [y][x]; what is not finite stays blank
+};
+
 struct Panel {
-  Axis x, y;
+  Axis x, y;  ///< with a field their ranges are its own
   std::vector<Series> series;
   std::vector<Band> bands = {};
+  std::optional<Field> field = {};
 };
 
 struct Figure {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "fit_sources.hpp"
+#include "hydro/base/digest.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
 
@@ -20,23 +21,12 @@ namespace froude::compile {
 namespace {
 
 namespace fs = std::filesystem;
+using hydro::digest;
 using hydro::radiation::FitReport;
 using hydro::radiation::Pole;
 using hydro::radiation::RationalFit;
 
 constexpr const char* extension = ".fit";
-
-/// Bits of all bytes, so mixed that one that is changed changes half of them. No guard against malice.
-std::uint64_t digest(std::string_view bytes) {
-  std::uint64_t h = 0x9e3779b97f4a7c15 ^ bytes.size();
-  for (std::size_t at = 0; at < bytes.size(); at += sizeof h) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + at, std::min(sizeof word, bytes.size() - at));
-    h = (h ^ word) * 0xff51afd7ed558ccd;
-    h ^= h >> 32U;
-  }
-  return h;
-}
 
 /// Puts values into bytes, as this machine has them.
 class Writer {

@@ -38,6 +38,7 @@ const RadiationFits::Known& RadiationFits::of(const SymmetricData& data, double 
   else
     known_.push_back(std::make_unique<const Known>(
         Known{data, tolerance, hydro::radiation::fit(data.damping, data.A, data.A_inf, {.tolerance = tolerance}), {}}));
+  made_ = known_.size();
   if (folder && !kept) folder->keep(data, tolerance, known_.back()->fit);
   return *known_.back();
 }
@@ -46,7 +47,10 @@ const hydro::potential::Coefficients& Kept::coefficients(const std::string& name
                                                          const std::function<hydro::potential::Coefficients()>& make) {
   const std::scoped_lock one_at_a_time(mutex_);
   const auto known = coefficients_.find(name);
-  return known != coefficients_.end() ? known->second : coefficients_.emplace(name, make()).first->second;
+  if (known != coefficients_.end()) return known->second;
+  const auto& out = coefficients_.emplace(name, make()).first->second;
+  made_ = coefficients_.size();
+  return out;
 }
 
 }  // namespace froude::compile

@@ -1,5 +1,6 @@
 #pragma once
 /// \file  Private to apps: what is dear to make and serves every model of a scene, also after its numbers have changed.
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -42,10 +43,11 @@ class RadiationFits {
     std::optional<std::filesystem::path> kept_in;  ///< by an earlier process
   };
   const Known& of(const SymmetricData& data, double tolerance);
-  std::size_t made() const { return known_.size(); }  ///< so far, whatever was asked again
+  std::size_t made() const { return made_; }  ///< so far, whatever was asked again
 
  private:
   std::mutex mutex_;
+  std::atomic<std::size_t> made_ = 0;
   std::vector<std::unique_ptr<const Known>> known_;
 };
 
@@ -57,9 +59,12 @@ class Kept {
   const hydro::potential::Coefficients& coefficients(const std::string& name,
                                                      const std::function<hydro::potential::Coefficients()>& make);
   RadiationFits& fits() { return fits_; }
+  /// Sets of coefficients and fits, so far.
+  std::size_t made() const { return made_ + fits_.made(); }
 
  private:
   std::mutex mutex_;
+  std::atomic<std::size_t> made_ = 0;
   std::map<std::string, hydro::potential::Coefficients> coefficients_;
   RadiationFits fits_;
 };

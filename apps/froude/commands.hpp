@@ -173,6 +173,20 @@ struct CostArguments {
 /// Error and time of every setting of a scene's approximations, and the cheapest within a tolerance.
 void cost(const CostArguments& arguments, const Console& console);
 
+struct SweepArguments {
+  std::optional<Path> study = {};
+  std::optional<Path> output = {};           ///< a folder; default: the study's name with .sweep, in the current folder
+  std::optional<int> threads = {};           ///< default: one a core
+  std::string part = "1/1";                  ///< which of how many shares of the cases
+  bool plan = false;                         ///< one case is answered, and nothing is kept
+  bool retry = false;                        ///< cases that have failed are answered again
+  std::optional<std::size_t> scene_of = {};  ///< prints the scene of this case, and nothing else
+  std::vector<Path> merge = {};              ///< folders of sweeps of one study, in place of a study
+};
+/// Answers a scene with many values of its keys. Returns the exit status: 0, 3 where a case has failed, 130 where it
+/// was interrupted.
+int sweep_scenes(const SweepArguments& arguments, const Console& console);
+
 struct KinematicsArguments {
   Path scene;                             ///< of a fit of kind "motion" with [camera]
   std::optional<std::string> film = {};   ///< which of its records, by name; none: the one that there is

@@ -1,8 +1,8 @@
 // froude new: a scene to begin with, and the reference of all keys.
-#include "answers/fit_scene.hpp"
 #include "froude/commands.hpp"
 #include "froude/report.hpp"
 #include "hydro/io/atomic_file.hpp"
+#include "sweep/study.hpp"
 
 namespace froude {
 namespace {
@@ -123,7 +123,7 @@ std::string starter(const std::string& kind) {
 }  // namespace
 
 void new_scene(const std::string& kind, const std::optional<Path>& output, bool keys, const Console& console) {
-  const std::string text = keys ? scene::key_reference() : starter(kind);
+  const std::string text = keys ? sweep::key_reference() : starter(kind);
   Report report;
   if (output) {
     if (std::filesystem::is_regular_file(*output))

@@ -153,4 +153,13 @@ Node parse_document(std::string_view text, const std::string& file) {
   }
 }
 
+std::size_t byte_at(std::string_view text, const hydro::Place& place) {
+  const auto begins_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
+  std::size_t at = 0;
+  for (int n = 1; n < place.line; ++n) at = text.find('\n', at) + 1;
+  for (int column = 0; at < text.size(); ++at)
+    if (begins_character(text[at]) && ++column == place.column) break;
+  return at;
+}
+
 }  // namespace froude::scene

@@ -41,4 +41,7 @@ std::string_view type_name(Node::Type type);
 /// \throws hydro::InputError at line and column if the text is not TOML, or a key or table stands twice
 Node parse_document(std::string_view text, const std::string& file);
 
+/// The byte of a text at which a place of it begins.
+std::size_t byte_at(std::string_view text, const hydro::Place& place);
+
 }  // namespace froude::scene

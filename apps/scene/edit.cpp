@@ -90,13 +90,7 @@ class Text {
     return at;
   }
   std::size_t end_of_line(int line) const { return std::min(text_.find('\n', begin_of_line(line)), text_.size()); }
-  std::size_t begin_of(const hydro::Place& place) const {
-    const auto begins_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
-    std::size_t at = begin_of_line(place.line);
-    for (int column = 0; at < text_.size(); ++at)
-      if (begins_character(text_[at]) && ++column == place.column) break;
-    return at;
-  }
+  std::size_t begin_of(const hydro::Place& place) const { return byte_at(text_, place); }
   /// Behind a value that stands on one line.
   std::size_t end_of(const Node& value) const { return begin_of(value.place) + value.raw.size(); }
 

@@ -162,6 +162,53 @@ WrittenNumber number_at(std::string_view text, const std::filesystem::path& file
   return read_number(Finder(path, asked).find(root), path, asked);
 }
 
+namespace {
+
+using Form = WrittenValue::Form;
+
+Form form_of(const Node& node) {
+  switch (node.type) {
+    case Node::Type::text:
+      return Form::text;
+    case Node::Type::integer:
+      return Form::integer;
+    case Node::Type::number:
+      return Form::number;
+    default:
+      return Form::other;
+  }
+}
+
+/// The bytes of a component within those of its vector, "(0, 0, 1.31) m".
+void narrow(std::string_view text, int component, WrittenValue& to) {
+  std::size_t begin = text.find('(', to.begin) + 1;
+  for (int i = 0; i < component; ++i) begin = text.find(',', begin) + 1;
+  to.end = text.find_first_of(",)", begin);
+  to.begin = text.find_first_not_of(' ', begin);
+}
+
+}  // namespace
+
+WrittenValue value_at(std::string_view text, const std::filesystem::path& file, const std::string& path,
+                      const Place& asked) {
+  Node root = parse_document(text, file.string());
+  const Found found = Finder(path, asked).find(root);
+  const Node& node = *found.node;
+  if (node.is(Node::Type::table))
+    throw InputError(fmt::format("\"{}\" is a table in the scene; a value is needed", path), asked, "name a key of it");
+  const bool list_goes_on = node.is(Node::Type::list) && !node.raw.ends_with(']');
+  if (list_goes_on || node.raw.starts_with("\"\"\"") || node.raw.starts_with("'''"))
+    throw InputError(fmt::format("\"{}\" goes over several lines of the scene", path), asked,
+                     "write its value on one line");
+  const std::size_t begin = byte_at(text, node.place);
+  WrittenValue out{begin, begin + node.raw.size(), form_of(node), {}};
+  if (found.component < 0) return out;
+  out.form = Form::component;
+  out.unit = split_vector(node.text).unit;
+  narrow(text, found.component, out);
+  return out;
+}
+
 WrittenNumber ChangeableScene::number(const std::string& path, const std::vector<OverriddenNumber>& numbers) const {
   Node document = *document_;
   override_numbers(document, numbers);

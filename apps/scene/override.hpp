@@ -28,6 +28,18 @@ struct WrittenNumber {
 WrittenNumber number_at(std::string_view text, const std::filesystem::path& file, const std::string& path,
                         const Place& asked);
 
+/// Where a text writes a value: its bytes [begin, end).
+struct WrittenValue {
+  enum class Form { text, integer, number, other, component };
+  std::size_t begin, end;
+  Form form;         ///< `component`: one of a vector, a bare number
+  std::string unit;  ///< of a component: its vector's
+};
+/// Of a scene of any kind. \throws hydro::InputError at `asked` if nothing is written at the path, with the nearest
+/// key, or what is goes over several lines
+WrittenValue value_at(std::string_view text, const std::filesystem::path& file, const std::string& path,
+                      const Place& asked);
+
 /// A scene of motion that was read once, its includes too, of which scenes with other numbers are built.
 class ChangeableScene {
  public:

@@ -59,6 +59,8 @@ std::string what_is_needed(const Key& key) {
       return "a range of values";
     case Holds::values:
       return "a range of values, or a list of quantities,";
+    case Holds::scalars:
+      return "a text, a number, true or false, or a list of these";
     case Holds::table:
       return "a table";
     case Holds::tables:
@@ -202,6 +204,18 @@ void read_texts(const Site& at, Value& value) {
   if (value.texts.empty()) at.refuse("is empty", "write at least one, or leave the key out");
 }
 
+void read_scalars(const Site& at, Value& value) {
+  using enum Node::Type;
+  const bool one = !at.node.is(list);
+  for (const Node& item : one ? std::vector<Node>{at.node} : at.node.items) {
+    const Site here{item, at.key, at.title};
+    if (!item.is(text) && !item.is(integer) && !item.is(number) && !item.is(boolean)) refuse_type(here);
+    if (item.is(text) && item.text.find('\n') != std::string::npos) here.refuse("goes over several lines", "");
+    value.texts.push_back({item.raw, item.place});
+  }
+  if (value.texts.empty()) at.refuse("is empty", "write at least one, or leave the key out");
+}
+
 void read_number(const Site& at, Value& value) {
   const bool integer = at.key.holds == Holds::integer;
   if (!at.node.is(Node::Type::integer) && (integer || !at.node.is(Node::Type::number))) refuse_type(at);
@@ -265,6 +279,9 @@ Value read_value(const Node& node, const Key& key, const std::string& title) {
       break;
     case Holds::values:
       read_values(at, value);
+      break;
+    case Holds::scalars:
+      read_scalars(at, value);
       break;
     case Holds::table:
     case Holds::tables:
@@ -354,6 +371,8 @@ std::string example(const Key& key) {
       return fmt::format("{} = \"2 {} .. 8 {}, 61 values\"", key.name, unit, unit);
     case Holds::values:
       return fmt::format("{} = [\"{}\"]", key.name, key.dimension.example());
+    case Holds::scalars:
+      return fmt::format("{} = [\"1 m\", \"2 m\"]", key.name);
     case Holds::table: {
       const bool may_be_empty =
           key.inner->groups.empty() || key.inner->groups.front().count == Group::Count::at_most_one;

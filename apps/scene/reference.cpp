@@ -42,6 +42,8 @@ std::string form_of(const Key& key) {
       return "range, " + unit;
     case Holds::values:
       return "range, or list of quantities, " + unit;
+    case Holds::scalars:
+      return "what the key of the scene may hold, one or a list";
     case Holds::table:
     case Holds::tables:
       return fmt::format("table `{}`", key.inner->title);

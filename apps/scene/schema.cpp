@@ -57,6 +57,9 @@ Key range(std::string name, const hydro::Dimension& dimension, std::string meani
 Key values(std::string name, const hydro::Dimension& dimension, std::string meaning) {
   return {.name = std::move(name), .holds = Holds::values, .dimension = dimension, .meaning = std::move(meaning)};
 }
+Key scalars(std::string name, std::string meaning) {
+  return {.name = std::move(name), .holds = Holds::scalars, .meaning = std::move(meaning)};
+}
 Key inner_table(std::string name, const Table& inner) {
   return {.name = std::move(name), .holds = Holds::table, .meaning = inner.meaning, .inner = &inner};
 }

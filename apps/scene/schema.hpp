@@ -27,6 +27,7 @@ enum class Holds {
   direction,  ///< "x", "y", "z", or "(1, 0, 1)" of any length but zero
   range,      ///< "2 s .. 8 s, 61 values"
   values,     ///< a range, or ["0 deg", "45 deg"]
+  scalars,    ///< texts, numbers and booleans, one or a list: what another key may hold
   table,      ///< [header] or { … }
   tables      ///< [[header]], any number
 };
@@ -99,6 +100,7 @@ Key ends(std::string name, std::string meaning);
 Key direction(std::string name, std::string meaning);
 Key range(std::string name, const hydro::Dimension& dimension, std::string meaning);
 Key values(std::string name, const hydro::Dimension& dimension, std::string meaning);
+Key scalars(std::string name, std::string meaning);  ///< Value::texts hold them as TOML writes them
 Key inner_table(std::string name, const Table& inner);
 Key inner_tables(std::string name, const Table& inner);
 

@@ -12,6 +12,7 @@
 #include "scene/schema.hpp"
 #include "support/scratch.hpp"
 #include "support/source_dir.hpp"
+#include "sweep/study.hpp"
 
 namespace froude::scene::reference_test {
 namespace {
@@ -58,7 +59,8 @@ TEST(KeyReference, MentionsEveryKeyWithItsMeaning) {
 }
 
 TEST(KeyReference, IsWhatTheGuideHolds) {
-  EXPECT_EQ(hydro::io::read_text(froude_test::source_dir() / "docs/guide/scene-keys.md"), key_reference())
+  EXPECT_EQ(hydro::io::read_text(froude_test::source_dir() / "docs/guide/scene-keys.md"),
+            froude::sweep::key_reference())
       << "write it anew: froude new --keys > docs/guide/scene-keys.md";
 }
 
@@ -134,7 +136,7 @@ TEST(NewScene, PrintsTheReferenceAndKnowsItsKinds) {
   std::ostringstream out, err;
   const Console console{.out = out, .err = err};
   new_scene("", std::nullopt, true, console);
-  EXPECT_EQ(out.str(), key_reference());
+  EXPECT_EQ(out.str(), froude::sweep::key_reference());
   EXPECT_THAT([&] { new_scene("motoin", std::nullopt, false, console); },
               testing::ThrowsMessage<hydro::InputError>(HasSubstr("did you mean \"motion\"?")));
 }

@@ -1,0 +1,228 @@
+#include "sweep/sweep.hpp"
+
+#include <atomic>
+#include <charconv>
+#include <csignal>
+#include <thread>
+
+#include "froude/commands.hpp"
+#include "froude/outputs.hpp"
+#include "froude/progress.hpp"
+#include "froude/report.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/io/atomic_file.hpp"
+#include "scene/placed.hpp"
+#include "sweep/table.hpp"
+
+namespace froude {
+namespace {
+
+namespace fs = std::filesystem;
+using sweep::Cases, sweep::Study, sweep::Tally;
+
+constexpr int ended_by_signal = 130;  // as shells tell it
+
+// Interruption: Ctrl-C, and what batch systems send before they kill. A second one ends the program at once.
+
+std::atomic<bool> asked_to_end = false;
+
+class Signals {
+ public:
+  Signals() {
+    for (const int number : {SIGINT, SIGTERM})
+      std::signal(number, [](int which) {
+        asked_to_end = true;
+        std::signal(which, SIG_DFL);
+      });
+  }
+  ~Signals() {
+    for (const int number : {SIGINT, SIGTERM}) std::signal(number, SIG_DFL);
+  }
+  Signals(const Signals&) = delete;
+  Signals& operator=(const Signals&) = delete;
+};
+
+// What is asked
+
+/// "2/8". \throws hydro::InputError for what is no share
+std::pair<std::size_t, std::size_t> part_of(const std::string& text) {
+  std::size_t part = 0, parts = 0;
+  const char* end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, part);
+  const bool read = first.ptr != end && *first.ptr == '/' && std::from_chars(first.ptr + 1, end, parts).ptr == end;
+  if (!read || part == 0 || part > parts)
+    throw hydro::InputError(fmt::format("\"{}\" is no part of the cases", text), {.file = "--part"},
+                            "write 1/4, 2/4, 3/4 and 4/4");
+  return {part, parts};
+}
+
+int threads_of(const SweepArguments& arguments) {
+  if (!arguments.threads) return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  constexpr int most = 1024;
+  if (*arguments.threads < 1 || *arguments.threads > most)
+    throw hydro::InputError(fmt::format("{} threads cannot work", *arguments.threads), {.file = "--threads"},
+                            fmt::format("take 1 to {}, or leave it out for one a core", most));
+  return *arguments.threads;
+}
+
+/// A study with its cases, and all files that they read.
+struct Task {
+  explicit Task(const Path& file)
+      : study(sweep::read_study(file)),
+        inputs(scene::placed(study.scene.place, [&] { return files_of_scene(study.scene.value); })),
+        cases(study, text(), paths(inputs)) {
+    inputs.push_back({"the study", file});
+  }
+  Task(const Task&) = delete;  // the cases refer to the study
+  Task& operator=(const Task&) = delete;
+  std::string text() const { return hydro::io::read_text(study.scene.value); }
+  /// Without the scene itself.
+  static std::vector<fs::path> paths(const std::vector<NamedFile>& files) {
+    std::vector<fs::path> out;
+    for (std::size_t i = 1; i < files.size(); ++i) out.push_back(files[i].path);
+    return out;
+  }
+  sweep::Identity identity() const {
+    return {cases.definition(), study.file.filename().string(), study.text, text(), cases.count(), cases.columns()};
+  }
+
+  Study study;
+  std::vector<NamedFile> inputs;
+  Cases cases;
+};
+
+void require_folder(const Path& folder, const Task& task) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed)
+    throw hydro::InputError(fmt::format("cannot make the folder \"{}\": {}", folder.string(), failed.message()), {},
+                            "name another one with -o");
+  std::vector<NamedFile> outputs{{"the table", folder / "table.csv"}, {"the database", sweep::database_of(folder)}};
+  for (const sweep::Picture& picture : task.study.pictures) {
+    outputs.push_back({"[[picture]] file", folder / picture.file.value});
+    outputs.push_back({"its table", (folder / picture.file.value).replace_extension(".csv")});
+  }
+  require_outputs(outputs, task.inputs);
+}
+
+// What is told
+
+std::string duration(double seconds) {
+  if (seconds < 100) return fmt::format("{:.2g} s", seconds);
+  return seconds < 6000 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.1f} h", seconds / 3600);
+}
+
+/// From a case that may have paid for what all share.
+Report expected(std::size_t cases, double seconds_a_case, int threads) {
+  const double whole = seconds_a_case * static_cast<double>(cases) / threads;
+  return Report().say("a case takes up to {}; {} cases on {} thread{} up to {}",
+                      fact("seconds_a_case", seconds_a_case, duration(seconds_a_case)), fact("cases_to_do", cases),
+                      fact("threads", threads), threads == 1 ? "" : "s", fact("expected_s", whole, duration(whole)));
+}
+
+Report report_of(const Tally& tally, std::size_t cases, const Path& folder) {
+  Report out;
+  out.say("{} of {} cases: {} done, {} failed, {} skipped{}", fact("over", tally.over()), fact("cases", cases),
+          fact("done", tally.done), fact("failed", tally.failed), fact("skipped", tally.skipped),
+          fact("warned", tally.warned, tally.warned == 0 ? "" : fmt::format("; {} with warnings", tally.warned)));
+  for (const auto& [number, reason] : tally.failures)
+    out.row("failures", "case {} failed: {}", fact("case", number), fact("reason", reason));
+  if (tally.failed > tally.failures.size())
+    out.say("and {} more, which the table names", tally.failed - tally.failures.size());
+  out.keep("partial", tally.over() < cases).keep("interrupted", tally.interrupted);
+  if (tally.over() < cases)
+    out.say("the result is partial: the same command goes on where this one stopped{}",
+            tally.interrupted ? " (it was interrupted)" : "");
+  return out.wrote(sweep::database_of(folder));
+}
+
+/// Table and pictures of all that the folder holds.
+Report written(const Study& study, const sweep::Store& store) {
+  Report out;
+  out.wrote(sweep::write_table(store));
+  for (const fs::path& picture : sweep::write_pictures(study, store)) out.wrote(picture);
+  return out;
+}
+
+int status_of(const Tally& tally) {
+  constexpr int numerics = 3;
+  return tally.interrupted ? ended_by_signal : tally.failed > 0 ? numerics : 0;
+}
+
+// What is done
+
+/// One case, answered twice and not kept: the second time is that of a case among many.
+void plan_sweep(const Task& task, int threads, const Console& console) {
+  std::size_t skipped = 0, first = 0;
+  for (std::size_t n = task.cases.count(); n > 0; --n) task.cases.skipped(n) ? ++skipped : first = n;
+  Report out;
+  out.say("{} cases, {} of them skipped", fact("cases", task.cases.count()), fact("skipped", skipped));
+  if (first > 0) {
+    const auto kept = std::make_shared<compile::Kept>();
+    answer_case(task.study, task.cases, first, kept);  // makes what all cases share
+    const sweep::Row row = answer_case(task.study, task.cases, first, kept);
+    if (!row.reason.empty()) out.say("case {} failed: {}", first, fact("reason", row.reason));
+    out.part("", expected(task.cases.count() - skipped, row.seconds, threads));
+  }
+  tell(out, console);
+}
+
+void tell_scene(const Task& task, std::size_t number, const Console& console) {
+  if (number == 0 || number > task.cases.count())
+    throw hydro::InputError(fmt::format("there is no case {}, of {}", number, task.cases.count()), {.file = "--case"},
+                            "count from 1");
+  console.out << task.cases.scene(number);
+}
+
+int sweep_study(const SweepArguments& arguments, const Task& task, int threads, const Console& console) {
+  const auto [part, parts] = part_of(arguments.part);
+  const Path folder = arguments.output.value_or(task.study.file.stem().string() + ".sweep");
+  require_folder(folder, task);
+  sweep::Store store(folder, task.identity());
+  const Signals signals;
+  Progress progress(console.err, "sweep", console.show_progress);
+  const sweep::Watch watch{
+      [&](std::size_t cases, double seconds) { tell_people(expected(cases, seconds, threads), console); },
+      [&](double done) { progress.update(done); }, [] { return asked_to_end.load(); }};
+  const Tally tally = carry_out(task.study, task.cases, store,
+                                {.threads = threads, .part = part, .parts = parts, .retry = arguments.retry}, watch);
+  Report out = report_of(tally, task.cases.count(), folder);
+  out.keep("answered", tally.answered).keep("wall_time_s", tally.seconds).keep("threads", threads);
+  tell(out.part("", written(task.study, store)), console);
+  return status_of(tally);
+}
+
+int merge_sweeps(const SweepArguments& arguments, const Console& console) {
+  if (!arguments.output)
+    throw hydro::InputError("where the sweeps are merged is not said", {.file = "--merge"}, "name a folder with -o");
+  sweep::Identity identity;
+  {
+    const sweep::Store first(arguments.merge.front());
+    identity = first.identity();
+  }
+  for (const Path& folder : arguments.merge)
+    if (std::error_code unknown; fs::equivalent(folder, *arguments.output, unknown))
+      throw hydro::InputError(fmt::format("\"{}\" is merged, and is where to", folder.string()), {.file = "-o"},
+                              "name another folder");
+  sweep::Store store(*arguments.output, identity);
+  sweep::merge(arguments.merge, store);
+  const Tally tally = sweep::tally_of(store);
+  Report out = report_of(tally, identity.cases, *arguments.output);
+  tell(out.part("", written(sweep::parse_study(identity.study, identity.name), store)), console);
+  return status_of(tally);
+}
+
+}  // namespace
+
+int sweep_scenes(const SweepArguments& arguments, const Console& console) {
+  if (!arguments.merge.empty()) return merge_sweeps(arguments, console);
+  if (!arguments.study)
+    throw hydro::InputError("which study is not said", {.file = "froude sweep"}, "name its file, or sweeps to --merge");
+  const Task task(*arguments.study);
+  const int threads = threads_of(arguments);
+  if (arguments.scene_of) return tell_scene(task, *arguments.scene_of, console), 0;
+  if (arguments.plan) return plan_sweep(task, threads, console), 0;
+  return sweep_study(arguments, task, threads, console);
+}
+
+}  // namespace froude

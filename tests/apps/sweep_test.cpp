@@ -1,0 +1,306 @@
+// Studies: which cases they are, what is told of each, and how they are kept.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <set>
+
+#include "answers/plot_field.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/io/atomic_file.hpp"
+#include "support/scratch.hpp"
+#include "sweep/sweep.hpp"
+#include "sweep/table.hpp"
+
+namespace froude_test::sweep_of_cases {
+namespace {
+
+namespace fs = std::filesystem;
+using froude::sweep::Cases, froude::sweep::Cell, froude::sweep::Row, froude::sweep::State, froude::sweep::Store,
+    froude::sweep::Study;
+using testing::HasSubstr, testing::ThrowsMessage, testing::AllOf;
+
+// ω = √(k/m) = 2 rad/s, undamped, let go 0.2 m from rest.
+constexpr const char* oscillator = R"(schema = 1
+[water]
+density = "1025 kg/m^3"
+depth = "infinite"
+[[body]]
+name = "block"
+position = "(1, 2, 0) m"        # by hand
+mass = "100 kg"
+free = "surge"
+initial = { surge = "20 cm" }
+[[mooring]]
+on = "block"
+kind = "linear"
+stiffness = { surge = "400 N/m" }
+[ask]
+modes = {}
+run = { duration = "15 s", every = "0.1 s", of = ["block.surge"] }
+accuracy = 1e-3
+)";
+
+constexpr const char* outputs = R"(
+[[output]]
+kind = "run"
+of = "block.*"
+statistic = ["deviation", "maximum", "significant"]
+[[output]]
+kind = "modes"
+statistic = "period"
+)";
+
+std::string axis(const std::string& key, const std::string& values, const std::string& more = "") {
+  return fmt::format("[[axis]]\nkey = \"{}\"\n{}\n{}\n", key, values, more);
+}
+Study study_of(const std::string& axes, const std::string& of = outputs) {
+  return froude::sweep::parse_study("schema = 1\nscene = \"block.toml\"\n" + axes + of, "study.toml");
+}
+double number(const Cell& cell) { return std::get<double>(cell); }
+
+const std::string masses = axis("body.block.mass", "values = [\"25 kg\", \"100 kg\", \"400 kg\"]", "name = \"mass\"");
+const std::string starts =
+    axis("body.block.initial.surge", "range = \"0.1 m .. 0.2 m, every 0.1 m\"", "name = \"start\"");
+
+TEST(Cases, AreEveryValueWithEveryOtherTheLastAxisFirst) {
+  const Study study = study_of(masses + starts);
+  const Cases cases(study, oscillator, {});
+  ASSERT_EQ(cases.count(), 6u);
+  const double mass[] = {25, 25, 100, 100, 400, 400};
+  for (std::size_t n = 1; n <= 6; ++n) {
+    EXPECT_EQ(number(cases.cells(n)[0]), mass[n - 1]);
+    EXPECT_EQ(number(cases.cells(n)[1]), n % 2 == 1 ? 0.1 : 0.2);
+  }
+}
+
+TEST(Cases, ChangeNothingElseInTheTextOfTheScene) {
+  const Study study = study_of(masses + axis("body[1].position.y", "values = [\"250 cm\", \"7 m\"]") +
+                               axis("ask.accuracy", "range = \"1e-4 .. 1e-2, 3 values\"", "spacing = \"logarithmic\""));
+  const Cases cases(study, oscillator, {});
+  std::string expected = oscillator;
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    expected.replace(expected.find(from), from.size(), to);
+  };
+  replace("\"100 kg\"", "\"400 kg\"");
+  replace("(1, 2, 0) m", "(1, 2.5, 0) m");
+  replace("1e-3", "0.001");
+  EXPECT_EQ(cases.scene(14), expected);  // third mass, first place, second accuracy
+}
+
+TEST(Cases, OfAxesAlongEachOtherTakeTheirValuesTogether) {
+  const Study study = study_of(
+      masses + axis("mooring.stiffness.surge", "values = [\"1 N/m\", \"2 N/m\", \"3 N/m\"]", "along = \"mass\"") +
+      starts);
+  const Cases cases(study, oscillator, {});
+  ASSERT_EQ(cases.count(), 6u);
+  EXPECT_EQ(number(cases.cells(5)[0]), 400);
+  EXPECT_EQ(number(cases.cells(5)[1]), 3);
+  EXPECT_THAT([&] { study_of(masses + axis("water.density", "values = [\"1 t/m^3\"]", "along = \"mas\"")); },
+              ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("mas"), HasSubstr("did you mean \"mass\"?"))));
+  const Study uneven = study_of(masses + axis("water.density", "values = [\"1 t/m^3\"]", "along = \"mass\""));
+  EXPECT_THAT([&] { Cases(uneven, oscillator, {}); }, ThrowsMessage<hydro::InputError>(HasSubstr("3")));
+}
+
+/// The shares of two sampled axes, from 0 to 1.
+std::vector<std::array<double, 2>> drawn(const std::string& sample) {
+  const Study study = study_of(axis("body.block.mass", "range = \"100 kg .. 200 kg\"") +
+                               axis("body.block.initial.surge", "range = \"1 m .. 2 m\"") + sample);
+  const Cases cases(study, oscillator, {});
+  std::vector<std::array<double, 2>> out;
+  for (std::size_t n = 1; n <= cases.count(); ++n)
+    out.push_back({number(cases.cells(n)[0]) / 100 - 1, number(cases.cells(n)[1]) - 1});
+  return out;
+}
+
+TEST(LatinHypercube, HasOnePointInEachPartOfEachAxis) {
+  const auto points = drawn("[sample]\nmethod = \"latin hypercube\"\nnumber = 37\nseed = 5\n");
+  ASSERT_EQ(points.size(), 37u);
+  for (const std::size_t a : {0u, 1u}) {
+    std::set<int> parts;
+    for (const auto& p : points) parts.insert(static_cast<int>(p[a] * 37));
+    EXPECT_EQ(parts.size(), 37u);
+  }
+  EXPECT_NE(points, drawn("[sample]\nmethod = \"latin hypercube\"\nnumber = 37\nseed = 6\n"));
+}
+
+TEST(Sobol, HasOnePointInEachBoxOfANet) {
+  // The first two dimensions of the sequence are a (0, m, 2)-net in base 2: each box of 2^-a by 2^-b with a + b = m has
+  // one of 2^m points (Sobol 1967), and turning bits over exchanges boxes.
+  for (const int seed : {1, 2}) {
+    const auto points = drawn(fmt::format("[sample]\nmethod = \"sobol\"\nnumber = 16\nseed = {}\n", seed));
+    for (int a = 0; a <= 4; ++a) {
+      std::set<std::pair<int, int>> boxes;
+      for (const auto& p : points)
+        boxes.insert({static_cast<int>(p[0] * (1 << a)), static_cast<int>(p[1] * (16 >> a))});
+      EXPECT_EQ(boxes.size(), 16u) << a;
+    }
+  }
+}
+
+TEST(Cases, AreSkippedWhereWavesAreTooSteep) {
+  const std::string waves = std::string(oscillator) +
+                            "[waves]\nkind = \"regular\"\nheight = \"2 m\"\nperiod = \"5 s\"\nheading = \"0 deg\"\n";
+  // λ = gT²/2π in deep water: of T = 5 s it is 39.0 m, of 8 s 99.9 m.
+  const Study study =
+      study_of(axis("waves.height", "values = [\"2 m\", \"2.7 m\", \"2.75 m\"]", "name = \"H\"") +
+               axis("waves.period", "values = [\"5 s\", \"8 s\"]") +
+               "[[skip]]\nof = \"steepness\"\nabove = 0.07\n[[skip]]\nof = \"H\"\nbelow = \"210 cm\"\n");
+  const Cases cases(study, waves, {});
+  const double limit = 0.07 * 9.80665 * 25 / (2 * std::numbers::pi);  // 2.73 m
+  ASSERT_TRUE(2.7 < limit && limit < 2.75);
+  std::vector<bool> skipped;
+  for (std::size_t n = 1; n <= 6; ++n) skipped.push_back(cases.skipped(n).has_value());
+  EXPECT_EQ(skipped, (std::vector{true, true, false, false, true, false}));
+}
+
+TEST(Studies, RefuseWhatNoSceneCanHave) {
+  const auto refused = [](const std::string& axes, const std::string& why) {
+    EXPECT_THAT(
+        [&] {
+          const Study study = study_of(axes);
+          Cases(study, oscillator, {});
+        },
+        ThrowsMessage<hydro::InputError>(HasSubstr(why)));
+  };
+  refused(axis("body.block.mas", "values = [\"1 kg\"]"), "did you mean \"mass\"?");
+  refused(axis("body.block", "values = [\"1 kg\"]"), "is a table");
+  refused(axis("body.block.mass", "range = \"1 kg .. 2 s, 3 values\""), "different dimensions");
+  refused(axis("body.block.mass", "range = \"1 kg .. 2 kg, every 0.3 kg\""), "whole number of steps");
+  refused(axis("body.block.mass", "range = \"1 kg .. 2 kg\""), "does not say how many");
+  refused(axis("schema", "range = \"1 .. 2, 3 values\""), "is an integer");
+  refused(axis("body.block.mass", "range = \"-1 kg .. 2 kg, 3 values\"", "spacing = \"logarithmic\""), "meets 0");
+  refused(masses + axis("body[1].mass", "values = [\"1 kg\"]"), "change the same value");
+  refused(masses + masses, "there is a column \"mass\" already");
+  refused(axis("body.block.position.x", "values = [\"one\"]"), "component");
+  refused(axis("body.block.mass", "range = \"1 kg .. 1000000 kg, every 1 g\""), "whole number of steps");
+}
+
+TEST(Numbers, AreThoseOfTheClosedForm) {
+  const Study study = study_of(masses + starts);
+  const Cases cases(study, oscillator, {});
+  const auto kept = std::make_shared<froude::compile::Kept>();
+  for (std::size_t n = 1; n <= cases.count(); ++n) {
+    const Row row = answer_case(study, cases, n, kept);
+    ASSERT_EQ(row.state, State::done) << row.reason;
+    const double omega = std::sqrt(400 / number(row.axes[0])), start = number(row.axes[1]);
+    double mean = 0, squares = 0;
+    for (int i = 0; i <= 150; ++i) mean += start * std::cos(omega * 0.1 * i) / 151;
+    for (int i = 0; i <= 150; ++i) squares += std::pow(start * std::cos(omega * 0.1 * i) - mean, 2) / 151;
+    const double accuracy = 1e-3;  // that the scene asks for, of deviation and extreme
+    EXPECT_NEAR(number(row.numbers[0]), std::sqrt(squares), accuracy * std::sqrt(squares));
+    EXPECT_NEAR(number(row.numbers[1]), start, accuracy * start);
+    // Crest and trough are samples, which miss them by 1 − cos(ωΔt/2) each at most.
+    const double sampled = 1 - std::cos(omega * 0.05);
+    if (omega > 1.5) {  // three waves and more
+      EXPECT_NEAR(number(row.numbers[2]), 2 * start, (accuracy + sampled) * 2 * start);
+    }
+    EXPECT_NEAR(number(row.numbers[3]), 2 * std::numbers::pi / omega, 1e-9);  // an eigenvalue of one equation
+  }
+}
+
+// Sweeps
+
+class Sweeps : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::remove_all(folder());
+    fs::create_directories(folder());
+    std::ofstream(folder() / "block.toml") << oscillator;
+  }
+  static fs::path folder() {
+    return support::scratch_folder() / testing::UnitTest::GetInstance()->current_test_info()->name();
+  }
+  Study study(const std::string& axes = masses + starts) const {
+    return froude::sweep::parse_study("schema = 1\nscene = \"block.toml\"\n" + axes + outputs, folder() / "study.toml");
+  }
+  static froude::sweep::Identity identity(const Study& study, const Cases& cases) {
+    return {cases.definition(), "study.toml", study.text, oscillator, cases.count(), cases.columns()};
+  }
+  /// The table of a sweep into a folder.
+  std::string table(const std::string& name, const froude::sweep::Options& options,
+                    const std::function<bool()>& interrupted = {}) const {
+    const Study of = study();
+    const Cases cases(of, oscillator, {});
+    Store store(folder() / name, identity(of, cases));
+    carry_out(of, cases, store, options, {{}, {}, interrupted});
+    return hydro::io::read_text(write_table(store));
+  }
+};
+
+TEST_F(Sweeps, TellTheSameBitsWhateverTheOrder) {
+  const std::string one = table("one", {.threads = 1});
+  EXPECT_THAT(one, HasSubstr("case,mass [kg],start [m],block.surge.deviation [m]"));
+  EXPECT_EQ(std::count(one.begin(), one.end(), '\n'), 7);
+  EXPECT_EQ(table("two", {.threads = 2}), one);
+  int asked = 0;
+  const std::string begun = table("resumed", {.threads = 1}, [&] { return ++asked > 100; });
+  EXPECT_LT(std::count(begun.begin(), begun.end(), '\n'), 7);  // some cases, not all
+  EXPECT_EQ(table("resumed", {.threads = 2}), one);
+}
+
+TEST_F(Sweeps, MergedAreTheWholeAndMergedAgainTheSame) {
+  const std::string whole = table("whole", {.threads = 2});
+  table("a", {.threads = 1, .part = 1, .parts = 2});
+  table("b", {.threads = 1, .part = 2, .parts = 2});
+  const Study of = study();
+  const Cases cases(of, oscillator, {});
+  for (int times = 0; times < 2; ++times) {
+    Store into(folder() / "merged", identity(of, cases));
+    froude::sweep::merge({folder() / "a", folder() / "b"}, into);
+    EXPECT_EQ(hydro::io::read_text(write_table(into)), whole);
+  }
+}
+
+TEST_F(Sweeps, OfAnotherStudyAreRefusedWithTheFirstDifference) {
+  table("sweep", {.threads = 1});
+  const Study other =
+      study(masses + axis("body.block.initial.surge", "values = [\"0.1 m\", \"0.3 m\"]", "name = \"start\""));
+  const Cases cases(other, oscillator, {});
+  EXPECT_THAT([&] { Store(folder() / "sweep", identity(other, cases)); },
+              ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("value 0.2 m"), HasSubstr("value 0.3 m"))));
+  const Study same = study();
+  const Cases again(same, oscillator, {});
+  const Store held(folder() / "sweep", identity(same, again));
+  EXPECT_THAT([&] { Store(folder() / "sweep", identity(same, again)); },
+              ThrowsMessage<hydro::InputError>(HasSubstr("another sweep is at work")));
+}
+
+TEST_F(Sweeps, GoOnAfterACaseThatFails) {
+  const Study of = study(axis("body.block.mass", "values = [\"-1 kg\", \"100 kg\", \"-2 kg\", \"25 kg\"]"));
+  const Cases cases(of, oscillator, {});
+  Store store(folder() / "sweep", identity(of, cases));
+  const auto tally = carry_out(of, cases, store, {.threads = 2}, {});
+  EXPECT_EQ(tally.done, 2u);
+  ASSERT_EQ(tally.failed, 2u);
+  EXPECT_THAT(tally.failures[1].second, AllOf(HasSubstr("mass"), HasSubstr("positive")));
+  EXPECT_EQ(store.rows()[0].numbers.size(), 0u);
+  EXPECT_EQ(store.rows()[1].numbers.size(), 4u);
+}
+
+// Contours
+
+TEST(Contours, LieWhereAFieldThatIsLinearSaysSo) {
+  const froude::plot::Field field{{"z"}, {0, 1, 3}, {0, 2}, {{0, 1, 3}, {4, 5, 7}}};  // x + 2y
+  double length = 0;
+  for (const auto& p : froude::plot::contour(field, 2.5)) {
+    EXPECT_NEAR(p.x1 + 2 * p.y1, 2.5, 1e-14);  // rounding of a dozen operations
+    EXPECT_NEAR(p.x2 + 2 * p.y2, 2.5, 1e-14);
+    length += std::hypot(p.x2 - p.x1, p.y2 - p.y1);
+  }
+  EXPECT_NEAR(length, std::hypot(2.5, 1.25), 1e-14);  // from (2.5, 0) to (0, 1.25), whole
+}
+
+TEST(Contours, LeaveOutWhatIsNotKnown) {
+  const double none = std::nan("");
+  const froude::plot::Field field{{"z"}, {0, 1, 2}, {0, 1}, {{0, 1, 2}, {0, 1, none}}};
+  EXPECT_EQ(froude::plot::tiles_of(field).size(), 5u);
+  for (const auto& p : froude::plot::contour(field, 1.5)) EXPECT_LE(p.y1, p.x1 - 1 + 1e-14);
+}
+
+}  // namespace
+}  // namespace froude_test::sweep_of_cases

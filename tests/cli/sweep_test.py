@@ -1,0 +1,267 @@
+#!/usr/bin/python3
+"""Sweeps as a user meets them: numbers, interruptions, faults of the disk.  sweep_test.py FROUDE SOURCE
+
+The reference of a number is the run of its case by itself, whose scene `froude sweep --case` prints.
+"""
+import csv
+import fcntl
+import json
+import os
+import resource
+import shutil
+import signal
+import sqlite3
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+FROUDE, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+
+SCENE = """\
+schema = 1
+[water]
+density = "1025 kg/m^3"
+depth = "infinite"
+[[body]]
+name = "block"
+mass = "100 kg"
+free = "surge"
+initial = { surge = "20 cm" }
+[[mooring]]
+on = "block"
+kind = "linear"
+stiffness = { surge = "400 N/m" }
+[ask]
+run = { duration = "60 s", every = "0.1 s", of = ["block.surge"] }
+accuracy = 1e-3
+"""
+STUDY = """\
+schema = 1
+scene = "block.toml"
+[[axis]]
+name = "mass"
+key = "body.block.mass"
+range = "100 kg .. 400 kg, 40 values"
+[[output]]
+kind = "run"
+of = "block.surge"
+statistic = ["deviation", "maximum", "range"]
+"""
+
+
+class Sweeps(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="froude_sweep_"))
+        self.write("block.toml", SCENE)
+        self.write("study.toml", STUDY)
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text, encoding="utf-8")
+
+    def command(self, *arguments):
+        return [str(FROUDE), "sweep", *map(str, arguments)]
+
+    def sweep(self, *arguments, status=0, **options):
+        done = subprocess.run(self.command(*arguments), cwd=self.folder, capture_output=True, text=True, timeout=120,
+                              **options)
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done
+
+    def table(self, name):
+        return (self.folder / name / "table.csv").read_bytes()
+
+    def rows(self, name):
+        with open(self.folder / name / "table.csv", newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def test_numbers_are_those_of_a_run_by_itself(self):
+        self.sweep("study.toml", "-o", "out")
+        rows = self.rows("out")
+        self.assertEqual(len(rows), 40)
+        for case in (1, 23):
+            self.write("case.toml", self.sweep("study.toml", "--case", case).stdout)
+            run = subprocess.run([str(FROUDE), "run", "case.toml", "--json"], cwd=self.folder, capture_output=True, text=True)
+            surge = json.loads(run.stdout)["signals"]["block.surge"]
+            row = rows[case - 1]
+            self.assertEqual(float(row["block.surge.deviation [m]"]), surge["standard_deviation"])
+            self.assertEqual(float(row["block.surge.maximum [m]"]), surge["highest"])
+        database = sqlite3.connect(self.folder / "out" / "sweep.sqlite")
+        known = database.execute('SELECT "block.surge.maximum" FROM cases WHERE mass = 100').fetchone()
+        self.assertEqual(known[0], float(rows[0]["block.surge.maximum [m]"]))
+
+    def test_a_plan_answers_one_case_and_keeps_nothing(self):
+        said = json.loads(self.sweep("study.toml", "--plan", "--json").stdout)
+        self.assertEqual(said["cases"], 40)
+        self.assertGreater(said["expected_s"], 0)
+        self.assertFalse((self.folder / "study.sweep").exists())
+
+    def test_killed_at_any_moment_it_goes_on_to_the_same_bits(self):
+        self.sweep("study.toml", "-o", "whole", "--threads", 1)
+        for moment in (0.02, 0.1, 0.25, 0.4):
+            name = f"killed{moment}"
+            process = subprocess.Popen(self.command("study.toml", "-o", name), cwd=self.folder, stdout=subprocess.DEVNULL)
+            time.sleep(moment)
+            process.kill()
+            process.wait()
+            self.sweep("study.toml", "-o", name, "--threads", 2)
+            self.assertEqual(self.table(name), self.table("whole"), moment)
+
+    def test_interrupted_it_leaves_a_partial_result_that_says_so(self):
+        self.write("block.toml", SCENE.replace('"60 s"', '"6000 s"'))
+        process = subprocess.Popen(self.command("study.toml", "-o", "out", "--json"), cwd=self.folder,
+                                   stdout=subprocess.PIPE, text=True)
+        database = self.folder / "out" / "sweep.sqlite"
+        for _ in range(600):  # until a first case is in
+            time.sleep(0.1)
+            if database.exists() and self.done(database) > 0:
+                break
+        process.send_signal(signal.SIGINT)
+        said = json.loads(process.communicate(timeout=60)[0])
+        self.assertEqual(process.returncode, 130)
+        self.assertTrue(said["partial"] and said["interrupted"])
+        self.assertEqual(len(self.rows("out")), said["done"])
+        self.assertLess(said["done"], 40)
+        state = sqlite3.connect(database).execute("SELECT value FROM study WHERE key = 'state'").fetchone()
+        self.assertEqual(state[0], "partial")
+
+    @staticmethod
+    def done(database):
+        try:
+            return sqlite3.connect(database).execute("SELECT count(*) FROM cases").fetchone()[0]
+        except sqlite3.OperationalError:  # the table is just being made
+            return 0
+
+    def test_what_is_done_is_not_done_again(self):
+        self.sweep("study.toml", "-o", "out")
+        before = self.table("out")
+        again = json.loads(self.sweep("study.toml", "-o", "out", "--json").stdout)
+        self.assertEqual((again["answered"], again["done"]), (0, 40))
+        self.assertEqual(self.table("out"), before)
+
+    def test_series_that_are_torn_or_missing_are_made_again(self):
+        self.write("study.toml", STUDY.replace('scene =', 'series = true\nscene =').replace("40 values", "4 values"))
+        self.sweep("study.toml", "-o", "out")
+        first, second = (self.folder / "out" / "series" / f"case-00000{n}.run.h5" for n in (1, 2))
+        first.write_bytes(first.read_bytes()[:-1000])
+        second.unlink()
+        again = json.loads(self.sweep("study.toml", "-o", "out", "--json").stdout)
+        self.assertEqual(again["answered"], 2)
+        for file in (first, second):
+            shown = subprocess.run([str(FROUDE), "psd", str(file)], capture_output=True, text=True)
+            self.assertEqual(shown.returncode, 0, shown.stderr)
+        self.sweep("--merge", "out", "-o", "copy")
+        self.assertEqual((self.folder / "copy" / "series" / first.name).read_bytes(), first.read_bytes())
+
+    def test_a_second_sweep_in_the_same_folder_is_refused(self):
+        (self.folder / "out").mkdir()
+        with open(self.folder / "out" / "lock", "w", encoding="utf-8") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            self.assertIn("another sweep is at work", self.sweep("study.toml", "-o", "out", status=2).stderr)
+        self.sweep("study.toml", "-o", "out")
+
+    def test_another_study_or_scene_is_refused_by_name(self):
+        self.sweep("study.toml", "-o", "out")
+        before = self.table("out")
+        self.write("other.toml", STUDY.replace("40 values", "41 values"))
+        said = self.sweep("other.toml", "-o", "out", status=2).stderr
+        self.assertTrue("study.toml" in said and "other.toml" in said, said)
+        self.write("block.toml", SCENE.replace("400 N/m", "500 N/m"))
+        self.assertIn("scene", self.sweep("study.toml", "-o", "out", status=2).stderr)
+        self.assertEqual(self.table("out"), before)
+
+    def test_cases_that_fail_are_told_with_their_reasons(self):
+        self.write("study.toml", STUDY.replace("100 kg .. 400 kg, 40", "-100 kg .. 100 kg, 3"))
+        said = json.loads(self.sweep("study.toml", "-o", "out", "--json", status=3).stdout)
+        self.assertEqual((said["done"], said["failed"]), (1, 2))
+        self.assertEqual([row["state"] for row in self.rows("out")], ["failed", "failed", "done"])
+        self.assertIn("must be positive", self.rows("out")[0]["reason"])
+
+    def test_a_case_that_takes_too_long_is_ended(self):
+        self.write("block.toml", SCENE.replace('"60 s"', '"600000 s"'))
+        self.write("study.toml", STUDY.replace("scene =", 'time_limit = "0.2 s"\nscene =').replace("40 values", "2 values"))
+        self.assertIn("time_limit", self.sweep("study.toml", "-o", "out", status=3).stdout)
+
+    def test_a_full_disk_ends_it_and_what_was_done_is_kept(self):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (30000, 30000))
+        self.write("study.toml", STUDY.replace("40 values", "400 values"))
+        said = self.sweep("study.toml", "-o", "out", status=2, preexec_fn=limit).stderr
+        self.assertIn("free some space", said)
+        self.sweep("study.toml", "-o", "out")
+        self.sweep("study.toml", "-o", "whole")
+        self.assertEqual(self.table("out"), self.table("whole"))
+
+    def test_a_folder_that_cannot_be_written_is_refused_before_the_work(self):
+        self.write("file", "")
+        self.assertIn("cannot make the folder", self.sweep("study.toml", "-o", "file/out", status=2).stderr)
+        self.assertIn("cannot", self.sweep("study.toml", "-o", "/proc/self", status=2).stderr)
+
+    def test_a_damaged_database_is_refused_and_stays(self):
+        self.sweep("study.toml", "-o", "out")
+        database = self.folder / "out" / "sweep.sqlite"
+        database.write_bytes(b"x" * 4096)
+        self.assertIn("not a database", self.sweep("study.toml", "-o", "out", status=2).stderr)
+        self.assertEqual(database.read_bytes(), b"x" * 4096)
+
+    def test_a_number_that_has_changed_on_the_disk_is_found_and_made_again(self):
+        self.sweep("study.toml", "-o", "out")
+        before = self.table("out")
+        database = sqlite3.connect(self.folder / "out" / "sweep.sqlite")
+        database.execute('UPDATE cases SET "block.surge.range" = 7 WHERE "case" = 5')
+        database.commit()
+        database.close()
+        again = json.loads(self.sweep("study.toml", "-o", "out", "--json").stdout)
+        self.assertEqual((again["answered"], self.table("out")), (1, before))
+
+    def test_no_file_that_is_read_is_written(self):
+        picture = '[[picture]]\nfile = "p.svg"\nof = "block.surge.range"\nx = "mass"\n'
+        for planted in ("table.csv", "p.csv", "p.svg"):
+            self.write(planted, "time [s],x [m]\n0,0\n1,0\n")
+            self.write("block.toml", SCENE.replace("schema = 1", f'schema = 1\ntitle = "{planted}"'))
+            self.write("study.toml", STUDY + picture)
+            said = self.sweep("study.toml", "-o", ".", status=2).stderr
+            self.assertIn("would be replaced", said)
+        for name in ("../p.svg", "/tmp/p.svg", "a/p.svg", "table.svg"):
+            self.write("study.toml", STUDY + picture.replace("p.svg", name))
+            self.assertIn("no name of a picture", self.sweep("study.toml", "-o", ".", status=2).stderr)
+
+    def test_wrong_commands_have_one_error_with_a_remedy(self):
+        for arguments, said in ((["study.toml", "--part", "5/4"], "no part"), (["study.toml", "--threads", 0], "threads"),
+                                (["study.toml", "--case", 41], "there is no case 41"), ([], "which study"),
+                                (["--merge", "none", "-o", "x"], "there is no sweep"), (["--merge", "none"], "-o")):
+            done = self.sweep(*arguments, status=2)
+            self.assertIn(said, done.stderr)
+
+    def test_an_output_that_the_scene_does_not_have_is_refused_at_its_place(self):
+        self.write("study.toml", STUDY.replace('"block.surge"', '"block.surg"'))
+        said = self.sweep("study.toml", "-o", "out", status=2).stderr
+        self.assertTrue("study.toml:9" in said and 'did you mean "block.surge"?' in said, said)
+
+    def test_the_example_has_its_pictures(self):
+        shutil.copytree(SOURCE / "examples", self.folder / "examples")
+        said = json.loads(self.sweep("examples/sweep/study.toml", "-o", "out", "--json").stdout)
+        self.assertEqual((said["cases"], said["failed"], said["skipped"]), (28, 0, 4))
+        for name in ("power.svg", "power.csv", "stroke.svg", "stroke.csv"):
+            self.assertTrue((self.folder / "out" / name).exists(), name)
+
+    def test_numbers_of_a_fit_are_those_that_it_tells(self):
+        fit = SOURCE / "examples" / "fit"
+        for name in ("oscillation.toml", "oscillation.csv"):
+            shutil.copy(fit / name, self.folder)
+        told = json.loads(subprocess.run([str(FROUDE), "fit", "oscillation.toml", "--json"], cwd=self.folder,
+                                         capture_output=True, text=True).stdout)
+        self.write("study.toml", 'schema = 1\nscene = "oscillation.toml"\n[[axis]]\nname = "file"\nkey = "data.files"\n'
+                   'values = ["oscillation.csv"]\n[[output]]\nkind = "fit"\nof = "cd"\nstatistic = ["value", "low"]\n')
+        self.sweep("study.toml", "-o", "out")
+        text = json.dumps(told)
+        self.assertIn(self.rows("out")[0]["cd.value"], text)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
