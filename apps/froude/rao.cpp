@@ -6,6 +6,9 @@
 
 #include "answers/linear_response.hpp"
 #include "answers/plot.hpp"
+#include "answers/rao_check.hpp"
+#include "compile/compile.hpp"
+#include "froude/progress.hpp"
 #include "froude/report.hpp"
 #include "froude/scene_result.hpp"
 #include "hydro/base/error.hpp"
@@ -76,7 +79,7 @@ void write_rao_csv(const Path& path, const Responses& r) {
   }
   hydro::io::write_csv(
       path, columns,
-      {"amplitudes per metre of wave amplitude; phase leads the wave at the origin, Re(X exp(+i omega t))"});
+      {"amplitudes over that of the wave, in the unit of each column; phase leads the wave at the origin, Re(X exp(+i omega t))"});
 }
 
 /// One panel for each unit, so that metres and newtons do not share an axis.
@@ -125,6 +128,28 @@ Report report_of(const ComplexSignal& s, const Responses& r) {
   return out.keep("amplitude", several ? amplitude : amplitude[0]).keep("phase_rad", several ? phase : phase[0]);
 }
 
+/// Responses beside what runs have at the same frequency; peaks and the signal with the largest difference first.
+Report report_of(const std::vector<CheckedCell>& cells) {
+  Report out;
+  out.say("in time, waves of the first heading: difference and what a run has not settled are of the signal's peak");
+  out.say("{:<24} {:>8} {:>10} {:>12} {:>12} {:>11} {:>10} {:>12}", "signal", "T [s]", "height [m]", "linear", "run",
+          "difference", "unsettled", "other rms");
+  const CheckedCell* worst = nullptr;
+  for (const CheckedCell& c : cells) {
+    out.row("cells", "{:<24} {:>8.4g} {:>10.4g} {:>12.5g} {:>12.5g} {:>9.2g} % {:>8.2g} % {:>12.3g}",
+            fact("signal", c.signal), fact("period_s", 2 * std::numbers::pi / c.omega), fact("height_m", c.height),
+            fact("linear", std::abs(c.linear)), fact("run", std::abs(c.run)),
+            fact("difference", c.difference(), 100 * c.difference()),
+            fact("unsettled", c.unsettled, 100 * c.unsettled), fact("other_rms", c.rest));
+    if (worst == nullptr || c.difference() > worst->difference()) worst = &c;
+  }
+  if (worst != nullptr)
+    out.say("what the linear answer ignores, with the errors of the runs, is at most {:.2g} % of the peak: {} at {:.4g} s, "
+            "waves of {:.4g} m",
+            100 * worst->difference(), worst->signal, 2 * std::numbers::pi / worst->omega, worst->height);
+  return out;
+}
+
 Report report_of(const scene::Scene& scene, const Responses& r, const Path& file) {
   const bool several = r.heading.size() > 1;
   Report out, signals;
@@ -143,15 +168,24 @@ Report report_of(const scene::Scene& scene, const Responses& r, const Path& file
 
 }  // namespace
 
-void rao(const SceneArguments& arguments, const Console& console) {
+void rao(const RaoArguments& arguments, const Console& console) {
   const scene::Scene scene = scene::read(arguments.scene);
   require_asked(scene.rao.has_value(), scene, "rao", "rao = { periods = \"2 s .. 8 s, 61 values\" }");
   const Path file = checked_output(arguments, ".rao.h5");
-  const Responses r = respond(scene);
+  HowToRespond how{.refine = arguments.refine};
+  if (arguments.threads) how.threads = *arguments.threads;
+  const Responses per_metre = respond(scene, compile::prepare(scene), how);
+  const Responses r = arguments.nondimensional ? over_wave_slope(per_metre, scene.water) : per_metre;
   r.write(file);
   if (arguments.csv) write_rao_csv(*arguments.csv, r);
   if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, r)));
-  tell(report_of(scene, r, file), console);
+  Report report = report_of(scene, r, file);
+  if (!arguments.check.empty()) {
+    Progress progress(console.err, "runs", console.show_progress);
+    report.part("check", report_of(check_in_time(scene, per_metre, arguments.check_steepness,
+                                                 [&](double done) { progress.update(done); })));
+  }
+  tell(report, console);
 }
 
 }  // namespace froude
