@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "answers/simulate.hpp"
 #include "hydro/base/error.hpp"
@@ -72,9 +73,8 @@ CheckedCell cell(const ComplexSignal& linear, const Responses& all, std::size_t 
 
 /// A quarter, half and three quarters of the way, each once.
 std::vector<std::size_t> some_of(std::size_t count) {
-  std::vector<std::size_t> out{count / 4, count / 2, 3 * count / 4};
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  return out;
+  const std::set<std::size_t> out{count / 4, count / 2, 3 * count / 4};
+  return {out.begin(), out.end()};
 }
 
 }  // namespace

@@ -205,11 +205,9 @@ class Elimination {
 
 struct ComplexLu::Factors {
   explicit Factors(const Eigen::MatrixXcd& A)
-      : n(A.rows()), size_of_columns(A.cwiseAbs().colwise().maxCoeff()), norm(A.cwiseAbs().colwise().sum().maxCoeff()),
-        planes(A), lu(planes.block(n)), swapped(Elimination(lu, n).swapped) {}
+      : n(A.rows()), norm(A.cwiseAbs().colwise().sum().maxCoeff()), planes(A), lu(planes.block(n)), swapped(Elimination(lu, n).swapped) {}
 
   Index n;
-  Eigen::RowVectorXd size_of_columns;
   double norm;
   Planes planes;
   Block lu;
@@ -261,13 +259,11 @@ struct ComplexLu::Factors {
     return size;
   }
 
-  /// The smallest pivot over the largest number that its column began with.
+  /// The smallest pivot over ‖A‖₁, NaN where one is.
   double least_pivot() const {
     double least = std::numeric_limits<double>::infinity();
-    for (Index k = 0; k < n; ++k) {
-      const double kept = 1 / (std::abs(lu(k, k)) * size_of_columns[k]);
-      least = kept < least || std::isnan(kept) ? (std::isnan(kept) ? 0 : kept) : least;
-    }
+    for (Index k = 0; k < n; ++k)
+      if (const double pivot = 1 / (std::abs(lu(k, k)) * norm); !(pivot >= least)) least = pivot;
     return least;
   }
 };
@@ -278,10 +274,10 @@ ComplexLu::ComplexLu(ComplexLu&&) noexcept = default;
 Eigen::MatrixXcd ComplexLu::solve(const Eigen::MatrixXcd& b) const { return factors_->solve(b); }
 double ComplexLu::rcond() const { return factors_->n == 0 ? 1 : 1 / (factors_->norm * factors_->size_of_inverse()); }
 
-// A pivot that cancellation has left ten digits rules a singular matrix out, and spares the estimate its solutions.
+// Where the least pivot is that far above rounding A is not singular, and the estimate is spared its solutions.
 bool ComplexLu::is_singular() const {
-  constexpr double working_precision = 1e-15, ten_digits = 1e-6;
-  return !(factors_->least_pivot() > ten_digits) && !(rcond() > working_precision);
+  constexpr double working_precision = 1e-15, far_above_rounding = 1e-6;
+  return !(factors_->least_pivot() > far_above_rounding) && !(rcond() > working_precision);
 }
 
 }  // namespace dynamics

@@ -148,17 +148,19 @@ Motions Equations::solve(const Impedance& Z, const MatrixXcd& X, double omega) c
   refuse(Z, omega);
 }
 
-// Which motion Z does not answer: three turns of inverse iteration, Z moved a little off the singular one.
+// Which motion Z does not answer: three turns of inverse iteration in the metric of the masses, Z moved off the singular
+// one by a billionth of its largest |Z x| over |M x|.
 void Equations::refuse(Impedance Z, double omega) const {
-  constexpr double little = 1e-7;
+  constexpr double little = 1e-9;
   const std::string what =
       fmt::format("no response exists at {:.6g} rad/s: the equations of motion are singular there", omega);
-  const Eigen::VectorXd size = about_.linear.stiffness.diagonal().cwiseAbs() + omega * omega * mass_;
+  const double largest =
+      omega * omega + about_.linear.stiffness.diagonal().cwiseAbs().cwiseQuotient(mass_).maxCoeff();
   const hydro::RandomStream random(1, 0);
   VectorXcd x(mass_.size());
   for (Index m = 0; m < mass_.size(); ++m) x[m] = random.normal(static_cast<std::uint64_t>(m));
   for (int b = 0; b < static_cast<int>(about_.model.bodies().size()); ++b) {
-    const Vector6 moved = little * size.segment<6>(6 * b);
+    const Vector6 moved = little * largest * mass_.segment<6>(6 * b);
     Z.add(b, b, Complex(0, 1) * Matrix6(moved.asDiagonal()));
   }
   for (int turn = 0; turn < 3; ++turn) {
