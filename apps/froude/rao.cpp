@@ -111,8 +111,9 @@ plot::Figure figure(const scene::Scene& scene, const Responses& r) {
           .panels = r.heading.size() == 1 ? panels_by_unit(r) : panels_by_signal(r)};
 }
 
-/// Its peaks for people, all of it for programs: one list a heading where there are several.
-Report report_of(const ComplexSignal& s, const Responses& r) {
+/// Its peaks for people, all of it for programs: one list a heading where there are several. A tree of all numbers of a
+/// thousand bodies takes longer than they do, and is made where it is asked for.
+Report report_of(const ComplexSignal& s, const Responses& r, bool for_programs) {
   const bool several = r.heading.size() > 1;
   Report out;
   Json amplitude, phase;
@@ -122,9 +123,11 @@ Report report_of(const ComplexSignal& s, const Responses& r) {
     out.say("{:<24} {}{:>12.5g} {:<7} {:>10.4g} {:>10.1f}", s.name,
             several ? fmt::format("{:>13.4g} ", degrees(r.heading[h])) : "", p.amplitude, fact("unit", s.units),
             p.period, p.phase);
+    if (!for_programs) continue;
     amplitude.push_back(amplitudes_of(values));
     phase.push_back(phases_of(values));
   }
+  if (!for_programs) return out;
   return out.keep("amplitude", several ? amplitude : amplitude[0]).keep("phase_rad", several ? phase : phase[0]);
 }
 
@@ -150,7 +153,7 @@ Report report_of(const std::vector<CheckedCell>& cells) {
   return out;
 }
 
-Report report_of(const scene::Scene& scene, const Responses& r, const Path& file) {
+Report report_of(const scene::Scene& scene, const Responses& r, const Path& file, bool for_programs) {
   const bool several = r.heading.size() > 1;
   Report out, signals;
   out.say("{}: {} signals at {} frequencies{}, periods {:.4g} to {:.4g} s", scene.file.filename().string(),
@@ -160,7 +163,7 @@ Report report_of(const scene::Scene& scene, const Responses& r, const Path& file
   if (several) out.keep("heading_rad", r.heading);
   out.say("{:<24} {}{:>12} {:<7} {:>10} {:>10}", "signal", several ? "heading [deg] " : "", "largest", "unit",
           "at T [s]", "phase [deg]");
-  for (const auto& s : r.signals) signals.part(s.name, report_of(s, r));
+  for (const auto& s : r.signals) signals.part(s.name, report_of(s, r, for_programs));
   out.part("signals", std::move(signals)).part("error", error_of(r));
   out.sentences("notes", "note: {}", r.notes).sentences("warnings", "{}", r.warnings());
   return out.say("wrote {}", fact("file", file.string()));
@@ -179,7 +182,7 @@ void rao(const RaoArguments& arguments, const Console& console) {
   r.write(file);
   if (arguments.csv) write_rao_csv(*arguments.csv, r);
   if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, r)));
-  Report report = report_of(scene, r, file);
+  Report report = report_of(scene, r, file, console.json);
   if (!arguments.check.empty()) {
     Progress progress(console.err, "runs", console.show_progress);
     report.part("check", report_of(check_in_time(scene, per_metre, arguments.check_steepness,

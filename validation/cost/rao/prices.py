@@ -56,9 +56,9 @@ def scene(count, interaction, frequencies=60, headings=12, data="examples/data/p
 
 def timed(froude, text, threads=None):
     """Wall and processor time, s, and the largest memory, MB, of one process."""
-    with tempfile.TemporaryDirectory(dir=ROOT) as folder:
+    with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "row.toml"
-        path.write_text(text.replace('file = "examples/', 'file = "../examples/'))
+        path.write_text(text.replace('file = "examples/', f'file = "{ROOT}/examples/'))
         command = [froude, "rao", str(path), "-o", str(Path(folder) / "row.h5")]
         command += ["--threads", str(threads)] if threads else []
         environment = dict(os.environ, OPENBLAS_NUM_THREADS="1", FROUDE_CACHE="off")
