@@ -209,9 +209,9 @@ Responses respond(const scene::Scene& scene, const compile::Prepared& prepared, 
   } else {
     out.signals = answer(prepared, out.omega, out.notes);
   }
-  out.error =
-      error_of_spacing(scene, prepared, out.omega, out.signals,
-                       [&](const compile::Prepared& thinned) { return answer(thinned, out.omega, told_already); });
+  out.error = error_of_spacing(scene, prepared, out.omega, out.signals, [&](const compile::Prepared& thinned) {
+    return answer(thinned, out.omega, told_already);
+  });
   if (between)
     out.error.sources.push_back({.name = "frequencies",
                                  .how = "straight lines between them, by the bend in the middle of each interval",

@@ -23,7 +23,8 @@ std::vector<ComplexSignal> linear_responses(const std::vector<compile::Signal>& 
 /// How respond() goes about it.
 struct HowToRespond {
   int threads = hydro::all_processors();  ///< which share the frequencies; numbers do not depend on how many there are
-  bool refine = false;  ///< frequencies are put between those asked for, until straight lines are within `accuracy` (Q10)
+  bool refine =
+      false;  ///< frequencies are put between those asked for, until straight lines are within `accuracy` (Q10)
 };
 
 /// The signals that [ask.rao] names, at its frequencies and headings.
@@ -33,8 +34,8 @@ Responses respond(const scene::Scene& scene);
 /// Of what is prepared already, for the frequencies and signals of the scene.
 Responses respond(const scene::Scene& scene, const compile::Prepared& prepared, const HowToRespond& how = {});
 
-/// Without dimension: rotations over the slope kζ of the wave, translations over its amplitude ζ, as they are; loads stay
-/// per metre of amplitude.
+/// Without dimension: rotations over the slope kζ of the wave, translations over its amplitude ζ, as they are; loads
+/// stay per metre of amplitude.
 Responses over_wave_slope(Responses responses, const hydro::Water& water);
 
 /// One sentence for each effect of the scene that a linear response has no place for.

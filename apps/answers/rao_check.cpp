@@ -45,9 +45,9 @@ struct Harmonic {
 Harmonic harmonic(const Run& run, const std::vector<double>& values, double omega, int from, int to) {
   const auto begin = from * samples_a_period, count = (to - from) * samples_a_period;
   const std::array at{omega};
-  const auto fit =
-      hydro::signal::fit_harmonics(std::span(run.time).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(count)),
-                                   std::span(values).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(count)), at);
+  const auto fit = hydro::signal::fit_harmonics(
+      std::span(run.time).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(count)),
+      std::span(values).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(count)), at);
   return {fit.amplitude.at(0), fit.residual_rms};
 }
 
@@ -55,7 +55,8 @@ CheckedCell cell(const ComplexSignal& linear, const Responses& all, std::size_t 
   const double omega = all.omega[w], amplitude = height / 2;
   const std::vector<double>& values = run.signal(linear.name);
   constexpr int first = periods - of_look, middle = periods - of_look / 2;
-  const Harmonic whole = harmonic(run, values, omega, first, periods), before = harmonic(run, values, omega, first, middle),
+  const Harmonic whole = harmonic(run, values, omega, first, periods),
+                 before = harmonic(run, values, omega, first, middle),
                  after = harmonic(run, values, omega, middle, periods);
   double peak = 0;
   for (std::size_t i = 0; i < all.omega.size(); ++i) peak = std::max(peak, std::abs(linear.values[i]));
@@ -91,8 +92,8 @@ std::vector<CheckedCell> check_in_time(const scene::Scene& scene, const Response
     };
     const Run run = simulate(in_regular_wave(scene, omega, linear.heading.front(), height), share);
     if (!run.stopped.empty())
-      throw hydro::NumericsError(fmt::format("the run in a wave of {:.4g} m at {:.6g} rad/s stopped: {}", height, omega,
-                                             run.stopped));
+      throw hydro::NumericsError(
+          fmt::format("the run in a wave of {:.4g} m at {:.6g} rad/s stopped: {}", height, omega, run.stopped));
     for (const ComplexSignal& s : linear.signals)
       if (s.name != "wave.elevation") out.push_back(cell(s, linear, at[i], height, run));
   }

@@ -15,7 +15,7 @@ struct CheckedCell {
   std::string signal, units;
   double omega, heading, height;     ///< rad/s, rad, m
   std::complex<double> linear, run;  ///< per metre of amplitude, of the same phase convention
-  double peak;       ///< of the linear response over all frequencies of this heading, the same unit
+  double peak;                       ///< of the linear response over all frequencies of this heading, the same unit
   double unsettled;  ///< by how much `run` still changes from one half of what is looked at to the other
   double rest;       ///< rms of what the run has beside this frequency, per metre of amplitude
 
@@ -24,9 +24,10 @@ struct CheckedCell {
 };
 
 /// Runs the scene in a regular wave of the first heading at each of three frequencies of `linear`, a quarter, half and
-/// three quarters of the way, of a height of `steepness` times its length. Waves grow over ten periods; of the last forty
-/// of eighty the amplitudes are taken, of each signal but those that the wave alone tells. `done` is told the share of the
-/// runs completed. \throws hydro::InputError where the scene cannot run, hydro::NumericsError where a run stops
+/// three quarters of the way, of a height of `steepness` times its length. Waves grow over ten periods; of the last
+/// forty of eighty the amplitudes are taken, of each signal but those that the wave alone tells. `done` is told the
+/// share of the runs completed. \throws hydro::InputError where the scene cannot run, hydro::NumericsError where a run
+/// stops
 std::vector<CheckedCell> check_in_time(const scene::Scene& scene, const Responses& linear, double steepness,
                                        const std::function<void(double)>& done = {});
 

@@ -15,9 +15,9 @@ struct Refined {
   std::vector<double> error;           ///< of each signal, of its peak: what straight lines leave, estimated
 };
 
-/// `at` answers at any frequencies, in `headings` headings; `omega`, two at least, is what it begins with. Peaks of less
-/// than a thousandth of the largest of their unit count as that thousandth. \throws hydro::NumericsError where a response
-/// is too sharp, as one without damping is
+/// `at` answers at any frequencies, in `headings` headings; `omega`, two at least, is what it begins with. Peaks of
+/// less than a thousandth of the largest of their unit count as that thousandth. \throws hydro::NumericsError where a
+/// response is too sharp, as one without damping is
 Refined refined(const std::vector<double>& omega, std::size_t headings, double accuracy,
                 const std::function<std::vector<ComplexSignal>(const std::vector<double>&)>& at);
 

@@ -159,11 +159,11 @@ struct SceneArguments {
   std::optional<Path> picture;
 };
 struct RaoArguments : SceneArguments {
-  std::optional<int> threads = {};   ///< default: all processors
-  bool refine = false;               ///< frequencies are put where responses bend
-  bool nondimensional = false;       ///< rotations over the slope of the wave
-  std::string check = {};            ///< "time": some cells by runs; empty: none
-  double check_steepness = 0.002;    ///< height over length of their waves
+  std::optional<int> threads = {};  ///< default: all processors
+  bool refine = false;              ///< frequencies are put where responses bend
+  bool nondimensional = false;      ///< rotations over the slope of the wave
+  std::string check = {};           ///< "time": some cells by runs; empty: none
+  double check_steepness = 0.002;   ///< height over length of their waves
 };
 void rao(const RaoArguments& arguments, const Console& console);
 void modes(const SceneArguments& arguments, const Console& console);

@@ -224,8 +224,7 @@ void add_new(CLI::App& app, Request& request) {
 
 /// What commands that answer scenes share.
 void add_scene_outputs(CLI::App& command, const std::string& name, SceneArguments& arguments) {
-  command.add_option("-o,--output", arguments.output,
-                     "result, HDF5 and netCDF-4; default: SCENE." + name + ".h5 here");
+  command.add_option("-o,--output", arguments.output, "result, HDF5 and netCDF-4; default: SCENE." + name + ".h5 here");
   command.add_option("--csv", arguments.csv, "the same numbers as a CSV table");
   command.add_option("--picture", arguments.picture, "plot (.svg)");
 }
@@ -260,8 +259,9 @@ void add_rao(CLI::App& app, Request& request) {
       ->add_option("--threads", arguments->threads,
                    "which share the frequencies; the numbers are the same with any; default: all processors")
       ->check(CLI::PositiveNumber);
-  command->add_flag("--refine", arguments->refine,
-                    "put frequencies between those asked for until straight lines between them are within [ask] accuracy");
+  command->add_flag(
+      "--refine", arguments->refine,
+      "put frequencies between those asked for until straight lines between them are within [ask] accuracy");
   command->add_flag("--nondimensional", arguments->nondimensional,
                     "rotations over the slope of the wave, theta/(k zeta); translations over its amplitude");
   command

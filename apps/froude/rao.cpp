@@ -77,9 +77,9 @@ void write_rao_csv(const Path& path, const Responses& r) {
     columns.push_back({r.signals[i].name + " amplitude", r.signals[i].units, &numbers[2 * i]});
     columns.push_back({r.signals[i].name + " phase", "deg", &numbers[2 * i + 1]});
   }
-  hydro::io::write_csv(
-      path, columns,
-      {"amplitudes over that of the wave, in the unit of each column; phase leads the wave at the origin, Re(X exp(+i omega t))"});
+  hydro::io::write_csv(path, columns,
+                       {"amplitudes over that of the wave, in the unit of each column; phase leads the wave at the "
+                        "origin, Re(X exp(+i omega t))"});
 }
 
 /// One panel for each unit, so that metres and newtons do not share an axis.
@@ -142,14 +142,15 @@ Report report_of(const std::vector<CheckedCell>& cells) {
     out.row("cells", "{:<24} {:>8.4g} {:>10.4g} {:>12.5g} {:>12.5g} {:>9.2g} % {:>8.2g} % {:>12.3g}",
             fact("signal", c.signal), fact("period_s", 2 * std::numbers::pi / c.omega), fact("height_m", c.height),
             fact("linear", std::abs(c.linear)), fact("run", std::abs(c.run)),
-            fact("difference", c.difference(), 100 * c.difference()),
-            fact("unsettled", c.unsettled, 100 * c.unsettled), fact("other_rms", c.rest));
+            fact("difference", c.difference(), 100 * c.difference()), fact("unsettled", c.unsettled, 100 * c.unsettled),
+            fact("other_rms", c.rest));
     if (worst == nullptr || c.difference() > worst->difference()) worst = &c;
   }
   if (worst != nullptr)
-    out.say("what the linear answer ignores, with the errors of the runs, is at most {:.2g} % of the peak: {} at {:.4g} s, "
-            "waves of {:.4g} m",
-            100 * worst->difference(), worst->signal, 2 * std::numbers::pi / worst->omega, worst->height);
+    out.say(
+        "what the linear answer ignores, with the errors of the runs, is at most {:.2g} % of the peak: {} at {:.4g} s, "
+        "waves of {:.4g} m",
+        100 * worst->difference(), worst->signal, 2 * std::numbers::pi / worst->omega, worst->height);
   return out;
 }
 

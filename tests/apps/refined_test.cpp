@@ -34,13 +34,15 @@ std::vector<ComplexSignal> exact(const std::vector<double>& omega, double dampin
 
 /// Responses read as straight lines.
 std::complex<double> read(const Refined& r, std::size_t signal, std::size_t heading, double omega) {
-  const auto high = static_cast<std::size_t>(std::upper_bound(r.omega.begin() + 1, r.omega.end() - 1, omega) - r.omega.begin());
+  const auto high =
+      static_cast<std::size_t>(std::upper_bound(r.omega.begin() + 1, r.omega.end() - 1, omega) - r.omega.begin());
   const double share = (omega - r.omega[high - 1]) / (r.omega[high] - r.omega[high - 1]);
   const auto* values = &r.signals[signal].values[heading * r.omega.size()];
   return (1 - share) * values[high - 1] + share * values[high];
 }
 
-// The bend in the middle is four times what halves leave only where a response is a parabola; twice that is allowed for.
+// The bend in the middle is four times what halves leave only where a response is a parabola; twice that is allowed
+// for.
 TEST(Refined, StraightLinesBetweenFrequenciesAreWithinTheAccuracyOfThePeak) {
   constexpr double accuracy = 1e-2, damping = 1e-3;
   const Refined r = refined({0.3, 0.6, 0.9, 1.2, 1.5}, 2, accuracy,
@@ -64,8 +66,11 @@ TEST(Refined, StraightLinesBetweenFrequenciesAreWithinTheAccuracyOfThePeak) {
 }
 
 TEST(Refined, RefusesAMotionWithoutDamping) {
-  EXPECT_THAT([] { refined({0.35, 1.45}, 2, 1e-2, [](const std::vector<double>& w) { return exact(w, 1e-12); }); },
-              testing::ThrowsMessage<hydro::NumericsError>(testing::HasSubstr("too sharp")));
+  EXPECT_THAT(
+      [] {
+        refined({0.35, 1.45}, 2, 1e-2, [](const std::vector<double>& w) { return exact(w, 1e-12); });
+      },
+      testing::ThrowsMessage<hydro::NumericsError>(testing::HasSubstr("too sharp")));
 }
 
 // θ/(kζ), in deep water k = ω²/g; loads stay per metre.

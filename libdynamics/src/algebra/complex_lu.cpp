@@ -7,8 +7,8 @@
 
 #include "algebra/machine.hpp"
 
-// P A = L U by halves of columns, so that nearly all of the work is products of blocks (Toledo 1997). Real and imaginary
-// parts stand apart, row by row: four columns are one vector, and no product has to turn parts round.
+// P A = L U by halves of columns, so that nearly all of the work is products of blocks (Toledo 1997). Real and
+// imaginary parts stand apart, row by row: four columns are one vector, and no product has to turn parts round.
 namespace dynamics {
 namespace {
 
@@ -21,12 +21,8 @@ struct Block {
   double *re, *im;
   Index stride;
 
-  Block at(Index row, Index column) const {
-    return {re + row * stride + column, im + row * stride + column, stride};
-  }
-  Complex operator()(Index row, Index column) const {
-    return {re[row * stride + column], im[row * stride + column]};
-  }
+  Block at(Index row, Index column) const { return {re + row * stride + column, im + row * stride + column, stride}; }
+  Complex operator()(Index row, Index column) const { return {re[row * stride + column], im[row * stride + column]}; }
   void set(Index row, Index column, Complex value) const {
     re[row * stride + column] = value.real();
     im[row * stride + column] = value.imag();
@@ -205,7 +201,11 @@ class Elimination {
 
 struct ComplexLu::Factors {
   explicit Factors(const Eigen::MatrixXcd& A)
-      : n(A.rows()), norm(A.cwiseAbs().colwise().sum().maxCoeff()), planes(A), lu(planes.block(n)), swapped(Elimination(lu, n).swapped) {}
+      : n(A.rows()),
+        norm(A.cwiseAbs().colwise().sum().maxCoeff()),
+        planes(A),
+        lu(planes.block(n)),
+        swapped(Elimination(lu, n).swapped) {}
 
   Index n;
   double norm;
@@ -237,7 +237,8 @@ struct ComplexLu::Factors {
     return b;
   }
 
-  /// ‖A⁻¹‖₁, estimated from below: up the gradient of ‖A⁻¹x‖₁ from corner to corner of the x with ‖x‖₁ = 1 (Hager 1984).
+  /// ‖A⁻¹‖₁, estimated from below: up the gradient of ‖A⁻¹x‖₁ from corner to corner of the x with ‖x‖₁ = 1 (Hager
+  /// 1984).
   double size_of_inverse() const {
     constexpr int corners = 5;
     Eigen::VectorXcd x = Eigen::VectorXcd::Constant(n, 1.0 / static_cast<double>(n));

@@ -7,8 +7,8 @@
 
 namespace dynamics {
 
-/// P A = L U with row pivots, of n rows in 8n³/3 operations; k right-hand sides take 8n²k. On a machine with AVX2 three to
-/// five times as fast as Eigen's factors from 100 rows on, which are compiled for any x86-64 alone.
+/// P A = L U with row pivots, of n rows in 8n³/3 operations; k right-hand sides take 8n²k. On a machine with AVX2 three
+/// to five times as fast as Eigen's factors from 100 rows on, which are compiled for any x86-64 alone.
 class ComplexLu {
  public:
   explicit ComplexLu(const Eigen::MatrixXcd& A);

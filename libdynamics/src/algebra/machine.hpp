@@ -1,5 +1,6 @@
 #pragma once
-/// \file  Marks an inner loop to be compiled for several instruction sets, chosen when the program starts. Not installed.
+/// \file  Marks an inner loop to be compiled for several instruction sets, chosen when the program starts. Not
+/// installed.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define FROUDE_EVERY_MACHINE __attribute__((target_clones("default", "arch=x86-64-v3")))

@@ -14,8 +14,8 @@ using Eigen::Index, Eigen::MatrixXcd, Eigen::VectorXcd;
 
 namespace {
 
-/// True if sparse factors cost less: by the bodies that move each other, by forces and joints and by the waves that they
-/// radiate.
+/// True if sparse factors cost less: by the bodies that move each other, by forces and joints and by the waves that
+/// they radiate.
 bool prefer_sparse(const SmallMotions& about, const std::vector<PotentialGroup>& groups) {
   BlockPattern pattern = about.model.pattern();
   for (const PotentialGroup& g : groups)
@@ -148,14 +148,13 @@ Motions Equations::solve(const Impedance& Z, const MatrixXcd& X, double omega) c
   refuse(Z, omega);
 }
 
-// Which motion Z does not answer: three turns of inverse iteration in the metric of the masses, Z moved off the singular
-// one by a billionth of its largest |Z x| over |M x|.
+// Which motion Z does not answer: three turns of inverse iteration in the metric of the masses, Z moved off the
+// singular one by a billionth of its largest |Z x| over |M x|.
 void Equations::refuse(Impedance Z, double omega) const {
   constexpr double little = 1e-9;
   const std::string what =
       fmt::format("no response exists at {:.6g} rad/s: the equations of motion are singular there", omega);
-  const double largest =
-      omega * omega + about_.linear.stiffness.diagonal().cwiseAbs().cwiseQuotient(mass_).maxCoeff();
+  const double largest = omega * omega + about_.linear.stiffness.diagonal().cwiseAbs().cwiseQuotient(mass_).maxCoeff();
   const hydro::RandomStream random(1, 0);
   VectorXcd x(mass_.size());
   for (Index m = 0; m < mass_.size(); ++m) x[m] = random.normal(static_cast<std::uint64_t>(m));

@@ -41,8 +41,8 @@ class Equations {
   bool are_empty() const { return free_.empty(); }
   bool are_sparse() const { return sparse_; }
   Impedance impedance(double omega) const;
-  /// Z ξ + Gᵀ λ = X and G ξ = 0, all columns by the same factors. \throws hydro::NumericsError naming the motion if Z is
-  /// singular
+  /// Z ξ + Gᵀ λ = X and G ξ = 0, all columns by the same factors. \throws hydro::NumericsError naming the motion if Z
+  /// is singular
   Motions solve(const Impedance& Z, const Eigen::MatrixXcd& X, double omega) const;
 
  private:

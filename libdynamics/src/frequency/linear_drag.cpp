@@ -4,10 +4,10 @@
 #include <numbers>
 
 #include "dynamics/spatial/rotation.hpp"
+#include "equations.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "hydro/waves/kinematics/kinematics.hpp"
-#include "equations.hpp"
 
 namespace dynamics::frequency {
 
@@ -63,8 +63,8 @@ Eigen::VectorXd coefficients(const LinearDrag& drag, Index w, double omega, cons
 }
 
 /// Where response depends on drag alone it goes as its inverse, for which the mean of old and new is exact.
-void settle(LinearDrag& drag, Index w, const Equations& of, double omega, const VectorXcd& X,
-            const Impedance& without, double a) {
+void settle(LinearDrag& drag, Index w, const Equations& of, double omega, const VectorXcd& X, const Impedance& without,
+            double a) {
   constexpr int most = 100;
   constexpr double enough = 1e-6;  // of the largest coefficient: far below what a drag coefficient is known to
   drag.coefficient.col(w) = coefficients(drag, w, omega, VectorXcd::Zero(X.size()), a);
@@ -121,8 +121,8 @@ LinearDrag linearised_drag(const SmallMotions& about, const std::vector<Potentia
     for (Index i = 0; i < count; ++i)
       drag.velocity.block<3, 1>(3 * i, w) = hydro::waves::velocity_transfer(
           wave, waves.water, rest_position(pieces[static_cast<std::size_t>(i)], about.model.bodies()));
-    settle(drag, w, of, omega[at], excitation(about.model, groups, omega[at], waves.heading),
-           of.impedance(omega[at]), waves.amplitude[at]);
+    settle(drag, w, of, omega[at], excitation(about.model, groups, omega[at], waves.heading), of.impedance(omega[at]),
+           waves.amplitude[at]);
   }
   return drag;
 }

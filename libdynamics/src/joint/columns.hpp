@@ -1,7 +1,7 @@
 #pragma once
 /// \file  The constraints of joints as a sparse matrix. Not installed.
-#include <Eigen/Sparse>
 #include <SuiteSparse_config.h>
+#include <Eigen/Sparse>
 
 #include "dynamics/joint/joint.hpp"
 

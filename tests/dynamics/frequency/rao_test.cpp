@@ -192,7 +192,8 @@ Model row_of_bodies(bool hinged) {
                                 .free = {true, i % 5 != 2 || hinged, true, true, true, true}}));
     if (i > 0)
       connectors.push_back({Ends{{i - 1, Eigen::Vector3d(1, 0.5, 0.2)}, PointOnBody{i, Eigen::Vector3d(-1, 1, 0)}},
-                            {800, 60}, std::hypot(8, 0.5, 0.2)});
+                            {800, 60},
+                            std::hypot(8, 0.5, 0.2)});
     if (hinged && i % 2 == 1)
       joints.push_back({.name = fmt::format("h{}", i),
                         .kind = JointKind::hinge,
@@ -203,7 +204,8 @@ Model row_of_bodies(bool hinged) {
   }
   std::vector<std::unique_ptr<const ForceKind>> forces;
   std::vector<Restoring> springs;
-  for (int i = 0; i < count; ++i) springs.push_back({i, (2500 + 100 * i) * Matrix6::Identity(), 40 * Matrix6::Identity()});
+  for (int i = 0; i < count; ++i)
+    springs.push_back({i, (2500 + 100 * i) * Matrix6::Identity(), 40 * Matrix6::Identity()});
   forces.push_back(std::make_unique<RestoringKind>("mooring", bodies, springs));
   forces.push_back(std::make_unique<AxialConnectorKind>(connectors));
   return Model(bodies, {}, std::move(forces), joints);
@@ -241,7 +243,7 @@ Eigen::VectorXcd plain_solution(const frequency::SmallMotions& about, const std:
 
 class RaoOfARow : public testing::TestWithParam<bool> {};
 
-// The condition of the equations is some 1e4, and multipliers are a thousand times as large as motions.
+// The condition number of the equations is some 1e4, and multipliers are a thousand times as large as motions.
 TEST_P(RaoOfARow, BySparseFactorsIsThatOfTheWholeMatrix) {
   const Model model = row_of_bodies(GetParam());
   const frequency::SmallMotions about(model);
@@ -305,11 +307,14 @@ TEST(Rao, NamesTheMotionThatNothingHoldsWhereWavesBecomeSlow) {
     std::vector<std::unique_ptr<const ForceKind>> forces;
     forces.push_back(std::make_unique<RestoringKind>("mooring", bodies, springs));
     const Model model(bodies, {}, std::move(forces));
-    EXPECT_THAT([&] { frequency::response_amplitudes(model, {}, {1.0, 1e-8}, 0); },
-                testing::ThrowsMessage<hydro::NumericsError>(
-                    testing::HasSubstr(fmt::format("1e-08 rad/s: the equations of motion are singular there; nothing "
-                                                   "holds b{}.sway",
-                                                   count))));
+    EXPECT_THAT(
+        [&] {
+          frequency::response_amplitudes(model, {}, {1.0, 1e-8}, 0);
+        },
+        testing::ThrowsMessage<hydro::NumericsError>(
+            testing::HasSubstr(fmt::format("1e-08 rad/s: the equations of motion are singular there; nothing "
+                                           "holds b{}.sway",
+                                           count))));
   }
 }
 
@@ -326,8 +331,8 @@ TEST(Rao, SaysWhenAnUndampedResonanceIsHit) {
   auto g = group(coefficients({0}), {0});
   g.radiation = false;
   EXPECT_THAT([&] { frequency::response_amplitudes(model, {g}, {1.0}, 0); },
-              testing::ThrowsMessage<hydro::NumericsError>(
-                  testing::AllOf(testing::HasSubstr("at 1 rad/s"), testing::HasSubstr("resonates, and nothing damps"))));
+              testing::ThrowsMessage<hydro::NumericsError>(testing::AllOf(
+                  testing::HasSubstr("at 1 rad/s"), testing::HasSubstr("resonates, and nothing damps"))));
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 
 namespace dynamics::frequency {
 
-/// Responses to waves of several headings, per metre of wave amplitude, Re(… e^{iωt}) against a wave of zero phase at the
-/// global origin.
+/// Responses to waves of several headings, per metre of wave amplitude, Re(… e^{iωt}) against a wave of zero phase at
+/// the global origin.
 struct Amplitudes {
   /// One a heading, in the order asked: every body's displacement about its centre of gravity, (6N, Nω), m/m and rad/m.
   std::vector<Eigen::MatrixXcd> xi;
@@ -25,8 +25,8 @@ struct RaoOptions {
 
 /// Solves (Q1) at each frequency: [−ω²(M + A(ω)) + iω(B(ω) + D) + K] ξ + Gᵀλ = X(ω, β), K and D from every force of the
 /// model that is linear at rest, about where the bodies are still, with G ξ = 0 of the joints (D17). `headings` in rad.
-/// Modes that are not free stay zero. Cost: one factorisation a frequency, dense, O((6N)³), where bodies are few or feel
-/// each other's waves, else sparse, O(N) for a chain; a heading is one more column. Error: round-off, plus what
+/// Modes that are not free stay zero. Cost: one factorisation a frequency, dense, O((6N)³), where bodies are few or
+/// feel each other's waves, else sparse, O(N) for a chain; a heading is one more column. Error: round-off, plus what
 /// FrequencyTable::interpolation_error() says of the data. \throws hydro::InputError outside the data,
 /// hydro::NumericsError naming frequency and motion if the matrix is singular
 Amplitudes response_amplitudes(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
