@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "answers/convergence.hpp"
 #include "answers/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/harmonics.hpp"
@@ -51,15 +52,24 @@ Harmonic harmonic(const Run& run, const std::vector<double>& values, double omeg
   return {fit.amplitude.at(0), fit.residual_rms};
 }
 
-CheckedCell cell(const ComplexSignal& linear, const Responses& all, std::size_t w, double height, const Run& run) {
+/// The largest of each signal, and of signals that are next to nothing a thousandth of the largest of their unit.
+std::vector<double> peaks_of(const Responses& all) {
+  std::vector<double> out;
+  for (const ComplexSignal& s : all.signals) {
+    double& peak = out.emplace_back(0);
+    for (std::size_t i = 0; i < all.omega.size(); ++i) peak = std::max(peak, std::abs(s.values[i]));
+  }
+  return at_least_a_thousandth(std::move(out), all.signals, &ComplexSignal::units);
+}
+
+CheckedCell cell(const ComplexSignal& linear, const Responses& all, std::size_t w, double height, double peak,
+                 const Run& run) {
   const double omega = all.omega[w], amplitude = height / 2;
   const std::vector<double>& values = run.signal(linear.name);
   constexpr int first = periods - of_look, middle = periods - of_look / 2;
   const Harmonic whole = harmonic(run, values, omega, first, periods),
                  before = harmonic(run, values, omega, first, middle),
                  after = harmonic(run, values, omega, middle, periods);
-  double peak = 0;
-  for (std::size_t i = 0; i < all.omega.size(); ++i) peak = std::max(peak, std::abs(linear.values[i]));
   return {linear.name,
           linear.units,
           omega,
@@ -83,6 +93,7 @@ std::vector<std::size_t> some_of(std::size_t count) {
 std::vector<CheckedCell> check_in_time(const scene::Scene& scene, const Responses& linear, double steepness,
                                        const std::function<void(double)>& done) {
   const std::vector<std::size_t> at = some_of(linear.omega.size());
+  const std::vector<double> peak = peaks_of(linear);
   std::vector<CheckedCell> out;
   for (std::size_t i = 0; i < at.size(); ++i) {
     const double omega = linear.omega[at[i]];
@@ -94,8 +105,9 @@ std::vector<CheckedCell> check_in_time(const scene::Scene& scene, const Response
     if (!run.stopped.empty())
       throw hydro::NumericsError(
           fmt::format("the run in a wave of {:.4g} m at {:.6g} rad/s stopped: {}", height, omega, run.stopped));
-    for (const ComplexSignal& s : linear.signals)
-      if (s.name != "wave.elevation") out.push_back(cell(s, linear, at[i], height, run));
+    for (std::size_t k = 0; k < peak.size(); ++k)
+      if (linear.signals[k].name != "wave.elevation")
+        out.push_back(cell(linear.signals[k], linear, at[i], height, peak[k], run));
   }
   return out;
 }

@@ -15,7 +15,7 @@ struct CheckedCell {
   std::string signal, units;
   double omega, heading, height;     ///< rad/s, rad, m
   std::complex<double> linear, run;  ///< per metre of amplitude, of the same phase convention
-  double peak;                       ///< of the linear response over all frequencies of this heading, the same unit
+  double peak;       ///< of the linear response in this heading; at least a thousandth of the largest of its unit
   double unsettled;  ///< by how much `run` still changes from one half of what is looked at to the other
   double rest;       ///< rms of what the run has beside this frequency, per metre of amplitude
 
