@@ -9,16 +9,20 @@
 #include <stdexcept>
 
 #include "answers/provenance.hpp"
+#include "answers/refined.hpp"
 #include "answers/spacing.hpp"
 #include "compile/members.hpp"
 #include "compile/waves.hpp"
 #include "dynamics/frequency/linear_drag.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/base/parallel.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "hydro/waves/synthesis/synthesis.hpp"
 
 namespace froude {
 namespace {
+
+constexpr const char* per_metre = " per metre of wave amplitude";
 
 using dynamics::frequency::LinearDrag, dynamics::frequency::SmallMotions;
 
@@ -29,13 +33,11 @@ Eigen::MatrixXcd transfer(const compile::Prepared& prepared, const SmallMotions&
   std::map<double, std::vector<std::size_t>> by_heading;
   for (std::size_t c = 0; c < sea.components().size(); ++c) by_heading[sea.components()[c].heading].push_back(c);
   for (const auto& [heading, components] : by_heading) {
-    std::vector<double> omega;
-    for (const std::size_t c : components) omega.push_back(sea.components()[c].omega);
-    const Eigen::MatrixXcd xi = dynamics::frequency::response_amplitudes(about, prepared.groups, omega, heading);
-    const Eigen::MatrixXcd multipliers = prepared.joints.empty() ? Eigen::MatrixXcd()
-                                                                 : dynamics::frequency::multiplier_amplitudes(
-                                                                       about, prepared.groups, omega, heading, xi);
-    const auto responses = linear_responses(signals, about, xi, multipliers, omega, heading);
+    Cells at{{}, {heading}};
+    for (const std::size_t c : components) at.omega.push_back(sea.components()[c].omega);
+    const auto found =
+        response_amplitudes(about, prepared.groups, at.omega, at.headings, {hydro::all_processors(), {}});
+    const auto responses = linear_responses(signals, about, found, at);
     for (std::size_t s = 0; s < responses.size(); ++s)
       for (std::size_t k = 0; k < components.size(); ++k)
         out(static_cast<Eigen::Index>(s), static_cast<Eigen::Index>(components[k])) = responses[s].values[k];
@@ -85,7 +87,8 @@ std::string note_on(const std::vector<LinearDrag>& drags, const scene::AskRao::D
 
 /// Drag on members as [ask.rao.drag] asks, one a heading, told in `notes`; none if it does not.
 std::vector<LinearDrag> drag_of_rao(const scene::Scene& scene, const compile::Prepared& prepared,
-                                    const SmallMotions& about, std::vector<std::string>& notes) {
+                                    const SmallMotions& about, const std::vector<double>& frequencies,
+                                    std::vector<std::string>& notes) {
   if (!scene.rao->drag) return {};
   const scene::AskRao& ask = *scene.rao;
   const auto pieces = compile::drag_at_rest(scene, prepared.bodies);
@@ -94,75 +97,35 @@ std::vector<LinearDrag> drag_of_rao(const scene::Scene& scene, const compile::Pr
       throw hydro::InputError("[ask.rao.drag] is for still water, but a current flows past a member", ask.drag->place,
                               "leave it out, or step a run");
   dynamics::frequency::DragWaves waves{.water = scene.water, .heading = 0, .amplitude = {}};
-  for (const double omega : ask.omega) {
+  for (const double omega : frequencies) {
     const double length = 2 * std::numbers::pi / hydro::waves::wavenumber(omega, scene.water);
     waves.amplitude.push_back((ask.drag->height ? *ask.drag->height : *ask.drag->steepness * length) / 2);
   }
   std::vector<LinearDrag> drags;
   for (const double heading : ask.headings) {
     waves.heading = heading;
-    drags.push_back(dynamics::frequency::linearised_drag(about, prepared.groups, ask.omega, pieces, waves));
+    drags.push_back(dynamics::frequency::linearised_drag(about, prepared.groups, frequencies, pieces, waves));
   }
   notes.push_back(note_on(drags, *ask.drag));
   return drags;
 }
 
-/// What (Q1) gives, one matrix a heading: displacements (6N, Nω) and multipliers of joints (m, Nω).
-struct Amplitudes {
-  std::vector<Eigen::MatrixXcd> xi, multipliers;
-};
-
-/// The lines that compute a RAO: (Q1) in libdynamics/src/frequency/rao.cpp.
-Amplitudes amplitudes_of_rao(const scene::AskRao& ask, const compile::Prepared& prepared, const SmallMotions& about,
-                             const std::vector<LinearDrag>& drags) {
-  using namespace dynamics::frequency;
-  const auto& groups = prepared.groups;
-  Amplitudes out;
-  if (drags.empty() && ask.headings.size() > 1) {
-    out.xi = response_amplitudes(about, groups, ask.omega, ask.headings).xi;
-    out.multipliers = multiplier_amplitudes(about, groups, ask.omega, ask.headings, out.xi);
-    return out;
-  }
-  for (std::size_t h = 0; h < ask.headings.size(); ++h) {
-    const LinearDrag* drag = drags.empty() ? nullptr : &drags[h];
-    out.xi.push_back(response_amplitudes(about, groups, ask.omega, ask.headings[h], drag));
-    out.multipliers.push_back(multiplier_amplitudes(about, groups, ask.omega, ask.headings[h], out.xi.back(), drag));
-  }
-  return out;
-}
-
-std::vector<ComplexSignal> heading_by_heading(const std::vector<compile::Signal>& signals, const SmallMotions& about,
-                                              const Amplitudes& found, const scene::AskRao& ask) {
-  std::vector<ComplexSignal> out;
-  for (std::size_t h = 0; h < found.xi.size(); ++h) {
-    auto next = linear_responses(signals, about, found.xi[h], found.multipliers[h], ask.omega, ask.headings[h]);
-    if (h == 0) out.resize(next.size());
-    for (std::size_t s = 0; s < out.size(); ++s) {
-      if (h == 0)
-        out[s] = std::move(next[s]);
-      else
-        out[s].values.insert(out[s].values.end(), next[s].values.begin(), next[s].values.end());
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 std::vector<ComplexSignal> linear_responses(const std::vector<compile::Signal>& signals, const SmallMotions& about,
-                                            const Eigen::MatrixXcd& xi, const Eigen::MatrixXcd& multipliers,
-                                            const std::vector<double>& omega, double heading) {
-  const Eigen::MatrixXcd none(0, xi.cols());  // where there are no joints
-  const Eigen::MatrixXcd& lambda = multipliers.cols() > 0 ? multipliers : none;
+                                            const dynamics::frequency::Amplitudes& found, const Cells& cells) {
   const dynamics::Still still(about.still, about.linear.multipliers);
   std::vector<ComplexSignal> out;
   for (const auto& signal : signals) {
     const dynamics::Variation variation = signal.variation(still);
-    ComplexSignal s{signal.name, signal.unit + "/m", signal.meaning + " per metre of wave amplitude", {}};
-    for (std::size_t w = 0; w < omega.size(); ++w) {
-      const auto column = static_cast<Eigen::Index>(w);
-      s.values.push_back(dynamics::amplitude(variation, xi.col(column), lambda.col(column), omega[w], heading));
-    }
+    ComplexSignal s{signal.name, signal.unit + "/m", signal.meaning + per_metre, {}};
+    s.values.reserve(cells.headings.size() * cells.omega.size());
+    for (std::size_t h = 0; h < cells.headings.size(); ++h)
+      for (std::size_t w = 0; w < cells.omega.size(); ++w) {
+        const auto column = static_cast<Eigen::Index>(w);
+        s.values.push_back(dynamics::amplitude(variation, found.xi[h].col(column), found.lambda[h].col(column),
+                                               cells.omega[w], cells.headings[h]));
+      }
     out.push_back(std::move(s));
   }
   return out;
@@ -203,9 +166,19 @@ std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene,
   return out;
 }
 
+namespace {
+
+void require_two_frequencies(const scene::AskRao& ask) {
+  if (ask.omega.size() < 2)
+    throw hydro::InputError("frequencies are put between those of [ask.rao], which names one alone", ask.place,
+                            "give a range, for example periods = \"3 s .. 25 s, 45 values\"");
+}
+
+}  // namespace
+
 Responses respond(const scene::Scene& scene) { return respond(scene, compile::prepare(scene)); }
 
-Responses respond(const scene::Scene& scene, const compile::Prepared& prepared) {
+Responses respond(const scene::Scene& scene, const compile::Prepared& prepared, const HowToRespond& how) {
   if (!scene.rao || scene.rao->headings.empty())
     throw std::logic_error("a response is asked for without a heading: a scene that no reader has made must state one");
   Responses out{scene.rao->omega, scene.rao->headings, {}, prepared.notes, {}, provenance_of(scene)};
@@ -216,15 +189,48 @@ Responses respond(const scene::Scene& scene, const compile::Prepared& prepared) 
     out.notes.push_back(effect);
   const auto signals = compile::chosen_responses(compile::signal_list(scene, prepared, model), scene.rao->of,
                                                  scene.rao->of_places, out.notes);
-  const auto answer = [&](const compile::Prepared& from, std::vector<std::string>& notes) {
-    const auto drags = drag_of_rao(scene, from, about, notes);
-    return heading_by_heading(signals, about, amplitudes_of_rao(*scene.rao, from, about, drags), *scene.rao);
+  // The lines that compute a RAO: (Q1) in libdynamics/src/frequency/equations.cpp.
+  const auto answer = [&](const compile::Prepared& from, const std::vector<double>& omega,
+                          std::vector<std::string>& notes) {
+    const Cells cells{omega, scene.rao->headings};
+    const dynamics::frequency::RaoOptions options{how.threads, drag_of_rao(scene, from, about, omega, notes)};
+    return linear_responses(signals, about,
+                            response_amplitudes(about, from.groups, cells.omega, cells.headings, options), cells);
   };
-  out.signals = answer(prepared, out.notes);
   std::vector<std::string> told_already;
-  out.error = error_of_spacing(scene, prepared, out.omega, out.signals,
-                               [&](const compile::Prepared& thinned) { return answer(thinned, told_already); });
+  std::optional<Refined> between;
+  if (how.refine) {
+    require_two_frequencies(*scene.rao);
+    const auto more = [&](const std::vector<double>& omega) { return answer(prepared, omega, told_already); };
+    between = refined(out.omega, out.heading.size(), scene.accuracy, more);
+    if (!told_already.empty()) out.notes.push_back(told_already.front());  // of drag, at the frequencies asked for
+    out.omega = between->omega;
+    out.signals = std::move(between->signals);
+  } else {
+    out.signals = answer(prepared, out.omega, out.notes);
+  }
+  out.error = error_of_spacing(scene, prepared, out.omega, out.signals, [&](const compile::Prepared& thinned) {
+    return answer(thinned, out.omega, told_already);
+  });
+  if (between)
+    out.error.sources.push_back({.name = "frequencies",
+                                 .how = "straight lines between them, by the bend in the middle of each interval",
+                                 .of_signal = std::move(between->error)});
   return out;
+}
+
+Responses over_wave_slope(Responses responses, const hydro::Water& water) {
+  std::vector<double> k;
+  for (const double omega : responses.omega) k.push_back(hydro::waves::wavenumber(omega, water));
+  for (ComplexSignal& s : responses.signals) {
+    if (s.units != "rad/m" && s.units != "m/m") continue;
+    const bool turns = s.units == "rad/m";
+    for (std::size_t i = 0; turns && i < s.values.size(); ++i) s.values[i] /= k[i % k.size()];
+    s.long_name.resize(s.long_name.find(per_metre));
+    s.long_name += turns ? " over the slope of the wave" : " over the amplitude of the wave";
+    s.units = "1";
+  }
+  return responses;
 }
 
 Run steady_run(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept) {

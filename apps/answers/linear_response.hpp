@@ -4,23 +4,39 @@
 #include <vector>
 
 #include "compile/signal_list.hpp"
+#include "dynamics/frequency/amplitudes.hpp"
 #include "froude/result.hpp"
+#include "hydro/base/parallel.hpp"
 
 namespace froude {
 
-/// Signals per metre of wave along `heading`, rad, about where the bodies are still, from displacements `xi` (6N, Nω)
-/// and multipliers (m, Nω) of joints, which may be of no size.
+/// Frequencies, rad/s, in each of several headings, rad.
+struct Cells {
+  std::vector<double> omega, headings;
+};
+
+/// Signals per metre of wave about where the bodies are still, heading by heading, from the amplitudes of these cells.
 std::vector<ComplexSignal> linear_responses(const std::vector<compile::Signal>& signals,
-                                            const dynamics::frequency::SmallMotions& about, const Eigen::MatrixXcd& xi,
-                                            const Eigen::MatrixXcd& multipliers, const std::vector<double>& omega,
-                                            double heading);
+                                            const dynamics::frequency::SmallMotions& about,
+                                            const dynamics::frequency::Amplitudes& found, const Cells& cells);
+
+/// How respond() goes about it.
+struct HowToRespond {
+  int threads = hydro::all_processors();  ///< which share the frequencies; numbers do not depend on how many there are
+  bool refine =
+      false;  ///< frequencies are put between those asked for, until straight lines are within `accuracy` (Q10)
+};
 
 /// The signals that [ask.rao] names, at its frequencies and headings.
 /// \throws hydro::InputError, hydro::NumericsError; std::logic_error for a scene that asks for no RAO, or for one
 /// without a heading, which no reader makes
 Responses respond(const scene::Scene& scene);
 /// Of what is prepared already, for the frequencies and signals of the scene.
-Responses respond(const scene::Scene& scene, const compile::Prepared& prepared);
+Responses respond(const scene::Scene& scene, const compile::Prepared& prepared, const HowToRespond& how = {});
+
+/// Without dimension: rotations over the slope kζ of the wave, translations over its amplitude ζ, as they are; loads
+/// stay per metre of amplitude.
+Responses over_wave_slope(Responses responses, const hydro::Water& water);
 
 /// One sentence for each effect of the scene that a linear response has no place for.
 std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene, const compile::Prepared& prepared,

@@ -158,7 +158,14 @@ struct SceneArguments {
   std::optional<Path> csv;
   std::optional<Path> picture;
 };
-void rao(const SceneArguments& arguments, const Console& console);
+struct RaoArguments : SceneArguments {
+  std::optional<int> threads = {};  ///< default: all processors
+  bool refine = false;              ///< frequencies are put where responses bend
+  bool nondimensional = false;      ///< rotations over the slope of the wave
+  std::string check = {};           ///< "time": some cells by runs; empty: none
+  double check_steepness = 0.002;   ///< height over length of their waves
+};
+void rao(const RaoArguments& arguments, const Console& console);
 void modes(const SceneArguments& arguments, const Console& console);
 void run(const SceneArguments& arguments, const Console& console);
 void plan(const SceneArguments& arguments, const Console& console);

@@ -222,7 +222,14 @@ void add_new(CLI::App& app, Request& request) {
   });
 }
 
-/// `rao`, `run` and `plan` take the same words.
+/// What commands that answer scenes share.
+void add_scene_outputs(CLI::App& command, const std::string& name, SceneArguments& arguments) {
+  command.add_option("-o,--output", arguments.output, "result, HDF5 and netCDF-4; default: SCENE." + name + ".h5 here");
+  command.add_option("--csv", arguments.csv, "the same numbers as a CSV table");
+  command.add_option("--picture", arguments.picture, "plot (.svg)");
+}
+
+/// `modes`, `run` and `plan` take the same words.
 CLI::App* add_scene_command(CLI::App& app, Request& request, const std::string& name, const std::string& what,
                             void (*function)(const SceneArguments&, const Console&), bool has_outputs) {
   auto* command = app.add_subcommand(name, what);
@@ -230,12 +237,7 @@ CLI::App* add_scene_command(CLI::App& app, Request& request, const std::string& 
                   (has_outputs ? " -o " + name + ".h5 --picture " + name + ".svg" : ""));
   auto arguments = std::make_shared<SceneArguments>();
   command->add_option("scene", arguments->scene, "scene file (.toml)")->required();
-  if (has_outputs) {
-    command->add_option("-o,--output", arguments->output,
-                        "result, HDF5 and netCDF-4; default: SCENE." + name + ".h5 here");
-    command->add_option("--csv", arguments->csv, "the same numbers as a CSV table");
-    command->add_option("--picture", arguments->picture, "plot (.svg)");
-  }
+  if (has_outputs) add_scene_outputs(*command, name, *arguments);
   command->callback([=, &request] {
     request.call = [=](const Console& console) {
       function(*arguments, console);
@@ -243,6 +245,38 @@ CLI::App* add_scene_command(CLI::App& app, Request& request, const std::string& 
     };
   });
   return command;
+}
+
+void add_rao(CLI::App& app, Request& request) {
+  auto* command = app.add_subcommand("rao", "response amplitude operators of a scene, in the frequency domain");
+  command->footer(
+      "Examples:\n  froude rao examples/pontoon5.toml -o rao.h5 --picture rao.svg\n"
+      "  froude rao examples/headings.toml --refine --nondimensional\n  froude rao examples/hinged.toml --check time");
+  auto arguments = std::make_shared<RaoArguments>();
+  command->add_option("scene", arguments->scene, "scene file (.toml)")->required();
+  add_scene_outputs(*command, "rao", *arguments);
+  command
+      ->add_option("--threads", arguments->threads,
+                   "which share the frequencies; the numbers are the same with any; default: all processors")
+      ->check(CLI::PositiveNumber);
+  command->add_flag(
+      "--refine", arguments->refine,
+      "put frequencies between those asked for until straight lines between them are within [ask] accuracy");
+  command->add_flag("--nondimensional", arguments->nondimensional,
+                    "rotations over the slope of the wave, theta/(k zeta); translations over its amplitude");
+  command
+      ->add_option("--check", arguments->check,
+                   "time: hold responses at three frequencies against runs in regular waves, and tell what they ignore")
+      ->check(CLI::IsMember({"time"}));
+  command->add_option("--check-steepness", arguments->check_steepness, "height over length of the waves of --check")
+      ->check(CLI::Range(1e-6, 0.1))
+      ->capture_default_str();
+  command->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      rao(*arguments, console);
+      return done;
+    };
+  });
 }
 
 void add_waves(CLI::App& app, Request& request) {
@@ -580,8 +614,7 @@ void describe(CLI::App& app, Request& request) {
   add_common_flags(app, request);
   add_new(app, request);
   add_bem(app, request);
-  add_scene_command(app, request, "rao", "response amplitude operators of a scene, in the frequency domain", &rao,
-                    true);
+  add_rao(app, request);
   add_scene_command(app, request, "modes", "free motions of a scene about rest: periods, damping, shapes", &modes,
                     true);
   add_scene_command(app, request, "run", "time series of a scene", &run, true);

@@ -6,6 +6,9 @@
 
 #include "answers/linear_response.hpp"
 #include "answers/plot.hpp"
+#include "answers/rao_check.hpp"
+#include "compile/compile.hpp"
+#include "froude/progress.hpp"
 #include "froude/report.hpp"
 #include "froude/scene_result.hpp"
 #include "hydro/base/error.hpp"
@@ -74,9 +77,9 @@ void write_rao_csv(const Path& path, const Responses& r) {
     columns.push_back({r.signals[i].name + " amplitude", r.signals[i].units, &numbers[2 * i]});
     columns.push_back({r.signals[i].name + " phase", "deg", &numbers[2 * i + 1]});
   }
-  hydro::io::write_csv(
-      path, columns,
-      {"amplitudes per metre of wave amplitude; phase leads the wave at the origin, Re(X exp(+i omega t))"});
+  hydro::io::write_csv(path, columns,
+                       {"amplitudes over that of the wave, in the unit of each column; phase leads the wave at the "
+                        "origin, Re(X exp(+i omega t))"});
 }
 
 /// One panel for each unit, so that metres and newtons do not share an axis.
@@ -108,8 +111,9 @@ plot::Figure figure(const scene::Scene& scene, const Responses& r) {
           .panels = r.heading.size() == 1 ? panels_by_unit(r) : panels_by_signal(r)};
 }
 
-/// Its peaks for people, all of it for programs: one list a heading where there are several.
-Report report_of(const ComplexSignal& s, const Responses& r) {
+/// Its peaks for people, all of it for programs: one list a heading where there are several. A tree of all numbers of a
+/// thousand bodies takes longer than they do, and is made where it is asked for.
+Report report_of(const ComplexSignal& s, const Responses& r, bool for_programs) {
   const bool several = r.heading.size() > 1;
   Report out;
   Json amplitude, phase;
@@ -119,13 +123,38 @@ Report report_of(const ComplexSignal& s, const Responses& r) {
     out.say("{:<24} {}{:>12.5g} {:<7} {:>10.4g} {:>10.1f}", s.name,
             several ? fmt::format("{:>13.4g} ", degrees(r.heading[h])) : "", p.amplitude, fact("unit", s.units),
             p.period, p.phase);
+    if (!for_programs) continue;
     amplitude.push_back(amplitudes_of(values));
     phase.push_back(phases_of(values));
   }
+  if (!for_programs) return out;
   return out.keep("amplitude", several ? amplitude : amplitude[0]).keep("phase_rad", several ? phase : phase[0]);
 }
 
-Report report_of(const scene::Scene& scene, const Responses& r, const Path& file) {
+/// Responses beside what runs have at the same frequency; peaks and the signal with the largest difference first.
+Report report_of(const std::vector<CheckedCell>& cells) {
+  Report out;
+  out.say("in time, waves of the first heading: difference and what a run has not settled are of the signal's peak");
+  out.say("{:<24} {:>8} {:>10} {:>12} {:>12} {:>11} {:>10} {:>12}", "signal", "T [s]", "height [m]", "linear", "run",
+          "difference", "unsettled", "other rms");
+  const CheckedCell* worst = nullptr;
+  for (const CheckedCell& c : cells) {
+    out.row("cells", "{:<24} {:>8.4g} {:>10.4g} {:>12.5g} {:>12.5g} {:>9.2g} % {:>8.2g} % {:>12.3g}",
+            fact("signal", c.signal), fact("period_s", 2 * std::numbers::pi / c.omega), fact("height_m", c.height),
+            fact("linear", std::abs(c.linear)), fact("run", std::abs(c.run)),
+            fact("difference", c.difference(), 100 * c.difference()), fact("unsettled", c.unsettled, 100 * c.unsettled),
+            fact("other_rms", c.rest));
+    if (worst == nullptr || c.difference() > worst->difference()) worst = &c;
+  }
+  if (worst != nullptr)
+    out.say(
+        "what the linear answer ignores, with the errors of the runs, is at most {:.2g} % of the peak: {} at {:.4g} s, "
+        "waves of {:.4g} m",
+        100 * worst->difference(), worst->signal, 2 * std::numbers::pi / worst->omega, worst->height);
+  return out;
+}
+
+Report report_of(const scene::Scene& scene, const Responses& r, const Path& file, bool for_programs) {
   const bool several = r.heading.size() > 1;
   Report out, signals;
   out.say("{}: {} signals at {} frequencies{}, periods {:.4g} to {:.4g} s", scene.file.filename().string(),
@@ -135,7 +164,7 @@ Report report_of(const scene::Scene& scene, const Responses& r, const Path& file
   if (several) out.keep("heading_rad", r.heading);
   out.say("{:<24} {}{:>12} {:<7} {:>10} {:>10}", "signal", several ? "heading [deg] " : "", "largest", "unit",
           "at T [s]", "phase [deg]");
-  for (const auto& s : r.signals) signals.part(s.name, report_of(s, r));
+  for (const auto& s : r.signals) signals.part(s.name, report_of(s, r, for_programs));
   out.part("signals", std::move(signals)).part("error", error_of(r));
   out.sentences("notes", "note: {}", r.notes).sentences("warnings", "{}", r.warnings());
   return out.say("wrote {}", fact("file", file.string()));
@@ -143,15 +172,24 @@ Report report_of(const scene::Scene& scene, const Responses& r, const Path& file
 
 }  // namespace
 
-void rao(const SceneArguments& arguments, const Console& console) {
+void rao(const RaoArguments& arguments, const Console& console) {
   const scene::Scene scene = scene::read(arguments.scene);
   require_asked(scene.rao.has_value(), scene, "rao", "rao = { periods = \"2 s .. 8 s, 61 values\" }");
   const Path file = checked_output(arguments, ".rao.h5");
-  const Responses r = respond(scene);
+  HowToRespond how{.refine = arguments.refine};
+  if (arguments.threads) how.threads = *arguments.threads;
+  const Responses per_metre = respond(scene, compile::prepare(scene), how);
+  const Responses r = arguments.nondimensional ? over_wave_slope(per_metre, scene.water) : per_metre;
   r.write(file);
   if (arguments.csv) write_rao_csv(*arguments.csv, r);
   if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, r)));
-  tell(report_of(scene, r, file), console);
+  Report report = report_of(scene, r, file, console.json);
+  if (!arguments.check.empty()) {
+    Progress progress(console.err, "runs", console.show_progress);
+    report.part("check", report_of(check_in_time(scene, per_metre, arguments.check_steepness,
+                                                 [&](double done) { progress.update(done); })));
+  }
+  tell(report, console);
 }
 
 }  // namespace froude

@@ -4,10 +4,10 @@
 #include <numbers>
 
 #include "dynamics/spatial/rotation.hpp"
+#include "equations.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "hydro/waves/kinematics/kinematics.hpp"
-#include "linear_model.hpp"
 
 namespace dynamics::frequency {
 
@@ -63,14 +63,16 @@ Eigen::VectorXd coefficients(const LinearDrag& drag, Index w, double omega, cons
 }
 
 /// Where response depends on drag alone it goes as its inverse, for which the mean of old and new is exact.
-void settle(LinearDrag& drag, Index w, LinearModel& of, double omega, const VectorXcd& X, const Eigen::MatrixXcd& Z,
+void settle(LinearDrag& drag, Index w, const Equations& of, double omega, const VectorXcd& X, const Impedance& without,
             double a) {
   constexpr int most = 100;
   constexpr double enough = 1e-6;  // of the largest coefficient: far below what a drag coefficient is known to
   drag.coefficient.col(w) = coefficients(drag, w, omega, VectorXcd::Zero(X.size()), a);
   for (int i = 0; i < most; ++i) {
     const VectorXcd load = X + drag.excitation(w, X.size());
-    const VectorXcd xi = of.response(drag.added_to(Z, w, omega), load, omega);
+    Impedance Z = without;
+    add_drag(drag, w, omega, Z);
+    const VectorXcd xi = of.solve(Z, load, omega).xi;
     const Eigen::VectorXd found = coefficients(drag, w, omega, xi, a);
     const double change = (found - drag.coefficient.col(w)).lpNorm<Eigen::Infinity>();
     drag.coefficient.col(w) = (found + drag.coefficient.col(w)) / 2;
@@ -82,14 +84,12 @@ void settle(LinearDrag& drag, Index w, LinearModel& of, double omega, const Vect
 
 }  // namespace
 
-Eigen::MatrixXcd LinearDrag::added_to(Eigen::MatrixXcd Z, Index w, double omega) const {
-  for (Index i = 0; i < coefficient.rows(); ++i) {
-    const DragPiece& piece = pieces[static_cast<std::size_t>(i)];
+void add_drag(const LinearDrag& drag, Index w, double omega, Impedance& Z) {
+  for (Index i = 0; i < drag.coefficient.rows(); ++i) {
+    const DragPiece& piece = drag.pieces[static_cast<std::size_t>(i)];
     const Eigen::Matrix<double, 3, 6> J = velocity_across(piece);
-    Z.block<6, 6>(6 * piece.body, 6 * piece.body) +=
-        std::complex<double>(0, omega * coefficient(i, w)) * J.transpose() * J;
+    Z.add(piece.body, piece.body, std::complex<double>(0, omega * drag.coefficient(i, w)) * J.transpose() * J);
   }
-  return Z;
 }
 
 VectorXcd LinearDrag::excitation(Index w, Index modes) const {
@@ -109,7 +109,7 @@ LinearDrag linearised_drag(const SmallMotions& about, const std::vector<Potentia
   LinearDrag drag{.pieces = turned(pieces, about.still),
                   .velocity = Eigen::MatrixXcd(3 * count, frequencies),
                   .coefficient = Eigen::MatrixXd::Zero(count, frequencies)};
-  LinearModel of(about);
+  const Equations of(about, groups);
   for (Index w = 0; w < frequencies; ++w) {
     const auto at = static_cast<std::size_t>(w);
     const hydro::waves::Component wave{.omega = omega[at],
@@ -121,8 +121,8 @@ LinearDrag linearised_drag(const SmallMotions& about, const std::vector<Potentia
     for (Index i = 0; i < count; ++i)
       drag.velocity.block<3, 1>(3 * i, w) = hydro::waves::velocity_transfer(
           wave, waves.water, rest_position(pieces[static_cast<std::size_t>(i)], about.model.bodies()));
-    settle(drag, w, of, omega[at], excitation(about.model, groups, omega[at], waves.heading),
-           impedance(about, groups, omega[at]), waves.amplitude[at]);
+    settle(drag, w, of, omega[at], excitation(about.model, groups, omega[at], waves.heading), of.impedance(omega[at]),
+           waves.amplitude[at]);
   }
   return drag;
 }

@@ -1,10 +1,11 @@
 #include "dynamics/frequency/rao.hpp"
 
-#include "hydro/base/dense.hpp"
-#include "linear_model.hpp"
+#include "equations.hpp"
+#include "hydro/base/parallel.hpp"
 #include "scatter.hpp"
 
 namespace dynamics::frequency {
+
 Eigen::MatrixXcd impedance(const SmallMotions& about, const std::vector<PotentialGroup>& groups, double omega) {
   const std::complex<double> i_omega(0, omega);
   Eigen::MatrixXcd Z =
@@ -32,18 +33,6 @@ Eigen::VectorXcd excitation(const Model& model, const std::vector<PotentialGroup
 
 namespace {
 
-/// Both sides of (Q1).
-struct Equations {
-  Eigen::MatrixXcd Z;
-  Eigen::VectorXcd X;
-};
-Equations equations(const SmallMotions& about, const std::vector<PotentialGroup>& groups, double omega, double heading,
-                    const LinearDrag* drag, Eigen::Index w) {
-  Equations e{impedance(about, groups, omega), excitation(about.model, groups, omega, heading)};
-  if (drag != nullptr) e = {drag->added_to(std::move(e.Z), w, omega), e.X + drag->excitation(w, e.X.size())};
-  return e;
-}
-
 /// The right-hand sides of (Q1), one column a heading, (6N, Nβ).
 Eigen::MatrixXcd excitations(const Model& model, const std::vector<PotentialGroup>& groups, double omega,
                              const std::vector<double>& headings) {
@@ -53,105 +42,60 @@ Eigen::MatrixXcd excitations(const Model& model, const std::vector<PotentialGrou
   return X;
 }
 
-/// The multipliers of joints, from what motions leave open of the equations of motion.
-class OpenEquations {
- public:
-  explicit OpenEquations(const SmallMotions& about)
-      : scale_(scale_of(about)), qr_(scale_.asDiagonal() * about.linear.constraints.transpose()) {}
-
-  /// λ by X − Z ξ, of a vector or of each column.
-  template <class Loads>
-  Loads multipliers(const Loads& rest) const {
-    const auto real = qr_.solve(scale_.asDiagonal() * rest.real()),
-               imaginary = qr_.solve(scale_.asDiagonal() * rest.imag());
-    Loads lambda(real.rows(), rest.cols());
-    lambda.real() = real;
-    lambda.imag() = imaginary;
-    return lambda;
-  }
-
- private:
-  /// Only free modes have an equation, and rows are scaled so that newtons and newton metres compare.
-  static Eigen::VectorXd scale_of(const SmallMotions& about) {
-    Eigen::VectorXd scale = about.mass.diagonal().cwiseSqrt().cwiseInverse();
-    for (int m = 0; m < about.model.modes(); ++m)
-      if (!about.model.is_free(m)) scale[m] = 0;
-    return scale;
-  }
-
-  Eigen::VectorXd scale_;
-  hydro::dense::PivotedQr qr_;
-};
-
-/// Column w of the matrix of each heading, side by side; and back.
-Eigen::MatrixXcd columns_at(const std::vector<Eigen::MatrixXcd>& by_heading, Eigen::Index w) {
-  Eigen::MatrixXcd out(by_heading.front().rows(), static_cast<Eigen::Index>(by_heading.size()));
-  for (Eigen::Index h = 0; h < out.cols(); ++h) out.col(h) = by_heading[static_cast<std::size_t>(h)].col(w);
-  return out;
+/// All headings of frequency number w by the same factors.
+Motions motions_at(const Equations& equations, double omega, const Eigen::MatrixXcd& X) {
+  return equations.solve(equations.impedance(omega), X, omega);
 }
-void set_columns(const Eigen::MatrixXcd& columns, Eigen::Index w, std::vector<Eigen::MatrixXcd>& by_heading) {
-  for (Eigen::Index h = 0; h < columns.cols(); ++h) by_heading[static_cast<std::size_t>(h)].col(w) = columns.col(h);
+
+/// Each heading by factors of its own.
+Motions motions_with_drag(const Equations& equations, double omega, const Eigen::MatrixXcd& X, Eigen::Index w,
+                          const std::vector<LinearDrag>& drag) {
+  const Impedance without = equations.impedance(omega);
+  Motions out;
+  for (Eigen::Index h = 0; h < X.cols(); ++h) {
+    const LinearDrag& of_heading = drag[static_cast<std::size_t>(h)];
+    Impedance Z = without;
+    add_drag(of_heading, w, omega, Z);
+    const Motions one = equations.solve(Z, X.col(h) + of_heading.excitation(w, X.rows()), omega);
+    if (h == 0) out = {Eigen::MatrixXcd(X.rows(), X.cols()), Eigen::MatrixXcd(one.lambda.rows(), X.cols())};
+    out.xi.col(h) = one.xi;
+    out.lambda.col(h) = one.lambda;
+  }
+  return out;
 }
 
 }  // namespace
 
-Eigen::MatrixXcd response_amplitudes(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
-                                     const std::vector<double>& omega, double heading, const LinearDrag* drag) {
-  LinearModel of(about);
-  Eigen::MatrixXcd xi = Eigen::MatrixXcd::Zero(about.model.modes(), static_cast<Eigen::Index>(omega.size()));
-  if (of.left.count() == 0) return xi;
-  for (Eigen::Index w = 0; w < xi.cols(); ++w) {
-    const double at = omega[static_cast<std::size_t>(w)];
-    const auto [Z, X] = equations(about, groups, at, heading, drag, w);
-    xi.col(w) = of.response(Z, X, at);  // (Q1)
-  }
-  return xi;
-}
-
-HeadingAmplitudes response_amplitudes(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
-                                      const std::vector<double>& omega, const std::vector<double>& headings) {
-  LinearModel of(about);
+Amplitudes response_amplitudes(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
+                               const std::vector<double>& omega, const std::vector<double>& headings,
+                               const RaoOptions& options) {
+  const Equations equations(about, groups);
   const auto frequencies = static_cast<Eigen::Index>(omega.size());
-  HeadingAmplitudes out;
+  const Eigen::Index joints = about.linear.constraints.rows();
+  Amplitudes out;
   out.xi.assign(headings.size(), Eigen::MatrixXcd::Zero(about.model.modes(), frequencies));
-  if (of.left.count() == 0) return out;
-  for (Eigen::Index w = 0; w < frequencies; ++w) {
-    const double at = omega[static_cast<std::size_t>(w)];
-    const Eigen::MatrixXcd X = excitations(about.model, groups, at, headings);
-    set_columns(of.response(impedance(about, groups, at), X, at), w, out.xi);  // (Q1), all headings
-  }
-  out.factorisations = of.factorisations;
+  out.lambda.assign(headings.size(), Eigen::MatrixXcd::Zero(joints, frequencies));
+  if (equations.are_empty() || headings.empty()) return out;
+  hydro::in_parallel(omega.size(), options.threads, [&](std::size_t i) {
+    const auto w = static_cast<Eigen::Index>(i);
+    const Eigen::MatrixXcd X = excitations(about.model, groups, omega[i], headings);
+    const Motions found = options.drag.empty() ? motions_at(equations, omega[i], X)
+                                               : motions_with_drag(equations, omega[i], X, w, options.drag);
+    for (std::size_t h = 0; h < headings.size(); ++h) {
+      out.xi[h].col(w) = found.xi.col(static_cast<Eigen::Index>(h));
+      out.lambda[h].col(w) = found.lambda.col(static_cast<Eigen::Index>(h));
+    }
+  });
+  out.sparse = equations.are_sparse();
+  out.factorisations = static_cast<int>(omega.size() * (options.drag.empty() ? 1 : headings.size()));
   return out;
 }
 
-Eigen::MatrixXcd multiplier_amplitudes(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
-                                       const std::vector<double>& omega, double heading, const Eigen::MatrixXcd& xi,
-                                       const LinearDrag* drag) {
-  Eigen::MatrixXcd lambda(about.linear.constraints.rows(), xi.cols());
-  if (lambda.rows() == 0) return lambda;
-  const OpenEquations open(about);
-  for (Eigen::Index w = 0; w < xi.cols(); ++w) {
-    const auto [Z, X] = equations(about, groups, omega[static_cast<std::size_t>(w)], heading, drag, w);
-    lambda.col(w) = open.multipliers(Eigen::VectorXcd(X - Z * xi.col(w)));
-  }
-  return lambda;
-}
-
-std::vector<Eigen::MatrixXcd> multiplier_amplitudes(const SmallMotions& about,
-                                                    const std::vector<PotentialGroup>& groups,
-                                                    const std::vector<double>& omega,
-                                                    const std::vector<double>& headings,
-                                                    const std::vector<Eigen::MatrixXcd>& xi) {
-  const auto frequencies = static_cast<Eigen::Index>(omega.size());
-  std::vector<Eigen::MatrixXcd> lambda(headings.size(), Eigen::MatrixXcd(about.linear.constraints.rows(), frequencies));
-  if (about.linear.constraints.rows() == 0 || headings.empty()) return lambda;
-  const OpenEquations open(about);
-  for (Eigen::Index w = 0; w < frequencies; ++w) {
-    const double at = omega[static_cast<std::size_t>(w)];
-    const Eigen::MatrixXcd X = excitations(about.model, groups, at, headings);
-    set_columns(open.multipliers(Eigen::MatrixXcd(X - impedance(about, groups, at) * columns_at(xi, w))), w, lambda);
-  }
-  return lambda;
+Eigen::MatrixXcd response_amplitudes(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
+                                     const std::vector<double>& omega, double heading, const LinearDrag* drag) {
+  RaoOptions options;
+  if (drag != nullptr) options.drag = {*drag};
+  return response_amplitudes(about, groups, omega, std::vector{heading}, options).xi.front();
 }
 
 }  // namespace dynamics::frequency

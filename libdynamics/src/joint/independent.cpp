@@ -1,32 +1,21 @@
 #include "dynamics/joint/independent.hpp"
 
 #include <Eigen/CholmodSupport>
-#include <Eigen/Sparse>
 #include <SuiteSparseQR.hpp>
 #include <algorithm>
 
 #include "hydro/base/error.hpp"
+#include "joint/columns.hpp"
 
 namespace dynamics {
 namespace {
 
-using Sparse = Eigen::SparseMatrix<double, Eigen::ColMajor, SuiteSparse_long>;
-
 /// G of one constraint a column, each of length one; a column of zeros where the bodies cannot move that way at all.
-Sparse unit_columns(const JointSet& joints, const State& state, const Eigen::VectorXd& scale) {
-  std::vector<Eigen::Triplet<double, SuiteSparse_long>> entries;
-  const auto G = joints.over(joints.gradients(state), scale);
-  for (std::size_t i = 0; i < G.size(); ++i) {
-    const Constraint& c = joints.constraints()[i];
-    const double size = norm(G[i]);
-    for (int k = 0; k < 6; ++k) {
-      if (G[i].first[k] != 0) entries.emplace_back(6 * c.first + k, i, G[i].first[k] / size);
-      if (G[i].second[k] != 0) entries.emplace_back(6 * *c.second + k, i, G[i].second[k] / size);
-    }
-  }
-  Sparse out(scale.size(), joints.count());
-  out.setFromTriplets(entries.begin(), entries.end());
-  return out;
+SparseColumns unit_columns(const JointSet& joints, const State& state, const Eigen::VectorXd& scale) {
+  auto G = joints.over(joints.gradients(state), scale);
+  for (Gradient& row : G)
+    if (const double size = norm(row); size > 0) row = {row.first / size, row.second / size};
+  return sparse_columns(joints, G, scale.size());
 }
 
 }  // namespace
@@ -34,7 +23,7 @@ Sparse unit_columns(const JointSet& joints, const State& state, const Eigen::Vec
 // R is a staircase: a column that adds something begins a row of its own, which is its last.
 std::vector<bool> independent(const JointSet& joints, const State& state, const Eigen::VectorXd& scale) {
   constexpr double part_of_others = 1e-9;
-  Sparse columns = unit_columns(joints, state, scale);
+  SparseColumns columns = unit_columns(joints, state, scale);
   cholmod_common common;
   cholmod_l_start(&common);
   cholmod_sparse view = Eigen::viewAsCholmod(columns), *R = nullptr;

@@ -3,18 +3,11 @@
 #include <cmath>
 #include <cstddef>
 
-// Rows are updated four numbers at a time: the same binary uses what the machine has.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define FROUDE_EVERY_MACHINE __attribute__((target_clones("default", "arch=x86-64-v3")))
-#else
-#define FROUDE_EVERY_MACHINE
-#endif
+#include "algebra/machine.hpp"
 
+// Rows are updated four numbers at a time: the same binary uses what the machine has.
 namespace dynamics::line {
 namespace {
-
-/// Four numbers that stand beside each other in memory, wherever they begin.
-typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
 
 /// Takes factor times `width` numbers off as many others.
 [[gnu::always_inline]] inline void subtract(int width, double factor, const double* from, double* off) {

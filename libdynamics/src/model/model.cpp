@@ -1,10 +1,16 @@
 #include "dynamics/model/model.hpp"
 
+#include <Eigen/SPQRSupport>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
 #include "dynamics/joint/independent.hpp"
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/types.hpp"
+#include "joint/columns.hpp"
 
 namespace dynamics {
 namespace {
@@ -12,6 +18,48 @@ namespace {
 Eigen::Matrix3d inertia_in_world(const RigidBody& body, const Pose& pose) {
   const Eigen::Matrix3d R = pose.attitude.toRotationMatrix();
   return R * body.inertia() * R.transpose();
+}
+
+/// All bodies, in sets within which added mass makes one move the other.
+std::vector<std::vector<int>> moved_together(std::size_t bodies, const std::vector<AddedMass>& added_mass) {
+  std::vector<std::size_t> set(bodies);
+  std::iota(set.begin(), set.end(), std::size_t{0});
+  for (const AddedMass& added : added_mass)
+    for (const int body : added.bodies) {
+      const std::size_t from = set[static_cast<std::size_t>(body)],
+                        to = set[static_cast<std::size_t>(added.bodies.front())];
+      if (from != to) std::replace(set.begin(), set.end(), from, to);
+    }
+  std::vector<std::vector<int>> out(bodies);
+  for (std::size_t b = 0; b < bodies; ++b) out[set[b]].push_back(static_cast<int>(b));
+  std::erase_if(out, [](const auto& one) { return one.empty(); });
+  return out;
+}
+
+/// \throws hydro::InputError if the mass of these bodies together is not positive definite in the free modes
+void require_positive(const Model& model, const std::vector<int>& bodies, const BlockMatrix& mass) {
+  const auto n = static_cast<Eigen::Index>(bodies.size());
+  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(6 * n, 6 * n);
+  const auto body_of = [&](Eigen::Index i) { return bodies[static_cast<std::size_t>(i)]; };
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (const int j : mass.pattern().columns(body_of(i)))
+      if (const auto at = std::lower_bound(bodies.begin(), bodies.end(), j); at != bodies.end() && *at == j)
+        M.block<6, 6>(6 * i, 6 * (at - bodies.begin())) = mass.block(body_of(i), j);
+  const auto mode_of = [&](Eigen::Index i) { return 6 * body_of(i / 6) + static_cast<int>(i % 6); };
+  for (Eigen::Index i = 0; i < 6 * n; ++i)
+    if (!model.is_free(mode_of(i))) {
+      M.row(i).setZero();
+      M.col(i).setZero();
+      M(i, i) = 1;
+    }
+  M = hydro::dense::symmetric_part(M);
+  if (hydro::dense::Cholesky(M)) return;
+  const auto [values, vectors] = hydro::dense::symmetric_eigen(M);
+  Eigen::Index worst = 0;
+  vectors.col(0).cwiseAbs().maxCoeff(&worst);
+  throw hydro::InputError(fmt::format("mass plus added mass is not positive definite: eigenvalue {:.4g}, mostly {}",
+                                      values[0], model.mode_name(mode_of(worst))),
+                          {}, "check the added mass at infinite frequency with `froude bem check`");
 }
 
 }  // namespace
@@ -34,24 +82,11 @@ Model::Model(std::vector<RigidBody> bodies, std::vector<AddedMass> added_mass,
   // Dynamics with an indefinite mass run away at once; say so before the first step.
   BlockMatrix mass(pattern_);
   add_mass(rest_state(bodies_), 1, mass);
-  Eigen::MatrixXd M = mass.dense();
+  for (const auto& set : moved_together(bodies_.size(), added_mass_)) require_positive(*this, set, mass);
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(modes());
   for (int i = 0; i < modes(); ++i)
-    if (!is_free(i)) {
-      M.row(i).setZero();
-      M.col(i).setZero();
-      M(i, i) = 1;
-    }
-  M = hydro::dense::symmetric_part(M);
-  if (hydro::dense::Cholesky(M)) {
-    leave_out_redundant(M.diagonal().cwiseSqrt());
-    return;
-  }
-  const auto [values, vectors] = hydro::dense::symmetric_eigen(M);
-  Eigen::Index worst = 0;
-  vectors.col(0).cwiseAbs().maxCoeff(&worst);
-  throw hydro::InputError(fmt::format("mass plus added mass is not positive definite: eigenvalue {:.4g}, mostly {}",
-                                      values[0], mode_name(static_cast<int>(worst))),
-                          {}, "check the added mass at infinite frequency with `froude bem check`");
+    if (is_free(i)) scale[i] = std::sqrt(mass.block(i / 6, i / 6)(i % 6, i % 6));
+  leave_out_redundant(scale);
 }
 
 void Model::leave_out_redundant(const Eigen::VectorXd& scale) {
@@ -220,11 +255,12 @@ void Model::balance(const State& still, Linear& out) const {
   out.constraints.resize(0, modes());
   out.multipliers.resize(joints_.count());
   if (joints_.count() == 0) return;
-  out.constraints = joints_.dense(joints_.gradients(still));
-  const Eigen::VectorXd root = dry_mass_at_rest().diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = root.asDiagonal() * out.constraints.transpose();
-  out.multipliers = hydro::dense::PivotedQr(scaled).solve(root.cwiseProduct(out.unbalanced));
-  out.unbalanced -= out.constraints.transpose() * out.multipliers;
+  const std::vector<Gradient> G = joints_.gradients(still);
+  out.constraints = joints_.dense(G);
+  const Eigen::VectorXd root = dry_mass_at_rest().diagonal().cwiseSqrt();
+  const Eigen::SPQR<SparseColumns> qr(sparse_columns(joints_, joints_.over(G, root), modes()));
+  out.multipliers = qr.solve(Eigen::VectorXd(out.unbalanced.cwiseQuotient(root)));
+  joints_.add_transposed(G, -out.multipliers, out.unbalanced);
 }
 
 Workspace::Workspace(const Model& model, State start)

@@ -35,12 +35,15 @@ Variation variation_of_two(int first, const std::optional<int>& second, const Ro
 // (Q7)
 std::complex<double> amplitude(const Variation& variation, const Eigen::Ref<const Eigen::VectorXcd>& xi,
                                const Eigen::Ref<const Eigen::VectorXcd>& lambda, double omega, double heading) {
-  const std::complex<double> i_omega(0, omega);
   std::complex<double> out = variation.by_wave ? variation.by_wave(omega, heading) : 0.0;
   for (const Variation::Part& part : variation.parts)
-    for (int mode = 0; mode < 6; ++mode)
-      out += (part.by_motion[mode] + i_omega * (part.by_velocity[mode] + i_omega * part.by_acceleration[mode])) *
-             xi[6 * part.body + mode];
+    for (int mode = 0; mode < 6; ++mode) {
+      const double in_phase = part.by_motion[mode] - omega * omega * part.by_acceleration[mode],
+                   ahead = omega * part.by_velocity[mode];
+      if (in_phase == 0 && ahead == 0) continue;  // most: a signal is of a few motions
+      const std::complex<double>& x = xi[6 * part.body + mode];
+      out += std::complex<double>(in_phase * x.real() - ahead * x.imag(), in_phase * x.imag() + ahead * x.real());
+    }
   for (const auto& [row, factor] : variation.by_multiplier) out += factor * lambda[row];
   return out;
 }

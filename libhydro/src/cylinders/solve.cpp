@@ -1,14 +1,12 @@
 #include "hydro/cylinders/solve.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <memory>
 #include <mutex>
-#include <thread>
 
 #include "deep.hpp"
+#include "hydro/base/parallel.hpp"
 #include "model.hpp"
 #include "request.hpp"
 #include "self_check.hpp"
@@ -20,28 +18,6 @@ using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using potential::Coefficients;
-
-/// Does job(i) for i = 0 … count − 1 on several threads. What is thrown first by index is thrown on.
-template <class Job>
-void in_parallel(std::size_t count, int threads, const Job& job) {
-  std::atomic<std::size_t> next{0};
-  std::vector<std::exception_ptr> failed(count);
-  const auto work = [&] {
-    for (std::size_t i = next++; i < count; i = next++) {
-      try {
-        job(i);
-      } catch (...) {
-        failed[i] = std::current_exception();
-      }
-    }
-  };
-  std::vector<std::thread> pool;
-  for (int t = 1; t < threads; ++t) pool.emplace_back(work);
-  work();
-  for (std::thread& t : pool) t.join();
-  for (const auto& error : failed)
-    if (error) std::rethrow_exception(error);
-}
 
 /// The layout in the water of each frequency: one model for all if the depth is finite, else one a frequency.
 class Models {

@@ -79,8 +79,8 @@ TEST_P(Agreement, OfTimeAndFrequencyDomainInEveryDegreeOfFreedom) {
   const scene::Scene scene = froude_test::parse(scene_text(GetParam(), springs));
   const compile::Prepared prepared = compile::prepare(scene);
   const dynamics::Model model = compile::frequency_model(prepared);
-  const Eigen::MatrixXcd xi =
-      dynamics::frequency::response_amplitudes(model, prepared.groups, {omegas[0]}, scene.waves->heading.radians());
+  const Cells cells{{omegas[0]}, {scene.waves->heading.radians()}};
+  const auto found = dynamics::frequency::response_amplitudes(model, prepared.groups, cells.omega, cells.headings);
   const froude::Run run = simulate(scene);
   ASSERT_EQ(run.stopped, "");
   std::vector<double> time, values;
@@ -88,7 +88,6 @@ TEST_P(Agreement, OfTimeAndFrequencyDomainInEveryDegreeOfFreedom) {
   time.assign(run.time.begin() + static_cast<std::ptrdiff_t>(begin), run.time.end());
   double largest[2] = {0, 0};  // translations, rotations
   std::vector<std::complex<double>> from_run, from_rao;
-  const double heading = scene.waves->heading.radians();
   const dynamics::frequency::SmallMotions about(model);
   for (const auto& probe : compile::signal_list(scene, prepared, model)) {
     if (!probe.name.starts_with("m")) continue;
@@ -96,7 +95,7 @@ TEST_P(Agreement, OfTimeAndFrequencyDomainInEveryDegreeOfFreedom) {
     const auto& all = run.signal(probe.name);
     values.assign(all.begin() + static_cast<std::ptrdiff_t>(begin), all.end());
     from_run.push_back(hydro::signal::fit_harmonics(time, values, omegas).amplitude.at(0) / 0.01);
-    from_rao.push_back(linear_responses({probe}, about, xi, {}, {omegas[0]}, heading).front().values.front());
+    from_rao.push_back(linear_responses({probe}, about, found, cells).front().values.front());
     double& l = largest[(from_rao.size() - 1) % 6 / 3];
     l = std::max(l, std::abs(from_rao.back()));
   }
@@ -120,10 +119,8 @@ TEST(HingeAgreement, OfTimeAndFrequencyDomainInHinges) {
   const scene::Scene scene = froude_test::parse(scene_text({"pontoon5.nc", period}, hinges));
   const compile::Prepared prepared = compile::prepare(scene);
   const dynamics::Model model = compile::frequency_model(prepared);
-  const double heading = scene.waves->heading.radians();
-  const Eigen::MatrixXcd xi = dynamics::frequency::response_amplitudes(model, prepared.groups, omegas, heading);
-  const Eigen::MatrixXcd lambda =
-      dynamics::frequency::multiplier_amplitudes(model, prepared.groups, omegas, heading, xi);
+  const Cells cells{omegas, {scene.waves->heading.radians()}};
+  const auto found = dynamics::frequency::response_amplitudes(model, prepared.groups, cells.omega, cells.headings);
   const froude::Run run = simulate(scene);
   ASSERT_EQ(run.stopped, "");
   const auto begin = static_cast<std::ptrdiff_t>(std::lround(300 / 0.1));
@@ -133,7 +130,7 @@ TEST(HingeAgreement, OfTimeAndFrequencyDomainInHinges) {
   const dynamics::frequency::SmallMotions about(model);
   for (const auto& probe : compile::signal_list(scene, prepared, model)) {
     if (!probe.name.starts_with("m_hinge")) continue;
-    const auto of_rao = linear_responses({probe}, about, xi, lambda, omegas, heading).front().values.front();
+    const auto of_rao = linear_responses({probe}, about, found, cells).front().values.front();
     const auto& all = run.signal(probe.name);
     const std::vector<double> values(all.begin() + begin, all.end());
     const auto of_run = hydro::signal::fit_harmonics(time, values, omegas).amplitude.at(0) / 0.01;

@@ -1,8 +1,9 @@
-#include "dynamics/frequency/rao.hpp"
+#include "dynamics/frequency/amplitudes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 
 #include "dynamics/force/connector.hpp"
@@ -155,7 +156,7 @@ TEST(RaoHeadings, AreThoseOfOneByOneFromOneFactorisationAFrequency) {
              std::make_unique<AxialConnectorKind>(std::vector<AxialConnector>{{ends, {800, 60}, std::sqrt(65.0)}}));
   const std::vector<double> data{-0.5, 0.1, 0.8, 2.0}, omega{0.5, 1.23, 1.4, 3.0}, asked{2.0, -0.5, 0.3};
   const std::vector<PotentialGroup> groups{group(from_sides(coefficients({0, 10}), data), {0, 10})};
-  const auto together = frequency::response_amplitudes(model, groups, omega, asked);
+  const auto together = frequency::response_amplitudes(model, groups, omega, asked, {});
   EXPECT_EQ(together.factorisations, 4) << "one at each of four frequencies, for three headings";
   ASSERT_EQ(together.xi.size(), asked.size());
   for (std::size_t h = 0; h < asked.size(); ++h) {
@@ -171,9 +172,150 @@ TEST(RaoHeadings, AreAllRefusedAtAnUndampedResonance) {
   g.radiation = false;
   EXPECT_THAT(
       [&] {
-        frequency::response_amplitudes(sprung(bodies, 1000, 0), {g}, {1.0}, std::vector<double>{0, 1});
+        frequency::response_amplitudes(sprung(bodies, 1000, 0), {g}, {1.0}, {0, 1}, {});
       },
       testing::ThrowsMessage<hydro::NumericsError>(testing::HasSubstr("at 1 rad/s")));
+}
+
+/// Twelve bodies in a row, each on springs to the ground and to the next, joined in pairs by hinges if asked; some hold
+/// still in sway.
+Model row_of_bodies(bool hinged) {
+  constexpr int count = 12;
+  std::vector<RigidBody> bodies;
+  std::vector<AxialConnector> connectors;
+  std::vector<Joint> joints;
+  for (int i = 0; i < count; ++i) {
+    bodies.push_back(RigidBody({.name = fmt::format("b{}", i + 1),
+                                .mass = 1000.0 + 10 * i,
+                                .inertia = Eigen::Vector3d(800, 900, 1000).asDiagonal(),
+                                .rest_position = {Eigen::Vector3d(10 * i, 0, 0)},
+                                .free = {true, i % 5 != 2 || hinged, true, true, true, true}}));
+    if (i > 0)
+      connectors.push_back({Ends{{i - 1, Eigen::Vector3d(1, 0.5, 0.2)}, PointOnBody{i, Eigen::Vector3d(-1, 1, 0)}},
+                            {800, 60},
+                            std::hypot(8, 0.5, 0.2)});
+    if (hinged && i % 2 == 1)
+      joints.push_back({.name = fmt::format("h{}", i),
+                        .kind = JointKind::hinge,
+                        .first = i - 1,
+                        .second = i,
+                        .place = Eigen::Vector3d(10 * i - 5, 0, 0.3),
+                        .axis = Eigen::Vector3d::UnitY()});
+  }
+  std::vector<std::unique_ptr<const ForceKind>> forces;
+  std::vector<Restoring> springs;
+  for (int i = 0; i < count; ++i)
+    springs.push_back({i, (2500 + 100 * i) * Matrix6::Identity(), 40 * Matrix6::Identity()});
+  forces.push_back(std::make_unique<RestoringKind>("mooring", bodies, springs));
+  forces.push_back(std::make_unique<AxialConnectorKind>(connectors));
+  return Model(bodies, {}, std::move(forces), joints);
+}
+
+std::vector<PotentialGroup> each_by_itself(const std::vector<double>& headings) {
+  std::vector<PotentialGroup> out;
+  for (int i = 0; i < 12; ++i) {
+    out.push_back(group(from_sides(coefficients({10.0 * i}), headings), {10.0 * i}));
+    out.back().bodies = {i};
+  }
+  return out;
+}
+
+// [Z Gᵀ; G 0] as a dense matrix by Eigen's full pivoting: slow and plain. Held modes are unit rows.
+Eigen::VectorXcd plain_solution(const frequency::SmallMotions& about, const std::vector<PotentialGroup>& groups,
+                                double omega, double heading) {
+  const Eigen::MatrixXd& G = about.linear.constraints;
+  const Eigen::Index n = about.model.modes(), m = G.rows();
+  Eigen::MatrixXcd whole = Eigen::MatrixXcd::Zero(n + m, n + m);
+  whole.topLeftCorner(n, n) = frequency::impedance(about, groups, omega);
+  whole.topRightCorner(n, m) = G.transpose().cast<std::complex<double>>();
+  whole.bottomLeftCorner(m, n) = G.cast<std::complex<double>>();
+  Eigen::VectorXcd right = Eigen::VectorXcd::Zero(n + m);
+  right.head(n) = frequency::excitation(about.model, groups, omega, heading);
+  for (int mode = 0; mode < n; ++mode)
+    if (!about.model.is_free(mode)) {
+      whole.row(mode).setZero();
+      whole.col(mode).setZero();
+      whole(mode, mode) = 1;
+      right[mode] = 0;
+    }
+  return whole.fullPivLu().solve(right);
+}
+
+class RaoOfARow : public testing::TestWithParam<bool> {};
+
+// The condition number of the equations is some 1e4, and multipliers are a thousand times as large as motions.
+TEST_P(RaoOfARow, BySparseFactorsIsThatOfTheWholeMatrix) {
+  const Model model = row_of_bodies(GetParam());
+  const frequency::SmallMotions about(model);
+  const auto groups = each_by_itself({0, 1});
+  const std::vector<double> omega{0.5, 1.3, 1.77, 3.0}, headings{0.8, 0.1};
+  const auto found = frequency::response_amplitudes(about, groups, omega, headings, {});
+  EXPECT_TRUE(found.sparse);
+  for (std::size_t h = 0; h < headings.size(); ++h)
+    for (std::size_t w = 0; w < omega.size(); ++w) {
+      const Eigen::VectorXcd plain = plain_solution(about, groups, omega[w], headings[h]);
+      const auto column = static_cast<Eigen::Index>(w);
+      EXPECT_LT((found.xi[h].col(column) - plain.head(model.modes())).norm(), 1e-11 * plain.head(model.modes()).norm());
+      const Eigen::VectorXcd lambda = plain.tail(plain.size() - model.modes());
+      EXPECT_LE((found.lambda[h].col(column) - lambda).norm(), 1e-11 * lambda.norm());
+    }
+}
+
+// The same bodies in one group, whose blocks between bodies are zero, are solved by dense factors.
+TEST_P(RaoOfARow, IsTheSameByDenseFactors) {
+  const Model model = row_of_bodies(GetParam());
+  std::vector<double> places;
+  for (int i = 0; i < 12; ++i) places.push_back(10.0 * i);
+  const std::vector<double> omega{0.5, 1.3, 3.0}, headings{0.8, 0.1};
+  const std::vector<PotentialGroup> together{group(from_sides(coefficients(places), {0, 1}), places)};
+  const auto dense = frequency::response_amplitudes(model, together, omega, headings, {});
+  EXPECT_FALSE(dense.sparse);
+  frequency::SmallMotions about(model);
+  for (std::size_t w = 0; w < omega.size(); ++w) {
+    const Eigen::VectorXcd plain = plain_solution(about, together, omega[w], headings[0]);
+    const auto column = static_cast<Eigen::Index>(w);
+    EXPECT_LT((dense.xi[0].col(column) - plain.head(model.modes())).norm(), 1e-11 * plain.head(model.modes()).norm());
+    const Eigen::VectorXcd lambda = plain.tail(plain.size() - model.modes());
+    EXPECT_LE((dense.lambda[0].col(column) - lambda).norm(), 1e-11 * lambda.norm());
+  }
+}
+
+TEST_P(RaoOfARow, HasTheSameBitsWithAnyNumberOfThreads) {
+  const Model model = row_of_bodies(GetParam());
+  const auto groups = each_by_itself({0, 1});
+  std::vector<double> omega;
+  for (int i = 0; i < 23; ++i) omega.push_back(0.3 + 0.15 * i);
+  const auto one = frequency::response_amplitudes(model, groups, omega, {0.8, 0.1}, {});
+  for (const int threads : {2, 5}) {
+    const auto several = frequency::response_amplitudes(model, groups, omega, {0.8, 0.1}, {.threads = threads});
+    EXPECT_EQ(one.xi, several.xi) << threads;
+    EXPECT_EQ(one.lambda, several.lambda) << threads;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutHinges, RaoOfARow, testing::Bool());
+
+TEST(Rao, NamesTheMotionThatNothingHoldsWhereWavesBecomeSlow) {
+  for (const int count : {1, 12}) {
+    std::vector<RigidBody> bodies;
+    for (int i = 0; i < count; ++i) bodies.push_back(body(fmt::format("b{}", i + 1), 10 * i));
+    std::vector<Restoring> springs;
+    for (int i = 0; i < count; ++i) {
+      Matrix6 K = 2500 * Matrix6::Identity();
+      if (i == count - 1) K(1, 1) = 0;
+      springs.push_back({i, K, Matrix6::Zero()});
+    }
+    std::vector<std::unique_ptr<const ForceKind>> forces;
+    forces.push_back(std::make_unique<RestoringKind>("mooring", bodies, springs));
+    const Model model(bodies, {}, std::move(forces));
+    EXPECT_THAT(
+        [&] {
+          frequency::response_amplitudes(model, {}, {1.0, 1e-8}, 0);
+        },
+        testing::ThrowsMessage<hydro::NumericsError>(
+            testing::HasSubstr(fmt::format("1e-08 rad/s: the equations of motion are singular there; nothing "
+                                           "holds b{}.sway",
+                                           count))));
+  }
 }
 
 TEST(Rao, NamesTheRangeOfTheDataWhenAskedOutside) {
@@ -189,7 +331,8 @@ TEST(Rao, SaysWhenAnUndampedResonanceIsHit) {
   auto g = group(coefficients({0}), {0});
   g.radiation = false;
   EXPECT_THAT([&] { frequency::response_amplitudes(model, {g}, {1.0}, 0); },
-              testing::ThrowsMessage<hydro::NumericsError>(testing::HasSubstr("at 1 rad/s")));
+              testing::ThrowsMessage<hydro::NumericsError>(testing::AllOf(
+                  testing::HasSubstr("at 1 rad/s"), testing::HasSubstr("resonates, and nothing damps"))));
 }
 
 }  // namespace

@@ -24,8 +24,6 @@ struct LinearDrag {
   Eigen::MatrixXcd velocity;    ///< of the undisturbed water, m/s per metre of wave, (3 pieces, Nω)
   Eigen::MatrixXd coefficient;  ///< (pieces, Nω), N s/m
 
-  /// Z and the drag's part of it, frequency number w.
-  Eigen::MatrixXcd added_to(Eigen::MatrixXcd Z, Eigen::Index w, double omega) const;
   /// What the water's motion exerts, (modes), N and N m per metre.
   Eigen::VectorXcd excitation(Eigen::Index w, Eigen::Index modes) const;
 };
@@ -35,37 +33,12 @@ struct LinearDrag {
 ///
 /// Solves (Q1) at each frequency: [−ω²(M + A(ω)) + iω(B(ω) + D) + K] ξ = X(ω, β), K and D from every force of the model
 /// that is linear at rest, about where the bodies are still, in the motions that joints leave (D17). Modes that are not
-/// free stay zero. Error: round-off, plus what FrequencyTable::interpolation_error() says of the data. `drag`: made for
-/// the same frequencies, or none. \throws hydro::InputError outside the data, hydro::NumericsError naming the frequency
-/// if the matrix is singular
+/// free stay zero. Several headings and threads: amplitudes.hpp. Error: round-off, plus what
+/// FrequencyTable::interpolation_error() says of the data. `drag`: made for the same frequencies, or none. \throws
+/// hydro::InputError outside the data, hydro::NumericsError naming the frequency if the matrix is singular
 Eigen::MatrixXcd response_amplitudes(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
                                      const std::vector<double>& omega, double heading,
                                      const LinearDrag* drag = nullptr);
-
-/// Responses to waves of several headings.
-struct HeadingAmplitudes {
-  std::vector<Eigen::MatrixXcd> xi;  ///< one a heading, in the order asked: (6N, Nω), m/m and rad/m
-  int factorisations = 0;            ///< of the matrix of (Q1): one a frequency, however many headings
-};
-
-/// response_amplitudes() of each of `headings`, rad. The matrix of (Q1) does not know where the waves go, so it is
-/// factored once at each frequency, O((6N)³), and each heading is one more column on the right, O((6N)²). Linear drag
-/// depends on the heading and has no place here: with it, each heading is solved by itself (Q5).
-/// Error and \throws: those of one heading
-HeadingAmplitudes response_amplitudes(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
-                                      const std::vector<double>& omega, const std::vector<double>& headings);
-
-/// Complex amplitude of the multipliers λ of the joints beyond what they are while still, (m, Nω), from the equations
-/// of motion that `xi`, of response_amplitudes(), leaves open.
-Eigen::MatrixXcd multiplier_amplitudes(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
-                                       const std::vector<double>& omega, double heading, const Eigen::MatrixXcd& xi,
-                                       const LinearDrag* drag = nullptr);
-/// The same for several headings, without drag; `xi` is HeadingAmplitudes::xi.
-std::vector<Eigen::MatrixXcd> multiplier_amplitudes(const SmallMotions& about,
-                                                    const std::vector<PotentialGroup>& groups,
-                                                    const std::vector<double>& omega,
-                                                    const std::vector<double>& headings,
-                                                    const std::vector<Eigen::MatrixXcd>& xi);
 
 /// The matrix of (Q1) at one frequency, (6N, 6N).
 Eigen::MatrixXcd impedance(const SmallMotions& about, const std::vector<PotentialGroup>& groups, double omega);

@@ -1,0 +1,40 @@
+#pragma once
+/// \file  Independent jobs on several threads.
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <thread>
+#include <vector>
+
+namespace hydro {
+
+/// Does job(i) for i = 0 … count − 1 on `threads` threads, that of the caller among them. What is thrown first by index
+/// is thrown on, when all that are begun have ended; so results are the same for any number of threads.
+template <class Job>
+void in_parallel(std::size_t count, int threads, const Job& job) {
+  std::atomic<std::size_t> next{0};
+  std::vector<std::exception_ptr> failed(count);
+  const auto work = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        job(i);
+      } catch (...) {
+        failed[i] = std::current_exception();
+      }
+    }
+  };
+  std::vector<std::thread> pool;
+  for (int t = 1; t < threads && static_cast<std::size_t>(t) < count; ++t) pool.emplace_back(work);
+  work();
+  for (std::thread& t : pool) t.join();
+  for (const auto& error : failed)
+    if (error) std::rethrow_exception(error);
+}
+
+/// One thread for each of the machine's processors.
+inline int all_processors() {
+  const unsigned known = std::thread::hardware_concurrency();
+  return known > 1 ? static_cast<int>(known) : 1;
+}
+
+}  // namespace hydro
