@@ -153,21 +153,30 @@ Equations equations(PeriodicSystem& system, const MatrixXd& Y, const Samples& sa
   return {R, J};
 }
 
+/// The same, empty where the system has none, as bodies whose joints cannot be closed.
+std::optional<Equations> tried(PeriodicSystem& system, const MatrixXd& Y, const Samples& samples) {
+  try {
+    return equations(system, Y, samples);
+  } catch (const hydro::NumericsError&) {
+    return std::nullopt;
+  }
+}
+
 /// One solution at a number of harmonics: damped Newton. Empty: none, and `why`.
 std::optional<MatrixXd> solve(PeriodicSystem& system, MatrixXd Y, const Samples& samples, const BalanceOptions& options,
                               Balance& report) {
-  Equations e = equations(system, Y, samples);
-  for (int i = 0; i < options.iterations; ++i) {
+  std::optional<Equations> e = tried(system, Y, samples);
+  for (int i = 0; e && i < options.iterations; ++i) {
     ++report.iterations;
-    const VectorXd step = hydro::dense::Lu(e.jacobian).solve(-e.residual);
+    const VectorXd step = hydro::dense::Lu(e->jacobian).solve(-e->residual);
     if (!step.allFinite()) break;
     const MatrixXd change = Eigen::Map<const MatrixXd>(step.data(), Y.rows(), Y.cols());
     // Differences within the system leave 1e-9 of a motion; below that Newton only stirs.
     if (change.norm() <= 1e-9 * Y.norm() || step.norm() == 0) return MatrixXd(Y + change);
     double share = 1;
-    for (const double before = e.residual.norm();; share /= 2) {
-      e = equations(system, Y + share * change, samples);
-      if (e.residual.norm() < before || share < 1e-3) break;
+    for (const double before = e->residual.norm();; share /= 2) {
+      e = tried(system, Y + share * change, samples);
+      if ((e && e->residual.norm() < before) || share < 1e-3) break;
     }
     Y += share * change;
   }
@@ -253,7 +262,7 @@ class Branch {
     return out;
   }
   /// Onto the branch, across the tangent: Newton. Empty if that does not settle.
-  std::optional<Place> corrected(Place at, const VectorXd& tangent) {
+  std::optional<Place> corrected(Place at, const VectorXd& tangent) try {
     constexpr int most = 8;  // a step that needs more is too long
     for (int i = 0; i < most; ++i) {
       const Bordered b = bordered(at, tangent);
@@ -262,6 +271,8 @@ class Branch {
       at = moved(at, step);
       if (step.norm() < 1e-9) return at;
     }
+    return std::nullopt;
+  } catch (const hydro::NumericsError&) {  // bodies whose joints cannot be closed
     return std::nullopt;
   }
   void set_size(double size) { size_ = std::max(size, 1e-12); }
