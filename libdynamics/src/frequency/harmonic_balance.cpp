@@ -65,7 +65,7 @@ class Samples {
 };
 
 /// Coefficients of F by those of w, rows (m) of each harmonic one below the other: F = −Re(K̂ (w_c − i w_s) e^{iωt}).
-MatrixXd remembered_load(const PeriodicMemory& memory, double omega, const MatrixXd& w, Index m) {
+MatrixXd memory_load(const PeriodicMemory& memory, double omega, const MatrixXd& w, Index m) {
   MatrixXd F(w.rows(), w.cols());
   F.topRows(m) = -memory.transform(0).real() * w.topRows(m);
   for (Index row = m, h = 1; row < w.rows(); row += 2 * m, ++h) {
@@ -106,18 +106,18 @@ MatrixXd load(PeriodicSystem& system, const MatrixXd& Y, const Samples& samples)
   const Index m = memory->B.cols();
   MatrixXd w = MatrixXd::Zero(m * samples.columns(), 1);
   for (std::size_t j = 0; j < samples.count(); ++j)
-    add_coefficients(samples.weight(j), system.remembered(samples[j].times(Y, samples.time(j))), w);
-  return remembered_load(*memory, samples.omega(), w, m).reshaped(m, samples.columns());
+    add_coefficients(samples.weight(j), system.memory_velocity(samples[j].times(Y, samples.time(j))), w);
+  return memory_load(*memory, samples.omega(), w, m).reshaped(m, samples.columns());
 }
 
 /// All samples of a motion, with the load of the memory that belongs to it.
 struct Sampled {
   std::vector<PeriodicSample> at;
-  Index remembered = 0;  // m
+  Index memory_size = 0;  // m
 
   Sampled(PeriodicSystem& system, const MatrixXd& Y, const Samples& samples) {
     const MatrixXd F = load(system, Y, samples);
-    remembered = F.rows();
+    memory_size = F.rows();
     for (std::size_t j = 0; j < samples.count(); ++j)
       at.push_back(system.at(samples[j].times(Y, samples.time(j)), F * samples[j].value));
   }
@@ -131,7 +131,7 @@ struct BalanceEquations {
 
 BalanceEquations equations(PeriodicSystem& system, const MatrixXd& Y, const Samples& samples) {
   const Sampled sampled(system, Y, samples);
-  const Index n = Y.rows(), all = n * samples.columns(), m = sampled.remembered;
+  const Index n = Y.rows(), all = n * samples.columns(), m = sampled.memory_size;
   MatrixXd load_by_Y;
   if (m > 0) {
     MatrixXd w = MatrixXd::Zero(m * samples.columns(), all);
@@ -139,7 +139,7 @@ BalanceEquations equations(PeriodicSystem& system, const MatrixXd& Y, const Samp
       const PeriodicSample& s = sampled.at[j];
       add_coefficients(samples.weight(j), spread(samples[j], s.velocity_by_value, s.velocity_by_rate), w);
     }
-    load_by_Y = remembered_load(*system.memory(), samples.omega(), w, m);
+    load_by_Y = memory_load(*system.memory(), samples.omega(), w, m);
   }
   MatrixXd R = MatrixXd::Zero(all, 1), J = MatrixXd::Zero(all, all);
   for (std::size_t j = 0; j < samples.count(); ++j) {

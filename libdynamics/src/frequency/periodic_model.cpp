@@ -145,7 +145,9 @@ VectorXd PeriodicModel::residual(const Bodies& b, const VectorXd& load) {
   return out;
 }
 
-VectorXd PeriodicModel::remembered(const CoordinateMotion& motion) { return bodies(motion).state.velocity(radiating_); }
+VectorXd PeriodicModel::memory_velocity(const CoordinateMotion& motion) {
+  return bodies(motion).state.velocity(radiating_);
+}
 
 VectorXd PeriodicModel::multipliers(const Bodies& b, const VectorXd& load) {
   const JointSet& joints = model_.joints();

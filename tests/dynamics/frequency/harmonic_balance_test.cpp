@@ -37,7 +37,7 @@ struct Oscillator final : PeriodicSystem {
     return out;
   }
   const PeriodicMemory* memory() const override { return kept ? &*kept : nullptr; }
-  VectorXd remembered(const CoordinateMotion& m) override { return m.rate; }
+  VectorXd memory_velocity(const CoordinateMotion& m) override { return m.rate; }
 };
 
 PeriodicMemory exponential(double k, double a) {

@@ -16,12 +16,13 @@ struct CoordinateMotion {
   Eigen::VectorXd value, rate, acceleration;  ///< (n)
 };
 
-/// The equations of motion at one time of a period, and how they vary: n coordinates, m velocities that are remembered.
+/// The equations of motion at one time of a period, and how they vary: n coordinates, m velocities with radiation
+/// memory.
 struct PeriodicSample {
   Eigen::VectorXd residual;                                       ///< (n); zero for a motion
   Eigen::MatrixXd by_value, by_rate, by_acceleration;             ///< ∂residual, (n, n)
   Eigen::MatrixXd by_load = {};                                   ///< ∂residual by the load of the memory, (n, m)
-  Eigen::MatrixXd velocity_by_value = {}, velocity_by_rate = {};  ///< of what is remembered, (m, n)
+  Eigen::MatrixXd velocity_by_value = {}, velocity_by_rate = {};  ///< of those with memory, (m, n)
 };
 
 /// A load F = −∫K(t−τ) w(τ) dτ of m velocities w: by its transform K̂(iω), and by states ẋ = A x + B w, F = −C x.
@@ -40,7 +41,7 @@ class PeriodicSystem {
   virtual PeriodicSample at(const CoordinateMotion& motion, const Eigen::VectorXd& load) = 0;
   virtual const PeriodicMemory* memory() const { return nullptr; }
   /// w, (m).
-  virtual Eigen::VectorXd remembered(const CoordinateMotion&) { return {}; }
+  virtual Eigen::VectorXd memory_velocity(const CoordinateMotion&) { return {}; }
 };
 
 /// y(t) = Σ of a mean, cosines and sines of multiples of a frequency.
@@ -81,7 +82,7 @@ Balance balance(PeriodicSystem& system, PeriodicMotion start, const BalanceOptio
 /// Rest, for balance() to begin with.
 PeriodicMotion at_rest(const PeriodicSystem& system, Eigen::Index harmonics = 4);
 
-/// The load of the memory in a motion, as coefficients, (m, 2H + 1); without rows where nothing is remembered.
+/// The load of the memory in a motion, as coefficients, (m, 2H + 1); without rows without memory.
 PeriodicMotion load_of_memory(PeriodicSystem& system, const PeriodicMotion& motion);
 
 /// Systems along a parameter, such as the height of waves or their period.

@@ -29,7 +29,7 @@ class PeriodicModel : public PeriodicSystem {
   double omega() const override { return omega_; }
   PeriodicSample at(const CoordinateMotion& motion, const Eigen::VectorXd& load) override;
   const PeriodicMemory* memory() const override { return radiating_.empty() ? nullptr : &memory_; }
-  Eigen::VectorXd remembered(const CoordinateMotion& motion) override;
+  Eigen::VectorXd memory_velocity(const CoordinateMotion& motion) override;
 
   /// N, (6N, n), and the coordinates of small displacements, (6N) or (6N, k).
   const Eigen::MatrixXd& basis() const { return basis_; }
