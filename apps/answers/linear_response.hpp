@@ -24,7 +24,7 @@ std::vector<ComplexSignal> linear_responses(const std::vector<compile::Signal>& 
 struct HowToRespond {
   int threads = hydro::all_processors();  ///< which share the frequencies; numbers do not depend on how many there are
   bool refine =
-      false;  ///< frequencies are put between those asked for, until straight lines are within `accuracy` (Q10)
+      false;  ///< frequencies are put between those asked for, until straight lines are within `accuracy` (Q15)
 };
 
 /// The signals that [ask.rao] names, at its frequencies and headings.

@@ -1,5 +1,5 @@
 #pragma once
-/// \file  Frequencies put where responses bend: (Q10), docs/theory/frequency.md. Private to apps.
+/// \file  Frequencies put where responses bend: (Q15), docs/theory/frequency.md. Private to apps.
 #include <functional>
 #include <vector>
 

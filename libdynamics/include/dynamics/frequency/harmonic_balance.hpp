@@ -1,0 +1,125 @@
+#pragma once
+/// \file  Periodic motions of nonlinear systems that something periodic drives, by harmonic balance, and whether they
+/// last. (Q10)-(Q12), docs/theory/frequency.md.
+#include <Eigen/Core>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dynamics::frequency {
+
+/// Where n coordinates are at one time, and how they move.
+struct CoordinateMotion {
+  double time = 0;                            ///< s
+  Eigen::VectorXd value, rate, acceleration;  ///< (n)
+};
+
+/// The equations of motion at one time of a period, and how they vary: n coordinates, m velocities with radiation
+/// memory.
+struct PeriodicSample {
+  Eigen::VectorXd residual;                                       ///< (n); zero for a motion
+  Eigen::MatrixXd by_value, by_rate, by_acceleration;             ///< ∂residual, (n, n)
+  Eigen::MatrixXd by_load = {};                                   ///< ∂residual by the load of the memory, (n, m)
+  Eigen::MatrixXd velocity_by_value = {}, velocity_by_rate = {};  ///< of those with memory, (m, n)
+};
+
+/// A load F = −∫K(t−τ) w(τ) dτ of m velocities w: by its transform K̂(iω), and by states ẋ = A x + B w, F = −C x.
+struct PeriodicMemory {
+  std::function<Eigen::MatrixXcd(double omega)> transform;
+  Eigen::MatrixXd A, B, C;
+};
+
+/// Equations of motion with a period in time.
+class PeriodicSystem {
+ public:
+  virtual ~PeriodicSystem() = default;
+  virtual Eigen::Index size() const = 0;  ///< n
+  virtual double omega() const = 0;       ///< rad/s: 2π over the period
+  /// `load`: of the memory, (m).
+  virtual PeriodicSample at(const CoordinateMotion& motion, const Eigen::VectorXd& load) = 0;
+  virtual const PeriodicMemory* memory() const { return nullptr; }
+  /// w, (m).
+  virtual Eigen::VectorXd memory_velocity(const CoordinateMotion&) { return {}; }
+};
+
+/// y(t) = Σ of a mean, cosines and sines of multiples of a frequency.
+struct PeriodicMotion {
+  double omega = 0;              ///< rad/s, of the first harmonic
+  Eigen::MatrixXd coefficients;  ///< (n, 2H + 1): mean, then cosine and sine of each harmonic
+
+  Eigen::Index harmonics() const { return coefficients.cols() / 2; }
+  CoordinateMotion at(double time_s) const;
+  /// The two highest harmonics over the whole, rms: what is left out is as large where harmonics fall.
+  double tail() const;
+  /// The same motion with more harmonics, which are zero, or with its highest left out.
+  PeriodicMotion with_harmonics(Eigen::Index harmonics) const;
+  /// The same motion as one of as many periods: coefficients stand at multiples of omega / periods.
+  PeriodicMotion over(int periods) const;
+};
+
+struct BalanceOptions {
+  double accuracy = 1e-6;            ///< of the motion, by its tail()
+  Eigen::Index harmonics = 4;        ///< to begin with; half as many again until the tail is within the accuracy
+  Eigen::Index most_harmonics = 96;  ///< of a smooth system far below; a motion with corners has no fewer
+  int iterations = 40;               ///< of Newton
+};
+
+/// What harmonic balance came to.
+struct Balance {
+  PeriodicMotion motion;
+  bool found = false;
+  int iterations = 0;  ///< of Newton, all together
+  std::string why;     ///< not found: one sentence
+};
+
+/// A motion with the period of the system, or with as many of it as omega() / start.omega, near `start`: Newton on the
+/// coefficients of the residual, which is taken at 4 (H + 1) times of the period, (Q10). Cost of an iteration: as many
+/// calls of at(), and a dense factorisation of n (2H + 1) equations.
+Balance balance(PeriodicSystem& system, PeriodicMotion start, const BalanceOptions& options = {});
+
+/// Rest, for balance() to begin with.
+PeriodicMotion at_rest(const PeriodicSystem& system, Eigen::Index harmonics = 4);
+
+/// The load of the memory in a motion, as coefficients, (m, 2H + 1); without rows without memory.
+PeriodicMotion load_of_memory(PeriodicSystem& system, const PeriodicMotion& motion);
+
+/// Systems along a parameter, such as the height of waves or their period.
+using Family = std::function<std::unique_ptr<PeriodicSystem>(double parameter)>;
+
+/// A point of a branch of periodic motions.
+struct BranchPoint {
+  double parameter;
+  PeriodicMotion motion;
+  bool forwards;  ///< the parameter grows along the branch here; it turns at a fold
+};
+
+struct FollowOptions {
+  double step = 0.02;  ///< of arc, to begin with: of the range of the parameter and of the size of the motion
+  double largest_step = 0.1;
+  int points = 400;
+  BalanceOptions balance = {};
+};
+
+/// The branch through `start`, a motion at the parameter `from`, by pseudo-arclength, (Q11): round folds, until the
+/// parameter is `to`, which the last point has, or below `from` again, or there are as many points as are allowed.
+/// \throws hydro::NumericsError where it cannot be followed by the smallest step
+std::vector<BranchPoint> follow(const Family& family, double from, double to, PeriodicMotion start,
+                                const FollowOptions& options = {});
+
+/// Floquet multipliers of a motion, the largest first, (Q12): of its small disturbances, memory included, over its own
+/// period. They know A(t) by its Fourier series at the motion's sampling times. \throws as monodromy()
+Eigen::VectorXcd floquet_multipliers(PeriodicSystem& system, const PeriodicMotion& motion);
+
+/// What becomes of a periodic motion that is disturbed.
+enum class Fate {
+  stable,
+  doubled,        ///< a multiplier below −1: motions of two periods take its place
+  quasiperiodic,  ///< a pair beyond the circle
+  fold            ///< a multiplier above 1: another motion of one period, or none near
+};
+std::string name_of(Fate fate);
+Fate fate_of(const Eigen::VectorXcd& multipliers);
+
+}  // namespace dynamics::frequency

@@ -1,0 +1,66 @@
+#pragma once
+/// \file  A model in waves of one period as a periodic system of the motions that joints leave. (Q13),
+/// docs/theory/frequency.md.
+#include "dynamics/frequency/harmonic_balance.hpp"
+#include "dynamics/frequency/small_motions.hpp"
+#include "hydro/radiation/rational.hpp"
+
+namespace dynamics::frequency {
+
+/// Radiation of some modes: the poles that a run has, whose added mass is the model's.
+struct RadiatingModes {
+  std::vector<int> modes;  ///< of the model
+  hydro::radiation::PoleModel poles;
+};
+
+/// Coordinates y, (n), in which rest is 0 and bodies are displaced by N y to first order, N orthonormal in the metric
+/// of their own masses, √kg m; further on joints are closed as they are. All loads by the model itself, at the true
+/// place of every body; derivatives by central differences of its residual, relative error some 1e-9.
+class PeriodicModel : public PeriodicSystem {
+ public:
+  /// `model`: of a run without its radiation; added mass at infinite frequency is in it. `about`: rest or an
+  /// equilibrium. `omega`: of its waves, rad/s. What is passed must live as long.
+  /// \throws hydro::InputError naming what has no periodic answer: friction and contact, which are set-valued, loads
+  /// with a memory of their own, prescribed motions, bodies that may turn about two of three axes
+  PeriodicModel(const Model& model, const SmallMotions& about, const std::vector<RadiatingModes>& radiation,
+                double omega);
+
+  Eigen::Index size() const override { return basis_.cols(); }
+  double omega() const override { return omega_; }
+  PeriodicSample at(const CoordinateMotion& motion, const Eigen::VectorXd& load) override;
+  const PeriodicMemory* memory() const override { return radiating_.empty() ? nullptr : &memory_; }
+  Eigen::VectorXd memory_velocity(const CoordinateMotion& motion) override;
+
+  /// N, (6N, n), and the coordinates of small displacements, (6N) or (6N, k).
+  const Eigen::MatrixXd& basis() const { return basis_; }
+  template <class Displacements>
+  Displacements coordinates(const Displacements& small) const {
+    return inverse_.cast<typename Displacements::Scalar>() * small;
+  }
+
+  /// Bodies as they are with these coordinates, and how they are accelerated, (6N).
+  struct Bodies {
+    State state;
+    Eigen::VectorXd acceleration;
+    Eigen::MatrixXd by_coordinate;  ///< displacement of the centres of gravity by y, (6N, n)
+  };
+  /// \throws hydro::NumericsError where joints cannot be closed
+  Bodies bodies(const CoordinateMotion& motion) const;
+  /// λ of the joints that go with a motion, load of the memory included, (m).
+  Eigen::VectorXd multipliers(const Bodies& bodies, const Eigen::VectorXd& load);
+
+ private:
+  Eigen::VectorXd residual(const Bodies& bodies, const Eigen::VectorXd& load);
+
+  const Model& model_;
+  State rest_;
+  double omega_;
+  Eigen::MatrixXd basis_, inverse_;  ///< N, and what brings displacements down to y
+  std::vector<int> held_;            ///< modes that are not free
+  std::vector<int> radiating_;       ///< modes of the model, in the order of the memory
+  PeriodicMemory memory_;
+  Eigen::VectorXd step_;  ///< of differences, one a coordinate
+  Workspace workspace_;
+};
+
+}  // namespace dynamics::frequency

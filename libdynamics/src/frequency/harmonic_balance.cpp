@@ -1,0 +1,415 @@
+#include "dynamics/frequency/harmonic_balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "dynamics/frequency/floquet.hpp"
+#include "hydro/base/dense.hpp"
+#include "hydro/base/error.hpp"
+
+namespace dynamics::frequency {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// 1, cos ωt, sin ωt, cos 2ωt, … at one time, (2H + 1), and derivatives.
+struct Harmonics {
+  VectorXd value, rate, acceleration;
+
+  Harmonics(Index H, double omega, double t) : value(2 * H + 1), rate(2 * H + 1), acceleration(2 * H + 1) {
+    value[0] = 1;
+    rate[0] = acceleration[0] = 0;
+    for (Index h = 1; h <= H; ++h) {
+      const double w = static_cast<double>(h) * omega, c = std::cos(w * t), s = std::sin(w * t);
+      value.segment<2>(2 * h - 1) << c, s;
+      rate.segment<2>(2 * h - 1) << -w * s, w * c;
+      acceleration.segment<2>(2 * h - 1) << -w * w * c, -w * w * s;
+    }
+  }
+  CoordinateMotion times(const MatrixXd& coefficients, double t) const {
+    return {t, coefficients * value, coefficients * rate, coefficients * acceleration};
+  }
+};
+
+/// Harmonics at equal times over a period: four times as many as they are, so that products of three do not alias.
+class Samples {
+ public:
+  Samples(Index H, double omega) : omega_(omega), columns_(2 * H + 1) {
+    const Index count = 4 * (H + 1);
+    for (Index j = 0; j < count; ++j) at_.emplace_back(H, omega, time_of(j, count));
+  }
+  std::size_t count() const { return at_.size(); }
+  Index columns() const { return columns_; }
+  Index harmonics() const { return columns_ / 2; }
+  double omega() const { return omega_; }
+  const Harmonics& operator[](std::size_t j) const { return at_[j]; }
+  double time(std::size_t j) const { return time_of(static_cast<Index>(j), static_cast<Index>(count())); }
+  /// What a sample has of each coefficient's integral: coefficients are Σ_j weight(j) x_jᵀ.
+  VectorXd weight(std::size_t j) const {
+    VectorXd out = at_[j].value * (2.0 / static_cast<double>(count()));
+    out[0] /= 2;
+    return out;
+  }
+
+ private:
+  double time_of(Index j, Index count) const {
+    return 2 * std::numbers::pi / omega_ * static_cast<double>(j) / static_cast<double>(count);
+  }
+  double omega_;
+  Index columns_;
+  std::vector<Harmonics> at_;
+};
+
+/// Coefficients of F by those of w, rows (m) of each harmonic one below the other: F = −Re(K̂ (w_c − i w_s) e^{iωt}).
+MatrixXd memory_load(const PeriodicMemory& memory, double omega, const MatrixXd& w, Index m) {
+  MatrixXd F(w.rows(), w.cols());
+  F.topRows(m) = -memory.transform(0).real() * w.topRows(m);
+  for (Index row = m, h = 1; row < w.rows(); row += 2 * m, ++h) {
+    const Eigen::MatrixXcd K = memory.transform(static_cast<double>(h) * omega);
+    const auto c = w.middleRows(row, m), s = w.middleRows(row + m, m);
+    F.middleRows(row, m) = -K.real() * c - K.imag() * s;
+    F.middleRows(row + m, m) = K.imag() * c - K.real() * s;
+  }
+  return F;
+}
+
+/// Coefficients one below the other, (rows of x · columns), of what is x_j at the samples.
+void add_coefficients(const VectorXd& weight, const MatrixXd& x, MatrixXd& out) {
+  for (Index k = 0; k < weight.size(); ++k) out.middleRows(k * x.rows(), x.rows()) += weight[k] * x;
+}
+/// Back: Σ_k e_k(t) of them.
+MatrixXd value_of(const VectorXd& harmonics, const MatrixXd& coefficients) {
+  const Index rows = coefficients.rows() / harmonics.size();
+  MatrixXd out = MatrixXd::Zero(rows, coefficients.cols());
+  for (Index k = 0; k < harmonics.size(); ++k) out += harmonics[k] * coefficients.middleRows(k * rows, rows);
+  return out;
+}
+/// Variation of by_value δ + by_rate δ̇ with the coefficients of δ, (rows, n (2H + 1)).
+MatrixXd spread(const Harmonics& e, const MatrixXd& by_value, const MatrixXd& by_rate) {
+  MatrixXd out(by_value.rows(), by_value.cols() * e.value.size());
+  for (Index k = 0; k < e.value.size(); ++k)
+    out.middleCols(k * by_value.cols(), by_value.cols()) = e.value[k] * by_value + e.rate[k] * by_rate;
+  return out;
+}
+void add_spread(const VectorXd& e, const MatrixXd& by, MatrixXd& out) {
+  for (Index k = 0; k < e.size(); ++k) out.middleCols(k * by.cols(), by.cols()) += e[k] * by;
+}
+
+/// Coefficients of the load of the memory, (m, 2H + 1).
+MatrixXd load(PeriodicSystem& system, const MatrixXd& Y, const Samples& samples) {
+  const PeriodicMemory* memory = system.memory();
+  if (memory == nullptr) return MatrixXd(0, samples.columns());
+  const Index m = memory->B.cols();
+  MatrixXd w = MatrixXd::Zero(m * samples.columns(), 1);
+  for (std::size_t j = 0; j < samples.count(); ++j)
+    add_coefficients(samples.weight(j), system.memory_velocity(samples[j].times(Y, samples.time(j))), w);
+  return memory_load(*memory, samples.omega(), w, m).reshaped(m, samples.columns());
+}
+
+/// All samples of a motion, with the load of the memory that belongs to it.
+struct Sampled {
+  std::vector<PeriodicSample> at;
+  Index memory_size = 0;  // m
+
+  Sampled(PeriodicSystem& system, const MatrixXd& Y, const Samples& samples) {
+    const MatrixXd F = load(system, Y, samples);
+    memory_size = F.rows();
+    for (std::size_t j = 0; j < samples.count(); ++j)
+      at.push_back(system.at(samples[j].times(Y, samples.time(j)), F * samples[j].value));
+  }
+};
+
+/// (Q10) and its derivative by the coefficients, column after column of Y.
+struct BalanceEquations {
+  VectorXd residual;
+  MatrixXd jacobian;
+};
+
+BalanceEquations equations(PeriodicSystem& system, const MatrixXd& Y, const Samples& samples) {
+  const Sampled sampled(system, Y, samples);
+  const Index n = Y.rows(), all = n * samples.columns(), m = sampled.memory_size;
+  MatrixXd load_by_Y;
+  if (m > 0) {
+    MatrixXd w = MatrixXd::Zero(m * samples.columns(), all);
+    for (std::size_t j = 0; j < samples.count(); ++j) {
+      const PeriodicSample& s = sampled.at[j];
+      add_coefficients(samples.weight(j), spread(samples[j], s.velocity_by_value, s.velocity_by_rate), w);
+    }
+    load_by_Y = memory_load(*system.memory(), samples.omega(), w, m);
+  }
+  MatrixXd R = MatrixXd::Zero(all, 1), J = MatrixXd::Zero(all, all);
+  for (std::size_t j = 0; j < samples.count(); ++j) {
+    const PeriodicSample& s = sampled.at[j];
+    MatrixXd by_Y = spread(samples[j], s.by_value, s.by_rate);
+    add_spread(samples[j].acceleration, s.by_acceleration, by_Y);
+    if (m > 0) by_Y += s.by_load * value_of(samples[j].value, load_by_Y);
+    add_coefficients(samples.weight(j), s.residual, R);
+    add_coefficients(samples.weight(j), by_Y, J);
+  }
+  return {R, J};
+}
+
+/// The same, empty where the system has none, as bodies whose joints cannot be closed.
+std::optional<BalanceEquations> tried(PeriodicSystem& system, const MatrixXd& Y, const Samples& samples) {
+  try {
+    return equations(system, Y, samples);
+  } catch (const hydro::NumericsError&) {
+    return std::nullopt;
+  }
+}
+
+/// One solution at a number of harmonics: damped Newton. Empty: none, and `why`.
+std::optional<MatrixXd> solve(PeriodicSystem& system, MatrixXd Y, const Samples& samples, const BalanceOptions& options,
+                              Balance& report) {
+  std::optional<BalanceEquations> e = tried(system, Y, samples);
+  for (int i = 0; e && i < options.iterations; ++i) {
+    ++report.iterations;
+    const VectorXd step = hydro::dense::Lu(e->jacobian).solve(-e->residual);
+    if (!step.allFinite()) break;
+    const MatrixXd change = Eigen::Map<const MatrixXd>(step.data(), Y.rows(), Y.cols());
+    // Differences within the system leave 1e-9 of a motion; below that Newton only stirs.
+    if (change.norm() <= 1e-9 * Y.norm() || step.norm() == 0) return MatrixXd(Y + change);
+    double share = 1;
+    for (const double before = e->residual.norm();; share /= 2) {
+      e = tried(system, Y + share * change, samples);
+      if ((e && e->residual.norm() < before) || share < 1e-3) break;
+    }
+    Y += share * change;
+  }
+  report.why = fmt::format("Newton finds no motion of {:.6g} s with {} harmonics",
+                           2 * std::numbers::pi / samples.omega(), samples.harmonics());
+  return std::nullopt;
+}
+
+}  // namespace
+
+CoordinateMotion PeriodicMotion::at(double t) const { return Harmonics(harmonics(), omega, t).times(coefficients, t); }
+
+double PeriodicMotion::tail() const {
+  const double all = coefficients.norm();
+  return all > 0 ? coefficients.rightCols(std::min<Index>(4, 2 * harmonics())).norm() / all : 0;
+}
+
+PeriodicMotion PeriodicMotion::with_harmonics(Index wanted) const {
+  PeriodicMotion out{omega, MatrixXd::Zero(coefficients.rows(), 2 * wanted + 1)};
+  const Index kept = std::min(coefficients.cols(), out.coefficients.cols());
+  out.coefficients.leftCols(kept) = coefficients.leftCols(kept);
+  return out;
+}
+
+PeriodicMotion PeriodicMotion::over(int periods) const {
+  PeriodicMotion out{omega / periods, MatrixXd::Zero(coefficients.rows(), 2 * harmonics() * periods + 1)};
+  out.coefficients.col(0) = coefficients.col(0);
+  for (Index h = 1; h <= harmonics(); ++h)
+    out.coefficients.middleCols(2 * h * periods - 1, 2) = coefficients.middleCols(2 * h - 1, 2);
+  return out;
+}
+
+PeriodicMotion load_of_memory(PeriodicSystem& system, const PeriodicMotion& motion) {
+  return {motion.omega, load(system, motion.coefficients, Samples(motion.harmonics(), motion.omega))};
+}
+
+PeriodicMotion at_rest(const PeriodicSystem& system, Index harmonics) {
+  return {system.omega(), MatrixXd::Zero(system.size(), 2 * harmonics + 1)};
+}
+
+Balance balance(PeriodicSystem& system, PeriodicMotion start, const BalanceOptions& options) {
+  Balance out;
+  out.motion = start.with_harmonics(std::max(start.harmonics(), options.harmonics));
+  for (;;) {
+    const Index H = out.motion.harmonics();
+    const auto found = solve(system, out.motion.coefficients, Samples(H, out.motion.omega), options, out);
+    if (!found) return out;
+    out.motion.coefficients = *found;
+    out.found = out.motion.tail() <= options.accuracy;
+    if (out.found) return out;
+    if (H >= options.most_harmonics) {
+      out.why = fmt::format("{} harmonics leave {:.2g} of the motion, {:.2g} are allowed", H, out.motion.tail(),
+                            options.accuracy);
+      return out;
+    }
+    out.motion = out.motion.with_harmonics(std::min(options.most_harmonics, H + H / 2));
+  }
+}
+
+namespace {
+
+/// A branch in unknowns of order one: coefficients over their size, the parameter over its range.
+class Branch {
+ public:
+  struct Place {
+    MatrixXd Y;
+    double parameter;
+  };
+  Branch(const Family& family, double from, double to, const FollowOptions& options)
+      : family_(family), from_(from), to_(to), options_(options) {}
+
+  /// The direction of the branch at a place, (n (2H + 1) + 1), unit; on from `before`.
+  VectorXd tangent(const Place& at, const VectorXd& before) {
+    const Bordered b = bordered(at, before);
+    VectorXd one = VectorXd::Zero(before.size());
+    one[one.size() - 1] = 1;
+    return hydro::dense::Lu(b.matrix).solve(one).normalized();
+  }
+  Place moved(const Place& at, const VectorXd& way) const {
+    Place out = at;
+    out.Y += size_ * Eigen::Map<const MatrixXd>(way.data(), at.Y.rows(), at.Y.cols());
+    out.parameter += (to_ - from_) * way[way.size() - 1];
+    return out;
+  }
+  /// Onto the branch, across the tangent: Newton. Empty if that does not settle.
+  std::optional<Place> corrected(Place at, const VectorXd& tangent) try {
+    constexpr int most = 8;  // a step that needs more is too long
+    for (int i = 0; i < most; ++i) {
+      const Bordered b = bordered(at, tangent);
+      const VectorXd step = hydro::dense::Lu(b.matrix).solve(-b.right);
+      if (!step.allFinite() || step.norm() > 1) return std::nullopt;
+      at = moved(at, step);
+      if (step.norm() < 1e-9) return at;
+    }
+    return std::nullopt;
+  } catch (const hydro::NumericsError&) {  // bodies whose joints cannot be closed
+    return std::nullopt;
+  }
+  void set_size(double size) { size_ = std::max(size, 1e-12); }
+  PeriodicMotion motion(const Place& at) const { return {system(at.parameter)->omega(), at.Y}; }
+  Balance exactly(double parameter, PeriodicMotion near) const {
+    const auto s = system(parameter);
+    near.omega = s->omega();
+    return balance(*s, std::move(near), options_.balance);
+  }
+
+ private:
+  struct Bordered {
+    MatrixXd matrix;
+    VectorXd right;
+  };
+  std::unique_ptr<PeriodicSystem> system(double parameter) const { return family_(parameter); }
+  BalanceEquations at(const Place& p) const {
+    const auto s = system(p.parameter);
+    return equations(*s, p.Y, Samples(p.Y.cols() / 2, s->omega()));
+  }
+  Bordered bordered(const Place& p, const VectorXd& last_row) const {
+    const BalanceEquations here = at(p);
+    // Inwards, so that a family need not reach beyond its range.
+    const double h = (std::abs(p.parameter - from_) < std::abs(p.parameter - to_) ? 1e-6 : -1e-6) * (to_ - from_);
+    const VectorXd by_parameter = (at({p.Y, p.parameter + h}).residual - here.residual) / h;
+    const Index all = here.residual.size();
+    Bordered out{MatrixXd(all + 1, all + 1), VectorXd::Zero(all + 1)};
+    out.matrix.topLeftCorner(all, all) = size_ * here.jacobian;
+    out.matrix.topRightCorner(all, 1) = (to_ - from_) * by_parameter;
+    out.matrix.bottomRows(1) = last_row.transpose();
+    out.right.head(all) = here.residual;
+    return out;
+  }
+
+  const Family& family_;
+  double from_, to_, size_ = 1;
+  const FollowOptions& options_;
+};
+
+VectorXd with_rows(const VectorXd& tangent, Index rows) {
+  VectorXd out = VectorXd::Zero(rows);
+  const Index kept = std::min(rows, tangent.size()) - 1;
+  out.head(kept) = tangent.head(kept);
+  out[rows - 1] = tangent[tangent.size() - 1];
+  return out;
+}
+
+}  // namespace
+
+std::vector<BranchPoint> follow(const Family& family, double from, double to, PeriodicMotion start,
+                                const FollowOptions& options) {
+  Branch branch(family, from, to, options);
+  Branch::Place at{std::move(start.coefficients), from};
+  VectorXd tangent = VectorXd::Unit(at.Y.size() + 1, at.Y.size());
+  std::vector<BranchPoint> out{{from, branch.motion(at), true}};
+  for (double step = options.step; static_cast<int>(out.size()) < options.points;) {
+    branch.set_size(at.Y.norm());
+    tangent = branch.tangent(at, tangent);
+    auto next = branch.corrected(branch.moved(at, step * tangent), tangent);
+    while (next && branch.motion(*next).tail() > options.balance.accuracy &&
+           next->Y.cols() / 2 < options.balance.most_harmonics) {
+      const Index H = next->Y.cols() / 2;
+      next->Y = branch.motion(*next).with_harmonics(H + H / 2).coefficients;
+      tangent = with_rows(tangent, next->Y.size() + 1);
+      next = branch.corrected(*next, tangent);
+    }
+    if (!next) {
+      tangent = with_rows(tangent, at.Y.size() + 1);
+      if ((step /= 2) < 1e-7)
+        throw hydro::NumericsError(fmt::format("a branch of periodic motions ends near {:.6g}", at.parameter));
+      continue;
+    }
+    if ((next->parameter - to) * (to - from) >= 0) {  // past the end: the motion that has it
+      Balance last = branch.exactly(to, branch.motion(*next));
+      if (last.found) out.push_back({to, std::move(last.motion), true});
+      if (last.found || (step /= 2) < 1e-7) return out;
+      tangent = with_rows(tangent, at.Y.size() + 1);
+      continue;
+    }
+    if ((next->parameter - from) * (to - from) < 0) return out;
+    at = *next;
+    out.push_back({at.parameter, branch.motion(at), tangent[tangent.size() - 1] > 0});
+    step = std::min(1.3 * step, options.largest_step);
+  }
+  return out;
+}
+
+// (Q12)
+Eigen::VectorXcd floquet_multipliers(PeriodicSystem& system, const PeriodicMotion& motion) {
+  const Samples samples(motion.harmonics(), motion.omega);
+  const Sampled sampled(system, motion.coefficients, samples);
+  const PeriodicMemory* memory = system.memory();
+  const Index n = system.size(), z = memory != nullptr ? memory->A.rows() : 0, H = 2 * samples.harmonics() + 1;
+  MatrixXd series = MatrixXd::Zero((n + z) * (2 * H + 1), 2 * n + z);
+  for (std::size_t j = 0; j < samples.count(); ++j) {
+    const PeriodicSample& s = sampled.at[j];
+    MatrixXd lower = MatrixXd::Zero(n + z, 2 * n + z), right(n, 2 * n + z);
+    right.leftCols(n) = s.by_value;
+    right.middleCols(n, n) = s.by_rate;
+    if (z > 0) {
+      right.rightCols(z) = -s.by_load * memory->C;
+      lower.bottomRows(z) << memory->B * s.velocity_by_value, memory->B * s.velocity_by_rate, memory->A;
+    }
+    lower.topRows(n) = -hydro::dense::PivotedQr(s.by_acceleration).solve(right);
+    const VectorXd weight =
+        Harmonics(H, samples.omega(), samples.time(j)).value * (2.0 / static_cast<double>(samples.count()));
+    for (Index k = 0; k <= 2 * H; ++k) series.middleRows(k * (n + z), n + z) += (k == 0 ? 0.5 : 1) * weight[k] * lower;
+  }
+  MatrixXd A = MatrixXd::Zero(2 * n + z, 2 * n + z);
+  A.block(0, n, n, n).setIdentity();
+  const auto at = [&](double t) {
+    A.bottomRows(n + z) = value_of(Harmonics(H, motion.omega, t).value, series);
+    return A;
+  };
+  return floquet_multipliers(at, 2 * std::numbers::pi / motion.omega);
+}
+
+std::string name_of(Fate fate) {
+  switch (fate) {
+    case Fate::stable:
+      return "stable";
+    case Fate::doubled:
+      return "period-doubled";
+    case Fate::quasiperiodic:
+      return "quasi-periodic";
+    case Fate::fold:
+      return "fold";
+  }
+  return {};
+}
+
+Fate fate_of(const Eigen::VectorXcd& multipliers) {
+  constexpr double rounding = 1e-8;  // a system without damping has all of them on the circle
+  const std::complex<double> largest = multipliers[0];
+  if (std::abs(largest) <= 1 + rounding) return Fate::stable;
+  if (std::abs(largest.imag()) > rounding * std::abs(largest)) return Fate::quasiperiodic;
+  return largest.real() < 0 ? Fate::doubled : Fate::fold;
+}
+
+}  // namespace dynamics::frequency

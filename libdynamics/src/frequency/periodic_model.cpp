@@ -1,0 +1,190 @@
+#include "dynamics/frequency/periodic_model.hpp"
+
+#include "dynamics/spatial/rotation.hpp"
+#include "hydro/base/dense.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/radiation/state_space.hpp"
+#include "reduction.hpp"
+
+namespace dynamics::frequency {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// \throws hydro::InputError naming what has no place in a periodic answer
+void require_smooth(const Model& model, const Workspace& workspace) {
+  for (std::size_t k = 0; k < model.forces().size(); ++k) {
+    const ForceKind& kind = *model.forces()[k];
+    if (kind.friction() != nullptr || kind.contact() != nullptr)
+      throw hydro::InputError(
+          fmt::format("periodic motions take loads that are functions of motion: {} is set-valued", kind.effect()), {},
+          "leave it out, or step the scene with `froude run`");
+    if (workspace.memory[k])
+      throw hydro::InputError(
+          fmt::format("periodic motions take loads that are functions of motion: {} remembers", kind.effect()), {},
+          "leave it out, or step the scene with `froude run`");
+  }
+  if (model.joints().are_prescribed())
+    throw hydro::InputError("periodic motions have no place for prescribed motions of joints", {},
+                            "leave them out, or step the scene with `froude run`");
+  for (const RigidBody& body : model.bodies())
+    if (body.is_free(3) + body.is_free(4) + body.is_free(5) == 2)
+      throw hydro::InputError(
+          fmt::format("body \"{}\" may turn about two axes of three: what is held then depends on the way there",
+                      body.name()),
+          {}, "free or hold the third rotation too");
+}
+
+/// ω = J φ̇ and what of the acceleration φ̇ makes alone, J̇ φ̇ (D1).
+MatrixXd velocity_by_displacement(const VectorXd& displacement) {
+  MatrixXd J = MatrixXd::Identity(displacement.size(), displacement.size());
+  for (Index row = 3; row < displacement.size(); row += 6)
+    J.block<3, 3>(row, row) = left_jacobian(displacement.segment<3>(row));
+  return J;
+}
+VectorXd acceleration_of_rates(const VectorXd& displacement, const VectorXd& rate, const MatrixXd& J) {
+  VectorXd out = VectorXd::Zero(rate.size());
+  for (Index row = 3; row < rate.size(); row += 6) {
+    const Eigen::Vector3d phi = displacement.segment<3>(row), phi_rate = rate.segment<3>(row);
+    const Eigen::Matrix3d block = J.block<3, 3>(row, row);
+    // d/dt of J⁻¹(φ) ω = J⁻ᵀ(−φ) ω, ω held, is minus the derivative below times φ̇.
+    out.segment<3>(row) = block * left_jacobian_inverse_transpose_derivative(-phi, block * phi_rate) * phi_rate;
+  }
+  return out;
+}
+
+/// A, B, C of all groups side by side.
+void append(MatrixXd& whole, const MatrixXd& part) {
+  const Index rows = whole.rows(), columns = whole.cols();
+  whole.conservativeResize(rows + part.rows(), columns + part.cols());
+  whole.rightCols(part.cols()).setZero();
+  whole.bottomRows(part.rows()).setZero();
+  whole.bottomRightCorner(part.rows(), part.cols()) = part;
+}
+
+PeriodicMemory memory_of(const std::vector<RadiatingModes>& groups) {
+  PeriodicMemory out;
+  for (const RadiatingModes& g : groups) {
+    const auto [A, B, C] = hydro::radiation::state_space(g.poles);
+    append(out.A, A), append(out.B, B), append(out.C, C);
+  }
+  out.transform = [groups](double omega) {
+    Eigen::MatrixXcd K(0, 0);
+    for (const RadiatingModes& g : groups) {
+      const Eigen::MatrixXcd part = g.poles.transform(omega);
+      const Index at = K.rows();
+      K.conservativeResize(at + part.rows(), at + part.rows());
+      K.rightCols(part.cols()).setZero();
+      K.bottomRows(part.rows()).setZero();
+      K.bottomRightCorner(part.rows(), part.cols()) = part;
+    }
+    return K;
+  };
+  return out;
+}
+
+}  // namespace
+
+PeriodicModel::PeriodicModel(const Model& model, const SmallMotions& about,
+                             const std::vector<RadiatingModes>& radiation, double omega)
+    : model_(model), rest_(about.still), omega_(omega), workspace_(model, about.still) {
+  require_smooth(model, workspace_);
+  const Reduction left(about);
+  basis_ = left.expanded(MatrixXd(MatrixXd::Identity(left.count(), left.count())));
+  const MatrixXd metric = about.mass.diagonal().asDiagonal() * basis_;
+  basis_ *= (basis_.transpose() * metric).diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
+  inverse_ = basis_.transpose() * about.mass.diagonal().asDiagonal();
+  for (int m = 0; m < model.modes(); ++m)
+    if (!model.is_free(m)) held_.push_back(m);
+  for (const RadiatingModes& g : radiation) radiating_.insert(radiating_.end(), g.modes.begin(), g.modes.end());
+  memory_ = memory_of(radiation);
+  step_ = 1e-5 * basis_.cwiseAbs().colwise().maxCoeff().cwiseInverse().transpose();  // 10 µm or 10 µrad
+}
+
+// (Q13)
+PeriodicModel::Bodies PeriodicModel::bodies(const CoordinateMotion& motion) const {
+  const JointSet& joints = model_.joints();
+  const Index n = size(), m = joints.count(), all = basis_.rows(), held = static_cast<Index>(held_.size());
+  VectorXd displacement = basis_ * motion.value, right(all);
+  MatrixXd S(all, all), J;
+  S.topRows(n) = inverse_;
+  S.bottomRows(held).setZero();
+  for (Index i = 0; i < held; ++i) S(n + m + i, held_[static_cast<std::size_t>(i)]) = 1;
+  Bodies out;
+  // Quadratic: the second turn leaves 1e-8 of a radian's square, the last rounding alone.
+  constexpr int most = 20;
+  for (int i = 0;; ++i) {
+    move(rest_, displacement, out.state);
+    J = velocity_by_displacement(displacement);
+    S.middleRows(n, m) = joints.dense(joints.gradients(out.state)) * J;
+    right << motion.value - inverse_ * displacement, -joints.values(out.state), -displacement(held_);
+    const VectorXd change = hydro::dense::Lu(S).solve(right);
+    if (!change.allFinite() || i == most)
+      throw hydro::NumericsError("joints cannot be closed in a periodic motion that is tried");
+    if (change.cwiseAbs().maxCoeff() < 1e-13) break;
+    displacement += change;
+  }
+  const hydro::dense::Lu lu(S);
+  MatrixXd by_y(all, n);
+  for (Index k = 0; k < n; ++k) by_y.col(k) = lu.solve(VectorXd::Unit(all, k));
+  out.by_coordinate = J * by_y;
+  const VectorXd rate = by_y * motion.rate, bent = acceleration_of_rates(displacement, rate, J);
+  out.state.velocity = J * rate;
+  out.state.time = motion.time;
+  right << motion.acceleration, -joints.convective(out.state), VectorXd::Zero(held);
+  right.segment(n, m) -= joints.dense(joints.gradients(out.state)) * bent;
+  out.acceleration = J * lu.solve(right) + bent;
+  return out;
+}
+
+VectorXd PeriodicModel::residual(const Bodies& b, const VectorXd& load) {
+  VectorXd out = model_.residual(b.state, b.acceleration, workspace_);
+  for (std::size_t i = 0; i < radiating_.size(); ++i) out[radiating_[i]] -= load[static_cast<Index>(i)];
+  return out;
+}
+
+VectorXd PeriodicModel::memory_velocity(const CoordinateMotion& motion) {
+  return bodies(motion).state.velocity(radiating_);
+}
+
+VectorXd PeriodicModel::multipliers(const Bodies& b, const VectorXd& load) {
+  const JointSet& joints = model_.joints();
+  const MatrixXd G = joints.dense(joints.gradients(b.state));
+  return hydro::dense::PivotedQr(G.transpose()).solve(-residual(b, load));
+}
+
+PeriodicSample PeriodicModel::at(const CoordinateMotion& motion, const VectorXd& load) {
+  const Index n = size(), m = static_cast<Index>(radiating_.size());
+  const auto evaluated = [&](const CoordinateMotion& where, VectorXd& w) {
+    const Bodies b = bodies(where);
+    w = b.state.velocity(radiating_);
+    return VectorXd(b.by_coordinate.transpose() * residual(b, load));
+  };
+  const Bodies here = bodies(motion);
+  PeriodicSample out{.residual = here.by_coordinate.transpose() * residual(here, load),
+                     .by_value = MatrixXd(n, n),
+                     .by_rate = MatrixXd(n, n),
+                     .by_acceleration = MatrixXd(n, n),
+                     .by_load = -here.by_coordinate(radiating_, Eigen::all).transpose(),
+                     .velocity_by_value = MatrixXd(m, n),
+                     .velocity_by_rate = here.by_coordinate(radiating_, Eigen::all)};
+  for (Index k = 0; k < n; ++k)
+    out.by_acceleration.col(k) =
+        here.by_coordinate.transpose() * model_.mass_times(here.state, here.by_coordinate.col(k));
+  VectorXd above, below;
+  const auto difference = [&](VectorXd CoordinateMotion::*of, Index k, double h) {
+    CoordinateMotion high = motion, low = motion;
+    (high.*of)[k] += h, (low.*of)[k] -= h;
+    return VectorXd((evaluated(high, above) - evaluated(low, below)) / (2 * h));
+  };
+  for (Index k = 0; k < n; ++k) {
+    out.by_value.col(k) = difference(&CoordinateMotion::value, k, step_[k]);
+    out.velocity_by_value.col(k) = (above - below) / (2 * step_[k]);
+    out.by_rate.col(k) = difference(&CoordinateMotion::rate, k, step_[k] * omega_);
+  }
+  return out;
+}
+
+}  // namespace dynamics::frequency
