@@ -24,6 +24,8 @@ struct Stage {
   bool still = false;       ///< at rest: no masses, held nodes without velocity (D86)
   double relax = 0;         ///< (relax) u resists: steps towards rest, N/m
   double rounding = 1e-14;  ///< of places, below which no correction means anything, relative to the farthest
+  bool foreseen = false;    ///< the flow is that at places that are known before the step (D78), else where nodes are
+  Places water_at = {};     ///< those places, if so
 
   void set(double of_balance, double of_end, double duration) {
     t = of_balance;
@@ -58,8 +60,9 @@ class Equations {
 
   explicit Equations(const Line& line);
 
-  /// Solves for u and T from the guesses given. `tolerance`: of the last correction, relative to u and T.
-  Outcome solve(const Stage& stage, const State& before, double tolerance, int most, Places& u, Eigen::VectorXd& T);
+  /// Solves for u and T from the guesses given. `tolerance`: of the last correction, relative to u and T. Where nodes
+  /// come to lie too far from the places at which the stage foresees the flow, these are moved to them.
+  Outcome solve(Stage& stage, const State& before, double tolerance, int most, Places& u, Eigen::VectorXd& T);
 
   /// Accelerations and tensions of a state (D77). False if masses leave them open.
   bool accelerations(const State& state, Places& a, Eigen::VectorXd& T);
@@ -69,9 +72,11 @@ class Equations {
   /// Moves x along the directions of `from` until lengths are kept.
   bool project_place(const Places& from, double tolerance, Places& x);
 
-  /// What nodes with prescribed motion need at the end of a step with places u and tensions T, and how it follows them
-  /// while the rest of the line moves as the step has it; their accelerations follow their velocities by `a_by_v`.
-  /// (D90) The answer stands until the next one.
+  /// The force that nodes with prescribed motion need at the end of a step with places u and tensions T, (3, k).
+  void find_needed(const Stage& stage, const State& before, const Places& u, const Eigen::VectorXd& T,
+                   const std::vector<int>& prescribed, Places& out);
+  /// The same, and how it follows them while the rest of the line moves as the step has it; their accelerations follow
+  /// their velocities by `a_by_v`. (D90) The answer stands until the next one.
   const Response& response(const Stage& stage, const State& before, const Places& u, const Eigen::VectorXd& T,
                            const std::vector<int>& prescribed, double a_by_v);
 
@@ -143,6 +148,8 @@ class Equations {
     Eigen::VectorXd T;
   };
   void scale_for(const Stage& stage, const Eigen::VectorXd& T);
+  Outcome newton(const Stage& stage, const State& before, double tolerance, int most, Places& u, Eigen::VectorXd& T);
+  Motion motion(const Stage& stage) const;
   double search(const Stage& stage, const State& before, double size, bool enough, Places& u, Eigen::VectorXd& T);
   int worst_node() const;
   void scale_by_mass();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "dynamics/time/alpha_parameters.hpp"
 #include "equations.hpp"
@@ -43,6 +44,9 @@ struct Stepper::Work {
     Places u;
     VectorXd T;
   } last = {};  // step
+  // s: the step that was last tried from where keep() was, and was not halved; and, once gone back, that which Newton
+  // may begin with.
+  double tried = 0, guessed = 0;
   struct {
     Places a, algorithmic;
     Energies energies;
@@ -62,12 +66,13 @@ struct Stepper::Work {
   bool generalised_alpha(State& state, double h, StepReport& report);
   bool gamma(State& state, double h, StepReport& report);
   bool euler(State& state, double h);
-  bool solve(const Stage& stage, const State& state, Places& u, VectorXd& T, StepReport& report);
+  bool newton(Stage& stage, const State& state, Places& u, VectorXd& T, StepReport& report);
+  bool solve(Stage& stage, const State& state, Places& u, VectorXd& T, StepReport& report);
   void prescribe(State& state) const;
   void require_lengths(const State& state) const;
   void require_ties(const State& state) const;
   bool settle(State& state);
-  Powers powers_now(const State& state);
+  Powers powers_now(const State& state, const Stage* flow_of = nullptr);
   void note_powers(const Powers& mean, double h);
   void note_state(const State& state);
   void advance(State& state, double h, int depth, StepReport& report);
@@ -110,6 +115,7 @@ void Stepper::keep() {
   w.kept.algorithmic = w.algorithmic;
   w.kept.energies = w.energies;
   w.kept.before = w.before;
+  w.tried = w.guessed = 0;
 }
 
 void Stepper::go_back() {
@@ -118,6 +124,12 @@ void Stepper::go_back() {
   w.algorithmic = w.kept.algorithmic;
   w.energies = w.kept.energies;
   w.before = w.kept.before;
+  w.guessed = w.tried;
+}
+
+void Stepper::find_needed(const std::vector<int>& prescribed, Places& out) {
+  Work& w = *work_;
+  w.equations.find_needed(w.last.stage, w.last.from, w.last.u, w.last.T, prescribed, out);
 }
 
 const Response& Stepper::response(const std::vector<int>& prescribed, double a_by_v) {
@@ -221,8 +233,13 @@ void Stepper::Work::note_state(const State& state) {
   energies.shear = shear;
 }
 
-Powers Stepper::Work::powers_now(const State& state) {
+/// `flow_of`: a stage of the same instant whose flow the loads had.
+Powers Stepper::Work::powers_now(const State& state, const Stage* flow_of) {
   set_instant(state, a, now);
+  if (flow_of != nullptr) {
+    now.foreseen = flow_of->foreseen;
+    now.water_at = flow_of->water_at;
+  }
   return equations.powers(now, state, none, state.tension);
 }
 
@@ -238,13 +255,21 @@ void Stepper::Work::note_powers(const Powers& mean, double h) {
   energies.lost_friction += h * mean.friction;
 }
 
-bool Stepper::Work::solve(const Stage& stage, const State& state, Places& u, VectorXd& T, StepReport& report) {
-  u = stage.h * state.velocity + stage.h * stage.h / 2 * a;
-  T = state.tension;
+/// From the guesses u and T; the flow is foreseen where velocities and accelerations lead, whatever the guess.
+bool Stepper::Work::newton(Stage& stage, const State& state, Places& u, VectorXd& T, StepReport& report) {
+  stage.foreseen = true;
+  stage.water_at = state.position + stage.x_by * (stage.h * state.velocity + stage.h * stage.h / 2 * a);
   const auto outcome = equations.solve(stage, state, settings.tolerance, settings.iterations, u, T);
   report.newton_iterations += outcome.iterations;
   if (!outcome.converged) failure = fmt::format("{}; node {} is worst", outcome.why, outcome.worst);
   return outcome.converged;
+}
+
+bool Stepper::Work::solve(Stage& stage, const State& state, Places& u, VectorXd& T, StepReport& report) {
+  if (std::exchange(guessed, 0) == stage.h && newton(stage, state, u, T, report)) return true;
+  u = stage.h * state.velocity + stage.h * stage.h / 2 * a;
+  T = state.tension;
+  return newton(stage, state, u, T, report);
 }
 
 // (D79)
@@ -349,7 +374,8 @@ bool Stepper::Work::try_step(State& state, double h, StepReport& report) {
       algorithmic = algorithmic_before_step;
       return false;
     }
-    const Powers after = powers_now(state);
+    const Powers after =
+        powers_now(state, settings.scheme == Scheme::generalised_alpha ? &last.stage : nullptr);
     note_powers(before, h / 2);
     note_powers(after, h / 2);
     before = after;
@@ -371,7 +397,9 @@ void Stepper::Work::advance(State& state, double h, int depth, StepReport& repor
 
 StepReport Stepper::step(State& state, double h) {
   StepReport report;
+  work_->tried = 0;
   work_->advance(state, h, 0, report);
+  if (report.halvings == 0) work_->tried = h;
   return report;
 }
 

@@ -80,12 +80,15 @@ class Stepper {
   };
   Flow flow() const;
 
-  /// Notes where it is, and goes back there: for steps that are tried.
+  /// Notes where it is, and goes back there: for steps that are tried. The next step begins Newton where the last one
+  /// that was tried ended, if it is as long.
   void keep();
   void go_back();
 
-  /// What the nodes `prescribed` needed at the end of the last step, while the rest of the line moves with the step;
-  /// their accelerations follow their velocities by `a_by_v`. Of generalised-α alone. (D90) It stands until the next.
+  /// The force that the nodes `prescribed` needed at the end of the last step, (3, k). Of generalised-α alone.
+  void find_needed(const std::vector<int>& prescribed, Places& out);
+  /// The same, and how it follows them, while the rest of the line moves with the step; their accelerations follow
+  /// their velocities by `a_by_v`. (D90) It stands until the next.
   const Response& response(const std::vector<int>& prescribed, double a_by_v);
 
   /// What balances a state, whatever the step did (D77); nothing if masses leave it open.
