@@ -137,7 +137,7 @@ void DrivenLine::start(const State& state, const std::vector<End>& ends, const P
   w.tried.t = std::numeric_limits<double>::quiet_NaN();
   w.stay();
   w.stepper.start(w.state);
-  w.stepper.keep();
+  w.stepper.keep(w.state);
 }
 
 /// Where the ends go until t, with the accelerations that (D10) makes of their velocities.
@@ -161,12 +161,12 @@ void DrivenLine::Work::prescribe(double t, const std::vector<End>& ends) {
 void DrivenLine::Work::try_step(double t) {
   const double h = t - state.time;
   tried.followed = false;
-  stepper.go_back();
   tried.state = state;
   try {
-    stepper.step(tried.state, h);
-    stepper.find_needed(prescribed, tried.pulls.force);
-    tried.pulls.force = -tried.pulls.force;
+    stepper.try_step(tried.state, h);
+    tried.pulls.force.resize(3, static_cast<Eigen::Index>(prescribed.size()));
+    for (std::size_t k = 0; k < prescribed.size(); ++k)
+      tried.pulls.force.col(static_cast<Eigen::Index>(k)) = -stepper.needed().col(prescribed[k]);
   } catch (const hydro::NumericsError& e) {
     tried.failure = e.what();
     pull(std::numeric_limits<double>::quiet_NaN());
@@ -223,8 +223,8 @@ void DrivenLine::accept(double t_s, const std::vector<End>& ends) {
   w.algorithmic = w.tried.algorithmic;
   for (std::size_t k = 0; k < w.prescribed.size(); ++k) w.now[k] = w.ways[k]->end;
   w.tried.t = std::numeric_limits<double>::quiet_NaN();
+  w.stepper.keep(w.state);
   w.stay();
-  w.stepper.keep();
 }
 
 const Line& DrivenLine::line() const { return work_->line; }

@@ -328,6 +328,7 @@ Equations::Outcome Equations::newton(const Stage& stage, const State& before, do
     out.size = size;
     if ((out.converged = small)) break;
   }
+  needed_ = residual_;
   if (!out.converged && out.why.empty()) out.why = fmt::format("Newton did not converge in {} iterations", most);
   if (!out.converged) out.worst = worst_node();
   return out;

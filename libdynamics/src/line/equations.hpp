@@ -72,11 +72,12 @@ class Equations {
   /// Moves x along the directions of `from` until lengths are kept.
   bool project_place(const Places& from, double tolerance, Places& x);
 
-  /// The force that nodes with prescribed motion need at the end of a step with places u and tensions T, (3, k).
-  void find_needed(const Stage& stage, const State& before, const Places& u, const Eigen::VectorXd& T,
-                   const std::vector<int>& prescribed, Places& out);
-  /// The same, and how it follows them while the rest of the line moves as the step has it; their accelerations follow
-  /// their velocities by `a_by_v`. (D90) The answer stands until the next one.
+  /// The force that each node is held by where solve() ended last, N; next to nothing for free ones.
+  const Places& needed() const { return needed_; }
+
+  /// What nodes with prescribed motion need at the end of a step with places u and tensions T, and how it follows them
+  /// while the rest of the line moves as the step has it; their accelerations follow their velocities by `a_by_v`.
+  /// (D90) The answer stands until the next one.
   const Response& response(const Stage& stage, const State& before, const Places& u, const Eigen::VectorXd& T,
                            const std::vector<int>& prescribed, double a_by_v);
 
@@ -161,7 +162,7 @@ class Equations {
   std::unique_ptr<NetworkSolver> network_;  // null for a single chain
   Eigen::VectorXd rhs_, law_;
   Blocks blocks_;
-  Places x_, v_, a_, force_, residual_;
+  Places x_, v_, a_, force_, residual_, needed_;
   std::vector<Push> push_;              // of the bed, each node
   std::vector<Sag> sag_;                // each segment
   Eigen::Matrix2Xd friction_, strain_;  // on each node, N, and what the bed has given way under it, m; empty without

@@ -73,14 +73,6 @@ bool Equations::solve_columns() {
   return solved;
 }
 
-void Equations::find_needed(const Stage& stage, const State& before, const Places& u, const VectorXd& T,
-                            const std::vector<int>& prescribed, Places& out) {
-  assemble(stage, before, u, T, false);
-  out.resize(3, static_cast<Eigen::Index>(prescribed.size()));
-  for (std::size_t k = 0; k < prescribed.size(); ++k)
-    out.col(static_cast<Eigen::Index>(k)) = residual_.col(prescribed[k]);
-}
-
 const Response& Equations::response(const Stage& stage, const State& before, const Places& u, const VectorXd& T,
                                     const std::vector<int>& prescribed, double a_by_v) {
   scale_for(stage, T);

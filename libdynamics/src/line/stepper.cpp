@@ -44,13 +44,19 @@ struct Stepper::Work {
     Places u;
     VectorXd T;
   } last = {};  // step
-  // s: the step that was last tried from where keep() was, and was not halved; and, once gone back, that which Newton
-  // may begin with.
-  double tried = 0, guessed = 0;
+  // Where the last whole step of generalised-α began, and how long it was: what follows goes on from it in a straight
+  // line.
+  struct Previous {
+    double h = 0;
+    Places algorithmic = {};
+    VectorXd tension = {};
+  } previous;
+  double unbooked = 0;  // s: the last step, or its last part, whose powers are not in the energies yet; 0: they are
   struct {
     Places a, algorithmic;
     Energies energies;
     Powers before;
+    Previous previous;
   } kept = {};
   // Where a step that is tried began, and what it makes on the way: kept from step to step, so that it asks for no
   // memory.
@@ -62,8 +68,10 @@ struct Stepper::Work {
   Work(const Line& l, const Settings& s) : line(l), settings(s), equations(l), none(Places::Zero(3, l.nodes())) {}
 
   bool try_step(State& state, double h, StepReport& report);
+  void book(State& state);
   bool energy_momentum(State& state, double h, StepReport& report);
   bool generalised_alpha(State& state, double h, StepReport& report);
+  bool go_on_straight(double beta, const State& state, StepReport& report);
   bool gamma(State& state, double h, StepReport& report);
   bool euler(State& state, double h);
   bool newton(Stage& stage, const State& state, Places& u, VectorXd& T, StepReport& report);
@@ -109,28 +117,30 @@ Stepper::Flow Stepper::flow() const {
           p.damping + p.drag_dissipated + p.axial + p.bed + p.friction};
 }
 
-void Stepper::keep() {
+void Stepper::keep(State& state) {
   Work& w = *work_;
+  w.book(state);
   w.kept.a = w.a;
   w.kept.algorithmic = w.algorithmic;
   w.kept.energies = w.energies;
   w.kept.before = w.before;
-  w.tried = w.guessed = 0;
+  w.kept.previous = w.previous;
 }
 
-void Stepper::go_back() {
+StepReport Stepper::try_step(State& state, double h) {
   Work& w = *work_;
   w.a = w.kept.a;
   w.algorithmic = w.kept.algorithmic;
   w.energies = w.kept.energies;
   w.before = w.kept.before;
-  w.guessed = w.tried;
+  w.previous = w.kept.previous;
+  w.unbooked = 0;
+  StepReport report;
+  w.advance(state, h, 0, report);
+  return report;
 }
 
-void Stepper::find_needed(const std::vector<int>& prescribed, Places& out) {
-  Work& w = *work_;
-  w.equations.find_needed(w.last.stage, w.last.from, w.last.u, w.last.T, prescribed, out);
-}
+const Places& Stepper::needed() const { return work_->equations.needed(); }
 
 const Response& Stepper::response(const std::vector<int>& prescribed, double a_by_v) {
   Work& w = *work_;
@@ -208,6 +218,7 @@ void Stepper::start(State& state) {
 
 void Stepper::go_on(State& state) {
   Work& w = *work_;
+  w.previous.h = 0;
   if (!w.settle(state) && !w.line.has_massless_nodes())
     throw hydro::NumericsError(fmt::format(
         "the line has no accelerations at t = {} s: masses or loads are singular or not finite", state.time));
@@ -266,7 +277,6 @@ bool Stepper::Work::newton(Stage& stage, const State& state, Places& u, VectorXd
 }
 
 bool Stepper::Work::solve(Stage& stage, const State& state, Places& u, VectorXd& T, StepReport& report) {
-  if (std::exchange(guessed, 0) == stage.h && newton(stage, state, u, T, report)) return true;
   u = stage.h * state.velocity + stage.h * stage.h / 2 * a;
   T = state.tension;
   return newton(stage, state, u, T, report);
@@ -293,6 +303,15 @@ bool Stepper::Work::energy_momentum(State& state, double h, StepReport& report) 
   return true;
 }
 
+/// From accelerations and tensions that go on as they went in the step before. \returns false where that leads nowhere
+bool Stepper::Work::go_on_straight(double beta, const State& state, StepReport& report) {
+  const double h = last.stage.h;
+  if (previous.h != h) return false;
+  last.u = known + h * h * beta * (2 * algorithmic - previous.algorithmic);
+  last.T = 2 * state.tension - previous.tension;
+  return newton(last.stage, state, last.u, last.T, report);
+}
+
 // (D80), with the parameters of (D11).
 bool Stepper::Work::generalised_alpha(State& state, double h, StepReport& report) {
   const auto [alpha_m, alpha_f, g, beta] = AlphaParameters(settings.rho_infinity);
@@ -304,7 +323,7 @@ bool Stepper::Work::generalised_alpha(State& state, double h, StepReport& report
   stage.set_factors(1, g / (h * beta), a_by);
   stage.v_from = state.velocity + h * (1 - g) * algorithmic - g / (h * beta) * known;
   stage.a_from = (alpha_m * algorithmic - alpha_f * a) / (1 - alpha_f) - a_by * known;
-  if (!solve(stage, state, u, last.T, report)) return false;
+  if (!go_on_straight(beta, state, report) && !solve(stage, state, u, last.T, report)) return false;
   last.from = state;
   state.position += u;
   state.velocity = stage.v_from + stage.v_by * u;
@@ -358,7 +377,22 @@ bool Stepper::Work::euler(State& state, double h) {
   return true;
 }
 
+/// What the last step did to the energies, and to where the bed holds the line.
+void Stepper::Work::book(State& state) {
+  const double h = std::exchange(unbooked, 0);
+  if (h == 0) return;
+  if (settings.scheme != Scheme::energy_momentum) {
+    const Powers after = powers_now(state, settings.scheme == Scheme::generalised_alpha ? &last.stage : nullptr);
+    note_powers(before, h / 2);
+    note_powers(after, h / 2);
+    before = after;
+  }
+  equations.take_grip(state);
+  note_state(state);
+}
+
 bool Stepper::Work::try_step(State& state, double h, StepReport& report) {
+  book(state);
   if (settings.scheme == Scheme::energy_momentum) {
     if (!energy_momentum(state, h, report)) return false;
   } else {
@@ -374,22 +408,21 @@ bool Stepper::Work::try_step(State& state, double h, StepReport& report) {
       algorithmic = algorithmic_before_step;
       return false;
     }
-    const Powers after =
-        powers_now(state, settings.scheme == Scheme::generalised_alpha ? &last.stage : nullptr);
-    note_powers(before, h / 2);
-    note_powers(after, h / 2);
-    before = after;
   }
-  equations.take_grip(state);
-  note_state(state);
+  previous.h = settings.scheme == Scheme::generalised_alpha ? h : 0;
+  previous.algorithmic = algorithmic_before_step;
+  previous.tension = before_step.tension;
+  unbooked = h;
   return true;
 }
 
 void Stepper::Work::advance(State& state, double h, int depth, StepReport& report) {
   if (try_step(state, h, report)) return;
-  if (depth == settings.deepest_halving)
+  if (depth == settings.deepest_halving) {
+    book(state);
     throw hydro::NumericsError(fmt::format("the line cannot go on from t = {:.6g} s, even with a step of {:.3g} s: {}",
                                            state.time, h, failure));
+  }
   ++report.halvings;
   advance(state, h / 2, depth + 1, report);
   advance(state, h / 2, depth + 1, report);
@@ -397,9 +430,8 @@ void Stepper::Work::advance(State& state, double h, int depth, StepReport& repor
 
 StepReport Stepper::step(State& state, double h) {
   StepReport report;
-  work_->tried = 0;
   work_->advance(state, h, 0, report);
-  if (report.halvings == 0) work_->tried = h;
+  work_->book(state);
   return report;
 }
 

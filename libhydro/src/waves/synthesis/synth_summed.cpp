@@ -1,11 +1,10 @@
 #include "hydro/waves/synthesis/summed_field.hpp"
 
 #include <array>
-#include <atomic>
-#include <cstdint>
 #include <numbers>
 #include <vector>
 
+#include "field_number.hpp"
 #include "synth_flow.hpp"
 #include "synth_phase.hpp"
 #include "synth_simd.hpp"
@@ -166,11 +165,6 @@ std::vector<double> table_of(const HarmonicField& field, std::size_t count) {
   return table;
 }
 
-std::uint64_t next_number() {
-  static std::atomic<std::uint64_t> last = 0;
-  return ++last;
-}
-
 /// Turns at one instant, cosines and sines at one place. Each thread keeps one, so that the steps of a run ask for no
 /// memory, and turns only when another instant is asked for.
 class Scratch {
@@ -203,7 +197,7 @@ class Scratch {
 SummedField::SummedField(const HarmonicField& field) {
   const std::size_t count = simd::padded(field.harmonics().size());
   content_ = std::make_unique<const Content>(
-      Content{{field.water(), field.options(), field.current()}, count, table_of(field, count), next_number()});
+      Content{{field.water(), field.options(), field.current()}, count, table_of(field, count), next_field_number()});
 }
 SummedField::~SummedField() = default;
 SummedField::SummedField(SummedField&&) noexcept = default;
