@@ -34,6 +34,14 @@ ActiveSet::ActiveSet(const Model& model)
   rounding_ = roundings * std::numeric_limits<double>::epsilon() * farthest;
 }
 
+ActiveSet::ActiveSet(const ActiveSet& other) : ActiveSet(other.model_) {
+  constraints_ = other.constraints_;
+  slides_ = other.slides_;
+  constraint_scale_ = other.constraint_scale_;
+  compliance_ = other.compliance_;
+  balancer_->take(model_.pattern(), constraints_);
+}
+
 FrictionMemory& ActiveSet::friction_memory(Workspace& workspace) const {
   return static_cast<FrictionMemory&>(*workspace.memory[friction_index_]);
 }

@@ -11,8 +11,7 @@ namespace dynamics {
 namespace {
 constexpr double newton_tolerance = 1e-9;     // of the last correction relative to the acceleration and velocity / step
 constexpr double residual_tolerance = 1e-12;  // of the residual, relative to the same: no correction below it
-constexpr double serves = 0.1;   // factors are kept while a correction by them leaves no more of the residual
-constexpr double as_long = 0.2;  // of a step, by which that of the factors that are kept may differ from it
+constexpr double serves = 0.1;  // factors are kept while a correction by them leaves no more of the residual
 constexpr int most_iterations = 20;
 }  // namespace
 
@@ -113,8 +112,7 @@ bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& repo
   const Eigen::VectorXd& scale = active().scale();
   // Contacts that share a load by their compliance want it to the last digit.
   const bool keeps = (active().compliance().array() == 0).all();
-  const int went_on = workspace.solver.of_step == h ? goes_on_ : 0;  // of steps as long as this one
-  goes_on_ = 0;
+  const int went_on = std::exchange(goes_on_, 0);
   now_.acceleration = workspace.acceleration;
   if (went_on == 1) now_.acceleration = 2 * workspace.acceleration - before_;                   // in a straight line
   if (went_on == 2) now_.acceleration = 3 * (workspace.acceleration - before_) + before_that_;  // along a parabola
@@ -124,7 +122,7 @@ bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& repo
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     if (!std::isfinite(now_.size)) return fail("the loads are not finite");
     ++report.newton_iterations;
-    const bool kept = std::abs(workspace.solver.of_step - h) <= as_long * h;
+    const bool kept = workspace.solver.of_step == h;
     if (!kept && !factorise(workspace, h)) return fail("the iteration matrix is singular");
     anew = anew || !kept;
     workspace.solver.solve(now_.residual, now_.open, correction_);

@@ -17,6 +17,8 @@ namespace dynamics {
 class ActiveSet {
  public:
   explicit ActiveSet(const Model& model);
+  /// The same constraints, with factors of its own.
+  ActiveSet(const ActiveSet& other);
 
   const FrictionLaw* friction() const { return friction_; }
   const ContactLaw* contact() const { return contact_; }
