@@ -112,7 +112,7 @@ TEST(LineFlow, IsTakenOnceAStep) {
   }
 }
 
-// Errors of second order fall by 4, here to 4.001; a flow that were taken where the step begins would leave 2.
+// Errors of second order fall by 4, here to 4.001; a flow taken where the step begins leaves less than 2.
 TEST(LineFlow, LeavesStepsTheirOrder) {
   const auto after = [](double h) {
     ChainInWaves chain;
