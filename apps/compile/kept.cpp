@@ -1,7 +1,6 @@
 #include "compile/kept.hpp"
 
 #include <algorithm>
-#include <tuple>
 
 #include "compile/fit_folder.hpp"
 #include "hydro/base/dense.hpp"
@@ -41,37 +40,6 @@ const RadiationFits::Known& RadiationFits::of(const SymmetricData& data, double 
         Known{data, tolerance, hydro::radiation::fit(data.damping, data.A, data.A_inf, {.tolerance = tolerance}), {}}));
   if (folder && !kept) folder->keep(data, tolerance, known_.back()->fit);
   return *known_.back();
-}
-
-namespace {
-
-using hydro::waves::FieldBox;
-using hydro::waves::HarmonicField;
-
-bool same(const FieldBox& a, const FieldBox& b) {
-  return a.start_s == b.start_s && a.end_s == b.end_s && a.low == b.low && a.high == b.high;
-}
-
-bool same(const HarmonicField& a, const HarmonicField& b) {
-  const auto numbers = [](const hydro::waves::Harmonic& w) {
-    return std::tie(w.omega, w.kx, w.ky, w.elevation, w.potential);
-  };
-  const hydro::Water &x = a.water(), &y = b.water();
-  return a.current().is_none() && b.current().is_none() && a.options().stretching == b.options().stretching &&
-         x.density == y.density && x.gravity == y.gravity && x.depth.metres() == y.depth.metres() &&
-         std::ranges::equal(a.harmonics(), b.harmonics(),
-                            [&](const auto& one, const auto& other) { return numbers(one) == numbers(other); });
-}
-
-}  // namespace
-
-std::shared_ptr<const hydro::waves::BoxedField> WaterOfMembers::of(const HarmonicField& waves,
-                                                                   const hydro::waves::FieldUse& use) {
-  const std::scoped_lock one_at_a_time(mutex_);
-  const bool known =
-      last_ && last_->use.tolerance == use.tolerance && same(last_->use.box, use.box) && same(last_->waves, waves);
-  if (!known) last_.emplace(Made{waves, use, std::make_shared<const hydro::waves::BoxedField>(waves, use)});
-  return last_->field;
 }
 
 const hydro::potential::Coefficients& Kept::coefficients(const std::string& name,

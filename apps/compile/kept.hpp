@@ -11,7 +11,6 @@
 
 #include "hydro/potential/coefficients.hpp"
 #include "hydro/radiation/rational.hpp"
-#include "hydro/waves/synthesis/boxed_field.hpp"
 
 namespace froude::compile {
 
@@ -50,23 +49,6 @@ class RadiationFits {
   std::vector<std::unique_ptr<const Known>> known_;
 };
 
-/// The waves around members, made once for the runs of a scene that differ in their steps. One thread at a time.
-class WaterOfMembers {
- public:
-  /// That which was made last, if it is of the same waves on still water and for the same box.
-  std::shared_ptr<const hydro::waves::BoxedField> of(const hydro::waves::HarmonicField& waves,
-                                                     const hydro::waves::FieldUse& use);
-
- private:
-  struct Made {
-    hydro::waves::HarmonicField waves;
-    hydro::waves::FieldUse use;
-    std::shared_ptr<const hydro::waves::BoxedField> field;
-  };
-  std::mutex mutex_;
-  std::optional<Made> last_;
-};
-
 /// Coefficients as they were read from files or computed, and poles fitted to them. What changes in a file after it was
 /// read is not seen.
 class Kept {
@@ -75,13 +57,11 @@ class Kept {
   const hydro::potential::Coefficients& coefficients(const std::string& name,
                                                      const std::function<hydro::potential::Coefficients()>& make);
   RadiationFits& fits() { return fits_; }
-  WaterOfMembers& water_of_members() { return water_; }
 
  private:
   std::mutex mutex_;
   std::map<std::string, hydro::potential::Coefficients> coefficients_;
   RadiationFits fits_;
-  WaterOfMembers water_;
 };
 
 }  // namespace froude::compile

@@ -131,15 +131,12 @@ std::optional<hydro::waves::FieldUse> water_of_members(const Scene& scene, doubl
   if (members.isEmpty()) return {};
   // Room to move: the orbits of high waves, and some metres of drift. Beyond it waves are summed.
   const Eigen::Vector3d room(2 * highest_crest + 2, 2 * highest_crest + 2, highest_crest);
-  // The same box for every step, none of which is longer than the time between samples: runs beside this one share it.
-  const double end = scene.run->duration + scene.run->every;
-  hydro::waves::FieldUse use{.box = {0, end, members.min() - room, members.max() + room},
+  hydro::waves::FieldUse use{.box = {0, scene.run->duration + step, members.min() - room, members.max() + room},
                              .instants = scene.run->duration / step,
                              .points = 10 * pieces};  // iterations, and differences for their derivatives
   use.box.low.z() = std::max(use.box.low.z(), -scene.water.depth.metres());
   use.box.high.z() = std::min(use.box.high.z(), highest_crest);
-  constexpr double share = 1e-3;  // of the accuracy, of each component: it needs no estimate of its own
-  use.tolerance = std::clamp(share * scene.accuracy, 1e-11, 1e-2);
+  use.tolerance = 1e-8;  // far below what pieces leave
   use.largest_bytes = std::size_t{1} << 29;
   return use;
 }
