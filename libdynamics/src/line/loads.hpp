@@ -66,7 +66,7 @@ class Loads {
     std::vector<int> nodes;
     std::vector<Eigen::Vector3d> points;
     std::vector<hydro::waves::Kinematics> water;
-  } anew_;  // what of it is to be looked at
+  } anew_;              // what of it is to be looked at
   Places node_forces_;  // force of it alone; kept, so that powers() asks for no memory
 };
 

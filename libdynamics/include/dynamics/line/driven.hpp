@@ -36,8 +36,8 @@ class DrivenLine {
 
   /// Forces if the ends are there at time t, the step being from the last accept() to t; without a step, those at the
   /// instant, with accelerations as at start() or as the last step left them. The same arguments give the same forces,
-  /// however often and in whatever order they are asked. Not a number where no such step can be made: a guess that draws
-  /// the line beyond its strength of numbers.
+  /// however often and in whatever order they are asked. Not a number where no such step can be made: a guess that
+  /// draws the line beyond its strength of numbers.
   const Places& force(double t_s, const std::vector<End>& ends);
   /// The same with their derivatives, which an instant does not have: they are zero. They cost as much again.
   const Pulls& pulls(double t_s, const std::vector<End>& ends);
