@@ -40,6 +40,12 @@ const DrivenLine::Pulls& pulls_of(const FastenedLine& l, std::size_t i, const In
   return at_rest;
 }
 
+/// Their forces alone.
+const line::Places& force_of(const FastenedLine& l, std::size_t i, const Instant& now, DrivenLine::Pulls& at_rest) {
+  if (now.memory != nullptr) return static_cast<FastenedLineMemory*>(now.memory)->force(i, now.state);
+  return pulls_of(l, i, now, at_rest).force;
+}
+
 /// Energy held by a line: what moves counts too, since a body cannot tell one from the other.
 EnergyFlow energy_of(const DrivenLine& l) {
   const line::Stepper::Flow flow = l.flow();
@@ -95,6 +101,11 @@ void FastenedLineMemory::accept(const State& state) {
   }
 }
 
+const line::Places& FastenedLineMemory::force(std::size_t i, const State& state) {
+  find_ends(elements_[i], state, ends_);
+  return lines_[i]->force(state.time, ends_);
+}
+
 const DrivenLine::Pulls& FastenedLineMemory::pulls(std::size_t i, const State& state) {
   find_ends(elements_[i], state, ends_);
   return lines_[i]->pulls(state.time, ends_);
@@ -114,10 +125,10 @@ std::unique_ptr<Memory> FastenedLineKind::make_memory(const State& state) const 
 void FastenedLineKind::add_load(const Instant& now, LoadSink& out) const {
   DrivenLine::Pulls at_rest;
   for (std::size_t i = 0; i < elements_.size(); ++i) {
-    const DrivenLine::Pulls& p = pulls_of(elements_[i], i, now, at_rest);
+    const line::Places& forces = force_of(elements_[i], i, now, at_rest);
     for (std::size_t k = 0; k < elements_[i].ends.size(); ++k) {
       const auto& end = elements_[i].ends[k];
-      const Vector3d force = p.force.col(static_cast<Eigen::Index>(k));
+      const Vector3d force = forces.col(static_cast<Eigen::Index>(k));
       Vector6 load;
       load << force, arm_of(end.at, now.state).cross(force);
       out.add(end.at.body, load);
@@ -192,8 +203,8 @@ std::vector<Signal> FastenedLineKind::signals() const {
            .value =
                [this, i, k](const Reading& r) {
                  DrivenLine::Pulls at_rest;
-                 const auto& pulls = pulls_of(elements_[i], i, {r.state, r.memory}, at_rest);
-                 return pulls.force.col(static_cast<Eigen::Index>(k)).norm();
+                 const auto& forces = force_of(elements_[i], i, {r.state, r.memory}, at_rest);
+                 return forces.col(static_cast<Eigen::Index>(k)).norm();
                },
            .variation = [this, i, k](const Still& still) { return pull_variation(elements_[i], k, still.state); }});
   return out;

@@ -1,5 +1,6 @@
 #include "dynamics/integrate/active_set.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include "hydro/base/error.hpp"
@@ -7,7 +8,10 @@
 namespace dynamics {
 
 ActiveSet::ActiveSet(const Model& model)
-    : model_(model), constraints_(model.joints()), compliance_(Eigen::VectorXd::Zero(constraints_.count())) {
+    : model_(model),
+      constraints_(model.joints()),
+      compliance_(Eigen::VectorXd::Zero(constraints_.count())),
+      balancer_(std::make_unique<KktSolver>(model.pattern(), constraints_)) {
   const State rest = rest_state(model.bodies());
   BlockMatrix mass(model.pattern());
   model.add_mass(rest, 1, mass);
@@ -28,6 +32,14 @@ ActiveSet::ActiveSet(const Model& model)
   for (const Joint& joint : model.joints().joints()) farthest = std::max(farthest, joint.place.norm());
   constexpr double roundings = 32;  // sums and products between a state and how far a joint is open
   rounding_ = roundings * std::numeric_limits<double>::epsilon() * farthest;
+}
+
+ActiveSet::ActiveSet(const ActiveSet& other) : ActiveSet(other.model_) {
+  constraints_ = other.constraints_;
+  slides_ = other.slides_;
+  constraint_scale_ = other.constraint_scale_;
+  compliance_ = other.compliance_;
+  balancer_->take(model_.pattern(), constraints_);
 }
 
 FrictionMemory& ActiveSet::friction_memory(Workspace& workspace) const {
@@ -92,6 +104,7 @@ void ActiveSet::rebuild(Workspace& workspace) {
   compliance_ = share * constraint_scale_.cwiseAbs2().cwiseInverse();
   compliance_.head(exact).setZero();
   workspace.solver.take(model_.pattern(), constraints_);
+  balancer_->take(model_.pattern(), constraints_);
 }
 
 // What has stopped or come back keeps the direction that it had: the step is cut there.
@@ -140,7 +153,38 @@ std::optional<ActiveSet::Balance> ActiveSet::balance(Workspace& workspace) const
   return out;
 }
 
-// The second pass takes out what the compliance of contacts has left.
+/// By the factors that there are, what is left over of the balance. \returns whether it has become next to nothing
+bool ActiveSet::add_correction(Workspace& workspace, Eigen::VectorXd& acceleration,
+                               Eigen::VectorXd& multipliers) const {
+  constexpr double next_to_nothing = 1e-12;  // what is left after it is smaller by as much as it fell
+  Workspace::Balancing& room = workspace.balancing;
+  workspace.matrix.multiply(acceleration, room.left);
+  room.left = -room.residual - room.left;
+  room.minus_multipliers = -multipliers;
+  constraints_.add_transposed(room.columns, room.minus_multipliers, room.left);
+  room.open = -room.convective;
+  for (Eigen::Index i = 0; i < room.open.size(); ++i)
+    room.open[i] -= constraints_.times(i, room.gradients[static_cast<std::size_t>(i)], acceleration);
+  balancer_->solve(room.left, room.open, room.found);
+  acceleration += room.found.x;
+  multipliers += room.found.lambda;
+  const auto size = [&](const Eigen::VectorXd& a, const Eigen::VectorXd& lambda) {
+    return std::hypot(a.cwiseProduct(scale_).norm(), lambda.cwiseQuotient(constraint_scale_).norm());
+  };
+  return size(room.found.x, room.found.lambda) <= next_to_nothing * size(acceleration, multipliers);
+}
+
+/// By factors of an earlier state, which are near those of this one: each correction leaves a small share.
+bool ActiveSet::balanced_by_kept(Workspace& workspace, Eigen::VectorXd& acceleration,
+                                 Eigen::VectorXd& multipliers) const {
+  constexpr int most = 8;
+  if (balancer_->of_step == 0) return false;
+  for (int pass = 0; pass < most; ++pass)
+    if (add_correction(workspace, acceleration, multipliers)) return true;
+  return false;
+}
+
+// Contacts share a load by their compliance: two more corrections take out what it has left, and more might not end.
 bool ActiveSet::find_balance(Workspace& workspace, Eigen::VectorXd& acceleration, Eigen::VectorXd& multipliers) const {
   Workspace::Balancing& room = workspace.balancing;
   constraints_.find_gradients(workspace.state, room.gradients);
@@ -150,27 +194,16 @@ bool ActiveSet::find_balance(Workspace& workspace, Eigen::VectorXd& acceleration
   model_.residual(workspace.state, room.still, workspace, room.residual);
   constraints_.find_convective(workspace.state, room.convective);
   model_.tangent(workspace.state, 1, 0, 0, workspace, workspace.matrix);
-  if (!room.residual.allFinite() ||
-      !workspace.solver.factorise(workspace.matrix, room.columns, room.gradients, compliance_))
-    return false;
-  room.left = -room.residual;
-  room.open = -room.convective;
-  workspace.solver.solve(room.left, room.open, room.found);
-  acceleration = room.found.x;
-  multipliers = room.found.lambda;
-  const bool again = compliance_.size() > 0 && compliance_.maxCoeff() > 0;
-  for (int pass = 0; pass < (again ? 2 : 0); ++pass) {
-    workspace.matrix.multiply(acceleration, room.left);
-    room.left = -room.residual - room.left;
-    room.minus_multipliers = -multipliers;
-    constraints_.add_transposed(room.columns, room.minus_multipliers, room.left);
-    for (Eigen::Index i = 0; i < room.open.size(); ++i)
-      room.open[i] =
-          -room.convective[i] - constraints_.times(i, room.gradients[static_cast<std::size_t>(i)], acceleration);
-    workspace.solver.solve(room.left, room.open, room.found);
-    acceleration += room.found.x;
-    multipliers += room.found.lambda;
-  }
+  if (!room.residual.allFinite()) return false;
+  acceleration.setZero(model_.modes());
+  multipliers.setZero(constraints_.count());
+  const bool shares = compliance_.size() > 0 && compliance_.maxCoeff() > 0;
+  if (!shares && balanced_by_kept(workspace, acceleration, multipliers)) return true;
+  if (!balancer_->factorise(workspace.matrix, room.columns, room.gradients, compliance_)) return false;
+  balancer_->of_step = 1;
+  acceleration.setZero();
+  multipliers.setZero();
+  for (int pass = 0; pass < (shares ? 3 : 1); ++pass) add_correction(workspace, acceleration, multipliers);
   return true;
 }
 

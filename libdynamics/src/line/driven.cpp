@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "dynamics/time/alpha_parameters.hpp"
 #include "hydro/base/error.hpp"
@@ -69,6 +70,7 @@ struct DrivenLine::Work {
     State state = {};
     Pulls pulls = {};
     std::string failure = {};
+    bool followed = false;  // pulls have their derivatives
   } tried = {};
   State moved;  // room for look()
   Stepper::Balance balance;
@@ -83,7 +85,9 @@ struct DrivenLine::Work {
   bool is_now(double t) const { return t - state.time <= 1e-12 * std::max(1.0, std::abs(t)); }
   void prescribe(double t, const std::vector<End>& ends);
   void stay() const;
+  void try_at(double t, const std::vector<End>& ends);
   void try_step(double t);
+  void find_derivatives();
   void look(const std::vector<End>& ends);
   void pull(double force);
 };
@@ -98,10 +102,19 @@ DrivenLine::~DrivenLine() = default;
 
 /// Pulls with that in each direction, whatever the ends do.
 void DrivenLine::Work::pull(double force) {
+  tried.followed = true;
   const auto n = static_cast<Eigen::Index>(prescribed.size());
   tried.pulls.force.setConstant(3, n, force);
   tried.pulls.by_place.setZero(3 * n, 3 * n);
   tried.pulls.by_velocity.setZero(3 * n, 3 * n);
+}
+
+void DrivenLine::Work::find_derivatives() {
+  if (std::exchange(tried.followed, true)) return;
+  const double h = tried.t - state.time;
+  const Response& found = stepper.response(prescribed, (1 - alpha.alpha_m) / ((1 - alpha.alpha_f) * alpha.gamma * h));
+  tried.pulls.by_place = -found.by_place;
+  tried.pulls.by_velocity = -found.by_velocity;
 }
 
 /// Everything stays where it was accepted.
@@ -124,7 +137,7 @@ void DrivenLine::start(const State& state, const std::vector<End>& ends, const P
   w.tried.t = std::numeric_limits<double>::quiet_NaN();
   w.stay();
   w.stepper.start(w.state);
-  w.stepper.keep();
+  w.stepper.keep(w.state);
 }
 
 /// Where the ends go until t, with the accelerations that (D10) makes of their velocities.
@@ -147,14 +160,13 @@ void DrivenLine::Work::prescribe(double t, const std::vector<End>& ends) {
 
 void DrivenLine::Work::try_step(double t) {
   const double h = t - state.time;
-  stepper.go_back();
+  tried.followed = false;
   tried.state = state;
   try {
-    stepper.step(tried.state, h);
-    const Response& found = stepper.response(prescribed, (1 - alpha.alpha_m) / ((1 - alpha.alpha_f) * alpha.gamma * h));
-    tried.pulls.force = -found.force;
-    tried.pulls.by_place = -found.by_place;
-    tried.pulls.by_velocity = -found.by_velocity;
+    stepper.try_step(tried.state, h);
+    tried.pulls.force.resize(3, static_cast<Eigen::Index>(prescribed.size()));
+    for (std::size_t k = 0; k < prescribed.size(); ++k)
+      tried.pulls.force.col(static_cast<Eigen::Index>(k)) = -stepper.needed().col(prescribed[k]);
   } catch (const hydro::NumericsError& e) {
     tried.failure = e.what();
     pull(std::numeric_limits<double>::quiet_NaN());
@@ -178,32 +190,41 @@ void DrivenLine::Work::look(const std::vector<End>& ends) {
               : Vector3d(Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
 }
 
-const DrivenLine::Pulls& DrivenLine::pulls(double t_s, const std::vector<End>& ends) {
-  Work& w = *work_;
-  if (w.tried.t == t_s && w.tried.ends == ends) return w.tried.pulls;
-  w.tried.t = t_s;
-  w.tried.ends = ends;
-  w.tried.failure.clear();
-  if (w.is_now(t_s)) {
-    w.look(ends);
+void DrivenLine::Work::try_at(double t, const std::vector<End>& ends) {
+  if (tried.t == t && tried.ends == ends) return;
+  tried.t = t;
+  tried.ends = ends;
+  tried.failure.clear();
+  if (is_now(t)) {
+    look(ends);
   } else {
-    w.prescribe(t_s, ends);
-    w.try_step(t_s);
+    prescribe(t, ends);
+    try_step(t);
   }
-  return w.tried.pulls;
+}
+
+const Places& DrivenLine::force(double t_s, const std::vector<End>& ends) {
+  work_->try_at(t_s, ends);
+  return work_->tried.pulls.force;
+}
+
+const DrivenLine::Pulls& DrivenLine::pulls(double t_s, const std::vector<End>& ends) {
+  work_->try_at(t_s, ends);
+  work_->find_derivatives();
+  return work_->tried.pulls;
 }
 
 void DrivenLine::accept(double t_s, const std::vector<End>& ends) {
   Work& w = *work_;
   if (w.is_now(t_s)) return;
-  pulls(t_s, ends);
+  w.try_at(t_s, ends);
   if (!w.tried.failure.empty()) throw hydro::NumericsError(w.tried.failure);
   w.state = w.tried.state;
   w.algorithmic = w.tried.algorithmic;
   for (std::size_t k = 0; k < w.prescribed.size(); ++k) w.now[k] = w.ways[k]->end;
   w.tried.t = std::numeric_limits<double>::quiet_NaN();
+  w.stepper.keep(w.state);
   w.stay();
-  w.stepper.keep();
 }
 
 const Line& DrivenLine::line() const { return work_->line; }

@@ -19,7 +19,7 @@ void set_instant(const State& state, const Places& a, Stage& out) {
   out.a_by = 1;
   out.v_from = state.velocity;
   out.a_from = a;
-  out.mean = out.still = false;
+  out.mean = out.still = out.foreseen = false;
 }
 
 Equations::Equations(const Line& line)
@@ -185,12 +185,16 @@ void Equations::add_pulls(const Stage& stage, const State& before, const VectorX
   }
 }
 
+Motion Equations::motion(const Stage& stage) const {
+  return {stage.t, x_, v_, a_, stage.foreseen ? &stage.water_at : nullptr};
+}
+
 /// Residual, law, and the matrix of their derivatives; returns their size, m.
 double Equations::assemble(const Stage& stage, const State& before, const Places& u, const VectorXd& T, bool matrix) {
   move(stage, before, u);
   force_.setZero();
   if (matrix) blocks_.set_zero(line_.nodes(), line_.segments());
-  loads_.add({stage.t, x_, v_, a_}, {stage.x_by, stage.v_by, stage.a_by}, force_, matrix ? &blocks_ : nullptr);
+  loads_.add(motion(stage), {stage.x_by, stage.v_by, stage.a_by}, force_, matrix ? &blocks_ : nullptr);
   residual_ = -force_ + stage.relax * u;
   if (!stage.still) add_mass(a_);
   if (matrix) fill(stage.still ? 0 : stage.a_by, stage.relax);
@@ -277,11 +281,25 @@ int Equations::worst_node() const {
   return worst;
 }
 
-Equations::Outcome Equations::solve(const Stage& stage, const State& before, double tolerance, int most, Places& u,
+Equations::Outcome Equations::solve(Stage& stage, const State& before, double tolerance, int most, Places& u,
                                     VectorXd& T) {
-  scale_for(stage, T);
-  for (const Held& h : line_.description().held)
+  for (const Held& h : line_.description().held) {
     u.col(h.node) = h.path ? (h.path->at(stage.end).position - before.position.col(h.node)).eval() : Vector3d::Zero();
+    if (stage.foreseen) stage.water_at.col(h.node) = before.position.col(h.node) + stage.x_by * u.col(h.node);
+  }
+  const Outcome out = newton(stage, before, tolerance, most, u, T);
+  if (!out.converged || !stage.foreseen) return out;
+  x_ = before.position + stage.x_by * u;
+  if (!loads_.flow_differs(x_)) return out;
+  stage.water_at = x_;
+  Outcome again = newton(stage, before, tolerance, most, u, T);
+  again.iterations += out.iterations;
+  return again;
+}
+
+Equations::Outcome Equations::newton(const Stage& stage, const State& before, double tolerance, int most, Places& u,
+                                     VectorXd& T) {
+  scale_for(stage, T);
   const double extent = before.position.cwiseAbs().maxCoeff(), rounding = stage.rounding * extent;
   const double balanced = 4e-16 * extent * std::sqrt(static_cast<double>(rhs_.size()));  // all that doubles can tell
   // At rest a straight line between two places has a length that nothing can change: its rounding asks for no tension.
@@ -310,6 +328,7 @@ Equations::Outcome Equations::solve(const Stage& stage, const State& before, dou
     out.size = size;
     if ((out.converged = small)) break;
   }
+  needed_ = residual_;
   if (!out.converged && out.why.empty()) out.why = fmt::format("Newton did not converge in {} iterations", most);
   if (!out.converged) out.worst = worst_node();
   return out;

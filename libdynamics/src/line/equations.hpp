@@ -24,6 +24,8 @@ struct Stage {
   bool still = false;       ///< at rest: no masses, held nodes without velocity (D86)
   double relax = 0;         ///< (relax) u resists: steps towards rest, N/m
   double rounding = 1e-14;  ///< of places, below which no correction means anything, relative to the farthest
+  bool foreseen = false;    ///< the flow is that at places that are known before the step (D78), else where nodes are
+  Places water_at = {};     ///< those places, if so
 
   void set(double of_balance, double of_end, double duration) {
     t = of_balance;
@@ -58,8 +60,9 @@ class Equations {
 
   explicit Equations(const Line& line);
 
-  /// Solves for u and T from the guesses given. `tolerance`: of the last correction, relative to u and T.
-  Outcome solve(const Stage& stage, const State& before, double tolerance, int most, Places& u, Eigen::VectorXd& T);
+  /// Solves for u and T from the guesses given. `tolerance`: of the last correction, relative to u and T. Where nodes
+  /// come to lie too far from the places at which the stage foresees the flow, these are moved to them.
+  Outcome solve(Stage& stage, const State& before, double tolerance, int most, Places& u, Eigen::VectorXd& T);
 
   /// Accelerations and tensions of a state (D77). False if masses leave them open.
   bool accelerations(const State& state, Places& a, Eigen::VectorXd& T);
@@ -68,6 +71,9 @@ class Equations {
   bool project_velocity(const State& state, Places& v);
   /// Moves x along the directions of `from` until lengths are kept.
   bool project_place(const Places& from, double tolerance, Places& x);
+
+  /// The force that each node is held by where solve() ended last, N; next to nothing for free ones.
+  const Places& needed() const { return needed_; }
 
   /// What nodes with prescribed motion need at the end of a step with places u and tensions T, and how it follows them
   /// while the rest of the line moves as the step has it; their accelerations follow their velocities by `a_by_v`.
@@ -143,6 +149,8 @@ class Equations {
     Eigen::VectorXd T;
   };
   void scale_for(const Stage& stage, const Eigen::VectorXd& T);
+  Outcome newton(const Stage& stage, const State& before, double tolerance, int most, Places& u, Eigen::VectorXd& T);
+  Motion motion(const Stage& stage) const;
   double search(const Stage& stage, const State& before, double size, bool enough, Places& u, Eigen::VectorXd& T);
   int worst_node() const;
   void scale_by_mass();
@@ -154,7 +162,7 @@ class Equations {
   std::unique_ptr<NetworkSolver> network_;  // null for a single chain
   Eigen::VectorXd rhs_, law_;
   Blocks blocks_;
-  Places x_, v_, a_, force_, residual_;
+  Places x_, v_, a_, force_, residual_, needed_;
   std::vector<Push> push_;              // of the bed, each node
   std::vector<Sag> sag_;                // each segment
   Eigen::Matrix2Xd friction_, strain_;  // on each node, N, and what the bed has given way under it, m; empty without

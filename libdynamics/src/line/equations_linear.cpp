@@ -85,7 +85,7 @@ bool Equations::project_place(const Places& from, double tolerance, Places& x) {
 
 Powers Equations::powers(const Stage& stage, const State& before, const Places& u, const VectorXd& T) {
   assemble(stage, before, u, T, false);
-  Powers out{loads_.powers({stage.t, x_, v_, a_})};
+  Powers out{loads_.powers(motion(stage))};
   for (int j = 0; j < line_.segments(); ++j) out.axial += pull(j, stage, before, T[j]).lost;
   if (!line_.description().bed.empty())
     for (int i = 0; i < line_.nodes(); ++i) out.bed += bed(i, stage, before).lost;

@@ -100,7 +100,12 @@ const Response& Equations::response(const Stage& stage, const State& before, con
   total += follow_.of_rest;
   out.by_place = total.leftCols(count);
   out.by_velocity = total.rightCols(count);
-  if (!solved) out.force.setConstant(std::numeric_limits<double>::quiet_NaN());
+  if (!solved) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    out.force.setConstant(unknown);
+    out.by_place.setConstant(unknown);
+    out.by_velocity.setConstant(unknown);
+  }
   return out;
 }
 

@@ -101,17 +101,48 @@ void Blocks::set_zero(int nodes, int segments) {
   lower = upper;
 }
 
+bool Loads::meets_water(int node) const {
+  return line_.description().water.wet != Wet::nothing || line_.node(node).sphere.diameter > 0;
+}
+
 void Loads::look_at_water(const Motion& now) {
   const auto& field = *line_.description().water.field;
   const double bed = -field.water().depth.metres();
+  const Places& at = now.water_at != nullptr ? *now.water_at : now.x;
+  const bool same_instant = now.t == looked_at_;
+  looked_at_ = std::numeric_limits<double>::quiet_NaN();  // until it has been
   points_.resize(static_cast<std::size_t>(line_.nodes()));
   water_.resize(points_.size());
+  anew_.nodes.clear();
+  anew_.points.clear();
   for (int i = 0; i < line_.nodes(); ++i) {
-    Vector3d& p = points_[static_cast<std::size_t>(i)];
-    p = now.x.col(i);
+    if (!meets_water(i)) continue;
+    Vector3d p = at.col(i);
     p.z() = std::max(p.z(), bed);  // a node pressed into the bed feels the water above it
+    Vector3d& kept = points_[static_cast<std::size_t>(i)];
+    if (same_instant && kept == p) continue;
+    kept = p;
+    anew_.nodes.push_back(i);
+    anew_.points.push_back(p);
   }
-  field.at(now.t, points_, water_);
+  anew_.water.resize(anew_.points.size());
+  field.at(now.t, anew_.points, anew_.water);
+  for (std::size_t k = 0; k < anew_.nodes.size(); ++k)
+    water_[static_cast<std::size_t>(anew_.nodes[k])] = anew_.water[k];
+  looked_at_ = now.t;
+}
+
+bool Loads::flow_differs(const Places& x) const {
+  constexpr double much = 1e-3;
+  if (std::isnan(looked_at_)) return false;
+  double difference = 0, speed = 0;
+  for (int i = 0; i < line_.nodes(); ++i) {
+    if (!meets_water(i)) continue;
+    const auto& water = water_[static_cast<std::size_t>(i)];
+    difference = std::max(difference, (water.gradient * (x.col(i) - points_[static_cast<std::size_t>(i)])).norm());
+    speed = std::max(speed, water.velocity.norm());
+  }
+  return difference > much * speed;
 }
 
 void Loads::add(const Motion& now, const By& by, Places& force, Blocks* derivative) {

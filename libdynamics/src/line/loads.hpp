@@ -3,6 +3,7 @@
 /// velocities of nodes, water. (D73), (D74)
 #include <Eigen/Core>
 
+#include <limits>
 #include <vector>
 
 #include "dynamics/line/line.hpp"
@@ -13,6 +14,7 @@ namespace dynamics::line {
 struct Motion {
   double t;
   const Places &x, &v, &a;
+  const Places* water_at = nullptr;  ///< where the flow is taken that the nodes meet; null: where they are
 };
 
 /// How each of them changes with one unknown displacement of the same node.
@@ -43,6 +45,10 @@ class Loads {
   void add(const Motion& now, const By& by, Places& force, Blocks* derivative);
   LoadPowers powers(const Motion& now);
 
+  /// Whether the flow at nodes in `x` differs by more than 10⁻³ of the largest velocity, to first order, from the flow
+  /// that was looked at last. (D78)
+  bool flow_differs(const Places& x) const;
+
  private:
   void look_at_water(const Motion& now);
   void add_node_forces(const Motion& now, const By& by, Places& force, Blocks* derivative) const;
@@ -51,8 +57,16 @@ class Loads {
   void add_sphere_powers(const Motion& now, LoadPowers& out) const;
 
   const Line& line_;
+  bool meets_water(int node) const;
+  // The flow at nodes that meet it, kept while neither its instant nor its place changes.
+  double looked_at_ = std::numeric_limits<double>::quiet_NaN();  // s
   std::vector<Eigen::Vector3d> points_;
   std::vector<hydro::waves::Kinematics> water_;
+  struct {
+    std::vector<int> nodes;
+    std::vector<Eigen::Vector3d> points;
+    std::vector<hydro::waves::Kinematics> water;
+  } anew_;              // what of it is to be looked at
   Places node_forces_;  // force of it alone; kept, so that powers() asks for no memory
 };
 

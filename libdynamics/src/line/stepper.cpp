@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "dynamics/time/alpha_parameters.hpp"
 #include "equations.hpp"
@@ -43,10 +44,19 @@ struct Stepper::Work {
     Places u;
     VectorXd T;
   } last = {};  // step
+  // Where the last whole step of generalised-α began, and how long it was: what follows goes on from it in a straight
+  // line.
+  struct Previous {
+    double h = 0;
+    Places algorithmic = {};
+    VectorXd tension = {};
+  } previous;
+  double unbooked = 0;  // s: the last step, or its last part, whose powers are not in the energies yet; 0: they are
   struct {
     Places a, algorithmic;
     Energies energies;
     Powers before;
+    Previous previous;
   } kept = {};
   // Where a step that is tried began, and what it makes on the way: kept from step to step, so that it asks for no
   // memory.
@@ -58,16 +68,19 @@ struct Stepper::Work {
   Work(const Line& l, const Settings& s) : line(l), settings(s), equations(l), none(Places::Zero(3, l.nodes())) {}
 
   bool try_step(State& state, double h, StepReport& report);
+  void book(State& state);
   bool energy_momentum(State& state, double h, StepReport& report);
   bool generalised_alpha(State& state, double h, StepReport& report);
+  bool go_on_straight(double beta, const State& state, StepReport& report);
   bool gamma(State& state, double h, StepReport& report);
   bool euler(State& state, double h);
-  bool solve(const Stage& stage, const State& state, Places& u, VectorXd& T, StepReport& report);
+  bool newton(Stage& stage, const State& state, Places& u, VectorXd& T, StepReport& report);
+  bool solve(Stage& stage, const State& state, Places& u, VectorXd& T, StepReport& report);
   void prescribe(State& state) const;
   void require_lengths(const State& state) const;
   void require_ties(const State& state) const;
   bool settle(State& state);
-  Powers powers_now(const State& state);
+  Powers powers_now(const State& state, const Stage* flow_of = nullptr);
   void note_powers(const Powers& mean, double h);
   void note_state(const State& state);
   void advance(State& state, double h, int depth, StepReport& report);
@@ -104,21 +117,30 @@ Stepper::Flow Stepper::flow() const {
           p.damping + p.drag_dissipated + p.axial + p.bed + p.friction};
 }
 
-void Stepper::keep() {
+void Stepper::keep(State& state) {
   Work& w = *work_;
+  w.book(state);
   w.kept.a = w.a;
   w.kept.algorithmic = w.algorithmic;
   w.kept.energies = w.energies;
   w.kept.before = w.before;
+  w.kept.previous = w.previous;
 }
 
-void Stepper::go_back() {
+StepReport Stepper::try_step(State& state, double h) {
   Work& w = *work_;
   w.a = w.kept.a;
   w.algorithmic = w.kept.algorithmic;
   w.energies = w.kept.energies;
   w.before = w.kept.before;
+  w.previous = w.kept.previous;
+  w.unbooked = 0;
+  StepReport report;
+  w.advance(state, h, 0, report);
+  return report;
 }
+
+const Places& Stepper::needed() const { return work_->equations.needed(); }
 
 const Response& Stepper::response(const std::vector<int>& prescribed, double a_by_v) {
   Work& w = *work_;
@@ -196,6 +218,7 @@ void Stepper::start(State& state) {
 
 void Stepper::go_on(State& state) {
   Work& w = *work_;
+  w.previous.h = 0;
   if (!w.settle(state) && !w.line.has_massless_nodes())
     throw hydro::NumericsError(fmt::format(
         "the line has no accelerations at t = {} s: masses or loads are singular or not finite", state.time));
@@ -221,8 +244,13 @@ void Stepper::Work::note_state(const State& state) {
   energies.shear = shear;
 }
 
-Powers Stepper::Work::powers_now(const State& state) {
+/// `flow_of`: a stage of the same instant whose flow the loads had.
+Powers Stepper::Work::powers_now(const State& state, const Stage* flow_of) {
   set_instant(state, a, now);
+  if (flow_of != nullptr) {
+    now.foreseen = flow_of->foreseen;
+    now.water_at = flow_of->water_at;
+  }
   return equations.powers(now, state, none, state.tension);
 }
 
@@ -238,13 +266,20 @@ void Stepper::Work::note_powers(const Powers& mean, double h) {
   energies.lost_friction += h * mean.friction;
 }
 
-bool Stepper::Work::solve(const Stage& stage, const State& state, Places& u, VectorXd& T, StepReport& report) {
-  u = stage.h * state.velocity + stage.h * stage.h / 2 * a;
-  T = state.tension;
+/// From the guesses u and T; the flow is foreseen where velocities and accelerations lead, whatever the guess.
+bool Stepper::Work::newton(Stage& stage, const State& state, Places& u, VectorXd& T, StepReport& report) {
+  stage.foreseen = true;
+  stage.water_at = state.position + stage.x_by * (stage.h * state.velocity + stage.h * stage.h / 2 * a);
   const auto outcome = equations.solve(stage, state, settings.tolerance, settings.iterations, u, T);
   report.newton_iterations += outcome.iterations;
   if (!outcome.converged) failure = fmt::format("{}; node {} is worst", outcome.why, outcome.worst);
   return outcome.converged;
+}
+
+bool Stepper::Work::solve(Stage& stage, const State& state, Places& u, VectorXd& T, StepReport& report) {
+  u = stage.h * state.velocity + stage.h * stage.h / 2 * a;
+  T = state.tension;
+  return newton(stage, state, u, T, report);
 }
 
 // (D79)
@@ -268,6 +303,15 @@ bool Stepper::Work::energy_momentum(State& state, double h, StepReport& report) 
   return true;
 }
 
+/// From accelerations and tensions that go on as they went in the step before. \returns false where that leads nowhere
+bool Stepper::Work::go_on_straight(double beta, const State& state, StepReport& report) {
+  const double h = last.stage.h;
+  if (previous.h != h) return false;
+  last.u = known + h * h * beta * (2 * algorithmic - previous.algorithmic);
+  last.T = 2 * state.tension - previous.tension;
+  return newton(last.stage, state, last.u, last.T, report);
+}
+
 // (D80), with the parameters of (D11).
 bool Stepper::Work::generalised_alpha(State& state, double h, StepReport& report) {
   const auto [alpha_m, alpha_f, g, beta] = AlphaParameters(settings.rho_infinity);
@@ -279,7 +323,7 @@ bool Stepper::Work::generalised_alpha(State& state, double h, StepReport& report
   stage.set_factors(1, g / (h * beta), a_by);
   stage.v_from = state.velocity + h * (1 - g) * algorithmic - g / (h * beta) * known;
   stage.a_from = (alpha_m * algorithmic - alpha_f * a) / (1 - alpha_f) - a_by * known;
-  if (!solve(stage, state, u, last.T, report)) return false;
+  if (!go_on_straight(beta, state, report) && !solve(stage, state, u, last.T, report)) return false;
   last.from = state;
   state.position += u;
   state.velocity = stage.v_from + stage.v_by * u;
@@ -333,7 +377,22 @@ bool Stepper::Work::euler(State& state, double h) {
   return true;
 }
 
+/// What the last step did to the energies, and to where the bed holds the line.
+void Stepper::Work::book(State& state) {
+  const double h = std::exchange(unbooked, 0);
+  if (h == 0) return;
+  if (settings.scheme != Scheme::energy_momentum) {
+    const Powers after = powers_now(state, settings.scheme == Scheme::generalised_alpha ? &last.stage : nullptr);
+    note_powers(before, h / 2);
+    note_powers(after, h / 2);
+    before = after;
+  }
+  equations.take_grip(state);
+  note_state(state);
+}
+
 bool Stepper::Work::try_step(State& state, double h, StepReport& report) {
+  book(state);
   if (settings.scheme == Scheme::energy_momentum) {
     if (!energy_momentum(state, h, report)) return false;
   } else {
@@ -349,21 +408,21 @@ bool Stepper::Work::try_step(State& state, double h, StepReport& report) {
       algorithmic = algorithmic_before_step;
       return false;
     }
-    const Powers after = powers_now(state);
-    note_powers(before, h / 2);
-    note_powers(after, h / 2);
-    before = after;
   }
-  equations.take_grip(state);
-  note_state(state);
+  previous.h = settings.scheme == Scheme::generalised_alpha ? h : 0;
+  previous.algorithmic = algorithmic_before_step;
+  previous.tension = before_step.tension;
+  unbooked = h;
   return true;
 }
 
 void Stepper::Work::advance(State& state, double h, int depth, StepReport& report) {
   if (try_step(state, h, report)) return;
-  if (depth == settings.deepest_halving)
+  if (depth == settings.deepest_halving) {
+    book(state);
     throw hydro::NumericsError(fmt::format("the line cannot go on from t = {:.6g} s, even with a step of {:.3g} s: {}",
                                            state.time, h, failure));
+  }
   ++report.halvings;
   advance(state, h / 2, depth + 1, report);
   advance(state, h / 2, depth + 1, report);
@@ -372,6 +431,7 @@ void Stepper::Work::advance(State& state, double h, int depth, StepReport& repor
 StepReport Stepper::step(State& state, double h) {
   StepReport report;
   work_->advance(state, h, 0, report);
+  work_->book(state);
   return report;
 }
 

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "dynamics/line/node_damping.hpp"
+#include "dynamics/line/stepper.hpp"
 #include "hydro/base/random.hpp"
 #include "hydro/waves/kinematics/sea.hpp"
 #include "springs.hpp"
@@ -54,6 +57,72 @@ Places force(const Line& line, const Places& x, const Places& v, const Places& a
   Places out = Places::Zero(3, line.nodes());
   loads.add({0, x, v, a}, {0, 0, 0}, out, nullptr);
   return out;
+}
+
+/// Waves that count how often they are asked at a point.
+class CountedWaves final : public hw::WaveField {
+ public:
+  explicit CountedWaves(hw::HarmonicField field) : field_(std::move(field)) {}
+  const hydro::Water& water() const noexcept override { return field_.water(); }
+  double elevation(double t, double x, double y) const override { return field_.elevation(t, x, y); }
+  hw::Kinematics at(double t, const Vector3d& point) const override { return ++asked, field_.at(t, point); }
+  void at(double t, std::span<const Vector3d> points, std::span<hw::Kinematics> out) const override {
+    for (std::size_t i = 0; i < points.size(); ++i) out[i] = at(t, points[i]);
+  }
+  mutable std::size_t asked = 0;
+
+ private:
+  hw::HarmonicField field_;
+};
+
+/// A chain of four rods that hangs into waves of 2 s and 0.2 m, four metres long.
+struct ChainInWaves {
+  std::shared_ptr<const CountedWaves> waves = std::make_shared<CountedWaves>(hw::linear_field(hw::Sea::regular(
+      hydro::WaveAmplitude::from_metres(0.2), hydro::AngularFrequency::from_period_s(2), hydro::Angle::from_degrees(20),
+      {.density = 1000, .depth = hydro::WaterDepth::from_metres(30)})));
+  Line line;
+  State state;
+
+  ChainInWaves() : line(description()) {
+    state.position = state.velocity = Places::Zero(3, 5);
+    state.position.row(2) = Eigen::RowVectorXd::LinSpaced(5, -0.5, -4.5);
+    state.tension = Eigen::VectorXd::Zero(4);
+  }
+  Description description() const {
+    Description d = wet_line(Wet::all, 0);
+    for (Node& n : d.nodes) n = {};
+    d.held = {{.node = 0}};
+    d.water.field = waves;
+    d.water.buoyancy = false;
+    return d;
+  }
+  void run(Stepper& stepper, double h, int steps) {
+    for (int i = 0; i < steps; ++i) stepper.step(state, h);
+  }
+};
+
+TEST(LineFlow, IsTakenOnceAStep) {
+  for (const Scheme scheme : {Scheme::energy_momentum, Scheme::generalised_alpha}) {
+    ChainInWaves chain;
+    Stepper stepper(chain.line, {.scheme = scheme});
+    stepper.start(chain.state);
+    chain.waves->asked = 0;
+    chain.run(stepper, 0.01, 50);
+    EXPECT_EQ(chain.waves->asked, 50u * 5u) << name_of(scheme);
+  }
+}
+
+// Errors of second order fall by 4, here to 4.001; a flow taken where the step begins leaves less than 2.
+TEST(LineFlow, LeavesStepsTheirOrder) {
+  const auto after = [](double h) {
+    ChainInWaves chain;
+    Stepper stepper(chain.line, {.scheme = Scheme::energy_momentum});
+    stepper.start(chain.state);
+    chain.run(stepper, h, static_cast<int>(std::lround(0.8 / h)));
+    return chain.state.position;
+  };
+  const Places coarse = after(0.02), middle = after(0.01), fine = after(0.005);
+  EXPECT_NEAR((coarse - middle).norm() / (middle - fine).norm(), 4, 0.05);
 }
 
 TEST(LineLoads, DerivativesAreThoseOfTheLoads) {

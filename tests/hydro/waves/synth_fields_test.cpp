@@ -207,6 +207,30 @@ TEST(TabulatedField, ManyPointsAreThoseOneByOneBitForBit) {
   }
 }
 
+// Each thread keeps what it has of one instant of one field: another field, or another instant, is not mistaken for it.
+TEST(FastFields, AskedInTurnAnswerEachForItself) {
+  const HarmonicField one = linear_field(sea_of(deep, false)), other = linear_field(sea_of(shallow, false));
+  const TabulatedField table(one, box, {.tolerance = 1e-6}), other_table(other, box, {.tolerance = 1e-6});
+  const SummedField sum(one), other_sum(other);
+  const Eigen::Vector3d p(1, 0.5, -3), q(-2, 0, -1);
+  const auto velocity = [](const WaveField& field, double t, const Eigen::Vector3d& at) -> Eigen::Vector3d {
+    return field.at(t, at).velocity;
+  };
+  for (const WaveField* field : {static_cast<const WaveField*>(&table), static_cast<const WaveField*>(&sum)}) {
+    const WaveField& second = field == &table ? static_cast<const WaveField&>(other_table) : other_sum;
+    // Each first after an instant of its own, so that nothing of the other's can be left.
+    velocity(*field, 401, q);
+    const Eigen::Vector3d of_first = velocity(*field, 402, p);
+    velocity(second, 401, q);
+    const Eigen::Vector3d of_second = velocity(second, 402, p);
+    EXPECT_NE(of_first, of_second);
+    EXPECT_EQ(velocity(*field, 402, p), of_first);
+    EXPECT_EQ(velocity(second, 402, p), of_second);
+    velocity(second, 402, q);
+    EXPECT_EQ(velocity(second, 402, p), of_second);
+  }
+}
+
 TEST(TabulatedField, DerivativesBelongToItsValues) {
   // Central differences of the potential flow: the order of the difference, 1e-4², times third derivatives below one.
   const TabulatedField table(linear_field(sea_of(shallow, true)), box, {.tolerance = 1e-9});

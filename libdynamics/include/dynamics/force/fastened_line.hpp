@@ -34,7 +34,8 @@ class FastenedLineMemory final : public Memory {
   void start(const State& state, const line::Places& accelerations);
   /// Accelerations (3, all ends) of the points that hold them, where bodies have `acceleration`, (6N).
   line::Places accelerations_of_ends(const State& state, const Eigen::VectorXd& acceleration) const;
-  /// Of line i if bodies are there; they stand until the next are asked of it.
+  /// Of line i if bodies are there, alone and with their derivatives; they stand until the next are asked of it.
+  const line::Places& force(std::size_t i, const State& state);
   const line::DrivenLine::Pulls& pulls(std::size_t i, const State& state);
   line::DrivenLine& line(std::size_t i) { return *lines_[i]; }
   const line::DrivenLine& line(std::size_t i) const { return *lines_[i]; }

@@ -2,6 +2,7 @@
 /// \file  Everything that holds bodies at one time: joints, frictions that stick, contacts that are closed.
 #include <Eigen/Core>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,8 @@ namespace dynamics {
 class ActiveSet {
  public:
   explicit ActiveSet(const Model& model);
+  /// The same constraints, with factors of its own.
+  ActiveSet(const ActiveSet& other);
 
   const FrictionLaw* friction() const { return friction_; }
   const ContactLaw* contact() const { return contact_; }
@@ -63,6 +66,8 @@ class ActiveSet {
   void close(std::size_t element, Workspace& workspace);
   bool moves(const Constraint& constraint, const State& state) const;
   void find_constraint_scale(const State& state);
+  bool add_correction(Workspace& workspace, Eigen::VectorXd& acceleration, Eigen::VectorXd& multipliers) const;
+  bool balanced_by_kept(Workspace& workspace, Eigen::VectorXd& acceleration, Eigen::VectorXd& multipliers) const;
 
   struct Slide {
     Eigen::Index row;  ///< of the normal
@@ -77,6 +82,9 @@ class ActiveSet {
   JointSet constraints_;
   std::vector<Slide> slides_;
   Eigen::VectorXd scale_, constraint_scale_, compliance_;
+  // Factors of masses and constraints, apart from those of the workspace, which are of steps. Its `of_step` is 1 while
+  // there are any.
+  std::unique_ptr<KktSolver> balancer_;
   double rounding_ = 0;
 };
 

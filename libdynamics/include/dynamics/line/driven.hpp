@@ -34,10 +34,12 @@ class DrivenLine {
   /// Begins at `state` with the velocities of the ends given, and accelerations (3, k).
   void start(const State& state, const std::vector<End>& ends, const Places& accelerations);
 
-  /// Pulls if the ends are there at time t, the step being from the last accept() to t; without a step, those at the
-  /// instant, with accelerations as at start() or as the last step left them, and without derivatives. The same
-  /// arguments give the same pulls, however often and in whatever order they are asked. Not a number where no such step
-  /// can be made: a guess that draws the line beyond its strength of numbers.
+  /// Forces if the ends are there at time t, the step being from the last accept() to t; without a step, those at the
+  /// instant, with accelerations as at start() or as the last step left them. The same arguments give the same forces,
+  /// however often and in whatever order they are asked. Not a number where no such step can be made: a guess that
+  /// draws the line beyond its strength of numbers.
+  const Places& force(double t_s, const std::vector<End>& ends);
+  /// The same with their derivatives, which an instant does not have: they are zero. They cost as much again.
   const Pulls& pulls(double t_s, const std::vector<End>& ends);
 
   /// The ends are there. \throws hydro::NumericsError if the line cannot follow

@@ -80,12 +80,15 @@ class Stepper {
   };
   Flow flow() const;
 
-  /// Notes where it is, and goes back there: for steps that are tried.
-  void keep();
-  void go_back();
+  /// A step that is only tried, from where keep() was last: energies() and flow() wait for keep(). \throws as step()
+  StepReport try_step(State& state, double h);
+  /// `state`, where the last step led that was tried, or that it started from, is where the next ones begin.
+  void keep(State& state);
 
-  /// What the nodes `prescribed` needed at the end of the last step, while the rest of the line moves with the step;
-  /// their accelerations follow their velocities by `a_by_v`. Of generalised-α alone. (D90) It stands until the next.
+  /// The force that each held node needed at the end of the last step, (3, nodes). Of generalised-α alone.
+  const Places& needed() const;
+  /// The same of the nodes `prescribed`, and how it follows them, while the rest of the line moves with the step; their
+  /// accelerations follow their velocities by `a_by_v`. (D90) It stands until the next.
   const Response& response(const std::vector<int>& prescribed, double a_by_v);
 
   /// What balances a state, whatever the step did (D77); nothing if masses leave it open.

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "field_number.hpp"
 #include "synth_flow.hpp"
 #include "synth_phase.hpp"
 #include "synth_simd.hpp"
@@ -130,6 +131,7 @@ struct SummedField::Content {
   Surroundings around;
   std::size_t count;          // harmonics, padded to whole packs
   std::vector<double> table;  // (rows, count)
+  std::uint64_t number;       // of all that there were in this program
 };
 
 namespace {
@@ -163,18 +165,31 @@ std::vector<double> table_of(const HarmonicField& field, std::size_t count) {
   return table;
 }
 
-/// Scratch of one call: turns at this instant, cosines and sines at one place. Its room is kept from call to call, one
-/// for each thread, so that the steps of a run ask for none.
-struct Scratch {
-  explicit Scratch(std::size_t count) : turns(room(3 * count)), cosine(turns + count), sine(cosine + count) {}
-  double *turns, *cosine, *sine;
+/// Turns at one instant, cosines and sines at one place. Each thread keeps one, so that the steps of a run ask for no
+/// memory, and turns only when another instant is asked for.
+class Scratch {
+ public:
+  static Scratch& of_thread() {
+    thread_local Scratch scratch;
+    return scratch;
+  }
+  void turn(std::uint64_t field, const double* table, std::size_t count, double t) {
+    if (field == field_ && t == t_) return;
+    if (values_.size() < 3 * count) values_.resize(3 * count);
+    count_ = count;
+    turn_in_time(table, count, t, values_.data());
+    field_ = field;
+    t_ = t;
+  }
+  const double* turns() const { return values_.data(); }
+  double* cosine() { return values_.data() + count_; }
+  double* sine() { return cosine() + count_; }
 
  private:
-  static double* room(std::size_t size) {
-    thread_local std::vector<double> values;
-    if (values.size() < size) values.resize(size);
-    return values.data();
-  }
+  std::vector<double> values_;
+  std::size_t count_ = 0;
+  std::uint64_t field_ = 0;  // whose turns they are; 0: none
+  double t_ = 0;
 };
 
 }  // namespace
@@ -182,7 +197,7 @@ struct Scratch {
 SummedField::SummedField(const HarmonicField& field) {
   const std::size_t count = simd::padded(field.harmonics().size());
   content_ = std::make_unique<const Content>(
-      Content{{field.water(), field.options(), field.current()}, count, table_of(field, count)});
+      Content{{field.water(), field.options(), field.current()}, count, table_of(field, count), next_field_number()});
 }
 SummedField::~SummedField() = default;
 SummedField::SummedField(SummedField&&) noexcept = default;
@@ -200,10 +215,10 @@ double SummedField::elevation(double t, double x, double y) const {
 void SummedField::elevations(double t, std::span<const Eigen::Vector2d> at, std::span<double> out) const {
   require(at.size() == out.size(), "{} places need as many for the answer, got {}", at.size(), out.size());
   const Content& c = *content_;
-  const Scratch s(c.count);
-  turn_in_time(c.table.data(), c.count, t, s.turns);
+  Scratch& s = Scratch::of_thread();
+  s.turn(c.number, c.table.data(), c.count, t);
   for (std::size_t i = 0; i < at.size(); ++i)
-    out[i] = turn_in_place(c.table.data(), c.count, s.turns, at[i].x(), at[i].y(), nullptr, nullptr);
+    out[i] = turn_in_place(c.table.data(), c.count, s.turns(), at[i].x(), at[i].y(), nullptr, nullptr);
 }
 
 Kinematics SummedField::at(double t, const Eigen::Vector3d& point) const {
@@ -217,14 +232,14 @@ void SummedField::at(double t, std::span<const Eigen::Vector3d> points, std::spa
           out.size());
   const Content& c = *content_;
   const double h = c.around.water.depth.metres();
-  const Scratch s(c.count);
-  turn_in_time(c.table.data(), c.count, t, s.turns);
+  Scratch& s = Scratch::of_thread();
+  s.turn(c.number, c.table.data(), c.count, t);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3d& p = points[i];
-    const double zeta = turn_in_place(c.table.data(), c.count, s.turns, p.x(), p.y(), s.cosine, s.sine);
+    const double zeta = turn_in_place(c.table.data(), c.count, s.turns(), p.x(), p.y(), s.cosine(), s.sine());
     const StretchedHeight height = c.around.stretched(p.z(), zeta);
     Flow flow;
-    sum_flow(c.table.data(), c.count, s.cosine, s.sine, height.z, height.tangent, h, flow);
+    sum_flow(c.table.data(), c.count, s.cosine(), s.sine(), height.z, height.tangent, h, flow);
     out[i] = c.around.kinematics(flow, p.z(), zeta);
   }
 }

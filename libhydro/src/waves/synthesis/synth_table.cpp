@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "field_number.hpp"
 #include "hydro/waves/synthesis/synthesis.hpp"
 #include "synth_axis.hpp"
 #include "synth_band.hpp"
@@ -48,6 +49,7 @@ double along_b(const Harmonic& w, const BinBand& band) {
 
 struct TabulatedField::Content {
   struct Scratch;
+  class Now;
   Surroundings around;
   FieldBox box;
   BinBand band;
@@ -58,6 +60,7 @@ struct TabulatedField::Content {
   std::vector<double> elevation, potential;
   double relative_error = 0;
   FieldError bound{};
+  std::uint64_t number = next_field_number();
 
   table::Strides elevation_strides() const { return {axes.a.count * row, row, 1}; }
   table::Strides potential_strides() const {
@@ -76,6 +79,7 @@ struct TabulatedField::Content {
   void weigh_height(const StretchedHeight& height, std::span<double> value, std::span<double> slope,
                     std::span<double> bend) const;
   Flow flow(const table::AtHeight& parts) const;
+  Kinematics at(const Eigen::Vector3d& point, Now& now, Scratch& scratch) const;
 };
 
 namespace {
@@ -338,20 +342,80 @@ void TabulatedField::Content::require_flow(double z) const {
         "build the table for all heights that the structure can reach");
 }
 
-/// What one call needs besides the table: polynomials at a height, contracted parts, and the table at one instant.
+/// The potential at all stations at one instant, and its rate: interpolated in time where a station is asked for. Each
+/// thread keeps one, since members and iterations ask for the same instant again and again.
+class TabulatedField::Content::Now {
+ public:
+  static Now& of_thread() {
+    thread_local Now now;
+    return now;
+  }
+  void turn_to(const Content& table, double t) {
+    if (table.number == number_ && t == t_) return;
+    const std::size_t stations = table.axes.a.count * table.axes.b.count, size = stations * table.vertical->padded();
+    number_ = 0;  // until all is there
+    if (potential_.size() < size) {
+      potential_.resize(size);
+      rate_.resize(size);
+    }
+    known_.assign(stations, false);
+    time_ = table.axes.time.point(t, 2);
+    t_ = t;
+    number_ = table.number;
+  }
+  /// Stations from `first` on, `count` of them.
+  void find(const Content& table, std::size_t first, std::size_t count) {
+    const std::size_t levels = table.vertical->padded(), end = first + count;
+    const table::Strides stride = table.potential_strides();
+    const double* now = table.potential.data() + static_cast<std::size_t>(time_.first) * stride.time;
+    for (std::size_t from = first; from < end;) {
+      std::size_t to = from;
+      while (to < end && !known_[to]) known_[to++] = true;
+      if (to > from)
+        table::contract_time(now + from * levels, stride.time, time_.view(), (to - from) * levels,
+                             potential_.data() + from * levels, rate_.data() + from * levels);
+      from = to + 1;
+    }
+  }
+  const AxisPoint& time() const { return time_; }
+  const double* potential() const { return potential_.data(); }
+  const double* rate() const { return rate_.data(); }
+
+ private:
+  std::uint64_t number_ = 0;  // of the table; 0: none
+  double t_ = 0;
+  AxisPoint time_;
+  std::vector<bool> known_;
+  std::vector<double> potential_, rate_;
+};
+
+/// What one point needs besides: polynomials at its height, and contracted parts.
 struct TabulatedField::Content::Scratch {
-  Scratch(std::size_t levels, std::size_t instant)
-      : values(std::make_unique_for_overwrite<double[]>(levels * (3 + table::parts) + 2 * instant)),
+  explicit Scratch(std::size_t levels)
+      : values(std::make_unique_for_overwrite<double[]>(levels * (3 + table::parts))),
         value(values.get(), levels),
         slope(value.data() + levels, levels),
         bend(slope.data() + levels, levels),
-        parts(bend.data() + levels),
-        potential(parts + levels * table::parts),
-        rate(potential + instant) {}
+        parts(bend.data() + levels) {}
   std::unique_ptr<double[]> values;
   std::span<double> value, slope, bend;
-  double *parts, *potential, *rate;
+  double* parts;
 };
+
+Kinematics TabulatedField::Content::at(const Eigen::Vector3d& p, Now& now, Scratch& scratch) const {
+  const AxisPoint a = axes.a.point(p.x(), 3), b = axes.b.point(along_b_of(p.x(), p.y()), 3);
+  const double zeta = elevation_at(now.time(), a, b);
+  weigh_height(around.stretched(p.z(), zeta), scratch.value, scratch.slope, scratch.bend);
+  const table::Strides stride = potential_strides();
+  const std::size_t levels = vertical->padded(), b_first = static_cast<std::size_t>(b.first);
+  for (std::size_t k = 0; k < a.count; ++k)
+    now.find(*this, (static_cast<std::size_t>(a.first) + k) * axes.b.count + b_first, b.count);
+  const std::size_t first = static_cast<std::size_t>(a.first) * stride.a + b_first * stride.b;
+  table::contract_place(now.potential() + first, now.rate() + first, stride, a.view(), b.view(), levels, scratch.parts);
+  table::AtHeight parts;
+  table::at_height(scratch.parts, scratch.value.data(), scratch.slope.data(), levels, parts);
+  return around.kinematics(flow(parts), p.z(), zeta);
+}
 
 void TabulatedField::at(double t, std::span<const Eigen::Vector3d> points, std::span<Kinematics> out) const {
   require(points.size() == out.size(), "{} points need as many places for the answer, got {}", points.size(),
@@ -360,35 +424,13 @@ void TabulatedField::at(double t, std::span<const Eigen::Vector3d> points, std::
   const Content& c = *content_;
   c.require_flow(points[0].z());
   c.require_inside(t, points[0].x(), points[0].y());
-  const AxisPoint time = c.axes.time.point(t, 2);
-  const table::Strides stride = c.potential_strides();
-  const std::size_t levels = c.vertical->padded(), stations = c.axes.a.count * c.axes.b.count;
-  const std::size_t a_used = c.axes.a.count > 1 ? c.window.width() : 1, b_used = c.window.width();
-  const double* now = c.potential.data() + static_cast<std::size_t>(time.first) * stride.time;
-  // Interpolating in time for all stations at once pays when the points use each more than once.
-  const bool shared = points.size() * a_used * b_used > stations;
-  const table::Strides contracted = shared ? stride : table::Strides{0, b_used * levels, levels};
-  Content::Scratch scratch(levels, (shared ? stations : a_used * b_used) * levels);
-  if (shared) table::contract_time(now, stride.time, time.view(), stations * levels, scratch.potential, scratch.rate);
+  Content::Now& now = Content::Now::of_thread();
+  now.turn_to(c, t);
+  Content::Scratch scratch(c.vertical->padded());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double x = points[i].x(), y = points[i].y(), z = points[i].z();
-    c.require_inside(t, x, y);
-    c.require_flow(z);
-    const AxisPoint a = c.axes.a.point(x, 3), b = c.axes.b.point(c.along_b_of(x, y), 3);
-    const double zeta = c.elevation_at(time, a, b);
-    c.weigh_height(c.around.stretched(z, zeta), scratch.value, scratch.slope, scratch.bend);
-    const std::size_t first =
-        static_cast<std::size_t>(a.first) * stride.a + static_cast<std::size_t>(b.first) * stride.b;
-    if (!shared)
-      for (std::size_t k = 0; k < a_used; ++k)
-        table::contract_time(now + first + k * stride.a, stride.time, time.view(), b_used * levels,
-                             scratch.potential + k * contracted.a, scratch.rate + k * contracted.a);
-    const std::size_t skipped = shared ? first : 0;
-    table::contract_place(scratch.potential + skipped, scratch.rate + skipped, contracted, a.view(), b.view(), levels,
-                          scratch.parts);
-    table::AtHeight parts;
-    table::at_height(scratch.parts, scratch.value.data(), scratch.slope.data(), levels, parts);
-    out[i] = c.around.kinematics(c.flow(parts), z, zeta);
+    c.require_inside(t, points[i].x(), points[i].y());
+    c.require_flow(points[i].z());
+    out[i] = c.at(points[i], now, scratch);
   }
 }
 
