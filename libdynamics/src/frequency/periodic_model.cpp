@@ -23,8 +23,9 @@ void require_smooth(const Model& model, const Workspace& workspace) {
           "leave it out, or step the scene with `froude run`");
     if (workspace.memory[k])
       throw hydro::InputError(
-          fmt::format("periodic motions take loads that are functions of motion: {} remembers", kind.effect()), {},
-          "leave it out, or step the scene with `froude run`");
+          fmt::format("periodic motions take loads that are functions of motion: {} has a memory of its own",
+                      kind.effect()),
+          {}, "leave it out, or step the scene with `froude run`");
   }
   if (model.joints().are_prescribed())
     throw hydro::InputError("periodic motions have no place for prescribed motions of joints", {},

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hydro/base/error.hpp"
-#include "../median_step.hpp"
+#include "median_step.hpp"
 
 namespace fit::camera {
 namespace {
