@@ -279,6 +279,25 @@ std::vector<double> logarithmic_ticks(double low, double high, int wanted) {
 
 }  // namespace
 
+Series contour(std::string name, const std::vector<double>& x, const std::vector<double>& y,
+               const std::vector<double>& values, double level) {
+  Series out{.name = std::move(name), .x = {}, .y = {}};
+  const auto put = [&](double at_x, double at_y) { out.x.push_back(at_x), out.y.push_back(at_y); };
+  constexpr std::array<std::size_t, 5> right{0, 1, 1, 0, 0}, up{0, 0, 1, 1, 0};  // corners, round the cell
+  for (std::size_t j = 0; j + 1 < y.size(); ++j)
+    for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+      const auto over = [&](std::size_t c) { return values[(j + up[c]) * x.size() + i + right[c]] - level; };
+      std::size_t crossed = 0;
+      for (std::size_t c = 0; c < 4; ++c) {
+        const double a = over(c), b = over(c + 1), share = a / (a - b);
+        if (!std::isfinite(over(0) + over(1) + over(2) + over(3)) || (a > 0) == (b > 0)) continue;
+        put(std::lerp(x[i + right[c]], x[i + right[c + 1]], share), std::lerp(y[j + up[c]], y[j + up[c + 1]], share));
+        if (++crossed % 2 == 0) put(std::nan(""), std::nan(""));  // pieces do not hang together
+      }
+    }
+  return out;
+}
+
 std::vector<double> ticks(double low, double high, Scale scale, int wanted) {
   if (!(high > low)) return {low};
   return scale == Scale::linear ? linear_ticks(low, high, wanted) : logarithmic_ticks(low, high, wanted);

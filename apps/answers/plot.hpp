@@ -49,6 +49,11 @@ struct Figure {
 /// \throws std::logic_error in audit builds if the lengths of a series disagree
 std::string svg(const Figure& figure);
 
+/// Where a quantity on a grid has a value, as straight pieces through its cells: values row by row of y, linear along
+/// the sides of a cell. Cells with a corner that is not finite have none.
+Series contour(std::string name, const std::vector<double>& x, const std::vector<double>& y,
+               const std::vector<double>& values, double level);
+
 /// Round values that cover [low, high] from inside, about `wanted` of them; steps are 1, 2 or 5 times a power of ten.
 /// On a logarithmic scale: powers of ten, with 2 and 5 between them where there are fewer than three.
 std::vector<double> ticks(double low, double high, Scale scale, int wanted = 6);

@@ -160,6 +160,7 @@ struct SceneArguments {
 };
 void rao(const SceneArguments& arguments, const Console& console);
 void modes(const SceneArguments& arguments, const Console& console);
+void stability(const SceneArguments& arguments, const Console& console);
 void run(const SceneArguments& arguments, const Console& console);
 void plan(const SceneArguments& arguments, const Console& console);
 

@@ -560,6 +560,9 @@ void describe(CLI::App& app, Request& request) {
                     true);
   add_scene_command(app, request, "modes", "free motions of a scene about rest: periods, damping, shapes", &modes,
                     true);
+  add_scene_command(app, request, "stability",
+                    "whether periodic motions in regular waves last, a map over their period and height", &stability,
+                    true);
   add_scene_command(app, request, "run", "time series of a scene", &run, true);
   add_waves(app, request);
   add_hydrostatics(app, request);

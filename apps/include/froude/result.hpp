@@ -8,12 +8,14 @@
 #include <complex>
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "dynamics/frequency/harmonic_balance.hpp"
 #include "dynamics/time/growth.hpp"
 
 namespace froude {
@@ -175,6 +177,39 @@ struct Modes {
   std::optional<double> damping_ratio(std::size_t mode) const;  ///< empty where it creeps
   std::span<const double> shape_of(std::size_t mode) const;
   /// As write_modes(). \throws hydro::InputError if the file cannot be written
+  void write(const std::filesystem::path& path) const;
+};
+
+/// Whether the periodic motions of a scene in regular waves last, over periods and heights of the waves.
+struct StabilityMap {
+  /// A periodic motion that grows out of rest as waves do, with the period of the waves.
+  struct Cell {
+    std::optional<dynamics::frequency::Fate> fate = {};            ///< empty: no motion was found
+    double multiplier = std::numeric_limits<double>::quiet_NaN();  ///< the largest |Floquet multiplier| of a period
+    int harmonics = 0;
+    bool beyond_fold = false;  ///< motions turn back below this height and go on from another
+  };
+  /// A cell stepped in time, from rest.
+  struct Check {
+    std::size_t cell;
+    double apart;  ///< rms of what the run is off the periodic motion, over both, in the worst signal
+    bool decided;  ///< a disturbance of a thousandth would have grown, or died, within the run
+    bool left;     ///< the run is elsewhere
+    bool agrees(const Cell& of) const { return left == (of.fate != dynamics::frequency::Fate::stable); }
+  };
+  std::vector<double> period, height;  ///< s, m
+  std::vector<Cell> cells;             ///< height by height: height h, period p at h Np + p
+  std::vector<double> mathieu;         ///< m, of each period: from where one motion grows by (Q14); NaN: none does
+  std::vector<std::string> motion;     ///< which
+  std::vector<Signal> signals;         ///< standard deviations of the periodic motions, cell by cell; NaN: none found
+  std::vector<Check> checks;
+  double balance_s = 0, checks_s = 0;  ///< wall time of all cells, and of those stepped
+  std::vector<std::string> notes;      ///< what had to be decided, and what is left out
+  Provenance provenance = {};          ///< without the notes
+
+  /// "6 of 6 cells stepped in time agree, 2 more could not be decided"
+  std::string agreement() const;
+  /// Dimensions `height`, `period`. \throws hydro::InputError if the file cannot be written
   void write(const std::filesystem::path& path) const;
 };
 

@@ -124,12 +124,12 @@ struct Sampled {
 };
 
 /// (Q10) and its derivative by the coefficients, column after column of Y.
-struct Equations {
+struct BalanceEquations {
   VectorXd residual;
   MatrixXd jacobian;
 };
 
-Equations equations(PeriodicSystem& system, const MatrixXd& Y, const Samples& samples) {
+BalanceEquations equations(PeriodicSystem& system, const MatrixXd& Y, const Samples& samples) {
   const Sampled sampled(system, Y, samples);
   const Index n = Y.rows(), all = n * samples.columns(), m = sampled.remembered;
   MatrixXd load_by_Y;
@@ -154,7 +154,7 @@ Equations equations(PeriodicSystem& system, const MatrixXd& Y, const Samples& sa
 }
 
 /// The same, empty where the system has none, as bodies whose joints cannot be closed.
-std::optional<Equations> tried(PeriodicSystem& system, const MatrixXd& Y, const Samples& samples) {
+std::optional<BalanceEquations> tried(PeriodicSystem& system, const MatrixXd& Y, const Samples& samples) {
   try {
     return equations(system, Y, samples);
   } catch (const hydro::NumericsError&) {
@@ -165,7 +165,7 @@ std::optional<Equations> tried(PeriodicSystem& system, const MatrixXd& Y, const 
 /// One solution at a number of harmonics: damped Newton. Empty: none, and `why`.
 std::optional<MatrixXd> solve(PeriodicSystem& system, MatrixXd Y, const Samples& samples, const BalanceOptions& options,
                               Balance& report) {
-  std::optional<Equations> e = tried(system, Y, samples);
+  std::optional<BalanceEquations> e = tried(system, Y, samples);
   for (int i = 0; e && i < options.iterations; ++i) {
     ++report.iterations;
     const VectorXd step = hydro::dense::Lu(e->jacobian).solve(-e->residual);
@@ -289,12 +289,12 @@ class Branch {
     VectorXd right;
   };
   std::unique_ptr<PeriodicSystem> system(double parameter) const { return family_(parameter); }
-  Equations at(const Place& p) const {
+  BalanceEquations at(const Place& p) const {
     const auto s = system(p.parameter);
     return equations(*s, p.Y, Samples(p.Y.cols() / 2, s->omega()));
   }
   Bordered bordered(const Place& p, const VectorXd& last_row) const {
-    const Equations here = at(p);
+    const BalanceEquations here = at(p);
     // Inwards, so that a family need not reach beyond its range.
     const double h = (std::abs(p.parameter - from_) < std::abs(p.parameter - to_) ? 1e-6 : -1e-6) * (to_ - from_);
     const VectorXd by_parameter = (at({p.Y, p.parameter + h}).residual - here.residual) / h;
