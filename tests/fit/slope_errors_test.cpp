@@ -228,7 +228,8 @@ TEST(SlopeErrors, OfASignalGoToTheParametersOfASimulation) {
       .simulation = std::make_shared<Fall>(),
       .parameters = {{{.name = "begins.at", .first = 1.5}, "m"}, {{.name = "rate", .first = 0.5}, "1/s"}},
       .signals = {{"x", "m", 0.02}, {"y", "m", 0.02}},
-      .measured = {truth}};
+      .measured = {truth},
+      .options = {}};
   for (Eigen::Index c = 0; c < 2; ++c) {
     const auto noise = froude_test::ar1_noise(500, 0, 0.02, static_cast<std::uint64_t>(40 + c));
     for (Eigen::Index i = 0; i < 500; ++i) plain.measured[0](i, c) += noise[static_cast<std::size_t>(i)];

@@ -80,7 +80,7 @@ TEST_P(Agreement, OfTimeAndFrequencyDomainInEveryDegreeOfFreedom) {
   const compile::Prepared prepared = compile::prepare(scene);
   const dynamics::Model model = compile::frequency_model(prepared);
   const Cells cells{{omegas[0]}, {scene.waves->heading.radians()}};
-  const auto found = dynamics::frequency::response_amplitudes(model, prepared.groups, cells.omega, cells.headings);
+  const auto found = dynamics::frequency::response_amplitudes(model, prepared.groups, cells.omega, cells.headings, {});
   const froude::Run run = simulate(scene);
   ASSERT_EQ(run.stopped, "");
   std::vector<double> time, values;
@@ -120,7 +120,7 @@ TEST(HingeAgreement, OfTimeAndFrequencyDomainInHinges) {
   const compile::Prepared prepared = compile::prepare(scene);
   const dynamics::Model model = compile::frequency_model(prepared);
   const Cells cells{omegas, {scene.waves->heading.radians()}};
-  const auto found = dynamics::frequency::response_amplitudes(model, prepared.groups, cells.omega, cells.headings);
+  const auto found = dynamics::frequency::response_amplitudes(model, prepared.groups, cells.omega, cells.headings, {});
   const froude::Run run = simulate(scene);
   ASSERT_EQ(run.stopped, "");
   const auto begin = static_cast<std::ptrdiff_t>(std::lround(300 / 0.1));
