@@ -140,10 +140,10 @@ TEST(HarmonicBalance, FollowsDuffingRoundItsFolds) {
   EXPECT_NEAR(branch.back().parameter, 1.5 * crest, 1e-12);
 }
 
-// Without damping and force a Duffing oscillator of amplitude A swings at ω = π √(1 + βA²)/(2 K(k)), k² = βA²/(2 (1 + βA²)),
-// K the complete elliptic integral. A damper of 1e-5 picks that motion up, and a force that is more than it takes by βA²/32,
-// the third harmonic's share: so the motion is there, ahead by √(β/16) = 0.056 rad, for a detuning of 2c · 0.056, over
-// dω/dA = ¾βA.
+// Without damping and force a Duffing oscillator of amplitude A swings at ω = π √(1 + βA²)/(2 K(k)), k² = βA²/(2 (1 +
+// βA²)), K the complete elliptic integral. A damper of 1e-5 picks that motion up, and a force that is more than it
+// takes by βA²/32, the third harmonic's share: so the motion is there, ahead by √(β/16) = 0.056 rad, for a detuning of
+// 2c · 0.056, over dω/dA = ¾βA.
 TEST(HarmonicBalance, HasTheBackboneOfDuffing) {
   constexpr double beta = 0.05, A = 1, c = 1e-5, stiffer = 1 + beta * A * A;
   const double w = pi * std::sqrt(stiffer) / (2 * std::comp_ellint_1(std::sqrt(beta * A * A / (2 * stiffer))));

@@ -34,8 +34,8 @@ struct Parameter {
 
 struct Signal {
   std::string name, unit;
-  double deviation;   ///< of the noise, in that unit
-  double period = 0;  ///< as SimulationProblem's
+  double deviation;       ///< of the noise, in that unit
+  double period = 0;      ///< as SimulationProblem's
   SlopeError slope = {};  ///< of the line of its channel
 };
 
