@@ -8,10 +8,10 @@
 #include <numeric>
 
 #include "fit/correlated.hpp"
+#include "fit/median_step.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
 #include "hydro/signal/fft.hpp"
-#include "median_step.hpp"
 
 namespace fit {
 namespace {

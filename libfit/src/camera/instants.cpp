@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "fit/median_step.hpp"
 #include "hydro/base/error.hpp"
-#include "median_step.hpp"
 
 namespace fit::camera {
 namespace {
