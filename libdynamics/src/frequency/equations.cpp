@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "algebra/complex_lu.hpp"
 #include "algebra/complex_sparse_lu.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/random.hpp"
@@ -110,8 +109,9 @@ MatrixXcd Equations::multipliers(const MatrixXcd& rest) const {
 }
 
 std::optional<Motions> Equations::solve_dense(const MatrixXcd& Z, const MatrixXcd& X) const {
-  const ComplexLu lu(left_->matrix(Z));
-  if (lu.is_singular()) return std::nullopt;
+  constexpr double working_precision = 1e-15;
+  const hydro::dense::ComplexLu lu(left_->matrix(Z));
+  if (!(lu.rcond() > working_precision)) return std::nullopt;
   Motions out{left_->expanded(lu.solve(left_->vector(X))), MatrixXcd(0, X.cols())};
   if (open_) out.lambda = multipliers(X - Z * out.xi);
   return out;

@@ -3,11 +3,13 @@
 #include <cmath>
 #include <cstddef>
 
-#include "algebra/machine.hpp"
+#include "hydro/base/machine.hpp"
 
 // Rows are updated four numbers at a time: the same binary uses what the machine has.
 namespace dynamics::line {
 namespace {
+
+using hydro::Four;
 
 /// Takes factor times `width` numbers off as many others.
 [[gnu::always_inline]] inline void subtract(int width, double factor, const double* from, double* off) {

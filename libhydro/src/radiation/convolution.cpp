@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "hydro/base/error.hpp"
-#include "machine.hpp"
+#include "hydro/base/machine.hpp"
 
 namespace hydro::radiation {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "hydro/base/error.hpp"
-#include "machine.hpp"
+#include "hydro/base/machine.hpp"
 #include "mode_groups.hpp"
 
 namespace hydro::radiation {
