@@ -222,6 +222,18 @@ void add_new(CLI::App& app, Request& request) {
   });
 }
 
+/// The command answers by that function, once everything is read.
+template <class Arguments>
+void calls(CLI::App& command, Request& request, const std::shared_ptr<Arguments>& arguments,
+           void (*function)(const Arguments&, const Console&)) {
+  command.callback([=, &request] {
+    request.call = [=](const Console& console) {
+      function(*arguments, console);
+      return done;
+    };
+  });
+}
+
 /// What commands that answer scenes share.
 void add_scene_outputs(CLI::App& command, const std::string& name, SceneArguments& arguments) {
   command.add_option("-o,--output", arguments.output, "result, HDF5 and netCDF-4; default: SCENE." + name + ".h5 here");
@@ -238,12 +250,7 @@ CLI::App* add_scene_command(CLI::App& app, Request& request, const std::string& 
   auto arguments = std::make_shared<SceneArguments>();
   command->add_option("scene", arguments->scene, "scene file (.toml)")->required();
   if (has_outputs) add_scene_outputs(*command, name, *arguments);
-  command->callback([=, &request] {
-    request.call = [=](const Console& console) {
-      function(*arguments, console);
-      return done;
-    };
-  });
+  calls(*command, request, arguments, function);
   return command;
 }
 
@@ -271,12 +278,7 @@ void add_rao(CLI::App& app, Request& request) {
   command->add_option("--check-steepness", arguments->check_steepness, "height over length of the waves of --check")
       ->check(CLI::Range(1e-6, 0.1))
       ->capture_default_str();
-  command->callback([=, &request] {
-    request.call = [=](const Console& console) {
-      rao(*arguments, console);
-      return done;
-    };
-  });
+  calls(*command, request, arguments, rao);
 }
 
 void add_waves(CLI::App& app, Request& request) {
@@ -391,12 +393,7 @@ void add_psd(CLI::App& app, Request& request) {
                       "signal that drives the others: adds transfer function and coherence");
   command->add_option("-o,--output", arguments->output, "table (.csv) or result (.h5)");
   command->add_option("--picture", arguments->picture, "plot (.svg)");
-  command->callback([=, &request] {
-    request.call = [=](const Console& console) {
-      psd(*arguments, console);
-      return done;
-    };
-  });
+  calls(*command, request, arguments, psd);
 }
 
 void add_poincare(CLI::App& app, Request& request) {
@@ -420,12 +417,7 @@ void add_poincare(CLI::App& app, Request& request) {
   command->add_flag("--wrap", arguments->wrap, "angles between -180 and 180 deg, without their full turns");
   command->add_option("-o,--output", arguments->output, "table (.csv)");
   command->add_option("--picture", arguments->picture, "plot (.svg)");
-  command->callback([=, &request] {
-    request.call = [=](const Console& console) {
-      poincare(*arguments, console);
-      return done;
-    };
-  });
+  calls(*command, request, arguments, poincare);
 }
 
 void add_sn_curve(CLI::App& command, SnArguments& sn) {
@@ -447,12 +439,7 @@ void add_fatigue(CLI::App& app, Request& request) {
   add_sn_curve(*command, arguments->sn);
   command->add_option("-o,--output", arguments->output, "range, mean and count of each cycle (.csv)");
   command->add_option("--picture", arguments->picture, "plot (.svg)");
-  command->callback([=, &request] {
-    request.call = [=](const Console& console) {
-      fatigue(*arguments, console);
-      return done;
-    };
-  });
+  calls(*command, request, arguments, fatigue);
 }
 
 void add_response(CLI::App& app, Request& request) {
@@ -473,12 +460,7 @@ void add_response(CLI::App& app, Request& request) {
                       "seas of a lifetime (.csv): columns hs, tp and share, how often each comes");
   command->add_option("-o,--output", arguments->output, "spectra; of a scatter diagram exceedances (.csv)");
   command->add_option("--picture", arguments->picture, "plot of the same (.svg)");
-  command->callback([=, &request] {
-    request.call = [=](const Console& console) {
-      response(*arguments, console);
-      return done;
-    };
-  });
+  calls(*command, request, arguments, response);
 }
 
 void add_fit(CLI::App& app, Request& request) {
@@ -494,12 +476,7 @@ void add_fit(CLI::App& app, Request& request) {
                                     "fit nothing: compare the records with a run of the scene, kind \"motion\"");
   command->add_option("--at", arguments->at, "values of an earlier fit (.toml), of its -o; left out: the scene's")
       ->needs(predict);
-  command->callback([=, &request] {
-    request.call = [=](const Console& console) {
-      fit(*arguments, console);
-      return done;
-    };
-  });
+  calls(*command, request, arguments, fit);
 }
 
 void add_cost(CLI::App& app, Request& request) {
@@ -516,12 +493,7 @@ void add_cost(CLI::App& app, Request& request) {
       ->capture_default_str();
   command->add_option("-o,--output", arguments->output, "the scene with these settings, beside the scene (.toml)");
   command->add_option("--picture", arguments->picture, "plot (.svg)");
-  command->callback([=, &request] {
-    request.call = [=](const Console& console) {
-      cost(*arguments, console);
-      return done;
-    };
-  });
+  calls(*command, request, arguments, cost);
 }
 
 void add_sweep(CLI::App& app, Request& request) {
@@ -584,12 +556,7 @@ void add_kinematics(CLI::App& app, Request& request) {
     second->excludes(of_smoothing);
   }
   space->excludes(second);
-  command->callback([=, &request] {
-    request.call = [=](const Console& console) {
-      kinematics(*arguments, console);
-      return done;
-    };
-  });
+  calls(*command, request, arguments, kinematics);
 }
 
 constexpr const char* commands_about_films[] = {"track", "calibrate", "film"};
