@@ -15,7 +15,6 @@
 #include "compile/waves.hpp"
 #include "dynamics/frequency/linear_drag.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/base/parallel.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "hydro/waves/synthesis/synthesis.hpp"
 
@@ -28,15 +27,14 @@ using dynamics::frequency::LinearDrag, dynamics::frequency::SmallMotions;
 
 /// Transfer functions of all signals at the components of a sea, one row a signal.
 Eigen::MatrixXcd transfer(const compile::Prepared& prepared, const SmallMotions& about,
-                          const std::vector<compile::Signal>& signals, const hydro::waves::Sea& sea) {
+                          const std::vector<compile::Signal>& signals, const hydro::waves::Sea& sea, int threads) {
   Eigen::MatrixXcd out(static_cast<Eigen::Index>(signals.size()), static_cast<Eigen::Index>(sea.components().size()));
   std::map<double, std::vector<std::size_t>> by_heading;
   for (std::size_t c = 0; c < sea.components().size(); ++c) by_heading[sea.components()[c].heading].push_back(c);
   for (const auto& [heading, components] : by_heading) {
     Cells at{{}, {heading}};
     for (const std::size_t c : components) at.omega.push_back(sea.components()[c].omega);
-    const auto found =
-        response_amplitudes(about, prepared.groups, at.omega, at.headings, {hydro::all_processors(), {}});
+    const auto found = response_amplitudes(about, prepared.groups, at.omega, at.headings, {.threads = threads});
     const auto responses = linear_responses(signals, about, found, at);
     for (std::size_t s = 0; s < responses.size(); ++s)
       for (std::size_t k = 0; k < components.size(); ++k)
@@ -233,7 +231,7 @@ Responses over_wave_slope(Responses responses, const hydro::Water& water) {
   return responses;
 }
 
-Run steady_run(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept) {
+Run steady_run(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept, int threads) {
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
   require_no_beginning(scene);
@@ -248,7 +246,7 @@ Run steady_run(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& 
   const auto signals = compile::chosen_responses(compile::signal_list(scene, prepared, model), scene.run->of,
                                                  scene.run->of_places, record.notes);
   const auto answer = [&](const compile::Prepared& from) {
-    Eigen::MatrixXcd out = transfer(from, about, signals, sea);
+    Eigen::MatrixXcd out = transfer(from, about, signals, sea, threads);
     for (Eigen::Index c = 0; c < out.cols(); ++c)
       out.col(c) *= compile::elevation_at_origin(sea.components()[static_cast<std::size_t>(c)]);
     return out;

@@ -45,6 +45,6 @@ std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene,
 /// A run with start = "steady": motions as if the sea had always been there, which transfer functions × sea give
 /// without a step. Connectors and joints are linear about rest. \throws hydro::InputError where the scene names an
 /// effect that is not linear
-Run steady_run(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept = nullptr);
+Run steady_run(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept = nullptr, int threads = 1);
 
 }  // namespace froude

@@ -249,7 +249,7 @@ Run simulate(const scene::Scene& scene, const std::function<void(double)>& done,
     if (!controls.empty())
       throw hydro::InputError("[ask.run] start = \"steady\" takes no step at which a controller could decide",
                               scene.run->place, "step the run from \"as placed\"");
-    return steady_run(scene, kept);
+    return steady_run(scene, kept, threads);
   }
   const auto begin = Clock::now();
   compile::Prepared prepared = compile::prepare(scene, kept);

@@ -33,6 +33,7 @@ struct Statistic {
 /// Samples of a signal.
 struct Record {
   std::span<const double> time, values;
+  Statistics all = statistics(values);
 };
 double significant(const Record& r) {
   const auto waves = hydro::signal::single_waves(r.time, r.values);
@@ -41,12 +42,12 @@ double significant(const Record& r) {
 }
 const std::vector<Statistic<Record>>& of_records() {
   static const std::vector<Statistic<Record>> all{
-      {"mean", nullptr, [](const Record& r) { return statistics(r.values).mean; }},
-      {"deviation", nullptr, [](const Record& r) { return statistics(r.values).deviation; }},
-      {"minimum", nullptr, [](const Record& r) { return statistics(r.values).lowest; }},
-      {"maximum", nullptr, [](const Record& r) { return statistics(r.values).highest; }},
-      {"extreme", nullptr, [](const Record& r) { return statistics(r.values).extreme(); }},
-      {"range", nullptr, [](const Record& r) { return statistics(r.values).highest - statistics(r.values).lowest; }},
+      {"mean", nullptr, [](const Record& r) { return r.all.mean; }},
+      {"deviation", nullptr, [](const Record& r) { return r.all.deviation; }},
+      {"minimum", nullptr, [](const Record& r) { return r.all.lowest; }},
+      {"maximum", nullptr, [](const Record& r) { return r.all.highest; }},
+      {"extreme", nullptr, [](const Record& r) { return r.all.extreme(); }},
+      {"range", nullptr, [](const Record& r) { return r.all.highest - r.all.lowest; }},
       {"significant", nullptr, significant}};
   return all;
 }
@@ -139,7 +140,7 @@ class Answers {
   const Responses& rao() {
     if (rao_) return *rao_;
     require_asked(scene_.rao.has_value(), "rao", "rao = { periods = \"2 s .. 8 s, 61 values\" }");
-    rao_ = respond(scene_, compile::prepare(scene_, kept_));
+    rao_ = respond(scene_, compile::prepare(scene_, kept_), {.threads = 1});  // cases share the processors
     take(rao_->warnings());
     return *rao_;
   }
