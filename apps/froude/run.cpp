@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include "answers/simulate.hpp"
 #include "froude/progress.hpp"
 #include "froude/scene_result.hpp"
 #include "froude/series.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/base/parallel.hpp"
 #include "hydro/io/atomic_file.hpp"
 
 namespace froude {
@@ -88,7 +88,7 @@ void run(const SceneArguments& arguments, const Console& console) {
   require_asked(scene.run.has_value(), scene, "run", "run = { duration = \"600 s\", every = \"0.05 s\" }");
   const Path file = checked_output(arguments, ".run.h5");
   Progress progress(console.err, "run", console.show_progress);
-  const int threads = std::thread::hardware_concurrency() > 1 ? 2 : 1;
+  const int threads = std::min(2, hydro::all_processors());
   const Run record = simulate(
       scene, [&](double done) { progress.update(done); }, {}, nullptr, threads);
   record.write(file);

@@ -3,13 +3,13 @@
 #include <atomic>
 #include <charconv>
 #include <csignal>
-#include <thread>
 
 #include "froude/commands.hpp"
 #include "froude/outputs.hpp"
 #include "froude/progress.hpp"
 #include "froude/report.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/base/parallel.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "scene/placed.hpp"
 #include "sweep/table.hpp"
@@ -57,7 +57,7 @@ std::pair<std::size_t, std::size_t> part_of(const std::string& text) {
 }
 
 int threads_of(const SweepArguments& arguments) {
-  if (!arguments.threads) return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  if (!arguments.threads) return hydro::all_processors();
   constexpr int most = 1024;
   if (*arguments.threads < 1 || *arguments.threads > most)
     throw hydro::InputError(fmt::format("{} threads cannot work", *arguments.threads), {.file = "--threads"},

@@ -143,7 +143,7 @@ Points latin_hypercube(const Sample& sample, std::size_t axes) {
   return out;
 }
 
-/// Sobol's sequence, all of whose bits are turned over or not as the seed says, which keeps how evenly it lies.
+/// Sobol's sequence, whose bits are all inverted or not, as the seed says, which keeps how evenly it lies.
 Points sobol(const Sample& sample, std::size_t axes) {
   boost::random::sobol sequence(axes);  // begins behind its first point, the origin
   Points out(static_cast<std::size_t>(sample.number), std::vector<double>(axes));

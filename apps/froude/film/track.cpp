@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <thread>
 
 #include "fit/camera/detect.hpp"
 #include "fit/camera/shapes.hpp"
@@ -15,6 +14,7 @@
 #include "froude/outputs.hpp"
 #include "froude/progress.hpp"
 #include "froude/report.hpp"
+#include "hydro/base/parallel.hpp"
 #include "hydro/base/units.hpp"
 #include "scene/placed.hpp"
 
@@ -268,13 +268,8 @@ class Watching {
 
   void look(const std::vector<fc::Picture>& pictures) {
     std::vector<Found> found(pictures.size());
-    const std::size_t threads = std::max(1u, std::thread::hardware_concurrency());
-    std::vector<std::thread> all;
-    for (std::size_t t = 0; t < threads; ++t)
-      all.emplace_back([&, t] {
-        for (std::size_t i = t; i < pictures.size(); i += threads) found[i] = finder_.in(pictures[i]);
-      });
-    for (auto& thread : all) thread.join();
+    hydro::in_parallel(pictures.size(), hydro::all_processors(),
+                       [&](std::size_t i) { found[i] = finder_.in(pictures[i]); });
     for (std::size_t i = 0; i < pictures.size(); ++i) {
       const std::size_t k = out_.frames.size() - pictures.size() + i;
       const fc::Detection& here = found[i].detection;

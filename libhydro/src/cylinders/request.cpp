@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
+
+#include "hydro/base/parallel.hpp"
 
 namespace hydro::cylinders {
 namespace {
@@ -31,8 +32,7 @@ void check_request(const std::vector<double>& omega, const std::vector<double>& 
 }
 
 int thread_count(const Options& options, std::size_t work) {
-  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const int wanted = options.threads > 0 ? options.threads : cores;
+  const int wanted = options.threads > 0 ? options.threads : all_processors();
   return std::min(wanted, static_cast<int>(work));
 }
 
