@@ -24,7 +24,11 @@ Binding<DelayModel> delay_keys() {
           [](const Value& v, DelayModel& out) { out.search.longest = v.number; })
       .optional(text("sign", "of the second channel against the first; left out: whichever is more alike")
                     .one_of({"same", "opposite"}),
-                [](const Value& v, DelayModel& out) { out.search.sign = v.text == "same" ? same : opposite; });
+                [](const Value& v, DelayModel& out) { out.search.sign = v.text == "same" ? same : opposite; })
+      .optional(effect("one_source",
+                       "both channels are known to be of one source, a sea or a motor: that unrelated ones may be as "
+                       "alike by chance is no reason to refuse"),
+                [](const Value&, DelayModel& out) { out.one_source = true; });
 }
 
 class DelayFits final : public FitKindOf<DelayModel, DelayProblem> {

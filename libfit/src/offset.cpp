@@ -145,6 +145,7 @@ struct Pair {
 /// Samples of the sparse record that the dense one covers at a lag: columns of one, the dense one smoothed and its
 /// slope; the sparse values and their own smooth slope; the dense one as finely as the sparse one is sampled.
 struct Compared {
+  std::vector<std::size_t> taken;  ///< of the sparse samples
   Eigen::MatrixXd basis;
   Eigen::VectorXd sparse, sparse_slope, dense;
 };
@@ -163,9 +164,9 @@ Compared compared(const Pair& p, double lag, std::size_t side) {
     if (p.sparse.covers(t, own) && p.dense.covers(t + lag, std::max(side, fine))) taken.push_back(i);
   }
   const auto n = static_cast<Eigen::Index>(taken.size());
-  Compared out{Eigen::MatrixXd(n, 3), Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  Compared out{std::move(taken), Eigen::MatrixXd(n, 3), Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
   for (Eigen::Index k = 0; k < n; ++k) {
-    const std::size_t i = taken[static_cast<std::size_t>(k)];
+    const std::size_t i = out.taken[static_cast<std::size_t>(k)];
     const double t = p.sparse.time(i);
     const Local there = p.dense.at(t + lag, side);
     out.basis.row(k) << 1, there.value, there.slope;
@@ -193,7 +194,7 @@ std::size_t best_side(const Pair& p, double lag) {
 }
 
 /// (V18) The lag by Gauss and Newton from there, with its deviation, which has the noise of both and its memory.
-Offset refined(const Peaks& from, const Pair& p, const OffsetOptions& options) {
+Offset refined(const Peaks& from, const Pair& p, std::size_t side, const OffsetOptions& options) {
   Offset out{.lag = from.lag,
              .deviation = 0,
              .half_width = 0,
@@ -202,7 +203,6 @@ Offset refined(const Peaks& from, const Pair& p, const OffsetOptions& options) {
              .level = 0,
              .scale = 0,
              .chance = 0};
-  const std::size_t side = best_side(p, out.lag);
   double longest = p.sparse_step / 2, before = 0;
   const auto none = [&](const std::string& why) {
     return InputError(fmt::format("{} and {} tell no offset: {}", options.first, options.second, why));
@@ -237,47 +237,15 @@ Offset refined(const Peaks& from, const Pair& p, const OffsetOptions& options) {
 }
 
 /// Of the sparse one as the first, or the other way round.
-Offset refined(const Peaks& peaks, const Smooth& first, double first_step, const Smooth& second, double second_step,
-               const OffsetOptions& options) {
-  if (first_step >= second_step) return refined(peaks, {first, second, first_step, second_step}, options);
-  Peaks turned = peaks;
-  turned.lag *= -1;
-  Offset found = refined(turned, {second, first, second_step, first_step}, options);
+Offset refined(const Peaks& peaks, const Pair& p, std::size_t side, bool turned, const OffsetOptions& options) {
+  if (!turned) return refined(peaks, p, side, options);
+  Peaks other_way = peaks;
+  other_way.lag *= -1;
+  Offset found = refined(other_way, p, side, options);
   found.lag *= -1;
   found.level /= -found.scale;
   found.scale = 1 / found.scale;
   return found;
-}
-
-/// Squares of a record's Fourier coefficients but the mean, at as many frequencies as `samples` even ones have.
-std::vector<double> periodogram(const Smooth& record, std::size_t samples) {
-  std::vector<double> even(samples);
-  const double first = record.time(0), span = record.time(record.size() - 1) - first;
-  std::size_t j = 0;
-  double mean = 0;
-  for (std::size_t i = 0; i < samples; ++i) {
-    const double t = first + span * static_cast<double>(i) / static_cast<double>(samples);
-    while (j + 2 < record.size() && record.time(j + 1) <= t) ++j;
-    const double s = (t - record.time(j)) / (record.time(j + 1) - record.time(j));
-    even[i] = (1 - s) * record.value(j) + s * record.value(j + 1);
-    mean += even[i] / static_cast<double>(samples);
-  }
-  for (double& x : even) x -= mean;
-  std::vector<double> out;
-  for (const auto& x : hydro::signal::real_fft(even)) out.push_back(std::norm(x));
-  return out;
-}
-
-/// (F106) That two records of these spectra which have nothing in common correlate so much at one of the lags.
-double chance_of(double correlation, const Smooth& first, const Smooth& second, double lags) {
-  const double span =
-      std::min(first.time(first.size() - 1) - first.time(0), second.time(second.size() - 1) - second.time(0));
-  const std::size_t n = std::min(first.size(), second.size());
-  const std::vector<double> x = periodogram(first, n), y = periodogram(second, n);
-  const double sum_x = std::accumulate(x.begin(), x.end(), 0.0), sum_y = std::accumulate(y.begin(), y.end(), 0.0),
-               both = std::inner_product(x.begin(), x.end(), y.begin(), 0.0), square = correlation * correlation;
-  const double independent = std::max(1.0, (1 + square) * sum_x * sum_y / both), tried = 1 + lags * independent / span;
-  return std::min(1.0, tried * std::pow(1 - std::min(1.0, square), independent - 1));
 }
 
 /// Where the correlation is looked for: lags at which half of the shorter lies within the other.
@@ -292,6 +260,53 @@ Lags lags_between(std::span<const double> time, std::span<const double> other, d
           step};
 }
 
+struct Span {
+  double first, last;
+  double length() const { return last - first; }
+};
+
+/// What the first has beside the second at a lag, by its own clock.
+Span beside(const Smooth& first, const Smooth& second, double lag) {
+  return {std::max(first.time(0), second.time(0) - lag),
+          std::min(first.time(first.size() - 1), second.time(second.size() - 1) - lag)};
+}
+
+/// Squares of the Fourier coefficients but the mean of a record over that time, of so many even samples.
+std::vector<double> periodogram(const Smooth& record, Span over, std::size_t samples) {
+  std::vector<double> even(samples);
+  std::size_t j = 0;
+  double mean = 0;
+  for (std::size_t i = 0; i < samples; ++i) {
+    const double t = over.first + over.length() * static_cast<double>(i) / static_cast<double>(samples);
+    while (j + 2 < record.size() && record.time(j + 1) <= t) ++j;
+    const double s = (t - record.time(j)) / (record.time(j + 1) - record.time(j));
+    even[i] = (1 - s) * record.value(j) + s * record.value(j + 1);
+    mean += even[i] / static_cast<double>(samples);
+  }
+  for (double& x : even) x -= mean;
+  std::vector<double> out;
+  for (const auto& x : hydro::signal::real_fft(even)) out.push_back(std::norm(x));
+  return out;
+}
+
+/// (F106) That two records of these spectra which have nothing in common correlate so much at one of the lags.
+double chance_of(const Offset& found, const Smooth& first, const Smooth& second, const Lags& lags) {
+  const Span common = beside(first, second, found.lag);
+  const std::size_t n = std::min(first.size(), second.size());
+  const std::vector<double> x = periodogram(first, common, n),
+                            y = periodogram(second, {common.first + found.lag, common.last + found.lag}, n);
+  const double sum_x = std::accumulate(x.begin(), x.end(), 0.0), sum_y = std::accumulate(y.begin(), y.end(), 0.0),
+               both = std::inner_product(x.begin(), x.end(), y.begin(), 0.0),
+               rate = sum_x * sum_y / both / common.length(), square = std::min(1.0, std::pow(found.correlation, 2));
+  // Lags beyond one that are independent of it come at that rate, and the less is beside each other the fewer tell.
+  const auto of_one = [&](double lag) {
+    return std::pow(1 - square, std::max(0.0, rate * beside(first, second, lag).length() - 1));
+  };
+  double sum = of_one(found.lag);
+  for (double lag = lags.first; lag <= lags.last; lag += lags.step) sum += rate * lags.step * of_one(lag);
+  return std::min(1.0, sum);
+}
+
 void check(std::span<const double> time, std::span<const double> value, std::span<const double> other_time,
            std::span<const double> other, std::size_t seen, const OffsetOptions& o) {
   hydro::require(time.size() == value.size() && other_time.size() == other.size() && seen >= 16 && other.size() >= 16,
@@ -302,25 +317,81 @@ void check(std::span<const double> time, std::span<const double> value, std::spa
                    "the {} must be finite and its times ascend, which they do not at sample {}", o.second, i + 1);
 }
 
-void require_one_lag(const Peaks& peaks, double samples, const OffsetOptions& o) {
+void require_alike(const Peaks& peaks, const OffsetOptions& o) {
   if (std::abs(peaks.correlation) < 0.7 || fitting(peaks.correlation, o.sign) < 0)
     throw InputError(fmt::format("{} and {} do not show the same: their largest correlation is {:.3g}, at {:.4g} s",
                                  o.first, o.second, peaks.correlation, peaks.lag),
                      {}, "name a signal and a column that move together");
-  // Of normal errors, how many times as likely the better one is, as a logarithm; errors with a memory tell less.
-  const double sure = 8, exact = 1e-6;
-  const auto unexplained = [exact](double r) { return std::max(exact, 1 - r * r); };
-  if (samples / 2 * std::log(unexplained(peaks.runner_up) / unexplained(peaks.correlation)) < sure)
-    throw InputError(fmt::format("two offsets fit nearly alike: the correlation is {:.4g} at {:.4g} s, and {:.4g} at "
-                                 "{:.4g} s: the {} repeats itself after {:.4g} s",
-                                 std::abs(peaks.correlation), peaks.lag, peaks.runner_up, peaks.runner_up_lag, o.first,
-                                 std::abs(peaks.lag - peaks.runner_up_lag)),
-                     {}, o.remedy);
   if (peaks.at_end && std::isfinite(o.longest))
     throw InputError(fmt::format("{} and {} are most alike at the longest offset that is looked for, {:.4g} s: theirs "
                                  "may lie beyond",
                                  o.first, o.second, peaks.lag),
                      {}, "look further, or for offsets that the records can tell");
+}
+
+/// What a lag leaves unexplained of the sparse samples.
+struct Unexplained {
+  std::vector<std::size_t> taken;
+  Eigen::VectorXd left;
+  double share;  ///< of the mean square about the mean, not below what interpolation leaves of records without noise
+};
+
+Eigen::VectorXd left_by(const Eigen::MatrixXd& basis, const Eigen::VectorXd& x) {
+  return x - basis * (basis.transpose() * basis).ldlt().solve(basis.transpose() * x);
+}
+
+/// At the best lag within half a step of those that were tried, to first order.
+Unexplained unexplained_at(const Pair& p, double lag, std::size_t side) {
+  Compared c = compared(p, lag, side);
+  constexpr double exact = 1e-6;
+  if (c.sparse.size() < fewest) return {{}, {}, exact};
+  const Eigen::Vector3d fitted = (c.basis.transpose() * c.basis).ldlt().solve(c.basis.transpose() * c.sparse);
+  const double half_step = p.dense_step / 4;
+  c.basis.col(1) += std::clamp(fitted[2] / fitted[1], -half_step, half_step) * c.basis.col(2);
+  const Eigen::VectorXd left = left_by(c.basis.leftCols<2>(), c.sparse);
+  const double all = (c.sparse.array() - c.sparse.mean()).square().sum();
+  return {std::move(c.taken), left, std::max(exact, left.squaredNorm() / all)};
+}
+
+/// How alike what two lags leave is, by the samples that both have.
+double likeness(const Unexplained& a, const Unexplained& b, double& shared) {
+  double aa = 0, bb = 0, ab = 0;
+  shared = 0;
+  for (std::size_t i = 0, j = 0; i < a.taken.size() && j < b.taken.size();) {
+    if (a.taken[i] != b.taken[j]) {
+      ++(a.taken[i] < b.taken[j] ? i : j);
+      continue;
+    }
+    const double x = a.left[static_cast<Eigen::Index>(i++)], y = b.left[static_cast<Eigen::Index>(j++)];
+    aa += x * x, bb += y * y, ab += x * y, ++shared;
+  }
+  return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
+}
+
+/// (V18) By how many of their deviations the logarithms of what two lags leave unexplained differ, were it noise of one
+/// variance in both.
+double deviations_apart(const Pair& p, std::size_t side, double lag, double other_lag) {
+  const Unexplained best = unexplained_at(p, lag, side), other = unexplained_at(p, other_lag, side);
+  if (best.taken.empty() || other.taken.empty()) return 0;
+  double shared = 0;
+  const double alike = likeness(best, other, shared);
+  const auto n = static_cast<double>(best.taken.size()), m = static_cast<double>(other.taken.size());
+  double memory = 1;
+  if (best.share > 1e-6) {
+    const Eigen::VectorXd& gamma = fit_autoregression(best.left).autocovariance;
+    memory += 2 * gamma.tail(gamma.size() - 1).squaredNorm() / (gamma[0] * gamma[0]);
+  }
+  const double variance = memory * (2 / n + 2 / m - 4 * alike * alike * shared / (n * m));
+  return std::log(other.share / best.share) / std::sqrt(variance);
+}
+
+void require_one_lag(const Peaks& peaks, double deviations, const OffsetOptions& o) {
+  if (peaks.runner_up > 0 && !(deviations > 3))
+    throw InputError(fmt::format("two offsets fit nearly alike: the correlation is {:.4g} at {:.4g} s, and {:.4g} at "
+                                 "{:.4g} s: the {} repeats itself after {:.4g} s",
+                                 std::abs(peaks.correlation), peaks.lag, peaks.runner_up, peaks.runner_up_lag, o.first,
+                                 std::abs(peaks.lag - peaks.runner_up_lag)),
+                     {}, o.remedy);
 }
 
 }  // namespace
@@ -331,7 +402,8 @@ Offset offset_between(std::span<const double> time, std::span<const double> valu
       static_cast<std::size_t>(std::count_if(value.begin(), value.end(), [](double v) { return std::isfinite(v); }));
   check(time, value, other_time, other, seen, options);
   const Between whole(other_time, other);
-  const auto [first, last, step] = lags_between(time, other_time, options.longest);
+  const Lags range = lags_between(time, other_time, options.longest);
+  const auto [first, last, step] = range;
   hydro::require(first <= last, "{} and {} have no time in common, whatever the offset", options.first, options.second);
   const double span = time.back() - time.front(), half = std::min(span, other_time.back() - other_time.front()) / 2;
   // Of long records each sample at each lag would take minutes; the swing is found by fewer.
@@ -346,10 +418,16 @@ Offset offset_between(std::span<const double> time, std::span<const double> valu
     correlations.push_back(correlation_at(lag, time, value, whole, least, stride));
   }
   const Peaks peaks = peaks_of(lags, correlations, options.sign);
-  require_one_lag(peaks, samples, options);
+  require_alike(peaks, options);
   const Smooth one(time, value), two(other_time, other);
-  Offset found = refined(peaks, one, median_step(time), two, median_step(other_time), options);
-  found.chance = chance_of(found.correlation, one, two, last - first);
+  const double own_step = median_step(time), other_step = median_step(other_time);
+  const bool turned = own_step < other_step;
+  const Pair pair = turned ? Pair{two, one, other_step, own_step} : Pair{one, two, own_step, other_step};
+  const double way = turned ? -1 : 1;
+  const std::size_t side = best_side(pair, way * peaks.lag);
+  Offset found = refined(peaks, pair, side, turned, options);
+  require_one_lag(peaks, deviations_apart(pair, side, way * peaks.lag, way * peaks.runner_up_lag), options);
+  found.chance = chance_of(found, one, two, range);
   return found;
 }
 

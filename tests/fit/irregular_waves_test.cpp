@@ -46,7 +46,7 @@ Problem pooled(std::uint64_t seed, std::size_t runs, double slope = 1) {
 TEST(IrregularWaves, OfSeveralRunsHoldTheTruthAsOftenAsTheySay) {
   int held = 0, all = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed)
-    for (const auto& response = solve(pooled(seed, 4)).responses[0]; const fit::Coefficient& c : response.gain) {
+    for (const auto response = solve(pooled(seed, 4)).responses[0]; const fit::Coefficient& c : response.gain) {
       if (&c == &response.gain.front() || &c == &response.gain.back()) continue;  // real: half the freedom
       held += c.interval.low < gain && gain < c.interval.high;
       ++all;
@@ -106,7 +106,7 @@ Problem between(double gauge, double body) {
 
 // What follows the surface has a gain of 1 and no phase, wherever the gauge stands. From 3.6 to 5.6 rad/s energy goes
 // at 1.5 to 0.9 m/s: over 6 m it is up to 2.8 s early or late of the shift, ⅔(π 2.8/51)² = 2 % of the gain; 1 % is left
-// for waves that leak.
+// for waves that leak. What a segment loses is as noise to the phase: four of its errors in 34 phases.
 TEST(IrregularWaves, HaveThePhaseOfTheWaveAtTheBody) {
   for (const double gauge : {17.0, 26.0}) {
     const auto found = solve(between(gauge, 23));
@@ -114,7 +114,8 @@ TEST(IrregularWaves, HaveThePhaseOfTheWaveAtTheBody) {
     for (std::size_t k = 0; k < t.h1.size(); ++k) {
       if (t.frequency_hz[k] < 0.6 || t.frequency_hz[k] > 0.86) continue;
       EXPECT_NEAR(std::abs(t.h1[k]), 1, 0.03) << gauge << " m, " << t.frequency_hz[k] << " Hz";
-      EXPECT_NEAR(std::arg(t.h1[k]), 0, 0.03) << gauge << " m, " << t.frequency_hz[k] << " Hz";
+      EXPECT_LT(t.gain_relative_error[k], 0.025);
+      EXPECT_NEAR(std::arg(t.h1[k]), 0, 0.01 + 4 * t.gain_relative_error[k]) << gauge << " m, " << t.frequency_hz[k] << " Hz";
     }
   }
 }
@@ -132,11 +133,11 @@ TEST(IrregularWaves, RefuseWhatCannotBePooled) {
   const auto solved = [](Problem p) { return [p] { solve(p); }; };
   Problem p = pooled(1, 2);
   for (double& t : p.runs[1].time) t *= 2;
-  EXPECT_THAT(solved(p), ThrowsMessage<hydro::InputError>(HasSubstr("run_1001.csv: it is sampled every 0.2 s")));
+  EXPECT_THAT(solved(p), ThrowsMessage<hydro::InputError>(HasSubstr("run_1001.csv: error: it is sampled every 0.2 s")));
   p = pooled(1, 2);
   p.options.segment_s = 100;
   EXPECT_THAT(solved(p),
-              ThrowsMessage<hydro::InputError>(HasSubstr("run_1000.csv: a segment of 100 s has 1000 samples")));
+              ThrowsMessage<hydro::InputError>(HasSubstr("run_1000.csv: error: a segment of 100 s has 1000 samples")));
   p = pooled(1, 1);
   p.options.segment_s = 20;
   EXPECT_THAT(solved(p), ThrowsMessage<hydro::InputError>(HasSubstr("at least two segments")));

@@ -25,9 +25,10 @@ using fit::offset_between;
 using support::refused;
 using testing::HasSubstr;
 
-/// Two swings that die away.
+/// Two swings that die away, from a release at half a second.
 double motion(double t) {
-  return t < 0 ? 0.6 : std::exp(-0.15 * t) * (0.5 * std::cos(3.1 * t) + 0.1 * std::cos(7.3 * t));
+  const double since = t - 0.5;
+  return since < 0 ? 0.6 : std::exp(-0.15 * since) * (0.5 * std::cos(3.1 * since) + 0.1 * std::cos(7.3 * since));
 }
 
 struct Both {
@@ -72,12 +73,15 @@ TEST(Offset, HasAnIntervalThatHolds) {
   for (const auto& of : froude_test::two_clocks) {
     const auto some = froude_test::errors_of_offsets(of, 20);
     all.sets += some.sets;
+    all.refused += some.refused;
     all.within += some.within;
     all.squares += some.squares;
     all.quantiles += some.quantiles;
     // 20 squares, each 1 with a deviation of 1.41 and a little more by Student's: four of their mean, 0.32. Of a
     // deviation that is 1.5 times too small they are 2.25.
     EXPECT_LT(some.squares / some.sets, 2.25) << of.name;
+    // Of a swing with noise that lasts the next one is often as likely.
+    EXPECT_LE(some.refused, of.shown == froude_test::Shown::swing && of.memory > 0 ? 15 : 1) << of.name;
   }
   // Of 180 squares and intervals together: three deviations, 0.105 of the mean and 2.9 intervals of 171.
   EXPECT_NEAR(all.squares / all.sets, 1, 0.32);
@@ -133,10 +137,10 @@ fit::delay::Run two_probes(std::uint64_t seed, const Sea& first, const Sea& seco
   return out;
 }
 
-// Of 200 intervals that hold with 95 % each, 190 do, with a deviation of 3.1: 181 to 199 is three of them.
+// Of 100 intervals that hold with 95 % each, 95 do, with a deviation of 2.2: 89 and more is three of them.
 TEST(Delay, OfTwoChannelsOfOneRecordIsWithinItsInterval) {
   int held = 0;
-  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const Sea sea(seed, 0.6, 0.3);
     const double late = 0.31 + 0.001 * static_cast<double>(seed);
     fit::delay::Problem problem{{two_probes(seed, sea, sea, late, 0.3)}, {}};
@@ -147,7 +151,7 @@ TEST(Delay, OfTwoChannelsOfOneRecordIsWithinItsInterval) {
     held += delay->coefficient.interval.low < late && late < delay->coefficient.interval.high;
     EXPECT_LT(found.runs[0].offset.scale, 0) << "the second is positive the other way";
   }
-  EXPECT_NEAR(held, 190, 9);
+  EXPECT_GE(held, 89);
 }
 
 TEST(Delay, OfThreeRunsIsToldTogether) {
@@ -190,13 +194,18 @@ TEST(Delay, OfANarrowBandIsToldWithinTheBoundsAndTheSignThatAreKnown) {
     fit::delay::Problem problem{{sinusoids(0.23)}, {}};
     problem.options.search.longest = longest;
     problem.options.search.sign = sign;
+    problem.options.one_source = true;
     return solve(problem).runs[0].offset.lag;
   };
   const double anywhere = std::numeric_limits<double>::infinity();
-  EXPECT_THAT(refused([&] { solved(anywhere, same); }), HasSubstr("repeats itself after 2 s"));
+  EXPECT_THAT(refused([&] { solved(anywhere, same); }), HasSubstr("repeats itself after "));
   EXPECT_THAT(refused([&] { solved(0.9, either); }), HasSubstr("repeats itself after 1 s"));  // turned round
   EXPECT_NEAR(solved(0.9, same), 0.23, 0.01);
   EXPECT_NEAR(solved(0.9, opposite), 0.23 - 1, 0.01);
+  fit::delay::Problem unrelated{{sinusoids(0.23)}, {}};
+  unrelated.options.search.longest = 0.9;
+  unrelated.options.search.sign = same;
+  EXPECT_THAT(refused([&] { solve(unrelated); }), HasSubstr("may have nothing in common"));
   EXPECT_THAT(refused([&] { solved(0.1, same); }), HasSubstr("at the longest offset that is looked for"));
 }
 

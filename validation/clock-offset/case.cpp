@@ -10,9 +10,10 @@ Outcome outcome(const Folders&) {
   Outcome out;
   for (const auto& of : froude_test::two_clocks) {
     const auto errors = froude_test::errors_of_offsets(of, sets);
-    out.numbers.push_back({fmt::format("coverage, {}", of.name), static_cast<double>(errors.within) / sets, ""});
+    out.numbers.push_back({fmt::format("coverage, {}", of.name), static_cast<double>(errors.within) / errors.sets, ""});
     out.numbers.push_back(
-        {fmt::format("mean of squared errors over their variances, {}", of.name), errors.squares / sets, ""});
+        {fmt::format("mean of squared errors over their variances, {}", of.name), errors.squares / errors.sets, ""});
+    out.numbers.push_back({fmt::format("share refused, {}", of.name), static_cast<double>(errors.refused) / sets, ""});
   }
   return out;
 }

@@ -18,13 +18,15 @@ FittedRun fitted(const Run& run, const Options& options) {
   }
   const OffsetOptions& search = options.search;
   out.offset = offset_between(out.time, out.first, run.second_time, run.second, search);
-  if (out.offset.chance > by_chance)
+  if (out.offset.chance > by_chance && !options.one_source)
     throw hydro::InputError(
         fmt::format(
             "{} and {} may have nothing in common: their correlation is {:.3g}, and records of such spectra and "
             "length that are unrelated come so far at one of the lags in {:.2g} % of cases",
             search.first, search.second, out.offset.correlation, 100 * out.offset.chance),
-        {}, "take a longer record, one with a beginning, or bound the delay (longest)");
+        {},
+        "take a longer record, or one with a beginning; or bound the delay, [model] longest; or say that they are of "
+        "one source, a sea or a motor: [model] one_source = true");
   return out;
 }
 

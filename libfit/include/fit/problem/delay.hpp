@@ -15,6 +15,7 @@ namespace fit::delay {
 
 struct Options {
   OffsetOptions search = {};
+  bool one_source = false;  ///< they are known to have something in common: chance is not asked
   std::optional<std::pair<double, double>> window = {};  ///< s: of the first channel; the second is taken whole
 };
 
@@ -42,7 +43,7 @@ struct Solution {
 };
 /// The delay is that of the second behind the first: positive where it comes later. \throws hydro::InputError as
 /// offset_between(), with the file, where the two are no more alike than records without anything in common are by
-/// chance in one case of a hundred, and for a problem without runs
+/// chance in one case of a hundred (unless `one_source`), and for a problem without runs
 Solution solve(const Problem& problem);
 
 }  // namespace fit::delay
