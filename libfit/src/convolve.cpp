@@ -33,6 +33,15 @@ std::vector<double> sliding_sum(std::span<const double> values, std::span<const 
       out[j] = std::inner_product(weights.begin(), weights.end(), values.begin() + static_cast<std::ptrdiff_t>(j), 0.0);
     return out;
   }
+  // By parts that the processor's cache holds, where the record is many times longer than the window.
+  const std::size_t part = std::max<std::size_t>(16 * weights.size(), 1 << 16);
+  if (values.size() > part) {
+    for (std::size_t first = 0; first < out.size(); first += part - weights.size() + 1) {
+      const auto some = sliding_sum(values.subspan(first, std::min(part, values.size() - first)), weights);
+      std::copy(some.begin(), some.end(), out.begin() + static_cast<std::ptrdiff_t>(first));
+    }
+    return out;
+  }
   // Circular, of at least the record's length: whole sums never wrap round.
   const std::size_t n = good_length(values.size());
   std::vector<double> x(n), w(n);

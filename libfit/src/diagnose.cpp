@@ -4,8 +4,10 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "block_means.hpp"
 #include "hydro/base/dense.hpp"
@@ -54,12 +56,11 @@ FourierAverages fourier_averages(const Cylinder& c, const ForceRecord& r, double
   const Eigen::MatrixXd columns = morison_columns(c, r);
   const Eigen::VectorXd target = target_of(c, r);
   const std::vector<double> all = harmonics_of(period_s, 7);
-  const auto main = [&](const Eigen::VectorXd& v) {
-    const auto fit = hydro::signal::fit_harmonics(r.time, {v.data(), static_cast<std::size_t>(v.size())}, all);
-    return fit.amplitude[0];
-  };
+  const auto series = [&](const double* first) { return std::span(first, r.time.size()); };
+  const auto fits = hydro::signal::fit_harmonics(
+      r.time, std::array{series(target.data()), series(columns.col(0).data()), series(columns.col(1).data())}, all);
   // F₁ = C_D D₁ + C I₁ with complex D₁, I₁: two real equations.
-  const auto force = main(target), drag = main(columns.col(0)), inertia = main(columns.col(1));
+  const auto force = fits[0].amplitude[0], drag = fits[1].amplitude[0], inertia = fits[2].amplitude[0];
   Eigen::Matrix2d a;
   a << drag.real(), inertia.real(), drag.imag(), inertia.imag();
   const Eigen::Vector2d x = a.inverse() * Eigen::Vector2d(force.real(), force.imag());

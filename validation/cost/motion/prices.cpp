@@ -124,7 +124,7 @@ run = {{ duration = "40 s", every = "0.1 s", of = ["box1.heave"] }}
 }
 
 std::string peers(const fs::path& data) {
-  struct Run {
+  struct Compared {
     const char* name;
     scene::Scene scene;
     double step, theirs, limit;  ///< s; s; of the error
@@ -137,7 +137,7 @@ std::string peers(const fs::path& data) {
     return scene;
   };
   const char* rm3 = "rm3/wamit/rm3.1";
-  const std::vector<Run> runs{
+  const std::vector<Compared> runs{
       {"sphere, decay of 40 s", of_case("sphere-decay", "iea_sphere/wamit/sphere.1", 40, 0.02), 0.02, 0.63, 2e-3,
        "sphere.heave"},
       {"two-body point absorber, decay of 40 s", of_case("rm3-decay", rm3, 39.96, 0.06), 0.03, 3.4, 2e-3,
@@ -148,7 +148,7 @@ std::string peers(const fs::path& data) {
   std::string text =
       "| run | step [s] | error against a step five times shorter | preparing [s] | stepping [s] | strongest peer [s] "
       "| ratio to stepping, to all |\n| --- | --- | --- | --- | --- | --- | --- |\n";
-  for (const Run& r : runs) {
+  for (const Compared& r : runs) {
     const Timed run = timed(stepped(r.scene, r.step));
     const Run fine = simulate(stepped(r.scene, r.step / 5));
     const double error = off(run.record.signal(r.signal), fine.signal(r.signal));
