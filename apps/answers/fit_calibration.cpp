@@ -24,8 +24,10 @@ class CalibrationFits final : public FitKindOf<CalibrationOptions, CalibrationPr
                                 text("time", "when; with it a drift is told").optional()}}) {}
 
  private:
-  void finish(const FitTables&, const FitScene& scene, CalibrationOptions& options) const override {
+  void finish(const FitTables& t, const FitScene& scene, CalibrationOptions& options) const override {
     options.confidence = scene.confidence;
+    if (scene.channels.at("reading") == scene.channels.at("reference"))
+      throw t.channels().wrong("reference", "names the same column as reading", "name the column of what was set");
   }
 
   CalibrationProblem problem(const FitScene& scene, const CalibrationOptions& options) const override {

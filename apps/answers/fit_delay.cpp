@@ -76,9 +76,10 @@ class DelayFits final : public FitKindOf<DelayModel, DelayProblem> {
   DelayProblem problem(const FitScene& scene, const DelayModel& model) const override {
     DelayProblem out{.runs = {}, .options = model};
     for (const auto& [source, row] : runs_of(scene)) {
-      const Measurements one(scene, source.file),
-          two(scene, model.second_file ? model.second_file->value : source.file);
+      const Measurements one(scene, source.file), two(scene, model.second_file ? model.second_file->value : source.file,
+                                                      model.second_file ? model.second_file->place : hydro::Place{});
       const char* clock = scene.channels.count("second_time") > 0 ? "second_time" : "time";
+      out.options.unit = one.unit(scene.channels.at("first"));
       out.runs.push_back({source, one.time(), one.column(scene.channels.at("first")),
                           two.of_role(clock, hydro::dim::time), two.column(scene.channels.at("second"))});
     }
@@ -103,7 +104,7 @@ class DelayFits final : public FitKindOf<DelayModel, DelayProblem> {
           thinned(fmt::format("{}, {:.4g} s earlier and scaled", names.second, offset.lag), moved, scaled);
       second.dashed = true;
       out.push_back({.x = {"time", "s"},
-                     .y = {fmt::format("{} of {}", names.first, run.source.name())},
+                     .y = {fmt::format("{} of {}", names.first, run.source.name()), problem.options.unit},
                      .series = {thinned(names.first, time, first), std::move(second)}});
     }
     return out;

@@ -9,6 +9,8 @@
 
 #include "fit/channel_line.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/base/measurable.hpp"
+#include "hydro/base/units.hpp"
 #include "scene/placed.hpp"
 
 namespace froude::scene {
@@ -37,9 +39,38 @@ plot::Series band_outline(const std::string& name, const std::vector<double>& t,
   return out;
 }
 
+/// A table of measurements. \throws hydro::InputError, for a file that cannot be read at `place`, and for a column that
+/// is beyond what is computed with
+hydro::io::CsvTable read_measured(const std::filesystem::path& file, const hydro::Place& place = {}) {
+  auto table = placed(place, [&] { return hydro::io::CsvTable::read(file); });
+  for (const std::string& name : table.names()) {
+    if (table.is_text(name) || table.rows() == 0) continue;
+    const std::vector<double>& values = table.column(name);
+    const auto largest =
+        std::max_element(values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+    if (hydro::is_measurable(*largest)) continue;
+    const auto row = static_cast<std::size_t>(largest - values.begin());
+    throw hydro::InputError(fmt::format("the largest value of \"{}\" is {:.3g} {}: those that are computed with lie "
+                                        "between 1e-30 and 1e30 in SI",
+                                        name, *largest, table.dimension(name).si()),
+                            table.place_of(name, row), "look at the exponents and at the unit of the column");
+  }
+  return table;
+}
+
+/// \throws hydro::InputError at the row whose time does not come after that of the row before
+void require_increasing(const hydro::io::CsvTable& table, const std::string& column, const std::vector<double>& time) {
+  const auto back = std::adjacent_find(time.begin(), time.end(), [](double a, double b) { return !(b > a); });
+  if (back == time.end()) return;
+  const auto row = static_cast<std::size_t>(back - time.begin()) + 1;
+  throw hydro::InputError(
+      fmt::format("the time \"{}\" does not increase: {:.6g} s comes after {:.6g} s", column, time[row], *back),
+      table.place_of(column, row), "sort the rows, keep one of each instant, and write two runs in two files");
+}
+
 /// Loading cycles of a load cell: columns force and voltage, and cycle where there are several.
 ::fit::Calibration calibration_of(const Located<std::filesystem::path>& file, double confidence) {
-  const auto table = hydro::io::CsvTable::read(file.value);
+  const auto table = read_measured(file.value, file.place);
   const auto &force = table.column("force", dim::force), &volt = table.column("voltage", dim::voltage);
   std::vector<::fit::LoadCycle> cycles(1);
   for (std::size_t i = 0; i < table.rows(); ++i) {
@@ -47,7 +78,7 @@ plot::Series band_outline(const std::string& name, const std::vector<double>& t,
     cycles.back().force.push_back(force[i]);
     cycles.back().voltage.push_back(volt[i]);
   }
-  return ::fit::calibrate(cycles, confidence);
+  return placed({.file = file.value.string()}, [&] { return ::fit::calibrate(cycles, confidence); });
 }
 
 /// The line of a channel, with the dimensions of what it reads and what it gives.
@@ -86,7 +117,7 @@ std::string unit_of(const hydro::io::CsvTable& table, const std::string& column)
 
 LineOfChannel read_line(const FitScene::Line& of, double confidence) {
   return placed({.file = of.file.value.string()}, [&]() -> LineOfChannel {
-    const auto table = hydro::io::CsvTable::read(of.file.value);
+    const auto table = read_measured(of.file.value, of.file.place);
     return {::fit::fit_channel_line({.reference = table.column(of.reference), .reading = table.column(of.reading)},
                                     confidence),
             table.dimension(of.reading), table.dimension(of.reference), unit_of(table, of.reading),
@@ -118,7 +149,7 @@ std::vector<double> Measurements::column(const std::string& name, const hydro::D
 
 hydro::Dimension Measurements::dimension(const std::string& name) const {
   const FitScene::Line* of = line_of(scene, name);
-  return of == nullptr ? table.dimension(name) : read_line(*of, scene.confidence).reference;
+  return of == nullptr ? table.dimension(name) : read_measured(of->file.value, of->file.place).dimension(of->reference);
 }
 
 std::string Measurements::unit(const std::string& name) const {
@@ -146,26 +177,58 @@ std::string Measurements::unit(const std::string& name) const {
   return scene.force.empty() ? slope_error_of(scene, {"torque"}) : slope_error(scene, scene.force[0].column);
 }
 
+namespace {
+
+struct Range {
+  double low, high;
+};
+
+Range range_of(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return {*low, *high};
+}
+
+/// A caution where a column goes beyond the readings of its line by a tenth of their range; else "".
+std::string beyond(const FitScene& scene, const FitScene::Line& of, const std::string& unit) {
+  const Range known = range_of(read_measured(of.file.value, of.file.place).column(of.reading));
+  Range met = known;
+  for (const auto& [source, row] : runs_of(scene)) {
+    const Range one = range_of(Measurements(scene, source.file).table.column(of.column));
+    met = {std::min(met.low, one.low), std::max(met.high, one.high)};
+  }
+  const double far = 0.1 * (known.high - known.low);
+  if (met.low >= known.low - far && met.high <= known.high + far) return {};
+  return fmt::format(
+      "; caution: the line was taken from {:.4g} to {:.4g} {}, and the records go from {:.4g} to {:.4g}: beyond its "
+      "points it is an extrapolation",
+      known.low, known.high, unit, met.low, met.high);
+}
+
+}  // namespace
+
 std::vector<std::string> told_lines(const FitScene& scene) {
   std::vector<std::string> out;
   for (const FitScene::Line& of : scene.lines) {
     const auto [line, reading, reference, reading_unit, reference_unit] = read_line(of, scene.confidence);
     out.push_back(fmt::format(
-        "{} by {}: {:.5g} ± {:.2g} {}/{}{}; the error of the slope, {:.2g} %, is the same in all runs{}", of.column,
+        "{} by {}: {:.5g} ± {:.2g} {}/{}{}; the error of the slope, {:.2g} %, is the same in all runs{}{}", of.column,
         of.file.value.filename().string(), *line.slope.value, line.slope.standard_error, reading_unit, reference_unit,
         line.hysteresis ? fmt::format(", hysteresis {:.2g} % of its range", 100 * *line.hysteresis) : std::string(),
-        100 * line.slope.standard_error / std::abs(*line.slope.value), scene.of->said_of_line(scene, of.column)));
+        100 * line.slope.standard_error / std::abs(*line.slope.value), scene.of->said_of_line(scene, of.column),
+        beyond(scene, of, reading_unit)));
   }
   return out;
 }
 
-Measurements::Measurements(const FitScene& of, const std::filesystem::path& file)
-    : scene(of), table(hydro::io::CsvTable::read(file)) {}
+Measurements::Measurements(const FitScene& of, const std::filesystem::path& file, const hydro::Place& place)
+    : scene(of), table(read_measured(file, place)) {}
 
 std::vector<double> Measurements::of_role(const char* role, const hydro::Dimension& dimension) const {
   const auto at = scene.channels.find(role);
   if (at == scene.channels.end()) return {};
-  return column(at->second, dimension);
+  std::vector<double> out = column(at->second, dimension);
+  if (dimension == dim::time) require_increasing(table, at->second, out);
+  return out;
 }
 
 std::vector<double> Measurements::time() const { return of_role("time", dim::time); }
@@ -177,6 +240,17 @@ std::vector<double> Measurements::motion() const {
 std::vector<double> Measurements::load() const {
   if (scene.force.empty()) return of_role("torque", dim::moment);
   return turned(column(scene.force[0].column, dim::force), scene.force[0].turned);
+}
+
+std::vector<double> Measurements::rest_of(const std::string& name, const hydro::Dimension& dimension,
+                                          const Located<std::filesystem::path>& zero_run) const {
+  constexpr std::size_t fewest = 16;  // below, the scatter of the mean is not known
+  std::vector<double> out = Measurements(scene, zero_run.value, zero_run.place).table.column(name, dimension);
+  if (out.size() < fewest)
+    throw hydro::InputError(
+        fmt::format("the run at rest has {} samples, and a zero with its error needs {} at least", out.size(), fewest),
+        {.file = zero_run.value.string()}, "record the channels at rest for some seconds");
+  return out;
 }
 
 std::vector<::fit::ForceChannel> Measurements::force_channels(
@@ -193,8 +267,7 @@ std::vector<::fit::ForceChannel> Measurements::force_channels(
     if (of != nullptr) channel.calibration = calibration_of(read_line(*of, scene.confidence));
     // A channel that is turned round has its line through the same points with the voltage's sign changed.
     if (channel.calibration && f.turned) channel.calibration->offset *= -1;
-    if (zero_run)
-      channel.zero_run = turned(Measurements(scene, zero_run->value).table.column(f.column, dimension), f.turned);
+    if (zero_run) channel.zero_run = turned(rest_of(f.column, dimension, *zero_run), f.turned);
     out.push_back(std::move(channel));
   }
   return out;
@@ -219,10 +292,17 @@ std::vector<RunOfScene> runs_of(const FitScene& scene, const std::vector<std::st
   std::vector<RunOfScene> out;
   for (const auto& file : scene.files) out.push_back({{file.value}});
   if (!scene.run_table) return out;
-  const auto table = hydro::io::CsvTable::read(scene.run_table->value);
-  for (std::size_t row = 0; row < table.rows(); ++row)
-    out.push_back(
-        {{scene.run_table->value.parent_path() / table.text_column("file")[row], labels_of(table, row, taken)}, row});
+  const auto table = read_measured(scene.run_table->value, scene.run_table->place);
+  if (table.rows() == 0)
+    throw hydro::InputError("the table of runs has no rows", {.file = table.file()}, "write a row for each run");
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const std::string& name = table.text_column("file")[row];
+    const std::filesystem::path file = scene.run_table->value.parent_path() / name;
+    if (!std::filesystem::is_regular_file(file))
+      throw hydro::InputError(fmt::format("\"{}\" is no file", name), table.place_of("file", row),
+                              fmt::format("files stand beside the table of runs, in {}", file.parent_path().string()));
+    out.push_back({{file, labels_of(table, row, taken)}, row});
+  }
   return out;
 }
 

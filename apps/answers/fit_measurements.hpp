@@ -13,6 +13,7 @@
 #include "fit/parts.hpp"
 #include "fit/prepare.hpp"
 #include "fit/problem/source.hpp"
+#include "hydro/base/error.hpp"
 #include "hydro/io/csv.hpp"
 
 namespace froude::scene {
@@ -22,7 +23,9 @@ struct Measurements {
   const FitScene& scene;
   hydro::io::CsvTable table;
 
-  Measurements(const FitScene& of, const std::filesystem::path& file);
+  /// A file that cannot be read is an error at `place`. \throws hydro::InputError as CsvTable::read, and for a column
+  /// whose largest value is not measurable
+  Measurements(const FitScene& of, const std::filesystem::path& file, const hydro::Place& place = {});
   /// SI, by the channel's line where it has one. \throws hydro::InputError as the table's column(), and for a line
   /// whose readings have another dimension than the column
   std::vector<double> column(const std::string& name) const;
@@ -31,13 +34,18 @@ struct Measurements {
   /// The SI unit as the header writes it, "N", or else in base units.
   std::string unit(const std::string& name) const;
 
-  /// SI; empty where no column has that role.
+  /// SI; empty where no column has that role. \throws hydro::InputError for times that do not increase
   std::vector<double> of_role(const char* role, const hydro::Dimension& dimension) const;
   std::vector<double> time() const;
   std::vector<double> motion() const;  ///< angle, or else position
   std::vector<double> load() const;    ///< torque, or else the one force, with its sign as the scene has it
   /// All force channels with their calibrations, and the same of a run at rest.
   std::vector<::fit::ForceChannel> force_channels(const std::optional<Located<std::filesystem::path>>& zero_run) const;
+
+ private:
+  /// A force channel in the run at rest. \throws hydro::InputError for too few samples
+  std::vector<double> rest_of(const std::string& name, const hydro::Dimension& dimension,
+                              const Located<std::filesystem::path>& zero_run) const;
 };
 /// Error of the slope of a column's line, which is that of all files; zero where it has none.
 ::fit::SlopeError slope_error(const FitScene& scene, const std::string& column);

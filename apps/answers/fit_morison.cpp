@@ -181,6 +181,11 @@ void take_row(const Located<std::filesystem::path>& place, std::size_t row, Mori
   const auto take = [&](const char* column, const hydro::Dimension& dimension, auto& value) {
     if (table.has(column)) value = table.column(column, dimension)[row];
   };
+  for (const char* column : {"diameter", "length", "density", "viscosity"})
+    if (table.has(column) && !(table.column(column)[row] > 0))
+      throw hydro::InputError(
+          fmt::format("the {} of a run must be positive, got {:g}", column, table.column(column)[row]),
+          table.place_of(column, row), "leave the column out where the scene says it");
   take("diameter", dim::length, run.cylinder.diameter);
   take("length", dim::length, run.cylinder.length);
   take("density", dim::density, run.cylinder.density);

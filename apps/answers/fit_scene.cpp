@@ -185,7 +185,12 @@ const Binding<FitScene>& intervals_of_all() {
                                 .key(number("level", "probability that the interval covers the truth")
                                          .within(Limit::open_fraction)
                                          .or_default("0.95", "the usual level"),
-                                     &FitScene::confidence);
+                                     [](const Value& v, FitScene& out) {
+                                       // Beyond, an interval is made of tails that no record of scatter tells.
+                                       if (v.number < 0.01 || v.number > 0.9999)
+                                         throw v.wrong("must lie between 0.01 and 0.9999");
+                                       out.confidence = v.number;
+                                     });
   return table;
 }
 

@@ -169,7 +169,13 @@ MeasuredRun MeasuredRun::read(const scene::FitScene& fit, const scene::MotionMod
   for (double& t : time) t -= start;
   Eigen::MatrixXd values(std::ssize(time), std::ssize(model.signals));
   for (std::size_t c = 0; c < model.signals.size(); ++c) {
-    const std::vector<double> column = measured.column(model.signals[c].column);
+    const std::string& name = model.signals[c].column;
+    const std::vector<double> column = measured.column(name);
+    // Without anything to follow a search goes on until its steps are used up.
+    const auto [low, high] = std::minmax_element(column.begin(), column.end());
+    if (column.size() > 1 && !(*high > *low))
+      throw InputError(fmt::format("\"{}\" is {:.6g} throughout: the sensor gave no signal", name, *low),
+                       table.place_of(name, table.rows()), "look whether it was connected, or leave the signal out");
     values.col(static_cast<Eigen::Index>(c)) =
         Eigen::Map<const Eigen::VectorXd>(column.data() + skipped, std::ssize(time));
   }

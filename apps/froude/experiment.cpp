@@ -95,11 +95,14 @@ void plan_waves(const WavePlanArguments& a, const Console& console) {
       {.height_m = a.height, .length = hydro::AngularFrequency::from_period_s(a.period), .water = a.tank.water});
   const auto times = scene::placed({.file = "command line"}, [&] { return ::fit::wave_times(omega, a.tank); });
   const double k = hw::wavenumber(omega, a.tank.water), from = times.front + a.ramp + a.settle_periods * a.period;
+  const hydro::WaterDepth& depth = a.tank.water.depth;
   Report out;
-  out.say("wave: length {:.4g} m, steepness H/λ {:.4g}, {} water (kh {:.4g}), region {}",
+  out.say("wave: length {:.4g} m, steepness H/λ {:.4g}, {} water (kh {}), region {}",
           fact("wavelength", limits.wavelength), fact("steepness", limits.steepness),
-          fact("depth_regime", std::string(hw::name(limits.depth_regime))), fact("kh", k * a.tank.water.depth.metres()),
+          fact("depth_regime", std::string(hw::name(limits.depth_regime))),
+          depth.is_infinite() ? std::string("infinite") : fmt::format("{:.4g}", k * depth.metres()),
           fact("region", std::string(hw::name(limits.region))));
+  if (!depth.is_infinite()) out.keep("kh", k * depth.metres());
   out.say("highest wave of that length {:.4g} m, of which this is {:.3g}", fact("highest", limits.highest),
           fact("share_of_highest", a.height / limits.highest));
   tell_cylinder(a, k, omega, out);

@@ -162,6 +162,10 @@ void add_wave_plan(CLI::App& experiment, Request& request) {
       a.tank.body = *parsed("--body", texts->body, dim::length);
       if (const auto end = positive_or_none("--end", texts->end, dim::length)) a.tank.end = *end;
       a.ramp = *parsed("--ramp", texts->ramp, dim::time);
+      for (const auto& [option, value] : {std::pair{"--ramp", a.ramp}, {"--settle", a.settle_periods}})
+        if (!(value >= 0 && value < 1e6))
+          throw hydro::InputError(fmt::format("{} must lie between 0 and 1e6, got {:g}", option, value),
+                                  {.file = "command line"}, "leave it out, or write a time that passes");
       a.diameter = positive_or_none("--diameter", texts->diameter, dim::length);
       a.level = parsed("--level", texts->level, dim::length);
       plan_waves(a, console);

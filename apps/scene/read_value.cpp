@@ -245,7 +245,7 @@ Value read_value(const Node& node, const Key& key, const std::string& title) {
       if (!node.is(Node::Type::text)) refuse_type(at);
       value.text = node.text;
       if (key.holds == Holds::name) check_name(at);
-      if (node.text.empty() && key.need == Need::required) at.refuse("is empty", "");
+      if (node.text.empty()) at.refuse("is empty", key.need == Need::required ? "" : "write it, or leave the key out");
       check_word(at, node.text);
       break;
     case Holds::texts:

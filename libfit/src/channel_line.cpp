@@ -94,6 +94,12 @@ ChannelLine fit_channel_line(const LinePoints& p, double confidence) {  // (F100
                   .steps = find_quantisation(p.reading),
                   .range = spread_of(p.reading),
                   .residuals = {left.begin(), left.end()}};
+  if (out.slope.interval.low <= 0 && out.slope.interval.high >= 0)
+    throw hydro::InputError(
+        fmt::format("the readings do not tell the references: the slope is {:.4g}, and its {:g} % interval, {:.4g} to "
+                    "{:.4g}, holds zero",
+                    x[1], 100 * confidence, out.slope.interval.low, out.slope.interval.high),
+        {}, "look whether the columns belong together, or take more points");
   out.nonlinearity = left.cwiseAbs().maxCoeff() / out.range;
   add_hysteresis(p, out);
   if (columns.cols() < 3) return out;

@@ -147,6 +147,9 @@ PlannedLength told_by(const PlannedOscillation& plan, int cycles, int seeds, std
   }
   out.cd_half_width = median_of_widths(cd);
   out.inertia_half_width = median_of_widths(inertia);
+  if (!std::isfinite(out.cd_half_width) || !std::isfinite(out.inertia_half_width))
+    throw hydro::NumericsError(
+        "fits of made records give no interval: noise, mass, length and density are out of all proportion");
   return out;
 }
 

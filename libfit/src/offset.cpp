@@ -312,6 +312,13 @@ void check(std::span<const double> time, std::span<const double> value, std::spa
   hydro::require(time.size() == value.size() && other_time.size() == other.size() && seen >= 16 && other.size() >= 16,
                  "an offset needs 16 samples at least of both, got {} of the {} and {} of the {}", seen, o.first,
                  other.size(), o.second);
+  for (const auto& [name, values] : {std::pair{&o.first, value}, {&o.second, other}}) {
+    // A gap of the first is NaN, which is neither smaller nor larger.
+    const auto first = std::find_if(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+    if (std::none_of(first, values.end(), [&](double v) { return std::abs(v - *first) > 0; }))
+      throw InputError(fmt::format("{} is {:.6g} throughout: it gave no signal", *name, *first), {},
+                       "look whether it was connected, and whether the column is the right one");
+  }
   for (std::size_t i = 0; i < other.size(); ++i)
     hydro::require(std::isfinite(other[i]) && (i == 0 || other_time[i] > other_time[i - 1]),
                    "the {} must be finite and its times ascend, which they do not at sample {}", o.second, i + 1);
@@ -321,7 +328,10 @@ void require_alike(const Peaks& peaks, const OffsetOptions& o) {
   if (std::abs(peaks.correlation) < 0.7 || fitting(peaks.correlation, o.sign) < 0)
     throw InputError(fmt::format("{} and {} do not show the same: their largest correlation is {:.3g}, at {:.4g} s",
                                  o.first, o.second, peaks.correlation, peaks.lag),
-                     {}, "name a signal and a column that move together");
+                     {},
+                     fmt::format("name channels that move together{}{}",
+                                 std::isfinite(o.longest) ? ", or look further than that longest offset" : "",
+                                 o.sign == OffsetOptions::Sign::either ? "" : ", or leave out the sign"));
   if (peaks.at_end && std::isfinite(o.longest))
     throw InputError(fmt::format("{} and {} are most alike at the longest offset that is looked for, {:.4g} s: theirs "
                                  "may lie beyond",
@@ -405,6 +415,13 @@ Offset offset_between(std::span<const double> time, std::span<const double> valu
   const Lags range = lags_between(time, other_time, options.longest);
   const auto [first, last, step] = range;
   hydro::require(first <= last, "{} and {} have no time in common, whatever the offset", options.first, options.second);
+  constexpr double most_lags = 1e7;  // a day of both at 100 samples a second
+  if ((last - first) / step > most_lags)
+    throw InputError(
+        fmt::format("offsets from {:.4g} s to {:.4g} s by half a sample, {:.3g} s, are {:.2g}: at most {:.0g} "
+                    "are looked at",
+                    first, last, step, (last - first) / step, most_lags),
+        {}, "look whether a time jumps, or bound the offset");
   const double span = time.back() - time.front(), half = std::min(span, other_time.back() - other_time.front()) / 2;
   // Of long records each sample at each lag would take minutes; the swing is found by fewer.
   constexpr double most = 1e8;

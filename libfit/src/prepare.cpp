@@ -164,8 +164,15 @@ void compare_channels(const RawRun& run) {  // (F26)
 /// Half of the window about a sample, in samples of the record as it was given; 0 where outliers are not looked for.
 int outlier_half_window(const std::vector<double>& time, const PrepareOptions& options) {
   if (options.outlier_window_s <= 0) return 0;
-  const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
-  return std::max(2, static_cast<int>(options.outlier_window_s / (2 * step)));
+  const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1),
+               half = options.outlier_window_s / (2 * step);
+  if (!(half >= 2) || half > static_cast<double>(time.size()) / 4)
+    throw InputError(
+        fmt::format("outliers are looked for in a window of {:.4g} s: of a record with a sample every {:.4g} "
+                    "s it must be {:.4g} s at least, and half of it, {:.4g} s, at most",
+                    options.outlier_window_s, step, 4 * step, (time.back() - time.front()) / 2),
+        {}, "name [prepare.outliers] window for some ten samples");
+  return static_cast<int>(half);
 }
 
 void take_outliers(Work& w, int half_window, double deviations) {  // (F22)
@@ -181,6 +188,11 @@ void take_outliers(Work& w, int half_window, double deviations) {  // (F22)
 void resample(Work& w, double hz) {  // (F48)
   if (hz == 0) return;
   hydro::require(hz > 0 && std::isfinite(hz), "a sampling rate must be positive, got {} Hz", hz);
+  constexpr double most = 100;  // times the rate that was recorded: between samples there is nothing to be found
+  if (hz * w.step > most)
+    throw InputError(fmt::format("a sampling rate of {:.4g} Hz is more than {:g} times that of the record, {:.4g} Hz",
+                                 hz, most, 1 / w.step),
+                     {}, "resample to the rate of the other records");
   const Resampler to(w.step, 1 / hz);
   const double first = w.run.time.front() + static_cast<double>(to.settling()) * w.step;
   for (const auto& [name, column] : measured(w.run)) *column = to.apply(*column);

@@ -25,6 +25,9 @@ void check(const Cylinder& c) {
 void check(const TowingRun& r) {
   hydro::require(std::isfinite(r.speed) && r.speed > 0, "the speed must be positive, got {} m/s", r.speed);
   hydro::require(std::isfinite(r.force), "the force is not finite");
+  hydro::require(r.force > 0,
+                 "the force is {} N at {} m/s: drag is positive, so it has the wrong sign, or the wrong zero", r.force,
+                 r.speed);
   hydro::require(r.force_deviation >= 0 && std::isfinite(r.force_deviation) && r.speed_deviation >= 0 &&
                      std::isfinite(r.speed_deviation),
                  "the deviations must not be negative, got {} m/s and {} N", r.speed_deviation, r.force_deviation);

@@ -284,6 +284,26 @@ class WrongCommandLine(CommandLine):
     def test_an_option_without_unit(self):
         self.refuses(self.froude("bem", "info", "pontoon1.nc", "--density", "1025"), "--density", "kg/m^3")
 
+    def test_an_experiment_that_cannot_be(self):
+        waves = {"--period": "1.6 s", "--height": "0.06 m", "--depth": "1.25 m", "--gauge": "20 m", "--body": "23 m"}
+        for option, value in (("--ramp", "-1 s"), ("--settle", "-1"), ("--period", "1e200 s"), ("--height", "-1 m"),
+                              ("--depth", "0 m"), ("--depth", "1e-320 m"), ("--gauge", "-1 m")):
+            given = {**waves, option: value}
+            result = self.froude("experiment", "waves", *(part for both in given.items() for part in both))
+            self.refuses(result, value.split()[0] if "e" not in value else "between 1e-30 and 1e30")
+        deep = {**waves, "--depth": "infinite"}
+        result = self.froude("experiment", "waves", *(part for both in deep.items() for part in both))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("deep water (kh infinite)", result.stdout)
+        swing = {"--diameter": "0.12 m", "--kc": "20", "--period": "4 s", "--viscosity": "1.05e-6 m^2/s", "--width": "0.05",
+                 "--noise": "2 N", "--length": "0.5 m", "--density": "997 kg/m^3"}
+        for option, value in (("--diameter", "0 m"), ("--period", "-4 s"), ("--kc", "0"), ("--width", "0"),
+                              ("--noise", "1e200 N"), ("--mass", "1e200 kg")):
+            given = {**swing, option: value}
+            result = self.froude("experiment", "oscillation", *(part for both in given.items() for part in both))
+            self.assertEqual(result.returncode, 2, option + result.stdout)
+            self.assertNotIn("nan", result.stderr)
+
     def test_an_option_of_wrong_dimension(self):
         self.refuses(self.froude("bem", "info", "pontoon1.nc", "--depth", "14 s"), "--depth", "a length")
 

@@ -104,6 +104,7 @@ TEST(ChannelLine, RefusesWhatIsNoLine) {
               ThrowsMessage<hydro::InputError>(HasSubstr("time does not increase at point 3")));
   EXPECT_THAT(refused({{1, 2, 3, 4}, {4, 5, 6, 7}, {1, 2, 3, 4}}),
               ThrowsMessage<hydro::InputError>(HasSubstr("cannot be told from the slope")));
+  EXPECT_THAT(refused({{1, 2, 3, 4}, {1, 3, 1, 3}}), ThrowsMessage<hydro::InputError>(HasSubstr("holds zero")));
 }
 
 }  // namespace

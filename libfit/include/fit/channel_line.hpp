@@ -40,8 +40,8 @@ struct ChannelLine {
 /// above that of the point before, the first where the second is; references are equal if they differ by less than 1e-6
 /// of their range. A drift is fitted where times are given and the line has four points at least. \throws
 /// hydro::InputError: lengths differ, fewer than three points (four with times), a value that is not finite, references
-/// that are all the same, readings that are, times that do not increase, or times so along with the references that a
-/// drift cannot be told from the slope
+/// that are all the same, readings that are, a slope whose interval holds zero, times that do not increase, or times so
+/// along with the references that a drift cannot be told from the slope
 ChannelLine fit_channel_line(const LinePoints& points, double confidence = 0.95);
 
 }  // namespace fit

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "telling.hpp"
 
@@ -9,14 +10,15 @@ namespace fit::channel {
 namespace {
 
 Report told(const Run& run, const ChannelLine& line, const Problem& problem) {
-  const std::string &v = problem.reading_unit, &x = problem.reference_unit, per = v + "/" + x;
+  const std::string &v = problem.reading_unit, &x = problem.reference_unit,
+                    per = v.empty() && x.empty() ? "" : v + "/" + x;
   const double slope = std::abs(*line.slope.value);
   Report report = begin_run(run.source);
   report.heading =
       fmt::format("{}: {} points; reading = offset + slope x reference", run.source.name(), run.points.reading.size());
   report.facts.emplace_back("points", run.points.reading.size());
   report.estimates = {{line.slope, per}, {line.offset, v}};
-  if (line.drift) report.estimates.push_back({*line.drift, v + "/s"});
+  if (line.drift) report.estimates.push_back({*line.drift, (v.empty() ? std::string("1") : v) + "/s"});
   append(report.facts, {{"residual_deviation", line.residual_deviation}, {"nonlinearity", line.nonlinearity}});
   report.say("points lie {:.3g} {} about the line, {:.2g} {} of the reference; the furthest {:.2g} % of the range",
              line.residual_deviation, v, line.residual_deviation / slope, x, 100 * line.nonlinearity);

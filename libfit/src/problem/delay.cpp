@@ -16,6 +16,15 @@ FittedRun fitted(const Run& run, const Options& options) {
     out.time.push_back(run.time[i]);
     out.first.push_back(run.first.at(i));
   }
+  constexpr std::size_t fewest = 16;
+  if (options.window && out.time.size() < fewest)
+    throw hydro::InputError(
+        fmt::format(
+            "the window from {:g} s to {:g} s holds {} samples of {}, and a delay needs {}; the record goes from "
+            "{:g} s to {:g} s",
+            options.window->first, options.window->second, out.time.size(), options.search.first, fewest,
+            run.time.empty() ? 0 : run.time.front(), run.time.empty() ? 0 : run.time.back()),
+        {}, "name [prepare] window within the record");
   const OffsetOptions& search = options.search;
   out.offset = offset_between(out.time, out.first, run.second_time, run.second, search);
   if (out.offset.chance > by_chance && !options.one_source)

@@ -67,9 +67,23 @@ std::size_t peak_of(const hs::SpectrumPerHz& waves) {
 }
 
 /// (F107) Samples by which the energy of the highest waves comes later to the body than to the gauge.
-std::ptrdiff_t samples_between(const std::optional<WaveTank>& tank, double omega, double step) {
+/// \throws hydro::InputError where a run holds no segment of the same waves at both
+std::ptrdiff_t samples_between(const Problem& problem, const Solution& so_far, double omega, double step) {
+  const auto& tank = problem.options.tank;
   if (!tank) return 0;
-  return std::lround((tank->body - tank->gauge) / hydro::waves::group_velocity(omega, tank->water) / step);
+  const double later = (tank->body - tank->gauge) / hydro::waves::group_velocity(omega, tank->water);
+  for (std::size_t i = 0; i < so_far.records.size(); ++i) {
+    const auto samples = static_cast<double>(so_far.records[i].time.size()),
+               segment = static_cast<double>(so_far.segment_samples);
+    if (!(std::abs(later / step) <= samples - segment))
+      throw hydro::InputError(
+          fmt::format("gauge and body are so far apart, the highest waves take {:.4g} s, that no segment of {:.4g} s "
+                      "within the {:.4g} s of the run holds the same waves at both",
+                      std::abs(later), segment * step, samples * step),
+          {.file = problem.runs[i].source.file.string()},
+          "take longer runs, shorter segments, or a gauge nearer to the body");
+  }
+  return std::lround(later / step);
 }
 
 /// Surface and response of each run, the response so many samples later.
@@ -78,7 +92,6 @@ std::vector<hs::InputOutput> moved(const std::vector<WaveRecord>& records, std::
   const auto skip = static_cast<std::size_t>(std::abs(later));
   for (const WaveRecord& r : records) {
     const std::span<const double> x(r.elevation), y(r.responses[response]);
-    hydro::require(x.size() > skip, "gauge and body are so far apart that no run holds the same waves at both");
     const std::size_t n = x.size() - skip;
     out.push_back(later < 0 ? hs::InputOutput{x.last(n), y.first(n)} : hs::InputOutput{x.first(n), y.last(n)});
   }
@@ -136,7 +149,7 @@ Coefficient gain_at(const hs::TransferEstimate& t, std::size_t k, const SlopeErr
 Response response_of(const Problem& problem, const Solution& so_far, std::size_t i, double step) {
   const Options& options = problem.options;
   const double peak = 2 * std::numbers::pi * so_far.waves.frequency_hz[peak_of(so_far.waves)];
-  const std::ptrdiff_t later = samples_between(options.tank, peak, step);
+  const std::ptrdiff_t later = samples_between(problem, so_far, peak, step);
   Response out{problem.runs[0].responses[i].name,
                hs::transfer(moved(so_far.records, i, later), step, {.segment = so_far.segment_samples}),
                {}};

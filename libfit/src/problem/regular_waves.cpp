@@ -106,6 +106,12 @@ void tell(const Problem& problem, const WaveRun& run, const FittedRun& found, Re
                         {"wave", facts_of(fit.wave)}});
   report.steps->push_back(window_of(found, problem.options));
   for (const std::string& caution : fit.cautions) report.warn(caution);
+  const double regular = std::pow(amplitude_of(fit.wave), 2) / 2, rest = std::pow(fit.wave.residual_rms, 2);
+  if (rest > regular)
+    report.warn(
+        fmt::format("{:.0f} % of the variance of the surface is in no harmonic of this period: the waves are not "
+                    "regular; records of a sea are fitted by kind \"irregular waves\"",
+                    100 * rest / (rest + regular)));
   for (std::size_t i = 0; i < fit.responses.size(); ++i)
     report.parts.push_back(told(fit.responses[i], problem.units[i]));
   add_labels(report, run.source);

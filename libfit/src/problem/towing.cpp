@@ -24,7 +24,7 @@ Report told_mean(const TowingFit& fit) {
   mean.heading = fmt::format("together: cd {:.4f}, {:g} % interval {:.4f} to {:.4f}", *fit.cd.value,
                              100 * fit.confidence, fit.cd.interval.low, fit.cd.interval.high);
   mean.estimates = {{.coefficient = fit.cd, .in_words = true}};
-  if (std::isfinite(fit.scatter)) {
+  if (std::isfinite(fit.scatter) && fit.points.size() > 1) {
     scatter.facts = {{"chi_square", fit.chi_square}, {"scatter", fit.scatter}};
     scatter.say("{}the runs scatter {:.2f} times as much as their deviations say{}",
                 fit.scatter > fit.allowed ? "accepted: " : "", fit.scatter,

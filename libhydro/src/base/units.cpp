@@ -5,6 +5,9 @@
 #include <numbers>
 #include <optional>
 
+#include "hydro/base/error.hpp"
+#include "hydro/base/measurable.hpp"
+
 namespace hydro {
 namespace {
 
@@ -223,7 +226,12 @@ Quantity parse_quantity(std::string_view text) {
   std::string_view rest;
   const double value = leading_number(text, rest);
   const Unit unit = parse_unit(rest);
-  return {value * unit.factor, unit.dimension};
+  const double si = value * unit.factor;
+  if (!is_measurable(si))
+    throw InputError(
+        fmt::format("\"{}\" is beyond what is computed with: sizes lie between 1e-30 and 1e30 in SI", text), {},
+        "look at the exponent and at the unit");
+  return {si, unit.dimension};
 }
 
 bool compatible(const Dimension& given, const Dimension& needed) {

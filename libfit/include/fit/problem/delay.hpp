@@ -16,6 +16,7 @@ namespace fit::delay {
 struct Options {
   OffsetOptions search = {};
   bool one_source = false;  ///< they are known to have something in common: chance is not asked
+  std::string unit = {};    ///< of the first channel; "": a number, or not known
   std::optional<std::pair<double, double>> window = {};  ///< s: of the first channel; the second is taken whole
 };
 

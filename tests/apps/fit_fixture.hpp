@@ -1,0 +1,110 @@
+#pragma once
+/// \file  Fits of the examples, or of what is wrong with one of them, in a folder of their own.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "froude/commands.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/io/atomic_file.hpp"
+#include "support/source_dir.hpp"
+
+namespace fit_test {
+
+/// The files of a folder of examples, copied where they may be spoilt.
+class FitsOf : public testing::Test {
+ protected:
+  explicit FitsOf(const std::string& examples) {
+    std::string name = (std::filesystem::temp_directory_path() / "froude-test-XXXXXX").string();
+    folder = ::mkdtemp(name.data());
+    std::filesystem::copy(froude_test::source_dir() / "examples" / examples, folder);
+  }
+  ~FitsOf() override { std::filesystem::remove_all(folder); }
+
+  static std::string told(const froude::FitArguments& arguments, bool json = false) {
+    std::ostringstream out, err;
+    froude::fit(arguments, {out, err, json});
+    return out.str();
+  }
+  nlohmann::json tree(const std::string& scene) const {
+    return nlohmann::json::parse(told({.scene = folder / scene}, true));
+  }
+
+  std::string text_of(const std::string& file) const { return hydro::io::read_text(folder / file); }
+  void write(const std::string& file, const std::string& text) const {
+    hydro::io::write_atomically(folder / file, text);
+  }
+  void replace(const std::string& file, const std::string& from, const std::string& to) const {
+    std::string text = text_of(file);
+    ASSERT_NE(text.find(from), std::string::npos) << from << " is not in " << file;
+    text.replace(text.find(from), from.size(), to);
+    write(file, text);
+  }
+  /// The cells of one column of a data file, each made anew from its row, counted from 0, and what it was.
+  void refill(const std::string& file, std::size_t column,
+              const std::function<std::string(std::size_t, const std::string&)>& cell) const {
+    std::istringstream in(text_of(file));
+    std::string out, line;
+    for (std::size_t row = 0, heads = 0; std::getline(in, line);) {
+      if (line.starts_with('#') || heads++ == 0) {
+        out += line + "\n";
+        continue;
+      }
+      std::istringstream cells(line);
+      std::string one, made;
+      for (std::size_t i = 0; std::getline(cells, one, ','); ++i)
+        made += (i > 0 ? "," : "") + (i == column ? cell(row, one) : one);
+      out += made + "\n";
+      ++row;
+    }
+    write(file, out);
+  }
+  /// The first rows of a data file alone.
+  void keep(const std::string& file, std::size_t rows) const {
+    std::istringstream in(text_of(file));
+    std::string out, line;
+    for (std::size_t data = 0; std::getline(in, line);)
+      if (line.starts_with('#') || data++ <= rows) out += line + "\n";
+    write(file, out);
+  }
+  /// What the fit says against it; "" where it has nothing to say. Numerics that gave up are told apart.
+  std::string refusal(const std::string& scene) const {
+    try {
+      told({.scene = folder / scene});
+    } catch (const hydro::InputError& e) {
+      return e.where().str() + ": " + e.rule() + " -> " + e.remedy();
+    } catch (const hydro::NumericsError& e) {
+      return std::string("numerics: ") + e.what();
+    }
+    return {};
+  }
+  /// Of the scene with one text replaced.
+  std::string refusal(const std::string& scene, const std::string& from, const std::string& to) const {
+    const std::string before = text_of(scene);
+    replace(scene, from, to);
+    const std::string out = refusal(scene);
+    write(scene, before);
+    return out;
+  }
+
+  static bool holds(const nlohmann::json& coefficient, double truth) {
+    return coefficient["interval"][0].get<double>() < truth && truth < coefficient["interval"][1].get<double>();
+  }
+
+  std::filesystem::path folder;
+};
+
+/// The day at a tank, from volts on: what make_tank_day.py put in.
+class TankDay : public FitsOf {
+ protected:
+  TankDay() : FitsOf("tank_day") {}
+};
+
+}  // namespace fit_test
