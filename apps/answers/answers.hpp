@@ -17,6 +17,11 @@ namespace froude {
 /// Free motions of a scene that asks for them. \throws hydro::InputError, hydro::NumericsError
 Modes free_modes(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept = nullptr);
 
+/// Whether periodic motions last, for a scene that asks for it; `done` is told the share of the map that is made.
+/// \throws hydro::InputError, hydro::NumericsError
+StabilityMap stability(const scene::Scene& scene, const std::function<void(double)>& done = {},
+                       const std::shared_ptr<compile::Kept>& kept = nullptr);
+
 /// "m1.surge 1, m2.surge 0.81": the motions that matter in a shape.
 std::string largest_motions(const std::vector<std::string>& motions, std::span<const double> shape);
 

@@ -158,6 +158,7 @@ struct Style {
   bool dashed;
 };
 Style style_of(std::size_t index, const Series& series) {
+  if (!series.colour.empty()) return {series.colour.c_str(), series.dashed};
   return {colours[index % colours.size()], series.dashed || index >= colours.size()};
 }
 
@@ -263,9 +264,10 @@ double legend_width(const Figure& figure) {
     for (const Series& s : panel.series) longest = std::max(longest, characters(s.name));
     for (const Band& b : panel.bands) longest = std::max(longest, characters(b.name));
   }
-  if (std::any_of(figure.panels.begin(), figure.panels.end(), [](const Panel& p) { return p.field.has_value(); }))
-    return scale_width;
-  return longest == 0 ? 0 : 14 + legend_swatch + character_width * static_cast<double>(longest);
+  const bool scale =
+      std::any_of(figure.panels.begin(), figure.panels.end(), [](const Panel& p) { return p.field.has_value(); });
+  return (scale ? scale_width : 0) +
+         (longest == 0 ? 0 : 14 + legend_swatch + character_width * static_cast<double>(longest));
 }
 
 double legend_height(const Panel& panel) {
@@ -289,10 +291,9 @@ void draw_panel(Buffer& out, const Panel& panel, const Frame& f, std::size_t num
   for (std::size_t i = 0; i < panel.series.size(); ++i)
     draw_series(out, panel.series[i], f, style_of(i, panel.series[i]));
   put(out, "</g>\n");
-  if (panel.field)
-    draw_scale(out, *panel.field, f, f.left + f.width + 14);
-  else
-    draw_legend(out, panel, f.left + f.width + 14, f.top);
+  const double right = f.left + f.width + 14;
+  if (panel.field) draw_scale(out, *panel.field, f, right);
+  draw_legend(out, panel, right + (panel.field ? scale_width : 0), f.top);
 }
 
 constexpr const char* style_sheet =

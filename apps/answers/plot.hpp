@@ -24,6 +24,7 @@ struct Series {
   std::string name;          ///< in the legend; "" keeps it out of the legend
   std::vector<double> x, y;  ///< of equal length
   bool line = true, marks = false, dashed = false;
+  std::string colour = {};  ///< "#d00000"; "" takes the next of those that tell series apart
 };
 
 /// A shaded region between two curves, for example a confidence interval.
@@ -32,7 +33,7 @@ struct Band {
   std::vector<double> x, low, high;  ///< of equal length
 };
 
-/// Values at the points of a grid, drawn as colours with contours at round values, and a scale in place of a legend.
+/// Values at the points of a grid, drawn as colours with contours at round values, and a scale left of the legend.
 struct Field {
   Axis value;
   std::vector<double> xs, ys;               ///< rising, two and more each

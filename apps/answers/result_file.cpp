@@ -2,6 +2,7 @@
 #include <array>
 #include <numbers>
 
+#include "answers/provenance.hpp"
 #include "froude/result.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
@@ -16,6 +17,7 @@ using hydro::io::Hdf5Writer;
 constexpr const char* run_kind = "froude run";
 constexpr const char* rao_kind = "froude rao";
 constexpr const char* modes_kind = "froude modes";
+constexpr const char* stability_kind = "froude stability";
 
 void describe(Hdf5Writer& file, const std::string& dataset, const std::string& units, const std::string& long_name) {
   file.attribute(dataset, "units", units.empty() ? "1" : units);
@@ -159,6 +161,34 @@ void write_modes(const std::filesystem::path& path, const Modes& modes, const Pr
         "undamped displacements about the centres of gravity, m and rad");
   write("/damped_shape", flat(modes.damped_shape), {count, motions, 2}, {"/mode", "/motion", "/complex"}, "1",
         "damped displacements about the centres of gravity, m and rad");
+  file.save(path);
+}
+
+void StabilityMap::write(const std::filesystem::path& path) const {
+  Hdf5Writer file;
+  Provenance with_notes = provenance;
+  add_notes(notes, with_notes);
+  write_provenance(file, stability_kind, with_notes);
+  write_dimension(file, "/height", height, "m", "of the waves");
+  write_dimension(file, "/period", period, "s", "of the waves");
+  const auto cell_by_cell = [&](const std::string& name, const std::vector<double>& values, const std::string& units,
+                                const std::string& what) {
+    file.write(name, values, {height.size(), period.size()});
+    file.attach_dimension(name, 0, "/height");
+    file.attach_dimension(name, 1, "/period");
+    describe(file, name, units, what);
+  };
+  std::vector<double> multiplier, fate;
+  for (const Cell& c : cells) {
+    multiplier.push_back(c.multiplier);
+    fate.push_back(c.fate ? static_cast<double>(*c.fate) : std::nan(""));
+  }
+  cell_by_cell("/multiplier", multiplier, "1", "largest absolute Floquet multiplier of the periodic motion");
+  cell_by_cell("/fate", fate, "1", "0 stable, 1 period-doubled, 2 quasi-periodic, 3 fold");
+  file.write("/mathieu", mathieu, {period.size()});
+  file.attach_dimension("/mathieu", 0, "/period");
+  describe(file, "/mathieu", "m", "height from which one motion grows, by Hill's equation of that motion");
+  for (const Signal& s : signals) cell_by_cell(root_path(s.name), s.values, s.units, s.long_name);
   file.save(path);
 }
 

@@ -265,7 +265,8 @@ hydro::waves::Sea sea_of_run(const Scene& scene, const Prepared& prepared, std::
   return sea;
 }
 
-TimeModel time_model(const Scene& scene, const Prepared& prepared, const std::vector<LoadRecord>& put_back) {
+TimeModel time_model(const Scene& scene, const Prepared& prepared, const std::vector<LoadRecord>& put_back,
+                     bool memory_apart) {
   const ChosenStep chosen = choose_step(scene, prepared);
   const double step = chosen.value;
   const auto per_sample = static_cast<std::size_t>(std::llround(scene.run->every / step));
@@ -306,7 +307,7 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared, const std::ve
     in_run.push_back(std::move(parts.in_run));
     memory_lines.insert(memory_lines.end(), parts.lines.begin(), parts.lines.end());
   }
-  if (!memories.empty()) {
+  if (!memories.empty() && !memory_apart) {
     forces.push_back(std::make_unique<dynamics::RadiationKind>(std::move(memories)));
     told_in_parts[forces.back().get()] = std::move(memory_lines);
   }

@@ -124,6 +124,8 @@ struct TimeModel {
   std::vector<std::string> notes;
 };
 /// `put_back`: loads that act beside all that the scene names, from t = 0 on (compile/defect.hpp).
-TimeModel time_model(const scene::Scene& scene, const Prepared& prepared, const std::vector<LoadRecord>& put_back = {});
+/// `memory_apart`: the model has the added mass that goes with TimeModel::memories, and not these.
+TimeModel time_model(const scene::Scene& scene, const Prepared& prepared, const std::vector<LoadRecord>& put_back = {},
+                     bool memory_apart = false);
 
 }  // namespace froude::compile

@@ -281,6 +281,34 @@ void add_rao(CLI::App& app, Request& request) {
   calls(*command, request, arguments, rao);
 }
 
+void add_stability(CLI::App& app, Request& request) {
+  auto* command =
+      app.add_subcommand("stability", "periodic motions in regular waves, a map over period and height: do they last");
+  command->footer("Example:\n  froude stability examples/buoy.toml -o map.h5 --picture map.svg --check time");
+  auto arguments = std::make_shared<StabilityArguments>();
+  auto duration = std::make_shared<std::string>("2400 s");
+  command->add_option("scene", arguments->scene, "scene file (.toml)")->required();
+  add_scene_outputs(*command, "stability", *arguments);
+  command
+      ->add_option("--check", arguments->check,
+                   "time: step some cells from rest, and tell whether the map has them right")
+      ->check(CLI::IsMember({"time"}));
+  command->add_option("--check-cells", arguments->check_cells, "how many, spread evenly over the map")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--check-duration", *duration, "of each run, whose last fifth is compared")
+      ->capture_default_str();
+  command->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      arguments->check_duration = *parsed("--check-duration", *duration, hydro::dim::time);
+      hydro::require(arguments->check_duration > 0, "--check-duration must be positive, got {} s",
+                     arguments->check_duration);
+      stability(*arguments, console);
+      return done;
+    };
+  });
+}
+
 void add_waves(CLI::App& app, Request& request) {
   auto* waves = app.add_subcommand("waves", "seas: what they are, and series of the water's motion");
   waves->require_subcommand(1);
@@ -584,6 +612,7 @@ void describe(CLI::App& app, Request& request) {
   add_rao(app, request);
   add_scene_command(app, request, "modes", "free motions of a scene about rest: periods, damping, shapes", &modes,
                     true);
+  add_stability(app, request);
   add_scene_command(app, request, "run", "time series of a scene", &run, true);
   add_waves(app, request);
   add_hydrostatics(app, request);

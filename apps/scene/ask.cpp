@@ -118,6 +118,16 @@ Binding<AskModes> free_motions() {
       });
 }
 
+Binding<AskStability> stability() {
+  return Binding<AskStability>("[ask.stability]",
+                               "whether periodic motions in regular waves last, over periods and heights of the waves")
+      .key(range("periods", dim::time, "wave periods").positive(), &AskStability::periods)
+      .key(range("heights", dim::length, "wave heights").positive(), &AskStability::heights)
+      .part(small_motions(), &AskStability::about)
+      .key(asked_signals(), put_signals<AskStability>)
+      .place(&AskStability::place);
+}
+
 Binding<AskWaves> waves() {
   return Binding<AskWaves>("[ask.waves]", "time series of the water at the probes, for `froude waves make`")
       .key(quantity("from", dim::time, "first sample").or_default("0 s", "the time that phases refer to"),
@@ -131,7 +141,7 @@ Binding<AskWaves> waves() {
 /// Motions need something that moves.
 void check_bodies(const Record& ask, const Scene& scene) {
   if (!scene.bodies.empty()) return;
-  for (const char* what : {"rao", "run"}) {
+  for (const char* what : {"rao", "stability", "run"}) {
     if (!ask.has(what) || (what == std::string_view("run") && !scene.lines.empty())) continue;
     throw ask.table(what).refused("asks for motion, but the scene has no body", "add a [[body]]");
   }
@@ -161,6 +171,10 @@ void check_scene(const Record& ask, Scene& scene) {
     throw ask.table("rao").table("drag").refused("makes drag linear, but no member names drag",
                                                  "leave it out, or add a [[member]] with drag");
   if (scene.rao && scene.rao->headings.empty()) take_heading(ask.table("rao"), scene);
+  if (scene.stability && (!scene.waves || !std::holds_alternative<RegularWave>(scene.waves->kind)))
+    throw ask.table("stability")
+        .refused("is of regular waves, and the scene has none",
+                 "add [waves] with kind = \"regular\": its heading is taken");
   if (!scene.ask_waves) return;
   if (!scene.waves) throw ask.table("waves").refused("asks for waves, but there are none", "add a [waves] table");
   if (scene.probes.empty())
@@ -175,6 +189,7 @@ const Binding<Scene>& ask_binding() {
                                 .then(check_bodies)
                                 .table("rao", rao(), &Scene::rao)
                                 .table("modes", free_motions(), &Scene::ask_modes)
+                                .table("stability", stability(), &Scene::stability)
                                 .table("run", run(), &Scene::run)
                                 .table("waves", waves(), &Scene::ask_waves)
                                 .key(number("accuracy",
@@ -183,7 +198,7 @@ const Binding<Scene>& ask_binding() {
                                          .within(Limit::open_fraction)
                                          .or_default("1e-2", "about what coefficients and measurements are good for"),
                                      &Scene::accuracy)
-                                .at_least_one_of({"rao", "modes", "run", "waves"})
+                                .at_least_one_of({"rao", "modes", "stability", "run", "waves"})
                                 .then(check_scene);
   return table;
 }

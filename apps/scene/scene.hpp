@@ -414,6 +414,14 @@ struct AskModes {
   double shortest = 0, longest = std::numeric_limits<double>::infinity();  ///< s
   About about;
 };
+/// Whether periodic motions in regular waves of many periods and heights last.
+struct AskStability {
+  std::vector<double> periods, heights;  ///< s, m
+  std::vector<std::string> of;
+  std::vector<Place> of_places;
+  About about;
+  Place place;
+};
 struct AskRun {
   double duration;                ///< s
   double every;                   ///< s; distance of stored samples; duration is a multiple of it
@@ -468,6 +476,7 @@ struct Scene {
   std::vector<Joint> joints;
   std::optional<AskRao> rao;
   std::optional<AskModes> ask_modes;
+  std::optional<AskStability> stability;
   std::optional<AskRun> run;
   std::optional<AskWaves> ask_waves;
   Located<double> accuracy{1e-2, {}};  ///< largest error of each signal asked for

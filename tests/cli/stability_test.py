@@ -23,8 +23,8 @@ class Stability(unittest.TestCase):
 
     def froude(self, scene, *arguments):
         (self.folder / "scene.toml").write_text(scene, encoding="utf-8")
-        return subprocess.run([str(FROUDE), *arguments, "stability", "scene.toml", "-o", "map.h5", "--csv", "map.csv",
-                               "--picture", "map.svg"], cwd=self.folder, capture_output=True, text=True, timeout=280)
+        return subprocess.run([str(FROUDE), "stability", "scene.toml", "-o", "map.h5", "--csv", "map.csv",
+                               "--picture", "map.svg", *arguments], cwd=self.folder, capture_output=True, text=True, timeout=280)
 
     def asking(self, table):
         return self.buoy.replace(ASKED, table)
@@ -32,31 +32,62 @@ class Stability(unittest.TestCase):
     def test_the_buoy_doubles_its_period_about_half_of_the_natural_one_and_a_run_agrees(self):
         # 7.5 s doubles at 2 m and 9 s does not, as runs of 2400 s have it (froude validate orszaghova-map).
         done = self.froude(self.asking('stability = { periods = "7.5 s .. 9 s, 2 values", heights = "2 m .. 2.5 m, 2 values", '
-                                       'of = ["pivot.angle", "rack.stroke"], check = { cells = 2, duration = "900 s" } }'),
-                           "--json")
+                                       'of = ["pivot.angle", "rack.stroke"] }'),
+                           "--json", "--check", "time", "--check-cells", "2", "--check-duration", "900 s")
         self.assertEqual(done.returncode, 0, done.stderr)
         told = json.loads(done.stdout)
         fates = {p["period_s"]: [c["fate"] for c in p["cells"]] for p in told["periods"]}
         self.assertEqual(fates, {7.5: ["period-doubled"] * 2, 9.0: ["stable"] * 2})
-        self.assertTrue(all(c["agrees"] for c in told["checks"] if c["decided"]), told["checks"])
+        for period in told["periods"]:
+            for cell in period["cells"]:
+                self.assertEqual(cell["multiplier"] > 1, cell["fate"] != "stable")
+            self.assertGreater(period["mathieu_height_m"], 0)
+        check = told["check"]
+        self.assertEqual([c["period_s"] for c in check["cells"]], [9.0, 9.0])
+        self.assertEqual((check["agree"], check["decided"]), (2, 2), check)
+        self.assertGreater(check["run_over_cell"], 1)
         rows = [r for r in csv.reader((self.folder / "map.csv").read_text().splitlines()) if not r[0].startswith("#")]
         self.assertEqual(len(rows), 1 + 4)
         self.assertIn("</svg>", (self.folder / "map.svg").read_text())
 
+    def test_a_run_leaves_a_motion_that_doubles(self):
+        done = self.froude(self.asking('stability = { periods = "7.4 s .. 7.5 s, 2 values", heights = "2 m .. 2.5 m, 2 values", '
+                                       'of = ["pivot.angle"] }'),
+                           "--json", "--check", "time", "--check-cells", "1", "--check-duration", "900 s")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        cell, = json.loads(done.stdout)["check"]["cells"]
+        self.assertEqual((cell["fate"], cell["left"], cell["agrees"]), ("period-doubled", True, True))
+
     def test_what_has_no_map_is_refused(self):
-        for scene, words in (
-                (self.buoy.replace(ASKED, ""), "does not ask for a stability map"),
-                (self.buoy.replace('of = ["pivot.angle", "rack.stroke"] }\n', 'of = ["pivot.angel"] }\n', 1), "pivot.angle"),
+        one_period = ASKED.replace("6 s .. 9 s, 7 values", "7 s .. 7 s, 1 values")
+        for scene, words, line in (
+                (self.buoy.replace(ASKED, ""), "does not ask for a stability map", None),
+                (self.asking(ASKED.replace('"pivot.angle", "rack.stroke"', '"pivot.angel"')), 'did you mean "pivot.angle"?', ASKED),
                 (self.buoy.replace('kind = "regular"\nheight = "2 m"\nperiod = "7.6 s"',
-                                   'kind = "jonswap"\nhs = "2 m"\ntp = "7.6 s"\nseed = 1'), "regular waves"),
-                (self.asking(ASKED.replace("1 m .. 4 m, 4 values", "-1 m .. 4 m, 4 values")), "heights"),
-                (self.buoy.replace("[joint.pto]\ndamping", "friction = { dynamic = \"1 kN m\" }\n[joint.pto]\ndamping", 1), "friction"),
+                                   'kind = "jonswap"\nhs = "2 m"\ntp = "7.6 s"\nseed = 1'), "regular waves", ASKED),
+                (self.asking(ASKED.replace("1 m .. 4 m, 4 values", "-1 m .. 4 m, 4 values")), "must be positive", ASKED),
+                (self.asking(ASKED.replace("6 s .. 9 s", "9 s .. 6 s")), "does not increase", ASKED),
+                (self.asking(ASKED.replace("6 s .. 9 s", "70 s .. 80 s")), "given from 0.1 to 3 rad/s", ASKED),
+                (self.asking(ASKED.replace("6 s .. 9 s", "3 s .. 9 s")), "beyond breaking", "[waves]"),
+                (self.asking(one_period), "two periods and two heights", ASKED),
+                (self.buoy.replace("[joint.pto]\ndamping", "friction = { dynamic = \"1 kN m\" }\n[joint.pto]\ndamping", 1),
+                 "friction is set-valued", ASKED),
         ):
             with self.subTest(words=words):
                 done = self.froude(scene)
                 self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
                 self.assertIn(words, done.stderr)
+                self.assertEqual(done.stderr.count("error:"), 1, done.stderr)
+                if line:  # where it stands: its beginning is the same in all of them
+                    number = [row.startswith(line[:12]) for row in scene.splitlines()].index(True) + 1
+                    self.assertRegex(done.stderr, f"scene.toml:{number}:[0-9]+: error:")
                 self.assertFalse((self.folder / "map.h5").exists())
+
+    def test_a_duration_is_a_time(self):
+        for duration, words in (("10 m", "a time is needed"), ("0 s", "must be positive")):
+            done = self.froude(self.buoy, "--check", "time", "--check-duration", duration)
+            self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+            self.assertIn(words, done.stderr)
 
 
 if __name__ == "__main__":

@@ -8,12 +8,14 @@
 #include <complex>
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "dynamics/frequency/harmonic_balance.hpp"
 #include "dynamics/time/growth.hpp"
 
 namespace froude {
@@ -175,6 +177,29 @@ struct Modes {
   std::optional<double> damping_ratio(std::size_t mode) const;  ///< empty where it creeps
   std::span<const double> shape_of(std::size_t mode) const;
   /// As write_modes(). \throws hydro::InputError if the file cannot be written
+  void write(const std::filesystem::path& path) const;
+};
+
+/// Whether the periodic motions of a scene in regular waves last, over periods and heights of the waves.
+struct StabilityMap {
+  /// A periodic motion that grows out of rest as waves do, with the period of the waves.
+  struct Cell {
+    std::optional<dynamics::frequency::Fate> fate = {};            ///< empty: no motion was found
+    double multiplier = std::numeric_limits<double>::quiet_NaN();  ///< the largest |Floquet multiplier| of a period
+    int harmonics = 0;
+    bool followed = false;  ///< the branch from the height below turned back at folds on its way
+    dynamics::frequency::PeriodicMotion motion = {};  ///< of the coordinates of (Q13); empty where none was found
+  };
+  std::vector<double> period, height;  ///< s, m
+  std::vector<Cell> cells;             ///< height by height: height h, period p at h Np + p
+  std::vector<double> mathieu;         ///< m, of each period: from where one motion grows by (Q14); NaN: none does
+  std::vector<std::string> motion;     ///< which
+  std::vector<Signal> signals;         ///< standard deviations of the periodic motions, cell by cell; NaN: none found
+  double processor_s = 0;              ///< that the cells took
+  std::vector<std::string> notes;      ///< what had to be decided, and what is left out
+  Provenance provenance = {};          ///< without the notes
+
+  /// Dimensions `height`, `period`. \throws hydro::InputError if the file cannot be written
   void write(const std::filesystem::path& path) const;
 };
 

@@ -13,7 +13,7 @@
 namespace dynamics::frequency {
 
 // (Q9)
-Eigen::MatrixXd monodromy(const PeriodicMatrix& a, double period_s) {
+Eigen::MatrixXd monodromy(const PeriodicMatrix& a, double period_s, double tolerance) {
   namespace odeint = boost::numeric::odeint;
   hydro::require(std::isfinite(period_s) && period_s > 0, "a period must be positive, got {} s", period_s);
   const Eigen::MatrixXd at_start = a(0);
@@ -26,7 +26,6 @@ Eigen::MatrixXd monodromy(const PeriodicMatrix& a, double period_s) {
   const auto rate = [&](const Columns& from, Columns& out, double t) {
     Eigen::Map<Eigen::MatrixXd>(out.data(), n, n) = a(t) * Eigen::Map<const Eigen::MatrixXd>(from.data(), n, n);
   };
-  constexpr double tolerance = 1e-13;
   odeint::integrate_adaptive(odeint::make_controlled(tolerance, tolerance, odeint::runge_kutta_fehlberg78<Columns>()),
                              rate, x, 0.0, period_s, period_s / 64);
   const Eigen::MatrixXd out = Eigen::Map<const Eigen::MatrixXd>(x.data(), n, n);
@@ -36,8 +35,8 @@ Eigen::MatrixXd monodromy(const PeriodicMatrix& a, double period_s) {
   return out;
 }
 
-Eigen::VectorXcd floquet_multipliers(const PeriodicMatrix& a, double period_s) {
-  Eigen::VectorXcd out = hydro::dense::eigenvalues(monodromy(a, period_s));
+Eigen::VectorXcd floquet_multipliers(const PeriodicMatrix& a, double period_s, double tolerance) {
+  Eigen::VectorXcd out = hydro::dense::eigenvalues(monodromy(a, period_s, tolerance));
   std::sort(out.begin(), out.end(), [](const auto& x, const auto& y) { return std::abs(x) > std::abs(y); });
   return out;
 }

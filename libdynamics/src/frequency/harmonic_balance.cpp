@@ -171,8 +171,10 @@ std::optional<MatrixXd> solve(PeriodicSystem& system, MatrixXd Y, const Samples&
     const VectorXd step = hydro::dense::Lu(e->jacobian).solve(-e->residual);
     if (!step.allFinite()) break;
     const MatrixXd change = Eigen::Map<const MatrixXd>(step.data(), Y.rows(), Y.cols());
-    // Differences within the system leave 1e-9 of a motion; below that Newton only stirs.
-    if (change.norm() <= 1e-9 * Y.norm() || step.norm() == 0) return MatrixXd(Y + change);
+    // Newton's error is about the square of its last step, as shares of the motion; differences within the system leave
+    // 1e-9, below which Newton only stirs.
+    if (change.norm() <= std::max(1e-9, 0.01 * options.accuracy) * Y.norm() || step.norm() == 0)
+      return MatrixXd(Y + change);
     double share = 1;
     for (const double before = e->residual.norm();; share /= 2) {
       e = tried(system, Y + share * change, samples);
@@ -365,29 +367,36 @@ Eigen::VectorXcd floquet_multipliers(PeriodicSystem& system, const PeriodicMotio
   const Samples samples(motion.harmonics(), motion.omega);
   const Sampled sampled(system, motion.coefficients, samples);
   const PeriodicMemory* memory = system.memory();
-  const Index n = system.size(), z = memory != nullptr ? memory->A.rows() : 0, H = 2 * samples.harmonics() + 1;
-  MatrixXd series = MatrixXd::Zero((n + z) * (2 * H + 1), 2 * n + z);
+  const Index n = system.size(), z = memory != nullptr ? memory->A.rows() : 0, m = z > 0 ? memory->B.cols() : 0,
+              H = 2 * samples.harmonics() + 1;
+  // What varies: δ̈ by (δ, δ̇, z), and below it w by (δ, δ̇). How the states z go on from w is the same at all times.
+  MatrixXd series = MatrixXd::Zero((n + m) * (2 * H + 1), 2 * n + z);
   for (std::size_t j = 0; j < samples.count(); ++j) {
     const PeriodicSample& s = sampled.at[j];
-    MatrixXd lower = MatrixXd::Zero(n + z, 2 * n + z), right(n, 2 * n + z);
+    MatrixXd right(n, 2 * n + z), varying = MatrixXd::Zero(n + m, 2 * n + z);
     right.leftCols(n) = s.by_value;
     right.middleCols(n, n) = s.by_rate;
     if (z > 0) {
       right.rightCols(z) = -s.by_load * memory->C;
-      lower.bottomRows(z) << memory->B * s.velocity_by_value, memory->B * s.velocity_by_rate, memory->A;
+      varying.bottomLeftCorner(m, 2 * n) << s.velocity_by_value, s.velocity_by_rate;
     }
-    lower.topRows(n) = -hydro::dense::PivotedQr(s.by_acceleration).solve(right);
+    varying.topRows(n) = -hydro::dense::PivotedQr(s.by_acceleration).solve(right);
     const VectorXd weight =
         Harmonics(H, samples.omega(), samples.time(j)).value * (2.0 / static_cast<double>(samples.count()));
-    for (Index k = 0; k <= 2 * H; ++k) series.middleRows(k * (n + z), n + z) += (k == 0 ? 0.5 : 1) * weight[k] * lower;
+    for (Index k = 0; k <= 2 * H; ++k)
+      series.middleRows(k * (n + m), n + m) += (k == 0 ? 0.5 : 1) * weight[k] * varying;
   }
   MatrixXd A = MatrixXd::Zero(2 * n + z, 2 * n + z);
   A.block(0, n, n, n).setIdentity();
+  if (z > 0) A.bottomRightCorner(z, z) = memory->A;
   const auto at = [&](double t) {
-    A.bottomRows(n + z) = value_of(Harmonics(H, motion.omega, t).value, series);
+    const MatrixXd now = value_of(Harmonics(H, motion.omega, t).value, series);
+    A.middleRows(n, n) = now.topRows(n);
+    if (z > 0) A.bottomLeftCorner(z, 2 * n) = memory->B * now.bottomLeftCorner(m, 2 * n);
     return A;
   };
-  return floquet_multipliers(at, 2 * std::numbers::pi / motion.omega);
+  constexpr double tolerance = 1e-10;  // derivatives by differences leave 1e-9
+  return floquet_multipliers(at, 2 * std::numbers::pi / motion.omega, tolerance);
 }
 
 std::string name_of(Fate fate) {
@@ -405,7 +414,7 @@ std::string name_of(Fate fate) {
 }
 
 Fate fate_of(const Eigen::VectorXcd& multipliers) {
-  constexpr double rounding = 1e-8;  // a system without damping has all of them on the circle
+  constexpr double rounding = 1e-7;  // of multipliers; a system without damping has all of them on the circle
   const std::complex<double> largest = multipliers[0];
   if (std::abs(largest) <= 1 + rounding) return Fate::stable;
   if (std::abs(largest.imag()) > rounding * std::abs(largest)) return Fate::quasiperiodic;

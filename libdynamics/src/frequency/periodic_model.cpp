@@ -105,39 +105,51 @@ PeriodicModel::PeriodicModel(const Model& model, const SmallMotions& about,
 }
 
 // (Q13)
-PeriodicModel::Bodies PeriodicModel::bodies(const CoordinateMotion& motion) const {
+PeriodicModel::Closed PeriodicModel::closed(const VectorXd& value, VectorXd displacement) const {
   const JointSet& joints = model_.joints();
   const Index n = size(), m = joints.count(), all = basis_.rows(), held = static_cast<Index>(held_.size());
-  VectorXd displacement = basis_ * motion.value, right(all);
+  VectorXd right(all);
   MatrixXd S(all, all), J;
   S.topRows(n) = inverse_;
   S.bottomRows(held).setZero();
   for (Index i = 0; i < held; ++i) S(n + m + i, held_[static_cast<std::size_t>(i)]) = 1;
-  Bodies out;
-  // Quadratic: the second turn leaves 1e-8 of a radian's square, the last rounding alone.
+  State state;
+  // Quadratic: after a change of 1e-7 (m, rad) its square is left, which is rounding.
   constexpr int most = 20;
   for (int i = 0;; ++i) {
-    move(rest_, displacement, out.state);
+    move(rest_, displacement, state);
     J = velocity_by_displacement(displacement);
-    S.middleRows(n, m) = joints.dense(joints.gradients(out.state)) * J;
-    right << motion.value - inverse_ * displacement, -joints.values(out.state), -displacement(held_);
-    const VectorXd change = hydro::dense::Lu(S).solve(right);
+    S.middleRows(n, m) = joints.dense(joints.gradients(state)) * J;
+    right << value - inverse_ * displacement, -joints.values(state), -displacement(held_);
+    hydro::dense::Lu square(S);
+    const VectorXd change = square.solve(right);
     if (!change.allFinite() || i == most)
       throw hydro::NumericsError("joints cannot be closed in a periodic motion that is tried");
-    if (change.cwiseAbs().maxCoeff() < 1e-13) break;
     displacement += change;
+    if (change.cwiseAbs().maxCoeff() > 1e-7) continue;
+    move(rest_, displacement, state);
+    MatrixXd by_y(all, n);
+    for (Index k = 0; k < n; ++k) by_y.col(k) = square.solve(VectorXd::Unit(all, k));
+    return {std::move(state), std::move(displacement), std::move(J), std::move(by_y), std::move(square)};
   }
-  const hydro::dense::Lu lu(S);
-  MatrixXd by_y(all, n);
-  for (Index k = 0; k < n; ++k) by_y.col(k) = lu.solve(VectorXd::Unit(all, k));
-  out.by_coordinate = J * by_y;
-  const VectorXd rate = by_y * motion.rate, bent = acceleration_of_rates(displacement, rate, J);
-  out.state.velocity = J * rate;
+}
+
+PeriodicModel::Bodies PeriodicModel::moving(const Closed& at, const CoordinateMotion& motion) const {
+  const JointSet& joints = model_.joints();
+  const Index n = size(), m = joints.count();
+  Bodies out{at.state, {}, at.J * at.by_y};
+  const VectorXd rate = at.by_y * motion.rate, bent = acceleration_of_rates(at.displacement, rate, at.J);
+  out.state.velocity = at.J * rate;
   out.state.time = motion.time;
-  right << motion.acceleration, -joints.convective(out.state), VectorXd::Zero(held);
+  VectorXd right(basis_.rows());
+  right << motion.acceleration, -joints.convective(out.state), VectorXd::Zero(basis_.rows() - n - m);
   right.segment(n, m) -= joints.dense(joints.gradients(out.state)) * bent;
-  out.acceleration = J * lu.solve(right) + bent;
+  out.acceleration = at.J * at.square.solve(right) + bent;
   return out;
+}
+
+PeriodicModel::Bodies PeriodicModel::bodies(const CoordinateMotion& motion) const {
+  return moving(closed(motion.value, basis_ * motion.value), motion);
 }
 
 VectorXd PeriodicModel::residual(const Bodies& b, const VectorXd& load) {
@@ -158,12 +170,8 @@ VectorXd PeriodicModel::multipliers(const Bodies& b, const VectorXd& load) {
 
 PeriodicSample PeriodicModel::at(const CoordinateMotion& motion, const VectorXd& load) {
   const Index n = size(), m = static_cast<Index>(radiating_.size());
-  const auto evaluated = [&](const CoordinateMotion& where, VectorXd& w) {
-    const Bodies b = bodies(where);
-    w = b.state.velocity(radiating_);
-    return VectorXd(b.by_coordinate.transpose() * residual(b, load));
-  };
-  const Bodies here = bodies(motion);
+  const Closed place = closed(motion.value, basis_ * motion.value);
+  const Bodies here = moving(place, motion);
   PeriodicSample out{.residual = here.by_coordinate.transpose() * residual(here, load),
                      .by_value = MatrixXd(n, n),
                      .by_rate = MatrixXd(n, n),
@@ -174,16 +182,23 @@ PeriodicSample PeriodicModel::at(const CoordinateMotion& motion, const VectorXd&
   for (Index k = 0; k < n; ++k)
     out.by_acceleration.col(k) =
         here.by_coordinate.transpose() * model_.mass_times(here.state, here.by_coordinate.col(k));
-  VectorXd above, below;
-  const auto difference = [&](VectorXd CoordinateMotion::*of, Index k, double h) {
-    CoordinateMotion high = motion, low = motion;
-    (high.*of)[k] += h, (low.*of)[k] -= h;
-    return VectorXd((evaluated(high, above) - evaluated(low, below)) / (2 * h));
-  };
+  const auto projected = [&](const Bodies& b) { return VectorXd(b.by_coordinate.transpose() * residual(b, load)); };
   for (Index k = 0; k < n; ++k) {
-    out.by_value.col(k) = difference(&CoordinateMotion::value, k, step_[k]);
-    out.velocity_by_value.col(k) = (above - below) / (2 * step_[k]);
-    out.by_rate.col(k) = difference(&CoordinateMotion::rate, k, step_[k] * omega_);
+    const auto beside = [&](double h) {
+      CoordinateMotion moved = motion;
+      moved.value[k] += h;
+      return moving(closed(moved.value, place.displacement + h * place.by_y.col(k)), moved);
+    };
+    const auto faster = [&](double h) {
+      CoordinateMotion moved = motion;
+      moved.rate[k] += h;
+      return moving(place, moved);
+    };
+    const double h = step_[k], rate = step_[k] * omega_;
+    const Bodies above = beside(h), below = beside(-h);
+    out.by_value.col(k) = (projected(above) - projected(below)) / (2 * h);
+    out.velocity_by_value.col(k) = (above.state.velocity - below.state.velocity)(radiating_) / (2 * h);
+    out.by_rate.col(k) = (projected(faster(rate)) - projected(faster(-rate))) / (2 * rate);
   }
   return out;
 }

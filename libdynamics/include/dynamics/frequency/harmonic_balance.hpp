@@ -109,7 +109,8 @@ std::vector<BranchPoint> follow(const Family& family, double from, double to, Pe
                                 const FollowOptions& options = {});
 
 /// Floquet multipliers of a motion, the largest first, (Q12): of its small disturbances, memory included, over its own
-/// period. They know A(t) by its Fourier series at the motion's sampling times. \throws as monodromy()
+/// period. They know A(t) by its Fourier series at the motion's sampling times, and are right to some 1e-8. \throws as
+/// monodromy()
 Eigen::VectorXcd floquet_multipliers(PeriodicSystem& system, const PeriodicMotion& motion);
 
 /// What becomes of a periodic motion that is disturbed.

@@ -3,6 +3,7 @@
 /// docs/theory/frequency.md.
 #include "dynamics/frequency/harmonic_balance.hpp"
 #include "dynamics/frequency/small_motions.hpp"
+#include "hydro/base/dense.hpp"
 #include "hydro/radiation/rational.hpp"
 
 namespace dynamics::frequency {
@@ -50,6 +51,16 @@ class PeriodicModel : public PeriodicSystem {
   Eigen::VectorXd multipliers(const Bodies& bodies, const Eigen::VectorXd& load);
 
  private:
+  /// Where bodies are, and what their coordinates' rates make of them.
+  struct Closed {
+    State state;                   ///< without velocities
+    Eigen::VectorXd displacement;  ///< (6N)
+    Eigen::MatrixXd J, by_y;       ///< velocity by the displacement's rate, (6N, 6N); displacement by y, (6N, n)
+    hydro::dense::Lu square;       ///< of S
+  };
+  /// `near`: a displacement to begin with. \throws hydro::NumericsError where joints cannot be closed
+  Closed closed(const Eigen::VectorXd& value, Eigen::VectorXd near) const;
+  Bodies moving(const Closed& at, const CoordinateMotion& motion) const;
   Eigen::VectorXd residual(const Bodies& bodies, const Eigen::VectorXd& load);
 
   const Model& model_;

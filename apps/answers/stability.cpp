@@ -1,0 +1,172 @@
+#include <fmt/format.h>
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "answers/answers.hpp"
+#include "answers/cost_interview.hpp"
+#include "answers/periodic_scene.hpp"
+#include "answers/provenance.hpp"
+#include "answers/stability_check.hpp"
+#include "dynamics/frequency/hill_equation.hpp"
+#include "dynamics/frequency/modes.hpp"
+#include "hydro/base/error.hpp"
+#include "scene/placed.hpp"
+
+namespace froude {
+namespace {
+
+using namespace dynamics::frequency;
+
+/// The map as it is made, period by period.
+class Mapping {
+ public:
+  explicit Mapping(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept)
+      : scene_(scene), ask_(*scene.stability), prepared_(prepare_periodic(scene, kept)) {
+    map_.period = ask_.periods, map_.height = ask_.heights;
+    map_.cells.resize(map_.period.size() * map_.height.size());
+    map_.notes = prepared_.notes;
+    for (const scene::Line& line : scene.lines)
+      throw hydro::InputError("periodic motions have no place for lines of nodes", line.place,
+                              "leave them out, or step the scene with `froude run`");
+    map_.provenance = provenance_of(scene);
+    options_.accuracy = scene.accuracy / 10;  // of the motion: harmonics above the last go on falling
+    const dynamics::Model model = compile::frequency_model(prepared_, ask_.about);
+    const SmallMotions about = compile::small_motions(model, ask_.about, map_.notes);
+    for (Mode& m : free_motions(about, prepared_.groups).modes) modes_.push_back(std::move(m));
+    for (int m = 0; m < model.modes(); ++m) motions_.push_back(model.mode_name(m));
+    const auto first = at(map_.period.front(), map_.height.front());
+    for (const auto& s : signals_of_map(ask_, first->model()))
+      map_.signals.push_back(
+          {s.name, s.unit, "standard deviation of " + s.meaning, std::vector<double>(map_.cells.size(), std::nan(""))});
+  }
+
+  StabilityMap made(const std::function<void(double)>& done) {
+    const double begin = processor_s();
+    for (std::size_t p = 0; p < map_.period.size(); ++p) {
+      climb(p);
+      reduce(p);
+      if (done) done(static_cast<double>(p + 1) / static_cast<double>(map_.period.size()));
+    }
+    map_.processor_s = processor_s() - begin;
+    return std::move(map_);
+  }
+
+ private:
+  std::size_t index(std::size_t p, std::size_t h) const { return h * map_.period.size() + p; }
+  std::unique_ptr<PeriodicScene> at(double period, double height) const {
+    return std::make_unique<PeriodicScene>(in_waves(scene_, period, height), prepared_, period);
+  }
+  Family by_height(double period) const {
+    return [this, period](double height) { return at(period, height); };
+  }
+
+  /// From rest up through the heights of a period, each from the motion before it.
+  void climb(std::size_t p) {
+    std::optional<PeriodicMotion> below;
+    double height_below = 0;
+    for (std::size_t h = 0; h < map_.height.size(); ++h) {
+      const double height = map_.height[h];
+      const auto system = at(map_.period[p], height);
+      for (const std::string& note : system->notes())
+        if (std::find(map_.notes.begin(), map_.notes.end(), note) == map_.notes.end()) map_.notes.push_back(note);
+      PeriodicMotion near = below ? *below : at_rest(*system);
+      if (below) near.coefficients *= height / height_below;
+      Balance found = balance(*system, std::move(near), options_);
+      StabilityMap::Cell& cell = map_.cells[index(p, h)];
+      if (!found.found && below) found = round_folds(p, height_below, *below, height, cell);
+      if (!found.found) {
+        map_.notes.push_back(
+            fmt::format("{:.4g} s, {:.4g} m: no periodic motion is found: {}", map_.period[p], height, found.why));
+        continue;
+      }
+      below = found.motion, height_below = height;
+      tell(*system, found.motion, index(p, h));
+    }
+  }
+
+  /// Where motions grow no further they turn back; what comes after is where a run goes.
+  Balance round_folds(std::size_t p, double from, const PeriodicMotion& motion, double to, StabilityMap::Cell& cell) {
+    Balance out;
+    try {
+      auto branch = follow(by_height(map_.period[p]), from, to, motion, {.balance = options_});
+      out.found = branch.back().parameter == to;
+      if (out.found)
+        out.motion = std::move(branch.back().motion);
+      else
+        out.why = "the branch does not come there";
+      cell.followed = std::any_of(branch.begin(), branch.end(), [](const BranchPoint& b) { return !b.forwards; });
+    } catch (const hydro::NumericsError& error) {
+      out.why = error.what();
+    }
+    return out;
+  }
+
+  void tell(PeriodicScene& system, const PeriodicMotion& motion, std::size_t c) {
+    const Eigen::VectorXcd mu = floquet_multipliers(system, motion);
+    StabilityMap::Cell& cell = map_.cells[c];
+    cell.fate = fate_of(mu), cell.multiplier = std::abs(mu[0]);
+    cell.harmonics = static_cast<int>(motion.harmonics());
+    cell.motion = motion;
+    std::vector<double> times;
+    for (int i = 0; i < 32; ++i) times.push_back(i / 32.0 * 2 * std::numbers::pi / motion.omega);
+    const Eigen::MatrixXd values = system.values(signals_of_map(ask_, system.model()), motion, times);
+    for (std::size_t s = 0; s < map_.signals.size(); ++s)
+      map_.signals[s].values[c] = standard_deviation(values.col(static_cast<Eigen::Index>(s)));
+  }
+
+  /// The least height from which any one motion grows by its own equation.
+  void reduce(std::size_t p) {
+    map_.mathieu.push_back(std::nan(""));
+    map_.motion.emplace_back();
+    const Family family = by_height(map_.period[p]);
+    const auto system = at(map_.period[p], map_.height.front());
+    for (const Mode& mode : modes_) {
+      const HillEquation equation =
+          hill_equation(family, 1e-2 * map_.height.back(), system->coordinates(mode.shape), mode.omega);
+      const auto least = equation.least_growing(map_.height.back());
+      if (!least || *least >= map_.mathieu.back()) continue;
+      map_.mathieu.back() = *least;
+      map_.motion.back() = largest_motions(motions_, {mode.shape.data(), static_cast<std::size_t>(mode.shape.size())});
+    }
+  }
+
+  const scene::Scene& scene_;
+  const scene::AskStability& ask_;
+  compile::Prepared prepared_;
+  BalanceOptions options_;
+  std::vector<Mode> modes_;
+  std::vector<std::string> motions_;  ///< names of the model's modes
+  StabilityMap map_;
+};
+
+}  // namespace
+
+std::vector<dynamics::Signal> signals_of_map(const scene::AskStability& ask, const dynamics::Model& model) {
+  std::vector<dynamics::Signal> out = model.signals();
+  std::vector<std::string> names;
+  for (const auto& s : out) names.push_back(s.name);
+  scene::check_patterns(ask.of, ask.of_places, names);
+  std::erase_if(out, [&](const auto& s) { return !compile::is_chosen(s.name, ask.of); });
+  return out;
+}
+
+double standard_deviation(const Eigen::Ref<const Eigen::VectorXd>& x) {
+  return std::sqrt((x.array() - x.mean()).square().mean());
+}
+
+StabilityMap stability(const scene::Scene& scene, const std::function<void(double)>& done,
+                       const std::shared_ptr<compile::Kept>& kept) {
+  return scene::placed(scene.stability->place, [&] { return Mapping(scene, kept).made(done); });
+}
+
+}  // namespace froude

@@ -1,0 +1,196 @@
+/// \file  `froude stability`: whether periodic motions in regular waves last, over periods and heights of the waves.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "answers/answers.hpp"
+#include "answers/plot.hpp"
+#include "answers/plot_field.hpp"
+#include "answers/stability_check.hpp"
+#include "froude/progress.hpp"
+#include "froude/report.hpp"
+#include "froude/scene_result.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/io/atomic_file.hpp"
+#include "hydro/io/csv.hpp"
+
+namespace froude {
+namespace {
+
+using Cell = StabilityMap::Cell;
+
+constexpr const char* red = "#e00000";  // as the source draws boundaries
+
+std::string fate_of(const Cell& cell) { return cell.fate ? name_of(*cell.fate) : "none found"; }
+
+Report report_of(const StabilityMap& map, std::size_t p) {
+  Report out;
+  for (std::size_t h = 0; h < map.height.size(); ++h) {
+    const Cell& cell = map.cells[h * map.period.size() + p];
+    Report one;
+    one.keep("height_m", map.height[h]).keep("fate", fate_of(cell)).keep("followed_round_folds", cell.followed);
+    one.keep("multiplier", cell.multiplier).keep("harmonics", cell.harmonics);
+    out.one_of("cells", one);
+  }
+  // In a row equal neighbours are told once: "stable to 1.5 m, period-doubled to 4 m".
+  std::string row;
+  for (std::size_t h = 0; h < map.height.size(); ++h) {
+    const auto fate = [&](std::size_t i) { return fate_of(map.cells[i * map.period.size() + p]); };
+    if (h + 1 == map.height.size() || fate(h + 1) != fate(h))
+      row += fmt::format("{}{} to {:.4g} m", row.empty() ? "" : ", ", fate(h), map.height[h]);
+  }
+  const bool grows = std::isfinite(map.mathieu[p]);
+  return out
+      .say("{:>9.4g} {:>8}  {}", fact("period_s", map.period[p]),
+           fact("mathieu_height_m", map.mathieu[p], grows ? fmt::format("{:.3g}", map.mathieu[p]) : "none"), row)
+      .keep("mathieu_motion", map.motion[p]);
+}
+
+Report report_of(const scene::Scene& scene, const StabilityMap& map, const Path& file) {
+  Report out;
+  out.say("{}: periodic motions in waves of {} periods and {} heights, {:.2f} s of processor time",
+          scene.file.filename().string(), map.period.size(), map.height.size(), fact("processor_s", map.processor_s));
+  out.say("{:>9} {:>8}  {}", "period[s]", "grows[m]", "motions of the period of the waves");
+  for (std::size_t p = 0; p < map.period.size(); ++p) out.one_of("periods", report_of(map, p));
+  return out.sentences("notes", "note: {}", map.notes).say("wrote {}", fact("file", file.string()));
+}
+
+Report report_of(const StabilityMap& map, const SteppedCell& c) {
+  const Cell& cell = map.cells[c.cell];
+  Report out;
+  out.say("stepped: {:.4g} s, {:.4g} m: {}, multiplier {:.4g}; the run {}{}",
+          fact("period_s", map.period[c.cell % map.period.size()]),
+          fact("height_m", map.height[c.cell / map.period.size()]), fact("fate", fate_of(cell)), cell.multiplier,
+          fact("left", c.left(),
+               !c.stopped.empty() ? "stopped: " + c.stopped
+               : c.left()         ? fmt::format("left the periodic motion ({:.2g} apart)", c.apart)
+                                  : fmt::format("has the periodic motion ({:.2g} apart)", c.apart)),
+          fact("decided", c.decided, c.decided ? "" : "; too near the boundary to be decided"));
+  return out.keep("apart", c.apart).keep("agrees", c.agrees(cell));
+}
+
+/// "6 of 6 cells stepped in time agree, 2 more are too near the boundary to be decided"
+Report report_of(const StabilityMap& map, const MapCheck& check) {
+  Report out;
+  int decided = 0, agree = 0;
+  for (const SteppedCell& c : check.cells) {
+    out.one_of("cells", report_of(map, c));
+    decided += c.decided ? 1 : 0;
+    agree += c.decided && c.agrees(map.cells[c.cell]) ? 1 : 0;
+  }
+  const double a_run = check.processor_s / static_cast<double>(check.cells.size()),
+               a_cell = map.processor_s / static_cast<double>(map.cells.size());
+  out.say("{} of {} cells stepped in time agree, {} more are too near the boundary to be decided", fact("agree", agree),
+          fact("decided", decided), std::ssize(check.cells) - decided);
+  if (check.cells.empty()) return out;
+  return out.say("{:.2f} s of processor time a run, {:.0f} times that of a cell of the map", fact("run_s", a_run),
+                 fact("run_over_cell", a_run / a_cell));
+}
+
+void write_csv(const Path& path, const StabilityMap& map) {
+  std::vector<double> period, height, fate, multiplier, mathieu;
+  for (std::size_t c = 0; c < map.cells.size(); ++c) {
+    period.push_back(map.period[c % map.period.size()]);
+    height.push_back(map.height[c / map.period.size()]);
+    fate.push_back(map.cells[c].fate ? static_cast<double>(*map.cells[c].fate) : std::nan(""));
+    multiplier.push_back(map.cells[c].multiplier);
+    mathieu.push_back(map.mathieu[c % map.period.size()]);
+  }
+  std::vector<hydro::io::CsvColumn> columns{{"period", "s", &period},
+                                            {"height", "m", &height},
+                                            {"fate", "", &fate},
+                                            {"multiplier", "", &multiplier},
+                                            {"mathieu height", "m", &mathieu}};
+  for (const Signal& s : map.signals) columns.push_back({s.name, s.units, &s.values});
+  hydro::io::write_csv(
+      path, columns,
+      {"fate: 0 stable, 1 period-doubled, 2 quasi-periodic, 3 fold; signals by their standard deviation"});
+}
+
+plot::Field field(const StabilityMap& map, plot::Axis value, const std::vector<double>& values) {
+  plot::Field out{.value = std::move(value), .xs = map.period, .ys = map.height, .values = {}};
+  const auto columns = static_cast<std::ptrdiff_t>(map.period.size());
+  for (auto row = values.begin(); row != values.end(); row += columns) out.values.emplace_back(row, row + columns);
+  return out;
+}
+
+/// Where the largest multiplier is 1, as pieces of a line.
+plot::Series floquet_boundary(const StabilityMap& map) {
+  std::vector<double> multiplier;
+  for (const Cell& c : map.cells) multiplier.push_back(c.multiplier);
+  plot::Series out{.name = "|multiplier| = 1", .x = {}, .y = {}, .colour = red};
+  constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();  // lifts the pen
+  for (const auto& piece : plot::contour(field(map, {}, multiplier), 1)) {
+    out.x.insert(out.x.end(), {piece.x1, piece.x2, nowhere});
+    out.y.insert(out.y.end(), {piece.y1, piece.y2, nowhere});
+  }
+  return out;
+}
+
+/// Marks in the cells of one fate; "none found" is one too.
+std::vector<plot::Series> marks_of_fates(const StabilityMap& map) {
+  std::vector<plot::Series> out;
+  for (std::size_t c = 0; c < map.cells.size(); ++c) {
+    if (map.cells[c].fate == dynamics::frequency::Fate::stable) continue;
+    const std::string name = fate_of(map.cells[c]);
+    auto at = std::find_if(out.begin(), out.end(), [&](const auto& s) { return s.name == name; });
+    const char* colour = map.cells[c].fate == dynamics::frequency::Fate::doubled ? "#111111" : "#cc79a7";
+    if (at == out.end())
+      at = out.insert(at, {.name = name, .x = {}, .y = {}, .line = false, .marks = true, .colour = colour});
+    at->x.push_back(map.period[c % map.period.size()]);
+    at->y.push_back(map.height[c / map.period.size()]);
+  }
+  return out;
+}
+
+/// Of each signal its standard deviation, with both boundaries and what becomes of motions that do not last.
+plot::Figure figure(const scene::Scene& scene, const StabilityMap& map) {
+  plot::Figure out{.title = scene.title.empty() ? "Periodic motions" : scene.title, .panels = {}};
+  std::vector<plot::Series> over = {
+      floquet_boundary(map), {.name = "Mathieu", .x = map.period, .y = map.mathieu, .dashed = true, .colour = red}};
+  for (plot::Series& marks : marks_of_fates(map)) over.push_back(std::move(marks));
+  const auto add = [&](plot::Axis value, const std::vector<double>& values) {
+    out.panels.push_back({.x = {"wave period", "s"},
+                          .y = {"wave height", "m"},
+                          .series = over,
+                          .field = field(map, std::move(value), values)});
+  };
+  std::vector<double> multiplier;
+  for (const Cell& c : map.cells) multiplier.push_back(c.multiplier);
+  add({"largest |multiplier|", ""}, multiplier);
+  for (const Signal& s : map.signals) add({s.name + ", std. dev.", s.units}, s.values);
+  return out;
+}
+
+}  // namespace
+
+void stability(const StabilityArguments& arguments, const Console& console) {
+  const scene::Scene scene = scene::read(arguments.scene);
+  require_asked(scene.stability.has_value(), scene, "stability map",
+                "stability = { periods = \"5 s .. 15 s, 21 values\", heights = \"0.5 m .. 4 m, 8 values\" }");
+  if (arguments.picture && (scene.stability->periods.size() < 2 || scene.stability->heights.size() < 2))
+    throw hydro::InputError("a picture of the map needs two periods and two heights", scene.stability->place,
+                            "ask for more of them, or leave --picture out");
+  const Path file = checked_output(arguments, ".stability.h5");
+  Progress progress(console.err, "stability", console.show_progress);
+  const StabilityMap map = stability(scene, [&](double done) { progress.update(done); });
+  map.write(file);
+  if (arguments.csv) write_csv(*arguments.csv, map);
+  if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, map)));
+  Report report = report_of(scene, map, file);
+  if (!arguments.check.empty()) {
+    Progress runs(console.err, "runs", console.show_progress);
+    report.part("check",
+                report_of(map, check_in_time(scene, map, static_cast<std::size_t>(arguments.check_cells),
+                                             arguments.check_duration, [&](double done) { runs.update(done); })));
+  }
+  tell(report, console);
+}
+
+}  // namespace froude
