@@ -115,7 +115,8 @@ TEST(IrregularWaves, HaveThePhaseOfTheWaveAtTheBody) {
       if (t.frequency_hz[k] < 0.6 || t.frequency_hz[k] > 0.86) continue;
       EXPECT_NEAR(std::abs(t.h1[k]), 1, 0.03) << gauge << " m, " << t.frequency_hz[k] << " Hz";
       EXPECT_LT(t.gain_relative_error[k], 0.025);
-      EXPECT_NEAR(std::arg(t.h1[k]), 0, 0.01 + 4 * t.gain_relative_error[k]) << gauge << " m, " << t.frequency_hz[k] << " Hz";
+      EXPECT_NEAR(std::arg(t.h1[k]), 0, 0.01 + 4 * t.gain_relative_error[k])
+          << gauge << " m, " << t.frequency_hz[k] << " Hz";
     }
   }
 }

@@ -20,7 +20,8 @@ import subprocess
 import sys
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
-TARGETS = ("libhydro", "libdynamics", "libfit", "apps", "python")
+# Price lists are built by hand only: here they are read with the rest, so that they go on compiling.
+READ = tuple((part,) for part in ("libhydro", "libdynamics", "libfit", "apps", "python")) + (("validation", "cost"),)
 # Where public headers lie, below which part, and the folder from which they are named.
 PUBLIC = (("libhydro", "include", "include"), ("libdynamics", "include", "include"), ("libfit", "include", "include"),
           ("apps", "include", "include"), ("apps", "scene", "."))
@@ -30,7 +31,7 @@ def configured(source, scratch):
     """The commands of a build without merged sources, by file; its precompiled headers are built."""
     subprocess.run(["cmake", "-S", source, "-B", scratch, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                     "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", "-DFROUDE_MERGED_SOURCES=OFF", "-DFROUDE_BUILD_TESTS=OFF",
-                    "-DFROUDE_VALIDATION_CASES=OFF"], check=True, stdout=subprocess.DEVNULL)
+                    "-DFROUDE_VALIDATION_CASES=OFF", "-DFROUDE_BUILD_BENCHMARKS=ON"], check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["cmake", "--build", scratch, "--target", "froude_library_headers", "froude_program_headers"],
                    check=True, stdout=subprocess.DEVNULL)
     return {entry["file"]: entry["command"] for entry in json.loads((scratch / "compile_commands.json").read_text())}
@@ -106,8 +107,9 @@ def headers_alone(files, commands, scratch):
 def main():
     source, scratch = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
     commands = configured(source, scratch)
-    files = sorted(pathlib.Path(f) for f in commands if pathlib.Path(f).relative_to(source).parts[0] in TARGETS
-                   if source in pathlib.Path(f).parents and scratch not in pathlib.Path(f).parents)
+    files = sorted(pathlib.Path(f) for f in commands
+                   if source in pathlib.Path(f).parents and scratch not in pathlib.Path(f).parents
+                   and any(pathlib.Path(f).relative_to(source).parts[:len(part)] == part for part in READ))
     refuses_planted_faults(commands[str(files[0])], scratch)
     sources, extra = len(files), headers_alone(files, commands, scratch)
     commands.update({str(file): command for file, command in extra.items()})
