@@ -299,7 +299,9 @@ std::vector<Example> of_answers() {
                member("drag = { cd = 1.0 }\n") +
                "[[probe]]\nat = \"(0, 0, 0) m\"\n[ask]\nrun = { duration = \"2 s\", every = \"0.05 s\" }\nrao = { " +
                periods +
-               ", drag = { height = \"1 m\" } }\nmodes = {}\nwaves = { duration = \"2 s\", every = \"0.5 s\" }\n"
+               ", drag = { height = \"1 m\" } }\nmodes = {}\nstability = { periods = \"4 s .. 6 s, 2 values\", heights "
+               "= \"1 m .. 2 m, 2 values\" "
+               "}\nwaves = { duration = \"2 s\", every = \"0.5 s\" }\n"
                "[solve]\naccept_error = true\nstep = \"0.05 s\"\nintegrator = { name = \"generalized_alpha\" }\n",
            {"hydrostatics", "excitation", "drag"}}};
 }
