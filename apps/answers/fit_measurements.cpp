@@ -188,34 +188,46 @@ Range range_of(const std::vector<double>& values) {
   return {*low, *high};
 }
 
-/// A caution where a column goes beyond the readings of its line by a tenth of their range; else "".
-std::string beyond(const FitScene& scene, const FitScene::Line& of, const std::string& unit) {
-  const Range known = range_of(read_measured(of.file.value, of.file.place).column(of.reading));
-  Range met = known;
+/// Of the columns that have lines, in the order of these, over all runs.
+std::vector<Range> ranges_met(const FitScene& scene) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  std::vector<Range> out(scene.lines.size(), {none, -none});
   for (const auto& [source, row] : runs_of(scene)) {
-    const Range one = range_of(Measurements(scene, source.file).table.column(of.column));
-    met = {std::min(met.low, one.low), std::max(met.high, one.high)};
+    const Measurements run(scene, source.file);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const Range one = range_of(run.table.column(scene.lines[i].column));
+      out[i] = {std::min(out[i].low, one.low), std::max(out[i].high, one.high)};
+    }
   }
+  return out;
+}
+
+/// A caution where a column goes beyond the readings of its line by a tenth of their range; else "".
+std::string beyond(const FitScene::Line& of, const Range& met, const std::string& unit) {
+  const Range known = range_of(read_measured(of.file.value, of.file.place).column(of.reading));
   const double far = 0.1 * (known.high - known.low);
   if (met.low >= known.low - far && met.high <= known.high + far) return {};
   return fmt::format(
       "; caution: the line was taken from {:.4g} to {:.4g} {}, and the records go from {:.4g} to {:.4g}: beyond its "
       "points it is an extrapolation",
-      known.low, known.high, unit, met.low, met.high);
+      known.low, known.high, unit, std::min(known.low, met.low), std::max(known.high, met.high));
 }
 
 }  // namespace
 
 std::vector<std::string> told_lines(const FitScene& scene) {
+  if (scene.lines.empty()) return {};
+  const std::vector<Range> met = ranges_met(scene);
   std::vector<std::string> out;
-  for (const FitScene::Line& of : scene.lines) {
+  for (std::size_t i = 0; i < scene.lines.size(); ++i) {
+    const FitScene::Line& of = scene.lines[i];
     const auto [line, reading, reference, reading_unit, reference_unit] = read_line(of, scene.confidence);
     out.push_back(fmt::format(
         "{} by {}: {:.5g} ± {:.2g} {}/{}{}; the error of the slope, {:.2g} %, is the same in all runs{}{}", of.column,
         of.file.value.filename().string(), *line.slope.value, line.slope.standard_error, reading_unit, reference_unit,
         line.hysteresis ? fmt::format(", hysteresis {:.2g} % of its range", 100 * *line.hysteresis) : std::string(),
         100 * line.slope.standard_error / std::abs(*line.slope.value), scene.of->said_of_line(scene, of.column),
-        beyond(scene, of, reading_unit)));
+        beyond(of, met[i], reading_unit)));
   }
   return out;
 }

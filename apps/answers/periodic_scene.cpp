@@ -28,13 +28,18 @@ std::vector<RadiatingModes> radiating(const compile::TimeModel& model) {
 
 }  // namespace
 
-scene::Scene in_waves(scene::Scene scene, double period, double height) {
+scene::Scene with_waves(scene::Scene scene, double period, double height) {
   auto& wave = std::get<scene::RegularWave>(scene.waves->kind);
   wave.amplitude = height / 2, wave.period = period;
+  scene.solve.step.reset();
+  return scene;
+}
+
+scene::Scene in_waves(scene::Scene scene, double period, double height) {
+  scene = with_waves(std::move(scene), period, height);
   scene.waves->ramp = 0;
   // One period is enough: the model is asked within it, and its samples are not looked at.
   scene.run = {.duration = period, .every = period / 32, .of = {}, .of_places = {}, .place = scene.stability->place};
-  scene.solve.step.reset();
   return scene;
 }
 

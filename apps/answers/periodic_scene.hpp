@@ -11,7 +11,10 @@
 
 namespace froude {
 
-/// The scene in its own regular waves, of this period (s) and height (m), without ramp.
+/// The scene in its own regular waves, of this period (s) and height (m), by whatever step.
+scene::Scene with_waves(scene::Scene scene, double period, double height);
+
+/// The same without ramp, asked for one period.
 scene::Scene in_waves(scene::Scene scene, double period, double height);
 
 /// What runs of a scene share, with radiation by poles, which harmonic balance and multipliers both know; a note says

@@ -5,6 +5,7 @@
 
 #include "answers/camera_track.hpp"
 #include "answers/fit_measurements.hpp"
+#include "fit/sensor.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
@@ -172,10 +173,8 @@ MeasuredRun MeasuredRun::read(const scene::FitScene& fit, const scene::MotionMod
     const std::string& name = model.signals[c].column;
     const std::vector<double> column = measured.column(name);
     // Without anything to follow a search goes on until its steps are used up.
-    const auto [low, high] = std::minmax_element(column.begin(), column.end());
-    if (column.size() > 1 && !(*high > *low))
-      throw InputError(fmt::format("\"{}\" is {:.6g} throughout: the sensor gave no signal", name, *low),
-                       table.place_of(name, table.rows()), "look whether it was connected, or leave the signal out");
+    scene::placed(table.place_of(name, table.rows()),
+                  [&] { ::fit::require_signal(fmt::format("\"{}\"", name), column); });
     values.col(static_cast<Eigen::Index>(c)) =
         Eigen::Map<const Eigen::VectorXd>(column.data() + skipped, std::ssize(time));
   }

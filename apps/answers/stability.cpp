@@ -35,9 +35,6 @@ class Mapping {
     map_.period = ask_.periods, map_.height = ask_.heights;
     map_.cells.resize(map_.period.size() * map_.height.size());
     map_.notes = prepared_.notes;
-    for (const scene::Line& line : scene.lines)
-      throw hydro::InputError("periodic motions have no place for lines of nodes", line.place,
-                              "leave them out, or step the scene with `froude run`");
     map_.provenance = provenance_of(scene);
     options_.accuracy = scene.accuracy / 10;  // of the motion: harmonics above the last go on falling
     const dynamics::Model model = compile::frequency_model(prepared_, ask_.about);
@@ -62,7 +59,6 @@ class Mapping {
   }
 
  private:
-  std::size_t index(std::size_t p, std::size_t h) const { return h * map_.period.size() + p; }
   std::unique_ptr<PeriodicScene> at(double period, double height) const {
     return std::make_unique<PeriodicScene>(in_waves(scene_, period, height), prepared_, period);
   }
@@ -82,7 +78,7 @@ class Mapping {
       PeriodicMotion near = below ? *below : at_rest(*system);
       if (below) near.coefficients *= height / height_below;
       Balance found = balance(*system, std::move(near), options_);
-      StabilityMap::Cell& cell = map_.cells[index(p, h)];
+      StabilityMap::Cell& cell = map_.cells[map_.index(p, h)];
       if (!found.found && below) found = round_folds(p, height_below, *below, height, cell);
       if (!found.found) {
         map_.notes.push_back(
@@ -90,7 +86,7 @@ class Mapping {
         continue;
       }
       below = found.motion, height_below = height;
-      tell(*system, found.motion, index(p, h));
+      tell(*system, found.motion, map_.index(p, h));
     }
   }
 
@@ -166,6 +162,9 @@ double standard_deviation(const Eigen::Ref<const Eigen::VectorXd>& x) {
 
 StabilityMap stability(const scene::Scene& scene, const std::function<void(double)>& done,
                        const std::shared_ptr<compile::Kept>& kept) {
+  if (!scene.lines.empty())
+    throw hydro::InputError("periodic motions have no place for lines of nodes", scene.lines.front().place,
+                            "leave them out, or step the scene with `froude run`");
   return scene::placed(scene.stability->place, [&] { return Mapping(scene, kept).made(done); });
 }
 

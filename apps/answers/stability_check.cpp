@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
 
 #include "answers/cost_interview.hpp"
 #include "answers/periodic_scene.hpp"
@@ -15,16 +14,13 @@ constexpr int samples_a_period = 32;
 
 /// The scene in waves of a cell, asked for the run from rest that shows where it goes.
 scene::Scene to_step(const scene::Scene& scene, double period, double height, double duration) {
-  scene::Scene out = scene;
-  auto& wave = std::get<scene::RegularWave>(out.waves->kind);
-  wave.amplitude = height / 2, wave.period = period;
+  scene::Scene out = with_waves(scene, period, height);
   out.run = {.duration = std::ceil(duration / period) * period,
              .every = period / samples_a_period,
              .from_equilibrium = scene.stability->about.equilibrium,
              .of = scene.stability->of,
              .of_places = scene.stability->of_places,
              .place = scene.stability->place};
-  out.solve.step.reset();
   for (auto& body : out.bodies) {
     body.initial.clear();
     body.initial_velocity.clear();
@@ -50,7 +46,7 @@ double apart(const Run& run, PeriodicScene& system, const std::vector<dynamics::
 
 SteppedCell stepped(const scene::Scene& scene, const compile::Prepared& prepared, const StabilityMap& map,
                     std::size_t c, double duration) {
-  const double period = map.period[c % map.period.size()], height = map.height[c / map.period.size()];
+  const double period = map.period_of(c), height = map.height_of(c);
   const scene::Scene in_time = to_step(scene, period, height, duration);
   const Run run = run_model(in_time, compile::time_model(in_time, prepared));
   SteppedCell out{.cell = c, .stopped = run.stopped};

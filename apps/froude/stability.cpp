@@ -32,7 +32,7 @@ std::string fate_of(const Cell& cell) { return cell.fate ? name_of(*cell.fate) :
 Report report_of(const StabilityMap& map, std::size_t p) {
   Report out;
   for (std::size_t h = 0; h < map.height.size(); ++h) {
-    const Cell& cell = map.cells[h * map.period.size() + p];
+    const Cell& cell = map.cells[map.index(p, h)];
     Report one;
     one.keep("height_m", map.height[h]).keep("fate", fate_of(cell)).keep("followed_round_folds", cell.followed);
     one.keep("multiplier", cell.multiplier).keep("harmonics", cell.harmonics);
@@ -41,7 +41,7 @@ Report report_of(const StabilityMap& map, std::size_t p) {
   // In a row equal neighbours are told once: "stable to 1.5 m, period-doubled to 4 m".
   std::string row;
   for (std::size_t h = 0; h < map.height.size(); ++h) {
-    const auto fate = [&](std::size_t i) { return fate_of(map.cells[i * map.period.size() + p]); };
+    const auto fate = [&](std::size_t i) { return fate_of(map.cells[map.index(p, i)]); };
     if (h + 1 == map.height.size() || fate(h + 1) != fate(h))
       row += fmt::format("{}{} to {:.4g} m", row.empty() ? "" : ", ", fate(h), map.height[h]);
   }
@@ -64,9 +64,8 @@ Report report_of(const scene::Scene& scene, const StabilityMap& map, const Path&
 Report report_of(const StabilityMap& map, const SteppedCell& c) {
   const Cell& cell = map.cells[c.cell];
   Report out;
-  out.say("stepped: {:.4g} s, {:.4g} m: {}, multiplier {:.4g}; the run {}{}",
-          fact("period_s", map.period[c.cell % map.period.size()]),
-          fact("height_m", map.height[c.cell / map.period.size()]), fact("fate", fate_of(cell)), cell.multiplier,
+  out.say("stepped: {:.4g} s, {:.4g} m: {}, multiplier {:.4g}; the run {}{}", fact("period_s", map.period_of(c.cell)),
+          fact("height_m", map.height_of(c.cell)), fact("fate", fate_of(cell)), cell.multiplier,
           fact("left", c.left(),
                !c.stopped.empty() ? "stopped: " + c.stopped
                : c.left()         ? fmt::format("left the periodic motion ({:.2g} apart)", c.apart)
@@ -96,8 +95,8 @@ Report report_of(const StabilityMap& map, const MapCheck& check) {
 void write_csv(const Path& path, const StabilityMap& map) {
   std::vector<double> period, height, fate, multiplier, mathieu;
   for (std::size_t c = 0; c < map.cells.size(); ++c) {
-    period.push_back(map.period[c % map.period.size()]);
-    height.push_back(map.height[c / map.period.size()]);
+    period.push_back(map.period_of(c));
+    height.push_back(map.height_of(c));
     fate.push_back(map.cells[c].fate ? static_cast<double>(*map.cells[c].fate) : std::nan(""));
     multiplier.push_back(map.cells[c].multiplier);
     mathieu.push_back(map.mathieu[c % map.period.size()]);
@@ -143,8 +142,8 @@ std::vector<plot::Series> marks_of_fates(const StabilityMap& map) {
     const char* colour = map.cells[c].fate == dynamics::frequency::Fate::doubled ? "#111111" : "#cc79a7";
     if (at == out.end())
       at = out.insert(at, {.name = name, .x = {}, .y = {}, .line = false, .marks = true, .colour = colour});
-    at->x.push_back(map.period[c % map.period.size()]);
-    at->y.push_back(map.height[c / map.period.size()]);
+    at->x.push_back(map.period_of(c));
+    at->y.push_back(map.height_of(c));
   }
   return out;
 }

@@ -105,6 +105,11 @@ Autoregression fit_autoregression(const Eigen::VectorXd& record, int order_at_mo
   return {best, extended(gamma, best, n)};
 }
 
+double memory_of_squares(const Autoregression& series) {
+  const Eigen::VectorXd& gamma = series.autocovariance;
+  return 1 + 2 * (gamma.tail(gamma.size() - 1) / std::max(gamma[0], 1e-300)).squaredNorm();
+}
+
 CoefficientCovariance correlated_covariance(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals,
                                             int block, LongMemory long_memory, const Eigen::MatrixXd& known) {
   const Eigen::Index n = jacobian.rows(), p = jacobian.cols();
@@ -138,11 +143,9 @@ CoefficientCovariance correlated_covariance(const Eigen::MatrixXd& jacobian, con
   result.covariance = inverse * meat * inverse * (block * block * covered);  // (F4)
   result.white_dof = static_cast<double>(n - p);
   result.white_covariance = residuals.squaredNorm() / result.white_dof * inverse;
-  const Eigen::VectorXd rho =
-      ar.autocovariance.tail(ar.autocovariance.size() - 1) / std::max(ar.autocovariance[0], 1e-300);
   // The formula is about random residuals. A residual that repeats is known exactly, yet gives next to nothing here;
   // two is the least for which Student's t has a quantile of use (4.3 at 95 %).
-  const double formula = blocks / (1 + 2 * rho.squaredNorm()) - static_cast<double>(p);
+  const double formula = blocks / memory_of_squares(ar) - static_cast<double>(p);
   result.dof_raised = formula < 2 || too_long;
   result.dof = result.dof_raised ? 2 : formula;
   if (known.size() > 0) add_known(inverse * (jacobian.transpose() * known), result);

@@ -9,6 +9,7 @@
 
 #include "fit/correlated.hpp"
 #include "fit/median_step.hpp"
+#include "fit/sensor.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
 #include "hydro/signal/fft.hpp"
@@ -177,6 +178,14 @@ Compared compared(const Pair& p, double lag, std::size_t side) {
   return out;
 }
 
+Eigen::VectorXd fitted_by(const Eigen::MatrixXd& basis, const Eigen::VectorXd& x) {
+  return (basis.transpose() * basis).ldlt().solve(basis.transpose() * x);
+}
+
+Eigen::VectorXd left_by(const Eigen::MatrixXd& basis, const Eigen::VectorXd& x) {
+  return x - basis * fitted_by(basis, x);
+}
+
 /// How many samples on each side smooth the dense record best: so that it tells the sparse one best, whose noise is
 /// another. (V18)
 std::size_t best_side(const Pair& p, double lag) {
@@ -185,8 +194,7 @@ std::size_t best_side(const Pair& p, double lag) {
   for (std::size_t side = 2; side == 2 || side <= p.dense.size() / 16; side += std::max<std::size_t>(1, side / 4)) {
     const Compared c = compared(p, lag, side);
     if (c.sparse.size() < fewest) break;
-    const Eigen::Vector3d fitted = (c.basis.transpose() * c.basis).ldlt().solve(c.basis.transpose() * c.sparse);
-    const double mean_square = (c.sparse - c.basis * fitted).squaredNorm() / static_cast<double>(c.sparse.size() - 3);
+    const double mean_square = left_by(c.basis, c.sparse).squaredNorm() / static_cast<double>(c.sparse.size() - 3);
     if (mean_square < least) least = mean_square, best = side;
     if (mean_square > 1.5 * least) break;  // the motion itself is smoothed away
   }
@@ -234,18 +242,6 @@ Offset refined(const Peaks& from, const Pair& p, std::size_t side, const OffsetO
     return out;
   }
   throw none("no lag brings them nearest");
-}
-
-/// Of the sparse one as the first, or the other way round.
-Offset refined(const Peaks& peaks, const Pair& p, std::size_t side, bool turned, const OffsetOptions& options) {
-  if (!turned) return refined(peaks, p, side, options);
-  Peaks other_way = peaks;
-  other_way.lag *= -1;
-  Offset found = refined(other_way, p, side, options);
-  found.lag *= -1;
-  found.level /= -found.scale;
-  found.scale = 1 / found.scale;
-  return found;
 }
 
 /// Where the correlation is looked for: lags at which half of the shorter lies within the other.
@@ -312,13 +308,8 @@ void check(std::span<const double> time, std::span<const double> value, std::spa
   hydro::require(time.size() == value.size() && other_time.size() == other.size() && seen >= 16 && other.size() >= 16,
                  "an offset needs 16 samples at least of both, got {} of the {} and {} of the {}", seen, o.first,
                  other.size(), o.second);
-  for (const auto& [name, values] : {std::pair{&o.first, value}, {&o.second, other}}) {
-    // A gap of the first is NaN, which is neither smaller nor larger.
-    const auto first = std::find_if(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-    if (std::none_of(first, values.end(), [&](double v) { return std::abs(v - *first) > 0; }))
-      throw InputError(fmt::format("{} is {:.6g} throughout: it gave no signal", *name, *first), {},
-                       "look whether it was connected, and whether the column is the right one");
-  }
+  require_signal(o.first, value);
+  require_signal(o.second, other);
   for (std::size_t i = 0; i < other.size(); ++i)
     hydro::require(std::isfinite(other[i]) && (i == 0 || other_time[i] > other_time[i - 1]),
                    "the {} must be finite and its times ascend, which they do not at sample {}", o.second, i + 1);
@@ -339,23 +330,21 @@ void require_alike(const Peaks& peaks, const OffsetOptions& o) {
                      {}, "look further, or for offsets that the records can tell");
 }
 
+/// Of the mean square of a record without noise, which interpolation leaves.
+constexpr double exact = 1e-6;
+
 /// What a lag leaves unexplained of the sparse samples.
 struct Unexplained {
   std::vector<std::size_t> taken;
   Eigen::VectorXd left;
-  double share;  ///< of the mean square about the mean, not below what interpolation leaves of records without noise
+  double share;  ///< of the mean square about the mean, `exact` at least
 };
-
-Eigen::VectorXd left_by(const Eigen::MatrixXd& basis, const Eigen::VectorXd& x) {
-  return x - basis * (basis.transpose() * basis).ldlt().solve(basis.transpose() * x);
-}
 
 /// At the best lag within half a step of those that were tried, to first order.
 Unexplained unexplained_at(const Pair& p, double lag, std::size_t side) {
   Compared c = compared(p, lag, side);
-  constexpr double exact = 1e-6;
   if (c.sparse.size() < fewest) return {{}, {}, exact};
-  const Eigen::Vector3d fitted = (c.basis.transpose() * c.basis).ldlt().solve(c.basis.transpose() * c.sparse);
+  const Eigen::VectorXd fitted = fitted_by(c.basis, c.sparse);
   const double half_step = p.dense_step / 4;
   c.basis.col(1) += std::clamp(fitted[2] / fitted[1], -half_step, half_step) * c.basis.col(2);
   const Eigen::VectorXd left = left_by(c.basis.leftCols<2>(), c.sparse);
@@ -380,17 +369,13 @@ double likeness(const Unexplained& a, const Unexplained& b, double& shared) {
 
 /// (V18) By how many of their deviations the logarithms of what two lags leave unexplained differ, were it noise of one
 /// variance in both.
-double deviations_apart(const Pair& p, std::size_t side, double lag, double other_lag) {
-  const Unexplained best = unexplained_at(p, lag, side), other = unexplained_at(p, other_lag, side);
+double deviations_apart(const Peaks& peaks, const Pair& p, std::size_t side) {
+  const Unexplained best = unexplained_at(p, peaks.lag, side), other = unexplained_at(p, peaks.runner_up_lag, side);
   if (best.taken.empty() || other.taken.empty()) return 0;
   double shared = 0;
   const double alike = likeness(best, other, shared);
   const auto n = static_cast<double>(best.taken.size()), m = static_cast<double>(other.taken.size());
-  double memory = 1;
-  if (best.share > 1e-6) {
-    const Eigen::VectorXd& gamma = fit_autoregression(best.left).autocovariance;
-    memory += 2 * gamma.tail(gamma.size() - 1).squaredNorm() / (gamma[0] * gamma[0]);
-  }
+  const double memory = best.share > exact ? memory_of_squares(fit_autoregression(best.left)) : 1;
   const double variance = memory * (2 / n + 2 / m - 4 * alike * alike * shared / (n * m));
   return std::log(other.share / best.share) / std::sqrt(variance);
 }
@@ -440,10 +425,12 @@ Offset offset_between(std::span<const double> time, std::span<const double> valu
   const double own_step = median_step(time), other_step = median_step(other_time);
   const bool turned = own_step < other_step;
   const Pair pair = turned ? Pair{two, one, other_step, own_step} : Pair{one, two, own_step, other_step};
-  const double way = turned ? -1 : 1;
-  const std::size_t side = best_side(pair, way * peaks.lag);
-  Offset found = refined(peaks, pair, side, turned, options);
-  require_one_lag(peaks, deviations_apart(pair, side, way * peaks.lag, way * peaks.runner_up_lag), options);
+  Peaks of_pair = peaks;
+  if (turned) of_pair.lag *= -1, of_pair.runner_up_lag *= -1;
+  const std::size_t side = best_side(pair, of_pair.lag);
+  Offset found = refined(of_pair, pair, side, options);
+  require_one_lag(peaks, deviations_apart(of_pair, pair, side), options);
+  if (turned) found.lag *= -1, found.level /= -found.scale, found.scale = 1 / found.scale;
   found.chance = chance_of(found, one, two, range);
   return found;
 }

@@ -97,10 +97,7 @@ void check_columns(RawRun& run) {
   for (const auto& [name, column] : measured(run)) {
     hydro::require(column->size() == run.time.size(), "{} has {} samples, time {}", name, column->size(),
                    run.time.size());
-    const auto [low, high] = std::minmax_element(column->begin(), column->end());
-    if (!(*high > *low))
-      throw InputError(fmt::format("{} is {:.6g} throughout: the sensor gave no signal", name, *low), {},
-                       "look whether it was connected, or leave the channel out");
+    require_signal(name, *column);
   }
 }
 

@@ -1,5 +1,7 @@
 #include "fit/sensor.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -163,6 +165,15 @@ std::vector<double> on_grid(const EvenGrid& grid, std::span<const double> values
   }
   bridge(out, grid.filled);
   return out;
+}
+
+void require_signal(const std::string& name, std::span<const double> values) {
+  const auto is_finite = [](double v) { return std::isfinite(v); };
+  const auto first = std::find_if(values.begin(), values.end(), is_finite);
+  if (std::count_if(first, values.end(), is_finite) < 2) return;
+  if (std::any_of(first, values.end(), [&](double v) { return std::abs(v - *first) > 0; })) return;
+  throw hydro::InputError(fmt::format("{} is {:.6g} throughout: the sensor gave no signal", name, *first), {},
+                          "look whether it was connected, or leave the channel out");
 }
 
 }  // namespace fit

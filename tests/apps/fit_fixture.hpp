@@ -18,21 +18,31 @@
 
 namespace fit_test {
 
-/// The files of a folder of examples, copied where they may be spoilt.
-class FitsOf : public testing::Test {
+/// A folder of its own, and what a fit says.
+class FitFolder : public testing::Test {
  protected:
-  explicit FitsOf(const std::string& examples) {
+  FitFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "froude-test-XXXXXX").string();
     folder = ::mkdtemp(name.data());
-    std::filesystem::copy(froude_test::source_dir() / "examples" / examples, folder);
   }
-  ~FitsOf() override { std::filesystem::remove_all(folder); }
+  ~FitFolder() override { std::filesystem::remove_all(folder); }
 
   static std::string told(const froude::FitArguments& arguments, bool json = false) {
     std::ostringstream out, err;
     froude::fit(arguments, {out, err, json});
     return out.str();
   }
+
+  std::filesystem::path folder;
+};
+
+/// The files of a folder of examples, copied where they may be spoilt.
+class FitsOf : public FitFolder {
+ protected:
+  explicit FitsOf(const std::string& examples) {
+    std::filesystem::copy(froude_test::source_dir() / "examples" / examples, folder);
+  }
+
   nlohmann::json tree(const std::string& scene) const {
     return nlohmann::json::parse(told({.scene = folder / scene}, true));
   }
@@ -97,8 +107,6 @@ class FitsOf : public testing::Test {
   static bool holds(const nlohmann::json& coefficient, double truth) {
     return coefficient["interval"][0].get<double>() < truth && truth < coefficient["interval"][1].get<double>();
   }
-
-  std::filesystem::path folder;
 };
 
 /// The day at a tank, from volts on: what make_tank_day.py put in.

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "answers/simulate.hpp"
+#include "fit_fixture.hpp"
 #include "froude/commands.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -31,19 +32,8 @@ using testing::ThrowsMessage;
 
 const std::filesystem::path examples = froude_test::source_dir() / "examples/fit";
 
-class Fit : public testing::Test {
+class Fit : public FitFolder {
  protected:
-  Fit() {
-    std::string name = (std::filesystem::temp_directory_path() / "froude-test-XXXXXX").string();
-    folder = ::mkdtemp(name.data());
-  }
-  ~Fit() override { std::filesystem::remove_all(folder); }
-
-  std::string told(const froude::FitArguments& arguments, bool json = false) {
-    std::ostringstream out, err;
-    froude::fit(arguments, {out, err, json});
-    return out.str();
-  }
   /// The example with one text replaced, its data beside it.
   std::filesystem::path changed(const std::string& scene, const std::string& from, const std::string& to) {
     std::string text = hydro::io::read_text(examples / scene);
@@ -53,8 +43,6 @@ class Fit : public testing::Test {
     hydro::io::write_atomically(folder / "changed.toml", text);
     return folder / "changed.toml";
   }
-
-  std::filesystem::path folder;
 };
 
 TEST_F(Fit, OfStiffnessHasTheTruthInItsIntervalsAndIsWhatASceneTakes) {

@@ -39,7 +39,7 @@ double deviation(std::span<const double> x) {
 
 Response respond(scene::Scene scene, const compile::Prepared& prepared, double period, double height) {
   scene.waves->kind = scene::RegularWave{height / 2, period};
-  const Run run = run_model(scene, compile::time_model(scene, prepared));  // its error is told by comparison
+  const Run run = run_model(scene, compile::time_model(scene, prepared));  // comparisons tell its error
   const std::size_t from = run.time.size() * 2 / 3;
   const std::span<const double> t(run.time.begin() + static_cast<std::ptrdiff_t>(from), run.time.end());
   const auto last = [&](const char* name) {

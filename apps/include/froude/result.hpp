@@ -199,6 +199,9 @@ struct StabilityMap {
   std::vector<std::string> notes;      ///< what had to be decided, and what is left out
   Provenance provenance = {};          ///< without the notes
 
+  std::size_t index(std::size_t p, std::size_t h) const { return h * period.size() + p; }
+  double period_of(std::size_t cell) const { return period[cell % period.size()]; }
+  double height_of(std::size_t cell) const { return height[cell / period.size()]; }
   /// Dimensions `height`, `period`. \throws hydro::InputError if the file cannot be written
   void write(const std::filesystem::path& path) const;
 };

@@ -20,6 +20,9 @@ struct Autoregression {
 /// \throws hydro::InputError for fewer than 8 samples or a record that is constant zero
 Autoregression fit_autoregression(const Eigen::VectorXd& record, int order_at_most = 20);
 
+/// 1 + 2Σρ²: so many squares of such a series are worth one that is independent of the others.
+double memory_of_squares(const Autoregression& series);
+
 struct CoefficientCovariance {
   Eigen::MatrixXd covariance;         ///< of the coefficients, honest for correlated residuals, shape (p, p); (F4)
   Eigen::MatrixXd white_covariance;   ///< what white residuals would give: σ²(JᵀJ)⁻¹, for comparison

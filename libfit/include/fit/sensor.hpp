@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace fit {
@@ -55,5 +56,9 @@ struct EvenGrid {
 EvenGrid even_grid(std::span<const double> time_s, double longest_gap_s);
 /// A column on that grid: straight lines over the gaps, everything else unchanged.
 std::vector<double> on_grid(const EvenGrid& grid, std::span<const double> values);
+
+/// Values that are no numbers are gaps, and fewer than two others tell nothing. \throws hydro::InputError, with the
+/// name, where all others are the same
+void require_signal(const std::string& name, std::span<const double> values);
 
 }  // namespace fit

@@ -1,10 +1,8 @@
 #include "wave_records.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "hydro/base/error.hpp"
+#include "fit/sensor.hpp"
 
 namespace fit {
 
@@ -12,10 +10,7 @@ WaveRecord prepared(const WaveRun& run, const PrepareOptions& options, Report& r
   WaveRecord out;
   std::vector<std::string> done;
   const auto on_grid = [&](const std::string& name, const std::vector<double>& values) {
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    if (values.size() > 1 && !(*high > *low))
-      throw hydro::InputError(fmt::format("{} is {:.6g} throughout: the sensor gave no signal", name, *low), {},
-                              "look whether it was connected, or leave the file or the channel out");
+    require_signal(name, values);
     PreparedMotion p = prepare_motion(name, run.time, values, options);
     out.time = std::move(p.time);
     for (std::string& step : p.steps)

@@ -17,8 +17,8 @@ using PeriodicMatrix = std::function<Eigen::MatrixXd(double t_s)>;
 Eigen::MatrixXd monodromy(const PeriodicMatrix& a, double period_s, double tolerance = 1e-13);
 
 /// Its eigenvalues, the largest first, shape (n): motions grow if one is larger than 1, with their sign alternating
-/// from period to period if it is near −1 (period doubling). Relative error some hundred
-/// times the tolerance where they are apart. \throws as monodromy()
+/// from period to period if it is near −1 (period doubling). Relative error some hundred times the
+/// tolerance where they are apart. \throws as monodromy()
 Eigen::VectorXcd floquet_multipliers(const PeriodicMatrix& a, double period_s, double tolerance = 1e-13);
 
 }  // namespace dynamics::frequency
