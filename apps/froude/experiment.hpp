@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "fit/experiment.hpp"
-#include "fit/planned_tow.hpp"
+#include "fit/problem/planned_tow.hpp"
 #include "fit/regular_waves.hpp"
 #include "froude/commands.hpp"
 

@@ -1,6 +1,6 @@
 // Plans of experiments: numbers that belong together, and lengths whose interval comes out as planned.
 #include "fit/experiment.hpp"
-#include "fit/planned_tow.hpp"
+#include "fit/problem/planned_tow.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

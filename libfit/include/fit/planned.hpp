@@ -1,8 +1,9 @@
 #pragma once
 /// \file  What plans of experiments of several kinds share: made noise, and the search for a length that is enough.
-///        Private to libfit.
+///        (F99), docs/theory/fit.md.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "hydro/base/error.hpp"

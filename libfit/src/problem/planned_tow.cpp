@@ -1,10 +1,10 @@
-#include "fit/planned_tow.hpp"
+#include "fit/problem/planned_tow.hpp"
 
 #include <limits>
 #include <utility>
 
+#include "fit/planned.hpp"
 #include "fit/problem/towing.hpp"
-#include "planned.hpp"
 
 namespace fit {
 namespace {
