@@ -22,6 +22,10 @@ Binding<DelayModel> delay_keys() {
                    "the delay is looked for so far either way; left out: wherever half of the shorter record lies "
                    "within the other"),
           [](const Value& v, DelayModel& out) { out.search.longest = v.number; })
+      .optional(quantity("around", hydro::dim::time,
+                         "what the delay is known to be nearly, about which it is looked for; left out: 0 s")
+                    .only_beside("longest"),
+                [](const Value& v, DelayModel& out) { out.search.around = v.number; })
       .optional(text("sign", "of the second channel against the first; left out: whichever is more alike")
                     .one_of({"same", "opposite"}),
                 [](const Value& v, DelayModel& out) { out.search.sign = v.text == "same" ? same : opposite; })
@@ -70,7 +74,7 @@ class DelayFits final : public FitKindOf<DelayModel, DelayProblem> {
     model.search.second = second;
     model.search.remedy =
         "take a record with a beginning or a change in it; or bound the delay by less than half of that, "
-        "[model] longest, and say which sign the second channel has, [model] sign";
+        "[model] longest and around, and say which sign the second channel has, [model] sign";
   }
 
   DelayProblem problem(const FitScene& scene, const DelayModel& model) const override {

@@ -23,6 +23,7 @@
 #include "fit/prepare.hpp"
 #include "fit/report.hpp"
 #include "scene/binding.hpp"
+#include "scene/placed.hpp"
 
 namespace froude::scene {
 
@@ -134,7 +135,7 @@ class FitKindOf : public FitKind {
 
   FitAnswer answer(const FitScene& scene) const final {
     const Problem given = problem(scene, scene.model<Model>());
-    const Solution found = solve(given);
+    const Solution found = placed(asked_at(scene), [&] { return solve(given); });
     FitAnswer out{.report = found.report, .panels = panels(given, found), .table = {}, .remedy = {}};
     for (std::string& line : told_lines(scene)) out.report.remarks.push_back(std::move(line));
     if (out.report.refused)
@@ -167,6 +168,8 @@ class FitKindOf : public FitKind {
   virtual Problem problem(const FitScene& scene, const Model& model) const = 0;
   virtual Panels panels(const Problem& problem, const Solution& solution) const = 0;
   virtual Remedy remedy(const FitScene&, const Problem&, const Solution&) const { return {}; }
+  /// Where the scene asks for what its runs cannot tell together: errors of one run name its file.
+  virtual Place asked_at(const FitScene& scene) const { return scene.model_place; }
   /// Of kinds that have one; asked where no value is refused.
   virtual std::string table(const Problem&, const Solution&) const { return {}; }
 

@@ -19,6 +19,7 @@ namespace froude::scene {
 
 template <class T>
 class Binding;
+class Record;
 struct FitTables;
 
 /// Drag and inertia of a cylinder.
@@ -26,6 +27,7 @@ struct MorisonModel : ::fit::morison::Options {
   ::fit::Cylinder cylinder;
   std::optional<::fit::ProbeToBody> probe;  ///< with the channel elevation
   std::optional<Located<std::filesystem::path>> zero_run;
+  std::optional<Place> law_asked;  ///< where [ask] law stands
 };
 
 /// Drag of a cylinder at steady speed.
@@ -64,7 +66,8 @@ struct MotionModel {
     std::string name = {};
     Located<std::filesystem::path> file = {};
     std::optional<double> start =
-        {};  ///< s, in the file's time: when the run begins; none: 0, of a track as [camera] says
+        {};                  ///< s, in the file's time: when the run begins; none: 0, of a track as [camera] says
+    Place start_place = {};  ///< where the scene says it, or names the file
     std::optional<double> end = {};                            ///< s, in the file's time
     std::optional<Located<std::filesystem::path>> scene = {};  ///< empty: that of the model
     std::vector<Parameter> set = {};                           ///< held at their first values
@@ -83,7 +86,7 @@ struct MotionModel {
   std::optional<CameraTable> camera = {};          ///< files are tracks
   std::vector<Located<std::string>> columns = {};  ///< names of a track's columns, where the file has none
   std::string time_unit = {}, position_unit = {};  ///< of a track, where the file has none
-  Place place = {};                                ///< of [model]
+  Place place = {}, data_place = {};               ///< of [model] and [data]
 
   /// Of a track.
   const CameraTable& camera_of(const Record& record) const { return record.camera ? *record.camera : *camera; }
@@ -95,6 +98,17 @@ struct MotionModel {
 Binding<::fit::Cylinder> cylinder_keys();
 /// [model.uncertainty] without the mass: in fit_towing.cpp.
 Binding<::fit::CylinderErrors> cylinder_errors();
+/// A standard uncertainty, SI, that is as large as what it is of. A mass of zero is one that was taken off already, and
+/// may well have one.
+struct TooUncertain {
+  const char* name;  ///< "diameter", in [model.uncertainty]
+  const char* key;   ///< of what it is of: the same, or "mass_beyond_load_cells"
+  double error, size;
+};
+/// In fit_towing.cpp.
+std::optional<TooUncertain> too_uncertain(const ::fit::Cylinder& cylinder, const ::fit::CylinderErrors& errors);
+/// \throws hydro::InputError at the key of [model.uncertainty]
+void check_errors(const Record& model, const ::fit::Cylinder& cylinder, const ::fit::CylinderErrors& errors);
 /// [model.body]: in fit_radiation.cpp.
 Binding<::fit::RestoredBody> restored_body();
 /// \throws hydro::InputError for a mass beside an angle, an inertia beside a position

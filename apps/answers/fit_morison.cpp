@@ -192,6 +192,11 @@ void take_row(const Located<std::filesystem::path>& place, std::size_t row, Mori
   take("mass_beyond_load_cells", dim::mass, run.cylinder.mass_beyond_load_cells);
   take("viscosity", dim::kinematic_viscosity, run.cylinder.viscosity);
   take("delay", dim::time, run.delay_s);
+  if (const auto found = too_uncertain(run.cylinder, model.force.cylinder_errors); found && table.has(found->key))
+    throw hydro::InputError(fmt::format("the {} of a run, {:g} in SI, is no larger than its uncertainty, {:g}",
+                                        found->key, found->size, found->error),
+                            table.place_of(found->key, row),
+                            fmt::format("look at its unit, and at {} in [model.uncertainty]", found->name));
   if (table.has("zero")) model.zero_run = {{place.value.parent_path() / table.text_column("zero")[row], place.place}};
 }
 
@@ -279,7 +284,10 @@ Binding<MorisonModel> asked_of_forces() {
       .key(effect("cycles", "coefficients of each cycle too; needs [prepare] window in full cycles"), &M::cycles)
       .optional(text("law", "coefficients of all runs against KC, Re or beta = Re/KC, with runs that differ by chance")
                     .one_of(words_of(laws)),
-                [](const Value& v, M& out) { out.law = {value_for(laws, v.text)}; })
+                [](const Value& v, M& out) {
+                  out.law = {value_for(laws, v.text)};
+                  out.law_asked = v.place;
+                })
       .key(effect("sensitivity", "the fit repeated with other cutoffs, bandwidths and halves of the window"),
            &M::sensitivity);
 }
@@ -316,6 +324,7 @@ class MorisonFits final : public FitKindOf<MorisonModel, ::fit::morison::Problem
     check_motion_channels(t.channels(), morison.cylinder.experiment);
     if (morison.cylinder.experiment == Experiment::water_moves && morison.force.cylinder_errors.mass != 0)
       throw t.model().table("uncertainty").wrong("mass", "does not act: the body does not move", "leave it out");
+    check_errors(t.model(), morison.cylinder, morison.force.cylinder_errors);
     finish_probe(t, morison);
     if (t.root.has("prepare")) read_delay(t.root.table("prepare"), morison);
     check_cycles(t, morison);
@@ -330,6 +339,10 @@ class MorisonFits final : public FitKindOf<MorisonModel, ::fit::morison::Problem
              scene, {"file", "zero", "delay", "diameter", "length", "density", "viscosity", "mass_beyond_load_cells"}))
       out.runs.push_back(read_run(scene, model, of));
     return out;
+  }
+
+  Place asked_at(const FitScene& scene) const override {
+    return scene.model<MorisonModel>().law_asked.value_or(scene.model_place);
   }
 
   Remedy remedy(const FitScene& scene, const ::fit::morison::Problem&, const Solution&) const override {

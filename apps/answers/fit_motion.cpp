@@ -312,7 +312,7 @@ class MotionFits final : public FitKindOf<MotionModel, ::fit::motion::Problem> {
     if (model.window > 0)
       throw InputError("a prediction is one run from the scene's start, and [model] has a window", scene.model_place,
                        "leave out `window`: the start of each window is what a fit finds");
-    const ::fit::motion::Problem given = problem(scene, model);
+    const ::fit::motion::Problem given = followed(scene, model);
     const GivenValues values = fitted ? values_of_fit(given, *fitted) : first_values(given);
     ::fit::motion::Prediction out = ::fit::motion::predict(given, values.at, values.from);
     return {.report = std::move(out.report),
@@ -325,19 +325,30 @@ class MotionFits final : public FitKindOf<MotionModel, ::fit::motion::Problem> {
   void finish(const FitTables& t, const FitScene& scene, MotionModel& motion) const override {
     read_records(t, scene, motion);
     check_track(t, scene, motion);
-    if (motion.signals.empty())
-      throw t.data().refused(
-          "needs what was measured",
-          "add a [[data.signal]] with its column, the signal of the run, and the deviation of its noise");
+    motion.data_place = t.data().place();
     if (motion.profile && motion.starts.value_or(1) > 1 && motion.window > 0)
       throw t.ask().wrong("profile", "cannot be had with several starts of a search in windows",
                           "give each parameter the first value that was found, and leave out [model] starts");
   }
 
+  /// What a track or a prediction does without is missed here, where something is to be fitted.
   ::fit::motion::Problem problem(const FitScene& scene, const MotionModel& model) const override {
-    const auto followed = std::make_shared<FollowedRecords>(scene, model);
+    const bool none = std::all_of(model.records.begin(), model.records.end(),
+                                  [](const auto& record) { return record.parameters.empty(); });
+    if (model.parameters.empty() && none)
+      throw InputError("[model] of kind \"motion\" needs a number to fit", scene.model_place,
+                       "add a [[model.parameter]] with its key");
+    return followed(scene, model);
+  }
+
+  /// The scene's runs beside what was measured. \throws hydro::InputError where nothing was
+  static ::fit::motion::Problem followed(const FitScene& scene, const MotionModel& model) {
+    if (model.signals.empty())
+      throw InputError("[data] needs what was measured", model.data_place,
+                       "add a [[data.signal]] with its column, the signal of the run, and the deviation of its noise");
+    const auto runs = std::make_shared<FollowedRecords>(scene, model);
     ::fit::motion::Problem out{.records = {},
-                               .simulation = {followed, &*followed->simulation},
+                               .simulation = {runs, &*runs->simulation},
                                .parameters = {},
                                .signals = {},
                                .measured = {},
@@ -347,10 +358,10 @@ class MotionFits final : public FitKindOf<MotionModel, ::fit::motion::Problem> {
                                            .profile = model.profile,
                                            .accept_residuals = model.accept_residuals}};
     for (const auto& q : model.parameters) out.parameters.push_back({q.number, q.unit});
-    for (std::size_t r = 0; r < model.records.size(); ++r) add_record(model.records[r], *followed->all[r], out);
-    const std::vector<std::string> units = followed->all[0]->runs.units();
+    for (std::size_t r = 0; r < model.records.size(); ++r) add_record(model.records[r], *runs->all[r], out);
+    const std::vector<std::string> units = runs->all[0]->runs.units();
     if (model.camera) {
-      add_signals_of_films(model, followed->all[0]->measured.deviations, units, out);
+      add_signals_of_films(model, runs->all[0]->measured.deviations, units, out);
       return out;
     }
     for (const auto& record : model.records) {

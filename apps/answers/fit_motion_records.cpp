@@ -142,7 +142,10 @@ const Binding<MotionModel::Record>& motion_record() {
           .optional(quantity("start", dim::time,
                              "time in the file at which the run begins; rows before are not fitted; left out: 0, of a "
                              "track [camera] from, or its first frame"),
-                    &R::start)
+                    [](const Value& v, R& out) {
+                      out.start = v.number;
+                      out.start_place = v.place;
+                    })
           .optional(quantity("end", dim::time, "time in the file after which no row is fitted"), &R::end)
           .optional(text("scene", "that is run for this record, relative to the fit; left out: that of [model]"),
                     &R::scene)
@@ -175,10 +178,6 @@ void read_records(const FitTables& t, const FitScene& scene, MotionModel& motion
     motion.records.push_back(std::move(record));
   }
   refuse_same_names(motion.records);
-  const bool none = std::all_of(motion.records.begin(), motion.records.end(),
-                                [](const auto& record) { return record.parameters.empty(); });
-  if (motion.parameters.empty() && none)
-    throw t.model().refused("of kind \"motion\" needs a number to fit", "add a [[model.parameter]] with its key");
 }
 
 }  // namespace froude::scene

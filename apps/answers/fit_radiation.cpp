@@ -107,9 +107,11 @@ Binding<::fit::RestoredBody> restored_body() {
       .optional(quantity("rotational_stiffness", dim::rotational_stiffness, "of water and springs, for an angle")
                     .within(Limit::not_negative),
                 &R::stiffness)
-      .optional(number("mass_error", "standard uncertainty of mass or inertia, relative").positive(), &R::mass_error)
-      .optional(number("stiffness_error", "standard uncertainty of the stiffness, relative").positive(),
-                &R::stiffness_error)
+      .optional(number("mass_error", "standard uncertainty of mass or inertia, relative").within(Limit::open_fraction),
+                &R::mass_error)
+      .optional(
+          number("stiffness_error", "standard uncertainty of the stiffness, relative").within(Limit::open_fraction),
+          &R::stiffness_error)
       .exactly_one_of({"mass", "inertia"})
       .exactly_one_of({"stiffness", "rotational_stiffness"});
 }

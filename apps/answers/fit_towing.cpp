@@ -1,6 +1,7 @@
 /// \file  Fits of kind "towing": drag of a cylinder at steady speed.
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "answers/fit_kind.hpp"
 #include "answers/fit_measurements.hpp"
@@ -54,6 +55,7 @@ class TowingFits final : public FitKindOf<TowingModel, ::fit::towing::Problem> {
  private:
   void finish(const FitTables& t, const FitScene& scene, TowingModel& towing) const override {
     towing.confidence = scene.confidence;
+    check_errors(t.model(), towing.cylinder, towing.errors);
     for (const auto& c : wanted(t, {"cd", "cm", "ca"}, "[\"cd\"]", "ask for cd, cm or ca"))
       if (c.value != "cd")
         throw hydro::InputError(
@@ -116,7 +118,29 @@ class TowingFits final : public FitKindOf<TowingModel, ::fit::towing::Problem> {
     };
     const auto speed = column("speed", dim::velocity), speed_sd = column("speed_sd", dim::velocity);
     const auto force = measured.load(), force_sd = column("force_sd", dim::force);
-    for (std::size_t i = 0; i < force.size(); ++i) out.runs.push_back({speed[i], speed_sd[i], force[i], force_sd[i]});
+    for (std::size_t i = 0; i < force.size(); ++i) {
+      out.runs.push_back({speed[i], speed_sd[i], force[i], force_sd[i]});
+      check_mean(measured, i, out.runs.back(), out.runs.front());
+    }
+  }
+
+  /// \throws hydro::InputError at the cell that is wrong
+  static void check_mean(const Measurements& measured, std::size_t row, const ::fit::TowingRun& run,
+                         const ::fit::TowingRun& first) {
+    const auto at = [&](const char* role, const auto& check) {
+      try {
+        check();
+      } catch (const hydro::InputError& e) {
+        const auto column = measured.scene.channels.find(role);
+        const bool named = column != measured.scene.channels.end();
+        throw e.at(measured.table.place_of(named ? column->second : measured.scene.force[0].column, row));
+      }
+    };
+    at("speed", [&] { ::fit::require_towing_speed(run.speed); });
+    at("force", [&] { ::fit::require_resistance(run.force, run.speed); });
+    at("speed_sd", [&] { ::fit::require_deviation("speed", run.speed_deviation, run.speed); });
+    at("force_sd", [&] { ::fit::require_deviation("force", run.force_deviation, run.force); });
+    at("force_sd", [&] { ::fit::require_stated_alike(run, first); });
   }
 
   Remedy remedy(const FitScene& scene, const ::fit::towing::Problem&, const Solution&) const override {
@@ -241,6 +265,22 @@ Binding<::fit::CylinderErrors> cylinder_errors() {
       .optional(positive("diameter", dim::length, "of the diameter"), &CylinderErrors::diameter)
       .optional(positive("length", dim::length, "of the length"), &CylinderErrors::length)
       .optional(positive("density", dim::density, "of the water's density"), &CylinderErrors::density);
+}
+
+std::optional<TooUncertain> too_uncertain(const ::fit::Cylinder& c, const ::fit::CylinderErrors& e) {
+  for (const TooUncertain& one :
+       {TooUncertain{"diameter", "diameter", e.diameter, c.diameter},
+        TooUncertain{"length", "length", e.length, c.length}, TooUncertain{"density", "density", e.density, c.density},
+        TooUncertain{"mass", "mass_beyond_load_cells", e.mass, c.mass_beyond_load_cells}})
+    if (one.error > 0 && one.size > 0 && one.error >= one.size) return one;
+  return std::nullopt;
+}
+
+void check_errors(const Record& model, const ::fit::Cylinder& cylinder, const ::fit::CylinderErrors& errors) {
+  if (const auto found = too_uncertain(cylinder, errors))
+    throw model.table("uncertainty")
+        .wrong(found->name, fmt::format("is no smaller than what it is the error of, {:g} in SI", found->size),
+               "write one standard deviation with its unit: a diameter of 0.12 m may be known to \"0.5 mm\"");
 }
 
 std::unique_ptr<const FitKind> towing_fit() { return std::make_unique<TowingFits>(); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "answers/camera_track.hpp"
 #include "answers/fit_measurements.hpp"
@@ -142,6 +143,25 @@ void require_increasing(const hydro::io::CsvTable& table, const std::string& col
                        "put the rows in the order of their times, and take out those that stand twice");
 }
 
+/// A run that goes on for longer before the record than beside it is one that somebody else's clock made: each step of
+/// a search would follow it, and mostly where nothing was measured. Who means it says so, by a start that the file's
+/// own time has.
+void require_seen(const MeasuredRun& run, std::optional<double> start, const hydro::Place& at) {
+  const double unseen = run.time.front(), seen = run.time.back() - unseen;
+  if (unseen <= seen || (start && *start >= 0)) return;
+  const double first = start.value_or(0) + unseen;
+  throw InputError(
+      fmt::format(
+          "the run begins at {:.6g} s and the first row comes at {:.6g} s: {:.4g} s of it are before a record of "
+          "{:.4g} s",
+          start.value_or(0), first, unseen, seen),
+      at,
+      fmt::format("write start = \"{:.6g} s\" in its [[data.record]] if the run begins with the record; {}", first,
+                  start
+                      ? "if it began so early, let the file's times count from there, and leave start out or write 0 s"
+                      : "if it began so early, write start = \"0 s\""));
+}
+
 }  // namespace
 
 MeasuredRun MeasuredRun::read(const scene::FitScene& fit, const scene::MotionModel& model,
@@ -153,6 +173,8 @@ MeasuredRun MeasuredRun::read(const scene::FitScene& fit, const scene::MotionMod
       MeasuredRun out = of_uneven(track.time, std::move(channels.values), model.window);
       out.whitening = std::move(channels.whitening);
       out.deviations = std::move(channels.deviations);
+      const auto& camera = model.camera_of(record);
+      require_seen(out, record.start ? record.start : camera.from, record.start ? record.start_place : camera.place);
       return out;
     });
   }
@@ -179,8 +201,11 @@ MeasuredRun MeasuredRun::read(const scene::FitScene& fit, const scene::MotionMod
         Eigen::Map<const Eigen::VectorXd>(column.data() + skipped, std::ssize(time));
   }
   return scene::placed({.file = record.file.value.string()}, [&] {
-    return time.size() >= 8 && on_the_runs_samples(time) ? of(std::move(time), std::move(values), model.window)
-                                                         : of_uneven(std::move(time), std::move(values), model.window);
+    MeasuredRun out = time.size() >= 8 && on_the_runs_samples(time)
+                          ? of(std::move(time), std::move(values), model.window)
+                          : of_uneven(std::move(time), std::move(values), model.window);
+    require_seen(out, record.start, record.start ? record.start_place : record.file.place);
+    return out;
   });
 }
 

@@ -207,13 +207,16 @@ struct KinematicsArguments {
   std::vector<std::string> lengths = {};  ///< "pivot joint 0.5 m 0.5 mm": markers, their distance, its deviation
   std::optional<Path> record = {};        ///< .csv, of another clock
   std::string record_time = "t";          ///< its column of time
-  std::string match = {};          ///< "chain.link1.polar = angle": a signal of the scene and a column of the record
+  std::string match = {};  ///< "chain.link1.polar = angle": a signal of the scene and a column of the record
+  std::string around = {}, longest = {};  ///< "1.2 s", "0.4 s": the offset lies so far about that; empty: 0, anywhere
+  std::string sign = {};                  ///< of the column against the signal: "same", "opposite"; empty: either
   std::optional<Path> start = {};  ///< .toml: the scene of motion with its bodies' starts, or a table [line.start]
   std::string start_at = {};       ///< "1.2 s" of the track
   std::string nodes = {};          ///< markers at the line's nodes, in their order; empty: the start is that of bodies
   std::optional<std::string> release = {};  ///< a marker: when is it let go?
   bool space = false;                       ///< six motions of bodies, from the lens and markers on them
-  std::optional<Path> second = {};          ///< scene of another camera that saw the same markers: places in space
+  std::optional<std::string> second = {};   ///< another camera that saw the same markers, which then have places in
+                                            ///< space: a record of the scene, by name, or a scene of its own
   Path output;                              ///< .csv
   std::optional<Path> picture = {};         ///< .svg
 };

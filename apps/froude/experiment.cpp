@@ -41,6 +41,37 @@ void tell_lengths(const OscillationPlanArguments& a, const ::fit::OscillationNum
           fact("time_s", last.cycles * plan.period), fact("of", cd ? "cd" : "ca"), fact("half_width", reached));
 }
 
+/// How long the carriage must tow at one speed, against how long the tank lets it.
+void tell_times(const TowPlanArguments& a, double diameter, double speed, double steady_s, Report& out) {
+  ::fit::PlannedTow plan = a.record;
+  plan.cylinder.diameter = diameter;
+  plan.speed = speed;
+  plan.acceleration = a.acceleration;
+  const auto tried = ::fit::times_for(plan, *a.width);
+  out.say("times at one speed, each fitted {} times to made records:", fact("made_records", 20));
+  out.say("{:>8} {:>10} {:>12} {:>8} {:>8}", "time [s]", "diameters", "cd +-", "held", "refused");
+  for (const auto& t : tried)
+    out.row("time", "{:>8} {:>10} {:>12} {:>8} {:>8}", fact("time_s", t.seconds),
+            fact("diameters", t.seconds * speed / diameter, fmt::format("{:.3g}", t.seconds * speed / diameter)),
+            fact("cd_half_width", t.half_width, fmt::format("{:.3g}", t.half_width)),
+            fact("cd_held", t.held, fmt::format("{:.2g}", t.held)),
+            fact("refused", t.refused, fmt::format("{:.2g}", t.refused)));
+  const auto& last = tried.back();
+  if (!last.holds || last.half_width > *a.width)
+    throw hydro::InputError(fmt::format("{} s have a half width of {:.3g} still, of intervals that hold in {:.2g} of "
+                                        "cases, and {:.3g} is wanted",
+                                        last.seconds, last.half_width, last.held, *a.width),
+                            {.file = "--width"}, "less noise, a higher speed, or a wider interval");
+  out.say("{} s tell cd to ±{:.3g}", fact("needed_s", last.seconds), fact("half_width", last.half_width));
+  if (last.seconds > steady_s)
+    out.sentences(
+        "warnings", "caution: {}",
+        std::vector<std::string>{fmt::format(
+            "the tank leaves {:.4g} s: about {:.0f} tows together tell as much, if they differ by their noise "
+            "alone",
+            steady_s, std::max(3.0, std::ceil(last.seconds / steady_s)))});
+}
+
 /// What the water does at the axis of a cylinder across the waves, by linear theory.
 void tell_cylinder(const WavePlanArguments& a, double k, double omega, Report& out) {
   if (a.diameter.has_value() != a.level.has_value())
@@ -86,6 +117,7 @@ void plan_tow(const TowPlanArguments& a, const Console& console) {
   out.say("at one speed for {:.4g} s, after {:.3g} s of acceleration: {:.4g} m, {:.4g} diameters",
           fact("steady_s", steady), fact("ramp_s", speed / a.acceleration), fact("steady_m", steady * speed),
           fact("diameters", steady * speed / diameter));
+  if (a.width) tell_times(a, diameter, speed, steady, out);
   tell(out, console);
 }
 

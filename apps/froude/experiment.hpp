@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "fit/experiment.hpp"
+#include "fit/problem/planned_tow.hpp"
 #include "fit/regular_waves.hpp"
 #include "froude/commands.hpp"
 
@@ -19,6 +20,8 @@ struct OscillationPlanArguments {
 struct TowPlanArguments {
   std::optional<double> diameter = {}, speed = {}, re = {};  ///< two of them
   double viscosity = 0, length = 0, acceleration = 1;        ///< of the tank
+  std::optional<double> width = {};  ///< half of the interval that is wanted; none: only numbers and time are told
+  ::fit::PlannedTow record = {};     ///< but speed, acceleration and diameter, which follow
 };
 struct WavePlanArguments {
   double period = 0, height = 0;

@@ -27,35 +27,53 @@ std::optional<double> positive_or_none(const std::string& option, const std::str
   return positive_of(option, text, needed);
 }
 
-/// Quantities as they were written: units are read when the command runs.
-struct OscillationTexts {
-  std::string diameter, amplitude, period, speed, viscosity, noise, memory, rate = "100 Hz", length, density,
-                                                                            mass = "0 kg", of = "cd";
+/// Of the record that a plan makes, as it was written: units are read when the command runs.
+struct RecordTexts {
+  std::string noise, memory, rate = "100 Hz", length, density;
 };
 
-void read(const OscillationTexts& texts, OscillationPlanArguments& a) {
+void add_record(CLI::App& command, const std::shared_ptr<RecordTexts>& texts, std::optional<double>& width) {
+  command.add_option("--width", width, "half of the interval that is wanted: how long must the record be?");
+  command.add_option("--noise", texts->noise, "standard deviation of the force's noise");
+  command.add_option("--memory", texts->memory, "of that noise: it forgets by 1/e; white if left out");
+  command.add_option("--rate", texts->rate, "of sampling")->capture_default_str();
+  command.add_option("--length", texts->length, "of the cylinder in the water");
+  command.add_option("--density", texts->density, "of the water");
+}
+
+/// Into a plan of libfit. \throws hydro::InputError for what goes without the other
+template <class Plan>
+void read_record(const RecordTexts& texts, const std::optional<double>& width, double viscosity, Plan& plan) {
+  for (const auto& [option, text] :
+       {std::pair{"--noise", &texts.noise}, {"--length", &texts.length}, {"--density", &texts.density}})
+    if (text->empty() == width.has_value())
+      throw hydro::InputError(
+          width ? fmt::format("--width needs {}", option) : fmt::format("{} does not act without --width", option),
+          {.file = "command line"}, width ? "add it" : "leave it out, or ask for a --width");
+  if (!width) return;
+  plan.noise = positive_of("--noise", texts.noise, dim::force);
+  plan.memory = parsed("--memory", texts.memory, dim::time).value_or(0);
+  plan.step = 2 * std::numbers::pi / positive_of("--rate", texts.rate, dim::angular_velocity);
+  plan.cylinder = {.diameter = 0,
+                   .length = positive_of("--length", texts.length, dim::length),
+                   .density = positive_of("--density", texts.density, dim::density),
+                   .viscosity = viscosity,
+                   .experiment = ::fit::Experiment::body_moves};
+}
+
+struct OscillationTexts {
+  std::string diameter, amplitude, period, speed, viscosity, mass = "0 kg", of = "cd";
+};
+
+void read(const OscillationTexts& texts, const RecordTexts& record, OscillationPlanArguments& a) {
   a.viscosity = positive_of("--viscosity", texts.viscosity, dim::kinematic_viscosity);
   a.known.diameter = positive_or_none("--diameter", texts.diameter, dim::length);
   a.known.amplitude = positive_or_none("--amplitude", texts.amplitude, dim::length);
   a.known.period = positive_or_none("--period", texts.period, dim::time);
   a.known.speed = positive_or_none("--speed", texts.speed, dim::velocity);
-  for (const auto& [option, text] :
-       {std::pair{"--noise", &texts.noise}, {"--length", &texts.length}, {"--density", &texts.density}})
-    if (text->empty() == a.width.has_value())
-      throw hydro::InputError(
-          a.width ? fmt::format("--width needs {}", option) : fmt::format("{} does not act without --width", option),
-          {.file = "command line"}, a.width ? "add it" : "leave it out, or ask for a --width");
+  read_record(record, a.width, a.viscosity, a.record);
   if (!a.width) return;
-  auto& record = a.record;
-  record.noise = positive_of("--noise", texts.noise, dim::force);
-  record.memory = parsed("--memory", texts.memory, dim::time).value_or(0);
-  record.step = 2 * std::numbers::pi / positive_of("--rate", texts.rate, dim::angular_velocity);
-  record.cylinder = {.diameter = 0,
-                     .length = positive_of("--length", texts.length, dim::length),
-                     .density = positive_of("--density", texts.density, dim::density),
-                     .viscosity = a.viscosity,
-                     .experiment = ::fit::Experiment::body_moves,
-                     .mass_beyond_load_cells = *parsed("--mass", texts.mass, dim::mass)};
+  a.record.cylinder.mass_beyond_load_cells = *parsed("--mass", texts.mass, dim::mass);
   a.wanted = texts.of == "cd" ? ::fit::Wanted::cd : ::fit::Wanted::inertia;
 }
 
@@ -70,6 +88,7 @@ void add_oscillation_plan(CLI::App& experiment, Request& request) {
       "kg\"");
   auto arguments = std::make_shared<OscillationPlanArguments>();
   auto texts = std::make_shared<OscillationTexts>();
+  auto record = std::make_shared<RecordTexts>();
   command->add_option("--diameter", texts->diameter,
                       "of the cylinder; of all these numbers any three that tell the rest");
   command->add_option("--amplitude", texts->amplitude, "of the motion");
@@ -79,20 +98,15 @@ void add_oscillation_plan(CLI::App& experiment, Request& request) {
   command->add_option("--re", arguments->known.re, "Reynolds number UD/nu");
   command->add_option("--beta", arguments->known.beta, "Re/KC");
   command->add_option("--viscosity", texts->viscosity, "kinematic, of the water")->required();
-  command->add_option("--width", arguments->width, "half of the interval that is wanted: how long must the record be?");
+  add_record(*command, record, arguments->width);
   command->add_option("--of", texts->of, "whose interval")->check(CLI::IsMember({"cd", "ca"}))->capture_default_str();
-  command->add_option("--noise", texts->noise, "standard deviation of the force's noise");
-  command->add_option("--memory", texts->memory, "of that noise: it forgets by 1/e; white if left out");
-  command->add_option("--rate", texts->rate, "of sampling")->capture_default_str();
-  command->add_option("--length", texts->length, "of the cylinder in the water");
-  command->add_option("--density", texts->density, "of the water");
   command->add_option("--mass", texts->mass, "beyond the load cells")->capture_default_str();
   command->add_option("--cd", arguments->record.cd, "that is expected")->capture_default_str();
   command->add_option("--ca", arguments->record.inertia, "that is expected")->capture_default_str();
   command->add_option("--confidence", arguments->record.confidence, "level of the interval")->capture_default_str();
   command->callback([=, &request] {
     request.call = [=](const Console& console) {
-      read(*texts, *arguments);
+      read(*texts, *record, *arguments);
       plan_oscillation(*arguments, console);
       return done;
     };
@@ -102,18 +116,25 @@ void add_oscillation_plan(CLI::App& experiment, Request& request) {
 void add_tow_plan(CLI::App& experiment, Request& request) {
   auto* command = experiment.add_subcommand("tow", "Re and speed of a cylinder that is towed, and how long it tows");
   command->footer(
-      "Example:\n  froude experiment tow --diameter \"0.12 m\" --re 8e4 --viscosity \"1.05e-6 m^2/s\" --tank \"60 m\"");
+      "Examples:\n  froude experiment tow --diameter \"0.12 m\" --re 8e4 --viscosity \"1.05e-6 m^2/s\" --tank \"60 "
+      "m\"\n"
+      "  froude experiment tow --diameter \"0.12 m\" --re 8e4 --viscosity \"1.05e-6 m^2/s\" --tank \"60 m\"\n"
+      "    --width 0.01 --noise \"0.3 N\" --memory \"0.5 s\" --length \"0.5 m\" --density \"997 kg/m^3\"");
   struct Texts {
     std::string diameter, speed, viscosity, tank, acceleration = "1 m/s^2";
   };
   auto arguments = std::make_shared<TowPlanArguments>();
   auto texts = std::make_shared<Texts>();
+  auto record = std::make_shared<RecordTexts>();
   command->add_option("--diameter", texts->diameter, "of the cylinder; of diameter, speed and Re any two");
   command->add_option("--speed", texts->speed, "of the carriage");
   command->add_option("--re", arguments->re, "Reynolds number UD/nu");
   command->add_option("--viscosity", texts->viscosity, "kinematic, of the water")->required();
   command->add_option("--tank", texts->tank, "length that the carriage may go")->required();
   command->add_option("--acceleration", texts->acceleration, "of the carriage at both ends")->capture_default_str();
+  add_record(*command, record, arguments->width);
+  command->add_option("--cd", arguments->record.cd, "that is expected")->capture_default_str();
+  command->add_option("--confidence", arguments->record.confidence, "level of the interval")->capture_default_str();
   command->callback([=, &request] {
     request.call = [=](const Console& console) {
       arguments->diameter = positive_or_none("--diameter", texts->diameter, dim::length);
@@ -121,6 +142,7 @@ void add_tow_plan(CLI::App& experiment, Request& request) {
       arguments->viscosity = positive_of("--viscosity", texts->viscosity, dim::kinematic_viscosity);
       arguments->length = positive_of("--tank", texts->tank, dim::length);
       arguments->acceleration = positive_of("--acceleration", texts->acceleration, dim::acceleration);
+      read_record(*record, arguments->width, arguments->viscosity, arguments->record);
       plan_tow(*arguments, console);
       return done;
     };

@@ -44,8 +44,10 @@ fc::KnownLength known_length(const std::string& text) {
   }
   if (words.size() != 6) throw wrong();
   return scene::placed({.file = "--length"}, [&] {
-    return fc::KnownLength{words[0], words[1], hydro::parse_si(words[2] + " " + words[3], dim::length),
-                           hydro::parse_si(words[4] + " " + words[5], dim::length)};
+    fc::KnownLength out{words[0], words[1], hydro::parse_si(words[2] + " " + words[3], dim::length),
+                        hydro::parse_si(words[4] + " " + words[5], dim::length)};
+    check(out);
+    return out;
   });
 }
 
@@ -126,23 +128,48 @@ void draw(const Path& file, const std::vector<double>& time, const std::vector<S
 
 namespace {
 
-/// How late the record's clock is. \throws hydro::InputError at the option or the file that is wrong
-::fit::Offset offset_of(const KinematicsArguments& a, const scene::MotionModel& model, const fc::Track& places,
-                        const std::vector<fc::Channel>& channels) {
+/// What is known of an offset before it is looked for, as [camera] offset.
+::fit::OffsetOptions offset_options(const KinematicsArguments& a) {
+  using enum ::fit::OffsetOptions::Sign;
+  ::fit::OffsetOptions out;
+  const auto seconds = [](const char* option, const std::string& text) {
+    return scene::placed({.file = option}, [&] { return hydro::parse_si(text, dim::time); });
+  };
+  if (!a.around.empty()) out.around = seconds("--around", a.around);
+  if (!a.longest.empty()) out.longest = seconds("--longest", a.longest);
+  if (!(out.longest > 0))
+    throw InputError(fmt::format("\"{}\" must be positive", a.longest), {.file = "--longest"},
+                     "write how far off the offset may be, either way: \"0.4 s\"");
+  if (!a.sign.empty()) out.sign = a.sign == "same" ? same : opposite;
+  out.remedy +=
+      "; or say what is known: the offset to less than half of that (--around, --longest), and whether the record goes "
+      "as the film does (--sign)";
+  return out;
+}
+
+/// How late the record's clock is behind the track's own. \throws hydro::InputError at the option or the file that is
+/// wrong
+::fit::Offset offset_of(const KinematicsArguments& a, const ::fit::OffsetOptions& options, const FilmAsked& film,
+                        const TrackInPlane& track, const std::vector<fc::Channel>& channels) {
+  const auto& signals = film.model.signals;
+  if (signals.empty())
+    throw InputError("the scene has no signal that a record could show, too", film.model.data_place,
+                     "add signal = [{ between = [\"pivot\", \"bob\"], of = \"chain.link1.polar\" }]");
   const auto equals = a.match.find('=');
   const std::string of(hydro::trimmed(std::string_view(a.match).substr(0, equals)));
-  const auto signal =
-      std::find_if(model.signals.begin(), model.signals.end(), [&](const auto& s) { return s.of == of; });
-  if (equals == std::string::npos || signal == model.signals.end())
+  const auto signal = std::find_if(signals.begin(), signals.end(), [&](const auto& s) { return s.of == of; });
+  if (equals == std::string::npos || signal == signals.end())
     throw InputError(fmt::format("\"{}\" names no signal of the scene and a column", a.match), {.file = "--match"},
-                     fmt::format("write --match \"{} = name of a column\"", model.signals.front().of));
+                     fmt::format("write --match \"{} = name of a column\"", signals.front().of));
   const auto table = hydro::io::CsvTable::read(*a.record);
   const std::vector<double> time = table.column(a.record_time, dim::time);
   const auto& column = table.column(std::string(hydro::trimmed(std::string_view(a.match).substr(equals + 1))));
-  const Eigen::VectorXd value = fc::channels_of(places, channels).values.col(signal - model.signals.begin());
+  const Eigen::VectorXd value = fc::channels_of(track.places, channels).values.col(signal - signals.begin());
+  std::vector<double> own = track.places.time;  // without the offset that [camera] has already: messages name the whole
+  for (double& t : own) t += track.begin - film.camera.offset;
   return scene::placed({.file = a.record->string()}, [&] {
-    return ::fit::offset_between(places.time, std::span(value.data(), static_cast<std::size_t>(value.size())), time,
-                                 column);
+    return ::fit::offset_between(own, std::span(value.data(), static_cast<std::size_t>(value.size())), time, column,
+                                 options);
   });
 }
 
@@ -196,13 +223,16 @@ std::string start_of_line(const KinematicsArguments& a, const scene::CameraTable
 void say_instants(const KinematicsArguments& a, const FilmAsked& film, const TrackInPlane& track,
                   const std::vector<fc::Channel>& channels, Report& report) {
   if (a.record) {
-    const ::fit::Offset o = offset_of(a, film.model, track.places, channels);
+    const ::fit::OffsetOptions options = offset_options(a);
+    const ::fit::Offset o = offset_of(a, options, film, track, channels);
     report.say(
         "{}: [camera] offset = \"{:.6g} s\", standard deviation {:.2g} s, within {:.2g} s with 95 %; "
         "correlation {:.5g}, elsewhere {:.3g} at most",
-        a.record->filename().string(), fact("offset_s", film.camera.offset + o.lag - track.begin),
-        fact("offset_deviation_s", o.deviation), fact("offset_half_width_s", o.half_width),
-        fact("correlation", o.correlation), fact("correlation_elsewhere", o.runner_up));
+        a.record->filename().string(), fact("offset_s", o.lag), fact("offset_deviation_s", o.deviation),
+        fact("offset_half_width_s", o.half_width), fact("correlation", o.correlation),
+        fact("correlation_elsewhere", o.runner_up));
+    if (const std::string known = ::fit::supposed(options, "[camera] offset"); !known.empty())
+      report.say("{}", fact("supposed", known));
   }
   if (!a.release) return;
   const fc::Release r = scene::placed({.file = "--release"}, [&] { return fc::release_of(track.places, *a.release); });
@@ -215,7 +245,8 @@ void say_instants(const KinematicsArguments& a, const FilmAsked& film, const Tra
 void kinematics(const KinematicsArguments& a, const Console& console) {
   std::vector<NamedFile> inputs = files_of_scene(a.scene);
   if (a.record) inputs.push_back({"--record", *a.record});
-  if (a.second) inputs.push_back({"--second", *a.second});
+  if (std::error_code unknown; a.second && std::filesystem::is_regular_file(*a.second, unknown))
+    inputs.push_back({"--second", *a.second});
   require_outputs(named({{"-o", a.output}, {"--picture", a.picture}, {"--start", a.start}}), inputs);
   if (a.space || a.second) return kinematics_in_space(a, console);
   if (a.bandwidth.empty())

@@ -3,9 +3,15 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <any>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "answers/camera_track.hpp"
 #include "dynamics/spatial/rotation.hpp"
@@ -21,6 +27,21 @@ namespace {
 namespace fc = ::fit::camera;
 using Eigen::Vector3d;
 using hydro::InputError;
+
+/// \throws hydro::InputError for a scene without a track
+const scene::MotionModel& motion_of_films(const scene::FitScene& scene) {
+  const auto* model = std::any_cast<scene::MotionModel>(&scene.settings);
+  if (model == nullptr || !model->camera)
+    throw InputError("the scene has no track: it is no fit of kind \"motion\" with [camera]", scene.model_place,
+                     "name a scene whose files are tracks");
+  return *model;
+}
+
+std::vector<std::string> names_of(const std::vector<scene::MotionModel::Record>& films) {
+  std::vector<std::string> out;
+  for (const auto& film : films) out.push_back(film.name);
+  return out;
+}
 
 /// Rows of numbers under a time, of which a frame may have none.
 class TableWithGaps {
@@ -131,15 +152,42 @@ void six_motions(const KinematicsArguments& a, Report& report) {
   }
 }
 
+/// The name of the other film, where a scene has two.
+std::optional<std::string> other_film(const scene::FitScene& scene, const std::string& second) {
+  const auto& films = motion_of_films(scene).records;
+  if (films.size() != 2) return std::nullopt;
+  return films[films[0].name == second ? 1 : 0].name;
+}
+
+/// Films of two cameras: of one scene, or each of its own.
+std::pair<OneCamera, OneCamera> two_cameras(const KinematicsArguments& a) {
+  const scene::FitScene scene = scene::read_fit(a.scene);
+  const auto& films = motion_of_films(scene).records;
+  const std::string& second = *a.second;
+  if (std::any_of(films.begin(), films.end(), [&](const auto& film) { return film.name == second; })) {
+    const auto first = a.film ? a.film : other_film(scene, second);
+    if (first == second)
+      throw InputError(fmt::format("\"{}\" is the first camera, too", second), {.file = "--second"},
+                       "name the film of another camera");
+    return {camera_of(scene, film_asked(scene, first)), camera_of(scene, film_asked(scene, second))};
+  }
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(second, unknown))
+    throw InputError(
+        fmt::format("\"{}\" is neither a film of the scene nor a file", second), {.file = "--second"},
+        fmt::format("its films are {}; or name the fit scene of another camera", fmt::join(names_of(films), ", ")));
+  const scene::FitScene own = scene::read_fit(second);
+  return {camera_of(scene, film_asked(scene, a.film)), camera_of(own, film_asked(own, {}))};
+}
+
 void places_by_two(const KinematicsArguments& a, Report& report) {
-  const scene::FitScene first_fit = scene::read_fit(a.scene), second_fit = scene::read_fit(*a.second);
   const auto seen_by = [](const OneCamera& c, double later) {
     fc::SeenByEye out{c.filmed.track, c.eye, c.filmed.deviation};
     for (double& t : out.track.time) t += later;
     return out;
   };
-  const OneCamera first = camera_of(first_fit, film_asked(first_fit, a.film)),
-                  second = camera_of(second_fit, film_asked(second_fit, {}));
+  const auto cameras = two_cameras(a);
+  const OneCamera &first = cameras.first, &second = cameras.second;
   const fc::SpaceTrack points = scene::placed({.file = "--second"}, [&] {
     return fc::joined(seen_by(first, 0), seen_by(second, second.filmed.begin - first.filmed.begin));
   });
@@ -183,18 +231,12 @@ void places_by_two(const KinematicsArguments& a, Report& report) {
 }  // namespace
 
 FilmAsked film_asked(const scene::FitScene& scene, const std::optional<std::string>& name) {
-  const auto* model = std::any_cast<scene::MotionModel>(&scene.settings);
-  if (model == nullptr || !model->camera)
-    throw InputError("the scene has no track: it is no fit of kind \"motion\" with [camera]", scene.model_place,
-                     "name a scene whose files are tracks");
-  std::vector<std::string> names;
-  for (const auto& record : model->records) {
-    if (record.name == name || (!name && model->records.size() == 1)) return {*model, record, model->camera_of(record)};
-    names.push_back(record.name);
-  }
+  const scene::MotionModel& model = motion_of_films(scene);
+  for (const auto& record : model.records)
+    if (record.name == name || (!name && model.records.size() == 1)) return {model, record, model.camera_of(record)};
   throw InputError(name ? fmt::format("the scene has no film \"{}\"", *name)
-                        : fmt::format("the scene has {} films, of which one is looked at", names.size()),
-                   {.file = "--film"}, fmt::format("its films are {}", fmt::join(names, ", ")));
+                        : fmt::format("the scene has {} films, of which one is looked at", model.records.size()),
+                   {.file = "--film"}, fmt::format("its films are {}", fmt::join(names_of(model.records), ", ")));
 }
 
 void kinematics_in_space(const KinematicsArguments& a, const Console& console) {

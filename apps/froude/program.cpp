@@ -566,6 +566,15 @@ void add_kinematics(CLI::App& app, Request& request) {
   command->add_option("--record-time", arguments->record_time, "its column of time")->capture_default_str();
   record->needs(command->add_option("--match", arguments->match,
                                     "a signal of the scene and a column of the record: \"chain.link1.polar = angle\""));
+  command
+      ->add_option("--longest", arguments->longest,
+                   "the offset is known to lie so far about --around: another swing is then not looked for")
+      ->needs(record);
+  command->add_option("--around", arguments->around, "[camera] offset that is known nearly; left out: 0 s")
+      ->needs("--longest");
+  command->add_option("--sign", arguments->sign, "the column is known to go as the signal, or against it")
+      ->check(CLI::IsMember({"same", "opposite"}))
+      ->needs(record);
   auto* start = command->add_option("--start", arguments->start,
                                     "the scene of motion whose bodies begin as filmed, or, with --nodes, a table "
                                     "[line.start] for it (.toml)");
@@ -578,7 +587,8 @@ void add_kinematics(CLI::App& app, Request& request) {
   auto* space = command->add_flag("--space", arguments->space,
                                   "six motions of bodies frame by frame, by the lens and four markers on each");
   auto* second = command->add_option("--second", arguments->second,
-                                     "fit scene of another camera: places in space of the markers that both saw");
+                                     "another camera: a film of the scene, by its name, or a fit scene of its own: "
+                                     "places in space of the markers that both saw");
   for (const char* of_smoothing : {"--bandwidth", "--length", "--record", "--start", "--release", "--picture"}) {
     space->excludes(of_smoothing);
     second->excludes(of_smoothing);

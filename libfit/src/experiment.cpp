@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fit/planned.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/random.hpp"
@@ -47,21 +48,12 @@ std::string left_open(const Eigen::MatrixXd& rows, const std::array<Product, 7>&
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// Noise whose autocorrelation is e^{−t/memory}.
-std::vector<double> noise_of(const PlannedOscillation& plan, std::size_t n, const hydro::RandomStream& random) {
-  const double phi = plan.memory > 0 ? std::exp(-plan.step / plan.memory) : 0, drive = std::sqrt(1 - phi * phi);
-  std::vector<double> out(n);
-  for (std::size_t i = 0; i < n; ++i)
-    out[i] = i == 0 ? plan.noise * random.normal(0) : phi * out[i - 1] + drive * plan.noise * random.normal(i);
-  return out;
-}
-
 /// A steady oscillation as it would be measured.
 ForceRecord made(const PlannedOscillation& plan, int cycles, const hydro::RandomStream& random) {
   ForceRecord out;
   const auto n = static_cast<std::size_t>(std::llround(cycles * plan.period / plan.step));
   const double omega = whole_turn / plan.period;
-  const std::vector<double> noise = noise_of(plan, n, random);
+  const std::vector<double> noise = noise_with_memory(n, plan.noise, plan.memory, plan.step, random);
   for (std::size_t i = 0; i < n; ++i) {
     const double t = plan.step * static_cast<double>(i), v = plan.amplitude * omega * std::cos(omega * t),
                  a = -plan.amplitude * omega * omega * std::sin(omega * t);
@@ -76,18 +68,9 @@ ForceRecord made(const PlannedOscillation& plan, int cycles, const hydro::Random
 void check(const PlannedOscillation& plan) {
   hydro::require(plan.amplitude > 0 && plan.period > 0, "amplitude and period must be positive, got {} m and {} s",
                  plan.amplitude, plan.period);
-  hydro::require(plan.noise > 0 && std::isfinite(plan.noise),
-                 "the noise of the force must be positive, got {} N: without it any record is long enough", plan.noise);
-  hydro::require(plan.memory >= 0 && std::isfinite(plan.memory),
-                 "the memory of the noise must not be negative, got {} s", plan.memory);
+  check_noise(plan.noise, plan.memory);
   hydro::require(plan.step > 0 && plan.step < plan.period / 8,
                  "a period of {} s needs eight samples at least, and they are {} s apart", plan.period, plan.step);
-}
-
-double median_of_widths(std::vector<double> values) {
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 double width_of(const PlannedLength& length, Wanted wanted) {
@@ -157,24 +140,10 @@ std::vector<PlannedLength> lengths_for(const PlannedOscillation& plan, Wanted wa
                                        int seeds) {  // (F99)
   hydro::require(width > 0 && std::isfinite(width), "the half width of an interval must be positive, got {}", width);
   hydro::require(most >= 3, "a length is looked for from three cycles on, and {} are the most", most);
-  std::vector<PlannedLength> out;
-  int too_short = 2;
-  for (int cycles = 3; cycles <= most; cycles = std::min(2 * cycles, std::max(most, cycles + 1))) {
-    out.push_back(told_by(plan, cycles, seeds));
-    if (width_of(out.back(), wanted) <= width) break;
-    too_short = cycles;
-  }
-  if (width_of(out.back(), wanted) > width) return out;
-  int enough = out.back().cycles;
-  while (enough - too_short > std::max(1, enough / 10)) {
-    const int between = (enough + too_short) / 2;
-    const PlannedLength tried = told_by(plan, between, seeds);
-    (width_of(tried, wanted) <= width ? enough : too_short) = between;
-    out.push_back(tried);
-  }
-  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.cycles < b.cycles; });
-  std::erase_if(out, [&](const auto& l) { return l.cycles > enough; });
-  return out;
+  return lengths_until(
+      3, most, [&](int cycles) { return told_by(plan, cycles, seeds); },
+      [&](const PlannedLength& l) { return width_of(l, wanted) <= width; },
+      [](const PlannedLength& l) { return l.cycles; });
 }
 
 double steady_tow_s(double length, double speed, double acceleration) {

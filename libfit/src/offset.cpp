@@ -249,11 +249,19 @@ struct Lags {
   double first, last, step;
 };
 
-Lags lags_between(std::span<const double> time, std::span<const double> other, double longest) {
+Lags lags_between(std::span<const double> time, std::span<const double> other, const OffsetOptions& o) {
   const double step = std::min(median_step(time), median_step(other)) / 2, span = time.back() - time.front(),
                other_span = other.back() - other.front(), half = std::min(span, other_span) / 2;
-  return {std::max(-longest, other.front() - time.back() + half), std::min(longest, other.back() - time.front() - half),
-          step};
+  const Lags all{other.front() - time.back() + half, other.back() - time.front() - half, step};
+  hydro::require(all.first <= all.last, "{} and {} have no time in common, whatever the offset", o.first, o.second);
+  const Lags out{std::max(o.around - o.longest, all.first), std::min(o.around + o.longest, all.last), step};
+  if (!(out.first <= out.last))
+    throw InputError(
+        fmt::format("{} and {} stand beside each other for half of the shorter one at offsets from {:.4g} s to {:.4g} "
+                    "s, and those that are looked for go from {:.4g} s to {:.4g} s",
+                    o.first, o.second, all.first, all.last, o.around - o.longest, o.around + o.longest),
+        {}, "look at the sign of the offset, or for longer ones");
+  return out;
 }
 
 struct Span {
@@ -321,11 +329,11 @@ void require_alike(const Peaks& peaks, const OffsetOptions& o) {
                                  o.first, o.second, peaks.correlation, peaks.lag),
                      {},
                      fmt::format("name channels that move together{}{}",
-                                 std::isfinite(o.longest) ? ", or look further than that longest offset" : "",
+                                 std::isfinite(o.longest) ? ", or look further than these offsets" : "",
                                  o.sign == OffsetOptions::Sign::either ? "" : ", or leave out the sign"));
   if (peaks.at_end && std::isfinite(o.longest))
-    throw InputError(fmt::format("{} and {} are most alike at the longest offset that is looked for, {:.4g} s: theirs "
-                                 "may lie beyond",
+    throw InputError(fmt::format("{} and {} are most alike at the end of the offsets that are looked for, {:.4g} s: "
+                                 "theirs may lie beyond",
                                  o.first, o.second, peaks.lag),
                      {}, "look further, or for offsets that the records can tell");
 }
@@ -391,15 +399,25 @@ void require_one_lag(const Peaks& peaks, double deviations, const OffsetOptions&
 
 }  // namespace
 
+std::string supposed(const OffsetOptions& o, const std::string& what) {
+  using enum OffsetOptions::Sign;
+  const bool bounded = std::isfinite(o.longest);
+  if (!bounded && o.sign == either) return {};
+  std::string out = "supposed: ";
+  if (bounded) out += fmt::format("{} between {:.6g} s and {:.6g} s", what, o.around - o.longest, o.around + o.longest);
+  if (o.sign == either) return out;
+  return out +
+         fmt::format("{}{} goes {} {}", bounded ? ", and " : "", o.second, o.sign == same ? "as" : "against", o.first);
+}
+
 Offset offset_between(std::span<const double> time, std::span<const double> value, std::span<const double> other_time,
                       std::span<const double> other, const OffsetOptions& options) {
   const auto seen =
       static_cast<std::size_t>(std::count_if(value.begin(), value.end(), [](double v) { return std::isfinite(v); }));
   check(time, value, other_time, other, seen, options);
   const Between whole(other_time, other);
-  const Lags range = lags_between(time, other_time, options.longest);
+  const Lags range = lags_between(time, other_time, options);
   const auto [first, last, step] = range;
-  hydro::require(first <= last, "{} and {} have no time in common, whatever the offset", options.first, options.second);
   constexpr double most_lags = 1e7;  // a day of both at 100 samples a second
   if ((last - first) / step > most_lags)
     throw InputError(

@@ -40,19 +40,32 @@ struct Design {
   std::vector<std::string> terms;
 };
 
+hydro::InputError error_of(const RunEstimate& run, Eigen::Index number, const std::string& rule,
+                           const std::string& remedy) {
+  if (run.file.empty()) return hydro::InputError(fmt::format("run {}: {}", number + 1, rule), {}, remedy);
+  return hydro::InputError("of runs that are put together: " + rule, {.file = run.file}, remedy);
+}
+
+hydro::InputError too_few(const std::string& what, std::size_t needed, std::size_t got) {
+  return hydro::InputError(fmt::format("{} needs {} runs at least, got {}", what, needed, got), {},
+                           "take more runs, or leave out what asks for them");
+}
+
 Design design(std::span<const RunEstimate> runs, Law law) {  // (F31)
   const auto n = static_cast<Eigen::Index>(runs.size());
   const auto wanted = regressors(law);
   Design d{Eigen::MatrixXd::Ones(n, 1 + std::ssize(wanted)), Eigen::VectorXd(n), Eigen::VectorXd(n), {"constant"}};
   for (Eigen::Index i = 0; i < n; ++i) {
     const RunEstimate& r = runs[static_cast<std::size_t>(i)];
-    hydro::require(std::isfinite(r.value) && r.standard_error > 0 && std::isfinite(r.standard_error),
-                   "run {}: value {} with standard error {}", i + 1, r.value, r.standard_error);
+    if (!std::isfinite(r.value) || !(r.standard_error > 0) || !std::isfinite(r.standard_error))
+      throw error_of(r, i, fmt::format("its value is {:g} with the standard error {:g}", r.value, r.standard_error),
+                     "leave the run out: runs are put together by what each is known to");
     d.y[i] = r.value;
     d.own[i] = r.standard_error * r.standard_error;
     for (std::size_t k = 0; k < wanted.size(); ++k) {
-      hydro::require(r.*wanted[k].number > 0, "run {}: {} must be positive, got {}", i + 1, wanted[k].name,
-                     r.*wanted[k].number);
+      if (!(r.*wanted[k].number > 0))
+        throw error_of(r, i, fmt::format("{} must be positive, got {:g}", wanted[k].name, r.*wanted[k].number),
+                       "state the viscosity, or ask for a law without it");
       d.x(i, static_cast<Eigen::Index>(k) + 1) = std::log(r.*wanted[k].number);
     }
   }
@@ -139,8 +152,8 @@ std::string name_of(Law law) {
 
 RandomEffects fit_runs(std::span<const RunEstimate> runs, Law law, double confidence) {  // (F31), (F32)
   hydro::require(confidence > 0 && confidence < 1, "a confidence level must lie between 0 and 1, got {}", confidence);
-  hydro::require(runs.size() >= regressors(law).size() + 3, "the law \"{}\" needs {} runs at least, got {}",
-                 name_of(law), regressors(law).size() + 3, runs.size());
+  if (const std::size_t needed = regressors(law).size() + 3; runs.size() < needed)
+    throw too_few(fmt::format("the law \"{}\"", name_of(law)), needed, runs.size());
   const Design d = design(runs, law);
   const auto n = static_cast<double>(d.y.size()), p = static_cast<double>(d.x.cols());
   const double squared = between_runs(d, true);
@@ -168,7 +181,7 @@ RandomEffects fit_runs(std::span<const RunEstimate> runs, Law law, double confid
 }
 
 std::vector<RandomEffects> compare_laws(std::span<const RunEstimate> runs, double confidence) {
-  hydro::require(runs.size() >= 3, "laws over runs need three runs at least, got {}", runs.size());
+  if (runs.size() < 3) throw too_few("a law over runs", 3, runs.size());
   std::vector<RandomEffects> out;
   for (const Law law : {Law::constant, Law::kc, Law::re, Law::beta, Law::kc_and_re}) try {
       out.push_back(fit_runs(runs, law, confidence));

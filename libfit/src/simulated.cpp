@@ -4,6 +4,7 @@
 #include <cmath>
 #include <exception>
 #include <iterator>
+#include <stdexcept>
 
 #include "fit/verdict.hpp"
 #include "hydro/base/error.hpp"
@@ -157,7 +158,7 @@ double rise_against_quadratic(Simulation& simulation, const SimulationProblem& p
     const double rise = cost_nearby(held, without(problem, parameter, begin)) - fit.search.cost_last;
     return std::isfinite(rise) ? std::sqrt(std::max(0.0, 2 * rise * inverse(k, k))) / std::abs(move)
                                : std::numeric_limits<double>::infinity();
-  } catch (const hydro::NumericsError&) {
+  } catch (const std::runtime_error&) {  // no motion there, or a scene that cannot be: as far as one can go
     return std::numeric_limits<double>::infinity();
   }
 }
@@ -226,8 +227,8 @@ Interval profile_interval(Simulation& simulation, const SimulationProblem& probl
       return std::isfinite(cost) ? std::sqrt(std::max(0.0, cost) / rise) : std::numeric_limits<double>::infinity();
     } catch (const SearchFailed&) {
       throw;
-    } catch (const hydro::NumericsError&) {
-      return std::numeric_limits<double>::infinity();  // no motion there: the end lies before
+    } catch (const std::runtime_error&) {  // no motion there, or a scene that cannot be: the end lies before
+      return std::numeric_limits<double>::infinity();
     }
   };
   const auto end = [&](double sign) {

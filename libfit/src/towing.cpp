@@ -23,14 +23,10 @@ void check(const Cylinder& c) {
 }
 
 void check(const TowingRun& r) {
-  hydro::require(std::isfinite(r.speed) && r.speed > 0, "the speed must be positive, got {} m/s", r.speed);
-  hydro::require(std::isfinite(r.force), "the force is not finite");
-  hydro::require(r.force > 0,
-                 "the force is {} N at {} m/s: drag is positive, so it has the wrong sign, or the wrong zero", r.force,
-                 r.speed);
-  hydro::require(r.force_deviation >= 0 && std::isfinite(r.force_deviation) && r.speed_deviation >= 0 &&
-                     std::isfinite(r.speed_deviation),
-                 "the deviations must not be negative, got {} m/s and {} N", r.speed_deviation, r.force_deviation);
+  require_towing_speed(r.speed);
+  require_resistance(r.force, r.speed);
+  require_deviation("speed", r.speed_deviation, r.speed);
+  require_deviation("force", r.force_deviation, r.force);
 }
 
 void check(const Cylinder& c, std::span<const TowingRun> runs, double confidence) {
@@ -41,16 +37,46 @@ void check(const Cylinder& c, std::span<const TowingRun> runs, double confidence
     const TowingRun& r = runs[i];
     try {
       check(r);
+      require_stated_alike(r, runs[0]);
     } catch (const hydro::InputError& e) {
-      throw hydro::InputError(fmt::format("run {}: {}", i + 1, e.rule()));
+      throw hydro::InputError(fmt::format("run {}: {}", i + 1, e.rule()), {}, e.remedy());
     }
-    hydro::require(
-        (r.force_deviation + r.speed_deviation > 0) == (runs[0].force_deviation + runs[0].speed_deviation > 0),
-        "run {}: deviations must be stated for all runs or for none", i + 1);
   }
 }
 
 }  // namespace
+
+void require_towing_speed(double speed) {
+  if (!std::isfinite(speed) || speed <= 0)
+    throw hydro::InputError(fmt::format("the speed must be positive, got {} m/s", speed), {},
+                            "leave runs at rest out, and write a tow the other way round with both signs turned");
+}
+
+void require_resistance(double force, double speed) {
+  if (!std::isfinite(force)) throw hydro::InputError("the force is not finite");
+  if (force <= 0)
+    throw hydro::InputError(fmt::format("the force is {} N at {} m/s: drag is positive, so it has the wrong sign, or "
+                                        "the wrong zero",
+                                        force, speed),
+                            {}, "turn the channel round, force = \"-F\", or take the zero off first");
+}
+
+void require_deviation(const char* of, double deviation, double mean) {
+  if (!(deviation >= 0) || !std::isfinite(deviation))
+    throw hydro::InputError(fmt::format("the deviation of the {} must not be negative, got {}", of, deviation));
+  if (deviation >= mean)
+    throw hydro::InputError(
+        fmt::format("the deviation of the {}, {:g}, is no smaller than the {} itself, {:g}: such a mean tells nothing",
+                    of, deviation, of, mean),
+        {}, "look at the unit of both columns, or leave the run out");
+}
+
+void require_stated_alike(const TowingRun& run, const TowingRun& first) {
+  const auto stated = [](const TowingRun& r) { return r.force_deviation + r.speed_deviation > 0; };
+  if (stated(run) != stated(first))
+    throw hydro::InputError("deviations must be stated for all runs or for none", {},
+                            "write that of each run, or leave the columns speed_sd and force_sd out");
+}
 
 TowingPoint towing_point(const Cylinder& c, const TowingRun& r) {  // (F12)
   check(c);

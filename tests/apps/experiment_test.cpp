@@ -56,6 +56,21 @@ TEST(Experiment, OfATowTellsItsTime) {
               ThrowsMessage<InputError>(HasSubstr("does not reach")));
 }
 
+TEST(Experiment, OfATowTellsHowLongItMustBe) {
+  froude::TowPlanArguments a{.diameter = 0.12, .re = 8e4, .viscosity = 1.05e-6, .length = 60, .width = 0.01};
+  a.record.noise = 0.3;
+  a.record.memory = 0.5;
+  a.record.step = 0.02;
+  a.record.cylinder = {
+      .diameter = 0, .length = 0.5, .density = 997, .viscosity = {}, .experiment = fit::Experiment::body_moves};
+  const auto j = told(froude::plan_tow, a);
+  EXPECT_LE(j["half_width"].get<double>(), 0.01);
+  EXPECT_EQ(j["time"].back()["time_s"], j["needed_s"]);
+  EXPECT_FALSE(j.contains("warnings"));
+  a.length = 8;
+  EXPECT_THAT(told(froude::plan_tow, a)["warnings"].dump(), HasSubstr("tows together"));
+}
+
 TEST(Experiment, OfWavesTellsWhenTheyAreSteady) {
   froude::WavePlanArguments a{.period = 1.6, .height = 0.06};
   a.tank = {.water = {.depth = hydro::WaterDepth::from_metres(1.25)}, .gauge = 20, .body = 23, .end = 60};

@@ -33,14 +33,35 @@ class FitFolder : public testing::Test {
     return out.str();
   }
 
+  /// The interval of a coefficient holds the truth.
+  static bool holds(const nlohmann::json& coefficient, double truth) {
+    return coefficient["interval"][0].get<double>() < truth && truth < coefficient["interval"][1].get<double>();
+  }
+
   std::filesystem::path folder;
+};
+
+inline const std::filesystem::path examples = froude_test::source_dir() / "examples/fit";
+
+/// Fits of the examples as they are, or with one text replaced.
+class Fit : public FitFolder {
+ protected:
+  /// Its data beside it.
+  std::filesystem::path changed(const std::string& scene, const std::string& from, const std::string& to) {
+    std::string text = hydro::io::read_text(examples / scene);
+    text.replace(text.find(from), from.size(), to);
+    using Options = std::filesystem::copy_options;
+    std::filesystem::copy(examples, folder, Options::recursive | Options::overwrite_existing);
+    hydro::io::write_atomically(folder / "changed.toml", text);
+    return folder / "changed.toml";
+  }
 };
 
 /// The files of a folder of examples, copied where they may be spoilt.
 class FitsOf : public FitFolder {
  protected:
-  explicit FitsOf(const std::string& examples) {
-    std::filesystem::copy(froude_test::source_dir() / "examples" / examples, folder);
+  explicit FitsOf(const std::string& subject) {
+    std::filesystem::copy(froude_test::source_dir() / "examples" / subject, folder);
   }
 
   nlohmann::json tree(const std::string& scene) const {
@@ -102,10 +123,6 @@ class FitsOf : public FitFolder {
     const std::string out = refusal(scene);
     write(scene, before);
     return out;
-  }
-
-  static bool holds(const nlohmann::json& coefficient, double truth) {
-    return coefficient["interval"][0].get<double>() < truth && truth < coefficient["interval"][1].get<double>();
   }
 };
 

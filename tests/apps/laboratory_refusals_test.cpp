@@ -192,10 +192,61 @@ class FitsOfTheLaboratoryRefuse : public FitsOf {
 TEST_F(FitsOfTheLaboratoryRefuse, MeansOfTowsWhoseDragIsNone) {
   const std::string before = text_of("towing.csv");
   refill("towing.csv", 2, [](std::size_t, const std::string& cell) { return "-" + cell; });
-  EXPECT_THAT(refusal("towing.toml"), HasSubstr("wrong sign"));
+  EXPECT_THAT(refusal("towing.toml"), AllOf(HasSubstr("towing.csv:3"), HasSubstr("wrong sign")));
   write("towing.csv", before);
-  refill("towing.csv", 0, [](std::size_t row, const std::string& cell) { return row == 2 ? "0" : cell; });
-  EXPECT_THAT(refusal("towing.toml"), HasSubstr("run 3: the speed must be positive"));
+  // The third of the rows below a comment and the header.
+  const auto third = [&](std::size_t column, const std::string& put) {
+    refill("towing.csv", column, [&](std::size_t row, const std::string& cell) { return row == 2 ? put : cell; });
+    const std::string out = refusal("towing.toml");
+    write("towing.csv", before);
+    return out;
+  };
+  for (const char* speed : {"0", "-0.5"})
+    EXPECT_THAT(third(0, speed), AllOf(HasSubstr("towing.csv:5:1: the speed must be positive"), HasSubstr(speed),
+                                       HasSubstr("leave runs at rest out")));
+  for (const char* none : {"nan", "inf", ""}) EXPECT_THAT(third(0, none), HasSubstr("towing.csv:5")) << none;
+  EXPECT_THAT(third(1, "-0.01"), AllOf(HasSubstr("towing.csv:5"), HasSubstr("must not be negative")));
+  EXPECT_THAT(third(3, "12"), AllOf(HasSubstr("towing.csv:5"), HasSubstr("force, 12, is no smaller than the force")));
+  refill("towing.csv", 1, [](std::size_t, const std::string&) { return "0"; });
+  refill("towing.csv", 3, [](std::size_t row, const std::string& cell) { return row == 2 ? "0" : cell; });
+  EXPECT_THAT(refusal("towing.toml"), AllOf(HasSubstr("towing.csv:5"), HasSubstr("for all runs or for none")));
+  write("towing.csv", before);
+  keep("towing.csv", 1);
+  refill("towing.csv", 1, [](std::size_t, const std::string&) { return "0"; });
+  refill("towing.csv", 3, [](std::size_t, const std::string&) { return "0"; });
+  EXPECT_THAT(refusal("towing.toml"), AllOf(HasSubstr("towing.toml:"), HasSubstr("one run without deviations")));
+  keep("towing.csv", 0);
+  EXPECT_THAT(refusal("towing.toml"), AllOf(HasSubstr("towing.toml:"), HasSubstr("no towing runs")));
+}
+
+TEST_F(FitsOfTheLaboratoryRefuse, UncertaintiesAsLargeAsWhatTheyAreOf) {
+  for (const auto& [key, value] : {std::pair{"diameter", "0.12 m"}, {"length", "60 cm"}, {"density", "1 t/m^3"}})
+    EXPECT_THAT(
+        refusal("tows.toml", "diameter = \"0.5 mm\"", std::string(key) + " = \"" + value + "\""),
+        AllOf(HasSubstr("tows.toml:16"), HasSubstr(std::string(key) + " = \"" + value + "\" is no smaller than"),
+              HasSubstr("one standard deviation")))
+        << key;
+  EXPECT_THAT(refusal("batch.toml", "length = \"0.5 m\"", "length = \"0.5 m\"\nuncertainty = { mass = \"6 kg\" }"),
+              AllOf(HasSubstr("batch.toml:"), HasSubstr("mass = \"6 kg\" is no smaller than")));
+  for (const char* error : {"mass_error = 1.2", "stiffness_error = 1"})
+    EXPECT_THAT(refusal("decay.toml", "body = {", std::string("body = { ") + error + ","),
+                AllOf(HasSubstr("decay.toml:10"), HasSubstr(error), HasSubstr("must lie between 0 and 1")));
+}
+
+TEST_F(FitsOfTheLaboratoryRefuse, RowsOfRunsWhoseSizeIsLessThanItsUncertainty) {
+  replace("batch/runs.csv", "file,amplitude [m]", "file,diameter [mm]");
+  refill("batch/runs.csv", 1, [](std::size_t row, const std::string&) { return row == 3 ? "0.4" : "120"; });
+  EXPECT_THAT(
+      refusal("batch.toml", "length = \"0.5 m\"", "length = \"0.5 m\"\nuncertainty = { diameter = \"0.5 mm\" }"),
+      AllOf(HasSubstr("runs.csv:5"), HasSubstr("is no larger than its uncertainty"), HasSubstr("[model.uncertainty]")));
+}
+
+TEST_F(FitsOfTheLaboratoryRefuse, LawsOfFewerRunsThanTheyNeed) {
+  keep("batch/runs.csv", 2);
+  EXPECT_THAT(refusal("batch.toml"), AllOf(HasSubstr("batch.toml:21:7: a law over runs needs 3 runs at least, got 2"),
+                                           HasSubstr("more runs")));
+  EXPECT_THAT(refusal("batch.toml", "law = \"best\"", "law = \"kc\""),
+              AllOf(HasSubstr("batch.toml:21:7"), HasSubstr("\"ln KC\" needs 4 runs at least")));
 }
 
 TEST_F(FitsOfTheLaboratoryRefuse, TablesOfRunsWithoutTheirFiles) {
@@ -214,6 +265,18 @@ TEST_F(FitsOfTheLaboratoryRefuse, TablesOfRunsWithoutTheirFiles) {
 TEST_F(FitsOfTheLaboratoryRefuse, SignalsOfAMotionThatAreConstant) {
   refill("pendulums.csv", 1, [](std::size_t, const std::string&) { return "0"; });
   EXPECT_THAT(refusal("pendulums.toml"), AllOf(HasSubstr("pendulums.csv"), HasSubstr("gave no signal")));
+}
+
+TEST_F(FitsOfTheLaboratoryRefuse, RunsThatAreMostlyBeforeTheirRecord) {
+  refill("pendulums.csv", 0,
+         [](std::size_t, const std::string& cell) { return std::to_string(1000 + std::stod(cell)); });
+  EXPECT_THAT(refusal("pendulums.toml"),
+              AllOf(HasSubstr("pendulums.toml:5:10"), HasSubstr("begins at 0 s and the first row comes at 1000 s"),
+                    HasSubstr("write start = \"1000 s\"")));
+  replace("pendulums.toml", "files = [\"pendulums.csv\"]\n", "");
+  replace("pendulums.toml", "[model]", "[[data.record]]\nfile = \"pendulums.csv\"\nstart = \"-1 s\"\n[model]");
+  EXPECT_THAT(refusal("pendulums.toml"), AllOf(HasSubstr("pendulums.toml:13:9"), HasSubstr("begins at -1 s")));
+  EXPECT_THAT(refusal("pendulums.toml", "\"-1 s\"", "\"1000 s\""), IsEmpty());
 }
 
 TEST_F(FitsOfTheLaboratoryRefuse, NothingOfWhatIsRight) {

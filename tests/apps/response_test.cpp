@@ -195,9 +195,9 @@ TEST(ResponseCommand, NamesWhatIsWrong) {
   refused({.scene = path, .sn = {.range = "400 Pa", .cycles = 1e6, .slope = 3}}, "of no signal");
   const auto scatter = support::scratch_folder() / "wrong.csv";
   hydro::io::write_atomically(scatter, "hs [m], tp [s], share\n3, 9, -1\n");
-  refused({.scene = path, .scatter = scatter}, "wrong.csv:2: error: the share of a sea must not be negative");
+  refused({.scene = path, .scatter = scatter}, "wrong.csv:2:7: error: the share of a sea must not be negative");
   hydro::io::write_atomically(scatter, "hs [m], tp [s], share\n-3, 9, 1\n");
-  refused({.scene = path, .scatter = scatter}, "wrong.csv:2: error: hs of a sea must be positive");
+  refused({.scene = path, .scatter = scatter}, "wrong.csv:2:1: error: hs of a sea must be positive");
   refused({.scene = path, .duration = "2 s"}, "--duration: error: a duration of 2 s holds");
   refused({.scene = path, .output = "spectra.h5"}, "cannot end in \".h5\"");
 }

@@ -72,6 +72,7 @@ class ForeignTrack(WithFolder):
         self.assertIn("no motion up to 400 Hz", self.refused(*common, "400 Hz"))
         self.assertIn('or "0.13 Hz"', self.refused(*common, "4"))
         self.assertIn("apart in the track", self.refused(*common, "4 Hz", "--length", "joint bob 0.9 m 1 mm"))
+        self.assertIn("is no smaller than the length itself", self.refused(*common, "4 Hz", "--length", "joint bob 0.4 m 1 m"))
 
     def test_kinematics_are_those_of_the_angles(self):
         out = self.folder / "motion.csv"
@@ -258,8 +259,22 @@ class Instants(WithFolder):
         told = json.loads(self.kinematics("--record", "record.csv", "--match", "chain.link1.polar = angle", "--json"))
         self.assertAlmostEqual(told["offset_s"], 3.21, delta=0.002)  # a smoothed record, whose noise is 0.001 rad
         self.assertLess(told["offset_deviation_s"], 0.001)
+        self.assertNotIn("supposed", told)
         self.assertIn("names no signal", self.refused("kinematics", "fit/film_track.toml", "--bandwidth", "4 Hz", "-o", "x.csv",
                                                       "--record", "record.csv", "--match", "angle"))
+        # What is known of the offset bounds the search, is told beside it, and does not move it.
+        common = ("--record", "record.csv", "--match", "chain.link1.polar = angle")
+        known = json.loads(self.kinematics(*common, "--around", "3 s", "--longest", "0.5 s", "--sign", "same", "--json"))
+        self.assertAlmostEqual(known["offset_s"], told["offset_s"], delta=2e-5)  # a search ends within 1/2000 of a step
+        self.assertEqual(known["correlation_elsewhere"], 0)
+        self.assertEqual(known["supposed"], "supposed: [camera] offset between 2.5 s and 3.5 s, and record goes as film")
+        wrong = ("kinematics", "fit/film_track.toml", "--bandwidth", "4 Hz", "-o", "x.csv", *common)
+        self.assertRegex(self.refused(*wrong, "--around", "2.5 s", "--longest", "0.5 s", "--sign", "same"),
+                         "at the end of the offsets that are looked for, 3 s|do not show the same")
+        self.assertIn("from 97 s to 103 s", self.refused(*wrong, "--around", "100 s", "--longest", "3 s"))
+        self.assertIn("--longest: error", self.refused(*wrong, "--longest", "0 s"))
+        self.assertIn("--around: error", self.refused(*wrong, "--around", "3 m", "--longest", "1 s"))
+        self.assertIn("--longest", self.refused(*wrong, "--around", "3 s"))
 
     def test_a_line_starts_where_the_film_shows_it(self):
         self.kinematics("--start", "start.toml", "--start-at", "2 s", "--nodes", "joint, bob")
@@ -365,7 +380,7 @@ class Space(WithFolder):
     """The example of a floating body with five markers before two cameras."""
 
     def test_one_camera_tells_six_motions(self):
-        told = json.loads(self.done("kinematics", "film/float_left.toml", "--space", "-o", "six.csv", "--json"))
+        told = json.loads(self.done("kinematics", "film/float.toml", "--film", "left", "--space", "-o", "six.csv", "--json"))
         self.assertEqual(told["body"][0]["frames"], 120)
         self.assertAlmostEqual(told["body"][0]["stray"], 1, delta=0.1)  # of 480 numbers left over: 0.032; three of them
         inside = 0
@@ -379,7 +394,7 @@ class Space(WithFolder):
         self.assertAlmostEqual(inside / (6 * len(rows)), 0.95, delta=0.03)
 
     def test_two_cameras_that_are_not_in_step_tell_places(self):
-        told = json.loads(self.done("kinematics", "film/float_left.toml", "--second", "film/float_right.toml", "-o", "places.csv",
+        told = json.loads(self.done("kinematics", "film/float.toml", "--film", "left", "--second", "right", "-o", "places.csv",
                                     "--json"))
         self.assertEqual([m["name"] for m in told["marker"]], list(make_float.MARKERS))
         self.assertEqual(told["behind"], 0)
@@ -399,19 +414,45 @@ class Space(WithFolder):
             self.assertAlmostEqual(m["deviation_y_m"], 0.0023, delta=0.0006)
             self.assertAlmostEqual(m["stray"], 1, delta=0.25)
 
+    def scene_of_one(self, name, table):
+        """The scene of one of the two cameras alone."""
+        whole = (self.folder / "film" / "float.toml").read_text()
+        camera = whole[whole.index(f"\n{table}]"):whole.index("\n[model]" if name == "left" else "\n[camera]")]
+        (self.folder / "film" / f"{name}.toml").write_text(
+            f'schema = 1\n[data]\nfiles = ["float_{name}.csv"]\nchannels = {{ time = "t" }}\n' +
+            camera.replace(table, "[camera") + whole[whole.index("[model]"):])
+        return f"film/{name}.toml"
+
+    def test_two_scenes_tell_what_one_tells(self):
+        left, right = self.scene_of_one("left", "[camera"), self.scene_of_one("right", "[data.record.camera")
+        self.done("kinematics", left, "--second", right, "-o", "two.csv")
+        self.done("kinematics", "film/float.toml", "--film", "left", "--second", "right", "-o", "one.csv")
+        self.done("kinematics", "film/float.toml", "--second", "right", "-o", "short.csv")  # of two films the other one
+        two, one, short = ((self.folder / f"{name}.csv").read_text() for name in ("two", "one", "short"))
+        self.assertEqual(one, two)
+        self.assertEqual(one, short)
+
+    def test_a_second_camera_that_is_none_is_refused(self):
+        common = ("kinematics", "film/float.toml", "-o", "x.csv")
+        self.assertIn('"middle" is neither a film of the scene nor a file', self.refused(*common, "--second", "middle"))
+        self.assertIn("its films are left, right", self.refused(*common, "--second", "middle"))
+        self.assertIn("is the first camera, too", self.refused(*common, "--film", "right", "--second", "right"))
+        self.assertIn("2 films, of which one", self.refused(*common, "--space"))
+        self.assertIn("needs a number to fit", self.refused("fit", "film/float.toml"))
+
     def test_a_clock_that_is_late_is_seen(self):
-        text = (self.folder / "film" / "float_right.toml").read_text()
+        text = (self.folder / "film" / "float.toml").read_text()
         (self.folder / "film" / "late.toml").write_text(text.replace('offset = "-0.3 s"', 'offset = "-0.2 s"'))
-        told = json.loads(self.done("kinematics", "film/float_left.toml", "--second", "film/late.toml", "-o", "late.csv", "--json"))
+        told = json.loads(self.done("kinematics", "film/late.toml", "--second", "right", "-o", "late.csv", "--json"))
         self.assertGreater(max(m["stray"] for m in told["marker"]), 10)
 
     def test_what_tells_no_place_in_space_is_refused(self):
         self.assertIn("--plane", self.refused("kinematics", "fit/film_track.toml", "--space", "-o", "x.csv"))
-        left, scene = ((self.folder / "film" / f"float_{name}.toml").read_text() for name in ("left", "scene"))
+        left, scene = ((self.folder / "film" / f"float{name}.toml").read_text() for name in ("", "_scene"))
         (self.folder / "film" / "few_scene.toml").write_text(scene.replace('"mast"', '"pole"').replace('"stern"', '"tail"'))
         (self.folder / "film" / "few.toml").write_text(left.replace("float_scene.toml", "few_scene.toml"))
-        self.assertIn("four markers on it", self.refused("kinematics", "film/few.toml", "--space", "-o", "x.csv"))
-        ran = self.froude("kinematics", "film/float_left.toml", "--second", "fit/film_track.toml", "-o", "x.csv")
+        self.assertIn("four markers on it", self.refused("kinematics", "film/few.toml", "--film", "left", "--space", "-o", "x.csv"))
+        ran = self.froude("kinematics", "film/float.toml", "--film", "left", "--second", "fit/film_track.toml", "-o", "x.csv")
         self.assertEqual(ran.returncode, 2, ran.stderr)
         self.assertFalse((self.folder / "x.csv").exists())
 

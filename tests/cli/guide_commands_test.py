@@ -8,7 +8,7 @@ import unittest
 from pathlib import Path
 
 FROUDE, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
-PAGES = {"experiments.md": 4, "tank-day.md": 4, "response.md": 4, "stability.md": 2}  # and how many commands at least
+PAGES = {"experiments.md": 5, "tank-day.md": 4, "response.md": 4, "stability.md": 2}  # and how many commands at least
 
 
 def commands_of(page):
@@ -52,6 +52,7 @@ class GuideCommands(unittest.TestCase):
                  "does not act without --width"),
                 (tow + ["--diameter", "0.12 m"], "two are needed"),
                 (tow + ["--diameter", "-0.12 m", "--re", "1e5"], "must be positive"),
+                (tow + ["--diameter", "0.12 m", "--re", "1e5", "--width", "0.01"], "--width needs --noise"),
                 (waves + ["--body", "70 m", "--end", "60 m"], "must stand between"),
         ):
             with self.subTest(arguments=arguments):

@@ -1,5 +1,6 @@
 // Plans of experiments: numbers that belong together, and lengths whose interval comes out as planned.
 #include "fit/experiment.hpp"
+#include "fit/problem/planned_tow.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -119,6 +120,57 @@ TEST(PlannedLengths, RefuseWhatMakesNoSense) {
   EXPECT_THAT([&] { fit::told_by(p, 5); }, ThrowsMessage<hydro::InputError>(HasSubstr("eight samples")));
   EXPECT_THROW(fit::told_by(plan(), 1), hydro::InputError);
   EXPECT_THROW(fit::lengths_for(plan(), fit::Wanted::cd, 0), hydro::InputError);
+}
+
+fit::PlannedTow tow() {
+  return {.cylinder = froude_test::moved_cylinder,
+          .speed = 0.7,
+          .acceleration = 1,
+          .cd = 1.2,
+          .noise = 0.3,
+          .memory = 0.25,
+          .step = 0.02};
+}
+
+// Of a correlation e^(−t/θ) the mean over T has the variance 2θ/T σ², where T is long against θ.
+TEST(PlannedTows, HaveTheWidthOfTheMeanOfTheirForceAndHoldTheTruth) {
+  auto p = tow();
+  p.cylinder.mass_beyond_load_cells = 0;
+  const auto& c = p.cylinder;
+  const double unit = 0.5 * c.density * c.diameter * c.length * p.speed * p.speed;
+  for (const int seconds : {40, 160}) {
+    const auto told = fit::told_by(p, seconds, 60);
+    const double expected = 1.96 * std::sqrt(2 * p.memory / seconds) * p.noise / unit;
+    // Some of the beginning is cut, Student's t is larger than 1.96, and the autoregression scatters: a tenth.
+    EXPECT_NEAR(told.half_width, expected, 0.12 * expected) << seconds;
+    EXPECT_GE(told.held, 0.86) << seconds;  // 0.95 of 60, with a deviation of 0.028; three of them
+    EXPECT_LE(told.refused, 0.2) << seconds;
+  }
+}
+
+// Six memories long, a record tells less of its memory than there is: its intervals are narrow and do not hold.
+TEST(PlannedTows, AreNotLongEnoughWhereTheirIntervalsDoNotHold) {
+  auto p = tow();
+  p.cylinder.mass_beyond_load_cells = 0;
+  p.memory = 0.5;
+  const auto shortest = fit::told_by(p, 3);
+  EXPECT_FALSE(shortest.holds) << shortest.held;
+  EXPECT_GT(fit::times_for(p, shortest.half_width).back().seconds, 3);
+}
+
+TEST(PlannedTows, ReachTheWidthThatIsAskedFor) {
+  auto p = tow();
+  p.cylinder.mass_beyond_load_cells = 0;
+  const double width = fit::told_by(p, 60).half_width;
+  const auto tried = fit::times_for(p, width);
+  EXPECT_LE(tried.back().half_width, width);
+  EXPECT_NEAR(tried.back().seconds, 60, 15);  // to a tenth, of medians that scatter by 5 %, times by 10 %
+  EXPECT_TRUE(tried.back().holds);
+  EXPECT_GT(fit::times_for(p, 1e-6, 24, 4).back().half_width, 1e-6);
+  EXPECT_THROW(fit::times_for(p, 0), hydro::InputError);
+  EXPECT_THAT([&] { fit::told_by(p, 2); }, ThrowsMessage<hydro::InputError>(HasSubstr("128 samples")));
+  p.noise = 0;
+  EXPECT_THAT([&] { fit::told_by(p, 60); }, ThrowsMessage<hydro::InputError>(HasSubstr("noise of the force")));
 }
 
 // From rest to U takes U²/2a, as does the way to rest: L = U²/a + U t.

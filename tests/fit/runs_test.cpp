@@ -100,7 +100,11 @@ TEST(Runs, RefuseWhatTheyCannotTell) {
               testing::ThrowsMessage<hydro::InputError>(testing::HasSubstr("do not differ in KC")));
   EXPECT_THROW(fit::fit_runs(std::span(all).first(3), Law::kc), hydro::InputError);
   all[2].standard_error = 0;
-  EXPECT_THROW(fit::fit_runs(all, Law::constant), hydro::InputError);
+  EXPECT_THAT([&] { fit::fit_runs(all, Law::constant); },
+              testing::ThrowsMessage<hydro::InputError>(testing::HasSubstr("run 3: its value is")));
+  all[2].file = "third.csv";
+  EXPECT_THAT([&] { fit::fit_runs(all, Law::constant); },
+              testing::ThrowsMessage<hydro::InputError>(testing::HasSubstr("third.csv: error: of runs that are put")));
 }
 
 }  // namespace

@@ -53,8 +53,9 @@ struct OffsetErrors {
   double squares = 0, quantiles = 0;  ///< Σ (error/deviation)², Σ half width/deviation
 };
 
-/// The sign is known.
-inline OffsetErrors errors_of_offsets(const TwoClocks& of, std::uint64_t sets) {
+/// The sign is known, unless said otherwise.
+inline OffsetErrors errors_of_offsets(const TwoClocks& of, std::uint64_t sets,
+                                      const fit::OffsetOptions& known = {.sign = fit::OffsetOptions::Sign::same}) {
   OffsetErrors out;
   for (std::uint64_t set = 1; set <= sets; ++set) {
     const hydro::RandomStream random(set, 5);
@@ -73,8 +74,7 @@ inline OffsetErrors errors_of_offsets(const TwoClocks& of, std::uint64_t sets) {
     const auto [time, value] = measured(of.film_hz, 12, 0, of.film_noise, 6);
     const auto [record_time, record] = measured(of.record_hz, 14, lag, of.record_noise, 7);
     try {
-      const auto found =
-          fit::offset_between(time, value, record_time, record, {.sign = fit::OffsetOptions::Sign::same});
+      const auto found = fit::offset_between(time, value, record_time, record, known);
       ++out.sets;
       out.within += std::abs(found.lag - lag) <= found.half_width;
       out.squares += std::pow((found.lag - lag) / found.deviation, 2);

@@ -162,7 +162,7 @@ std::vector<Shot> shots_of(const CalibrateArguments& a, const BoardSize& board, 
       throw InputError(
           fmt::format("{} is {} x {} px, {} is {} x {} px", shot.name, shot.picture.width, shot.picture.height,
                       all.front().name, all.front().picture.width, all.front().picture.height),
-          {}, "a calibration holds for one size of picture: take all with the settings of the film");
+          {.file = shot.name}, "a calibration holds for one size of picture: take all with the settings of the film");
     shot.corners = find_board(shot.picture, board);
     if (shot.corners.empty())
       without.push_back(shot.name);
@@ -172,7 +172,7 @@ std::vector<Shot> shots_of(const CalibrateArguments& a, const BoardSize& board, 
   if (out.size() < 3)
     throw InputError(fmt::format("the whole board is seen in {} of {} pictures, 3 are needed and 10 are good",
                                  out.size(), all.size()),
-                     {},
+                     {.file = a.pictures.front().string()},
                      "a board that is partly seen tells nothing: keep all of it in the picture, tilted, near the edges "
                      "too, and count its inner corners (--corners)");
   return out;

@@ -128,6 +128,7 @@ fc::AssignOptions assignment_of(const TrackArguments& a) {
       throw wrong("--length", fmt::format("\"{}\" is no distance between two markers", length),
                   "write both, their distance and its deviation: \"pin0 pin1 120 px 2 px\"");
     out.lengths.push_back({words[0], words[1], pixels("--length", words[2]), pixels("--length", words[3])});
+    scene::placed({.file = "--length"}, [&] { fc::check(out.lengths.back()); });
   }
   return out;
 }

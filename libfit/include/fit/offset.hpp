@@ -18,20 +18,23 @@ struct Offset {
 };
 
 struct OffsetOptions {
-  enum class Sign { either, same, opposite } sign = Sign::either;  ///< of the second against the first
-  double longest = std::numeric_limits<double>::infinity();        ///< s: lags are looked for so far either way
-  double confidence = 0.95;                                        ///< of the interval
-  std::string first = "film", second = "record";                   ///< as messages name them
+  enum class Sign { either, same, opposite } sign = Sign::either;        ///< of the second against the first
+  double around = 0, longest = std::numeric_limits<double>::infinity();  ///< s: lags are looked for so far about that
+  double confidence = 0.95;                                              ///< of the interval
+  std::string first = "film", second = "record";                         ///< as messages name them
   /// Where two lags fit nearly alike.
   std::string remedy = "take more of both records: their beginning, a change, not the steady part alone";
 };
+
+/// What a search takes for known, in words: "supposed: an offset between 0.2 s and 1 s, of the same sign". "": nothing
+std::string supposed(const OffsetOptions& options, const std::string& what);
 
 /// What of two records shows the same, whatever its unit, its zero and its sign: value(t) against other(t + lag). Both
 /// may have noise, with a memory or without, independent of the other's; of 400 made sets 92 to 97 % have the truth
 /// within the interval. Lags are those at which half of the shorter lies within the other. Times ascend and need not be
 /// even; NaN is a gap of the first. \throws hydro::InputError: fewer than 16 samples of either or of what stands beside
 /// each other, a second record that is not finite, a |correlation| below 0.7, another lag that is nearly as good, on
-/// another swing, a lag at the longest
+/// another swing, a lag at an end of those that are looked for, and where none of these is such a lag
 Offset offset_between(std::span<const double> time, std::span<const double> value, std::span<const double> other_time,
                       std::span<const double> other, const OffsetOptions& options = {});
 

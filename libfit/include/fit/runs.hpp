@@ -16,6 +16,7 @@ struct RunEstimate {
   double value;
   double standard_error;  ///< > 0
   double kc, re, beta;    ///< > 0 where a law asks for them; β = Re/KC = D²/(νT)
+  std::string file = {};  ///< that errors of this run are placed at; "": they give its number
 };
 
 /// C = c_0 + c_1 ln(x/x₀) + …, x₀ the geometric mean over the runs, so that c_0 is the value in their middle.

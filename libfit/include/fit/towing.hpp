@@ -24,6 +24,14 @@ struct TowingPoint {
   std::optional<double> re;
 };
 
+/// The rules of a run, number by number, for whoever knows where each is from. \throws hydro::InputError
+void require_towing_speed(double speed);
+void require_resistance(double force, double speed);
+/// Of a mean, by its name: not negative, and smaller than the mean itself.
+void require_deviation(const char* of, double deviation, double mean);
+/// Deviations must be stated for all runs or for none.
+void require_stated_alike(const TowingRun& run, const TowingRun& first);
+
 /// C_D of one run, (F12). \throws hydro::InputError for a run or a cylinder that fit_towing() refuses
 TowingPoint towing_point(const Cylinder& cylinder, const TowingRun& run);
 
@@ -40,8 +48,9 @@ struct TowingFit {
 /// the standard error of the mean is multiplied by the scatter (Birge); it is never reduced. One run gives its own
 /// interval. Where no run states deviations, all weigh alike and the error of the mean is that of their scatter. The
 /// mean supposes that C_D does not depend on speed: look at the points first. \throws hydro::InputError for no runs, a
-/// speed that is not positive, a value that is not finite, deviations that are negative or stated for some runs only, a
-/// single run without deviations, or a mass beyond the load cells (steady motion has no inertia force)
+/// speed that is not positive, a value that is not finite, deviations that are negative, as large as the mean or stated
+/// for some runs only, a single run without deviations, or a mass beyond the load cells (steady motion has no inertia
+/// force)
 TowingFit fit_towing(const Cylinder& cylinder, std::span<const TowingRun> runs, double confidence = 0.95);
 
 }  // namespace fit

@@ -104,8 +104,10 @@ class Assignment {
     check();
     first_ = first_places();
     gate_ = hydro::signal::chi_square_quantile(options.gate, 2);
-    for (const KnownLength& l : options.lengths)
+    for (const KnownLength& l : options.lengths) {
+      camera::check(l);
       lengths_.push_back({number(l.from), number(l.to), l.length, l.deviation});
+    }
   }
 
   Assigned whole() {

@@ -93,8 +93,7 @@ class Smoother {
   }
 
   void add(const KnownLength& l) {
-    hydro::require(l.length > 0 && l.deviation > 0, "a known length and its deviation must be positive, got {} and {}",
-                   l.length, l.deviation);
+    check(l);
     const auto number = [&](const std::string& name) {
       return numbers_of_marker * (&track_.marker(name) - track_.markers.data());
     };
@@ -237,6 +236,15 @@ class Smoother {
 Eigen::Vector2d pair_at(const Eigen::VectorXd& x, Eigen::Index at) { return {x[at], x[at + place_y]}; }
 
 }  // namespace
+
+void check(const KnownLength& l) {
+  hydro::require(l.length > 0 && l.deviation > 0, "a known length and its deviation must be positive, got {} and {}",
+                 l.length, l.deviation);
+  if (l.deviation >= l.length)
+    throw hydro::InputError(fmt::format("the deviation of a known length, {}, is no smaller than the length itself, {}",
+                                        l.deviation, l.length),
+                            {}, "write first the length, then how far off it may be, each with its unit");
+}
 
 MarkerMotion SmoothTrack::marker(std::size_t marker, std::size_t frame) const {
   const Eigen::Index at = numbers_of_marker * static_cast<Eigen::Index>(marker);

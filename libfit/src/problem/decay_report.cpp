@@ -180,8 +180,9 @@ Report told_over(const Problem& problem, const std::vector<FittedRun>& runs) {
     for (const FittedRun& run : runs)
       if (const Coefficient& c = coefficient_of(run); c.standard_error > 0) estimates.push_back(c);
     if (estimates.size() == runs.size())
-      report.parts.push_back(over_runs(name, unit_of(name, problem.turns), together(estimates, confidence), "run",
-                                       runs.size(), confidence));
+      report.parts.push_back(over_runs(name, unit_of(name, problem.turns),
+                                       together(estimates, files_of(runs), confidence), "run", runs.size(),
+                                       confidence));
   };
   add("period", [](const FittedRun& run) -> const Coefficient& { return run.fit.period; });
   for (std::size_t k = 0; k < runs[0].fit.damping.size(); ++k)

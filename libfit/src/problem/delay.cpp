@@ -61,16 +61,21 @@ Report told(const Run& run, const FittedRun& found, const OffsetOptions& search)
   report.estimates = {{.coefficient = delay_of(o), .unit = "s"}};
   report.say("{} samples; correlation {:.5g}, on other swings {:.3g} at most; {} = {:.5g} {:+.5g} {}",
              found.time.size(), o.correlation, o.runner_up, search.first, o.level, o.scale, search.second);
+  if (const std::string known = supposed(search, "a delay"); !known.empty()) {
+    report.facts.emplace_back("supposed", known);
+    report.remarks.push_back(known);
+  }
   add_labels(report, run.source);
   return report;
 }
 
 /// Runs differ by more than their errors where a delay is not constant: a filter, a buffer, a clock that drifts.
-Report told_together(const Options& options, Solution& out) {
-  std::vector<RunEstimate> runs;
-  for (const FittedRun& r : out.runs) runs.push_back({r.offset.lag, r.offset.deviation, 0, 0, 0});
-  out.together = fit_runs(runs, Law::constant, options.search.confidence);
-  return over_runs("delay", "s", *out.together, "run", runs.size(), options.search.confidence);
+Report told_together(const Problem& problem, Solution& out) {
+  const double confidence = problem.options.search.confidence;
+  std::vector<Coefficient> delays;
+  for (const FittedRun& r : out.runs) delays.push_back(delay_of(r.offset));
+  out.together = together(delays, files_of(problem.runs), confidence);
+  return over_runs("delay", "s", *out.together, "run", delays.size(), confidence);
 }
 
 }  // namespace
@@ -84,7 +89,7 @@ Solution solve(const Problem& problem) {
   }
   const bool noisy =
       std::all_of(out.runs.begin(), out.runs.end(), [](const auto& r) { return r.offset.deviation > 0; });
-  if (out.runs.size() >= 3 && noisy) out.report.parts.push_back(told_together(problem.options, out));
+  if (out.runs.size() >= 3 && noisy) out.report.parts.push_back(told_together(problem, out));
   return out;
 }
 

@@ -29,7 +29,7 @@ RandomEffects level_of_all(const std::vector<FrictionRamp>& fits, Coefficient Fr
     // The same in all tests is the slope of the channel; when each slipped is its own.
     runs.back().systematic_error = std::abs(middle(runs.back())) * problem.load_slope.standard;
   }
-  return together(runs, problem.options.confidence, true);
+  return together(runs, files_of(problem.runs), problem.options.confidence, true);
 }
 
 /// (F105) Levels are proportional to the load.

@@ -154,7 +154,7 @@ CoefficientLaw law_of(const Options& options, std::size_t coefficient, const std
     const Coefficient& c = run.asked[coefficient];
     const double re = run.fit.re.value_or(0);
     if (c.value)
-      estimates.push_back({*c.value, c.standard_error, run.fit.kc, re, re / run.fit.kc});
+      estimates.push_back({*c.value, c.standard_error, run.fit.kc, re, re / run.fit.kc, run.source.file.string()});
     else
       ++law.left_out;
   }

@@ -46,14 +46,16 @@ void add_residuals(Report& report, const ResidualReport& left, const std::string
   report.facts.emplace_back("residuals", std::move(facts));
 }
 
-RandomEffects together(const std::vector<Coefficient>& of, double confidence, bool sizes) {
+RandomEffects together(const std::vector<Coefficient>& of, const std::vector<std::string>& files, double confidence,
+                       bool sizes) {
+  hydro::ensure(files.size() == of.size(), "each run has a file");
   std::vector<RunEstimate> runs;
   double common = 0;
   for (const Coefficient& c : of) {
     const double value = sizes ? std::abs(middle(c)) : middle(c);
     const double own =
         std::sqrt(std::max(0.0, c.standard_error * c.standard_error - c.systematic_error * c.systematic_error));
-    runs.push_back({value, own, 0, 0, 0});
+    runs.push_back({value, own, 0, 0, 0, files[runs.size()]});
     common += c.systematic_error / static_cast<double>(of.size());
   }
   RandomEffects law = fit_runs(runs, Law::constant, confidence);

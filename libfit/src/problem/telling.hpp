@@ -55,8 +55,16 @@ void add_rows(Report& report, const char* key, const std::vector<Row>& rows, con
 
 /// Runs that were fitted each by itself, put together: each as far as its own error goes without what is the same in
 /// all, which is then counted once (F93). Values are those in the middle of the intervals, without their sign where
-/// asked.
-RandomEffects together(const std::vector<Coefficient>& runs, double confidence, bool sizes = false);
+/// asked. Errors of a run are placed at its file.
+RandomEffects together(const std::vector<Coefficient>& runs, const std::vector<std::string>& files, double confidence,
+                       bool sizes = false);
+/// The files of runs, for that.
+template <class Runs>
+std::vector<std::string> files_of(const Runs& runs) {
+  std::vector<std::string> out;
+  for (const auto& run : runs) out.push_back(run.source.file.string());
+  return out;
+}
 
 /// One coefficient over several runs, tests …, each fitted alone, without a law.
 Report over_runs(const std::string& name, const std::string& unit, const RandomEffects& law, const std::string& runs,

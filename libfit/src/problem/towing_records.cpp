@@ -204,7 +204,7 @@ Report told(const Source& source, const RecordedTow& r) {
 Report told_law(const Problem& problem, Solution& out) {
   std::vector<Coefficient> runs;
   for (const RecordedTow& r : out.records) runs.push_back(r.cd);
-  out.law = together(runs, problem.options.confidence);
+  out.law = together(runs, files_of(problem.records), problem.options.confidence);
   return over_runs("cd", "", *out.law, "run", runs.size(), problem.options.confidence);
 }
 

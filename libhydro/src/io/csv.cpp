@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fstream>
 #include <iterator>
 #include <optional>
 
@@ -78,6 +79,17 @@ std::optional<Line> next_line(std::string_view& rest, int& line_number) {
     if (!body.empty() && body.front() != '#') return Line{line, line_number};
   }
   return std::nullopt;
+}
+
+/// A line of a file that was read before, as errors show it: tables keep numbers, not their text. "" where the file is
+/// no longer there, or never was.
+std::string line_of_file(const std::string& file, int number) {
+  std::ifstream in(file);
+  std::string line;
+  for (int i = 0; i < number; ++i)
+    if (!std::getline(in, line)) return {};
+  if (line.ends_with('\r')) line.pop_back();
+  return line;
 }
 
 }  // namespace
@@ -202,7 +214,12 @@ const std::string& CsvTable::unit_text(std::string_view name) const { return fin
 Place CsvTable::place_of(std::string_view name, std::size_t row) const {
   const Column& c = find(name);
   if (row >= rows_) return {file_, header_line_, c.header_column, header_text_, static_cast<int>(c.name.size())};
-  return {file_, line_of_row_[row], 0, {}, 0};
+  const int number = line_of_row_[row];
+  const std::string line = line_of_file(file_, number);
+  const auto index = static_cast<std::size_t>(&c - columns_.data());
+  const auto cells = split(line, separator_of(header_text_));
+  if (index >= cells.size()) return {file_, number, 0, {}, 0};
+  return {file_, number, cells[index].column, line, static_cast<int>(cells[index].text.size())};
 }
 
 void write_csv(const std::filesystem::path& path, const std::vector<CsvColumn>& columns,

@@ -165,7 +165,9 @@ TEST(Assignment, SaysWhatToDo) {
   EXPECT_THAT(told({.names = {"a", "b"}, .first = {{100, 200}, {101, 200}}}), HasSubstr("nearest to one place"));
   EXPECT_THAT(told({.names = {"a", "b"}, .first = {{175, 195}, {10, 400}}}),
               AllOf(HasSubstr("first place of \"b\", (10, 400)"), HasSubstr("--picture")));
-  EXPECT_THAT(told({.names = {"a", "b"}, .lengths = {{"a", "x", 1, 1}}}), HasSubstr("there is no marker \"x\""));
+  EXPECT_THAT(told({.names = {"a", "b"}, .lengths = {{"a", "x", 1, 0.1}}}), HasSubstr("there is no marker \"x\""));
+  EXPECT_THAT(told({.names = {"a", "b"}, .lengths = {{"a", "b", 1, 1}}}),
+              HasSubstr("is no smaller than the length itself"));
   frames[7].time = frames[6].time;
   EXPECT_THAT(told({.names = {"a", "b"}}), AllOf(HasSubstr("frame 8"), HasSubstr("--frame-rate")));
   frames = film(20, 2, [](int m, double) { return Eigen::Vector2d(100 * m, 50); });

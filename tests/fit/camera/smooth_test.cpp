@@ -158,7 +158,7 @@ TEST(Smoother, SaysWhatItLacks) {
   Track t = filmed(2, 20, sd, 1, swinging);
   EXPECT_THAT(refused([&] { smooth(t, {}); }), HasSubstr("bandwidth"));
   EXPECT_THAT(refused([&] {
-                smooth(t, {.bandwidth_hz = 3, .lengths = {{"a", "c", 1, 1}}});
+                smooth(t, {.bandwidth_hz = 3, .lengths = {{"a", "c", 1, 0.1}}});
               }),
               HasSubstr("no marker \"c\""));
   EXPECT_THAT(refused([&] { smooth(t, {.bandwidth_hz = 400}); }), HasSubstr("no motion up to 400 Hz"));

@@ -6,6 +6,8 @@
 
 #include <filesystem>
 
+#include "hydro/io/atomic_file.hpp"
+
 namespace csv_test {
 namespace {
 
@@ -63,6 +65,21 @@ TEST(CsvTable, PointsAtTheCellThatIsWrong) {
               ThrowsMessage<InputError>(HasSubstr("two columns")));
   EXPECT_THAT([] { CsvTable::parse("0,1\n1,2\n", "a.csv"); }, ThrowsMessage<InputError>(HasSubstr("no column name")));
   EXPECT_THAT([] { CsvTable::parse("# nothing\n", "a.csv"); }, ThrowsMessage<InputError>(HasSubstr("empty")));
+}
+
+TEST(CsvTable, KnowsTheLineOfACellThatACallerFindsWrongLater) {
+  const auto file = support::scratch_folder() / "froude_csv_later.csv";
+  hydro::io::write_atomically(file, "# a comment\nt [s]; F [N]\n0; 1,5\n\n1;  -20,5\n");
+  const auto t = CsvTable::read(file);
+  const hydro::Place at = t.place_of("F", 1);
+  EXPECT_EQ(at.line, 5);
+  EXPECT_EQ(at.column, 5);
+  EXPECT_EQ(at.width, 5);
+  EXPECT_EQ(at.text, "1;  -20,5");
+  EXPECT_EQ(t.place_of("F", 2).text, "t [s]; F [N]") << "beyond the rows it is the column";
+  std::filesystem::remove(file);
+  EXPECT_EQ(t.place_of("F", 1).line, 5) << "of a file that is gone";
+  EXPECT_EQ(t.place_of("F", 1).text, "");
 }
 
 TEST(CsvTable, WantsTheUnitThatIsNeededAndNamesTheNearestColumn) {

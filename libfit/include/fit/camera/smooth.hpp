@@ -16,6 +16,8 @@ struct KnownLength {
   double length;     ///< in the track's unit
   double deviation;  ///< of that statement, in the same unit, positive
 };
+/// \throws hydro::InputError for a length that is not positive, a deviation that is not or is as large as the length
+void check(const KnownLength& length);
 
 struct SmoothOptions {
   /// Below it the gain of a record without gaps is within 1 % of 1; it falls as 1/(1 + (f/f_c)⁶), f_c = 2.15 times it.

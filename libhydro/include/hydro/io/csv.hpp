@@ -38,7 +38,7 @@ class CsvTable {
   /// The unit as the header has it, "" for none.
   const std::string& unit_text(std::string_view name) const;
 
-  /// The place of a data cell, for errors that a caller finds later.
+  /// The place of a data cell, for errors that a caller finds later; the file is read again for its line.
   Place place_of(std::string_view name, std::size_t row) const;
 
  private:
