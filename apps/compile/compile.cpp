@@ -200,7 +200,7 @@ RunWater run_water(const Scene& scene, const Prepared& prepared, double step) {
     out.sea = run_sea(scene, band);
     const auto waves = hydro::waves::linear_field(*out.sea, {.stretching = scene.waves->stretching});
     if (const auto use = water_of_members(scene, out.sea->hs(), step)) {
-      auto boxed = std::make_shared<hydro::waves::BoxedField>(waves, *use);
+      auto boxed = prepared.kept->water_of_members().of(waves, *use);
       if (boxed->table()) out.table_bytes = boxed->table()->bytes();
       field = std::move(boxed);
     } else {

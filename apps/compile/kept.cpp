@@ -1,6 +1,7 @@
 #include "compile/kept.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "compile/fit_folder.hpp"
 #include "hydro/base/dense.hpp"
@@ -41,6 +42,57 @@ const RadiationFits::Known& RadiationFits::of(const SymmetricData& data, double 
   made_ = known_.size();
   if (folder && !kept) folder->keep(data, tolerance, known_.back()->fit);
   return *known_.back();
+}
+
+namespace {
+
+using hydro::waves::FieldBox;
+using hydro::waves::FieldUse;
+using hydro::waves::HarmonicField;
+
+bool same(const HarmonicField& a, const HarmonicField& b) {
+  const auto numbers = [](const hydro::waves::Harmonic& w) {
+    return std::tie(w.omega, w.kx, w.ky, w.elevation, w.potential);
+  };
+  const hydro::Water &x = a.water(), &y = b.water();
+  return a.current() == b.current() && a.options().stretching == b.options().stretching &&
+         a.options().hs_m == b.options().hs_m && x.density == y.density && x.gravity == y.gravity &&
+         x.depth.metres() == y.depth.metres() &&
+         std::ranges::equal(a.harmonics(), b.harmonics(),
+                            [&](const auto& one, const auto& other) { return numbers(one) == numbers(other); });
+}
+
+/// The end of a run of longer steps is that of the run but for rounding.
+bool holds(const FieldBox& large, const FieldBox& small) {
+  constexpr double rounding = 1e-9;
+  return large.start_s <= small.start_s && small.end_s <= large.end_s * (1 + rounding) &&
+         (large.low.array() <= small.low.array()).all() && (small.high.array() <= large.high.array()).all();
+}
+
+double questions(const FieldUse& use) { return use.instants * use.points; }
+
+}  // namespace
+
+std::shared_ptr<const WaterOfMembers::Made> WaterOfMembers::found(const HarmonicField& waves, const FieldUse& use,
+                                                                  const Serves& serves) {
+  const std::scoped_lock one_at_a_time(mutex_);
+  if (last_ && serves(*last_)) return last_;
+  const auto make = [waves, use] { return std::make_shared<const hydro::waves::BoxedField>(waves, use); };
+  last_ = std::make_shared<const Made>(Made{waves, use, std::async(std::launch::deferred, make).share()});
+  ++made_;
+  return last_;
+}
+
+// Where waves are summed since few points asked for them, a run that asks for more may do better with a table.
+WaterOfMembers::Field WaterOfMembers::of(const HarmonicField& waves, const FieldUse& use) {
+  const Serves serves = [&](const Made& made) {
+    return made.use.tolerance == use.tolerance && holds(made.use.box, use.box) && same(made.waves, waves);
+  };
+  const auto known = found(waves, use, serves);
+  Field field = known->field.get();
+  if (field->table() != nullptr || questions(use) <= questions(known->use)) return field;
+  return found(waves, use, [&](const Made& made) { return serves(made) && questions(use) <= questions(made.use); })
+      ->field.get();
 }
 
 const hydro::potential::Coefficients& Kept::coefficients(const std::string& name,

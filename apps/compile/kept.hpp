@@ -3,6 +3,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -12,6 +13,7 @@
 
 #include "hydro/potential/coefficients.hpp"
 #include "hydro/radiation/rational.hpp"
+#include "hydro/waves/synthesis/boxed_field.hpp"
 
 namespace froude::compile {
 
@@ -51,14 +53,39 @@ class RadiationFits {
   std::vector<std::unique_ptr<const Known>> known_;
 };
 
-/// Coefficients as they were read from files or computed, and poles fitted to them. What changes in a file after it was
-/// read is not seen.
+/// The waves around members: runs of a scene that differ in their steps and pieces, and trials of a fit, ask for the
+/// same ones. Whoever asks first makes them; threads that ask for the same wait, others do not.
+class WaterOfMembers {
+ public:
+  using Field = std::shared_ptr<const hydro::waves::BoxedField>;
+  /// That which was made last, if it is of the same waves to the same tolerance, for a box that holds this one.
+  Field of(const hydro::waves::HarmonicField& waves, const hydro::waves::FieldUse& use);
+  std::size_t made() const { return made_; }  ///< so far
+
+ private:
+  struct Made {
+    hydro::waves::HarmonicField waves;
+    hydro::waves::FieldUse use;
+    std::shared_future<Field> field;
+  };
+  using Serves = std::function<bool(const Made&)>;
+  std::shared_ptr<const Made> found(const hydro::waves::HarmonicField& waves, const hydro::waves::FieldUse& use,
+                                    const Serves& serves);
+
+  std::mutex mutex_;
+  std::atomic<std::size_t> made_ = 0;
+  std::shared_ptr<const Made> last_;
+};
+
+/// Coefficients as they were read from files or computed, poles fitted to them, and waves around members. What changes
+/// in a file after it was read is not seen.
 class Kept {
  public:
   /// Those known by this name, or what `make` makes.
   const hydro::potential::Coefficients& coefficients(const std::string& name,
                                                      const std::function<hydro::potential::Coefficients()>& make);
   RadiationFits& fits() { return fits_; }
+  WaterOfMembers& water_of_members() { return water_; }
   /// Sets of coefficients and fits, so far.
   std::size_t made() const { return made_ + fits_.made(); }
 
@@ -67,6 +94,7 @@ class Kept {
   std::atomic<std::size_t> made_ = 0;
   std::map<std::string, hydro::potential::Coefficients> coefficients_;
   RadiationFits fits_;
+  WaterOfMembers water_;
 };
 
 }  // namespace froude::compile

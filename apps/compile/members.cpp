@@ -131,12 +131,16 @@ std::optional<hydro::waves::FieldUse> water_of_members(const Scene& scene, doubl
   if (members.isEmpty()) return {};
   // Room to move: the orbits of high waves, and some metres of drift. Beyond it waves are summed.
   const Eigen::Vector3d room(2 * highest_crest + 2, 2 * highest_crest + 2, highest_crest);
-  hydro::waves::FieldUse use{.box = {0, scene.run->duration + step, members.min() - room, members.max() + room},
+  constexpr double beyond = 1e-3;  // s: rates of added mass are differences, which look past the end of the run
+  hydro::waves::FieldUse use{.box = {0, scene.run->duration + beyond, members.min() - room, members.max() + room},
                              .instants = scene.run->duration / step,
                              .points = 10 * pieces};  // iterations, and differences for their derivatives
   use.box.low.z() = std::max(use.box.low.z(), -scene.water.depth.metres());
   use.box.high.z() = std::min(use.box.high.z(), highest_crest);
-  use.tolerance = 1e-8;  // far below what pieces leave
+  // Of each wave, so small a share of the accuracy that it needs no estimate of its own. From 1e-5 on the window's own
+  // ends would be steps that Newton sees.
+  constexpr double share = 1e-4;
+  use.tolerance = std::clamp(share * scene.accuracy, 1e-11, 1e-5);
   use.largest_bytes = std::size_t{1} << 29;
   return use;
 }

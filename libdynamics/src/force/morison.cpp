@@ -215,20 +215,30 @@ void MorisonKind::add_jacobian(const Instant& now, JacobianSink& out) const {
   }
 }
 
+// ∫c VᵀPV over the wet parts, V = (1, −r×) the velocity of a point by that of the body, P = 1 − ttᵀ: sums of c, cr and
+// crrᵀ, and Vᵀt = (t, r×t), which is the same at all points of a line along t.
 void MorisonKind::add_mass(const State& state, MassSink& out) const {
   for (const MorisonMember& m : members_) {
     if (m.ca == 0) continue;
     const PerLength c(m, water_->water().density);
     const PlacedMember at = placed(m.line, state);
-    const Matrix3d across = Matrix3d::Identity() - at.axis * at.axis.transpose();
-    Matrix6 mass = Matrix6::Zero();
     auto& pieces = kept_flow().pieces;
     find_wet_pieces(m.line, at, *water_, state.time, false, pieces);
+    double whole = 0;
+    Vector3d first = Vector3d::Zero();
+    Matrix3d second = Matrix3d::Zero();
     for (const WetPiece& piece : pieces) {
-      Matrix3x6 velocity;  // of the point by that of the body
-      velocity << Matrix3d::Identity(), -cross_matrix(piece.arm);
-      mass += c.added * piece.length * velocity.transpose() * across * velocity;
+      const Vector3d moment = c.added * piece.length * piece.arm;
+      whole += c.added * piece.length;
+      first += moment;
+      second += moment * piece.arm.transpose();
     }
+    Vector6 along;
+    along << at.axis, at.from.cross(at.axis);
+    const Matrix3d S = cross_matrix(first);
+    Matrix6 mass;
+    mass << whole * Matrix3d::Identity(), -S, S, second.trace() * Matrix3d::Identity() - second;
+    mass -= whole * along * along.transpose();
     out.add(m.line.body, mass);
   }
 }

@@ -83,6 +83,31 @@ Matrix12 curvature(const AxesConstraint& c, const ConstraintEnds& at) {
   return H;
 }
 
+namespace {
+
+/// d²r/dt² of a vector that turns with a body.
+Eigen::Vector3d centripetal(const Eigen::Vector3d& omega, const Eigen::Vector3d& r) {
+  return omega.cross(omega.cross(r));
+}
+
+}  // namespace
+
+double convective(const PointConstraint& c, const ConstraintEnds& at, const Vector12& v) {
+  const Points p(c, at);
+  const Eigen::Vector3d w1 = v.segment<3>(3), w2 = v.segment<3>(9);
+  const double second = p.n.dot(centripetal(w2, p.second_arm));
+  if (!c.turns) return second - p.n.dot(centripetal(w1, p.first_arm));
+  const Eigen::Vector3d apart = v.segment<3>(6) + w2.cross(p.second_arm) - v.head<3>();
+  return second + 2 * w1.cross(p.n).dot(apart) + centripetal(w1, p.n).dot(p.reach);
+}
+
+double convective(const AxesConstraint& c, const ConstraintEnds& at, const Vector12& v) {
+  const Eigen::Vector3d w1 = v.segment<3>(3), w2 = v.segment<3>(9), first = at.first.axes * c.first_axis,
+                        second = at.second.axes * c.second_axis;
+  return centripetal(w1, first).dot(second) + 2 * w1.cross(first).dot(w2.cross(second)) +
+         first.dot(centripetal(w2, second));
+}
+
 ClosestPoints closest_points(const GapConstraint& c, const ConstraintEnds& at) {
   return closest_points(moved(c.first, at.first.axes, at.first.origin),
                         moved(c.second, at.second.axes, at.second.origin));

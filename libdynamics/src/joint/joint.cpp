@@ -245,8 +245,7 @@ double JointSet::convective_of(const Constraint& c, const State& state) const {
   Vector12 v = Vector12::Zero();
   v.head<6>() = state.twist(c.first);
   if (c.second) v.tail<6>() = state.twist(*c.second);
-  const Matrix12 H = std::visit([&](const auto& what) { return curvature(what, ends_of(c, state)); }, c.what);
-  double out = v.dot(H * v);
+  double out = std::visit([&](const auto& what) { return dynamics::convective(what, ends_of(c, state), v); }, c.what);
   if (const auto* prescribed = std::get_if<PrescribedConstraint>(&c.what))
     out -= prescribed->motion(state.time).acceleration;
   return out;

@@ -195,10 +195,7 @@ void Model::residual(const State& state, const Eigen::VectorXd& acceleration, Wo
     if (!is_free(i)) r[i] = 0;
 }
 
-void Model::tangent(const State& state, double c_a, double c_v, double c_q, Workspace& workspace,
-                    BlockMatrix& out) const {
-  out.set_zero();
-  add_mass(state, c_a, out);
+void Model::add_slopes(const State& state, double c_v, double c_q, Workspace& workspace, BlockMatrix& out) const {
   JacobianSink sink(out, c_q, c_v);
   for (std::size_t k = 0; k < forces_.size(); ++k) forces_[k]->add_jacobian(workspace.instant(state, k), sink);
   for (int i = 0; i < static_cast<int>(bodies_.size()); ++i) {
@@ -207,6 +204,13 @@ void Model::tangent(const State& state, double c_a, double c_v, double c_q, Work
     const Eigen::Vector3d omega = state.twist(i).tail<3>();
     out.block(i, i).bottomRightCorner<3, 3>() += c_v * (cross_matrix(omega) * I - cross_matrix(I * omega));
   }
+}
+
+void Model::tangent(const State& state, double c_a, double c_v, double c_q, Workspace& workspace,
+                    BlockMatrix& out) const {
+  out.set_zero();
+  add_mass(state, c_a, out);
+  if (c_v != 0 || c_q != 0) add_slopes(state, c_v, c_q, workspace, out);
   for (int i = 0; i < modes(); ++i) {
     if (is_free(i)) continue;
     for (const int j : pattern_.columns(i / 6)) {

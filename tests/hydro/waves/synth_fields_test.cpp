@@ -144,6 +144,22 @@ TEST(TabulatedField, IsThePlainFieldWithinTheErrorItStates) {
         }
 }
 
+// Waves a metre long in a box nine metres high: some fifty polynomials, where those of the seas above are sixteen.
+TEST(TabulatedField, HoldsWithManyPolynomials) {
+  const FieldBox high{0, 4, {-1, -1, -9}, {1, 1, 0}};
+  const Sea sea = Sea::of(std::vector<GivenWave>{{AngularFrequency::from_rad_per_s(7.8),
+                                                  WaveAmplitude::from_metres(0.02), 0.3, Angle::from_degrees(70)}},
+                          deep);
+  for (const Stretching stretching : {Stretching::vertical, Stretching::linear}) {
+    const HarmonicField plain = linear_field(sea, {.stretching = stretching});
+    const TabulatedField table(plain, high, {.tolerance = 1e-9});
+    for (const double z : {-9.0, -5.3, -0.9, -0.2, 0.0}) {
+      const Eigen::Vector3d p(0.3, -0.4, z);
+      expect_within(difference(plain.at(2.1, p), table.at(2.1, p)), table.error_bound(), fmt::format("z = {} m", z));
+    }
+  }
+}
+
 TEST(TabulatedField, HoldsWithACurrentAndTheFullBernoulliEquation) {
   const Current current = Current::profile({-9, 0}, {{0.1, 0}, {0.6, -0.3}});
   const Sea sea = Sea::of(std::vector<GivenWave>{{AngularFrequency::from_period_s(6), WaveAmplitude::from_metres(0.8),

@@ -314,7 +314,7 @@ stiffness = "(20, 5, 5) kN/m"
        "[[mooring]]\non = [\"m1\", \"m5\"]\nkind = \"linear\"\nstiffness = { surge = \"4280 N/m\" }\n", false},
       {"waves: excitation", "excitation = true\n", "", true},
       {"memory of waves, 30 × 30", "radiation = { memory_tolerance = 1e-2, accept_error = 0.05 }\n", "", false},
-      {"memory, each module by itself", "interaction = \"self\"\nradiation = { memory_tolerance = 1e-2 }\n", "", false},
+      {"memory, each module by itself", "interaction = \"self\"\nradiation = { memory_tolerance = 1e-2, accept_error = 0.05 }\n", "", false},
       {"drag on 20 members", "", member + "drag = { cd = 1.0 }\n", true},
       {"Morison on 20 members", "", member + "morison = { cd = 1.0, ca = 0.1 }\n", true},
       {"hinges", "", hinges(""), false},

@@ -34,6 +34,14 @@ Matrix12 curvature(const GapConstraint& c, const ConstraintEnds& at);    ///< by
 Matrix12 curvature(const StickConstraint& c, const ConstraintEnds& at);  ///< the same
 Matrix12 curvature(const PrescribedConstraint& c, const ConstraintEnds& at);
 
+/// vᵀ curvature v, v the twists of both bodies: the second rate of the value while these keep theirs (D16).
+double convective(const PointConstraint& c, const ConstraintEnds& at, const Vector12& v);
+double convective(const AxesConstraint& c, const ConstraintEnds& at, const Vector12& v);
+template <class AnyConstraint>
+double convective(const AnyConstraint& c, const ConstraintEnds& at, const Vector12& v) {
+  return v.dot(curvature(c, at) * v);
+}
+
 /// The shapes of a gap where their bodies are, and the shortest way between them.
 ClosestPoints closest_points(const GapConstraint& c, const ConstraintEnds& at);
 /// How two points move apart along n: the gradient of n·(second − first) with n held, for points of either body.

@@ -84,6 +84,7 @@ class Model {
   JointSet joints_;
   std::vector<std::string> redundant_;
 
+  void add_slopes(const State& state, double c_v, double c_q, Workspace& workspace, BlockMatrix& out) const;
   void leave_out_redundant(const Eigen::VectorXd& scale);
   void balance(const State& still, Linear& out) const;
 };

@@ -69,9 +69,6 @@ FROUDE_KERNEL void accumulate(const double* table, const double* operand, std::s
   }
 }
 
-// Half the samples of a block. Longer blocks need fewer phasors at their centres but a longer table.
-std::size_t half_block(std::size_t samples) { return samples >= 16384 ? 128 : samples >= 1024 ? 32 : 8; }
-
 // cos and sin of ω_j τ_m at τ_m = (m + ½) dt, in the order in which accumulate reads them.
 std::vector<double> phasor_table(std::span<const double> omega, double dt, std::size_t half) {
   const std::size_t count = omega.size(), full = simd::padded(count);
@@ -156,6 +153,8 @@ class ChunkSum {
 };
 
 }  // namespace
+
+std::size_t half_block(std::size_t samples) { return samples >= 16384 ? 128 : samples >= 192 ? 32 : 8; }
 
 void blocked_phasors(const Task& task, Eigen::MatrixXd& out) {
   const std::size_t half = half_block(task.samples), block = 2 * half;

@@ -23,8 +23,10 @@ class VerticalBasis {
 
   /// Coefficients of the profile of κ, shape (count).
   std::vector<double> profile(double kappa, double depth) const;
-  /// T_q and its first and second derivative with respect to z, each of shape (padded), zero beyond count.
-  void at(double z, std::span<double> value, std::span<double> slope, std::span<double> bend) const;
+  /// T_q and its derivative with respect to z, each of shape (padded), zero beyond count.
+  void at(double z, std::span<double> value, std::span<double> slope) const;
+  /// Its second derivative, from values and slopes at the same height.
+  void bend_at(double z, std::span<const double> slope, std::span<double> bend) const;
 
  private:
   double error_of(double kappa, double depth, bool curvature) const;

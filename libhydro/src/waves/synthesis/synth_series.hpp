@@ -35,6 +35,10 @@ std::size_t decimated_samples(std::size_t samples, std::size_t factor);
 double decimation_error();
 double decimation_amplification();
 
+/// Half the samples of a block of phasors. Longer blocks need fewer operands at their centres, of each signal, but a
+/// longer table, which all signals share.
+std::size_t half_block(std::size_t samples);
+
 /// Length of the transform that nonuniform_fft takes.
 std::size_t nonuniform_length(std::size_t samples);
 /// Largest relative error that interpolation brings into nonuniform_fft.

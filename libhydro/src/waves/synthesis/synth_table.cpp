@@ -48,7 +48,7 @@ double along_b(const Harmonic& w, const BinBand& band) {
 }  // namespace
 
 struct TabulatedField::Content {
-  struct Scratch;
+  struct Heights;
   class Now;
   Surroundings around;
   FieldBox box;
@@ -76,10 +76,18 @@ struct TabulatedField::Content {
   double elevation_at(const AxisPoint& time, double x, double y) const {
     return elevation_at(time, axes.a.point(x, 1), axes.b.point(along_b_of(x, y), 1));
   }
-  void weigh_height(const StretchedHeight& height, std::span<double> value, std::span<double> slope,
-                    std::span<double> bend) const;
+  void weigh_height(const StretchedHeight& height, Heights& out) const;
   Flow flow(const table::AtHeight& parts) const;
-  Kinematics at(const Eigen::Vector3d& point, Now& now, Scratch& scratch) const;
+  Kinematics at(const Eigen::Vector3d& point, Now& now) const;
+};
+
+/// Polynomials at one height, and their first and second derivatives.
+struct TabulatedField::Content::Heights {
+  std::vector<double> value, slope, bend;
+
+  void resize(std::size_t levels) {
+    for (auto* one : {&value, &slope, &bend}) one->resize(levels);
+  }
 };
 
 namespace {
@@ -281,18 +289,18 @@ double TabulatedField::Content::elevation_at(const AxisPoint& time, const AxisPo
 }
 
 // Polynomials at the stretched height; beyond z = 0 the tangent goes on from there.
-void TabulatedField::Content::weigh_height(const StretchedHeight& height, std::span<double> value,
-                                           std::span<double> slope, std::span<double> bend) const {
+void TabulatedField::Content::weigh_height(const StretchedHeight& height, Heights& out) const {
   if (!(height.z >= vertical->bottom() - 1e-9 && height.z <= vertical->top() + 1e-9))
     throw InputError(fmt::format("the table of waves was built for profiles from z = {} m to {} m, needed at {} m",
                                  vertical->bottom(), vertical->top(), height.z),
                      {}, "build it for a higher box");
-  vertical->at(height.z, value, slope, bend);
-  if (height.tangent > 0)
-    for (std::size_t q = 0; q < value.size(); ++q) {
-      value[q] += height.tangent * slope[q];
-      slope[q] += height.tangent * bend[q];
-    }
+  vertical->at(height.z, out.value, out.slope);
+  if (height.tangent == 0) return;
+  vertical->bend_at(height.z, out.slope, out.bend);
+  for (std::size_t q = 0; q < vertical->padded(); ++q) {
+    out.value[q] += height.tangent * out.slope[q];
+    out.slope[q] += height.tangent * out.bend[q];
+  }
 }
 
 Flow TabulatedField::Content::flow(const table::AtHeight& parts) const {
@@ -358,6 +366,7 @@ class TabulatedField::Content::Now {
       potential_.resize(size);
       rate_.resize(size);
     }
+    heights.resize(table.vertical->padded());
     known_.assign(stations, false);
     time_ = table.axes.time.point(t, 2);
     t_ = t;
@@ -380,6 +389,7 @@ class TabulatedField::Content::Now {
   const AxisPoint& time() const { return time_; }
   const double* potential() const { return potential_.data(); }
   const double* rate() const { return rate_.data(); }
+  Heights heights;  // room for the polynomials at one point's height
 
  private:
   std::uint64_t number_ = 0;  // of the table; 0: none
@@ -389,31 +399,18 @@ class TabulatedField::Content::Now {
   std::vector<double> potential_, rate_;
 };
 
-/// What one point needs besides: polynomials at its height, and contracted parts.
-struct TabulatedField::Content::Scratch {
-  explicit Scratch(std::size_t levels)
-      : values(std::make_unique_for_overwrite<double[]>(levels * (3 + table::parts))),
-        value(values.get(), levels),
-        slope(value.data() + levels, levels),
-        bend(slope.data() + levels, levels),
-        parts(bend.data() + levels) {}
-  std::unique_ptr<double[]> values;
-  std::span<double> value, slope, bend;
-  double* parts;
-};
-
-Kinematics TabulatedField::Content::at(const Eigen::Vector3d& p, Now& now, Scratch& scratch) const {
+Kinematics TabulatedField::Content::at(const Eigen::Vector3d& p, Now& now) const {
   const AxisPoint a = axes.a.point(p.x(), 3), b = axes.b.point(along_b_of(p.x(), p.y()), 3);
   const double zeta = elevation_at(now.time(), a, b);
-  weigh_height(around.stretched(p.z(), zeta), scratch.value, scratch.slope, scratch.bend);
+  weigh_height(around.stretched(p.z(), zeta), now.heights);
   const table::Strides stride = potential_strides();
   const std::size_t levels = vertical->padded(), b_first = static_cast<std::size_t>(b.first);
   for (std::size_t k = 0; k < a.count; ++k)
     now.find(*this, (static_cast<std::size_t>(a.first) + k) * axes.b.count + b_first, b.count);
   const std::size_t first = static_cast<std::size_t>(a.first) * stride.a + b_first * stride.b;
-  table::contract_place(now.potential() + first, now.rate() + first, stride, a.view(), b.view(), levels, scratch.parts);
   table::AtHeight parts;
-  table::at_height(scratch.parts, scratch.value.data(), scratch.slope.data(), levels, parts);
+  table::contract_place(now.potential() + first, now.rate() + first, stride, a.view(), b.view(),
+                        now.heights.value.data(), now.heights.slope.data(), levels, parts);
   return around.kinematics(flow(parts), p.z(), zeta);
 }
 
@@ -426,11 +423,10 @@ void TabulatedField::at(double t, std::span<const Eigen::Vector3d> points, std::
   c.require_inside(t, points[0].x(), points[0].y());
   Content::Now& now = Content::Now::of_thread();
   now.turn_to(c, t);
-  Content::Scratch scratch(c.vertical->padded());
   for (std::size_t i = 0; i < points.size(); ++i) {
     c.require_inside(t, points[i].x(), points[i].y());
     c.require_flow(points[i].z());
-    out[i] = c.at(points[i], now, scratch);
+    out[i] = c.at(points[i], now);
   }
 }
 

@@ -65,33 +65,25 @@ FROUDE_KERNEL void contract_time(const double* from, std::size_t stride, const A
 }
 
 FROUDE_KERNEL void contract_place(const double* value, const double* rate_table, const Strides& stride,
-                                  const AxisWeights& a, const AxisWeights& b, std::size_t levels, double* out) {
+                                  const AxisWeights& a, const AxisWeights& b, const double* at, const double* at_slope,
+                                  std::size_t levels, AtHeight& out) {
+  Pack values[parts] = {}, slopes[parts] = {};
   for (std::size_t q = 0; q < levels; q += lanes) {
-    Pack sums[parts] = {};
+    Pack sums[parts] = {}, v, r, T, T_slope;
     for (std::size_t i = 0; i < a.count; ++i)
       for (std::size_t k = 0; k < b.count; ++k) {
-        Pack v, r;
         simd::load(value + i * stride.a + k * stride.b + q, v);
         simd::load(rate_table + i * stride.a + k * stride.b + q, r);
         add_station(v, r, a, i, b, k, sums);
       }
-    for (std::size_t p = 0; p < parts; ++p) simd::store(sums[p], out + p * levels + q);
+    simd::load(at + q, T);
+    simd::load(at_slope + q, T_slope);
+    for (const Part p : {phi_a, phi_b, phi_aa, phi_ab, phi_bb, rate, rate_a, rate_b}) values[p] += T * sums[p];
+    for (const Part p : {phi, phi_a, phi_b, rate}) slopes[p] += T_slope * sums[p];
   }
-}
-
-FROUDE_KERNEL void at_height(const double* contracted, const double* value, const double* slope, std::size_t levels,
-                             AtHeight& out) {
   for (std::size_t p = 0; p < parts; ++p) {
-    Pack v{}, s{}, x, w;
-    for (std::size_t q = 0; q < levels; q += lanes) {
-      simd::load(contracted + p * levels + q, x);
-      simd::load(value + q, w);
-      v += x * w;
-      simd::load(slope + q, w);
-      s += x * w;
-    }
-    out.value[p] = simd::sum(v);
-    out.slope[p] = simd::sum(s);
+    out.value[p] = simd::sum(values[p]);
+    out.slope[p] = simd::sum(slopes[p]);
   }
 }
 

@@ -15,22 +15,21 @@ struct AxisWeights {
   std::size_t count;
 };
 
-/// The potential at one place and instant, as polynomials in the vertical. Each points to `levels` numbers.
+/// The potential and its rate at one place and instant, and their derivatives along the axes.
 enum Part : std::size_t { phi, phi_a, phi_b, phi_aa, phi_ab, phi_bb, rate, rate_a, rate_b, parts };
 
 /// Table contracted over time: value[...] and rate[...] for `size` numbers that stand `stride` apart in time.
 void contract_time(const double* from, std::size_t stride, const AxisWeights& time, std::size_t size, double* value,
                    double* rate);
 
-/// out[part·levels + level], from a table at one instant (value, rate), both starting at the first point used.
-void contract_place(const double* value, const double* rate_table, const Strides& stride, const AxisWeights& a,
-                    const AxisWeights& b, std::size_t levels, double* out);
-
-/// Sums over levels of all parts with the polynomials at a height and with their slopes.
+/// Values and slopes by height of the parts at a place and a height, from a table at one instant (value, rate) whose
+/// first point is the first used. `at` and `at_slope`: the polynomials at that height and their slopes, `levels` of
+/// each. Only what a flow is made of is found: values of all parts but phi, slopes of phi, phi_a, phi_b and rate.
 struct AtHeight {
   double value[parts], slope[parts];
 };
-void at_height(const double* contracted, const double* value, const double* slope, std::size_t levels, AtHeight& out);
+void contract_place(const double* value, const double* rate_table, const Strides& stride, const AxisWeights& a,
+                    const AxisWeights& b, const double* at, const double* at_slope, std::size_t levels, AtHeight& out);
 
 /// Σ weights of an elevation table: time × a × b, b contiguous and readable up to whole packs.
 double contract_elevation(const double* from, const Strides& stride, const AxisWeights& time, const AxisWeights& a,

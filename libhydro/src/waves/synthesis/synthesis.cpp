@@ -83,9 +83,10 @@ double expected_cost(SeriesMethod method, const Size& n, double period) {
     case SeriesMethod::inverse_fft:
       return n.signals * (fft_cost(period) + 1e-9 * n.samples);
     case SeriesMethod::blocked_phasors: {
-      const double half = n.samples >= 16384 ? 128 : n.samples >= 1024 ? 32 : 8;
-      return n.components * (1.5e-9 * (half + n.samples / (2 * half)) + 2e-7) +
-             n.signals * (6e-11 * n.components * n.samples + 2e-9 * n.samples);
+      const auto half = static_cast<double>(series::half_block(static_cast<std::size_t>(n.samples)));
+      const double blocks = n.samples / (2 * half);
+      return n.components * (1.5e-9 * (half + blocks) + 2e-7) +
+             n.signals * (n.components * (6e-11 * n.samples + 1.5e-9 * blocks) + 2e-9 * n.samples);
     }
     case SeriesMethod::nonuniform_fft:
       return n.components * 2e-7 + 1e-8 * n.samples +

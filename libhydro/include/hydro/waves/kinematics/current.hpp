@@ -20,6 +20,8 @@ class Current {
   /// \throws InputError if a value is not finite, heights do not increase or the sizes differ
   static Current profile(std::vector<double> z_m, std::vector<Eigen::Vector2d> velocity);
 
+  bool operator==(const Current&) const = default;
+
   bool is_none() const noexcept { return velocity_.empty(); }
   bool is_uniform() const noexcept { return velocity_.size() == 1; }
   Eigen::Vector2d at(double z_m) const;        ///< m/s; that at z = 0 above still water
