@@ -9,10 +9,11 @@
 namespace hydro::waves {
 namespace {
 
+using simd::lanes;
+
 // T_q and T′_q = q U_{q−1}. The first two packs by the recurrence of one step, the others by that of eight,
 // T_{q+8} = 2 T_8 T_q − T_{q−8}, which U obeys too. `size` is a whole number of packs.
 FROUDE_KERNEL void chebyshev(double s, double per_metre, std::size_t size, double* value, double* slope) {
-  constexpr std::size_t lanes = simd::lanes;
   alignas(64) double T[2 * lanes + 1], U[2 * lanes + 1];  // U[q] = U_{q−1}
   T[0] = 1, T[1] = s, U[0] = 0, U[1] = 1;
   for (std::size_t q = 2; q <= 2 * lanes; ++q) {
