@@ -1,5 +1,7 @@
 #include "synth_table_kernel.hpp"
 
+#include <initializer_list>
+
 #include "synth_simd.hpp"
 
 namespace hydro::waves::table {
