@@ -164,6 +164,35 @@ void write_modes(const std::filesystem::path& path, const Modes& modes, const Pr
   file.save(path);
 }
 
+constexpr const char* what_multipliers_are = "largest absolute Floquet multiplier of the periodic motion";
+constexpr const char* what_fates_are = "0 stable, 1 period-doubled, 2 quasi-periodic, 3 fold";
+
+/// A group of its own, point by point.
+void write_branch(Hdf5Writer& file, const std::string& group, const StabilityMap::Branch& branch) {
+  std::vector<double> number, period, height, multiplier, fate, forwards;
+  for (const auto& p : branch.points) {
+    number.push_back(static_cast<double>(number.size() + 1));
+    period.push_back(p.period);
+    height.push_back(p.height);
+    multiplier.push_back(p.multiplier);
+    fate.push_back(p.fate ? static_cast<double>(*p.fate) : std::nan(""));
+    forwards.push_back(p.forwards ? 1 : 0);
+  }
+  write_dimension(file, group + "/point", number, "1", "along the branch");
+  const auto point_by_point = [&](const std::string& name, const std::vector<double>& values, const std::string& units,
+                                  const std::string& what) {
+    file.write(group + name, values, {values.size()});
+    file.attach_dimension(group + name, 0, group + "/point");
+    describe(file, group + name, units, what);
+  };
+  point_by_point("/period", period, "s", "of the waves");
+  point_by_point("/height", height, "m", "of the waves");
+  point_by_point("/multiplier", multiplier, "1", what_multipliers_are);
+  point_by_point("/fate", fate, "1", what_fates_are);
+  point_by_point("/forwards", forwards, "1", "0 where what varies falls along the branch: it has turned at a fold");
+  for (const Signal& s : branch.signals) point_by_point(root_path(s.name), s.values, s.units, s.long_name);
+}
+
 void StabilityMap::write(const std::filesystem::path& path) const {
   Hdf5Writer file;
   Provenance with_notes = provenance;
@@ -183,12 +212,14 @@ void StabilityMap::write(const std::filesystem::path& path) const {
     multiplier.push_back(c.multiplier);
     fate.push_back(c.fate ? static_cast<double>(*c.fate) : std::nan(""));
   }
-  cell_by_cell("/multiplier", multiplier, "1", "largest absolute Floquet multiplier of the periodic motion");
-  cell_by_cell("/fate", fate, "1", "0 stable, 1 period-doubled, 2 quasi-periodic, 3 fold");
+  cell_by_cell("/multiplier", multiplier, "1", what_multipliers_are);
+  cell_by_cell("/fate", fate, "1", what_fates_are);
   file.write("/mathieu", mathieu, {period.size()});
   file.attach_dimension("/mathieu", 0, "/period");
   describe(file, "/mathieu", "m", "height from which one motion grows, by Hill's equation of that motion");
   for (const Signal& s : signals) cell_by_cell(root_path(s.name), s.values, s.units, s.long_name);
+  for (std::size_t i = 0; i < branches.size(); ++i)
+    if (!branches[i].points.empty()) write_branch(file, fmt::format("/branch{}", i + 1), branches[i]);
   file.save(path);
 }
 

@@ -14,7 +14,7 @@
 
 #include "answers/answers.hpp"
 #include "answers/cost_interview.hpp"
-#include "answers/periodic_scene.hpp"
+#include "answers/periodic_answers.hpp"
 #include "answers/provenance.hpp"
 #include "answers/stability_check.hpp"
 #include "dynamics/frequency/hill_equation.hpp"
@@ -31,53 +31,48 @@ using namespace dynamics::frequency;
 class Mapping {
  public:
   explicit Mapping(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept)
-      : scene_(scene), ask_(*scene.stability), prepared_(prepare_periodic(scene, kept)) {
+      : scene_(scene), ask_(*scene.stability), prepared_(prepare_periodic(scene, kept)), answers_(scene, prepared_) {
     map_.period = ask_.periods, map_.height = ask_.heights;
     map_.cells.resize(map_.period.size() * map_.height.size());
     map_.notes = prepared_.notes;
     map_.provenance = provenance_of(scene);
-    options_.accuracy = scene.accuracy / 10;  // of the motion: harmonics above the last go on falling
     const dynamics::Model model = compile::frequency_model(prepared_, ask_.about);
     const SmallMotions about = compile::small_motions(model, ask_.about, map_.notes);
     for (Mode& m : free_motions(about, prepared_.groups).modes) modes_.push_back(std::move(m));
     for (int m = 0; m < model.modes(); ++m) motions_.push_back(model.mode_name(m));
-    const auto first = at(map_.period.front(), map_.height.front());
-    for (const auto& s : signals_of_map(ask_, first->model()))
-      map_.signals.push_back(
-          {s.name, s.unit, "standard deviation of " + s.meaning, std::vector<double>(map_.cells.size(), std::nan(""))});
+    map_.signals = answers_.signals();
+    for (Signal& signal : map_.signals) signal.values.assign(map_.cells.size(), std::nan(""));
   }
 
   StabilityMap made(const std::function<void(double)>& done) {
     const double begin = processor_s();
+    const double parts = static_cast<double>(map_.period.size() + ask_.branches.size());
     for (std::size_t p = 0; p < map_.period.size(); ++p) {
       climb(p);
       reduce(p);
-      if (done) done(static_cast<double>(p + 1) / static_cast<double>(map_.period.size()));
+      if (done) done(static_cast<double>(p + 1) / parts);
     }
     map_.processor_s = processor_s() - begin;
+    for (const auto& branch : ask_.branches) {
+      map_.branches.push_back(scene::placed(branch.place, [&] { return followed(answers_, ask_, branch); }));
+      if (done) done(static_cast<double>(map_.period.size() + map_.branches.size()) / parts);
+    }
     return std::move(map_);
   }
 
  private:
-  std::unique_ptr<PeriodicScene> at(double period, double height) const {
-    return std::make_unique<PeriodicScene>(in_waves(scene_, period, height), prepared_, period);
-  }
-  Family by_height(double period) const {
-    return [this, period](double height) { return at(period, height); };
-  }
-
   /// From rest up through the heights of a period, each from the motion before it.
   void climb(std::size_t p) {
     std::optional<PeriodicMotion> below;
     double height_below = 0;
     for (std::size_t h = 0; h < map_.height.size(); ++h) {
       const double height = map_.height[h];
-      const auto system = at(map_.period[p], height);
+      const auto system = answers_.at(map_.period[p], height);
       for (const std::string& note : system->notes())
         if (std::find(map_.notes.begin(), map_.notes.end(), note) == map_.notes.end()) map_.notes.push_back(note);
       PeriodicMotion near = below ? *below : at_rest(*system);
       if (below) near.coefficients *= height / height_below;
-      Balance found = balance(*system, std::move(near), options_);
+      Balance found = answers_.balance(*system, std::move(near));
       StabilityMap::Cell& cell = map_.cells[map_.index(p, h)];
       if (!found.found && below) found = round_folds(p, height_below, *below, height, cell);
       if (!found.found) {
@@ -92,40 +87,28 @@ class Mapping {
 
   /// Where motions grow no further they turn back; what comes after is where a run goes.
   Balance round_folds(std::size_t p, double from, const PeriodicMotion& motion, double to, StabilityMap::Cell& cell) {
+    FollowedBranch branch =
+        follow(answers_.by_height(map_.period[p]), from, to, motion, {.balance = answers_.options()});
+    cell.followed =
+        std::any_of(branch.points.begin(), branch.points.end(), [](const BranchPoint& b) { return !b.forwards; });
     Balance out;
-    try {
-      auto branch = follow(by_height(map_.period[p]), from, to, motion, {.balance = options_});
-      out.found = branch.back().parameter == to;
-      if (out.found)
-        out.motion = std::move(branch.back().motion);
-      else
-        out.why = "the branch does not come there";
-      cell.followed = std::any_of(branch.begin(), branch.end(), [](const BranchPoint& b) { return !b.forwards; });
-    } catch (const hydro::NumericsError& error) {
-      out.why = error.what();
-    }
+    out.found = branch.end.empty(), out.why = branch.end;
+    if (out.found) out.motion = std::move(branch.points.back().motion);
     return out;
   }
 
   void tell(PeriodicScene& system, const PeriodicMotion& motion, std::size_t c) {
-    const Eigen::VectorXcd mu = floquet_multipliers(system, motion);
-    StabilityMap::Cell& cell = map_.cells[c];
-    cell.fate = fate_of(mu), cell.multiplier = std::abs(mu[0]);
-    cell.harmonics = static_cast<int>(motion.harmonics());
-    cell.motion = motion;
-    std::vector<double> times;
-    for (int i = 0; i < 32; ++i) times.push_back(i / 32.0 * 2 * std::numbers::pi / motion.omega);
-    const Eigen::MatrixXd values = system.values(signals_of_map(ask_, system.model()), motion, times);
-    for (std::size_t s = 0; s < map_.signals.size(); ++s)
-      map_.signals[s].values[c] = standard_deviation(values.col(static_cast<Eigen::Index>(s)));
+    static_cast<StabilityMap::Motion&>(map_.cells[c]) = answers_.told(system, motion);
+    const std::vector<double> deviations = answers_.deviations(system, motion);
+    for (std::size_t s = 0; s < map_.signals.size(); ++s) map_.signals[s].values[c] = deviations[s];
   }
 
   /// The least height from which any one motion grows by its own equation.
   void reduce(std::size_t p) {
     map_.mathieu.push_back(std::nan(""));
     map_.motion.emplace_back();
-    const Family family = by_height(map_.period[p]);
-    const auto system = at(map_.period[p], map_.height.front());
+    const Family family = answers_.by_height(map_.period[p]);
+    const auto system = answers_.at(map_.period[p], map_.height.front());
     for (const Mode& mode : modes_) {
       const HillEquation equation =
           hill_equation(family, 1e-2 * map_.height.back(), system->coordinates(mode.shape), mode.omega);
@@ -139,7 +122,7 @@ class Mapping {
   const scene::Scene& scene_;
   const scene::AskStability& ask_;
   compile::Prepared prepared_;
-  BalanceOptions options_;
+  PeriodicAnswers answers_;
   std::vector<Mode> modes_;
   std::vector<std::string> motions_;  ///< names of the model's modes
   StabilityMap map_;

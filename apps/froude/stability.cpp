@@ -24,10 +24,11 @@ namespace froude {
 namespace {
 
 using Cell = StabilityMap::Cell;
+using Branch = StabilityMap::Branch;
 
 constexpr const char* red = "#e00000";  // as the source draws boundaries
 
-std::string fate_of(const Cell& cell) { return cell.fate ? name_of(*cell.fate) : "none found"; }
+std::string fate_of(const StabilityMap::Motion& motion) { return motion.fate ? name_of(*motion.fate) : "none found"; }
 
 Report report_of(const StabilityMap& map, std::size_t p) {
   Report out;
@@ -52,12 +53,52 @@ Report report_of(const StabilityMap& map, std::size_t p) {
       .keep("mathieu_motion", map.motion[p]);
 }
 
+/// Where a branch turns back: the last point before what varies goes the other way.
+std::vector<double> folds_of(const Branch& branch) {
+  std::vector<double> out;
+  for (std::size_t i = 1; i < branch.points.size(); ++i)
+    if (branch.points[i].forwards != branch.points[i - 1].forwards) out.push_back(branch.varied(branch.points[i - 1]));
+  return out;
+}
+
+/// "stable to 6.5 s, period-doubled to 9 s"; equal neighbours are told once.
+std::string fates_along(const Branch& branch, const char* unit) {
+  std::string out;
+  for (std::size_t i = 0; i < branch.points.size(); ++i)
+    if (i + 1 == branch.points.size() || fate_of(branch.points[i + 1]) != fate_of(branch.points[i]))
+      out += fmt::format("{}{} to {:.4g} {}", out.empty() ? "" : ", ", fate_of(branch.points[i]),
+                         branch.varied(branch.points[i]), unit);
+  return out;
+}
+
+Report report_of_branch(const Branch& branch, std::size_t number) {
+  const char *unit = branch.over_periods ? "s" : "m", *held = branch.over_periods ? "m" : "s";
+  Report out;
+  for (const Branch::Point& p : branch.points)
+    out.one_of("points", Report()
+                             .keep("period_s", p.period)
+                             .keep("height_m", p.height)
+                             .keep("fate", fate_of(p))
+                             .keep("multiplier", p.multiplier)
+                             .keep("forwards", p.forwards));
+  std::string turns;
+  const std::vector<double> folds = folds_of(branch);
+  for (const double at : folds)
+    turns += fmt::format("{}{:.4g} {}", turns.empty() ? ", turns back at " : ", ", at, unit);
+  const std::string fates = fates_along(branch, unit);
+  out.say("branch {} of {:.4g} {}: {} points{}{}{}", number, branch.held, held, branch.points.size(), turns,
+          fates.empty() ? "" : ": " + fates, fact("end", branch.end, branch.end.empty() ? "" : "; " + branch.end));
+  return out.keep(branch.over_periods ? "height_m" : "period_s", branch.held).keep("folds", folds);
+}
+
 Report report_of(const scene::Scene& scene, const StabilityMap& map, const Path& file) {
   Report out;
   out.say("{}: periodic motions in waves of {} periods and {} heights, {:.2f} s of processor time",
           scene.file.filename().string(), map.period.size(), map.height.size(), fact("processor_s", map.processor_s));
   out.say("{:>9} {:>8}  {}", "period[s]", "grows[m]", "motions of the period of the waves");
   for (std::size_t p = 0; p < map.period.size(); ++p) out.one_of("periods", report_of(map, p));
+  for (std::size_t b = 0; b < map.branches.size(); ++b)
+    out.one_of("branches", report_of_branch(map.branches[b], b + 1));
   return out.sentences("notes", "note: {}", map.notes).say("wrote {}", fact("file", file.string()));
 }
 
@@ -92,24 +133,55 @@ Report report_of(const StabilityMap& map, const MapCheck& check) {
                  fact("run_over_cell", a_run / a_cell));
 }
 
-void write_csv(const Path& path, const StabilityMap& map) {
-  std::vector<double> period, height, fate, multiplier, mathieu;
-  for (std::size_t c = 0; c < map.cells.size(); ++c) {
-    period.push_back(map.period_of(c));
-    height.push_back(map.height_of(c));
-    fate.push_back(map.cells[c].fate ? static_cast<double>(*map.cells[c].fate) : std::nan(""));
-    multiplier.push_back(map.cells[c].multiplier);
-    mathieu.push_back(map.mathieu[c % map.period.size()]);
+/// Rows of a table, to which cells and points of branches are added.
+struct Rows {
+  std::vector<double> branch, period, height, fate, multiplier, mathieu, forwards;
+  std::vector<std::vector<double>> signals;
+
+  void add(double of_branch, const StabilityMap::Motion& motion, double T, double H, double grows, double onwards) {
+    branch.push_back(of_branch);
+    period.push_back(T);
+    height.push_back(H);
+    fate.push_back(motion.fate ? static_cast<double>(*motion.fate) : std::nan(""));
+    multiplier.push_back(motion.multiplier);
+    mathieu.push_back(grows);
+    forwards.push_back(onwards);
   }
-  std::vector<hydro::io::CsvColumn> columns{{"period", "s", &period},
-                                            {"height", "m", &height},
-                                            {"fate", "", &fate},
-                                            {"multiplier", "", &multiplier},
-                                            {"mathieu height", "m", &mathieu}};
-  for (const Signal& s : map.signals) columns.push_back({s.name, s.units, &s.values});
-  hydro::io::write_csv(
-      path, columns,
-      {"fate: 0 stable, 1 period-doubled, 2 quasi-periodic, 3 fold; signals by their standard deviation"});
+  void add(const std::vector<Signal>& of) {
+    signals.resize(of.size());
+    for (std::size_t s = 0; s < of.size(); ++s)
+      signals[s].insert(signals[s].end(), of[s].values.begin(), of[s].values.end());
+  }
+};
+
+void write_csv(const Path& path, const StabilityMap& map) {
+  Rows rows;
+  for (std::size_t c = 0; c < map.cells.size(); ++c)
+    rows.add(0, map.cells[c], map.period_of(c), map.height_of(c), map.mathieu[c % map.period.size()], 1);
+  rows.add(map.signals);
+  for (std::size_t b = 0; b < map.branches.size(); ++b) {
+    for (const Branch::Point& p : map.branches[b].points)
+      rows.add(static_cast<double>(b + 1), p, p.period, p.height, std::nan(""), p.forwards ? 1 : 0);
+    rows.add(map.branches[b].signals);
+  }
+  std::vector<hydro::io::CsvColumn> columns{{"period", "s", &rows.period},
+                                            {"height", "m", &rows.height},
+                                            {"fate", "", &rows.fate},
+                                            {"multiplier", "", &rows.multiplier},
+                                            {"mathieu height", "m", &rows.mathieu}};
+  if (!map.branches.empty()) {
+    columns.push_back({"branch", "", &rows.branch});
+    columns.push_back({"forwards", "", &rows.forwards});
+  }
+  for (std::size_t s = 0; s < map.signals.size(); ++s)
+    columns.push_back({map.signals[s].name, map.signals[s].units, &rows.signals[s]});
+  std::vector<std::string> comments{
+      "fate: 0 stable, 1 period-doubled, 2 quasi-periodic, 3 fold; signals by their standard deviation"};
+  if (!map.branches.empty())
+    comments.emplace_back(
+        "branch: 0 cells of the map, 1 and on points of that branch, in their order; forwards: 0 where it has turned "
+        "back");
+  hydro::io::write_csv(path, columns, comments);
 }
 
 plot::Field field(const StabilityMap& map, plot::Axis value, const std::vector<double>& values) {
@@ -149,21 +221,49 @@ std::vector<plot::Series> marks_of_fates(const StabilityMap& map) {
 }
 
 /// Of each signal its standard deviation, with both boundaries and what becomes of motions that do not last.
-plot::Figure figure(const scene::Scene& scene, const StabilityMap& map) {
-  plot::Figure out{.title = scene.title.empty() ? "Periodic motions" : scene.title, .panels = {}};
+std::vector<plot::Panel> panels_of_map(const StabilityMap& map) {
+  std::vector<plot::Panel> out;
   std::vector<plot::Series> over = {
       floquet_boundary(map), {.name = "Mathieu", .x = map.period, .y = map.mathieu, .dashed = true, .colour = red}};
   for (plot::Series& marks : marks_of_fates(map)) over.push_back(std::move(marks));
   const auto add = [&](plot::Axis value, const std::vector<double>& values) {
-    out.panels.push_back({.x = {"wave period", "s"},
-                          .y = {"wave height", "m"},
-                          .series = over,
-                          .field = field(map, std::move(value), values)});
+    out.push_back({.x = {"wave period", "s"},
+                   .y = {"wave height", "m"},
+                   .series = over,
+                   .field = field(map, std::move(value), values)});
   };
   std::vector<double> multiplier;
   for (const Cell& c : map.cells) multiplier.push_back(c.multiplier);
   add({"largest |multiplier|", ""}, multiplier);
   for (const Signal& s : map.signals) add({s.name + ", std. dev.", s.units}, s.values);
+  return out;
+}
+
+/// A signal along a branch: whole where motions last, dashed between points of which one does not.
+plot::Panel panel_of(const Branch& branch, const Signal& signal) {
+  constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();  // lifts the pen
+  plot::Series lasting{.name = "stable", .x = {}, .y = {}, .colour = "#0072b2"};
+  plot::Series other{.name = "not stable", .x = {}, .y = {}, .dashed = true, .colour = red};
+  const auto lasts = [&](std::size_t i) { return branch.points[i].fate == dynamics::frequency::Fate::stable; };
+  for (std::size_t i = 1; i < branch.points.size(); ++i) {
+    plot::Series& piece = lasts(i - 1) && lasts(i) ? lasting : other;
+    piece.x.insert(piece.x.end(), {branch.varied(branch.points[i - 1]), branch.varied(branch.points[i]), nowhere});
+    piece.y.insert(piece.y.end(), {signal.values[i - 1], signal.values[i], nowhere});
+  }
+  const plot::Axis x = branch.over_periods
+                           ? plot::Axis{fmt::format("wave period at a height of {:.4g} m", branch.held), "s"}
+                           : plot::Axis{fmt::format("wave height at a period of {:.4g} s", branch.held), "m"};
+  return {.x = x, .y = {signal.name + ", std. dev.", signal.units}, .series = {std::move(lasting), std::move(other)}};
+}
+
+bool can_be_drawn(const scene::AskStability& asked) { return asked.periods.size() > 1 && asked.heights.size() > 1; }
+
+plot::Figure figure(const scene::Scene& scene, const StabilityMap& map) {
+  plot::Figure out{.title = scene.title.empty() ? "Periodic motions" : scene.title, .panels = {}};
+  if (can_be_drawn(*scene.stability)) out.panels = panels_of_map(map);
+  for (const Branch& branch : map.branches)
+    for (const Signal& signal : branch.signals)
+      if (!branch.points.empty()) out.panels.push_back(panel_of(branch, signal));
   return out;
 }
 
@@ -173,9 +273,9 @@ void stability(const StabilityArguments& arguments, const Console& console) {
   const scene::Scene scene = scene::read(arguments.scene);
   require_asked(scene.stability.has_value(), scene, "stability map",
                 "stability = { periods = \"5 s .. 15 s, 21 values\", heights = \"0.5 m .. 4 m, 8 values\" }");
-  if (arguments.picture && (scene.stability->periods.size() < 2 || scene.stability->heights.size() < 2))
-    throw hydro::InputError("a picture of the map needs two periods and two heights", scene.stability->place,
-                            "ask for more of them, or leave --picture out");
+  if (arguments.picture && !can_be_drawn(*scene.stability) && scene.stability->branches.empty())
+    throw hydro::InputError("a picture of the map needs two periods and two heights, or a branch",
+                            scene.stability->place, "ask for more of them, or leave --picture out");
   const Path file = checked_output(arguments, ".stability.h5");
   Progress progress(console.err, "stability", console.show_progress);
   const StabilityMap map = stability(scene, [&](double done) { progress.update(done); });

@@ -118,14 +118,36 @@ Binding<AskModes> free_motions() {
       });
 }
 
+Binding<AskStability::Branch> branch() {
+  using Branch = AskStability::Branch;
+  return Binding<Branch>("[[ask.stability.branch]]",
+                         "periodic motions that go over into each other, also where they turn back")
+      .optional(positive("height", dim::length, "of the waves; followed over the periods"), &Branch::height)
+      .optional(positive("period", dim::time, "of the waves; followed over the heights"), &Branch::period)
+      .exactly_one_of({"height", "period"})
+      .place(&Branch::place);
+}
+
+/// A branch goes from one end of the map to the other.
+void check_branches(const AskStability& asked) {
+  for (const AskStability::Branch& b : asked.branches)
+    if ((b.height ? asked.periods : asked.heights).size() < 2)
+      throw hydro::InputError(fmt::format("a branch over the {0} of the map, which has one {1}",
+                                          b.height ? "periods" : "heights", b.height ? "period" : "height"),
+                              b.place, "ask for more of them");
+}
+
 Binding<AskStability> stability() {
   return Binding<AskStability>("[ask.stability]",
                                "whether periodic motions in regular waves last, over periods and heights of the waves")
       .key(range("periods", dim::time, "wave periods").positive(), &AskStability::periods)
       .key(range("heights", dim::length, "wave heights").positive(), &AskStability::heights)
+      .tables("branch", branch(), &AskStability::branches)
+      .optional()
       .part(small_motions(), &AskStability::about)
       .key(asked_signals(), put_signals<AskStability>)
-      .place(&AskStability::place);
+      .place(&AskStability::place)
+      .then([](const Record&, AskStability& asked) { check_branches(asked); });
 }
 
 Binding<AskWaves> waves() {

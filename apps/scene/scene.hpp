@@ -416,7 +416,13 @@ struct AskModes {
 };
 /// Whether periodic motions in regular waves of many periods and heights last.
 struct AskStability {
+  /// Motions of one height followed over the periods, or of one period over the heights.
+  struct Branch {
+    std::optional<double> height, period;  ///< m, s; one of them
+    Place place;
+  };
   std::vector<double> periods, heights;  ///< s, m
+  std::vector<Branch> branches;
   std::vector<std::string> of;
   std::vector<Place> of_places;
   About about;

@@ -182,19 +182,38 @@ struct Modes {
 
 /// Whether the periodic motions of a scene in regular waves last, over periods and heights of the waves.
 struct StabilityMap {
-  /// A periodic motion that grows out of rest as waves do, with the period of the waves.
-  struct Cell {
+  /// A periodic motion with the period of the waves.
+  struct Motion {
     std::optional<dynamics::frequency::Fate> fate = {};            ///< empty: no motion was found
     double multiplier = std::numeric_limits<double>::quiet_NaN();  ///< the largest |Floquet multiplier| of a period
     int harmonics = 0;
-    bool followed = false;  ///< the branch from the height below turned back at folds on its way
     dynamics::frequency::PeriodicMotion motion = {};  ///< of the coordinates of (Q13); empty where none was found
+  };
+  /// One that grows out of rest as waves do.
+  struct Cell : Motion {
+    bool followed = false;  ///< the branch from the height below turned back at folds on its way
+  };
+  /// Motions that go over into each other along periods at one height, or along heights at one period, also where they
+  /// turn back, (Q11).
+  struct Branch {
+    struct Point : Motion {
+      double period, height;  ///< s, m
+      bool forwards;          ///< what varies grows along the branch here; it turns at a fold
+    };
+    bool over_periods;
+    double held;  ///< the height, m, or the period, s, that all of them have
+    std::vector<Point> points;
+    std::vector<Signal> signals;  ///< standard deviations, point by point
+    std::string end;              ///< why it ends where it does; empty: it is at the other end of the map
+
+    double varied(const Point& point) const { return over_periods ? point.period : point.height; }
   };
   std::vector<double> period, height;  ///< s, m
   std::vector<Cell> cells;             ///< height by height: height h, period p at h Np + p
   std::vector<double> mathieu;         ///< m, of each period: from where one motion grows by (Q14); NaN: none does
   std::vector<std::string> motion;     ///< which
   std::vector<Signal> signals;         ///< standard deviations of the periodic motions, cell by cell; NaN: none found
+  std::vector<Branch> branches;        ///< that are asked for, in their order
   double processor_s = 0;              ///< that the cells took
   std::vector<std::string> notes;      ///< what had to be decided, and what is left out
   Provenance provenance = {};          ///< without the notes
@@ -202,7 +221,8 @@ struct StabilityMap {
   std::size_t index(std::size_t p, std::size_t h) const { return h * period.size() + p; }
   double period_of(std::size_t cell) const { return period[cell % period.size()]; }
   double height_of(std::size_t cell) const { return height[cell / period.size()]; }
-  /// Dimensions `height`, `period`. \throws hydro::InputError if the file cannot be written
+  /// Dimensions `height`, `period`; branches are groups `branch1`, … with the dimension `point`.
+  /// \throws hydro::InputError if the file cannot be written
   void write(const std::filesystem::path& path) const;
 };
 

@@ -324,42 +324,49 @@ VectorXd with_rows(const VectorXd& tangent, Index rows) {
 
 }  // namespace
 
-std::vector<BranchPoint> follow(const Family& family, double from, double to, PeriodicMotion start,
-                                const FollowOptions& options) {
+FollowedBranch follow(const Family& family, double from, double to, PeriodicMotion start,
+                      const FollowOptions& options) {
+  constexpr double shortest = 1e-7;
   Branch branch(family, from, to, options);
   Branch::Place at{std::move(start.coefficients), from};
   VectorXd tangent = VectorXd::Unit(at.Y.size() + 1, at.Y.size());
-  std::vector<BranchPoint> out{{from, branch.motion(at), true}};
-  for (double step = options.step; static_cast<int>(out.size()) < options.points;) {
+  FollowedBranch out{{{from, branch.motion(at), true}}, {}};
+  const auto ended = [&](const std::string& why) {
+    out.end = fmt::format("the branch {} near {:.6g}", why, at.parameter);
+    return out;
+  };
+  for (double step = options.step; static_cast<int>(out.points.size()) < options.points;) {
     branch.set_size(at.Y.norm());
     tangent = branch.tangent(at, tangent);
     auto next = branch.corrected(branch.moved(at, step * tangent), tangent);
-    while (next && branch.motion(*next).tail() > options.balance.accuracy &&
-           next->Y.cols() / 2 < options.balance.most_harmonics) {
+    while (next && branch.motion(*next).tail() > options.balance.accuracy) {
       const Index H = next->Y.cols() / 2;
+      if (H >= options.balance.most_harmonics) return ended(fmt::format("needs more than {} harmonics", H));
       next->Y = branch.motion(*next).with_harmonics(H + H / 2).coefficients;
       tangent = with_rows(tangent, next->Y.size() + 1);
       next = branch.corrected(*next, tangent);
     }
     if (!next) {
       tangent = with_rows(tangent, at.Y.size() + 1);
-      if ((step /= 2) < 1e-7)
-        throw hydro::NumericsError(fmt::format("a branch of periodic motions ends near {:.6g}", at.parameter));
+      if ((step /= 2) < shortest) return ended("cannot be followed by the smallest step");
       continue;
     }
     if ((next->parameter - to) * (to - from) >= 0) {  // past the end: the motion that has it
       Balance last = branch.exactly(to, branch.motion(*next));
-      if (last.found) out.push_back({to, std::move(last.motion), true});
-      if (last.found || (step /= 2) < 1e-7) return out;
+      if (last.found) {
+        out.points.push_back({to, std::move(last.motion), true});
+        return out;
+      }
+      if ((step /= 2) < shortest) return ended("has no motion at its end, " + last.why);
       tangent = with_rows(tangent, at.Y.size() + 1);
       continue;
     }
-    if ((next->parameter - from) * (to - from) < 0) return out;
+    if ((next->parameter - from) * (to - from) < 0) return ended("comes back to where it began");
     at = *next;
-    out.push_back({at.parameter, branch.motion(at), tangent[tangent.size() - 1] > 0});
+    out.points.push_back({at.parameter, branch.motion(at), tangent[tangent.size() - 1] > 0});
     step = std::min(1.3 * step, options.largest_step);
   }
-  return out;
+  return ended(fmt::format("has {} points, as many as are allowed,", options.points));
 }
 
 // (Q12)

@@ -120,7 +120,8 @@ TEST(HarmonicBalance, FollowsDuffingRoundItsFolds) {
   const auto first = family(0.01);
   const Balance start = balance(*first, at_rest(*first));
   ASSERT_TRUE(start.found);
-  const auto branch = follow(family, 0.01, 1.5 * crest, start.motion, {.step = 0.01, .largest_step = 0.02});
+  const auto [branch, end] = follow(family, 0.01, 1.5 * crest, start.motion, {.step = 0.01, .largest_step = 0.02});
+  EXPECT_EQ(end, "");
   double highest = 0, lowest = 1e9;
   int back = 0;
   for (std::size_t i = 1; i + 1 < branch.size(); ++i) {

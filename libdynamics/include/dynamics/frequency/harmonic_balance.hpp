@@ -102,11 +102,16 @@ struct FollowOptions {
   BalanceOptions balance = {};
 };
 
+struct FollowedBranch {
+  std::vector<BranchPoint> points;
+  std::string end;  ///< why it does not go on to where it was to go; empty: it came there
+};
+
 /// The branch through `start`, a motion at the parameter `from`, by pseudo-arclength, (Q11): round folds, until the
-/// parameter is `to`, which the last point has, or below `from` again, or there are as many points as are allowed.
-/// \throws hydro::NumericsError where it cannot be followed by the smallest step
-std::vector<BranchPoint> follow(const Family& family, double from, double to, PeriodicMotion start,
-                                const FollowOptions& options = {});
+/// parameter is `to`, which the last point has. It ends before where it comes below `from` again, where there are as
+/// many points or harmonics as are allowed, and where it cannot be followed by the smallest step.
+FollowedBranch follow(const Family& family, double from, double to, PeriodicMotion start,
+                      const FollowOptions& options = {});
 
 /// Floquet multipliers of a motion, the largest first, (Q12): of its small disturbances, memory included, over its own
 /// period. They know A(t) by its Fourier series at the motion's sampling times, and are right to some 1e-8. \throws as

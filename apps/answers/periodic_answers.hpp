@@ -1,0 +1,45 @@
+#pragma once
+/// \file  Private to apps: periodic motions of a scene in regular waves, and what is told of each.
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "answers/periodic_scene.hpp"
+#include "dynamics/frequency/harmonic_balance.hpp"
+#include "froude/result.hpp"
+
+namespace froude {
+
+/// What all cells and branches of a map share.
+class PeriodicAnswers {
+ public:
+  /// All are referred to and must live as long. \throws hydro::InputError at a name that is no signal's
+  PeriodicAnswers(const scene::Scene& scene, const compile::Prepared& prepared);
+
+  std::unique_ptr<PeriodicScene> at(double period, double height) const;
+  dynamics::frequency::Family by_height(double period) const;
+  dynamics::frequency::Family by_period(double height) const;
+  /// Near `start`, whose period may be another.
+  dynamics::frequency::Balance balance(PeriodicScene& system, dynamics::frequency::PeriodicMotion start) const;
+  /// The motion that grows out of rest as waves do up to this height.
+  dynamics::frequency::Balance grown(double period, double height) const;
+  const dynamics::frequency::BalanceOptions& options() const { return options_; }
+
+  /// The signals asked for, without values.
+  std::vector<Signal> signals() const;
+  /// What becomes of a motion, and its standard deviations, one a signal.
+  StabilityMap::Motion told(PeriodicScene& system, const dynamics::frequency::PeriodicMotion& motion) const;
+  std::vector<double> deviations(PeriodicScene& system, const dynamics::frequency::PeriodicMotion& motion) const;
+
+ private:
+  const scene::Scene& scene_;
+  const compile::Prepared& prepared_;
+  dynamics::frequency::BalanceOptions options_;
+};
+
+/// One branch that [ask.stability] asks for, from the lowest period or height of the map to the highest.
+StabilityMap::Branch followed(const PeriodicAnswers& answers, const scene::AskStability& ask,
+                              const scene::AskStability::Branch& branch);
+
+}  // namespace froude
