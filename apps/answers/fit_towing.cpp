@@ -128,13 +128,12 @@ class TowingFits final : public FitKindOf<TowingModel, ::fit::towing::Problem> {
   static void check_mean(const Measurements& measured, std::size_t row, const ::fit::TowingRun& run,
                          const ::fit::TowingRun& first) {
     const auto at = [&](const char* role, const auto& check) {
-      try {
-        check();
-      } catch (const hydro::InputError& e) {
+      const auto cell = [&] {
         const auto column = measured.scene.channels.find(role);
         const bool named = column != measured.scene.channels.end();
-        throw e.at(measured.table.place_of(named ? column->second : measured.scene.force[0].column, row));
-      }
+        return measured.table.place_of(named ? column->second : measured.scene.force[0].column, row);
+      };
+      placed(cell, check);
     };
     at("speed", [&] { ::fit::require_towing_speed(run.speed); });
     at("force", [&] { ::fit::require_resistance(run.force, run.speed); });

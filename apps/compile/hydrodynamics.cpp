@@ -33,22 +33,25 @@ const Hydrodynamics& hydrodynamics(const Scene& scene, int body) {
   return *scene.bodies[static_cast<std::size_t>(body)].hydrodynamics;
 }
 
+/// By which what is kept knows the coefficients: what they are read from or computed of, and in which water.
+std::string name_of_data(const Scene& scene, const Hydrodynamics& h) {
+  if (h.cylinders) return what_is_solved(scene, bodies_of_cylinders(scene));
+  const auto& w = scene.water;
+  return fmt::format("{}|{}|{}|{}|{}|{}", h.file.value.string(), w.density, w.gravity, w.depth.metres(),
+                     h.ulen.value_or(0), h.iperout.value_or(0));
+}
+
 /// From the file, or computed for all bodies of cylinders together; once for all scenes that share what is kept.
 Coefficients read(const Scene& scene, const Hydrodynamics& h, Kept& kept) {
-  if (h.cylinders) {
-    const auto bodies = bodies_of_cylinders(scene);
-    return kept.coefficients(what_is_solved(scene, bodies),
-                             [&] { return solve_cylinders(scene, bodies).coefficients; });
-  }
+  const std::string name = name_of_data(scene, h);
+  if (h.cylinders)
+    return kept.coefficients(name, [&] { return solve_cylinders(scene, bodies_of_cylinders(scene)).coefficients; });
   hydro::potential::ReadOptions options;
   options.density = scene.water.density;
   options.gravity = scene.water.gravity;
   options.depth = scene.water.depth;
   options.ulen = h.ulen;
   options.iperout = h.iperout;
-  const auto& w = scene.water;
-  const std::string name = fmt::format("{}|{}|{}|{}|{}|{}", h.file.value.string(), w.density, w.gravity,
-                                       w.depth.metres(), h.ulen.value_or(0), h.iperout.value_or(0));
   return scene::placed(h.file.place, [&] {
     return kept.coefficients(name, [&] { return hydro::potential::read(h.file.value, options); });
   });
@@ -142,17 +145,27 @@ TakenCoefficients taken_by(const Scene& scene, const Use& use) {
   return out;
 }
 
+/// What the doctor finds in what is used, once for all scenes that use the same.
+const std::vector<hydro::potential::Finding>& findings(const Scene& scene, const Use& use, Kept& kept) {
+  const Hydrodynamics& h = hydrodynamics(scene, use.bodies.front());
+  const TakenCoefficients taken = taken_by(scene, use);
+  std::string name = fmt::format("{}|{}|{}|{}|{}", name_of_data(scene, h), h.radiation, h.excitation, h.hydrostatics,
+                                 fmt::join(taken.bodies, " "));
+  for (const auto& modes : taken.modes) name += fmt::format("|{}", fmt::join(modes, " "));
+  return kept.findings(name, [&] { return findings_in(used(scene, use), taken); });
+}
+
 /// Lets the doctor look at a file: an error stops the scene unless it is accepted, and what is accepted is recorded.
-void examine(const Scene& scene, const Use& use, std::vector<std::string>& notes) {
+void examine(const Scene& scene, const Use& use, Kept& kept, std::vector<std::string>& notes) {
   const Hydrodynamics& h = hydrodynamics(scene, use.bodies.front());
   if (h.cylinders) return;  // computed here, with a self-check of their own
   std::vector<std::string> accepted;
   for (const int b : use.bodies)
     for (const auto& name : hydrodynamics(scene, b).accept)
       if (std::find(accepted.begin(), accepted.end(), name) == accepted.end()) accepted.push_back(name);
-  const auto findings = findings_in(used(scene, use), taken_by(scene, use));
+  const auto& found = findings(scene, use, kept);
   const std::string file = h.file.value.filename().string();
-  if (const auto refused = hydro::potential::refused(findings, accepted); !refused.empty()) {
+  if (const auto refused = hydro::potential::refused(found, accepted); !refused.empty()) {
     std::vector<std::string> names;
     for (const auto& f : refused)
       if (names.empty() || names.back() != f.check) names.push_back(f.check);
@@ -163,7 +176,7 @@ void examine(const Scene& scene, const Use& use, std::vector<std::string>& notes
                                  fmt::join(names, "\", \"")));
   }
   std::size_t warnings = 0;
-  for (const auto& f : findings) {
+  for (const auto& f : found) {
     const bool is_accepted = std::find(accepted.begin(), accepted.end(), f.check) != accepted.end();
     if (f.severity == hydro::potential::Severity::error && is_accepted)
       notes.push_back(fmt::format("{}: accepted, {}: {} (at {})", file, f.check, f.message, f.where));
@@ -492,7 +505,7 @@ void add_hydrodynamics(const Scene& scene, Prepared& prepared) {
   require_said(scene, prepared.sharing_waves);
   note_sets(scene, prepared.sharing_waves, prepared.notes);
   for (Use& use : all) {
-    examine(scene, use, prepared.notes);
+    examine(scene, use, *prepared.kept, prepared.notes);
     take_depth(scene, use, prepared.other_depths);
     for (const auto& note : use.data.notes) prepared.notes.push_back(note);
     for (const auto& set : interacting(scene, use)) {

@@ -44,6 +44,26 @@ const RadiationFits::Known& RadiationFits::of(const SymmetricData& data, double 
   return *known_.back();
 }
 
+bool WeighedMemory::serves(const scene::Memory& other, double other_step, const SymmetricData& others) const {
+  return asked.method == other.method && asked.tolerance == other.tolerance && asked.length == other.length &&
+         asked.accepted_error == other.accepted_error && step == other_step && *data == others;
+}
+
+WeighedMemories::Weighed WeighedMemories::find(const scene::Memory& asked, double step,
+                                               const SymmetricData& data) const {
+  const std::scoped_lock one_at_a_time(mutex_);
+  const auto known = std::ranges::find_if(last_, [&](const Weighed& one) { return one->serves(asked, step, data); });
+  return known == last_.end() ? nullptr : *known;
+}
+
+void WeighedMemories::keep(Weighed one) {
+  constexpr std::size_t most = 4;  // a run, those of twice and four times its step, and what held its method
+  const std::scoped_lock one_at_a_time(mutex_);
+  last_.push_front(std::move(one));
+  if (last_.size() > most) last_.pop_back();
+  ++made_;
+}
+
 namespace {
 
 using hydro::waves::FieldBox;
@@ -100,9 +120,17 @@ const hydro::potential::Coefficients& Kept::coefficients(const std::string& name
   const std::scoped_lock one_at_a_time(mutex_);
   const auto known = coefficients_.find(name);
   if (known != coefficients_.end()) return known->second;
-  const auto& out = coefficients_.emplace(name, make()).first->second;
-  made_ = coefficients_.size();
-  return out;
+  ++made_;
+  return coefficients_.emplace(name, make()).first->second;
+}
+
+const std::vector<hydro::potential::Finding>& Kept::findings(
+    const std::string& name, const std::function<std::vector<hydro::potential::Finding>()>& make) {
+  const std::scoped_lock one_at_a_time(mutex_);
+  const auto known = findings_.find(name);
+  if (known != findings_.end()) return known->second;
+  ++made_;
+  return findings_.emplace(name, make()).first->second;
 }
 
 }  // namespace froude::compile

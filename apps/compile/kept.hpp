@@ -1,6 +1,7 @@
 #pragma once
 /// \file  Private to apps: what is dear to make and serves every model of a scene, also after its numbers have changed.
 #include <atomic>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <future>
@@ -12,8 +13,11 @@
 #include <vector>
 
 #include "hydro/potential/coefficients.hpp"
+#include "hydro/potential/doctor/check.hpp"
+#include "hydro/radiation/choice.hpp"
 #include "hydro/radiation/rational.hpp"
 #include "hydro/waves/synthesis/boxed_field.hpp"
+#include "scene/scene.hpp"
 
 namespace froude::compile {
 
@@ -53,6 +57,32 @@ class RadiationFits {
   std::vector<std::unique_ptr<const Known>> known_;
 };
 
+/// The memory that was weighed and taken for some data at one step. Weighing costs as much as some thousand steps, and
+/// trials of a fit differ in neither.
+struct WeighedMemory {
+  scene::Memory asked;
+  double step;  ///< s
+  std::shared_ptr<const SymmetricData> data;
+  hydro::radiation::ChosenMemory memory;
+  std::vector<std::string> notes;
+
+  bool serves(const scene::Memory& other, double other_step, const SymmetricData& others) const;
+};
+
+/// The last ones: kernels of many lags are large. Threads that ask for the same may each make it.
+class WeighedMemories {
+ public:
+  using Weighed = std::shared_ptr<const WeighedMemory>;
+  Weighed find(const scene::Memory& asked, double step, const SymmetricData& data) const;
+  void keep(Weighed one);
+  std::size_t made() const { return made_; }  ///< so far
+
+ private:
+  mutable std::mutex mutex_;
+  std::atomic<std::size_t> made_ = 0;
+  std::deque<Weighed> last_;
+};
+
 /// The waves around members: runs of a scene that differ in their steps and pieces, and trials of a fit, ask for the
 /// same ones. Whoever asks first makes them; threads that ask for the same wait, others do not.
 class WaterOfMembers {
@@ -77,23 +107,29 @@ class WaterOfMembers {
   std::shared_ptr<const Made> last_;
 };
 
-/// Coefficients as they were read from files or computed, poles fitted to them, and waves around members. What changes
-/// in a file after it was read is not seen.
+/// Coefficients as they were read from files or computed, what the doctor finds in them, poles fitted to them, memories
+/// that were weighed, and waves around members. What changes in a file after it was read is not seen.
 class Kept {
  public:
   /// Those known by this name, or what `make` makes.
   const hydro::potential::Coefficients& coefficients(const std::string& name,
                                                      const std::function<hydro::potential::Coefficients()>& make);
+  /// What the doctor finds in coefficients, likewise.
+  const std::vector<hydro::potential::Finding>& findings(
+      const std::string& name, const std::function<std::vector<hydro::potential::Finding>()>& make);
   RadiationFits& fits() { return fits_; }
+  WeighedMemories& memories() { return memories_; }
   WaterOfMembers& water_of_members() { return water_; }
-  /// Sets of coefficients and fits, so far.
+  /// Sets of coefficients, of findings and of fits, so far.
   std::size_t made() const { return made_ + fits_.made(); }
 
  private:
   std::mutex mutex_;
   std::atomic<std::size_t> made_ = 0;
   std::map<std::string, hydro::potential::Coefficients> coefficients_;
+  std::map<std::string, std::vector<hydro::potential::Finding>> findings_;
   RadiationFits fits_;
+  WeighedMemories memories_;
   WaterOfMembers water_;
 };
 

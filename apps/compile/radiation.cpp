@@ -148,47 +148,40 @@ RadiationParts at_one_frequency(const dynamics::frequency::PotentialGroup& g, co
 
 }  // namespace
 
-struct Radiation::Chosen {
-  scene::Memory asked;
-  std::shared_ptr<const SymmetricData> data;
-  ChosenMemory memory;
-};
-
 Radiation::Radiation(const Prepared& prepared, double step, const hydro::waves::Sea* sea)
     : prepared_(prepared), step_(step), sea_(sea) {}
-Radiation::~Radiation() = default;
 
-const Radiation::Chosen& Radiation::chosen_for(std::size_t group, const std::vector<int>& modes,
-                                               std::vector<std::string>& notes) {
+WeighedMemories::Weighed Radiation::weighed_for(std::size_t group, const std::vector<int>& modes) const {
   using enum scene::Memory::Method;
   const scene::Memory& asked = prepared_.memory[group];
   const auto& c = prepared_.groups[group].table.coefficients();
-  const auto made = std::make_shared<const SymmetricData>(c, modes);
-  const SymmetricData& data = *made;
-  for (const auto& known : chosen_)
-    if (known->asked.method == asked.method && known->asked.tolerance == asked.tolerance &&
-        known->asked.length == asked.length && known->asked.accepted_error == asked.accepted_error &&
-        *known->data == data)
-      return *known;
+  const auto data = std::make_shared<const SymmetricData>(c, modes);
+  for (const auto& known : told_)
+    if (known->serves(asked, step_, *data)) return known;
+  Kept& kept = *prepared_.kept;
+  if (auto known = kept.memories().find(asked, step_, *data)) return known;
   hydro::radiation::MemoryDemand demand{
       .step = step_, .tolerance = asked.tolerance, .length = asked.length, .method = {}};
   if (asked.method == direct) demand.method = hydro::radiation::Method::direct;
   if (asked.method == partitioned) demand.method = hydro::radiation::Method::partitioned;
   if (asked.method == poles) demand.method = hydro::radiation::Method::poles;
-  require_no_source(data.damping, c, asked.place);
+  require_no_source(data->damping, c, asked.place);
   std::optional<std::filesystem::path> kept_in;
-  ChosenMemory memory = choose(data.damping, data.A, data.A_inf, demand, [&] {
-    const auto& known = prepared_.kept->fits().of(data, asked.tolerance);
+  ChosenMemory memory = choose(data->damping, data->A, data->A_inf, demand, [&] {
+    const auto& known = kept.fits().of(*data, asked.tolerance);
     kept_in = known.kept_in;
     return known.fit;
   });
   require_within(c, memory, asked);
-  note_what_was_done(c, memory, data.asymmetry, asked, notes);
+  std::vector<std::string> notes;
+  note_what_was_done(c, memory, data->asymmetry, asked, notes);
   if (kept_in)
     notes.push_back(fmt::format("{}: poles were fitted to these data before and kept in {}; FROUDE_CACHE=off fits anew",
                                 c.source, kept_in->string()));
-  chosen_.push_back(std::make_unique<const Chosen>(Chosen{asked, made, std::move(memory)}));
-  return *chosen_.back();
+  auto out =
+      std::make_shared<const WeighedMemory>(WeighedMemory{asked, step_, data, std::move(memory), std::move(notes)});
+  kept.memories().keep(out);
+  return out;
 }
 
 RadiationParts Radiation::of(std::size_t group, std::vector<std::string>& notes) {
@@ -196,14 +189,17 @@ RadiationParts Radiation::of(std::size_t group, std::vector<std::string>& notes)
   const FreeModes modes = free_modes(prepared_, g.bodies);
   if (prepared_.memory[group].method == scene::Memory::Method::constant)
     return at_one_frequency(g, modes, prepared_.memory[group], step_, sea_);
-  const std::size_t known = chosen_.size();
-  const Chosen& found = chosen_for(group, modes.in_group, notes);
-  const ChosenMemory& chosen = found.memory;
+  const auto weighed = weighed_for(group, modes.in_group);
+  const ChosenMemory& chosen = weighed->memory;
   const Eigen::Index n = g.table.coefficients().modes();
   RadiationParts out{{g.bodies, Eigen::MatrixXd::Zero(n, n)}, {modes.in_model, chosen.memory}, {}, {}};
-  out.in_run = {modes.in_model, found.data, chosen.A_inf, chosen.transform,
+  out.in_run = {modes.in_model, weighed->data, chosen.A_inf, chosen.transform,
                 std::dynamic_pointer_cast<const hydro::radiation::PoleMemory>(chosen.memory)};
-  if (chosen_.size() > known) out.lines = lines(chosen);
+  if (std::ranges::find(told_, weighed) == told_.end()) {
+    told_.push_back(weighed);
+    out.lines = lines(chosen);
+    notes.insert(notes.end(), weighed->notes.begin(), weighed->notes.end());
+  }
   out.added_mass.value(modes.in_group, modes.in_group) = chosen.A_inf;
   return out;
 }

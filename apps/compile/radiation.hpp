@@ -16,24 +16,23 @@ struct RadiationParts {
 };
 
 /// Radiation of the groups of a scene, at the run's step. Groups with equal coefficients, such as copies that do not
-/// feel each other, share one memory method: it is weighed and fitted once.
+/// feel each other, share one memory method: it is weighed and fitted once,
+/// also for all runs at this step that share what is kept.
 class Radiation {
  public:
   /// `sea`: null in calm water.
   Radiation(const Prepared& prepared, double step, const hydro::waves::Sea* sea);
-  ~Radiation();
   /// What is to be noted of groups with equal coefficients is noted once.
   /// \throws hydro::InputError if constant coefficients are asked for in anything but one regular wave
   RadiationParts of(std::size_t group, std::vector<std::string>& notes);
 
  private:
-  struct Chosen;
-  const Chosen& chosen_for(std::size_t group, const std::vector<int>& modes, std::vector<std::string>& notes);
+  WeighedMemories::Weighed weighed_for(std::size_t group, const std::vector<int>& modes) const;
 
   const Prepared& prepared_;
   double step_;
   const hydro::waves::Sea* sea_;
-  std::vector<std::unique_ptr<const Chosen>> chosen_;
+  std::vector<WeighedMemories::Weighed> told_;
 };
 
 }  // namespace froude::compile

@@ -21,7 +21,7 @@ void tell_lengths(const OscillationPlanArguments& a, const ::fit::OscillationNum
   plan.amplitude = *n.amplitude;
   plan.period = *n.period;
   const auto tried = ::fit::lengths_for(plan, a.wanted, *a.width);
-  out.say("lengths, each fitted {} times to made records:", fact("made_records", 20));
+  out.say("lengths, each fitted {} times to made records:", fact("made_records", ::fit::made_records));
   out.say("{:>8} {:>10} {:>12} {:>8} {:>12} {:>8}", "cycles", "time [s]", "cd +-", "held", "ca +-", "held");
   for (const auto& l : tried)
     out.row("length", "{:>8} {:>10} {:>12} {:>8} {:>12} {:>8}", fact("cycles", l.cycles),
@@ -48,7 +48,7 @@ void tell_times(const TowPlanArguments& a, double diameter, double speed, double
   plan.speed = speed;
   plan.acceleration = a.acceleration;
   const auto tried = ::fit::times_for(plan, *a.width);
-  out.say("times at one speed, each fitted {} times to made records:", fact("made_records", 20));
+  out.say("times at one speed, each fitted {} times to made records:", fact("made_records", ::fit::made_records));
   out.say("{:>8} {:>10} {:>12} {:>8} {:>8}", "time [s]", "diameters", "cd +-", "held", "refused");
   for (const auto& t : tried)
     out.row("time", "{:>8} {:>10} {:>12} {:>8} {:>8}", fact("time_s", t.seconds),

@@ -209,10 +209,11 @@ Scatter scatter_of(const ResponseArguments& arguments) {
     require_sea(table, i, all);
     if (share[i] == 0) continue;
     out.share.push_back(share[i] / all);
-    out.scenes.push_back(scene::placed(table.place_of("hs", i), [&] {
-      return scene.with(height, hs[i] / hydro::parse_unit(height.unit).factor)
-          .with(period, tp[i] / hydro::parse_unit(period.unit).factor);
-    }));
+    out.scenes.push_back(scene::placed([&] { return table.place_of("hs", i); },
+                                       [&] {
+                                         return scene.with(height, hs[i] / hydro::parse_unit(height.unit).factor)
+                                             .with(period, tp[i] / hydro::parse_unit(period.unit).factor);
+                                       }));
   }
   return out;
 }

@@ -1,6 +1,7 @@
 #include "convolve.hpp"
 
 #include <algorithm>
+#include <complex>
 #include <numeric>
 
 #include "hydro/base/error.hpp"
@@ -22,6 +23,28 @@ std::size_t good_length(std::size_t n) {
   return best;
 }
 
+/// The same sum by a circular one of n samples, as many as there are values at least: whole sums never wrap round.
+class CircularSum {
+ public:
+  CircularSum(std::span<const double> weights, std::size_t n) : n_(n), count_(weights.size()), padded_(n) {
+    std::copy(weights.begin(), weights.end(), padded_.begin());
+    conjugate_ = hydro::signal::real_fft(padded_);
+    for (auto& w : conjugate_) w = std::conj(w) / static_cast<double>(n);
+  }
+  /// Into as many places as there are whole sums.
+  void sum(std::span<const double> values, double* out) {
+    std::fill(std::copy(values.begin(), values.end(), padded_.begin()), padded_.end(), 0.0);
+    auto spectrum = hydro::signal::real_fft(padded_);
+    for (std::size_t k = 0; k < spectrum.size(); ++k) spectrum[k] *= conjugate_[k];
+    std::copy_n(hydro::signal::inverse_real_fft(spectrum, n_).begin(), values.size() - count_ + 1, out);
+  }
+
+ private:
+  std::size_t n_, count_;
+  std::vector<double> padded_;
+  std::vector<std::complex<double>> conjugate_;
+};
+
 }  // namespace
 
 std::vector<double> sliding_sum(std::span<const double> values, std::span<const double> weights) {
@@ -34,24 +57,10 @@ std::vector<double> sliding_sum(std::span<const double> values, std::span<const 
     return out;
   }
   // By parts that the processor's cache holds, where the record is many times longer than the window.
-  const std::size_t part = std::max<std::size_t>(16 * weights.size(), 1 << 16);
-  if (values.size() > part) {
-    for (std::size_t first = 0; first < out.size(); first += part - weights.size() + 1) {
-      const auto some = sliding_sum(values.subspan(first, std::min(part, values.size() - first)), weights);
-      std::copy(some.begin(), some.end(), out.begin() + static_cast<std::ptrdiff_t>(first));
-    }
-    return out;
-  }
-  // Circular, of at least the record's length: whole sums never wrap round.
-  const std::size_t n = good_length(values.size());
-  std::vector<double> x(n), w(n);
-  std::copy(values.begin(), values.end(), x.begin());
-  std::copy(weights.begin(), weights.end(), w.begin());
-  auto spectrum = hydro::signal::real_fft(x);
-  const auto other = hydro::signal::real_fft(w);
-  for (std::size_t k = 0; k < spectrum.size(); ++k) spectrum[k] *= std::conj(other[k]) / static_cast<double>(n);
-  const auto sum = hydro::signal::inverse_real_fft(spectrum, n);
-  std::copy_n(sum.begin(), out.size(), out.begin());
+  const std::size_t part = std::min(values.size(), std::max<std::size_t>(16 * weights.size(), 1 << 16));
+  CircularSum circular(weights, good_length(part));
+  for (std::size_t first = 0; first < out.size(); first += part - weights.size() + 1)
+    circular.sum(values.subspan(first, std::min(part, values.size() - first)), out.data() + first);
   return out;
 }
 

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "fit/planned.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/random.hpp"
+#include "planned.hpp"
 
 namespace fit {
 namespace {

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <unordered_set>
+#include <vector>
 
 #include "hydro/base/error.hpp"
 #include "hydro/signal/welch.hpp"
@@ -18,35 +21,56 @@ double median(std::vector<double>& v) {  // leaves v in another order
   return *middle;
 }
 
-/// Different values of a record and how often each occurs, in increasing order.
-struct Levels {
-  std::vector<double> value;
-  std::vector<std::size_t> count;
+void require_finite(std::span<const double> values) {
+  hydro::require(std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); }),
+                 "a sample of the sensor is not finite");
+}
+
+/// An end of a record's range: how often it occurs, the value next to it, and how often that one does.
+struct End {
+  double value, next;
+  std::size_t count = 0, next_count = 0;
 };
-Levels levels_of(std::span<const double> values) {
-  std::vector<double> sorted(values.begin(), values.end());
-  for (const double x : sorted) hydro::require(std::isfinite(x), "a sample of the sensor is not finite");
-  std::sort(sorted.begin(), sorted.end());
-  Levels levels;
-  for (const double x : sorted) {
-    if (levels.value.empty() || x > levels.value.back()) {
-      levels.value.push_back(x);
-      levels.count.push_back(0);
+/// `before(a, b)`: a lies nearer to that end.
+template <class Before>
+End end_of(std::span<const double> values, Before before) {
+  End out{values.front(), values.front()};
+  for (const double x : values) {
+    if (x == out.value) {
+      ++out.count;
+    } else if (before(x, out.value)) {
+      out = {x, out.value, 1, out.count};
+    } else if (out.next_count == 0 || before(x, out.next)) {
+      out.next = x;
+      out.next_count = 1;
+    } else if (x == out.next) {
+      ++out.next_count;
     }
-    ++levels.count.back();
   }
-  return levels;
+  return out;
+}
+
+/// The different values of a record in increasing order; none where they are more than `most`.
+std::vector<double> levels_of(std::span<const double> values, std::size_t most) {
+  std::unordered_set<double> seen;
+  for (const double x : values)
+    if (seen.insert(x).second && seen.size() > most) return {};
+  std::vector<double> out(seen.begin(), seen.end());
+  std::sort(out.begin(), out.end());
+  return out;
 }
 
 }  // namespace
 
 std::optional<Clipping> find_clipping(std::span<const double> values) {  // (F19)
-  const Levels l = levels_of(values);
-  if (l.value.size() < 3) return {};
-  const auto stops = [](std::size_t extreme, std::size_t next) { return extreme >= 5 && extreme > 5 * next; };
-  Clipping c{.low = l.value.front(), .high = l.value.back()};
-  if (stops(l.count.front(), l.count[1])) c.at_low = l.count.front();
-  if (stops(l.count.back(), l.count[l.count.size() - 2])) c.at_high = l.count.back();
+  require_finite(values);
+  if (values.empty()) return {};
+  const End low = end_of(values, std::less<>()), high = end_of(values, std::greater<>());
+  if (low.next_count == 0 || low.next == high.value) return {};  // fewer than three levels
+  const auto stops = [](const End& end) { return end.count >= 5 && end.count > 5 * end.next_count; };
+  Clipping c{.low = low.value, .high = high.value};
+  if (stops(low)) c.at_low = low.count;
+  if (stops(high)) c.at_high = high.count;
   if (c.at_low + c.at_high == 0) return {};
   return c;
 }
@@ -54,16 +78,18 @@ std::optional<Clipping> find_clipping(std::span<const double> values) {  // (F19
 double Quantisation::noise() const { return step / std::sqrt(12.0); }
 
 std::optional<Quantisation> find_quantisation(std::span<const double> values) {  // (F20)
-  const Levels l = levels_of(values);
-  if (l.value.size() < 3) return {};
-  double least = l.value.back() - l.value.front();
-  for (std::size_t i = 1; i < l.value.size(); ++i) least = std::min(least, l.value[i] - l.value[i - 1]);
-  const double range = l.value.back() - l.value.front();
-  if (range > 999.5 * least) return {};
+  constexpr std::size_t most_steps = 999;  // over the range: finer ones are far below any noise
+  require_finite(values);
+  const std::vector<double> level = levels_of(values, most_steps + 1);
+  if (level.size() < 3) return {};
+  const double range = level.back() - level.front();
+  double least = range;
+  for (std::size_t i = 1; i < level.size(); ++i) least = std::min(least, level[i] - level[i - 1]);
+  if (range > (most_steps + 0.5) * least) return {};
   // The mean of all steps over the multiple that each is: better than one difference of two rounded numbers.
   double multiples = 0;
-  for (std::size_t i = 1; i < l.value.size(); ++i) {
-    const double multiple = (l.value[i] - l.value[i - 1]) / least;
+  for (std::size_t i = 1; i < level.size(); ++i) {
+    const double multiple = (level[i] - level[i - 1]) / least;
     if (std::abs(multiple - std::round(multiple)) > 0.05 * std::max(1.0, multiple)) return {};
     multiples += std::round(multiple);
   }

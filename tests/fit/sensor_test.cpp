@@ -5,7 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <numbers>
+#include <random>
+#include <vector>
 
 #include "hydro/base/error.hpp"
 #include "support/coloured_noise.hpp"
@@ -40,6 +44,26 @@ TEST(Sensor, ThatIsNotAtItsStopIsNotBlamed) {
   for (double& v : coarse) v = 0.5 * std::round(v / 0.5);
   EXPECT_FALSE(fit::find_clipping(coarse));
   EXPECT_FALSE(fit::find_clipping(froude_test::ar1_noise(4000, 0.9, 1, 5)));
+}
+
+// The rule on the counts of all levels in their order, for records that dwell at their ends by chance.
+TEST(Sensor, AtItsStopIsWhatTheCountsOfItsLevelsSay) {
+  std::mt19937 random(3);
+  for (int record = 0; record < 2000; ++record) {
+    std::vector<double> x(40);
+    std::map<double, std::size_t> count;
+    for (double& v : x) {
+      v = std::clamp(static_cast<double>(random() % 16), 3.0, 12.0);
+      ++count[v];
+    }
+    const auto stops = [](auto end) { return end->second >= 5 && end->second > 5 * std::next(end)->second; };
+    const bool low = stops(count.begin()), high = stops(count.rbegin());
+    const auto found = fit::find_clipping(x);
+    ASSERT_EQ(found.has_value(), low || high);
+    if (!found) continue;
+    EXPECT_EQ(found->at_low, low ? count.begin()->second : 0u);
+    EXPECT_EQ(found->at_high, high ? count.rbegin()->second : 0u);
+  }
 }
 
 TEST(Sensor, OfFewLevelsIsMeasured) {

@@ -9,30 +9,28 @@
 namespace dynamics {
 namespace {
 
-struct DragFlow {
-  Eigen::Vector3d arm, axis, omega, water, relative,
-      across;  // global; relative = u − v, across: its part across the axis
-};
-
-/// What all pieces of one body share.
+/// How a body moves, seen along its own axes, in which arms and axes of its pieces stand still.
 struct BodyMotion {
-  Eigen::Matrix3d R;
-  Eigen::Vector3d velocity, omega;
+  Eigen::Matrix3d to_body;          // Rᵀ
+  Eigen::Vector3d velocity, omega;  // of the centre of gravity, global; along body axes
 };
 
 BodyMotion motion_of(int body, const State& state) {
   const auto twist = state.twist(body);
-  return {state.pose[static_cast<std::size_t>(body)].attitude.toRotationMatrix(), twist.head<3>(), twist.tail<3>()};
+  const Eigen::Matrix3d to_body = state.pose[static_cast<std::size_t>(body)].attitude.conjugate().toRotationMatrix();
+  return {to_body, twist.head<3>(), to_body * twist.tail<3>()};
 }
+
+/// Flow past a piece along body axes.
+struct DragFlow {
+  Eigen::Vector3d towards, relative, across;  // u − v of the centre of gravity, of the piece, and across its axis
+};
 
 DragFlow flow_past(const DragPiece& piece, const BodyMotion& body, const Eigen::Vector3d& water) {
   DragFlow f;
-  f.arm = body.R * piece.arm;
-  f.axis = body.R * piece.axis;
-  f.omega = body.omega;
-  f.water = water;
-  f.relative = water - body.velocity - f.omega.cross(f.arm);
-  f.across = f.relative - f.axis * f.axis.dot(f.relative);
+  f.towards = body.to_body * (water - body.velocity);
+  f.relative = f.towards - body.omega.cross(piece.arm);
+  f.across = f.relative - piece.axis * piece.axis.dot(f.relative);
   return f;
 }
 
@@ -65,16 +63,20 @@ Eigen::Vector3d rest_position(const DragPiece& piece, const std::vector<RigidBod
 }
 
 namespace {
-template <class Do>
+
+/// Calls `begin(body, motion)` before the first piece of a body, of which those of one body mostly lie together, and
+/// `act(piece, motion, water, flow)` for each piece, `water` global.
+template <class Begin, class Act>
 void for_each_flow(const std::vector<DragPiece>& pieces, const std::optional<WaveSignals>& water, const State& state,
-                   Do act) {
+                   Begin begin, Act act) {
   const auto each = [&](const auto& velocity) {
-    BodyMotion body;
-    int of = -1;  // pieces of one body mostly lie together
+    BodyMotion motion;
+    int body = -1;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-      if (pieces[i].body != of) body = motion_of(of = pieces[i].body, state);
-      act(pieces[i], flow_past(pieces[i], body,
-                               pieces[i].current + velocity.template segment<3>(3 * static_cast<Eigen::Index>(i))));
+      const DragPiece& piece = pieces[i];
+      if (piece.body != body) begin(body = piece.body, motion = motion_of(piece.body, state));
+      const Eigen::Vector3d u = piece.current + velocity.template segment<3>(3 * static_cast<Eigen::Index>(i));
+      act(piece, motion, u, flow_past(piece, motion, u));
     }
   };
   if (water)
@@ -82,54 +84,76 @@ void for_each_flow(const std::vector<DragPiece>& pieces, const std::optional<Wav
   else
     each(Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(pieces.size())));
 }
+
+/// c |w| w across the axis, along body axes.
+Eigen::Vector3d force_on(const DragPiece& piece, const DragFlow& f) {
+  return piece.factor * f.across.norm() * f.across;
+}
+
 }  // namespace
 
 void DragKind::add_load(const Instant& now, LoadSink& out) const {
-  Vector6 load = Vector6::Zero();
-  int on = -1;
-  for_each_flow(pieces_, water_, now.state, [&](const DragPiece& piece, const DragFlow& f) {
-    if (piece.body != on) {
-      if (on >= 0) out.add(on, load);
-      load.setZero();
-      on = piece.body;
-    }
-    const Eigen::Vector3d force = piece.factor * f.across.norm() * f.across;
-    load.head<3>() += force;
-    load.tail<3>() += f.arm.cross(force);
-  });
-  if (on >= 0) out.add(on, load);
+  Vector6 load = Vector6::Zero();  // of one body, along its axes
+  int body = -1;
+  Eigen::Matrix3d to_body;
+  const auto add = [&] {
+    if (body < 0) return;
+    Vector6 global;
+    global << to_body.transpose() * load.head<3>(), to_body.transpose() * load.tail<3>();
+    out.add(body, global);
+  };
+  const auto begin = [&](int next, const BodyMotion& motion) {
+    add();
+    load.setZero();
+    body = next;
+    to_body = motion.to_body;
+  };
+  for_each_flow(pieces_, water_, now.state, begin,
+                [&](const DragPiece& piece, const BodyMotion&, const Eigen::Vector3d&, const DragFlow& f) {
+                  const Eigen::Vector3d force = force_on(piece, f);
+                  load.head<3>() += force;
+                  load.tail<3>() += piece.arm.cross(force);
+                });
+  add();
 }
 
+// Along body axes arms and axes are constant. What turns with the body by θ, δ = −[·]× θ, is the load itself; what is
+// seen from it turns the other way: the flow towards it, δ(Rᵀ(u − v)) = [Rᵀ(u − v)]× θ, and ω, δ(Rᵀω) = [Rᵀω]× θ.
 void DragKind::add_jacobian(const Instant& now, JacobianSink& out) const {
-  for_each_flow(pieces_, water_, now.state, [&](const DragPiece& piece, const DragFlow& f) {
+  const auto each = [&](const DragPiece& piece, const BodyMotion& motion, const Eigen::Vector3d&, const DragFlow& f) {
     const double speed = f.across.norm();
     if (speed == 0) return;  // |w| w is flat there
-    const Eigen::Vector3d force = piece.factor * speed * f.across;
-    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - f.axis * f.axis.transpose();
-    const Eigen::Matrix3d by_w =
-        piece.factor * (speed * Eigen::Matrix3d::Identity() + f.across * f.across.transpose() / speed);
-    const Eigen::Matrix3d S = cross_matrix(f.arm), T = cross_matrix(f.axis);
-    // Turning by θ moves the arm (its velocity ω × s) and the axis t; dt = −[t]× dθ.
-    const Eigen::Matrix3d w_by_theta =
-        across * cross_matrix(f.omega) * S + f.axis.dot(f.relative) * T + f.axis * f.relative.transpose() * T;
+    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - piece.axis * piece.axis.transpose();
+    const Eigen::Matrix3d by_relative =
+        piece.factor * (speed * Eigen::Matrix3d::Identity() + f.across * f.across.transpose() / speed) * across;
+    const Eigen::Matrix3d S = cross_matrix(piece.arm);
+    const Eigen::Vector3d force = force_on(piece, f);
     Eigen::Matrix<double, 3, 6> force_by_q = Eigen::Matrix<double, 3, 6>::Zero(), force_by_v;
-    force_by_q.rightCols<3>() = by_w * w_by_theta;
-    force_by_v << -by_w * across, by_w * across * S;
+    force_by_q.rightCols<3>() = by_relative * (cross_matrix(f.towards) + S * cross_matrix(motion.omega));
+    force_by_v << -by_relative, by_relative * S;
     Matrix6 by_q, by_v;
     by_q << force_by_q, S * force_by_q;
-    by_q.bottomRightCorner<3, 3>() += cross_matrix(force) * S;
     by_v << force_by_v, S * force_by_v;
-    out.add(piece.body, piece.body, by_q, by_v);
-  });
+    by_q.topRightCorner<3, 3>() -= cross_matrix(force);
+    by_q.bottomRightCorner<3, 3>() -= cross_matrix(piece.arm.cross(force));
+    Matrix6 T = Matrix6::Zero();
+    T.topLeftCorner<3, 3>() = T.bottomRightCorner<3, 3>() = motion.to_body;
+    out.add(piece.body, piece.body, T.transpose() * by_q * T, T.transpose() * by_v * T);
+  };
+  for_each_flow(
+      pieces_, water_, now.state, [](int, const BodyMotion&) {}, each);
 }
 
 EnergyFlow DragKind::energy(const Instant& now) const {
   EnergyFlow flow;
-  for_each_flow(pieces_, water_, now.state, [&](const DragPiece& piece, const DragFlow& f) {
-    const Eigen::Vector3d force = piece.factor * f.across.norm() * f.across;
-    flow.supplied += force.dot(f.water);
+  const auto each = [&](const DragPiece& piece, const BodyMotion& motion, const Eigen::Vector3d& water,
+                        const DragFlow& f) {
+    const Eigen::Vector3d force = force_on(piece, f);
+    flow.supplied += force.dot(motion.to_body * water);
     flow.dissipated += force.dot(f.relative);
-  });
+  };
+  for_each_flow(
+      pieces_, water_, now.state, [](int, const BodyMotion&) {}, each);
   return flow;
 }
 

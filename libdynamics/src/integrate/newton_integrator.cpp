@@ -95,11 +95,32 @@ double NewtonIntegrator::search(Workspace& workspace, double h, double move) {
   return part;
 }
 
+// The polynomial through the accelerations of as many steps as factors served through, and the one before them.
+void NewtonIntegrator::foretell(const Workspace& workspace, int went_on) {
+  const Eigen::VectorXd& a = workspace.acceleration;
+  now_.acceleration = a;
+  if (went_on == 1) now_.acceleration = 2 * a - before_[0];
+  if (went_on == 2) now_.acceleration = 3 * (a - before_[0]) + before_[1];
+  if (went_on == 3) now_.acceleration = 4 * (a + before_[1]) - 6 * before_[0] - before_[2];
+}
+
+double NewtonIntegrator::reach(double h) const {
+  const Eigen::VectorXd& scale = active().scale();
+  return now_.acceleration.cwiseProduct(scale).norm() + now_.state.velocity.cwiseProduct(scale).norm() / h;
+}
+
+void NewtonIntegrator::take_unseen(const Workspace& workspace, double h) {
+  now_.acceleration -= correction_.x;
+  now_.multipliers -= correction_.lambda;
+  end_of_step(workspace, h, now_.acceleration, now_.state);
+}
+
 void NewtonIntegrator::finish(Workspace& workspace, int went_on) {
   accepted(workspace, now_.acceleration);
   goes_on_ = went_on;
-  before_that_.swap(before_);
-  before_ = workspace.acceleration;
+  before_[2].swap(before_[1]);
+  before_[1].swap(before_[0]);
+  before_[0] = workspace.acceleration;
   std::swap(workspace.state, now_.state);
   workspace.acceleration.swap(now_.acceleration);
   workspace.multipliers.swap(now_.multipliers);
@@ -113,9 +134,7 @@ bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& repo
   // Contacts that share a load by their compliance want it to the last digit.
   const bool keeps = (active().compliance().array() == 0).all();
   const int went_on = std::exchange(goes_on_, 0);
-  now_.acceleration = workspace.acceleration;
-  if (went_on == 1) now_.acceleration = 2 * workspace.acceleration - before_;                   // in a straight line
-  if (went_on == 2) now_.acceleration = 3 * (workspace.acceleration - before_) + before_that_;  // along a parabola
+  foretell(workspace, went_on);
   now_.multipliers = workspace.multipliers;
   evaluate(workspace, h, now_);
   bool anew = false;
@@ -126,6 +145,11 @@ bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& repo
     if (!kept && !factorise(workspace, h)) return fail("the iteration matrix is singular");
     anew = anew || !kept;
     workspace.solver.solve(now_.residual, now_.open, correction_);
+    if (kept && keeps && serves * now_.size <= residual_tolerance * reach(h)) {
+      take_unseen(workspace, h);
+      finish(workspace, anew ? 0 : std::min(went_on + 1, 3));
+      return true;
+    }
     const double move = correction_.x.cwiseProduct(scale).norm();
     double part = 1;
     if (kept)
@@ -137,12 +161,10 @@ bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& repo
     if (kept && !(left <= 1 || move <= unresolved(h))) continue;
     if (!std::isfinite(trial_.size)) return fail("the loads are not finite");
     std::swap(now_, trial_);
-    const double reach =
-        now_.acceleration.cwiseProduct(scale).norm() + now_.state.velocity.cwiseProduct(scale).norm() / h;
-    const bool settled = keeps && now_.size <= residual_tolerance * reach;
-    if (part == 1 && (settled || (!kept && move <= newton_tolerance * reach) || move <= unresolved(h))) {
+    const bool settled = keeps && now_.size <= residual_tolerance * reach(h);
+    if (part == 1 && (settled || (!kept && move <= newton_tolerance * reach(h)) || move <= unresolved(h))) {
       workspace.solver.of_step = keeps ? h : 0;  // rounding, too, leaves much
-      finish(workspace, anew ? 0 : std::min(went_on + 1, 2));
+      finish(workspace, anew ? 0 : std::min(went_on + 1, 3));
       return true;
     }
   }

@@ -34,6 +34,8 @@ struct PlannedOscillation {
   double step = 0.01;                ///< between samples, s
   double confidence = 0.95;
 };
+/// How many records plans make of each length, where nothing else is said.
+inline constexpr int made_records = 20;
 /// What records of one length tell, over `seeds` made ones, each fitted as a measurement is.
 struct PlannedLength {
   int cycles;
@@ -42,14 +44,14 @@ struct PlannedLength {
 };
 /// (F99). \throws hydro::InputError as fit_morison(), for noise, memory or a step that make no sense, fewer than two
 /// cycles, and no seeds
-PlannedLength told_by(const PlannedOscillation& plan, int cycles, int seeds = 20, std::uint64_t seed = 1);
+PlannedLength told_by(const PlannedOscillation& plan, int cycles, int seeds = made_records, std::uint64_t seed = 1);
 
 enum class Wanted { cd, inertia };
 /// Lengths that were tried on the way to one whose interval has at most the half width `width`; the last has, unless
 /// that would take more than `most` cycles. Doubles from three on, then goes between the last two. (F99)
 /// \throws as told_by(), and for a width that is not positive
 std::vector<PlannedLength> lengths_for(const PlannedOscillation& plan, Wanted wanted, double width, int most = 400,
-                                       int seeds = 20);
+                                       int seeds = made_records);
 
 /// How long a carriage tows at one speed: a tank of a length takes L/U − U/a from it, with the same acceleration at
 /// both ends. \throws hydro::InputError unless all are positive; 0 where the speed is not reached

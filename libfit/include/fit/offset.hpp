@@ -26,7 +26,8 @@ struct OffsetOptions {
   std::string remedy = "take more of both records: their beginning, a change, not the steady part alone";
 };
 
-/// What a search takes for known, in words: "supposed: an offset between 0.2 s and 1 s, of the same sign". "": nothing
+/// What a search takes for known, in words: "supposed: an offset between 0.2 s and 1 s, and record goes as film".
+/// "": nothing
 std::string supposed(const OffsetOptions& options, const std::string& what);
 
 /// What of two records shows the same, whatever its unit, its zero and its sign: value(t) against other(t + lag). Both

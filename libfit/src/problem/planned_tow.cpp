@@ -3,8 +3,8 @@
 #include <limits>
 #include <utility>
 
-#include "fit/planned.hpp"
 #include "fit/problem/towing.hpp"
+#include "planned.hpp"
 
 namespace fit {
 namespace {

@@ -75,7 +75,8 @@ TEST(Members, InALongRunReadTheSeaFromATable) {
     }
 }
 
-// What accuracy is told by: runs of other steps and pieces. A table takes as long to make as many of them to step.
+// Errors of a run are estimated by runs of other steps and pieces. A table takes as long to make as many of them to
+// step.
 TEST(Members, ShareTheSeaAroundThemAmongRunsOfOtherStepsAndPieces) {
   const auto sea = [](const std::string& hs) {
     auto s = pile("[waves]\nkind = \"jonswap\"\nhs = \"" + hs + "\"\ntp = \"5 s\"\nheading = \"30 deg\"\n",

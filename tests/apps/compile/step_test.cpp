@@ -195,13 +195,13 @@ TEST(StepOfARun, StaysWhileAFitSearchesForAStiffness) {
   EXPECT_LT(bend, 0.02 * by_trial) << "0.008 of a cosine; a step more between samples moves it by a quarter of a trial";
 }
 
-// A search runs the scene a hundred times and more, while a file takes as long to read, and poles to fit, as many runs.
-TEST(TrialsOfAFit, ReadNoFileAndFitNoPolesAgain) {
+// A search runs the scene a hundred times and more, while a file takes as long to read and to look through, memories to
+// weigh and poles to fit, as many runs.
+TEST(TrialsOfAFit, ReadNoFileAndWeighNoMemoryAgain) {
   const Flap flap;
   const auto file = flap.write("flap_searched");
   const auto path = support::scratch_folder() / "flap_searched.toml";
-  const std::string radiation = "memory_tolerance = 1e-3, accept_error = 0.02";
-  std::ofstream(path) << Flap::scene(file, radiation + ", method = \"poles\"", "0.1 s");
+  std::ofstream(path) << Flap::scene(file, "memory_tolerance = 1e-3, accept_error = 0.02", "0.1 s");
   scene::MotionModel fit;
   fit.scene.value = path;
   fit.parameters.push_back({{"body.flap.initial.pitch", 0.35}, "rad", {}});
@@ -213,7 +213,30 @@ TEST(TrialsOfAFit, ReadNoFileAndFitNoPolesAgain) {
   std::filesystem::remove(file);  // whoever reads it again finds nothing
   for (int i = 0; i < 10; ++i)
     EXPECT_NEAR(runs.follow(0, Eigen::VectorXd::Constant(1, 0.1 + 0.01 * i), {})(0, 0), 0.1 + 0.01 * i, 1e-12);
+  EXPECT_EQ(runs.kept()->memories().made(), 1u);
   EXPECT_EQ(runs.kept()->fits().made(), 1u);
+  EXPECT_EQ(runs.kept()->made(), 3u) << "with coefficients, and what the doctor finds in them";
+}
+
+// What is not weighed again is told all the same, and another step is another question.
+TEST(Memories, ThatAreKnownStandInEachPlan) {
+  const Flap flap;
+  auto scene = froude_test::parse(
+      Flap::scene(flap.write("flap_planned"), "memory_tolerance = 1e-3, accept_error = 0.02", "0.1 s"));
+  const compile::Prepared prepared = compile::prepare(scene);
+  const auto told = [&] {
+    const compile::TimeModel model = compile::time_model(scene, prepared);
+    std::string out = fmt::format("{}", fmt::join(model.notes, "\n"));
+    for (const auto& line : model.plan) out += "\n" + line.method + ": " + line.size;
+    return out;
+  };
+  const std::string first = told();
+  EXPECT_THAT(first, testing::HasSubstr("A(inf) moved by"));
+  EXPECT_EQ(told(), first);
+  EXPECT_EQ(prepared.kept->memories().made(), 1u);
+  scene.solve.step = scene::Located<double>{0.05, {}};
+  EXPECT_THAT(told(), testing::HasSubstr("A(inf) moved by"));
+  EXPECT_EQ(prepared.kept->memories().made(), 2u);
 }
 
 const std::string rod = froude_test::water + R"([[body]]

@@ -3,6 +3,7 @@
 /// multipliers.
 #include <Eigen/Core>
 
+#include <array>
 #include <optional>
 
 #include "dynamics/integrate/integrator.hpp"
@@ -48,10 +49,14 @@ class NewtonIntegrator : public Integrator {
   double unresolved(double h) const;
   bool factorise(Workspace& workspace, double h);
   double search(Workspace& workspace, double h, double move);
+  void foretell(const Workspace& workspace, int went_on);
+  double reach(double h) const;
+  void take_unseen(const Workspace& workspace, double h);
   void finish(Workspace& workspace, int went_on);
 
-  // Accelerations at the begin of the two steps before, for a first guess, as far as factors served all through them.
-  Eigen::VectorXd before_, before_that_;
+  // Accelerations at the begin of the three steps before, the last first, for a first guess, as far as factors served
+  // all through them.
+  std::array<Eigen::VectorXd, 3> before_;
   int goes_on_ = 0;  // of how many steps
   // What Newton holds and what it tries: kept from step to step, so that a step asks for no memory.
   Trial now_, trial_;

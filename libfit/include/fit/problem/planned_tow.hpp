@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "fit/experiment.hpp"
 #include "fit/morison.hpp"
 
 namespace fit {
@@ -29,10 +30,10 @@ struct PlannedTime {
 };
 /// (F99). \throws hydro::InputError as towing::solve() for the cylinder, for noise, memory, speed or a step that make
 /// no sense, fewer than 128 samples, and no seeds
-PlannedTime told_by(const PlannedTow& plan, int seconds, int seeds = 20, std::uint64_t seed = 1);
+PlannedTime told_by(const PlannedTow& plan, int seconds, int seeds = made_records, std::uint64_t seed = 1);
 
 /// Times that were tried on the way to one whose interval holds and has at most the half width `width`; the last has,
 /// unless that would take more than `most` seconds. (F99) \throws as told_by(), and for a width that is not positive
-std::vector<PlannedTime> times_for(const PlannedTow& plan, double width, int most = 3600, int seeds = 20);
+std::vector<PlannedTime> times_for(const PlannedTow& plan, double width, int most = 3600, int seeds = made_records);
 
 }  // namespace fit

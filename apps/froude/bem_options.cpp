@@ -1,0 +1,206 @@
+#include "froude/bem_options.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "hydro/base/error.hpp"
+#include "hydro/base/units.hpp"
+
+namespace froude {
+namespace {
+
+/// Units are read when the command runs, so that a wrong one is told like any other wrong input.
+struct BemOptionTexts {
+  std::string density, gravity, depth, ulen;
+  int iperout = 0;
+};
+
+hydro::potential::ReadOptions read_options(const BemOptionTexts& texts) {
+  hydro::potential::ReadOptions options;
+  options.density = parsed("--density", texts.density, hydro::dim::density);
+  options.gravity = parsed("--gravity", texts.gravity, hydro::dim::acceleration);
+  if (texts.depth == "infinite") {
+    options.depth = hydro::WaterDepth::infinite();
+  } else if (const auto depth = parsed("--depth", texts.depth, hydro::dim::length)) {
+    options.depth = hydro::WaterDepth::from_metres(*depth);
+  }
+  if (const auto ulen = parsed("--ulen", texts.ulen, hydro::dim::length)) {
+    hydro::require(*ulen > 0, "--ulen must be positive, got {} m", *ulen);
+    options.ulen = *ulen;
+  }
+  if (texts.iperout > 0) options.iperout = texts.iperout;
+  return options;
+}
+
+/// The options shared by all `froude bem …`; the values live as long as the returned pointer is held by a callback.
+std::shared_ptr<BemOptionTexts> add_bem_options(CLI::App& command, const std::shared_ptr<BemArguments>& arguments) {
+  auto texts = std::make_shared<BemOptionTexts>();
+  command
+      .add_option(
+          "files", arguments->files,
+          "data files: WAMIT .1 or stem, Capytaine .nc, NEMOH folder, AQWA .AH1, HAMS ControlFile.in, VERES .re7, "
+          ".hdb, BEMIO .h5, Froude .h5")
+      ->required();
+  command.add_option("--density", texts->density, "of the water, where the file does not say: \"1025 kg/m^3\"");
+  command.add_option("--gravity", texts->gravity, "where the file does not say: \"9.81 m/s^2\"");
+  command.add_option("--depth", texts->depth, "of the water, where the file does not say: \"14 m\" or infinite");
+  command.add_option("--ulen", texts->ulen, "WAMIT's length scale ULEN: \"1 m\"");
+  command.add_option("--iperout", texts->iperout, "WAMIT's IPEROUT: 1 period, 2 omega, 3 KL, 4 nu L")
+      ->check(CLI::Range(1, 4));
+  return texts;
+}
+
+void add_bem_info(CLI::App& bem, Request& request) {
+  auto* info = bem.add_subcommand("info", "what a file of coefficients holds, after conversion to one convention");
+  info->footer("Example:\n  froude bem info examples/data/pontoon1.nc");
+  auto arguments = std::make_shared<BemArguments>();
+  auto texts = add_bem_options(*info, arguments);
+  info->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      arguments->options = read_options(*texts);
+      bem_info(*arguments, console);
+      return done;
+    };
+  });
+}
+
+void add_bem_check(CLI::App& bem, Request& request) {
+  auto* check = bem.add_subcommand("check", "symmetry, damping sign, causality and more; status 1 if a check fails");
+  check->footer(
+      "Example:\n  froude bem check buoy.1 --density \"1025 kg/m^3\" --gravity \"9.81 m/s^2\" --depth infinite");
+  auto arguments = std::make_shared<BemArguments>();
+  auto texts = add_bem_options(*check, arguments);
+  auto strict = std::make_shared<bool>(false);
+  check->add_flag("--strict", *strict, "status 1 for a warning too");
+  check->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      arguments->options = read_options(*texts);
+      return bem_check(*arguments, console, *strict);
+    };
+  });
+}
+
+void add_bem_heal(CLI::App& bem, Request& request) {
+  auto* heal = bem.add_subcommand("heal", "puts right what theory demands: symmetry, spikes, tail, passivity");
+  heal->footer(
+      "Examples:\n  froude bem heal examples/data/pontoon1.nc -o pontoon1.healed.h5\n"
+      "  froude bem heal buoy.nc --symmetry --passivity -o buoy.healed.h5");
+  auto arguments = std::make_shared<BemArguments>();
+  auto all = std::make_shared<BemHealArguments>();
+  auto chosen = std::make_shared<hydro::potential::HealOptions>(
+      hydro::potential::HealOptions{.symmetry = false, .spikes = false, .tail = false, .passivity = false});
+  auto texts = add_bem_options(*heal, arguments);
+  heal->add_option("-o,--output", all->output, "file to write, not the one that is read; its name tells the format")
+      ->required();
+  heal->add_option("--format", all->format, "of the output, where its name does not tell")
+      ->check(CLI::IsMember({"froude", "bemio", "wamit", "capytaine"}));
+  heal->add_flag("--symmetry", chosen->symmetry, "A and B become the means of themselves and their transposes");
+  heal->add_flag("--spikes", chosen->spikes,
+                 "irregular frequencies and wrong numbers are put between their neighbours");
+  heal->add_flag("--tail", chosen->tail, "frequencies beyond the end are added, with the damping that A tells");
+  heal->add_flag("--passivity", chosen->passivity, "B becomes the nearest matrix without negative eigenvalues");
+  heal->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      all->bem = *arguments;
+      all->bem.options = read_options(*texts);
+      // Named steps are taken and no others; none named means all.
+      if (chosen->symmetry || chosen->spikes || chosen->tail || chosen->passivity) all->steps = *chosen;
+      bem_heal(*all, console);
+      return done;
+    };
+  });
+}
+
+/// The options of changes; the order of the guide, in which they are made.
+void add_changes(CLI::App& convert, BemConvertArguments& a) {
+  convert.add_flag("--merge", a.merge, "the files are runs of the same bodies at different frequencies");
+  convert
+      .add_option("--symmetric", a.symmetric,
+                  "complete the headings: y if port and starboard are alike, x fore and aft")
+      ->check(CLI::IsMember({"y", "x"}));
+  convert.add_option("--about", a.about, "other reference points: cog, or \"(0, 0, -1.5) m\" for each body");
+  convert.add_option("--translate", a.translate, "all bodies along the water: \"(30, 0, 0) m\"");
+  convert.add_option("--turn", a.turn, "all bodies about the vertical through the origin: \"30 deg\"");
+  convert.add_option("--array", a.array, "copies of one body without interaction: \"(±20, ±20, 0) m\"");
+  convert.add_option("--scale", a.scale, "ratio of lengths, by Froude's law");
+  convert.add_option("--density-ratio", a.density_ratio, "ratio of densities, by Froude's law");
+  convert.add_option("--frequencies", a.frequencies, "interpolated: \"0.2 rad/s .. 3 rad/s, 57 values\"");
+}
+
+void add_bem_convert(CLI::App& bem, Request& request) {
+  auto* convert = bem.add_subcommand(
+      "convert",
+      "from any format that froude reads to Froude .h5, BEMIO .h5, Capytaine .nc or WAMIT; turned, scaled, …");
+  convert->footer(
+      "Examples:\n  froude bem convert examples/data/pontoon1.nc -o pontoon1.bemio.h5\n"
+      "  froude bem convert examples/data/pontoon1.nc --scale 25 --density-ratio 1.025 -o full_scale.h5");
+  auto arguments = std::make_shared<BemArguments>();
+  auto all = std::make_shared<BemConvertArguments>();
+  auto texts = add_bem_options(*convert, arguments);
+  convert->add_option("-o,--output", all->output, "file to write; its name tells the format")->required();
+  convert->add_option("--format", all->format, "of the output, where its name does not tell")
+      ->check(CLI::IsMember({"froude", "bemio", "wamit", "capytaine"}));
+  add_changes(*convert, *all);
+  convert->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      all->bem = *arguments;
+      all->bem.options = read_options(*texts);
+      bem_convert(*all, console);
+      return done;
+    };
+  });
+}
+
+void add_bem_solve(CLI::App& bem, Request& request) {
+  auto* solve = bem.add_subcommand("solve", "compute the coefficients of the cylinders of a scene, exactly");
+  solve->footer("Example:\n  froude bem solve examples/cylinders.toml -o module.h5");
+  auto scene = std::make_shared<Path>(), output = std::make_shared<Path>();
+  auto format = std::make_shared<std::string>();
+  solve->add_option("scene", *scene, "scene with cylinders in [body.hydrodynamics]")->required();
+  solve->add_option("-o,--output", *output, "file to write; its name tells the format")->required();
+  solve->add_option("--format", *format, "of the output, where its name does not tell")
+      ->check(CLI::IsMember({"froude", "bemio", "wamit", "capytaine"}));
+  solve->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      bem_solve(*scene, *output, *format, console);
+      return done;
+    };
+  });
+}
+
+void add_bem_irf(CLI::App& bem, Request& request) {
+  auto* irf = bem.add_subcommand("irf", "radiation in time: kernels as sums of exponentials, certified passive");
+  irf->footer("Example:\n  froude bem irf examples/data/hemisphere_r5.nc -o hemisphere.ss --picture irf.svg");
+  auto arguments = std::make_shared<BemArguments>();
+  auto irf_arguments = std::make_shared<BemIrfArguments>();
+  auto texts = add_bem_options(*irf, arguments);
+  irf->add_option("--tolerance", irf_arguments->tolerance, "of the fit: error of the force, relative")
+      ->capture_default_str();
+  irf->add_option("-o,--output", irf_arguments->output, "state space: .ss (OpenFAST) or .h5 (BEMIO groups)");
+  irf->add_option("--picture", irf_arguments->picture, "SVG of kernels and damping of the first body");
+  irf->callback([=, &request] {
+    request.call = [=](const Console& console) {
+      irf_arguments->bem = *arguments;
+      irf_arguments->bem.options = read_options(*texts);
+      bem_irf(*irf_arguments, console);
+      return done;
+    };
+  });
+}
+
+}  // namespace
+
+void add_bem(CLI::App& app, Request& request) {
+  auto* bem =
+      app.add_subcommand("bem", "hydrodynamic coefficients: info, check, heal, convert, irf; solve for cylinders");
+  bem->require_subcommand(1);
+  add_bem_info(*bem, request);
+  add_bem_check(*bem, request);
+  add_bem_heal(*bem, request);
+  add_bem_convert(*bem, request);
+  add_bem_irf(*bem, request);
+  add_bem_solve(*bem, request);
+}
+
+}  // namespace froude
