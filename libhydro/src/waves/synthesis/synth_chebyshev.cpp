@@ -46,9 +46,9 @@ FROUDE_KERNEL void chebyshev(double s, double per_metre, std::size_t size, doubl
 VerticalBasis::VerticalBasis(double bottom, double top, double kappa, double depth, double tolerance, bool curvature)
     : bottom_(bottom), top_(top) {
   for (count_ = 4; count_ <= 128; ++count_)
-    for (const double spread : {0.5, 1.0, 1.5, 2.0}) {
+    for (const double spread : {0.01, 0.5, 1.0, 1.5, 2.0}) {
       spread_ = spread / (top - bottom);
-      low_ = std::exp(-spread);
+      range_ = std::expm1(spread);
       error_ = largest_error(kappa, depth, tolerance, curvature);
       if (error_ <= tolerance) return;
     }
@@ -60,11 +60,11 @@ VerticalBasis::VerticalBasis(double bottom, double top, double kappa, double dep
 }
 
 VerticalBasis::Mapped VerticalBasis::mapped(double z) const {
-  const double here = std::exp(spread_ * (z - top_)), half = (1 - low_) / 2;
-  return {(here - low_) / half - 1, spread_ * here / half};
+  const double up = 2 / range_ * std::expm1(spread_ * (z - bottom_));
+  return {up - 1, spread_ * (up + 2 / range_)};
 }
 
-double VerticalBasis::height(double s) const { return top_ + std::log(low_ + (1 - low_) * (s + 1) / 2) / spread_; }
+double VerticalBasis::height(double s) const { return bottom_ + std::log1p(range_ * (s + 1) / 2) / spread_; }
 
 std::vector<double> VerticalBasis::profile(double kappa, double depth) const {
   const auto n = static_cast<double>(count_);

@@ -41,7 +41,7 @@ class VerticalBasis {
   /// Of the profile of κ, its slope over `unit` and its curvature over unit².
   double error_of(double kappa, double unit, double depth, bool curvature) const;
   double bottom_, top_;
-  double spread_, low_;  // c of (W96), 1/m, and e^{c(bottom − top)}
+  double spread_, range_;  // c of (W96), 1/m, and e^{c(top − bottom)} − 1
   double error_ = 0;
   std::size_t count_ = 0;
 };
