@@ -75,6 +75,12 @@ dynamics::SlammingMember slamming(const Scene& scene, const scene::Member& m) {
   return out;
 }
 
+/// True if what is taken for the flow under crests bends at other heights than that of still water, where members that
+/// are always wet have no end of a piece.
+bool has_kinks_in_water(hydro::waves::Stretching stretching) {
+  return stretching == hydro::waves::Stretching::wheeler || stretching == hydro::waves::Stretching::delta;
+}
+
 /// Where a member asks for the water, at each iteration.
 double points_asked(const Scene& scene, const scene::Member& m) {
   const auto immersion = m.morison ? m.morison->line.immersion : m.slamming->line.immersion;
@@ -85,13 +91,13 @@ double points_asked(const Scene& scene, const scene::Member& m) {
 
 int needed_pieces(const Scene& scene, const scene::Member& member, dynamics::Immersion immersion) {
   const bool gauss = dynamics::points_per_piece(immersion) == 2;
-  double pieces = gauss ? 2 : std::ceil(0.5 / std::sqrt(scene.accuracy));
-  if (scene.waves) {
-    const double k = hydro::waves::wavenumber(highest_relevant_frequency(*scene.waves), scene.water);
-    const double longest = gauss ? std::pow(270 * scene.accuracy, 0.25) : std::sqrt(6 * scene.accuracy);
-    pieces = std::max(pieces, std::ceil((member.to - member.from).norm() * k / longest));
-  }
-  return static_cast<int>(pieces);
+  const double root = std::sqrt(scene.accuracy), turning = std::ceil(gauss ? 2 : 0.5 / root);
+  if (!scene.waves) return static_cast<int>(turning);
+  const double k = hydro::waves::wavenumber(highest_relevant_frequency(*scene.waves), scene.water);
+  const double longest = gauss ? std::pow(270 * scene.accuracy, 0.25) : std::sqrt(6 * scene.accuracy);
+  const double waves = std::ceil((member.to - member.from).norm() * k / longest);
+  const double kinks = has_kinks_in_water(scene.waves->stretching) ? std::ceil(0.25 / root) : 0;
+  return static_cast<int>(std::max({turning, waves, kinks}));
 }
 
 bool any_member_cut(const Scene& scene, CutBy by) {
