@@ -239,9 +239,11 @@ void add_members(const Scene& scene, const Node& document, Ladders& out) {
                                     [&](const scene::Member& m) { return m.place.line == members[i].place.line; });
       if (one == scene.members.end()) continue;
       const Node* pieces = inner(*table, {"pieces"});
+      const dynamics::SlenderMember& line =
+          load == std::string_view("morison") ? one->morison->line : one->slamming->line;
       all.push_back({fmt::format("member[{}].{}.pieces", i + 1, load),
                      pieces != nullptr ? static_cast<long>(pieces->integer)
-                                       : compile::needed_pieces(scene, (one->to - one->from).norm())});
+                                       : compile::needed_pieces(scene, *one, line.immersion)});
     }
   if (!all.empty()) out.all.push_back(cuts("pieces of members", all));
 }

@@ -49,7 +49,7 @@ std::unique_ptr<const dynamics::ForceKind> drag(const Scene& scene, const std::v
 CutBy cut_by(const dynamics::SlenderMember& line) { return line.pieces > 0 ? CutBy::scene : CutBy::program; }
 
 int pieces_of(const Scene& scene, const scene::Member& m, const dynamics::SlenderMember& asked) {
-  return cut_by(asked) == CutBy::scene ? asked.pieces : needed_pieces(scene, (m.to - m.from).norm());
+  return cut_by(asked) == CutBy::scene ? asked.pieces : needed_pieces(scene, m, asked.immersion);
 }
 
 /// Where the member is on its body, cut as `asked` says or the accuracy needs.
@@ -75,15 +75,29 @@ dynamics::SlammingMember slamming(const Scene& scene, const scene::Member& m) {
   return out;
 }
 
+/// True if what is taken for the flow under crests bends at other heights than that of still water, where members that
+/// are always wet have no end of a piece.
+bool has_kinks_in_water(hydro::waves::Stretching stretching) {
+  return stretching == hydro::waves::Stretching::wheeler || stretching == hydro::waves::Stretching::delta;
+}
+
+/// Where a member asks for the water, at each iteration.
+double points_asked(const Scene& scene, const scene::Member& m) {
+  const auto immersion = m.morison ? m.morison->line.immersion : m.slamming->line.immersion;
+  return dynamics::points_per_piece(immersion) * needed_pieces(scene, m, immersion);
+}
+
 }  // namespace
 
-int needed_pieces(const Scene& scene, double length) {
-  double pieces = std::ceil(0.5 / std::sqrt(scene.accuracy));
-  if (scene.waves) {
-    const double k = hydro::waves::wavenumber(highest_relevant_frequency(*scene.waves), scene.water);
-    pieces = std::max(pieces, std::ceil(length * k / std::sqrt(6 * scene.accuracy)));
-  }
-  return static_cast<int>(pieces);
+int needed_pieces(const Scene& scene, const scene::Member& member, dynamics::Immersion immersion) {
+  const bool gauss = dynamics::points_per_piece(immersion) == 2;
+  const double root = std::sqrt(scene.accuracy), turning = std::ceil(gauss ? 2 : 0.5 / root);
+  if (!scene.waves) return static_cast<int>(turning);
+  const double k = hydro::waves::wavenumber(highest_relevant_frequency(*scene.waves), scene.water);
+  const double longest = gauss ? std::pow(270 * scene.accuracy, 0.25) : std::sqrt(6 * scene.accuracy);
+  const double waves = std::ceil((member.to - member.from).norm() * k / longest);
+  const double kinks = has_kinks_in_water(scene.waves->stretching) ? std::ceil(0.25 / root) : 0;
+  return static_cast<int>(std::max({turning, waves, kinks}));
 }
 
 bool any_member_cut(const Scene& scene, CutBy by) {
@@ -120,13 +134,13 @@ std::vector<dynamics::DragPiece> drag_at_rest(const Scene& scene, const std::vec
 
 std::optional<hydro::waves::FieldUse> water_of_members(const Scene& scene, double highest_crest, double step) {
   Eigen::AlignedBox3d members;
-  double pieces = 0;
+  double points = 0;
   for (const auto& m : scene.members) {
     if (!m.morison && !m.slamming) continue;
     const Eigen::Vector3d origin = scene.bodies[static_cast<std::size_t>(m.body)].position;
     members.extend(origin + m.from);
     members.extend(origin + m.to);
-    pieces += needed_pieces(scene, (m.to - m.from).norm());
+    points += points_asked(scene, m);
   }
   if (members.isEmpty()) return {};
   // Room to move: the orbits of high waves, and some metres of drift. Beyond it waves are summed.
@@ -134,7 +148,7 @@ std::optional<hydro::waves::FieldUse> water_of_members(const Scene& scene, doubl
   constexpr double beyond = 1e-3;  // s: rates of added mass are differences, which look past the end of the run
   hydro::waves::FieldUse use{.box = {0, scene.run->duration + beyond, members.min() - room, members.max() + room},
                              .instants = scene.run->duration / step,
-                             .points = 10 * pieces};  // iterations, and differences for their derivatives
+                             .points = 10 * points};  // iterations, and differences for their derivatives
   use.box.low.z() = std::max(use.box.low.z(), -scene.water.depth.metres());
   use.box.high.z() = std::min(use.box.high.z(), highest_crest);
   // Of each wave, so small a share of the accuracy that it needs no estimate of its own. From 1e-5 on the window's own

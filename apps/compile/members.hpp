@@ -14,9 +14,9 @@ bool any_drag_at_rest(const scene::Scene& scene);
 std::vector<dynamics::DragPiece> drag_at_rest(const scene::Scene& scene,
                                               const std::vector<dynamics::RigidBody>& bodies);
 
-/// (D44): pieces of a member of this length, m, so short that neither the shortest relevant wave nor turning about an
-/// end is missed by more than the accuracy asked.
-int needed_pieces(const scene::Scene& scene, double length);
+/// (D44): pieces of a member, so short that neither the shortest relevant wave nor turning about an end is missed by
+/// more than the accuracy asked.
+int needed_pieces(const scene::Scene& scene, const scene::Member& member, dynamics::Immersion immersion);
 
 /// Who says into how many pieces members with Morison's load or impact are cut.
 enum class CutBy { scene, program };

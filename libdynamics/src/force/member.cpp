@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace dynamics {
 namespace {
@@ -12,6 +13,10 @@ using hydro::waves::WaveField;
 
 /// A vertical member has sections without rise; this much of the diameter keeps the derivatives finite.
 constexpr double least_rise = 1e-6;
+
+/// Gauss' two points lie at ± this share of a piece from its middle, 1/(2√3): loads up to the third power of the place
+/// are summed exactly.
+constexpr double off_middle = 0.28867513459481288;
 
 }  // namespace
 
@@ -105,6 +110,46 @@ Row rise_by(const SlenderMember& member, const PlacedMember& at) {
   return row;
 }
 
+/// A place along a member, m from its first end, and how it moves with the body.
+struct Along {
+  double at;
+  Row by;
+};
+
+void add_gauss_points(const PlacedMember& at, const Along& begin, const Along& end, std::vector<WetPiece>& out) {
+  const double length = end.at - begin.at;
+  for (const double place : {0.5 - off_middle, 0.5 + off_middle})
+    out.push_back({length / 2, at.arm((begin.at + place * length) / at.length), (end.by - begin.by) / 2,
+                   begin.by + place * (end.by - begin.by)});
+}
+
+/// Where the axis goes through still water, if it does. There the flow that linear theory continues upwards has a kink.
+std::optional<Along> still_water_line(const SlenderMember& member, const PlacedMember& at, const WaveField& water,
+                                      double t) {
+  const double below = -(at.centre.z() + at.from.z()), rise = at.along.z();
+  if (!(below * rise > 0 && std::abs(below) < std::abs(rise))) return {};
+  const double share = below / rise;
+  return Along{share * at.length, at.length / rise * height_by(member, at, water, t, at.arm(share))};
+}
+
+/// Of a member that is always wet: Gauss' points of its pieces. The one that is cut by still water counts as two.
+void find_gauss_points(const SlenderMember& member, const PlacedMember& at, const WaveField& water, double t,
+                       std::vector<WetPiece>& out) {
+  const double piece = at.length / member.pieces;
+  const std::optional<Along> cut = still_water_line(member, at, water, t);
+  Along begin{0, Row::Zero()};
+  for (int j = 1; j <= member.pieces; ++j) {
+    const Along end{j * piece, Row::Zero()};
+    if (cut && begin.at < cut->at && cut->at < end.at) {
+      add_gauss_points(at, begin, *cut, out);
+      add_gauss_points(at, *cut, end, out);
+    } else {
+      add_gauss_points(at, begin, end, out);
+    }
+    begin = end;
+  }
+}
+
 }  // namespace
 
 std::vector<WetPiece> wet_pieces(const SlenderMember& member, const PlacedMember& at, const WaveField& water, double t,
@@ -118,11 +163,8 @@ void find_wet_pieces(const SlenderMember& member, const PlacedMember& at, const 
                      bool derivatives, std::vector<WetPiece>& out) {
   const double piece = at.length / member.pieces;
   out.clear();
-  out.reserve(static_cast<std::size_t>(member.pieces));
-  if (member.immersion == Immersion::whole) {
-    for (int j = 0; j < member.pieces; ++j) out.push_back({piece, at.arm((j + 0.5) / member.pieces)});
-    return;
-  }
+  out.reserve(static_cast<std::size_t>(member.pieces * points_per_piece(member.immersion)));
+  if (member.immersion == Immersion::whole) return find_gauss_points(member, at, water, t, out);
   thread_local std::vector<double> g;  // its room is kept from call to call
   find_heights(member, at, water, t, g);
   const auto by = [&](std::size_t j) {

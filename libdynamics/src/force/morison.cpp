@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -163,7 +164,59 @@ void find_gradients(const MorisonMember& m, const WaveField& field, double t, Me
   }
 }
 
+// ∫c VᵀPV over the wet parts, V = (1, −r×) the velocity of a point by that of the body, P = 1 − ttᵀ: sums of c, cr and
+// crrᵀ, and Vᵀt = (t, r×t), which is the same at all points of a line along t.
+Matrix6 added_mass(double per_length, const PlacedMember& at, const std::vector<WetPiece>& pieces) {
+  double whole = 0;
+  Vector3d first = Vector3d::Zero();
+  Matrix3d second = Matrix3d::Zero();
+  for (const WetPiece& piece : pieces) {
+    const Vector3d moment = per_length * piece.length * piece.arm;
+    whole += per_length * piece.length;
+    first += moment;
+    second += moment * piece.arm.transpose();
+  }
+  Vector6 along;
+  along << at.axis, at.from.cross(at.axis);
+  const Matrix3d S = cross_matrix(first);
+  Matrix6 mass;
+  mass << whole * Matrix3d::Identity(), -S, S, second.trace() * Matrix3d::Identity() - second;
+  mass -= whole * along * along.transpose();
+  return mass;
+}
+
+/// From body axes to global ones.
+Matrix6 turned(const Matrix6& mass, const Matrix3d& R) {
+  Matrix6 out;
+  for (const int i : {0, 3})
+    for (const int j : {0, 3}) out.block<3, 3>(i, j) = R * mass.block<3, 3>(i, j) * R.transpose();
+  return out;
+}
+
+/// A member on a body whose axes are the global ones.
+PlacedMember in_body_axes(const SlenderMember& line) {
+  PlacedMember out{};
+  out.from = line.from;
+  out.along = line.to - line.from;
+  out.length = out.along.norm();
+  out.axis = out.along / out.length;
+  return out;
+}
+
 }  // namespace
+
+// What is always wet carries the same water along with the body wherever that is.
+MorisonKind::MorisonKind(std::vector<MorisonMember> members, std::shared_ptr<const WaveField> water)
+    : members_(std::move(members)), water_(std::move(water)) {
+  for (const MorisonMember& m : members_) {
+    if (m.ca == 0 || m.line.immersion != Immersion::whole) continue;
+    const auto known =
+        std::find_if(always_.begin(), always_.end(), [&](const auto& b) { return b.body == m.line.body; });
+    BodyMass& of_body = known != always_.end() ? *known : always_.emplace_back(BodyMass{m.line.body, Matrix6::Zero()});
+    of_body.added += added_mass(PerLength(m, water_->water().density).added, in_body_axes(m.line),
+                                wet_pieces(m.line, in_body_axes(m.line), *water_, 0, false));
+  }
+}
 
 MorisonPerLength::MorisonPerLength(double diameter, double density, double cd, double ca)
     : normal(0.5 * density * cd * diameter),
@@ -176,7 +229,7 @@ std::string MorisonKind::method() const {
   return fmt::format("drag and inertia at the true position, added mass on the left, {} pieces", pieces);
 }
 
-void MorisonKind::add_load(const Instant& now, LoadSink& out) const {
+[[gnu::flatten]] void MorisonKind::add_load(const Instant& now, LoadSink& out) const {
   for (const MorisonMember& m : members_) {
     const PerLength c(m, water_->water().density);
     const MemberFlow& flow = flow_of(m, *water_, now.state, false);
@@ -215,31 +268,15 @@ void MorisonKind::add_jacobian(const Instant& now, JacobianSink& out) const {
   }
 }
 
-// ∫c VᵀPV over the wet parts, V = (1, −r×) the velocity of a point by that of the body, P = 1 − ttᵀ: sums of c, cr and
-// crrᵀ, and Vᵀt = (t, r×t), which is the same at all points of a line along t.
 void MorisonKind::add_mass(const State& state, MassSink& out) const {
+  for (const BodyMass& m : always_)
+    out.add(m.body, turned(m.added, state.pose[static_cast<std::size_t>(m.body)].attitude.toRotationMatrix()));
   for (const MorisonMember& m : members_) {
-    if (m.ca == 0) continue;
-    const PerLength c(m, water_->water().density);
+    if (m.ca == 0 || m.line.immersion == Immersion::whole) continue;
     const PlacedMember at = placed(m.line, state);
     auto& pieces = kept_flow().pieces;
     find_wet_pieces(m.line, at, *water_, state.time, false, pieces);
-    double whole = 0;
-    Vector3d first = Vector3d::Zero();
-    Matrix3d second = Matrix3d::Zero();
-    for (const WetPiece& piece : pieces) {
-      const Vector3d moment = c.added * piece.length * piece.arm;
-      whole += c.added * piece.length;
-      first += moment;
-      second += moment * piece.arm.transpose();
-    }
-    Vector6 along;
-    along << at.axis, at.from.cross(at.axis);
-    const Matrix3d S = cross_matrix(first);
-    Matrix6 mass;
-    mass << whole * Matrix3d::Identity(), -S, S, second.trace() * Matrix3d::Identity() - second;
-    mass -= whole * along * along.transpose();
-    out.add(m.line.body, mass);
+    out.add(m.line.body, added_mass(PerLength(m, water_->water().density).added, at, pieces));
   }
 }
 

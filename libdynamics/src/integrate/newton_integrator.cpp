@@ -138,6 +138,7 @@ bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& repo
   now_.multipliers = workspace.multipliers;
   evaluate(workspace, h, now_);
   bool anew = false;
+  double left = serves;  // of the residual, by the last correction
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     if (!std::isfinite(now_.size)) return fail("the loads are not finite");
     ++report.newton_iterations;
@@ -145,7 +146,8 @@ bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& repo
     if (!kept && !factorise(workspace, h)) return fail("the iteration matrix is singular");
     anew = anew || !kept;
     workspace.solver.solve(now_.residual, now_.open, correction_);
-    if (kept && keeps && serves * now_.size <= residual_tolerance * reach(h)) {
+    // Joints are to close fully: there no more is trusted than that the factors serve.
+    if (kept && keeps && (now_.open.size() > 0 ? serves : left) * now_.size <= residual_tolerance * reach(h)) {
       take_unseen(workspace, h);
       finish(workspace, anew ? 0 : std::min(went_on + 1, 3));
       return true;
@@ -156,7 +158,7 @@ bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& repo
       evaluate_corrected(workspace, h, part);
     else
       part = search(workspace, h, move);
-    const double left = trial_.size / now_.size;
+    left = trial_.size / now_.size;
     workspace.solver.of_step = keeps && part == 1 && left <= serves ? h : 0;
     if (kept && !(left <= 1 || move <= unresolved(h))) continue;
     if (!std::isfinite(trial_.size)) return fail("the loads are not finite");

@@ -72,6 +72,22 @@ TEST(Member, IsWetBelowTheSurfaceWhateverItsSlope) {
   EXPECT_EQ(length({0, 0, 0.2}, {4, 0, 1}), 0);
 }
 
+// Gauss' points on both sides of still water, where what linear theory continues upwards has a kink.
+TEST(Member, PointsOfOneThatIsAlwaysWetSumCubicsBelowAndAboveStillWater) {
+  const auto bodies = support::two_bodies();
+  const Eigen::Vector3d c = bodies[0].rest_centre();
+  const auto cubic = [](double z) { return z < 0 ? 1 + z - 2 * z * z + 3 * z * z * z : 1.0; };
+  const auto below = [](double z) { return z + z * z / 2 - 2 * z * z * z / 3 + 3 * z * z * z * z / 4; };
+  for (const auto& [low, high] : {std::array{-1.3, 0.4}, {-0.3, 0.9}, {-2.0, -0.5}}) {
+    const SlenderMember m{0, Eigen::Vector3d(0, 0, low) - c, Eigen::Vector3d(1, 0, high) - c, 0.2, 3, Immersion::whole};
+    double sum = 0;
+    for (const WetPiece& p : wet_pieces(m, placed(m, rest_state(bodies)), *support::still_water(), 0, false))
+      sum += p.length * cubic(c.z() + p.arm.z());
+    const double exact = below(std::min(high, 0.0)) - below(low) + std::max(high, 0.0);
+    EXPECT_NEAR(sum, std::hypot(1, high - low) / (high - low) * exact, 1e-13) << low;
+  }
+}
+
 TEST(Member, IsWetToTheWaveThatPasses) {
   const auto bodies = support::two_bodies();
   const auto sea = support::steep_wave(hydro::waves::Stretching::vertical);

@@ -417,20 +417,8 @@ JetLoads morison(const MorisonMember& m, const JetBody& body, Water water_at, Su
   const JetVector t = along / Jet(whole);
   const Jet rise = D * sqrt(1.0 - t[2] * t[2] + 1e-12);
   JetLoads out;
-  for (int i = 0; i < m.line.pieces; ++i) {
-    const double f0 = static_cast<double>(i) / m.line.pieces, part = 1.0 / m.line.pieces;
-    Jet share(1), place(0.5);
-    if (m.line.immersion != Immersion::whole) {
-      const auto height = [&](double f) {
-        const JetVector at = body.centre + from + along * Jet(f);
-        return surface_at(at) - at[2];
-      };
-      const Jet g0 = height(f0), g1 = height(f0 + part), d = g1 - g0;
-      share = (wet_once(g1, rise) - wet_once(g0, rise)) / d;
-      if (share.a <= 0) continue;
-      place = (wet_once(g1, rise) / d - (wet_twice(g1, rise) - wet_twice(g0, rise)) / (d * d)) / share;
-    }
-    const JetVector r = from + along * (f0 + part * place);
+  const auto add = [&](const Jet& place, const Jet& share) {
+    const JetVector r = from + along * place;
     const JetWater water = water_at(JetVector(body.centre + r));
     const JetVector w = water.velocity - body.velocity_at(r), lengthwise = t * t.dot(w), across = w - lengthwise;
     // Of ẇ, ω × (ω × r) is here and the rest on the left.
@@ -438,7 +426,30 @@ JetLoads morison(const MorisonMember& m, const JetBody& body, Water water_at, Su
     const JetVector y = water.acceleration * Jet((1 + m.ca) * displaced) - turning * Jet(m.ca * displaced);
     const JetVector per_length = across * (500 * m.cd * D * length(across)) +
                                  lengthwise * (500 * m.cd_tangential * pi * D * length(lengthwise)) + y - t * t.dot(y);
-    out.force(m.line.body, r, per_length * (share * (whole * part)));
+    out.force(m.line.body, r, per_length * (share * whole));
+  };
+  const auto add_gauss = [&](const Jet& f0, const Jet& f1) {
+    for (const double g : {-1 / std::sqrt(3.0), 1 / std::sqrt(3.0)})
+      add((f0 + f1) * 0.5 + (f1 - f0) * (0.5 * g), (f1 - f0) * 0.5);
+  };
+  for (int i = 0; i < m.line.pieces; ++i) {
+    const double f0 = static_cast<double>(i) / m.line.pieces, part = 1.0 / m.line.pieces;
+    if (m.line.immersion == Immersion::whole) {
+      const Jet still = -(body.centre[2] + from[2]) / along[2];  // where the axis goes through still water
+      const bool cut = still.a > f0 && still.a < f0 + part;
+      add_gauss(Jet(f0), cut ? still : Jet(f0 + part));
+      if (cut) add_gauss(still, Jet(f0 + part));
+      continue;
+    }
+    const auto height = [&](double f) {
+      const JetVector at = body.centre + from + along * Jet(f);
+      return surface_at(at) - at[2];
+    };
+    const Jet g0 = height(f0), g1 = height(f0 + part), d = g1 - g0;
+    const Jet share = (wet_once(g1, rise) - wet_once(g0, rise)) / d;
+    if (share.a <= 0) continue;
+    const Jet place = (wet_once(g1, rise) / d - (wet_twice(g1, rise) - wet_twice(g0, rise)) / (d * d)) / share;
+    add(f0 + part * place, share * part);
   }
   return out;
 }
@@ -521,6 +532,12 @@ TEST(Tangents, OfMorisonMembersFollowFromTheFlow) {  // (D42)-(D45)
       // Of a straight current a difference has no error but round-off of u over 4e-7 m.
       {"in a current",
        member(Immersion::whole, {1, -0.2, -1.4}),
+       support::still_water(current),
+       {0.5, 0.2, 0},
+       {0.02, 0.01, 0},
+       1e-8},
+      {"always wet, through still water, where the current bends",
+       member(Immersion::whole, {1, -0.2, 0.8}),
        support::still_water(current),
        {0.5, 0.2, 0},
        {0.02, 0.01, 0},

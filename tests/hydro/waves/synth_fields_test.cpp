@@ -144,7 +144,7 @@ TEST(TabulatedField, IsThePlainFieldWithinTheErrorItStates) {
         }
 }
 
-// Waves a metre long in a box nine metres high: some fifty polynomials, where those of the seas above are sixteen.
+// Waves a metre long in a box nine metres high: some thirty polynomials, where those of the seas above are sixteen.
 TEST(TabulatedField, HoldsWithManyPolynomials) {
   const FieldBox high{0, 4, {-1, -1, -9}, {1, 1, 0}};
   const Sea sea = Sea::of(std::vector<GivenWave>{{AngularFrequency::from_rad_per_s(7.8),

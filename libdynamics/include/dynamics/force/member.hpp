@@ -16,6 +16,9 @@ enum class Immersion {
   surface       ///< what is below the waves, at each instant
 };
 
+/// Where loads are taken: at Gauss' two points of a piece that is wet throughout, else at the middle of its wet part.
+constexpr int points_per_piece(Immersion immersion) { return immersion == Immersion::whole ? 2 : 1; }
+
 /// A straight circular cylinder fixed to a body, cut into pieces of equal length.
 struct SlenderMember {
   int body;
@@ -50,17 +53,17 @@ void find_heights(const SlenderMember& member, const PlacedMember& at, const hyd
 /// The share of a section that is wet, its height below the surface over the diameter, 0 … 1, (W80) for any slope.
 double wetness(double height_m, double rise_m);
 
-/// The wet part of one piece: its length (sections half wet count half) and its middle.
+/// The wet length for which one point stands (sections half wet count half), and that point.
 struct WetPiece {
   using Row = Eigen::Matrix<double, 1, 6>;
   double length;                ///< m
-  Eigen::Vector3d arm;          ///< from the centre of gravity to the middle of the wet part, global
+  Eigen::Vector3d arm;          ///< from the centre of gravity to the point, global
   Row length_by = Row::Zero();  ///< how the length and the place along the axis change with translation and small
   Row place_by = Row::Zero();   ///  global rotation of the body
 };
 
-/// All pieces that are wet at all. Their derivatives only where asked; slopes of the surface are differences over a
-/// millionth of the diameter.
+/// All pieces that are wet at all, points_per_piece() of each. Their derivatives only where asked; slopes of the
+/// surface are differences over a millionth of the diameter.
 std::vector<WetPiece> wet_pieces(const SlenderMember& member, const PlacedMember& at,
                                  const hydro::waves::WaveField& water, double t_s, bool derivatives);
 /// The same, into a vector that has room.

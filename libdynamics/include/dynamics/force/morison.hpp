@@ -39,14 +39,14 @@ struct MorisonPerLength {
   }
 };
 
-/// One point a piece, the middle of its wet part: the error is (κΔ)²/24 of the inertia load and four times that of the
-/// drag, κ the wavenumber (or the inverse of the distance to the point about which the member turns), Δ the length of a
-/// piece (D44).
+/// Gauss' two points of each piece of a member that is always wet: the error is (κΔ)⁴/4320 of the inertia load and 16
+/// times that of the drag, κ the wavenumber, Δ the length of a piece. Of members wet in part the middle of the wet
+/// part: (κΔ)²/24 and four times that, κ also the inverse of the distance to the point about which the member turns
+/// (D44).
 class MorisonKind final : public ForceKind {
  public:
   /// `water`: still water is a field without waves.
-  MorisonKind(std::vector<MorisonMember> members, std::shared_ptr<const hydro::waves::WaveField> water)
-      : members_(std::move(members)), water_(std::move(water)) {}
+  MorisonKind(std::vector<MorisonMember> members, std::shared_ptr<const hydro::waves::WaveField> water);
   std::string effect() const override { return "morison"; }
   std::size_t elements() const override { return members_.size(); }
   std::string method() const override;
@@ -56,7 +56,13 @@ class MorisonKind final : public ForceKind {
   EnergyFlow energy(const Instant& now) const override;
 
  private:
+  /// Added mass of the members that are always wet, about the body's centre of gravity, body axes.
+  struct BodyMass {
+    int body;
+    Matrix6 added;
+  };
   std::vector<MorisonMember> members_;
+  std::vector<BodyMass> always_;
   std::shared_ptr<const hydro::waves::WaveField> water_;
 };
 

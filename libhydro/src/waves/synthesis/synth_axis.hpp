@@ -12,7 +12,7 @@ namespace hydro::waves {
 /// Weights of one axis at one point, with the storage they point into.
 struct AxisPoint {
   std::ptrdiff_t first = 0;
-  Window::Weights weight{};
+  Window::Weights weight;
   std::size_t count = 1;
   table::AxisWeights view() const { return {weight[0].data(), weight[1].data(), weight[2].data(), count}; }
 };
@@ -43,19 +43,16 @@ struct Axis {
   /// Factor by which samples of e^{iκx} are divided, so that interpolation returns it.
   double transform(double kappa) const { return window != nullptr ? window->transform(kappa * step) : 1; }
 
-  AxisPoint point(double x, std::size_t orders) const {
+  AxisPoint point(double x) const {
     AxisPoint out;
-    out.weight[0][0] = 1;
-    if (window == nullptr) return out;
+    if (window == nullptr) {
+      out.weight[0][0] = 1, out.weight[1][0] = out.weight[2][0] = 0;
+      return out;
+    }
     const double position = std::max((x - low) / step, 0.0) + static_cast<double>(window->width() / 2);
     out.first = window->first(position);
     out.count = window->width();
-    window->weights(position, orders, out.weight);
-    double scale = 1;
-    for (std::size_t order = 1; order < orders; ++order) {
-      scale /= step;
-      for (std::size_t i = 0; i < simd::padded(out.count); ++i) out.weight[order][i] *= scale;
-    }
+    window->weights(position, 1 / step, out.weight);
     return out;
   }
 };

@@ -31,6 +31,19 @@ FROUDE_INLINE void load(const double* from, Pack& to) { std::memcpy(&to, from, s
 FROUDE_INLINE void store(const Pack& from, double* to) { std::memcpy(to, &from, sizeof from); }
 FROUDE_INLINE double sum(const Pack& p) { return ((p[0] + p[4]) + (p[1] + p[5])) + ((p[2] + p[6]) + (p[3] + p[7])); }
 
+/// The sums of eight packs, in the pairs ((0+1)+(2+3)) + ((4+5)+(6+7)).
+FROUDE_INLINE void sums(const Pack* p, Pack& out) {
+  Pack pairs[4], fours[2];
+  for (std::size_t i = 0; i < 4; ++i)
+    pairs[i] = __builtin_shufflevector(p[2 * i], p[2 * i + 1], 0, 8, 2, 10, 4, 12, 6, 14) +
+               __builtin_shufflevector(p[2 * i], p[2 * i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+  for (std::size_t i = 0; i < 2; ++i)
+    fours[i] = __builtin_shufflevector(pairs[2 * i], pairs[2 * i + 1], 0, 1, 8, 9, 4, 5, 12, 13) +
+               __builtin_shufflevector(pairs[2 * i], pairs[2 * i + 1], 2, 3, 10, 11, 6, 7, 14, 15);
+  out = __builtin_shufflevector(fours[0], fours[1], 0, 1, 2, 3, 8, 9, 10, 11) +
+        __builtin_shufflevector(fours[0], fours[1], 4, 5, 6, 7, 12, 13, 14, 15);
+}
+
 /// x to the nearest whole number, ties to even, |x| < 2^51: adding 1.5·2^52 leaves no room for a fraction. (W91)
 inline constexpr double whole_only = 6755399441055744.0;
 

@@ -74,7 +74,7 @@ struct TabulatedField::Content {
   void require_flow(double z) const;
   double elevation_at(const AxisPoint& time, const AxisPoint& a, const AxisPoint& b) const;
   double elevation_at(const AxisPoint& time, double x, double y) const {
-    return elevation_at(time, axes.a.point(x, 1), axes.b.point(along_b_of(x, y), 1));
+    return elevation_at(time, axes.a.point(x), axes.b.point(along_b_of(x, y)));
   }
   void weigh_height(const StretchedHeight& height, Heights& out) const;
   Flow flow(const table::AtHeight& parts) const;
@@ -179,7 +179,7 @@ double highest_crest(const std::vector<double>& elevation, const Axes& axes, con
   const auto nodes = [](const Axis& axis) {
     std::vector<AxisPoint> out;
     for (std::size_t i = 0; i < axis.count; ++i)
-      out.push_back(axis.point(std::min(axis.low + static_cast<double>(i) * axis.step, axis.high), 1));
+      out.push_back(axis.point(std::min(axis.low + static_cast<double>(i) * axis.step, axis.high)));
     return out;
   };
   const auto a_nodes = nodes(axes.a), b_nodes = nodes(axes.b);
@@ -296,7 +296,7 @@ void TabulatedField::Content::weigh_height(const StretchedHeight& height, Height
                      {}, "build it for a higher box");
   vertical->at(height.z, out.value, out.slope);
   if (height.tangent == 0) return;
-  vertical->bend_at(height.z, out.slope, out.bend);
+  vertical->bend_at(height.z, out.value, out.slope, out.bend);
   for (std::size_t q = 0; q < vertical->padded(); ++q) {
     out.value[q] += height.tangent * out.slope[q];
     out.slope[q] += height.tangent * out.bend[q];
@@ -305,31 +305,31 @@ void TabulatedField::Content::weigh_height(const StretchedHeight& height, Height
 
 Flow TabulatedField::Content::flow(const table::AtHeight& parts) const {
   using namespace table;
-  const auto& [v, s] = parts;
+  const auto& [plain, by_a, by_aa] = parts;
   // ∂x = ∂a where the axes are x and y; in a long-crested sea a is not there and b lies along the waves.
   const double bx = band.long_crested ? band.along.x() : 0, by = band.along.y(), ax = band.long_crested ? 0 : 1;
-  return {.ux = ax * v[phi_a] + bx * v[phi_b],
-          .uy = by * v[phi_b],
-          .uz = s[phi],
-          .ax = ax * v[rate_a] + bx * v[rate_b],
-          .ay = by * v[rate_b],
-          .az = s[rate],
-          .potential_rate = v[rate],
-          .xx = ax * v[phi_aa] + bx * bx * v[phi_bb],
-          .yy = by * by * v[phi_bb],
-          .xy = ax * by * v[phi_ab] + bx * by * v[phi_bb],
-          .xz = ax * s[phi_a] + bx * s[phi_b],
-          .yz = by * s[phi_b]};
+  return {.ux = ax * by_a[phi] + bx * plain[phi_b],
+          .uy = by * plain[phi_b],
+          .uz = plain[phi_z],
+          .ax = ax * by_a[rate] + bx * plain[rate_b],
+          .ay = by * plain[rate_b],
+          .az = plain[rate_z],
+          .potential_rate = plain[rate],
+          .xx = ax * by_aa[phi] + bx * bx * plain[phi_bb],
+          .yy = by * by * plain[phi_bb],
+          .xy = ax * by * by_a[phi_b] + bx * by * plain[phi_bb],
+          .xz = ax * by_a[phi_z] + bx * plain[phi_bz],
+          .yz = by * plain[phi_bz]};
 }
 
 double TabulatedField::elevation(double t, double x, double y) const {
   content_->require_inside(t, x, y);
-  return content_->elevation_at(content_->axes.time.point(t, 1), x, y);
+  return content_->elevation_at(content_->axes.time.point(t), x, y);
 }
 
 void TabulatedField::elevations(double t, std::span<const Eigen::Vector2d> at, std::span<double> out) const {
   require(at.size() == out.size(), "{} places need as many for the answer, got {}", at.size(), out.size());
-  const AxisPoint time = content_->axes.time.point(t, 1);
+  const AxisPoint time = content_->axes.time.point(t);
   for (std::size_t i = 0; i < at.size(); ++i) {
     content_->require_inside(t, at[i].x(), at[i].y());
     out[i] = content_->elevation_at(time, at[i].x(), at[i].y());
@@ -350,8 +350,8 @@ void TabulatedField::Content::require_flow(double z) const {
         "build the table for all heights that the structure can reach");
 }
 
-/// The potential at all stations at one instant, and its rate: interpolated in time where a station is asked for. Each
-/// thread keeps one, since members and iterations ask for the same instant again and again.
+/// The elevation at all stations at one instant, the potential and its rate: interpolated in time where a station is
+/// asked for. Each thread keeps one, since members and iterations ask for the same instant again and again.
 class TabulatedField::Content::Now {
  public:
   static Now& of_thread() {
@@ -366,51 +366,69 @@ class TabulatedField::Content::Now {
       potential_.resize(size);
       rate_.resize(size);
     }
+    elevation_.resize(std::max(elevation_.size(), table.axes.a.count * table.row));
     heights.resize(table.vertical->padded());
+    elevation_known_.assign(table.axes.a.count * table.row, false);
     known_.assign(stations, false);
-    time_ = table.axes.time.point(t, 2);
+    time_ = table.axes.time.point(t);
     t_ = t;
     number_ = table.number;
   }
-  /// Stations from `first` on, `count` of them.
-  void find(const Content& table, std::size_t first, std::size_t count) {
-    const std::size_t levels = table.vertical->padded(), end = first + count;
+  /// The elevation at a place of these weights.
+  double elevation(const Content& table, const AxisPoint& a, const AxisPoint& b) {
+    const table::Strides stride = table.elevation_strides();
+    const double* now = table.elevation.data() + static_cast<std::size_t>(time_.first) * stride.time;
+    const std::size_t first = static_cast<std::size_t>(a.first) * stride.a + static_cast<std::size_t>(b.first);
+    for (std::size_t i = 0; i < a.count; ++i)
+      complete(elevation_known_, first + i * stride.a, b.count, [&](std::size_t from, std::size_t count) {
+        table::contract_time(now + from, stride.time, time_.view(), count, elevation_.data() + from);
+      });
+    constexpr double all = 1;  // the instant is interpolated already
+    return table::contract_elevation(elevation_.data() + first, stride, {&all, nullptr, nullptr, 1}, a.view(),
+                                     b.view());
+  }
+  /// What a flow is made of at a place of these weights, read at `heights`.
+  void flow(const Content& table, const AxisPoint& a, const AxisPoint& b, table::AtHeight& out) {
+    const std::size_t levels = table.vertical->padded();
     const table::Strides stride = table.potential_strides();
     const double* now = table.potential.data() + static_cast<std::size_t>(time_.first) * stride.time;
-    for (std::size_t from = first; from < end;) {
-      std::size_t to = from;
-      while (to < end && !known_[to]) known_[to++] = true;
-      if (to > from)
-        table::contract_time(now + from * levels, stride.time, time_.view(), (to - from) * levels,
+    const std::size_t first =
+        static_cast<std::size_t>(a.first) * table.axes.b.count + static_cast<std::size_t>(b.first);
+    for (std::size_t i = 0; i < a.count; ++i)
+      complete(known_, first + i * table.axes.b.count, b.count, [&](std::size_t from, std::size_t count) {
+        table::contract_time(now + from * levels, stride.time, time_.view(), count * levels,
                              potential_.data() + from * levels, rate_.data() + from * levels);
-      from = to + 1;
-    }
+      });
+    table::contract_place(potential_.data() + first * levels, rate_.data() + first * levels, stride, a.view(), b.view(),
+                          heights.value.data(), heights.slope.data(), levels, out);
   }
-  const AxisPoint& time() const { return time_; }
-  const double* potential() const { return potential_.data(); }
-  const double* rate() const { return rate_.data(); }
   Heights heights;  // room for the polynomials at one point's height
 
  private:
+  /// Calls contract(from, count) for each stretch of unknown stations among the `count` from `first` on.
+  template <class Contract>
+  static void complete(std::vector<char>& known, std::size_t first, std::size_t count, const Contract& contract) {
+    for (std::size_t from = first, end = first + count; from < end;) {
+      std::size_t to = from;
+      while (to < end && !known[to]) known[to++] = true;
+      if (to > from) contract(from, to - from);
+      from = to + 1;
+    }
+  }
+
   std::uint64_t number_ = 0;  // of the table; 0: none
   double t_ = 0;
   AxisPoint time_;
-  std::vector<bool> known_;
-  std::vector<double> potential_, rate_;
+  std::vector<char> elevation_known_, known_;
+  std::vector<double> elevation_, potential_, rate_;
 };
 
 Kinematics TabulatedField::Content::at(const Eigen::Vector3d& p, Now& now) const {
-  const AxisPoint a = axes.a.point(p.x(), 3), b = axes.b.point(along_b_of(p.x(), p.y()), 3);
-  const double zeta = elevation_at(now.time(), a, b);
+  const AxisPoint a = axes.a.point(p.x()), b = axes.b.point(along_b_of(p.x(), p.y()));
+  const double zeta = now.elevation(*this, a, b);
   weigh_height(around.stretched(p.z(), zeta), now.heights);
-  const table::Strides stride = potential_strides();
-  const std::size_t levels = vertical->padded(), b_first = static_cast<std::size_t>(b.first);
-  for (std::size_t k = 0; k < a.count; ++k)
-    now.find(*this, (static_cast<std::size_t>(a.first) + k) * axes.b.count + b_first, b.count);
-  const std::size_t first = static_cast<std::size_t>(a.first) * stride.a + b_first * stride.b;
   table::AtHeight parts;
-  table::contract_place(now.potential() + first, now.rate() + first, stride, a.view(), b.view(),
-                        now.heights.value.data(), now.heights.slope.data(), levels, parts);
+  now.flow(*this, a, b, parts);
   return around.kinematics(flow(parts), p.z(), zeta);
 }
 

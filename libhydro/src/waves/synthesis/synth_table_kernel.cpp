@@ -1,7 +1,5 @@
 #include "synth_table_kernel.hpp"
 
-#include <initializer_list>
-
 #include "synth_simd.hpp"
 
 namespace hydro::waves::table {
@@ -10,19 +8,27 @@ namespace {
 using simd::lanes;
 using simd::Pack;
 
-// Adds one station's potential and rate to the nine sums.
-FROUDE_INLINE void add_station(const Pack& value, const Pack& rate_value, const AxisWeights& a, std::size_t i,
-                               const AxisWeights& b, std::size_t k, Pack* sums) {
-  sums[phi] += (a.value[i] * b.value[k]) * value;
-  sums[phi_b] += (a.value[i] * b.slope[k]) * value;
-  sums[phi_bb] += (a.value[i] * b.bend[k]) * value;
-  sums[rate] += (a.value[i] * b.value[k]) * rate_value;
-  sums[rate_b] += (a.value[i] * b.slope[k]) * rate_value;
-  if (a.count == 1) return;  // long-crested: nothing changes along a
-  sums[phi_a] += (a.slope[i] * b.value[k]) * value;
-  sums[phi_aa] += (a.bend[i] * b.value[k]) * value;
-  sums[phi_ab] += (a.slope[i] * b.slope[k]) * value;
-  sums[rate_a] += (a.slope[i] * b.value[k]) * rate_value;
+// Adds what eight levels at the stations of one row give to the parts.
+FROUDE_INLINE void add_levels(const double* value, const double* rate_table, std::size_t step, const AxisWeights& b,
+                              const Pack& T, const Pack& T_slope, Pack* parts_of_row) {
+  Pack v{}, v_b{}, v_bb{}, r{}, r_b{}, x, y;
+  for (std::size_t k = 0; k < b.count; ++k, value += step, rate_table += step) {
+    simd::load(value, x);
+    simd::load(rate_table, y);
+    v += b.value[k] * x;
+    v_b += b.slope[k] * x;
+    v_bb += b.bend[k] * x;
+    r += b.value[k] * y;
+    r_b += b.slope[k] * y;
+  }
+  parts_of_row[phi] += T * v;
+  parts_of_row[phi_b] += T * v_b;
+  parts_of_row[phi_bb] += T * v_bb;
+  parts_of_row[phi_z] += T_slope * v;
+  parts_of_row[phi_bz] += T_slope * v_b;
+  parts_of_row[rate] += T * r;
+  parts_of_row[rate_b] += T * r_b;
+  parts_of_row[rate_z] += T_slope * r;
 }
 
 }  // namespace
@@ -66,27 +72,38 @@ FROUDE_KERNEL void contract_time(const double* from, std::size_t stride, const A
   }
 }
 
+FROUDE_KERNEL void contract_time(const double* from, std::size_t stride, const AxisWeights& time, std::size_t size,
+                                 double* value) {
+  for (std::size_t at = 0; at < size; at += lanes) {
+    Pack v{}, x;
+    const double* row = from + at;
+    for (std::size_t l = 0; l < time.count; ++l, row += stride) {
+      simd::load(row, x);
+      v += time.value[l] * x;
+    }
+    simd::store(v, value + at);
+  }
+}
+
 FROUDE_KERNEL void contract_place(const double* value, const double* rate_table, const Strides& stride,
                                   const AxisWeights& a, const AxisWeights& b, const double* at, const double* at_slope,
                                   std::size_t levels, AtHeight& out) {
-  Pack values[parts] = {}, slopes[parts] = {};
-  for (std::size_t q = 0; q < levels; q += lanes) {
-    Pack sums[parts] = {}, v, r, T, T_slope;
-    for (std::size_t i = 0; i < a.count; ++i)
-      for (std::size_t k = 0; k < b.count; ++k) {
-        simd::load(value + i * stride.a + k * stride.b + q, v);
-        simd::load(rate_table + i * stride.a + k * stride.b + q, r);
-        add_station(v, r, a, i, b, k, sums);
-      }
-    simd::load(at + q, T);
-    simd::load(at_slope + q, T_slope);
-    for (const Part p : {phi_a, phi_b, phi_aa, phi_ab, phi_bb, rate, rate_a, rate_b}) values[p] += T * sums[p];
-    for (const Part p : {phi, phi_a, phi_b, rate}) slopes[p] += T_slope * sums[p];
+  Pack plain{}, by_a{}, by_aa{};
+  for (std::size_t i = 0; i < a.count; ++i, value += stride.a, rate_table += stride.a) {
+    Pack row[parts] = {}, T, T_slope, sums;
+    for (std::size_t q = 0; q < levels; q += lanes) {
+      simd::load(at + q, T);
+      simd::load(at_slope + q, T_slope);
+      add_levels(value + q, rate_table + q, stride.b, b, T, T_slope, row);
+    }
+    simd::sums(row, sums);
+    plain += a.value[i] * sums;
+    by_a += a.slope[i] * sums;
+    by_aa += a.bend[i] * sums;
   }
-  for (std::size_t p = 0; p < parts; ++p) {
-    out.value[p] = simd::sum(values[p]);
-    out.slope[p] = simd::sum(slopes[p]);
-  }
+  simd::store(plain, out.plain);
+  simd::store(by_a, out.by_a);
+  simd::store(by_aa, out.by_aa);
 }
 
 FROUDE_KERNEL double contract_elevation(const double* from, const Strides& stride, const AxisWeights& time,

@@ -15,18 +15,21 @@ struct AxisWeights {
   std::size_t count;
 };
 
-/// The potential and its rate at one place and instant, and their derivatives along the axes.
-enum Part : std::size_t { phi, phi_a, phi_b, phi_aa, phi_ab, phi_bb, rate, rate_a, rate_b, parts };
+/// The potential and its rate at one place and instant, with their derivatives along b and by height.
+enum Part : std::size_t { phi, phi_b, phi_bb, phi_z, phi_bz, rate, rate_b, rate_z, parts };
 
 /// Table contracted over time: value[...] and rate[...] for `size` numbers that stand `stride` apart in time.
 void contract_time(const double* from, std::size_t stride, const AxisWeights& time, std::size_t size, double* value,
                    double* rate);
 
-/// Values and slopes by height of the parts at a place and a height, from a table at one instant (value, rate) whose
-/// first point is the first used. `at` and `at_slope`: the polynomials at that height and their slopes, `levels` of
-/// each. Only what a flow is made of is found: values of all parts but phi, slopes of phi, phi_a, phi_b and rate.
+/// The same without the rate.
+void contract_time(const double* from, std::size_t stride, const AxisWeights& time, std::size_t size, double* value);
+
+/// The parts and their first two derivatives along a, at a place and a height, from a table at one instant (value,
+/// rate) whose first point is the first used. `at` and `at_slope`: the polynomials at that height and their slopes,
+/// `levels` of each.
 struct AtHeight {
-  double value[parts], slope[parts];
+  double plain[parts], by_a[parts], by_aa[parts];
 };
 void contract_place(const double* value, const double* rate_table, const Strides& stride, const AxisWeights& a,
                     const AxisWeights& b, const double* at, const double* at_slope, std::size_t levels, AtHeight& out);

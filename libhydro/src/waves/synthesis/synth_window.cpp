@@ -51,22 +51,32 @@ std::vector<Extended> polynomial_through(const Function& f, std::size_t degree) 
   return power;
 }
 
-FROUDE_KERNEL void horner(const double* polynomial, std::size_t degree, std::size_t width, double y, std::size_t orders,
-                          Window::Weights& out) {
-  for (std::size_t at = 0; at < width; at += simd::lanes) {
-    simd::Pack value{}, slope{}, bend{}, c;  // p, p′, p″/2
-    for (std::size_t k = 0; k <= degree; ++k) {
-      simd::load(polynomial + k * Window::stride + at, c);
-      if (orders > 2) bend = bend * y + slope;
-      if (orders > 1) slope = slope * y + value;
-      value = value * y + c;
+// Values, slopes and bends of the pieces in `packs` packs, all at once: each waits for its own sum before.
+template <std::size_t packs>
+FROUDE_INLINE void horner_packs(const double* polynomial, std::size_t degree, double y, double dy, double* value,
+                                double* slope, double* bend) {
+  simd::Pack p[packs] = {}, d[packs] = {}, h[packs] = {}, c;  // p, p′, p″/2
+  for (std::size_t k = 0; k <= degree; ++k, polynomial += Window::stride)
+#pragma GCC unroll 3
+    for (std::size_t i = 0; i < packs; ++i) {
+      simd::load(polynomial + i * simd::lanes, c);
+      h[i] = h[i] * y + d[i];
+      d[i] = d[i] * y + p[i];
+      p[i] = p[i] * y + c;
     }
-    slope = 2.0 * slope;  // dy/dx = 2
-    bend = 8.0 * bend;
-    simd::store(value, out[0].data() + at);
-    if (orders > 1) simd::store(slope, out[1].data() + at);
-    if (orders > 2) simd::store(bend, out[2].data() + at);
+#pragma GCC unroll 3
+  for (std::size_t i = 0; i < packs; ++i) {
+    simd::store(p[i], value + i * simd::lanes);
+    simd::store(dy * d[i], slope + i * simd::lanes);
+    simd::store(2 * dy * dy * h[i], bend + i * simd::lanes);
   }
+}
+
+FROUDE_KERNEL void horner(const double* polynomial, std::size_t degree, std::size_t width, double y, double dy,
+                          double* value, double* slope, double* bend) {
+  if (width <= simd::lanes) return horner_packs<1>(polynomial, degree, y, dy, value, slope, bend);
+  if (width <= 2 * simd::lanes) return horner_packs<2>(polynomial, degree, y, dy, value, slope, bend);
+  horner_packs<3>(polynomial, degree, y, dy, value, slope, bend);
 }
 
 FROUDE_KERNEL void horner(const double* polynomial, std::size_t degree, double y, double* out) {
@@ -146,9 +156,10 @@ std::ptrdiff_t Window::first(double position) const {
   return static_cast<std::ptrdiff_t>(std::ceil(position)) - static_cast<std::ptrdiff_t>(width_ / 2);
 }
 
-void Window::weights(double position, std::size_t orders, Weights& out) const {
-  const double fraction = position - std::ceil(position) + 1;  // (0, 1]
-  horner(polynomial_.data(), degree, width_, 2 * fraction - 1, orders, out);
+void Window::weights(double position, double per_unit, Weights& out) const {
+  const double fraction = position - std::ceil(position) + 1;  // (0, 1], so y goes by 2 a step
+  horner(polynomial_.data(), degree, width_, 2 * fraction - 1, 2 * per_unit, out[0].data(), out[1].data(),
+         out[2].data());
 }
 
 void Window::weights(double position, double* out) const {
@@ -162,7 +173,7 @@ double Window::error(double theta, std::size_t orders) const {
   const std::complex<double> i(0, 1);
   for (int k = 0; k < 64; ++k) {
     const double x = (k + 0.37) / 64;
-    weights(x, orders, weight);
+    weights(x, 1, weight);
     std::complex<double> derivative = std::polar(1.0, theta * x);
     for (std::size_t order = 0; order < orders; ++order, derivative *= i * theta) {
       std::complex<double> sum = 0;

@@ -35,9 +35,10 @@ class Window {
   /// Index of the first of the `width` samples used for a point at `position`, in steps.
   std::ptrdiff_t first(double position) const;
 
-  /// ψ and its derivatives up to `orders` − 1 at the samples from first(position) on; zero up to whole packs.
+  /// ψ and its first two derivatives at the samples from first(position) on, by what `per_unit` steps are one of; zero
+  /// up to whole packs.
   using Weights = std::array<std::array<double, stride>, 3>;
-  void weights(double position, std::size_t orders, Weights& out) const;
+  void weights(double position, double per_unit, Weights& out) const;
   /// ψ alone, `stride` values.
   void weights(double position, double* out) const;
 
