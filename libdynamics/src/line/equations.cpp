@@ -257,14 +257,15 @@ void Equations::scale_for(const Stage& stage, const VectorXd& T) {
 }
 
 /// As much of the correction, added to `from_`, as brings what is left over down, halved up to twelve times; its size
-/// is returned.
-double Equations::search(const Stage& stage, const State& before, double size, bool enough, Places& u, VectorXd& T) {
+/// is returned. After the last one nobody needs the matrix.
+double Equations::search(const Stage& stage, const State& before, double size, bool enough, bool last, Places& u,
+                         VectorXd& T) {
   constexpr int halvings = 12;
   double share = 1, left = 0;
   for (int cut = 0; cut < halvings; ++cut, share /= 2) {
     u = from_.u + share * by_.u;
     T = from_.T + share * by_.T;
-    left = assemble(stage, before, u, T, true);
+    left = assemble(stage, before, u, T, !last);
     if (left <= (1 - 1e-4 * share) * size || enough) break;
   }
   return left;
@@ -305,6 +306,7 @@ Equations::Outcome Equations::newton(const Stage& stage, const State& before, do
   // At rest a straight line between two places has a length that nothing can change: its rounding asks for no tension.
   met_ = stage.still ? 4e-16 * extent : 0;
   Outcome out;
+  double step_before = 0, pull_before = 0;
   out.size = assemble(stage, before, u, T, true);
   for (out.iterations = 1; out.iterations <= most; ++out.iterations) {
     if (!std::isfinite(out.size) || !solve_linear(by_.u, by_.T)) {
@@ -314,9 +316,15 @@ Equations::Outcome Equations::newton(const Stage& stage, const State& before, do
     from_.u = u;
     from_.T = T;
     const double step = by_.u.cwiseAbs().maxCoeff(), pull = by_.T.cwiseAbs().maxCoeff();
-    const double size = search(stage, before, out.size, step <= rounding, u, T);
-    const bool small = step <= std::max(tolerance * u.cwiseAbs().maxCoeff(), rounding) &&
-                       pull <= std::max(tolerance * T.cwiseAbs().maxCoeff(), scale_ * step);
+    // Newton contracts ever faster, so the correction that is left out is at most this share of this one. Means over a
+    // step go on to the last digits, which keep the energy. (D78)
+    const bool foresees = out.iterations > 1 && !stage.mean;
+    const double contraction = foresees ? std::min(1.0, std::max(step / step_before, pull / pull_before)) : 1;
+    step_before = step;
+    pull_before = pull;
+    const bool small = contraction * step <= std::max(tolerance * u.cwiseAbs().maxCoeff(), rounding) &&
+                       contraction * pull <= std::max(tolerance * T.cwiseAbs().maxCoeff(), scale_ * step);
+    const double size = search(stage, before, out.size, step <= rounding, small, u, T);
     const bool falls = size <= out.size;
     if (!falls && (out.size <= balanced || !small)) {
       u = from_.u;

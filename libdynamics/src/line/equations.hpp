@@ -151,7 +151,8 @@ class Equations {
   void scale_for(const Stage& stage, const Eigen::VectorXd& T);
   Outcome newton(const Stage& stage, const State& before, double tolerance, int most, Places& u, Eigen::VectorXd& T);
   Motion motion(const Stage& stage) const;
-  double search(const Stage& stage, const State& before, double size, bool enough, Places& u, Eigen::VectorXd& T);
+  double search(const Stage& stage, const State& before, double size, bool enough, bool last, Places& u,
+                Eigen::VectorXd& T);
   int worst_node() const;
   void scale_by_mass();
   void assemble_projection(const Places& along, const Places& x);

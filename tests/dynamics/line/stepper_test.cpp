@@ -316,6 +316,26 @@ TEST(Newton, TakesAsManyIterationsForLongLinesAsForShortOnes) {
   EXPECT_LE(iterations[1], 2 * iterations[0]);
 }
 
+// What a looser tolerance leaves of a step is less than it says, also where the last correction is foreseen to suffice.
+TEST(Newton, LeavesLessOfAStepThanItsTolerance) {
+  Description d = pendulums(6, 1, 1);
+  for (Segment& s : d.segments) s.axial_stiffness = 1e4;
+  const Line line(d);
+  for (const double tolerance : {1e-4, 1e-6, 1e-9}) {
+    State s = in_plane(line, {0.2, 0.5, 0.3, 0.8, 1.0, 0.4}), exact = s;
+    const State before = s;
+    Stepper stepper(line, {.scheme = Scheme::generalised_alpha, .rho_infinity = 0.5, .tolerance = tolerance});
+    Stepper reference(line, {.scheme = Scheme::generalised_alpha, .rho_infinity = 0.5, .tolerance = 1e-14});
+    stepper.start(s);
+    reference.start(exact);
+    stepper.step(s, 0.05);
+    reference.step(exact, 0.05);
+    const double moved = (exact.position - before.position).cwiseAbs().maxCoeff();
+    EXPECT_LE((s.position - exact.position).cwiseAbs().maxCoeff(), tolerance * moved) << tolerance;
+    EXPECT_LE((s.tension - exact.tension).cwiseAbs().maxCoeff(), tolerance * exact.tension.cwiseAbs().maxCoeff());
+  }
+}
+
 TEST(Stepper, SaysWhenAndWhereItCannotGoOn) {
   const Line line(pendulums(1));
   State s = in_plane(line, {0.2});
