@@ -100,6 +100,44 @@ TEST(Stability, OfACubicSpringIsTheAmplitudeOfDuffing) {
   }
 }
 
+/// Amplitude of the force at another period, N.
+double force(double height, double T) {
+  const double w = 2 * pi / T;
+  return 2 * density * volume * height / 2 * w * w * std::exp(-w * w / 9.81 * 20);
+}
+
+// The spring that hardens holds three motions of one wave between the folds, of which the middle one does not last. To
+// one harmonic F = A √((k − Mω² + ¾βA²)² + c²ω²); the force is that where the tube is, kA of it.
+TEST(Stability, FollowsTheBranchesOfDuffing) {
+  constexpr double cubic = 53.7e3, height = 0.6;
+  scene::Scene scene = slide("0.6 m .. 0.6 m, 1 values", "cubic = \"53.7 kN/m^3\"\n");
+  scene.stability->periods = {7, 12};
+  scene.stability->branches = {{.height = height, .period = {}, .place = {}}};
+  const StabilityMap map = stability(scene);
+  ASSERT_EQ(map.branches.size(), 1u);
+  const StabilityMap::Branch& branch = map.branches[0];
+  EXPECT_EQ(branch.end, "");
+  EXPECT_TRUE(branch.over_periods);
+  EXPECT_EQ(branch.held, height);
+  EXPECT_EQ(branch.points.front().period, 7);
+  EXPECT_EQ(branch.points.back().period, 12);
+  int folds = 0, back = 0;
+  for (std::size_t i = 0; i < branch.points.size(); ++i) {
+    const auto& p = branch.points[i];
+    const double A = std::sqrt(2) * branch.signals.at(0).values.at(i), w = 2 * pi / p.period;
+    EXPECT_NEAR(A * std::hypot(stiffness - M * w * w + 0.75 * cubic * A * A, damping * w), force(height, p.period),
+                (w * w / 9.81 * A + 0.01) * force(height, p.period) + 0.01 * stiffness * A)
+        << p.period;
+    back += p.forwards ? 0 : 1;
+    if (i == 0 || i + 1 == branch.points.size()) continue;
+    folds += p.forwards != branch.points[i - 1].forwards ? 1 : 0;
+    if (p.forwards != branch.points[i - 1].forwards || p.forwards != branch.points[i + 1].forwards) continue;
+    EXPECT_EQ(p.fate, p.forwards ? Fate::stable : Fate::fold) << p.period << " s, " << A << " m";
+  }
+  EXPECT_EQ(folds, 2);
+  EXPECT_GT(back, 3);
+}
+
 TEST(Stability, IsWhatARunFromRestComesTo) {
   const scene::Scene scene = slide("0.1 m .. 0.2 m, 2 values", "cubic = \"53.7 kN/m^3\"\n");
   const StabilityMap map = stability(scene);

@@ -9,7 +9,7 @@ import unittest
 from pathlib import Path
 
 FROUDE, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
-ASKED = 'stability = { periods = "6 s .. 9 s, 7 values", heights = "1 m .. 4 m, 4 values", of = ["pivot.angle", "rack.stroke"] }'
+ASKED = 'stability = { periods = "6 s .. 9 s, 7 values", heights = "1 m .. 4 m, 4 values", branch = [{ height = "2 m" }], of = ["pivot.angle", "rack.stroke"] }'
 
 
 class Stability(unittest.TestCase):
@@ -58,8 +58,29 @@ class Stability(unittest.TestCase):
         cell, = json.loads(done.stdout)["check"]["cells"]
         self.assertEqual((cell["fate"], cell["left"], cell["agrees"]), ("period-doubled", True, True))
 
+    def test_a_branch_stands_in_each_result(self):
+        done = self.froude(self.asking('stability = { periods = "6.5 s .. 7 s, 2 values", heights = "2 m .. 2 m, 1 values", '
+                                       'branch = [{ height = "2 m" }], of = ["pivot.angle"] }'), "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        told = json.loads(done.stdout)
+        branch, = told["branches"]
+        points = branch["points"]
+        self.assertEqual((branch["height_m"], branch["folds"], branch["end"]), (2, [], ""))
+        self.assertEqual((points[0]["period_s"], points[-1]["period_s"]), (6.5, 7))
+        # The ends are cells of the map, which tell the same.
+        self.assertEqual((points[0]["fate"], points[-1]["fate"]), ("stable", "period-doubled"))
+        for point, period in zip((points[0], points[-1]), told["periods"]):
+            self.assertEqual(point["fate"], period["cells"][0]["fate"])
+            self.assertAlmostEqual(point["multiplier"], period["cells"][0]["multiplier"], delta=1e-3)  # accuracy of motions
+        table = [r for r in csv.DictReader(r for r in (self.folder / "map.csv").read_text().splitlines() if r[0] != "#")]
+        self.assertEqual([r["branch"] for r in table], ["0"] * 2 + ["1"] * len(points))
+        self.assertIn("not stable", (self.folder / "map.svg").read_text())
+        done = subprocess.run([str(FROUDE), "stability", "scene.toml", "-o", "again.h5"], cwd=self.folder, capture_output=True,
+                              text=True, timeout=280)
+        self.assertIn(f"branch 1 of 2 m: {len(points)} points: stable to 6.", done.stdout)
+
     def test_what_has_no_map_is_refused(self):
-        one_period = ASKED.replace("6 s .. 9 s, 7 values", "7 s .. 7 s, 1 values")
+        one_period = ASKED.replace("6 s .. 9 s, 7 values", "7 s .. 7 s, 1 values").replace('branch = [{ height = "2 m" }], ', "")
         for scene, words, line in (
                 (self.buoy.replace(ASKED, ""), "does not ask for a stability map", None),
                 (self.asking(ASKED.replace('"pivot.angle", "rack.stroke"', '"pivot.angel"')), 'did you mean "pivot.angle"?', ASKED),
@@ -70,6 +91,8 @@ class Stability(unittest.TestCase):
                 (self.asking(ASKED.replace("6 s .. 9 s", "70 s .. 80 s")), "given from 0.1 to 3 rad/s", ASKED),
                 (self.asking(ASKED.replace("6 s .. 9 s", "3 s .. 9 s")), "beyond breaking", "[waves]"),
                 (self.asking(one_period), "two periods and two heights", ASKED),
+                (self.asking(ASKED.replace("6 s .. 9 s, 7 values", "7 s .. 7 s, 1 values")), "which has one period", ASKED),
+                (self.asking(ASKED.replace('height = "2 m" }', 'height = "2 m", period = "7 s" }')), "height", ASKED),
                 (self.buoy.replace("[joint.pto]\ndamping", "friction = { dynamic = \"1 kN m\" }\n[joint.pto]\ndamping", 1),
                  "friction is set-valued", ASKED),
         ):
