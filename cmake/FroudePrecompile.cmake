@@ -58,6 +58,10 @@ function(froude_common_headers name)
   target_link_libraries(${name} PRIVATE froude_options Eigen3::Eigen fmt::fmt ${H_LIBRARIES})
   list(TRANSFORM H_HEADERS REPLACE "(.+)" "<\\1>")
   target_precompile_headers(${name} PRIVATE ${H_HEADERS})
+  if(CMAKE_CXX_COMPILER_LAUNCHER)
+    set_target_properties(${name} PROPERTIES CXX_COMPILER_LAUNCHER
+      "${PROJECT_SOURCE_DIR}/cmake/compile_header.sh;${CMAKE_CXX_COMPILER_LAUNCHER}")
+  endif()
   target_compile_options(${name} PRIVATE ${froude_precompiled_options})
 endfunction()
 
