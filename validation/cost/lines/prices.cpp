@@ -270,7 +270,7 @@ int main(int argc, char** argv) {
   text +=
       "\nUp to 200 segments the time is linear in their number, half a microsecond a node and iteration. At 1 000 a "
       "node "
-      "costs about twice that, and almost half of the time goes into the first second, in which the fairlead is set "
+      "costs half as much again, and almost half of the time goes into the first second, in which the fairlead is set "
       "off at "
       "once at its\nfull speed: segments of 0.9 m touch down several at a time, Newton halves steps and takes up to a "
       "hundred iterations and more. From 1 s on it takes four or five a step. Fewer catenary segments have the same "
@@ -287,9 +287,8 @@ int main(int argc, char** argv) {
       "with "
       "50, and its step left 5e-4 and 1e-4 of the range (26 November 2026, a machine of this kind): for an error as "
       "small "
-      "the implicit step takes some ten times as long. It is the cheaper one where 2 % will do, from 100 segments on, "
-      "and "
-      "over a run of a minute as a whole, since the peer needs 0.07 s with 20 segments and 10 s with 200 to come to "
+      "the implicit step takes some ten times as long. It is the cheaper one where 2 % will do, "
+      "and over a run of a minute as a whole, since the peer needs 0.07 s with 20 segments and 10 s with 200 to come to "
       "rest.\n"
       "\n## Loops of links\n\n17 m in n links, swung across at 1 m/s, nothing damps, step 10 ms. A dash: the scheme "
       "could not go on.\n\n";
