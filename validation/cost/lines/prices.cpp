@@ -288,7 +288,8 @@ int main(int argc, char** argv) {
       "50, and its step left 5e-4 and 1e-4 of the range (26 November 2026, a machine of this kind): for an error as "
       "small "
       "the implicit step takes some ten times as long. It is the cheaper one where 2 % will do, "
-      "and over a run of a minute as a whole, since the peer needs 0.07 s with 20 segments and 10 s with 200 to come to "
+      "and over a run of a minute as a whole, since the peer needs 0.07 s with 20 segments and 10 s with 200 to come "
+      "to "
       "rest.\n"
       "\n## Loops of links\n\n17 m in n links, swung across at 1 m/s, nothing damps, step 10 ms. A dash: the scheme "
       "could not go on.\n\n";
