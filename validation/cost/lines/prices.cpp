@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 #include <numbers>
+#include <utility>
 
 #include "dynamics/line/equilibrium.hpp"
 #include "dynamics/line/stepper.hpp"
@@ -75,7 +76,7 @@ double difference(const Moored& a, const Moored& reference) {
 /// The error of so many segments is not asked: the reference has fewer.
 constexpr int longest = 1000;
 
-std::string mooring_list(plot::Panel& panel) {
+std::string mooring_list() {
   constexpr double exact = 911.09;  // kN, closed form
   const std::vector<std::pair<int, const char*>> peer{
       {20, "0.83"}, {50, "1.4"}, {100, "3.6"}, {200, "21"}, {longest, ""}};
@@ -83,8 +84,6 @@ std::string mooring_list(plot::Panel& panel) {
   std::string text =
       "| segments | rest [ms] | static tension off by | step [s] | time [ms/s] | error | explicit peer [ms/s] |\n"
       "| --- | --- | --- | --- | --- | --- | --- |\n";
-  plot::Series points{
-      .name = "20, 50, 100, 200 segments at 0.1 and 0.05 s", .x = {}, .y = {}, .line = false, .marks = true};
   for (const auto& [n, theirs] : peer) {
     const validation::MooringLine m = validation::oc3_line();
     const Watch watch;
@@ -99,32 +98,32 @@ std::string mooring_list(plot::Panel& panel) {
       text +=
           fmt::format("| {} | {:.2g} | {:.1g} % | {} | {:.3g} | {} | {} |\n", n, rest_ms, 100 * off, h, run.ms_per_s,
                       n == longest ? "–" : fmt::format("{:.1g} %", 100 * error), h == 0.1 ? theirs : "");
-      if (n == longest) continue;
-      points.x.push_back(run.ms_per_s);
-      points.y.push_back(error);
     }
   }
-  panel = {.x = {.label = "time per simulated second", .unit = "ms", .scale = plot::Scale::logarithmic},
-           .y = {.label = "rms error of the tension over its range", .scale = plot::Scale::logarithmic},
-           .series = {points}};
   return text;
 }
 
 /// What the step alone makes of the error, against the same segments in steps of 1.6 ms, down to what the explicit peer
 /// has at the longest step at which it is stable.
-std::string step_list() {
+std::string step_list(plot::Panel& panel) {
   std::string text = "| segments | step [s] | time [ms/s] | error of the step |\n| --- | --- | --- | --- |\n";
   for (const int n : {20, 50, 100, 200}) {
     const Moored limit = moored(n, 0.1 / 64, 30, 1e-10);
+    plot::Series series{.name = fmt::format("{} segments", n), .x = {}, .y = {}, .marks = true};
     double coarser = 1;
     for (const double h : {0.1, 0.05, 0.025, 0.0125, 0.00625}) {
       const Moored run = moored(n, h, 30, 1e-6);
       const double error = difference(run, limit);
       hydro::require(error < coarser, "{} segments, step {} s: off by {}, more than at twice the step", n, h, error);
       coarser = error;
+      series.x.push_back(run.ms_per_s);
+      series.y.push_back(error);
       text += fmt::format("| {} | {} | {:.3g} | {:.2g} |\n", n, h, run.ms_per_s, error);
     }
+    panel.series.push_back(std::move(series));
   }
+  panel.x = {.label = "time per simulated second", .unit = "ms", .scale = plot::Scale::logarithmic};
+  panel.y = {.label = "rms error of the step over the range", .scale = plot::Scale::logarithmic};
   return text;
 }
 
@@ -264,9 +263,8 @@ int main(int argc, char** argv) {
       "## The OC3 mooring line\n\n902 m of chain on a bed, catenary segments, generalised-α; the fairlead moved by 2 m "
       "and 1 m at 10 s (case oc3-line). "
       "The error is the root mean square over the range of the tension from 20 to 30 s, against 200 segments "
-      "and a step of 12.5 ms. Times of the explicit peer are those reported for it, on another day.\n\n![error against "
-      "time](lines.svg)\n\n";
-  text += mooring_list(panel);
+      "and a step of 12.5 ms. Times of the explicit peer are those reported for it, on another day.\n\n";
+  text += mooring_list();
   text +=
       "\nUp to 200 segments the time is linear in their number, half a microsecond a node and iteration. At 1 000 a "
       "node "
@@ -278,8 +276,8 @@ int main(int argc, char** argv) {
       "to the "
       "catenary than 200 straight ones of the peer (0.1 % off), at a twentieth of the time.\n"
       "\n### What the step alone costs\n\nThe same over the same range, against the same segments in steps of 1.6 "
-      "ms.\n\n";
-  text += step_list();
+      "ms.\n\n![error of the step against time](lines.svg)\n\n";
+  text += step_list(panel);
   text +=
       "\nAt 50 ms and more axial waves along the chain, which the fairlead sets off at once, are not resolved, and the "
       "error "
@@ -300,7 +298,8 @@ int main(int argc, char** argv) {
       "more for the ledger.\n\n";
   text += water_list();
   hydro::io::write_atomically(folder / "lines.md", text);
-  hydro::io::write_atomically(folder / "lines.svg",
-                              froude::plot::svg({.title = "OC3 line: error against time", .panels = {panel}}));
+  hydro::io::write_atomically(
+      folder / "lines.svg",
+      froude::plot::svg({.title = "OC3 line: error of the step against time", .panels = {panel}}));
   return 0;
 }
