@@ -37,11 +37,8 @@ Balance PeriodicAnswers::grown(double period, double height) const {
   Balance out;
   for (int i = 1; i <= steps; ++i) {
     const auto system = at(period, height * i / steps);
-    PeriodicMotion near = at_rest(*system);
-    if (i > 1) {
-      near = std::move(out.motion);
-      near.coefficients *= i / (i - 1.0);
-    }
+    PeriodicMotion near = i > 1 ? std::move(out.motion) : at_rest(*system);
+    if (i > 1) near.coefficients *= i / (i - 1.0);
     out = balance(*system, std::move(near));
     if (!out.found) return out;
   }

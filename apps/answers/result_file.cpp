@@ -1,5 +1,6 @@
 
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "answers/provenance.hpp"
@@ -164,6 +165,8 @@ void write_modes(const std::filesystem::path& path, const Modes& modes, const Pr
   file.save(path);
 }
 
+double StabilityMap::Motion::fate_number() const { return fate ? static_cast<double>(*fate) : std::nan(""); }
+
 constexpr const char* what_multipliers_are = "largest absolute Floquet multiplier of the periodic motion";
 constexpr const char* what_fates_are = "0 stable, 1 period-doubled, 2 quasi-periodic, 3 fold";
 
@@ -175,7 +178,7 @@ void write_branch(Hdf5Writer& file, const std::string& group, const StabilityMap
     period.push_back(p.period);
     height.push_back(p.height);
     multiplier.push_back(p.multiplier);
-    fate.push_back(p.fate ? static_cast<double>(*p.fate) : std::nan(""));
+    fate.push_back(p.fate_number());
     forwards.push_back(p.forwards ? 1 : 0);
   }
   write_dimension(file, group + "/point", number, "1", "along the branch");
@@ -210,7 +213,7 @@ void StabilityMap::write(const std::filesystem::path& path) const {
   std::vector<double> multiplier, fate;
   for (const Cell& c : cells) {
     multiplier.push_back(c.multiplier);
-    fate.push_back(c.fate ? static_cast<double>(*c.fate) : std::nan(""));
+    fate.push_back(c.fate_number());
   }
   cell_by_cell("/multiplier", multiplier, "1", what_multipliers_are);
   cell_by_cell("/fate", fate, "1", what_fates_are);

@@ -24,6 +24,7 @@ using scene::Scene;
 
 /// Scene bodies that take their coefficients from one reading of one file, and which of its bodies each is.
 struct Use {
+  std::string name;  // of the data, in what is kept
   Coefficients data;
   std::vector<int> bodies;     // in the scene
   std::vector<int> file_body;  // in the file, from 0
@@ -42,8 +43,7 @@ std::string name_of_data(const Scene& scene, const Hydrodynamics& h) {
 }
 
 /// From the file, or computed for all bodies of cylinders together; once for all scenes that share what is kept.
-Coefficients read(const Scene& scene, const Hydrodynamics& h, Kept& kept) {
-  const std::string name = name_of_data(scene, h);
+Coefficients read(const Scene& scene, const Hydrodynamics& h, const std::string& name, Kept& kept) {
   if (h.cylinders)
     return kept.coefficients(name, [&] { return solve_cylinders(scene, bodies_of_cylinders(scene)).coefficients; });
   hydro::potential::ReadOptions options;
@@ -113,7 +113,8 @@ std::vector<Use> uses(const Scene& scene, Kept& kept) {
                     h->interaction != Interaction::self, h->radiation, h->excitation, h->hydrostatics);
     const auto [at, is_new] = known.try_emplace(key, out.size());
     if (is_new) {
-      out.push_back({read(scene, *h, kept), {}, {}});
+      const std::string name = name_of_data(scene, *h);
+      out.push_back({name, read(scene, *h, name, kept), {}, {}});
       require_same_water(scene, out.back().data, h->file.place);
     }
     out[at->second].bodies.push_back(static_cast<int>(b));
@@ -149,8 +150,8 @@ TakenCoefficients taken_by(const Scene& scene, const Use& use) {
 const std::vector<hydro::potential::Finding>& findings(const Scene& scene, const Use& use, Kept& kept) {
   const Hydrodynamics& h = hydrodynamics(scene, use.bodies.front());
   const TakenCoefficients taken = taken_by(scene, use);
-  std::string name = fmt::format("{}|{}|{}|{}|{}", name_of_data(scene, h), h.radiation, h.excitation, h.hydrostatics,
-                                 fmt::join(taken.bodies, " "));
+  std::string name =
+      fmt::format("{}|{}|{}|{}|{}", use.name, h.radiation, h.excitation, h.hydrostatics, fmt::join(taken.bodies, " "));
   for (const auto& modes : taken.modes) name += fmt::format("|{}", fmt::join(modes, " "));
   return kept.findings(name, [&] { return findings_in(used(scene, use), taken); });
 }

@@ -115,22 +115,25 @@ WaterOfMembers::Field WaterOfMembers::of(const HarmonicField& waves, const Field
       ->field.get();
 }
 
+template <class Value>
+const Value& Kept::known(std::map<std::string, Value>& all, const std::string& name,
+                         const std::function<Value()>& make) {
+  const std::scoped_lock one_at_a_time(mutex_);
+  const auto known = all.find(name);
+  if (known != all.end()) return known->second;
+  const Value& out = all.emplace(name, make()).first->second;
+  ++made_;
+  return out;
+}
+
 const hydro::potential::Coefficients& Kept::coefficients(const std::string& name,
                                                          const std::function<hydro::potential::Coefficients()>& make) {
-  const std::scoped_lock one_at_a_time(mutex_);
-  const auto known = coefficients_.find(name);
-  if (known != coefficients_.end()) return known->second;
-  ++made_;
-  return coefficients_.emplace(name, make()).first->second;
+  return known(coefficients_, name, make);
 }
 
 const std::vector<hydro::potential::Finding>& Kept::findings(
     const std::string& name, const std::function<std::vector<hydro::potential::Finding>()>& make) {
-  const std::scoped_lock one_at_a_time(mutex_);
-  const auto known = findings_.find(name);
-  if (known != findings_.end()) return known->second;
-  ++made_;
-  return findings_.emplace(name, make()).first->second;
+  return known(findings_, name, make);
 }
 
 }  // namespace froude::compile

@@ -124,6 +124,10 @@ class Kept {
   std::size_t made() const { return made_ + fits_.made(); }
 
  private:
+  /// One thread at a time.
+  template <class Value>
+  const Value& known(std::map<std::string, Value>& all, const std::string& name, const std::function<Value()>& make);
+
   std::mutex mutex_;
   std::atomic<std::size_t> made_ = 0;
   std::map<std::string, hydro::potential::Coefficients> coefficients_;

@@ -30,6 +30,16 @@ constexpr const char* red = "#e00000";  // as the source draws boundaries
 
 std::string fate_of(const StabilityMap::Motion& motion) { return motion.fate ? name_of(*motion.fate) : "none found"; }
 
+/// "stable to 1.5 m, period-doubled to 4 m": equal neighbours are told once.
+template <class FateOf, class At>
+std::string fates_told(std::size_t count, const FateOf& fate, const At& at, const char* unit) {
+  std::string out;
+  for (std::size_t i = 0; i < count; ++i)
+    if (i + 1 == count || fate(i + 1) != fate(i))
+      out += fmt::format("{}{} to {:.4g} {}", out.empty() ? "" : ", ", fate(i), at(i), unit);
+  return out;
+}
+
 Report report_of(const StabilityMap& map, std::size_t p) {
   Report out;
   for (std::size_t h = 0; h < map.height.size(); ++h) {
@@ -39,13 +49,9 @@ Report report_of(const StabilityMap& map, std::size_t p) {
     one.keep("multiplier", cell.multiplier).keep("harmonics", cell.harmonics);
     out.one_of("cells", one);
   }
-  // In a row equal neighbours are told once: "stable to 1.5 m, period-doubled to 4 m".
-  std::string row;
-  for (std::size_t h = 0; h < map.height.size(); ++h) {
-    const auto fate = [&](std::size_t i) { return fate_of(map.cells[map.index(p, i)]); };
-    if (h + 1 == map.height.size() || fate(h + 1) != fate(h))
-      row += fmt::format("{}{} to {:.4g} m", row.empty() ? "" : ", ", fate(h), map.height[h]);
-  }
+  const std::string row = fates_told(
+      map.height.size(), [&](std::size_t h) { return fate_of(map.cells[map.index(p, h)]); },
+      [&](std::size_t h) { return map.height[h]; }, "m");
   const bool grows = std::isfinite(map.mathieu[p]);
   return out
       .say("{:>9.4g} {:>8}  {}", fact("period_s", map.period[p]),
@@ -58,16 +64,6 @@ std::vector<double> folds_of(const Branch& branch) {
   std::vector<double> out;
   for (std::size_t i = 1; i < branch.points.size(); ++i)
     if (branch.points[i].forwards != branch.points[i - 1].forwards) out.push_back(branch.varied(branch.points[i - 1]));
-  return out;
-}
-
-/// "stable to 6.5 s, period-doubled to 9 s"; equal neighbours are told once.
-std::string fates_along(const Branch& branch, const char* unit) {
-  std::string out;
-  for (std::size_t i = 0; i < branch.points.size(); ++i)
-    if (i + 1 == branch.points.size() || fate_of(branch.points[i + 1]) != fate_of(branch.points[i]))
-      out += fmt::format("{}{} to {:.4g} {}", out.empty() ? "" : ", ", fate_of(branch.points[i]),
-                         branch.varied(branch.points[i]), unit);
   return out;
 }
 
@@ -85,7 +81,9 @@ Report report_of_branch(const Branch& branch, std::size_t number) {
   const std::vector<double> folds = folds_of(branch);
   for (const double at : folds)
     turns += fmt::format("{}{:.4g} {}", turns.empty() ? ", turns back at " : ", ", at, unit);
-  const std::string fates = fates_along(branch, unit);
+  const std::string fates = fates_told(
+      branch.points.size(), [&](std::size_t i) { return fate_of(branch.points[i]); },
+      [&](std::size_t i) { return branch.varied(branch.points[i]); }, unit);
   out.say("branch {} of {:.4g} {}: {} points{}{}{}", number, branch.held, held, branch.points.size(), turns,
           fates.empty() ? "" : ": " + fates, fact("end", branch.end, branch.end.empty() ? "" : "; " + branch.end));
   return out.keep(branch.over_periods ? "height_m" : "period_s", branch.held).keep("folds", folds);
@@ -142,7 +140,7 @@ struct Rows {
     branch.push_back(of_branch);
     period.push_back(T);
     height.push_back(H);
-    fate.push_back(motion.fate ? static_cast<double>(*motion.fate) : std::nan(""));
+    fate.push_back(motion.fate_number());
     multiplier.push_back(motion.multiplier);
     mathieu.push_back(grows);
     forwards.push_back(onwards);

@@ -188,6 +188,9 @@ struct StabilityMap {
     double multiplier = std::numeric_limits<double>::quiet_NaN();  ///< the largest |Floquet multiplier| of a period
     int harmonics = 0;
     dynamics::frequency::PeriodicMotion motion = {};  ///< of the coordinates of (Q13); empty where none was found
+
+    /// As files have it: 0 stable, 1 period-doubled, 2 quasi-periodic, 3 fold; NaN: no motion was found.
+    double fate_number() const;
   };
   /// One that grows out of rest as waves do.
   struct Cell : Motion {

@@ -64,17 +64,16 @@ Eigen::Vector3d rest_position(const DragPiece& piece, const std::vector<RigidBod
 
 namespace {
 
-/// Calls `begin(body, motion)` before the first piece of a body, of which those of one body mostly lie together, and
-/// `act(piece, motion, water, flow)` for each piece, `water` global.
-template <class Begin, class Act>
+/// Calls act(piece, motion of its body, water, flow) for each piece, `water` global.
+template <class Act>
 void for_each_flow(const std::vector<DragPiece>& pieces, const std::optional<WaveSignals>& water, const State& state,
-                   Begin begin, Act act) {
+                   Act act) {
   const auto each = [&](const auto& velocity) {
     BodyMotion motion;
-    int body = -1;
+    int body = -1;  // pieces of one body mostly lie together
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       const DragPiece& piece = pieces[i];
-      if (piece.body != body) begin(body = piece.body, motion = motion_of(piece.body, state));
+      if (piece.body != body) motion = motion_of(body = piece.body, state);
       const Eigen::Vector3d u = piece.current + velocity.template segment<3>(3 * static_cast<Eigen::Index>(i));
       act(piece, motion, u, flow_past(piece, motion, u));
     }
@@ -93,26 +92,27 @@ Eigen::Vector3d force_on(const DragPiece& piece, const DragFlow& f) {
 }  // namespace
 
 void DragKind::add_load(const Instant& now, LoadSink& out) const {
-  Vector6 load = Vector6::Zero();  // of one body, along its axes
-  int body = -1;
+  Eigen::Vector3d force, moment;  // on one body, along its axes
   Eigen::Matrix3d to_body;
+  int body = -1;
   const auto add = [&] {
     if (body < 0) return;
-    Vector6 global;
-    global << to_body.transpose() * load.head<3>(), to_body.transpose() * load.tail<3>();
-    out.add(body, global);
+    Vector6 load;
+    load << to_body.transpose() * force, to_body.transpose() * moment;
+    out.add(body, load);
   };
-  const auto begin = [&](int next, const BodyMotion& motion) {
-    add();
-    load.setZero();
-    body = next;
-    to_body = motion.to_body;
-  };
-  for_each_flow(pieces_, water_, now.state, begin,
-                [&](const DragPiece& piece, const BodyMotion&, const Eigen::Vector3d&, const DragFlow& f) {
-                  const Eigen::Vector3d force = force_on(piece, f);
-                  load.head<3>() += force;
-                  load.tail<3>() += piece.arm.cross(force);
+  for_each_flow(pieces_, water_, now.state,
+                [&](const DragPiece& piece, const BodyMotion& motion, const Eigen::Vector3d&, const DragFlow& f) {
+                  if (piece.body != body) {
+                    add();
+                    force.setZero();
+                    moment.setZero();
+                    to_body = motion.to_body;
+                    body = piece.body;
+                  }
+                  const Eigen::Vector3d of_piece = force_on(piece, f);
+                  force += of_piece;
+                  moment += piece.arm.cross(of_piece);
                 });
   add();
 }
@@ -136,12 +136,10 @@ void DragKind::add_jacobian(const Instant& now, JacobianSink& out) const {
     by_v << force_by_v, S * force_by_v;
     by_q.topRightCorner<3, 3>() -= cross_matrix(force);
     by_q.bottomRightCorner<3, 3>() -= cross_matrix(piece.arm.cross(force));
-    Matrix6 T = Matrix6::Zero();
-    T.topLeftCorner<3, 3>() = T.bottomRightCorner<3, 3>() = motion.to_body;
-    out.add(piece.body, piece.body, T.transpose() * by_q * T, T.transpose() * by_v * T);
+    const Eigen::Matrix3d R = motion.to_body.transpose();
+    out.add(piece.body, piece.body, turned(by_q, R), turned(by_v, R));
   };
-  for_each_flow(
-      pieces_, water_, now.state, [](int, const BodyMotion&) {}, each);
+  for_each_flow(pieces_, water_, now.state, each);
 }
 
 EnergyFlow DragKind::energy(const Instant& now) const {
@@ -152,8 +150,7 @@ EnergyFlow DragKind::energy(const Instant& now) const {
     flow.supplied += force.dot(motion.to_body * water);
     flow.dissipated += force.dot(f.relative);
   };
-  for_each_flow(
-      pieces_, water_, now.state, [](int, const BodyMotion&) {}, each);
+  for_each_flow(pieces_, water_, now.state, each);
   return flow;
 }
 

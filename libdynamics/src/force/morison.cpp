@@ -185,14 +185,6 @@ Matrix6 added_mass(double per_length, const PlacedMember& at, const std::vector<
   return mass;
 }
 
-/// From body axes to global ones.
-Matrix6 turned(const Matrix6& mass, const Matrix3d& R) {
-  Matrix6 out;
-  for (const int i : {0, 3})
-    for (const int j : {0, 3}) out.block<3, 3>(i, j) = R * mass.block<3, 3>(i, j) * R.transpose();
-  return out;
-}
-
 /// A member on a body whose axes are the global ones.
 PlacedMember in_body_axes(const SlenderMember& line) {
   PlacedMember out{};
@@ -213,8 +205,9 @@ MorisonKind::MorisonKind(std::vector<MorisonMember> members, std::shared_ptr<con
     const auto known =
         std::find_if(always_.begin(), always_.end(), [&](const auto& b) { return b.body == m.line.body; });
     BodyMass& of_body = known != always_.end() ? *known : always_.emplace_back(BodyMass{m.line.body, Matrix6::Zero()});
-    of_body.added += added_mass(PerLength(m, water_->water().density).added, in_body_axes(m.line),
-                                wet_pieces(m.line, in_body_axes(m.line), *water_, 0, false));
+    const PlacedMember at = in_body_axes(m.line);
+    of_body.added +=
+        added_mass(PerLength(m, water_->water().density).added, at, wet_pieces(m.line, at, *water_, 0, false));
   }
 }
 

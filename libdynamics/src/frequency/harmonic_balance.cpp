@@ -324,18 +324,17 @@ VectorXd with_rows(const VectorXd& tangent, Index rows) {
 
 }  // namespace
 
-FollowedBranch follow(const Family& family, double from, double to, PeriodicMotion start,
-                      const FollowOptions& options) {
+namespace {
+
+/// Adds points until the branch is where it is to go; else why it is not.
+std::string go_on(Branch& branch, Branch::Place at, double from, double to, const FollowOptions& options,
+                  std::vector<BranchPoint>& points) {
   constexpr double shortest = 1e-7;
-  Branch branch(family, from, to, options);
-  Branch::Place at{std::move(start.coefficients), from};
-  VectorXd tangent = VectorXd::Unit(at.Y.size() + 1, at.Y.size());
-  FollowedBranch out{{{from, branch.motion(at), true}}, {}};
   const auto ended = [&](const std::string& why) {
-    out.end = fmt::format("the branch {} near {:.6g}", why, at.parameter);
-    return out;
+    return fmt::format("the branch {} near {:.6g}", why, at.parameter);
   };
-  for (double step = options.step; static_cast<int>(out.points.size()) < options.points;) {
+  VectorXd tangent = VectorXd::Unit(at.Y.size() + 1, at.Y.size());
+  for (double step = options.step; static_cast<int>(points.size()) < options.points;) {
     branch.set_size(at.Y.norm());
     tangent = branch.tangent(at, tangent);
     auto next = branch.corrected(branch.moved(at, step * tangent), tangent);
@@ -354,8 +353,8 @@ FollowedBranch follow(const Family& family, double from, double to, PeriodicMoti
     if ((next->parameter - to) * (to - from) >= 0) {  // past the end: the motion that has it
       Balance last = branch.exactly(to, branch.motion(*next));
       if (last.found) {
-        out.points.push_back({to, std::move(last.motion), true});
-        return out;
+        points.push_back({to, std::move(last.motion), true});
+        return {};
       }
       if ((step /= 2) < shortest) return ended("has no motion at its end, " + last.why);
       tangent = with_rows(tangent, at.Y.size() + 1);
@@ -363,10 +362,25 @@ FollowedBranch follow(const Family& family, double from, double to, PeriodicMoti
     }
     if ((next->parameter - from) * (to - from) < 0) return ended("comes back to where it began");
     at = *next;
-    out.points.push_back({at.parameter, branch.motion(at), tangent[tangent.size() - 1] > 0});
+    points.push_back({at.parameter, branch.motion(at), tangent[tangent.size() - 1] > 0});
     step = std::min(1.3 * step, options.largest_step);
   }
   return ended(fmt::format("has {} points, as many as are allowed,", options.points));
+}
+
+}  // namespace
+
+FollowedBranch follow(const Family& family, double from, double to, PeriodicMotion start,
+                      const FollowOptions& options) {
+  Branch branch(family, from, to, options);
+  const Branch::Place at{std::move(start.coefficients), from};
+  FollowedBranch out{{{from, branch.motion(at), true}}, {}};
+  try {
+    out.end = go_on(branch, at, from, to, options, out.points);
+  } catch (const hydro::NumericsError& error) {  // bodies whose joints cannot be closed
+    out.end = error.what();
+  }
+  return out;
 }
 
 // (Q12)

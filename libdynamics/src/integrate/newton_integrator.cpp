@@ -115,9 +115,9 @@ void NewtonIntegrator::take_unseen(const Workspace& workspace, double h) {
   end_of_step(workspace, h, now_.acceleration, now_.state);
 }
 
-void NewtonIntegrator::finish(Workspace& workspace, int went_on) {
+void NewtonIntegrator::finish(Workspace& workspace, int goes_on) {
   accepted(workspace, now_.acceleration);
-  goes_on_ = went_on;
+  goes_on_ = std::min<int>(goes_on, before_.size());
   before_[2].swap(before_[1]);
   before_[1].swap(before_[0]);
   before_[0] = workspace.acceleration;
@@ -149,7 +149,7 @@ bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& repo
     // Joints are to close fully: there no more is trusted than that the factors serve.
     if (kept && keeps && (now_.open.size() > 0 ? serves : left) * now_.size <= residual_tolerance * reach(h)) {
       take_unseen(workspace, h);
-      finish(workspace, anew ? 0 : std::min(went_on + 1, 3));
+      finish(workspace, anew ? 0 : went_on + 1);
       return true;
     }
     const double move = correction_.x.cwiseProduct(scale).norm();
@@ -166,7 +166,7 @@ bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& repo
     const bool settled = keeps && now_.size <= residual_tolerance * reach(h);
     if (part == 1 && (settled || (!kept && move <= newton_tolerance * reach(h)) || move <= unresolved(h))) {
       workspace.solver.of_step = keeps ? h : 0;  // rounding, too, leaves much
-      finish(workspace, anew ? 0 : std::min(went_on + 1, 3));
+      finish(workspace, anew ? 0 : went_on + 1);
       return true;
     }
   }

@@ -15,6 +15,13 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
   return m;
 }
 
+Eigen::Matrix<double, 6, 6> turned(const Eigen::Matrix<double, 6, 6>& m, const Eigen::Matrix3d& R) {
+  Eigen::Matrix<double, 6, 6> out;
+  for (const int i : {0, 3})
+    for (const int j : {0, 3}) out.block<3, 3>(i, j) = R * m.block<3, 3>(i, j) * R.transpose();
+  return out;
+}
+
 Eigen::Quaterniond rotation_exp(const Eigen::Vector3d& phi) {
   const double angle = phi.norm(), half = angle / 2;
   const double s = angle < small_angle ? 0.5 - angle * angle / 48 : std::sin(half) / angle;

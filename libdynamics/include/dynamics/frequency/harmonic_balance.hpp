@@ -109,7 +109,7 @@ struct FollowedBranch {
 
 /// The branch through `start`, a motion at the parameter `from`, by pseudo-arclength, (Q11): round folds, until the
 /// parameter is `to`, which the last point has. It ends before where it comes below `from` again, where there are as
-/// many points or harmonics as are allowed, and where it cannot be followed by the smallest step.
+/// many points or harmonics as are allowed, and where it cannot be followed any further.
 FollowedBranch follow(const Family& family, double from, double to, PeriodicMotion start,
                       const FollowOptions& options = {});
 

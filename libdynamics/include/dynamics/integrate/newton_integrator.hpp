@@ -52,7 +52,7 @@ class NewtonIntegrator : public Integrator {
   void foretell(const Workspace& workspace, int went_on);
   double reach(double h) const;
   void take_unseen(const Workspace& workspace, double h);
-  void finish(Workspace& workspace, int went_on);
+  void finish(Workspace& workspace, int goes_on);
 
   // Accelerations at the begin of the three steps before, the last first, for a first guess, as far as factors served
   // all through them.

@@ -12,6 +12,10 @@ namespace dynamics {
 /// [v]× with [v]× w = v × w.
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
 
+/// A matrix between motions and loads (translation, rotation) of one body along axes that R turns into other ones, as
+/// it is along those.
+Eigen::Matrix<double, 6, 6> turned(const Eigen::Matrix<double, 6, 6>& m, const Eigen::Matrix3d& R);
+
 /// Unit quaternion of the rotation vector φ, any length.
 Eigen::Quaterniond rotation_exp(const Eigen::Vector3d& phi);
 
