@@ -11,6 +11,7 @@
 #include "froude/progress.hpp"
 #include "froude/report.hpp"
 #include "froude/scene_result.hpp"
+#include "froude/shares.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/types.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -154,7 +155,8 @@ Report report_of(const std::vector<CheckedCell>& cells) {
   return out;
 }
 
-Report report_of(const scene::Scene& scene, const Responses& r, const Path& file, bool for_programs) {
+Report report_of(const scene::Scene& scene, const Responses& r, const Shares& shares, const Path& file,
+                 bool for_programs) {
   const bool several = r.heading.size() > 1;
   Report out, signals;
   out.say("{}: {} signals at {} frequencies{}, periods {:.4g} to {:.4g} s", scene.file.filename().string(),
@@ -167,23 +169,30 @@ Report report_of(const scene::Scene& scene, const Responses& r, const Path& file
   for (const auto& s : r.signals) signals.part(s.name, report_of(s, r, for_programs));
   out.part("signals", std::move(signals)).part("error", error_of(r));
   out.sentences("notes", "note: {}", r.notes).sentences("warnings", "{}", r.warnings());
+  out.part("", shares.report());
   return out.say("wrote {}", fact("file", file.string()));
 }
 
 }  // namespace
 
 void rao(const RaoArguments& arguments, const Console& console) {
+  Shares shares;
   const scene::Scene scene = scene::read(arguments.scene);
   require_asked(scene.rao.has_value(), scene, "rao", "rao = { periods = \"2 s .. 8 s, 61 values\" }");
   const Path file = checked_output(arguments, ".rao.h5");
+  shares.end("reading");
   HowToRespond how{.refine = arguments.refine};
   if (arguments.threads) how.threads = *arguments.threads;
-  const Responses per_metre = respond(scene, compile::prepare(scene), how);
+  const compile::Prepared prepared = compile::prepare(scene);
+  shares.end("preparing");
+  const Responses per_metre = respond(scene, prepared, how);
   const Responses r = arguments.nondimensional ? over_wave_slope(per_metre, scene.water) : per_metre;
+  shares.end("answering");
   r.write(file);
   if (arguments.csv) write_rao_csv(*arguments.csv, r);
   if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, r)));
-  Report report = report_of(scene, r, file, console.json);
+  shares.end("writing");
+  Report report = report_of(scene, r, shares, file, console.json);
   if (!arguments.check.empty()) {
     Progress progress(console.err, "runs", console.show_progress);
     report.part("check", report_of(check_in_time(scene, per_metre, arguments.check_steepness,

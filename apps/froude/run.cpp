@@ -5,6 +5,7 @@
 #include "froude/progress.hpp"
 #include "froude/scene_result.hpp"
 #include "froude/series.hpp"
+#include "froude/shares.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/parallel.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -63,7 +64,7 @@ Report energy_of(const Run& record) {
       fact("energy_residual_relative", record.relative_residual()), fact("energy_turnover_J", record.turnover()));
 }
 
-Report report_of(const scene::Scene& scene, const Run& record, const Path& file) {
+Report report_of(const scene::Scene& scene, const Run& record, const Shares& shares, const Path& file) {
   const std::string name = scene.file.filename().string();
   const Report steps = steps_of(record, name), energy = energy_of(record);
   const bool stepped = !scene.run->steady;
@@ -78,25 +79,33 @@ Report report_of(const scene::Scene& scene, const Run& record, const Path& file)
   for (const LineExponent& e : record.exponents) out.one_of("lyapunov", report_of(e));
   out.keep("stopped", record.stopped);
   out.sentences("notes", "note: {}", record.notes).sentences("warnings", "{}", record.warnings());
+  out.part("", shares.report());
   return out.say("wrote {}", fact("file", file.string()));
 }
 
 }  // namespace
 
 void run(const SceneArguments& arguments, const Console& console) {
+  Shares shares;
   const scene::Scene scene = scene::read(arguments.scene);
   require_asked(scene.run.has_value(), scene, "run", "run = { duration = \"600 s\", every = \"0.05 s\" }");
   const Path file = checked_output(arguments, ".run.h5");
   Progress progress(console.err, "run", console.show_progress);
+  shares.end("reading");
   const int threads = std::min(2, hydro::all_processors());
   const Run record = simulate(
       scene, [&](double done) { progress.update(done); }, {}, nullptr, threads);
+  if (scene.run->steady)
+    shares.end("answering");
+  else
+    shares.end("estimating", {{"preparing", record.preparation_s}, {"stepping", record.stepping_s}});
   record.write(file);
   if (arguments.csv) write_series_csv(*arguments.csv, record.time, record.signals);
   if (arguments.picture)
     hydro::io::write_atomically(*arguments.picture, plot::svg(series_figure(scene.title.empty() ? "Run" : scene.title,
                                                                             record.time, record.signals)));
-  tell(report_of(scene, record, file), console);
+  shares.end("writing");
+  tell(report_of(scene, record, shares, file), console);
   if (!record.stopped.empty())
     throw hydro::NumericsError(record.stopped + "; what was computed is in " + file.string());
 }

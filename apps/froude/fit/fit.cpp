@@ -4,6 +4,7 @@
 #include "answers/fit_kind.hpp"
 #include "froude/fit/report.hpp"
 #include "froude/outputs.hpp"
+#include "froude/shares.hpp"
 #include "hydro/io/atomic_file.hpp"
 
 namespace froude {
@@ -57,7 +58,7 @@ Outcome outcome_of(const scene::FitScene& scene, const FitArguments& arguments) 
 }
 
 /// Prints, and writes what the arguments ask for: TOML, table, picture. \throws what `outcome` was refused for
-void deliver(const Outcome& outcome, const FitArguments& arguments, const Console& console) {
+void deliver(const Outcome& outcome, const FitArguments& arguments, Shares& shares, const Console& console) {
   if (!console.json) console.out << outcome.report.text();
   const auto write = [&](const std::optional<Path>& file, const std::string& content) {
     if (!file || content.empty()) return;
@@ -75,12 +76,17 @@ void deliver(const Outcome& outcome, const FitArguments& arguments, const Consol
                                           arguments.predict ? "Prediction" : "Estimates", FROUDE_VERSION);
   if (arguments.output) write(arguments.output, toml_of(outcome.report.tree(), comment));
   write(arguments.picture, picture);
-  if (console.json) tell(outcome.report, console);
+  shares.end("writing");
+  if (console.json)
+    tell(Report(outcome.report).part("", shares.report()), console);
+  else
+    tell_people(shares.report(), console);
 }
 
 }  // namespace
 
 void fit(const FitArguments& arguments, const Console& console) {
+  Shares shares;
   const scene::FitScene scene = scene::read_fit(arguments.scene);
   std::vector<NamedFile> inputs = files_of_scene(arguments.scene);
   if (arguments.at) inputs.push_back({"the values of an earlier fit", *arguments.at});
@@ -89,7 +95,10 @@ void fit(const FitArguments& arguments, const Console& console) {
   if (arguments.table && !scene.of->has_table())
     throw hydro::InputError(fmt::format("a fit of kind \"{}\" has no table of runs", scene.kind()), {},
                             "leave out --table");
-  deliver(outcome_of(scene, arguments), arguments, console);
+  shares.end("reading");
+  const Outcome outcome = outcome_of(scene, arguments);
+  shares.end("fitting");
+  deliver(outcome, arguments, shares, console);
 }
 
 }  // namespace froude

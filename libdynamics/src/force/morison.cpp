@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "dynamics/spatial/rotation.hpp"
+#include "foreseen_flow.hpp"
 
 namespace dynamics {
 namespace {
@@ -120,7 +122,8 @@ ForceDerivatives inertia_derivatives(const PerLength& c, const Flow& f, const Fl
 struct MemberFlow {
   PlacedMember at;
   std::vector<WetPiece> pieces;
-  std::vector<Kinematics> water, moved;
+  std::span<const Kinematics> water;
+  std::vector<Kinematics> asked, moved;
   std::vector<WaterGradients> gradients;
   std::vector<Vector3d> points;  // that the water is asked for
 };
@@ -140,13 +143,12 @@ void find_water(const WaveField& field, double t, const Vector3d& shift, MemberF
   field.at(t, flow.points, out);
 }
 
-/// It stands until the next is asked for.
-MemberFlow& flow_of(const MorisonMember& m, const WaveField& field, const State& state, bool derivatives) {
-  MemberFlow& out = kept_flow();
-  out.at = placed(m.line, state);
-  find_wet_pieces(m.line, out.at, field, state.time, derivatives, out.pieces);
-  find_water(field, state.time, Vector3d::Zero(), out, out.water);
-  return out;
+/// Where the member is, in the flow that was foreseen.
+void take_foreseen(const ForeseenFlow::Flow& foreseen, MemberFlow& out) {
+  out.at = foreseen.at;
+  out.pieces.clear();
+  for (const ForeseenFlow::Point& p : foreseen.points) out.pieces.push_back({p.length, out.at.arm(p.share)});
+  out.water = foreseen.water;
 }
 
 /// At each piece, one-sided over a millionth of the diameter: error of about (κD) 1e-6 relative. Kinematics::gradient
@@ -163,6 +165,39 @@ void find_gradients(const MorisonMember& m, const WaveField& field, double t, Me
     }
   }
 }
+
+/// Members one after the other, each with its pieces and the water there.
+class Flows {
+ public:
+  Flows(const std::vector<MorisonMember>& members, const WaveField& field, const Instant& now)
+      : members_(members), field_(field), state_(now.state), foreseen_(static_cast<ForeseenFlow*>(now.memory)) {
+    if (foreseen_ != nullptr) foreseen_->look(state_);
+  }
+
+  /// Of the member after the last one, with gradients where they are asked for. It stands until the next.
+  MemberFlow& next(bool derivatives) {
+    const MorisonMember& m = members_[member_++];
+    MemberFlow& out = kept_flow();
+    if (foreseen_ != nullptr && m.line.immersion == Immersion::whole) {
+      take_foreseen(foreseen_->of(foreseen_members_++), out);
+      if (derivatives) out.gradients.assign(out.pieces.size(), {Matrix3d::Zero(), Matrix3d::Zero()});
+      return out;
+    }
+    out.at = placed(m.line, state_);
+    find_wet_pieces(m.line, out.at, field_, state_.time, derivatives, out.pieces);
+    find_water(field_, state_.time, Vector3d::Zero(), out, out.asked);
+    out.water = out.asked;
+    if (derivatives) find_gradients(m, field_, state_.time, out);
+    return out;
+  }
+
+ private:
+  const std::vector<MorisonMember>& members_;
+  const WaveField& field_;
+  const State& state_;
+  ForeseenFlow* foreseen_;
+  std::size_t member_ = 0, foreseen_members_ = 0;
+};
 
 // ∫c VᵀPV over the wet parts, V = (1, −r×) the velocity of a point by that of the body, P = 1 − ttᵀ: sums of c, cr and
 // crrᵀ, and Vᵀt = (t, r×t), which is the same at all points of a line along t.
@@ -198,8 +233,8 @@ PlacedMember in_body_axes(const SlenderMember& line) {
 }  // namespace
 
 // What is always wet carries the same water along with the body wherever that is.
-MorisonKind::MorisonKind(std::vector<MorisonMember> members, std::shared_ptr<const WaveField> water)
-    : members_(std::move(members)), water_(std::move(water)) {
+MorisonKind::MorisonKind(std::vector<MorisonMember> members, std::shared_ptr<const WaveField> water, double foresight)
+    : members_(std::move(members)), water_(std::move(water)), foresight_(foresight) {
   for (const MorisonMember& m : members_) {
     if (m.ca == 0 || m.line.immersion != Immersion::whole) continue;
     const auto known =
@@ -222,10 +257,20 @@ std::string MorisonKind::method() const {
   return fmt::format("drag and inertia at the true position, added mass on the left, {} pieces", pieces);
 }
 
+std::unique_ptr<Memory> MorisonKind::make_memory(const State&) const {
+  if (foresight_ == 0) return nullptr;
+  std::vector<SlenderMember> always_wet;
+  for (const MorisonMember& m : members_)
+    if (m.line.immersion == Immersion::whole) always_wet.push_back(m.line);
+  if (always_wet.empty()) return nullptr;
+  return std::make_unique<ForeseenFlow>(std::move(always_wet), *water_, foresight_);
+}
+
 [[gnu::flatten]] void MorisonKind::add_load(const Instant& now, LoadSink& out) const {
+  Flows flows(members_, *water_, now);
   for (const MorisonMember& m : members_) {
     const PerLength c(m, water_->water().density);
-    const MemberFlow& flow = flow_of(m, *water_, now.state, false);
+    const MemberFlow& flow = flows.next(false);
     Vector6 load = Vector6::Zero();
     for (std::size_t i = 0; i < flow.pieces.size(); ++i) {
       const Flow f = flow_past(flow.at, flow.pieces[i].arm, flow.water[i]);
@@ -238,10 +283,10 @@ std::string MorisonKind::method() const {
 }
 
 void MorisonKind::add_jacobian(const Instant& now, JacobianSink& out) const {
+  Flows flows(members_, *water_, now);
   for (const MorisonMember& m : members_) {
     const PerLength c(m, water_->water().density);
-    MemberFlow& flow = flow_of(m, *water_, now.state, true);
-    find_gradients(m, *water_, now.state.time, flow);
+    const MemberFlow& flow = flows.next(true);
     Matrix6 by_q = Matrix6::Zero(), by_v = Matrix6::Zero();
     for (std::size_t i = 0; i < flow.pieces.size(); ++i) {
       const WetPiece& piece = flow.pieces[i];
@@ -263,7 +308,7 @@ void MorisonKind::add_jacobian(const Instant& now, JacobianSink& out) const {
 
 void MorisonKind::add_mass(const State& state, MassSink& out) const {
   for (const BodyMass& m : always_)
-    out.add(m.body, turned(m.added, state.pose[static_cast<std::size_t>(m.body)].attitude.toRotationMatrix()));
+    out.add_along(state.pose[static_cast<std::size_t>(m.body)].attitude.toRotationMatrix(), m.body, m.added);
   for (const MorisonMember& m : members_) {
     if (m.ca == 0 || m.line.immersion == Immersion::whole) continue;
     const PlacedMember at = placed(m.line, state);
@@ -276,9 +321,10 @@ void MorisonKind::add_mass(const State& state, MassSink& out) const {
 // Of F·w the part F·u of the drag is the water's, F·(u − w) is lost; inertia loads take nothing for good (D46).
 EnergyFlow MorisonKind::energy(const Instant& now) const {
   EnergyFlow flow;
+  Flows flows(members_, *water_, now);
   for (const MorisonMember& m : members_) {
     const PerLength c(m, water_->water().density);
-    const MemberFlow& member = flow_of(m, *water_, now.state, false);
+    const MemberFlow& member = flows.next(false);
     for (std::size_t i = 0; i < member.pieces.size(); ++i) {
       const Flow f = flow_past(member.at, member.pieces[i].arm, member.water[i]);
       const Vector3d resistance = drag(c, f);

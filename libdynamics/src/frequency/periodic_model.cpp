@@ -21,7 +21,7 @@ void require_smooth(const Model& model, const Workspace& workspace) {
       throw hydro::InputError(
           fmt::format("periodic motions take loads that are functions of motion: {} is set-valued", kind.effect()), {},
           "leave it out, or step the scene with `froude run`");
-    if (workspace.memory[k])
+    if (workspace.memory[k] && !workspace.memory[k]->spares_work_only())
       throw hydro::InputError(
           fmt::format("periodic motions take loads that are functions of motion: {} has a memory of its own",
                       kind.effect()),
@@ -92,6 +92,7 @@ PeriodicModel::PeriodicModel(const Model& model, const SmallMotions& about,
                              const std::vector<RadiatingModes>& radiation, double omega)
     : model_(model), rest_(about.still), omega_(omega), workspace_(model, about.still) {
   require_smooth(model, workspace_);
+  for (auto& memory : workspace_.memory) memory.reset();  // motions that are tried follow from no step before
   const Reduction left(about);
   basis_ = left.expanded(MatrixXd(MatrixXd::Identity(left.count(), left.count())));
   const MatrixXd metric = about.mass.diagonal().asDiagonal() * basis_;

@@ -11,6 +11,7 @@
 #include "hydro/waves/dispersion.hpp"
 #include "hydro/waves/synthesis/tabulated_field.hpp"
 #include "laws/force_kind_laws.hpp"
+#include "support/counted_waves.hpp"
 #include "support/small_seas.hpp"
 
 namespace morison_test {
@@ -43,6 +44,61 @@ TEST(ForceLaws, HoldForMorisonMembersOfEveryImmersion) {
                                         water),
                             bodies);
   }
+}
+
+// What was asked where the step looked first stands while places are tried near it.
+TEST(ForceLaws, HoldForMorisonMembersWhoseWaterIsForeseen) {
+  const Eigen::Vector3d deep(-1, 0.3, -3), high(1, -0.2, 0.8), low(1, -0.2, -1.4);
+  for (const auto& water : {support::still_water(), support::steep_wave(Stretching::wheeler)}) {
+    SCOPED_TRACE(water->elevation(0, 0, 0));
+    laws::expect_force_laws(MorisonKind({member(0, deep, low, Immersion::whole, 1.1, 0.9, 0.02),
+                                         member(1, deep, high, Immersion::surface, 1.1, 0.9, 0.02)},
+                                        water, 1e-3),
+                            bodies);
+  }
+}
+
+/// A pile 2 to 6 m below the surface of waves of 4 s and 0.6 m, k = 0.25 rad/m, and its load with what it foresees.
+struct Foreseeing {
+  static constexpr double tolerance = 1e-3;
+  std::shared_ptr<const support::CountedWaves> waves =
+      std::make_shared<support::CountedWaves>(support::regular_harmonic(0.6, 4));
+  MorisonKind kind{{member(0, {0, 0, -6}, {0, 0, -2}, Immersion::whole, 1, 1)}, waves, tolerance};
+  std::unique_ptr<Memory> memory = kind.make_memory(rest_state(bodies));
+  State at(double surge) const {
+    State s = rest_state(bodies);
+    s.time = 0.7;
+    s.pose[0].centre.x() += surge;
+    return s;
+  }
+  Eigen::VectorXd load(const State& s) { return laws::load(kind, s, memory.get()); }
+};
+
+TEST(ForeseenFlow, IsAskedOnceAnInstantWhileBodiesAreNearTheFirstPlace) {
+  Foreseeing pile;
+  const Eigen::VectorXd first = pile.load(pile.at(0));
+  EXPECT_EQ(first, laws::load(pile.kind, pile.at(0), nullptr));
+  pile.waves->asked = 0;
+  // ∇u is k u at most: 2 mm change u by 5e-4 of itself, less than the tolerance.
+  const State near = pile.at(2e-3);
+  EXPECT_EQ(pile.load(near), first);
+  EXPECT_EQ(laws::jacobian(pile.kind, near, pile.memory.get(), 1, 0).topLeftCorner(3, 3).norm(), 0);
+  pile.kind.energy({near, pile.memory.get()});
+  EXPECT_EQ(pile.waves->asked, 0);
+  const Eigen::VectorXd exact = laws::load(pile.kind, near, nullptr);
+  EXPECT_NE(first, exact);
+  // Inertia changes as the water does, drag as its square.
+  EXPECT_LT((first - exact).head<3>().norm(), 2 * pile.tolerance * exact.head<3>().norm());
+}
+
+TEST(ForeseenFlow, IsAskedAnewWhereBodiesHaveComeTooFarAndAtEachInstant) {
+  Foreseeing pile;
+  pile.load(pile.at(0));
+  const State far = pile.at(0.02);  // 5e-3 of u
+  EXPECT_EQ(pile.load(far), laws::load(pile.kind, far, nullptr));
+  State later = far;
+  later.time += 1e-3;
+  EXPECT_EQ(pile.load(later), laws::load(pile.kind, later, nullptr));
 }
 
 // A vertical pile held in small waves: ∫ ρA(1 + C_A) u̇ dz = ρA(1 + C_A) a ω²/k · (sinh kh − sinh k(h−d))/sinh kh.

@@ -9,6 +9,7 @@
 #include "hydro/base/random.hpp"
 #include "hydro/waves/kinematics/sea.hpp"
 #include "springs.hpp"
+#include "support/counted_waves.hpp"
 #include "support/line_models.hpp"
 
 namespace loads_test {
@@ -59,27 +60,12 @@ Places force(const Line& line, const Places& x, const Places& v, const Places& a
   return out;
 }
 
-/// Waves that count how often they are asked at a point.
-class CountedWaves final : public hw::WaveField {
- public:
-  explicit CountedWaves(hw::HarmonicField field) : field_(std::move(field)) {}
-  const hydro::Water& water() const noexcept override { return field_.water(); }
-  double elevation(double t, double x, double y) const override { return field_.elevation(t, x, y); }
-  hw::Kinematics at(double t, const Vector3d& point) const override { return ++asked, field_.at(t, point); }
-  void at(double t, std::span<const Vector3d> points, std::span<hw::Kinematics> out) const override {
-    for (std::size_t i = 0; i < points.size(); ++i) out[i] = at(t, points[i]);
-  }
-  mutable std::size_t asked = 0;
-
- private:
-  hw::HarmonicField field_;
-};
-
 /// A chain of four rods that hangs into waves of 2 s and 0.2 m, four metres long.
 struct ChainInWaves {
-  std::shared_ptr<const CountedWaves> waves = std::make_shared<CountedWaves>(hw::linear_field(hw::Sea::regular(
-      hydro::WaveAmplitude::from_metres(0.2), hydro::AngularFrequency::from_period_s(2), hydro::Angle::from_degrees(20),
-      {.density = 1000, .depth = hydro::WaterDepth::from_metres(30)})));
+  std::shared_ptr<const support::CountedWaves> waves =
+      std::make_shared<support::CountedWaves>(hw::linear_field(hw::Sea::regular(
+          hydro::WaveAmplitude::from_metres(0.2), hydro::AngularFrequency::from_period_s(2),
+          hydro::Angle::from_degrees(20), {.density = 1000, .depth = hydro::WaterDepth::from_metres(30)})));
   Line line;
   State state;
 

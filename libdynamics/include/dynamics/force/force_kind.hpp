@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/spatial/rotation.hpp"
 #include "dynamics/state/block_matrix.hpp"
 #include "dynamics/state/body.hpp"
 #include "dynamics/state/signal.hpp"
@@ -28,6 +29,8 @@ class Memory {
   virtual ~Memory() = default;
   /// A full step has been completed in `state`.
   virtual void accept(const State& state) = 0;
+  /// True if loads are what they are without it, to a tolerance that the kind tells: it is there to be quicker.
+  virtual bool spares_work_only() const { return false; }
 };
 
 /// The arguments of every evaluation. `memory` is what the kind itself made, or null.
@@ -92,6 +95,16 @@ class MassSink {
       matrix_->block(body, body) += factor_ * mass;
     else
       product_->segment<6>(6 * body) += mass * x_->segment<6>(6 * body);
+  }
+  /// A mass that is given along axes that R turns into the global ones.
+  void add_along(const Eigen::Matrix3d& R, int body, const Matrix6& mass) {
+    if (matrix_ != nullptr) return add(body, turned(mass, R));
+    const Vector6 x = x_->segment<6>(6 * body);
+    Vector6 along;
+    along << R.transpose() * x.head<3>(), R.transpose() * x.tail<3>();
+    const Vector6 y = mass * along;
+    product_->segment<3>(6 * body) += R * y.head<3>();
+    product_->segment<3>(6 * body + 3) += R * y.tail<3>();
   }
 
  private:

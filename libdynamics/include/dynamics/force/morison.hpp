@@ -43,13 +43,21 @@ struct MorisonPerLength {
 /// times that of the drag, κ the wavenumber, Δ the length of a piece. Of members wet in part the middle of the wet
 /// part: (κΔ)²/24 and four times that, κ also the inverse of the distance to the point about which the member turns
 /// (D44).
+///
+/// With a tolerance of foresight the water at members that are always wet is asked once an instant, at the places to
+/// which bodies are on their way, and stays there while a step is sought: loads and their derivatives are then those
+/// of water that does not change over the little that is missed, by no more than this of the velocity (D137). Without
+/// one, and for members wet in part, it is that of their true places.
 class MorisonKind final : public ForceKind {
  public:
-  /// `water`: still water is a field without waves.
-  MorisonKind(std::vector<MorisonMember> members, std::shared_ptr<const hydro::waves::WaveField> water);
+  /// `water`: still water is a field without waves. `foresight`: 0 … 1, of the largest velocity of the water at any
+  /// point; 0: none.
+  MorisonKind(std::vector<MorisonMember> members, std::shared_ptr<const hydro::waves::WaveField> water,
+              double foresight = 0);
   std::string effect() const override { return "morison"; }
   std::size_t elements() const override { return members_.size(); }
   std::string method() const override;
+  std::unique_ptr<Memory> make_memory(const State& start) const override;
   void add_load(const Instant& now, LoadSink& out) const override;
   void add_jacobian(const Instant& now, JacobianSink& out) const override;
   void add_mass(const State& state, MassSink& out) const override;
@@ -64,6 +72,7 @@ class MorisonKind final : public ForceKind {
   std::vector<MorisonMember> members_;
   std::vector<BodyMass> always_;
   std::shared_ptr<const hydro::waves::WaveField> water_;
+  double foresight_;
 };
 
 }  // namespace dynamics
