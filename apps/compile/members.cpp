@@ -89,12 +89,10 @@ bool has_kinks_in_water(hydro::waves::Stretching stretching) {
   return stretching == hydro::waves::Stretching::wheeler || stretching == hydro::waves::Stretching::delta;
 }
 
-/// How often a member asks for the water in a step, over all its points: twice where it is foreseen, in each of the
-/// runs that tell the error, which cost some two of the first; else in iterations, and for differences between places.
+/// Where a member asks for the water, at each iteration of each run that tells the error.
 double points_asked(const Scene& scene, const scene::Member& m) {
   const auto immersion = m.morison ? m.morison->line.immersion : m.slamming->line.immersion;
-  const bool foreseen = m.morison && immersion == dynamics::Immersion::whole && foresight(scene) > 0;
-  return (foreseen ? 6 : 10) * dynamics::points_per_piece(immersion) * needed_pieces(scene, m, immersion);
+  return dynamics::points_per_piece(immersion) * needed_pieces(scene, m, immersion);
 }
 
 }  // namespace
@@ -158,7 +156,7 @@ std::optional<hydro::waves::FieldUse> water_of_members(const Scene& scene, doubl
   constexpr double beyond = 1e-3;  // s: rates of added mass are differences, which look past the end of the run
   hydro::waves::FieldUse use{.box = {0, scene.run->duration + beyond, members.min() - room, members.max() + room},
                              .instants = scene.run->duration / step,
-                             .points = points};
+                             .points = 10 * points};
   use.box.low.z() = std::max(use.box.low.z(), -scene.water.depth.metres());
   use.box.high.z() = std::min(use.box.high.z(), highest_crest);
   // Of each wave, so small a share of the accuracy that it needs no estimate of its own. From 1e-5 on the window's own
