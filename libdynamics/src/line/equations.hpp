@@ -39,13 +39,6 @@ struct Stage {
   }
 };
 
-/// Powers at a stage, W; means over the step if the stage is one.
-struct Powers : LoadPowers {
-  double axial = 0, bed = 0;  ///< dissipated
-  double friction = 0;        ///< taken by the bed's shear, lost or stored
-  double held = 0;            ///< supplied by what holds nodes
-};
-
 /// Makes `out` the balance of a state with accelerations a: an instant, which it asks no memory for once it has room.
 void set_instant(const State& state, const Places& a, Stage& out);
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "dynamics/line/line.hpp"
+
 namespace dynamics::line {
 
 /// A segment of unstretched length ℓ and weight w per length in water, with the heights of its ends above the bed.
@@ -14,6 +16,22 @@ struct Span {
   double level;      ///< cos² of its slope
   double rounding;   ///< δ, heights below which lifting off is rounded, m
 };
+
+/// Of catenary segment j between places x, the sine of its slope given.
+inline Span span_of(const Line& line, int j, const Eigen::Ref<const Places>& x, double slope) {
+  const Segment& s = line.segment(j);
+  constexpr double none = std::numeric_limits<double>::infinity();
+  Span span{.length = s.length,
+            .weight = line.sag_weight(j),
+            .height = {none, none},
+            .level = 1 - slope * slope,
+            .rounding = 0};
+  if (!s.meets_bed || line.description().bed.empty()) return span;
+  const Bed& bed = line.description().bed.front();
+  for (int i = 0; i < 2; ++i) span.height[i] = x(2, line.first(j) + i) - bed.z;
+  span.rounding = 2 * span.weight / (bed.stiffness * s.diameter);  // twice the depth to which the line sinks
+  return span;
+}
 
 /// How much shorter the chord is than the line, and what of the weight the bed takes off both ends, N; with
 /// derivatives.
@@ -33,7 +51,7 @@ inline Sag sag_of(const Span& s, double tension) {
       slope[i] = 1;
       continue;
     }
-    const double root = std::hypot(s.height[i], s.rounding);
+    const double root = std::sqrt(s.height[i] * s.height[i] + s.rounding * s.rounding);
     g[i] = (s.height[i] + root) / 2;
     slope[i] = (1 + s.height[i] / root) / 2;
     q[i] = std::sqrt(2 * T * g[i] / w);  // what hangs at this end

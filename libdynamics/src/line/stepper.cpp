@@ -8,6 +8,7 @@
 #include "dynamics/time/alpha_parameters.hpp"
 #include "equations.hpp"
 #include "hydro/base/error.hpp"
+#include "rosenbrock.hpp"
 
 namespace dynamics::line {
 namespace {
@@ -16,8 +17,8 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double closed = 1e-9;  // of a length, and of a speed: what rounding of given places leaves
-constexpr std::array<std::string_view, 5> scheme_names{"energy_momentum", "generalized_alpha", "gamma",
-                                                       "semi_implicit_euler", "explicit_euler"};
+constexpr std::array<std::string_view, 6> scheme_names{
+    "energy_momentum", "generalized_alpha", "rosenbrock", "gamma", "semi_implicit_euler", "explicit_euler"};
 
 }  // namespace
 
@@ -57,6 +58,7 @@ struct Stepper::Work {
     Energies energies;
     Powers before;
     Previous previous;
+    double sub_step = 0;
   } kept = {};
   // Where a step that is tried began, and what it makes on the way: kept from step to step, so that it asks for no
   // memory.
@@ -64,6 +66,8 @@ struct Stepper::Work {
   Places a_before_step, algorithmic_before_step, velocity_before, known, none;
   Stage now;
   std::string failure;
+  std::optional<Rosenbrock> rosenbrock = {};
+  double sub_step = 0;  // s: of it, that the last one's error asks for; 0: not known yet
 
   Work(const Line& l, const Settings& s) : line(l), settings(s), equations(l), none(Places::Zero(3, l.nodes())) {}
 
@@ -84,6 +88,8 @@ struct Stepper::Work {
   void note_powers(const Powers& mean, double h);
   void note_state(const State& state);
   void advance(State& state, double h, int depth, StepReport& report);
+  void advance_by_sub_steps(State& state, double h, StepReport& report);
+  double next_sub_step(double taken, double error) const;
 };
 
 Stepper::Stepper(const Line& line, const Settings& settings) : work_(std::make_unique<Work>(line, settings)) {
@@ -105,6 +111,11 @@ Stepper::Stepper(const Line& line, const Settings& settings) : work_(std::make_u
     throw hydro::InputError(
         fmt::format("a free node of the line has no mass, so {} finds no accelerations", name_of(settings.scheme)), {},
         "give every free node or segment a mass, or step with \"energy_momentum\"");
+  if (settings.scheme != Scheme::rosenbrock) return;
+  hydro::require(settings.local_error > 0, "local_error must lie above 0, got {}", settings.local_error);
+  if (const auto [why, remedy] = ChainBalance::unfit(line); !why.empty())
+    throw hydro::InputError(fmt::format("steps of \"rosenbrock\" are not made for {}", why), {}, remedy);
+  work_->rosenbrock.emplace(line);
 }
 
 Stepper::~Stepper() = default;
@@ -125,6 +136,7 @@ void Stepper::keep(State& state) {
   w.kept.energies = w.energies;
   w.kept.before = w.before;
   w.kept.previous = w.previous;
+  w.kept.sub_step = w.sub_step;
 }
 
 StepReport Stepper::try_step(State& state, double h) {
@@ -134,6 +146,7 @@ StepReport Stepper::try_step(State& state, double h) {
   w.energies = w.kept.energies;
   w.before = w.kept.before;
   w.previous = w.kept.previous;
+  w.sub_step = w.kept.sub_step;
   w.unbooked = 0;
   StepReport report;
   w.advance(state, h, 0, report);
@@ -219,6 +232,7 @@ void Stepper::start(State& state) {
 void Stepper::go_on(State& state) {
   Work& w = *work_;
   w.previous.h = 0;
+  w.sub_step = 0;
   if (!w.settle(state) && !w.line.has_massless_nodes())
     throw hydro::NumericsError(fmt::format(
         "the line has no accelerations at t = {} s: masses or loads are singular or not finite", state.time));
@@ -381,7 +395,7 @@ bool Stepper::Work::euler(State& state, double h) {
 void Stepper::Work::book(State& state) {
   const double h = std::exchange(unbooked, 0);
   if (h == 0) return;
-  if (settings.scheme != Scheme::energy_momentum) {
+  if (settings.scheme != Scheme::energy_momentum && settings.scheme != Scheme::rosenbrock) {
     const Powers after = powers_now(state, settings.scheme == Scheme::generalised_alpha ? &last.stage : nullptr);
     note_powers(before, h / 2);
     note_powers(after, h / 2);
@@ -416,7 +430,47 @@ bool Stepper::Work::try_step(State& state, double h, StepReport& report) {
   return true;
 }
 
+/// (D139)
+double Stepper::Work::next_sub_step(double taken, double error) const {
+  constexpr double safety = 0.9, shortest = 0.2, longest = 3, where_there_is_none = 0.25;
+  if (!std::isfinite(error)) return where_there_is_none * taken;
+  const double share = safety * std::pow(settings.local_error / error, 0.25);
+  return taken * std::clamp(share, shortest, longest);
+}
+
+/// By sub-steps as long as their error allows, all of which end with the step.
+void Stepper::Work::advance_by_sub_steps(State& state, double h, StepReport& report) {
+  constexpr double shortest = 1e-7;  // of the step
+  book(state);
+  if (!rosenbrock->is_at(state)) rosenbrock->begin(state, a);
+  const double end = state.time + h;
+  if (sub_step == 0) sub_step = h;
+  for (double left = h; left > 0;) {
+    const double count = std::ceil((1 - 1e-9) * left / sub_step), tau = left / count;
+    const double error = rosenbrock->try_step(tau);
+    ++report.newton_iterations;
+    sub_step = next_sub_step(tau, error);
+    if (error <= settings.local_error) {
+      const Powers& after = rosenbrock->accept(state, a);
+      note_powers(before, tau / 2);
+      note_powers(after, tau / 2);
+      before = after;
+      unbooked = h;
+      left = count > 1 ? left - tau : 0;
+      continue;
+    }
+    ++report.halvings;
+    if (sub_step >= shortest * h) continue;
+    book(state);
+    throw hydro::NumericsError(
+        fmt::format("the line cannot go on from t = {:.6g} s, even with a step of {:.3g} s: {}", state.time, tau,
+                    std::isfinite(error) ? "its error stays too large" : "its equations are singular or not finite"));
+  }
+  state.time = end;
+}
+
 void Stepper::Work::advance(State& state, double h, int depth, StepReport& report) {
+  if (rosenbrock) return advance_by_sub_steps(state, h, report);
   if (try_step(state, h, report)) return;
   if (depth == settings.deepest_halving) {
     book(state);

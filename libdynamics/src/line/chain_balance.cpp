@@ -1,0 +1,279 @@
+#include "chain_balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "springs.hpp"
+#include "water_points.hpp"
+
+namespace dynamics::line {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+ChainBalance::Unfit ChainBalance::unfit(const Line& line) {
+  const Description& d = line.description();
+  if (line.chains() > 1) return {"lines that meet", "step them with \"generalized_alpha\""};
+  if (line.bends()) return {"bending stiffness", "step it with \"generalized_alpha\""};
+  if (!d.bed.empty() && d.bed.front().friction > 0)
+    return {"a bed with friction", "leave friction out, or step it with \"generalized_alpha\""};
+  for (const Segment& s : d.segments)
+    if (s.is_inextensible())
+      return {"inextensible segments", "give it an axial stiffness, or step it with \"generalized_alpha\""};
+  return {};
+}
+
+ChainBalance::ChainBalance(const Line& line)
+    : line_(line), loads_(line), eliminations_(static_cast<std::size_t>(line.segments())), matrix_(line.nodes()) {
+  forces_ = x_ = v_ = a_ = there_.force = Places::Zero(3, line.nodes());
+  there_.law = Eigen::VectorXd::Zero(line.segments());
+  any_at_nodes_ = line.has_spheres();
+  for (int i = 0; i < line.nodes(); ++i) any_at_nodes_ = any_at_nodes_ || !line.node(i).forces.empty();
+  for (const Held& h : line.description().held) any_path_ = any_path_ || h.path != nullptr;
+  const auto moves = [&](int i) { return line.held(i) != nullptr && line.held(i)->path != nullptr; };
+  for (int j = 0; j < line.segments(); ++j)
+    if (moves(j) || moves(j + 1)) beside_paths_.push_back(j);
+}
+
+ChainBalance::Bar::Bar(const Instant& now, int j)
+    : d(now.x.col(j + 1) - now.x.col(j)), w(now.v.col(j + 1) - now.v.col(j)), r(d.norm()) {
+  t = r > 0 ? Vector3d(d / r) : Vector3d::Zero();
+  rate = t.dot(w);
+}
+
+// (D72), (D88)
+ChainBalance::Law ChainBalance::law(int j, const Bar& bar, const Instant& now) const {
+  const Segment& s = line_.segment(j);
+  const double k = s.axial_stiffness / s.length, c = s.axial_damping / s.length, stretch = bar.r - s.length;
+  const SpringDamperForce spring =
+      s.tension_only ? one_sided_spring(k, stretch, stretch) : SpringDamperForce{k * stretch, k, 0};
+  const SpringDamperForce both = s.tension_only ? with_damper(spring, c * bar.rate)
+                                                : SpringDamperForce{spring.force + c * bar.rate, k, 1};
+  Law out{.left = (now.T[j] - both.force) / k,
+          .by_T = 1 / k,
+          .by_length = -both.by_stretch / k,
+          .by_rate = -both.by_damper * c / k,
+          .lost = (both.force - spring.force) * bar.rate,
+          .sag = {}};
+  if (!s.catenary) return out;
+  out.sag = sag_of(span_of(line_, j, now.x, bar.d.z() / bar.r), now.T[j]);
+  out.left -= out.sag.shortening;
+  out.by_T -= out.sag.by_tension;
+  return out;
+}
+
+// (D75)
+ChainBalance::Push ChainBalance::push(int i, const Instant& now) const {
+  const Bed& bed = line_.description().bed.front();
+  const double depth = bed.z - now.x(2, i), k = bed.stiffness * line_.bed_area(i), c = bed.damping * line_.bed_area(i);
+  if (depth <= 0) return {0, 0, 0, 0};
+  const SpringDamperForce spring = one_sided_spring(k, depth, depth), both = with_damper(spring, -c * now.v(2, i));
+  return {both.force, both.by_stretch, both.by_damper * c, (spring.force - both.force) * now.v(2, i)};
+}
+
+// (D70), (D74)
+void ChainBalance::add_segment(int j, const Instant& now, Balance& out) const {
+  const Bar bar(now, j);
+  const Law law = this->law(j, bar, now);
+  out.law[j] = law.left;
+  Vector3d first = line_.mass_between(j) * now.a.col(j + 1) - now.T[j] * bar.t,
+           second = line_.mass_between(j) * now.a.col(j) + now.T[j] * bar.t;
+  first.z() -= law.sag.relief[0];
+  second.z() -= law.sag.relief[1];
+  if (loads_.are_wet()) {
+    const PerLength& c = loads_.per_length(j);
+    const bool lifted = line_.description().water.buoyancy && line_.description().water.wet == Wet::below_surface;
+    for (const WaterPoint& p : points(line_, j, c, now.motion(), loads_.flow())) {
+      Vector3d f = p.length * (drag(c, p.axis, p.relative) + inertia(p.axis, p.inertial));
+      if (lifted) f.z() += p.length * c.lift;
+      first -= (1 - p.s) * f;
+      second -= p.s * f;
+    }
+  }
+  out.force.col(j) += first;
+  out.force.col(j + 1) += second;
+}
+
+void ChainBalance::add_nodes(const Instant& now, Balance& out) {
+  for (int i = 0; i < line_.nodes(); ++i)
+    out.force.col(i) = line_.mass(i) * now.a.col(i) - line_.constant_load().col(i);
+  if (!line_.description().bed.empty())
+    for (int i = 0; i < line_.nodes(); ++i) out.force(2, i) -= push(i, now).force;
+  if (!any_at_nodes_) return;
+  forces_.setZero();
+  loads_.add_at_nodes(now.motion(), {0, 0, 0}, forces_, nullptr);
+  out.force -= forces_;
+}
+
+void ChainBalance::evaluate(const Instant& now, Balance& out) {
+  if (loads_.meet_water()) loads_.look_at_water(now.motion());
+  add_nodes(now, out);
+  for (int j = 0; j < line_.segments(); ++j) add_segment(j, now, out);
+}
+
+void ChainBalance::linearise(const Instant& now, Balance& out, Powers& powers) {
+  evaluate(now, out);
+  powers = {};
+  for (Blocks* blocks : {&by_place_, &by_velocity_, &by_acceleration_})
+    blocks->set_zero(line_.nodes(), line_.segments());
+  differentiate_nodes(now, powers);
+  for (int j = 0; j < line_.segments(); ++j) differentiate_segment(j, now, powers);
+  for (const Held& h : line_.description().held) powers.held += out.force.col(h.node).dot(now.v.col(h.node));
+}
+
+void ChainBalance::differentiate_nodes(const Instant& now, Powers& powers) {
+  for (int i = 0; i < line_.nodes(); ++i) {
+    const auto node = static_cast<std::size_t>(i);
+    by_acceleration_.diagonal[node].diagonal().array() -= line_.mass(i);
+    if (line_.description().bed.empty()) continue;
+    const Push p = push(i, now);
+    by_place_.diagonal[node](2, 2) -= p.by_depth;
+    by_velocity_.diagonal[node](2, 2) -= p.by_rate;
+    powers.bed += p.lost;
+  }
+  if (!any_at_nodes_) return;
+  loads_.add_at_nodes(now.motion(), {1, 0, 0}, forces_, &by_place_);
+  loads_.add_at_nodes(now.motion(), {0, 1, 0}, forces_, &by_velocity_);
+  loads_.add_at_nodes(now.motion(), {0, 0, 1}, forces_, &by_acceleration_);
+  loads_.add_powers_at_nodes(now.motion(), powers);
+}
+
+void ChainBalance::differentiate_segment(int j, const Instant& now, Powers& powers) {
+  const auto at = static_cast<std::size_t>(j);
+  const Bar bar(now, j);
+  const Law law = this->law(j, bar, now);
+  powers.axial += law.lost;
+  const Matrix3d across = (Matrix3d::Identity() - bar.t * bar.t.transpose()) / bar.r;
+  Elimination& e = eliminations_[at];
+  e.by_T = law.by_T;
+  e.by_rate = law.by_rate * bar.t;
+  // By the vector d: its length, its direction in the rate of that, and the slope of what sags.
+  const double slope = bar.t.z();
+  const Vector3d along = law.by_length * bar.t + law.by_rate * (across * bar.w) +
+                         law.sag.by_level * 2 * slope * across.col(2);
+  const Matrix3d turned = now.T[j] * across;
+  for (int end = 0; end < 2; ++end) {
+    const double sign = end == 0 ? -1 : 1;
+    e.column[end] = sign * bar.t;
+    e.column[end].z() -= law.sag.relief_by_tension[end];
+    e.by_place[end] = sign * along;
+    e.by_place[end].z() -= law.sag.by_height[end];
+    by_place_.diagonal[at + static_cast<std::size_t>(end)] -= turned;
+    by_place_.diagonal[at + static_cast<std::size_t>(end)](2, 2) += law.sag.relief_by_height[end][end];
+  }
+  by_place_.upper[at] += turned;
+  by_place_.upper[at](2, 2) += law.sag.relief_by_height[0][1];
+  by_place_.lower[at] += turned;
+  by_place_.lower[at](2, 2) += law.sag.relief_by_height[1][0];
+  by_acceleration_.upper[at].diagonal().array() -= line_.mass_between(j);
+  by_acceleration_.lower[at].diagonal().array() -= line_.mass_between(j);
+  if (loads_.are_wet()) differentiate_water(j, now, bar, powers);
+}
+
+void ChainBalance::differentiate_water(int j, const Instant& now, const Bar& bar, Powers& powers) {
+  const PerLength& c = loads_.per_length(j);
+  const bool lifted = line_.description().water.buoyancy && line_.description().water.wet == Wet::below_surface;
+  for (const WaterPoint& p : points(line_, j, c, now.motion(), loads_.flow())) {
+    powers.add(p, drag(c, p.axis, p.relative), inertia(p.axis, p.inertial), lifted ? c.lift : 0);
+    const PointDerivatives d(c, p);
+    const Matrix3d turn = d.by_turning(p.axis, bar.r), follow = -c.added * d.by_inertial;
+    spread(p, j, j, -turn, turn, by_place_);
+    spread(p, j, j, (p.s - 1) * d.by_relative, -p.s * d.by_relative, by_velocity_);
+    spread(p, j, j, (1 - p.s) * follow, p.s * follow, by_acceleration_);
+  }
+}
+
+void ChainBalance::differentiate_by_time(const Instant& now, const Balance& balance, double dt, Balance& out) {
+  out.force.setZero();
+  out.law.setZero();
+  x_ = now.x;
+  v_ = now.v;
+  a_ = now.a;
+  prescribe(now.t + dt, x_, v_, a_);
+  if (loads_.flow_changes()) {
+    const Places foreseen = now.x + dt * now.v;
+    evaluate({now.t + dt, x_, v_, a_, now.T, &foreseen}, there_);
+    out.force = (there_.force - balance.force) / dt;
+    out.law = (there_.law - balance.law) / dt;
+    return;
+  }
+  for (const double sign : {1.0, -1.0}) {
+    there_.force.setZero();
+    const Instant then = sign > 0 ? Instant{now.t + dt, x_, v_, a_, now.T} : now;
+    for (const int j : beside_paths_) {
+      add_segment(j, then, there_);
+      out.law[j] += sign / dt * there_.law[j];
+    }
+    out.force += sign / dt * there_.force;
+  }
+}
+
+bool ChainBalance::factorise(double by) {
+  for (int i = 0; i < line_.nodes(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const auto sum = [&](const auto member) {
+      return Matrix3d(-(by_place_.*member)[at] - by * (by_velocity_.*member)[at] -
+                      by * by * (by_acceleration_.*member)[at]);
+    };
+    matrix_[i].diagonal = sum(&Blocks::diagonal);
+    if (i == line_.segments()) break;
+    matrix_[i].upper = sum(&Blocks::upper);
+    matrix_[i].lower = sum(&Blocks::lower);
+  }
+  for (int j = 0; j < line_.segments(); ++j) {
+    Elimination& e = eliminations_[static_cast<std::size_t>(j)];
+    e.row[0] = e.by_place[0] - by * e.by_rate;
+    e.row[1] = e.by_place[1] + by * e.by_rate;
+    const Vector3d first = e.column[0] / e.by_T, second = e.column[1] / e.by_T;
+    matrix_[j].diagonal -= first * e.row[0].transpose();
+    matrix_[j].upper -= first * e.row[1].transpose();
+    matrix_[j].lower -= second * e.row[0].transpose();
+    matrix_[j + 1].diagonal -= second * e.row[1].transpose();
+  }
+  for (const Held& h : line_.description().held) {
+    matrix_[h.node].diagonal.setIdentity();
+    matrix_[h.node].upper.setZero();
+    if (h.node > 0) matrix_[h.node - 1].lower.setZero();
+  }
+  return matrix_.factorise();
+}
+
+void ChainBalance::add_rates(const Eigen::Ref<const Places>& v, const Eigen::Ref<const Places>& a,
+                             Balance& out) const {
+  for (int i = 0; i < line_.nodes(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    out.force.col(i) -= by_velocity_.diagonal[at] * v.col(i) + by_acceleration_.diagonal[at] * a.col(i);
+    if (i == line_.segments()) break;
+    out.force.col(i) -= by_velocity_.upper[at] * v.col(i + 1) + by_acceleration_.upper[at] * a.col(i + 1);
+    out.force.col(i + 1) -= by_velocity_.lower[at] * v.col(i) + by_acceleration_.lower[at] * a.col(i);
+    out.law[i] += eliminations_[at].by_rate.dot(v.col(i + 1) - v.col(i));
+  }
+}
+
+void ChainBalance::solve(Balance& right, Eigen::Ref<Places> x, Eigen::Ref<Eigen::VectorXd> T) const {
+  for (int j = 0; j < line_.segments(); ++j) {
+    const Elimination& e = eliminations_[static_cast<std::size_t>(j)];
+    const double share = right.law[j] / e.by_T;
+    right.force.col(j) -= share * e.column[0];
+    right.force.col(j + 1) -= share * e.column[1];
+  }
+  x = right.force;
+  for (const Held& h : line_.description().held) x.col(h.node).setZero();
+  matrix_.solve(x);
+  for (int j = 0; j < line_.segments(); ++j) {
+    const Elimination& e = eliminations_[static_cast<std::size_t>(j)];
+    T[j] = (right.law[j] - e.row[0].dot(x.col(j)) - e.row[1].dot(x.col(j + 1))) / e.by_T;
+  }
+}
+
+void ChainBalance::prescribe(double t, Eigen::Ref<Places> x, Eigen::Ref<Places> v, Eigen::Ref<Places> a) const {
+  for (const Held& h : line_.description().held) {
+    if (!h.path) continue;
+    const Path::Place p = h.path->at(t);
+    x.col(h.node) = p.position;
+    v.col(h.node) = p.velocity;
+    a.col(h.node) = p.acceleration;
+  }
+}
+
+}  // namespace dynamics::line
