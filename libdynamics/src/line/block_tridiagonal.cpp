@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "hydro/base/machine.hpp"
+#include "triple.hpp"
+
 namespace dynamics::line {
 
 bool BlockTridiagonal::factorise() {
@@ -19,14 +22,19 @@ bool BlockTridiagonal::factorise() {
   return true;
 }
 
-void BlockTridiagonal::solve(Eigen::Ref<Places> b) const {
-  const auto last = static_cast<Eigen::Index>(nodes_.size()) - 1;
-  for (Eigen::Index i = 0; i < last; ++i) b.col(i + 1) -= nodes_[static_cast<std::size_t>(i)].lower * b.col(i);
-  for (Eigen::Index i = last; i >= 0; --i) {
-    const Node& node = nodes_[static_cast<std::size_t>(i)];
-    Eigen::Vector3d own = b.col(i);
-    if (i < last) own -= node.upper * b.col(i + 1);
-    b.col(i) = node.diagonal * own;
+FROUDE_EVERY_MACHINE void BlockTridiagonal::solve(Eigen::Ref<Places> b) const {
+  const auto last = static_cast<int>(nodes_.size()) - 1;
+  const auto node = [&](int i) -> const Node& { return nodes_[static_cast<std::size_t>(i)]; };
+  Triple own = column(b, 0);
+  for (int i = 0; i < last; ++i) {
+    own = column(b, i + 1) - times(node(i).lower, own);
+    own.put(b.col(i + 1).data());
+  }
+  Triple solved = times(node(last).diagonal, own);
+  solved.put(b.col(last).data());
+  for (int i = last - 1; i >= 0; --i) {
+    solved = times(node(i).diagonal, column(b, i) - times(node(i).upper, solved));
+    solved.put(b.col(i).data());
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hydro/base/machine.hpp"
 #include "springs.hpp"
 #include "water_points.hpp"
 
@@ -35,14 +36,15 @@ ChainBalance::ChainBalance(const Line& line)
     if (moves(j) || moves(j + 1)) beside_paths_.push_back(j);
 }
 
-ChainBalance::Bar::Bar(const Instant& now, int j)
-    : d(now.x.col(j + 1) - now.x.col(j)), w(now.v.col(j + 1) - now.v.col(j)), r(d.norm()) {
-  t = r > 0 ? Vector3d(d / r) : Vector3d::Zero();
-  rate = t.dot(w);
+FROUDE_INLINE ChainBalance::Bar ChainBalance::bar(int j, const Instant& now) {
+  const Triple d = column(now.x, j + 1) - column(now.x, j), w = column(now.v, j + 1) - column(now.v, j);
+  const double r = d.norm();
+  const Triple t = r > 0 ? 1 / r * d : Triple{0, 0, 0};
+  return {t, w, r, t.dot(w)};
 }
 
 // (D72), (D88)
-ChainBalance::Law ChainBalance::law(int j, const Bar& bar, const Instant& now) const {
+FROUDE_INLINE ChainBalance::Law ChainBalance::law(int j, const Bar& bar, const Instant& now, bool derivatives) const {
   const Segment& s = line_.segment(j);
   const double k = s.axial_stiffness / s.length, c = s.axial_damping / s.length, stretch = bar.r - s.length;
   const SpringDamperForce spring =
@@ -56,7 +58,8 @@ ChainBalance::Law ChainBalance::law(int j, const Bar& bar, const Instant& now) c
           .lost = (both.force - spring.force) * bar.rate,
           .sag = {}};
   if (!s.catenary) return out;
-  out.sag = sag_of(span_of(line_, j, now.x, bar.d.z() / bar.r), now.T[j]);
+  const Span span = span_of(line_, j, now.x, bar.t.z);
+  out.sag = derivatives ? sag_of<true>(span, now.T[j]) : sag_of<false>(span, now.T[j]);
   out.left -= out.sag.shortening;
   out.by_T -= out.sag.by_tension;
   return out;
@@ -72,26 +75,29 @@ ChainBalance::Push ChainBalance::push(int i, const Instant& now) const {
 }
 
 // (D70), (D74)
-void ChainBalance::add_segment(int j, const Instant& now, Balance& out) const {
-  const Bar bar(now, j);
-  const Law law = this->law(j, bar, now);
+FROUDE_INLINE void ChainBalance::add_segment(int j, const Instant& now, Balance& out) const {
+  const Bar bar = this->bar(j, now);
+  const Law law = this->law(j, bar, now, false);
   out.law[j] = law.left;
-  Vector3d first = line_.mass_between(j) * now.a.col(j + 1) - now.T[j] * bar.t,
-           second = line_.mass_between(j) * now.a.col(j) + now.T[j] * bar.t;
-  first.z() -= law.sag.relief[0];
-  second.z() -= law.sag.relief[1];
+  const double m = line_.mass_between(j), T = now.T[j];
+  Triple first = m * column(now.a, j + 1) - T * bar.t, second = m * column(now.a, j) + T * bar.t;
+  first.z -= law.sag.relief[0];
+  second.z -= law.sag.relief[1];
   if (loads_.are_wet()) {
     const PerLength& c = loads_.per_length(j);
-    const bool lifted = line_.description().water.buoyancy && line_.description().water.wet == Wet::below_surface;
-    for (const WaterPoint& p : points(line_, j, c, now.motion(), loads_.flow())) {
-      Vector3d f = p.length * (drag(c, p.axis, p.relative) + inertia(p.axis, p.inertial));
-      if (lifted) f.z() += p.length * c.lift;
-      first -= (1 - p.s) * f;
-      second -= p.s * f;
+    const double lift = loads_.lifts_what_is_wet() ? c.lift : 0;
+    for (const WaterPoint& p : points(line_, j, bar.t, c, now.motion(), loads_.flow())) {
+      const Triple f = p.length * (drag(c, p) + inertia(p) + Triple{0, 0, lift});
+      first = first - (1 - p.s) * f;
+      second = second - p.s * f;
     }
   }
-  out.force.col(j) += first;
-  out.force.col(j + 1) += second;
+  first.add_to(out.force.col(j).data());
+  second.add_to(out.force.col(j + 1).data());
+}
+
+FROUDE_EVERY_MACHINE void ChainBalance::add_segments(const Instant& now, Balance& out) const {
+  for (int j = 0; j < line_.segments(); ++j) add_segment(j, now, out);
 }
 
 void ChainBalance::add_nodes(const Instant& now, Balance& out) {
@@ -108,7 +114,7 @@ void ChainBalance::add_nodes(const Instant& now, Balance& out) {
 void ChainBalance::evaluate(const Instant& now, Balance& out) {
   if (loads_.meet_water()) loads_.look_at_water(now.motion());
   add_nodes(now, out);
-  for (int j = 0; j < line_.segments(); ++j) add_segment(j, now, out);
+  add_segments(now, out);
 }
 
 void ChainBalance::linearise(const Instant& now, Balance& out, Powers& powers) {
@@ -140,21 +146,21 @@ void ChainBalance::differentiate_nodes(const Instant& now, Powers& powers) {
 
 void ChainBalance::differentiate_segment(int j, const Instant& now, Powers& powers) {
   const auto at = static_cast<std::size_t>(j);
-  const Bar bar(now, j);
-  const Law law = this->law(j, bar, now);
+  const Bar bar = this->bar(j, now);
+  const Law law = this->law(j, bar, now, true);
   powers.axial += law.lost;
-  const Matrix3d across = (Matrix3d::Identity() - bar.t * bar.t.transpose()) / bar.r;
+  const Vector3d t = bar.t.vector();
+  const Matrix3d across = (Matrix3d::Identity() - t * t.transpose()) / bar.r;
   Elimination& e = eliminations_[at];
   e.by_T = law.by_T;
-  e.by_rate = law.by_rate * bar.t;
+  e.by_rate = law.by_rate * t;
   // By the vector d: its length, its direction in the rate of that, and the slope of what sags.
-  const double slope = bar.t.z();
-  const Vector3d along = law.by_length * bar.t + law.by_rate * (across * bar.w) +
-                         law.sag.by_level * 2 * slope * across.col(2);
+  const Vector3d along = law.by_length * t + law.by_rate * (across * bar.w.vector()) +
+                         law.sag.by_level * 2 * t.z() * across.col(2);
   const Matrix3d turned = now.T[j] * across;
   for (int end = 0; end < 2; ++end) {
     const double sign = end == 0 ? -1 : 1;
-    e.column[end] = sign * bar.t;
+    e.column[end] = sign * t;
     e.column[end].z() -= law.sag.relief_by_tension[end];
     e.by_place[end] = sign * along;
     e.by_place[end].z() -= law.sag.by_height[end];
@@ -172,11 +178,10 @@ void ChainBalance::differentiate_segment(int j, const Instant& now, Powers& powe
 
 void ChainBalance::differentiate_water(int j, const Instant& now, const Bar& bar, Powers& powers) {
   const PerLength& c = loads_.per_length(j);
-  const bool lifted = line_.description().water.buoyancy && line_.description().water.wet == Wet::below_surface;
-  for (const WaterPoint& p : points(line_, j, c, now.motion(), loads_.flow())) {
-    powers.add(p, drag(c, p.axis, p.relative), inertia(p.axis, p.inertial), lifted ? c.lift : 0);
+  for (const WaterPoint& p : points(line_, j, bar.t, c, now.motion(), loads_.flow())) {
+    powers.add(c, p, loads_.lifts_what_is_wet());
     const PointDerivatives d(c, p);
-    const Matrix3d turn = d.by_turning(p.axis, bar.r), follow = -c.added * d.by_inertial;
+    const Matrix3d turn = d.by_turning(bar.t.vector(), bar.r), follow = -c.added * d.by_inertial;
     spread(p, j, j, -turn, turn, by_place_);
     spread(p, j, j, (p.s - 1) * d.by_relative, -p.s * d.by_relative, by_velocity_);
     spread(p, j, j, (1 - p.s) * follow, p.s * follow, by_acceleration_);
@@ -238,15 +243,20 @@ bool ChainBalance::factorise(double by) {
   return matrix_.factorise();
 }
 
-void ChainBalance::add_rates(const Eigen::Ref<const Places>& v, const Eigen::Ref<const Places>& a,
-                             Balance& out) const {
+FROUDE_EVERY_MACHINE void ChainBalance::add_rates(const Eigen::Ref<const Places>& v,
+                                                  const Eigen::Ref<const Places>& a, Balance& out) const {
   for (int i = 0; i < line_.nodes(); ++i) {
     const auto at = static_cast<std::size_t>(i);
-    out.force.col(i) -= by_velocity_.diagonal[at] * v.col(i) + by_acceleration_.diagonal[at] * a.col(i);
-    if (i == line_.segments()) break;
-    out.force.col(i) -= by_velocity_.upper[at] * v.col(i + 1) + by_acceleration_.upper[at] * a.col(i + 1);
-    out.force.col(i + 1) -= by_velocity_.lower[at] * v.col(i) + by_acceleration_.lower[at] * a.col(i);
-    out.law[i] += eliminations_[at].by_rate.dot(v.col(i + 1) - v.col(i));
+    Triple own = times(by_velocity_.diagonal[at], column(v, i)) + times(by_acceleration_.diagonal[at], column(a, i));
+    if (i < line_.segments()) {
+      own = own + times(by_velocity_.upper[at], column(v, i + 1)) +
+            times(by_acceleration_.upper[at], column(a, i + 1));
+      const Triple next =
+          times(by_velocity_.lower[at], column(v, i)) + times(by_acceleration_.lower[at], column(a, i));
+      (-next).add_to(out.force.col(i + 1).data());
+      out.law[i] += Triple::of(eliminations_[at].by_rate).dot(column(v, i + 1) - column(v, i));
+    }
+    (-own).add_to(out.force.col(i).data());
   }
 }
 

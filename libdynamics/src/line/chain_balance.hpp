@@ -8,6 +8,7 @@
 #include "block_tridiagonal.hpp"
 #include "loads.hpp"
 #include "sag.hpp"
+#include "triple.hpp"
 
 namespace dynamics::line {
 
@@ -61,9 +62,8 @@ class ChainBalance {
  private:
   /// How a segment lies and moves: vector between its nodes, length, direction; relative velocity, rate of length.
   struct Bar {
-    Eigen::Vector3d d, t, w;
+    Triple t, w;
     double r, rate;
-    Bar(const Instant& now, int j);
   };
   /// Its law g and what that changes with: T, the length, its rate; the sag besides. What its damper takes, W.
   struct Law {
@@ -80,9 +80,11 @@ class ChainBalance {
   struct Push {
     double force, by_depth, by_rate, lost;
   };
-  Law law(int j, const Bar& bar, const Instant& now) const;
+  static Bar bar(int j, const Instant& now);
+  Law law(int j, const Bar& bar, const Instant& now, bool derivatives) const;
   Push push(int i, const Instant& now) const;
   void add_segment(int j, const Instant& now, Balance& out) const;
+  void add_segments(const Instant& now, Balance& out) const;
   void add_nodes(const Instant& now, Balance& out);
   void differentiate_segment(int j, const Instant& now, Powers& powers);
   void differentiate_water(int j, const Instant& now, const Bar& bar, Powers& powers);

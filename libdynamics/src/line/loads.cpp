@@ -28,12 +28,12 @@ Loads::Loads(const Line& line) : line_(line) {
   for (int j = 0; j < line.segments(); ++j) per_length_.emplace_back(line.segment(j), field->water());
 }
 
-void LoadPowers::add(const WaterPoint& p, const Vector3d& drag, const Vector3d& inertia, double lift) {
-  const Vector3d own = p.water - p.relative;
-  drag_supplied += p.length * drag.dot(p.water);
-  drag_dissipated += p.length * drag.dot(p.relative);
-  inertia_supplied += p.length * inertia.dot(own);
-  buoyancy_supplied += p.length * lift * own.z();
+void LoadPowers::add(const PerLength& c, const WaterPoint& p, bool lifted) {
+  const Triple own = p.water - p.relative, resistance = drag(c, p);
+  drag_supplied += p.length * resistance.dot(p.water);
+  drag_dissipated += p.length * resistance.dot(p.relative);
+  inertia_supplied += p.length * inertia(p).dot(own);
+  if (lifted) buoyancy_supplied += p.length * c.lift * own.z;
 }
 
 void Blocks::set_zero(int nodes, int segments) {
@@ -116,22 +116,21 @@ void Loads::add_node_forces(const Motion& now, const By& by, Places& force, Bloc
 }
 
 void Loads::add_water(int j, const Motion& now, const By& by, Places& force, Blocks* derivative) const {
-  const auto& surroundings = line_.description().water;
   const PerLength& c = per_length(j);
-  const bool lifted = surroundings.buoyancy && surroundings.wet == Wet::below_surface;
+  const bool lifted = lifts_what_is_wet();
   const int first = line_.first(j), second = first + 1;
-  const double length = (now.x.col(second) - now.x.col(first)).norm();
-  for (const WaterPoint& p : points(line_, j, c, now, flow_)) {
+  const Vector3d d = now.x.col(second) - now.x.col(first), axis = d.normalized();
+  for (const WaterPoint& p : points(line_, j, Triple::of(axis), c, now, flow_)) {
     if (p.length == 0) continue;
-    Vector3d f = drag(c, p.axis, p.relative) + inertia(p.axis, p.inertial);
+    Vector3d f = (drag(c, p) + inertia(p)).vector();
     if (lifted) f.z() += c.lift;
     const double share[2] = {p.length * (1 - p.s), p.length * p.s};
     force.col(first) += share[0] * f;
     force.col(second) += share[1] * f;
     if (derivative == nullptr) continue;
-    const PointDerivatives d(c, p);
-    const Matrix3d turn = by.x * d.by_turning(p.axis, length);
-    const Matrix3d follow = -by.v * d.by_relative - by.a * c.added * d.by_inertial;
+    const PointDerivatives of(c, p);
+    const Matrix3d turn = by.x * of.by_turning(axis, d.norm());
+    const Matrix3d follow = -by.v * of.by_relative - by.a * c.added * of.by_inertial;
     const Matrix3d by_first = (1 - p.s) * follow - turn, by_second = p.s * follow + turn;
     spread(p, j, first, by_first, by_second, *derivative);
   }
@@ -140,11 +139,12 @@ void Loads::add_water(int j, const Motion& now, const By& by, Places& force, Blo
 LoadPowers Loads::powers(const Motion& now) {
   LoadPowers out;
   if (meet_water()) look_at_water(now);
-  const bool lifted = line_.description().water.buoyancy && line_.description().water.wet == Wet::below_surface;
+  const bool lifted = lifts_what_is_wet();
   for (int j = 0; are_wet() && j < line_.segments(); ++j) {
     const PerLength& c = per_length(j);
-    for (const WaterPoint& p : points(line_, j, c, now, flow_))
-      out.add(p, drag(c, p.axis, p.relative), inertia(p.axis, p.inertial), lifted ? c.lift : 0);
+    const int first = line_.first(j);
+    const Vector3d axis = (now.x.col(first + 1) - now.x.col(first)).normalized();
+    for (const WaterPoint& p : points(line_, j, Triple::of(axis), c, now, flow_)) out.add(c, p, lifted);
   }
   add_powers_at_nodes(now, out);
   return out;

@@ -30,6 +30,7 @@ struct Blocks {
 };
 
 struct WaterPoint;
+struct PerLength;
 
 /// Powers of these loads, W.
 struct LoadPowers {
@@ -37,8 +38,8 @@ struct LoadPowers {
   double drag_supplied = 0, drag_dissipated = 0;       ///< F·u and F·(u − w) (D46)
   double inertia_supplied = 0, buoyancy_supplied = 0;  ///< the latter of what is wet in part
 
-  /// Of a point of a segment, by the loads per length that act there.
-  void add(const WaterPoint& point, const Eigen::Vector3d& drag, const Eigen::Vector3d& inertia, double lift);
+  /// Of a point of a segment.
+  void add(const PerLength& c, const WaterPoint& point, bool lifted);
 };
 
 /// Powers of all that acts, W; means over a step where the step has them.
@@ -76,6 +77,10 @@ class Loads {
   void add_powers_at_nodes(const Motion& now, LoadPowers& out);
   bool are_wet() const { return line_.description().water.wet != Wet::nothing; }
   bool meet_water() const { return are_wet() || line_.has_spheres(); }
+  /// Whether segments are lifted by as much of them as is wet.
+  bool lifts_what_is_wet() const {
+    return line_.description().water.buoyancy && line_.description().water.wet == Wet::below_surface;
+  }
   /// Whether the water moves, ever.
   bool flow_changes() const { return meet_water() && !still_; }
   const std::vector<Flow>& flow() const { return flow_; }
