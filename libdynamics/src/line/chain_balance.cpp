@@ -86,7 +86,7 @@ FROUDE_INLINE void ChainBalance::add_segment(int j, const Instant& now, Balance&
   if (loads_.are_wet()) {
     const PerLength& c = loads_.per_length(j);
     const double lift = loads_.lifts_what_is_wet() ? c.lift : 0;
-    for (const WaterPoint& p : points(line_, j, bar.t, c, now.motion(), loads_.flow())) {
+    for (const WaterPoint& p : points(line_, j, bar.t, c, now, loads_.flow())) {
       const Triple f = p.length * (drag(c, p) + inertia(p) + Triple{0, 0, lift});
       first = first - (1 - p.s) * f;
       second = second - p.s * f;
@@ -107,12 +107,12 @@ void ChainBalance::add_nodes(const Instant& now, Balance& out) {
     for (int i = 0; i < line_.nodes(); ++i) out.force(2, i) -= push(i, now).force;
   if (!any_at_nodes_) return;
   forces_.setZero();
-  loads_.add_at_nodes(now.motion(), {0, 0, 0}, forces_, nullptr);
+  loads_.add_at_nodes(now, {0, 0, 0}, forces_, nullptr);
   out.force -= forces_;
 }
 
 void ChainBalance::evaluate(const Instant& now, Balance& out) {
-  if (loads_.meet_water()) loads_.look_at_water(now.motion());
+  if (loads_.meet_water()) loads_.look_at_water(now);
   add_nodes(now, out);
   add_segments(now, out);
 }
@@ -123,14 +123,14 @@ void ChainBalance::linearise(const Instant& now, Balance& out, Powers& powers) {
   for (Blocks* blocks : {&by_place_, &by_velocity_, &by_acceleration_})
     blocks->set_zero(line_.nodes(), line_.segments());
   differentiate_nodes(now, powers);
-  for (int j = 0; j < line_.segments(); ++j) differentiate_segment(j, now, powers);
+  differentiate_segments(now, powers);
   for (const Held& h : line_.description().held) powers.held += out.force.col(h.node).dot(now.v.col(h.node));
 }
 
 void ChainBalance::differentiate_nodes(const Instant& now, Powers& powers) {
   for (int i = 0; i < line_.nodes(); ++i) {
     const auto node = static_cast<std::size_t>(i);
-    by_acceleration_.diagonal[node].diagonal().array() -= line_.mass(i);
+    add_unit(-line_.mass(i), by_acceleration_.diagonal[node]);
     if (line_.description().bed.empty()) continue;
     const Push p = push(i, now);
     by_place_.diagonal[node](2, 2) -= p.by_depth;
@@ -138,54 +138,60 @@ void ChainBalance::differentiate_nodes(const Instant& now, Powers& powers) {
     powers.bed += p.lost;
   }
   if (!any_at_nodes_) return;
-  loads_.add_at_nodes(now.motion(), {1, 0, 0}, forces_, &by_place_);
-  loads_.add_at_nodes(now.motion(), {0, 1, 0}, forces_, &by_velocity_);
-  loads_.add_at_nodes(now.motion(), {0, 0, 1}, forces_, &by_acceleration_);
-  loads_.add_powers_at_nodes(now.motion(), powers);
+  loads_.add_at_nodes(now, {1, 0, 0}, forces_, &by_place_);
+  loads_.add_at_nodes(now, {0, 1, 0}, forces_, &by_velocity_);
+  loads_.add_at_nodes(now, {0, 0, 1}, forces_, &by_acceleration_);
+  loads_.add_powers_at_nodes(now, powers);
 }
 
-void ChainBalance::differentiate_segment(int j, const Instant& now, Powers& powers) {
+FROUDE_INLINE void ChainBalance::differentiate_water(int j, const Instant& now, const Bar& bar, Powers& powers) {
+  const PerLength& c = loads_.per_length(j);
+  Matrix3d follow = Matrix3d::Zero();
+  add_unit(-c.added, follow);
+  add_outer(c.added, bar.t, bar.t, follow);
+  for (const WaterPoint& p : points(line_, j, bar.t, c, now, loads_.flow())) {
+    powers.add(c, p, loads_.lifts_what_is_wet());
+    const PointDerivatives d(c, p, bar.r);
+    spread(p, j, j, -1, 1, d.by_turning, by_place_);
+    spread(p, j, j, p.s - 1, -p.s, d.by_relative, by_velocity_);
+    spread(p, j, j, 1 - p.s, p.s, follow, by_acceleration_);
+  }
+}
+
+FROUDE_INLINE void ChainBalance::differentiate_segment(int j, const Instant& now, Powers& powers) {
   const auto at = static_cast<std::size_t>(j);
   const Bar bar = this->bar(j, now);
   const Law law = this->law(j, bar, now, true);
   powers.axial += law.lost;
-  const Vector3d t = bar.t.vector();
-  const Matrix3d across = (Matrix3d::Identity() - t * t.transpose()) / bar.r;
   Elimination& e = eliminations_[at];
   e.by_T = law.by_T;
-  e.by_rate = law.by_rate * t;
-  // By the vector d: its length, its direction in the rate of that, and the slope of what sags.
-  const Vector3d along = law.by_length * t + law.by_rate * (across * bar.w.vector()) +
-                         law.sag.by_level * 2 * t.z() * across.col(2);
-  const Matrix3d turned = now.T[j] * across;
+  e.by_rate = law.by_rate * bar.t;
+  // By the vector from node to node: its length, its direction in the rate of that, and the slope of what sags.
+  const double slope = bar.t.z, pull = now.T[j] / bar.r;
+  const Triple turned{-slope * bar.t.x, -slope * bar.t.y, 1 - slope * slope};
+  const Triple along = law.by_length * bar.t + law.by_rate / bar.r * (bar.w - bar.rate * bar.t) +
+                       2 * law.sag.by_level * slope / bar.r * turned;
+  Matrix3d across = Matrix3d::Zero();
+  add_unit(pull, across);
+  add_outer(-pull, bar.t, bar.t, across);
   for (int end = 0; end < 2; ++end) {
     const double sign = end == 0 ? -1 : 1;
-    e.column[end] = sign * t;
-    e.column[end].z() -= law.sag.relief_by_tension[end];
-    e.by_place[end] = sign * along;
-    e.by_place[end].z() -= law.sag.by_height[end];
-    by_place_.diagonal[at + static_cast<std::size_t>(end)] -= turned;
+    e.column[end] = sign * bar.t - Triple{0, 0, law.sag.relief_by_tension[end]};
+    e.by_place[end] = sign * along - Triple{0, 0, law.sag.by_height[end]};
+    add(-1, across, by_place_.diagonal[at + static_cast<std::size_t>(end)]);
     by_place_.diagonal[at + static_cast<std::size_t>(end)](2, 2) += law.sag.relief_by_height[end][end];
   }
-  by_place_.upper[at] += turned;
+  add(1, across, by_place_.upper[at]);
+  add(1, across, by_place_.lower[at]);
   by_place_.upper[at](2, 2) += law.sag.relief_by_height[0][1];
-  by_place_.lower[at] += turned;
   by_place_.lower[at](2, 2) += law.sag.relief_by_height[1][0];
-  by_acceleration_.upper[at].diagonal().array() -= line_.mass_between(j);
-  by_acceleration_.lower[at].diagonal().array() -= line_.mass_between(j);
+  add_unit(-line_.mass_between(j), by_acceleration_.upper[at]);
+  add_unit(-line_.mass_between(j), by_acceleration_.lower[at]);
   if (loads_.are_wet()) differentiate_water(j, now, bar, powers);
 }
 
-void ChainBalance::differentiate_water(int j, const Instant& now, const Bar& bar, Powers& powers) {
-  const PerLength& c = loads_.per_length(j);
-  for (const WaterPoint& p : points(line_, j, bar.t, c, now.motion(), loads_.flow())) {
-    powers.add(c, p, loads_.lifts_what_is_wet());
-    const PointDerivatives d(c, p);
-    const Matrix3d turn = d.by_turning(bar.t.vector(), bar.r), follow = -c.added * d.by_inertial;
-    spread(p, j, j, -turn, turn, by_place_);
-    spread(p, j, j, (p.s - 1) * d.by_relative, -p.s * d.by_relative, by_velocity_);
-    spread(p, j, j, (1 - p.s) * follow, p.s * follow, by_acceleration_);
-  }
+FROUDE_EVERY_MACHINE void ChainBalance::differentiate_segments(const Instant& now, Powers& powers) {
+  for (int j = 0; j < line_.segments(); ++j) differentiate_segment(j, now, powers);
 }
 
 void ChainBalance::differentiate_by_time(const Instant& now, const Balance& balance, double dt, Balance& out) {
@@ -196,15 +202,15 @@ void ChainBalance::differentiate_by_time(const Instant& now, const Balance& bala
   a_ = now.a;
   prescribe(now.t + dt, x_, v_, a_);
   if (loads_.flow_changes()) {
-    const Places foreseen = now.x + dt * now.v;
-    evaluate({now.t + dt, x_, v_, a_, now.T, &foreseen}, there_);
+    foreseen_ = now.x + dt * now.v;
+    evaluate({{now.t + dt, x_, v_, a_, &foreseen_}, now.T}, there_);
     out.force = (there_.force - balance.force) / dt;
     out.law = (there_.law - balance.law) / dt;
     return;
   }
   for (const double sign : {1.0, -1.0}) {
     there_.force.setZero();
-    const Instant then = sign > 0 ? Instant{now.t + dt, x_, v_, a_, now.T} : now;
+    const Instant then = sign > 0 ? Instant{{now.t + dt, x_, v_, a_}, now.T} : now;
     for (const int j : beside_paths_) {
       add_segment(j, then, there_);
       out.law[j] += sign / dt * there_.law[j];
@@ -213,28 +219,32 @@ void ChainBalance::differentiate_by_time(const Instant& now, const Balance& bala
   }
 }
 
-bool ChainBalance::factorise(double by) {
+FROUDE_EVERY_MACHINE void ChainBalance::add_up(double by) {
+  const auto sum = [&](const std::vector<Matrix3d> Blocks::*member, std::size_t at, Matrix3d& out) {
+    const Matrix3d &x = (by_place_.*member)[at], &v = (by_velocity_.*member)[at], &a = (by_acceleration_.*member)[at];
+    for (int e = 0; e < 9; ++e) out.data()[e] = -x.data()[e] - by * (v.data()[e] + by * a.data()[e]);
+  };
   for (int i = 0; i < line_.nodes(); ++i) {
     const auto at = static_cast<std::size_t>(i);
-    const auto sum = [&](const auto member) {
-      return Matrix3d(-(by_place_.*member)[at] - by * (by_velocity_.*member)[at] -
-                      by * by * (by_acceleration_.*member)[at]);
-    };
-    matrix_[i].diagonal = sum(&Blocks::diagonal);
+    sum(&Blocks::diagonal, at, matrix_[i].diagonal);
     if (i == line_.segments()) break;
-    matrix_[i].upper = sum(&Blocks::upper);
-    matrix_[i].lower = sum(&Blocks::lower);
+    sum(&Blocks::upper, at, matrix_[i].upper);
+    sum(&Blocks::lower, at, matrix_[i].lower);
   }
   for (int j = 0; j < line_.segments(); ++j) {
     Elimination& e = eliminations_[static_cast<std::size_t>(j)];
     e.row[0] = e.by_place[0] - by * e.by_rate;
     e.row[1] = e.by_place[1] + by * e.by_rate;
-    const Vector3d first = e.column[0] / e.by_T, second = e.column[1] / e.by_T;
-    matrix_[j].diagonal -= first * e.row[0].transpose();
-    matrix_[j].upper -= first * e.row[1].transpose();
-    matrix_[j].lower -= second * e.row[0].transpose();
-    matrix_[j + 1].diagonal -= second * e.row[1].transpose();
+    const double share = -1 / e.by_T;
+    add_outer(share, e.column[0], e.row[0], matrix_[j].diagonal);
+    add_outer(share, e.column[0], e.row[1], matrix_[j].upper);
+    add_outer(share, e.column[1], e.row[0], matrix_[j].lower);
+    add_outer(share, e.column[1], e.row[1], matrix_[j + 1].diagonal);
   }
+}
+
+bool ChainBalance::factorise(double by) {
+  add_up(by);
   for (const Held& h : line_.description().held) {
     matrix_[h.node].diagonal.setIdentity();
     matrix_[h.node].upper.setZero();
@@ -254,7 +264,7 @@ FROUDE_EVERY_MACHINE void ChainBalance::add_rates(const Eigen::Ref<const Places>
       const Triple next =
           times(by_velocity_.lower[at], column(v, i)) + times(by_acceleration_.lower[at], column(a, i));
       (-next).add_to(out.force.col(i + 1).data());
-      out.law[i] += Triple::of(eliminations_[at].by_rate).dot(column(v, i + 1) - column(v, i));
+      out.law[i] += eliminations_[at].by_rate.dot(column(v, i + 1) - column(v, i));
     }
     (-own).add_to(out.force.col(i).data());
   }
@@ -263,16 +273,16 @@ FROUDE_EVERY_MACHINE void ChainBalance::add_rates(const Eigen::Ref<const Places>
 void ChainBalance::solve(Balance& right, Eigen::Ref<Places> x, Eigen::Ref<Eigen::VectorXd> T) const {
   for (int j = 0; j < line_.segments(); ++j) {
     const Elimination& e = eliminations_[static_cast<std::size_t>(j)];
-    const double share = right.law[j] / e.by_T;
-    right.force.col(j) -= share * e.column[0];
-    right.force.col(j + 1) -= share * e.column[1];
+    const double share = -right.law[j] / e.by_T;
+    (share * e.column[0]).add_to(right.force.col(j).data());
+    (share * e.column[1]).add_to(right.force.col(j + 1).data());
   }
   x = right.force;
   for (const Held& h : line_.description().held) x.col(h.node).setZero();
   matrix_.solve(x);
   for (int j = 0; j < line_.segments(); ++j) {
     const Elimination& e = eliminations_[static_cast<std::size_t>(j)];
-    T[j] = (right.law[j] - e.row[0].dot(x.col(j)) - e.row[1].dot(x.col(j + 1))) / e.by_T;
+    T[j] = (right.law[j] - e.row[0].dot(column(x, j)) - e.row[1].dot(column(x, j + 1))) / e.by_T;
   }
 }
 

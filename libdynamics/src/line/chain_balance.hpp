@@ -13,13 +13,8 @@
 namespace dynamics::line {
 
 /// Places, velocities, accelerations and tensions of a chain at one time.
-struct Instant {
-  double t;
-  Eigen::Ref<const Places> x, v, a;
+struct Instant : Motion {
   Eigen::Ref<const Eigen::VectorXd> T;
-  const Places* water_at = nullptr;  ///< where the flow is taken; null: where the nodes are
-
-  Motion motion() const { return {t, x, v, a, water_at}; }
 };
 
 /// R = M a − F − Σ T t of each node (3, nodes), N, and the law g of each segment, m, both zero in balance: those of
@@ -73,7 +68,7 @@ class ChainBalance {
   /// What eliminates a tension: its columns in the balance of both nodes, and its law's row by their places and by
   /// their relative velocity.
   struct Elimination {
-    Eigen::Vector3d column[2], by_place[2], by_rate, row[2];
+    Triple column[2], by_place[2], by_rate, row[2];
     double by_T;
   };
   /// A push of the bed, N, its derivatives by depth and its rate, what it takes, W.
@@ -86,6 +81,8 @@ class ChainBalance {
   void add_segment(int j, const Instant& now, Balance& out) const;
   void add_segments(const Instant& now, Balance& out) const;
   void add_nodes(const Instant& now, Balance& out);
+  void add_up(double by);
+  void differentiate_segments(const Instant& now, Powers& powers);
   void differentiate_segment(int j, const Instant& now, Powers& powers);
   void differentiate_water(int j, const Instant& now, const Bar& bar, Powers& powers);
   void differentiate_nodes(const Instant& now, Powers& powers);
@@ -95,7 +92,7 @@ class ChainBalance {
   Blocks by_place_, by_velocity_, by_acceleration_;  // of forces, so of opposite sign to R
   std::vector<Elimination> eliminations_;
   BlockTridiagonal matrix_;
-  Places forces_, x_, v_, a_;
+  Places forces_, x_, v_, a_, foreseen_;
   Balance there_;
   std::vector<int> beside_paths_;  // segments
   bool any_path_ = false, any_at_nodes_ = false;

@@ -128,11 +128,12 @@ void Loads::add_water(int j, const Motion& now, const By& by, Places& force, Blo
     force.col(first) += share[0] * f;
     force.col(second) += share[1] * f;
     if (derivative == nullptr) continue;
-    const PointDerivatives of(c, p);
-    const Matrix3d turn = by.x * of.by_turning(axis, d.norm());
-    const Matrix3d follow = -by.v * of.by_relative - by.a * c.added * of.by_inertial;
-    const Matrix3d by_first = (1 - p.s) * follow - turn, by_second = p.s * follow + turn;
-    spread(p, j, first, by_first, by_second, *derivative);
+    const PointDerivatives of(c, p, d.norm());
+    Matrix3d follow = -by.v * of.by_relative;
+    add_unit(-by.a * c.added, follow);
+    add_outer(by.a * c.added, p.axis, p.axis, follow);
+    spread(p, j, first, -by.x, by.x, of.by_turning, *derivative);
+    spread(p, j, first, 1 - p.s, p.s, follow, *derivative);
   }
 }
 

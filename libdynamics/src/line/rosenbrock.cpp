@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "hydro/base/machine.hpp"
+
 namespace dynamics::line {
 
 /// RODAS in the form that needs no products with the derivatives (Hairer & Wanner 1996, section IV.7; the numbers are
@@ -33,7 +35,7 @@ Rosenbrock::Rosenbrock(const Line& line)
   const Eigen::Index size = 3 * places_ + line.segments();
   from_ = at_ = Eigen::VectorXd::Zero(size);
   add_ = Eigen::MatrixXd::Zero(size, stages);
-  rates_ = Eigen::VectorXd::Zero(2 * places_);
+  rates_ = Eigen::VectorXd::Zero(3 * places_);
   here_ = {Places::Zero(3, nodes_), Eigen::VectorXd::Zero(line.segments())};
   by_time_ = right_ = here_;
   weight_ = line.constant_load().colwise().norm().sum();
@@ -41,7 +43,7 @@ Rosenbrock::Rosenbrock(const Line& line)
 
 Instant Rosenbrock::instant(double t, double* y, const Places* water_at) {
   const Eigen::Map<Eigen::VectorXd> T(y + 3 * places_, line_.segments());
-  return {t, places(y), places(y + places_), places(y + 2 * places_), T, water_at};
+  return {{t, places(y), places(y + places_), places(y + 2 * places_), water_at}, T};
 }
 
 const Powers& Rosenbrock::begin(const State& state, const Places& a) {
@@ -60,54 +62,75 @@ bool Rosenbrock::is_at(const State& state) {
   return true;
 }
 
-// (D138)
-bool Rosenbrock::add_stage(int i, double h) {
-  const double by = 1 / (rodas::gamma * h), past = rodas::time[i] * h;
+namespace {
+
+/// out = base + Σ c_j k_j over `size` numbers; the k_j are the columns of a matrix with so many rows.
+FROUDE_EVERY_MACHINE void combine(Eigen::Index size, const double* base, const double* k, Eigen::Index rows, int count,
+                                  const double* c, double* out) {
+  using hydro::Four;
+  Eigen::Index e = 0;
+  for (; e + 4 <= size; e += 4) {
+    Four sum = *reinterpret_cast<const Four*>(base + e);
+    for (int j = 0; j < count; ++j) sum += c[j] * *reinterpret_cast<const Four*>(k + j * rows + e);
+    *reinterpret_cast<Four*>(out + e) = sum;
+  }
+  for (; e < size; ++e) {
+    out[e] = base[e];
+    for (int j = 0; j < count; ++j) out[e] += c[j] * k[j * rows + e];
+  }
+}
+
+}  // namespace
+
+/// What the balance of stage i leaves over, with its sign turned.
+void Rosenbrock::find_right_side(int i, double h) {
+  const double past = rodas::time[i] * h;
   double* const y = at_.data();
-  at_ = from_;
-  for (int j = 0; j < i; ++j) at_ += rodas::a[i][j] * add_.col(j);
-  balance_.prescribe(t_ + past, places(y), places(y + places_), places(y + 2 * places_));
   if (i == 0) {
-    right_.force = -here_.force;
-    right_.law = -here_.law;
+    right_ = here_;
   } else {
     water_at_ = places(from_.data()) + past * places(from_.data() + places_) +
                 past * past / 2 * places(from_.data() + 2 * places_);
     balance_.evaluate(instant(t_ + past, y, &water_at_), right_);
-    right_.force = -right_.force;
-    right_.law = -right_.law;
   }
-  if (rodas::by_time[i] != 0 && balance_.changes_by_time()) {
-    right_.force -= h * rodas::by_time[i] * by_time_.force;
-    right_.law -= h * rodas::by_time[i] * by_time_.law;
-  }
-  auto rho = rates_.head(places_), sum = rates_.tail(places_);
-  rho = at_.segment(places_, places_);
-  sum = at_.segment(2 * places_, places_);
-  for (int j = 0; j < i; ++j) {
-    rho += rodas::c[i][j] / h * add_.col(j).head(places_);
-    sum += rodas::c[i][j] / h * add_.col(j).segment(places_, places_);
-  }
-  for (const Held& held : line_.description().held) {
-    rho.segment<3>(3 * held.node).setZero();
-    sum.segment<3>(3 * held.node).setZero();
-  }
-  auto x = add_.col(i).head(places_), v = add_.col(i).segment(places_, places_),
-       acceleration = add_.col(i).segment(2 * places_, places_);
-  const Eigen::VectorXd sigma = sum;
-  sum += by * rho;
-  balance_.add_rates(places(rates_.data()), places(rates_.data() + places_), right_);
-  balance_.solve(right_, places(add_.col(i).data()), add_.col(i).tail(line_.segments()));
-  v = by * x - rho;
-  acceleration = by * v - sigma;
-  return add_.col(i).allFinite();
+  const double share = balance_.changes_by_time() ? h * rodas::by_time[i] : 0;
+  right_.force = -right_.force - share * by_time_.force;
+  right_.law = -right_.law - share * by_time_.law;
 }
 
+// (D138)
+void Rosenbrock::add_stage(int i, double h) {
+  const double by = 1 / (rodas::gamma * h);
+  double* const y = at_.data();
+  combine(at_.size(), from_.data(), add_.data(), add_.rows(), i, rodas::a[i], y);
+  balance_.prescribe(t_ + rodas::time[i] * h, places(y), places(y + places_), places(y + 2 * places_));
+  find_right_side(i, h);
+  // ρ and σ, of places and velocities.
+  double c[stages];
+  for (int j = 0; j < i; ++j) c[j] = rodas::c[i][j] / h;
+  combine(2 * places_, y + places_, add_.data(), add_.rows(), i, c, rates_.data());
+  for (const Held& held : line_.description().held)
+    for (const Eigen::Index begin : {3L * held.node, places_ + 3L * held.node}) rates_.segment<3>(begin).setZero();
+  const auto rho = rates_.head(places_), sigma = rates_.segment(places_, places_);
+  rates_.tail(places_) = by * rho + sigma;
+  balance_.add_rates(places(rates_.data()), places(rates_.data() + 2 * places_), right_);
+  auto added = add_.col(i);
+  balance_.solve(right_, places(added.data()), added.tail(line_.segments()));
+  added.segment(places_, places_) = by * added.head(places_) - rho;
+  added.segment(2 * places_, places_) = by * added.segment(places_, places_) - sigma;
+}
+
+/// (D139)
 double Rosenbrock::error() const {
   const auto last = add_.col(stages - 1);
   const double pull = std::max(weight_, from_.tail(line_.segments()).cwiseAbs().maxCoeff());
-  return std::max(last.tail(line_.segments()).cwiseAbs().maxCoeff() / pull,
-                  last.head(places_).cwiseAbs().maxCoeff() * line_.segments() / line_.length());
+  double push = 0;
+  for (const Bed& bed : line_.description().bed)
+    for (int i = 0; i < nodes_; ++i)
+      if (std::min(from_[3 * i + 2], at_[3 * i + 2]) < bed.z)
+        push = std::max(push, bed.stiffness * line_.bed_area(i) * std::abs(last[3 * i + 2]));
+  return std::max({last.tail(line_.segments()).cwiseAbs().maxCoeff() / pull, push / pull,
+                   last.head(places_).cwiseAbs().maxCoeff() * line_.segments() / line_.length()});
 }
 
 double Rosenbrock::try_step(double h) {
@@ -116,9 +139,9 @@ double Rosenbrock::try_step(double h) {
   if (!balance_.factorise(1 / (rodas::gamma * h))) return nothing;
   if (balance_.changes_by_time())
     balance_.differentiate_by_time(instant(t_, from_.data()), here_, share_of_step * h, by_time_);
-  for (int i = 0; i < stages; ++i)
-    if (!add_stage(i, h)) return nothing;
+  for (int i = 0; i < stages; ++i) add_stage(i, h);
   at_ += add_.col(stages - 1);
+  if (!at_.allFinite()) return nothing;
   balance_.prescribe(t_ + h, places(at_.data()), places(at_.data() + places_), places(at_.data() + 2 * places_));
   h_ = h;
   return error();

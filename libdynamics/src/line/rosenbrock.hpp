@@ -28,7 +28,8 @@ class Rosenbrock {
   static constexpr int stages = 6;
   Eigen::Map<Places> places(double* of) { return {of, 3, nodes_}; }
   Instant instant(double t, double* y, const Places* water_at = nullptr);
-  bool add_stage(int i, double h);
+  void find_right_side(int i, double h);
+  void add_stage(int i, double h);
   double error() const;
 
   const Line& line_;
@@ -38,7 +39,7 @@ class Rosenbrock {
   // x, v, a and T one after the other: where it is, at a stage, and what the stages add.
   Eigen::VectorXd from_, at_;
   Eigen::MatrixXd add_;
-  Eigen::VectorXd rates_;  // ρ and ρ/(γh) + σ of (D138)
+  Eigen::VectorXd rates_;  // ρ, σ and ρ/(γh) + σ of (D138)
   Places water_at_;
   Balance here_, by_time_, right_;
   Powers powers_;

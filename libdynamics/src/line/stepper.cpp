@@ -52,6 +52,13 @@ struct Stepper::Work {
     Places algorithmic = {};
     VectorXd tension = {};
   } previous;
+  // The state that was booked last, and whether what it holds is not in the energies yet: most steps nobody asks for it.
+  State to_note;
+  bool unnoted = false;
+  struct Earlier {
+    Powers powers = {};
+    double h = 0;
+  };                    // where the last sub-step began, and how long it was; 0: there was none
   double unbooked = 0;  // s: the last step, or its last part, whose powers are not in the energies yet; 0: they are
   struct {
     Places a, algorithmic;
@@ -59,6 +66,7 @@ struct Stepper::Work {
     Powers before;
     Previous previous;
     double sub_step = 0;
+    Earlier earlier = {};
   } kept = {};
   // Where a step that is tried began, and what it makes on the way: kept from step to step, so that it asks for no
   // memory.
@@ -68,6 +76,7 @@ struct Stepper::Work {
   std::string failure;
   std::optional<Rosenbrock> rosenbrock = {};
   double sub_step = 0;  // s: of it, that the last one's error asks for; 0: not known yet
+  Earlier earlier = {};
 
   Work(const Line& l, const Settings& s) : line(l), settings(s), equations(l), none(Places::Zero(3, l.nodes())) {}
 
@@ -90,6 +99,7 @@ struct Stepper::Work {
   void advance(State& state, double h, int depth, StepReport& report);
   void advance_by_sub_steps(State& state, double h, StepReport& report);
   double next_sub_step(double taken, double error) const;
+  void note_powers_since_sub_step(const Powers& after, double tau);
 };
 
 Stepper::Stepper(const Line& line, const Settings& settings) : work_(std::make_unique<Work>(line, settings)) {
@@ -120,7 +130,11 @@ Stepper::Stepper(const Line& line, const Settings& settings) : work_(std::make_u
 
 Stepper::~Stepper() = default;
 
-const Energies& Stepper::energies() const { return work_->energies; }
+const Energies& Stepper::energies() const {
+  Work& w = *work_;
+  if (std::exchange(w.unnoted, false)) w.note_state(w.to_note);
+  return w.energies;
+}
 
 Stepper::Flow Stepper::flow() const {
   const Powers& p = work_->before;
@@ -137,6 +151,7 @@ void Stepper::keep(State& state) {
   w.kept.before = w.before;
   w.kept.previous = w.previous;
   w.kept.sub_step = w.sub_step;
+  w.kept.earlier = w.earlier;
 }
 
 StepReport Stepper::try_step(State& state, double h) {
@@ -147,6 +162,7 @@ StepReport Stepper::try_step(State& state, double h) {
   w.before = w.kept.before;
   w.previous = w.kept.previous;
   w.sub_step = w.kept.sub_step;
+  w.earlier = w.kept.earlier;
   w.unbooked = 0;
   StepReport report;
   w.advance(state, h, 0, report);
@@ -223,6 +239,7 @@ void Stepper::start(State& state) {
   if (state.grip.cols() != line.nodes()) state.grip = state.position.topRows<2>();
   go_on(state);
   w.energies = {};
+  w.unnoted = false;
   w.before = w.powers_now(state);
   w.note_state(state);
   w.energies.lost_friction = 0;
@@ -232,7 +249,7 @@ void Stepper::start(State& state) {
 void Stepper::go_on(State& state) {
   Work& w = *work_;
   w.previous.h = 0;
-  w.sub_step = 0;
+  w.sub_step = w.earlier.h = 0;
   if (!w.settle(state) && !w.line.has_massless_nodes())
     throw hydro::NumericsError(fmt::format(
         "the line has no accelerations at t = {} s: masses or loads are singular or not finite", state.time));
@@ -402,7 +419,12 @@ void Stepper::Work::book(State& state) {
     before = after;
   }
   equations.take_grip(state);
-  note_state(state);
+  // What friction loses is summed up from step to step.
+  unnoted = !equations.rubs();
+  if (unnoted)
+    to_note = state;
+  else
+    note_state(state);
 }
 
 bool Stepper::Work::try_step(State& state, double h, StepReport& report) {
@@ -438,6 +460,21 @@ double Stepper::Work::next_sub_step(double taken, double error) const {
   return taken * std::clamp(share, shortest, longest);
 }
 
+/// The work of the parabola through the powers at this sub-step's end, at its beginning and at that of the one before.
+void Stepper::Work::note_powers_since_sub_step(const Powers& after, double tau) {
+  if (earlier.h == 0) {
+    note_powers(before, tau / 2);
+    note_powers(after, tau / 2);
+  } else {
+    const double r = earlier.h / tau;
+    note_powers(earlier.powers, -tau / (6 * r * (r + 1)));
+    note_powers(before, tau * (1 / (6 * r) + 0.5));
+    note_powers(after, tau * (2 + 3 * r) / (6 * (1 + r)));
+  }
+  earlier = {before, tau};
+  before = after;
+}
+
 /// By sub-steps as long as their error allows, all of which end with the step.
 void Stepper::Work::advance_by_sub_steps(State& state, double h, StepReport& report) {
   constexpr double shortest = 1e-7;  // of the step
@@ -451,10 +488,7 @@ void Stepper::Work::advance_by_sub_steps(State& state, double h, StepReport& rep
     ++report.newton_iterations;
     sub_step = next_sub_step(tau, error);
     if (error <= settings.local_error) {
-      const Powers& after = rosenbrock->accept(state, a);
-      note_powers(before, tau / 2);
-      note_powers(after, tau / 2);
-      before = after;
+      note_powers_since_sub_step(rosenbrock->accept(state, a), tau);
       unbooked = h;
       left = count > 1 ? left - tau : 0;
       continue;

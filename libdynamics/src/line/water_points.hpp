@@ -58,44 +58,39 @@ FROUDE_INLINE Triple drag(const PerLength& c, const WaterPoint& p) {
 
 FROUDE_INLINE Triple inertia(const WaterPoint& p) { return p.inertial - p.axis.dot(p.inertial) * p.axis; }
 
-/// Derivatives of drag and inertia per length by u − w, by y and by t.
+/// Of drag and inertia per length: derivatives by u − w, and by the vector from the segment's first node to its second,
+/// of this length, along which the axis turns. That of inertia by y is 1 − ttᵀ.
 struct PointDerivatives {
-  Eigen::Matrix3d by_relative, by_inertial, by_axis;
+  Eigen::Matrix3d by_relative = Eigen::Matrix3d::Zero(), by_turning = by_relative;
 
-  PointDerivatives(const PerLength& c, const WaterPoint& p) {
-    using Eigen::Matrix3d;
-    using Eigen::Vector3d;
-    const Vector3d axis = p.axis.vector(), relative = p.relative.vector(), inertial = p.inertial.vector();
-    const Matrix3d outer = axis * axis.transpose();
-    const double along = axis.dot(relative);
-    const Vector3d across = relative - along * axis;
+  FROUDE_INLINE PointDerivatives(const PerLength& c, const WaterPoint& p, double length) {
+    const double along = p.axis.dot(p.relative);
+    const Triple across = p.relative - along * p.axis;
     const double speed = across.norm(), normal = c.normal * speed, skin = c.tangential * std::abs(along);
-    // Of normal |w| w by w, which is across the axis: its product with the axis is normal times the axis.
-    Matrix3d by_across = normal * Matrix3d::Identity();
-    if (speed > 0) by_across += (c.normal / speed) * across * across.transpose();  // flat at w = 0
-    by_relative = by_across + (2 * skin - normal) * outer;
-    by_inertial = Matrix3d::Identity() - outer;
-    by_axis = (skin * along - axis.dot(inertial)) * Matrix3d::Identity() - along * by_across +
-              axis * ((2 * skin - normal) * relative - inertial).transpose();
-  }
-  /// By the vector from the segment's first node to its second, of this length.
-  Eigen::Matrix3d by_turning(const Eigen::Vector3d& axis, double length) const {
-    if (!(length > 0)) return Eigen::Matrix3d::Zero();
-    const Eigen::Vector3d along = by_axis * axis;
-    return 1 / length * (by_axis - along * axis.transpose());
+    const double bent = speed > 0 ? c.normal / speed : 0;  // of |w| w by w, besides |w|; flat at w = 0
+    add_unit(normal, by_relative);
+    add_outer(bent, across, across, by_relative);
+    add_outer(2 * skin - normal, p.axis, p.axis, by_relative);
+    if (!(length > 0)) return;
+    const double own = (skin * along - p.axis.dot(p.inertial) - along * normal) / length;
+    const Triple row = (2 * skin - normal) * p.relative - p.inertial;
+    add_unit(own, by_turning);
+    add_outer(-own, p.axis, p.axis, by_turning);
+    add_outer(-along * bent / length, across, across, by_turning);
+    add_outer(1 / length, p.axis, row - p.axis.dot(row) * p.axis, by_turning);
   }
 };
 
-/// Adds to the blocks of segment j, which begins at node `first`, what a load per length at a point changes by with
-/// both ends.
-inline void spread(const WaterPoint& p, int j, int first, const Eigen::Matrix3d& by_first,
-                   const Eigen::Matrix3d& by_second, Blocks& out) {
+/// Adds to the blocks of segment j, which begins at node `first`, what a load at a point of it changes by with both
+/// ends.
+FROUDE_INLINE void spread(const WaterPoint& p, int j, int first, double by_first, double by_second,
+                          const Eigen::Matrix3d& per_length, Blocks& out) {
   const double share[2] = {p.length * (1 - p.s), p.length * p.s};
   const auto at = static_cast<std::size_t>(j), node = static_cast<std::size_t>(first);
-  out.diagonal[node] += share[0] * by_first;
-  out.upper[at] += share[0] * by_second;
-  out.lower[at] += share[1] * by_first;
-  out.diagonal[node + 1] += share[1] * by_second;
+  add(share[0] * by_first, per_length, out.diagonal[node]);
+  add(share[0] * by_second, per_length, out.upper[at]);
+  add(share[1] * by_first, per_length, out.lower[at]);
+  add(share[1] * by_second, per_length, out.diagonal[node + 1]);
 }
 
 }  // namespace dynamics::line
