@@ -1,5 +1,5 @@
 #pragma once
-/// \file  Blocks of three that join neighbouring nodes: factorised once, solved as often as is asked. (D137)
+/// \file  Blocks of three that join neighbouring nodes: factorised once, solved as often as is asked. (D138)
 #include <Eigen/Core>
 
 #include <vector>

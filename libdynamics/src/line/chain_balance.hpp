@@ -1,6 +1,6 @@
 #pragma once
 /// \file  The balance of a chain of segments that stretch, and its derivatives by places, velocities and accelerations
-/// apart, as a linearly implicit step needs them. (D137)
+/// apart, as a linearly implicit step needs them. (D138)
 #include <Eigen/Core>
 
 #include <vector>

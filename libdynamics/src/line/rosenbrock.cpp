@@ -98,7 +98,7 @@ void Rosenbrock::find_right_side(int i, double h) {
   right_.law = -right_.law - share * by_time_.law;
 }
 
-// (D138)
+// (D139)
 void Rosenbrock::add_stage(int i, double h) {
   const double by = 1 / (rodas::gamma * h);
   double* const y = at_.data();
@@ -120,7 +120,7 @@ void Rosenbrock::add_stage(int i, double h) {
   added.segment(2 * places_, places_) = by * added.segment(places_, places_) - sigma;
 }
 
-/// (D139)
+/// (D140)
 double Rosenbrock::error() const {
   const auto last = add_.col(stages - 1);
   const double pull = std::max(weight_, from_.tail(line_.segments()).cwiseAbs().maxCoeff());

@@ -1,5 +1,5 @@
 #pragma once
-/// \file  Linearly implicit Runge-Kutta steps of a line, of order 4 with an estimate of their error. (D138), (D139)
+/// \file  Linearly implicit Runge-Kutta steps of a line, of order 4 with an estimate of their error. (D139), (D140)
 #include <Eigen/Core>
 
 #include "chain_balance.hpp"
@@ -39,7 +39,7 @@ class Rosenbrock {
   // x, v, a and T one after the other: where it is, at a stage, and what the stages add.
   Eigen::VectorXd from_, at_;
   Eigen::MatrixXd add_;
-  Eigen::VectorXd rates_;  // ρ, σ and ρ/(γh) + σ of (D138)
+  Eigen::VectorXd rates_;  // ρ, σ and ρ/(γh) + σ of (D139)
   Places water_at_;
   Balance here_, by_time_, right_;
   Powers powers_;

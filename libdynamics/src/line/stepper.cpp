@@ -452,7 +452,7 @@ bool Stepper::Work::try_step(State& state, double h, StepReport& report) {
   return true;
 }
 
-/// (D139)
+/// (D140)
 double Stepper::Work::next_sub_step(double taken, double error) const {
   constexpr double safety = 0.9, shortest = 0.2, longest = 3, where_there_is_none = 0.25;
   if (!std::isfinite(error)) return where_there_is_none * taken;

@@ -251,16 +251,23 @@ TEST(ChainBalance, IsZeroWhereTheAccelerationsAreThoseOfTheState) {
   EXPECT_LT((out.force.col(0) - found.holding.col(0)).norm(), 1e-6 * found.tension.maxCoeff());
 }
 
+// Straight segments: what catenary ones store leaves their couple out (D88).
 TEST(Rosenbrock, ClosesTheLedger) {
-  const Line line(mooring(12));
-  State s = at_rest(line);
-  Stepper stepper(line, {.scheme = Scheme::rosenbrock});
-  stepper.start(s);
-  for (int i = 0; i < 100; ++i) stepper.step(s, 0.1);
-  const Energies& e = stepper.energies();
-  EXPECT_GT(e.lost_drag, 100);
-  EXPECT_GT(e.lost_bed, 1);
-  EXPECT_LT(std::abs(e.residual()), 5e-3 * e.dissipated());
+  const Line line(mooring(12, false));
+  double before = 1;
+  for (const double tolerance : {1e-4, 1e-5}) {
+    State s = at_rest(line);
+    Stepper stepper(line, {.scheme = Scheme::rosenbrock, .local_error = tolerance});
+    stepper.start(s);
+    for (int i = 0; i < 100; ++i) stepper.step(s, 0.1);
+    const Energies& e = stepper.energies();
+    EXPECT_GT(e.lost_drag, 100);
+    EXPECT_GT(e.lost_bed, 1);
+    const double left = std::abs(e.residual()) / e.dissipated();
+    EXPECT_LT(left, 2e-3);
+    EXPECT_LT(left, before / 2) << tolerance;
+    before = left;
+  }
 }
 
 // A stiff chain is let go a metre above a stiff bed with tension-only segments, and falls on it: nodes strike one after
@@ -285,8 +292,8 @@ TEST(Rosenbrock, LetsAStiffChainFallOnAStiffBed) {
     ASSERT_LT(stepper.energies().total(), stepper.energies().at_start + stepper.energies().supplied() + 100);
   }
   EXPECT_LT(s.position.row(2).rightCols(19).maxCoeff(), -29.9);
-  EXPECT_LT(stepper.energies().kinetic, 1);
-  EXPECT_LT(std::abs(stepper.energies().residual()), 0.05 * stepper.energies().dissipated());
+  EXPECT_LT(stepper.energies().kinetic, 10);  // of 11 kJ
+  EXPECT_LT(std::abs(stepper.energies().residual()), 0.01 * stepper.energies().dissipated());
 }
 
 TEST(Rosenbrock, TakesTheSameStepAgainFromWhereItWasKept) {

@@ -1,5 +1,5 @@
 #pragma once
-/// \file  Time stepping of lines, and their energy ledger. (D77), (D79)-(D82), (D84), (D138), (D139)
+/// \file  Time stepping of lines, and their energy ledger. (D77), (D79)-(D82), (D84), (D139), (D140)
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -12,7 +12,7 @@ namespace dynamics::line {
 enum class Scheme {
   energy_momentum,    ///< midpoint with the means of pulls over the step: keeps energy and lengths, second order (D79)
   generalised_alpha,  ///< second order, damps what is faster than the step by ρ∞ (D80)
-  rosenbrock,         ///< fourth order without iterations, in sub-steps cut by their own error (D138)
+  rosenbrock,         ///< fourth order without iterations, in sub-steps cut by their own error (D139)
   gamma,              ///< γ new + (1 − γ) old: 1 implicit Euler, ½ trapezium; of first order but at ½ (D81)
   semi_implicit_euler,  ///< velocity by the loads at the start, then place by the new velocity (D82)
   explicit_euler        ///< both by what is known at the start (D82)
@@ -53,7 +53,7 @@ class Stepper {
     double tolerance = 1e-9;    ///< of Newton's last correction, relative to displacement of the step and tension
     int iterations = 25;
     double local_error = 1e-4;  ///< of a sub-step of Scheme::rosenbrock: of tensions by the largest one or the line's
-                                ///< weight, of places by a segment (D139)
+                                ///< weight, of places by a segment (D140)
     int deepest_halving = 10;  ///< a step is cut into 2¹⁰ pieces at most
   };
 
