@@ -290,10 +290,10 @@ void require_one_step(const Scene& scene, const scene::Line& l) {
 /// A line and its perturbed trajectory are stepped so closely that their distance is no matter of tolerances.
 void ask_for_neighbours(const Scene& scene, LineModel& m) {
   const hydro::Place& place = m.lyapunov->place;
-  if (m.settings.scheme == dl::Scheme::generalised_alpha)
-    throw InputError(fmt::format("line \"{}\" has no neighbours in steps of generalized_alpha, which keep more than "
-                                 "places and velocities",
-                                 m.name),
+  if (m.settings.scheme == dl::Scheme::generalised_alpha || m.settings.scheme == dl::Scheme::rosenbrock)
+    throw InputError(fmt::format("line \"{}\" has no neighbours in steps of {}, which keep more than places and "
+                                 "velocities",
+                                 m.name, dl::name_of(m.settings.scheme)),
                      place, "leave out [solve.integrator] lines: energy_momentum");
   if (m.line->has_massless_nodes())
     throw InputError(fmt::format("line \"{}\" has a free node without mass, so its motions have no neighbours", m.name),
@@ -380,7 +380,8 @@ LineModel free_model(const Scene& scene, const std::vector<std::size_t>& network
               .start = std::move(rest),
               .settings = {.scheme = dl::parse_scheme(scene.solve.line_scheme),
                            .rho_infinity = scene.solve.rho_infinity,
-                           .gamma = scene.solve.gamma}};
+                           .gamma = scene.solve.gamma,
+                           .local_error = scene::line_tolerance(scene)}};
   if (const scene::Line& l = scene.lines[network.front()]; l.release) m.parts.front().released = brought(l);
   if (const scene::Line& l = scene.lines[network.front()]; l.start) start_as_measured(l, m);
   for (const std::size_t i : network)

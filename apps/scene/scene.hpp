@@ -448,6 +448,7 @@ struct Solve {
   std::string line_scheme = "energy_momentum";  ///< of lines, as dynamics::line::parse_scheme() reads it
   std::optional<Place> line_scheme_place = {};  ///< where the scene names it
   double gamma = 0.51;                          ///< of the γ-method of lines
+  std::optional<double> line_tolerance;         ///< of sub-steps of lines by rosenbrock; empty: line_tolerance()
   bool accept_error = false;                    ///< a run stands whatever its error is estimated to be
 };
 
@@ -516,5 +517,7 @@ void check_patterns(const Scene& scene, const std::vector<std::string>& known);
 /// True if a force of the scene jumps in stiffness where it begins to act, and generalised-α steps it: cables, tables,
 /// end stops, lines whose segments go slack (D132).
 bool acts_one_way(const Scene& scene);
+/// Of sub-steps of lines by "rosenbrock": a hundredth of the accuracy where the scene gives none.
+double line_tolerance(const Scene& scene);
 
 }  // namespace froude::scene

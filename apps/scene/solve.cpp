@@ -16,6 +16,9 @@ void check_methods(const Record& integrator, const Solve& solve) {
   const bool lines_alike = solve.line_scheme_place && solve.line_scheme == "generalized_alpha";
   if (integrator.has("rho_infinity") && solve.integrator != "generalized_alpha" && !lines_alike)
     throw integrator.wrong("rho_infinity", "acts only with name = \"generalized_alpha\"", "leave it out");
+  if (integrator.has("line_tolerance") && solve.line_scheme != "rosenbrock")
+    throw integrator.wrong("line_tolerance", "acts only with lines = \"rosenbrock\"",
+                           "leave it out, or add lines = \"rosenbrock\"");
   if (!integrator.has("gamma")) return;
   if (solve.line_scheme != "gamma")
     throw integrator.wrong("gamma", "acts only with lines = \"gamma\"", "leave it out, or add lines = \"gamma\"");
@@ -51,12 +54,19 @@ Binding<Solve> integrator() {
           &Solve::tolerance)
       .optional(
           text("lines",
-               "how each [[line]] is stepped; left out: energy_momentum, which keeps energy and lengths at any step")
-              .one_of({"energy_momentum", "generalized_alpha", "gamma", "semi_implicit_euler", "explicit_euler"}),
+               "how each [[line]] is stepped; rosenbrock, of order 4, cuts steps by its own error; left out: "
+               "energy_momentum, which keeps energy and lengths at any step")
+              .one_of({"energy_momentum", "generalized_alpha", "rosenbrock", "gamma", "semi_implicit_euler",
+                       "explicit_euler"}),
           [](const Value& scheme, Solve& solve) {
             solve.line_scheme = scheme.text;
             solve.line_scheme_place = scheme.place;
           })
+      .optional(number("line_tolerance",
+                       "of the local error of a sub-step of lines = \"rosenbrock\", of forces relative to the largest "
+                       "tension or the weight, of places to a segment; left out: a hundredth of the accuracy")
+                    .positive(),
+                &Solve::line_tolerance)
       .optional(number("gamma", "share of the new state in a step of lines = \"gamma\"; left out: 0.51").positive(),
                 &Solve::gamma)
       .then(check_methods);
@@ -77,6 +87,11 @@ bool acts_one_way(const Scene& scene) {
          std::any_of(scene.joints.begin(), scene.joints.end(),
                      [](const Joint& j) { return j.pto && j.pto->has_stops(); }) ||
          std::any_of(scene.lines.begin(), scene.lines.end(), line);
+}
+
+double line_tolerance(const Scene& scene) {
+  constexpr double share = 1e-2;  // of many sub-steps, whose errors add up
+  return scene.solve.line_tolerance.value_or(share * scene.accuracy.value);
 }
 
 const Binding<Solve>& solve_binding() {

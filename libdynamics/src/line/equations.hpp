@@ -39,13 +39,6 @@ struct Stage {
   }
 };
 
-/// Powers at a stage, W; means over the step if the stage is one.
-struct Powers : LoadPowers {
-  double axial = 0, bed = 0;  ///< dissipated
-  double friction = 0;        ///< taken by the bed's shear, lost or stored
-  double held = 0;            ///< supplied by what holds nodes
-};
-
 /// Makes `out` the balance of a state with accelerations a: an instant, which it asks no memory for once it has room.
 void set_instant(const State& state, const Places& a, Stage& out);
 
@@ -94,6 +87,8 @@ class Equations {
   /// Where the bed holds nodes after the step that powers() looked at last. (D95)
   void take_grip(State& state) const;
   double kinetic(const Places& v) const;
+  /// Whether the bed has friction.
+  bool rubs() const { return !line_.description().bed.empty() && line_.description().bed.front().friction > 0; }
 
  private:
   static constexpr double undetermined = 1e-13;
@@ -131,7 +126,6 @@ class Equations {
   void add_up_ties();
   void add_mass(const Places& a);
   void add_bed(const Stage& stage, const State& before, bool matrix);
-  bool rubs() const { return !line_.description().bed.empty() && line_.description().bed.front().friction > 0; }
   double shear_stiffness(int i) const { return line_.description().bed.front().stiffness * line_.bed_area(i); }
   double weight_on_bed(int i) const;
   void add_friction(const Stage& stage, const State& before, bool matrix);

@@ -9,21 +9,9 @@ using Eigen::Vector3d;
 
 /// Adds to the law T/k − (r − ℓ) of a segment what its sag takes off the chord.
 void Equations::sag(int j, double T, Pull& p) const {
-  const Segment& s = line_.segment(j);
-  Span span{.length = s.length,
-            .weight = line_.sag_weight(j),
-            .height = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()},
-            .level = 1,
-            .rounding = 0};
-  for (const Bed& bed : line_.description().bed) {
-    if (!s.meets_bed) continue;
-    for (int i = 0; i < 2; ++i) span.height[i] = x_(2, line_.first(j) + i) - bed.z;
-    span.rounding = 2 * span.weight / (bed.stiffness * s.diameter);  // twice the depth to which the line sinks
-  }
   const Vector3d d = along(x_, j);
   const double r = d.norm(), slope = d.z() / r;
-  span.level = 1 - slope * slope;
-  p.sag = sag_of(span, T);
+  p.sag = sag_of(span_of(line_, j, x_, slope), T);
   p.level_by = -2 * slope / r * (Vector3d::UnitZ() - slope * d / r);
   p.law -= p.sag.shortening;
   p.law_by_T -= p.sag.by_tension;

@@ -20,7 +20,7 @@ Places irregular(const Line& line) {
 }
 
 void require_steps_of_places(const Line& line, const Stepper::Settings& settings) {
-  if (settings.scheme == Scheme::generalised_alpha)
+  if (settings.scheme == Scheme::generalised_alpha || settings.scheme == Scheme::rosenbrock)
     throw hydro::InputError(
         "steps of generalised-α keep accelerations of their own, of which a perturbed trajectory is not", {},
         "step the line with \"energy_momentum\"");

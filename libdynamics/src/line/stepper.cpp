@@ -8,6 +8,7 @@
 #include "dynamics/time/alpha_parameters.hpp"
 #include "equations.hpp"
 #include "hydro/base/error.hpp"
+#include "rosenbrock.hpp"
 
 namespace dynamics::line {
 namespace {
@@ -16,8 +17,8 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double closed = 1e-9;  // of a length, and of a speed: what rounding of given places leaves
-constexpr std::array<std::string_view, 5> scheme_names{"energy_momentum", "generalized_alpha", "gamma",
-                                                       "semi_implicit_euler", "explicit_euler"};
+constexpr std::array<std::string_view, 6> scheme_names{
+    "energy_momentum", "generalized_alpha", "rosenbrock", "gamma", "semi_implicit_euler", "explicit_euler"};
 
 }  // namespace
 
@@ -51,12 +52,21 @@ struct Stepper::Work {
     Places algorithmic = {};
     VectorXd tension = {};
   } previous;
+  // The state that was booked last, and whether what it holds is not in the energies yet: most steps nobody asks for it.
+  State to_note;
+  bool unnoted = false;
+  struct Earlier {
+    Powers powers = {};
+    double h = 0;
+  };                    // where the last sub-step began, and how long it was; 0: there was none
   double unbooked = 0;  // s: the last step, or its last part, whose powers are not in the energies yet; 0: they are
   struct {
     Places a, algorithmic;
     Energies energies;
     Powers before;
     Previous previous;
+    double sub_step = 0;
+    Earlier earlier = {};
   } kept = {};
   // Where a step that is tried began, and what it makes on the way: kept from step to step, so that it asks for no
   // memory.
@@ -64,6 +74,9 @@ struct Stepper::Work {
   Places a_before_step, algorithmic_before_step, velocity_before, known, none;
   Stage now;
   std::string failure;
+  std::optional<Rosenbrock> rosenbrock = {};
+  double sub_step = 0;  // s: of it, that the last one's error asks for; 0: not known yet
+  Earlier earlier = {};
 
   Work(const Line& l, const Settings& s) : line(l), settings(s), equations(l), none(Places::Zero(3, l.nodes())) {}
 
@@ -84,6 +97,9 @@ struct Stepper::Work {
   void note_powers(const Powers& mean, double h);
   void note_state(const State& state);
   void advance(State& state, double h, int depth, StepReport& report);
+  void advance_by_sub_steps(State& state, double h, StepReport& report);
+  double next_sub_step(double taken, double error) const;
+  void note_powers_since_sub_step(const Powers& after, double tau);
 };
 
 Stepper::Stepper(const Line& line, const Settings& settings) : work_(std::make_unique<Work>(line, settings)) {
@@ -105,11 +121,20 @@ Stepper::Stepper(const Line& line, const Settings& settings) : work_(std::make_u
     throw hydro::InputError(
         fmt::format("a free node of the line has no mass, so {} finds no accelerations", name_of(settings.scheme)), {},
         "give every free node or segment a mass, or step with \"energy_momentum\"");
+  if (settings.scheme != Scheme::rosenbrock) return;
+  hydro::require(settings.local_error > 0, "local_error must lie above 0, got {}", settings.local_error);
+  if (const auto [why, remedy] = ChainBalance::unfit(line); !why.empty())
+    throw hydro::InputError(fmt::format("steps of \"rosenbrock\" are not made for {}", why), {}, remedy);
+  work_->rosenbrock.emplace(line);
 }
 
 Stepper::~Stepper() = default;
 
-const Energies& Stepper::energies() const { return work_->energies; }
+const Energies& Stepper::energies() const {
+  Work& w = *work_;
+  if (std::exchange(w.unnoted, false)) w.note_state(w.to_note);
+  return w.energies;
+}
 
 Stepper::Flow Stepper::flow() const {
   const Powers& p = work_->before;
@@ -125,6 +150,8 @@ void Stepper::keep(State& state) {
   w.kept.energies = w.energies;
   w.kept.before = w.before;
   w.kept.previous = w.previous;
+  w.kept.sub_step = w.sub_step;
+  w.kept.earlier = w.earlier;
 }
 
 StepReport Stepper::try_step(State& state, double h) {
@@ -134,6 +161,8 @@ StepReport Stepper::try_step(State& state, double h) {
   w.energies = w.kept.energies;
   w.before = w.kept.before;
   w.previous = w.kept.previous;
+  w.sub_step = w.kept.sub_step;
+  w.earlier = w.kept.earlier;
   w.unbooked = 0;
   StepReport report;
   w.advance(state, h, 0, report);
@@ -210,6 +239,7 @@ void Stepper::start(State& state) {
   if (state.grip.cols() != line.nodes()) state.grip = state.position.topRows<2>();
   go_on(state);
   w.energies = {};
+  w.unnoted = false;
   w.before = w.powers_now(state);
   w.note_state(state);
   w.energies.lost_friction = 0;
@@ -219,6 +249,7 @@ void Stepper::start(State& state) {
 void Stepper::go_on(State& state) {
   Work& w = *work_;
   w.previous.h = 0;
+  w.sub_step = w.earlier.h = 0;
   if (!w.settle(state) && !w.line.has_massless_nodes())
     throw hydro::NumericsError(fmt::format(
         "the line has no accelerations at t = {} s: masses or loads are singular or not finite", state.time));
@@ -381,14 +412,19 @@ bool Stepper::Work::euler(State& state, double h) {
 void Stepper::Work::book(State& state) {
   const double h = std::exchange(unbooked, 0);
   if (h == 0) return;
-  if (settings.scheme != Scheme::energy_momentum) {
+  if (settings.scheme != Scheme::energy_momentum && settings.scheme != Scheme::rosenbrock) {
     const Powers after = powers_now(state, settings.scheme == Scheme::generalised_alpha ? &last.stage : nullptr);
     note_powers(before, h / 2);
     note_powers(after, h / 2);
     before = after;
   }
   equations.take_grip(state);
-  note_state(state);
+  // What friction loses is summed up from step to step.
+  unnoted = !equations.rubs();
+  if (unnoted)
+    to_note = state;
+  else
+    note_state(state);
 }
 
 bool Stepper::Work::try_step(State& state, double h, StepReport& report) {
@@ -416,7 +452,59 @@ bool Stepper::Work::try_step(State& state, double h, StepReport& report) {
   return true;
 }
 
+/// (D140)
+double Stepper::Work::next_sub_step(double taken, double error) const {
+  constexpr double safety = 0.9, shortest = 0.2, longest = 3, where_there_is_none = 0.25;
+  if (!std::isfinite(error)) return where_there_is_none * taken;
+  const double share = safety * std::pow(settings.local_error / error, 0.25);
+  return taken * std::clamp(share, shortest, longest);
+}
+
+/// The work of the parabola through the powers at this sub-step's end, at its beginning and at that of the one before.
+void Stepper::Work::note_powers_since_sub_step(const Powers& after, double tau) {
+  if (earlier.h == 0) {
+    note_powers(before, tau / 2);
+    note_powers(after, tau / 2);
+  } else {
+    const double r = earlier.h / tau;
+    note_powers(earlier.powers, -tau / (6 * r * (r + 1)));
+    note_powers(before, tau * (1 / (6 * r) + 0.5));
+    note_powers(after, tau * (2 + 3 * r) / (6 * (1 + r)));
+  }
+  earlier = {before, tau};
+  before = after;
+}
+
+/// By sub-steps as long as their error allows, all of which end with the step.
+void Stepper::Work::advance_by_sub_steps(State& state, double h, StepReport& report) {
+  constexpr double shortest = 1e-7;  // of the step
+  book(state);
+  if (!rosenbrock->is_at(state)) rosenbrock->begin(state, a);
+  const double end = state.time + h;
+  if (sub_step == 0) sub_step = h;
+  for (double left = h; left > 0;) {
+    const double count = std::ceil((1 - 1e-9) * left / sub_step), tau = left / count;
+    const double error = rosenbrock->try_step(tau);
+    ++report.newton_iterations;
+    sub_step = next_sub_step(tau, error);
+    if (error <= settings.local_error) {
+      note_powers_since_sub_step(rosenbrock->accept(state, a), tau);
+      unbooked = h;
+      left = count > 1 ? left - tau : 0;
+      continue;
+    }
+    ++report.halvings;
+    if (sub_step >= shortest * h) continue;
+    book(state);
+    throw hydro::NumericsError(
+        fmt::format("the line cannot go on from t = {:.6g} s, even with a step of {:.3g} s: {}", state.time, tau,
+                    std::isfinite(error) ? "its error stays too large" : "its equations are singular or not finite"));
+  }
+  state.time = end;
+}
+
 void Stepper::Work::advance(State& state, double h, int depth, StepReport& report) {
+  if (rosenbrock) return advance_by_sub_steps(state, h, report);
   if (try_step(state, h, report)) return;
   if (depth == settings.deepest_halving) {
     book(state);

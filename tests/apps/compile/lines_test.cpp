@@ -190,6 +190,32 @@ TEST(Lines, SagWhereTheSceneSaysSo) {
               ThrowsMessage<hydro::InputError>(HasSubstr("catenary segments")));
 }
 
+TEST(Lines, AreSteppedByRosenbrockWhereTheyStretch) {
+  const std::string chain =
+      "[[line]]\nname = \"c\"\nfrom = \"(30, 0, -14) m\"\nto = \"(0, 0, 0) m\"\nlength = \"36 m\"\nsegments = 6\n"
+      "mass_per_length = \"10 kg/m\"\ndiameter = \"30 mm\"\naxial_stiffness = \"1 MN\"\nbuoyancy = true\n";
+  const std::string waves = "[waves]\nkind = \"regular\"\nheight = \"1 m\"\nperiod = \"4 s\"\nheading = \"0 deg\"\n",
+                    wet = "[line.morison]\ncd = 1.2\nca = 1.0\n";
+  const auto pull = [&](const std::string& integrator, double h) {
+    const auto record = simulate(parse(water + waves + chain + wet + ask + fmt::format("[solve]\nstep = \"{} s\"\n", h) +
+                                       "[solve.integrator]\n" + integrator));
+    EXPECT_EQ(record.stopped, "");
+    return record.signal("c.to.force").back();
+  };
+  const double exact = pull("lines = \"generalized_alpha\"\n", 1e-4);
+  EXPECT_NEAR(pull("lines = \"rosenbrock\"\n", 0.01) / exact, 1, 1e-4);
+  EXPECT_NEAR(pull("lines = \"rosenbrock\"\nline_tolerance = 1e-7\n", 0.01) / exact, 1, 1e-5);
+  const auto refuses = [&](const std::string& text, const std::string& what) {
+    EXPECT_THAT([&] { simulate(parse(text)); }, ThrowsMessage<hydro::InputError>(HasSubstr(what))) << text;
+  };
+  const std::string own = "[solve.integrator]\nlines = \"rosenbrock\"\n";
+  refuses(water + loop + ask + own, "not made for inextensible segments");
+  refuses(water + chain + "bending_stiffness = \"10 N m^2\"\n" + ask + own, "bending");
+  refuses(water + chain + ask + own + "line_tolerance = 0\n", "line_tolerance");
+  refuses(water + chain + ask + "[solve.integrator]\nline_tolerance = 1e-4\n", "lines = \"rosenbrock\"");
+  refuses(water + chain + "[line.lyapunov]\nfrom = \"0.5 s\"\n" + ask + own, "no neighbours in steps of rosenbrock");
+}
+
 // w L⁴/8EI of a beam clamped level, a little more than a hundredth of its length; and w L²/2 at the clamp.
 TEST(Lines, BendAsBeamsWhereTheyAreClamped) {
   const auto beam = [](const std::string& more) {

@@ -1,5 +1,5 @@
 #pragma once
-/// \file  Time stepping of lines, and their energy ledger. (D77), (D79)-(D82), (D84)
+/// \file  Time stepping of lines, and their energy ledger. (D77), (D79)-(D82), (D84), (D139), (D140)
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -12,6 +12,7 @@ namespace dynamics::line {
 enum class Scheme {
   energy_momentum,    ///< midpoint with the means of pulls over the step: keeps energy and lengths, second order (D79)
   generalised_alpha,  ///< second order, damps what is faster than the step by ρ∞ (D80)
+  rosenbrock,         ///< fourth order without iterations, in sub-steps cut by their own error (D139)
   gamma,              ///< γ new + (1 − γ) old: 1 implicit Euler, ½ trapezium; of first order but at ½ (D81)
   semi_implicit_euler,  ///< velocity by the loads at the start, then place by the new velocity (D82)
   explicit_euler        ///< both by what is known at the start (D82)
@@ -36,7 +37,7 @@ struct Energies {
   double residual() const { return total() - at_start - supplied() + dissipated(); }
 };
 
-/// What one full step took.
+/// What one full step took; of Scheme::rosenbrock its sub-steps, and how many of them were taken anew, shorter.
 struct StepReport {
   int newton_iterations = 0, halvings = 0;
 };
@@ -51,10 +52,13 @@ class Stepper {
     double gamma = 0.51;        ///< of the γ-method
     double tolerance = 1e-9;    ///< of Newton's last correction, relative to displacement of the step and tension
     int iterations = 25;
+    double local_error = 1e-4;  ///< of a sub-step of Scheme::rosenbrock: of tensions by the largest one or the line's
+                                ///< weight, of places by a segment (D140)
     int deepest_halving = 10;  ///< a step is cut into 2¹⁰ pieces at most
   };
 
-  /// \throws hydro::InputError for settings that cannot be, and for massless free nodes where the scheme needs mass
+  /// \throws hydro::InputError for settings that cannot be, for massless free nodes where the scheme needs mass, and
+  /// for lines that Scheme::rosenbrock cannot step: inextensible, stiff in bending, in networks, on beds with friction
   Stepper(const Line& line, const Settings& settings);
   ~Stepper();
   Stepper(const Stepper&) = delete;

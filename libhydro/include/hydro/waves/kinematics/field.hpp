@@ -49,6 +49,8 @@ class WaveField {
  public:
   virtual ~WaveField() = default;
   virtual const Water& water() const noexcept = 0;
+  /// Whether the water is known to rest everywhere, at any time: no waves, no current.
+  virtual bool is_still() const noexcept { return false; }
   /// ζ(x, y, t), m.
   virtual double elevation(double t_s, double x_m, double y_m) const = 0;
   /// All of Kinematics. Above the surface the value is that of the stretching, continued: whether a point is wet is
@@ -97,6 +99,7 @@ class HarmonicField final : public WaveField {
   const Options& options() const noexcept { return options_; }
   const Current& current() const noexcept { return current_; }
   using WaveField::at;
+  bool is_still() const noexcept override { return harmonics_.empty() && current_.is_none(); }
   double elevation(double t_s, double x_m, double y_m) const override;
   Kinematics at(double t_s, const Eigen::Vector3d& point) const override;
 
