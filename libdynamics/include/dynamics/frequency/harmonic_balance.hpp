@@ -96,8 +96,8 @@ struct MotionAt {
 
 /// Where Newton alone takes a motion along a parameter.
 struct Carried {
-  Balance end;   ///< at the parameter asked for
-  bool joined;   ///< to where it began; else none was found, or Newton jumped onto another branch
+  Balance end;  ///< at the parameter asked for
+  bool joined;  ///< to where it began; else none was found, or Newton jumped onto another branch
 };
 
 /// The motion at `to` by Newton, from the straight line through two motions before it. The way is halved, at most into
