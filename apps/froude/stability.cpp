@@ -87,11 +87,12 @@ Report report_of_branch(const Branch& branch, std::size_t number) {
   const std::string fates = fates_told(
       branch.points.size(), [&](std::size_t i) { return fate_of(branch.points[i]); },
       [&](std::size_t i) { return branch.varied(branch.points[i]); }, unit);
-  if (branch.begin == Reached::jumped)
-    out.say("branch {} begins on a motion that no branch joins to rest", number);
+  if (branch.begin == Reached::jumped) out.say("branch {} begins on a motion that no branch joins to rest", number);
   out.say("branch {} of {:.4g} {}: {} points{}{}{}", number, branch.held, held, branch.points.size(), turns,
           fates.empty() ? "" : ": " + fates, fact("end", branch.end, branch.end.empty() ? "" : "; " + branch.end));
-  return out.keep(branch.over_periods ? "height_m" : "period_s", branch.held).keep("folds", folds).keep("begin", name_of(branch.begin));
+  return out.keep(branch.over_periods ? "height_m" : "period_s", branch.held)
+      .keep("folds", folds)
+      .keep("begin", name_of(branch.begin));
 }
 
 /// "28 cells: 20 stable, 6 period-doubled, 2 beyond breaking; 3 reached round folds", and where Newton jumped.
@@ -195,12 +196,9 @@ void write_csv(const Path& path, const StabilityMap& map) {
       rows.add(static_cast<double>(b + 1), p, p.period, p.height, std::nan(""), p.forwards ? 1 : 0, std::nan(""));
     rows.add(map.branches[b].signals);
   }
-  std::vector<hydro::io::CsvColumn> columns{{"period", "s", &rows.period},
-                                            {"height", "m", &rows.height},
-                                            {"fate", "", &rows.fate},
-                                            {"multiplier", "", &rows.multiplier},
-                                            {"mathieu height", "m", &rows.mathieu},
-                                            {"reached", "", &rows.reached}};
+  std::vector<hydro::io::CsvColumn> columns{
+      {"period", "s", &rows.period},        {"height", "m", &rows.height},          {"fate", "", &rows.fate},
+      {"multiplier", "", &rows.multiplier}, {"mathieu height", "m", &rows.mathieu}, {"reached", "", &rows.reached}};
   if (!map.branches.empty()) {
     columns.push_back({"branch", "", &rows.branch});
     columns.push_back({"forwards", "", &rows.forwards});
