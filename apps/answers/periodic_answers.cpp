@@ -44,7 +44,8 @@ PeriodicAnswers::Arrival PeriodicAnswers::reached(double period, const MotionAt&
   // Where motions grow no further they turn back; what comes after is where a run goes.
   FollowedBranch branch = follow(family, from.parameter, height, from.motion, {.balance = options_});
   if (branch.end.empty()) {
-    const bool turned = std::any_of(branch.points.begin(), branch.points.end(), [](const auto& p) { return !p.forwards; });
+    const bool turned =
+        std::any_of(branch.points.begin(), branch.points.end(), [](const auto& p) { return !p.forwards; });
     return {{.motion = std::move(branch.points.back().motion), .found = true, .why = {}}, turned ? round_folds : grown};
   }
   if (!end.found) end.why = branch.end;

@@ -28,8 +28,8 @@ class PeriodicAnswers {
     StabilityMap::Reached reached;
   };
   /// In waves of this height from two motions in lower ones, by Newton or along the branch.
-  Arrival reached(double period, const dynamics::frequency::MotionAt& before,
-                  const dynamics::frequency::MotionAt& from, double height) const;
+  Arrival reached(double period, const dynamics::frequency::MotionAt& before, const dynamics::frequency::MotionAt& from,
+                  double height) const;
   /// The same from rest, by way of waves of an eighth of this height.
   Arrival from_rest(double period, double height) const;
   /// No waves, no motion.
@@ -49,8 +49,8 @@ class PeriodicAnswers {
   dynamics::frequency::BalanceOptions options_;
 };
 
-/// One branch that [ask.stability] asks for, from the lowest period or height of the map to the highest, as far as there
-/// are such waves.
+/// One branch that [ask.stability] asks for, from the lowest period or height of the map to the highest, as far as
+/// there are such waves.
 StabilityMap::Branch followed(const PeriodicAnswers& answers, const scene::AskStability& ask,
                               const scene::AskStability::Branch& branch);
 

@@ -244,8 +244,7 @@ void StabilityMap::write(const std::filesystem::path& path) const {
   file.attach_dimension("/mathieu", 0, "/period");
   describe(file, "/mathieu", "m", "height from which one motion grows, by Hill's equation of that motion");
   for (const Signal& s : signals) cell_by_cell(root_path(s.name), s.values, s.units, s.long_name);
-  for (std::size_t i = 0; i < branches.size(); ++i)
-    write_branch(file, fmt::format("/branch{}", i + 1), branches[i]);
+  for (std::size_t i = 0; i < branches.size(); ++i) write_branch(file, fmt::format("/branch{}", i + 1), branches[i]);
   file.save(path);
 }
 

@@ -76,8 +76,7 @@ class Mapping {
       }
       const auto system = answers_.at(period, height);
       note(system->notes());
-      auto [end, reached] =
-          from ? answers_.reached(period, before, *from, height) : answers_.from_rest(period, height);
+      auto [end, reached] = from ? answers_.reached(period, before, *from, height) : answers_.from_rest(period, height);
       cell.reached = reached;
       if (!end.found) {
         map_.notes.push_back(
@@ -122,8 +121,7 @@ class Mapping {
     const Family family = answers_.by_height(map_.period[p]);
     const auto system = answers_.at(map_.period[p], 1e-2 * highest);
     for (const Mode& mode : modes_) {
-      const HillEquation equation =
-          hill_equation(family, 1e-2 * highest, system->coordinates(mode.shape), mode.omega);
+      const HillEquation equation = hill_equation(family, 1e-2 * highest, system->coordinates(mode.shape), mode.omega);
       const auto least = equation.least_growing(highest);
       if (!least || *least >= map_.mathieu.back()) continue;
       map_.mathieu.back() = *least;

@@ -214,7 +214,7 @@ struct StabilityMap {
     bool over_periods;
     double held;  ///< the height, m, or the period, s, that all of them have
     std::vector<Point> points;
-    std::vector<Signal> signals;  ///< standard deviations, point by point
+    std::vector<Signal> signals;         ///< standard deviations, point by point
     Reached begin = Reached::not_found;  ///< how its first motion was come to from rest
     std::string end;                     ///< why it ends where it does; empty: it is at the other end of the map
 

@@ -163,7 +163,9 @@ TEST(HarmonicBalance, KnowsWhetherNewtonJumpedOntoAnotherBranch) {
   EXPECT_NEAR(force_for(amplitude(below.end.motion), w, beta, c), 0.95 * crest, 0.01 * crest);
   const Carried beyond = carry(family, rest, low, 1.1 * crest);
   EXPECT_FALSE(beyond.joined);
-  if (beyond.end.found) EXPECT_GT(amplitude(beyond.end.motion), 1.5 * at_crest);
+  if (beyond.end.found) {
+    EXPECT_GT(amplitude(beyond.end.motion), 1.5 * at_crest);
+  }
 }
 
 // Without damping and force a Duffing oscillator of amplitude A swings at ω = π √(1 + βA²)/(2 K(k)), k² = βA²/(2 (1 +
