@@ -50,6 +50,7 @@ namespace spectra { Outcome outcome(const Folders& folders); }
 namespace sea_dat { Outcome outcome(const Folders& folders); }
 namespace spoilt_fits { Outcome outcome(const Folders& folders); }
 namespace sphere_decay { Outcome outcome(const Folders& folders); }
+namespace sphere_rao { Outcome outcome(const Folders& folders); }
 namespace stick { Outcome outcome(const Folders& folders); }
 namespace two_pole { Outcome outcome(const Folders& folders); }
 namespace zanten_periods { Outcome outcome(const Folders& folders); }
@@ -99,6 +100,7 @@ const std::vector<Case>& cases() {
       {"stick", stick::outcome},
       {"kramers-kronig", kramers_kronig::outcome},
       {"sphere-decay", sphere_decay::outcome, {"iea_sphere"}},
+      {"sphere-rao", sphere_rao::outcome, {"iea_sphere"}},
       {"spoilt-fits", spoilt_fits::outcome},
       {"rm3-regular", rm3_regular::outcome, {"rm3"}},
       {"rm3-decay", rm3_decay::outcome, {"rm3"}},

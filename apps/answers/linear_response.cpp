@@ -149,6 +149,8 @@ std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene,
   if (std::any_of(scene.bodies.begin(), scene.bodies.end(),
                   [](const scene::Body& b) { return b.hydrodynamics && b.hydrodynamics->turning; }))
     out.emplace_back("excitation is that of bodies as placed: their slow yaw acts in runs only");
+  if (std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const scene::Body& b) { return b.second_order; }))
+    out.emplace_back("wave loads of second order are left out: they go with the square of the waves, in runs");
   if (!scene.contacts.empty()) out.emplace_back("contacts are left out: bodies are taken not to touch");
   for (const auto& elements : prepared.elements)
     if (const auto force = elements->force({prepared.bodies, prepared.water, prepared.joints});

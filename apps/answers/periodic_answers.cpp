@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <variant>
 
 #include "answers/stability_check.hpp"
+#include "compile/waves.hpp"
 
 namespace froude {
 
@@ -32,22 +35,43 @@ Balance PeriodicAnswers::balance(PeriodicScene& system, PeriodicMotion start) co
   return dynamics::frequency::balance(system, std::move(start), options_);
 }
 
-Balance PeriodicAnswers::grown(double period, double height) const {
-  constexpr int steps = 8;
-  Balance out;
-  for (int i = 1; i <= steps; ++i) {
-    const auto system = at(period, height * i / steps);
-    PeriodicMotion near = i > 1 ? std::move(out.motion) : at_rest(*system);
-    if (i > 1) near.coefficients *= i / (i - 1.0);
-    out = balance(*system, std::move(near));
-    if (!out.found) return out;
+PeriodicAnswers::Arrival PeriodicAnswers::reached(double period, const MotionAt& before, const MotionAt& from,
+                                                  double height) const {
+  using enum StabilityMap::Reached;
+  const Family family = by_height(period);
+  auto [end, joined] = carry(family, before, from, height, options_);
+  if (joined) return {std::move(end), grown};
+  // Where motions grow no further they turn back; what comes after is where a run goes.
+  FollowedBranch branch = follow(family, from.parameter, height, from.motion, {.balance = options_});
+  if (branch.end.empty()) {
+    const bool turned =
+        std::any_of(branch.points.begin(), branch.points.end(), [](const auto& p) { return !p.forwards; });
+    return {{.motion = std::move(branch.points.back().motion), .found = true, .why = {}}, turned ? round_folds : grown};
   }
-  return out;
+  if (!end.found) end.why = branch.end;
+  return {std::move(end), end.found ? jumped : not_found};
+}
+
+MotionAt PeriodicAnswers::still(double period) const {
+  return {0, at_rest(*at(period, 1e-3 * scene_.stability->heights.front()))};
+}
+
+PeriodicAnswers::Arrival PeriodicAnswers::from_rest(double period, double height) const {
+  const auto system = at(period, height / 8);
+  Balance low = balance(*system, at_rest(*system));
+  if (!low.found) return {std::move(low), StabilityMap::Reached::not_found};
+  return reached(period, still(period), {height / 8, std::move(low.motion)}, height);
+}
+
+bool PeriodicAnswers::beyond_breaking(double period, double height) const {
+  const scene::Scene scene = with_waves(scene_, period, height);
+  return compile::is_beyond_breaking(scene, std::get<scene::RegularWave>(scene.waves->kind));
 }
 
 std::vector<Signal> PeriodicAnswers::signals() const {
   std::vector<Signal> out;
-  const auto system = at(scene_.stability->periods.front(), scene_.stability->heights.front());
+  // Of the longest and lowest waves: whatever they are, signals are the same.
+  const auto system = at(scene_.stability->periods.back(), 1e-3 * scene_.stability->heights.front());
   for (const auto& s : signals_of_map(*scene_.stability, system->model()))
     out.push_back({s.name, s.unit, "standard deviation of " + s.meaning, {}});
   return out;
@@ -77,19 +101,27 @@ StabilityMap::Branch followed(const PeriodicAnswers& answers, const scene::AskSt
                            .points = {},
                            .signals = answers.signals(),
                            .end = {}};
-  const std::vector<double>& range = out.over_periods ? ask.periods : ask.heights;
-  const double from = range.front(), to = range.back();
   const auto period = [&](double parameter) { return branch.period.value_or(parameter); };
   const auto height = [&](double parameter) { return branch.height.value_or(parameter); };
-  Balance first = answers.grown(period(from), height(from));
-  if (!first.found) {
-    out.end = fmt::format("no motion is found where it begins: {}", first.why);
+  std::vector<double> range = out.over_periods ? ask.periods : ask.heights;
+  std::erase_if(range, [&](double at) { return answers.beyond_breaking(period(at), height(at)); });
+  if (range.size() < 2) {
+    out.end = "waves are beyond breaking at all periods and heights of the map along it but one at most";
+    return out;
+  }
+  const double from = range.front(), to = range.back();
+  PeriodicAnswers::Arrival first = answers.from_rest(period(from), height(from));
+  if (!first.end.found) {
+    out.end = fmt::format("no motion is found where it begins: {}", first.end.why);
     return out;
   }
   const Family family = out.over_periods ? answers.by_period(*branch.height) : answers.by_height(*branch.period);
-  FollowedBranch found = follow(family, from, to, std::move(first.motion),
+  FollowedBranch found = follow(family, from, to, std::move(first.end.motion),
                                 {.step = 0.01, .largest_step = 0.05, .balance = answers.options()});
+  out.begin = first.reached;
   out.end = std::move(found.end);
+  if (out.end.empty() && to < (out.over_periods ? ask.periods : ask.heights).back())
+    out.end = "waves beyond are beyond breaking";
   for (const BranchPoint& p : found.points) {
     const auto system = answers.at(period(p.parameter), height(p.parameter));
     out.points.push_back({answers.told(*system, p.motion), period(p.parameter), height(p.parameter), p.forwards});

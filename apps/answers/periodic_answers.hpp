@@ -22,8 +22,19 @@ class PeriodicAnswers {
   dynamics::frequency::Family by_period(double height) const;
   /// Near `start`, whose period may be another.
   dynamics::frequency::Balance balance(PeriodicScene& system, dynamics::frequency::PeriodicMotion start) const;
-  /// The motion that grows out of rest as waves do up to this height.
-  dynamics::frequency::Balance grown(double period, double height) const;
+  /// A motion and how it was come to.
+  struct Arrival {
+    dynamics::frequency::Balance end;
+    StabilityMap::Reached reached;
+  };
+  /// In waves of this height from two motions in lower ones, by Newton or along the branch.
+  Arrival reached(double period, const dynamics::frequency::MotionAt& before, const dynamics::frequency::MotionAt& from,
+                  double height) const;
+  /// The same from rest, by way of waves of an eighth of this height.
+  Arrival from_rest(double period, double height) const;
+  /// No waves, no motion.
+  dynamics::frequency::MotionAt still(double period) const;
+  bool beyond_breaking(double period, double height) const;
   const dynamics::frequency::BalanceOptions& options() const { return options_; }
 
   /// The signals asked for, without values.
@@ -38,7 +49,8 @@ class PeriodicAnswers {
   dynamics::frequency::BalanceOptions options_;
 };
 
-/// One branch that [ask.stability] asks for, from the lowest period or height of the map to the highest.
+/// One branch that [ask.stability] asks for, from the lowest period or height of the map to the highest, as far as
+/// there are such waves.
 StabilityMap::Branch followed(const PeriodicAnswers& answers, const scene::AskStability& ask,
                               const scene::AskStability::Branch& branch);
 

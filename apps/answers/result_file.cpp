@@ -169,6 +169,24 @@ double StabilityMap::Motion::fate_number() const { return fate ? static_cast<dou
 
 constexpr const char* what_multipliers_are = "largest absolute Floquet multiplier of the periodic motion";
 constexpr const char* what_fates_are = "0 stable, 1 period-doubled, 2 quasi-periodic, 3 fold";
+constexpr const char* what_reached_is =
+    "0 grown as the waves grow, 1 round folds, 2 jumped onto another branch, 3 none found, 4 beyond breaking";
+
+std::string name_of(StabilityMap::Reached reached) {
+  switch (reached) {
+    case StabilityMap::Reached::grown:
+      return "grown";
+    case StabilityMap::Reached::round_folds:
+      return "round folds";
+    case StabilityMap::Reached::jumped:
+      return "jumped";
+    case StabilityMap::Reached::not_found:
+      return "none found";
+    case StabilityMap::Reached::beyond_breaking:
+      return "beyond breaking";
+  }
+  return {};
+}
 
 /// A group of its own, point by point.
 void write_branch(Hdf5Writer& file, const std::string& group, const StabilityMap::Branch& branch) {
@@ -194,6 +212,9 @@ void write_branch(Hdf5Writer& file, const std::string& group, const StabilityMap
   point_by_point("/fate", fate, "1", what_fates_are);
   point_by_point("/forwards", forwards, "1", "0 where what varies falls along the branch: it has turned at a fold");
   for (const Signal& s : branch.signals) point_by_point(root_path(s.name), s.values, s.units, s.long_name);
+  file.attribute(group, branch.over_periods ? "height_m" : "period_s", branch.held);
+  file.attribute(group, "begin", name_of(branch.begin));
+  file.attribute(group, "end", branch.end.empty() ? "at the other end of the map" : branch.end);
 }
 
 void StabilityMap::write(const std::filesystem::path& path) const {
@@ -210,19 +231,20 @@ void StabilityMap::write(const std::filesystem::path& path) const {
     file.attach_dimension(name, 1, "/period");
     describe(file, name, units, what);
   };
-  std::vector<double> multiplier, fate;
+  std::vector<double> multiplier, fate, reached;
   for (const Cell& c : cells) {
+    reached.push_back(static_cast<double>(c.reached));
     multiplier.push_back(c.multiplier);
     fate.push_back(c.fate_number());
   }
   cell_by_cell("/multiplier", multiplier, "1", what_multipliers_are);
   cell_by_cell("/fate", fate, "1", what_fates_are);
+  cell_by_cell("/reached", reached, "1", what_reached_is);
   file.write("/mathieu", mathieu, {period.size()});
   file.attach_dimension("/mathieu", 0, "/period");
   describe(file, "/mathieu", "m", "height from which one motion grows, by Hill's equation of that motion");
   for (const Signal& s : signals) cell_by_cell(root_path(s.name), s.values, s.units, s.long_name);
-  for (std::size_t i = 0; i < branches.size(); ++i)
-    if (!branches[i].points.empty()) write_branch(file, fmt::format("/branch{}", i + 1), branches[i]);
+  for (std::size_t i = 0; i < branches.size(); ++i) write_branch(file, fmt::format("/branch{}", i + 1), branches[i]);
   file.save(path);
 }
 

@@ -53,6 +53,7 @@ class Mapping {
       if (done) done(static_cast<double>(p + 1) / parts);
     }
     map_.processor_s = processor_s() - begin;
+    refuse_if_all_break();
     for (const auto& branch : ask_.branches) {
       map_.branches.push_back(scene::placed(branch.place, [&] { return followed(answers_, ask_, branch); }));
       if (done) done(static_cast<double>(map_.period.size() + map_.branches.size()) / parts);
@@ -63,38 +64,44 @@ class Mapping {
  private:
   /// From rest up through the heights of a period, each from the motion before it.
   void climb(std::size_t p) {
-    std::optional<PeriodicMotion> below;
-    double height_below = 0;
+    const double period = map_.period[p];
+    std::optional<MotionAt> from;
+    MotionAt before = answers_.still(period);
     for (std::size_t h = 0; h < map_.height.size(); ++h) {
       const double height = map_.height[h];
-      const auto system = answers_.at(map_.period[p], height);
-      for (const std::string& note : system->notes())
-        if (std::find(map_.notes.begin(), map_.notes.end(), note) == map_.notes.end()) map_.notes.push_back(note);
-      PeriodicMotion near = below ? *below : at_rest(*system);
-      if (below) near.coefficients *= height / height_below;
-      Balance found = answers_.balance(*system, std::move(near));
       StabilityMap::Cell& cell = map_.cells[map_.index(p, h)];
-      if (!found.found && below) found = round_folds(p, height_below, *below, height, cell);
-      if (!found.found) {
-        map_.notes.push_back(
-            fmt::format("{:.4g} s, {:.4g} m: no periodic motion is found: {}", map_.period[p], height, found.why));
+      if (answers_.beyond_breaking(period, height)) {
+        cell.reached = StabilityMap::Reached::beyond_breaking;
         continue;
       }
-      below = found.motion, height_below = height;
-      tell(*system, found.motion, map_.index(p, h));
+      const auto system = answers_.at(period, height);
+      note(system->notes());
+      auto [end, reached] = from ? answers_.reached(period, before, *from, height) : answers_.from_rest(period, height);
+      cell.reached = reached;
+      if (!end.found) {
+        map_.notes.push_back(
+            fmt::format("{:.4g} s, {:.4g} m: no periodic motion is found: {}", period, height, end.why));
+        continue;
+      }
+      tell(*system, end.motion, map_.index(p, h));
+      // Beyond a fold or a jump the way before says nothing of the way to come.
+      before = from && reached == StabilityMap::Reached::grown ? std::move(*from) : answers_.still(period);
+      from = {height, std::move(end.motion)};
     }
   }
 
-  /// Where motions grow no further they turn back; what comes after is where a run goes.
-  Balance round_folds(std::size_t p, double from, const PeriodicMotion& motion, double to, StabilityMap::Cell& cell) {
-    FollowedBranch branch =
-        follow(answers_.by_height(map_.period[p]), from, to, motion, {.balance = answers_.options()});
-    cell.followed =
-        std::any_of(branch.points.begin(), branch.points.end(), [](const BranchPoint& b) { return !b.forwards; });
-    Balance out;
-    out.found = branch.end.empty(), out.why = branch.end;
-    if (out.found) out.motion = std::move(branch.points.back().motion);
-    return out;
+  void refuse_if_all_break() const {
+    if (std::any_of(map_.cells.begin(), map_.cells.end(),
+                    [](const auto& c) { return c.reached != StabilityMap::Reached::beyond_breaking; }))
+      return;
+    throw hydro::InputError(fmt::format("all waves of the map are beyond breaking, from {:.4g} m at {:.4g} s on",
+                                        map_.height.front(), map_.period.back()),
+                            ask_.place, "make the waves lower, or longer");
+  }
+
+  void note(const std::vector<std::string>& notes) {
+    for (const std::string& one : notes)
+      if (std::find(map_.notes.begin(), map_.notes.end(), one) == map_.notes.end()) map_.notes.push_back(one);
   }
 
   void tell(PeriodicScene& system, const PeriodicMotion& motion, std::size_t c) {
@@ -107,12 +114,15 @@ class Mapping {
   void reduce(std::size_t p) {
     map_.mathieu.push_back(std::nan(""));
     map_.motion.emplace_back();
+    double highest = 0;
+    for (const double height : map_.height)
+      if (!answers_.beyond_breaking(map_.period[p], height)) highest = std::max(highest, height);
+    if (highest == 0) return;
     const Family family = answers_.by_height(map_.period[p]);
-    const auto system = answers_.at(map_.period[p], map_.height.front());
+    const auto system = answers_.at(map_.period[p], 1e-2 * highest);
     for (const Mode& mode : modes_) {
-      const HillEquation equation =
-          hill_equation(family, 1e-2 * map_.height.back(), system->coordinates(mode.shape), mode.omega);
-      const auto least = equation.least_growing(map_.height.back());
+      const HillEquation equation = hill_equation(family, 1e-2 * highest, system->coordinates(mode.shape), mode.omega);
+      const auto least = equation.least_growing(highest);
       if (!least || *least >= map_.mathieu.back()) continue;
       map_.mathieu.back() = *least;
       map_.motion.back() = largest_motions(motions_, {mode.shape.data(), static_cast<std::size_t>(mode.shape.size())});

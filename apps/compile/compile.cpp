@@ -11,6 +11,7 @@
 #include "compile/kept.hpp"
 #include "compile/members.hpp"
 #include "compile/radiation.hpp"
+#include "compile/second_order.hpp"
 #include "compile/signals.hpp"
 #include "compile/step.hpp"
 #include "compile/waves.hpp"
@@ -312,6 +313,7 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared, const std::ve
     told_in_parts[forces.back().get()] = std::move(memory_lines);
   }
   if (sea) add_excitation(scene, prepared, *sea, {step, steps + 1}, forces);
+  add_second_order(scene, prepared.bodies, sea, {step, steps + 1}, notes, forces);
   add_members(scene, prepared.bodies, water, {step, steps + 1}, forces);
 
   if (!prepared.friction.empty()) forces.push_back(std::make_unique<dynamics::FrictionKind>(prepared.friction));

@@ -304,6 +304,19 @@ double wavelength_of(const scene::Scene& scene, const scene::RegularWave& wave) 
                        : steady_wave(scene, wave).k);
 }
 
+bool is_beyond_breaking(const scene::Scene& scene, const scene::RegularWave& wave) {
+  const double linear = two_pi / wavenumber_in(scene, two_pi / wave.period, scene.waves->heading);
+  const bool too_high = 2 * wave.amplitude > hw::highest_wave(linear, scene.water.depth);
+  if (wave.theory == scene::RegularTheory::linear) return too_high;
+  try {  // the length of a high wave is its theory's, which may have none
+    steady_wave(scene, wave);
+    return false;
+  } catch (const InputError&) {
+    if (too_high) return true;
+    throw;
+  }
+}
+
 std::complex<double> elevation_at_origin(const hydro::waves::Component& c) { return std::polar(c.amplitude, c.phase); }
 
 }  // namespace froude::compile

@@ -45,6 +45,10 @@ double wavenumber_in(const scene::Scene& scene, double omega, hydro::Angle headi
 /// The length that a regular wave has by its theory, in the current of the scene, m. \throws hydro::InputError
 double wavelength_of(const scene::Scene& scene, const scene::RegularWave& wave);
 
+/// No water can have a regular wave of this height at the length of its theory, for which make_sea() and make_field()
+/// refuse it. \throws hydro::InputError as wavelength_of(), of waves that are low enough
+bool is_beyond_breaking(const scene::Scene& scene, const scene::RegularWave& wave);
+
 /// a e^{iφ}
 std::complex<double> elevation_at_origin(const hydro::waves::Component& component);
 

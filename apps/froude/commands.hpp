@@ -89,6 +89,7 @@ struct PsdArguments {
   std::vector<std::string> signals = {};    ///< empty: all (with a time column), `*` allowed
   std::optional<std::string> segment = {};  ///< length of a Welch segment, e.g. "100 s"
   std::optional<std::size_t> tapers = {};   ///< instead of segments: so many over the whole record
+  bool uneven = false;                      ///< the record has gaps, or samples at uneven times
   std::optional<std::string> from = {};     ///< leave out what comes before, e.g. "60 s"
   std::optional<std::string> to = {};       ///< leave out what comes after, e.g. "360 s"
   double confidence = 0.95;
@@ -129,6 +130,22 @@ struct FatigueArguments {
 };
 /// Rainflow cycles of a record and their damage.
 void fatigue(const FatigueArguments& arguments, const Console& console);
+
+struct ExtremesArguments {
+  Path file;                                  ///< CSV, or a result of `froude run`
+  std::string signal;                         ///< whose largest values are told
+  bool lowest = false;                        ///< lowest values in their place
+  std::string duration = "3 h";               ///< over which they are told
+  std::optional<std::string> threshold = {};  ///< e.g. "2 m"; a tenth of the peaks, or twenty, are above it
+  std::optional<std::string> block = {};      ///< e.g. "10 min"; a twentieth of the record
+  std::vector<double> quantiles = {};         ///< probabilities of staying below; 0.5, 0.9 and 0.99
+  double confidence = 0.95;
+  std::optional<std::string> from = {};  ///< leave out what comes before
+  std::optional<Path> output = {};       ///< .csv of the peaks
+  std::optional<Path> picture = {};      ///< .svg
+};
+/// Peaks over a threshold and maxima of blocks of a record, and the largest values that they let one expect.
+void extremes(const ExtremesArguments& arguments, const Console& console);
 
 struct ResponseArguments {
   Path scene;

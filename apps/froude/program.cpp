@@ -223,6 +223,7 @@ void add_psd(CLI::App& app, Request& request) {
   command->add_option("file", arguments->file, "CSV with units in its header, or a result of `froude run`")->required();
   command->add_option("-s,--signal", arguments->signals, "signals to take; * stands for any text; default: all");
   command->add_option("--segment", arguments->segment, "length of a Welch segment: \"100 s\"");
+  command->add_flag("--uneven", arguments->uneven, "the record has gaps, or samples at uneven times (Lomb-Scargle)");
   command->add_option("--tapers", arguments->tapers, "instead of segments: so many sine tapers over the whole record");
   command->add_option("--from", arguments->from, "leave out what comes before: \"60 s\"");
   command->add_option("--to", arguments->to, "leave out what comes after: \"360 s\"");
@@ -278,6 +279,25 @@ void add_fatigue(CLI::App& app, Request& request) {
   command->add_option("-o,--output", arguments->output, "range, mean and count of each cycle (.csv)");
   command->add_option("--picture", arguments->picture, "plot (.svg)");
   calls(*command, request, arguments, fatigue);
+}
+
+void add_extremes(CLI::App& app, Request& request) {
+  auto* command = app.add_subcommand(
+      "extremes", "largest values that a record lets one expect: peaks over a threshold, maxima of blocks");
+  command->footer("Example:\n  froude extremes run.h5 --signal chain1.tension --duration \"3 h\" --picture peaks.svg");
+  auto arguments = std::make_shared<ExtremesArguments>();
+  command->add_option("file", arguments->file, "CSV with units in its header, or a result of `froude run`")->required();
+  command->add_option("-s,--signal", arguments->signal, "whose largest values are told")->required();
+  command->add_flag("--lowest", arguments->lowest, "lowest values in their place");
+  command->add_option("--duration", arguments->duration, "over which they are told")->capture_default_str();
+  command->add_option("--threshold", arguments->threshold, "peaks above it make the tail: \"2 m\"");
+  command->add_option("--block", arguments->block, "length of the blocks: \"10 min\"");
+  command->add_option("--quantile", arguments->quantiles, "probability of staying below; several times for several");
+  command->add_option("--confidence", arguments->confidence, "level of the interval")->capture_default_str();
+  command->add_option("--from", arguments->from, "leave out what comes before: \"60 s\"");
+  command->add_option("-o,--output", arguments->output, "the peaks (.csv)");
+  command->add_option("--picture", arguments->picture, "plot (.svg)");
+  calls(*command, request, arguments, extremes);
 }
 
 void add_response(CLI::App& app, Request& request) {
@@ -440,6 +460,7 @@ void describe(CLI::App& app, Request& request) {
   add_poincare(app, request);
   add_response(app, request);
   add_fatigue(app, request);
+  add_extremes(app, request);
   add_fit(app, request);
   add_kinematics(app, request);
   add_scene_command(app, request, "plan", "what a scene will run, by which method, and why the rest will not", &plan,

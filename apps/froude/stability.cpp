@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,10 +26,12 @@ namespace {
 
 using Cell = StabilityMap::Cell;
 using Branch = StabilityMap::Branch;
+using Reached = StabilityMap::Reached;
 
 constexpr const char* red = "#e00000";  // as the source draws boundaries
 
 std::string fate_of(const StabilityMap::Motion& motion) { return motion.fate ? name_of(*motion.fate) : "none found"; }
+std::string fate_of(const Cell& cell) { return cell.fate ? name_of(*cell.fate) : name_of(cell.reached); }
 
 /// "stable to 1.5 m, period-doubled to 4 m": equal neighbours are told once.
 template <class FateOf, class At>
@@ -45,7 +48,7 @@ Report report_of(const StabilityMap& map, std::size_t p) {
   for (std::size_t h = 0; h < map.height.size(); ++h) {
     const Cell& cell = map.cells[map.index(p, h)];
     Report one;
-    one.keep("height_m", map.height[h]).keep("fate", fate_of(cell)).keep("followed_round_folds", cell.followed);
+    one.keep("height_m", map.height[h]).keep("fate", fate_of(cell)).keep("reached", name_of(cell.reached));
     one.keep("multiplier", cell.multiplier).keep("harmonics", cell.harmonics);
     out.one_of("cells", one);
   }
@@ -84,9 +87,36 @@ Report report_of_branch(const Branch& branch, std::size_t number) {
   const std::string fates = fates_told(
       branch.points.size(), [&](std::size_t i) { return fate_of(branch.points[i]); },
       [&](std::size_t i) { return branch.varied(branch.points[i]); }, unit);
+  if (branch.begin == Reached::jumped) out.say("branch {} begins on a motion that no branch joins to rest", number);
   out.say("branch {} of {:.4g} {}: {} points{}{}{}", number, branch.held, held, branch.points.size(), turns,
           fates.empty() ? "" : ": " + fates, fact("end", branch.end, branch.end.empty() ? "" : "; " + branch.end));
-  return out.keep(branch.over_periods ? "height_m" : "period_s", branch.held).keep("folds", folds);
+  return out.keep(branch.over_periods ? "height_m" : "period_s", branch.held)
+      .keep("folds", folds)
+      .keep("begin", name_of(branch.begin));
+}
+
+/// "28 cells: 20 stable, 6 period-doubled, 2 beyond breaking; 3 reached round folds", and where Newton jumped.
+Report counted(const StabilityMap& map) {
+  std::map<std::string, int> fates;
+  std::string jumps;
+  int round_folds = 0, jumped = 0;
+  for (std::size_t c = 0; c < map.cells.size(); ++c) {
+    ++fates[fate_of(map.cells[c])];
+    round_folds += map.cells[c].reached == Reached::round_folds ? 1 : 0;
+    if (map.cells[c].reached != Reached::jumped) continue;
+    ++jumped;
+    jumps += fmt::format("{}{:.4g} s, {:.4g} m", jumps.empty() ? ": " : "; ", map.period_of(c), map.height_of(c));
+  }
+  std::string told;
+  Report out, one;
+  for (const auto& [fate, count] : fates) {
+    told += fmt::format("{}{} {}", told.empty() ? "" : ", ", count, fate);
+    one.keep(fate, count);
+  }
+  out.say("{} cells: {}; {} reached round folds, {} by a jump onto another branch{}", map.cells.size(), told,
+          fact("round_folds", round_folds), fact("jumped", jumped), jumps);
+  out.part("fates", one);
+  return out;
 }
 
 Report report_of(const scene::Scene& scene, const StabilityMap& map, const Path& file) {
@@ -95,6 +125,7 @@ Report report_of(const scene::Scene& scene, const StabilityMap& map, const Path&
           scene.file.filename().string(), map.period.size(), map.height.size(), fact("processor_s", map.processor_s));
   out.say("{:>9} {:>8}  {}", "period[s]", "grows[m]", "motions of the period of the waves");
   for (std::size_t p = 0; p < map.period.size(); ++p) out.one_of("periods", report_of(map, p));
+  out.part("counts", counted(map));
   for (std::size_t b = 0; b < map.branches.size(); ++b)
     out.one_of("branches", report_of_branch(map.branches[b], b + 1));
   return out.sentences("notes", "note: {}", map.notes).say("wrote {}", fact("file", file.string()));
@@ -133,10 +164,11 @@ Report report_of(const StabilityMap& map, const MapCheck& check) {
 
 /// Rows of a table, to which cells and points of branches are added.
 struct Rows {
-  std::vector<double> branch, period, height, fate, multiplier, mathieu, forwards;
+  std::vector<double> branch, period, height, fate, multiplier, mathieu, forwards, reached;
   std::vector<std::vector<double>> signals;
 
-  void add(double of_branch, const StabilityMap::Motion& motion, double T, double H, double grows, double onwards) {
+  void add(double of_branch, const StabilityMap::Motion& motion, double T, double H, double grows, double onwards,
+           double how) {
     branch.push_back(of_branch);
     period.push_back(T);
     height.push_back(H);
@@ -144,6 +176,7 @@ struct Rows {
     multiplier.push_back(motion.multiplier);
     mathieu.push_back(grows);
     forwards.push_back(onwards);
+    reached.push_back(how);
   }
   void add(const std::vector<Signal>& of) {
     signals.resize(of.size());
@@ -155,18 +188,17 @@ struct Rows {
 void write_csv(const Path& path, const StabilityMap& map) {
   Rows rows;
   for (std::size_t c = 0; c < map.cells.size(); ++c)
-    rows.add(0, map.cells[c], map.period_of(c), map.height_of(c), map.mathieu[c % map.period.size()], 1);
+    rows.add(0, map.cells[c], map.period_of(c), map.height_of(c), map.mathieu[c % map.period.size()], 1,
+             static_cast<double>(map.cells[c].reached));
   rows.add(map.signals);
   for (std::size_t b = 0; b < map.branches.size(); ++b) {
     for (const Branch::Point& p : map.branches[b].points)
-      rows.add(static_cast<double>(b + 1), p, p.period, p.height, std::nan(""), p.forwards ? 1 : 0);
+      rows.add(static_cast<double>(b + 1), p, p.period, p.height, std::nan(""), p.forwards ? 1 : 0, std::nan(""));
     rows.add(map.branches[b].signals);
   }
-  std::vector<hydro::io::CsvColumn> columns{{"period", "s", &rows.period},
-                                            {"height", "m", &rows.height},
-                                            {"fate", "", &rows.fate},
-                                            {"multiplier", "", &rows.multiplier},
-                                            {"mathieu height", "m", &rows.mathieu}};
+  std::vector<hydro::io::CsvColumn> columns{
+      {"period", "s", &rows.period},        {"height", "m", &rows.height},          {"fate", "", &rows.fate},
+      {"multiplier", "", &rows.multiplier}, {"mathieu height", "m", &rows.mathieu}, {"reached", "", &rows.reached}};
   if (!map.branches.empty()) {
     columns.push_back({"branch", "", &rows.branch});
     columns.push_back({"forwards", "", &rows.forwards});
@@ -174,7 +206,9 @@ void write_csv(const Path& path, const StabilityMap& map) {
   for (std::size_t s = 0; s < map.signals.size(); ++s)
     columns.push_back({map.signals[s].name, map.signals[s].units, &rows.signals[s]});
   std::vector<std::string> comments{
-      "fate: 0 stable, 1 period-doubled, 2 quasi-periodic, 3 fold; signals by their standard deviation"};
+      "fate: 0 stable, 1 period-doubled, 2 quasi-periodic, 3 fold; signals by their standard deviation",
+      "reached: 0 grown as the waves grow, 1 round folds, 2 jumped onto another branch, 3 none found, 4 beyond "
+      "breaking"};
   if (!map.branches.empty())
     comments.emplace_back(
         "branch: 0 cells of the map, 1 and on points of that branch, in their order; forwards: 0 where it has turned "
@@ -202,18 +236,22 @@ plot::Series floquet_boundary(const StabilityMap& map) {
   return out;
 }
 
-/// Marks in the cells of one fate; "none found" is one too.
+/// Marks in the cells of one fate; "none found" is one too, waves beyond breaking are left empty, and jumps are marked
+/// beside what becomes of them.
 std::vector<plot::Series> marks_of_fates(const StabilityMap& map) {
   std::vector<plot::Series> out;
-  for (std::size_t c = 0; c < map.cells.size(); ++c) {
-    if (map.cells[c].fate == dynamics::frequency::Fate::stable) continue;
-    const std::string name = fate_of(map.cells[c]);
+  const auto mark = [&](std::size_t c, const std::string& name, const char* colour) {
     auto at = std::find_if(out.begin(), out.end(), [&](const auto& s) { return s.name == name; });
-    const char* colour = map.cells[c].fate == dynamics::frequency::Fate::doubled ? "#111111" : "#cc79a7";
     if (at == out.end())
       at = out.insert(at, {.name = name, .x = {}, .y = {}, .line = false, .marks = true, .colour = colour});
     at->x.push_back(map.period_of(c));
     at->y.push_back(map.height_of(c));
+  };
+  for (std::size_t c = 0; c < map.cells.size(); ++c) {
+    const Cell& cell = map.cells[c];
+    if (cell.reached == Reached::jumped) mark(c, "jumped", "#0072b2");
+    if (cell.fate == dynamics::frequency::Fate::stable || cell.reached == Reached::beyond_breaking) continue;
+    mark(c, fate_of(cell), cell.fate == dynamics::frequency::Fate::doubled ? "#111111" : "#cc79a7");
   }
   return out;
 }

@@ -65,6 +65,32 @@ Length in_scene(double period, const scene::Scene& scene, hydro::Angle heading) 
           scene.current.is_none() ? "" : " on the current"};
 }
 
+constexpr const char* what_flux_is = "energy that passes a metre of crest, ρ g ∫ S c_g, in still water";
+
+/// ρ g m₀ c_g of waves of this variance and frequency, W/m.
+double energy_flux(double variance, double omega, const hydro::Water& water) {
+  return water.density * water.gravity * variance * hw::group_velocity(omega, water);
+}
+
+double energy_flux(const hw::Spectrum& s, const hydro::Water& water) {
+  constexpr int slices = 400;
+  constexpr double lowest = 0.2, highest = 50;  // times the peak: beyond is less than 1e-3, of a tail of ω⁻⁴ 1e-4
+  const auto at = [&](int i) {
+    return s.peak_omega() * lowest * std::pow(highest / lowest, static_cast<double>(i) / slices);
+  };
+  double out = 0;
+  for (int i = 0; i < slices; ++i) out += energy_flux(s.energy(at(i), at(i + 1)), std::sqrt(at(i) * at(i + 1)), water);
+  return out;
+}
+
+double energy_flux(const hs::SpectrumPerHz& s, const hydro::Water& water) {
+  const double df = s.frequency_hz[1] - s.frequency_hz[0];
+  double out = 0;
+  for (std::size_t k = 1; k < s.density.size(); ++k)
+    out += energy_flux(s.density[k] * df * (k + 1 == s.density.size() ? 0.5 : 1), two_pi * s.frequency_hz[k], water);
+  return out;
+}
+
 /// Steepness, depth and breaking of a sea of this height and period.
 void add_shape(Info& info, double height, double period, const hydro::Water& water, const Length& of_period) {
   const double length = of_period.metres, k = two_pi / length;
@@ -95,6 +121,7 @@ void add_spectrum(Info& info, const hw::Spectrum& s, const hydro::Water& water, 
   add(info, "tm01", s.mean_period(), "s", "mean period 2π m0/m1");
   add(info, "te", s.energy_period(), "s", "energy period 2π m-1/m0");
   add(info, "narrowness", hw::narrowness(s), "", "√(m0 m2/m1² − 1)");
+  add(info, "energy_flux", energy_flux(s, water), "W/m", what_flux_is);
   if (std::isfinite(s.tail_power()))
     info.remarks.push_back(fmt::format("at high frequency the spectrum falls as omega^-{:.3g}{}", s.tail_power(),
                                        s.tail_power() <= 5 ? ", so its m4 is infinite" : ""));
@@ -194,6 +221,7 @@ Info of_record(const std::vector<double>& time, const std::vector<double>& eleva
   add(info, "te", m.te(), "s", "energy period m-1/m0");
   add(info, "tm01", m.tm01(), "s", "mean period m0/m1");
   add(info, "tm02", m.tm02(), "s", "√(m0/m2)");
+  add(info, "energy_flux", energy_flux(welch.spectrum, water), "W/m", what_flux_is);
   const auto waves = hs::single_waves(time, elevation);
   if (waves.size() >= 3) {
     const hs::WaveStatistics w = hs::wave_statistics(waves);
@@ -225,6 +253,8 @@ Info of_regular(const scene::Scene& scene, const scene::RegularWave& wave) {
   Info info{.what = "a regular wave"};
   add(info, "height", 2 * wave.amplitude, "m", "from trough to crest");
   add(info, "period", wave.period, "s", "at a fixed point");
+  add(info, "energy_flux", energy_flux(wave.amplitude * wave.amplitude / 2, two_pi / wave.period, scene.water), "W/m",
+      what_flux_is);
   // Region and warnings by the length that the period has in linear theory: that is how the chart is read.
   const Length linear = in_scene(wave.period, scene, scene.waves->heading);
   const hw::WaveLimits limits = hw::wave_limits(

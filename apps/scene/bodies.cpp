@@ -231,6 +231,7 @@ const Binding<Body>& body() {
           .optional()
           .table("buoyancy", buoyancy(), &Body::buoyancy)
           .table("hydrodynamics", hydrodynamics_binding(), &Body::hydrodynamics)
+          .table("second_order", second_order_binding(), &Body::second_order)
           .at_most_one_of({"radii_of_gyration", "inertia"})
           .then(require_what_rotation_needs)
           .then(require_free_modes)

@@ -57,6 +57,7 @@ const Table& line_table();
 const Table& junction_table();
 /// `[body.hydrodynamics]`, which stands apart from the rest of a body.
 Binding<Hydrodynamics> hydrodynamics_binding();
+Binding<SecondOrder> second_order_binding();
 
 hydro::Water build_water(const Record& record);
 std::vector<Body> build_bodies(const Record& root, Names& names);

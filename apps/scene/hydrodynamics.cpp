@@ -193,4 +193,35 @@ Binding<Hydrodynamics> hydrodynamics_binding() {
       .then(find_places);
 }
 
+Binding<SecondOrder> second_order_binding() {
+  using enum SecondOrder::Method;
+  return Binding<SecondOrder>("[body.second_order]",
+                              "wave loads of second order about the body's origin, in runs: mean and slow drift, and "
+                              "loads at sums of frequencies")
+      .key(text("file",
+                "WAMIT's .10d, .11d, .12d (difference frequencies) or .7, .8, .9 (mean drift), relative to the "
+                "scene"),
+           &SecondOrder::file)
+      .key(text("sum",
+                "WAMIT's .10s, .11s, .12s, relative to the scene: loads at sums of frequencies beside those of "
+                "`file`")
+               .optional(),
+           &SecondOrder::sum)
+      .words(text("method",
+                  "\"full\": all pairs of waves, of .10d, .11d, .12d; \"newman\": of each pair the mean of what either "
+                  "wave exerts with itself, right where they are nearly alike; \"mean\": the constant part alone"),
+             {{"full", full}, {"newman", newman}, {"mean", mean}}, &SecondOrder::method)
+      .key(quantity("ulen", dim::length, "WAMIT's ULEN").positive().or_default("1 m", "as WAMIT has it"),
+           &SecondOrder::ulen)
+      .key(integer("iperout", "WAMIT's IPEROUT: 1 for periods in s, 2 for rad/s")
+               .within(Limit::at_least_one)
+               .or_default("1", "as WAMIT has it"),
+           &SecondOrder::iperout)
+      .at_most(2)
+      .key(integer("body", "which body of the file, from 1").within(Limit::at_least_one).or_default("1", "the first"),
+           &SecondOrder::body)
+      .at_most(100'000)
+      .place(&SecondOrder::place);
+}
+
 }  // namespace froude::scene

@@ -195,6 +195,22 @@ struct Hydrodynamics {
   bool makes_waves() const { return excitation || radiation; }
 };
 
+/// `[body.second_order]`: what waves exert in pairs, in runs.
+struct SecondOrder {
+  enum class Method {
+    mean,    ///< the constant part
+    newman,  ///< difference frequencies by what each wave exerts with itself
+    full     ///< all pairs
+  };
+  Located<std::filesystem::path> file;                ///< absolute: of difference frequencies or the mean drift
+  std::optional<Located<std::filesystem::path>> sum;  ///< absolute: of sum frequencies
+  Method method = Method::full;
+  double ulen = 1;  ///< m
+  int iperout = 1;
+  int body = 1;  ///< of the file, from 1
+  Place place;
+};
+
 /// `[body.buoyancy]`: what the body shows the water, in body axes.
 struct Buoyancy {
   std::optional<Located<std::filesystem::path>> mesh;  ///< absolute
@@ -221,6 +237,7 @@ struct Body {
   bool net_load = false;                           ///< all loads together are signals
   std::optional<Buoyancy> buoyancy;
   std::optional<Hydrodynamics> hydrodynamics;
+  std::optional<SecondOrder> second_order;
   Place place;
 };
 

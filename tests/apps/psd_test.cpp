@@ -61,6 +61,65 @@ class Psd : public testing::Test {
   std::vector<double> time, wave, heave;
 };
 
+// A minute is missing: the line is where it was, with its variance. Where samples are missing all over, a seventh of
+// them here, they alias a sixth of it, and a note says so.
+TEST_F(Psd, TakesARecordWithGaps) {
+  const auto record = [&](const char* name, std::size_t every) {
+    std::vector<double> t, w;
+    for (std::size_t j = 0; j < time.size(); ++j)
+      if ((time[j] < 200 || time[j] > 260) && j % every != 3) t.push_back(time[j]), w.push_back(wave[j]);
+    hydro::io::write_csv(folder / name, {{"time", "s", &t}, {"wave", "m", &w}});
+    return folder / name;
+  };
+  record("g.csv", time.size());
+  const auto j = json({.file = folder / "g.csv", .segment = "80 s", .uneven = true});
+  EXPECT_NEAR(j["signals"]["wave"]["hs"].get<double>(), 2 * std::numbers::sqrt2 * 1.5, 0.05);  // what gaps leak
+  EXPECT_NEAR(j["signals"]["wave"]["tp_s"].get<double>(), 8, 0.05);
+  EXPECT_THAT(text({.file = folder / "g.csv", .segment = "80 s", .uneven = true}), testing::Not(HasSubstr("alias")));
+  EXPECT_THAT(text({.file = record("s.csv", 7), .segment = "80 s", .uneven = true}), HasSubstr("alias"));
+  EXPECT_THAT([&] { json({.file = folder / "g.csv", .segment = "80 s"}); },
+              ThrowsMessage<InputError>(HasSubstr("even")));
+  EXPECT_THAT([&] { json({.file = folder / "g.csv", .tapers = 3, .uneven = true}); },
+              ThrowsMessage<InputError>(HasSubstr("--uneven")));
+}
+
+// A hundred heaps of ten waves: their peaks are 1 + 0.01 i, evenly spread, so that nine in ten are below 1.9.
+TEST_F(Psd, ExtremesAreThoseOfThePeaksAndOfTheirMirror) {
+  std::vector<double> t, x;
+  for (int i = 0; i < 100 * 20; ++i) {
+    t.push_back(i);
+    x.push_back(std::sin(2 * std::numbers::pi * i / 20) * (1 + 0.01 * (i / 20 * 37 % 100)));
+  }
+  std::vector<double> mirror = x;
+  for (double& v : mirror) v = -v;
+  hydro::io::write_csv(folder / "e.csv", {{"time", "s", &t}, {"x", "m", &x}, {"mirror", "m", &mirror}});
+  const auto told = [&](const froude::ExtremesArguments& arguments) {
+    std::ostringstream out, err;
+    froude::extremes(arguments, {out, err, true});
+    return nlohmann::json::parse(out.str());
+  };
+  const auto highest = told({.file = folder / "e.csv", .signal = "x", .duration = "2000 s", .threshold = "1.5 m"}),
+             lowest = told({.file = folder / "e.csv",
+                            .signal = "mirror",
+                            .lowest = true,
+                            .duration = "2000 s",
+                            .threshold = "-1.5 m"});
+  EXPECT_NEAR(highest["tail_shape"].get<double>(), -1, 0.1);  // a uniform tail ends at its bound
+  EXPECT_NEAR(highest["estimates"][0]["level"].get<double>(), 1.99, 0.02);
+  EXPECT_NEAR(highest["extreme"].get<double>(), 1.99, 1e-9);
+  EXPECT_NEAR(lowest["extreme"].get<double>(), -1.99, 1e-9);
+  // Up-crossings of the mirror are half a wave later: one wave of the hundred is another.
+  EXPECT_NEAR(lowest["estimates"][0]["level"].get<double>(), -highest["estimates"][0]["level"].get<double>(), 0.02);
+  for (const auto& e : highest["estimates"]) {
+    EXPECT_LE(e["low"].get<double>(), e["level"].get<double>());
+    EXPECT_GE(e["high"].get<double>(), e["level"].get<double>());
+  }
+  EXPECT_THAT([&] { told({.file = folder / "e.csv", .signal = "x", .threshold = "1.5 s"}); },
+              ThrowsMessage<InputError>(HasSubstr("length")));
+  EXPECT_THAT([&] { told({.file = folder / "e.csv", .signal = "x", .threshold = "1.95 m"}); },
+              ThrowsMessage<InputError>(HasSubstr("a tail needs 10")));
+}
+
 TEST_F(Psd, TellsHeightAndPeriodOfARegularWave) {
   const auto j = json({.file = csv(), .segment = "80 s"});
   const auto& w = j["signals"]["wave"];

@@ -10,6 +10,8 @@
 
 #include "answers/answers.hpp"
 #include "answers/stability_check.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/io/hdf5.hpp"
 #include "scene/scene.hpp"
 #include "support/scratch.hpp"
 
@@ -136,6 +138,59 @@ TEST(Stability, FollowsTheBranchesOfDuffing) {
   }
   EXPECT_EQ(folds, 2);
   EXPECT_GT(back, 3);
+}
+
+// At 9 s the motion cannot grow any further somewhere below 1 m, and what a run comes to is on the other side of two
+// folds.
+TEST(Stability, TellsWhereABranchTurnsBackOnItsWay) {
+  constexpr double cubic = 53.7e3, T = 9, w = 2 * pi / T;
+  scene::Scene scene = slide("0.1 m .. 1 m, 2 values", "cubic = \"53.7 kN/m^3\"\n");
+  scene.stability->periods = {T};
+  const StabilityMap map = stability(scene);
+  EXPECT_EQ(map.cells[0].reached, StabilityMap::Reached::grown);
+  EXPECT_EQ(map.cells[1].reached, StabilityMap::Reached::round_folds);
+  // The same to one harmonic: below the first fold the lower of three, above it the only one.
+  const auto needed = [&](double a) {
+    return a * std::hypot(stiffness - M * w * w + 0.75 * cubic * a * a, damping * w);
+  };
+  for (std::size_t c = 0; c < 2; ++c) {
+    double A = 0;
+    while (needed(A) < force(map.height[c], T)) A += 1e-5;
+    EXPECT_NEAR(map.signals.at(0).values[c], A / std::sqrt(2), (0.02 + w * w / 9.81 * A) * A) << map.height[c];
+  }
+}
+
+// Waves of 10 s are 156 m long and none is higher than 22 m.
+TEST(Stability, LeavesCellsEmptyWhoseWavesBreak) {
+  scene::Scene scene = slide("0.1 m .. 30 m, 2 values");
+  scene.stability->periods = {10, 12};
+  scene.stability->branches = {{.height = {}, .period = 10, .place = {}}, {.height = 25, .period = {}, .place = {}}};
+  const StabilityMap map = stability(scene);
+  for (const std::size_t c : {0u, 1u}) EXPECT_EQ(map.cells[c].fate, Fate::stable);
+  EXPECT_EQ(map.cells[2].reached, StabilityMap::Reached::beyond_breaking);
+  EXPECT_FALSE(map.cells[2].fate);
+  EXPECT_TRUE(std::isnan(map.signals.at(0).values[2]));
+  EXPECT_NE(map.branches[0].end.find("beyond breaking"), std::string::npos);
+  EXPECT_TRUE(map.branches[0].points.empty());
+  scene.stability->heights = {30, 40}, scene.stability->periods = {9, 10}, scene.stability->branches.clear();
+  EXPECT_THROW(stability(scene), hydro::InputError);
+}
+
+TEST(Stability, FilesTellHowACellWasReachedAndWhyABranchEnds) {
+  StabilityMap map;
+  map.period = {7, 8}, map.height = {1};
+  map.cells.resize(2);
+  map.cells[0].fate = Fate::doubled, map.cells[0].reached = StabilityMap::Reached::jumped;
+  map.cells[1].reached = StabilityMap::Reached::beyond_breaking;
+  map.mathieu = {1, 2};
+  map.branches.push_back({.over_periods = true, .held = 2, .points = {}, .signals = {}, .end = "nothing there"});
+  const auto file = support::scratch_folder() / "map.h5";
+  map.write(file);
+  const hydro::io::Hdf5Reader read(file);
+  EXPECT_EQ(read.numbers("/reached").values, (std::vector<double>{2, 4}));
+  EXPECT_EQ(read.text_attribute("/branch1", "end"), "nothing there");
+  EXPECT_EQ(read.number_attribute("/branch1", "height_m"), 2);
+  EXPECT_TRUE(read.numbers("/branch1/period").values.empty());
 }
 
 TEST(Stability, IsWhatARunFromRestComesTo) {

@@ -79,6 +79,21 @@ class Stability(unittest.TestCase):
                               text=True, timeout=280)
         self.assertIn(f"branch 1 of 2 m: {len(points)} points: stable to 6.", done.stdout)
 
+    def test_waves_that_break_leave_their_cells_empty_and_are_counted(self):
+        # Waves of 3 s are 14 m long: none is higher than 2 m.
+        done = self.froude(self.asking('stability = { periods = "3 s .. 9 s, 2 values", heights = "1 m .. 3 m, 2 values", '
+                                       'branch = [{ height = "3 m" }], of = ["pivot.angle"] }'), "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        told = json.loads(done.stdout)
+        cells = {p["period_s"]: [(c["fate"], c["reached"]) for c in p["cells"]] for p in told["periods"]}
+        self.assertEqual(cells[3.0][1], ("beyond breaking", "beyond breaking"))
+        self.assertEqual([c[1] for c in cells[9.0]], ["grown", "grown"])
+        self.assertEqual(told["counts"]["fates"]["beyond breaking"], 1)
+        self.assertEqual(told["counts"]["jumped"], 0)
+        self.assertIn("beyond breaking", told["branches"][0]["end"])
+        rows = [r for r in csv.DictReader(r for r in (self.folder / "map.csv").read_text().splitlines() if r[0] != "#")]
+        self.assertEqual([r["reached"] for r in rows if r["height [m]"] == "3"][0], "4", rows)
+
     def test_what_has_no_map_is_refused(self):
         one_period = ASKED.replace("6 s .. 9 s, 7 values", "7 s .. 7 s, 1 values").replace('branch = [{ height = "2 m" }], ', "")
         for scene, words, line in (
@@ -89,7 +104,7 @@ class Stability(unittest.TestCase):
                 (self.asking(ASKED.replace("1 m .. 4 m, 4 values", "-1 m .. 4 m, 4 values")), "must be positive", ASKED),
                 (self.asking(ASKED.replace("6 s .. 9 s", "9 s .. 6 s")), "does not increase", ASKED),
                 (self.asking(ASKED.replace("6 s .. 9 s", "70 s .. 80 s")), "given from 0.1 to 3 rad/s", ASKED),
-                (self.asking(ASKED.replace("6 s .. 9 s", "3 s .. 9 s")), "beyond breaking", "[waves]"),
+                (self.asking(ASKED.replace("1 m .. 4 m", "40 m .. 50 m")), "beyond breaking", ASKED),
                 (self.asking(one_period), "two periods and two heights", ASKED),
                 (self.asking(ASKED.replace("6 s .. 9 s, 7 values", "7 s .. 7 s, 1 values")), "which has one period", ASKED),
                 (self.asking(ASKED.replace('height = "2 m" }', 'height = "2 m", period = "7 s" }')), "height", ASKED),

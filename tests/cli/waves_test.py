@@ -146,6 +146,12 @@ waves = {{ duration = "60 s", every = "0.25 s" }}
             # One whole repetition holds the energy exactly; 0.2 % of it lies above 0.4 Hz.
             self.assertAlmostEqual(told["facts"]["hs"]["value"], 3, delta=0.01)
 
+    def test_the_energy_flux_of_deep_water_is_that_of_the_energy_period(self):
+        facts, _ = self.facts(SEA.replace('"30 m"', '"infinite"'))
+        # c_g = g/(2 omega), so rho g m0 c_g summed is rho g^2 Hs^2 Te/(64 pi); a slice is 1.4 % wide.
+        expected = 1025 * 9.81**2 * facts["hs"] ** 2 * facts["te"] / (64 * math.pi)
+        self.assertAlmostEqual(facts["energy_flux"] / expected, 1, delta=1e-3)
+
     def test_a_longer_record_begins_like_a_shorter_one(self):
         self.froude("waves", "make", self.scene(SEA), "--csv", "long.csv", "-o", "long.h5")
         self.froude("waves", "make", self.scene(SEA.replace("600 s", "60 s")), "--csv", "short.csv", "-o", "short.h5")

@@ -7,6 +7,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
 #include "hydro/io/atomic_file.hpp"
+#include "hydro/signal/lomb_scargle.hpp"
 #include "hydro/signal/multitaper.hpp"
 #include "scene/placed.hpp"
 #include "scene/scene.hpp"
@@ -65,10 +66,16 @@ hs::WelchOptions welch_options(const PsdArguments& arguments, std::size_t sample
   return {.segment = 2 * static_cast<std::size_t>(half)};
 }
 
+hs::WelchSpectrum spectrum_of(const Signal& signal, const RunResult& record, const Analysis& a) {
+  if (a.tapers) return hs::multitaper(signal.values, a.step, *a.tapers);
+  if (a.uneven_segment)
+    return hs::lomb_scargle(record.time, signal.values, *a.uneven_segment, hs::usual_nyquist_hz(record.time));
+  return hs::welch(signal.values, a.step, a.options);
+}
+
 Estimate estimate(const Signal& signal, const RunResult& record, const Analysis& analysis, const Signal* input) {
   Estimate e{.signal = signal,
-             .welch = analysis.tapers ? hs::multitaper(signal.values, analysis.step, *analysis.tapers)
-                                      : hs::welch(signal.values, analysis.step, analysis.options),
+             .welch = spectrum_of(signal, record, analysis),
              .moments = {},
              .peak = {},
              .statistics = {},
@@ -110,6 +117,15 @@ void require_one_way(const PsdArguments& arguments) {
   if (arguments.tapers && (arguments.segment || arguments.input))
     throw hydro::InputError("--tapers takes the whole record at once, --segment and --input cut it into segments",
                             {.file = "command line"}, "leave out --tapers, or the other");
+  if (arguments.uneven && (arguments.tapers || arguments.input))
+    throw hydro::InputError("--tapers and --input need even samples, --uneven is for those that are not",
+                            {.file = "command line"}, "leave out --uneven, or the other");
+}
+
+/// Of a record with gaps: as asked, or an eighth of it.
+double uneven_segment(const PsdArguments& arguments, const RunResult& record) {
+  return arguments.segment ? hydro::parse_si(*arguments.segment, hydro::dim::time)
+                           : (record.time.back() - record.time.front()) / 8;
 }
 
 Analysis analyse(const PsdArguments& arguments) {
@@ -122,13 +138,19 @@ Analysis analyse(const PsdArguments& arguments) {
              .step = 0,
              .options = {},
              .tapers = arguments.tapers,
+             .uneven_segment = {},
              .band = {},
              .confidence = arguments.confidence,
              .input = arguments.input.value_or(""),
              .estimates = {}};
   scene::placed({.file = arguments.file.string()}, [&] {
-    a.step = hs::even_step(record.time);
-    if (!a.tapers) a.options = welch_options(arguments, a.samples, a.step);
+    if (arguments.uneven) {
+      a.uneven_segment = uneven_segment(arguments, record);
+      a.step = 0.5 / hs::usual_nyquist_hz(record.time);
+    } else {
+      a.step = hs::even_step(record.time);
+      if (!a.tapers) a.options = welch_options(arguments, a.samples, a.step);
+    }
     const auto at =
         std::find_if(record.signals.begin(), record.signals.end(), [&](const Signal& s) { return s.name == a.input; });
     for (const Signal& s : record.signals)

@@ -38,7 +38,13 @@ Report transfer_of(const hs::TransferEstimate& transfer, const std::string& inpu
     phase.push_back(std::arg(h));
   }
   Report out;
-  out.keep("input", input).keep("gain", gain).keep("phase_rad", phase).keep("coherence", transfer.coherence);
+  std::vector<double> total;
+  for (std::size_t k = 0; k < gain.size(); ++k) total.push_back(hs::total_gain(transfer, k));
+  out.keep("input", input)
+      .keep("gain", gain)
+      .keep("gain_hv", total)
+      .keep("phase_rad", phase)
+      .keep("coherence", transfer.coherence);
   out.keep("gain_relative_error", transfer.gain_relative_error);
   return out.keep("coherence_threshold", transfer.coherence_threshold);
 }
@@ -56,6 +62,7 @@ Report report_of(const Estimate& e, const std::string& input) {
           fact_or_dash("h13", number_of(e.statistics, &WaveStatistics::h13)), fact("waves", e.waves));
   out.keep("variance", e.welch.variance).keep("density_per_hz", e.welch.spectrum.density);
   if (e.moments) {
+    out.keep("moments", std::vector{e.moments->m_minus1, e.moments->m0, e.moments->m1, e.moments->m2, e.moments->m4});
     out.keep("tm01_s", e.moments->tm01()).keep("epsilon", e.moments->epsilon()).keep("nu", e.moments->nu());
     out.keep("peak_at_edge", e.peak->at_edge);
   }
@@ -65,13 +72,19 @@ Report report_of(const Estimate& e, const std::string& input) {
   return out;
 }
 
-std::vector<std::string> notes_of(const Estimate& e) {
+std::vector<std::string> notes_of(const Estimate& e, bool uneven) {
   std::vector<std::string> out;
   if (!e.moments) out.push_back(e.signal.name + " never changes");
   if (e.moments && e.peak->at_edge)
     out.push_back(fmt::format(
         "{} is strongest at an end of its spectrum, {:.4g} Hz: no peak, or one that needs longer segments (--segment)",
         e.signal.name, e.peak->frequency_hz));
+  constexpr double much = 1.05;  // of the variance: 2.5 % of a height
+  if (uneven && e.moments && e.moments->m0 > much * e.welch.variance)
+    out.push_back(fmt::format(
+        "the spectrum of {} holds {:.3g} times its variance: what is missing aliases, and raises densities, "
+        "heights and the higher moments",
+        e.signal.name, e.moments->m0 / e.welch.variance));
   if (!e.drift.empty()) out.push_back(e.signal.name + " " + e.drift);
   if (e.moments && !e.statistics)
     out.push_back(fmt::format("{} has {} complete waves: too few for H1/3", e.signal.name, e.waves));
@@ -89,10 +102,11 @@ void add_response(const Analysis& a, Report& report) {
   for (const Estimate& e : a.estimates)
     if (e.transfer)
       report.say(
-          "{:<24} |H1| {:.4g} +- {:.2g} {}, |H2| {:.4g}, phase {:.1f} deg, coherence {:.3f} (unrelated signals stay "
+          "{:<24} |H1| {:.4g} +- {:.2g} {}, |H2| {:.4g}, |Hv| {:.4g}, phase {:.1f} deg, coherence {:.3f} (unrelated "
+          "signals stay "
           "below {:.2f} at {:g} % of the frequencies)",
           e.signal.name, std::abs(e.transfer->h1[k]), std::abs(e.transfer->h1[k]) * e.transfer->gain_relative_error[k],
-          gain_unit(e.signal.units, input->signal.units), std::abs(e.transfer->h2[k]),
+          gain_unit(e.signal.units, input->signal.units), std::abs(e.transfer->h2[k]), hs::total_gain(*e.transfer, k),
           std::arg(e.transfer->h1[k]) / degree, e.transfer->coherence[k], e.transfer->coherence_threshold,
           100 * a.confidence);
 }
@@ -136,8 +150,15 @@ std::vector<Column> columns_of(const Analysis& a) {
         edge.values[k] *= 1 + sign * t * e.transfer->gain_relative_error[k];
       out.push_back(std::move(edge));
     }
+    Column hv{e.signal.name + ".gain_hv", unit, {}};
+    for (std::size_t k = 0; k < h1.values.size(); ++k) hv.values.push_back(hs::total_gain(*e.transfer, k));
+    out.push_back(std::move(hv));
   }
   return out;
+}
+
+const char* method_of(const Analysis& a) {
+  return a.tapers ? "sine tapers" : a.uneven_segment ? "least squares (Lomb-Scargle)" : "Welch";
 }
 
 /// The frequency below which 99.9 % of all variance lies: what lies beyond would squeeze the picture.
@@ -162,6 +183,10 @@ Report report_of(const Analysis& a) {
   if (a.tapers)
     out.say("{} samples every {:.6g} s; {} sine tapers over all of them", fact("samples", a.samples),
             fact("step_s", a.step), fact("tapers", *a.tapers));
+  else if (a.uneven_segment)
+    out.say("{} samples, most of them {:.6g} s apart; {} segments of {:.6g} s, Hann, half overlapping, least squares",
+            fact("samples", a.samples), fact("step_s", a.step), fact("segments", w.segments),
+            fact("segment_s", *a.uneven_segment));
   else
     out.say("{} samples every {:.6g} s; {} segments of {} ({:.6g} s), Hann, half overlapping",
             fact("samples", a.samples), fact("step_s", a.step), fact("segments", w.segments),
@@ -176,7 +201,7 @@ Report report_of(const Analysis& a) {
           "Tp [s]", "Te [s]", "Tm02 [s]", "Tz [s]", "H1/3", "waves");
   for (const Estimate& e : a.estimates) signals.part(e.signal.name, report_of(e, a.input));
   out.part("signals", std::move(signals));
-  for (const Estimate& e : a.estimates) out.sentences("notes", "note: {}", notes_of(e));
+  for (const Estimate& e : a.estimates) out.sentences("notes", "note: {}", notes_of(e, a.uneven_segment.has_value()));
   add_response(a, out);
   return out;
 }
@@ -192,9 +217,9 @@ void write_table(const Path& path, const Analysis& a) {
       for (double& v : c.values) v *= factor;
       table.push_back({c.name, c.unit, &c.values});
     }
-    hydro::io::write_csv(path, table,
-                         {fmt::format("one-sided densities by {}, {:g} % band from low to high",
-                                      a.tapers ? "sine tapers" : "Welch", 100 * a.confidence)});
+    hydro::io::write_csv(
+        path, table,
+        {fmt::format("one-sided densities by {}, {:g} % band from low to high", method_of(a), 100 * a.confidence)});
     return;
   }
   hydro::require(kind == ".h5", "the table is written as .csv or .h5, not as \"{}\"", path.filename().string());

@@ -29,9 +29,10 @@ struct Estimate {
 
 struct Analysis {
   std::size_t samples;
-  double step;                        ///< s
-  hs::WelchOptions options;           ///< where there are segments
-  std::optional<std::size_t> tapers;  ///< in their place
+  double step;                           ///< s
+  hs::WelchOptions options;              ///< where there are segments
+  std::optional<std::size_t> tapers;     ///< in their place
+  std::optional<double> uneven_segment;  ///< s: of a record with gaps; its step is the most usual
   hs::BandFactors band;
   double confidence;
   std::string input;  ///< empty: none

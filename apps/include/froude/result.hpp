@@ -192,9 +192,17 @@ struct StabilityMap {
     /// As files have it: 0 stable, 1 period-doubled, 2 quasi-periodic, 3 fold; NaN: no motion was found.
     double fate_number() const;
   };
+  /// How the motion of a cell was come to from that of the height below, at the lowest height from rest.
+  enum class Reached {
+    grown,            ///< as the waves grow
+    round_folds,      ///< along a branch that turns back on its way
+    jumped,           ///< by a jump of Newton's method: no branch was found that joins it to the motion below
+    not_found,        ///< no periodic motion was
+    beyond_breaking,  ///< there are no such waves
+  };
   /// One that grows out of rest as waves do.
   struct Cell : Motion {
-    bool followed = false;  ///< the branch from the height below turned back at folds on its way
+    Reached reached = Reached::not_found;
   };
   /// Motions that go over into each other along periods at one height, or along heights at one period, also where they
   /// turn back, (Q11).
@@ -206,8 +214,9 @@ struct StabilityMap {
     bool over_periods;
     double held;  ///< the height, m, or the period, s, that all of them have
     std::vector<Point> points;
-    std::vector<Signal> signals;  ///< standard deviations, point by point
-    std::string end;              ///< why it ends where it does; empty: it is at the other end of the map
+    std::vector<Signal> signals;         ///< standard deviations, point by point
+    Reached begin = Reached::not_found;  ///< how its first motion was come to from rest
+    std::string end;                     ///< why it ends where it does; empty: it is at the other end of the map
 
     double varied(const Point& point) const { return over_periods ? point.period : point.height; }
   };
@@ -228,6 +237,7 @@ struct StabilityMap {
   /// \throws hydro::InputError if the file cannot be written
   void write(const std::filesystem::path& path) const;
 };
+std::string name_of(StabilityMap::Reached reached);
 
 /// One line of a plan: an effect, how it is computed, how large it is; or why it is left out.
 struct PlanLine {

@@ -1,5 +1,5 @@
 #pragma once
-/// \file  The water at members that are always wet, asked once an instant. (D137)
+/// \file  The water at members that are always wet, asked once an instant. (D141)
 #include <limits>
 #include <span>
 #include <vector>

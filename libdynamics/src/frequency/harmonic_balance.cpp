@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "dynamics/frequency/floquet.hpp"
 #include "hydro/base/dense.hpp"
@@ -240,6 +241,47 @@ Balance balance(PeriodicSystem& system, PeriodicMotion start, const BalanceOptio
 
 namespace {
 
+double distance(const PeriodicMotion& a, const PeriodicMotion& b) {
+  const Index H = std::max(a.harmonics(), b.harmonics());
+  return (a.with_harmonics(H).coefficients - b.with_harmonics(H).coefficients).norm();
+}
+
+/// On the straight line through two motions.
+PeriodicMotion expected(const MotionAt& before, const MotionAt& at, double parameter) {
+  const Index H = std::max(before.motion.harmonics(), at.motion.harmonics());
+  PeriodicMotion out = at.motion.with_harmonics(H);
+  out.coefficients += (parameter - at.parameter) / (at.parameter - before.parameter) *
+                      (out.coefficients - before.motion.with_harmonics(H).coefficients);
+  return out;
+}
+
+}  // namespace
+
+Carried carry(const Family& family, const MotionAt& before, const MotionAt& from, double to,
+              const BalanceOptions& options) {
+  constexpr double far = 0.1, shortest = 1.0 / 64;
+  MotionAt last = before, at = from;
+  std::optional<Balance> direct;  // by the whole way at once: what a jump comes to
+  for (double left = 1, share = 1;; share = std::min(share, left)) {
+    const double parameter = share == left ? to : at.parameter + share * (to - from.parameter);
+    const auto system = family(parameter);
+    PeriodicMotion near = expected(last, at, parameter);
+    near.omega = system->omega();
+    Balance found = balance(*system, near, options);
+    if (found.found && distance(found.motion, near) <= far * found.motion.coefficients.norm()) {
+      if (share == left) return {std::move(found), true};
+      left -= share;
+      last = std::exchange(at, {parameter, std::move(found.motion)});
+      share *= 2;
+      continue;
+    }
+    if (!direct) direct = std::move(found);
+    if ((share /= 2) < shortest) return {std::move(*direct), false};
+  }
+}
+
+namespace {
+
 /// A branch in unknowns of order one: coefficients over their size, the parameter over its range.
 class Branch {
  public:
@@ -263,13 +305,15 @@ class Branch {
     out.parameter += (to_ - from_) * way[way.size() - 1];
     return out;
   }
-  /// Onto the branch, across the tangent: Newton. Empty if that does not settle.
-  std::optional<Place> corrected(Place at, const VectorXd& tangent) try {
+  /// Onto the branch, across the tangent: Newton. Empty if that does not settle within `reach` of where it begins.
+  std::optional<Place> corrected(Place at, const VectorXd& tangent, double reach) try {
     constexpr int most = 8;  // a step that needs more is too long
+    VectorXd whole = VectorXd::Zero(tangent.size());
     for (int i = 0; i < most; ++i) {
       const Bordered b = bordered(at, tangent);
       const VectorXd step = hydro::dense::Lu(b.matrix).solve(-b.right);
-      if (!step.allFinite() || step.norm() > 1) return std::nullopt;
+      whole += step;
+      if (!(whole.norm() <= reach)) return std::nullopt;
       at = moved(at, step);
       if (step.norm() < 1e-9) return at;
     }
@@ -337,13 +381,13 @@ std::string go_on(Branch& branch, Branch::Place at, double from, double to, cons
   for (double step = options.step; static_cast<int>(points.size()) < options.points;) {
     branch.set_size(at.Y.norm());
     tangent = branch.tangent(at, tangent);
-    auto next = branch.corrected(branch.moved(at, step * tangent), tangent);
+    auto next = branch.corrected(branch.moved(at, step * tangent), tangent, step / 2);
     while (next && branch.motion(*next).tail() > options.balance.accuracy) {
       const Index H = next->Y.cols() / 2;
       if (H >= options.balance.most_harmonics) return ended(fmt::format("needs more than {} harmonics", H));
       next->Y = branch.motion(*next).with_harmonics(H + H / 2).coefficients;
       tangent = with_rows(tangent, next->Y.size() + 1);
-      next = branch.corrected(*next, tangent);
+      next = branch.corrected(*next, tangent, options.largest_step);
     }
     if (!next) {
       tangent = with_rows(tangent, at.Y.size() + 1);
@@ -352,11 +396,11 @@ std::string go_on(Branch& branch, Branch::Place at, double from, double to, cons
     }
     if ((next->parameter - to) * (to - from) >= 0) {  // past the end: the motion that has it
       Balance last = branch.exactly(to, branch.motion(*next));
-      if (last.found) {
+      if (last.found && distance(last.motion, branch.motion(*next)) <= 2 * step * at.Y.norm()) {
         points.push_back({to, std::move(last.motion), true});
         return {};
       }
-      if ((step /= 2) < shortest) return ended("has no motion at its end, " + last.why);
+      if ((step /= 2) < shortest) return ended("has no motion at its end" + (last.found ? "" : ", " + last.why));
       tangent = with_rows(tangent, at.Y.size() + 1);
       continue;
     }

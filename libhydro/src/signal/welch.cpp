@@ -211,4 +211,6 @@ TransferEstimate transfer(std::span<const double> input, std::span<const double>
   return transfer(std::span(&run, 1), step_s, options);
 }
 
+double total_gain(const TransferEstimate& e, std::size_t k) { return std::sqrt(std::abs(e.h1[k]) * std::abs(e.h2[k])); }
+
 }  // namespace hydro::signal

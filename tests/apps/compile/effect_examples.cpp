@@ -93,11 +93,13 @@ draught = "1.13 m"
 frequencies = "0.5 rad/s .. 2 rad/s, 3 values"
 others = [{ at = "(0, 5.2, 0) m", diameter = "1.2 m", draught = "1.13 m" }]
 )";
-  return {in_waves("hydrostatics", "", hydrodynamics("hydrostatics = true\n"), {"hydrostatics"}),
-          in_waves("excitation", "", hydrodynamics("excitation = true\n"), {"excitation"}),
-          in_waves("turning excitation", "", hydrodynamics(turning), {"excitation.turning"}),
-          in_waves("radiation", "", hydrodynamics("radiation = { memory_tolerance = 1e-2 }\n"), {"radiation"}),
-          in_waves("cylinders", "", cylinders, {"hydrostatics"})};
+  return {
+      in_waves("hydrostatics", "", hydrodynamics("hydrostatics = true\n"), {"hydrostatics"}),
+      in_waves("excitation", "", hydrodynamics("excitation = true\n"), {"excitation"}),
+      in_waves("turning excitation", "", hydrodynamics(turning), {"excitation.turning"}),
+      in_waves("radiation", "", hydrodynamics("radiation = { memory_tolerance = 1e-2 }\n"), {"radiation"}),
+      in_waves("second order", "", "[body.second_order]\nfile = \"drift.8\"\nmethod = \"newman\"\n", {"second_order"}),
+      in_waves("cylinders", "", cylinders, {"hydrostatics"})};
 }
 
 std::vector<Example> of_springs() {
@@ -357,6 +359,7 @@ Files::Files() : folder_(std::filesystem::path(testing::TempDir()) / fmt::format
   write("slider_spring.csv", "stroke [m],force [N]\n-1,-1000\n1,1000\n");
   write("hinge_spring.csv", "angle [rad],moment [N m]\n-1,-1000\n1,1000\n");
   write("waves.csv", "period [s],amplitude [m],phase [rad]\n4,0.05,0\n5,0.05,1\n");
+  write("drift.8", "4 0 0 1 1 0 1 0\n6 0 0 1 2 0 2 0\n");
   write("path.csv", "time [s],x [m],y [m],z [m]\n0,0,0,-1\n1,0.1,0,-1\n3,0.3,0,-1\n");
   write("spectrum.csv", "omega [rad/s],density [m^2 s/rad]\n0.5,0\n1,0.05\n1.5,0.02\n2,0\n");
   write("spreading.csv", "direction [deg],density [1/rad]\n-30,0\n0,1.90986\n30,0\n");

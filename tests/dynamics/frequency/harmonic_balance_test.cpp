@@ -141,6 +141,33 @@ TEST(HarmonicBalance, FollowsDuffingRoundItsFolds) {
   EXPECT_NEAR(branch.back().parameter, 1.5 * crest, 1e-12);
 }
 
+// Below the crest of force_for() the motion goes on growing; beyond it the nearest one is on the upper branch, which
+// no path of ever stronger forces comes to.
+TEST(HarmonicBalance, KnowsWhetherNewtonJumpedOntoAnotherBranch) {
+  constexpr double w = 1.1, beta = 0.1, c = 0.02;
+  double crest = 0, at_crest = 0;
+  for (double A = 0.01; force_for(A, w, beta, c) > crest; A += 1e-4) crest = force_for(A, w, beta, c), at_crest = A;
+  const Family family = [](double F) {
+    auto system = std::make_unique<Oscillator>();
+    system->w = w, system->beta = beta, system->c = c;
+    system->force = [F](double t) { return F * std::cos(w * t); };
+    return system;
+  };
+  const auto first = family(0.1 * crest);
+  const MotionAt rest{0, at_rest(*first)}, low{0.1 * crest, balance(*first, at_rest(*first)).motion};
+  const Carried below = carry(family, rest, low, 0.95 * crest);
+  ASSERT_TRUE(below.end.found);
+  EXPECT_TRUE(below.joined);
+  EXPECT_LT(amplitude(below.end.motion), at_crest);
+  // Third harmonic as in FollowsDuffingRoundItsFolds.
+  EXPECT_NEAR(force_for(amplitude(below.end.motion), w, beta, c), 0.95 * crest, 0.01 * crest);
+  const Carried beyond = carry(family, rest, low, 1.1 * crest);
+  EXPECT_FALSE(beyond.joined);
+  if (beyond.end.found) {
+    EXPECT_GT(amplitude(beyond.end.motion), 1.5 * at_crest);
+  }
+}
+
 // Without damping and force a Duffing oscillator of amplitude A swings at ω = π √(1 + βA²)/(2 K(k)), k² = βA²/(2 (1 +
 // βA²)), K the complete elliptic integral. A damper of 1e-5 picks that motion up, and a force that is more than it
 // takes by βA²/32, the third harmonic's share: so the motion is there, ahead by √(β/16) = 0.056 rad, for a detuning of

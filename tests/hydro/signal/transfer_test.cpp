@@ -44,8 +44,9 @@ TEST(Transfer, BracketsTheTruthBetweenH1AndH2WhereTheOutputIsNoisy) {
   std::vector<double> y(x.size());
   for (std::size_t j = 0; j < x.size(); ++j) y[j] = 2 * x[j] + e[j];
   const auto t = transfer(x, y, 1, {.segment = 128});
-  double h1 = 0, h2 = 0, coherence = 0;
+  double h1 = 0, h2 = 0, hv = 0, coherence = 0;
   for (std::size_t k = 2; k < 62; ++k) {
+    hv += total_gain(t, k) / 60;
     h1 += std::abs(t.h1[k]) / 60;
     h2 += std::abs(t.h2[k]) / 60;
     coherence += t.coherence[k] / 60;
@@ -53,6 +54,7 @@ TEST(Transfer, BracketsTheTruthBetweenH1AndH2WhereTheOutputIsNoisy) {
   // S_yy/S_xx = 4 + 1, γ² = 4/5, |H2| = |H1|/γ² = 2.5. Error of |H1|: √(0.25/(2·900))/√60 = 0.15 %; ten of them.
   EXPECT_NEAR(h1, 2.0, 0.03);
   EXPECT_NEAR(h2, 2.5, 0.04);
+  EXPECT_NEAR(hv, std::sqrt(5), 0.04);  // √(S_yy/S_xx)
   EXPECT_NEAR(coherence, 0.8, 0.01);
 }
 

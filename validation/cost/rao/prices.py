@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """What responses of many bodies cost: the whole process `froude rao`, and numpy's batched solution beside it.
 
-prices.py FROUDE FOLDER [MODULES…]: writes FOLDER/rao.md
+prices.py FROUDE FOLDER [MODULES…]: writes FOLDER/rao.md. Rows that feel each other's waves are taken as long as their
+coefficients fit into the memory of the machine, see MEMORY.
 """
 import os
 import platform
@@ -13,7 +14,10 @@ from pathlib import Path
 
 import numpy as np
 
+from array_file import write_array
+
 ROOT = Path(__file__).resolve().parents[3]
+MEMORY = 12.0  # largest memory over that of the tables A and B of all frequencies, measured; their check takes most of it
 ROW = """schema = 1
 [water]
 density = "1000 kg/m^3"
@@ -27,6 +31,7 @@ centre_of_gravity = "(0, 0, 1.31) m"
 radii_of_gyration = "(4.6, 4.6, 6.4) m"
 [body.hydrodynamics]
 file = "{data}"
+accept = ["Haskind relation"]
 interaction = "{interaction}"
 excitation = true
 radiation = {{}}
@@ -71,6 +76,20 @@ def timed(froude, text, threads=None):
         return time.perf_counter() - begin, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
 
 
+def coupled(froude, count, frequencies=60):
+    """The same of a row whose modules all feel each other's waves."""
+    with tempfile.TemporaryDirectory() as folder:
+        data = Path(folder) / "row_data.h5"
+        write_array(data, count, np.linspace(1, 3, frequencies), ROOT / "examples/data/modules5.h5")
+        return timed(froude, scene(count, "full", frequencies, data=str(data)))
+
+
+def fits(count, frequencies=60):
+    """True if A and B of all frequencies, with what is made of them, fit into the memory that is free."""
+    tables = 2 * 8 * (6 * count) ** 2 * frequencies
+    return MEMORY * tables < 1024 * int(next(l for l in open("/proc/meminfo") if l.startswith("MemAvailable")).split()[1])
+
+
 def numpy_seconds(unknowns=30, frequencies=200, headings=36):
     """Least processor time of three of numpy's batched solutions, right-hand sides at hand."""
     random = np.random.default_rng(1)
@@ -100,6 +119,14 @@ def main():
         wall, processor, memory = timed(froude, scene(count, "self"))
         lines.append(f"| {count} | {wall:.3g} | {processor:.3g} | {memory:.0f} |")
         print(lines[-1], flush=True)
+    together = []
+    for count in counts:
+        if not fits(count):
+            together.append(f"| {count} | - | - | needs {MEMORY * 2 * 8 * (6 * count) ** 2 * 60 / 2**30:.0f} GB |")
+            continue
+        wall, processor, memory = coupled(froude, count)
+        together.append(f"| {count} | {wall:.3g} | {processor:.3g} | {memory:.0f} |")
+        print(together[-1], flush=True)
     many, one = thirty_motions(froude)
     peer = numpy_seconds()
     page = f"""# What responses of many bodies cost
@@ -111,6 +138,12 @@ A row of modules that connectors alone couple, each with the coefficients of one
 | modules | wall [s] | processor [s] | memory [MB] |
 | --- | --- | --- | --- |
 {os.linesep.join(lines)}
+
+The same row where every module feels the waves of all others (dense equations), coefficients by the law of `validation/cost/rao/array_file.py` at the same 60 frequencies; reading and checking them is part of the time:
+
+| modules | wall [s] | processor [s] | memory [MB] |
+| --- | --- | --- | --- |
+{os.linesep.join(together)}
 
 Thirty motions of five modules that feel each other's waves, 200 frequencies, 36 headings, one thread, processor time: {1000 * many:.0f} ms the process, of which reading, preparing and starting take {1000 * one:.0f} ms (one frequency, one heading): {1000 * (many - one):.0f} ms for the
 rest, writing among it. numpy's batched solution of as many equations alone, whose matrices and right-hand sides are at hand: {1000 * peer:.1f} ms.

@@ -46,7 +46,7 @@ struct MorisonPerLength {
 ///
 /// With a tolerance of foresight the water at members that are always wet is asked once an instant, at the places to
 /// which bodies are on their way, and stays there while a step is sought: loads and their derivatives are then those
-/// of water that does not change over the little that is missed, by no more than this of the velocity (D137). Without
+/// of water that does not change over the little that is missed, by no more than this of the velocity (D141). Without
 /// one, and for members wet in part, it is that of their true places.
 class MorisonKind final : public ForceKind {
  public:

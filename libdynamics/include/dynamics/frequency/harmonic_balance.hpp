@@ -88,6 +88,24 @@ PeriodicMotion load_of_memory(PeriodicSystem& system, const PeriodicMotion& moti
 /// Systems along a parameter, such as the height of waves or their period.
 using Family = std::function<std::unique_ptr<PeriodicSystem>(double parameter)>;
 
+/// A motion of one of them.
+struct MotionAt {
+  double parameter;
+  PeriodicMotion motion;
+};
+
+/// Where Newton alone takes a motion along a parameter.
+struct Carried {
+  Balance end;  ///< at the parameter asked for
+  bool joined;  ///< to where it began; else none was found, or Newton jumped onto another branch
+};
+
+/// The motion at `to` by Newton, from the straight line through two motions before it. The way is halved, at most into
+/// 64 parts, where Newton finds none or ends a tenth of the motion away from that line: motions of one branch draw near
+/// to it, those of another do not. So jumps by less than a tenth of the motion are not seen.
+Carried carry(const Family& family, const MotionAt& before, const MotionAt& from, double to,
+              const BalanceOptions& options = {});
+
 /// A point of a branch of periodic motions.
 struct BranchPoint {
   double parameter;
@@ -108,8 +126,9 @@ struct FollowedBranch {
 };
 
 /// The branch through `start`, a motion at the parameter `from`, by pseudo-arclength, (Q11): round folds, until the
-/// parameter is `to`, which the last point has. It ends before where it comes below `from` again, where there are as
-/// many points or harmonics as are allowed, and where it cannot be followed any further.
+/// parameter is `to`, which the last point has. Steps after which Newton is farther from the tangent than half of them
+/// are halved: beyond may be another branch. It ends before where it comes below `from` again, where there are as many
+/// points or harmonics as are allowed, and where it cannot be followed any further.
 FollowedBranch follow(const Family& family, double from, double to, PeriodicMotion start,
                       const FollowOptions& options = {});
 

@@ -72,6 +72,10 @@ struct TransferEstimate {
   double coherence_threshold;  ///< γ² that unrelated signals stay below at 95 % of the frequencies; (S10)
 };
 
+/// |H_v| = √(S_yy/S_xx) = √(|H1| |H2|), between H1 and H2: right where both signals are noisy in the same proportion;
+/// (S8). NaN as h1. Its phase is that of both.
+double total_gain(const TransferEstimate& estimate, std::size_t frequency);
+
 /// Both records sampled at the same instants. Where the input has no energy, h1, h2 and the error are NaN and the
 /// coherence is 0. The window must resolve the response: a peak narrower than resolution_hz is biased low.
 /// \throws InputError as welch(), for records of different length, and for fewer than two segments (the coherence

@@ -1,0 +1,284 @@
+#include "compile/second_order.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "compile/waves.hpp"
+#include "dynamics/force/second_order.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/base/interpolation.hpp"
+#include "hydro/potential/formats/second_order.hpp"
+#include "scene/placed.hpp"
+
+namespace froude::compile {
+namespace {
+
+using dynamics::SecondOrderLoad;
+using hydro::InputError;
+using hydro::potential::QuadraticTransfer;
+using hydro::waves::Component;
+using Matrices = std::array<Eigen::MatrixXcd, 6>;
+using Method = scene::SecondOrder::Method;
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// About another point, r from the first: M + F × r.
+Matrices about(Matrices m, const Eigen::Vector3d& r) {
+  if (m[0].size() == 0) return m;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    m[3 + i] += m[j] * r[static_cast<Eigen::Index>(k)] - m[k] * r[static_cast<Eigen::Index>(j)];
+  }
+  return m;
+}
+
+/// Of real and imaginary part of s, one below the other: Re(sᵀ T s̅), and with sign −1 Re(sᵀ T s).
+std::array<Eigen::MatrixXd, 6> real_forms(const Matrices& T, double sign) {
+  std::array<Eigen::MatrixXd, 6> out;
+  for (std::size_t mode = 0; mode < 6; ++mode) {
+    out[mode].resize(2 * T[mode].rows(), 2 * T[mode].cols());
+    for (Eigen::Index q = 0; q < T[mode].cols(); ++q)
+      for (Eigen::Index p = 0; p < T[mode].rows(); ++p) {
+        const double re = T[mode](p, q).real(), im = T[mode](p, q).imag();
+        out[mode].block<2, 2>(2 * p, 2 * q) << re, sign * im, -im, sign * re;
+      }
+  }
+  return out;
+}
+
+Matrices weighted(const Matrices& a, double by_a, const Matrices& b, double by_b) {
+  Matrices out;
+  for (std::size_t i = 0; i < 6; ++i) out[i] = by_a * a[i] + by_b * b[i];
+  return out;
+}
+
+/// The waves of a sea within the frequencies of a file.
+std::vector<std::size_t> inside(const hydro::waves::Sea& sea, const QuadraticTransfer& T, double accuracy) {
+  std::vector<std::size_t> out;
+  double all = 0, kept = 0;
+  for (std::size_t c = 0; c < sea.components().size(); ++c) {
+    const Component& wave = sea.components()[c];
+    const double energy = wave.amplitude * wave.amplitude;
+    all += energy;
+    if (wave.omega < T.omega.front() || wave.omega > T.omega.back()) continue;
+    kept += energy;
+    out.push_back(c);
+  }
+  if (all - kept > accuracy * all)
+    throw InputError(fmt::format("{:.2g} of the waves' energy is outside the frequencies of the second-order loads, "
+                                 "{:.4g} to {:.4g} rad/s, more than the accuracy asked",
+                                 (all - kept) / all, T.omega.front(), T.omega.back()),
+                     {}, "compute the loads at more frequencies, or ask for other waves");
+  return out;
+}
+
+/// Between which headings of the file, and how, waves of one heading are.
+hydro::Stencil between(const QuadraticTransfer& T, double heading) {
+  constexpr double rounding = 1e-6;  // degrees are printed with few digits
+  const double turn = 2 * std::numbers::pi;
+  for (const double beta : {heading, heading - turn, heading + turn})
+    if (beta >= T.heading.front() - rounding && beta <= T.heading.back() + rounding) {
+      if (T.heading.size() == 1) return {.first = 0, .weight = {1}};
+      return hydro::straight_stencil(T.heading, std::clamp(beta, T.heading.front(), T.heading.back()));
+    }
+  throw InputError(fmt::format("waves go towards {:.4g} deg, and the second-order loads are for {:.4g} to {:.4g} deg",
+                               heading / degree, T.heading.front() / degree, T.heading.back() / degree),
+                   {}, "compute the loads for that heading too");
+}
+
+const Matrices& of_pair(const QuadraticTransfer& T, std::size_t h1, std::size_t h2) {
+  if (!T.has(h1, h2))
+    throw InputError(fmt::format("the second-order loads have no waves of {:.4g} and {:.4g} deg together",
+                                 T.heading[h1] / degree, T.heading[h2] / degree),
+                     {}, "compute the loads for all pairs of headings, or take long-crested waves");
+  return T.at(h1, h2);
+}
+
+/// T(ω_k, β; ω_l, β) of waves of one heading, or the column T(ω_k, β; ω_k, β) of a mean drift: straight between the
+/// headings of the file.
+Matrices of_heading(const QuadraticTransfer& T, double heading) {
+  const hydro::Stencil s = between(T, heading);
+  const Matrices& first = of_pair(T, s.first, s.first);
+  if (s.weight[1] == 0) return weighted(first, s.weight[0], first, 0);
+  return weighted(first, s.weight[0], of_pair(T, s.first + 1, s.first + 1), s.weight[1]);
+}
+
+bool is_long_crested(const hydro::waves::Sea& sea) {
+  return std::all_of(sea.components().begin(), sea.components().end(),
+                     [&](const Component& c) { return c.heading == sea.components().front().heading; });
+}
+
+/// One body, its file and the waves.
+class Loads {
+ public:
+  Loads(int body, const Eigen::Vector3d& origin, const Eigen::Vector3d& centre, const hydro::waves::Sea& sea,
+        const StepGrid& grid, double ramp, double accuracy)
+      : body_(body),
+        origin_(origin),
+        to_centre_(centre - origin),
+        sea_(sea),
+        grid_(grid),
+        ramp_(ramp),
+        accuracy_(accuracy) {}
+
+  SecondOrderLoad mean(const QuadraticTransfer& T) const {
+    SecondOrderLoad out{.body = body_, .signals = none(), .ramp_s = ramp_, .method = "mean drift, constant"};
+    for (const std::size_t c : inside(sea_, T, accuracy_))
+      out.mean += std::pow(sea_.components()[c].amplitude, 2) * drift(T, sea_.components()[c]).real();
+    return out;
+  }
+
+  /// T(1; 2) = ½ (T(1; 1) + T(2; 2)): Re(Σ a D e^{iωt} · conj Σ a e^{iωt}).
+  SecondOrderLoad newman(const QuadraticTransfer& T) const {
+    if (!is_long_crested(sea_))
+      throw InputError("Newman's approximation is for waves of one heading", {},
+                       "take method = \"full\" with all pairs of headings, or \"mean\"");
+    Eigen::MatrixXcd amplitudes = Eigen::MatrixXcd::Zero(7, components());
+    for (const std::size_t c : inside(sea_, T, accuracy_)) {
+      const std::complex<double> a = at_origin(sea_.components()[c]);
+      amplitudes.col(static_cast<Eigen::Index>(c)) << a, a * drift(T, sea_.components()[c]).real();
+    }
+    SecondOrderLoad out{.body = body_, .signals = complex_signals(amplitudes), .method = "Newman's approximation"};
+    Matrices products;
+    for (Eigen::Index mode = 0; mode < 6; ++mode) {
+      products[static_cast<std::size_t>(mode)] = Eigen::MatrixXcd::Zero(7, 7);
+      products[static_cast<std::size_t>(mode)](1 + mode, 0) = 1;
+    }
+    out.form = real_forms(products, 1);
+    return out;
+  }
+
+  /// Bilinear between the frequencies and headings of the file: each wave has its share of the (up to four) points
+  /// about it, and pairs of waves become pairs of points.
+  SecondOrderLoad full(const QuadraticTransfer& T) const {
+    const bool one_heading = is_long_crested(sea_);
+    const auto frequencies = static_cast<Eigen::Index>(T.omega.size());
+    const Eigen::Index headings = one_heading ? 1 : static_cast<Eigen::Index>(T.heading.size());
+    Eigen::MatrixXcd amplitudes = Eigen::MatrixXcd::Zero(frequencies * headings, components());
+    for (const std::size_t c : inside(sea_, T, accuracy_)) {
+      const Component& wave = sea_.components()[c];
+      const hydro::Stencil w = hydro::straight_stencil(T.omega, wave.omega);
+      const hydro::Stencil h = one_heading ? hydro::Stencil{.first = 0, .weight = {1}} : between(T, wave.heading);
+      for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t j = 0; j < 2; ++j)
+          if (w.weight[i] != 0 && h.weight[j] != 0)
+            amplitudes(static_cast<Eigen::Index>(h.first + j) * frequencies + static_cast<Eigen::Index>(w.first + i),
+                       static_cast<Eigen::Index>(c)) = w.weight[i] * h.weight[j] * at_origin(wave);
+    }
+    SecondOrderLoad out{.body = body_,
+                        .signals = complex_signals(amplitudes),
+                        .method = fmt::format("all pairs of {} frequencies and {} headings", frequencies, headings)};
+    const Matrices pairs =
+        one_heading ? about(of_heading(T, sea_.components().front().heading), to_centre_) : all_pairs(T);
+    out.form = real_forms(pairs, T.kind == QuadraticTransfer::Kind::sum ? -1 : 1);
+    return out;
+  }
+
+ private:
+  Eigen::Index components() const { return static_cast<Eigen::Index>(sea_.components().size()); }
+
+  /// a e^{iφ} at the body's origin.
+  std::complex<double> at_origin(const Component& c) const {
+    return elevation_at_origin(c) * hydro::waves::elevation_transfer(c, origin_.x(), origin_.y());
+  }
+
+  /// T(ω, β; ω, β) about the centre of gravity, N/m² and N m/m².
+  Eigen::Matrix<std::complex<double>, 6, 1> drift(const QuadraticTransfer& T, const Component& wave) const {
+    const hydro::Stencil w = hydro::straight_stencil(T.omega, wave.omega);
+    const Matrices m = about(of_heading(T, wave.heading), to_centre_);
+    const auto diagonal = [&](std::size_t mode, std::size_t k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      return m[mode].cols() == 1 ? m[mode](i, 0) : m[mode](i, i);
+    };
+    Eigen::Matrix<std::complex<double>, 6, 1> out;
+    for (std::size_t mode = 0; mode < 6; ++mode) {
+      std::complex<double> sum = w.weight[0] * diagonal(mode, w.first);
+      if (w.weight[1] != 0) sum += w.weight[1] * diagonal(mode, w.first + 1);
+      out[static_cast<Eigen::Index>(mode)] = sum;
+    }
+    return out;
+  }
+
+  Matrices all_pairs(const QuadraticTransfer& T) const {
+    const auto n = static_cast<Eigen::Index>(T.omega.size()), all = n * static_cast<Eigen::Index>(T.heading.size());
+    Matrices out;
+    for (auto& m : out) m = Eigen::MatrixXcd::Zero(all, all);
+    for (std::size_t h1 = 0; h1 < T.heading.size(); ++h1)
+      for (std::size_t h2 = 0; h2 < T.heading.size(); ++h2) {
+        const Matrices of = about(of_pair(T, h1, h2), to_centre_);
+        for (std::size_t mode = 0; mode < 6; ++mode)
+          out[mode].block(static_cast<Eigen::Index>(h1) * n, static_cast<Eigen::Index>(h2) * n, n, n) = of[mode];
+      }
+    return out;
+  }
+
+  dynamics::WaveSignals complex_signals(const Eigen::MatrixXcd& amplitudes) const {
+    const std::complex<double> i(0, 1);
+    Eigen::MatrixXcd parts(2 * amplitudes.rows(), amplitudes.cols());
+    for (Eigen::Index p = 0; p < amplitudes.rows(); ++p) {
+      parts.row(2 * p) = amplitudes.row(p);
+      parts.row(2 * p + 1) = -i * amplitudes.row(p);  // the imaginary part as the real one of another signal
+    }
+    return signals(sea_, parts, grid_, ramp_);
+  }
+  dynamics::WaveSignals none() const { return complex_signals(Eigen::MatrixXcd::Zero(1, components())); }
+
+  int body_;
+  Eigen::Vector3d origin_, to_centre_;
+  const hydro::waves::Sea& sea_;
+  StepGrid grid_;
+  double ramp_, accuracy_;
+};
+
+QuadraticTransfer read(const scene::Located<std::filesystem::path>& file, const scene::SecondOrder& asked,
+                       const hydro::Water& water, std::vector<std::string>& notes) {
+  QuadraticTransfer out = hydro::potential::read_second_order(file.value, {.density = water.density,
+                                                                           .gravity = water.gravity,
+                                                                           .ulen = asked.ulen,
+                                                                           .iperout = asked.iperout,
+                                                                           .body = asked.body});
+  notes.insert(notes.end(), out.notes.begin(), out.notes.end());
+  return out;
+}
+
+/// Which kinds of file a method takes.
+void require_kind(bool right, const scene::Located<std::filesystem::path>& file, const char* needed) {
+  if (!right)
+    throw InputError(fmt::format("\"{}\" does not have what is asked for", file.value.filename().string()), file.place,
+                     needed);
+}
+
+}  // namespace
+
+void add_second_order(const scene::Scene& scene, const std::vector<dynamics::RigidBody>& bodies,
+                      const hydro::waves::Sea* sea, const StepGrid& grid, std::vector<std::string>& notes,
+                      std::vector<std::unique_ptr<const dynamics::ForceKind>>& forces) {
+  using Kind = QuadraticTransfer::Kind;
+  std::vector<SecondOrderLoad> loads;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    if (!scene.bodies[b].second_order || !scene.waves) continue;
+    const scene::SecondOrder& asked = *scene.bodies[b].second_order;
+    if (sea == nullptr)
+      throw InputError("second-order loads are for waves that are a sum of linear ones", asked.place,
+                       "take regular waves of linear theory, a sea or a list");
+    const Loads of(static_cast<int>(b), scene.bodies[b].position, bodies[b].rest_centre(), *sea, grid,
+                   scene.waves->ramp, scene.accuracy);
+    scene::placed(asked.place, [&] {
+      const QuadraticTransfer T = read(asked.file, asked, scene.water, notes);
+      require_kind(T.kind != Kind::sum, asked.file, "name a file of sum frequencies as `sum`");
+      require_kind(asked.method != Method::full || T.kind == Kind::difference, asked.file,
+                   "method = \"full\" needs .10d, .11d or .12d; a mean drift serves \"newman\" and \"mean\"");
+      loads.push_back(asked.method == Method::mean     ? of.mean(T)
+                      : asked.method == Method::newman ? of.newman(T)
+                                                       : of.full(T));
+      if (!asked.sum) return;
+      const QuadraticTransfer plus = read(*asked.sum, asked, scene.water, notes);
+      require_kind(plus.kind == Kind::sum, *asked.sum, "`sum` takes .10s, .11s or .12s");
+      loads.push_back(of.full(plus));
+    });
+  }
+  if (!loads.empty()) forces.push_back(std::make_unique<dynamics::SecondOrderKind>(std::move(loads)));
+}
+
+}  // namespace froude::compile

@@ -1,0 +1,153 @@
+// `froude extremes`: the largest values that a record lets one expect, without a law of the signal.
+#include <algorithm>
+#include <cmath>
+
+#include "answers/plot.hpp"
+#include "froude/commands.hpp"
+#include "froude/outputs.hpp"
+#include "froude/record_file.hpp"
+#include "froude/report.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/base/units.hpp"
+#include "hydro/io/atomic_file.hpp"
+#include "hydro/io/csv.hpp"
+#include "hydro/signal/peaks.hpp"
+#include "scene/placed.hpp"
+
+namespace froude {
+namespace {
+
+namespace hs = hydro::signal;
+
+/// An option of the command line as SI, placed there.
+double option(const char* name, const std::string& text, const hydro::Dimension& dimension) {
+  return scene::placed({.file = name}, [&] { return hydro::parse_si(text, dimension); });
+}
+
+/// A record, its peaks and both laws; lowest values are the largest of the signal turned over, sign −1.
+struct Extremes {
+  Signal signal;
+  double sign, recorded, duration, confidence;  // s
+  std::vector<double> peaks, maxima;            // of sign · signal
+  std::vector<double> probabilities;
+  hs::ParetoTail tail;
+  std::size_t above;
+  hs::BlockMaxima blocks;
+};
+
+/// The level that a tenth of the peaks is above, or twenty where that is fewer, or half: many make a tail, and only
+/// high ones do.
+double usual_threshold(std::vector<double> peaks) {
+  hydro::require(!peaks.empty(), "the record has no complete wave: no peak");
+  std::sort(peaks.rbegin(), peaks.rend());
+  return peaks[std::max(peaks.size() / 10, std::min<std::size_t>(20, peaks.size() / 2))];
+}
+
+Extremes find(const ExtremesArguments& a) {
+  RunResult record = read_record(a.file);
+  hydro::require(!record.time.empty(), "the record has no samples");
+  if (a.from) drop_before(record, option("--from", *a.from, hydro::dim::time), a.file);
+  Extremes out{.signal = signal_of(record, a.signal, a.file),
+               .sign = a.lowest ? -1.0 : 1.0,
+               .recorded = record.time.back() - record.time.front(),
+               .duration = option("--duration", a.duration, hydro::dim::time),
+               .confidence = a.confidence,
+               .peaks = {},
+               .maxima = {},
+               .probabilities = a.quantiles.empty() ? std::vector{0.5, 0.9, 0.99} : a.quantiles,
+               .tail = {},
+               .above = 0,
+               .blocks = {}};
+  for (double& v : out.signal.values) v *= out.sign;
+  out.peaks = hs::crests(record.time, out.signal.values);
+  const double threshold =
+      a.threshold ? out.sign * option("--threshold", *a.threshold, hydro::parse_unit(out.signal.units).dimension)
+                  : usual_threshold(out.peaks);
+  out.tail = hs::fit_tail(out.peaks, threshold, out.recorded);
+  out.above = static_cast<std::size_t>(
+      std::count_if(out.peaks.begin(), out.peaks.end(), [&](double p) { return p > threshold; }));
+  const double block = a.block ? option("--block", *a.block, hydro::dim::time) : out.recorded / 20;
+  out.maxima = hs::block_maxima(record.time, out.signal.values, block);
+  out.blocks = hs::fit_maxima(out.maxima, block);
+  return out;
+}
+
+/// "50 %   12.3 (11.0 to 14.1)"; the interval turned over with the signal.
+template <class Fit>
+Report estimate(const Extremes& e, const Fit& fit, std::size_t count, double p, const char* of) {
+  const double level = fit.largest_not_exceeded(e.duration, p);
+  hs::Interval i = hs::interval_of(fit, count, e.duration, p, e.confidence);
+  double low = e.sign * i.low, high = e.sign * i.high;
+  if (low > high) std::swap(low, high);
+  return Report().say("{:>6.4g} %  {:<22} {:>11.5g} {:>11.5g} {:>11.5g}", fact("probability", p, 100 * p),
+                      fact("of", std::string(of)), fact("level", e.sign * level), fact("low", low), fact("high", high));
+}
+
+Report report_of(const Extremes& e) {
+  Report out;
+  out.say("{}: {} peaks between up-crossings of the mean in {:.6g} s, the {} {:.5g} {}", fact("signal", e.signal.name),
+          fact("peaks", e.peaks.size()), fact("recorded_s", e.recorded), e.sign > 0 ? "largest" : "lowest",
+          fact("extreme", e.sign * *std::max_element(e.signal.values.begin(), e.signal.values.end())),
+          fact("unit", e.signal.units));
+  out.say("{} peaks beyond {:.5g}: generalised Pareto, scale {:.4g}, shape {:.3g}", fact("above", e.above),
+          fact("threshold", e.sign * e.tail.threshold), fact("tail_scale", e.tail.scale),
+          fact("tail_shape", e.tail.shape));
+  out.say("{} blocks of {:.5g} s: Gumbel, location {:.5g}, scale {:.4g}", fact("blocks", e.maxima.size()),
+          fact("block_s", e.blocks.block_s), fact("location", e.sign * e.blocks.location),
+          fact("scale", e.blocks.scale));
+  out.say("in {:.6g} s the {} value stays {} with the probability; between, {:g} % of such records:",
+          fact("duration_s", e.duration), e.sign > 0 ? "largest" : "lowest", e.sign > 0 ? "below" : "above",
+          fact("confidence", e.confidence, 100 * e.confidence));
+  for (const double p : e.probabilities) {
+    out.one_of("estimates", estimate(e, e.tail, e.above, p, "peaks over threshold"));
+    out.one_of("estimates", estimate(e, e.blocks, e.maxima.size(), p, "block maxima"));
+  }
+  if (e.duration > 10 * e.recorded)
+    out.sentences("notes", "note: {}",
+                  {fmt::format("{:.3g} times the record: far beyond what it holds, where the law "
+                               "decides more than the record",
+                               e.duration / e.recorded)});
+  return out;
+}
+
+/// Peaks over how often they are exceeded in the record, and the law through them.
+plot::Figure figure(const Extremes& e, const std::string& file_name) {
+  std::vector<double> sorted = e.peaks;
+  std::sort(sorted.rbegin(), sorted.rend());
+  plot::Series found{.name = "peaks", .x = {}, .y = {}, .line = false, .marks = true};
+  plot::Series law{.name = "generalised Pareto", .x = {}, .y = {}};
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    found.x.push_back(static_cast<double>(i + 1) / e.recorded * 3600);
+    found.y.push_back(e.sign * sorted[i]);
+  }
+  const double rate = e.tail.rate_hz * 3600, least = std::min(1 / e.duration, 1 / e.recorded) * 3600;
+  for (int i = 0; i <= 60; ++i) {
+    const double n = rate * std::pow(least / rate, i / 60.0);
+    law.x.push_back(n);
+    law.y.push_back(e.sign * e.tail.largest_not_exceeded(3600 / n, std::exp(-1.0)));
+  }
+  return {.title = "Peaks of " + e.signal.name + " in " + file_name,
+          .panels = {{.x = {.label = "exceeded an hour", .unit = "", .scale = plot::Scale::logarithmic},
+                      .y = {.label = "level", .unit = e.signal.units},
+                      .series = {found, law}}}};
+}
+
+}  // namespace
+
+void extremes(const ExtremesArguments& arguments, const Console& console) {
+  require_outputs(named({{"-o", arguments.output}, {"--picture", arguments.picture}}),
+                  {{"the record", arguments.file}});
+  require_csv(arguments.output);
+  const Extremes found = scene::placed({.file = arguments.file.string()}, [&] { return find(arguments); });
+  if (arguments.output) {
+    std::vector<double> peaks = found.peaks;
+    for (double& p : peaks) p *= found.sign;
+    hydro::io::write_csv(*arguments.output, {{"peak", found.signal.units, &peaks}},
+                         {fmt::format("the extreme of {} between up-crossings of its mean", found.signal.name)});
+  }
+  if (arguments.picture)
+    hydro::io::write_atomically(*arguments.picture, plot::svg(figure(found, arguments.file.filename().string())));
+  tell(report_of(found).wrote(arguments.output).wrote(arguments.picture), console);
+}
+
+}  // namespace froude
