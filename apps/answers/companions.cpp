@@ -124,7 +124,8 @@ scene::Scene Companions::scene_of(int level, std::size_t& stride, compile::Piece
   stride = 1;
   // Parts are no longer than a step: where the tolerance cuts none, it is the step that makes the error.
   if (by_tolerance_) out.solve.tolerance = tolerance_ * std::pow(10, level);
-  // The same of lines whose steps are cut by their own error: as if it fell with the square of the step, as others' does.
+  // The same of lines whose steps are cut by their own error: as if it fell with the square of the step, as others'
+  // does.
   out.solve.line_tolerance = scene::line_tolerance(scene_) * std::pow(4, level);
   auto per_sample = static_cast<std::size_t>(std::llround(scene_.run->every / step_));
   if (level < 0)

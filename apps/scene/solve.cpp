@@ -52,16 +52,15 @@ Binding<Solve> integrator() {
                  "out: 1e-8 for explicit_pair and sundials_bdf, whole steps for the others")
               .positive(),
           &Solve::tolerance)
-      .optional(
-          text("lines",
-               "how each [[line]] is stepped; rosenbrock, of order 4, cuts steps by its own error; left out: "
-               "energy_momentum, which keeps energy and lengths at any step")
-              .one_of({"energy_momentum", "generalized_alpha", "rosenbrock", "gamma", "semi_implicit_euler",
-                       "explicit_euler"}),
-          [](const Value& scheme, Solve& solve) {
-            solve.line_scheme = scheme.text;
-            solve.line_scheme_place = scheme.place;
-          })
+      .optional(text("lines",
+                     "how each [[line]] is stepped; rosenbrock, of order 4, cuts steps by its own error; left out: "
+                     "energy_momentum, which keeps energy and lengths at any step")
+                    .one_of({"energy_momentum", "generalized_alpha", "rosenbrock", "gamma", "semi_implicit_euler",
+                             "explicit_euler"}),
+                [](const Value& scheme, Solve& solve) {
+                  solve.line_scheme = scheme.text;
+                  solve.line_scheme_place = scheme.place;
+                })
       .optional(number("line_tolerance",
                        "of the local error of a sub-step of lines = \"rosenbrock\", of forces relative to the largest "
                        "tension or the weight, of places to a segment; left out: a hundredth of the accuracy")

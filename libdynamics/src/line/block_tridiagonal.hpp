@@ -19,7 +19,8 @@ class BlockTridiagonal {
   explicit BlockTridiagonal(int nodes) : nodes_(static_cast<std::size_t>(nodes)) {}
   Node& operator[](int i) { return nodes_[static_cast<std::size_t>(i)]; }
 
-  /// Overwrites the blocks with factors: inverse pivots, and minus what takes rows off the next. \returns false where a block is singular or not finite
+  /// Overwrites the blocks with factors: inverse pivots, and minus what takes rows off the next. \returns false where a
+  /// block is singular or not finite
   bool factorise();
   /// Overwrites b with the solution.
   void solve(Eigen::Ref<Places> b) const;

@@ -49,8 +49,8 @@ FROUDE_INLINE ChainBalance::Law ChainBalance::law(int j, const Bar& bar, const I
   const double k = s.axial_stiffness / s.length, c = s.axial_damping / s.length, stretch = bar.r - s.length;
   const SpringDamperForce spring =
       s.tension_only ? one_sided_spring(k, stretch, stretch) : SpringDamperForce{k * stretch, k, 0};
-  const SpringDamperForce both = s.tension_only ? with_damper(spring, c * bar.rate)
-                                                : SpringDamperForce{spring.force + c * bar.rate, k, 1};
+  const SpringDamperForce both =
+      s.tension_only ? with_damper(spring, c * bar.rate) : SpringDamperForce{spring.force + c * bar.rate, k, 1};
   Law out{.left = (now.T[j] - both.force) / k,
           .by_T = 1 / k,
           .by_length = -both.by_stretch / k,
@@ -253,16 +253,14 @@ bool ChainBalance::factorise(double by) {
   return matrix_.factorise();
 }
 
-FROUDE_EVERY_MACHINE void ChainBalance::add_rates(const Eigen::Ref<const Places>& v,
-                                                  const Eigen::Ref<const Places>& a, Balance& out) const {
+FROUDE_EVERY_MACHINE void ChainBalance::add_rates(const Eigen::Ref<const Places>& v, const Eigen::Ref<const Places>& a,
+                                                  Balance& out) const {
   for (int i = 0; i < line_.nodes(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     Triple own = times(by_velocity_.diagonal[at], column(v, i)) + times(by_acceleration_.diagonal[at], column(a, i));
     if (i < line_.segments()) {
-      own = own + times(by_velocity_.upper[at], column(v, i + 1)) +
-            times(by_acceleration_.upper[at], column(a, i + 1));
-      const Triple next =
-          times(by_velocity_.lower[at], column(v, i)) + times(by_acceleration_.lower[at], column(a, i));
+      own = own + times(by_velocity_.upper[at], column(v, i + 1)) + times(by_acceleration_.upper[at], column(a, i + 1));
+      const Triple next = times(by_velocity_.lower[at], column(v, i)) + times(by_acceleration_.lower[at], column(a, i));
       (-next).add_to(out.force.col(i + 1).data());
       out.law[i] += eliminations_[at].by_rate.dot(column(v, i + 1) - column(v, i));
     }

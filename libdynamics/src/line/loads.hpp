@@ -70,8 +70,8 @@ class Loads {
   void add(const Motion& now, const By& by, Places& force, Blocks* derivative);
   LoadPowers powers(const Motion& now);
 
-  /// The parts of add() and powers(): the flow at the nodes is looked at before; then what acts at nodes alone, by their
-  /// own laws and on spheres, and what acts along segments.
+  /// The parts of add() and powers(): the flow at the nodes is looked at before; then what acts at nodes alone, by
+  /// their own laws and on spheres, and what acts along segments.
   void look_at_water(const Motion& now);
   void add_at_nodes(const Motion& now, const By& by, Places& force, Blocks* derivative) const;
   void add_powers_at_nodes(const Motion& now, LoadPowers& out);

@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double closed = 1e-9;  // of a length, and of a speed: what rounding of given places leaves
-constexpr std::array<std::string_view, 6> scheme_names{
-    "energy_momentum", "generalized_alpha", "rosenbrock", "gamma", "semi_implicit_euler", "explicit_euler"};
+constexpr std::array<std::string_view, 6> scheme_names{"energy_momentum", "generalized_alpha",   "rosenbrock",
+                                                       "gamma",           "semi_implicit_euler", "explicit_euler"};
 
 }  // namespace
 
@@ -52,7 +52,8 @@ struct Stepper::Work {
     Places algorithmic = {};
     VectorXd tension = {};
   } previous;
-  // The state that was booked last, and whether what it holds is not in the energies yet: most steps nobody asks for it.
+  // The state that was booked last, and whether what it holds is not in the energies yet: most steps nobody asks for
+  // it.
   State to_note;
   bool unnoted = false;
   struct Earlier {

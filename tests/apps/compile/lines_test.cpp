@@ -197,8 +197,9 @@ TEST(Lines, AreSteppedByRosenbrockWhereTheyStretch) {
   const std::string waves = "[waves]\nkind = \"regular\"\nheight = \"1 m\"\nperiod = \"4 s\"\nheading = \"0 deg\"\n",
                     wet = "[line.morison]\ncd = 1.2\nca = 1.0\n";
   const auto pull = [&](const std::string& integrator, double h) {
-    const auto record = simulate(parse(water + waves + chain + wet + ask + fmt::format("[solve]\nstep = \"{} s\"\n", h) +
-                                       "[solve.integrator]\n" + integrator));
+    const auto record =
+        simulate(parse(water + waves + chain + wet + ask + fmt::format("[solve]\nstep = \"{} s\"\n", h) +
+                       "[solve.integrator]\n" + integrator));
     EXPECT_EQ(record.stopped, "");
     return record.signal("c.to.force").back();
   };

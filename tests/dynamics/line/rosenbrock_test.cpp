@@ -107,7 +107,8 @@ TEST(Rosenbrock, HasOrderFourOnADrivenSpring) {
   const double decay = c / (2 * m), b = std::sqrt(k / m - decay * decay);
   const double p = -A.real(), q = (A.imag() * w + decay * p) / b;
   const auto exact = [&](double t) {
-    return (A * std::exp(Complex(0, w * t))).real() + std::exp(-decay * t) * (p * std::cos(b * t) + q * std::sin(b * t));
+    return (A * std::exp(Complex(0, w * t))).real() +
+           std::exp(-decay * t) * (p * std::cos(b * t) + q * std::sin(b * t));
   };
   const double length = 1 + m * g / k;
   const auto error = [&](double h) {
@@ -157,9 +158,7 @@ TEST(Rosenbrock, HasOrderThreeInWaves) {
   d.bed.clear();
   d.water.field = waves();
   const Line line(d);
-  const auto after = [&](double h) {
-    return run(line, {.scheme = Scheme::rosenbrock, .local_error = whatever}, 2, h);
-  };
+  const auto after = [&](double h) { return run(line, {.scheme = Scheme::rosenbrock, .local_error = whatever}, 2, h); };
   const Places coarse = after(0.02), middle = after(0.01), fine = after(0.005);
   EXPECT_GT((coarse - middle).norm() / (middle - fine).norm(), 7);
 }

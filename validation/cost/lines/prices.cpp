@@ -176,8 +176,9 @@ class StepRows {
 /// What the step alone makes of the error, against the same segments by steps of which no error is left; the peer's
 /// against its own at an eighth of the step.
 std::string step_list(const Peer& peer, std::vector<plot::Panel>& panels) {
-  std::string text = "| segments | method | step or tolerance | time [ms/s] | error of the step |\n"
-                     "| --- | --- | --- | --- | --- |\n";
+  std::string text =
+      "| segments | method | step or tolerance | time [ms/s] | error of the step |\n"
+      "| --- | --- | --- | --- | --- |\n";
   for (const int n : {20, 50, 100, 200}) {
     const Moored limit = moored(n, 0.1, 30, rosenbrock(1e-7));
     StepRows implicit(n, "generalised-α", limit), own(n, "rosenbrock", limit);
@@ -361,11 +362,14 @@ int main(int argc, char** argv) {
   text += step_list(peer, panels);
   text +=
       "\nAt 50 ms and more axial waves along the chain, which the fairlead sets off at once, are not resolved by "
-      "generalised-α, and its error hardly falls. `rosenbrock` has the step of the run, 0.1 s, as its longest, and cuts "
+      "generalised-α, and its error hardly falls. `rosenbrock` has the step of the run, 0.1 s, as its longest, and "
+      "cuts "
       "it by its own error; a step costs about 0.9 µs a node. The explicit peer is unstable at twice its longest step. "
       "On 26 November 2026, with the peer in the same run, `rosenbrock` was faster than it at the same error of the "
-      "step with every number of segments, VERDICT. Where 2 % will do, generalised-α with 0.1 s is as cheap. Over a run "
-      "of a minute as a whole both are ahead of the peer, which needs 0.07 s with 20 segments and 10 s with 200 to come "
+      "step with every number of segments, VERDICT. Where 2 % will do, generalised-α with 0.1 s is as cheap. Over a "
+      "run "
+      "of a minute as a whole both are ahead of the peer, which needs 0.07 s with 20 segments and 10 s with 200 to "
+      "come "
       "to rest.\n"
       "\n## Loops of links\n\n17 m in n links, swung across at 1 m/s, nothing damps, step 10 ms. A dash: the scheme "
       "could not go on.\n\n";

@@ -54,7 +54,7 @@ class Stepper {
     int iterations = 25;
     double local_error = 1e-4;  ///< of a sub-step of Scheme::rosenbrock: of tensions by the largest one or the line's
                                 ///< weight, of places by a segment (D140)
-    int deepest_halving = 10;  ///< a step is cut into 2¹⁰ pieces at most
+    int deepest_halving = 10;   ///< a step is cut into 2¹⁰ pieces at most
   };
 
   /// \throws hydro::InputError for settings that cannot be, for massless free nodes where the scheme needs mass, and
