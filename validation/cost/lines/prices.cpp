@@ -156,10 +156,16 @@ class StepRows {
     curve_ = {.name = fmt::format("{}, {}", method_, segments_), .x = {}, .y = {}, .marks = true};
   }
   /// \throws where an error does not fall
+  std::string finer(const std::string& setting, const Moored& run) {
+    const double before = curve_.y.empty() ? 1 : curve_.y.back();
+    std::string out = row(setting, run);
+    hydro::require(curve_.y.back() < before, "{} segments, {} of {}: off by {}, more than before", segments_, method_,
+                   setting, curve_.y.back());
+    return out;
+  }
+  /// The same, whatever the error.
   std::string row(const std::string& setting, const Moored& run) {
     const double error = difference(run, limit_);
-    hydro::require(curve_.y.empty() || error < curve_.y.back(), "{} segments, {} of {}: off by {}, more than before",
-                   segments_, method_, setting, error);
     curve_.x.push_back(run.ms_per_s);
     curve_.y.push_back(error);
     return fmt::format("| {} | {} | {} | {:.3g} | {:.2g} |\n", segments_, method_, setting, run.ms_per_s, error);
@@ -183,9 +189,9 @@ std::string step_list(const Peer& peer, std::vector<plot::Panel>& panels) {
     const Moored limit = moored(n, 0.1, 30, rosenbrock(1e-7));
     StepRows implicit(n, "generalised-α", limit), own(n, "rosenbrock", limit);
     for (const double h : {0.1, 0.05, 0.025, 0.0125, 0.00625})
-      text += implicit.row(fmt::format("{} s", h), moored(n, h, 30, alpha(1e-6)));
+      text += implicit.finer(fmt::format("{} s", h), moored(n, h, 30, alpha(1e-6)));
     for (const double tolerance : {1e-3, 3e-4, 1e-4, 1e-5})
-      text += own.row(fmt::format("{:.0e}", tolerance), moored(n, 0.1, 30, rosenbrock(tolerance)));
+      text += own.finer(fmt::format("{:.0e}", tolerance), moored(n, 0.1, 30, rosenbrock(tolerance)));
     std::vector<plot::Series> curves{implicit.curve(), own.curve()};
     if (peer.is_here()) {
       const double h = Peer::known(n).step;
@@ -366,11 +372,9 @@ int main(int argc, char** argv) {
       "cuts "
       "it by its own error; a step costs about 0.9 µs a node. The explicit peer is unstable at twice its longest step. "
       "On 26 November 2026, with the peer in the same run, `rosenbrock` was faster than it at the same error of the "
-      "step with every number of segments, VERDICT. Where 2 % will do, generalised-α with 0.1 s is as cheap. Over a "
-      "run "
-      "of a minute as a whole both are ahead of the peer, which needs 0.07 s with 20 segments and 10 s with 200 to "
-      "come "
-      "to rest.\n"
+      "step with every number of segments: 2.8, 1.3, 1.8 and 2.5 times with 20, 50, 100 and 200, straight between "
+      "the rows of that day. Where 2 % will do, generalised-α with 0.1 s is as cheap. Over a run of a minute as a "
+      "whole both are ahead of the peer, which needs 0.07 s with 20 segments and 10 s with 200 to come to rest.\n"
       "\n## Loops of links\n\n17 m in n links, swung across at 1 m/s, nothing damps, step 10 ms. A dash: the scheme "
       "could not go on.\n\n";
   text += loop_list();
