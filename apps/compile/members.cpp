@@ -163,7 +163,6 @@ std::optional<hydro::waves::FieldUse> water_of_members(const Scene& scene, doubl
   // ends would be steps that Newton sees.
   constexpr double share = 1e-4;
   use.tolerance = std::clamp(share * scene.accuracy, 1e-11, 1e-5);
-  use.largest_bytes = std::size_t{1} << 29;
   return use;
 }
 
