@@ -1,7 +1,8 @@
 """Coefficients of rows of modules that feel each other's waves, in Froude's own format: as large as those of a panel
 code, made by a law in place of a solution.
 
-Each module has the added mass A1 and damping B1 of the middle one of examples/data/modules5.h5. Between modules i and j,
+Each module has the added mass A1 and damping B1 of the middle one of examples/data/modules5.h5, straight between its
+frequencies. Between modules i and j,
 R apart, B = B1 sin(kR)/(kR), which is positive semidefinite with any number of modules, since sin(kR)/(kR) is the mean
 of plane waves over all directions; A = B1 cos(kR)/(kR)/omega, its other half. Excitation turns its phase with the
 module's place. Only time and memory are looked at, not the responses.
@@ -56,15 +57,19 @@ def write_array(path, count, omega, source):
         X = {part: out.create_dataset(f"excitation_{part}", (3, n, len(omega)), dtype="f8") for part in ("re", "im")}
         table = one["omega"][()]
         for i, (w, k) in enumerate(zip(omega, wavenumbers(omega, depth, g))):
-            at = int(np.argmin(np.abs(table - w)))
-            A1, B1 = one["added_mass"][at, middle, middle], psd(one["radiation_damping"][at, middle, middle])
+            at = min(int(np.searchsorted(table, w, side="right")) - 1, len(table) - 2)
+            s = (w - table[at]) / (table[at + 1] - table[at])
+            A1, B1 = ((1 - s) * one[name][at, middle, middle] + s * one[name][at + 1, middle, middle]
+                      for name in ("added_mass", "radiation_damping"))
+            B1 = psd(B1)
             near, far = np.sin(k * distance) / (k * distance), np.cos(k * distance) / (k * distance)
             np.fill_diagonal(near, 1)
             np.fill_diagonal(far, 0)
             A[i] = np.kron(np.eye(count), (A1 + A1.T) / 2) + np.kron(far, B1 / w)
             B[i] = np.kron(near, B1)
             for h, beta in enumerate(one["heading"][()]):
-                load = one["excitation_re"][h, middle, at] + 1j * one["excitation_im"][h, middle, at]
+                pair = one["excitation_re"][h, middle, at:at + 2] + 1j * one["excitation_im"][h, middle, at:at + 2]
+                load = pair @ [1 - s, s]
                 load = np.kron(np.exp(-1j * k * (x - 2 * SPACING) * np.cos(beta)), load)
                 X["re"][h, :, i], X["im"][h, :, i] = load.real, load.imag
 
