@@ -290,7 +290,7 @@ void require_one_step(const Scene& scene, const scene::Line& l) {
 /// A line and its perturbed trajectory are stepped so closely that their distance is no matter of tolerances.
 void ask_for_neighbours(const Scene& scene, LineModel& m) {
   const hydro::Place& place = m.lyapunov->place;
-  if (m.settings.scheme == dl::Scheme::generalised_alpha || m.settings.scheme == dl::Scheme::rosenbrock)
+  if (dl::keeps_accelerations(m.settings.scheme))
     throw InputError(fmt::format("line \"{}\" has no neighbours in steps of {}, which keep more than places and "
                                  "velocities",
                                  m.name, dl::name_of(m.settings.scheme)),

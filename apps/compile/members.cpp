@@ -89,7 +89,7 @@ bool has_kinks_in_water(hydro::waves::Stretching stretching) {
   return stretching == hydro::waves::Stretching::wheeler || stretching == hydro::waves::Stretching::delta;
 }
 
-/// Where a member asks for the water, at each iteration of each run that tells the error.
+/// Where a member asks for the water, at each iteration.
 double points_asked(const Scene& scene, const scene::Member& m) {
   const auto immersion = m.morison ? m.morison->line.immersion : m.slamming->line.immersion;
   return dynamics::points_per_piece(immersion) * needed_pieces(scene, m, immersion);
@@ -154,9 +154,10 @@ std::optional<hydro::waves::FieldUse> water_of_members(const Scene& scene, doubl
   // Room to move: the orbits of high waves, and some metres of drift. Beyond it waves are summed.
   const Eigen::Vector3d room(2 * highest_crest + 2, 2 * highest_crest + 2, highest_crest);
   constexpr double beyond = 1e-3;  // s: rates of added mass are differences, which look past the end of the run
-  hydro::waves::FieldUse use{.box = {0, scene.run->duration + beyond, members.min() - room, members.max() + room},
-                             .instants = scene.run->duration / step,
-                             .points = 10 * points};
+  hydro::waves::FieldUse use{
+      .box = {0, scene.run->duration + beyond, members.min() - room, members.max() + room},
+      .instants = scene.run->duration / step,
+      .points = 10 * points};  // iterations, differences for derivatives, and the runs that tell the error
   use.box.low.z() = std::max(use.box.low.z(), -scene.water.depth.metres());
   use.box.high.z() = std::min(use.box.high.z(), highest_crest);
   // Of each wave, so small a share of the accuracy that it needs no estimate of its own. From 1e-5 on the window's own

@@ -109,8 +109,7 @@ MovingState start_of(const TimeModel& model) {
 std::string kept_memory(const TimeModel& model) {
   const dynamics::Workspace workspace(model.model, model.start);
   for (std::size_t k = 0; k < workspace.memory.size(); ++k)
-    if (workspace.memory[k] && !workspace.memory[k]->spares_work_only())
-      return std::string(model.model.forces()[k]->effect());
+    if (workspace.needs_memory(k)) return std::string(model.model.forces()[k]->effect());
   return "";
 }
 

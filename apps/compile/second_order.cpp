@@ -104,6 +104,14 @@ Matrices of_heading(const QuadraticTransfer& T, double heading) {
   return weighted(first, s.weight[0], of_pair(T, s.first + 1, s.first + 1), s.weight[1]);
 }
 
+/// Of all pairs of waves those of equal ones: what a mean drift has.
+QuadraticTransfer of_equal_waves(QuadraticTransfer T) {
+  for (Matrices& of : T.of_headings)
+    for (Eigen::MatrixXcd& m : of)
+      if (m.cols() > 1) m = m.diagonal().eval();
+  return T;
+}
+
 bool is_long_crested(const hydro::waves::Sea& sea) {
   return std::all_of(sea.components().begin(), sea.components().end(),
                      [&](const Component& c) { return c.heading == sea.components().front().heading; });
@@ -123,9 +131,10 @@ class Loads {
         accuracy_(accuracy) {}
 
   SecondOrderLoad mean(const QuadraticTransfer& T) const {
-    SecondOrderLoad out{.body = body_, .signals = none(), .ramp_s = ramp_, .method = "mean drift, constant"};
+    const QuadraticTransfer equal = of_equal_waves(T);
+    SecondOrderLoad out{.body = body_, .ramp_s = ramp_, .method = "mean drift, constant"};
     for (const std::size_t c : inside(sea_, T, accuracy_))
-      out.mean += std::pow(sea_.components()[c].amplitude, 2) * drift(T, sea_.components()[c]).real();
+      out.mean += std::pow(sea_.components()[c].amplitude, 2) * drift(equal, sea_.components()[c]).real();
     return out;
   }
 
@@ -134,10 +143,11 @@ class Loads {
     if (!is_long_crested(sea_))
       throw InputError("Newman's approximation is for waves of one heading", {},
                        "take method = \"full\" with all pairs of headings, or \"mean\"");
+    const QuadraticTransfer equal = of_equal_waves(T);
     Eigen::MatrixXcd amplitudes = Eigen::MatrixXcd::Zero(7, components());
     for (const std::size_t c : inside(sea_, T, accuracy_)) {
       const std::complex<double> a = at_origin(sea_.components()[c]);
-      amplitudes.col(static_cast<Eigen::Index>(c)) << a, a * drift(T, sea_.components()[c]).real();
+      amplitudes.col(static_cast<Eigen::Index>(c)) << a, a * drift(equal, sea_.components()[c]).real();
     }
     SecondOrderLoad out{.body = body_, .signals = complex_signals(amplitudes), .method = "Newman's approximation"};
     Matrices products;
@@ -183,20 +193,14 @@ class Loads {
     return elevation_at_origin(c) * hydro::waves::elevation_transfer(c, origin_.x(), origin_.y());
   }
 
-  /// T(ω, β; ω, β) about the centre of gravity, N/m² and N m/m².
+  /// T(ω, β; ω, β) of equal waves about the centre of gravity, N/m² and N m/m².
   Eigen::Matrix<std::complex<double>, 6, 1> drift(const QuadraticTransfer& T, const Component& wave) const {
     const hydro::Stencil w = hydro::straight_stencil(T.omega, wave.omega);
     const Matrices m = about(of_heading(T, wave.heading), to_centre_);
-    const auto diagonal = [&](std::size_t mode, std::size_t k) {
-      const auto i = static_cast<Eigen::Index>(k);
-      return m[mode].cols() == 1 ? m[mode](i, 0) : m[mode](i, i);
-    };
     Eigen::Matrix<std::complex<double>, 6, 1> out;
-    for (std::size_t mode = 0; mode < 6; ++mode) {
-      std::complex<double> sum = w.weight[0] * diagonal(mode, w.first);
-      if (w.weight[1] != 0) sum += w.weight[1] * diagonal(mode, w.first + 1);
-      out[static_cast<Eigen::Index>(mode)] = sum;
-    }
+    for (std::size_t mode = 0; mode < 6; ++mode)
+      out.row(static_cast<Eigen::Index>(mode)) =
+          hydro::combined(w, T.omega.size(), [&](std::size_t k) { return m[mode].row(static_cast<Eigen::Index>(k)); });
     return out;
   }
 
@@ -222,7 +226,6 @@ class Loads {
     }
     return signals(sea_, parts, grid_, ramp_);
   }
-  dynamics::WaveSignals none() const { return complex_signals(Eigen::MatrixXcd::Zero(1, components())); }
 
   int body_;
   Eigen::Vector3d origin_, to_centre_;

@@ -9,8 +9,8 @@
 #include <iostream>
 #include <sstream>
 
+#include "froude/option.hpp"
 #include "hydro/base/error.hpp"
-#include "scene/placed.hpp"
 
 namespace froude {
 namespace {
@@ -68,7 +68,7 @@ hydro::InputError usage_error(const CLI::App& app, const CLI::ParseError& error)
 
 std::optional<double> parsed(const std::string& option, const std::string& text, const hydro::Dimension& needed) {
   if (text.empty()) return std::nullopt;
-  return scene::placed({.file = option}, [&] { return hydro::parse_si(text, needed); });
+  return option_si(option, text, needed);
 }
 
 void add_common_flags(CLI::App& app, Request& request) {

@@ -4,6 +4,7 @@
 
 #include "answers/plot.hpp"
 #include "froude/commands.hpp"
+#include "froude/option.hpp"
 #include "froude/outputs.hpp"
 #include "froude/record_file.hpp"
 #include "froude/report.hpp"
@@ -19,12 +20,7 @@ namespace {
 
 namespace hs = hydro::signal;
 
-/// An option of the command line as SI, placed there.
-double option(const char* name, const std::string& text, const hydro::Dimension& dimension) {
-  return scene::placed({.file = name}, [&] { return hydro::parse_si(text, dimension); });
-}
-
-/// A record, its peaks and both laws; lowest values are the largest of the signal turned over, sign −1.
+/// A record, its peaks and both laws; lowest values are the largest of minus the signal, sign −1.
 struct Extremes {
   Signal signal;
   double sign, recorded, duration, confidence;  // s
@@ -46,11 +42,11 @@ double usual_threshold(std::vector<double> peaks) {
 Extremes find(const ExtremesArguments& a) {
   RunResult record = read_record(a.file);
   hydro::require(!record.time.empty(), "the record has no samples");
-  if (a.from) drop_before(record, option("--from", *a.from, hydro::dim::time), a.file);
+  if (a.from) drop_before(record, option_si("--from", *a.from, hydro::dim::time), a.file);
   Extremes out{.signal = signal_of(record, a.signal, a.file),
                .sign = a.lowest ? -1.0 : 1.0,
                .recorded = record.time.back() - record.time.front(),
-               .duration = option("--duration", a.duration, hydro::dim::time),
+               .duration = option_si("--duration", a.duration, hydro::dim::time),
                .confidence = a.confidence,
                .peaks = {},
                .maxima = {},
@@ -61,18 +57,18 @@ Extremes find(const ExtremesArguments& a) {
   for (double& v : out.signal.values) v *= out.sign;
   out.peaks = hs::crests(record.time, out.signal.values);
   const double threshold =
-      a.threshold ? out.sign * option("--threshold", *a.threshold, hydro::parse_unit(out.signal.units).dimension)
+      a.threshold ? out.sign * option_si("--threshold", *a.threshold, hydro::parse_unit(out.signal.units).dimension)
                   : usual_threshold(out.peaks);
   out.tail = hs::fit_tail(out.peaks, threshold, out.recorded);
   out.above = static_cast<std::size_t>(
       std::count_if(out.peaks.begin(), out.peaks.end(), [&](double p) { return p > threshold; }));
-  const double block = a.block ? option("--block", *a.block, hydro::dim::time) : out.recorded / 20;
+  const double block = a.block ? option_si("--block", *a.block, hydro::dim::time) : out.recorded / 20;
   out.maxima = hs::block_maxima(record.time, out.signal.values, block);
   out.blocks = hs::fit_maxima(out.maxima, block);
   return out;
 }
 
-/// "50 %   12.3 (11.0 to 14.1)"; the interval turned over with the signal.
+/// "50 %   12.3 (11.0 to 14.1)"; the interval of the signal itself.
 template <class Fit>
 Report estimate(const Extremes& e, const Fit& fit, std::size_t count, double p, const char* of) {
   const double level = fit.largest_not_exceeded(e.duration, p);

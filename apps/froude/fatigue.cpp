@@ -7,6 +7,7 @@
 
 #include "answers/plot.hpp"
 #include "froude/commands.hpp"
+#include "froude/option.hpp"
 #include "froude/outputs.hpp"
 #include "froude/record_file.hpp"
 #include "froude/report.hpp"
@@ -47,9 +48,7 @@ struct Counted {
 Counted count(const FatigueArguments& a) {
   RunResult record = read_record(a.file);
   hydro::require(!record.time.empty(), "the record has no samples");
-  if (a.from)
-    drop_before(record, scene::placed({.file = "--from"}, [&] { return hydro::parse_si(*a.from, hydro::dim::time); }),
-                a.file);
+  if (a.from) drop_before(record, option_si("--from", *a.from, hydro::dim::time), a.file);
   const Signal& signal = signal_of(record, a.signal, a.file);
   Counted out{signal, hs::rainflow(signal.values), record.time.back() - record.time.front()};
   hydro::require(!out.cycles.empty(), "{} never changes: it has no cycles", a.signal);

@@ -16,6 +16,7 @@
 #include "froude/commands.hpp"
 #include "froude/kinematics_bodies.hpp"
 #include "froude/kinematics_space.hpp"
+#include "froude/option.hpp"
 #include "froude/outputs.hpp"
 #include "froude/report.hpp"
 #include "hydro/base/units.hpp"
@@ -175,8 +176,7 @@ namespace {
 
 /// The frame that is nearest to --start-at, and how long before that instant it was taken.
 NearFrame frame_at_start(const KinematicsArguments& a, const fc::SmoothTrack& track, double begin) {
-  const double at =
-      scene::placed({.file = "--start-at"}, [&] { return hydro::parse_si(a.start_at, dim::time); }) - begin;
+  const double at = option_si("--start-at", a.start_at, dim::time) - begin;
   if (!(at >= track.time.front() && at <= track.time.back()))
     throw InputError(fmt::format("the track has no {}: it goes from {:.6g} s to {:.6g} s", a.start_at,
                                  track.time.front() + begin, track.time.back() + begin),
@@ -254,10 +254,8 @@ void kinematics(const KinematicsArguments& a, const Console& console) {
                      "write --bandwidth \"4 Hz\": motion that is slower keeps 99 % and more");
   const scene::FitScene scene = scene::read_fit(a.scene);
   const FilmAsked film = film_asked(scene, a.film);
-  fc::SmoothOptions options{
-      .bandwidth_hz =
-          scene::placed({.file = "--bandwidth"}, [&] { return hydro::parse_si(a.bandwidth, dim::angular_velocity); }) /
-          (2 * std::numbers::pi)};
+  fc::SmoothOptions options{.bandwidth_hz =
+                                option_si("--bandwidth", a.bandwidth, dim::angular_velocity) / (2 * std::numbers::pi)};
   for (const std::string& length : a.lengths) options.lengths.push_back(known_length(length));
   const TrackInPlane in_plane = track_in_plane(scene, film.model, film.record);
   const fc::SmoothTrack track =

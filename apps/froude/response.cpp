@@ -7,6 +7,7 @@
 #include "answers/response_spectra.hpp"
 #include "froude/commands.hpp"
 #include "froude/density_unit.hpp"
+#include "froude/option.hpp"
 #include "froude/outputs.hpp"
 #include "froude/report.hpp"
 #include "froude/scene.hpp"
@@ -33,8 +34,7 @@ struct Asked {
 };
 
 Asked asked_of(const ResponseArguments& a) {
-  Asked out{scene::placed({.file = "--duration"}, [&] { return hydro::parse_si(a.duration, hydro::dim::time); }),
-            a.quantiles, sn_curve(a.sn)};
+  Asked out{option_si("--duration", a.duration, hydro::dim::time), a.quantiles, sn_curve(a.sn)};
   for (const double q : out.quantiles)
     if (!(q > 0 && q < 1))
       throw hydro::InputError(fmt::format("a quantile is between 0 and 1, got {:g}", q), {.file = "--quantile"},

@@ -9,6 +9,7 @@
 #include "fit/camera/view.hpp"
 #include "froude/film/board.hpp"
 #include "froude/film/commands.hpp"
+#include "froude/option.hpp"
 #include "froude/outputs.hpp"
 #include "froude/report.hpp"
 #include "hydro/base/units.hpp"
@@ -118,7 +119,7 @@ BoardSize board_of(const CalibrateArguments& a) {
   if (std::sscanf(a.corners.c_str(), "%d x %d", &out.columns, &out.rows) != 2 || out.columns < 3 || out.rows < 3)
     throw InputError(fmt::format("\"{}\" is no number of corners", a.corners), {.file = "--corners"},
                      "count the corners between squares, three and more each way: \"9 x 6\"");
-  out.square = scene::placed({.file = "--square"}, [&] { return hydro::parse_si(a.square, hydro::dim::length); });
+  out.square = option_si("--square", a.square, hydro::dim::length);
   hydro::require(out.square > 0, "--square must be positive, got {} m", out.square);
   if (a.radial < 0 || a.radial > 3)
     throw InputError(fmt::format("{} radial coefficients", a.radial), {.file = "--radial"}, "take 0 to 3");

@@ -11,6 +11,7 @@
 #include "fit/camera/track_file.hpp"
 #include "froude/film/commands.hpp"
 #include "froude/film/markers.hpp"
+#include "froude/option.hpp"
 #include "froude/outputs.hpp"
 #include "froude/progress.hpp"
 #include "froude/report.hpp"
@@ -217,9 +218,7 @@ class Watching {
         from_(time_of("--from", a.from, 0)),
         to_(time_of("--to", a.to, std::numeric_limits<double>::infinity())) {
     if (!a.frame_rate) return;
-    rate_ =
-        scene::placed({.file = "--frame-rate"}, [&] { return hydro::parse_si(*a.frame_rate, dim::angular_velocity); }) /
-        (2 * std::numbers::pi);
+    rate_ = option_si("--frame-rate", *a.frame_rate, dim::angular_velocity) / (2 * std::numbers::pi);
     if (!(rate_ > 0))
       throw wrong("--frame-rate", fmt::format("\"{}\" must be positive", *a.frame_rate), "write it like \"25 Hz\"");
   }

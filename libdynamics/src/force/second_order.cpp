@@ -8,7 +8,8 @@ namespace dynamics {
 Vector6 SecondOrderLoad::at(double time) const {
   const double r = ramp(time, ramp_s).value;
   Vector6 out = r * r * mean;
-  signals.use_at(time, [&](const auto& x) {
+  if (!signals) return out;
+  signals->use_at(time, [&](const auto& x) {
     for (std::size_t mode = 0; mode < 6; ++mode)  // column by column: no memory is asked for in a step
       for (Eigen::Index q = 0; q < form[mode].cols(); ++q)
         out[static_cast<Eigen::Index>(mode)] += x[q] * form[mode].col(q).dot(x);

@@ -21,7 +21,7 @@ void require_smooth(const Model& model, const Workspace& workspace) {
       throw hydro::InputError(
           fmt::format("periodic motions take loads that are functions of motion: {} is set-valued", kind.effect()), {},
           "leave it out, or step the scene with `froude run`");
-    if (workspace.memory[k] && !workspace.memory[k]->spares_work_only())
+    if (workspace.needs_memory(k))
       throw hydro::InputError(
           fmt::format("periodic motions take loads that are functions of motion: {} has a memory of its own",
                       kind.effect()),

@@ -13,12 +13,10 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 ChainBalance::Unfit ChainBalance::unfit(const Line& line) {
-  const Description& d = line.description();
   if (line.chains() > 1) return {"lines that meet", "step them with \"generalized_alpha\""};
   if (line.bends()) return {"bending stiffness", "step it with \"generalized_alpha\""};
-  if (!d.bed.empty() && d.bed.front().friction > 0)
-    return {"a bed with friction", "leave friction out, or step it with \"generalized_alpha\""};
-  for (const Segment& s : d.segments)
+  if (line.rubs_on_bed()) return {"a bed with friction", "leave friction out, or step it with \"generalized_alpha\""};
+  for (const Segment& s : line.description().segments)
     if (s.is_inextensible())
       return {"inextensible segments", "give it an axial stiffness, or step it with \"generalized_alpha\""};
   return {};
@@ -47,15 +45,12 @@ FROUDE_INLINE ChainBalance::Bar ChainBalance::bar(int j, const Instant& now) {
 FROUDE_INLINE ChainBalance::Law ChainBalance::law(int j, const Bar& bar, const Instant& now, bool derivatives) const {
   const Segment& s = line_.segment(j);
   const double k = s.axial_stiffness / s.length, c = s.axial_damping / s.length, stretch = bar.r - s.length;
-  const SpringDamperForce spring =
-      s.tension_only ? one_sided_spring(k, stretch, stretch) : SpringDamperForce{k * stretch, k, 0};
-  const SpringDamperForce both =
-      s.tension_only ? with_damper(spring, c * bar.rate) : SpringDamperForce{spring.force + c * bar.rate, k, 1};
+  const auto [both, lost] = axial_spring(s, stretch, stretch, 1, bar.rate);
   Law out{.left = (now.T[j] - both.force) / k,
           .by_T = 1 / k,
           .by_length = -both.by_stretch / k,
           .by_rate = -both.by_damper * c / k,
-          .lost = (both.force - spring.force) * bar.rate,
+          .lost = lost,
           .sag = {}};
   if (!s.catenary) return out;
   const Span span = span_of(line_, j, now.x, bar.t.z);
@@ -70,8 +65,8 @@ ChainBalance::Push ChainBalance::push(int i, const Instant& now) const {
   const Bed& bed = line_.description().bed.front();
   const double depth = bed.z - now.x(2, i), k = bed.stiffness * line_.bed_area(i), c = bed.damping * line_.bed_area(i);
   if (depth <= 0) return {0, 0, 0, 0};
-  const SpringDamperForce spring = one_sided_spring(k, depth, depth), both = with_damper(spring, -c * now.v(2, i));
-  return {both.force, both.by_stretch, both.by_damper * c, (spring.force - both.force) * now.v(2, i)};
+  const auto [both, lost] = damped_one_sided_spring(k, c, depth, depth, -now.v(2, i));
+  return {both.force, both.by_stretch, both.by_damper * c, lost};
 }
 
 // (D70), (D74)

@@ -84,11 +84,8 @@ Equations::Pull Equations::pull(int j, const Stage& stage, const State& before, 
   const double rate = stage.mean ? (r1 - r0) / stage.h : t1.dot(w);
   const Vector3d rate_by =
       stage.mean ? Vector3d(t1 / stage.h) : Vector3d(stage.v_by * t1 + (r1 > 0 ? (w - t1 * t1.dot(w)) / r1 : w));
-  const SpringDamperForce spring = s.tension_only ? one_sided_spring(k, r0 - s.length, r1 - s.length)
-                                                  : SpringDamperForce{k * (middle - s.length), own * k, 0};
-  const SpringDamperForce both =
-      s.tension_only ? with_damper(spring, c * rate) : SpringDamperForce{spring.force + c * rate, spring.by_stretch, 1};
-  p.lost = (both.force - spring.force) * rate;
+  const auto [both, lost] = axial_spring(s, r0 - s.length, r1 - s.length, own, rate);
+  p.lost = lost;
   p.law = (T - both.force) / k;
   p.law_by_T = 1 / k;
   p.law_by = -(both.by_stretch * t1 + both.by_damper * c * rate_by) / k;
@@ -142,10 +139,10 @@ Equations::Push Equations::bed(int i, const Stage& stage, const State& before) c
   const double z0 = before.position(2, i), z1 = stage.mean ? 2 * x_(2, i) - z0 : x_(2, i);
   const double depth1 = bed.z - z1, depth0 = stage.mean ? bed.z - z0 : depth1;
   const double rate = stage.mean ? (z0 - z1) / stage.h : -v_(2, i);
-  const SpringDamperForce spring = one_sided_spring(k, depth0, depth1), both = with_damper(spring, c * rate);
+  const auto [both, lost] = damped_one_sided_spring(k, c, depth0, depth1, rate);
   double by_end = both.by_stretch + both.by_damper * c * (stage.mean ? 1 / stage.h : stage.v_by);
   if (stage.x_by == 0) by_end = 0;
-  return {both.force, by_end, (both.force - spring.force) * rate};
+  return {both.force, by_end, lost};
 }
 
 void Equations::add_bed(const Stage& stage, const State& before, bool matrix) {
@@ -201,7 +198,7 @@ double Equations::assemble(const Stage& stage, const State& before, const Places
   add_bed(stage, before, matrix);
   add_bending(stage, matrix);
   add_pulls(stage, before, T, matrix);
-  if (rubs() && !stage.still) add_friction(stage, before, matrix);
+  if (line_.rubs_on_bed() && !stage.still) add_friction(stage, before, matrix);
   add_up_ties();
   double sum = law_.squaredNorm();
   for (int i = 0; i < line_.nodes(); ++i)

@@ -87,8 +87,6 @@ class Equations {
   /// Where the bed holds nodes after the step that powers() looked at last. (D95)
   void take_grip(State& state) const;
   double kinetic(const Places& v) const;
-  /// Whether the bed has friction.
-  bool rubs() const { return !line_.description().bed.empty() && line_.description().bed.front().friction > 0; }
 
  private:
   static constexpr double undetermined = 1e-13;

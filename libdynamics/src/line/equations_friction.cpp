@@ -76,7 +76,7 @@ void Equations::add_slip_derivatives(int i, const Vector2d& along) {
 
 double Equations::stored_in_shear(const State& state) const {
   double sum = 0;
-  if (!rubs() || state.grip.cols() == 0) return sum;
+  if (!line_.rubs_on_bed() || state.grip.cols() == 0) return sum;
   for (int i = 0; i < line_.nodes(); ++i)
     if (line_.held(i) == nullptr)
       sum += shear_stiffness(i) / 2 * (state.position.col(i).head<2>() - state.grip.col(i)).squaredNorm();
@@ -84,7 +84,7 @@ double Equations::stored_in_shear(const State& state) const {
 }
 
 void Equations::take_grip(State& state) const {
-  if (rubs()) state.grip = state.position.topRows<2>() - strain_;
+  if (line_.rubs_on_bed()) state.grip = state.position.topRows<2>() - strain_;
 }
 
 }  // namespace dynamics::line

@@ -89,7 +89,7 @@ Powers Equations::powers(const Stage& stage, const State& before, const Places& 
   for (int j = 0; j < line_.segments(); ++j) out.axial += pull(j, stage, before, T[j]).lost;
   if (!line_.description().bed.empty())
     for (int i = 0; i < line_.nodes(); ++i) out.bed += bed(i, stage, before).lost;
-  if (rubs()) out.friction = -friction_.cwiseProduct(v_.topRows<2>()).sum();
+  if (line_.rubs_on_bed()) out.friction = -friction_.cwiseProduct(v_.topRows<2>()).sum();
   // What holds a node gives its force times the way; but of the force on the masses, times the mean of the velocities,
   // as their kinetic energy has it.
   whole_ = residual_;

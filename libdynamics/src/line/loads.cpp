@@ -1,6 +1,5 @@
 #include "loads.hpp"
 
-#include <array>
 #include <cmath>
 #include <numbers>
 

@@ -20,10 +20,11 @@ Places irregular(const Line& line) {
 }
 
 void require_steps_of_places(const Line& line, const Stepper::Settings& settings) {
-  if (settings.scheme == Scheme::generalised_alpha || settings.scheme == Scheme::rosenbrock)
+  if (keeps_accelerations(settings.scheme))
     throw hydro::InputError(
-        "steps of generalised-α keep accelerations of their own, of which a perturbed trajectory is not", {},
-        "step the line with \"energy_momentum\"");
+        fmt::format("steps of {} keep accelerations of their own, of which a perturbed trajectory is not",
+                    name_of(settings.scheme)),
+        {}, "step the line with \"energy_momentum\"");
   hydro::require(!line.has_massless_nodes(), "a free node of the line has no mass, so motions have no neighbours");
   hydro::require(line.description().gravity > 0, "a line without gravity has no time to measure velocities in");
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/line/line.hpp"
+
 namespace dynamics::line {
 
 /// A force and its derivatives.
@@ -26,6 +28,24 @@ inline SpringDamperForce with_damper(const SpringDamperForce& spring, double d) 
   const double S = spring.force, sum = S + std::abs(d);
   if (!(S > 0)) return {0, 0, 0};
   return {S + S * d / sum, spring.by_stretch * (1 + d * std::abs(d) / (sum * sum)), S * S / (sum * sum)};
+}
+
+/// With a damper c beside it, at this rate of stretch; and what the damper takes, W.
+struct DampedSpring {
+  SpringDamperForce both;
+  double lost;
+};
+inline DampedSpring damped_one_sided_spring(double k, double c, double e0, double e1, double rate) {
+  const SpringDamperForce spring = one_sided_spring(k, e0, e1), both = with_damper(spring, c * rate);
+  return {both, (both.force - spring.force) * rate};
+}
+
+/// What pulls in a segment that stretches, without its sag: the mean over a step between the stretches e₀ and e₁, of
+/// whose change the mean follows the share `own`; with e₀ = e₁ and 1 its law. (D72)
+inline DampedSpring axial_spring(const Segment& s, double e0, double e1, double own, double rate) {
+  const double k = s.axial_stiffness / s.length, c = s.axial_damping / s.length;
+  if (s.tension_only) return damped_one_sided_spring(k, c, e0, e1, rate);
+  return {{k * (e0 + e1) / 2 + c * rate, own * k, 1}, c * rate * rate};
 }
 
 }  // namespace dynamics::line

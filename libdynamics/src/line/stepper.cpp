@@ -421,7 +421,7 @@ void Stepper::Work::book(State& state) {
   }
   equations.take_grip(state);
   // What friction loses is summed up from step to step.
-  unnoted = !equations.rubs();
+  unnoted = !line.rubs_on_bed();
   if (unnoted)
     to_note = state;
   else

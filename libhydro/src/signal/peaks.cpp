@@ -87,11 +87,20 @@ std::vector<double> crests(std::span<const double> time_s, std::span<const doubl
   return out;
 }
 
+namespace {
+constexpr double no_shape = 1e-9;  // below, powers of the shape lose their digits, and the law is exponential
+
+/// What one in n exceedances is above.
+double exceedance(const ParetoTail& t, double n) {
+  return t.scale * (std::abs(t.shape) < no_shape ? std::log(n) : (std::pow(n, t.shape) - 1) / t.shape);
+}
+}  // namespace
+
 // (S22)
 double ParetoTail::share_above(double level) const {
   const double y = (level - threshold) / scale;
   if (y <= 0) return 1;
-  if (std::abs(shape) < 1e-9) return std::exp(-y);
+  if (std::abs(shape) < no_shape) return std::exp(-y);
   const double base = 1 + shape * y;
   return base > 0 ? std::pow(base, -1 / shape) : 0;
 }
@@ -99,7 +108,7 @@ double ParetoTail::share_above(double level) const {
 double ParetoTail::largest_not_exceeded(double duration_s, double probability) const {
   const double n = exceedances_per_largest(rate_hz, duration_s, probability);
   if (n < 1) return -std::numeric_limits<double>::infinity();
-  return threshold + scale * (std::abs(shape) < 1e-9 ? std::log(n) : (std::pow(n, shape) - 1) / shape);
+  return threshold + exceedance(*this, n);
 }
 
 ParetoTail fit_tail(std::span<const double> peaks, double threshold, double duration_s) {
@@ -149,12 +158,8 @@ BlockMaxima fit_maxima(std::span<const double> maxima, double block_s) {
 
 Interval interval_of(const ParetoTail& tail, std::size_t peaks, double duration_s, double probability,
                      double confidence, std::uint64_t seed) {
-  const auto exceedance = [&](double u) {
-    const double left = 1 - u;
-    return tail.scale *
-           (std::abs(tail.shape) < 1e-9 ? -std::log(left) : (std::pow(left, -tail.shape) - 1) / tail.shape);
-  };
-  return bootstrap(peaks, seed, confidence, exceedance, [&](const std::vector<double>& above) {
+  const auto drawn = [&](double u) { return exceedance(tail, 1 / (1 - u)); };
+  return bootstrap(peaks, seed, confidence, drawn, [&](const std::vector<double>& above) {
     return tail_of(above, tail.threshold, tail.rate_hz).largest_not_exceeded(duration_s, probability);
   });
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// \file  Wave loads of second order on bodies as they are placed: quadratic forms of the waves. (D137)
 #include <array>
+#include <optional>
 
 #include "dynamics/force/force_kind.hpp"
 #include "dynamics/force/wave_signals.hpp"
@@ -11,7 +12,7 @@ namespace dynamics {
 /// drive: F = r² mean + xᵀ form x, N and N m.
 struct SecondOrderLoad {
   int body;
-  WaveSignals signals;                       ///< (n)
+  std::optional<WaveSignals> signals = {};   ///< (n); none: the mean alone
   std::array<Eigen::MatrixXd, 6> form = {};  ///< (n, n); without numbers: none of this mode
   Vector6 mean = Vector6::Zero();
   double ramp_s = 0;

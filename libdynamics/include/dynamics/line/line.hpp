@@ -162,6 +162,8 @@ class Line {
   /// Area of bed under a node, m²: diameter times half of each segment beside it that meets the bed.
   double bed_area(int i) const { return bed_area_[i]; }
   bool has_spheres() const { return spheres_; }
+  /// True if the bed has friction. (D95)
+  bool rubs_on_bed() const { return !d_.bed.empty() && d_.bed.front().friction > 0; }
   bool has_massless_nodes() const;
   double length() const;
 

@@ -20,6 +20,10 @@ enum class Scheme {
 /// "energy_momentum", …; \throws hydro::InputError naming the nearest
 Scheme parse_scheme(std::string_view name);
 std::string_view name_of(Scheme scheme);
+/// True if steps go on from more than places and velocities, so that two motions near each other have no distance.
+constexpr bool keeps_accelerations(Scheme scheme) {
+  return scheme == Scheme::generalised_alpha || scheme == Scheme::rosenbrock;
+}
 
 /// Where energy is and where it went since the start, J. (D84)
 struct Energies {

@@ -116,6 +116,8 @@ class Workspace {
       if (auto* found = dynamic_cast<OfKind*>(m.get())) return found;
     return nullptr;
   }
+  /// True if loads of a kind are no function of (t, state) alone.
+  bool needs_memory(std::size_t kind) const { return memory[kind] && !memory[kind]->spares_work_only(); }
   Instant instant(const State& at, std::size_t kind) { return {at, memory[kind].get()}; }
   /// A signal of `model`, read now.
   double read(const Signal& signal, const Model& model) const {

@@ -56,6 +56,9 @@ struct WamitFiles {
   std::filesystem::path member(const char* extension) const { return stem + extension; }
 };
 
+/// Seven digits are printed, six in .3fk and .3sc; two files of one run agree to half of the last of them.
+constexpr double per_tolerance = 5.5e-6;
+
 /// The set of files, from any of them or from the stem. \throws InputError if there is no .1 file
 WamitFiles find_wamit_files(const std::filesystem::path& path);
 

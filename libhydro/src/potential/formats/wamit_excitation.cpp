@@ -8,9 +8,6 @@
 namespace hydro::potential {
 namespace {
 
-/// Seven digits are printed, six in .3fk and .3sc; two files of one run agree to half of the last of them.
-constexpr double per_tolerance = 5.5e-6;
-
 Eigen::Index index_of_per(const WamitTable& table, const WamitTable::Row& row, const std::vector<double>& per) {
   const double wanted = row.value[0];
   for (std::size_t k = 0; k < per.size(); ++k)

@@ -33,12 +33,13 @@ SecondOrderLayout second_order_layout(const std::filesystem::path& path) {
                    "take WAMIT's .7, .8 or .9 (mean drift), .10d, .11d or .12d (difference), .10s, .11s or .12s (sum)");
 }
 
-/// Different numbers of a column; equal are those that print alike in WAMIT's seven digits.
+/// Different numbers of a column; equal are those that print alike.
 std::vector<double> printed_apart(std::vector<double> all) {
   std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end(),
-                        [](double a, double b) { return std::abs(b - a) <= 5.5e-6 * std::max(std::abs(a), 1.0); }),
-            all.end());
+  all.erase(
+      std::unique(all.begin(), all.end(),
+                  [](double a, double b) { return std::abs(b - a) <= per_tolerance * std::max(std::abs(a), 1.0); }),
+      all.end());
   return all;
 }
 std::size_t index_in(const std::vector<double>& all, double one) {
