@@ -74,8 +74,7 @@ void ask_for_signals_of(const Run& other, const scene::Scene& scene, int times, 
 }
 
 /// A start that lies beside that of the model, in directions that any run of this scene takes alike.
-void disturb(compile::TimeModel& model) {
-  constexpr double by = 1e-9;  // m, rad, m/s, rad/s: far above rounding, far below what anybody asks for
+void disturb(double by, compile::TimeModel& model) {
   const compile::StateChart chart(model, compile::start_of(model));
   std::mt19937 random(1);
   Eigen::VectorXd coordinates(chart.coordinates());
@@ -264,12 +263,14 @@ void Companions::refine_pieces(int times) {
   neighbour_.reset();
 }
 
+double Companions::moved_by() const { return std::max(1e-9, 10 * scene::newton_tolerance(scene_)); }
+
 const Run& Companions::neighbour() {
   if (!neighbour_) {
     std::size_t stride = 1;
     const scene::Scene scene = scene_of(0, stride);
     compile::TimeModel model = compile::time_model(scene, prepared_);
-    disturb(model);
+    disturb(moved_by(), model);
     neighbour_ = run_model(scene, model, progress_);
   }
   return *neighbour_;

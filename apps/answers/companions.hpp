@@ -60,8 +60,10 @@ class Companions {
   int refined_pieces() const { return refined_pieces_; }
   /// Its members have `times` as many pieces again; all runs are made anew.
   void refine_pieces(int times);
-  /// Level 0 with its start moved by a nanometre, a nanoradian, and as much in a second, this way and that.
+  /// Level 0 with its start moved by `moved_by()`, this way and that.
   const Run& neighbour();
+  /// m, rad, m/s and rad/s: far above what Newton leaves, far below what anybody asks for.
+  double moved_by() const;
   /// True if that run came to its end in steps longer than those of the level below: where there are few samples, and a
   /// step for each, there are none.
   bool is_longer(int level) {

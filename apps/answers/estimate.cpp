@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <cmath>
 
 #include "answers/companions.hpp"
@@ -115,8 +116,8 @@ class Refinement {
   }
   /// (E2)
   bool parts_neighbours(std::size_t signal) {
-    constexpr double much = 1e3;    // what parts in proportion to time comes to some 200
-    constexpr double least = 1e-9;  // of the signal: about as far as the start is moved
+    constexpr double much = 1e3;                  // what parts in proportion to time comes to some 200
+    const double least = companions_.moved_by();  // of the signal: about as far as the start is moved
     return growth(companions_.run(0), companions_.neighbour(), signal, least * sizes_[signal].rms) > much;
   }
   /// Up to where what runs with other steps differ by leaves the signal within the accuracy asked.
@@ -230,7 +231,7 @@ class Refinement {
     return static_cast<int>(std::ceil(std::log(j.error / allowed) / std::log(std::min(j.ratio, largest_ratio()))));
   }
   /// True if it is the step that leaves next to nothing of a signal to be predicted: a tenth of the time in which a
-  /// neighbour a billionth beside comes as far off. Where steps do, each halving adds little to that time.
+  /// neighbour a hundred-millionth beside comes as far off. Where steps do, each halving adds little to that time.
   bool is_lost_at_once(std::size_t signal) const {
     constexpr double share = 0.1;
     const double until = judged_[signal].until;
@@ -339,8 +340,12 @@ ErrorEstimate unknown_error(const scene::Scene& scene, std::string missing) {
 
 Run run_to_accuracy(const scene::Scene& scene, const compile::Prepared& prepared,
                     const std::function<void(double)>& progress, int threads) {
-  Companions companions(scene, prepared, progress, threads);
-  return Refinement(scene, prepared, companions).settled();
+  const auto begin = std::chrono::steady_clock::now();
+  Companions companions(scene, prepared, progress, threads);  // which fits the memories that the scene has
+  const std::chrono::duration<double> preparing = std::chrono::steady_clock::now() - begin;
+  Run out = Refinement(scene, prepared, companions).settled();
+  out.preparation_s += preparing.count();
+  return out;
 }
 
 }  // namespace froude

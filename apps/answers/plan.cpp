@@ -132,7 +132,7 @@ Section plan_run(const scene::Scene& scene, const compile::Prepared& p, std::vec
   notes.insert(notes.end(), m.notes.begin() + std::ssize(p.notes), m.notes.end());  // those of `p` it begins with
   const bool sparse = dynamics::BlockSolver(m.model.pattern()).is_sparse();
   const std::string title = fmt::format("run: {} steps of {:.4g} s", m.steps, m.step);
-  compile::make_integrator(scene.solve, m.model);                 // tells now what it could not step,
+  compile::make_integrator(scene, m.model);                       // tells now what it could not step,
   compile::Controllers(m.rules, compile::signal_list(scene, m));  // and what it could not watch
   Section s{p.bodies.empty() ? title
                              : fmt::format("{}, {} unknowns, {}, {} factors", title, m.model.modes(),

@@ -6,6 +6,7 @@
 
 #include "answers/camera_track.hpp"
 #include "answers/fit_measurements.hpp"
+#include "dynamics/integrate/newton_integrator.hpp"
 #include "fit/sensor.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -324,6 +325,8 @@ void SceneRuns::compiled(const Eigen::VectorXd& parameters) {
     step->value = measured_.step / std::max(1.0, std::ceil(measured_.step / step->value - 1e-3));
   else if (chosen_step_)
     step = {*chosen_step_, {}};
+  // Derivatives are differences of runs.
+  scene_.solve.newton_tolerance = dynamics::NewtonIntegrator::least_residual_tolerance;
   scene_.run->of.clear();
   scene_.run->of_places.clear();
   for (const auto& s : asked_.signals) {

@@ -30,13 +30,13 @@ double rounding_of(const dynamics::Model& model) {
 class March {
  public:
   March(const compile::TimeModel& m, const std::vector<compile::Signal>& signals, compile::Controllers controllers,
-        const scene::Solve& solve, Run& record)
+        const scene::Scene& scene, Run& record)
       : m_(m),
         signals_(signals),
         controllers_(std::move(controllers)),
         record_(record),
         workspace_(m.model, m.start),
-        integrator_(compile::make_integrator(solve, m.model)),
+        integrator_(compile::make_integrator(scene, m.model)),
         rounding_(rounding_of(m.model)) {
     for (const auto& s : signals) record_.signals.push_back({s.name, s.unit, s.meaning});
     const std::size_t samples = m.steps / m.steps_per_sample + 1;
@@ -202,8 +202,10 @@ class March {
 /// What the scene tells, and what it left to be chosen.
 Provenance provenance_of_run(const scene::Scene& scene) {
   Provenance out = provenance_of(scene);
-  if (scene.solve.integrator == "generalized_alpha")
+  if (scene.solve.integrator == "generalized_alpha") {
     out.settings.emplace_back("chosen.rho_infinity", fmt::format("{}", scene.solve.rho_infinity));
+    out.settings.emplace_back("chosen.newton_tolerance", fmt::format("{}", scene::newton_tolerance(scene)));
+  }
   if (compile::has_own_tolerance(scene.solve.integrator) && !scene.solve.tolerance)
     out.settings.emplace_back("chosen.tolerance", fmt::format("{}", compile::tolerance_of_pair));
   return out;
@@ -234,7 +236,7 @@ Run run_model(const scene::Scene& scene, const compile::TimeModel& model, const 
   record.step = model.step;
   record.notes = model.notes;
   record.provenance = provenance_of_run(scene);
-  March march(model, signals, {model.rules, all}, scene.solve, record);
+  March march(model, signals, {model.rules, all}, scene, record);
   if (motion) march.keep_motion(*motion);
   const auto stepping = Clock::now();
   march.run(done);

@@ -47,10 +47,11 @@ std::unique_ptr<dynamics::Integrator> sundials([[maybe_unused]] const scene::Sol
 #endif
 }
 
-std::unique_ptr<dynamics::Integrator> by_name(const scene::Solve& solve, const dynamics::Model& model) {
+std::unique_ptr<dynamics::Integrator> by_name(const scene::Scene& scene, const dynamics::Model& model) {
+  const scene::Solve& solve = scene.solve;
   if (solve.integrator == "generalized_alpha")
-    return std::make_unique<dynamics::GeneralizedAlpha>(model,
-                                                        dynamics::GeneralizedAlpha::Settings{solve.rho_infinity});
+    return std::make_unique<dynamics::GeneralizedAlpha>(
+        model, dynamics::GeneralizedAlpha::Settings{solve.rho_infinity, scene::newton_tolerance(scene)});
   if (solve.integrator == "implicit_euler") return std::make_unique<dynamics::ImplicitEuler>(model);
   refuse_memory(solve, model);
   if (solve.integrator == "energy_momentum") return std::make_unique<dynamics::EnergyMomentum>(model);
@@ -66,10 +67,11 @@ bool has_own_tolerance(const std::string& integrator) {
   return integrator == "explicit_pair" || integrator == "sundials_bdf";
 }
 
-std::unique_ptr<dynamics::Integrator> make_integrator(const scene::Solve& solve, const dynamics::Model& model) {
+std::unique_ptr<dynamics::Integrator> make_integrator(const scene::Scene& scene, const dynamics::Model& model) {
+  const scene::Solve& solve = scene.solve;
   if (solve.tolerance) refuse_tolerance(solve, model);
   return scene::placed(solve.integrator_place, [&] {
-    auto out = by_name(solve, model);
+    auto out = by_name(scene, model);
     if (solve.tolerance && !has_own_tolerance(solve.integrator)) out->cut_steps(*solve.tolerance);
     return out;
   });

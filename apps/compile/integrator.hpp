@@ -14,6 +14,6 @@ constexpr double tolerance_of_pair = 1e-8;
 bool has_own_tolerance(const std::string& integrator);
 
 /// \throws hydro::InputError, at its place in the scene, if the method cannot step what the scene names
-std::unique_ptr<dynamics::Integrator> make_integrator(const scene::Solve& solve, const dynamics::Model& model);
+std::unique_ptr<dynamics::Integrator> make_integrator(const scene::Scene& scene, const dynamics::Model& model);
 
 }  // namespace froude::compile

@@ -459,6 +459,7 @@ struct Solve {
   std::optional<Located<double>> step;  ///< s; empty: chosen from the accuracy asked
   std::string integrator = "generalized_alpha";
   Place integrator_place = {};
+  std::optional<double> newton_tolerance;       ///< no key of scenes; empty: newton_tolerance()
   double rho_infinity = 0.8;                    ///< spectral radius of generalised-α at infinite frequency, 0 … 1;
                                                 ///< 0 if the scene gives none and acts_one_way()
   std::optional<double> tolerance;              ///< of the local error of steps, which are cut to meet it
@@ -536,5 +537,9 @@ void check_patterns(const Scene& scene, const std::vector<std::string>& known);
 bool acts_one_way(const Scene& scene);
 /// Of sub-steps of lines by "rosenbrock": a hundredth of the accuracy where the scene gives none.
 double line_tolerance(const Scene& scene);
+/// At which Newton ends a step of generalised-α (D98): a millionth of the accuracy, 1e-9 at most and 1e-12 at least.
+/// What it leaves is a push of that share in each step, so that ten thousand steps that push the same way come to a
+/// hundredth of the accuracy. Steps that a tolerance cuts are judged by less than that: 1e-12.
+double newton_tolerance(const Scene& scene);
 
 }  // namespace froude::scene

@@ -93,6 +93,12 @@ double line_tolerance(const Scene& scene) {
   return scene.solve.line_tolerance.value_or(share * scene.accuracy.value);
 }
 
+double newton_tolerance(const Scene& scene) {
+  constexpr double share = 1e-6, least = 1e-12, most = 1e-9;
+  const double chosen = scene.solve.tolerance ? least : std::clamp(share * scene.accuracy.value, least, most);
+  return scene.solve.newton_tolerance.value_or(chosen);
+}
+
 const Binding<Solve>& solve_binding() {
   static const auto table = Binding<Solve>("[solve]", "overrides what the program would choose; rarely needed")
                                 .key(positive("step", dim::time, "time step, or \"automatic\"")

@@ -5,7 +5,7 @@
 namespace dynamics {
 
 GeneralizedAlpha::GeneralizedAlpha(const Model& model, const Settings& settings)
-    : NewtonIntegrator(model), alpha_(settings.rho_infinity) {
+    : NewtonIntegrator(model, settings.residual_tolerance), alpha_(settings.rho_infinity) {
   hydro::require(settings.rho_infinity >= 0 && settings.rho_infinity <= 1,
                  "rho_infinity must lie between 0 and 1, got {}", settings.rho_infinity);
 }

@@ -9,11 +9,18 @@
 
 namespace dynamics {
 namespace {
-constexpr double newton_tolerance = 1e-9;     // of the last correction relative to the acceleration and velocity / step
-constexpr double residual_tolerance = 1e-12;  // of the residual, relative to the same: no correction below it
-constexpr double serves = 0.1;  // factors are kept while a correction by them leaves no more of the residual
+constexpr double newton_tolerance = 1e-9;  // of the last correction relative to the acceleration and velocity / step
+constexpr double serves = 0.1;             // factors are kept while a correction by them leaves no more of the residual
 constexpr int most_iterations = 20;
 }  // namespace
+
+NewtonIntegrator::NewtonIntegrator(const Model& model, double residual_tolerance)
+    : Integrator(model), residual_tolerance_(residual_tolerance) {
+  constexpr double most = 1e-6;
+  hydro::require(residual_tolerance >= least_residual_tolerance && residual_tolerance <= most,
+                 "the tolerance of Newton's residual must lie between {} and {}, got {}", least_residual_tolerance,
+                 most, residual_tolerance);
+}
 
 // How far a joint is open is known to rounding only; divided by ∂q/∂a that is an acceleration, the larger the shorter
 // the step, and corrections below it mean nothing.
@@ -147,7 +154,7 @@ bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& repo
     anew = anew || !kept;
     workspace.solver.solve(now_.residual, now_.open, correction_);
     // Joints are to close fully: there no more is trusted than that the factors serve.
-    if (kept && keeps && (now_.open.size() > 0 ? serves : left) * now_.size <= residual_tolerance * reach(h)) {
+    if (kept && keeps && (now_.open.size() > 0 ? serves : left) * now_.size <= residual_tolerance_ * reach(h)) {
       take_unseen(workspace, h);
       finish(workspace, anew ? 0 : went_on + 1);
       return true;
@@ -163,7 +170,7 @@ bool NewtonIntegrator::try_step(Workspace& workspace, double h, StepReport& repo
     if (kept && !(left <= 1 || move <= unresolved(h))) continue;
     if (!std::isfinite(trial_.size)) return fail("the loads are not finite");
     std::swap(now_, trial_);
-    const bool settled = keeps && now_.size <= residual_tolerance * reach(h);
+    const bool settled = keeps && now_.size <= residual_tolerance_ * reach(h);
     if (part == 1 && (settled || (!kept && move <= newton_tolerance * reach(h)) || move <= unresolved(h))) {
       workspace.solver.of_step = keeps ? h : 0;  // rounding, too, leaves much
       finish(workspace, anew ? 0 : went_on + 1);

@@ -132,7 +132,7 @@ struct Motion {
 
 Motion run(const scene::Scene& scene, const compile::TimeModel& model) {
   dynamics::Workspace workspace(model.model, model.start);
-  const auto integrator = compile::make_integrator(scene.solve, model.model);
+  const auto integrator = compile::make_integrator(scene, model.model);
   dynamics::start_with_lines(*integrator, workspace);
   Motion out{{}, {model.step, Eigen::MatrixXd(6, static_cast<Eigen::Index>(model.steps) + 1)}};
   const auto sample = [&] {

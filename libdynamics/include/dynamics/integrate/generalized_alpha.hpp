@@ -15,13 +15,14 @@ namespace dynamics {
 /// is damped each step: 1 keeps it, 0 removes it. The period of a free oscillation at ω is wrong by about (ωh)²/12
 /// relative at ρ∞ = 1. Each step is solved by Newton with line search; a step that fails is halved.
 ///
-/// Joints are closed at the end of every step, to round-off; their multipliers are of second order too (Arnold & Brüls
-/// 2007), for ρ∞ < 1. Where steps change from one to the next the order stays two without joints and falls to one with
-/// them (D97). Velocities leave the joints' directions by the order of the step's own error (D16).
+/// Joints are closed at the end of every step, as far as Newton goes; their multipliers are of second order too (Arnold
+/// & Brüls 2007), for ρ∞ < 1. Where steps change from one to the next the order stays two without joints and falls to
+/// one with them (D97). Velocities leave the joints' directions by the order of the step's own error (D16).
 class GeneralizedAlpha final : public NewtonIntegrator {
  public:
   struct Settings {
     double rho_infinity = 0.8;
+    double residual_tolerance = least_residual_tolerance;  ///< at which Newton ends
   };
   GeneralizedAlpha(const Model& model, const Settings& settings);
 

@@ -10,12 +10,18 @@
 
 namespace dynamics {
 
-/// Joints are closed at the end of every step, to round-off. Newton ends where the last correction is 1e-9 of the
-/// acceleration and of the velocity over the step, or below what rounding leaves of places. Its matrix is factorised
-/// anew only where the factors of earlier iterates or steps leave more than a tenth of the residual (D98).
+/// Newton ends where the residual, as an acceleration, is `residual_tolerance` of the acceleration and of the velocity
+/// over the step, where one of its own corrections is 1e-9 of them, or below what rounding leaves of places; joints are
+/// closed at the end of every step as well as that. Its matrix is factorised anew only where the factors of earlier
+/// iterates or steps leave more than a tenth of the residual (D98).
 class NewtonIntegrator : public Integrator {
+ public:
+  static constexpr double least_residual_tolerance = 1e-12;  ///< a thousand times what rounding leaves
+
  protected:
-  using Integrator::Integrator;
+  /// 	hrows hydro::InputError if the tolerance is below `least_residual_tolerance` or above 1e-6, where corrections
+  ///         of 1e-9 would end the iteration sooner
+  explicit NewtonIntegrator(const Model& model, double residual_tolerance = least_residual_tolerance);
 
   /// What a guess of accelerations and multipliers leads to.
   struct Trial {
@@ -58,6 +64,7 @@ class NewtonIntegrator : public Integrator {
   // all through them.
   std::array<Eigen::VectorXd, 3> before_;
   int goes_on_ = 0;  // of how many steps
+  double residual_tolerance_;
   // What Newton holds and what it tries: kept from step to step, so that a step asks for no memory.
   Trial now_, trial_;
   KktSolver::Solution correction_;
