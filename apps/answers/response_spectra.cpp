@@ -2,39 +2,24 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
-#include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include "answers/linear_response.hpp"
+#include "answers/refined_densities.hpp"
+#include "answers/sea_directions.hpp"
 #include "compile/compile.hpp"
 #include "compile/kept.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/waves/spectra/spectrum.hpp"
-#include "hydro/waves/spectra/spreading.hpp"
 
 namespace froude {
 namespace {
 
-using hydro::Angle, hydro::InputError;
-constexpr double two_pi = 2 * std::numbers::pi;
-
-const scene::RandomSea& random_sea(const scene::Scene& scene) {
-  if (!scene.waves)
-    throw InputError("spectra of responses need a sea, but the scene has no waves", {.file = scene.file.string()},
-                     "add a [waves] table with a spectrum, such as kind = \"jonswap\"");
-  const auto* sea = std::get_if<scene::RandomSea>(&scene.waves->kind);
-  if (!sea)
-    throw InputError("spectra of responses need a random sea, which these waves are not", scene.waves->place,
-                     "choose a kind with a spectrum, such as \"jonswap\"");
-  if (sea->crest)
-    throw InputError("a sea with a crest put in has no spectrum that tells its responses", scene.waves->place,
-                     "leave the crest out, or step a run");
-  return *sea;
-}
+using hydro::InputError;
 
 void require_linear_question(const scene::Scene& scene) {
   if (!scene.rao) throw std::logic_error("spectra of responses are asked for without [ask.rao]");
@@ -43,64 +28,13 @@ void require_linear_question(const scene::Scene& scene) {
                      "leave it out: drag has then no part, which notes tell; or step a run");
 }
 
-/// A heading of the sea and which share of a frequency's energy goes along it.
-struct Direction {
-  std::size_t heading;  // of all that responses are computed for
-  double from, to;      // from the mean heading, rad: of the sector whose energy goes there
-};
-
-/// A wave system, its energy cut into sectors of equal energy at its peak.
-struct System {
-  const scene::WaveSystem* waves;
-  std::vector<Direction> directions;
-
-  double share(const Direction& d, double omega) const {
-    if (!waves->spreading) return 1;
-    const auto below = [&](double angle) { return waves->spreading->share_below(Angle::from_radians(angle), omega); };
-    return below(d.to) - below(d.from);
-  }
-};
-
-/// The number of a heading, a new one if none is the same but for rounding.
-std::size_t number_of(double heading, std::vector<double>& headings) {
-  const auto at =
-      std::find_if(headings.begin(), headings.end(), [&](double h) { return std::abs(h - heading) < 1e-9; });
-  if (at == headings.end()) {
-    headings.push_back(heading);
-    return headings.size() - 1;
-  }
-  return static_cast<std::size_t>(at - headings.begin());
-}
-
-System system_of(const scene::WaveSystem& waves, int sectors, std::vector<double>& headings) {
-  System out{&waves, {}};
-  if (!waves.spreading) {
-    out.directions.push_back({number_of(waves.heading.radians(), headings), 0, 0});
-    return out;
-  }
-  const auto quantile = [&](double share) {
-    return waves.spreading->quantile(share, waves.spectrum->peak_omega()).radians();
-  };
-  for (int i = 0; i < sectors; ++i) {
-    const double middle = std::remainder(waves.heading.radians() + quantile((i + 0.5) / sectors), two_pi);
-    out.directions.push_back({number_of(middle, headings), i == 0 ? -std::numbers::pi : quantile(1.0 * i / sectors),
-                              i + 1 == sectors ? std::numbers::pi : quantile((i + 1.0) / sectors)});
-  }
-  return out;
-}
-
-/// Squares of transfer functions and densities of what they make, at one frequency.
-struct Column {
-  double omega;
-  Eigen::VectorXd density;  // per rad/s; sea by sea the elevation, then every signal
-};
-
 /// Asks for responses, turns them into densities, and puts frequencies where densities bend.
 class Densities {
  public:
   Densities(const std::vector<const scene::Scene*>& seas, int sectors, const std::shared_ptr<compile::Kept>& kept)
       : scene_(*seas.front()), tolerance_(seas.front()->accuracy) {
     scene_.rao->headings.clear();
+    for (scene::Body& body : scene_.bodies) body.second_order.reset();  // second_order_responses() are beside
     for (const scene::Scene* sea : seas) {
       systems_.emplace_back();
       for (const auto& waves : random_sea(*sea).systems)
@@ -112,41 +46,21 @@ class Densities {
 
   /// From these frequencies on. \throws hydro::NumericsError
   void refine(const std::vector<double>& omega) {
-    columns_ = at(omega);
-    std::vector<double> lower_ends(omega.begin(), omega.end() - 1);
-    constexpr int most = 24;  // halvings: a peak a millionth as wide as the spacing asked for is found
-    error_ = 0;
-    for (int round = 0; !lower_ends.empty(); ++round) {
-      if (round == most)
-        throw hydro::NumericsError(fmt::format(
-            "a response near {:.6g} rad/s is too sharp: its spectrum changes by more than the accuracy asked, {:g}, "
-            "however closely frequencies stand; a motion without damping has no spectrum",
-            lower_ends.front(), tolerance_));
-      lower_ends = halve(lower_ends);
-    }
+    found_.emplace(omega, tolerance_, [&](const std::vector<double>& more) { return at(more); });
   }
 
-  std::vector<double> omega() const {
-    std::vector<double> out;
-    for (const Column& c : columns_) out.push_back(c.omega);
-    return out;
-  }
+  std::vector<double> omega() const { return found_->omega(); }
   std::size_t headings() const { return scene_.rao->headings.size(); }
   const Responses& responses() const { return *first_; }
-  double error() const { return error_; }
+  double error() const { return found_->error(); }
 
   /// The density of one sea's elevation (row 0) or signal.
   hydro::signal::SpectrumPerHz spectrum(std::size_t sea, std::size_t row) const {
-    hydro::signal::SpectrumPerRadS out;
-    for (const Column& c : columns_) {
-      out.omega.push_back(c.omega);
-      out.density.push_back(c.density(static_cast<Eigen::Index>(sea * rows() + row)));
-    }
-    return hydro::signal::per_hz(out);
+    return found_->spectrum(static_cast<Eigen::Index>(sea * rows() + row));
   }
 
   /// m₀ of everything.
-  Eigen::VectorXd variances() const { return moment(0); }
+  Eigen::VectorXd variances() const { return found_->moment(0); }
 
  private:
   std::size_t rows() const { return first_->signals.size() + 1; }
@@ -197,70 +111,14 @@ class Densities {
     }
   }
 
-  Eigen::VectorXd moment(int order) const {
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(columns_.front().density.size());
-    const auto integrand = [&](const Column& c) { return Eigen::VectorXd(std::pow(c.omega, order) * c.density); };
-    for (std::size_t i = 0; i + 1 < columns_.size(); ++i)
-      sum += (integrand(columns_[i]) + integrand(columns_[i + 1])) / 2 * (columns_[i + 1].omega - columns_[i].omega);
-    return sum;
-  }
-
-  /// Puts a frequency into the middle of each of these intervals. \return the lower ends of those halves that have to
-  /// be halved again: by Simpson's rule their share of the error is above that of their width
-  std::vector<double> halve(const std::vector<double>& lower_ends) {
-    std::vector<std::size_t> intervals;
-    std::vector<double> middles;
-    for (std::size_t i = 0, next = 0; i + 1 < columns_.size() && next < lower_ends.size(); ++i)
-      if (columns_[i].omega == lower_ends[next]) {
-        intervals.push_back(i);
-        middles.push_back((columns_[i].omega + columns_[i + 1].omega) / 2);
-        ++next;
-      }
-    const std::vector<Column> found = at(middles);
-    const double range = columns_.back().omega - columns_.front().omega;
-    const std::array orders{0, 2, 4};
-    std::array<Eigen::VectorXd, 3> moments;
-    for (std::size_t n = 0; n < orders.size(); ++n) moments[n] = moment(orders[n]);
-    std::vector<double> again;
-    for (std::size_t k = 0; k < intervals.size(); ++k) {
-      const Column &low = columns_[intervals[k]], &high = columns_[intervals[k] + 1], &middle = found[k];
-      const double width = high.omega - low.omega;
-      double worst = 0;
-      for (std::size_t n = 0; n < orders.size(); ++n) {
-        const auto power = [&](double omega) { return std::pow(omega, orders[n]); };
-        const Eigen::VectorXd bend = power(middle.omega) * middle.density -
-                                     (power(low.omega) * low.density + power(high.omega) * high.density) / 2;
-        for (Eigen::Index row = 0; row < bend.size(); ++row)
-          if (moments[n](row) > 0) worst = std::max(worst, std::abs(bend(row)) * width * (2.0 / 3) / moments[n](row));
-      }
-      // A middle that is put in leaves a quarter of the error of a smooth density.
-      if (worst > tolerance_ * width / range) {
-        again.push_back(low.omega);
-        again.push_back(middle.omega);
-      } else {
-        error_ += worst / 4;
-      }
-    }
-    for (const Column& c : found) columns_.push_back(c);
-    std::sort(columns_.begin(), columns_.end(), [](const Column& a, const Column& b) { return a.omega < b.omega; });
-    return again;
-  }
-
   scene::Scene scene_;
-  double tolerance_, error_ = 0;
+  double tolerance_;
   std::vector<std::vector<System>> systems_;
   std::unique_ptr<compile::Prepared> prepared_;
   std::unique_ptr<Responses> first_;  // at the frequencies of the scene
   std::vector<bool> silent_;
-  std::vector<Column> columns_;
+  std::optional<RefinedDensities> found_;
 };
-
-bool has_spreading(const std::vector<const scene::Scene*>& seas) {
-  return std::any_of(seas.begin(), seas.end(), [](const scene::Scene* scene) {
-    const auto& systems = random_sea(*scene).systems;
-    return std::any_of(systems.begin(), systems.end(), [](const auto& s) { return s.spreading != nullptr; });
-  });
-}
 
 /// The largest relative change of what is not zero.
 double change(const Eigen::VectorXd& before, const Eigen::VectorXd& now) {
@@ -268,15 +126,6 @@ double change(const Eigen::VectorXd& before, const Eigen::VectorXd& now) {
   for (Eigen::Index i = 0; i < now.size(); ++i)
     if (now(i) > 0) out = std::max(out, std::abs(now(i) - before(i)) / now(i));
   return out;
-}
-
-double share_outside(const scene::RandomSea& sea, double low, double high) {
-  double all = 0, inside = 0;
-  for (const auto& system : sea.systems) {
-    all += system.spectrum->moment(0);
-    inside += system.spectrum->energy(low, high);
-  }
-  return std::max(0.0, 1 - inside / all);
 }
 
 ResponseSpectra answer_of(const scene::Scene& scene, std::size_t sea, const Densities& found,
@@ -314,7 +163,8 @@ std::vector<ResponseSpectra> response_spectra(const std::vector<const scene::Sce
   if (scene.rao->omega.size() < 2)
     throw InputError("spectra of responses need two frequencies of [ask.rao] at least", scene.rao->place,
                      "give a range, for example periods = \"3 s .. 25 s, 45 values\"");
-  const bool spread = has_spreading(seas);
+  const bool spread =
+      std::any_of(seas.begin(), seas.end(), [](const scene::Scene* sea) { return has_spreading(random_sea(*sea)); });
   const auto kept = std::make_shared<compile::Kept>();
   auto found = std::make_unique<Densities>(seas, spread ? 18 : 1, kept);
   found->refine(scene.rao->omega);

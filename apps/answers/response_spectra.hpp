@@ -22,7 +22,7 @@ struct ResponseSpectra {
   std::size_t headings;              ///< at which responses were computed
   double error;                      ///< estimated, of the moments by the spacing of frequencies and headings, relative
   std::vector<ResponseSpectrum> signals;  ///< at the frequencies of `sea`
-  std::vector<std::string> notes;         ///< what had to be decided, and what is left out
+  std::vector<std::string> notes;         ///< what had to be decided, and what is left out, but for the second order
   std::vector<std::string> warnings;      ///< what is not to be trusted
 };
 

@@ -24,8 +24,8 @@ using scene::Scene;
 
 /// Scene bodies that take their coefficients from one reading of one file, and which of its bodies each is.
 struct Use {
-  std::string name;  // of the data, in what is kept
-  Coefficients data;
+  std::string name;            // of the data, in what is kept
+  const Coefficients* data;    // kept: those of many bodies take gigabytes, and are not copied
   std::vector<int> bodies;     // in the scene
   std::vector<int> file_body;  // in the file, from 0
 };
@@ -43,7 +43,7 @@ std::string name_of_data(const Scene& scene, const Hydrodynamics& h) {
 }
 
 /// From the file, or computed for all bodies of cylinders together; once for all scenes that share what is kept.
-Coefficients read(const Scene& scene, const Hydrodynamics& h, const std::string& name, Kept& kept) {
+const Coefficients& read(const Scene& scene, const Hydrodynamics& h, const std::string& name, Kept& kept) {
   if (h.cylinders)
     return kept.coefficients(name, [&] { return solve_cylinders(scene, bodies_of_cylinders(scene)).coefficients; });
   hydro::potential::ReadOptions options;
@@ -52,7 +52,7 @@ Coefficients read(const Scene& scene, const Hydrodynamics& h, const std::string&
   options.depth = scene.water.depth;
   options.ulen = h.ulen;
   options.iperout = h.iperout;
-  return scene::placed(h.file.place, [&] {
+  return scene::placed(h.file.place, [&]() -> const Coefficients& {
     return kept.coefficients(name, [&] { return hydro::potential::read(h.file.value, options); });
   });
 }
@@ -70,7 +70,7 @@ void require_same_water(const Scene& scene, const Coefficients& data, const hydr
 
 /// Which body of the file each scene body is; see scene.hpp on `body`.
 void assign(const Scene& scene, Use& use) {
-  const int in_file = use.data.bodies(), in_scene = static_cast<int>(use.bodies.size());
+  const int in_file = use.data->bodies(), in_scene = static_cast<int>(use.bodies.size());
   for (int i = 0; i < in_scene; ++i) {
     const auto& body = scene.bodies[static_cast<std::size_t>(use.bodies[static_cast<std::size_t>(i)])];
     const Hydrodynamics& h = *body.hydrodynamics;
@@ -114,8 +114,8 @@ std::vector<Use> uses(const Scene& scene, Kept& kept) {
     const auto [at, is_new] = known.try_emplace(key, out.size());
     if (is_new) {
       const std::string name = name_of_data(scene, *h);
-      out.push_back({name, read(scene, *h, name, kept), {}, {}});
-      require_same_water(scene, out.back().data, h->file.place);
+      out.push_back({name, &read(scene, *h, name, kept), {}, {}});
+      require_same_water(scene, *out.back().data, h->file.place);
     }
     out[at->second].bodies.push_back(static_cast<int>(b));
   }
@@ -125,7 +125,7 @@ std::vector<Use> uses(const Scene& scene, Kept& kept) {
 
 /// What the scene does not name is not judged.
 Coefficients used(const Scene& scene, const Use& use) {
-  Coefficients c = use.data;
+  Coefficients c = *use.data;
   const Hydrodynamics& h = hydrodynamics(scene, use.bodies.front());
   if (!h.excitation) {
     c.X.clear();
@@ -188,16 +188,16 @@ void examine(const Scene& scene, const Use& use, Kept& kept, std::vector<std::st
         fmt::format("{0}: {1} warning{2}: run `froude bem check {0}`", file, warnings, warnings == 1 ? "" : "s"));
 }
 
-/// What the data's depth leaves wrong in the scene's, if they differ. From here on waves have the scene's length, so
-/// that those that arrive at bodies elsewhere are those of its sea.
-void take_depth(const Scene& scene, Use& use, std::vector<OtherDepth>& other_depths) {
+/// What the data's depth leaves wrong in the scene's, if they differ. \return the depth to go on with: waves have the
+/// scene's length, so that those that arrive at bodies elsewhere are those of its sea
+hydro::WaterDepth take_depth(const Scene& scene, const Use& use, std::vector<OtherDepth>& other_depths) {
   const Hydrodynamics& h = hydrodynamics(scene, use.bodies.front());
-  if (!are_apart(use.data.water.depth, scene.water.depth)) return;
+  if (!are_apart(use.data->water.depth, scene.water.depth)) return use.data->water.depth;
   if (h.radiation || h.excitation) {
     // Copies of the one body of a file do not feel each other: each is as the first.
-    const std::size_t count = use.data.bodies() == 1 ? 1 : use.bodies.size();
+    const std::size_t count = use.data->bodies() == 1 ? 1 : use.bodies.size();
     const Coefficients taken = hydro::potential::select(
-        use.data, std::vector(use.file_body.begin(), use.file_body.begin() + static_cast<std::ptrdiff_t>(count)));
+        *use.data, std::vector(use.file_body.begin(), use.file_body.begin() + static_cast<std::ptrdiff_t>(count)));
     std::vector<double> volumes;
     std::vector<Eigen::Vector3d> places;
     for (std::size_t i = 0; i < count; ++i) {
@@ -207,14 +207,14 @@ void take_depth(const Scene& scene, Use& use, std::vector<OtherDepth>& other_dep
     }
     other_depths.push_back(other_depth(scene, taken, volumes, places, h.file.place));
   }
-  use.data.water.depth = scene.water.depth;
+  return scene.water.depth;
 }
 
 /// Bodies that radiate onto each other: all of a use, or each by itself if the file has one body or the scene wants no
 /// interaction.
 std::vector<std::vector<std::size_t>> interacting(const Scene& scene, const Use& use) {
   const bool apart =
-      use.data.bodies() == 1 || hydrodynamics(scene, use.bodies.front()).interaction == Interaction::self;
+      use.data->bodies() == 1 || hydrodynamics(scene, use.bodies.front()).interaction == Interaction::self;
   std::vector<std::vector<std::size_t>> sets;
   for (std::size_t i = 0; i < use.bodies.size(); ++i) {
     if (sets.empty() || apart) sets.emplace_back();
@@ -240,7 +240,7 @@ std::vector<std::vector<int>> sharing_waves(const Scene& scene, const std::vecto
         std::vector<std::size_t> joined;
         std::erase_if(parts, [&](const std::vector<std::size_t>& part) {
           if (std::none_of(part.begin(), part.end(),
-                           [&](std::size_t j) { return coupled(use.data, use.file_body[i], use.file_body[j]); }))
+                           [&](std::size_t j) { return coupled(*use.data, use.file_body[i], use.file_body[j]); }))
             return false;
           joined.insert(joined.end(), part.begin(), part.end());
           return true;
@@ -507,8 +507,8 @@ void add_hydrodynamics(const Scene& scene, Prepared& prepared) {
   note_sets(scene, prepared.sharing_waves, prepared.notes);
   for (Use& use : all) {
     examine(scene, use, *prepared.kept, prepared.notes);
-    take_depth(scene, use, prepared.other_depths);
-    for (const auto& note : use.data.notes) prepared.notes.push_back(note);
+    const hydro::WaterDepth depth = take_depth(scene, use, prepared.other_depths);
+    for (const auto& note : use.data->notes) prepared.notes.push_back(note);
     for (const auto& set : interacting(scene, use)) {
       std::vector<int> bodies, of_file;
       for (const std::size_t i : set) {
@@ -516,9 +516,9 @@ void add_hydrodynamics(const Scene& scene, Prepared& prepared) {
         of_file.push_back(use.file_body[i]);
       }
       const Hydrodynamics& h = hydrodynamics(scene, bodies.front());
-      Placement placement(scene, hydro::potential::select(use.data, of_file), bodies, use.data.bodies() == 1,
-                          prepared.notes);
-      Coefficients c = placement.place();
+      Coefficients of_set = hydro::potential::select(*use.data, of_file);
+      of_set.water.depth = depth;
+      Coefficients c = Placement(scene, std::move(of_set), bodies, use.data->bodies() == 1, prepared.notes).place();
       add_hydrostatics(scene, c, bodies, prepared);
       suppress(scene, c, bodies);
       std::vector<Eigen::Vector3d> origins;

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "compile/quadratic_transfer.hpp"
 #include "compile/waves.hpp"
 #include "dynamics/force/second_order.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/interpolation.hpp"
-#include "hydro/potential/formats/second_order.hpp"
 #include "scene/placed.hpp"
 
 namespace froude::compile {
@@ -18,20 +17,7 @@ using dynamics::SecondOrderLoad;
 using hydro::InputError;
 using hydro::potential::QuadraticTransfer;
 using hydro::waves::Component;
-using Matrices = std::array<Eigen::MatrixXcd, 6>;
 using Method = scene::SecondOrder::Method;
-
-constexpr double degree = std::numbers::pi / 180;
-
-/// About another point, r from the first: M + F × r.
-Matrices about(Matrices m, const Eigen::Vector3d& r) {
-  if (m[0].size() == 0) return m;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    m[3 + i] += m[j] * r[static_cast<Eigen::Index>(k)] - m[k] * r[static_cast<Eigen::Index>(j)];
-  }
-  return m;
-}
 
 /// Of real and imaginary part of s, one below the other: Re(sᵀ T s̅), and with sign −1 Re(sᵀ T s).
 std::array<Eigen::MatrixXd, 6> real_forms(const Matrices& T, double sign) {
@@ -47,12 +33,6 @@ std::array<Eigen::MatrixXd, 6> real_forms(const Matrices& T, double sign) {
   return out;
 }
 
-Matrices weighted(const Matrices& a, double by_a, const Matrices& b, double by_b) {
-  Matrices out;
-  for (std::size_t i = 0; i < 6; ++i) out[i] = by_a * a[i] + by_b * b[i];
-  return out;
-}
-
 /// The waves of a sea within the frequencies of a file.
 std::vector<std::size_t> inside(const hydro::waves::Sea& sea, const QuadraticTransfer& T, double accuracy) {
   std::vector<std::size_t> out;
@@ -65,51 +45,8 @@ std::vector<std::size_t> inside(const hydro::waves::Sea& sea, const QuadraticTra
     kept += energy;
     out.push_back(c);
   }
-  if (all - kept > accuracy * all)
-    throw InputError(fmt::format("{:.2g} of the waves' energy is outside the frequencies of the second-order loads, "
-                                 "{:.4g} to {:.4g} rad/s, more than the accuracy asked",
-                                 (all - kept) / all, T.omega.front(), T.omega.back()),
-                     {}, "compute the loads at more frequencies, or ask for other waves");
+  require_little_outside((all - kept) / all, T, accuracy);
   return out;
-}
-
-/// Between which headings of the file, and how, waves of one heading are.
-hydro::Stencil between(const QuadraticTransfer& T, double heading) {
-  constexpr double rounding = 1e-6;  // degrees are printed with few digits
-  const double turn = 2 * std::numbers::pi;
-  for (const double beta : {heading, heading - turn, heading + turn})
-    if (beta >= T.heading.front() - rounding && beta <= T.heading.back() + rounding) {
-      if (T.heading.size() == 1) return {.first = 0, .weight = {1}};
-      return hydro::straight_stencil(T.heading, std::clamp(beta, T.heading.front(), T.heading.back()));
-    }
-  throw InputError(fmt::format("waves go towards {:.4g} deg, and the second-order loads are for {:.4g} to {:.4g} deg",
-                               heading / degree, T.heading.front() / degree, T.heading.back() / degree),
-                   {}, "compute the loads for that heading too");
-}
-
-const Matrices& of_pair(const QuadraticTransfer& T, std::size_t h1, std::size_t h2) {
-  if (!T.has(h1, h2))
-    throw InputError(fmt::format("the second-order loads have no waves of {:.4g} and {:.4g} deg together",
-                                 T.heading[h1] / degree, T.heading[h2] / degree),
-                     {}, "compute the loads for all pairs of headings, or take long-crested waves");
-  return T.at(h1, h2);
-}
-
-/// T(ω_k, β; ω_l, β) of waves of one heading, or the column T(ω_k, β; ω_k, β) of a mean drift: straight between the
-/// headings of the file.
-Matrices of_heading(const QuadraticTransfer& T, double heading) {
-  const hydro::Stencil s = between(T, heading);
-  const Matrices& first = of_pair(T, s.first, s.first);
-  if (s.weight[1] == 0) return weighted(first, s.weight[0], first, 0);
-  return weighted(first, s.weight[0], of_pair(T, s.first + 1, s.first + 1), s.weight[1]);
-}
-
-/// Of all pairs of waves those of equal ones: what a mean drift has.
-QuadraticTransfer of_equal_waves(QuadraticTransfer T) {
-  for (Matrices& of : T.of_headings)
-    for (Eigen::MatrixXcd& m : of)
-      if (m.cols() > 1) m = m.diagonal().eval();
-  return T;
 }
 
 bool is_long_crested(const hydro::waves::Sea& sea) {
@@ -140,23 +77,14 @@ class Loads {
 
   /// T(1; 2) = ½ (T(1; 1) + T(2; 2)): Re(Σ a D e^{iωt} · conj Σ a e^{iωt}).
   SecondOrderLoad newman(const QuadraticTransfer& T) const {
-    if (!is_long_crested(sea_))
-      throw InputError("Newman's approximation is for waves of one heading", {},
-                       "take method = \"full\" with all pairs of headings, or \"mean\"");
+    if (!is_long_crested(sea_)) refuse_newman();
     const QuadraticTransfer equal = of_equal_waves(T);
     Eigen::MatrixXcd amplitudes = Eigen::MatrixXcd::Zero(7, components());
     for (const std::size_t c : inside(sea_, T, accuracy_)) {
       const std::complex<double> a = at_origin(sea_.components()[c]);
       amplitudes.col(static_cast<Eigen::Index>(c)) << a, a * drift(equal, sea_.components()[c]).real();
     }
-    SecondOrderLoad out{.body = body_, .signals = complex_signals(amplitudes), .method = "Newman's approximation"};
-    Matrices products;
-    for (Eigen::Index mode = 0; mode < 6; ++mode) {
-      products[static_cast<std::size_t>(mode)] = Eigen::MatrixXcd::Zero(7, 7);
-      products[static_cast<std::size_t>(mode)](1 + mode, 0) = 1;
-    }
-    out.form = real_forms(products, 1);
-    return out;
+    return {.body = body_, .signals = complex_signals(amplitudes), .product = true, .method = "Newman's approximation"};
   }
 
   /// Bilinear between the frequencies and headings of the file: each wave has its share of the (up to four) points
@@ -234,30 +162,11 @@ class Loads {
   double ramp_, accuracy_;
 };
 
-QuadraticTransfer read(const scene::Located<std::filesystem::path>& file, const scene::SecondOrder& asked,
-                       const hydro::Water& water, std::vector<std::string>& notes) {
-  QuadraticTransfer out = hydro::potential::read_second_order(file.value, {.density = water.density,
-                                                                           .gravity = water.gravity,
-                                                                           .ulen = asked.ulen,
-                                                                           .iperout = asked.iperout,
-                                                                           .body = asked.body});
-  notes.insert(notes.end(), out.notes.begin(), out.notes.end());
-  return out;
-}
-
-/// Which kinds of file a method takes.
-void require_kind(bool right, const scene::Located<std::filesystem::path>& file, const char* needed) {
-  if (!right)
-    throw InputError(fmt::format("\"{}\" does not have what is asked for", file.value.filename().string()), file.place,
-                     needed);
-}
-
 }  // namespace
 
 void add_second_order(const scene::Scene& scene, const std::vector<dynamics::RigidBody>& bodies,
                       const hydro::waves::Sea* sea, const StepGrid& grid, std::vector<std::string>& notes,
                       std::vector<std::unique_ptr<const dynamics::ForceKind>>& forces) {
-  using Kind = QuadraticTransfer::Kind;
   std::vector<SecondOrderLoad> loads;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     if (!scene.bodies[b].second_order || !scene.waves) continue;
@@ -268,17 +177,11 @@ void add_second_order(const scene::Scene& scene, const std::vector<dynamics::Rig
     const Loads of(static_cast<int>(b), scene.bodies[b].position, bodies[b].rest_centre(), *sea, grid,
                    scene.waves->ramp, scene.accuracy);
     scene::placed(asked.place, [&] {
-      const QuadraticTransfer T = read(asked.file, asked, scene.water, notes);
-      require_kind(T.kind != Kind::sum, asked.file, "name a file of sum frequencies as `sum`");
-      require_kind(asked.method != Method::full || T.kind == Kind::difference, asked.file,
-                   "method = \"full\" needs .10d, .11d or .12d; a mean drift serves \"newman\" and \"mean\"");
-      loads.push_back(asked.method == Method::mean     ? of.mean(T)
-                      : asked.method == Method::newman ? of.newman(T)
-                                                       : of.full(T));
-      if (!asked.sum) return;
-      const QuadraticTransfer plus = read(*asked.sum, asked, scene.water, notes);
-      require_kind(plus.kind == Kind::sum, *asked.sum, "`sum` takes .10s, .11s or .12s");
-      loads.push_back(of.full(plus));
+      const SecondOrderFiles files = read_second_order_files(asked, scene.water, notes);
+      loads.push_back(asked.method == Method::mean     ? of.mean(files.difference)
+                      : asked.method == Method::newman ? of.newman(files.difference)
+                                                       : of.full(files.difference));
+      if (files.sum) loads.push_back(of.full(*files.sum));
     });
   }
   if (!loads.empty()) forces.push_back(std::make_unique<dynamics::SecondOrderKind>(std::move(loads)));

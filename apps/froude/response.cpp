@@ -5,6 +5,7 @@
 
 #include "answers/plot.hpp"
 #include "answers/response_spectra.hpp"
+#include "answers/second_order_spectra.hpp"
 #include "froude/commands.hpp"
 #include "froude/density_unit.hpp"
 #include "froude/option.hpp"
@@ -105,7 +106,43 @@ Report damage_of(const ResponseSpectrum& s, const hs::Moments& m, const Asked& a
   return out;
 }
 
-Report report_of(const scene::Scene& scene, const ResponseSpectra& r, const Asked& asked) {
+/// m₀, m₂ of a part; zeros where it has none.
+struct Part {
+  double m0 = 0, m2 = 0;
+  explicit Part(const hs::SpectrumPerHz& s) {
+    if (std::all_of(s.density.begin(), s.density.end(), [](double d) { return d == 0; })) return;
+    const hs::Moments m = hs::moments(s, hs::whole(s));
+    m0 = m.m0, m2 = m.m2;
+  }
+};
+
+/// Offset and deviations, first order beside second. Parts are uncorrelated: variances add. (D142)
+Report second_order_of(const ResponseSpectra& r, const SecondOrderResponses& second) {
+  Report out, signals;
+  out.say("{:<24} {:<7} {:>11} {:>11} {:>11} {:>11} {:>11} {:>13}", "second order", "unit", "offset", "dev. first",
+          "dev. slow", "dev. sums", "dev. all", "Tz slow [s]");
+  for (std::size_t s = 0; s < second.signals.size(); ++s) {
+    const SecondOrderResponse& of = second.signals[s];
+    const Part first(r.signals[s].spectrum), slow(of.slow), sum(of.sum);
+    const double all = first.m0 + slow.m0 + sum.m0;
+    if (of.offset == 0 && all == 0) continue;
+    const std::optional<double> tz = slow.m2 > 0 ? std::optional(std::sqrt(slow.m0 / slow.m2)) : std::nullopt;
+    Report one;
+    one.say("{:<24} {:<7} {:>11.5g} {:>11.5g} {:>11.5g} {:>11.5g} {:>11.5g} {:>13}", of.name,
+            fact("unit", of.units, unit_or_dash(of.units)), fact("offset", of.offset),
+            fact("standard_deviation_first", std::sqrt(first.m0)), fact("standard_deviation_slow", std::sqrt(slow.m0)),
+            fact("standard_deviation_sums", std::sqrt(sum.m0)), fact("standard_deviation_all", std::sqrt(all)),
+            fact("tz_slow_s", tz, tz ? fmt::format("{:.4g}", *tz) : std::string("-")));
+    one.keep("slow_frequency_hz", of.slow.frequency_hz).keep("slow_density_per_hz", of.slow.density);
+    one.keep("sum_frequency_hz", of.sum.frequency_hz).keep("sum_density_per_hz", of.sum.density);
+    signals.part(of.name, std::move(one));
+  }
+  out.keep("error", second.error);
+  return std::move(out.part("signals", std::move(signals)).sentences("notes", "note: {}", second.notes));
+}
+
+Report report_of(const scene::Scene& scene, const ResponseSpectra& r, const SecondOrderResponses* second,
+                 const Asked& asked) {
   Report out, statistics, moments, largest, damage;
   const hs::Moments sea = hs::moments(r.sea, hs::whole(r.sea));
   out.say("{}: {} signals at {} frequencies and {} {}, placed until moments are within {:.2g} (asked {:g})",
@@ -142,6 +179,7 @@ Report report_of(const scene::Scene& scene, const ResponseSpectra& r, const Aske
   }
   out.part("signals", std::move(statistics)).part("", std::move(moments)).part("largest", std::move(largest));
   if (asked.sn) out.part("damage", std::move(damage));
+  if (second != nullptr) out.part("second_order", second_order_of(r, *second));
   return std::move(out.sentences("notes", "note: {}", notes).sentences("warnings", "{}", r.warnings));
 }
 
@@ -152,28 +190,62 @@ std::vector<double> as_si_of(const std::string& unit, std::vector<double> values
   return values;
 }
 
-void write_spectra(const Path& path, const ResponseSpectra& r) {
-  std::vector<std::vector<double>> values{as_si_of("Hz", r.sea.frequency_hz), as_si_of("m^2/Hz", r.sea.density)};
-  std::vector<std::pair<std::string, std::string>> names{{"frequency", "Hz"}, {"sea", "m^2/Hz"}};
-  for (const auto& s : r.signals) {
-    names.emplace_back(s.name, density_unit(s.units));
-    values.push_back(as_si_of(names.back().second, s.spectrum.density));
+/// What a spectrum, or a part of one, is called.
+struct NamedSpectrum {
+  std::string name, units;
+  const hs::SpectrumPerHz* spectrum;
+};
+
+/// The sea, responses of first order, and parts of second order, of what has any.
+std::vector<NamedSpectrum> spectra_of(const ResponseSpectra& r, const SecondOrderResponses* second) {
+  std::vector<NamedSpectrum> out{{"sea", "m^2/Hz", &r.sea}};
+  for (const auto& s : r.signals) out.push_back({s.name, density_unit(s.units), &s.spectrum});
+  if (second == nullptr) return out;
+  for (const auto& s : second->signals) {
+    if (Part(s.slow).m0 > 0) out.push_back({s.name + " slow", density_unit(s.units), &s.slow});
+    if (Part(s.sum).m0 > 0) out.push_back({s.name + " sums", density_unit(s.units), &s.sum});
   }
-  std::vector<hydro::io::CsvColumn> columns;
-  for (std::size_t i = 0; i < names.size(); ++i) columns.push_back({names[i].first, names[i].second, &values[i]});
+  return out;
+}
+
+/// Straight between the frequencies of a spectrum, nothing beyond them.
+double density_at(const hs::SpectrumPerHz& s, double f) {
+  const auto high = std::lower_bound(s.frequency_hz.begin(), s.frequency_hz.end(), f);
+  if (high == s.frequency_hz.end()) return 0;
+  const auto i = static_cast<std::size_t>(high - s.frequency_hz.begin());
+  if (*high == f) return s.density[i];
+  if (i == 0) return 0;
+  const double u = (f - s.frequency_hz[i - 1]) / (s.frequency_hz[i] - s.frequency_hz[i - 1]);
+  return (1 - u) * s.density[i - 1] + u * s.density[i];
+}
+
+/// One column a spectrum, at the frequencies of all of them.
+void write_spectra(const Path& path, const std::vector<NamedSpectrum>& spectra) {
+  std::vector<double> frequency;
+  for (const auto& s : spectra)
+    frequency.insert(frequency.end(), s.spectrum->frequency_hz.begin(), s.spectrum->frequency_hz.end());
+  std::sort(frequency.begin(), frequency.end());
+  frequency.erase(std::unique(frequency.begin(), frequency.end()), frequency.end());
+  std::vector<std::vector<double>> values{as_si_of("Hz", frequency)};
+  for (const auto& s : spectra) {
+    std::vector<double> density;
+    for (const double f : frequency) density.push_back(density_at(*s.spectrum, f));
+    values.push_back(as_si_of(s.units, std::move(density)));
+  }
+  std::vector<hydro::io::CsvColumn> columns{{"frequency", "Hz", &values.front()}};
+  for (std::size_t i = 0; i < spectra.size(); ++i)
+    columns.push_back({spectra[i].name, spectra[i].units, &values[i + 1]});
   hydro::io::write_csv(path, columns, {"one-sided densities of responses in the sea"});
 }
 
-plot::Figure figure(const scene::Scene& scene, const ResponseSpectra& r) {
+plot::Figure figure(const scene::Scene& scene, const std::vector<NamedSpectrum>& spectra) {
   plot::Figure out{.title = scene.title.empty() ? "Response spectra" : scene.title, .panels = {}};
-  const auto add = [&](const std::string& name, const std::string& unit, const std::vector<double>& density) {
-    auto at = std::find_if(out.panels.begin(), out.panels.end(), [&](const auto& p) { return p.y.unit == unit; });
+  for (const auto& s : spectra) {
+    auto at = std::find_if(out.panels.begin(), out.panels.end(), [&](const auto& p) { return p.y.unit == s.units; });
     if (at == out.panels.end())
-      at = out.panels.insert(at, {.x = {"frequency", "Hz"}, .y = {"density", unit}, .series = {}});
-    at->series.push_back({name, r.sea.frequency_hz, density});
-  };
-  add("sea", "m^2/Hz", r.sea.density);
-  for (const auto& s : r.signals) add(s.name, density_unit(s.units), s.spectrum.density);
+      at = out.panels.insert(at, {.x = {"frequency", "Hz"}, .y = {"density", s.units}, .series = {}});
+    at->series.push_back({s.name, s.spectrum->frequency_hz, s.spectrum->density});
+  }
   return out;
 }
 
@@ -275,6 +347,9 @@ Report report_of(const Scatter& scatter, const std::vector<ResponseSpectra>& sea
   signals.say("{:<24} {:<7} {:>13} {:>12}{}{}", "signal", "unit", "peaks > 0", "1 expected", columns,
               asked.sn ? fmt::format(" {:>11} {:>11}", "damage", "life [h]") : "");
   std::vector<std::string> notes = seas.front().notes;
+  const auto& bodies = scatter.scenes.front().read().bodies;
+  if (std::any_of(bodies.begin(), bodies.end(), [](const auto& b) { return b.second_order; }))
+    notes.emplace_back("wave loads of second order are left out of a lifetime: one sea at a time has them");
   for (const Life& life : lives) {
     if (life.parts.empty()) {
       notes.push_back(life.name + " does not respond to these seas");
@@ -379,9 +454,12 @@ void response(const ResponseArguments& arguments, const Console& console) {
   }
   const ResponseSpectra found = response_spectra({&scene}).front();
   if (asked.sn) require_one_fits(*asked.sn, units_of(found));
-  Report report = scene::placed({.file = "--duration"}, [&] { return report_of(scene, found, asked); });
-  if (arguments.output) write_spectra(*arguments.output, found);
-  if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, found)));
+  const std::optional<SecondOrderResponses> more = second_order_responses(scene);
+  const SecondOrderResponses* second = more ? &*more : nullptr;
+  Report report = scene::placed({.file = "--duration"}, [&] { return report_of(scene, found, second, asked); });
+  const std::vector<NamedSpectrum> spectra = spectra_of(found, second);
+  if (arguments.output) write_spectra(*arguments.output, spectra);
+  if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, spectra)));
   tell(report.wrote(arguments.output).wrote(arguments.picture), console);
 }
 

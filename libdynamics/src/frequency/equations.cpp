@@ -37,8 +37,12 @@ void Impedance::add(int on, int by, const Block& block) {
       if (block(r, c) != 0.0) entries.emplace_back(6 * on + r, 6 * by + c, block(r, c));
 }
 
-Equations::Equations(const SmallMotions& about, const std::vector<PotentialGroup>& groups)
-    : about_(about), groups_(groups), sparse_(prefer_sparse(about, groups)), mass_(about.mass.diagonal()) {
+Equations::Equations(const SmallMotions& about, const std::vector<PotentialGroup>& groups, BelowData below)
+    : about_(about),
+      groups_(groups),
+      below_(below),
+      sparse_(prefer_sparse(about, groups)),
+      mass_(about.mass.diagonal()) {
   for (int m = 0; m < about.model.modes(); ++m)
     if (about.model.is_free(m)) free_.push_back(m);
   if (sparse_)
@@ -89,7 +93,9 @@ Impedance Equations::impedance(double omega) const {
                 (omega * omega * about_.mass.block<6, 6>(6 * i, 6 * j)).cast<Complex>());
   for (const PotentialGroup& g : groups_) {
     if (!g.radiation) continue;
-    const Eigen::MatrixXd A = g.table.added_mass(omega), B = g.table.damping(omega);
+    const bool from_zero = below_ == BelowData::straight_to_zero;
+    const Eigen::MatrixXd A = from_zero ? g.table.added_mass_from_zero(omega) : g.table.added_mass(omega),
+                          B = from_zero ? g.table.damping_from_zero(omega) : g.table.damping(omega);
     for (std::size_t i = 0; i < g.bodies.size(); ++i)
       for (std::size_t j = 0; j < g.bodies.size(); ++j) {
         const auto row = 6 * static_cast<Index>(i), column = 6 * static_cast<Index>(j);
@@ -153,7 +159,8 @@ Motions Equations::solve(const Impedance& Z, const MatrixXcd& X, double omega) c
 void Equations::refuse(Impedance Z, double omega) const {
   constexpr double little = 1e-9;
   const std::string what =
-      fmt::format("no response exists at {:.6g} rad/s: the equations of motion are singular there", omega);
+      omega == 0 ? "no static answer to a constant load exists: the stiffness is singular"
+                 : fmt::format("no response exists at {:.6g} rad/s: the equations of motion are singular there", omega);
   const double largest = omega * omega + about_.linear.stiffness.diagonal().cwiseAbs().cwiseQuotient(mass_).maxCoeff();
   const hydro::RandomStream random(1, 0);
   VectorXcd x(mass_.size());
@@ -171,7 +178,7 @@ void Equations::refuse(Impedance Z, double omega) const {
   x.cwiseAbs2().cwiseProduct(mass_).maxCoeff(&most);
   const std::string motion = about_.model.mode_name(static_cast<int>(most));
   const double restored = std::abs(x.dot(about_.linear.stiffness.cast<Complex>() * x));
-  throw hydro::NumericsError(what + (restored < 0.5 * omega * omega
+  throw hydro::NumericsError(what + (omega == 0 || restored < 0.5 * omega * omega
                                          ? fmt::format("; nothing holds {}: name what restores it, or hold it", motion)
                                          : fmt::format("; {} resonates, and nothing damps it", motion)));
 }

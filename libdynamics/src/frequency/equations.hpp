@@ -29,6 +29,12 @@ struct Motions {
   Eigen::MatrixXcd xi, lambda;
 };
 
+/// Where frequencies below those of the coefficients come from.
+enum class BelowData {
+  refused,
+  straight_to_zero  ///< FrequencyTable::added_mass_from_zero(), damping_from_zero()
+};
+
 /// (Q1) with the constraints of joints. Const, shared between threads.
 ///
 /// Where bodies are few or most feel each other, in the motions that joints leave, by dense factors: O(n³). Else
@@ -36,7 +42,7 @@ struct Motions {
 class Equations {
  public:
   /// Both must live as long.
-  Equations(const SmallMotions& about, const std::vector<PotentialGroup>& groups);
+  Equations(const SmallMotions& about, const std::vector<PotentialGroup>& groups, BelowData below = BelowData::refused);
 
   bool are_empty() const { return free_.empty(); }
   bool are_sparse() const { return sparse_; }
@@ -56,6 +62,7 @@ class Equations {
 
   const SmallMotions& about_;
   const std::vector<PotentialGroup>& groups_;
+  BelowData below_;
   bool sparse_;
   std::vector<int> free_;  // modes
   Eigen::VectorXd mass_;   // of each mode by itself, dry

@@ -64,30 +64,55 @@ Motions motions_with_drag(const Equations& equations, double omega, const Eigen:
   return out;
 }
 
+/// Room for answers to this many right-hand sides.
+Amplitudes no_motion(const SmallMotions& about, std::size_t columns, std::size_t frequencies) {
+  const auto n = static_cast<Eigen::Index>(frequencies);
+  Amplitudes out;
+  out.xi.assign(columns, Eigen::MatrixXcd::Zero(about.model.modes(), n));
+  out.lambda.assign(columns, Eigen::MatrixXcd::Zero(about.linear.constraints.rows(), n));
+  return out;
+}
+
+/// Motions of frequency number w to their places.
+void put(const Motions& found, std::size_t w, Amplitudes& out) {
+  for (std::size_t h = 0; h < out.xi.size(); ++h) {
+    out.xi[h].col(static_cast<Eigen::Index>(w)) = found.xi.col(static_cast<Eigen::Index>(h));
+    out.lambda[h].col(static_cast<Eigen::Index>(w)) = found.lambda.col(static_cast<Eigen::Index>(h));
+  }
+}
+
 }  // namespace
 
 Amplitudes response_amplitudes(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
                                const std::vector<double>& omega, const std::vector<double>& headings,
                                const RaoOptions& options) {
   const Equations equations(about, groups);
-  const auto frequencies = static_cast<Eigen::Index>(omega.size());
-  const Eigen::Index joints = about.linear.constraints.rows();
-  Amplitudes out;
-  out.xi.assign(headings.size(), Eigen::MatrixXcd::Zero(about.model.modes(), frequencies));
-  out.lambda.assign(headings.size(), Eigen::MatrixXcd::Zero(joints, frequencies));
+  Amplitudes out = no_motion(about, headings.size(), omega.size());
   if (equations.are_empty() || headings.empty()) return out;
   hydro::in_parallel(omega.size(), options.threads, [&](std::size_t i) {
     const auto w = static_cast<Eigen::Index>(i);
     const Eigen::MatrixXcd X = excitations(about.model, groups, omega[i], headings);
-    const Motions found = options.drag.empty() ? motions_at(equations, omega[i], X)
-                                               : motions_with_drag(equations, omega[i], X, w, options.drag);
-    for (std::size_t h = 0; h < headings.size(); ++h) {
-      out.xi[h].col(w) = found.xi.col(static_cast<Eigen::Index>(h));
-      out.lambda[h].col(w) = found.lambda.col(static_cast<Eigen::Index>(h));
-    }
+    put(options.drag.empty() ? motions_at(equations, omega[i], X)
+                             : motions_with_drag(equations, omega[i], X, w, options.drag),
+        i, out);
   });
   out.sparse = equations.are_sparse();
   out.factorisations = static_cast<int>(omega.size() * (options.drag.empty() ? 1 : headings.size()));
+  return out;
+}
+
+// (D142)
+Amplitudes answers_to_loads(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
+                            const std::vector<double>& omega, const std::vector<int>& modes, int threads) {
+  const Equations equations(about, groups, BelowData::straight_to_zero);
+  const auto columns = static_cast<Eigen::Index>(modes.size());
+  Eigen::MatrixXcd unit = Eigen::MatrixXcd::Zero(about.model.modes(), columns);
+  for (Eigen::Index m = 0; m < columns; ++m) unit(modes[static_cast<std::size_t>(m)], m) = 1;
+  Amplitudes out = no_motion(about, modes.size(), omega.size());
+  if (equations.are_empty() || modes.empty()) return out;
+  hydro::in_parallel(omega.size(), threads, [&](std::size_t w) { put(motions_at(equations, omega[w], unit), w, out); });
+  out.sparse = equations.are_sparse();
+  out.factorisations = static_cast<int>(omega.size());
   return out;
 }
 

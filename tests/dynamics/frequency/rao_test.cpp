@@ -335,5 +335,31 @@ TEST(Rao, SaysWhenAnUndampedResonanceIsHit) {
                   testing::HasSubstr("at 1 rad/s"), testing::HasSubstr("resonates, and nothing damps"))));
 }
 
+// (D142): the column of Z⁻¹ inside the data; K⁻¹ at rest; below the data A constant, or straight to A(0), and B
+// straight to none.
+TEST(AnswersToLoads, AreColumnsOfTheInverseFromZeroFrequencyOn) {
+  const double stiffness = 5000, damper = 70, lowest = 0.1;
+  const std::vector<RigidBody> bodies{body("a", 0)};
+  const Model model = sprung(bodies, stiffness, damper);
+  for (const bool with_limit : {false, true}) {
+    Coefficients c = coefficients({0});
+    if (with_limit) c.A_zero = 900 * Eigen::MatrixXd::Identity(6, 6);
+    const double A = c.A.front()(0, 0), B = c.B.front()(0, 0);
+    const std::vector<PotentialGroup> groups{{{0}, {c, {Eigen::Vector3d::Zero()}}, true, true}};
+    const std::vector<double> omega{0, 0.04, 0.8};
+    const auto found = frequency::answers_to_loads(model, groups, omega, {0, 2});
+    const auto plain = [&](double w, double added, double damping) {
+      return 1.0 / std::complex<double>(stiffness - w * w * (1000 + added), w * (damping + damper));
+    };
+    const double added = with_limit ? 900 + 0.04 / lowest * (A - 900) : A;
+    for (const Eigen::Index mode : {0, 2}) {
+      const Eigen::MatrixXcd& xi = found.xi[mode == 0 ? 0 : 1];
+      EXPECT_LT(std::abs(xi(mode, 0) - 1 / stiffness), 1e-15);  // rounding of 2e-4
+      EXPECT_LT(std::abs(xi(mode, 1) - plain(0.04, added, 0.04 / lowest * B)), 1e-15);
+      EXPECT_LT(std::abs(xi(mode, 2) - frequency::impedance(model, groups, 0.8).inverse()(mode, mode)), 1e-15);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace rao_test

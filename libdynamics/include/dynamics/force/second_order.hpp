@@ -9,11 +9,12 @@
 namespace dynamics {
 
 /// On one body about its centre of gravity, mode by mode, with the ramp r of the waves and the signals x that they
-/// drive: F = r² mean + xᵀ form x, N and N m.
+/// drive: F = r² mean + xᵀ form x, N and N m, or of Newman's product F_m = r² mean_m + x₀ x_{2+2m} + x₁ x_{3+2m}.
 struct SecondOrderLoad {
   int body;
   std::optional<WaveSignals> signals = {};   ///< (n); none: the mean alone
   std::array<Eigen::MatrixXd, 6> form = {};  ///< (n, n); without numbers: none of this mode
+  bool product = false;                      ///< in place of forms; the signals are then 14
   Vector6 mean = Vector6::Zero();
   double ramp_s = 0;
   std::string method = {};

@@ -33,4 +33,12 @@ Amplitudes response_amplitudes(const SmallMotions& about, const std::vector<Pote
                                const std::vector<double>& omega, const std::vector<double>& headings,
                                const RaoOptions& options);
 
+/// Answers to loads Re(e^{iωt}) of one newton or newton metre about the centres of gravity, in place of waves:
+/// [−ω²(M + A(ω)) + iω(B(ω) + D) + K] ξ + Gᵀλ = e_m, for each of these modes m where response_amplitudes() has a
+/// heading. From ω = 0 on, where K alone holds a constant load: below the tables A is straight to A(0) or constant, B
+/// straight to none. \throws hydro::InputError above the data, hydro::NumericsError naming frequency and motion if the
+/// matrix is singular, as at ω = 0 where nothing holds a motion (D142)
+Amplitudes answers_to_loads(const SmallMotions& about, const std::vector<PotentialGroup>& groups,
+                            const std::vector<double>& omega, const std::vector<int>& modes, int threads = 1);
+
 }  // namespace dynamics::frequency

@@ -116,6 +116,17 @@ Eigen::MatrixXd FrequencyTable::damping(double omega) const {
                   [&](std::size_t i) -> const Eigen::MatrixXd& { return c_.B[i]; });
 }
 
+Eigen::MatrixXd FrequencyTable::added_mass_from_zero(double omega) const {
+  if (omega >= lowest()) return added_mass(omega);
+  if (!c_.A_zero) return c_.A.front();
+  const double share = omega / lowest();
+  return (1 - share) * *c_.A_zero + share * c_.A.front();
+}
+
+Eigen::MatrixXd FrequencyTable::damping_from_zero(double omega) const {
+  return omega >= lowest() ? damping(omega) : Eigen::MatrixXd(omega / lowest() * c_.B.front());
+}
+
 Eigen::VectorXcd FrequencyTable::excitation(double omega, double heading) const {
   require_inside(c_, omega);
   if (c_.heading.empty())

@@ -35,6 +35,11 @@ class FrequencyTable {
   /// \throws InputError naming the range if omega is outside it
   Eigen::MatrixXd added_mass(double omega) const;
   Eigen::MatrixXd damping(double omega) const;
+  /// The same, and below the table down to ω = 0: the added mass straight to A(0), or constant where the data have no
+  /// A(0); the damping straight to none, since a motion at ω = 0 makes no waves. \throws InputError naming the range
+  /// above the table
+  Eigen::MatrixXd added_mass_from_zero(double omega) const;
+  Eigen::MatrixXd damping_from_zero(double omega) const;
   Eigen::VectorXcd excitation(double omega,
                               double heading) const;  ///< also \throws if heading is outside the table or there is none
   /// Largest difference between cubic and straight interpolation of A, B, X half way between the frequencies, relative

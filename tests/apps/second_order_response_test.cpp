@@ -1,0 +1,252 @@
+// What second-order loads add to responses in seas: closed forms, plain sums over pairs of waves, loads of runs.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <fstream>
+#include <numbers>
+
+#include "answers/sea_directions.hpp"
+#include "answers/second_order_loads.hpp"
+#include "answers/second_order_spectra.hpp"
+#include "compile/compile.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/waves/dispersion.hpp"
+#include "hydro/waves/spectra/spectrum.hpp"
+#include "support/scratch.hpp"
+
+namespace second_order_response_test {
+namespace {
+
+using namespace froude;
+using Pairs = SecondOrderLoads::Pairs;
+using Complex = std::complex<double>;
+using testing::HasSubstr, testing::ThrowsMessage;
+
+constexpr double pi = std::numbers::pi, rho_g = 1000 * 9.81;
+
+/// T/(ρg) of surge; Hermitian as differences are, symmetric as sums are. Straight in each frequency, so that a file has
+/// it exactly.
+Complex constant(double, double) { return 3; }
+Complex difference(double w1, double w2) { return {1 + 0.5 * (w1 + w2), 2 * (w1 - w2)}; }
+Complex mean_of_two(double w1, double w2) { return 1 + 0.5 * (w1 + w2); }
+Complex sum(double w1, double w2) { return {0.3 * (w1 + w2), 0.5 * w1 * w2}; }
+using Transfer = Complex (*)(double, double);
+
+constexpr double low = 0.4, high = 4;  // rad/s, of files: all but 1e-3 of the sea
+std::string file_of(Transfer T, const char* name, const std::vector<double>& headings_deg = {0}) {
+  const auto path = support::scratch_folder() / name;
+  std::ofstream out(path);
+  constexpr int n = 13;
+  for (const double b1 : headings_deg)
+    for (const double b2 : headings_deg)
+      for (int k = 0; k < n; ++k)
+        for (int l = 0; l < n; ++l)
+          for (int mode = 1; mode <= 6; ++mode) {
+            const double w1 = low + (high - low) * k / (n - 1), w2 = low + (high - low) * l / (n - 1);
+            const Complex v = mode == 1 ? T(w1, w2) : 0;
+            out << fmt::format("{:.15g} {:.15g} {} {} {} {:.15g} {:.15g} {:.15g} {:.15g}\n", 2 * pi / w1, 2 * pi / w2,
+                               b1, b2, mode, std::abs(v), std::arg(v) * 180 / pi, v.real(), v.imag());
+          }
+  return path.string();
+}
+
+/// A body that springs alone hold: surge answers as 1/(k − mω² + icω).
+constexpr double m = 9000, k = 3000, c = 900;
+std::string body_text(const std::string& name, const std::string& place, const std::string& loads,
+                      const std::string& surge = "surge = \"3 kN/m\", ") {
+  return "[[body]]\nname = \"" + name + "\"\nposition = \"" + place +
+         "\"\nmass = \"9 t\"\ncentre_of_gravity = \"(0, 0, 0) m\"\nradii_of_gyration = \"(4, 4, 5) m\"\n"
+         "[body.second_order]\n" +
+         loads + "[[mooring]]\non = \"" + name + "\"\nkind = \"linear\"\nstiffness = { " + surge +
+         "sway = \"3 kN/m\", heave = \"900 kN/m\", roll = \"9 MN m/rad\", pitch = \"9 MN m/rad\", yaw = \"9 MN m/rad\" "
+         "}\ndamping = { surge = \"900 N s/m\", sway = \"900 N s/m\", heave = \"9 kN s/m\", roll = \"90 kN m s/rad\", "
+         "pitch = \"90 kN m s/rad\", yaw = \"90 kN m s/rad\" }\n";
+}
+
+scene::Scene scene_of(const std::string& bodies, const std::string& sea = "", int seed = 1) {
+  auto out = scene::parse(
+      "schema = 1\n[water]\ndensity = \"1000 kg/m^3\"\ngravity = \"9.81 m/s^2\"\ndepth = \"50 m\"\n"
+      "[waves]\nkind = \"jonswap\"\nhs = \"1 m\"\ntp = \"6 s\"\nheading = \"0 deg\"\nseed = " +
+          std::to_string(seed) + "\n" + sea + bodies +
+          "[ask]\nrun = { duration = \"20 s\", every = \"0.1 s\" }\naccuracy = 5e-3\n[solve]\nstep "
+          "= \"0.1 s\"\n",
+      "scene.toml");
+  out.rao.emplace();  // which a reader allows only where first-order waves act
+  out.rao->of = {"*.surge", "*.pitch"};
+  return out;
+}
+
+double density(const scene::Scene& scene, double omega) {
+  return random_sea(scene).systems.front().spectrum->density(omega);
+}
+double variance(const hydro::signal::SpectrumPerHz& s) { return hydro::signal::moments(s, hydro::signal::whole(s)).m0; }
+
+SecondOrderLoads loads_of(const scene::Scene& scene) {
+  std::vector<std::string> notes;
+  return {scene, compile::prepare(scene).bodies, rays_of(random_sea(scene), 1), notes};
+}
+Eigen::VectorXd diagonal(const Eigen::MatrixXcd& S) { return S.diagonal().real(); }
+
+double load_variance(const SecondOrderLoads& loads, Pairs pairs) {
+  constexpr int n = 400;
+  const double from = loads.lowest(pairs), h = (loads.highest(pairs) - from) / n;
+  double out = 0;
+  for (int i = 0; i < n; ++i) out += h * loads.spectrum(pairs, from + (i + 0.5) * h, 1e-4, diagonal)(0, 0).real();
+  return out;
+}
+
+// T constant: F = T|A|² of the sea's complex amplitude A, so F is exponentially distributed with deviation = mean =
+// 2 T m₀, and Re(T A²) has the same deviation.
+TEST(SecondOrderLoads, OfAConstantTransferFunctionHaveTheDeviationOfTheSquareOfAnAmplitude) {
+  const auto scene = scene_of(body_text("m", "(0, 0, 0) m",
+                                        "method = \"full\"\nfile = \"" + file_of(constant, "c.12d") + "\"\nsum = \"" +
+                                            file_of(constant, "c.12s") + "\"\n"));
+  const double T = 3 * rho_g, m0 = random_sea(scene).systems.front().spectrum->energy(low, high);
+  const SecondOrderLoads loads = loads_of(scene);
+  EXPECT_NEAR(loads.mean(1e-4)[0], 2 * T * m0, 1e-4 * 2 * T * m0);  // the tolerance asked
+  for (const Pairs pairs : {Pairs::differences, Pairs::sums})
+    EXPECT_NEAR(std::sqrt(load_variance(loads, pairs)), 2 * T * m0, 1e-3 * 2 * T * m0);  // 400 midpoints
+}
+
+// 8 ∫ S(ω + μ) S(ω) |T|² dω, between two bodies with the phases of the ways to each.
+TEST(SecondOrderLoads, BetweenTwoBodiesAreAPlainSum) {
+  const std::string file = "method = \"full\"\nfile = \"" + file_of(difference, "two.12d") + "\"\n";
+  const auto scene = scene_of(body_text("a", "(0, 0, 0) m", file) + body_text("b", "(15, 4, 0) m", file));
+  const SecondOrderLoads loads = loads_of(scene);
+  const double mu = 0.37;
+  constexpr int n = 20000;
+  const double h = (high - mu - low) / n;
+  Complex cross = 0;
+  for (int i = 0; i < n; ++i) {
+    const double w = low + (i + 0.5) * h;
+    const double way = 15 * (hydro::waves::wavenumber(w + mu, scene.water) - hydro::waves::wavenumber(w, scene.water));
+    // Of the load on a with that on b, conjugated: b's phase −way counts as +way.
+    cross += h * 8 * density(scene, w + mu) * density(scene, w) * std::norm(rho_g * difference(w + mu, w)) *
+             std::polar(1.0, way);
+  }
+  const auto both = [](const Eigen::MatrixXcd& S) {
+    return Eigen::VectorXd(Eigen::Vector2d(S(0, 6).real(), S(0, 6).imag()));
+  };
+  EXPECT_LT(std::abs(loads.spectrum(Pairs::differences, mu, 1e-5, both)(0, 6) - cross), 1e-5 * std::abs(cross));
+}
+
+// A realisation's own loads, whose sum over pairs a test of runs has to 1e-9: over a repetition of sixty seas.
+TEST(SecondOrderLoads, HaveTheMeanAndVarianceOfTheLoadsOfRuns) {
+  const std::string loads = "method = \"full\"\nfile = \"" + file_of(difference, "run.12d") + "\"\n";
+  const auto scene = [&](int seed) {
+    return scene_of(body_text("m", "(0, 0, 0) m", loads),
+                    "components = { repetition = \"300 s\", lowest = \"0.064 Hz\", highest = \"0.63 Hz\" }\n", seed);
+  };
+  constexpr int seeds = 60, samples = 1000;
+  std::vector<double> variances;
+  double mean = 0;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const auto one = scene(seed);
+    const compile::TimeModel model = compile::time_model(one, compile::prepare(one));
+    double sum = 0, squares = 0;
+    for (int i = 0; i < samples; ++i) {
+      dynamics::State state = model.start;
+      state.time = 300.0 * i / samples;
+      Eigen::VectorXd F = Eigen::VectorXd::Zero(6);
+      dynamics::LoadSink sink(F);
+      for (const auto& kind : model.model.forces())
+        if (kind->effect() == "second_order") kind->add_load({state, nullptr}, sink);
+      sum += F[0] / samples;
+      squares += F[0] * F[0] / samples;
+    }
+    mean += sum / seeds;
+    variances.push_back(squares - sum * sum);
+  }
+  double average = 0, scatter = 0;
+  for (const double v : variances) average += v / seeds;
+  for (const double v : variances) scatter += (v - average) * (v - average) / (seeds - 1);
+  const double error = std::sqrt(scatter / seeds);
+  ASSERT_LT(error, 0.05 * average);
+  const auto first = scene(1);
+  const SecondOrderLoads found = loads_of(first);
+  // Each sea has the same energy, and so the same mean, to that of its bins of 1/300 Hz.
+  EXPECT_NEAR(found.mean(1e-4)[0], mean, 2e-3 * mean);
+  EXPECT_NEAR(load_variance(found, Pairs::differences), average, 4 * error);  // one in 16 000 by chance
+}
+
+// The mean over the spring, and through 1/(k − mμ² + icμ) the plain sum over all pairs of 600 waves.
+TEST(SecondOrderResponses, AreAPlainSumOverPairsThroughASpring) {
+  const auto scene = scene_of(body_text(
+      "m", "(20, 7, 0) m",
+      "method = \"full\"\nfile = \"" + file_of(difference, "r.12d") + "\"\nsum = \"" + file_of(sum, "r.12s") + "\"\n"));
+  const auto found = second_order_responses(scene)->signals.front();
+  constexpr int n = 600;
+  const double h = (high - low) / n;
+  const auto answer = [](double w) { return std::norm(1.0 / Complex(k - m * w * w, c * w)); };
+  double offset = 0, slow = 0, fast = 0;
+  for (int i = 0; i < n; ++i) {
+    const double w1 = low + (i + 0.5) * h, a1 = 2 * h * density(scene, w1);  // amplitude squared
+    offset += a1 * rho_g * difference(w1, w1).real() / k;
+    for (int j = 0; j <= i; ++j) {  // a wave with itself: half of the square that the bins span
+      const double w2 = low + (j + 0.5) * h, a2 = (i == j ? 0.5 : 1) * 2 * h * density(scene, w2);
+      slow += 2 * a1 * a2 * std::norm(rho_g * difference(w1, w2)) * answer(w1 - w2);
+      fast += 2 * a1 * a2 * std::norm(rho_g * sum(w1, w2)) * answer(w1 + w2);
+    }
+  }
+  ASSERT_EQ(found.name, "m.surge");
+  EXPECT_NEAR(found.offset, offset, 5e-3 * offset);      // the accuracy asked
+  EXPECT_NEAR(variance(found.slow), slow, 5e-3 * slow);  // likewise
+  EXPECT_NEAR(variance(found.sum), fast, 5e-3 * fast);
+  EXPECT_GT(variance(found.slow), 100 * variance(found.sum));  // the spring resonates at 0.58 rad/s
+}
+
+TEST(SecondOrderResponses, OfNewmansApproximationAreThoseOfPairsThatAreMeans) {
+  const std::string file = "file = \"" + file_of(mean_of_two, "n.12d") + "\"\n";
+  const auto by = [&](const std::string& method) {
+    return second_order_responses(scene_of(body_text("m", "(20, 7, 0) m", "method = \"" + method + "\"\n" + file)))
+        ->signals.front();
+  };
+  const auto full = by("full"), newman = by("newman"), mean = by("mean");
+  EXPECT_DOUBLE_EQ(newman.offset, full.offset);
+  EXPECT_NEAR(variance(newman.slow), variance(full.slow), 1e-9 * variance(full.slow));  // rounding
+  EXPECT_DOUBLE_EQ(mean.offset, full.offset);
+  EXPECT_TRUE(mean.slow.density.empty());
+  EXPECT_TRUE(full.sum.density.empty());
+}
+
+// A transfer function that does not know headings has the same answer in a spread sea.
+TEST(SecondOrderResponses, OfASpreadSeaSumOverBothHeadings) {
+  const auto with = [&](const std::string& sea) {
+    const std::string file = file_of(difference, "s.12d", {-180, 0, 180});
+    auto scene = scene_of(body_text("m", "(20, 7, 0) m", "method = \"full\"\nfile = \"" + file + "\"\n"), sea);
+    scene.accuracy.value = 5e-2;  // the same frequencies for both
+    return second_order_responses(scene)->signals.front();
+  };
+  const auto plane = with(""), spread = with("spreading = { kind = \"cos2s\", s = 4 }\n");
+  EXPECT_NEAR(spread.offset, plane.offset, 1e-6 * plane.offset);  // shares of sectors add up to one
+  EXPECT_NEAR(variance(spread.slow), variance(plane.slow), 1e-6 * variance(plane.slow));
+}
+
+TEST(SecondOrderResponses, RefuseByName) {
+  const std::string file = "file = \"" + file_of(difference, "e.12d") + "\"\n";
+  const auto refused = [](const scene::Scene& scene) { return [=] { second_order_responses(scene); }; };
+  EXPECT_THAT(refused(scene_of(body_text("m", "(0, 0, 0) m", "method = \"full\"\n" + file, ""))),
+              ThrowsMessage<hydro::NumericsError>(testing::AllOf(HasSubstr("constant load"), HasSubstr("m.surge"))));
+  EXPECT_THAT(refused(scene_of(body_text("m", "(0, 0, 0) m", "method = \"newman\"\n" + file),
+                               "spreading = { kind = \"cos2s\", s = 4 }\n")),
+              ThrowsMessage<hydro::InputError>(HasSubstr("one heading")));
+  EXPECT_THAT(refused(scene_of(body_text("m", "(0, 0, 0) m", "method = \"full\"\n" + file),
+                               "spreading = { kind = \"cos2s\", s = 4 }\n")),
+              ThrowsMessage<hydro::InputError>(HasSubstr("the second-order loads are for 0 to 0 deg")));
+  const std::string floating = "sum = \"" + file_of(sum, "e.12s") + R"("
+[body.hydrodynamics]
+radiation = {}
+[body.hydrodynamics.cylinders]
+at = "(0, 0, 0) m"
+diameter = "2 m"
+draught = "2.9 m"
+frequencies = "0.2 rad/s .. 3 rad/s, 29 values"
+)";
+  EXPECT_THAT(refused(scene_of(body_text("m", "(0, 0, 0) m", "method = \"full\"\n" + file + floating))),
+              ThrowsMessage<hydro::InputError>(HasSubstr("have a sum of frequencies above the 3 rad/s")));
+}
+
+}  // namespace
+}  // namespace second_order_response_test
