@@ -8,6 +8,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
 #include "hydro/io/hdf5.hpp"
+#include "hydro/io/trial.hpp"
 
 namespace froude {
 namespace {
@@ -248,7 +249,8 @@ void StabilityMap::write(const std::filesystem::path& path) const {
   file.save(path);
 }
 
-RunResult read_run(const std::filesystem::path& path) {
+namespace {
+RunResult run_in(const std::filesystem::path& path) {
   const Hdf5Reader file(path);
   if (!file.has_attribute("/", "kind") || file.text_attribute("/", "kind") != run_kind)
     throw hydro::InputError("not a result of `froude run`", {.file = path.string()},
@@ -266,6 +268,12 @@ RunResult read_run(const std::filesystem::path& path) {
     result.signals.push_back(std::move(signal));
   }
   return result;
+}
+}  // namespace
+
+RunResult read_run(const std::filesystem::path& path) {
+  if (hydro::io::is_hdf5(path)) hydro::io::try_in_child(path, [&] { (void)run_in(path); });
+  return run_in(path);
 }
 
 }  // namespace froude

@@ -132,6 +132,17 @@ double given_step(const Scene& scene) {
   return every / std::round(ratio);
 }
 
+/// \throws InputError if a run takes so many steps that it would not end: at the 1e-7 s of the smallest scene, and with
+/// the wave loads of every step in memory, 1e9 are minutes and gigabytes
+void check_count(const Scene& scene, double step, const std::string& follows) {
+  constexpr double most = 1e9;
+  const double steps = scene.run->duration / step;
+  if (steps <= most) return;
+  throw InputError(fmt::format("a run of {:.6g} s takes {:.3g} steps of {:.3g} s; {:g} are the limit; {}",
+                               scene.run->duration, steps, step, most, follows),
+                   scene.run->place, "look at the units of stiffness and mass, or state [solve] step");
+}
+
 }  // namespace
 
 ChosenStep choose_step(const Scene& scene, const Prepared& prepared) {
@@ -146,9 +157,11 @@ ChosenStep choose_step(const Scene& scene, const Prepared& prepared) {
   };
   if (!scene.solve.step) {
     const double step = every / std::max(1.0, std::ceil(every / longest - 1e-9));
+    check_count(scene, step, follows);
     return {step, {"step", follows, size(step), true}, {}};
   }
   const double step = given_step(scene);
+  check_count(scene, step, follows);
   ChosenStep out{step, {"step", "as the scene gives it; " + follows, size(step), true}, {}};
   const bool cuts = scene.solve.tolerance || has_own_tolerance(scene.solve.integrator);
   if (step > longest * (1 + 1e-9) && !cuts)

@@ -28,10 +28,15 @@ void put_signals(const Value& of, A& asked) {
   }
 }
 
-/// `duration` of a series must be a whole multiple of `every`.
+/// `duration` of a series must be a whole multiple of `every`, and not so many times that no memory holds it.
 template <class A>
 void check_whole(const Record& record, const A& asked) {
   const double steps = asked.duration / asked.every, whole = std::round(steps);
+  constexpr double most = 1e8;  // samples of one signal are then 0.8 GB; a day at 100 a second is a tenth of it
+  if (steps > most)
+    throw record.wrong(
+        "every", fmt::format("makes {:.3g} samples of {}; {:g} are the limit", steps, record["duration"].shown, most),
+        fmt::format("write every = \"{:.3g} s\" at least", asked.duration / most));
   if (whole < 1 || std::abs(steps - whole) > 1e-9 * steps)  // far above the round-off of the two, far below a sample
     throw record.wrong(
         "duration", fmt::format("is {:.10g} times every = {}; a whole number is needed", steps, record["every"].shown),

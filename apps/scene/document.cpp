@@ -1,5 +1,6 @@
 #include "scene/document.hpp"
 
+#include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -51,6 +52,82 @@ class Lines {
 
   std::string file_;
   std::vector<std::string> lines_;
+};
+
+/// Looks over a text before it is parsed: what follows works by recursion, one call a level, and keeps of every value
+/// the line in which it stands.
+class TextLayout {
+ public:
+  TextLayout(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+
+  /// \throws InputError for a line that is too long, or a key or value that is nested too deeply
+  void check() {
+    while (at_ < text_.size()) {
+      if (text_[at_] == '#') at_ = std::min(text_.find('\n', at_), text_.size());
+      if (at_ < text_.size() && (text_[at_] == '"' || text_[at_] == '\'')) skip_string();
+      if (at_ < text_.size()) count(text_[at_++]);
+    }
+    require_line(text_.size());
+  }
+
+ private:
+  /// Scenes use five levels, [body.hydrodynamics.radiation] and a table in it.
+  static constexpr int deepest = 64;
+  /// A list in one line of this length, a few thousand values each with its line, takes some ten megabytes.
+  static constexpr std::size_t longest = 10'000;
+
+  void count(char c) {
+    if (c == '\n') {
+      require_line(at_ - 1);
+      line_from_ = at_;
+      ++line_;
+      dots_ = 0;
+    }
+    if (c == '.') ++dots_;
+    if (c == '=' || c == ',') dots_ = 0;  // a key has ended, whose tables are those of the value
+    if (c == '[' || c == '{') ++open_, dots_ = 0;
+    if (c == ']' || c == '}') open_ = std::max(0, open_ - 1);
+    if (dots_ + open_ > deepest)
+      throw hydro::InputError(fmt::format("a key or a value is nested more than {} levels deep", deepest), here(),
+                              "scenes need five at most: [body.hydrodynamics] and tables in it");
+  }
+  void require_line(std::size_t to) const {
+    if (to - line_from_ <= longest) return;
+    throw hydro::InputError(fmt::format("a line is {} characters long; {} are the limit", to - line_from_, longest),
+                            here(), "write a list over several lines");
+  }
+  /// Of a line that may be endless its beginning is quoted.
+  Place here() const {
+    constexpr std::size_t quoted = 100;
+    const std::string_view line = text_.substr(line_from_, quoted);
+    return {
+        .file = file_, .line = line_, .column = 1, .text = std::string(line.substr(0, line.find('\n'))), .width = 0};
+  }
+  /// Over a string in quotes of either kind, of one line or of several; one that does not end is left to the parser.
+  void skip_string() {
+    const char quote = text_[at_];
+    const std::string thrice(3, quote);
+    const bool is_long = text_.substr(at_, 3) == thrice;
+    const std::size_t width = is_long ? 3 : 1;
+    for (at_ += width; at_ < text_.size(); ++at_) {
+      if (text_[at_] == '\\' && quote == '"') {
+        ++at_;
+      } else if (text_.substr(at_, width) == std::string_view(thrice).substr(0, width)) {
+        at_ += width;
+        return;
+      } else if (text_[at_] == '\n') {
+        if (!is_long) return;
+        require_line(at_);
+        line_from_ = at_ + 1;
+        ++line_;
+      }
+    }
+  }
+
+  std::string_view text_;
+  const std::string& file_;
+  std::size_t at_ = 0, line_from_ = 0;
+  int line_ = 1, dots_ = 0, open_ = 0;
 };
 
 Node converted(const toml::node& from, const Lines& lines);
@@ -141,6 +218,7 @@ std::string_view type_name(Node::Type type) {
 }
 
 Node parse_document(std::string_view text, const std::string& file) {
+  TextLayout(text, file).check();
   const Lines lines(text, file);
   try {
     const toml::table root = toml::parse(text);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hydro/base/measurable.hpp"
+
 namespace froude::scene {
 namespace {
 
@@ -220,6 +222,8 @@ void read_number(const Site& at, Value& value) {
   const bool integer = at.key.holds == Holds::integer;
   if (!at.node.is(Node::Type::integer) && (integer || !at.node.is(Node::Type::number))) refuse_type(at);
   if (!std::isfinite(at.node.number)) at.refuse("is not finite", "");
+  if (!hydro::is_measurable(at.node.number))
+    at.refuse("is beyond what is computed with: sizes lie between 1e-30 and 1e30", "look at the exponent");
   value.number = at.node.number;
   value.integer = at.node.integer;
   check_limit(at, value.number);

@@ -7,6 +7,7 @@ Each command is given each of its inputs as an output. It must say so with exit 
 """
 import os
 import shutil
+import socket
 import subprocess
 import sys
 import tempfile
@@ -157,6 +158,17 @@ class Outputs(unittest.TestCase):
         for _ in range(2):
             self.assertEqual(self.froude("psd", "m.csv", "-o", "x.csv").returncode, 0)
             self.assertEqual(self.froude("bem", "convert", "box2.1", *WATER, "-o", "box2.h5").returncode, 0)
+
+    def test_what_a_killed_process_left_is_swept_and_nothing_else(self):
+        killed = subprocess.Popen(["/bin/true"])
+        killed.wait()
+        host = socket.gethostname()
+        left = {f"x.csv.{host}.{killed.pid}.froude.tmp": False, f"x.csv.{host}.{os.getpid()}.froude.tmp": True,
+                f"x.csv.elsewhere.{killed.pid}.froude.tmp": True, "mine.froude.tmp": True}
+        for name in left:
+            self.write(name, "half")
+        self.assertEqual(self.froude("psd", "m.csv", "-o", "x.csv").returncode, 0)
+        self.assertEqual({name: (self.folder / name).exists() for name in left}, left)
 
     def test_a_link_stays_and_its_file_is_replaced(self):
         (self.folder / "there").mkdir()

@@ -16,6 +16,7 @@
 #include "hydro/base/units.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/hdf5.hpp"
+#include "hydro/io/trial.hpp"
 
 namespace fit::camera {
 namespace {
@@ -454,6 +455,7 @@ Track parse_track(std::string_view text, const std::string& file_name, const Tra
 Track read_track(const std::filesystem::path& path, const TrackColumns& columns) {
   const std::string text = hydro::io::read_text(path);
   if (!is_hdf5(text)) return parse_track(text, path.string(), columns);
+  hydro::io::try_in_child(path, [&] { (void)raw_track_of_hdf5(path, columns); });
   Track out = track_of(raw_track_of_hdf5(path, columns), columns);
   const hydro::io::Hdf5Reader file(path);
   if (file.has_attribute("/", "picture")) out.size = size_in(file.text_attribute("/", "picture"), "");

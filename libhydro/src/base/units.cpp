@@ -222,16 +222,22 @@ Unit parse_unit(std::string_view text) {
   return unit;
 }
 
-Quantity parse_quantity(std::string_view text) {
-  std::string_view rest;
-  const double value = leading_number(text, rest);
-  const Unit unit = parse_unit(rest);
-  const double si = value * unit.factor;
+namespace {
+/// `si`, if it is a size that is computed with. \throws InputError naming the text it comes from
+double measurable(std::string_view text, double si) {
   if (!is_measurable(si))
     throw InputError(
         fmt::format("\"{}\" is beyond what is computed with: sizes lie between 1e-30 and 1e30 in SI", text), {},
         "look at the exponent and at the unit");
-  return {si, unit.dimension};
+  return si;
+}
+}  // namespace
+
+Quantity parse_quantity(std::string_view text) {
+  std::string_view rest;
+  const double value = leading_number(text, rest);
+  const Unit unit = parse_unit(rest);
+  return {measurable(text, value * unit.factor), unit.dimension};
 }
 
 bool compatible(const Dimension& given, const Dimension& needed) {
@@ -276,7 +282,7 @@ std::vector<Eigen::Vector3d> parse_vectors(std::string_view text, const Dimensio
     inner = comma == std::string_view::npos ? std::string_view{} : inner.substr(comma + 1);
     const bool both_signs = item.starts_with("±");
     if (both_signs) item.remove_prefix(std::string_view("±").size());
-    const double value = parse_number(item) * unit.factor;
+    const double value = measurable(text, parse_number(item) * unit.factor);
     for (auto& v : out) v[component] = value;
     if (both_signs) {
       const auto positive = out;

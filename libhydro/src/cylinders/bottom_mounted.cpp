@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "exterior.hpp"
+#include "tails.hpp"
 
 namespace hydro::cylinders {
 
@@ -14,7 +15,7 @@ using Eigen::MatrixXcd;
 
 int bottom_mounted_terms(double radius, double depth, double K) {
   const double reach = std::max(300 / std::min(radius, depth), std::isinf(K) ? 0 : 30 * K);
-  return static_cast<int>(std::ceil(reach * depth / std::numbers::pi)) + 4;
+  return count_of_terms(reach * depth / std::numbers::pi);
 }
 
 Scatterer bottom_mounted(double radius, const VerticalModes& modes, int orders, int channels) {

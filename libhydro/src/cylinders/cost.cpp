@@ -28,7 +28,7 @@ double measured_rate() {
 /// One model a frequency, in the water that is used for it.
 ModelCost cost_at(const std::vector<CylinderBody>& bodies, const Water& water, double omega, double headings,
                   const Resolution& resolution) {
-  const Model model(bodies, effective_water(bodies, water, omega), resolution, {});
+  const Model model(bodies, effective_water(bodies, water, omega), resolution, {}, Model::Asked::cost);
   return model.cost(omega, headings);
 }
 

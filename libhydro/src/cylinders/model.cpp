@@ -6,6 +6,7 @@
 
 #include "bottom_mounted.hpp"
 #include "hydro/potential/coefficients.hpp"
+#include "tails.hpp"
 
 namespace hydro::cylinders {
 namespace {
@@ -27,7 +28,16 @@ double relative_change(const MatrixXcd& M, const MatrixXcd& N) {
 
 /// Compression may be coarser than what is left out: its errors have random signs, and few add up.
 constexpr double precision_of_compression = 10;
-constexpr int most_terms = 300'000;  // 100 MB at 48 gap functions
+
+/// \throws InputError for more terms of the sums over the depth than are taken
+void require_few(int terms, double omega) {
+  if (terms > most_terms)
+    throw InputError(fmt::format("at {:.6g} rad/s the sums over the depth need more than {} terms", omega, most_terms),
+                     {},
+                     "the depth is too many times the draught, radius or wavelength: state a smaller depth, or "
+                     "leave out this frequency");
+}
+
 double distance_across(const std::vector<Cylinder>& cylinders) {
   double largest = 0;
   for (const Cylinder& a : cylinders)
@@ -51,7 +61,7 @@ void require_coupling(double left_out, double omega) {
 Resolution Resolution::doubled() const { return {2 * gap_functions, std::pow(threshold, 1.5), equations}; }
 
 Model::Model(const std::vector<CylinderBody>& bodies, const Water& water, const Resolution& resolution,
-             const std::vector<double>& omega)
+             const std::vector<double>& omega, Asked asked)
     : water_(water), resolution_(resolution) {
   sort_into_types(bodies);
   lattice_ = find_lattice(cylinders_);
@@ -67,6 +77,10 @@ Model::Model(const std::vector<CylinderBody>& bodies, const Water& water, const 
   }
   for (const double w : omega) orders_ = std::max(orders_, grouping(coarse_modes(w)).within.highest_order() + 1);
   orders_ = std::max(orders_, grouping(coarse_modes(infinite)).within.highest_order() + 1);
+  if (asked == Asked::answers) build_types();
+}
+
+void Model::build_types() {
   const double h = water_.depth.metres();
   for (Type& t : types_) {
     if (t.top) {
@@ -95,6 +109,9 @@ VerticalModes Model::modes_with(double omega, int evanescent) const {
 
 /// Enough modes to find which of them couple.
 VerticalModes Model::coarse_modes(double omega) const {
+  // Before anything is as large as the wave is short: orders, of which there are as many as wavelengths in a radius.
+  if (std::isfinite(omega))
+    require_few(count_of_terms(30 * omega * omega / water_.gravity * water_.depth.metres() / pi), omega);
   double smallest = infinite;
   for (const Cylinder& c : cylinders_) smallest = std::min(smallest, c.radius);
   return modes_with(omega, static_cast<int>(std::min(2000.0, 50 * water_.depth.metres() / smallest)) + 10);
@@ -109,12 +126,7 @@ VerticalModes Model::modes(double omega) const {
   const double K = omega * omega / water_.gravity;
   int terms = 0;
   for (const Type& t : types_) terms = std::max(terms, exterior_terms(t, K));
-  if (terms > most_terms)
-    throw InputError(fmt::format("at {:.6g} rad/s the sums over the depth need {} terms; {} are the limit", omega,
-                                 terms, most_terms),
-                     {},
-                     "the depth is too many times the draught, radius or wavelength: state a smaller depth, or "
-                     "leave out this frequency");
+  require_few(terms, omega);
   return modes_with(omega, terms);
 }
 

@@ -46,9 +46,11 @@ struct ModelCost {
 
 class Model {
  public:
+  enum class Asked { answers, cost };  ///< for the cost alone nothing is built
+
   /// `water` is of finite depth; `omega`: all frequencies that will be asked for, +∞ apart.
   Model(const std::vector<CylinderBody>& bodies, const Water& water, const Resolution& resolution,
-        const std::vector<double>& omega);
+        const std::vector<double>& omega, Asked asked = Asked::answers);
 
   OneFrequency at(double omega, const std::vector<double>& heading) const;
   Eigen::MatrixXd added_mass_at_infinity() const;
@@ -68,6 +70,7 @@ class Model {
   int exterior_terms(const Type& type, double K) const;
   Scatterer scatterer(const Type& type, const VerticalModes& modes, const Channels& channels) const;
   void sort_into_types(const std::vector<CylinderBody>& bodies);
+  void build_types();
   VerticalModes modes_with(double omega, int evanescent) const;
   VerticalModes coarse_modes(double omega) const;
   VerticalModes modes(double omega) const;

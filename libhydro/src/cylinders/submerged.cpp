@@ -9,6 +9,7 @@
 #include "bessel.hpp"
 #include "hydro/base/dense.hpp"
 #include "row_tail.hpp"
+#include "tails.hpp"
 
 namespace hydro::cylinders {
 namespace {
@@ -210,7 +211,7 @@ SubmergedCylinder::SubmergedCylinder(double radius, double top, std::optional<do
 
 int SubmergedCylinder::exterior_terms(double K) const {
   const double reach = std::max({300 / std::min(a_, t_), 100 / (d_ - t_), std::isinf(K) ? 0 : 30 * K});
-  const int own = static_cast<int>(std::ceil(reach * h_ / pi)) + 4;
+  const int own = count_of_terms(reach * h_ / pi);
   return below_ ? std::max(own, below_->exterior_terms(K)) : own;
 }
 

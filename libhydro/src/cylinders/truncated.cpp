@@ -52,7 +52,7 @@ TruncatedCylinder::TruncatedCylinder(double radius, double draught, double depth
 
 int TruncatedCylinder::exterior_terms(double K) const {
   const double reach = std::max(asymptotic_argument(basis_) / b_, 300 / std::min(a_, d_));
-  return static_cast<int>(std::ceil(std::max(reach, std::isinf(K) ? 0 : 30 * K) * h_ / pi)) + 4;
+  return count_of_terms(std::max(reach, std::isinf(K) ? 0 : 30 * K) * h_ / pi);
 }
 
 // H_m = Σ_j ε_j g_j Y_j Y_jᵀ, g_j = I_m/(λ_j I_m′) at λ_j a, λ_j = jπ/b; j = 0 belongs to it for m > 0 only.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "hydro/base/measurable.hpp"
 #include "hydro/base/units.hpp"
 #include "hydro/hydrostatics/mesh.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -33,11 +34,16 @@ class Words {
   }
   double number(std::string_view what) {
     const std::string_view word = need(what);
+    double value = 0;
     try {
-      return parse_number(word);
+      value = parse_number(word);
     } catch (const InputError& e) {
       fail(fmt::format("{} should be here: {}", what, e.rule()), {});
     }
+    // Volumes are cubes of it. What is too small is rounding of somebody's sums.
+    if (std::abs(value) > 1 && !is_measurable(value))
+      fail(fmt::format("{} is {:g}, beyond what is computed with: sizes reach to 1e30", what, value), {});
+    return value;
   }
   int integer(std::string_view what) {
     const double value = number(what);

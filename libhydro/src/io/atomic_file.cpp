@@ -3,11 +3,15 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <charconv>
+#include <csignal>
 #include <cstring>
 #include <fstream>
+#include <mutex>
 #include <optional>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -29,7 +33,43 @@ std::string reason(int error) { return std::generic_category().message(error); }
   throw InputError(fmt::format("cannot {} \"{}\": {}", doing, path.string(), reason(error)), {}, remedy);
 }
 
-fs::path temporary_name(const fs::path& path) { return path.string() + fmt::format(".{}.froude.tmp", ::getpid()); }
+/// What names of temporary files end in: machine and process tell whether anybody still writes one.
+std::string machine_mark() {
+  std::array<char, 65> name{};  // Linux has 64 characters at most
+  if (::gethostname(name.data(), name.size() - 1) != 0) return ".unknown.";
+  return fmt::format(".{}.", name.data());
+}
+constexpr std::string_view temporary_ending = ".froude.tmp";
+fs::path temporary_name(const fs::path& path) {
+  return path.string() + fmt::format("{}{}{}", machine_mark(), ::getpid(), temporary_ending);
+}
+
+/// The process of this machine that made a temporary file of this name.
+std::optional<pid_t> maker_of(std::string_view name) {
+  if (!name.ends_with(temporary_ending)) return std::nullopt;
+  name.remove_suffix(temporary_ending.size());
+  const std::string mark = machine_mark();
+  const std::size_t at = name.rfind(mark);
+  if (at == std::string_view::npos) return std::nullopt;
+  name.remove_prefix(at + mark.size());
+  pid_t maker = 0;
+  const auto [end, code] = std::from_chars(name.data(), name.data() + name.size(), maker);
+  return code == std::errc{} && end == name.data() + name.size() && maker > 0 ? std::optional(maker) : std::nullopt;
+}
+
+/// Removes what processes left in a folder that were killed while they wrote: once a folder and process, since folders
+/// may hold a million results. Files that another machine writes there, or a process that lives, are left alone.
+void sweep_once(const fs::path& folder) {
+  static std::mutex only_one;
+  static std::set<fs::path> swept;
+  const std::scoped_lock lock(only_one);
+  if (!swept.insert(folder).second) return;
+  std::error_code failed;
+  for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
+    const auto maker = maker_of(at->path().filename().string());
+    if (maker && ::kill(*maker, 0) != 0 && errno == ESRCH) ::unlink(at->path().c_str());
+  }
+}
 
 /// Where the bytes for a path go.
 struct Target {
@@ -89,6 +129,7 @@ void write_stream(const Target& target, std::span<const std::byte> bytes) {
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& target) : target_(target), name_(temporary_name(target)) {
+    sweep_once(fs::absolute(target).parent_path());
     file_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
     if (file_ < 0) refuse(target_, "write", errno);
   }

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <optional>
 
+#include "hydro/base/measurable.hpp"
 #include "hydro/io/atomic_file.hpp"
 
 namespace hydro::io {
@@ -158,7 +159,14 @@ CsvTable CsvTable::parse(std::string_view text, const std::string& file_name) {
       if (!std::isfinite(*value))
         throw InputError(fmt::format("\"{}\" in column \"{}\" is not a finite number", cells[i].text, column.name),
                          place(*line, cells[i]), "leave out rows without data");
-      column.values.push_back(*value * column.unit.factor);
+      const double si = *value * column.unit.factor;
+      // What is too small is rounding of somebody's sums, and as good as zero.
+      if (std::abs(si) > 1 && !is_measurable(si))
+        throw InputError(
+            fmt::format("\"{}\" in column \"{}\" is beyond what is computed with: sizes reach to 1e30 in SI",
+                        cells[i].text, column.name),
+            place(*line, cells[i]), "look at the exponent and at the unit");
+      column.values.push_back(si);
     }
     table.line_of_row_.push_back(line->number);
     ++table.rows_;

@@ -54,6 +54,15 @@ struct Hdf5Reader::Impl {
     if (!d.good()) fail(name, "there is no such dataset");
     return d;
   }
+  /// \throws InputError for more values than a file of this size can hold: deflate packs 1032 bytes into one at best
+  void require_held(const std::string& name, const Handle& space, std::size_t value_bytes) const {
+    constexpr double best_packing = 1032;
+    std::error_code unknown;
+    const auto bytes = static_cast<double>(std::filesystem::file_size(path, unknown));
+    const auto count = H5Sget_simple_extent_npoints(space.get());
+    if (count < 0 || static_cast<double>(count) * static_cast<double>(value_bytes) > best_packing * bytes)
+      fail(name, "promises more values than the file can hold; it is damaged");
+  }
   Handle attribute(const std::string& object, const std::string& name) const {
     Handle a(H5Aopen_by_name(file.get(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT));
     if (!a.good()) fail(object, "there is no attribute \"" + name + "\"");
@@ -110,6 +119,7 @@ Array Hdf5Reader::numbers(const std::string& dataset) const {
   H5Sget_simple_extent_dims(space.get(), extent.data(), nullptr);
   Array out;
   out.shape.assign(extent.begin(), extent.end());
+  impl_->require_held(dataset, space, H5Tget_size(type.get()));
   out.values.resize(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.get())));
   if (!out.values.empty() && H5Dread(d.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.values.data()) < 0)
     impl_->fail(dataset, "cannot be read; the file may be cut short");
@@ -159,6 +169,7 @@ std::vector<std::string> Hdf5Reader::texts(const std::string& dataset) const {
   const Handle type(H5Dget_type(d.get()));
   if (H5Tis_variable_str(type.get()) <= 0) impl_->fail(dataset, "holds no strings of variable length");
   const Handle space(H5Dget_space(d.get()));
+  impl_->require_held(dataset, space, 1);
   std::vector<char*> raw(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.get())), nullptr);
   if (!raw.empty() && H5Dread(d.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.data()) < 0)
     impl_->fail(dataset, "cannot be read; the file may be cut short");

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "hydro/base/error.hpp"
 
@@ -28,6 +29,19 @@ struct NetcdfReader::Impl {
     int v = -1;
     if (nc_inq_varid(file, variable.c_str(), &v) != NC_NOERR) fail(variable, "is missing");
     return v;
+  }
+  /// Axes of values that are about to be read: refused where the file cannot hold so many.
+  std::vector<Axis> held_axes(const std::string& variable) const;
+  /// The number that stands for values that are missing, if the variable has one of the kind that is read.
+  std::optional<double> fill_value(int v) const {
+    nc_type t = NC_NAT;
+    std::size_t length = 0;
+    double fill = 0;
+    // An attribute of another length would be written over what stands behind `fill`.
+    if (nc_inq_att(file, v, "_FillValue", &t, &length) != NC_NOERR || length != 1 || t == NC_CHAR || t > NC_UINT64 ||
+        nc_get_att_double(file, v, "_FillValue", &fill) != NC_NOERR)
+      return std::nullopt;
+    return fill;
   }
   nc_type type(const std::string& variable) const {
     nc_type t = NC_NAT;
@@ -63,12 +77,29 @@ void require_whole_classic_file(const std::filesystem::path& path) {
                      {.file = path.string()}, "write it again or fetch it once more");
 }
 
+/// More than a file of so many bytes can hold: deflate packs 1032 bytes into one at best (zlib's technical details).
+bool is_beyond(const std::vector<Axis>& axes, std::size_t value_bytes, const std::filesystem::path& path) {
+  constexpr double best_packing = 1032;
+  double bytes = static_cast<double>(value_bytes);
+  for (const Axis& a : axes) bytes *= static_cast<double>(a.length);
+  std::error_code unknown;
+  return bytes > best_packing * static_cast<double>(std::filesystem::file_size(path, unknown));
+}
+
 std::size_t product(const std::vector<Axis>& axes) {
   return std::accumulate(axes.begin(), axes.end(), std::size_t{1},
                          [](std::size_t n, const Axis& a) { return n * a.length; });
 }
 
 }  // namespace
+
+std::vector<Axis> NetcdfReader::Impl::held_axes(const std::string& variable) const {
+  std::vector<Axis> out = axes(variable);
+  std::size_t bytes = 0;
+  check(nc_inq_type(file, type(variable), nullptr, &bytes), variable);
+  if (is_beyond(out, bytes, path)) fail(variable, "promises more numbers than the file can hold");
+  return out;
+}
 
 NetcdfReader::NetcdfReader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>()) {
   impl_->path = path;
@@ -103,7 +134,7 @@ std::vector<std::string> NetcdfReader::axes(const std::string& variable) const {
 LabelledArray NetcdfReader::numbers(const std::string& variable) const {
   if (is_text(variable)) impl_->fail(variable, "holds text; numbers are needed");
   LabelledArray out;
-  const auto axes = impl_->axes(variable);
+  const auto axes = impl_->held_axes(variable);
   for (const Axis& a : axes) {
     out.axes.push_back(a.name);
     out.shape.push_back(a.length);
@@ -111,9 +142,8 @@ LabelledArray NetcdfReader::numbers(const std::string& variable) const {
   out.values.resize(product(axes));
   const int v = impl_->id(variable);
   if (!out.values.empty()) impl_->check(nc_get_var_double(impl_->file, v, out.values.data()), variable);
-  double fill = 0;
-  if (nc_get_att_double(impl_->file, v, "_FillValue", &fill) == NC_NOERR)
-    std::replace(out.values.begin(), out.values.end(), fill, std::numeric_limits<double>::quiet_NaN());
+  if (const auto fill = impl_->fill_value(v))
+    std::replace(out.values.begin(), out.values.end(), *fill, std::numeric_limits<double>::quiet_NaN());
   return out;
 }
 
@@ -157,7 +187,7 @@ double NetcdfReader::scalar(const std::string& variable) const {
 
 std::vector<std::string> NetcdfReader::texts(const std::string& variable) const {
   if (!is_text(variable)) impl_->fail(variable, "holds numbers; text is needed");
-  const auto axes = impl_->axes(variable);
+  const auto axes = impl_->held_axes(variable);
   const int v = impl_->id(variable);
   std::vector<std::string> out;
   if (product(axes) == 0) return out;

@@ -28,6 +28,7 @@ class ClassicHeader {
   }
 
  private:
+  static constexpr std::uint64_t most = std::uint64_t{1} << 40;
   static constexpr std::uint64_t streaming32 = 0xffffffffu, streaming64 = ~std::uint64_t{0};
 
   [[noreturn]] void fail(const std::string& why) const {
@@ -46,8 +47,13 @@ class ClassicHeader {
   /// Numbers of things are 64 bits wide in CDF-5, 32 before.
   std::uint64_t count() { return integer(version_ == 5 ? 8 : 4); }
   static std::uint64_t padded(std::uint64_t bytes) { return (bytes + 3) / 4 * 4; }
+  /// Of two numbers from the file. Nobody has variables of 2^40 bytes; what is damaged has, and overflows.
+  std::uint64_t product(std::uint64_t a, std::uint64_t b) const {
+    if (a != 0 && b > most / a) fail("the netCDF header is damaged");
+    return a * b;
+  }
   void skip(std::uint64_t bytes) {
-    if (bytes > (std::uint64_t{1} << 40)) fail("the netCDF header is damaged");
+    if (bytes > most) fail("the netCDF header is damaged");
     in_.ignore(static_cast<std::streamsize>(padded(bytes)));
     if (!in_) fail("the netCDF header is cut short");
   }
@@ -84,7 +90,7 @@ class ClassicHeader {
     for (std::uint64_t n = count(); n > 0; --n) {
       skip(count());
       const std::uint64_t size = type_size(tag());
-      skip(count() * size);
+      skip(product(count(), size));
     }
   }
   std::size_t read_variables() {
@@ -101,10 +107,10 @@ class ClassicHeader {
         if (dimension_[id] == 0 && i == 0)
           is_record = true;  // the one unlimited dimension has length 0 in the header
         else
-          values *= dimension_[id];
+          values = product(values, dimension_[id]);
       }
       skip_attributes();
-      const std::uint64_t bytes = values * type_size(tag());
+      const std::uint64_t bytes = product(values, type_size(tag()));
       count();  // vsize, redundant and saturated for large variables
       const std::uint64_t begin = integer(version_ == 1 ? 4 : 8);
       if (is_record) {
@@ -119,7 +125,7 @@ class ClassicHeader {
     const bool streaming = records_ == (version_ == 5 ? streaming64 : streaming32);
     if (record_variables > 0 && records_ > 0 && !streaming) {
       if (record_variables == 1) record_size = last_record_bytes_;  // a lone record variable is not padded
-      end = std::max(end, record_begin_end + (records_ - 1) * record_size);
+      end = std::max(end, record_begin_end + product(records_ - 1, record_size));
     }
     return end;
   }

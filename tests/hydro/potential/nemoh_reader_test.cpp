@@ -276,5 +276,20 @@ TEST(NemohOutsideData, IsTheSameAsTheNetcdfOfTheSameRun) {
   EXPECT_LT(relative_difference(tec.X, nc.X), seven_digits);
 }
 
+TEST(NemohReader, RefusesACaseThatIsCutAtAnyLineOrAnnouncesMoreThanItHas) {
+  TemporaryFolder folder;
+  const NemohText text;
+  const auto path = text.write(folder);
+  const std::string whole = text.cal();
+  for (std::size_t at = whole.find('\n'); at + 1 < whole.size(); at = whole.find('\n', at + 1)) {
+    folder.write("Nemoh.cal", whole.substr(0, at + 1));
+    EXPECT_THROW(read(path), InputError) << "cut after " << at;
+  }
+  std::string endless = whole;
+  const std::string none = "0\t! Number of lines";
+  folder.write("Nemoh.cal", endless.replace(endless.find(none), 1, "2147483647"));
+  EXPECT_THROW(read(path), InputError);
+}
+
 }  // namespace
 }  // namespace nemoh_reader_test

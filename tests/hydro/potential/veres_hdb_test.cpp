@@ -6,16 +6,19 @@
 
 #include <numbers>
 
+#include "hdb_text.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/potential/formats/responses.hpp"
 #include "hydro/waves/dispersion.hpp"
-#include "smooth_body.hpp"
 #include "support/reference_data.hpp"
+#include "veres_text.hpp"
 
 namespace veres_hdb_test {
 namespace {
 
+using froude_test::HdbText;
 using froude_test::TemporaryFolder;
+using froude_test::VeresText;
 using hydro::InputError;
 using hydro::WaterDepth;
 using namespace hydro::potential;
@@ -28,62 +31,6 @@ using ::testing::ThrowsMessage;
 constexpr double degree = std::numbers::pi / 180;
 
 // ---- VERES ----
-
-/// A body of formulas in VERES's own axes, written as its files are.
-struct VeresText {
-  froude_test::SmoothBody body = {};
-  std::vector<double> omega{0.4, 0.9, 1.3}, heading_deg{0, 60, 180};
-  double speed = 0, trim = 0, x = 4, draught = 6, z = 5;  ///< point of motions: x aft of Lpp/2, z over the baseline
-  bool version2 = true;
-  double addition = 0;
-
-  static std::string matrix(auto entry) {
-    std::string text;
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < 6; ++j) text += fmt::format("{:.17g}{}", entry(i, j), j == 5 ? '\n' : ' ');
-    return text;
-  }
-  std::string header(const std::string& title) const {
-    return " " + title + " - VERES Version  4\n run\n ship\n load\n\n ShipX exported data\n 1025 9.81\n 80 20 " +
-           fmt::format("{}\n 3 7\n", draught);
-  }
-  std::string point() const { return fmt::format("{} 0 {} {} {}\n", speed, trim, x, z); }
-  std::string re7() const {
-    const auto none = [&](int i, int j) { return i == 3 && j == 3 ? addition : 0.0; };
-    std::string text = header("HYDRODYNAMIC COEFFICIENTS" + std::string(version2 ? " (Version 2)" : ""));
-    if (version2) text += "-1 2\n";
-    text += fmt::format("1 {} {} 6\n", heading_deg.size(), omega.size());
-    text += matrix([](int i, int j) { return i == j ? 1.0 : 0.0; }) + point();
-    for (const double beta : heading_deg) {
-      text += fmt::format("{}\n", beta);
-      for (const double w : omega) {
-        text += fmt::format("{}\n", w);
-        text += matrix([&](int i, int j) { return body.A(i, j, w); }) + (version2 ? matrix(none) : "");
-        text += matrix([&](int i, int j) { return body.B(i, j, w); }) + (version2 ? matrix(none) : "");
-        text += matrix([&](int i, int j) { return body.C(i, j); }) + (version2 ? matrix(none) : "") + "0 0 0\n";
-      }
-    }
-    return text;
-  }
-  std::string transfer(const std::string& title) const {
-    std::string text = header(title) + fmt::format("1 {} {} 6\n", heading_deg.size(), omega.size()) + point();
-    for (const double beta : heading_deg) {
-      text += fmt::format("{}\n", beta);
-      for (const double w : omega) {
-        text += fmt::format("{}\n", w);
-        for (int i = 0; i < 6; ++i) {
-          const auto X = body.X(i, w, beta * degree);
-          text += fmt::format("{} {:.17g} {:.17g}\n", i + 1, X.real(), X.imag());
-        }
-      }
-    }
-    return text;
-  }
-  std::filesystem::path write(const TemporaryFolder& folder) const {
-    folder.write("s.re8", transfer("WAVE EXCITATION FORCE TRANSFER FUNCTIONS"));
-    return folder.write("s.re7", re7());
-  }
-};
 
 const ReadOptions deep{.depth = WaterDepth::infinite()};
 
@@ -241,74 +188,6 @@ TEST(SupplyShip, IsPushedByShortBeamWavesAsAWallIs) {
 }
 
 // ---- HDB ----
-
-struct HdbText {
-  froude_test::SmoothBody body = {};
-  std::vector<double> period{4, 8, 16}, heading_deg{0, 90};
-  int structures = 1;
-  double speed = 0, apart = 20;
-  bool is_coupled = true;
-
-  std::string rows(auto value) const {
-    std::string text;
-    for (const double T : period) {
-      text += fmt::format("{:7.2f}", T);
-      for (int i = 0; i < 6; ++i) text += fmt::format(" {:.17g}", value(i, 2 * std::numbers::pi / T));
-      text += '\n';
-    }
-    return text;
-  }
-  std::string text() const {
-    std::string out = fmt::format("[SOFT] X\n[FORWARD_SPEED] {}\n[PERIODS_NUMBER] {}\n[HEADINGS_NUMBER] {}\n", speed,
-                                  period.size(), heading_deg.size());
-    out += "[List_calculated_periods]\n";
-    for (const double T : period) out += fmt::format("{:.3f}\n", T);
-    out += "[List_calculated_headings]\n";
-    for (const double beta : heading_deg) out += fmt::format("{:.3f}\n", beta);
-    out += fmt::format("[STRUCTURES_NUMBER] {}\n", structures);
-    for (int b = 0; b < body.bodies; ++b) out += structure(b);
-    if (is_coupled)
-      for (int by = 0; by < body.bodies; ++by)
-        for (int on = 0; on < body.bodies; ++on)
-          if (on != by)
-            out += fmt::format(
-                       "[HYDRODYNAMIC_COUPLING_BETWEEN_STRUCTURES] buoy {}\n[ON] buoy {}\n"
-                       "[Coupled_Added_mass_Radiation_Damping]\n",
-                       by + 1, on + 1) +
-                   radiation(on, by);
-    return out;
-  }
-  std::string radiation(int on, int by) const {
-    std::string out;
-    for (int i = 0; i < 6; ++i)
-      out += fmt::format("[ADDED_MASS_LINE_{}]\n", i + 1) +
-             rows([&](int j, double w) { return body.A(6 * on + i, 6 * by + j, w); });
-    for (int i = 0; i < 6; ++i)
-      out += fmt::format("[DAMPING_TERM_{}]\n", i + 1) +
-             rows([&](int j, double w) { return body.B(6 * on + i, 6 * by + j, w); });
-    return out;
-  }
-  std::string structure(int b) const {
-    std::string out = fmt::format(
-        "[STRUCTURE_{:02}] buoy {}\n[UNDERWATER_VOLUME] {}\n[CENTER_OF_BUOYANCY] 0 0 -2\n"
-        "[CENTER_OF_GRAVITY] {} 2 -1\n[Hydrostatic_matrix]\n",
-        b + 1, b + 1, 12 + b, 1 + apart * b);
-    for (int i = 0; i < 6; ++i) {
-      for (int j = 0; j < 6; ++j) out += fmt::format(" {:.17g}", body.C(6 * b + i, 6 * b + j));
-      out += '\n';
-    }
-    out += "[EXCITATION_FORCES_AND_MOMENTS]\n";
-    for (const bool is_phase : {false, true})
-      for (std::size_t h = 0; h < heading_deg.size(); ++h) {
-        out += fmt::format("[INCIDENCE_EFM_{}_{:03}] {:.3f}\n", is_phase ? "PH" : "MOD", h + 1, heading_deg[h]);
-        out += rows([&](int i, double w) {
-          const auto X = body.X(6 * b + i, w, heading_deg[h] * degree);
-          return is_phase ? -std::arg(X) - std::numbers::pi / 2 : std::abs(X);
-        });
-      }
-    return out + radiation(b, b);
-  }
-};
 
 const ReadOptions sea{.density = 1025, .gravity = 9.81, .depth = WaterDepth::from_metres(60)};
 

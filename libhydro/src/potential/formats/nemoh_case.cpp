@@ -40,7 +40,11 @@ Eigen::Vector3d read_body(const TextLines& text, int& line) {
   const Eigen::Vector3d loads = read_modes(text, line, "resulting forces");
   if (motions != loads)
     text.refuse(loads_line, "moments are about another point than rotations", "give both the same point in Nemoh.cal");
-  line += 1 + text.whole(line, 0, "the number of lines of additional information", 0);
+  const int more = text.whole(line, 0, "the number of lines of additional information", 0);
+  if (more > text.count())
+    text.refuse(line, fmt::format("{} lines of additional information are announced; the file has {} lines", more,
+                                  text.count()));
+  line += 1 + more;
   return motions;
 }
 

@@ -8,6 +8,7 @@
 
 #include "hydro/base/error.hpp"
 #include "hydro/io/hdf5.hpp"
+#include "hydro/io/trial.hpp"
 #include "hydro/potential/coefficients.hpp"
 #include "hydro/potential/formats/files.hpp"
 #include "hydro/waves/dispersion.hpp"
@@ -140,15 +141,26 @@ std::optional<fs::path> hams_run_around(const fs::path& path) {
   return folder.filename() == "Wamit_format" && fs::exists(control) ? std::optional(control) : std::nullopt;
 }
 
-Coefficients read(const fs::path& path, const ReadOptions& options) {
+namespace {
+Coefficients read_here(const fs::path& path, const ReadOptions& options) {
   const Format& format = format_of(path);
   Coefficients c = format.read(path, options);
   if (&format != &wamit_files) {
     require_no_wamit_options(options, c, path);
     note_differing_water(c, options);
   }
-  c.validate();
+  try {
+    c.validate();
+  } catch (const InputError& error) {
+    throw error.at({.file = path.string()});
+  }
   return c;
+}
+}  // namespace
+
+Coefficients read(const fs::path& path, const ReadOptions& options) {
+  if (!fs::is_directory(path) && io::is_hdf5(path)) io::try_in_child(path, [&] { (void)read_here(path, options); });
+  return read_here(path, options);
 }
 
 FrequencyOrder order_frequencies(const std::vector<double>& omega, const fs::path& file) {

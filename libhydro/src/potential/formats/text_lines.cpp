@@ -83,7 +83,8 @@ double TextLines::number(int number, std::size_t word, const std::string& what) 
 }
 
 int TextLines::whole(int number, std::size_t word, const std::string& what, int least) const {
-  return as_whole(this->number(number, word, what), place(number, word), what, least);
+  const double value = this->number(number, word, what);  // before the place, which a line beyond the end has none of
+  return as_whole(value, place(number, word), what, least);
 }
 
 std::vector<double> TextLines::numbers(int number, std::size_t count, const std::string& what) const {

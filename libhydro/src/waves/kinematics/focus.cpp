@@ -180,7 +180,15 @@ FocusFound find_focus(const Sea& sea, double x_m, double y_m, double from_s, dou
   };
   FocusFound out{from_s, -1, 0, from_s, -std::numeric_limits<double>::infinity(), 1};
   // Forty samples in the shortest period: a crest is missed by 1 − cos(π/40) = 0.3 % at most.
-  const auto samples = static_cast<std::size_t>(std::ceil((to_s - from_s) * highest / (2 * pi) * 40)) + 1;
+  const double intervals = std::ceil((to_s - from_s) * highest / (2 * pi) * 40);
+  constexpr double most = 3e8;  // sines: some seconds
+  if (!(intervals * static_cast<double>(at_place.size()) <= most))
+    throw InputError(
+        fmt::format("a focus between {:.4g} s and {:.4g} s of {} waves, the shortest of {:.4g} s, would be "
+                    "searched at {:.3g} instants",
+                    from_s, to_s, at_place.size(), 2 * pi / highest, intervals),
+        {}, "look at the longest and the shortest period, or search in a shorter time");
+  const auto samples = static_cast<std::size_t>(intervals) + 1;
   for (std::size_t n = 0; n < samples; ++n) {
     const double t = from_s + (to_s - from_s) * static_cast<double>(n) / static_cast<double>(samples - 1);
     const Complex sum = sum_at_time(t);

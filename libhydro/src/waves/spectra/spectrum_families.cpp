@@ -14,6 +14,8 @@ template <class... F>
 struct Overloaded : F... {
   using F::operator()...;
 };
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;  // clang 14 does not deduce for aggregates
 
 void require_gravity(double gravity) {
   require(std::isfinite(gravity) && gravity > 0, "gravity must be finite and positive, got {} m/s^2", gravity);

@@ -1,0 +1,23 @@
+#pragma once
+/// \file  What a library may not survive is tried in a child process first.
+///
+/// HDF5 and netCDF-C trust a file: one with altered lengths or pointers ends them by a signal, or has them search a
+/// heap without end. No look at the file from outside tells which will; a child that reads it does.
+#include <filesystem>
+#include <functional>
+
+namespace hydro::io {
+
+/// Calls `read` in a copy of this process, whose result is thrown away, before the caller does it for himself. What
+/// `read` throws is no concern of this: the caller's own call throws it again.
+///
+/// Costs what `read` costs, and a fork: a millisecond for a program of 100 MB.
+/// \throws InputError naming the file if the child ends by a signal (a fault of memory) or uses more processor time
+/// than reading takes: 2 s and a second for each 10 MB, a hundred times
+/// what small files take and a hundredth of the speed of disks
+void try_in_child(const std::filesystem::path& file, const std::function<void()>& read);
+
+/// Whether the file begins as HDF5 does.
+bool is_hdf5(const std::filesystem::path& file);
+
+}  // namespace hydro::io
