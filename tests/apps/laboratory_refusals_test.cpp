@@ -53,7 +53,8 @@ TEST_F(LaboratoryRefuses, SizesThatAreNoMeasurements) {
     for (const char* exponent : {"e200", "e-200"}) {
       const std::string before = text_of(file);
       refill(file, 1, [&](std::size_t, const std::string& cell) { return cell + exponent; });
-      EXPECT_THAT(refusal(scene), AllOf(HasSubstr(file), HasSubstr("between 1e-30 and 1e30"))) << scene << exponent;
+      // Of large ones the table is refused, at the cell; small ones are those of a fit.
+      EXPECT_THAT(refusal(scene), AllOf(HasSubstr(file), HasSubstr("1e30"))) << scene << exponent;
       write(file, before);
     }
   for (const char* size : {"1e200 m", "1e-320 m", "-1e31 m"})

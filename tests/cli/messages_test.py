@@ -18,39 +18,11 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from mutants_test import SCENE
+
 FROUDE = Path(sys.argv[1]).resolve()
 SOURCE = Path(sys.argv[2]).resolve()
 
-SCENE = """\
-schema = 1
-title = "One module in a regular wave"
-[water]
-density = "1000 kg/m^3"
-gravity = "9.81 m/s^2"
-depth = "14 m"
-[waves]
-kind = "regular"
-amplitude = "0.1 m"
-period = "5 s"
-heading = "0 deg"
-[[body]]
-name = "m"
-mass = "9088 kg"
-centre_of_gravity = "(0, 0, 1.31) m"
-radii_of_gyration = "(4.6, 4.6, 6.4) m"
-[body.hydrodynamics]
-file = "pontoon1.nc"
-excitation = true
-radiation = { accept_error = 0.02 }
-hydrostatics = true
-[[mooring]]
-on = ["m"]
-kind = "linear"
-stiffness = { surge = "4280 N/m", sway = "10348 N/m", yaw = "15839 N m/rad" }
-[ask]
-rao = { periods = "3 s .. 8 s, 6 values", of = ["m.surge", "m.heave"] }
-run = { duration = "10 s", every = "0.1 s" }
-"""
 
 SECOND_BODY = """\
 [[body]]

@@ -38,6 +38,9 @@ void require_few(int terms, double omega) {
                      "leave out this frequency");
 }
 
+/// Of sums over the depth; no kind of cylinder takes fewer.
+int terms_of_radius(double radius, double depth) { return count_of_terms(300 / radius * depth / pi); }
+
 double distance_across(const std::vector<Cylinder>& cylinders) {
   double largest = 0;
   for (const Cylinder& a : cylinders)
@@ -114,6 +117,7 @@ VerticalModes Model::coarse_modes(double omega) const {
     require_few(count_of_terms(30 * omega * omega / water_.gravity * water_.depth.metres() / pi), omega);
   double smallest = infinite;
   for (const Cylinder& c : cylinders_) smallest = std::min(smallest, c.radius);
+  require_few(terms_of_radius(smallest, water_.depth.metres()), omega);
   return modes_with(omega, static_cast<int>(std::min(2000.0, 50 * water_.depth.metres() / smallest)) + 10);
 }
 
@@ -135,9 +139,10 @@ Grouping Model::grouping(const VerticalModes& modes) const {
                          static_cast<double>(motion_.cols()), resolution_.equations);
 }
 
-// Beside the equations between groups: those within, the single cylinders (as seen), and the waves far away.
+// Beside the equations between groups: those within, the single cylinders with their sums over the depth (as seen), and
+// the waves far away.
 ModelCost Model::cost(double omega, double headings) const {
-  constexpr double single = 3e6, with_column = 3e7, number = 16;
+  constexpr double single = 3e6, with_column = 3e7, term = 1.2e4, number = 16, term_bytes = 400;
   const VerticalModes depth_modes = coarse_modes(omega);
   const Grouping g = grouping(depth_modes);
   const double motions = static_cast<double>(motion_.cols()), columns = motions + headings;
@@ -145,13 +150,18 @@ ModelCost Model::cost(double omega, double headings) const {
   const EquationsCost within = compounds_cost(g, cylinders_, type_of_);
   const double size = static_cast<double>(cylinders_.size()) * g.between.count();
   const double far = 2 * (depth_modes.k * distance_across(cylinders_) + 40) * size * motions;
-  double cylinders = 0;
-  for (const Type& t : types_) cylinders += t.top ? with_column : single;
+  double cylinders = 0, sums = 0;
+  const double functions = resolution_.gap_functions;  // as many times more than usual
+  for (const Type& t : types_) {
+    const int terms = terms_of_radius(t.radius, water_.depth.metres());
+    cylinders += (t.top ? with_column : single) + term * functions * functions * terms;
+    sums = std::max(sums, term_bytes * functions * terms);
+  }
   int unknowns = g.members.size() > 1 ? static_cast<int>(size) : g.between.count();
   for (const auto& members : g.members)
     if (members.size() > 1) unknowns = std::max(unknowns, g.within.count() * static_cast<int>(members.size()));
   return {unknowns, between.work + within.work + far + cylinders,
-          between.bytes + within.bytes + 4 * number * size * columns, between.iterative};
+          between.bytes + within.bytes + sums + 4 * number * size * columns, between.iterative};
 }
 
 Scatterer Model::scatterer(const Type& t, const VerticalModes& modes, const Channels& channels) const {

@@ -44,17 +44,17 @@ fs::path temporary_name(const fs::path& path) {
   return path.string() + fmt::format("{}{}{}", machine_mark(), ::getpid(), temporary_ending);
 }
 
-/// The process of this machine that made a temporary file of this name.
-std::optional<pid_t> maker_of(std::string_view name) {
-  if (!name.ends_with(temporary_ending)) return std::nullopt;
+/// The process of this machine that made a temporary file of this name; 0: none did.
+pid_t maker_of(std::string_view name) {
+  if (!name.ends_with(temporary_ending)) return 0;
   name.remove_suffix(temporary_ending.size());
   const std::string mark = machine_mark();
   const std::size_t at = name.rfind(mark);
-  if (at == std::string_view::npos) return std::nullopt;
+  if (at == std::string_view::npos) return 0;
   name.remove_prefix(at + mark.size());
   pid_t maker = 0;
   const auto [end, code] = std::from_chars(name.data(), name.data() + name.size(), maker);
-  return code == std::errc{} && end == name.data() + name.size() && maker > 0 ? std::optional(maker) : std::nullopt;
+  return code == std::errc{} && end == name.data() + name.size() && maker > 0 ? maker : 0;
 }
 
 /// Removes what processes left in a folder that were killed while they wrote: once a folder and process, since folders
@@ -66,8 +66,9 @@ void sweep_once(const fs::path& folder) {
   if (!swept.insert(folder).second) return;
   std::error_code failed;
   for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
-    const auto maker = maker_of(at->path().filename().string());
-    if (maker && ::kill(*maker, 0) != 0 && errno == ESRCH) ::unlink(at->path().c_str());
+    const std::string name = at->path().filename().string();
+    const pid_t maker = maker_of(name);
+    if (maker != 0 && ::kill(maker, 0) != 0 && errno == ESRCH) ::unlink(at->path().c_str());
   }
 }
 
