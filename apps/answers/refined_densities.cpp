@@ -86,4 +86,11 @@ std::vector<double> RefinedDensities::halve(const std::vector<double>& lower_end
   return again;
 }
 
+double largest_change(const Eigen::VectorXd& before, const Eigen::VectorXd& now) {
+  double out = 0;
+  for (Eigen::Index i = 0; i < now.size(); ++i)
+    if (now(i) > 0) out = std::max(out, std::abs(now(i) - before(i)) / now(i));
+  return out;
+}
+
 }  // namespace froude

@@ -38,4 +38,7 @@ class RefinedDensities {
   std::vector<Column> columns_;
 };
 
+/// The largest relative change of what is not zero: of variances, and squares of offsets.
+double largest_change(const Eigen::VectorXd& before, const Eigen::VectorXd& now);
+
 }  // namespace froude

@@ -120,14 +120,6 @@ class Densities {
   std::optional<RefinedDensities> found_;
 };
 
-/// The largest relative change of what is not zero.
-double change(const Eigen::VectorXd& before, const Eigen::VectorXd& now) {
-  double out = 0;
-  for (Eigen::Index i = 0; i < now.size(); ++i)
-    if (now(i) > 0) out = std::max(out, std::abs(now(i) - before(i)) / now(i));
-  return out;
-}
-
 ResponseSpectra answer_of(const scene::Scene& scene, std::size_t sea, const Densities& found,
                           double error_of_headings) {
   const Responses& r = found.responses();
@@ -157,7 +149,8 @@ ResponseSpectra answer_of(const scene::Scene& scene, std::size_t sea, const Dens
 
 }  // namespace
 
-std::vector<ResponseSpectra> response_spectra(const std::vector<const scene::Scene*>& seas) {
+std::vector<ResponseSpectra> response_spectra(const std::vector<const scene::Scene*>& seas,
+                                              const std::shared_ptr<compile::Kept>& kept) {
   require_linear_question(*seas.front());
   const scene::Scene& scene = *seas.front();
   if (scene.rao->omega.size() < 2)
@@ -165,7 +158,6 @@ std::vector<ResponseSpectra> response_spectra(const std::vector<const scene::Sce
                      "give a range, for example periods = \"3 s .. 25 s, 45 values\"");
   const bool spread =
       std::any_of(seas.begin(), seas.end(), [](const scene::Scene* sea) { return has_spreading(random_sea(*sea)); });
-  const auto kept = std::make_shared<compile::Kept>();
   auto found = std::make_unique<Densities>(seas, spread ? 18 : 1, kept);
   found->refine(scene.rao->omega);
   double error_of_headings = 0;
@@ -173,7 +165,7 @@ std::vector<ResponseSpectra> response_spectra(const std::vector<const scene::Sce
   for (int sectors = 36; spread; sectors *= 2) {
     auto finer = std::make_unique<Densities>(seas, sectors, kept);
     finer->refine(scene.rao->omega);
-    error_of_headings = change(found->variances(), finer->variances());
+    error_of_headings = largest_change(found->variances(), finer->variances());
     found = std::move(finer);
     if (error_of_headings < scene.accuracy / 2) break;
     if (sectors == most)

@@ -1,9 +1,11 @@
 #pragma once
 /// \file  Spectra of responses in random seas, from transfer functions: for `froude response`. (Q8),
 /// docs/theory/frequency.md.
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "compile/kept.hpp"
 #include "hydro/signal/spectrum.hpp"
 #include "scene/scene.hpp"
 
@@ -28,9 +30,12 @@ struct ResponseSpectra {
 
 /// One answer for each of several scenes that differ in their waves alone, which share frequencies and transfer
 /// functions. Between the frequencies of [ask.rao] others are put until m₀, m₂ and m₄ of every signal are within the
-/// scene's `accuracy`; headings of a sea with spreading likewise. \throws hydro::InputError for a scene without
+/// scene's `accuracy`; headings of a sea with spreading likewise. `kept`:
+/// coefficients that are read or computed once. \throws hydro::InputError for a scene without
 /// [ask.rao], for waves that are no random sea, one with a crest put in, and for [ask.rao.drag], which is for one
 /// height of wave; as respond(). hydro::NumericsError if a response is too sharp
-std::vector<ResponseSpectra> response_spectra(const std::vector<const scene::Scene*>& seas);
+std::vector<ResponseSpectra> response_spectra(
+    const std::vector<const scene::Scene*>& seas,
+    const std::shared_ptr<compile::Kept>& kept = std::make_shared<compile::Kept>());
 
 }  // namespace froude

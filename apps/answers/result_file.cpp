@@ -272,8 +272,7 @@ RunResult run_in(const std::filesystem::path& path) {
 }  // namespace
 
 RunResult read_run(const std::filesystem::path& path) {
-  if (hydro::io::is_hdf5(path)) hydro::io::try_in_child(path, [&] { (void)run_in(path); });
-  return run_in(path);
+  return hydro::io::read_tried(path, [&] { return run_in(path); });
 }
 
 }  // namespace froude

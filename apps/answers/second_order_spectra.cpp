@@ -166,14 +166,6 @@ Found found_with(const Question& q, int sectors, std::vector<std::string>& notes
   return out;
 }
 
-/// The largest relative change of squares that are not zero.
-double change(const Eigen::VectorXd& before, const Eigen::VectorXd& now) {
-  double out = 0;
-  for (Index i = 0; i < now.size(); ++i)
-    if (now[i] > 0) out = std::max(out, std::abs(now[i] - before[i]) / now[i]);
-  return out;
-}
-
 /// Sectors of a spread sea are doubled until nothing changes by half of the accuracy; `error` is told what does.
 Found found_of(const Question& q, double& error, std::vector<std::string>& notes) {
   constexpr int most = 72;
@@ -182,7 +174,7 @@ Found found_of(const Question& q, double& error, std::vector<std::string>& notes
   for (int sectors = 18;; sectors *= 2) {
     std::vector<std::string> told_already;
     Found finer = found_with(q, sectors, told_already);
-    error = change(found.squares(), finer.squares());
+    error = largest_change(found.squares(), finer.squares());
     found = std::move(finer);
     if (error < q.scene.accuracy / 2) return found;
     if (sectors == most)
@@ -210,11 +202,12 @@ void tell_limits(const compile::Prepared& prepared, std::vector<std::string>& no
 
 }  // namespace
 
-std::optional<SecondOrderResponses> second_order_responses(const scene::Scene& scene) {
+std::optional<SecondOrderResponses> second_order_responses(const scene::Scene& scene,
+                                                           const std::shared_ptr<compile::Kept>& kept) {
   if (std::none_of(scene.bodies.begin(), scene.bodies.end(), [](const auto& b) { return b.second_order; }))
     return std::nullopt;
   SecondOrderResponses out;
-  const compile::Prepared prepared = compile::prepare(scene);
+  const compile::Prepared prepared = compile::prepare(scene, kept);
   const dynamics::Model model = compile::frequency_model(prepared, scene.rao->about);
   std::vector<std::string> told_already;  // with the first order
   const SmallMotions about = compile::small_motions(model, scene.rao->about, told_already);

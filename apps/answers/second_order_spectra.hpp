@@ -1,9 +1,11 @@
 #pragma once
 /// \file  What second-order wave loads add to responses in a random sea: offset, slow drift, sums. (D142)
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "compile/kept.hpp"
 #include "hydro/signal/spectrum.hpp"
 #include "scene/scene.hpp"
 
@@ -28,6 +30,7 @@ struct SecondOrderResponses {
 /// hydro::InputError as SecondOrderLoads; where more of the pairs' energy than `accuracy` has sums or differences above
 /// the coefficients; hydro::NumericsError naming the motion that nothing holds against a constant load, and for a
 /// motion without damping
-std::optional<SecondOrderResponses> second_order_responses(const scene::Scene& scene);
+std::optional<SecondOrderResponses> second_order_responses(
+    const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept = std::make_shared<compile::Kept>());
 
 }  // namespace froude

@@ -452,9 +452,10 @@ void response(const ResponseArguments& arguments, const Console& console) {
     tell(Report(report).wrote(arguments.output).wrote(arguments.picture), console);
     return;
   }
-  const ResponseSpectra found = response_spectra({&scene}).front();
+  const auto kept = std::make_shared<compile::Kept>();  // coefficients are read or computed once
+  const ResponseSpectra found = response_spectra({&scene}, kept).front();
   if (asked.sn) require_one_fits(*asked.sn, units_of(found));
-  const std::optional<SecondOrderResponses> more = second_order_responses(scene);
+  const std::optional<SecondOrderResponses> more = second_order_responses(scene, kept);
   const SecondOrderResponses* second = more ? &*more : nullptr;
   Report report = scene::placed({.file = "--duration"}, [&] { return report_of(scene, found, second, asked); });
   const std::vector<NamedSpectrum> spectra = spectra_of(found, second);

@@ -218,8 +218,6 @@ RawTrack raw_track_of_hdf5(const std::filesystem::path& path, const TrackColumns
   return out;
 }
 
-bool is_hdf5(std::string_view text) { return text.starts_with("\x89HDF\r\n\x1a\n"); }
-
 bool is_pixel(const std::string& unit) { return unit == "px" || unit == "pixel" || unit == "pixels"; }
 
 /// The marker that a column belongs to, and which of its numbers it is ("x", "y", "xx", "xy", "yy"); nothing for
@@ -453,10 +451,8 @@ Track parse_track(std::string_view text, const std::string& file_name, const Tra
 }
 
 Track read_track(const std::filesystem::path& path, const TrackColumns& columns) {
-  const std::string text = hydro::io::read_text(path);
-  if (!is_hdf5(text)) return parse_track(text, path.string(), columns);
-  hydro::io::try_in_child(path, [&] { (void)raw_track_of_hdf5(path, columns); });
-  Track out = track_of(raw_track_of_hdf5(path, columns), columns);
+  if (!hydro::io::is_hdf5(path)) return parse_track(hydro::io::read_text(path), path.string(), columns);
+  Track out = track_of(hydro::io::read_tried(path, [&] { return raw_track_of_hdf5(path, columns); }), columns);
   const hydro::io::Hdf5Reader file(path);
   if (file.has_attribute("/", "picture")) out.size = size_in(file.text_attribute("/", "picture"), "");
   return out;

@@ -30,4 +30,11 @@ inline void try_in_child(const std::filesystem::path& file, const std::function<
 /// Whether the file begins as HDF5 does.
 bool is_hdf5(const std::filesystem::path& file);
 
+/// What `read` gives of a file that may be HDF5, which is then tried first. \throws as try_in_child(), and `read`
+template <class Read>
+auto read_tried(const std::filesystem::path& file, const Read& read) {
+  if (is_hdf5(file)) try_in_child(file, [&] { (void)read(); });
+  return read();
+}
+
 }  // namespace hydro::io

@@ -159,8 +159,7 @@ Coefficients read_here(const fs::path& path, const ReadOptions& options) {
 }  // namespace
 
 Coefficients read(const fs::path& path, const ReadOptions& options) {
-  if (!fs::is_directory(path) && io::is_hdf5(path)) io::try_in_child(path, [&] { (void)read_here(path, options); });
-  return read_here(path, options);
+  return io::read_tried(path, [&] { return read_here(path, options); });
 }
 
 FrequencyOrder order_frequencies(const std::vector<double>& omega, const fs::path& file) {
