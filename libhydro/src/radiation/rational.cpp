@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
@@ -259,13 +260,49 @@ void make_passive(const Data& d, double tolerance, Attempt& a) {
 /// poles spread over all frequencies.
 enum class Search { onward, anew };
 
-/// Attempts of rising order, until one meets the tolerance; that is then the last.
+/// What any passive model misses by, and where.
+struct Floor {
+  double error = 0, at_omega = 0;  // rad/s
+};
+
+/// By how much two modes' damping [a c; c b] has to be changed at least, entry by entry, for them to take energy from
+/// no motion; (R27).
+double short_of_passive(double a, double b, double c) {
+  const double trace = a + b + 2 * std::abs(c);
+  return std::max({-a, -b, trace > 0 ? (c * c - a * b) / trace : 0});
+}
+
+Floor floor_of_passive(const Data& d) {
+  const auto n = static_cast<Eigen::Index>(d.modes.size());
+  Floor out;
+  for (std::size_t k = 0; k < d.inside; ++k) {
+    const Eigen::MatrixXd B = detail::unpacked(d.samples.values.row(static_cast<Eigen::Index>(k)).real(), n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j <= i; ++j)
+        if (const double e = short_of_passive(B(i, i), B(j, j), i == j ? 0 : B(i, j)); e > out.error)
+          out = {e, d.samples.omega[k]};
+  }
+  return out;
+}
+
+/// True if no attempt has come nearer by a fifth while the order doubled.
+bool stands_still(const std::vector<Attempt>& all) {
+  double before = std::numeric_limits<double>::infinity(), since = before;
+  for (const Attempt& a : all) {
+    double& best = 2 * a.report.order <= all.back().report.order ? before : since;
+    best = std::min(best, a.report.error);
+  }
+  return since > 0.8 * before;
+}
+
+/// Attempts of rising order, until one meets the tolerance; that is then the last. Where none can, until they stand
+/// still.
 struct Attempts {
   std::vector<Attempt> all;
   bool met = false;
 };
 
-Attempts attempts(const Data& d, const FitOptions& options, int most, Search search) {
+Attempts attempts(const Data& d, const FitOptions& options, int most, Search search, bool hopeless) {
   // Columns of the search: with as many as there are, poles are no better where data are many.
   const Eigen::Index enough = d.inside < 64 ? d.samples.values.cols() : 16;
   constexpr int rounds = 15, rounds_after = 5;  // by which they settle, and where all but a few were settled
@@ -286,6 +323,7 @@ Attempts attempts(const Data& d, const FitOptions& options, int most, Search sea
     if (a.report.error <= options.tolerance && options.enforce_passivity) make_passive(d, options.tolerance, a);
     out.met = a.report.error <= options.tolerance && (a.report.passive || !options.enforce_passivity);
     out.all.push_back(std::move(a));
+    if (hopeless && stands_still(out.all)) break;
   }
   return out;
 }
@@ -358,12 +396,14 @@ RationalFit fit(const DampingTable& damping, const std::vector<Eigen::MatrixXd>&
                             options.tolerance));
   };
   const bool few = damping.omega.size() < few_frequencies;
-  Attempts found = attempts(d, options, most, few ? Search::anew : Search::onward);
+  const Floor floor = options.enforce_passivity ? floor_of_passive(even) : Floor{};
+  const bool hopeless = floor.error > options.tolerance;
+  Attempts found = attempts(d, options, most, few ? Search::anew : Search::onward, hopeless);
   if (found.met) return lowest(d, std::move(found));
   Attempt best = nearest(d, options, std::move(found.all));
   // Weights and quick ways may stand in the way of a tolerance that could just be met, or of one much nearer to it.
-  if (!few) {
-    Attempts others = attempts(even, options, most, Search::anew);
+  if (!few && !hopeless) {
+    Attempts others = attempts(even, options, most, Search::anew, hopeless);
     if (others.met) return lowest(even, std::move(others));
     constexpr double much_nearer = 0.8;  // else slow motions, for which the weights are, are better served with them
     Attempt other = nearest(even, options, std::move(others.all));
@@ -371,9 +411,14 @@ RationalFit fit(const DampingTable& damping, const std::vector<Eigen::MatrixXd>&
       best = std::move(other);
   }
   const FitReport& report = best.report;
+  const std::string why =
+      hopeless ? fmt::format(
+                     "the damping of the data would give energy at {:.3g} rad/s, so that no passive model comes "
+                     "nearer than {:.2g} to them, and none meets the tolerance of {:.2g}",
+                     floor.at_omega, floor.error, options.tolerance)
+               : fmt::format("no order up to {} meets the tolerance of {:.2g}", most, options.tolerance);
   return told(d, best,
-              fmt::format("no order up to {} meets the tolerance of {:.2g}; order {} comes nearest with {:.2g}{}", most,
-                          options.tolerance, report.order, report.error,
+              fmt::format("{}; order {} comes nearest with {:.2g}{}", why, report.order, report.error,
                           report.passive || !options.enforce_passivity ? "" : ", and is not certified passive"));
 }
 

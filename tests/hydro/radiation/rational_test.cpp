@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
@@ -135,6 +137,27 @@ TEST(RationalFit, MakesNoisyDataPassiveAndSaysWhatThatCost) {
   EXPECT_GT(fit.report.error, fit.report.error_before) << "nothing is free";
   EXPECT_LT(fit.report.error, 5e-2) << "noise of 5e-3, three sigma and more, and what it costs to be passive";
   EXPECT_THAT(fit.report.why, HasSubstr("no order up to"));
+}
+
+// (R27): two modes of damping 0.1 of their largest that feel each other by 0.2 of it give energy to a motion in which
+// both go against each other; entries off by (0.2² − 0.1²)/(0.1 + 0.1 + 2·0.2) = 0.05 would not.
+TEST(RationalFit, SaysByHowMuchDataThatGiveEnergyAreMissed) {
+  const auto exact = support::random_passive(11, 2, 2);
+  auto data = support::data_of(exact, 5, 50);
+  Eigen::Vector2d largest = Eigen::Vector2d::Zero();
+  for (const auto& B : data.damping.B) largest = largest.cwiseMax(B.diagonal());
+  const Eigen::Vector2d scale = largest.cwiseSqrt();
+  const std::size_t at = 30;
+  data.damping.B[at] = scale.asDiagonal() * Eigen::Matrix2d{{0.1, 0.2}, {0.2, 0.1}} * scale.asDiagonal();
+  const auto within = [&](double tolerance) {
+    return hydro::radiation::fit(data.damping, data.A, data.A_inf, {.tolerance = tolerance, .largest_order = 8}).report;
+  };
+  const auto report = within(0.049);
+  EXPECT_TRUE(report.passive);
+  EXPECT_GE(report.error, 0.05 - 1e-12) << "no passive model comes nearer, but for rounding";
+  EXPECT_THAT(report.why, HasSubstr(fmt::format("would give energy at {:.3g} rad/s", data.damping.omega[at])));
+  EXPECT_THAT(report.why, HasSubstr("no passive model comes nearer than 0.05 "));
+  EXPECT_THAT(within(0.051).why, testing::Not(HasSubstr("would give energy"))) << "a tolerance that may be met";
 }
 
 // As of a hull with a plane of symmetry, whose modes of one kind move those of the other by what its data's last digits
