@@ -113,7 +113,8 @@ class Sweeps(unittest.TestCase):
             self.assertEqual(self.table(name), self.table("whole"), moment)
 
     def test_interrupted_it_leaves_a_partial_result_that_says_so(self):
-        self.write("block.toml", SCENE.replace('"60 s"', '"6000 s"'))
+        # A quarter of a second a case: five for all of them on two cores, and little to wait for the first.
+        self.write("block.toml", SCENE.replace('"60 s"', '"300 s"'))
         process = subprocess.Popen(self.command("study.toml", "-o", "out", "--json"), cwd=self.folder,
                                    stdout=subprocess.PIPE, text=True)
         database = self.folder / "out" / "sweep.sqlite"
@@ -190,6 +191,7 @@ class Sweeps(unittest.TestCase):
     def test_a_full_disk_ends_it_and_what_was_done_is_kept(self):
         def limit():
             resource.setrlimit(resource.RLIMIT_FSIZE, (30000, 30000))
+        self.write("block.toml", SCENE.replace('"60 s"', '"5 s"'))
         self.write("study.toml", STUDY.replace("40 values", "400 values"))
         said = self.sweep("study.toml", "-o", "out", status=2, preexec_fn=limit).stderr
         self.assertIn("free some space", said)
@@ -201,6 +203,47 @@ class Sweeps(unittest.TestCase):
         self.write("file", "")
         self.assertIn("cannot make the folder", self.sweep("study.toml", "-o", "file/out", status=2).stderr)
         self.assertIn("cannot", self.sweep("study.toml", "-o", "/proc/self", status=2).stderr)
+
+    def test_a_rank_that_dies_ends_the_sweep_and_nothing_is_lost(self):
+        if not (FROUDE.parent / "froude-ranks").exists() or shutil.which("mpirun") is None:
+            self.skipTest("froude-ranks is not built, or there is no mpirun")
+        self.write("block.toml", SCENE.replace('"60 s"', '"5 s"'))
+        self.write("study.toml", STUDY.replace("40 values", "2000 values"))
+        self.sweep("study.toml", "-o", "whole")
+        environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+        ranks = ["mpirun", "--oversubscribe", "-n", "3", *self.command("study.toml", "-o", "out", "--json")]
+        process = subprocess.Popen(ranks, cwd=self.folder, env=environment, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE)
+        for _ in range(600):  # until a rank has kept something
+            time.sleep(0.02)
+            databases = list(self.folder.glob("out/rank-*/sweep.sqlite"))
+            if any(self.done(database) > 0 for database in databases):
+                break
+        children = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text(encoding="ascii").split()
+        os.kill(int(children[2]), signal.SIGKILL)
+        process.communicate(timeout=60)
+        self.assertNotEqual(process.returncode, 0)
+        self.assertTrue(list(self.folder.glob("out/rank-*")))
+        again = json.loads(subprocess.run(ranks, cwd=self.folder, env=environment, capture_output=True, timeout=60,
+                                          check=True).stdout)
+        self.assertEqual((again["ranks"], again["done"]), (3, 2000))
+        self.assertTrue(again["unfinished_ranks"] > 0 and again["answered"] < 2000, again)
+        self.assertEqual(self.table("out"), self.table("whole"))
+        self.assertFalse(list(self.folder.glob("out/rank-*")))
+
+    def test_processes_started_together_share_a_sweep_or_are_told_why_not(self):
+        alone = self.folder / "bin"  # where froude-ranks does not stand beside it
+        alone.mkdir()
+        shutil.copy(FROUDE, alone)
+        environment = {**os.environ, "OMPI_COMM_WORLD_SIZE": "3"}
+        def froude(*arguments):
+            return subprocess.run([alone / "froude", "sweep", "study.toml", *arguments], cwd=self.folder,
+                                  capture_output=True, text=True, env=environment, timeout=60)
+        said = froude("-o", "out")
+        self.assertEqual(said.returncode, 2)
+        self.assertIn("scripts/setup mpi", said.stderr)
+        self.assertEqual(froude("-o", "out", "--part", "2/20").returncode, 0)
+        self.assertEqual(len(self.rows("out")), 2)
 
     def test_a_damaged_database_is_refused_and_stays(self):
         self.sweep("study.toml", "-o", "out")
