@@ -46,6 +46,16 @@ class Queue {
     cases_.erase(cases_.begin(), cases_.begin() + static_cast<std::ptrdiff_t>(most));
     return out;
   }
+  /// So many wait that are no threads.
+  void lack(std::size_t waiting) {
+    const std::scoped_lock lock(mutex_);
+    waiting_ = waiting;
+  }
+  /// Nothing is there, nor will be.
+  bool is_over() const {
+    const std::scoped_lock lock(mutex_);
+    return closed_ && cases_.empty();
+  }
   /// Threads for which there is nothing.
   std::size_t waiting() const {
     const std::scoped_lock lock(mutex_);

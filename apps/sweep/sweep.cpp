@@ -1,34 +1,19 @@
 #include "sweep/sweep.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <cmath>
-#include <condition_variable>
-#include <exception>
-#include <mutex>
-#include <thread>
 
 #include "hydro/base/error.hpp"
-#include "sweep/queue.hpp"
 #include "sweep/ranks.hpp"
 #include "sweep/series.hpp"
+#include "sweep/team.hpp"
 
 namespace froude::sweep {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
+using Clock = Team::Clock;
 using hydro::InputError;
-
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
-
-/// Thrown through a run that is to end.
-struct Interrupted {};
-struct TooLong {};
 
 /// What a process that was killed has left behind.
 void remove_leftovers(const fs::path& folder) {
@@ -37,203 +22,6 @@ void remove_leftovers(const fs::path& folder) {
     for (fs::directory_iterator file(at, failed), end; !failed && file != end; file.increment(failed))
       if (file->path().string().ends_with(".froude.tmp")) fs::remove(file->path(), failed);
 }
-
-Row begun(const Cases& cases, std::size_t number, State state) {
-  return {.number = number,
-          .state = state,
-          .reason = {},
-          .warnings = {},
-          .axes = cases.cells(number),
-          .numbers = {},
-          .series = {},
-          .digest = {}};
-}
-
-std::vector<Column> columns_of(const std::vector<Number>& numbers) {
-  std::vector<Column> out;
-  for (const Number& n : numbers) out.push_back({n.column, n.unit});
-  return out;
-}
-
-/// A case answered, with what its row alone does not hold.
-struct Case {
-  Row row;
-  std::vector<Column> columns;
-  std::optional<Run> series;
-};
-
-/// \throws hydro::InputError where the study itself is wrong, and what `progress` throws
-Case answer_of(const Study& study, const Cases& cases, std::size_t number, const std::shared_ptr<compile::Kept>& kept,
-               const std::function<void(double)>& progress) {
-  Case out{begun(cases, number, State::failed), {}, {}};
-  const auto begin = Clock::now();
-  try {
-    Answered found = answer(study, cases.scene(number), kept, progress);
-    out.row.state = State::done;
-    out.row.warnings = fmt::format("{}", fmt::join(found.warnings, "; "));
-    // SQLite knows no -0, which + 0.0 takes the sign from.
-    for (const Number& n : found.numbers)
-      out.row.numbers.push_back(std::isfinite(n.value) ? Cell(n.value + 0.0) : Cell());
-    out.columns = columns_of(found.numbers);
-    out.series = std::move(found.run);
-  } catch (const InputError& e) {
-    if (e.where().file == study.file.string()) throw;
-    out.row.reason = e.rule();
-  } catch (const hydro::NumericsError& e) {
-    out.row.reason = e.what();
-  } catch (const TooLong&) {
-    out.row.reason = fmt::format("took longer than {:.6g} s, the time_limit of the study", *study.time_limit_s);
-  } catch (const std::bad_alloc&) {
-    out.row.reason = "out of memory";
-  }
-  out.row.seconds = seconds_since(begin);
-  return out;
-}
-
-/// Threads that answer cases, each taken by the one that is free first, and keep them in a store.
-class Team {
- public:
-  Team(const Study& study, const Cases& cases, Store& store, int threads, std::function<bool()> interrupted)
-      : study_(study), cases_(cases), store_(store), threads_(threads), asked_to_end_(std::move(interrupted)) {
-    if (study_.series) fs::create_directories(store_.folder() / "series");
-  }
-
-  bool interrupted() const { return stop_ || (asked_to_end_ && asked_to_end_()); }
-  std::size_t answered() const { return answered_; }
-  double seconds_a_case() const { return answered_ > 0 ? seconds_ / static_cast<double>(answered_) : 0; }
-
-  /// One case, by this thread, whose numbers name the columns where the store has none yet. False where interrupted.
-  bool answer_one(std::size_t number) {
-    auto found = one(number);
-    if (!found) return false;
-    if (found->row.state == State::done && store_.columns().empty()) store_.set_columns(found->columns);
-    keep({&found->row, 1});
-    return true;
-  }
-
-  /// All of the queue. This thread calls `meanwhile` every `rest`, and puts what is ready into the store a few times a
-  /// second, each time in one transaction: on disk is what is older.
-  void answer_all(Queue& queue, Clock::duration rest, const std::function<void()>& meanwhile) {
-    std::vector<std::thread> threads;
-    active_ = threads_;
-    for (int t = 0; t < threads_; ++t) threads.emplace_back([&] { work(queue); });
-    try {
-      collect(queue, rest, meanwhile);
-    } catch (...) {
-      fail();
-    }
-    end(queue);
-    for (std::thread& thread : threads) thread.join();
-    if (failure_) std::rethrow_exception(failure_);
-  }
-
- private:
-  /// What cases share. Where each has coefficients of its own, older ones go: a fit takes a megabyte for five bodies.
-  std::shared_ptr<compile::Kept> kept() {
-    constexpr std::size_t most = 128;
-    const std::scoped_lock lock(mutex_);
-    if (kept_->made() > most) kept_ = std::make_shared<compile::Kept>();
-    return kept_;
-  }
-
-  /// None where it was interrupted.
-  std::optional<Case> one(std::size_t number) {
-    const auto begin = Clock::now();
-    const auto guard = [&](double) {
-      if (interrupted()) throw Interrupted{};
-      if (study_.time_limit_s && seconds_since(begin) > *study_.time_limit_s) throw TooLong{};
-    };
-    std::optional<Case> out;
-    try {
-      out = answer_of(study_, cases_, number, kept(), guard);
-    } catch (const Interrupted&) {
-      return out;
-    }
-    if (out->series) keep_series(*std::exchange(out->series, {}), store_.folder(), out->row);
-    return out;
-  }
-
-  void work(Queue& queue) {
-    try {
-      while (!interrupted()) {
-        const auto number = queue.take();
-        if (!number) break;
-        auto found = one(*number);
-        if (!found) break;
-        require_columns(*found);
-        const std::scoped_lock lock(mutex_);
-        ready_.push_back(std::move(found->row));
-      }
-    } catch (...) {
-      fail();
-    }
-    const std::scoped_lock lock(mutex_);
-    --active_;
-    changed_.notify_one();
-  }
-
-  /// What is being thrown ends the sweep, and all threads.
-  void fail() {
-    const std::scoped_lock lock(mutex_);
-    if (!failure_) failure_ = std::current_exception();
-    stop_ = true;
-  }
-
-  /// A case whose numbers are others than the first one's has no place in the table.
-  void require_columns(Case& of) const {
-    const auto same = [](const Column& a, const Column& b) { return a.name == b.name && a.unit == b.unit; };
-    const auto& columns = store_.columns();
-    if (of.row.state != State::done ||
-        std::equal(columns.begin(), columns.end(), of.columns.begin(), of.columns.end(), same))
-      return;
-    of.row.state = State::failed;
-    of.row.numbers.clear();
-    of.row.reason = "it tells other signals, or in other units, than the first case";
-  }
-
-  /// Whoever waits for more is told that there is none.
-  static void end(Queue& queue) {
-    queue.clear();
-    queue.close();
-  }
-
-  void collect(Queue& queue, Clock::duration rest, const std::function<void()>& meanwhile) {
-    constexpr auto between_commits = std::chrono::milliseconds(200);
-    auto committed = Clock::now();
-    for (bool active = true; active;) {
-      if (interrupted()) end(queue);
-      std::unique_lock lock(mutex_);
-      changed_.wait_for(lock, rest, [&] { return active_ == 0; });
-      active = active_ > 0;
-      std::vector<Row> rows;
-      if (!active || Clock::now() - committed >= between_commits) rows.swap(ready_);
-      lock.unlock();
-      if (!rows.empty()) keep(rows), committed = Clock::now();
-      meanwhile();
-    }
-  }
-
-  void keep(std::span<const Row> rows) {
-    store_.put(rows);
-    answered_ += rows.size();
-    for (const Row& row : rows) seconds_ += row.seconds;
-  }
-
-  const Study& study_;
-  const Cases& cases_;
-  Store& store_;
-  int threads_;
-  std::function<bool()> asked_to_end_;
-  std::shared_ptr<compile::Kept> kept_ = std::make_shared<compile::Kept>();
-  std::size_t answered_ = 0;
-  double seconds_ = 0;
-  std::atomic<bool> stop_ = false;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::vector<Row> ready_;  // guarded, as are the two below and kept_
-  int active_ = 0;
-  std::exception_ptr failure_;
-};
 
 /// How often threads are looked after: without other ranks only to keep what is ready, else as often as messages come.
 constexpr Clock::duration among_threads = std::chrono::milliseconds(200), among_ranks = std::chrono::milliseconds(2);
@@ -271,7 +59,7 @@ class Work {
     Tally out = tally_of(store_);
     out.answered = over();
     out.interrupted = out.answered < todo_.size() && team_.interrupted();
-    out.seconds = seconds_since(begin_);
+    out.seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
     out.unfinished_ranks = unfinished_ranks;
     store_.close(out.over() == cases_.count());
     if (options_.ranks != nullptr && !options_.ranks->faults().empty() && !out.interrupted)

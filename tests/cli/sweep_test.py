@@ -183,10 +183,40 @@ class Sweeps(unittest.TestCase):
         self.assertEqual([row["state"] for row in self.rows("out")], ["failed", "failed", "done"])
         self.assertIn("must be positive", self.rows("out")[0]["reason"])
 
-    def test_a_case_that_takes_too_long_is_ended(self):
-        self.write("block.toml", SCENE.replace('"60 s"', '"600000 s"'))
-        self.write("study.toml", STUDY.replace("scene =", 'time_limit = "0.2 s"\nscene =').replace("40 values", "2 values"))
-        self.assertIn("time_limit", self.sweep("study.toml", "-o", "out", status=3).stdout)
+    def limited(self, limits, durations):
+        self.write("study.toml", f'schema = 1\nscene = "block.toml"\n{limits}\n[[axis]]\nname = "duration"\n'
+                   f'key = "ask.run.duration"\nvalues = {json.dumps([d + " s" for d in durations])}\n'
+                   '[[output]]\nkind = "run"\nof = "block.surge"\nstatistic = "maximum"\n')
+
+    def test_a_case_that_takes_too_long_or_too_much_memory_is_ended(self):
+        # 1e8 samples of 8 bytes; 1e6 s take minutes.
+        for limits, long, why in (('time_limit = "0.3 s"', "1000000", "longer than 0.3 s, the time_limit"),
+                                  ('memory_limit = "50 MB"', "10000000", "more than 50 MB of memory, the memory_limit")):
+            self.limited(limits, ["5", long, "6", long, "7"])
+            for threads in (1, 2):
+                said = json.loads(self.sweep("study.toml", "-o", f"out{long}{threads}", "--json", "--threads", threads,
+                                             status=3).stdout)
+                self.assertEqual((said["done"], said["failed"]), (3, 2))
+                self.assertIn(why, said["failures"][0]["reason"])
+            self.assertEqual(self.table(f"out{long}1"), self.table(f"out{long}2"))
+        for wrong in ('"50 MiB"', '"-1 GB"', '"GB"'):
+            self.limited(f"memory_limit = {wrong}", ["5"])
+            self.assertIn(f"study.toml:3:16: error: memory_limit = {wrong}", self.sweep("study.toml", status=2).stderr)
+
+    def test_a_process_of_cases_that_dies_takes_no_case_with_it(self):
+        self.write("block.toml", SCENE.replace('"60 s"', '"300 s"'))
+        self.write("study.toml", STUDY.replace("40 values", "6 values"))
+        self.sweep("study.toml", "-o", "whole")
+        self.write("study.toml", STUDY.replace("40 values", "6 values").replace("scene", 'time_limit = "1 h"\nscene'))
+        process = subprocess.Popen(self.command("study.toml", "-o", "out"), cwd=self.folder, stdout=subprocess.DEVNULL)
+        database = self.folder / "out" / "sweep.sqlite"
+        while not database.exists() or self.done(database) == 0:
+            time.sleep(0.02)
+        # The one that has answered a case is at its second: that case is tried in a new one.
+        children = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text(encoding="ascii").split()
+        os.kill(int(children[0]), signal.SIGKILL)
+        self.assertEqual(process.wait(timeout=60), 0)
+        self.assertEqual(self.table("out"), self.table("whole"))
 
     def test_a_full_disk_ends_it_and_what_was_done_is_kept(self):
         def limit():
