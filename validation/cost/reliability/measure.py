@@ -192,16 +192,18 @@ def limited():
 def size_limited():
     def limit():
         resource.setrlimit(resource.RLIMIT_FSIZE, (400000, 400000))
-    name = study(2000)
+    name = study(4000)
     said = sweep(name, "-o", "size", preexec_fn=limit)
     require(said.returncode == 2 and "free some space" in said.stderr, "a limit of file sizes: " + said.stderr)
-    return f"exit status 2, one message; without the limit the same command answered {told(name, '-o', 'size')['answered']} of 2000"
+    answered = told(name, "-o", "size")["answered"]
+    return (f"exit status 2, one message; without the limit the same command kept {4000 - answered} cases and answered the "
+            f"other {answered}")
 
 
 def mounted(kind, action):
     folder = SCRATCH / kind
     folder.mkdir()
-    option = "size=600k" if kind == "small" else "ro"
+    option = "size=400k" if kind == "small" else "ro"
     if subprocess.run(["mount", "-t", "tmpfs", "-o", option, "none", str(folder)], capture_output=True).returncode != 0:
         return "not tried: that needs the right to mount"
     try:
@@ -211,13 +213,13 @@ def mounted(kind, action):
 
 
 def disk_full(folder):
-    said = sweep(study(2000), "-o", folder / "out")
+    said = sweep(study(4000), "-o", folder / "out")
     require(said.returncode == 2 and "free some space" in said.stderr, "a full disk: " + said.stderr)
-    subprocess.run(["mount", "-o", "remount,size=10m", str(folder)], check=True)
-    again = told(study(2000), "-o", folder / "out")
-    require(again["done"] == 2000, "a full disk, gone on")
+    subprocess.run(["mount", "-o", "remount,size=20m", str(folder)], check=True)
+    again = told(study(4000), "-o", folder / "out")
+    require(again["done"] == 4000, "a full disk, gone on")
     return (f"exit status 2, one message with the system's reason; with space again the same command kept "
-            f"{2000 - again['answered']} cases and answered the other {again['answered']}")
+            f"{4000 - again['answered']} cases and answered the other {again['answered']}")
 
 
 def read_only(folder):
