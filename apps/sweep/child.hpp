@@ -11,8 +11,8 @@
 
 namespace froude::sweep {
 
-/// A fork of this process, made while no other thread runs: it has all that has been read, and nothing it does is seen
-/// here but what it tells. It ends when this process does, however that ends.
+/// A fork of this process, made while no other thread answers cases: it has all that has been read, and nothing it does
+/// is seen here but what it tells. It ends when this process does, however that ends.
 class Child {
  public:
   using Clock = std::chrono::steady_clock;

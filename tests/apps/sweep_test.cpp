@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <deque>
 #include <fstream>
@@ -301,7 +302,7 @@ class RanksOfASweep : public Sweeps {
  protected:
   /// The table of a sweep that three ranks share; `first` is done by rank 1 before it helps.
   std::string shared(const std::string& name, const std::function<void()>& first = {},
-                     froude::sweep::Tally* told = nullptr) const {
+                     froude::sweep::Tally* told = nullptr, const std::function<bool()>& interrupted = {}) const {
     const Study of = study();
     const Cases cases(of, oscillator, {});
     Mail mail(3);
@@ -320,7 +321,7 @@ class RanksOfASweep : public Sweeps {
     Store store(folder() / name, identity(of, cases));
     std::exception_ptr thrown;
     try {
-      const auto tally = carry_out(of, cases, store, {.threads = 1, .ranks = &master}, {});
+      const auto tally = carry_out(of, cases, store, {.threads = 1, .ranks = &master}, {{}, {}, interrupted});
       if (told != nullptr) *told = tally;
     } catch (...) {
       thrown = std::current_exception();
@@ -351,6 +352,18 @@ TEST_F(RanksOfASweep, ThatHaveDiedAreTakenOverAndTheirOtherCasesDone) {
   EXPECT_EQ(told.unfinished_ranks, 2u);
   EXPECT_EQ(told.answered, 5u);
   EXPECT_FALSE(fs::exists(folder() / "sweep" / "rank-00007"));
+}
+
+TEST_F(RanksOfASweep, EndWhenRankZeroIsInterruptedAndKeepWhatTheyHave) {
+  froude::sweep::Tally told;
+  std::atomic<int> asked = 0;
+  shared("sweep", {}, &told, [&] { return ++asked > 100; });
+  EXPECT_TRUE(told.interrupted);
+  EXPECT_LT(told.done, 6u);
+  EXPECT_EQ(told.done, told.answered);
+  froude::sweep::Tally again;
+  EXPECT_EQ(shared("sweep", {}, &again), table("one", {.threads = 1}));
+  EXPECT_EQ(again.answered, 6 - told.answered);
 }
 
 TEST_F(RanksOfASweep, ThatFailAreNamedAndWhatTheOthersDidIsKept) {

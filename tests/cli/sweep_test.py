@@ -323,6 +323,15 @@ class Sweeps(unittest.TestCase):
         for name in ("power.svg", "power.csv", "stroke.svg", "stroke.csv"):
             self.assertTrue((self.folder / "out" / name).exists(), name)
 
+    def test_the_study_of_rows_has_its_507_cases(self):
+        # One module, then 2, 3 and 5 on four sets of connectors, each in 39 waves; their scenes are read, not run.
+        study = SOURCE / "examples" / "sweep" / "rows.toml"
+        self.assertIn("count = 1,", self.sweep(study, "--case", 39).stdout)
+        last = self.sweep(study, "--case", 507).stdout
+        for written in ("count = 5,", '"(-26, 0, 0) m"', 'on = "m5"', '"(6390, 0, 0) N/m"', '"8 s"', '"3.3308 m"'):
+            self.assertIn(written, last)
+        self.assertIn("there is no case 508, of 507", self.sweep(study, "--case", 508, status=2).stderr)
+
     def test_numbers_of_a_fit_are_those_that_it_tells(self):
         fit = SOURCE / "examples" / "fit"
         for name in ("oscillation.toml", "oscillation.csv"):
