@@ -121,7 +121,7 @@ Report expected(std::size_t cases, double seconds_a_case, int threads) {
                       fact("threads", threads), threads == 1 ? "" : "s", fact("expected_s", whole, duration(whole)));
 }
 
-Report report_of(const Tally& tally, std::size_t cases, const Path& folder) {
+Report report_of(const Tally& tally, std::size_t cases) {
   Report out;
   out.say("{} of {} cases: {} done, {} failed, {} skipped{}", fact("over", tally.over()), fact("cases", cases),
           fact("done", tally.done), fact("failed", tally.failed), fact("skipped", tally.skipped),
@@ -137,13 +137,13 @@ Report report_of(const Tally& tally, std::size_t cases, const Path& folder) {
   if (tally.over() < cases)
     out.say("the result is partial: the same command goes on where this one stopped{}",
             tally.interrupted ? " (it was interrupted)" : "");
-  return out.wrote(sweep::database_of(folder));
+  return out;
 }
 
 /// Table and pictures of all that the folder holds.
 Report written(const Study& study, const sweep::Store& store) {
   Report out;
-  out.wrote(sweep::write_table(store));
+  out.wrote(sweep::database_of(store.folder())).wrote(sweep::write_table(store));
   for (const fs::path& picture : sweep::write_pictures(study, store)) out.wrote(picture);
   return out;
 }
@@ -200,7 +200,7 @@ int sweep_study(const SweepArguments& arguments, const Task& task, int threads, 
   const Tally tally =
       carry_out(task.study, task.cases, store,
                 {.threads = threads, .part = part, .parts = parts, .retry = arguments.retry, .ranks = master}, watch);
-  Report out = report_of(tally, task.cases.count(), folder);
+  Report out = report_of(tally, task.cases.count());
   out.keep("answered", tally.answered).keep("wall_time_s", tally.seconds).keep("threads", threads).keep("ranks", ranks);
   tell(out.part("", written(task.study, store)), console);
   return status_of(tally);
@@ -226,7 +226,7 @@ int merge_sweeps(const SweepArguments& arguments, const Console& console) {
   sweep::Store store(*arguments.output, identity);
   sweep::merge(arguments.merge, store);
   const Tally tally = sweep::tally_of(store);
-  Report out = report_of(tally, identity.cases, *arguments.output);
+  Report out = report_of(tally, identity.cases);
   tell(out.part("", written(sweep::parse_study(identity.study, identity.name), store)), console);
   return status_of(tally);
 }

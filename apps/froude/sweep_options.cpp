@@ -12,6 +12,7 @@ void add_sweep(CLI::App& app, Request& request, const std::function<int(const Sw
   auto* command = app.add_subcommand("sweep", "a study: a scene answered with many values of its keys, on all cores");
   command->footer(
       "Examples:\n  froude sweep examples/sweep/study.toml --plan\n  froude sweep examples/sweep/study.toml -o sweep\n"
+      "  mpirun -n 8 froude sweep examples/sweep/study.toml -o sweep\n"
       "  froude sweep --merge part1 part2 -o whole\n"
       "Exit status beside the others: 3 cases have failed, 130 interrupted; the same command goes on.");
   auto arguments = std::make_shared<SweepArguments>();

@@ -1,7 +1,10 @@
 #include "sweep/sweep.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
+#include <set>
 
 #include "hydro/base/error.hpp"
 #include "sweep/ranks.hpp"
@@ -51,10 +54,26 @@ class Work {
       options_.ranks->finish(queue_, [this] { return team_.interrupted(); });
       take_over_ranks(store_);
     }
-    return told(unfinished);
+    Tally out = told(unfinished);
+    if (!out.interrupted) require_whole();
+    return out;
   }
 
  private:
+  /// \throws hydro::InputError where ranks have failed, or have kept their cases where nobody finds them
+  void require_whole() const {
+    if (options_.ranks == nullptr) return;
+    if (const auto& faults = options_.ranks->faults(); !faults.empty())
+      throw InputError(faults.front(), {}, "what was done is kept: mend that and run the same command");
+    std::set<std::size_t> lost(todo_.begin(), todo_.end());
+    for (const Row& row : store_.rows()) lost.erase(row.number);
+    if (!lost.empty())
+      throw InputError(fmt::format("ranks have answered {} cases that are not in \"{}\", case {} among them: their "
+                                   "machines see another folder of that name",
+                                   lost.size(), store_.folder().string(), *lost.begin()),
+                       {}, "name a folder that all machines share with -o, or give each machine a --part");
+  }
+
   Tally told(std::size_t unfinished_ranks) const {
     Tally out = tally_of(store_);
     out.answered = over();
@@ -62,9 +81,6 @@ class Work {
     out.seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
     out.unfinished_ranks = unfinished_ranks;
     store_.close(out.over() == cases_.count());
-    if (options_.ranks != nullptr && !options_.ranks->faults().empty() && !out.interrupted)
-      throw InputError(options_.ranks->faults().front(), {},
-                       "what was done is kept: mend that and run the same command");
     return out;
   }
 

@@ -238,7 +238,7 @@ class Sweeps(unittest.TestCase):
         if not (FROUDE.parent / "froude-ranks").exists() or shutil.which("mpirun") is None:
             self.skipTest("froude-ranks is not built, or there is no mpirun")
         self.write("block.toml", SCENE.replace('"60 s"', '"5 s"'))
-        self.write("study.toml", STUDY.replace("40 values", "2000 values"))
+        self.write("study.toml", STUDY.replace("40 values", "4000 values"))
         self.sweep("study.toml", "-o", "whole")
         environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
         ranks = ["mpirun", "--oversubscribe", "-n", "3", *self.command("study.toml", "-o", "out", "--json")]
@@ -256,8 +256,8 @@ class Sweeps(unittest.TestCase):
         self.assertTrue(list(self.folder.glob("out/rank-*")))
         again = json.loads(subprocess.run(ranks, cwd=self.folder, env=environment, capture_output=True, timeout=60,
                                           check=True).stdout)
-        self.assertEqual((again["ranks"], again["done"]), (3, 2000))
-        self.assertTrue(again["unfinished_ranks"] > 0 and again["answered"] < 2000, again)
+        self.assertEqual((again["ranks"], again["done"]), (3, 4000))
+        self.assertTrue(again["unfinished_ranks"] > 0 and again["answered"] < 4000, again)
         self.assertEqual(self.table("out"), self.table("whole"))
         self.assertFalse(list(self.folder.glob("out/rank-*")))
 
@@ -265,13 +265,13 @@ class Sweeps(unittest.TestCase):
         alone = self.folder / "bin"  # where froude-ranks does not stand beside it
         alone.mkdir()
         shutil.copy(FROUDE, alone)
-        environment = {**os.environ, "OMPI_COMM_WORLD_SIZE": "3"}
-        def froude(*arguments):
+        def froude(*arguments, launcher="OMPI_COMM_WORLD_SIZE"):
             return subprocess.run([alone / "froude", "sweep", "study.toml", *arguments], cwd=self.folder,
-                                  capture_output=True, text=True, env=environment, timeout=60)
-        said = froude("-o", "out")
-        self.assertEqual(said.returncode, 2)
-        self.assertIn("scripts/setup mpi", said.stderr)
+                                  capture_output=True, text=True, env={**os.environ, launcher: "3"}, timeout=60)
+        for launcher in ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"):
+            said = froude("-o", "out", launcher=launcher)
+            self.assertEqual(said.returncode, 2)
+            self.assertIn("scripts/setup mpi", said.stderr)
         self.assertEqual(froude("-o", "out", "--part", "2/20").returncode, 0)
         self.assertEqual(len(self.rows("out")), 2)
 
@@ -320,8 +320,10 @@ class Sweeps(unittest.TestCase):
         shutil.copytree(SOURCE / "examples", self.folder / "examples")
         said = json.loads(self.sweep("examples/sweep/study.toml", "-o", "out", "--json").stdout)
         self.assertEqual((said["cases"], said["failed"], said["skipped"]), (28, 0, 4))
-        for name in ("power.svg", "power.csv", "stroke.svg", "stroke.csv"):
-            self.assertTrue((self.folder / "out" / name).exists(), name)
+        written = [str(Path("out") / name) for name in ("sweep.sqlite", "table.csv", "power.svg", "stroke.svg")]
+        self.assertEqual(said["written"], written)
+        for name in (*written, "out/power.csv", "out/stroke.csv"):
+            self.assertTrue((self.folder / name).exists(), name)
 
     def test_the_study_of_rows_has_its_507_cases(self):
         # One module, then 2, 3 and 5 on four sets of connectors, each in 39 waves; their scenes are read, not run.
