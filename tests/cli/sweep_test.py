@@ -237,7 +237,7 @@ class Sweeps(unittest.TestCase):
     def test_a_rank_that_dies_ends_the_sweep_and_nothing_is_lost(self):
         if not (FROUDE.parent / "froude-ranks").exists() or shutil.which("mpirun") is None:
             self.skipTest("froude-ranks is not built, or there is no mpirun")
-        self.write("block.toml", SCENE.replace('"60 s"', '"5 s"'))
+        self.write("block.toml", SCENE.replace('"60 s"', '"1 s"'))
         self.write("study.toml", STUDY.replace("40 values", "4000 values"))
         self.sweep("study.toml", "-o", "whole")
         environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
