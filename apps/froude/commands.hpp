@@ -17,6 +17,10 @@
 
 namespace froude {
 
+namespace sweep {
+class Ranks;
+}
+
 using Path = std::filesystem::path;
 
 /// How results are told: to a person on a terminal, or to a program.
@@ -216,6 +220,8 @@ struct SweepArguments {
 /// Answers a scene with many values of its keys. Returns the exit status: 0, 3 where a case has failed, 130 where it
 /// was interrupted.
 int sweep_scenes(const SweepArguments& arguments, const Console& console);
+/// The same shared with other processes, which each call it. What is told, and the exit status, is that of rank 0.
+int sweep_scenes_together(const SweepArguments& arguments, sweep::Ranks& ranks, const Console& console);
 
 struct KinematicsArguments {
   Path scene;                             ///< of a fit of kind "motion" with [camera]
@@ -275,5 +281,7 @@ void new_scene(const std::string& kind, const std::optional<Path>& output, bool 
 [[noreturn]] void validate(std::vector<std::string> arguments);
 /// The same with froude-film; the first argument is the command: track, calibrate or film. \throws as validate()
 [[noreturn]] void about_films(std::vector<std::string> arguments);
+/// Hands over to froude-ranks. \throws hydro::InputError if that is not there
+[[noreturn]] void sweep_among_ranks(std::vector<std::string> arguments);
 
 }  // namespace froude

@@ -8,6 +8,7 @@
 #include "froude/command_line.hpp"
 #include "froude/experiment_options.hpp"
 #include "froude/kept_fits.hpp"
+#include "froude/sweep_options.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
 #include "scene/placed.hpp"
@@ -354,27 +355,6 @@ void add_cost(CLI::App& app, Request& request) {
   calls(*command, request, arguments, cost);
 }
 
-void add_sweep(CLI::App& app, Request& request) {
-  auto* command = app.add_subcommand("sweep", "a study: a scene answered with many values of its keys, on all cores");
-  command->footer(
-      "Examples:\n  froude sweep examples/sweep/study.toml --plan\n  froude sweep examples/sweep/study.toml -o sweep\n"
-      "  froude sweep --merge part1 part2 -o whole\n"
-      "Exit status beside the others: 3 cases have failed, 130 interrupted; the same command goes on.");
-  auto arguments = std::make_shared<SweepArguments>();
-  auto* study = command->add_option("study", arguments->study, "study (.toml)");
-  command->add_option("-o,--output", arguments->output, "folder of the results; STUDY.sweep if left out");
-  command->add_option("--threads", arguments->threads, "cases at a time; one a core if left out");
-  auto* part =
-      command->add_option("--part", arguments->part, "a share of the cases: 1/4, 2/4, …")->capture_default_str();
-  auto* plan = command->add_flag("--plan", arguments->plan, "tells how many cases there are and how long they take");
-  auto* retry = command->add_flag("--retry", arguments->retry, "answers cases again that have failed");
-  auto* one = command->add_option("--case", arguments->scene_of, "prints the scene of this case, by its number");
-  auto* merge = command->add_option("--merge", arguments->merge, "folders of sweeps of one study, to become one in -o");
-  for (auto* of_study : {study, part, plan, retry, one}) merge->excludes(of_study);
-  command->callback(
-      [=, &request] { request.call = [=](const Console& console) { return sweep_scenes(*arguments, console); }; });
-}
-
 void add_kinematics(CLI::App& app, Request& request) {
   auto* command = app.add_subcommand(
       "kinematics", "places, velocities and accelerations of a track's markers and angles of lines, by a smoother");
@@ -467,7 +447,7 @@ void describe(CLI::App& app, Request& request) {
                     false);
   add_experiment(app, request);
   add_cost(app, request);
-  add_sweep(app, request);
+  add_sweep(app, request, sweep_scenes);
   add_other_programs(app);
 }
 
@@ -485,9 +465,10 @@ std::optional<OtherProgram> other_program(int argc, char** argv) {
   out.command = *command;
   const bool film = std::find(std::begin(commands_about_films), std::end(commands_about_films), out.command) !=
                     std::end(commands_about_films);
-  if (!film && out.command != "validate") return std::nullopt;
+  const bool ranks = out.command == "sweep" && is_shared_among_ranks(out.arguments);
+  if (!film && !ranks && out.command != "validate") return std::nullopt;
   out.arguments.erase(command);
-  if (film) out.arguments.insert(out.arguments.begin(), out.command);
+  if (out.command != "validate") out.arguments.insert(out.arguments.begin(), out.command);
   return out;
 }
 
@@ -500,6 +481,7 @@ int run_program(int argc, char** argv) {
     request.json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
     request.call = [&](const Console&) -> int {
       if (other->command == "validate") validate(arguments);
+      if (other->command == "sweep") sweep_among_ranks(arguments);
       about_films(arguments);
     };
     return carry_out(request);

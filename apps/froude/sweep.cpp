@@ -12,6 +12,7 @@
 #include "hydro/base/parallel.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "scene/placed.hpp"
+#include "sweep/ranks.hpp"
 #include "sweep/table.hpp"
 
 namespace froude {
@@ -56,12 +57,12 @@ std::pair<std::size_t, std::size_t> part_of(const std::string& text) {
   return {part, parts};
 }
 
-int threads_of(const SweepArguments& arguments) {
-  if (!arguments.threads) return hydro::all_processors();
+int threads_of(const SweepArguments& arguments, int if_left_out) {
+  if (!arguments.threads) return if_left_out;
   constexpr int most = 1024;
   if (*arguments.threads < 1 || *arguments.threads > most)
     throw hydro::InputError(fmt::format("{} threads cannot work", *arguments.threads), {.file = "--threads"},
-                            fmt::format("take 1 to {}, or leave it out for one a core", most));
+                            fmt::format("take 1 to {}, or leave it out", most));
   return *arguments.threads;
 }
 
@@ -120,7 +121,7 @@ Report expected(std::size_t cases, double seconds_a_case, int threads) {
                       fact("threads", threads), threads == 1 ? "" : "s", fact("expected_s", whole, duration(whole)));
 }
 
-Report report_of(const Tally& tally, std::size_t cases, const Path& folder) {
+Report report_of(const Tally& tally, std::size_t cases) {
   Report out;
   out.say("{} of {} cases: {} done, {} failed, {} skipped{}", fact("over", tally.over()), fact("cases", cases),
           fact("done", tally.done), fact("failed", tally.failed), fact("skipped", tally.skipped),
@@ -129,17 +130,20 @@ Report report_of(const Tally& tally, std::size_t cases, const Path& folder) {
     out.row("failures", "case {} failed: {}", fact("case", number), fact("reason", reason));
   if (tally.failed > tally.failures.size())
     out.say("and {} more, which the table names", tally.failed - tally.failures.size());
+  if (tally.unfinished_ranks > 0)
+    out.say("{} ranks of an earlier start had ended before their cases were taken over, which is done now",
+            fact("unfinished_ranks", tally.unfinished_ranks));
   out.keep("partial", tally.over() < cases).keep("interrupted", tally.interrupted);
   if (tally.over() < cases)
     out.say("the result is partial: the same command goes on where this one stopped{}",
             tally.interrupted ? " (it was interrupted)" : "");
-  return out.wrote(sweep::database_of(folder));
+  return out;
 }
 
 /// Table and pictures of all that the folder holds.
 Report written(const Study& study, const sweep::Store& store) {
   Report out;
-  out.wrote(sweep::write_table(store));
+  out.wrote(sweep::database_of(store.folder())).wrote(sweep::write_table(store));
   for (const fs::path& picture : sweep::write_pictures(study, store)) out.wrote(picture);
   return out;
 }
@@ -174,22 +178,37 @@ void tell_scene(const Task& task, std::size_t number, const Console& console) {
   console.out << task.cases.scene(number);
 }
 
-int sweep_study(const SweepArguments& arguments, const Task& task, int threads, const Console& console) {
+Path folder_of(const SweepArguments& arguments, const Task& task) {
+  return arguments.output.value_or(task.study.file.stem().string() + ".sweep");
+}
+
+bool interrupted() { return asked_to_end; }
+
+/// `master`: of ranks that help, if there are.
+int sweep_study(const SweepArguments& arguments, const Task& task, int threads, sweep::Master* master,
+                const Console& console) {
   const auto [part, parts] = part_of(arguments.part);
-  const Path folder = arguments.output.value_or(task.study.file.stem().string() + ".sweep");
+  const int ranks = master == nullptr ? 1 : master->count();
+  const Path folder = folder_of(arguments, task);
   require_folder(folder, task);
   sweep::Store store(folder, task.identity());
   const Signals signals;
   Progress progress(console.err, "sweep", console.show_progress);
   const sweep::Watch watch{
-      [&](std::size_t cases, double seconds) { tell_people(expected(cases, seconds, threads), console); },
-      [&](double done) { progress.update(done); }, [] { return asked_to_end.load(); }};
-  const Tally tally = carry_out(task.study, task.cases, store,
-                                {.threads = threads, .part = part, .parts = parts, .retry = arguments.retry}, watch);
-  Report out = report_of(tally, task.cases.count(), folder);
-  out.keep("answered", tally.answered).keep("wall_time_s", tally.seconds).keep("threads", threads);
+      [&](std::size_t cases, double seconds) { tell_people(expected(cases, seconds, threads * ranks), console); },
+      [&](double done) { progress.update(done); }, interrupted};
+  const Tally tally =
+      carry_out(task.study, task.cases, store,
+                {.threads = threads, .part = part, .parts = parts, .retry = arguments.retry, .ranks = master}, watch);
+  Report out = report_of(tally, task.cases.count());
+  out.keep("answered", tally.answered).keep("wall_time_s", tally.seconds).keep("threads", threads).keep("ranks", ranks);
   tell(out.part("", written(task.study, store)), console);
   return status_of(tally);
+}
+
+const Path& study_of(const SweepArguments& arguments) {
+  if (arguments.study) return *arguments.study;
+  throw hydro::InputError("which study is not said", {.file = "froude sweep"}, "name its file, or sweeps to --merge");
 }
 
 int merge_sweeps(const SweepArguments& arguments, const Console& console) {
@@ -207,7 +226,7 @@ int merge_sweeps(const SweepArguments& arguments, const Console& console) {
   sweep::Store store(*arguments.output, identity);
   sweep::merge(arguments.merge, store);
   const Tally tally = sweep::tally_of(store);
-  Report out = report_of(tally, identity.cases, *arguments.output);
+  Report out = report_of(tally, identity.cases);
   tell(out.part("", written(sweep::parse_study(identity.study, identity.name), store)), console);
   return status_of(tally);
 }
@@ -216,13 +235,33 @@ int merge_sweeps(const SweepArguments& arguments, const Console& console) {
 
 int sweep_scenes(const SweepArguments& arguments, const Console& console) {
   if (!arguments.merge.empty()) return merge_sweeps(arguments, console);
-  if (!arguments.study)
-    throw hydro::InputError("which study is not said", {.file = "froude sweep"}, "name its file, or sweeps to --merge");
-  const Task task(*arguments.study);
-  const int threads = threads_of(arguments);
+  const Task task(study_of(arguments));
+  const int threads = threads_of(arguments, hydro::all_processors());
   if (arguments.scene_of) return tell_scene(task, *arguments.scene_of, console), 0;
   if (arguments.plan) return plan_sweep(task, threads, console), 0;
-  return sweep_study(arguments, task, threads, console);
+  return sweep_study(arguments, task, threads, nullptr, console);
+}
+
+int sweep_scenes_together(const SweepArguments& arguments, sweep::Ranks& ranks, const Console& console) {
+  // Launchers bind a rank to one core or to many, and do not say so in one way.
+  const auto threads = [&] { return threads_of(arguments, 1); };
+  if (ranks.rank() > 0) {
+    const Signals signals;
+    sweep::Helper helper(ranks);
+    helper.run([&] {
+      const Task task(study_of(arguments));
+      help_out(task.study, task.cases, folder_of(arguments, task), task.identity(), threads(), helper, interrupted);
+    });
+    return 0;
+  }
+  sweep::Master master(ranks);
+  try {
+    const Task task(study_of(arguments));
+    return sweep_study(arguments, task, threads(), &master, console);
+  } catch (...) {
+    master.dismiss();
+    throw;
+  }
 }
 
 }  // namespace froude

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view neighbours = "neighbours of ";
 
-/// "m1" and "m2", "m2" and "m3" … of the copies of one body.
+/// "m1" and "m2", "m2" and "m3" … of the copies of one body: of n one less than n, so that a study may count from one.
 std::vector<Between> neighbour_pairs(const Record& record, const Located<std::string>& text,
                                      const std::vector<Body>& bodies) {
   const std::string family = text.value.substr(neighbours.size());
@@ -21,21 +21,20 @@ std::vector<Between> neighbour_pairs(const Record& record, const Located<std::st
     if (bodies[i].family == family && bodies[i].copy > 1)
       pairs.push_back({static_cast<int>(i) - 1, static_cast<int>(i)});
   }
-  if (!pairs.empty()) return pairs;
+  if (std::find(families.begin(), families.end(), family) != families.end()) return pairs;
   const std::string near = hydro::nearest(family, families);
-  const bool known = std::find(families.begin(), families.end(), family) != families.end();
-  throw record.wrong(
-      "between",
-      fmt::format("names no neighbours: \"{}\" {}", family, known ? "has one copy only" : "is not a body with copies"),
-      near.empty() || known ? "give the body copies = { count = 2, step = \"(13, 0, 0) m\" }"
-                            : fmt::format("did you mean \"{}{}\"?", neighbours, near));
+  throw record.wrong("between", fmt::format("names no neighbours: \"{}\" is not a body with copies", family),
+                     near.empty() ? "give the body copies = { count = 2, step = \"(13, 0, 0) m\" }"
+                                  : fmt::format("did you mean \"{}{}\"?", neighbours, near));
 }
 
 }  // namespace
 
 Key between_key() {
-  return texts("between",
-               "[\"a\", \"b\"], [\"a\", \"ground\"], or \"neighbours of m\": m1–m2, m2–m3, … of the copies m");
+  return texts(
+      "between",
+      "[\"a\", \"b\"], [\"a\", \"ground\"], or \"neighbours of m\": m1–m2, m2–m3, … of the copies m (of a single "
+      "one there are none)");
 }
 
 void Names::add(const std::string& name, const Place& place) {

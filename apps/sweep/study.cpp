@@ -31,6 +31,22 @@ auto put_scalar(std::optional<std::string> T::*member) {
   };
 }
 
+/// "2 GB"
+void put_memory(const Value& value, Study& out) {
+  const std::size_t space = value.text.find(' ');
+  const std::string unit = space == std::string::npos ? "" : value.text.substr(space + 1);
+  const char* remedy = "write \"500 MB\" or \"2 GB\"";
+  if (unit != "MB" && unit != "GB") throw value.wrong("is no amount of memory", remedy);
+  double number = 0;
+  try {
+    number = hydro::parse_number(value.text.substr(0, space));
+  } catch (const InputError&) {
+    throw value.wrong("is no amount of memory", remedy);
+  }
+  if (number <= 0) throw value.wrong("is not positive", remedy);
+  out.memory_limit_bytes = number * (unit == "MB" ? 1e6 : 1e9);
+}
+
 Binding<Axis> axis_binding() {
   return Binding<Axis>("[[axis]]", "keys of the scene that take one value after the other")
       .optional(text("name", "of its column in the table; left out: the key"), &Axis::name)
@@ -147,8 +163,12 @@ const Binding<Study>& study_binding() {
           .key(text("scene", "file, of motion or of a fit, beside this one"), &Study::scene)
           .optional(effect("series", "the time series of each run is kept, in the folder `series`"), &Study::series)
           .optional(positive("time_limit", dim::time,
-                             "of the work on a case; a run that takes longer is ended between two samples, and fails"),
+                             "of the work on a case; one that takes longer is ended wherever it is, and fails"),
                     &Study::time_limit_s)
+          .optional(text("memory_limit",
+                         "that a case may take beyond what all share, \"500 MB\" or \"2 GB\" (10^9 bytes); one that "
+                         "needs more fails"),
+                    put_memory)
           .tables("axis", axis_binding(), &Study::axes)
           .table("sample", sample_binding(), &Study::sample)
           .tables("skip", skip_binding(), &Study::skips)

@@ -66,8 +66,8 @@ struct Study {
   std::vector<Skip> skips;
   std::vector<Output> outputs;
   std::vector<Picture> pictures;
-  bool series = false;                 ///< of runs, kept in files
-  std::optional<double> time_limit_s;  ///< of a case
+  bool series = false;                                     ///< of runs, kept in files
+  std::optional<double> time_limit_s, memory_limit_bytes;  ///< of a case
 };
 
 /// "run", "rao", …

@@ -4,15 +4,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <deque>
 #include <fstream>
+#include <mutex>
 #include <numbers>
 #include <set>
+#include <thread>
 
 #include "answers/plot_field.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "support/scratch.hpp"
+#include "sweep/ranks.hpp"
 #include "sweep/sweep.hpp"
 #include "sweep/table.hpp"
 
@@ -254,6 +259,138 @@ TEST_F(Sweeps, MergedAreTheWholeAndMergedAgainTheSame) {
     froude::sweep::merge({folder() / "a", folder() / "b"}, into);
     EXPECT_EQ(hydro::io::read_text(write_table(into)), whole);
   }
+}
+
+/// Ranks that are threads of this process.
+class Mail {
+ public:
+  explicit Mail(int count) : boxes_(static_cast<std::size_t>(count)) {}
+
+  class Rank : public froude::sweep::Ranks {
+   public:
+    Rank(Mail& mail, int rank) : mail_(mail), rank_(rank) {}
+    int rank() const override { return rank_; }
+    int count() const override { return static_cast<int>(mail_.boxes_.size()); }
+    void send(int to, const std::string& text) override {
+      const std::scoped_lock lock(mail_.mutex_);
+      mail_.boxes_.at(static_cast<std::size_t>(to)).push_back({rank_, text});
+    }
+    std::optional<Message> received() override {
+      const std::scoped_lock lock(mail_.mutex_);
+      auto& box = mail_.boxes_.at(static_cast<std::size_t>(rank_));
+      if (box.empty()) return std::nullopt;
+      const Message out = box.front();
+      box.pop_front();
+      return out;
+    }
+
+   private:
+    Mail& mail_;
+    int rank_;
+  };
+
+  bool empty() const {
+    return std::all_of(boxes_.begin(), boxes_.end(), [](const auto& box) { return box.empty(); });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::deque<froude::sweep::Ranks::Message>> boxes_;
+};
+
+class RanksOfASweep : public Sweeps {
+ protected:
+  /// Where rank 1 takes the folder of the sweep to be; the others have the right one.
+  std::string other_name = {};
+  /// The table of a sweep that three ranks share; `first` is done by rank 1 before it helps.
+  std::string shared(const std::string& name, const std::function<void()>& first = {},
+                     froude::sweep::Tally* told = nullptr, const std::function<bool()>& interrupted = {}) const {
+    const Study of = study();
+    const Cases cases(of, oscillator, {});
+    Mail mail(3);
+    std::vector<std::thread> helpers;
+    for (const int rank : {1, 2})
+      helpers.emplace_back([&, rank] {
+        Mail::Rank ranks(mail, rank);
+        froude::sweep::Helper helper(ranks);
+        helper.run([&] {
+          if (rank == 1 && first) first();
+          const std::string seen = rank == 1 && !other_name.empty() ? other_name : name;
+          help_out(of, cases, folder() / seen, identity(of, cases), 1, helper, [] { return false; });
+        });
+      });
+    Mail::Rank ranks(mail, 0);
+    froude::sweep::Master master(ranks);
+    Store store(folder() / name, identity(of, cases));
+    std::exception_ptr thrown;
+    try {
+      const auto tally = carry_out(of, cases, store, {.threads = 1, .ranks = &master}, {{}, {}, interrupted});
+      if (told != nullptr) *told = tally;
+    } catch (...) {
+      thrown = std::current_exception();
+      master.dismiss();
+    }
+    for (std::thread& helper : helpers) helper.join();
+    EXPECT_TRUE(mail.empty());  // MPI may not end before all is read
+    if (thrown) std::rethrow_exception(thrown);
+    return hydro::io::read_text(write_table(store));
+  }
+};
+
+TEST_F(RanksOfASweep, TellTheSameBitsAsOneAndLeaveOneFile) {
+  EXPECT_EQ(shared("three"), table("one", {.threads = 1}));
+  EXPECT_FALSE(fs::exists(folder() / "three" / "rank-00001"));
+  froude::sweep::Tally again;
+  shared("three", {}, &again);  // nothing to do
+  EXPECT_EQ(again.answered, 0u);
+}
+
+TEST_F(RanksOfASweep, ThatHaveDiedAreTakenOverAndTheirOtherCasesDone) {
+  const std::string whole = table("whole", {.threads = 1});
+  // Ranks 1 and 7 of an earlier start: one had answered two cases of six, one was killed as it began.
+  table("sweep/rank-00001", {.threads = 1, .part = 3, .parts = 4});
+  fs::create_directories(folder() / "sweep" / "rank-00007");
+  froude::sweep::Tally told;
+  EXPECT_EQ(shared("sweep", {}, &told), whole);
+  EXPECT_EQ(told.unfinished_ranks, 2u);
+  EXPECT_EQ(told.answered, 5u);
+  EXPECT_FALSE(fs::exists(folder() / "sweep" / "rank-00007"));
+}
+
+TEST_F(RanksOfASweep, EndWhenRankZeroIsInterruptedAndKeepWhatTheyHave) {
+  froude::sweep::Tally told;
+  std::atomic<int> asked = 0;
+  shared("sweep", {}, &told, [&] { return ++asked > 100; });
+  EXPECT_TRUE(told.interrupted);
+  EXPECT_LT(told.done, 6u);
+  EXPECT_EQ(told.done, told.answered);
+  froude::sweep::Tally again;
+  EXPECT_EQ(shared("sweep", {}, &again), table("one", {.threads = 1}));
+  EXPECT_EQ(again.answered, 6 - told.answered);
+}
+
+TEST_F(RanksOfASweep, ThatFailAreNamedAndWhatTheOthersDidIsKept) {
+  EXPECT_THAT([&] { shared("sweep", [] { throw hydro::InputError("the disk of this machine is full"); }); },
+              ThrowsMessage<hydro::InputError>(AllOf(HasSubstr("rank 1"), HasSubstr("disk of this machine"))));
+  froude::sweep::Tally again;
+  EXPECT_EQ(shared("sweep", {}, &again), table("one", {.threads = 1}));
+  EXPECT_EQ(again.answered, 0u);  // the other two had answered all
+}
+
+TEST_F(RanksOfASweep, ThatSeeAnotherFolderAreFoundOut) {
+  other_name = "elsewhere";
+  // Rank 1 may have answered none of so few cases: then all are there.
+  bool found_out = false;
+  for (int i = 0; i < 20 && !found_out; ++i) {
+    fs::remove_all(folder() / "sweep");
+    fs::remove_all(folder() / "elsewhere");
+    try {
+      shared("sweep");
+    } catch (const hydro::InputError& e) {
+      found_out = std::string(e.what()).find("machines see another folder") != std::string::npos;
+    }
+  }
+  EXPECT_TRUE(found_out);
 }
 
 TEST_F(Sweeps, OfAnotherStudyAreRefusedWithTheFirstDifference) {

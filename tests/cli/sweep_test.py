@@ -113,7 +113,8 @@ class Sweeps(unittest.TestCase):
             self.assertEqual(self.table(name), self.table("whole"), moment)
 
     def test_interrupted_it_leaves_a_partial_result_that_says_so(self):
-        self.write("block.toml", SCENE.replace('"60 s"', '"6000 s"'))
+        # A quarter of a second a case: five for all of them on two cores, and little to wait for the first.
+        self.write("block.toml", SCENE.replace('"60 s"', '"300 s"'))
         process = subprocess.Popen(self.command("study.toml", "-o", "out", "--json"), cwd=self.folder,
                                    stdout=subprocess.PIPE, text=True)
         database = self.folder / "out" / "sweep.sqlite"
@@ -182,14 +183,45 @@ class Sweeps(unittest.TestCase):
         self.assertEqual([row["state"] for row in self.rows("out")], ["failed", "failed", "done"])
         self.assertIn("must be positive", self.rows("out")[0]["reason"])
 
-    def test_a_case_that_takes_too_long_is_ended(self):
-        self.write("block.toml", SCENE.replace('"60 s"', '"600000 s"'))
-        self.write("study.toml", STUDY.replace("scene =", 'time_limit = "0.2 s"\nscene =').replace("40 values", "2 values"))
-        self.assertIn("time_limit", self.sweep("study.toml", "-o", "out", status=3).stdout)
+    def limited(self, limits, durations):
+        self.write("study.toml", f'schema = 1\nscene = "block.toml"\n{limits}\n[[axis]]\nname = "duration"\n'
+                   f'key = "ask.run.duration"\nvalues = {json.dumps([d + " s" for d in durations])}\n'
+                   '[[output]]\nkind = "run"\nof = "block.surge"\nstatistic = "maximum"\n')
+
+    def test_a_case_that_takes_too_long_or_too_much_memory_is_ended(self):
+        # 1e8 samples of 8 bytes; 1e6 s take minutes.
+        for limits, long, why in (('time_limit = "0.3 s"', "1000000", "longer than 0.3 s, the time_limit"),
+                                  ('memory_limit = "50 MB"', "10000000", "more than 50 MB of memory, the memory_limit")):
+            self.limited(limits, ["5", long, "6", long, "7"])
+            for threads in (1, 2):
+                said = json.loads(self.sweep("study.toml", "-o", f"out{long}{threads}", "--json", "--threads", threads,
+                                             status=3).stdout)
+                self.assertEqual((said["done"], said["failed"]), (3, 2))
+                self.assertIn(why, said["failures"][0]["reason"])
+            self.assertEqual(self.table(f"out{long}1"), self.table(f"out{long}2"))
+        for wrong in ('"50 MiB"', '"-1 GB"', '"GB"'):
+            self.limited(f"memory_limit = {wrong}", ["5"])
+            self.assertIn(f"study.toml:3:16: error: memory_limit = {wrong}", self.sweep("study.toml", status=2).stderr)
+
+    def test_a_process_of_cases_that_dies_takes_no_case_with_it(self):
+        self.write("block.toml", SCENE.replace('"60 s"', '"300 s"'))
+        self.write("study.toml", STUDY.replace("40 values", "6 values"))
+        self.sweep("study.toml", "-o", "whole")
+        self.write("study.toml", STUDY.replace("40 values", "6 values").replace("scene", 'time_limit = "1 h"\nscene'))
+        process = subprocess.Popen(self.command("study.toml", "-o", "out"), cwd=self.folder, stdout=subprocess.DEVNULL)
+        database = self.folder / "out" / "sweep.sqlite"
+        while not database.exists() or self.done(database) == 0:
+            time.sleep(0.02)
+        # The one that has answered a case is at its second: that case is tried in a new one.
+        children = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text(encoding="ascii").split()
+        os.kill(int(children[0]), signal.SIGKILL)
+        self.assertEqual(process.wait(timeout=60), 0)
+        self.assertEqual(self.table("out"), self.table("whole"))
 
     def test_a_full_disk_ends_it_and_what_was_done_is_kept(self):
         def limit():
             resource.setrlimit(resource.RLIMIT_FSIZE, (30000, 30000))
+        self.write("block.toml", SCENE.replace('"60 s"', '"5 s"'))
         self.write("study.toml", STUDY.replace("40 values", "400 values"))
         said = self.sweep("study.toml", "-o", "out", status=2, preexec_fn=limit).stderr
         self.assertIn("free some space", said)
@@ -201,6 +233,47 @@ class Sweeps(unittest.TestCase):
         self.write("file", "")
         self.assertIn("cannot make the folder", self.sweep("study.toml", "-o", "file/out", status=2).stderr)
         self.assertIn("cannot", self.sweep("study.toml", "-o", "/proc/self", status=2).stderr)
+
+    def test_a_rank_that_dies_ends_the_sweep_and_nothing_is_lost(self):
+        if not (FROUDE.parent / "froude-ranks").exists() or shutil.which("mpirun") is None:
+            self.skipTest("froude-ranks is not built, or there is no mpirun")
+        self.write("block.toml", SCENE.replace('"60 s"', '"1 s"'))
+        self.write("study.toml", STUDY.replace("40 values", "4000 values"))
+        self.sweep("study.toml", "-o", "whole")
+        environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+        ranks = ["mpirun", "--oversubscribe", "-n", "3", *self.command("study.toml", "-o", "out", "--json")]
+        process = subprocess.Popen(ranks, cwd=self.folder, env=environment, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE)
+        for _ in range(600):  # until a rank has kept something
+            time.sleep(0.02)
+            databases = list(self.folder.glob("out/rank-*/sweep.sqlite"))
+            if any(self.done(database) > 0 for database in databases):
+                break
+        children = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text(encoding="ascii").split()
+        os.kill(int(children[2]), signal.SIGKILL)
+        process.communicate(timeout=60)
+        self.assertNotEqual(process.returncode, 0)
+        self.assertTrue(list(self.folder.glob("out/rank-*")))
+        again = json.loads(subprocess.run(ranks, cwd=self.folder, env=environment, capture_output=True, timeout=60,
+                                          check=True).stdout)
+        self.assertEqual((again["ranks"], again["done"]), (3, 4000))
+        self.assertTrue(again["unfinished_ranks"] > 0 and again["answered"] < 4000, again)
+        self.assertEqual(self.table("out"), self.table("whole"))
+        self.assertFalse(list(self.folder.glob("out/rank-*")))
+
+    def test_processes_started_together_share_a_sweep_or_are_told_why_not(self):
+        alone = self.folder / "bin"  # where froude-ranks does not stand beside it
+        alone.mkdir()
+        shutil.copy(FROUDE, alone)
+        def froude(*arguments, launcher="OMPI_COMM_WORLD_SIZE"):
+            return subprocess.run([alone / "froude", "sweep", "study.toml", *arguments], cwd=self.folder,
+                                  capture_output=True, text=True, env={**os.environ, launcher: "3"}, timeout=60)
+        for launcher in ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"):
+            said = froude("-o", "out", launcher=launcher)
+            self.assertEqual(said.returncode, 2)
+            self.assertIn("scripts/setup mpi", said.stderr)
+        self.assertEqual(froude("-o", "out", "--part", "2/20").returncode, 0)
+        self.assertEqual(len(self.rows("out")), 2)
 
     def test_a_damaged_database_is_refused_and_stays(self):
         self.sweep("study.toml", "-o", "out")
@@ -247,8 +320,19 @@ class Sweeps(unittest.TestCase):
         shutil.copytree(SOURCE / "examples", self.folder / "examples")
         said = json.loads(self.sweep("examples/sweep/study.toml", "-o", "out", "--json").stdout)
         self.assertEqual((said["cases"], said["failed"], said["skipped"]), (28, 0, 4))
-        for name in ("power.svg", "power.csv", "stroke.svg", "stroke.csv"):
-            self.assertTrue((self.folder / "out" / name).exists(), name)
+        written = [str(Path("out") / name) for name in ("sweep.sqlite", "table.csv", "power.svg", "stroke.svg")]
+        self.assertEqual(said["written"], written)
+        for name in (*written, "out/power.csv", "out/stroke.csv"):
+            self.assertTrue((self.folder / name).exists(), name)
+
+    def test_the_study_of_rows_has_its_507_cases(self):
+        # One module, then 2, 3 and 5 on four sets of connectors, each in 39 waves; their scenes are read, not run.
+        study = SOURCE / "examples" / "sweep" / "rows.toml"
+        self.assertIn("count = 1,", self.sweep(study, "--case", 39).stdout)
+        last = self.sweep(study, "--case", 507).stdout
+        for written in ("count = 5,", '"(-26, 0, 0) m"', 'on = "m5"', '"(6390, 0, 0) N/m"', '"8 s"', '"3.3308 m"'):
+            self.assertIn(written, last)
+        self.assertIn("there is no case 508, of 507", self.sweep(study, "--case", 508, status=2).stderr)
 
     def test_numbers_of_a_fit_are_those_that_it_tells(self):
         fit = SOURCE / "examples" / "fit"
