@@ -19,7 +19,6 @@
 #include "dynamics/force/ramped_field.hpp"
 #include "dynamics/force/wave_loads.hpp"
 #include "dynamics/model/equilibrium.hpp"
-#include "hydro/waves/synthesis/boxed_field.hpp"
 #include "scene/placed.hpp"
 
 namespace froude::compile {
@@ -201,9 +200,7 @@ RunWater run_water(const Scene& scene, const Prepared& prepared, double step) {
     out.sea = run_sea(scene, band);
     const auto waves = hydro::waves::linear_field(*out.sea, {.stretching = scene.waves->stretching});
     if (const auto use = water_of_members(scene, out.sea->hs(), step)) {
-      auto boxed = prepared.kept->water_of_members().of(waves, *use);
-      if (boxed->table()) out.table_bytes = boxed->table()->bytes();
-      field = std::move(boxed);
+      field = out.around_members = prepared.kept->water_of_members().of(waves, *use);
     } else {
       field = std::make_shared<hydro::waves::SummedField>(waves);
     }
@@ -218,14 +215,22 @@ RunWater run_water(const Scene& scene, const Prepared& prepared, double step) {
   return out;
 }
 
-PlanLine waves_line(const RunWater& water) {
+/// How waves are found around members.
+std::string method_of(const hydro::waves::BoxedField& field, double duration) {
+  if (field.tables() == 0) return "; around members summed";
+  const double megabytes = static_cast<double>(field.bytes_of_table()) / 1e6;
+  if (field.tables() == 1) return fmt::format("; around members from a table of {:.3g} MB", megabytes);
+  return fmt::format("; around members from tables of {:.3g} MB, one for each {:.3g} s, three at a time", megabytes,
+                     duration / field.tables());
+}
+
+PlanLine waves_line(const RunWater& water, double duration) {
   const auto& sea = water.sea;
   if (!sea) return {"waves", "nonlinear or made by a paddle: a field, asked where members are", "", true};
   std::string method = fmt::format("components on a grid, repeating after {:.6g} s", sea->repetition_s());
   if (std::isinf(sea->repetition_s())) method = "components that never repeat";
   if (sea->components().size() == 1) method = "one regular wave";
-  if (water.table_bytes > 0)
-    method += fmt::format("; around members from a table of {:.3g} MB", static_cast<double>(water.table_bytes) / 1e6);
+  if (water.around_members) method += method_of(*water.around_members, duration);
   return {
       "waves", std::move(method),
       fmt::format("{} components, {:.2g} of the energy left out", sea->components().size(), sea->fraction_left_out()),
@@ -278,7 +283,7 @@ TimeModel time_model(const Scene& scene, const Prepared& prepared, const std::ve
   RunWater water = run_water(scene, prepared, step);
   if (scene.waves) {
     for (const auto& warning : wave_warnings(scene)) notes.push_back(warning);
-    plan.push_back(waves_line(water));
+    plan.push_back(waves_line(water, scene.run->duration));
   }
   if (scene.solve.integrator == "generalized_alpha" && scene.solve.rho_infinity > 0 && scene::acts_one_way(scene))
     notes.push_back(fmt::format(

@@ -26,6 +26,7 @@
 #include "hydro/radiation/pole_memory.hpp"
 #include "hydro/waves/kinematics/field.hpp"
 #include "hydro/waves/kinematics/sea.hpp"
+#include "hydro/waves/synthesis/boxed_field.hpp"
 #include "scene/element.hpp"
 #include "scene/scene.hpp"
 
@@ -93,7 +94,7 @@ dynamics::frequency::SmallMotions small_motions(const dynamics::Model& model, co
 struct RunWater {
   std::optional<hydro::waves::Sea> sea;                  ///< where the waves are a sum of linear ones
   std::shared_ptr<const hydro::waves::WaveField> field;  ///< with the ramp; still water is a field without waves
-  std::size_t table_bytes = 0;                           ///< of the table around members; 0 if waves are summed
+  std::shared_ptr<const hydro::waves::BoxedField> around_members;  ///< the field before its ramp; null without members
 };
 
 /// The sea of a run whose answer is linear in it; `notes` are told what coefficients of another depth leave wrong in

@@ -110,7 +110,7 @@ WaterOfMembers::Field WaterOfMembers::of(const HarmonicField& waves, const Field
   };
   const auto known = found(waves, use, serves);
   Field field = known->field.get();
-  if (field->table() != nullptr || questions(use) <= questions(known->use)) return field;
+  if (field->tables() > 0 || questions(use) <= questions(known->use)) return field;
   return found(waves, use, [&](const Made& made) { return serves(made) && questions(use) <= questions(made.use); })
       ->field.get();
 }

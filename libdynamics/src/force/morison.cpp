@@ -254,7 +254,8 @@ MorisonPerLength::MorisonPerLength(double diameter, double density, double cd, d
 std::string MorisonKind::method() const {
   std::size_t pieces = 0;
   for (const auto& m : members_) pieces += static_cast<std::size_t>(m.line.pieces);
-  return fmt::format("drag and inertia at the true position, added mass on the left, {} pieces", pieces);
+  const char* water = foresight_ > 0 ? "in the water where a step foresees it" : "in the water where it is";
+  return fmt::format("drag and inertia of the member {}, added mass on the left, {} pieces", water, pieces);
 }
 
 std::unique_ptr<Memory> MorisonKind::make_memory(const State&) const {

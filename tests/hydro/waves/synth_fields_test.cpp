@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <future>
 #include <numbers>
 
 #include "hydro/base/random.hpp"
@@ -324,7 +325,8 @@ TEST(FieldChoice, TakesATableForManyQuestionsAndASumForFew) {
 TEST(BoxedField, IsTheSumEverywhere) {
   const HarmonicField plain = linear_field(sea_of(deep, false, 400));
   const BoxedField field(plain, {.box = box, .instants = 1e5, .points = 100});
-  ASSERT_NE(field.table(), nullptr);
+  ASSERT_EQ(field.tables(), 1);
+  const FieldError& bounds = field.table(box.start_s)->error_bound();
   std::vector<Eigen::Vector3d> points;
   for (const Eigen::Vector4d& p : places(20)) {
     points.push_back(p.tail<3>());
@@ -335,15 +337,44 @@ TEST(BoxedField, IsTheSumEverywhere) {
     field.at(t, points, all);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Kinematics sum = plain.at(t, points[i]), one = field.at(t, points[i]);
-      const double bound = field.table()->error_bound().velocity + 1e-12;
+      const double bound = bounds.velocity + 1e-12;
       EXPECT_LE(difference(sum, all[i]).velocity, bound);
       EXPECT_LE(difference(sum, one).velocity, bound);
-      EXPECT_NEAR(field.elevation(t, points[i].x(), points[i].y()), sum.elevation,
-                  field.table()->error_bound().elevation + 1e-12);
+      EXPECT_NEAR(field.elevation(t, points[i].x(), points[i].y()), sum.elevation, bounds.elevation + 1e-12);
     }
   }
   const BoxedField few(plain, {.box = box, .instants = 10, .points = 1});
-  EXPECT_EQ(few.table(), nullptr);
+  EXPECT_EQ(few.tables(), 0);
+  EXPECT_EQ(few.table(box.start_s), nullptr);
+}
+
+// What does not fit into the memory allowed is made span by span. Two threads that go through all of them in opposite
+// directions, so that spans are forgotten and made again, find what the sum tells, and the same bits.
+TEST(BoxedField, HasTablesOneAfterTheOtherWhereAllTimesDoNotFit) {
+  const HarmonicField plain = linear_field(sea_of(deep, false, 400));
+  FieldUse use{.box = box, .instants = 1e5, .points = 100};
+  use.largest_bytes = static_cast<std::size_t>(0.9 * TabulatedField::expected_bytes(plain, box, {}));
+  const BoxedField field(plain, use);
+  ASSERT_GE(field.tables(), 5) << "of a quarter of the memory each";
+  EXPECT_LE(4 * field.bytes_of_table(), use.largest_bytes);
+  std::vector<double> times;  // the ends of all spans too
+  const int parts = 4 * field.tables();
+  for (int i = 0; i <= parts; ++i) times.push_back(box.start_s + (box.end_s - box.start_s) * i / parts);
+  const Eigen::Vector3d point = places(1)[0].tail<3>();
+  const auto velocities = [&](std::vector<double> at) {
+    std::vector<double> out;
+    for (const double t : at) out.push_back(field.at(t, point).velocity.x());
+    return out;
+  };
+  auto backwards = std::async(std::launch::async, [&] { return velocities({times.rbegin(), times.rend()}); });
+  const std::vector<double> forwards = velocities(times);
+  std::vector<double> others = backwards.get();
+  std::reverse(others.begin(), others.end());
+  EXPECT_EQ(forwards, others);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    EXPECT_NEAR(forwards[i], plain.at(times[i], point).velocity.x(),
+                field.table(times[i])->error_bound().velocity + 1e-12)
+        << times[i];
 }
 
 }  // namespace

@@ -40,7 +40,14 @@ double expected_table(const HarmonicField& field, const FieldUse& use) {
 }
 
 std::array<double, 3> costs(const HarmonicField& field, const FieldUse& use) {
+  require_box(use.box, field.water().depth.metres());
+  require(use.instants > 0 && use.points > 0, "a field is asked at some instants and points, got {} and {}",
+          use.instants, use.points);
   return {expected_sum(field, use, false), expected_sum(field, use, true), expected_table(field, use)};
+}
+
+FieldMethod least(const std::array<double, 3>& cost) {
+  return static_cast<FieldMethod>(std::min_element(cost.begin(), cost.end()) - cost.begin());
 }
 
 // (W92), with the rounding of κ|x|, as a relative error of each component.
@@ -63,13 +70,11 @@ std::string_view name_of(FieldMethod method) {
   return names[static_cast<std::size_t>(method)];
 }
 
+FieldMethod cheapest_method(const HarmonicField& field, const FieldUse& use) { return least(costs(field, use)); }
+
 ChosenField choose_field(const HarmonicField& field, const FieldUse& use, std::optional<FieldMethod> asked) {
-  require_box(use.box, field.water().depth.metres());
-  require(use.instants > 0 && use.points > 0, "a field is asked at some instants and points, got {} and {}",
-          use.instants, use.points);
   const auto cost = costs(field, use);
-  const auto cheapest = static_cast<FieldMethod>(std::min_element(cost.begin(), cost.end()) - cost.begin());
-  const FieldMethod method = asked.value_or(cheapest);
+  const FieldMethod method = asked.value_or(least(cost));
   const double expected = cost[static_cast<std::size_t>(method)];
   if (method == FieldMethod::table) {
     auto table = std::make_unique<TabulatedField>(

@@ -31,9 +31,12 @@ struct ChosenField {
   double expected_s;  ///< by the cost model, building included, for one core of about 2022
 };
 
-/// Takes the method with the least expected time, or the one asked for. A table that would not fit into the memory
-/// allowed, or whose tolerance cannot be reached, is passed over. \throws InputError if the use is not sensible, or
-/// what TabulatedField throws if a table was asked for
+/// That with the least expected time. A table that would not fit into the memory allowed, or whose tolerance cannot be
+/// reached, is passed over. \throws InputError if the use is not sensible
+FieldMethod cheapest_method(const HarmonicField& field, const FieldUse& use);
+
+/// Takes cheapest_method(), or the one asked for. \throws InputError if the use is not sensible, or what TabulatedField
+/// throws if a table was asked for
 ChosenField choose_field(const HarmonicField& field, const FieldUse& use, std::optional<FieldMethod> method = {});
 
 }  // namespace hydro::waves
