@@ -14,6 +14,7 @@
 #include "compile/members.hpp"
 #include "compile/waves.hpp"
 #include "dynamics/frequency/linear_drag.hpp"
+#include "dynamics/frequency/sea_drag.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "hydro/waves/synthesis/synthesis.hpp"
@@ -89,11 +90,10 @@ std::vector<LinearDrag> drag_of_rao(const scene::Scene& scene, const compile::Pr
                                     std::vector<std::string>& notes) {
   if (!scene.rao->drag) return {};
   const scene::AskRao& ask = *scene.rao;
-  const auto pieces = compile::drag_at_rest(scene, prepared.bodies);
-  for (const auto& piece : pieces)
-    if (!piece.current.isZero(0))
-      throw hydro::InputError("[ask.rao.drag] is for still water, but a current flows past a member", ask.drag->place,
-                              "leave it out, or step a run");
+  const compile::DragAtRest at_rest = compile::drag_at_rest(scene, prepared.bodies);
+  if (at_rest.in_current())
+    throw hydro::InputError("[ask.rao.drag] is for still water, but a current flows past a member", ask.drag->place,
+                            "leave it out, or step a run");
   dynamics::frequency::DragWaves waves{.water = scene.water, .heading = 0, .amplitude = {}};
   for (const double omega : frequencies) {
     const double length = 2 * std::numbers::pi / hydro::waves::wavenumber(omega, scene.water);
@@ -102,9 +102,20 @@ std::vector<LinearDrag> drag_of_rao(const scene::Scene& scene, const compile::Pr
   std::vector<LinearDrag> drags;
   for (const double heading : ask.headings) {
     waves.heading = heading;
-    drags.push_back(dynamics::frequency::linearised_drag(about, prepared.groups, frequencies, pieces, waves));
+    drags.push_back(dynamics::frequency::linearised_drag(about, prepared.groups, frequencies, at_rest.pieces, waves));
   }
   notes.push_back(note_on(drags, *ask.drag));
+  return drags;
+}
+
+/// The drag of a sea, (D143), one a heading.
+std::vector<LinearDrag> drag_of_sea(const Eigen::VectorXd& coefficient, const scene::Scene& scene,
+                                    const compile::Prepared& prepared, const SmallMotions& about,
+                                    const std::vector<double>& frequencies) {
+  const auto pieces = compile::drag_at_rest(scene, prepared.bodies).pieces;
+  std::vector<LinearDrag> drags;
+  for (const double heading : scene.rao->headings)
+    drags.push_back(dynamics::frequency::drag_with(coefficient, about, frequencies, pieces, scene.water, heading));
   return drags;
 }
 
@@ -150,7 +161,9 @@ std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene,
                   [](const scene::Body& b) { return b.hydrodynamics && b.hydrodynamics->turning; }))
     out.emplace_back("excitation is that of bodies as placed: their slow yaw acts in runs only");
   if (std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const scene::Body& b) { return b.second_order; }))
-    out.emplace_back("wave loads of second order are left out: they go with the square of the waves, in runs");
+    out.emplace_back(
+        "wave loads of second order are left out: they go with the square of the waves, in runs and in `froude "
+        "response`");
   if (!scene.contacts.empty()) out.emplace_back("contacts are left out: bodies are taken not to touch");
   for (const auto& elements : prepared.elements)
     if (const auto force = elements->force({prepared.bodies, prepared.water, prepared.joints});
@@ -185,7 +198,7 @@ Responses respond(const scene::Scene& scene, const compile::Prepared& prepared, 
   compile::check_waves_of_rao(scene, prepared, out.notes);
   const dynamics::Model model = compile::frequency_model(prepared, scene.rao->about);
   const SmallMotions about = compile::small_motions(model, scene.rao->about, out.notes);
-  for (const std::string& effect : left_out_of_linear_responses(scene, prepared, scene.rao->drag.has_value()))
+  for (const std::string& effect : left_out_of_linear_responses(scene, prepared, scene.rao->drag || how.drag_of_sea))
     out.notes.push_back(effect);
   const auto signals = compile::chosen_responses(compile::signal_list(scene, prepared, model), scene.rao->of,
                                                  scene.rao->of_places, out.notes);
@@ -193,7 +206,9 @@ Responses respond(const scene::Scene& scene, const compile::Prepared& prepared, 
   const auto answer = [&](const compile::Prepared& from, const std::vector<double>& omega,
                           std::vector<std::string>& notes) {
     const Cells cells{omega, scene.rao->headings};
-    const dynamics::frequency::RaoOptions options{how.threads, drag_of_rao(scene, from, about, omega, notes)};
+    const dynamics::frequency::RaoOptions options{
+        how.threads, how.drag_of_sea ? drag_of_sea(*how.drag_of_sea, scene, from, about, omega)
+                                     : drag_of_rao(scene, from, about, omega, notes)};
     return linear_responses(signals, about,
                             response_amplitudes(about, from.groups, cells.omega, cells.headings, options), cells);
   };

@@ -13,6 +13,7 @@
 #include "answers/sea_directions.hpp"
 #include "compile/compile.hpp"
 #include "compile/kept.hpp"
+#include "compile/members.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/waves/spectra/spectrum.hpp"
 
@@ -25,7 +26,7 @@ void require_linear_question(const scene::Scene& scene) {
   if (!scene.rao) throw std::logic_error("spectra of responses are asked for without [ask.rao]");
   if (scene.rao->drag)
     throw InputError("[ask.rao.drag] makes drag linear for waves of one height, not for a sea", scene.rao->drag->place,
-                     "leave it out: drag has then no part, which notes tell; or step a run");
+                     "leave it out: drag on members is made linear for the sea itself");
 }
 
 /// Asks for responses, turns them into densities, and puts frequencies where densities bend.
@@ -46,7 +47,8 @@ class Densities {
 
   /// From these frequencies on. \throws hydro::NumericsError
   void refine(const std::vector<double>& omega) {
-    found_.emplace(omega, tolerance_, [&](const std::vector<double>& more) { return at(more); });
+    if (!has_drag_of_sea(scene_, *prepared_)) return put_frequencies(omega);
+    refine_with_drag(omega);
   }
 
   std::vector<double> omega() const { return found_->omega(); }
@@ -62,7 +64,40 @@ class Densities {
   /// m₀ of everything.
   Eigen::VectorXd variances() const { return found_->moment(0); }
 
+  std::optional<DragInSea> drag() const {
+    if (!drag_) return std::nullopt;
+    return by_member(scene_, *prepared_, *drag_);
+  }
+
  private:
+  void put_frequencies(const std::vector<double>& omega) {
+    first_.reset();
+    silent_.clear();
+    found_.emplace(omega, tolerance_, [&](const std::vector<double>& more) { return at(more); });
+  }
+
+  /// Drag needs the frequencies where responses bend, which need the drag: in turns, until drag is within the accuracy.
+  void refine_with_drag(const std::vector<double>& omega) {
+    constexpr int most = 10;
+    const auto settled = [&](const std::vector<double>& at, const Eigen::VectorXd& start) {
+      auto found = sea_drag(scene_, *prepared_, systems_.front(), at, start);
+      if (drag_) found.iterations += drag_->iterations;
+      return found;
+    };
+    drag_ = settled(omega, {});
+    for (int turn = 0; turn < most; ++turn) {
+      put_frequencies(omega);
+      const Eigen::VectorXd before = drag_->coefficient;
+      drag_ = settled(found_->omega(), before);
+      const double change = (drag_->coefficient - before).lpNorm<Eigen::Infinity>();
+      if (change <= tolerance_ * before.lpNorm<Eigen::Infinity>()) return;
+    }
+    throw hydro::NumericsError(fmt::format(
+        "linear drag still changes by more than the accuracy asked, {:g}, after frequencies were put anew {} "
+        "times",
+        tolerance_, most));
+  }
+
   std::size_t rows() const { return first_->signals.size() + 1; }
 
   /// Signals whose largest response is rounding against that of others with the same unit.
@@ -82,7 +117,9 @@ class Densities {
 
   std::vector<Column> at(const std::vector<double>& omega) {
     scene_.rao->omega = omega;
-    const Responses r = respond(scene_, *prepared_);
+    HowToRespond how;
+    if (drag_) how.drag_of_sea = drag_->coefficient;
+    const Responses r = respond(scene_, *prepared_, how);
     if (!first_) {
       first_ = std::make_unique<Responses>(r);
       find_silent(r);
@@ -118,6 +155,7 @@ class Densities {
   std::unique_ptr<Responses> first_;  // at the frequencies of the scene
   std::vector<bool> silent_;
   std::optional<RefinedDensities> found_;
+  std::optional<dynamics::frequency::SeaDrag> drag_;
 };
 
 ResponseSpectra answer_of(const scene::Scene& scene, std::size_t sea, const Densities& found,
@@ -131,12 +169,16 @@ ResponseSpectra answer_of(const scene::Scene& scene, std::size_t sea, const Dens
                       .error = found.error() + error_of_headings,
                       .signals = {},
                       .notes = r.notes,
-                      .warnings = r.warnings()};
+                      .warnings = r.warnings(),
+                      .drag = found.drag()};
   for (std::size_t s = 0; s < r.signals.size(); ++s) {
     std::string units = r.signals[s].units;
     units.resize(units.size() - std::string_view("/m").size());  // per metre of wave amplitude no more
     out.signals.push_back({r.signals[s].name, units, found.spectrum(sea, s + 1)});
   }
+  if (compile::any_drag_at_rest(scene) && !out.drag)
+    out.notes.emplace_back(
+        "a current flows past members with drag: equivalent linearisation in a sea is for still water");
   if (random.second_order) out.notes.emplace_back("bound waves of second order are left out");
   if (out.left_out > scene.accuracy)
     out.warnings.push_back(
@@ -147,11 +189,9 @@ ResponseSpectra answer_of(const scene::Scene& scene, std::size_t sea, const Dens
   return out;
 }
 
-}  // namespace
-
-std::vector<ResponseSpectra> response_spectra(const std::vector<const scene::Scene*>& seas,
-                                              const std::shared_ptr<compile::Kept>& kept) {
-  require_linear_question(*seas.front());
+/// Of seas whose transfer functions are the same.
+std::vector<ResponseSpectra> spectra_of_seas(const std::vector<const scene::Scene*>& seas,
+                                             const std::shared_ptr<compile::Kept>& kept) {
   const scene::Scene& scene = *seas.front();
   if (scene.rao->omega.size() < 2)
     throw InputError("spectra of responses need two frequencies of [ask.rao] at least", scene.rao->place,
@@ -176,6 +216,17 @@ std::vector<ResponseSpectra> response_spectra(const std::vector<const scene::Sce
   }
   std::vector<ResponseSpectra> out;
   for (std::size_t i = 0; i < seas.size(); ++i) out.push_back(answer_of(*seas[i], i, *found, error_of_headings));
+  return out;
+}
+
+}  // namespace
+
+std::vector<ResponseSpectra> response_spectra(const std::vector<const scene::Scene*>& seas,
+                                              const std::shared_ptr<compile::Kept>& kept) {
+  require_linear_question(*seas.front());
+  if (!compile::any_drag_at_rest(*seas.front())) return spectra_of_seas(seas, kept);
+  std::vector<ResponseSpectra> out;
+  for (const scene::Scene* sea : seas) out.push_back(spectra_of_seas({sea}, kept).front());
   return out;
 }
 

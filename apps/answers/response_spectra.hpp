@@ -2,9 +2,11 @@
 /// \file  Spectra of responses in random seas, from transfer functions: for `froude response`. (Q8),
 /// docs/theory/frequency.md.
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "answers/sea_drag.hpp"
 #include "compile/kept.hpp"
 #include "hydro/signal/spectrum.hpp"
 #include "scene/scene.hpp"
@@ -26,14 +28,16 @@ struct ResponseSpectra {
   std::vector<ResponseSpectrum> signals;  ///< at the frequencies of `sea`
   std::vector<std::string> notes;         ///< what had to be decided, and what is left out, but for the second order
   std::vector<std::string> warnings;      ///< what is not to be trusted
+  std::optional<DragInSea> drag = {};     ///< where members have drag, in still water
 };
 
 /// One answer for each of several scenes that differ in their waves alone, which share frequencies and transfer
 /// functions. Between the frequencies of [ask.rao] others are put until m₀, m₂ and m₄ of every signal are within the
-/// scene's `accuracy`; headings of a sea with spreading likewise. `kept`:
-/// coefficients that are read or computed once. \throws hydro::InputError for a scene without
+/// scene's `accuracy`; headings of a sea with spreading likewise. Drag on members is linear for each sea by itself
+/// (D143): frequencies and transfer functions are then each sea's own. `kept`: coefficients that are read or computed
+/// once. \throws hydro::InputError for a scene without
 /// [ask.rao], for waves that are no random sea, one with a crest put in, and for [ask.rao.drag], which is for one
-/// height of wave; as respond(). hydro::NumericsError if a response is too sharp
+/// height of wave; as respond(). hydro::NumericsError if a response is too sharp, or drag does not settle
 std::vector<ResponseSpectra> response_spectra(
     const std::vector<const scene::Scene*>& seas,
     const std::shared_ptr<compile::Kept>& kept = std::make_shared<compile::Kept>());

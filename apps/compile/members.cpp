@@ -41,7 +41,7 @@ std::unique_ptr<const dynamics::ForceKind> drag(const Scene& scene, const std::v
     throw InputError(
         "[member.drag] takes the water's velocity at the places at rest, with nothing but \"vertical\" above",
         scene.waves->place, "leave [waves.kinematics] out, or use [member.morison]");
-  std::vector<dynamics::DragPiece> pieces = drag_at_rest(scene, bodies);
+  std::vector<dynamics::DragPiece> pieces = drag_at_rest(scene, bodies).pieces;
   std::optional<dynamics::WaveSignals> moving;
   if (sea != nullptr) moving = water_at_rest(pieces, bodies, *sea, grid, scene.waves->ramp);
   return std::make_unique<dynamics::DragKind>(std::move(pieces), std::move(moving));
@@ -126,18 +126,25 @@ bool any_drag_at_rest(const Scene& scene) {
   return std::any_of(scene.members.begin(), scene.members.end(), [](const auto& m) { return m.cd.has_value(); });
 }
 
-std::vector<dynamics::DragPiece> drag_at_rest(const Scene& scene, const std::vector<dynamics::RigidBody>& bodies) {
-  std::vector<dynamics::DragPiece> pieces;
-  for (const auto& m : scene.members) {
+bool DragAtRest::in_current() const {
+  return std::any_of(pieces.begin(), pieces.end(), [](const auto& piece) { return !piece.current.isZero(0); });
+}
+
+DragAtRest drag_at_rest(const Scene& scene, const std::vector<dynamics::RigidBody>& bodies) {
+  DragAtRest out;
+  auto& pieces = out.pieces;
+  for (std::size_t i = 0; i < scene.members.size(); ++i) {
+    const auto& m = scene.members[i];
     if (!m.cd) continue;
     const auto wet = dynamics::drag_pieces(bodies, m.body, m.from, m.to, m.diameter, *m.cd, scene.water.density);
     if (wet.empty())
       throw InputError(fmt::format("member \"{}\" is above the water at rest and feels no drag", m.name), m.place,
                        "put it under water, or leave it out");
     pieces.insert(pieces.end(), wet.begin(), wet.end());
+    out.member.resize(pieces.size(), i);
   }
   for (auto& piece : pieces) piece.current.head<2>() = scene.current.at(dynamics::rest_position(piece, bodies).z());
-  return pieces;
+  return out;
 }
 
 std::optional<hydro::waves::FieldUse> water_of_members(const Scene& scene, double highest_crest, double step) {

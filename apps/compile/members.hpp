@@ -10,9 +10,15 @@ namespace froude::compile {
 /// True if a member names drag at its place at rest.
 bool any_drag_at_rest(const scene::Scene& scene);
 
-/// Pieces of the members that name drag, in the current. \throws hydro::InputError at a member that is dry at rest
-std::vector<dynamics::DragPiece> drag_at_rest(const scene::Scene& scene,
-                                              const std::vector<dynamics::RigidBody>& bodies);
+/// Pieces of the members that name drag, in the current, and which of the scene's members each is of.
+struct DragAtRest {
+  std::vector<dynamics::DragPiece> pieces;
+  std::vector<std::size_t> member;
+
+  bool in_current() const;
+};
+/// \throws hydro::InputError at a member that is dry at rest
+DragAtRest drag_at_rest(const scene::Scene& scene, const std::vector<dynamics::RigidBody>& bodies);
 
 /// (D44): pieces of a member, so short that neither the shortest relevant wave nor turning about an end is missed by
 /// more than the accuracy asked.

@@ -106,6 +106,19 @@ Report damage_of(const ResponseSpectrum& s, const hs::Moments& m, const Asked& a
   return out;
 }
 
+/// How drag became linear, and the relative velocities it is linear for. (D143)
+Report drag_of(const DragInSea& drag) {
+  Report out;
+  out.say("{:<24} {:>16} {:>16} {:>16}", "drag, linear in this sea", "sigma [m/s]", "across [m/s]", "F/w [N s/m]");
+  for (const MemberDrag& m : drag.members)
+    out.row("members", "{:<24} {:>16.5g} {:>16.5g} {:>16.5g}", fact("member", m.member),
+            fact("sigma_major_m_per_s", m.sigma_major), fact("sigma_minor_m_per_s", m.sigma_minor),
+            fact("coefficient_n_s_per_m", m.coefficient));
+  out.say("drag settled in {} iterations; one more would change it by {:.2g} of its largest coefficient",
+          fact("iterations", drag.iterations), fact("residual", drag.residual));
+  return out;
+}
+
 /// m₀, m₂ of a part; zeros where it has none.
 struct Part {
   double m0 = 0, m2 = 0;
@@ -179,6 +192,7 @@ Report report_of(const scene::Scene& scene, const ResponseSpectra& r, const Seco
   }
   out.part("signals", std::move(statistics)).part("", std::move(moments)).part("largest", std::move(largest));
   if (asked.sn) out.part("damage", std::move(damage));
+  if (r.drag) out.part("drag", drag_of(*r.drag));
   if (second != nullptr) out.part("second_order", second_order_of(r, *second));
   return std::move(out.sentences("notes", "note: {}", notes).sentences("warnings", "{}", r.warnings));
 }
@@ -347,6 +361,18 @@ Report report_of(const Scatter& scatter, const std::vector<ResponseSpectra>& sea
   signals.say("{:<24} {:<7} {:>13} {:>12}{}{}", "signal", "unit", "peaks > 0", "1 expected", columns,
               asked.sn ? fmt::format(" {:>11} {:>11}", "damage", "life [h]") : "");
   std::vector<std::string> notes = seas.front().notes;
+  if (seas.front().drag) {
+    int most = 0;
+    double residual = 0;
+    for (const auto& sea : seas) {
+      most = std::max(most, sea.drag->iterations);
+      residual = std::max(residual, sea.drag->residual);
+    }
+    notes.push_back(fmt::format(
+        "drag on members is linear for each sea by itself, settled in {} iterations at most, to {:.2g} of its largest "
+        "coefficient; frequencies are each sea's own, and the first line tells those of the first",
+        most, residual));
+  }
   const auto& bodies = scatter.scenes.front().read().bodies;
   if (std::any_of(bodies.begin(), bodies.end(), [](const auto& b) { return b.second_order; }))
     notes.emplace_back("wave loads of second order are left out of a lifetime: one sea at a time has them");

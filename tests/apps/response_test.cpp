@@ -14,6 +14,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
+#include "hydro/waves/dispersion.hpp"
 #include "hydro/waves/spectra/spectrum.hpp"
 #include "support/scratch.hpp"
 
@@ -200,6 +201,76 @@ TEST(ResponseCommand, NamesWhatIsWrong) {
   refused({.scene = path, .scatter = scatter}, "wrong.csv:2:1: error: hs of a sea must be positive");
   refused({.scene = path, .duration = "2 s"}, "--duration: error: a duration of 2 s holds");
   refused({.scene = path, .output = "spectra.h5"}, "cannot end in \".h5\"");
+}
+
+const std::string dragging =
+    "[[member]]\non = \"buoy\"\nfrom = \"(0, 0, -12) m\"\nto = \"(0, 0, 0) m\"\ndiameter = \"8 m\"\ndrag = { cd = ";
+
+/// The buoy with a member of this drag coefficient.
+std::string dragged(const std::string& waves, double cd) {
+  return fmt::format("{}{}{} }}\n", scene_text(waves), dragging, cd);
+}
+
+// (D143) through the command: less motion than without drag, none of it where the coefficient vanishes, and the same
+// linear drag for twice the waves and half the coefficient.
+TEST(ResponseDrag, IsLinearForTheSea) {
+  const auto without = spectra_of(scene_text(long_crested)), none = spectra_of(dragged(long_crested, 1e-9)),
+             with = spectra_of(dragged(long_crested, 1.2));
+  EXPECT_FALSE(without.drag);
+  EXPECT_LT(variance(with, 0), 0.99 * variance(without, 0));
+  // Surge beside a drag of 1e-9: the same numbers but for rounding and for the 1e-9.
+  EXPECT_NEAR(variance(none, 0) / variance(without, 0), 1, 1e-7);
+  ASSERT_TRUE(with.drag);
+  EXPECT_LE(with.drag->residual, 1e-6);  // as it promises
+  EXPECT_GT(with.drag->iterations, 1);
+  const std::string twice = "kind = \"jonswap\"\nhs = \"6 m\"\ntp = \"9 s\"\nheading = \"0 deg\"\n";
+  const auto high = spectra_of(dragged(twice, 0.6));
+  // Frequencies are put by relative moments, alike in both: what differs is where the drag settles, 1e-6.
+  EXPECT_NEAR(high.drag->members.at(0).coefficient / with.drag->members.at(0).coefficient, 1, 1e-5);
+  EXPECT_NEAR(variance(high, 0) / variance(with, 0), 4, 1e-4);
+}
+
+std::string with(std::string text, const std::string& old, const std::string& now) {
+  return text.replace(text.find(old), old.size(), now);
+}
+
+// A buoy held in place has the orbits of the sea past it: F/w = ∫ ½ρ C_D D √(8/π) σ_u(z) dz, σ_u by a plain sum.
+TEST(ResponseDrag, PastAHeldBodyIsThatOfTheSea) {
+  std::string text = with(dragged(long_crested, 1.2), "surge = \"40 kN/m\"", "surge = \"4e4 GN/m\"");
+  text = with(text, ", \"buoy.sway\", \"buoy.heave\"", "");
+  text = with(text, "radii_of_gyration", "free = [\"surge\"]\nradii_of_gyration");
+  const auto scene = froude::scene::parse(text, "scene.toml");
+  const auto& spectrum = *std::get<froude::scene::RandomSea>(scene.waves->kind).systems.front().spectrum;
+  const double low = scene.rao->omega.front(), high = scene.rao->omega.back();
+  constexpr int n = 600, layers = 48;
+  double coefficient = 0;
+  for (int l = 0; l < layers; ++l) {
+    const double z = -12 * (l + 0.5) / layers;
+    double square = 0;
+    for (int i = 0; i < n; ++i) {
+      const double omega = low + (high - low) * (i + 0.5) / n, k = hydro::waves::wavenumber(omega, scene.water);
+      const double u = omega * std::cosh(k * (z + 60)) / std::sinh(k * 60);
+      square += spectrum.density(omega) * u * u * (high - low) / n;
+    }
+    coefficient += 0.5 * 1000 * 1.2 * 8 * std::sqrt(8 / std::numbers::pi * square) * 12 / layers;
+  }
+  const auto found = froude::response_spectra({&scene}).front();
+  // The accuracy asked of moments, of which the coefficient has half, and the plain sums, 1e-4.
+  EXPECT_NEAR(found.drag->members.at(0).coefficient / coefficient, 1, 2e-3);
+}
+
+TEST(ResponseDrag, IsTold) {
+  const auto path = file_of(with(dragged(short_crested, 1.2), "accuracy = 2e-3", "accuracy = 5e-2"));
+  const auto j = json_of<ResponseArguments>(&froude::response, {.scene = path});
+  const auto& member = j["drag"]["members"][0];
+  // Of short-crested waves the relative velocity has a second direction.
+  EXPECT_GT(member["sigma_major_m_per_s"].get<double>(), member["sigma_minor_m_per_s"].get<double>());
+  EXPECT_GT(member["sigma_minor_m_per_s"].get<double>(), 0);
+  EXPECT_LE(j["drag"]["residual"].get<double>(), 1e-6);
+  for (const auto& note : j["notes"]) EXPECT_THAT(note.get<std::string>(), Not(HasSubstr("drag")));
+  const auto current = spectra_of(dragged(long_crested, 1.2) + "[current]\nvelocity = \"(1, 0, 0) m/s\"\n");
+  EXPECT_FALSE(current.drag);
+  EXPECT_THAT(current.notes, testing::Contains(HasSubstr("a current flows past members")));
 }
 
 TEST(FatigueCommand, CountsASineOnce) {

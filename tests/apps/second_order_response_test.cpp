@@ -6,12 +6,15 @@
 #include <complex>
 #include <fstream>
 #include <numbers>
+#include <sstream>
 
 #include "answers/sea_directions.hpp"
 #include "answers/second_order_loads.hpp"
 #include "answers/second_order_spectra.hpp"
 #include "compile/compile.hpp"
+#include "froude/commands.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/io/atomic_file.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "hydro/waves/spectra/spectrum.hpp"
 #include "support/scratch.hpp"
@@ -246,6 +249,36 @@ frequencies = "0.2 rad/s .. 3 rad/s, 29 values"
 )";
   EXPECT_THAT(refused(scene_of(body_text("m", "(0, 0, 0) m", "method = \"full\"\n" + file + floating))),
               ThrowsMessage<hydro::InputError>(HasSubstr("have a sum of frequencies above the 3 rad/s")));
+}
+
+TEST(SecondOrderResponses, AreInThePictureAndLeftOutOfALifetime) {
+  const auto folder = support::scratch_folder();
+  const std::string loads =
+      "method = \"full\"\nfile = \"" + file_of(difference, "p.12d") + "\"\nsum = \"" + file_of(sum, "p.12s") + "\"\n";
+  const std::string excited = R"([body.hydrodynamics]
+excitation = true
+[body.hydrodynamics.cylinders]
+at = "(0, 0, 0) m"
+diameter = "2 m"
+draught = "2.9 m"
+frequencies = "0.4 rad/s .. 4 rad/s, 20 values"
+)";
+  hydro::io::write_atomically(
+      folder / "second.toml",
+      "schema = 1\n[water]\ndensity = \"1000 kg/m^3\"\ndepth = \"50 m\"\n[waves]\nkind = \"jonswap\"\nhs = \"1 m\"\n"
+      "tp = \"6 s\"\nheading = \"0 deg\"\n" +
+          body_text("m", "(0, 0, 0) m", loads + excited) +
+          "[ask]\naccuracy = 5e-2\nrao = { periods = \"1.7 s .. 15 s, 20 values\", of = [\"m.surge\"] }\n");
+  hydro::io::write_atomically(folder / "seas.csv", "hs [m], tp [s], share\n1, 6, 1\n");
+  std::ostringstream out, err;
+  const Console console{out, err, true};
+  response({.scene = folder / "second.toml", .picture = folder / "second.svg"}, console);
+  std::stringstream picture;
+  picture << std::ifstream(folder / "second.svg").rdbuf();
+  EXPECT_THAT(picture.str(), testing::AllOf(HasSubstr("m.surge slow"), HasSubstr("m.surge sums")));
+  out.str("");
+  response({.scene = folder / "second.toml", .duration = "1000 h", .scatter = folder / "seas.csv"}, console);
+  EXPECT_THAT(out.str(), HasSubstr("wave loads of second order are left out of a lifetime"));
 }
 
 }  // namespace

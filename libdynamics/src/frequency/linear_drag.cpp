@@ -3,11 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/spatial/rotation.hpp"
+#include "drag_motion.hpp"
 #include "equations.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/waves/dispersion.hpp"
-#include "hydro/waves/kinematics/kinematics.hpp"
 
 namespace dynamics::frequency {
 
@@ -27,28 +25,6 @@ double energy_equivalent_speed(const Vector3cd& w) {
 }
 
 namespace {
-
-/// Arms and axes along global axes, where bodies are still.
-std::vector<DragPiece> turned(std::vector<DragPiece> pieces, const State& still) {
-  for (DragPiece& piece : pieces) {
-    const Eigen::Quaterniond& attitude = still.pose[static_cast<std::size_t>(piece.body)].attitude;
-    piece.arm = attitude * piece.arm;
-    piece.axis = attitude * piece.axis;
-  }
-  return pieces;
-}
-
-/// Across the axis of a piece.
-Eigen::Matrix3d across(const DragPiece& piece) {
-  return Eigen::Matrix3d::Identity() - piece.axis * piece.axis.transpose();
-}
-
-/// The part across a piece of the velocity of its body, by the body's velocity.
-Eigen::Matrix<double, 3, 6> velocity_across(const DragPiece& piece) {
-  Eigen::Matrix<double, 3, 6> J;
-  J << Eigen::Matrix3d::Identity(), -cross_matrix(piece.arm);
-  return across(piece) * J;
-}
 
 /// c β of every piece for motions ξ and waves of amplitude a.
 Eigen::VectorXd coefficients(const LinearDrag& drag, Index w, double omega, const VectorXcd& xi, double a) {
@@ -112,15 +88,7 @@ LinearDrag linearised_drag(const SmallMotions& about, const std::vector<Potentia
   const Equations of(about, groups);
   for (Index w = 0; w < frequencies; ++w) {
     const auto at = static_cast<std::size_t>(w);
-    const hydro::waves::Component wave{.omega = omega[at],
-                                       .k = hydro::waves::wavenumber(omega[at], waves.water),
-                                       .sigma = omega[at],
-                                       .amplitude = 1,
-                                       .phase = 0,
-                                       .heading = waves.heading};
-    for (Index i = 0; i < count; ++i)
-      drag.velocity.block<3, 1>(3 * i, w) = hydro::waves::velocity_transfer(
-          wave, waves.water, rest_position(pieces[static_cast<std::size_t>(i)], about.model.bodies()));
+    drag.velocity.col(w) = water_velocity(pieces, about.model.bodies(), waves.water, omega[at], waves.heading);
     settle(drag, w, of, omega[at], excitation(about.model, groups, omega[at], waves.heading), of.impedance(omega[at]),
            waves.amplitude[at]);
   }

@@ -1,5 +1,7 @@
 #include "dynamics/frequency/rao.hpp"
 
+#include <algorithm>
+
 #include "equations.hpp"
 #include "hydro/base/parallel.hpp"
 #include "scatter.hpp"
@@ -47,16 +49,27 @@ Motions motions_at(const Equations& equations, double omega, const Eigen::Matrix
   return equations.solve(equations.impedance(omega), X, omega);
 }
 
-/// Each heading by factors of its own.
+/// Drag of the same coefficients for all headings, as that of a sea has: they share factors.
+bool is_common(const std::vector<LinearDrag>& drag) {
+  return std::all_of(drag.begin(), drag.end(),
+                     [&](const LinearDrag& d) { return d.coefficient == drag.front().coefficient; });
+}
+
+/// By factors of each heading's own, unless their drag is common.
 Motions motions_with_drag(const Equations& equations, double omega, const Eigen::MatrixXcd& X, Eigen::Index w,
                           const std::vector<LinearDrag>& drag) {
   const Impedance without = equations.impedance(omega);
+  const auto solved = [&](std::size_t h, const Eigen::MatrixXcd& load) {
+    Impedance Z = without;
+    add_drag(drag[h], w, omega, Z);
+    return equations.solve(Z, load, omega);
+  };
+  Eigen::MatrixXcd load = X;
+  for (Eigen::Index h = 0; h < X.cols(); ++h) load.col(h) += drag[static_cast<std::size_t>(h)].excitation(w, X.rows());
+  if (is_common(drag)) return solved(0, load);
   Motions out;
   for (Eigen::Index h = 0; h < X.cols(); ++h) {
-    const LinearDrag& of_heading = drag[static_cast<std::size_t>(h)];
-    Impedance Z = without;
-    add_drag(of_heading, w, omega, Z);
-    const Motions one = equations.solve(Z, X.col(h) + of_heading.excitation(w, X.rows()), omega);
+    const Motions one = solved(static_cast<std::size_t>(h), load.col(h));
     if (h == 0) out = {Eigen::MatrixXcd(X.rows(), X.cols()), Eigen::MatrixXcd(one.lambda.rows(), X.cols())};
     out.xi.col(h) = one.xi;
     out.lambda.col(h) = one.lambda;
@@ -97,7 +110,7 @@ Amplitudes response_amplitudes(const SmallMotions& about, const std::vector<Pote
         i, out);
   });
   out.sparse = equations.are_sparse();
-  out.factorisations = static_cast<int>(omega.size() * (options.drag.empty() ? 1 : headings.size()));
+  out.factorisations = static_cast<int>(omega.size() * (is_common(options.drag) ? 1 : headings.size()));
   return out;
 }
 

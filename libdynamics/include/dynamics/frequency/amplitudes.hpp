@@ -11,15 +11,15 @@ struct Amplitudes {
   std::vector<Eigen::MatrixXcd> xi;
   /// Likewise: multipliers λ of the joints beyond what they are while still, (m, Nω).
   std::vector<Eigen::MatrixXcd> lambda;
-  int factorisations = 0;  ///< of the matrix of (Q1): one a frequency, however many headings, without drag
+  int factorisations = 0;  ///< of the matrix of (Q1): one a frequency, however many headings, unless their drag differs
   bool sparse = false;     ///< they were sparse
 };
 
 /// How response_amplitudes() goes about it.
 struct RaoOptions {
   int threads = 1;  ///< which share the frequencies; the numbers do not depend on how many there are
-  /// One a heading, made for the same frequencies; or none. Linear drag depends on the heading, so that with it each
-  /// heading has factors of its own (Q5).
+  /// One a heading, made for the same frequencies; or none. Where their coefficients differ each heading has
+  /// factors of its own (Q5); those of a sea are the same for all (D143).
   std::vector<LinearDrag> drag = {};
 };
 

@@ -1,0 +1,52 @@
+#pragma once
+/// \file  Private: how pieces of members move with their bodies and in waves, for linear drag. (Q5), (D143)
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "dynamics/force/drag.hpp"
+#include "dynamics/spatial/rotation.hpp"
+#include "hydro/waves/dispersion.hpp"
+#include "hydro/waves/kinematics/kinematics.hpp"
+
+namespace dynamics::frequency {
+
+/// Arms and axes along global axes, where bodies are still.
+inline std::vector<DragPiece> turned(std::vector<DragPiece> pieces, const State& still) {
+  for (DragPiece& piece : pieces) {
+    const Eigen::Quaterniond& attitude = still.pose[static_cast<std::size_t>(piece.body)].attitude;
+    piece.arm = attitude * piece.arm;
+    piece.axis = attitude * piece.axis;
+  }
+  return pieces;
+}
+
+/// Across the axis of a piece.
+inline Eigen::Matrix3d across(const DragPiece& piece) {
+  return Eigen::Matrix3d::Identity() - piece.axis * piece.axis.transpose();
+}
+
+/// The part across a piece of the velocity of its body, by the body's velocity.
+inline Eigen::Matrix<double, 3, 6> velocity_across(const DragPiece& piece) {
+  Eigen::Matrix<double, 3, 6> J;
+  J << Eigen::Matrix3d::Identity(), -cross_matrix(piece.arm);
+  return across(piece) * J;
+}
+
+/// Of the undisturbed water at pieces where they are as placed, m/s per metre of wave, (3 pieces).
+inline Eigen::VectorXcd water_velocity(const std::vector<DragPiece>& pieces, const std::vector<RigidBody>& bodies,
+                                       const hydro::Water& water, double omega, double heading) {
+  const hydro::waves::Component wave{.omega = omega,
+                                     .k = hydro::waves::wavenumber(omega, water),
+                                     .sigma = omega,
+                                     .amplitude = 1,
+                                     .phase = 0,
+                                     .heading = heading};
+  Eigen::VectorXcd out(3 * static_cast<Eigen::Index>(pieces.size()));
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    out.segment<3>(3 * static_cast<Eigen::Index>(i)) =
+        hydro::waves::velocity_transfer(wave, water, rest_position(pieces[i], bodies));
+  return out;
+}
+
+}  // namespace dynamics::frequency
