@@ -2,7 +2,6 @@
 /// \file  Responses per metre of wave: for `froude rao`, and for runs that need no stepping.
 #include <Eigen/Core>
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,8 +27,8 @@ struct HowToRespond {
   int threads = hydro::all_processors();  ///< which share the frequencies; numbers do not depend on how many there are
   bool refine =
       false;  ///< frequencies are put between those asked for, until straight lines are within `accuracy` (Q15)
-  std::optional<Eigen::VectorXd> drag_of_sea =
-      std::nullopt;  ///< coefficients of the pieces of members with drag, N s/m, in place of [ask.rao.drag] (D143)
+  const Eigen::VectorXd* drag_of_sea =
+      nullptr;  ///< coefficients of the pieces of members with drag, N s/m, in place of [ask.rao.drag] (D143)
 };
 
 /// The signals that [ask.rao] names, at its frequencies and headings.

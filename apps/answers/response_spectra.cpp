@@ -118,7 +118,7 @@ class Densities {
   std::vector<Column> at(const std::vector<double>& omega) {
     scene_.rao->omega = omega;
     HowToRespond how;
-    if (drag_) how.drag_of_sea = drag_->coefficient;
+    if (drag_) how.drag_of_sea = &drag_->coefficient;
     const Responses r = respond(scene_, *prepared_, how);
     if (!first_) {
       first_ = std::make_unique<Responses>(r);
