@@ -8,6 +8,7 @@ Provenance provenance_of(const scene::Scene& scene) {
   Provenance p;
   p.scene_file = scene.file.filename().string();
   p.scene_text = scene.text;
+  if (scene.uncompressed) p.packing = hydro::io::Packing::none;
   for (const auto& e : scene.echo) p.settings.emplace_back(e.key, e.value + (e.defaulted ? " (default)" : ""));
   if (scene.waves)
     if (const auto* sea = std::get_if<scene::RandomSea>(&scene.waves->kind))

@@ -79,7 +79,7 @@ void write_error(Hdf5Writer& file, const std::string& dataset, const ErrorEstima
 
 void write_run(const std::filesystem::path& path, const std::vector<double>& time, const std::vector<Signal>& signals,
                const Provenance& provenance, const ErrorEstimate& error) {
-  Hdf5Writer file;
+  Hdf5Writer file(provenance.packing);
   write_provenance(file, run_kind, provenance);
   write_dimension(file, "/time", time, "s", "time from the start of the run");
   for (std::size_t i = 0; i < signals.size(); ++i) {
@@ -96,7 +96,7 @@ void write_rao(const std::filesystem::path& path, const std::vector<double>& ome
                const std::vector<ComplexSignal>& signals, const Provenance& provenance, const ErrorEstimate& error) {
   constexpr const char* meaning = "direction the wave propagates towards, from +x towards +y";
   const bool several = heading.size() != 1;
-  Hdf5Writer file;
+  Hdf5Writer file(provenance.packing);
   write_provenance(file, rao_kind, provenance);
   file.attribute("/", "phase", "Re(amplitude exp(+i omega t)), of a wave with its crest at the origin at t = 0");
   write_dimension(file, "/omega", omega, "rad/s", "angular frequency");
@@ -135,7 +135,7 @@ void write_modes(const std::filesystem::path& path, const Modes& modes, const Pr
     for (const auto& value : values) out.insert(out.end(), {value.real(), value.imag()});
     return out;
   };
-  Hdf5Writer file;
+  Hdf5Writer file(provenance.packing);
   write_provenance(file, modes_kind, provenance);
   file.attribute("/", "phase", "Re(damped_shape exp(s t))");
   std::vector<double> number, period;
@@ -219,7 +219,7 @@ void write_branch(Hdf5Writer& file, const std::string& group, const StabilityMap
 }
 
 void StabilityMap::write(const std::filesystem::path& path) const {
-  Hdf5Writer file;
+  Hdf5Writer file(provenance.packing);
   Provenance with_notes = provenance;
   add_notes(notes, with_notes);
   write_provenance(file, stability_kind, with_notes);

@@ -195,7 +195,7 @@ RunWater run_water(const Scene& scene, const Prepared& prepared, double step) {
   const auto band = band_of_data(prepared);
   const bool needs_sum = band || any_drag_at_rest(scene);
   RunWater out;
-  std::shared_ptr<const hydro::waves::WaveField> field;
+  std::shared_ptr<const hydro::waves::WaveField> field, of_lines;
   if (scene.waves && (needs_sum || is_linear_sum(*scene.waves))) {
     out.sea = run_sea(scene, band);
     const auto waves = hydro::waves::linear_field(*out.sea, {.stretching = scene.waves->stretching});
@@ -204,6 +204,8 @@ RunWater run_water(const Scene& scene, const Prepared& prepared, double step) {
     } else {
       field = std::make_shared<hydro::waves::SummedField>(waves);
     }
+    if (const auto use = water_of_lines(scene, prepared, *out.sea, step))
+      of_lines = out.around_lines = prepared.kept->water_of_lines().of(waves, *use);
   } else if (scene.waves) {
     field = make_field(scene);
   } else {
@@ -212,15 +214,17 @@ RunWater run_water(const Scene& scene, const Prepared& prepared, double step) {
   }
   const double ramp = scene.waves ? scene.waves->ramp : 0;
   out.field = std::make_shared<dynamics::RampedField>(std::move(field), ramp, scene.current);
+  out.of_lines =
+      of_lines ? std::make_shared<dynamics::RampedField>(std::move(of_lines), ramp, scene.current) : out.field;
   return out;
 }
 
-/// How waves are found around members.
-std::string method_of(const hydro::waves::BoxedField& field, double duration) {
-  if (field.tables() == 0) return "; around members summed";
+/// How waves are found around what moves in them.
+std::string method_of(const hydro::waves::BoxedField& field, const char* what, double duration) {
+  if (field.tables() == 0) return fmt::format("; around {} summed", what);
   const double megabytes = static_cast<double>(field.bytes_of_table()) / 1e6;
-  if (field.tables() == 1) return fmt::format("; around members from a table of {:.3g} MB", megabytes);
-  return fmt::format("; around members from tables of {:.3g} MB, one for each {:.3g} s, three at a time", megabytes,
+  if (field.tables() == 1) return fmt::format("; around {} from a table of {:.3g} MB", what, megabytes);
+  return fmt::format("; around {} from tables of {:.3g} MB, one for each {:.3g} s, three at a time", what, megabytes,
                      duration / field.tables());
 }
 
@@ -230,7 +234,8 @@ PlanLine waves_line(const RunWater& water, double duration) {
   std::string method = fmt::format("components on a grid, repeating after {:.6g} s", sea->repetition_s());
   if (std::isinf(sea->repetition_s())) method = "components that never repeat";
   if (sea->components().size() == 1) method = "one regular wave";
-  if (water.around_members) method += method_of(*water.around_members, duration);
+  if (water.around_members) method += method_of(*water.around_members, "members", duration);
+  if (water.around_lines) method += method_of(*water.around_lines, "lines", duration);
   return {
       "waves", std::move(method),
       fmt::format("{} components, {:.2g} of the energy left out", sea->components().size(), sea->fraction_left_out()),

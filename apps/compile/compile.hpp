@@ -92,9 +92,11 @@ dynamics::frequency::SmallMotions small_motions(const dynamics::Model& model, co
 
 /// The water of a run.
 struct RunWater {
-  std::optional<hydro::waves::Sea> sea;                  ///< where the waves are a sum of linear ones
-  std::shared_ptr<const hydro::waves::WaveField> field;  ///< with the ramp; still water is a field without waves
+  std::optional<hydro::waves::Sea> sea;                     ///< where the waves are a sum of linear ones
+  std::shared_ptr<const hydro::waves::WaveField> field;     ///< with the ramp; still water is a field without waves
+  std::shared_ptr<const hydro::waves::WaveField> of_lines;  ///< the same at lines
   std::shared_ptr<const hydro::waves::BoxedField> around_members;  ///< the field before its ramp; null without members
+  std::shared_ptr<const hydro::waves::BoxedField> around_lines;    ///< the same; null without wet lines in a sea
 };
 
 /// The sea of a run whose answer is linear in it; `notes` are told what coefficients of another depth leave wrong in

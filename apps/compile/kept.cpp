@@ -89,22 +89,32 @@ bool holds(const FieldBox& large, const FieldBox& small) {
          (large.low.array() <= small.low.array()).all() && (small.high.array() <= large.high.array()).all();
 }
 
+/// With room around the box, so that one a little beside it is held too: that of lines cut into more segments.
+FieldUse with_room(FieldUse use, const HarmonicField& waves) {
+  constexpr double room = 0.5;  // m
+  use.box.low.array() -= room;
+  use.box.high.head<2>().array() += room;
+  use.box.low.z() = std::max(use.box.low.z(), -waves.water().depth.metres());
+  return use;
+}
+
 double questions(const FieldUse& use) { return use.instants * use.points; }
 
 }  // namespace
 
-std::shared_ptr<const WaterOfMembers::Made> WaterOfMembers::found(const HarmonicField& waves, const FieldUse& use,
-                                                                  const Serves& serves) {
+std::shared_ptr<const KeptWater::Made> KeptWater::found(const HarmonicField& waves, const FieldUse& use,
+                                                        const Serves& serves) {
   const std::scoped_lock one_at_a_time(mutex_);
   if (last_ && serves(*last_)) return last_;
-  const auto make = [waves, use] { return std::make_shared<const hydro::waves::BoxedField>(waves, use); };
-  last_ = std::make_shared<const Made>(Made{waves, use, std::async(std::launch::deferred, make).share()});
+  const FieldUse wide = with_room(use, waves);
+  const auto make = [waves, wide] { return std::make_shared<const hydro::waves::BoxedField>(waves, wide); };
+  last_ = std::make_shared<const Made>(Made{waves, wide, std::async(std::launch::deferred, make).share()});
   ++made_;
   return last_;
 }
 
 // Where waves are summed since few points asked for them, a run that asks for more may do better with a table.
-WaterOfMembers::Field WaterOfMembers::of(const HarmonicField& waves, const FieldUse& use) {
+KeptWater::Field KeptWater::of(const HarmonicField& waves, const FieldUse& use) {
   const Serves serves = [&](const Made& made) {
     return made.use.tolerance == use.tolerance && holds(made.use.box, use.box) && same(made.waves, waves);
   };

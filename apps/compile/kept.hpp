@@ -83,9 +83,9 @@ class WeighedMemories {
   std::deque<Weighed> last_;
 };
 
-/// The waves around members: runs of a scene that differ in their steps and pieces, and trials of a fit, ask for the
-/// same ones. Whoever asks first makes them; threads that ask for the same wait, others do not.
-class WaterOfMembers {
+/// The waves in a box, around members or lines: runs of a scene that differ in their steps and pieces, and trials of a
+/// fit, ask for the same ones. Whoever asks first makes them; threads that ask for the same wait, others do not.
+class KeptWater {
  public:
   using Field = std::shared_ptr<const hydro::waves::BoxedField>;
   /// That which was made last, if it is of the same waves to the same tolerance, for a box that holds this one.
@@ -108,7 +108,7 @@ class WaterOfMembers {
 };
 
 /// Coefficients as they were read from files or computed, what the doctor finds in them, poles fitted to them, memories
-/// that were weighed, and waves around members. What changes in a file after it was read is not seen.
+/// that were weighed, and waves around members and lines. What changes in a file after it was read is not seen.
 class Kept {
  public:
   /// Those known by this name, or what `make` makes.
@@ -119,7 +119,8 @@ class Kept {
       const std::string& name, const std::function<std::vector<hydro::potential::Finding>()>& make);
   RadiationFits& fits() { return fits_; }
   WeighedMemories& memories() { return memories_; }
-  WaterOfMembers& water_of_members() { return water_; }
+  KeptWater& water_of_members() { return water_of_members_; }
+  KeptWater& water_of_lines() { return water_of_lines_; }
   /// Sets of coefficients, of findings and of fits, so far.
   std::size_t made() const { return made_ + fits_.made(); }
 
@@ -134,7 +135,7 @@ class Kept {
   std::map<std::string, std::vector<hydro::potential::Finding>> findings_;
   RadiationFits fits_;
   WeighedMemories memories_;
-  WaterOfMembers water_;
+  KeptWater water_of_members_, water_of_lines_;
 };
 
 }  // namespace froude::compile

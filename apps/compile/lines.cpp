@@ -10,6 +10,7 @@
 #include "compile/compile.hpp"
 #include "compile/connections.hpp"
 #include "compile/restart.hpp"
+#include "compile/waves.hpp"
 #include "dynamics/line/equilibrium.hpp"
 #include "dynamics/line/exposure.hpp"
 #include "dynamics/line/path.hpp"
@@ -334,7 +335,7 @@ std::string joined(const std::vector<LineModel::Part>& parts, const char* quote)
 LineModel fastened_model(const Scene& scene, const std::vector<std::size_t>& network, const dynamics::FastenedLine& l,
                          const RunWater& water, const dl::Places& placed, std::size_t at,
                          const dynamics::State& start) {
-  System system = description(scene, network, water.field);
+  System system = description(scene, network, water.of_lines);
   take_coefficients(scene, network, water, placed, system);
   return {.name = l.name,
           .parts = std::move(system.parts),
@@ -371,7 +372,7 @@ void start_as_measured(const scene::Line& l, LineModel& m) {
 
 LineModel free_model(const Scene& scene, const std::vector<std::size_t>& network, const RunWater& water) {
   dl::State rest = at_rest(scene, network);
-  System system = description(scene, network, water.field);
+  System system = description(scene, network, water.of_lines);
   take_coefficients(scene, network, water, rest.position, system);
   LineModel m{.name = system.parts.front().name,
               .parts = std::move(system.parts),
@@ -420,13 +421,43 @@ std::unique_ptr<const dynamics::ForceKind> fastened_kind(const Scene& scene, con
   for (const auto& network : scene.networks) {
     if (!on_bodies(scene, network)) continue;
     require_one_step(scene, scene.lines[network.front()]);
-    System system = description(scene, network, water.field);
+    System system = description(scene, network, water.of_lines);
     take_coefficients(scene, network, water,
                       dynamics::line_at_rest(*line, dynamics::rest_state(prepared.bodies)).position, system);
     line->run = std::move(system.d);
     ++line;
   }
   return std::make_unique<dynamics::FastenedLineKind>(std::move(lines));
+}
+
+std::optional<hydro::waves::FieldUse> water_of_lines(const Scene& scene, const Prepared& prepared,
+                                                     const hydro::waves::Sea& sea, double step) {
+  constexpr std::size_t few = 32;  // waves, which are summed sooner than looked up
+  constexpr double runs = 3;       // of steps twice and four times as long, and of segments half as long
+  const bool foreseen = dl::parse_scheme(scene.solve.line_scheme) < dl::Scheme::rosenbrock;
+  if (sea.components().size() < few) return {};
+  Eigen::AlignedBox3d places;
+  double points = 0;
+  auto fastened = prepared.fastened.begin();
+  for (const auto& network : scene.networks) {
+    const dynamics::FastenedLine* own = on_bodies(scene, network) ? &*fastened++ : nullptr;
+    if (std::none_of(network.begin(), network.end(),
+                     [&](std::size_t i) { return scene.lines[i].water.wet != dl::Wet::nothing; }))
+      continue;
+    try {
+      const dl::State rest =
+          own ? dynamics::line_at_rest(*own, dynamics::rest_state(prepared.bodies)) : at_rest(scene, network);
+      for (Eigen::Index i = 0; i < rest.position.cols(); ++i) places.extend(Eigen::Vector3d(rest.position.col(i)));
+      points +=
+          (own || foreseen ? 2 : 6) * runs * static_cast<double>(rest.position.cols());  // stages, and the balance
+    } catch (const InputError& e) {
+      blame(scene, network, e);
+    } catch (const hydro::NumericsError& e) {
+      blame(scene, network, e);
+    }
+  }
+  if (places.isEmpty()) return {};
+  return water_around(scene, places, sea.hs(), step, points);
 }
 
 std::vector<LineModel> line_models(const Scene& scene, const Prepared& prepared, const RunWater& water,
@@ -543,9 +574,7 @@ void LineRun::look() {
   const dl::Energies& e = energies();
   turnover_ = std::max(
       {turnover_, e.kinetic, e.axial, std::abs(e.height - first_height_), std::abs(e.supplied()), e.dissipated()});
-  if (driven_ != nullptr) {
-    driven_->find_balance(balance_);
-  } else if (!stepper_->find_balance(state_, balance_)) {
+  if (driven_ == nullptr && !stepper_->find_balance(state_, balance_)) {
     balance_ = {.acceleration = dl::Places::Zero(3, model_.line->nodes()),
                 .tension = state_.tension,
                 .holding = dl::Places::Zero(3, model_.line->nodes())};

@@ -11,6 +11,8 @@
 #include "dynamics/line/statistics.hpp"
 #include "dynamics/line/stepper.hpp"
 #include "froude/result.hpp"
+#include "hydro/waves/kinematics/sea.hpp"
+#include "hydro/waves/synthesis/field_choice.hpp"
 #include "scene/scene.hpp"
 
 namespace froude::compile {
@@ -47,6 +49,11 @@ struct LineModel {
   /// Of the links, where a run goes on from another one's end: angles follow these without jumps.
   std::vector<dynamics::line::LinkAngles> before = {};
 };
+
+/// What wet lines ask of the waves of a run, around their places at rest; empty if there are none, or few waves.
+/// \throws hydro::InputError, hydro::NumericsError as line_models()
+std::optional<hydro::waves::FieldUse> water_of_lines(const scene::Scene& scene, const Prepared& prepared,
+                                                     const hydro::waves::Sea& sea, double step);
 
 /// In the order of the scene's networks; those on bodies where `start` has them. \throws hydro::InputError at a line
 /// that cannot hang there, hydro::NumericsError if it finds no rest
@@ -104,7 +111,7 @@ class LineRun {
     double polar_rate, azimuth_rate;
   };
   const std::vector<Angles>& angles() const { return angles_; }
-  const dynamics::line::Stepper::Balance& balance() const { return balance_; }
+  const dynamics::line::Stepper::Balance& balance() const { return driven_ != nullptr ? driven_->balance() : balance_; }
 
  private:
   void begin();
@@ -112,7 +119,7 @@ class LineRun {
   dynamics::line::DrivenLine* driven_ = nullptr;
   dynamics::line::State state_;
   std::unique_ptr<dynamics::line::Stepper> stepper_;
-  dynamics::line::Stepper::Balance balance_;
+  dynamics::line::Stepper::Balance balance_;                             // of one that moves alone
   std::vector<std::optional<dynamics::line::TensionStatistics>> snaps_;  // one a part
   std::unique_ptr<dynamics::line::PerturbedTrajectory> perturbed_;
   std::vector<Angles> angles_;

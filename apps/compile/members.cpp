@@ -89,10 +89,14 @@ bool has_kinks_in_water(hydro::waves::Stretching stretching) {
   return stretching == hydro::waves::Stretching::wheeler || stretching == hydro::waves::Stretching::delta;
 }
 
-/// Where a member asks for the water, at each iteration.
+/// How often a member asks for the water at an instant, counted in points, the runs that tell the error included.
 double points_asked(const Scene& scene, const scene::Member& m) {
+  constexpr double runs = 3;        // of steps twice and four times as long, and of pieces half as long
+  constexpr double iterations = 4;  // of Newton, with differences for derivatives, where no step foresees the water
   const auto immersion = m.morison ? m.morison->line.immersion : m.slamming->line.immersion;
-  return dynamics::points_per_piece(immersion) * needed_pieces(scene, m, immersion);
+  const bool foreseen = m.morison && immersion == dynamics::Immersion::whole && foresight(scene) > 0;
+  return (foreseen ? 1 : iterations) * runs * dynamics::points_per_piece(immersion) *
+         needed_pieces(scene, m, immersion);
 }
 
 }  // namespace
@@ -158,20 +162,7 @@ std::optional<hydro::waves::FieldUse> water_of_members(const Scene& scene, doubl
     points += points_asked(scene, m);
   }
   if (members.isEmpty()) return {};
-  // Room to move: the orbits of high waves, and some metres of drift. Beyond it waves are summed.
-  const Eigen::Vector3d room(2 * highest_crest + 2, 2 * highest_crest + 2, highest_crest);
-  constexpr double beyond = 1e-3;  // s: rates of added mass are differences, which look past the end of the run
-  hydro::waves::FieldUse use{
-      .box = {0, scene.run->duration + beyond, members.min() - room, members.max() + room},
-      .instants = scene.run->duration / step,
-      .points = 10 * points};  // iterations, differences for derivatives, and the runs that tell the error
-  use.box.low.z() = std::max(use.box.low.z(), -scene.water.depth.metres());
-  use.box.high.z() = std::min(use.box.high.z(), highest_crest);
-  // Of each wave, so small a share of the accuracy that it needs no estimate of its own. From 1e-5 on the window's own
-  // ends would be steps that Newton sees.
-  constexpr double share = 1e-4;
-  use.tolerance = std::clamp(share * scene.accuracy, 1e-11, 1e-5);
-  return use;
+  return water_around(scene, members, highest_crest, step, points);
 }
 
 void add_members(const Scene& scene, const std::vector<dynamics::RigidBody>& bodies, const RunWater& water,

@@ -319,4 +319,21 @@ bool is_beyond_breaking(const scene::Scene& scene, const scene::RegularWave& wav
 
 std::complex<double> elevation_at_origin(const hydro::waves::Component& c) { return std::polar(c.amplitude, c.phase); }
 
+hw::FieldUse water_around(const Scene& scene, const Eigen::AlignedBox3d& places, double highest_crest, double step,
+                          double points) {
+  // Room to move: the orbits of high waves, and some metres of drift.
+  const Eigen::Vector3d room(2 * highest_crest + 2, 2 * highest_crest + 2, highest_crest);
+  constexpr double beyond = 1e-3;  // s: rates of added mass are differences, which look past the end of the run
+  hw::FieldUse use{.box = {0, scene.run->duration + beyond, places.min() - room, places.max() + room},
+                   .instants = scene.run->duration / step,
+                   .points = points};
+  use.box.low.z() = std::max(use.box.low.z(), -scene.water.depth.metres());
+  use.box.high.z() = std::min(use.box.high.z(), highest_crest);
+  // Of each wave, so small a share of the accuracy that it needs no estimate of its own. From 1e-5 on the window's own
+  // ends would be steps that Newton sees.
+  constexpr double share = 1e-4;
+  use.tolerance = std::clamp(share * scene.accuracy, 1e-11, 1e-5);
+  return use;
+}
+
 }  // namespace froude::compile

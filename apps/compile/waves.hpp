@@ -1,5 +1,6 @@
 #pragma once
 /// \file  From the waves of a scene to a sea, or to a field that tells the water's motion anywhere.
+#include <Eigen/Geometry>
 #include <memory>
 #include <optional>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "hydro/waves/kinematics/field.hpp"
 #include "hydro/waves/kinematics/sea.hpp"
+#include "hydro/waves/synthesis/field_choice.hpp"
 #include "scene/scene.hpp"
 
 namespace froude::compile {
@@ -54,5 +56,11 @@ std::complex<double> elevation_at_origin(const hydro::waves::Component& componen
 
 /// Rad/s above which the sea has 5 % of its energy: what a step must resolve. The frequency of a regular wave.
 double highest_relevant_frequency(const scene::Waves& waves);
+
+/// What a run with this step asks of its waves in a box around `places`, m, where the scene has what moves at rest:
+/// with room for the orbits of the highest waves and for some metres of drift. `points`: how many are asked for at each
+/// instant, the runs that tell the error counted in.
+hydro::waves::FieldUse water_around(const scene::Scene& scene, const Eigen::AlignedBox3d& places, double highest_crest,
+                                    double step, double points);
 
 }  // namespace froude::compile

@@ -225,6 +225,10 @@ const Binding<Scene>& ask_binding() {
                                          .within(Limit::open_fraction)
                                          .or_default("1e-2", "about what coefficients and measurements are good for"),
                                      &Scene::accuracy)
+                                .key(effect("uncompressed",
+                                            "numbers stand in the result file as they are, which is written sooner and "
+                                            "is larger; left out: they are packed, without loss"),
+                                     &Scene::uncompressed)
                                 .at_least_one_of({"rao", "modes", "stability", "run", "waves"})
                                 .then(check_scene);
   return table;

@@ -505,6 +505,7 @@ struct Scene {
   std::optional<AskRun> run;
   std::optional<AskWaves> ask_waves;
   Located<double> accuracy{1e-2, {}};  ///< largest error of each signal asked for
+  bool uncompressed = false;           ///< numbers of result files
   Solve solve;
   std::vector<Echo> echo;
 };

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -104,6 +105,24 @@ TEST(Library, WritesWhatTheProgramWrites) {
   const auto read = froude::read_run(folder.path() / "run.h5");
   EXPECT_EQ(read.time.size(), 1001);
   EXPECT_THAT(read.signals.front().name, HasSubstr("block.surge"));
+}
+
+TEST(Library, PacksTheNumbersOfAResultUnlessTheSceneSaysOtherwise) {
+  const TempDir folder;
+  const auto written = [&](const std::string& name, const std::string& end) {
+    std::string text = mass_on_a_spring;
+    text.replace(text.find("0.01 s"), 6, "0.001 s");  // what is short is never packed
+    const auto path = folder.path() / name;
+    froude::parse(text + end).run().write(path);
+    return path;
+  };
+  const auto packed = written("packed.h5", ""), plain = written("plain.h5", "uncompressed = true\n");
+  const auto one = froude::read_run(packed), other = froude::read_run(plain);
+  ASSERT_EQ(one.signals.size(), other.signals.size());
+  for (std::size_t i = 0; i < one.signals.size(); ++i) EXPECT_EQ(one.signals[i].values, other.signals[i].values);
+  const std::uintmax_t numbers = 8 * one.time.size() * (1 + one.signals.size());
+  EXPECT_GE(file_size(plain), numbers);
+  EXPECT_LT(file_size(packed), numbers) << "times at least, which are even, and signals that are zero";
 }
 
 TEST(Library, FitsWhatAModelAsks) {

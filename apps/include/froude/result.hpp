@@ -17,6 +17,7 @@
 
 #include "dynamics/frequency/harmonic_balance.hpp"
 #include "dynamics/time/growth.hpp"
+#include "hydro/io/hdf5.hpp"
 
 namespace froude {
 
@@ -45,6 +46,7 @@ struct Provenance {
   std::vector<std::pair<std::string, double>> wall_time;      ///< s, by effect
   std::vector<std::pair<std::string, double>> energy;         ///< J: supplied, dissipated, stored, residual, …
   std::vector<std::pair<std::string, std::string>> notes;     ///< anything else worth keeping
+  hydro::io::Packing packing = hydro::io::Packing::deflate;   ///< of the numbers in the file
 };
 
 /// Slack and snaps of a line over a run.

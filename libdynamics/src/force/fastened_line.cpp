@@ -72,15 +72,28 @@ FastenedLineMemory::FastenedLineMemory(const std::vector<FastenedLine>& elements
     lines_.push_back(std::make_unique<DrivenLine>(l.run, nodes_of(l), l.rho_infinity));
     count += static_cast<Eigen::Index>(l.ends.size());
   }
+  at_rest_.resize(elements.size());
   start(state, line::Places::Zero(3, count));
+}
+
+/// Line i at rest there; a start that tries other accelerations finds it known.
+const line::State& FastenedLineMemory::at_rest(std::size_t i, const State& state) {
+  AtRest& known = at_rest_[i];
+  find_ends(elements_[i], state, ends_);
+  if (known.ends != ends_) {
+    known.state = line_at_rest(elements_[i], state);
+    known.ends = ends_;
+  }
+  known.state.time = state.time;
+  return known.state;
 }
 
 void FastenedLineMemory::start(const State& state, const line::Places& accelerations) {
   Eigen::Index first = 0;
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     const auto count = static_cast<Eigen::Index>(elements_[i].ends.size());
-    lines_[i]->start(line_at_rest(elements_[i], state), ends_of(elements_[i], state),
-                     accelerations.middleCols(first, count));
+    const line::State& still = at_rest(i, state);  // which finds the ends
+    lines_[i]->start(still, ends_, accelerations.middleCols(first, count));
     first += count;
   }
 }

@@ -72,8 +72,10 @@ struct DrivenLine::Work {
     std::string failure = {};
     bool followed = false;  // pulls have their derivatives
   } tried = {};
+  Stepper::Balance balance;  // of what is accepted, once somebody has asked for it
+  bool balanced = false;
   State moved;  // room for look()
-  Stepper::Balance balance;
+  Stepper::Balance moved_balance;
 
   Work(Description d, std::vector<int> nodes, double rho)
       : prescribed(std::move(nodes)),
@@ -88,6 +90,9 @@ struct DrivenLine::Work {
   void try_at(double t, const std::vector<End>& ends);
   void try_step(double t);
   void find_derivatives();
+  bool are_there(const std::vector<End>& ends) const;
+  const Stepper::Balance& balance_now();
+  const Stepper::Balance* balance_at(const std::vector<End>& ends);
   void look(const std::vector<End>& ends);
   void pull(double force);
 };
@@ -135,6 +140,7 @@ void DrivenLine::start(const State& state, const std::vector<End>& ends, const P
     w.algorithmic.push_back(w.now.back().acceleration);
   }
   w.tried.t = std::numeric_limits<double>::quiet_NaN();
+  w.balanced = false;
   w.stay();
   w.stepper.start(w.state);
   w.stepper.keep(w.state);
@@ -173,8 +179,23 @@ void DrivenLine::Work::try_step(double t) {
   }
 }
 
-/// Pulls of this instant, its ends moved to where they are asked for.
-void DrivenLine::Work::look(const std::vector<End>& ends) {
+bool DrivenLine::Work::are_there(const std::vector<End>& ends) const {
+  for (std::size_t k = 0; k < ends.size(); ++k)
+    if (ends[k].position != now[k].position || ends[k].velocity != now[k].velocity) return false;
+  return true;
+}
+
+const Stepper::Balance& DrivenLine::Work::balance_now() {
+  if (!balanced) {
+    stay();
+    balanced = stepper.find_balance(state, balance);
+    hydro::ensure(balanced, "a line with masses has accelerations");
+  }
+  return balance;
+}
+
+/// Of this instant with its ends moved to where they are asked for; null if there is none.
+const Stepper::Balance* DrivenLine::Work::balance_at(const std::vector<End>& ends) {
   stay();
   moved = state;
   for (std::size_t k = 0; k < prescribed.size(); ++k) {
@@ -182,12 +203,17 @@ void DrivenLine::Work::look(const std::vector<End>& ends) {
     moved.velocity.col(prescribed[k]) = ends[k].velocity;
     ways[k]->end.velocity = ends[k].velocity;
   }
+  return stepper.find_balance(moved, moved_balance) ? &moved_balance : nullptr;
+}
+
+/// Pulls of this instant.
+void DrivenLine::Work::look(const std::vector<End>& ends) {
   pull(0);
-  const bool found = stepper.find_balance(moved, balance);
+  const Stepper::Balance* found = are_there(ends) ? &balance_now() : balance_at(ends);
   for (std::size_t k = 0; k < prescribed.size(); ++k)
     tried.pulls.force.col(static_cast<Eigen::Index>(k)) =
-        found ? Vector3d(-balance.holding.col(prescribed[k]))
-              : Vector3d(Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+        found != nullptr ? Vector3d(-found->holding.col(prescribed[k]))
+                         : Vector3d(Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
 }
 
 void DrivenLine::Work::try_at(double t, const std::vector<End>& ends) {
@@ -223,6 +249,7 @@ void DrivenLine::accept(double t_s, const std::vector<End>& ends) {
   w.algorithmic = w.tried.algorithmic;
   for (std::size_t k = 0; k < w.prescribed.size(); ++k) w.now[k] = w.ways[k]->end;
   w.tried.t = std::numeric_limits<double>::quiet_NaN();
+  w.balanced = false;
   w.stepper.keep(w.state);
   w.stay();
 }
@@ -232,9 +259,9 @@ const State& DrivenLine::state() const { return work_->state; }
 const Energies& DrivenLine::energies() const { return work_->stepper.energies(); }
 Stepper::Flow DrivenLine::flow() const { return work_->stepper.flow(); }
 
-void DrivenLine::find_balance(Stepper::Balance& out) {
-  const bool found = work_->stepper.find_balance(work_->state, out);
-  hydro::ensure(found, "a line with masses has accelerations");
+const Stepper::Balance& DrivenLine::balance() const {
+  if (!work_->balanced) work_->tried.t = std::numeric_limits<double>::quiet_NaN();  // its ends stay
+  return work_->balance_now();
 }
 
 }  // namespace dynamics::line

@@ -13,13 +13,15 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 }  // namespace
 
-void set_instant(const State& state, const Places& a, Stage& out) {
+void set_instant(const State& state, const Places& a, const Stage* flow_of, Stage& out) {
   out.t = out.end = state.time;
   out.h = out.x_by = out.v_by = 0;
   out.a_by = 1;
   out.v_from = state.velocity;
   out.a_from = a;
-  out.mean = out.still = out.foreseen = false;
+  out.mean = out.still = false;
+  out.foreseen = flow_of != nullptr && flow_of->foreseen;
+  if (out.foreseen) out.water_at = flow_of->water_at;
 }
 
 Equations::Equations(const Line& line)

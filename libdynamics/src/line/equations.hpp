@@ -40,7 +40,8 @@ struct Stage {
 };
 
 /// Makes `out` the balance of a state with accelerations a: an instant, which it asks no memory for once it has room.
-void set_instant(const State& state, const Places& a, Stage& out);
+/// `flow_of`: a stage that ended there, whose flow it then has; null: the flow where nodes are.
+void set_instant(const State& state, const Places& a, const Stage* flow_of, Stage& out);
 
 class Equations {
  public:
@@ -57,8 +58,8 @@ class Equations {
   /// come to lie too far from the places at which the stage foresees the flow, these are moved to them.
   Outcome solve(Stage& stage, const State& before, double tolerance, int most, Places& u, Eigen::VectorXd& T);
 
-  /// Accelerations and tensions of a state (D77). False if masses leave them open.
-  bool accelerations(const State& state, Places& a, Eigen::VectorXd& T);
+  /// Accelerations and tensions of a state (D77), in the flow that set_instant() has. False if masses leave them open.
+  bool accelerations(const State& state, Places& a, Eigen::VectorXd& T, const Stage* flow_of = nullptr);
 
   /// Takes from v what changes lengths that are kept, the least in the metric of the masses. (D82)
   bool project_velocity(const State& state, Places& v);
@@ -75,7 +76,8 @@ class Equations {
                            const std::vector<int>& prescribed, double a_by_v);
 
   /// What held nodes need besides loads and pulls, N.
-  void find_holding(const State& state, const Places& a, const Eigen::VectorXd& T, Places& out);
+  void find_holding(const State& state, const Places& a, const Eigen::VectorXd& T, Places& out,
+                    const Stage* flow_of = nullptr);
 
   Powers powers(const Stage& stage, const State& before, const Places& u, const Eigen::VectorXd& T);
   /// Stored in stretched segments, and in the bed, J.

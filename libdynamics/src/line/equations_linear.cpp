@@ -14,11 +14,11 @@ void Equations::scale_by_mass() {
   for (int i = 0; i < line_.nodes(); ++i) scale_ = std::max(scale_, line_.mass(i));
 }
 
-bool Equations::accelerations(const State& state, Places& a, VectorXd& T) {
+bool Equations::accelerations(const State& state, Places& a, VectorXd& T, const Stage* flow_of) {
   scale_by_mass();
   a.setZero(3, line_.nodes());
   T.setZero(line_.segments());
-  set_instant(state, a, instant_);
+  set_instant(state, a, flow_of, instant_);
   move(instant_, state, a);
   for (int j = 0; j < line_.segments(); ++j)
     if (line_.segment(j).catenary) T[j] = tension_of_sag(j, instant_, state);
@@ -29,8 +29,9 @@ bool Equations::accelerations(const State& state, Places& a, VectorXd& T) {
   return true;
 }
 
-void Equations::find_holding(const State& state, const Places& a, const VectorXd& T, Places& out) {
-  set_instant(state, a, instant_);
+void Equations::find_holding(const State& state, const Places& a, const VectorXd& T, Places& out,
+                             const Stage* flow_of) {
+  set_instant(state, a, flow_of, instant_);
   assemble(instant_, state, none_, T, false);
   out.setZero(3, line_.nodes());
   for (const Held& h : line_.description().held) out.col(h.node) = residual_.col(h.node);
@@ -116,7 +117,7 @@ double Equations::stored_in_segments(const State& state) {
   if (any_catenary_) {
     still_ = state;
     still_.velocity.setZero();
-    set_instant(still_, none_, instant_);
+    set_instant(still_, none_, nullptr, instant_);
     move(instant_, still_, none_);
   }
   for (int j = 0; j < line_.segments(); ++j) {

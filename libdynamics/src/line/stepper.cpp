@@ -17,6 +17,13 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double closed = 1e-9;  // of a length, and of a speed: what rounding of given places leaves
+
+/// Two steps, each the difference of times that are sums of steps.
+bool as_long(double one, double other) {
+  constexpr double rounding = 1e-9;
+  return std::abs(one - other) <= rounding * other;
+}
+
 constexpr std::array<std::string_view, 6> scheme_names{"energy_momentum", "generalized_alpha",   "rosenbrock",
                                                        "gamma",           "semi_implicit_euler", "explicit_euler"};
 
@@ -94,6 +101,7 @@ struct Stepper::Work {
   void require_lengths(const State& state) const;
   void require_ties(const State& state) const;
   bool settle(State& state);
+  bool has_stepped_to(const State& state) const;
   Powers powers_now(const State& state, const Stage* flow_of = nullptr);
   void note_powers(const Powers& mean, double h);
   void note_state(const State& state);
@@ -184,9 +192,19 @@ std::optional<Stepper::Balance> Stepper::balance(const State& state) {
 }
 
 bool Stepper::find_balance(const State& state, Balance& out) {
-  if (!work_->equations.accelerations(state, out.acceleration, out.tension)) return false;
-  work_->equations.find_holding(state, out.acceleration, out.tension, out.holding);
+  const Stage* flow_of = work_->has_stepped_to(state) ? &work_->last.stage : nullptr;
+  if (!work_->equations.accelerations(state, out.acceleration, out.tension, flow_of)) return false;
+  work_->equations.find_holding(state, out.acceleration, out.tension, out.holding, flow_of);
   return true;
+}
+
+/// True where the last step of generalised-α ended there: its flow is that of the state.
+bool Stepper::Work::has_stepped_to(const State& state) const {
+  constexpr double rounding = 1e-12;  // of places
+  if (settings.scheme != Scheme::generalised_alpha || last.stage.end != state.time) return false;
+  if (last.from.position.cols() != state.position.cols()) return false;
+  const double farthest = state.position.cwiseAbs().maxCoeff();
+  return (state.position - last.from.position - last.u).cwiseAbs().maxCoeff() <= rounding * farthest;
 }
 
 /// Held nodes where their paths have them.
@@ -278,11 +296,7 @@ void Stepper::Work::note_state(const State& state) {
 
 /// `flow_of`: a stage of the same instant whose flow the loads had.
 Powers Stepper::Work::powers_now(const State& state, const Stage* flow_of) {
-  set_instant(state, a, now);
-  if (flow_of != nullptr) {
-    now.foreseen = flow_of->foreseen;
-    now.water_at = flow_of->water_at;
-  }
+  set_instant(state, a, flow_of, now);
   return equations.powers(now, state, none, state.tension);
 }
 
@@ -338,7 +352,7 @@ bool Stepper::Work::energy_momentum(State& state, double h, StepReport& report) 
 /// From accelerations and tensions that go on as they went in the step before. \returns false where that leads nowhere
 bool Stepper::Work::go_on_straight(double beta, const State& state, StepReport& report) {
   const double h = last.stage.h;
-  if (previous.h != h) return false;
+  if (!as_long(previous.h, h)) return false;
   last.u = known + h * h * beta * (2 * algorithmic - previous.algorithmic);
   last.T = 2 * state.tension - previous.tension;
   return newton(last.stage, state, last.u, last.T, report);

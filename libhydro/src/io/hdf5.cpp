@@ -203,6 +203,7 @@ double Hdf5Reader::number_attribute(const std::string& object, const std::string
 
 struct Hdf5Writer::Impl {
   Handle file;
+  Packing packing = Packing::deflate;
 
   /// Building in memory fails only for want of memory or by a mistake of ours, hence no InputError.
   static hid_t check(hid_t id, const char* doing) {
@@ -222,7 +223,7 @@ struct Hdf5Writer::Impl {
     std::size_t count = 1;
     for (const std::size_t n : shape) count *= n;
     constexpr std::size_t worth_compressing = 4096, chunk_values = 65536;
-    if (count > worth_compressing) {
+    if (packing == Packing::deflate && count > worth_compressing) {
       std::vector<hsize_t> chunk(extent);
       for (std::size_t size = count; size > chunk_values; size = (size + 1) / 2) {
         hsize_t& longest = *std::max_element(chunk.begin(), chunk.end());
@@ -245,7 +246,8 @@ struct Hdf5Writer::Impl {
   }
 };
 
-Hdf5Writer::Hdf5Writer() : impl_(std::make_unique<Impl>()) {
+Hdf5Writer::Hdf5Writer(Packing packing) : impl_(std::make_unique<Impl>()) {
+  impl_->packing = packing;
   silence();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS));
   H5Pset_fapl_core(access.get(), std::size_t{1} << 20, /*backing_store=*/0);

@@ -8,9 +8,12 @@
 #include "answers/simulate.hpp"
 #include "apps/compile/scenes.hpp"
 #include "compile/compile.hpp"
+#include "compile/kept.hpp"
 #include "dynamics/force/fastened_line.hpp"
 #include "dynamics/line/catenary.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/waves/synthesis/boxed_field.hpp"
+#include "scene/finer.hpp"
 #include "support/scratch.hpp"
 #include "support/source_dir.hpp"
 
@@ -48,6 +51,29 @@ TEST(Lines, AloneInASceneStayAtRestWhereNothingMovesThem) {
   // Half of the weight of 50 kg hangs on either end, and a pull to the middle.
   EXPECT_GT(record.signal("d.from.force").back(), 25 * 9.81);
   EXPECT_NEAR(record.signal("d.from.force").back(), record.signal("d.to.force").back(), 1e-9);
+}
+
+// A table is made where it is looked up often enough, one for all runs beside one another; the water is the same.
+TEST(Lines, InALongRunReadTheSeaFromATable) {
+  auto s = parse(water + "[waves]\nkind = \"jonswap\"\nhs = \"1 m\"\ntp = \"5 s\"\nheading = \"30 deg\"\n" + loop +
+                 "diameter = \"50 mm\"\nmorison = { cd = 1, ca = 1 }\n" + ask);
+  s.run->duration = 0.2;
+  const compile::Prepared prepared = compile::prepare(s);
+  const compile::RunWater summed = compile::time_model(s, prepared).water;
+  s.run->duration = 100;
+  const compile::RunWater tabled = compile::time_model(s, prepared).water;
+  EXPECT_EQ(summed.around_lines->tables(), 0);
+  EXPECT_EQ(tabled.around_lines->tables(), 1);
+  EXPECT_EQ(tabled.around_members, nullptr);
+  for (const double x : {0.0, 2.0, 30.0})
+    for (const double t : {1.0, 7.0}) {
+      const auto a = summed.of_lines->at(t, {x, 0.5, -3}), b = tabled.of_lines->at(t, {x, 0.5, -3});
+      EXPECT_LT((a.velocity - b.velocity).norm(), 1e-5)
+          << "1e-6 of each of some thousand components, which are some 3 m/s in all";
+    }
+  const std::size_t made = prepared.kept->water_of_lines().made();
+  compile::time_model(scene::with_finer_lines(s, 2), prepared);
+  EXPECT_EQ(prepared.kept->water_of_lines().made(), made) << "twice as many segments are at rest almost there";
 }
 
 /// A bob on a link without mass, as a film sees it: a place and a velocity.

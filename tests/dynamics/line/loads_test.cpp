@@ -98,6 +98,21 @@ TEST(LineFlow, IsTakenOnceAStep) {
   }
 }
 
+TEST(LineFlow, OfTheBalanceAfterAStepIsThatOfTheStep) {
+  ChainInWaves chain;
+  Stepper stepper(chain.line, {.scheme = Scheme::generalised_alpha});
+  stepper.start(chain.state);
+  chain.run(stepper, 0.01, 50);
+  chain.waves->asked = 0;
+  Stepper::Balance balance;
+  ASSERT_TRUE(stepper.find_balance(chain.state, balance));
+  EXPECT_EQ(chain.waves->asked, 0u);
+  State beside = chain.state;
+  beside.position.col(4).x() += 1e-3;
+  ASSERT_TRUE(stepper.find_balance(beside, balance));
+  EXPECT_EQ(chain.waves->asked, 5u) << "a state to which no step has led has the flow where it is";
+}
+
 // Errors of second order fall by 4, here to 4.001; a flow taken where the step begins leaves less than 2.
 TEST(LineFlow, LeavesStepsTheirOrder) {
   const auto after = [](double h) {

@@ -302,6 +302,18 @@ TEST(TabulatedField, OfTheElevationAloneSaysThatItHasNoFlow) {
   EXPECT_THAT([&] { table.at(430, {0, 0, -1}); }, ThrowsMessage<InputError>(HasSubstr("elevation only")));
 }
 
+// Few instants are a product of matrices, and some thousands go by transforms.
+TEST(TabulatedField, OfManyInstantsIsTheSumToo) {
+  const HarmonicField plain = linear_field(sea_of(deep, false));
+  FieldBox hours = box;
+  hours.end_s = box.start_s + 4000;
+  const TabulatedField table(plain, hours, {});
+  for (const Eigen::Vector4d& p : places(20)) {
+    const double t = box.start_s + (hours.end_s - box.start_s) * (p[0] - box.start_s) / (box.end_s - box.start_s);
+    expect_within(difference(plain.at(t, p.tail<3>()), table.at(t, p.tail<3>())), table.error_bound(), "");
+  }
+}
+
 TEST(FieldChoice, TakesATableForManyQuestionsAndASumForFew) {
   const HarmonicField plain = linear_field(sea_of(deep, false, 400));
   const ChosenField few = choose_field(plain, {.box = box, .instants = 10, .points = 1});

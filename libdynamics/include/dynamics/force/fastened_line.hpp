@@ -41,8 +41,15 @@ class FastenedLineMemory final : public Memory {
   const line::DrivenLine& line(std::size_t i) const { return *lines_[i]; }
 
  private:
+  struct AtRest {
+    std::vector<line::DrivenLine::End> ends = {};
+    line::State state = {};
+  };
+  const line::State& at_rest(std::size_t i, const State& state);
+
   const std::vector<FastenedLine>& elements_;
   std::vector<std::unique_ptr<line::DrivenLine>> lines_;
+  std::vector<AtRest> at_rest_;              // where each line began last
   std::vector<line::DrivenLine::End> ends_;  // of the line that is asked; kept, so that a step asks for no memory
 };
 

@@ -49,7 +49,8 @@ class DrivenLine {
   const State& state() const;
   const Energies& energies() const;
   Stepper::Flow flow() const;
-  void find_balance(Stepper::Balance& out);
+  /// Of what is accepted, found once, when it is asked for first.
+  const Stepper::Balance& balance() const;
 
  private:
   struct Work;

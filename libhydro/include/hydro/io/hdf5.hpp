@@ -45,15 +45,18 @@ class Hdf5Reader {
   std::unique_ptr<Impl> impl_;
 };
 
+/// How large arrays stand in a file: as they are, or shuffled and deflated, without loss.
+enum class Packing { none, deflate };
+
 /// An HDF5 file being built in memory; save() puts it on disk.
 class Hdf5Writer {
  public:
-  Hdf5Writer();
+  explicit Hdf5Writer(Packing packing = Packing::deflate);
   ~Hdf5Writer();
   Hdf5Writer(const Hdf5Writer&) = delete;
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
 
-  /// Groups on the way are made as needed; `dataset` is an absolute path. Large arrays are chunked and deflated.
+  /// Groups on the way are made as needed; `dataset` is an absolute path. Large arrays are chunked and packed.
   void write(const std::string& dataset, std::span<const double> values, std::vector<std::size_t> shape);
   void write_scalar(const std::string& dataset, double value);
   void write_text(const std::string& dataset, std::string_view text);

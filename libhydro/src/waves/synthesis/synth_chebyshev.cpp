@@ -11,6 +11,10 @@ namespace {
 
 using simd::lanes;
 
+FROUDE_INLINE simd::Pack reversed(const simd::Pack& p) {
+  return {__builtin_shufflevector(p.high, p.high, 3, 2, 1, 0), __builtin_shufflevector(p.low, p.low, 3, 2, 1, 0)};
+}
+
 // T_q and T′_q = q U_{q−1}. With T = cos qθ and U_{q−1} = sin qθ/sin θ the first nine follow by doubling the angle, the
 // rest eight at a time, T_{q+8} = 2 T_8 T_q − T_{q−8}, which U obeys too. `size` is a whole number of packs.
 FROUDE_KERNEL void chebyshev(double s, double per_metre, std::size_t size, double* value, double* slope) {
@@ -23,21 +27,20 @@ FROUDE_KERNEL void chebyshev(double s, double per_metre, std::size_t size, doubl
     U[2 * n + 1] = 2 * T[n] * U[n + 1] - 1;
   }
   const double twice = 2 * T[lanes];
-  simd::Pack t, u, t_back, u_back, order{0, 1, 2, 3, 4, 5, 6, 7};
+  simd::Pack t, u, t_back, u_back, order{{0, 1, 2, 3}, {4, 5, 6, 7}};
   simd::load(T, t);
   simd::load(U, u);
   simd::load(T + 1, t_back);
   simd::load(U + 1, u_back);
   // T_{q−8} = T_{8−q} and U_{q−9} = −U_{7−q}.
-  simd::Pack t_before = __builtin_shufflevector(t_back, t_back, 7, 6, 5, 4, 3, 2, 1, 0),
-             u_before = -__builtin_shufflevector(u_back, u_back, 7, 6, 5, 4, 3, 2, 1, 0);
+  simd::Pack t_before = reversed(t_back), u_before = -reversed(u_back);
   for (std::size_t q = 0; q < size; q += lanes) {
     simd::store(t, value + q);
     simd::store(per_metre * order * u, slope + q);
     const simd::Pack t_next = twice * t - t_before, u_next = twice * u - u_before;
     t_before = t, u_before = u;
     t = t_next, u = u_next;
-    order += static_cast<double>(lanes);
+    order = order + static_cast<double>(lanes);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "hydro/waves/synthesis/summed_field.hpp"
 #include "synth_band.hpp"
+#include "synth_table_cost.hpp"
 
 namespace hydro::waves {
 namespace {
@@ -33,7 +34,7 @@ double expected_table(const HarmonicField& field, const FieldUse& use) {
   if (bytes > static_cast<double>(use.largest_bytes)) return impossible;
   const double values = bytes / 8;
   const double samples = (use.box.end_s - use.box.start_s) * band.omega * 0.64 + 16, signals = values / samples;
-  const double build = values * 2.5e-8 + signals * waves * 2e-8;
+  const double build = values * 2.5e-8 + signals * waves * std::min(table::by_product(samples), table::by_transform);
   const double rows = band.long_crested ? 1 : 16, levels = use.elevation_only ? 0 : 2.5;  // in packs
   const double one = 1e-7 + rows * 4e-8 + rows * levels * (use.points * rows > 20 ? 8e-8 : 3e-7);
   return build + use.instants * use.points * one;

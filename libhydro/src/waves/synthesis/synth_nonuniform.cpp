@@ -71,7 +71,7 @@ FROUDE_KERNEL void add_inside(double* bins, const std::ptrdiff_t* first, const d
                               std::size_t from, std::size_t to) {
   for (std::size_t j = from; j < to; ++j) {
     const double re = 0.5 * value[j].real(), im = 0.5 * value[j].imag();
-    const simd::Pack c{re, im, re, im, re, im, re, im};
+    const simd::Pack c{{re, im, re, im}, {re, im, re, im}};
     double* at = bins + 2 * first[j];
     for (std::size_t l = 0; l < doubled; l += simd::lanes) {
       simd::Pack w, sum;

@@ -12,7 +12,6 @@
 namespace hydro::waves {
 namespace {
 
-using simd::Bits;
 using simd::lanes;
 using simd::Pack;
 

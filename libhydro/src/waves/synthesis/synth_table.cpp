@@ -11,6 +11,7 @@
 #include "synth_axis.hpp"
 #include "synth_band.hpp"
 #include "synth_flow.hpp"
+#include "synth_table_cost.hpp"
 
 namespace hydro::waves {
 namespace {
@@ -143,12 +144,68 @@ std::vector<double> elevation_table(const HarmonicField& field, const BinBand& b
   return out;
 }
 
+/// Sums of waves over the instants of a table, Re Σ_j c_qj a_j e^{iω_j t_n}: real c for all levels q, and complex a of
+/// one station. Few instants as a product of matrices, many by transforms.
+class SumsOverTime {
+ public:
+  /// `c`: (levels in whole packs, waves)
+  SumsOverTime(std::vector<double> omega, const Axis& time, Eigen::MatrixXd c)
+      : omega_(std::move(omega)), time_{time.step, time.count, time.origin}, c_(std::move(c)) {
+    if (table::by_product(static_cast<double>(time.count)) > table::by_transform) return;
+    constexpr auto four = static_cast<Eigen::Index>(table::instants_at_once);
+    const Eigen::Index groups = (static_cast<Eigen::Index>(time.count) + four - 1) / four;
+    cosine_.resize(four * c_.cols(), groups);
+    sine_.resize(four * c_.cols(), groups);
+    for (Eigen::Index g = 0; g < groups; ++g)
+      for (Eigen::Index k = 0; k < cosine_.rows(); ++k) {
+        const double angle =
+            omega_[static_cast<std::size_t>(k / four)] * time.at(static_cast<std::size_t>(four * g + k % four));
+        cosine_(k, g) = std::cos(angle);
+        sine_(k, g) = std::sin(angle);
+      }
+    room_.resize(cosine_.rows());
+    out_.resize(c_.rows(), four * groups);
+    put_packs_together();
+  }
+
+  /// (levels, at least all instants)
+  const Eigen::MatrixXd& of(const Eigen::VectorXcd& a) {
+    if (cosine_.size() == 0) {
+      out_ = synthesise(omega_, time_, c_ * a.asDiagonal()).series.transpose();
+      return out_;
+    }
+    for (Eigen::Index g = 0; g < cosine_.cols(); ++g)
+      table::sum_waves(packs_.data(), static_cast<std::size_t>(c_.rows()), static_cast<std::size_t>(c_.cols()),
+                       a.data(), cosine_.col(g).data(), sine_.col(g).data(), room_.data(),
+                       out_.col(static_cast<Eigen::Index>(table::instants_at_once) * g).data());
+    return out_;
+  }
+
+ private:
+  void put_packs_together() {
+    constexpr auto pack = static_cast<Eigen::Index>(simd::lanes);
+    packs_.resize(c_.size());
+    for (Eigen::Index q = 0; q < c_.rows(); q += pack)
+      for (Eigen::Index j = 0; j < c_.cols(); ++j)
+        packs_.segment(q * c_.cols() + pack * j, pack) = c_.col(j).segment(q, pack);
+  }
+
+  std::vector<double> omega_;
+  TimeGrid time_;
+  Eigen::MatrixXd c_;
+  Eigen::VectorXd packs_;          // the same, as sum_waves() reads them
+  Eigen::MatrixXd cosine_, sine_;  // of ω_j t_n, (four instants of each wave, groups of four); empty by transforms
+  Eigen::VectorXd room_;
+  Eigen::MatrixXd out_;
+};
+
 // Shape (time, a, b, levels): Chebyshev coefficients of the potential.
 std::vector<double> potential_table(const HarmonicField& field, const BinBand& band, const Axes& axes,
                                     const VerticalBasis& vertical) {
   const auto omega = frequencies(field);
   const auto levels = static_cast<Eigen::Index>(vertical.count()), waves = static_cast<Eigen::Index>(omega.size());
-  Eigen::MatrixXd profile = Eigen::MatrixXd::Zero(levels, waves);
+  const std::size_t station = vertical.padded(), instant = axes.a.count * axes.b.count * station;
+  Eigen::MatrixXd profile = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(station), waves);
   for (Eigen::Index j = 0; j < waves; ++j) {
     const Harmonic& w = field.harmonics()[static_cast<std::size_t>(j)];
     const double kappa = std::hypot(w.kx, w.ky);
@@ -157,18 +214,17 @@ std::vector<double> potential_table(const HarmonicField& field, const BinBand& b
       continue;
     }
     const auto one = vertical.profile(kappa, field.water().depth.metres());
-    profile.col(j) = Eigen::Map<const Eigen::VectorXd>(one.data(), levels);
+    profile.col(j).head(levels) = Eigen::Map<const Eigen::VectorXd>(one.data(), levels);
   }
   const Prepared flow = prepared(field, band, axes, &Harmonic::potential);
-  const std::size_t station = vertical.padded(), instant = axes.a.count * axes.b.count * station;
+  SumsOverTime sums(omega, axes.time, std::move(profile));
   std::vector<double> out(axes.time.count * instant);
   for (std::size_t ia = 0; ia < axes.a.count; ++ia)
     for (std::size_t ib = 0; ib < axes.b.count; ++ib) {
-      const Eigen::MatrixXcd all = profile * flow.at(axes.a.at(ia), axes.b.at(ib)).asDiagonal();
-      const auto made = synthesise(omega, {axes.time.step, axes.time.count, axes.time.origin}, all).series;
+      const Eigen::MatrixXd& made = sums.of(flow.at(axes.a.at(ia), axes.b.at(ib)));
       double* to = out.data() + (ia * axes.b.count + ib) * station;
-      for (Eigen::Index n = 0; n < made.rows(); ++n, to += instant)
-        for (Eigen::Index q = 0; q < levels; ++q) to[q] = made(n, q);
+      for (std::size_t n = 0; n < axes.time.count; ++n, to += instant)
+        std::copy_n(made.col(static_cast<Eigen::Index>(n)).data(), station, to);
     }
   return out;
 }

@@ -126,4 +126,27 @@ FROUDE_KERNEL double contract_elevation(const double* from, const Strides& strid
   return simd::sum(total);
 }
 
+FROUDE_KERNEL void sum_waves(const double* profile, std::size_t levels, std::size_t waves,
+                             const std::complex<double>* a, const double* cosine, const double* sine, double* room,
+                             double* to) {
+  for (std::size_t j = 0; j < waves; ++j)
+    for (std::size_t n = instants_at_once * j; n < instants_at_once * (j + 1); ++n)
+      room[n] = a[j].real() * cosine[n] - a[j].imag() * sine[n];
+  for (std::size_t q = 0; q < levels; q += lanes) {
+    Pack sum0{}, sum1{}, sum2{}, sum3{}, p;
+    const double* wave = room;
+    for (std::size_t j = 0; j < waves; ++j, profile += lanes, wave += instants_at_once) {
+      simd::load(profile, p);
+      sum0 += wave[0] * p;
+      sum1 += wave[1] * p;
+      sum2 += wave[2] * p;
+      sum3 += wave[3] * p;
+    }
+    simd::store(sum0, to + q);
+    simd::store(sum1, to + levels + q);
+    simd::store(sum2, to + 2 * levels + q);
+    simd::store(sum3, to + 3 * levels + q);
+  }
+}
+
 }  // namespace hydro::waves::table

@@ -1,5 +1,6 @@
 #pragma once
 /// \file  Contraction of a table with the weights of interpolation (W97).
+#include <complex>
 #include <cstddef>
 
 namespace hydro::waves::table {
@@ -33,6 +34,15 @@ struct AtHeight {
 };
 void contract_place(const double* value, const double* rate_table, const Strides& stride, const AxisWeights& a,
                     const AxisWeights& b, const double* at, const double* at_slope, std::size_t levels, AtHeight& out);
+
+/// At how many instants sum_waves() sums at once.
+inline constexpr std::size_t instants_at_once = 4;
+
+/// Σ_j profile(q, j) Re(a_j turn_nj) for all levels q, in whole packs, and four instants n. `profile` has the levels of
+/// one pack of all waves before those of the next; `cosine` and `sine` of the turns have the instants of a wave next to
+/// one another; `room` holds as many numbers. Instants of `to` stand `levels` apart.
+void sum_waves(const double* profile, std::size_t levels, std::size_t waves, const std::complex<double>* a,
+               const double* cosine, const double* sine, double* room, double* to);
 
 /// Σ weights of an elevation table: time × a × b, b contiguous and readable up to whole packs.
 double contract_elevation(const double* from, const Strides& stride, const AxisWeights& time, const AxisWeights& a,

@@ -97,11 +97,13 @@ FROUDE_KERNEL void horner(const double* polynomial, std::size_t degree, double y
 // out = scale · r e^{−r} with r = √(β² − ξ²): 1/ψ̂ where e^{−2r} is below rounding.
 FROUDE_KERNEL void reciprocal_transform(double beta, double scale, double xi_step, std::size_t count, double* out) {
   for (std::size_t n = 0; n < count; n += simd::lanes) {
-    simd::Pack r, e;
+    double roots[simd::lanes];
     for (std::size_t i = 0; i < simd::lanes; ++i) {
       const double xi = xi_step * static_cast<double>(n + i);
-      r[i] = std::sqrt(std::max(0.0, beta * beta - xi * xi));
+      roots[i] = std::sqrt(std::max(0.0, beta * beta - xi * xi));
     }
+    simd::Pack r, e;
+    simd::load(roots, r);
     simd::exponential(-r, e);
     e = scale * r * e;
     for (std::size_t i = 0; i < std::min(simd::lanes, count - n); ++i) out[n + i] = e[i];
