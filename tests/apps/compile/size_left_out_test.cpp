@@ -20,9 +20,7 @@ using testing::AllOf, testing::Contains, testing::HasSubstr;
 /// One module on a soft mooring that only surges, in waves of 5 s.
 std::string module_in_waves(double height, const std::string& more, const std::string& of_rao = "") {
   return fmt::format(R"(schema = 1
-[water]
-density = "1000 kg/m^3"
-depth = "14 m"
+water = {{ density = "1000 kg/m^3", depth = "14 m" }}
 [waves]
 kind = "regular"
 height = "{} m"
