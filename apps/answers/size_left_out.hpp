@@ -1,6 +1,5 @@
 #pragma once
 /// \file  Private to apps: how large effects are that a linear response leaves out, by that response. (D144), (D145)
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
