@@ -11,6 +11,7 @@
 
 #include "answers/provenance.hpp"
 #include "answers/refined.hpp"
+#include "answers/size_left_out.hpp"
 #include "answers/spacing.hpp"
 #include "compile/members.hpp"
 #include "compile/waves.hpp"
@@ -203,6 +204,7 @@ Responses respond(const scene::Scene& scene, const compile::Prepared& prepared, 
     out.notes.push_back(effect);
   const auto signals = compile::chosen_responses(compile::signal_list(scene, prepared, model), scene.rao->of,
                                                  scene.rao->of_places, out.notes);
+  SizeLeftOut size(scene, prepared, about, scene.rao->drag || how.drag_of_sea);
   // The lines that compute a RAO: (Q1) in libdynamics/src/frequency/equations.cpp.
   const auto answer = [&](const compile::Prepared& from, const std::vector<double>& omega,
                           std::vector<std::string>& notes) {
@@ -210,8 +212,9 @@ Responses respond(const scene::Scene& scene, const compile::Prepared& prepared, 
     const dynamics::frequency::RaoOptions options{
         how.threads, how.drag_of_sea ? drag_of_sea(*how.drag_of_sea, scene, from, about, omega)
                                      : drag_of_rao(scene, from, about, omega, notes)};
-    return linear_responses(signals, about,
-                            response_amplitudes(about, from.groups, cells.omega, cells.headings, options), cells);
+    const auto found = response_amplitudes(about, from.groups, cells.omega, cells.headings, options);
+    if (&from == &prepared) size.take(cells, found);
+    return linear_responses(signals, about, found, cells);
   };
   std::vector<std::string> told_already;
   std::optional<Refined> between;
@@ -225,6 +228,7 @@ Responses respond(const scene::Scene& scene, const compile::Prepared& prepared, 
   } else {
     out.signals = answer(prepared, out.omega, out.notes);
   }
+  for (const std::string& told : size.told()) out.notes.push_back(told);
   out.error = error_of_spacing(scene, prepared, out.omega, out.signals, [&](const compile::Prepared& thinned) {
     return answer(thinned, out.omega, told_already);
   });

@@ -352,8 +352,9 @@ Exceedance exceedance_of(const Life& life, double duration) {
 Report report_of(const Scatter& scatter, const std::vector<ResponseSpectra>& seas, const std::vector<Life>& lives,
                  const Asked& asked) {
   Report out, signals;
-  out.say("{} seas, {} frequencies and {} headings for all of them; {:.6g} h", fact("seas", scatter.scenes.size()),
+  out.say("{} seas, {} frequencies and {} {} for all of them; {:.6g} h", fact("seas", scatter.scenes.size()),
           fact("frequencies", seas.front().sea.frequency_hz.size()), fact("headings", seas.front().headings),
+          seas.front().headings == 1 ? "heading" : "headings",
           fact("duration_s", asked.duration, asked.duration / 3600));
   out.keep("error", seas.front().error);
   std::string columns;
