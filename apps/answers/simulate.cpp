@@ -108,7 +108,7 @@ class March {
                               "leave `checkpoint` out; such a run goes on to its end or begins anew");
     };
     if (!m_.lines.empty()) refuse("lines", "their steppers carry on more than places and velocities");
-    if (!m_.rules.empty()) refuse("controllers", "they remember what they have seen");
+    if (!m_.rules.empty()) refuse("controllers", "they keep a record of what they have watched");
     if (const char* why = integrator_->cannot_be_kept()) refuse(scene_.solve.integrator, why);
     for (std::size_t k = 0; k < workspace_->memory.size(); ++k)
       if (workspace_->needs_memory(k) && !workspace_->memory[k]->can_be_kept())
