@@ -63,7 +63,6 @@ centre_of_gravity = "(0, 0, 0) m"
 mass = "20 kg"
 radii_of_gyration = "(0.3, 0.3, 0.4) m"
 weight = true
-initial = { roll = "20 deg" }
 [[joint]]
 name = "pivot"
 kind = "hinge"
@@ -86,15 +85,15 @@ def module(memory="", initial=""):
 # What holds state in each: the memory of radiated waves as it is chosen (poles), as convolutions, friction and a latch
 # that stick, and the methods of the steps.
 SCENES = {
-    "poles": module("memory_tolerance = 1e-2") + MOORING + asked(400, 0.2),
-    "direct": module('method = "direct", memory = "20 s"') + MOORING + asked(400, 0.2),
-    "partitioned": module('method = "partitioned", memory = "20 s"') + MOORING + asked(400, 0.2),
+    "poles": module("memory_tolerance = 1e-2") + MOORING + asked(100, 0.2),
+    "direct": module('method = "direct", memory = "20 s"') + MOORING + asked(100, 0.2),
+    "partitioned": module('method = "partitioned", memory = "20 s"') + MOORING + asked(100, 0.2),
     "friction": module("memory_tolerance = 1e-2") + RACK
-                + '[joint.friction]\ndynamic = "300 N"\nstatic = "400 N"\n' + asked(200, 0.1),
+                + '[joint.friction]\ndynamic = "300 N"\nstatic = "400 N"\n' + asked(60, 0.1),
     "latch": module("memory_tolerance = 1e-2", 'initial = { heave = "1 cm" }') + RACK
-             + 'latch = { hold = "2 s" }\n' + asked(200, 0.1),
-    "energy_momentum": OPEN_WATER + DISC + asked(400, 0.1, solve='integrator = { name = "energy_momentum" }\n'),
-    "explicit_pair": OPEN_WATER + DISC + asked(400, 0.1, solve='integrator = { name = "explicit_pair" }\n'),
+             + 'latch = { hold = "2 s" }\n' + asked(60, 0.1),
+    "energy_momentum": OPEN_WATER + DISC + asked(30, 0.1, solve='integrator = { name = "energy_momentum" }\n'),
+    "explicit_pair": OPEN_WATER + DISC + asked(30, 0.1, solve='integrator = { name = "explicit_pair" }\n'),
 }
 
 
@@ -169,11 +168,12 @@ class Checkpoints(unittest.TestCase):
                 self.assertEqual(self.run_froude(self.scene(text, "with.toml"), "with").returncode, 0)
                 without = text.replace(', checkpoint = "7 s"', "")
                 self.assertEqual(self.run_froude(self.scene(without, "without.toml"), "without").returncode, 0)
-                one, other = (list(csv.reader((self.folder / f"{s}.csv").open())) for s in ("with", "without"))
+                one, other = (list(csv.reader((self.folder / f"{s}.csv").read_text().splitlines()))
+                              for s in ("with", "without"))
                 self.assertEqual(one[0], other[0])
                 for column, title in enumerate(one[0]):
-                    if title.startswith("energy"):
-                        continue  # sums of differences: of the rounding of what they are differences of
+                    if title.split()[0] not in ("module.surge", "module.heave", "module.pitch", "pivot.angle"):
+                        continue  # sway, roll and yaw are rounding alone
                     a, b = ([float(row[column]) for row in rows[1:]] for rows in (one, other))
                     size = max(map(abs, b)) or 1
                     self.assertLess(max(abs(x - y) for x, y in zip(a, b)), 1e-6 * size, title)
