@@ -277,7 +277,7 @@ def killed_run(times):
     for i in range(times):
         process = subprocess.Popen(run_command("killed_run"), cwd=SCRATCH, env=ENVIRONMENT, stdout=subprocess.DEVNULL,
                                    stderr=subprocess.DEVNULL)
-        time.sleep(moments.uniform(0, lasts / 2))
+        time.sleep(moments.uniform(0, lasts))
         process.send_signal(signal.SIGKILL)
         process.wait()
         kept += any((SCRATCH / "killed_run.h5.checkpoints").glob("*.checkpoint"))
@@ -338,7 +338,7 @@ than a case of 0.2 s takes: {1000 * shortest[2] / CASES:.2f} ms. Ranks are more 
 | kill -9 at 50 random moments, {killed} of them after the database was there | the same command went on each time, to the same table to the bit |
 | kill -9 of one of {RANKS} ranks, at 10 random moments | {killed_ranks(10)} |
 | kill -9 of processes of cases, where the study has limits | {limited()} |
-| kill -9 of one `froude run` with checkpoints, `examples/overnight.toml`, at 50 random moments | {killed_run(50)} |
+| kill -9 of one `froude run` with checkpoints, `examples/overnight.toml`, at 20 random moments | {killed_run(20)} |
 | two sweeps in one folder | {two_at_once()} |
 | disk full | {mounted("small", disk_full)} |
 | files may not grow beyond 400 kB | {size_limited()} |
