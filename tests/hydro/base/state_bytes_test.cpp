@@ -32,7 +32,11 @@ struct Whole {
 };
 
 Whole some() {
-  Whole out{.yes = true, .count = 7, .last = -std::numeric_limits<double>::infinity(), .name = "a b\n"};
+  Whole out;
+  out.yes = true;
+  out.count = 7;
+  out.last = -std::numeric_limits<double>::infinity();
+  out.name = "a b\n";
   out.numbers = {0.1, -0.0, std::numeric_limits<double>::denorm_min()};
   out.parts = {{1, {2, 3}}, {4, {}}};
   out.there = 1.0 / 3;
