@@ -85,8 +85,8 @@ void disturb(double by, compile::TimeModel& model) {
 }  // namespace
 
 Companions::Companions(const scene::Scene& scene, compile::Prepared prepared,
-                       const std::function<void(double)>& progress, int threads)
-    : scene_(scene), prepared_(std::move(prepared)), progress_(progress), threads_(threads) {
+                       const std::function<void(double)>& progress, int threads, Checkpoints* checkpoints)
+    : scene_(scene), prepared_(std::move(prepared)), progress_(progress), threads_(threads), checkpoints_(checkpoints) {
   const scene::Solve& solve = scene.solve;
   by_tolerance_ = solve.tolerance || compile::has_own_tolerance(solve.integrator);
   given_ = by_tolerance_ ? solve.tolerance.has_value() : solve.step.has_value();
@@ -141,6 +141,11 @@ bool Companions::keeps_motion(int level, const compile::TimeModel& model) const 
   return level > 0 && !prepared_.groups.empty() && model.steps * static_cast<std::size_t>(model.model.modes()) < most;
 }
 
+KeptRun Companions::kept(const std::string& name, int level) const {
+  if (checkpoints_ == nullptr) return {};
+  return {checkpoints_, fmt::format("{}-of-level{}-pieces{}", name, level, refined_pieces_)};
+}
+
 Companions::Made Companions::made(int level, const std::function<void(double)>& progress) const {
   Made out;
   const scene::Scene scene = scene_of(level, out.stride);
@@ -148,7 +153,7 @@ Companions::Made Companions::made(int level, const std::function<void(double)>& 
   const compile::TimeModel model = compile::time_model(scene, prepared_);
   const double preparation = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (keeps_motion(level, model)) out.motion.emplace();
-  out.run = run_model(scene, model, progress, nullptr, out.motion ? &*out.motion : nullptr);
+  out.run = run_model(scene, model, progress, nullptr, out.motion ? &*out.motion : nullptr, kept("run", level));
   out.run.preparation_s = preparation;
   return out;
 }
@@ -190,15 +195,16 @@ const Companions::Followed& Companions::followed(int level) {
   scene::Scene scene = scene_of(level, stride);
   compile::TimeModel model = compile::time_model(scene, prepared_);
   std::optional<compile::VelocityRecord> motion = std::move(runs_.at(level).motion);
-  if (!motion) run_model(scene, model, progress_, nullptr, &motion.emplace());
+  if (!motion) run_model(scene, model, progress_, nullptr, &motion.emplace(), kept("motion", level));
   return followed_.emplace(level, Followed{std::move(scene), std::move(model), std::move(*motion)}).first->second;
 }
 
 std::optional<Run> Companions::with_load(int level, const std::optional<compile::LoadRecord>& load,
-                                         const std::function<void(double)>& progress) {
+                                         const std::string& name, const std::function<void(double)>& progress) {
   if (!load) return std::nullopt;
   const auto& [scene, model, motion] = followed(level);
-  Run out = run_model(scene, compile::time_model(scene, prepared_, {*load}), progress);
+  Run out =
+      run_model(scene, compile::time_model(scene, prepared_, {*load}), progress, nullptr, nullptr, kept(name, level));
   keep_signals_of(at(level), out);
   return out;
 }
@@ -207,12 +213,12 @@ Companions::WithWater Companions::completed_by_water(int level) {
   if (prepared_.groups.empty()) return {};
   const auto& [scene, model, motion] = followed(level);
   const auto coefficients = [&](const std::function<void(double)>& progress) {
-    return with_load(level, compile::data_defect(scene, prepared_, model, motion), progress);
+    return with_load(level, compile::data_defect(scene, prepared_, model, motion), "coefficients", progress);
   };
   std::future<std::optional<Run>> beside;
   if (threads_ > 1) beside = std::async(std::launch::async, coefficients, std::function<void(double)>());
   WithWater out;
-  out.memory = with_load(level, compile::memory_defect(model, motion), progress_);
+  out.memory = with_load(level, compile::memory_defect(model, motion), "memory", progress_);
   out.coefficients = beside.valid() ? beside.get() : coefficients(progress_);
   return out;
 }
@@ -245,7 +251,11 @@ Run Companions::cut_finer(Cut what, int level) {
   const scene::Scene scene = cut_scene(what, level);
   Run out;
   try {
-    out = run_model(scene, compile::time_model(scene, prepared_for(what, scene)), progress_);
+    out = run_model(scene, compile::time_model(scene, prepared_for(what, scene)), progress_, nullptr, nullptr,
+                    kept(what == Cut::segments       ? "segments"
+                         : what == Cut::given_pieces ? "given"
+                                                     : "chosen",
+                         level));
   } catch (const hydro::InputError& e) {
     out.stopped = e.rule();
   } catch (const hydro::NumericsError& e) {
@@ -271,7 +281,7 @@ const Run& Companions::neighbour() {
     const scene::Scene scene = scene_of(0, stride);
     compile::TimeModel model = compile::time_model(scene, prepared_);
     disturb(moved_by(), model);
-    neighbour_ = run_model(scene, model, progress_);
+    neighbour_ = run_model(scene, model, progress_, nullptr, nullptr, kept("neighbour", 0));
   }
   return *neighbour_;
 }

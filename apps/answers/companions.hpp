@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "answers/checkpoint.hpp"
 #include "answers/convergence.hpp"
 #include "compile/compile.hpp"
 #include "compile/defect.hpp"
@@ -22,7 +23,7 @@ class Companions {
   /// caller's thread. The step of level 0 is chosen here. `threads`: 1 or 2; runs are the same with either.
   /// \throws hydro::InputError as compile::choose_step()
   Companions(const scene::Scene& scene, compile::Prepared prepared, const std::function<void(double)>& progress,
-             int threads);
+             int threads, Checkpoints* checkpoints = nullptr);
 
   /// True if a tolerance is varied, not a step.
   bool by_tolerance() const { return by_tolerance_; }
@@ -89,18 +90,21 @@ class Companions {
   void hold_memories();
   Made made(int level, const std::function<void(double)>& progress) const;
   bool keeps_motion(int level, const compile::TimeModel& model) const;
-  std::optional<Run> with_load(int level, const std::optional<compile::LoadRecord>& load,
+  std::optional<Run> with_load(int level, const std::optional<compile::LoadRecord>& load, const std::string& name,
                                const std::function<void(double)>& progress);
   scene::Scene scene_of(int level, std::size_t& stride, compile::PieceTimes pieces) const;
   scene::Scene scene_of(int level, std::size_t& stride) const { return scene_of(level, stride, {1, refined_pieces_}); }
   scene::Scene cut_scene(Cut what, int level) const;
   compile::Prepared prepared_for(Cut what, const scene::Scene& scene) const;
   const Followed& followed(int level);
+  /// The checkpoints of one of the runs.
+  KeptRun kept(const std::string& name, int level) const;
 
   const scene::Scene& scene_;
   compile::Prepared prepared_;
   const std::function<void(double)>& progress_;
   int threads_;
+  Checkpoints* checkpoints_;
   bool by_tolerance_, given_;
   double step_, tolerance_;  // s; of level 0
   int refined_pieces_ = 1;

@@ -339,9 +339,9 @@ ErrorEstimate unknown_error(const scene::Scene& scene, std::string missing) {
 }
 
 Run run_to_accuracy(const scene::Scene& scene, const compile::Prepared& prepared,
-                    const std::function<void(double)>& progress, int threads) {
+                    const std::function<void(double)>& progress, int threads, Checkpoints* checkpoints) {
   const auto begin = std::chrono::steady_clock::now();
-  Companions companions(scene, prepared, progress, threads);  // which fits the memories that the scene has
+  Companions companions(scene, prepared, progress, threads, checkpoints);  // which fits the memories that the scene has
   const std::chrono::duration<double> preparing = std::chrono::steady_clock::now() - begin;
   Run out = Refinement(scene, prepared, companions).settled();
   out.preparation_s += preparing.count();

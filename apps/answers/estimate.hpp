@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "answers/checkpoint.hpp"
 #include "compile/compile.hpp"
 #include "froude/result.hpp"
 #include "scene/scene.hpp"
@@ -19,6 +20,6 @@ ErrorEstimate unknown_error(const scene::Scene& scene, std::string missing = {})
 /// early has no estimate. \throws hydro::InputError where the accuracy cannot be met and [solve] accept_error does not
 /// take what there is
 Run run_to_accuracy(const scene::Scene& scene, const compile::Prepared& prepared,
-                    const std::function<void(double)>& progress, int threads);
+                    const std::function<void(double)>& progress, int threads, Checkpoints* checkpoints = nullptr);
 
 }  // namespace froude

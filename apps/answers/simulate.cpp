@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <cmath>
+#include <optional>
+#include <stdexcept>
 
 #include "answers/estimate.hpp"
 #include "answers/linear_response.hpp"
@@ -30,14 +32,20 @@ double rounding_of(const dynamics::Model& model) {
 class March {
  public:
   March(const compile::TimeModel& m, const std::vector<compile::Signal>& signals, compile::Controllers controllers,
-        const scene::Scene& scene, Run& record)
+        const scene::Scene& scene, const KeptRun& kept, Run& record)
       : m_(m),
+        scene_(scene),
+        kept_(kept),
         signals_(signals),
         controllers_(std::move(controllers)),
         record_(record),
-        workspace_(m.model, m.start),
+        workspace_(std::in_place, m.model, m.start),
         integrator_(compile::make_integrator(scene, m.model)),
         rounding_(rounding_of(m.model)) {
+    if (const auto& every = scene.run->checkpoint) {
+      require_kept();
+      checkpoint_steps_ = static_cast<std::size_t>(std::max(1LL, std::llround(every->value / m.step)));
+    }
     for (const auto& s : signals) record_.signals.push_back({s.name, s.unit, s.meaning});
     const std::size_t samples = m.steps / m.steps_per_sample + 1;
     record_.time.reserve(samples);
@@ -51,27 +59,14 @@ class March {
   }
 
   void run(const std::function<void(double)>& done) {
-    if (bodies()) dynamics::start_with_lines(*integrator_, workspace_);
-    begin_lines();
-    dynamics::EnergyLedger ledger(m_.model, workspace_);
-    sample(ledger);
-    if (motion_) motion_->of_modes.col(0) = workspace_.state.velocity;
-    try {
-      for (std::size_t n = 1; n <= m_.steps; ++n) {
-        advance(n, ledger);
-        if (motion_) motion_->of_modes.col(static_cast<Eigen::Index>(n)) = workspace_.state.velocity;
-        if (n % m_.steps_per_sample != 0) continue;
-        sample(ledger);
-        if (done) done(static_cast<double>(n) / static_cast<double>(m_.steps));
-      }
-    } catch (const hydro::NumericsError& e) {
-      record_.stopped = e.what();
-    }
-    close(ledger);
+    if (const auto state = kept_.in ? kept_.in->find(kept_.name) : std::nullopt)
+      go_on_from(*state, done);
+    else
+      begin(done);
   }
 
   compile::MovingState end() const {
-    compile::MovingState out{workspace_.state, {}, {}};
+    compile::MovingState out{workspace_->state, {}, {}};
     for (const auto& line : lines_) {
       out.lines.push_back(line->state());
       out.angles.emplace_back(line->angles().begin(), line->angles().end());
@@ -80,9 +75,90 @@ class March {
   }
 
  private:
+  void begin(const std::function<void(double)>& done) {
+    if (bodies()) dynamics::start_with_lines(*integrator_, *workspace_);
+    begin_lines();
+    dynamics::EnergyLedger ledger(m_.model, *workspace_);
+    sample(ledger);
+    if (motion_) motion_->of_modes.col(0) = workspace_->state.velocity;
+    march(1, ledger, done);
+  }
+  void march(std::size_t first, dynamics::EnergyLedger& ledger, const std::function<void(double)>& done) {
+    try {
+      for (std::size_t n = first; n <= m_.steps; ++n) {
+        advance(n, ledger);
+        if (motion_) motion_->of_modes.col(static_cast<Eigen::Index>(n)) = workspace_->state.velocity;
+        if (n % m_.steps_per_sample == 0) {
+          sample(ledger);
+          if (done) done(static_cast<double>(n) / static_cast<double>(m_.steps));
+        }
+        if (checkpoint_steps_ > 0 && (n % checkpoint_steps_ == 0 || n == m_.steps)) checkpoint(n, ledger);
+      }
+    } catch (const hydro::NumericsError& e) {
+      record_.stopped = e.what();
+    }
+    close(ledger);
+  }
+
+  /// \throws hydro::InputError naming what of the run has a state that no checkpoint holds
+  void require_kept() const {
+    const auto refuse = [&](const std::string& what, const std::string& why) {
+      throw hydro::InputError(fmt::format("[ask.run] checkpoint: the state of {} cannot be kept: {}", what, why),
+                              scene_.run->checkpoint->place,
+                              "leave `checkpoint` out; such a run goes on to its end or begins anew");
+    };
+    if (!m_.lines.empty()) refuse("lines", "their steppers carry on more than places and velocities");
+    if (!m_.rules.empty()) refuse("controllers", "they keep a record of what they have watched");
+    if (const char* why = integrator_->cannot_be_kept()) refuse(scene_.solve.integrator, why);
+    for (std::size_t k = 0; k < workspace_->memory.size(); ++k)
+      if (workspace_->needs_memory(k) && !workspace_->memory[k]->can_be_kept())
+        refuse(m_.model.forces()[k]->effect(), "it has a memory of its own kind");
+  }
+  /// All of the run after step n, into bytes or out of them.
+  void keep_state(std::size_t& n, dynamics::EnergyLedger& ledger, hydro::StateBytes& bytes) {
+    for (std::size_t k = 0; k < workspace_->memory.size(); ++k)
+      if (workspace_->needs_memory(k)) workspace_->memory[k]->keep_state(bytes);
+    integrator_->keep_state(*workspace_, bytes);
+    bytes.pass(n, workspace_->evaluations, ledger, record_.time);
+    for (Signal& s : record_.signals) bytes.pass(s.values);
+    bytes.pass(record_.steps, record_.parts, record_.newton_iterations, record_.halvings, record_.events,
+               record_.worst_residual.energy, record_.worst_residual.time);
+    bool has_motion = motion_ != nullptr;
+    bytes.pass(has_motion);
+    if (has_motion && motion_) bytes.pass(motion_->of_modes);
+  }
+  /// The run goes on from what is kept of it, also where nobody has stopped it: what is not kept is lost either way,
+  /// so that both have the same bits. Writing takes a twentieth of the time at most.
+  void checkpoint(std::size_t n, dynamics::EnergyLedger& ledger) {
+    constexpr double share = 0.05;
+    hydro::StateBytes taken;
+    keep_state(n, ledger, taken);
+    workspace_.emplace(m_.model, m_.start);
+    integrator_ = compile::make_integrator(scene_, m_.model);
+    hydro::StateBytes given(taken.bytes());
+    keep_state(n, ledger, given);
+    if (!kept_.in || (n < m_.steps && share * seconds_since(written_) < writing_s_)) return;
+    const auto begin = Clock::now();
+    kept_.in->keep(kept_.name, taken.bytes());
+    writing_s_ = seconds_since(begin);
+    written_ = Clock::now();
+  }
+  void go_on_from(const std::string& state, const std::function<void(double)>& done) {
+    dynamics::EnergyLedger ledger(m_.model, *workspace_);
+    hydro::StateBytes bytes(state);
+    std::size_t n = 0;
+    try {
+      keep_state(n, ledger, bytes);
+    } catch (const std::length_error&) {
+      kept_.in->refuse(kept_.name);
+    }
+    if (!bytes.at_end() || n > m_.steps) kept_.in->refuse(kept_.name);
+    kept_.in->went_on(kept_.name, workspace_->state.time);
+    march(n + 1, ledger, done);
+  }
   bool bodies() const { return !m_.model.bodies().empty(); }
   void begin_lines() {
-    auto* memory = workspace_.find_memory<dynamics::FastenedLineMemory>();
+    auto* memory = workspace_->find_memory<dynamics::FastenedLineMemory>();
     for (const auto& line : m_.lines)
       lines_.push_back(line.fastened ? std::make_unique<compile::LineRun>(line, memory->line(*line.fastened))
                                      : std::make_unique<compile::LineRun>(line));
@@ -93,19 +169,19 @@ class March {
       record_.newton_iterations += report.newton_iterations;
       record_.halvings += report.halvings;
     }
-    const auto report = bodies() ? integrator_->step(workspace_, m_.step) : dynamics::StepReport{};
+    const auto report = bodies() ? integrator_->step(*workspace_, m_.step) : dynamics::StepReport{};
     // Sums of steps drift, products do not.
-    workspace_.state.time = m_.start.time + static_cast<double>(n) * m_.step;
+    workspace_->state.time = m_.start.time + static_cast<double>(n) * m_.step;
     record_.newton_iterations += report.newton_iterations;
     record_.halvings += report.halvings;
     record_.parts += static_cast<std::size_t>(report.parts);
     record_.events += static_cast<int>(report.events.size());
     record_.steps = n;
-    ledger.note(workspace_);
+    ledger.note(*workspace_);
     for (auto& line : lines_) line->note(m_.step);
-    if (controllers_.decide({m_.model, workspace_, ledger, lines_})) {
-      integrator_->loads_jumped(workspace_);
-      ledger.note(workspace_);
+    if (controllers_.decide({m_.model, *workspace_, ledger, lines_})) {
+      integrator_->loads_jumped(*workspace_);
+      ledger.note(*workspace_);
     }
     watch(n, balance(ledger));
     watch_losses(n, ledger);
@@ -130,12 +206,12 @@ class March {
     constexpr double most = 0.25;      // of what was turned over; sound runs stay below a fiftieth
     if (std::abs(now.residual) <= now.rounding) return;
     if (std::abs(now.residual) > std::abs(record_.worst_residual.energy))
-      record_.worst_residual = {now.residual, workspace_.state.time};
+      record_.worst_residual = {now.residual, workspace_->state.time};
     if (n < first || now.residual <= most * now.turnover) return;
     throw hydro::NumericsError(fmt::format(
         "energy comes from nowhere: by t = {:.6g} s {:.3g} J that nothing has supplied, of {:.3g} J turned over; "
         "the step of {:.4g} s is too long for this motion: give a shorter one, [solve] step = \"{:.6g} s\"",
-        workspace_.state.time, now.residual, now.turnover, m_.step, m_.step / 4));
+        workspace_->state.time, now.residual, now.turnover, m_.step, m_.step / 4));
   }
   /// An effect that takes energy has none to give: impacts that a step delivers after the body has turned round do.
   void watch_losses(std::size_t n, const dynamics::EnergyLedger& ledger) const {
@@ -149,17 +225,17 @@ class March {
                         "and should have "
                         "taken some; the step of {:.4g} s is too long for this motion: give a shorter one, [solve] "
                         "step = \"{:.6g} s\"",
-                        workspace_.state.time, e.effect, -e.dissipated, ledger.turnover(), m_.step, m_.step / 4));
+                        workspace_->state.time, e.effect, -e.dissipated, ledger.turnover(), m_.step, m_.step / 4));
   }
   void sample(const dynamics::EnergyLedger& ledger) {
-    record_.time.push_back(workspace_.state.time);
+    record_.time.push_back(workspace_->state.time);
     for (auto& line : lines_) line->look();
-    const compile::Moment now{m_.model, workspace_, ledger, lines_};
+    const compile::Moment now{m_.model, *workspace_, ledger, lines_};
     for (std::size_t i = 0; i < signals_.size(); ++i) record_.signals[i].values.push_back(signals_[i].value(now));
   }
   void close(const dynamics::EnergyLedger& ledger) {
-    for (std::size_t k = 0; k < workspace_.evaluations.size(); ++k)
-      record_.evaluations.emplace_back(m_.model.forces()[k]->effect(), workspace_.evaluations[k]);
+    for (std::size_t k = 0; k < workspace_->evaluations.size(); ++k)
+      record_.evaluations.emplace_back(m_.model.forces()[k]->effect(), workspace_->evaluations[k]);
     record_.energy.emplace_back("kinetic", ledger.kinetic());
     for (const auto& e : ledger.entries()) {
       record_.energy.emplace_back(e.effect + ".stored", e.stored);
@@ -189,11 +265,16 @@ class March {
   }
 
   const compile::TimeModel& m_;
+  const scene::Scene& scene_;
+  const KeptRun& kept_;
+  std::size_t checkpoint_steps_ = 0;  // from one to the next; 0: there are none
+  double writing_s_ = 0;              // that the last one took
+  Clock::time_point written_ = {};
   const std::vector<compile::Signal>& signals_;
   compile::Controllers controllers_;
   std::vector<std::unique_ptr<compile::LineRun>> lines_;
   Run& record_;
-  dynamics::Workspace workspace_;
+  std::optional<dynamics::Workspace> workspace_;
   std::unique_ptr<dynamics::Integrator> integrator_;
   double rounding_;  // J
   compile::VelocityRecord* motion_ = nullptr;
@@ -229,14 +310,14 @@ Run run_once(const scene::Scene& scene, const compile::Prepared& prepared, const
 }  // namespace
 
 Run run_model(const scene::Scene& scene, const compile::TimeModel& model, const std::function<void(double)>& done,
-              compile::MovingState* end, compile::VelocityRecord* motion) {
+              compile::MovingState* end, compile::VelocityRecord* motion, const KeptRun& kept) {
   Run record;
   const auto all = compile::signal_list(scene, model);
   const auto signals = compile::chosen(all, scene.run->of, scene.run->of_places);
   record.step = model.step;
   record.notes = model.notes;
   record.provenance = provenance_of_run(scene);
-  March march(model, signals, {model.rules, all}, scene, record);
+  March march(model, signals, {model.rules, all}, scene, kept, record);
   if (motion) march.keep_motion(*motion);
   const auto stepping = Clock::now();
   march.run(done);
@@ -246,7 +327,7 @@ Run run_model(const scene::Scene& scene, const compile::TimeModel& model, const 
 }
 
 Run simulate(const scene::Scene& scene, const std::function<void(double)>& done, const std::vector<Control>& controls,
-             const std::shared_ptr<compile::Kept>& kept, int threads) {
+             const std::shared_ptr<compile::Kept>& kept, int threads, Checkpoints* checkpoints) {
   if (scene.run->steady) {
     if (!controls.empty())
       throw hydro::InputError("[ask.run] start = \"steady\" takes no step at which a controller could decide",
@@ -257,7 +338,8 @@ Run simulate(const scene::Scene& scene, const std::function<void(double)>& done,
   compile::Prepared prepared = compile::prepare(scene, kept);
   compile::set_controllers(controls, prepared);
   const double preparation = seconds_since(begin);
-  Run record = controls.empty() ? run_to_accuracy(scene, prepared, done, threads) : run_once(scene, prepared, done);
+  Run record =
+      controls.empty() ? run_to_accuracy(scene, prepared, done, threads, checkpoints) : run_once(scene, prepared, done);
   record.preparation_s += preparation;
   record.estimating_s = seconds_since(begin) - record.preparation_s - record.stepping_s;
   return record;

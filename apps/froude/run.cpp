@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "answers/checkpoint.hpp"
 #include "answers/simulate.hpp"
+#include "froude/outputs.hpp"
 #include "froude/progress.hpp"
 #include "froude/scene_result.hpp"
 #include "froude/series.hpp"
@@ -64,6 +67,15 @@ Report energy_of(const Run& record) {
       fact("energy_residual_relative", record.relative_residual()), fact("energy_turnover_J", record.turnover()));
 }
 
+/// Those of a result lie beside it.
+std::optional<Checkpoints> checkpoints_of(const scene::Scene& scene, const SceneArguments& arguments,
+                                          const Path& result) {
+  if (!scene.run->checkpoint) return std::nullopt;
+  std::vector<Path> data;
+  for (const NamedFile& file : files_of_scene(arguments.scene)) data.push_back(file.path);
+  return std::optional<Checkpoints>(std::in_place, result.string() + ".checkpoints", scene, data);
+}
+
 Report report_of(const scene::Scene& scene, const Run& record, const Shares& shares, const Path& file) {
   const std::string name = scene.file.filename().string();
   const Report steps = steps_of(record, name), energy = energy_of(record);
@@ -90,11 +102,12 @@ void run(const SceneArguments& arguments, const Console& console) {
   const scene::Scene scene = scene::read(arguments.scene);
   require_asked(scene.run.has_value(), scene, "run", "run = { duration = \"600 s\", every = \"0.05 s\" }");
   const Path file = checked_output(arguments, ".run.h5");
+  std::optional<Checkpoints> checkpoints = checkpoints_of(scene, arguments, file);
   Progress progress(console.err, "run", console.show_progress);
   shares.end("reading");
   const int threads = std::min(2, hydro::all_processors());
   const Run record = simulate(
-      scene, [&](double done) { progress.update(done); }, {}, nullptr, threads);
+      scene, [&](double done) { progress.update(done); }, {}, nullptr, threads, checkpoints ? &*checkpoints : nullptr);
   if (scene.run->steady)
     shares.end("answering");
   else
@@ -104,8 +117,11 @@ void run(const SceneArguments& arguments, const Console& console) {
   if (arguments.picture)
     hydro::io::write_atomically(*arguments.picture, plot::svg(series_figure(scene.title.empty() ? "Run" : scene.title,
                                                                             record.time, record.signals)));
+  if (checkpoints) checkpoints->remove();
   shares.end("writing");
-  tell(report_of(scene, record, shares, file), console);
+  Report report = report_of(scene, record, shares, file);
+  if (checkpoints) report.sentences("checkpoints", "note: {}", checkpoints->sentences());
+  tell(report, console);
   if (!record.stopped.empty())
     throw hydro::NumericsError(record.stopped + "; what was computed is in " + file.string());
 }

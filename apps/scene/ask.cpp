@@ -106,9 +106,18 @@ Binding<AskRun> run() {
              run.from_equilibrium = start.text == "equilibrium";
              run.steady = start.text == "steady";
            })
+      .optional(positive("checkpoint", dim::time,
+                         "of the run, from one state that is kept on disk to the next: who ends `froude run` begins "
+                         "again from the last; left out: nothing is kept"),
+                &AskRun::checkpoint)
       .key(asked_signals(), put_signals<AskRun>)
       .place(&AskRun::place)
-      .then(check_whole<AskRun>);
+      .then([](const Record& record, AskRun& asked) {
+        check_whole(record, asked);
+        if (asked.steady && asked.checkpoint)
+          throw record.wrong("checkpoint", "has no meaning with start = \"steady\", which takes no steps",
+                             "leave it out");
+      });
 }
 
 Binding<AskModes> free_motions() {

@@ -446,10 +446,11 @@ struct AskStability {
   Place place;
 };
 struct AskRun {
-  double duration;                ///< s
-  double every;                   ///< s; distance of stored samples; duration is a multiple of it
-  bool from_equilibrium = false;  ///< bodies begin where they balance, not where they are placed
-  bool steady = false;            ///< motions as if the sea had always been there: no start, no step
+  double duration;                                 ///< s
+  double every;                                    ///< s; distance of stored samples; duration is a multiple of it
+  bool from_equilibrium = false;                   ///< bodies begin where they balance, not where they are placed
+  bool steady = false;                             ///< motions as if the sea had always been there: no start, no step
+  std::optional<Located<double>> checkpoint = {};  ///< s, of the run, from one to the next; empty: there are none
   std::vector<std::string> of;
   std::vector<Place> of_places;
   Place place;

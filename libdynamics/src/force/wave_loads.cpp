@@ -69,6 +69,11 @@ class RadiationState final : public Memory {
     known_at_ = 0;
     begun_ = true;
   }
+  bool can_be_kept() const override { return true; }
+  void keep_state(hydro::StateBytes& bytes) override {
+    for (const auto& one : past_) one->keep_state(bytes);
+    bytes.pass(at_newest_, after_, newest_, known_at_, begun_);
+  }
   /// −(integral) of one group at the time and velocity of `state`; good until asked for another.
   const Eigen::VectorXd& load(std::size_t group, const State& state) {
     const double fraction = fraction_of(state.time, groups_[group].method->step());

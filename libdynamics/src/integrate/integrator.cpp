@@ -176,6 +176,19 @@ void Integrator::restore(Workspace& workspace, const Snapshot& before) {
   set_history(before.history);
 }
 
+void Integrator::keep_state(Workspace& workspace, hydro::StateBytes& bytes) {
+  Snapshot now;
+  save(workspace, now);
+  bytes.pass(now.state, now.acceleration, now.multipliers, now.history, part_, speeds_);
+  if (bytes.gives_back()) {
+    workspace.state = now.state;
+    // What sticks and what touches is in the memories.
+    if (active_.may_change()) active_.rebuild(workspace);
+    restore(workspace, now);
+  }
+  keep_own_state(bytes);
+}
+
 Integrator::Way Integrator::go_to_change(Workspace& workspace, double h, StepReport& report) {
   const Snapshot& before = before_change_;
   save(workspace, before_change_);

@@ -10,6 +10,7 @@ class NoState final : public MemoryState {
   explicit NoState(int modes) : modes_(modes) {}
   void accept(const Eigen::VectorXd&) override {}
   void find_history_force(double, Eigen::VectorXd& out) const override { out.setZero(modes_); }
+  void keep_state(StateBytes&) override {}
 
  private:
   int modes_;

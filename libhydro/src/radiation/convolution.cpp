@@ -97,6 +97,7 @@ class DirectState final : public MemoryState {
   void find_history_force(double fraction, Eigen::VectorXd& out) const override {
     out = convolution_.history_force(history_, fraction);
   }
+  void keep_state(StateBytes& bytes) override { bytes.pass(history_); }
 
  private:
   const DirectConvolution& convolution_;

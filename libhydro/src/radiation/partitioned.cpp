@@ -125,6 +125,8 @@ class PartitionedState final : public MemoryState {
     late = parts_.step * (fraction * late + (1 - fraction) * early + (fraction - 1) / 2 * (K_newest * newest));
   }
 
+  void keep_state(StateBytes& bytes) override { bytes.pass(history_, due_, before_, count_, taken_); }
+
  private:
   struct Work {
     Eigen::MatrixXd time;

@@ -60,6 +60,7 @@ class PoleState final : public MemoryState {
     move(memory_.carried_over(fraction * memory_.step()), there);
     memory_.find_load(there, out);
   }
+  void keep_state(StateBytes& bytes) override { bytes.pass(z_, ahead_, velocity_, history_force_); }
 
  private:
   /// The states without what the velocity at the end adds, into a matrix of their size.

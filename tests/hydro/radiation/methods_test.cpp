@@ -259,6 +259,36 @@ TEST(Memories, OfOneBodyAgreeInASmoothMotion) {
   EXPECT_NEAR((constant.instantaneous(1) * v(steps))[0] + mass_force, body.B(omega) * v(steps)[0] + mass_force, 1e-12);
 }
 
+// A power of two and more on either side: parts of the partitioned sum are begun and due at any of these.
+TEST(Memories, GoOnToTheBitFromWhatIsKeptOfThem) {
+  constexpr double h = 0.02, omega = 0.9;
+  const auto K = RetardationKernel::from_damping(body.damping_table(40, 1000), {h, 30});
+  const DirectConvolution direct(K);
+  const PartitionedConvolution partitioned(K);
+  const PoleMemory poles(body.model(), h);
+  const ConstantMemory constant(body.B(omega) * Eigen::MatrixXd::Ones(1, 1), omega, h);
+  const auto v = [&](int i) { return Eigen::VectorXd::Constant(1, std::sin(omega * h * i)); };
+  for (const MemoryMethod* method :
+       {static_cast<const MemoryMethod*>(&direct), static_cast<const MemoryMethod*>(&partitioned),
+        static_cast<const MemoryMethod*>(&poles), static_cast<const MemoryMethod*>(&constant)})
+    for (const int kept_after : {1, 63, 64, 777}) {
+      const auto whole = method->start(v(0)), other = method->start(v(5));
+      for (int i = 1; i <= kept_after; ++i) whole->accept(v(i));
+      hydro::StateBytes taken;
+      whole->keep_state(taken);
+      hydro::StateBytes given(taken.bytes());
+      other->keep_state(given);
+      EXPECT_TRUE(given.at_end());
+      for (int i = kept_after + 1; i < kept_after + 1500; ++i) {
+        for (const double fraction : {1.0, 0.3})
+          ASSERT_EQ(whole->history_force(fraction)[0], other->history_force(fraction)[0])
+              << method->describe() << ", kept after " << kept_after << ", step " << i;
+        whole->accept(v(i));
+        other->accept(v(i));
+      }
+    }
+}
+
 // (R19), (R20)
 TEST(Choice, TakesTheCheapestWithinTheTolerance) {
   const auto table = body.damping_table(8, 160);

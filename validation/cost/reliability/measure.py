@@ -257,6 +257,37 @@ def damaged():
             "was not as written, or not touched: the table is the same to the bit")
 
 
+def killed_run(times):
+    """One run with checkpoints, killed `times` times in all; begun anew where it came to its end before."""
+    scene = Path(__file__).resolve().parents[3] / "examples" / "overnight.toml"
+    moments = random.Random(4)
+
+    def run_command(name):
+        return [str(FROUDE), "run", str(scene), "-o", f"{name}.h5", "--csv", f"{name}.csv"]
+
+    def finished(name):
+        done = subprocess.run(run_command(name), cwd=SCRATCH, capture_output=True, text=True, env=ENVIRONMENT)
+        require(done.returncode == 0, "a run with checkpoints: " + done.stderr)
+        return (SCRATCH / f"{name}.csv").read_bytes()
+
+    begin = time.perf_counter()
+    whole = finished("undisturbed_run")
+    lasts = time.perf_counter() - begin
+    kept, ends = 0, 0
+    for i in range(times):
+        process = subprocess.Popen(run_command("killed_run"), cwd=SCRATCH, env=ENVIRONMENT, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        time.sleep(moments.uniform(0, lasts))
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        kept += any((SCRATCH / "killed_run.h5.checkpoints").glob("*.checkpoint"))
+        if i % 5 == 4:
+            require(finished("killed_run") == whole, f"killed {i + 1} times, a run has other numbers")
+            ends += 1
+    return (f"at {kept} of them a checkpoint was there; the same command went on, and ended {ends} times, after five kills "
+            "each, with the bits of an undisturbed run")
+
+
 def machine():
     model = next((line.split(":")[1].strip() for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
                   if line.startswith("model name")), "an unknown processor")
@@ -307,6 +338,7 @@ than a case of 0.2 s takes: {1000 * shortest[2] / CASES:.2f} ms. Ranks are more 
 | kill -9 at 50 random moments, {killed} of them after the database was there | the same command went on each time, to the same table to the bit |
 | kill -9 of one of {RANKS} ranks, at 10 random moments | {killed_ranks(10)} |
 | kill -9 of processes of cases, where the study has limits | {limited()} |
+| kill -9 of one `froude run` with checkpoints, `examples/overnight.toml`, at 20 random moments | {killed_run(20)} |
 | two sweeps in one folder | {two_at_once()} |
 | disk full | {mounted("small", disk_full)} |
 | files may not grow beyond 400 kB | {size_limited()} |

@@ -29,12 +29,16 @@ struct ContactState {
                           0};  ///< direction in which the second slips over the first, global; of a contact that slides
   std::size_t impacts = 0;
   double dissipated = 0;  ///< J, by impacts and slip, since the start
+
+  void keep_state(hydro::StateBytes& bytes) { bytes.pass(is, row, held, slip, impacts, dissipated); }
 };
 
 class ContactMemory final : public Memory {
  public:
   explicit ContactMemory(std::size_t count) : contact(count) {}
   void accept(const State&) override {}  // an integrator changes it where an event is
+  bool can_be_kept() const override { return true; }
+  void keep_state(hydro::StateBytes& bytes) override { bytes.pass(contact); }
   std::vector<ContactState> contact;
 };
 

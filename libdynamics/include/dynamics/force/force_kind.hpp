@@ -20,6 +20,7 @@
 #include "dynamics/state/block_matrix.hpp"
 #include "dynamics/state/body.hpp"
 #include "dynamics/state/signal.hpp"
+#include "hydro/base/state_bytes.hpp"
 
 namespace dynamics {
 
@@ -31,6 +32,10 @@ class Memory {
   virtual void accept(const State& state) = 0;
   /// True if loads are what they are without it, to a tolerance that the kind tells: it is there to be quicker.
   virtual bool spares_work_only() const { return false; }
+  /// True if keep_state() knows the whole of it.
+  virtual bool can_be_kept() const { return false; }
+  /// Takes it up, or gives it back to the memory that the kind has made for the same state.
+  virtual void keep_state(hydro::StateBytes&) {}
 };
 
 /// The arguments of every evaluation. `memory` is what the kind itself made, or null.
@@ -120,6 +125,8 @@ struct EnergyFlow {
   double supplied = 0;    ///< W, from outside: the waves
   double dissipated = 0;  ///< W; radiation counts here and may be negative for a moment, when waves come back
   std::optional<double> dissipated_so_far = {};  ///< J since the start, of kinds that know it exactly
+
+  void keep_state(hydro::StateBytes& bytes) { bytes.pass(stored, supplied, dissipated, dissipated_so_far); }
 };
 
 class FrictionLaw;

@@ -19,6 +19,8 @@ class FrictionMemory final : public Memory {
     if (to == 0 && direction[element] != 0) since[element] = time;
     direction[element] = to;
   }
+  bool can_be_kept() const override { return true; }
+  void keep_state(hydro::StateBytes& bytes) override { bytes.pass(direction, since, work); }
   std::vector<int> direction;
   std::vector<double> since;  ///< s, when it came to rest; those that begin at rest have been there for ever
   std::vector<double> work;   ///< J, taken from the bodies since the start

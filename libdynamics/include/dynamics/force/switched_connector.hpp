@@ -12,6 +12,8 @@ class SwitchMemory final : public Memory {
  public:
   explicit SwitchMemory(const std::vector<SwitchedConnectors>& groups, const State& start);
   void accept(const State& state) override;
+  bool can_be_kept() const override { return true; }
+  void keep_state(hydro::StateBytes& bytes) override { bytes.pass(stiffness, switches, dissipated, time_, power_); }
   /// From `now`, the end of a step, on a group has this stiffness, N/m. Loads jump: Integrator::loads_jumped() must
   /// follow. \returns false, and nothing changes, if the group has it already
   bool set(std::size_t group, double stiffness_N_per_m, const State& now);

@@ -25,6 +25,8 @@ class SlowYaw final : public Memory {
   SlowYaw(const std::vector<TurningExcitation>& elements, const State& start);
   /// \throws hydro::NumericsError if a body has turned beyond its table
   void accept(const State& state) override;
+  bool can_be_kept() const override { return true; }
+  void keep_state(hydro::StateBytes& bytes) override { bytes.pass(yaw, time_); }
 
   std::vector<double> yaw;  ///< rad, one an element
 

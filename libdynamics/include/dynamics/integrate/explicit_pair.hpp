@@ -22,6 +22,7 @@ class ExplicitPair final : public Integrator {
  private:
   int order() const override { return 5; }
   const char* steps_stay_whole() const override { return "the pair has one of its own"; }
+  void keep_own_state(hydro::StateBytes& bytes) override { bytes.pass(last_); }
   bool try_step(Workspace& workspace, double h, StepReport& report) override;
   /// One step of both orders: `end_` by order 5. \returns the estimated error relative to what is allowed; none where
   /// there are no accelerations

@@ -40,6 +40,13 @@ class Integrator {
   /// goes on from them. \throws hydro::NumericsError if they cannot be found
   void loads_jumped(Workspace& workspace);
 
+  /// Why what the method carries from step to step cannot be kept; null if it can.
+  virtual const char* cannot_be_kept() const { return nullptr; }
+  /// The workspace's state and what the method carries on from it: taken up, or given back to an integrator and a
+  /// workspace that are new, after the memories of the workspace. What only spares work, factors and first guesses, is
+  /// not kept: who goes on to the bit makes it anew in either case.
+  void keep_state(Workspace& workspace, hydro::StateBytes& bytes);
+
   /// From now on cuts each step so that its local error, estimated by doing it in one and in two (D96), stays below
   /// `tolerance`, relative to the largest speeds of the run so far. Costs half as much again. What is kept at whole
   /// steps only, the memory of radiated waves, does not become finer. \throws hydro::InputError unless it is positive,
@@ -63,6 +70,8 @@ class Integrator {
   /// What the method carries from step to step beside the workspace.
   virtual void save_history(Eigen::VectorXd& out) const { out.resize(0); }
   virtual void set_history(const Eigen::VectorXd&) {}
+  /// What it carries beside that history, which a step that fails does not take back.
+  virtual void keep_own_state(hydro::StateBytes&) {}
 
   const Model& model() const { return model_; }
   const ActiveSet& active() const { return active_; }

@@ -17,6 +17,8 @@ class EnergyLedger {
   struct Entry {
     std::string effect;
     double stored = 0, supplied = 0, dissipated = 0;  ///< J; the last two since the start
+
+    void keep_state(hydro::StateBytes& bytes) { bytes.pass(effect, stored, supplied, dissipated); }
   };
 
   EnergyLedger(const Model& model, Workspace& workspace);
@@ -25,6 +27,11 @@ class EnergyLedger {
 
   /// Adds the step that ended in the state of the workspace.
   void note(Workspace& workspace);
+
+  /// Its sums: taken up, or given back to a ledger of the same model.
+  void keep_state(hydro::StateBytes& bytes) {
+    bytes.pass(entries_, before_, stored_at_start_, kinetic_, initial_, time_, turnover_);
+  }
 
   double kinetic() const { return kinetic_; }
   const std::vector<Entry>& entries() const { return entries_; }

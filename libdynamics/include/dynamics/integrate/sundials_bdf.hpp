@@ -23,6 +23,8 @@ class SundialsBdf final : public Integrator {
   SundialsBdf(const Model& model, const Settings& settings);
   ~SundialsBdf() override;
 
+  const char* cannot_be_kept() const override { return "its past steps are inside SUNDIALS"; }
+
  private:
   int order() const override { return 5; }
   const char* steps_stay_whole() const override { return "CVODE has a tolerance of its own"; }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dynamics/spatial/frame.hpp"
+#include "hydro/base/state_bytes.hpp"
 
 namespace dynamics {
 
@@ -57,6 +58,7 @@ struct Pose {
   Vector6 displacement(const Eigen::Vector3d& rest_centre) const;
   /// Global position of a point given from the body's origin in body axes.
   Vec3<World> point(const RigidBody& body, const Vec3<BodyAxes>& from_origin) const;
+  void keep_state(hydro::StateBytes& bytes) { bytes.pass(centre, attitude.coeffs(), counted); }
 };
 
 /// Poses, velocities and time of all bodies. Velocity of body i: rows 6i…6i+5, the centre's velocity and the angular
@@ -70,6 +72,7 @@ struct State {
   std::vector<double> hinge_angle = {};
 
   auto twist(int body) const { return velocity.segment<6>(6 * body); }
+  void keep_state(hydro::StateBytes& bytes) { bytes.pass(time, pose, velocity, hinge_angle); }
 };
 
 /// The state after every body has moved by `displacement` (translation and small global rotation), all else as it was.

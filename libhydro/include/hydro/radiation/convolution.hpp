@@ -26,6 +26,7 @@ class VelocityHistory {
   const double* newest_first(int mode) const { return twice_.data() + stride() * mode + head_; }
   Eigen::Index stride() const { return twice_.rows(); }
   std::size_t samples() const { return samples_; }
+  void keep_state(StateBytes& bytes) { bytes.pass(twice_, head_); }
   Eigen::VectorXd newest() const { return twice_.row(static_cast<Eigen::Index>(head_)).transpose(); }
 
  private:

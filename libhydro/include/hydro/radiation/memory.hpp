@@ -9,6 +9,8 @@
 #include <memory>
 #include <string>
 
+#include "hydro/base/state_bytes.hpp"
+
 namespace hydro::radiation {
 
 /// The past of one run, as far as its method needs it. Belongs to one thread.
@@ -25,6 +27,8 @@ class MemoryState {
   }
   /// The same, into a vector that has room.
   virtual void find_history_force(double fraction, Eigen::VectorXd& out) const = 0;
+  /// What has been accepted, as far as it counts: taken up, or given back to a state that the same method has made.
+  virtual void keep_state(StateBytes& bytes) = 0;
 };
 
 /// One way of computing. Const and shareable; outlives the states it makes.
