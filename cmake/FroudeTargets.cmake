@@ -23,6 +23,10 @@ if(FROUDE_SANITIZE)
   target_compile_options(froude_options INTERFACE -fsanitize=${FROUDE_SANITIZE}
     -fno-sanitize=null,alignment,pointer-overflow -fno-omit-frame-pointer)
   target_link_options(froude_options INTERFACE -fsanitize=${FROUDE_SANITIZE})
+  # GCC's manual: with sanitizers this warning is often false. Builds without them keep it.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(froude_options INTERFACE -Wno-maybe-uninitialized)
+  endif()
   # Under the address sanitizer Eigen takes an allocator of its own, which does not go with code that was compiled
   # without it: Debian's Ceres is a static library. malloc is aligned to 16 bytes there too.
   target_compile_definitions(froude_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
