@@ -319,8 +319,8 @@ bool is_beyond_breaking(const scene::Scene& scene, const scene::RegularWave& wav
 
 std::complex<double> elevation_at_origin(const hydro::waves::Component& c) { return std::polar(c.amplitude, c.phase); }
 
-hw::FieldUse water_around(const Scene& scene, const Eigen::AlignedBox3d& places, double highest_crest, double step,
-                          double points) {
+hw::FieldUse water_around(const scene::Scene& scene, const Eigen::AlignedBox3d& places, double highest_crest,
+                          double step, double points) {
   // Room to move: the orbits of high waves, and some metres of drift.
   const Eigen::Vector3d room(2 * highest_crest + 2, 2 * highest_crest + 2, highest_crest);
   constexpr double beyond = 1e-3;  // s: rates of added mass are differences, which look past the end of the run
