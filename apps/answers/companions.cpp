@@ -1,6 +1,7 @@
 #include "answers/companions.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -141,6 +142,11 @@ bool Companions::keeps_motion(int level, const compile::TimeModel& model) const 
   return level > 0 && !prepared_.groups.empty() && model.steps * static_cast<std::size_t>(model.model.modes()) < most;
 }
 
+const char* Companions::name_of(Cut what) {
+  constexpr std::array<const char*, 3> names{"segments", "given", "chosen"};
+  return names[static_cast<std::size_t>(what)];
+}
+
 KeptRun Companions::kept(const std::string& name, int level) const {
   if (checkpoints_ == nullptr) return {};
   return {checkpoints_, fmt::format("{}-of-level{}-pieces{}", name, level, refined_pieces_)};
@@ -252,10 +258,7 @@ Run Companions::cut_finer(Cut what, int level) {
   Run out;
   try {
     out = run_model(scene, compile::time_model(scene, prepared_for(what, scene)), progress_, nullptr, nullptr,
-                    kept(what == Cut::segments       ? "segments"
-                         : what == Cut::given_pieces ? "given"
-                                                     : "chosen",
-                         level));
+                    kept(name_of(what), level));
   } catch (const hydro::InputError& e) {
     out.stopped = e.rule();
   } catch (const hydro::NumericsError& e) {

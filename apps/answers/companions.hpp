@@ -97,6 +97,7 @@ class Companions {
   scene::Scene cut_scene(Cut what, int level) const;
   compile::Prepared prepared_for(Cut what, const scene::Scene& scene) const;
   const Followed& followed(int level);
+  static const char* name_of(Cut what);
   /// The checkpoints of one of the runs.
   KeptRun kept(const std::string& name, int level) const;
 

@@ -71,7 +71,7 @@ Prepared prepare(const Scene& scene, std::shared_ptr<Kept> kept) {
   add_hydrodynamics(scene, out);
   add_connections(scene, out);
   out.elements = scene.elements;
-  out.fastened = fastened_lines(scene, out.bodies);
+  add_fastened_lines(scene, out);
   return out;
 }
 

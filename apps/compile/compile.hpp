@@ -65,7 +65,8 @@ struct Prepared {
   std::vector<dynamics::Pto> ptos;
   std::vector<std::shared_ptr<const scene::Elements>> elements;
   std::vector<dynamics::CatenaryMooring> catenaries;
-  std::vector<dynamics::FastenedLine> fastened;  ///< [[line]] with ends on bodies, in water without waves
+  std::vector<dynamics::FastenedLine> fastened;          ///< [[line]] with ends on bodies, in water without waves
+  std::vector<dynamics::line::Places> fastened_at_rest;  ///< places of their nodes, with bodies as the scene has them
   std::vector<dynamics::Joint> joints;
   std::vector<dynamics::Friction> friction;
   std::vector<dynamics::Contact> contacts;

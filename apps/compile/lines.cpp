@@ -395,13 +395,13 @@ LineModel free_model(const Scene& scene, const std::vector<std::size_t>& network
 
 std::string names_of(const LineModel& model) { return joined(model.parts, ""); }
 
-std::vector<dynamics::FastenedLine> fastened_lines(const Scene& scene, const std::vector<dynamics::RigidBody>& bodies) {
-  std::vector<dynamics::FastenedLine> out;
+void add_fastened_lines(const Scene& scene, Prepared& prepared) {
+  const dynamics::State placed = dynamics::rest_state(prepared.bodies);
   for (const auto& network : scene.networks) {
     if (!on_bodies(scene, network)) continue;
     try {
-      out.push_back(fastened_line(scene, network));
-      dynamics::line_at_rest(out.back(), dynamics::rest_state(bodies));
+      prepared.fastened.push_back(fastened_line(scene, network));
+      prepared.fastened_at_rest.push_back(dynamics::line_at_rest(prepared.fastened.back(), placed).position);
     } catch (const InputError& e) {
       blame(scene, network, e);
     } catch (const hydro::NumericsError& e) {
@@ -410,22 +410,19 @@ std::vector<dynamics::FastenedLine> fastened_lines(const Scene& scene, const std
                        "check `from`, `to` and `length`");
     }
   }
-  return out;
 }
 
 std::unique_ptr<const dynamics::ForceKind> fastened_kind(const Scene& scene, const Prepared& prepared,
                                                          const RunWater& water) {
   std::vector<dynamics::FastenedLine> lines = prepared.fastened;
   if (lines.empty()) return nullptr;
-  auto line = lines.begin();
+  std::size_t at = 0;
   for (const auto& network : scene.networks) {
     if (!on_bodies(scene, network)) continue;
     require_one_step(scene, scene.lines[network.front()]);
     System system = description(scene, network, water.of_lines);
-    take_coefficients(scene, network, water,
-                      dynamics::line_at_rest(*line, dynamics::rest_state(prepared.bodies)).position, system);
-    line->run = std::move(system.d);
-    ++line;
+    take_coefficients(scene, network, water, prepared.fastened_at_rest[at], system);
+    lines[at++].run = std::move(system.d);
   }
   return std::make_unique<dynamics::FastenedLineKind>(std::move(lines));
 }
@@ -438,18 +435,17 @@ std::optional<hydro::waves::FieldUse> water_of_lines(const Scene& scene, const P
   if (sea.components().size() < few) return {};
   Eigen::AlignedBox3d places;
   double points = 0;
-  auto fastened = prepared.fastened.begin();
+  std::size_t fastened = 0;
   for (const auto& network : scene.networks) {
-    const dynamics::FastenedLine* own = on_bodies(scene, network) ? &*fastened++ : nullptr;
+    const auto* known = on_bodies(scene, network) ? &prepared.fastened_at_rest[fastened++] : nullptr;
     if (std::none_of(network.begin(), network.end(),
                      [&](std::size_t i) { return scene.lines[i].water.wet != dl::Wet::nothing; }))
       continue;
     try {
-      const dl::State rest =
-          own ? dynamics::line_at_rest(*own, dynamics::rest_state(prepared.bodies)) : at_rest(scene, network);
-      for (Eigen::Index i = 0; i < rest.position.cols(); ++i) places.extend(Eigen::Vector3d(rest.position.col(i)));
-      points +=
-          (own || foreseen ? 2 : 6) * runs * static_cast<double>(rest.position.cols());  // stages, and the balance
+      const dl::Places rest = known != nullptr ? *known : at_rest(scene, network).position;
+      for (Eigen::Index i = 0; i < rest.cols(); ++i) places.extend(Eigen::Vector3d(rest.col(i)));
+      const int asked = known != nullptr || foreseen ? 2 : 6;  // an instant: by stages, and by the balance
+      points += asked * runs * static_cast<double>(rest.cols());
     } catch (const InputError& e) {
       blame(scene, network, e);
     } catch (const hydro::NumericsError& e) {
@@ -467,9 +463,8 @@ std::vector<LineModel> line_models(const Scene& scene, const Prepared& prepared,
   for (const auto& network : scene.networks) {
     try {
       if (on_bodies(scene, network)) {
-        const dynamics::FastenedLine& held = prepared.fastened[fastened];
-        const auto placed = dynamics::line_at_rest(held, dynamics::rest_state(prepared.bodies)).position;
-        out.push_back(fastened_model(scene, network, held, water, placed, fastened, start));
+        out.push_back(fastened_model(scene, network, prepared.fastened[fastened], water,
+                                     prepared.fastened_at_rest[fastened], fastened, start));
         ++fastened;
       } else {
         out.push_back(free_model(scene, network, water));

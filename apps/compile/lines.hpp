@@ -63,10 +63,9 @@ std::vector<LineModel> line_models(const scene::Scene& scene, const Prepared& pr
 /// The same without a run, for what they are and tell: they have no start.
 std::vector<LineModel> lines_as_placed(const scene::Scene& scene);
 
-/// The networks of lines of a scene that have ends on bodies, as those feel them at rest. \throws hydro::InputError at
-/// a line that cannot hang where the scene places its bodies
-std::vector<dynamics::FastenedLine> fastened_lines(const scene::Scene& scene,
-                                                   const std::vector<dynamics::RigidBody>& bodies);
+/// Adds the networks of lines of a scene that have ends on bodies, which are there already, as those feel them at rest.
+/// \throws hydro::InputError at a line that cannot hang where the scene places its bodies
+void add_fastened_lines(const scene::Scene& scene, Prepared& prepared);
 /// The same in the water of a run. \throws hydro::InputError if the scene asks for what has no step together with lines
 std::unique_ptr<const dynamics::ForceKind> fastened_kind(const scene::Scene& scene, const Prepared& prepared,
                                                          const RunWater& water);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "answers/simulate.hpp"
+#include "apps/compile/same_water.hpp"
 #include "apps/compile/scenes.hpp"
 #include "compile/compile.hpp"
 #include "compile/kept.hpp"
@@ -21,6 +22,7 @@ namespace lines_test {
 namespace {
 
 using namespace froude;
+using froude_test::expect_same_water;
 using froude_test::parse;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -65,12 +67,7 @@ TEST(Lines, InALongRunReadTheSeaFromATable) {
   EXPECT_EQ(summed.around_lines->tables(), 0);
   EXPECT_EQ(tabled.around_lines->tables(), 1);
   EXPECT_EQ(tabled.around_members, nullptr);
-  for (const double x : {0.0, 2.0, 30.0})
-    for (const double t : {1.0, 7.0}) {
-      const auto a = summed.of_lines->at(t, {x, 0.5, -3}), b = tabled.of_lines->at(t, {x, 0.5, -3});
-      EXPECT_LT((a.velocity - b.velocity).norm(), 1e-5)
-          << "1e-6 of each of some thousand components, which are some 3 m/s in all";
-    }
+  expect_same_water(*summed.of_lines, *tabled.of_lines);
   const std::size_t made = prepared.kept->water_of_lines().made();
   compile::time_model(scene::with_finer_lines(s, 2), prepared);
   EXPECT_EQ(prepared.kept->water_of_lines().made(), made) << "twice as many segments are at rest almost there";

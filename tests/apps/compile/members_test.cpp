@@ -20,6 +20,7 @@ using testing::Not;
 using testing::ThrowsMessage;
 
 using froude_test::examples;
+using froude_test::expect_same_water;
 
 /// A pile in surge, with waves and what acts on its member.
 scene::Scene pile(const std::string& waves, const std::string& loads, const std::string& top = "-1") {
@@ -66,13 +67,7 @@ TEST(Members, InALongRunReadTheSeaFromATable) {
   const compile::RunWater tabled = compile::time_model(s, prepared).water;
   EXPECT_EQ(summed.around_members->tables(), 0);
   EXPECT_EQ(tabled.around_members->tables(), 1);
-  for (const double x : {0.0, 2.0, 30.0})
-    for (const double t : {1.0, 7.0}) {
-      const auto a = summed.field->at(t, {x, 0.5, -3}), b = tabled.field->at(t, {x, 0.5, -3});
-      EXPECT_LT((a.velocity - b.velocity).norm(), 1e-5)
-          << "1e-6 of each of some thousand components, which are some 3 m/s in all";
-      EXPECT_LT((a.acceleration - b.acceleration).norm(), 1e-4);
-    }
+  expect_same_water(*summed.field, *tabled.field);
 }
 
 // Errors of a run are estimated by runs of other steps and pieces. A table takes as long to make as many of them to

@@ -235,45 +235,45 @@ TEST(PoleMemory, NeverGivesEnergyToARandomMotionAtAnyStep) {
     }
 }
 
+/// Memories of the body for steps of h seconds, and a swing of it at omega.
+struct MemoriesOfOneBody {
+  double h = 0.02, omega = 0.9;
+  RetardationKernel K = RetardationKernel::from_damping(body.damping_table(40, 1000), {h, 30});
+  DirectConvolution direct{K};
+  PartitionedConvolution partitioned{K};
+  PoleMemory poles{body.model(), h};
+  ConstantMemory constant{body.B(omega) * Eigen::MatrixXd::Ones(1, 1), omega, h};
+
+  Eigen::VectorXd v(int step) const { return Eigen::VectorXd::Constant(1, std::sin(omega * h * step)); }
+};
+
 TEST(Memories, OfOneBodyAgreeInASmoothMotion) {
-  constexpr double h = 0.02, omega = 0.9;
-  const auto K = RetardationKernel::from_damping(body.damping_table(40, 1000), {h, 30});
-  const DirectConvolution direct(K);
-  const PartitionedConvolution partitioned(K);
-  const PoleMemory poles(body.model(), h);
-  const ConstantMemory constant(body.B(omega) * Eigen::MatrixXd::Ones(1, 1), omega, h);
-  const std::vector<const MemoryMethod*> methods{&direct, &partitioned, &poles};
+  const MemoriesOfOneBody of;
+  const std::vector<const MemoryMethod*> methods{&of.direct, &of.partitioned, &of.poles};
   std::vector<std::unique_ptr<MemoryState>> states;
   for (const auto* m : methods) states.push_back(m->start(Eigen::VectorXd::Zero(1)));
-  const auto v = [&](int i) { return Eigen::VectorXd::Constant(1, std::sin(omega * h * i)); };
   const int steps = 2000;
   for (int i = 1; i < steps; ++i)
-    for (auto& s : states) s->accept(v(i));
-  const double t = h * steps, mass_force = omega * body.A_minus_A_inf(omega) * std::cos(omega * t);
+    for (auto& s : states) s->accept(of.v(i));
+  const double t = of.h * steps, mass_force = of.omega * body.A_minus_A_inf(of.omega) * std::cos(of.omega * t);
   for (std::size_t k = 0; k < methods.size(); ++k) {
-    const double load = (states[k]->history_force(1) + methods[k]->instantaneous(1) * v(steps))[0];
-    EXPECT_NEAR(load, body.B(omega) * v(steps)[0] + mass_force, 1e-3)
+    const double load = (states[k]->history_force(1) + methods[k]->instantaneous(1) * of.v(steps))[0];
+    EXPECT_NEAR(load, body.B(of.omega) * of.v(steps)[0] + mass_force, 1e-3)
         << methods[k]->describe();  // as in convolution_test
   }
   // Constant coefficients carry the other part as added mass.
-  EXPECT_NEAR((constant.instantaneous(1) * v(steps))[0] + mass_force, body.B(omega) * v(steps)[0] + mass_force, 1e-12);
+  EXPECT_NEAR((of.constant.instantaneous(1) * of.v(steps))[0] + mass_force,
+              body.B(of.omega) * of.v(steps)[0] + mass_force, 1e-12);
 }
 
 // A power of two and more on either side: parts of the partitioned sum are begun and due at any of these.
 TEST(Memories, GoOnToTheBitFromWhatIsKeptOfThem) {
-  constexpr double h = 0.02, omega = 0.9;
-  const auto K = RetardationKernel::from_damping(body.damping_table(40, 1000), {h, 30});
-  const DirectConvolution direct(K);
-  const PartitionedConvolution partitioned(K);
-  const PoleMemory poles(body.model(), h);
-  const ConstantMemory constant(body.B(omega) * Eigen::MatrixXd::Ones(1, 1), omega, h);
-  const auto v = [&](int i) { return Eigen::VectorXd::Constant(1, std::sin(omega * h * i)); };
+  const MemoriesOfOneBody of;
   for (const MemoryMethod* method :
-       {static_cast<const MemoryMethod*>(&direct), static_cast<const MemoryMethod*>(&partitioned),
-        static_cast<const MemoryMethod*>(&poles), static_cast<const MemoryMethod*>(&constant)})
+       std::initializer_list<const MemoryMethod*>{&of.direct, &of.partitioned, &of.poles, &of.constant})
     for (const int kept_after : {1, 63, 64, 777}) {
-      const auto whole = method->start(v(0)), other = method->start(v(5));
-      for (int i = 1; i <= kept_after; ++i) whole->accept(v(i));
+      const auto whole = method->start(of.v(0)), other = method->start(of.v(5));
+      for (int i = 1; i <= kept_after; ++i) whole->accept(of.v(i));
       hydro::StateBytes taken;
       whole->keep_state(taken);
       hydro::StateBytes given(taken.bytes());
@@ -283,8 +283,8 @@ TEST(Memories, GoOnToTheBitFromWhatIsKeptOfThem) {
         for (const double fraction : {1.0, 0.3})
           ASSERT_EQ(whole->history_force(fraction)[0], other->history_force(fraction)[0])
               << method->describe() << ", kept after " << kept_after << ", step " << i;
-        whole->accept(v(i));
-        other->accept(v(i));
+        whole->accept(of.v(i));
+        other->accept(of.v(i));
       }
     }
 }

@@ -40,7 +40,7 @@ FROUDE_KERNEL void chebyshev(double s, double per_metre, std::size_t size, doubl
     const simd::Pack t_next = twice * t - t_before, u_next = twice * u - u_before;
     t_before = t, u_before = u;
     t = t_next, u = u_next;
-    order = order + static_cast<double>(lanes);
+    order = order + 1.0 * lanes;
   }
 }
 

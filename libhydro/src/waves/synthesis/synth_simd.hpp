@@ -32,7 +32,6 @@ using HalfBits = std::int64_t __attribute__((vector_size(32)));
 struct Pack {
   Half low, high;
 
-  FROUDE_INLINE double operator[](std::size_t i) const { return i < 4 ? low[i] : high[i - 4]; }
   FROUDE_INLINE Pack& operator+=(const Pack& b);
   FROUDE_INLINE Pack& operator-=(const Pack& b);
 };

@@ -165,7 +165,7 @@ class SumsOverTime {
       }
     room_.resize(cosine_.rows());
     out_.resize(c_.rows(), four * groups);
-    put_packs_together();
+    c_ = packs_together(c_);
   }
 
   /// (levels, at least all instants)
@@ -175,25 +175,26 @@ class SumsOverTime {
       return out_;
     }
     for (Eigen::Index g = 0; g < cosine_.cols(); ++g)
-      table::sum_waves(packs_.data(), static_cast<std::size_t>(c_.rows()), static_cast<std::size_t>(c_.cols()),
-                       a.data(), cosine_.col(g).data(), sine_.col(g).data(), room_.data(),
+      table::sum_waves(c_.data(), static_cast<std::size_t>(c_.rows()), static_cast<std::size_t>(c_.cols()), a.data(),
+                       cosine_.col(g).data(), sine_.col(g).data(), room_.data(),
                        out_.col(static_cast<Eigen::Index>(table::instants_at_once) * g).data());
     return out_;
   }
 
  private:
-  void put_packs_together() {
+  /// The same numbers, all waves of one pack of levels before those of the next.
+  static Eigen::MatrixXd packs_together(const Eigen::MatrixXd& c) {
     constexpr auto pack = static_cast<Eigen::Index>(simd::lanes);
-    packs_.resize(c_.size());
-    for (Eigen::Index q = 0; q < c_.rows(); q += pack)
-      for (Eigen::Index j = 0; j < c_.cols(); ++j)
-        packs_.segment(q * c_.cols() + pack * j, pack) = c_.col(j).segment(q, pack);
+    Eigen::MatrixXd out(c.rows(), c.cols());
+    for (Eigen::Index q = 0; q < c.rows(); q += pack)
+      for (Eigen::Index j = 0; j < c.cols(); ++j)
+        out.reshaped().segment(q * c.cols() + pack * j, pack) = c.col(j).segment(q, pack);
+    return out;
   }
 
   std::vector<double> omega_;
   TimeGrid time_;
-  Eigen::MatrixXd c_;
-  Eigen::VectorXd packs_;          // the same, as sum_waves() reads them
+  Eigen::MatrixXd c_;              // by products: in the order in which sum_waves() reads them
   Eigen::MatrixXd cosine_, sine_;  // of ω_j t_n, (four instants of each wave, groups of four); empty by transforms
   Eigen::VectorXd room_;
   Eigen::MatrixXd out_;

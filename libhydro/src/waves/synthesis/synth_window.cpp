@@ -97,16 +97,16 @@ FROUDE_KERNEL void horner(const double* polynomial, std::size_t degree, double y
 // out = scale · r e^{−r} with r = √(β² − ξ²): 1/ψ̂ where e^{−2r} is below rounding.
 FROUDE_KERNEL void reciprocal_transform(double beta, double scale, double xi_step, std::size_t count, double* out) {
   for (std::size_t n = 0; n < count; n += simd::lanes) {
-    double roots[simd::lanes];
+    double values[simd::lanes];
     for (std::size_t i = 0; i < simd::lanes; ++i) {
       const double xi = xi_step * static_cast<double>(n + i);
-      roots[i] = std::sqrt(std::max(0.0, beta * beta - xi * xi));
+      values[i] = std::sqrt(std::max(0.0, beta * beta - xi * xi));
     }
     simd::Pack r, e;
-    simd::load(roots, r);
+    simd::load(values, r);
     simd::exponential(-r, e);
-    e = scale * r * e;
-    for (std::size_t i = 0; i < std::min(simd::lanes, count - n); ++i) out[n + i] = e[i];
+    simd::store(scale * r * e, values);
+    for (std::size_t i = 0; i < std::min(simd::lanes, count - n); ++i) out[n + i] = values[i];
   }
 }
 
