@@ -42,12 +42,6 @@ DataError error_against(const DampingTable& damping, const std::vector<Eigen::Ma
 
 namespace {
 
-std::vector<Eigen::MatrixXcd> transforms(const MemorySurvey& survey, double length, const std::vector<double>& omega) {
-  std::vector<Eigen::MatrixXcd> out;
-  for (const double w : omega) out.push_back(survey.transform(w, length));
-  return out;
-}
-
 std::vector<Eigen::MatrixXcd> transforms(const PoleModel& model, const std::vector<double>& omega) {
   std::vector<Eigen::MatrixXcd> out;
   for (const double w : omega) out.push_back(model.transform(w));
@@ -84,7 +78,7 @@ void weigh_convolutions(const DampingTable& damping, const std::vector<Eigen::Ma
   out.truncation = survey.remaining_after(w.grid->kept());
   out.misfit = w.whole->misfit;
   out.shift = w.whole->shift;
-  const auto error = error_against(damping, A, w.whole->A_inf, transforms(survey, w.grid->kept(), damping.omega));
+  const auto error = error_against(damping, A, w.whole->A_inf, survey.transforms(damping.omega, w.grid->kept()));
   const auto modes = static_cast<int>(damping.B.front().rows());
   const double n = modes, lags = static_cast<double>(out.lags);
   if (demand.method.value_or(Method::direct) == Method::direct)
@@ -149,7 +143,7 @@ ChosenMemory choose(const DampingTable& damping, const std::vector<Eigen::Matrix
   out.A_inf = w.whole->A_inf;
   const auto kernel = RetardationKernel::averaged(w.whole->table, *w.grid, *w.survey);
   out.transform = [survey = w.survey, length = kernel.length()](double omega) {
-    return survey->transform(omega, length);
+    return survey->transforms({omega}, length).front();
   };
   if (taken.method == Method::direct)
     out.memory = std::make_shared<DirectConvolution>(kernel);

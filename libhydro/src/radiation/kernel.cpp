@@ -8,6 +8,7 @@
 #include "averaged.hpp"
 #include "corners.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/base/product.hpp"
 #include "polygon.hpp"
 
 namespace hydro::radiation {
@@ -132,7 +133,7 @@ class CosineTransform {
         s = turn_s * c + turn_c * s;
         c.swap(on);
       }
-      K.noalias() = jumps.transpose() * cosines.leftCols(size);
+      K = transposed_product(jumps, cosines.leftCols(size));
       for (Eigen::Index i = 0; i < size; ++i) {
         const std::size_t sample = first + static_cast<std::size_t>(i);
         const double t = static_cast<double>(sample) * step;
@@ -166,21 +167,22 @@ std::size_t steps_in(double length, double step) { return static_cast<std::size_
 /// Step for looking at the whole kernel: eight samples in the shortest period that the table holds.
 double survey_step(const DampingTable& damping) { return 2 * std::numbers::pi / damping.omega.back() / 8; }
 
-/// ∫_t^∞ |K_ij| dt / √(max B_ii max B_jj), its largest entry, at each sample of K; decreasing in t. Beyond the longest
-/// time nothing is known; what follows is taken to be no more than the last quarter before it. (R5)
-std::vector<double> remaining_memory(const DampingTable& damping, const std::vector<Eigen::MatrixXd>& K, double step) {
+/// ∫_t^∞ |K_ij| dt / √(max B_ii max B_jj), its largest entry, at each sample of K (samples, pairs); decreasing in t.
+/// Beyond the longest time nothing is known; what follows is taken to be no more than the last quarter before it. (R5)
+std::vector<double> remaining_memory(const DampingTable& damping, const Eigen::MatrixXd& K, double step) {
   const Eigen::VectorXd damped = largest_diagonal(damping);
   Eigen::VectorXd scale = Eigen::VectorXd::Zero(damped.size());  // a mode without damping has no memory to cut
   for (Eigen::Index i = 0; i < damped.size(); ++i)
     if (damped[i] > 1e-6 * damped.maxCoeff()) scale[i] = 1 / std::sqrt(damped[i]);
-  const auto magnitude = [&](std::size_t i) -> Eigen::MatrixXd {
-    return step * (scale.asDiagonal() * K[i].cwiseAbs() * scale.asDiagonal());
+  const Eigen::MatrixXd of_pairs = step * scale * scale.transpose();
+  const auto magnitude = [&](Eigen::Index i) {
+    return K.row(i).cwiseAbs().cwiseProduct(of_pairs.reshaped().transpose());
   };
-  Eigen::MatrixXd left = Eigen::MatrixXd::Zero(scale.size(), scale.size());
-  for (std::size_t i = K.size() - K.size() / 4; i < K.size(); ++i) left += magnitude(i);
-  std::vector<double> out(K.size());
-  for (std::size_t i = K.size(); i-- > 0;) {
-    out[i] = left.maxCoeff();
+  Eigen::RowVectorXd left = Eigen::RowVectorXd::Zero(K.cols());
+  for (Eigen::Index i = K.rows() - K.rows() / 4; i < K.rows(); ++i) left += magnitude(i);
+  std::vector<double> out(static_cast<std::size_t>(K.rows()));
+  for (Eigen::Index i = K.rows(); i-- > 0;) {
+    out[static_cast<std::size_t>(i)] = left.maxCoeff();
     left += magnitude(i);
   }
   return out;
@@ -223,7 +225,11 @@ MemorySurvey::MemorySurvey(const DampingTable& damping) {
   step_ = survey_step(damping);
   longest_ = RetardationKernel::longest_time(damping);
   const CosineTransform K(damping);
-  K.each(step_, steps_in(longest_, step_) + 1, [&](std::size_t, Eigen::MatrixXd at) { K_.push_back(std::move(at)); });
+  modes_ = damping.B.front().rows();
+  K_.resize(static_cast<Eigen::Index>(steps_in(longest_, step_) + 1), modes_ * modes_);
+  K.each(step_, static_cast<std::size_t>(K_.rows()), [&](std::size_t i, const Eigen::MatrixXd& at) {
+    K_.row(static_cast<Eigen::Index>(i)) = at.reshaped().transpose();
+  });
   remaining_ = remaining_memory(damping, K_, step_);
 }
 
@@ -240,19 +246,29 @@ double MemorySurvey::length(double tolerance) const {
 
 // By the trapezium rule with its correction (h²/12) d/dt [K e^{−iωt}] at t = 0, where K is level: the next one is of
 // order (ωh)⁴/720, 2e-6 at the end of the table.
-Eigen::MatrixXcd MemorySurvey::transform(double omega, double length) const {
-  const double x = omega * step_;
-  const std::complex<double> turn = std::polar(1.0, -x);
-  std::complex<double> phase = turn;
-  Eigen::MatrixXd real = K_.front() / 2, imaginary = -x / 12 * K_.front();
-  for (std::size_t j = 1; j < std::min(K_.size(), steps_in(length, step_) + 1); ++j) {
-    real += phase.real() * K_[j];
-    imaginary += phase.imag() * K_[j];
-    phase = j % 64 == 0 ? std::polar(1.0, -x * static_cast<double>(j + 1)) : phase * turn;
+std::vector<Eigen::MatrixXcd> MemorySurvey::transforms(const std::vector<double>& omega, double length) const {
+  const auto count = std::min(K_.rows(), static_cast<Eigen::Index>(steps_in(length, step_) + 1));
+  const auto frequencies = static_cast<Eigen::Index>(omega.size());
+  Eigen::MatrixXd weight(count, 2 * frequencies);  // of each sample, for real parts and for imaginary ones
+  for (Eigen::Index f = 0; f < frequencies; ++f) {
+    const double x = omega[static_cast<std::size_t>(f)] * step_;
+    const std::complex<double> turn = std::polar(1.0, -x);
+    std::complex<double> phase = turn;
+    weight(0, 2 * f) = 0.5;
+    weight(0, 2 * f + 1) = -x / 12;
+    for (Eigen::Index j = 1; j < count; ++j) {
+      weight(j, 2 * f) = phase.real();
+      weight(j, 2 * f + 1) = phase.imag();
+      phase = j % 64 == 0 ? std::polar(1.0, -x * static_cast<double>(j + 1)) : phase * turn;
+    }
   }
-  Eigen::MatrixXcd out(real.rows(), real.cols());
-  out.real() = step_ * real;
-  out.imag() = step_ * imaginary;
+  const Eigen::MatrixXd parts = step_ * transposed_product(K_.topRows(count), weight);  // (pairs, both parts)
+  std::vector<Eigen::MatrixXcd> out(omega.size(), Eigen::MatrixXcd(modes_, modes_));
+  for (Eigen::Index f = 0; f < frequencies; ++f) {
+    Eigen::MatrixXcd& at = out[static_cast<std::size_t>(f)];
+    at.real() = parts.col(2 * f).reshaped(modes_, modes_);
+    at.imag() = parts.col(2 * f + 1).reshaped(modes_, modes_);
+  }
   return out;
 }
 

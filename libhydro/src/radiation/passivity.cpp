@@ -54,23 +54,32 @@ Eigen::MatrixXd unpacked(const Eigen::RowVectorXd& row, Eigen::Index n) {
   return m;
 }
 
+WeightedDamping::WeightedDamping(std::vector<Pole> poles, double centre)
+    : poles_(std::move(poles)), c_(centre), falling_(falling_at_zero(poles_)) {
+  // W/(s − p) with W = −(c² − p²)²/p², and s = c (z − 1)/(z + 1).
+  const auto share = [&](Complex p) {
+    const Complex W = -std::pow(c_ * c_ - p * p, 2) / (p * p);
+    return Share{W / (c_ - p), W * 2.0 * c_ / ((c_ - p) * (c_ - p)), (c_ + p) / (c_ - p)};
+  };
+  for (const Pole& pole : poles_) shares_.push_back(share({-pole.decay, pole.omega}));
+}
+
 Eigen::MatrixXd WeightedDamping::rows(double theta) const {
   const Complex z = std::polar(1.0, 2 * theta), i(0, 1);
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3, columns(poles_));
-  out.row(0) = falling_at_zero(poles_);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3, falling_.size());
+  out.row(0) = falling_;
+  const auto derivatives = [&](const Share& s) {
+    const Complex u = z - s.place, inverse = std::conj(u) / std::norm(u), v = z * inverse;
+    const Complex first = s.k * inverse;
+    return Eigen::Vector3cd(s.constant + first, -2.0 * i * first * v, first * (4.0 * v - 8.0 * v * v));
+  };
   Eigen::Index column = 0;
-  for (const Pole& pole : poles_) {
-    // W/(s − p) with W = −(c² − p²)²/p², and s = c (z − 1)/(z + 1).
-    const auto share = [&](Complex p) {
-      const Complex W = -std::pow(c_ * c_ - p * p, 2) / (p * p), u = z - (c_ + p) / (c_ - p);
-      const Complex k = W * 2.0 * c_ / ((c_ - p) * (c_ - p));
-      return Eigen::Vector3cd(W / (c_ - p) + k / u, -2.0 * i * k * z / (u * u),
-                              k * (4.0 * z / (u * u) - 8.0 * z * z / (u * u * u)));
-    };
-    const Complex p(-pole.decay, pole.omega);
-    const Eigen::Vector3cd up = share(p), down = share(std::conj(p));
-    out.col(column++) += ((up + down) / 2).real();
-    if (pole.omega > 0) out.col(column++) += ((up - down) / Complex(0, 2)).real();
+  for (std::size_t n = 0; n < poles_.size(); ++n) {
+    const Share& s = shares_[n];
+    const Eigen::Vector3cd up = derivatives(s);
+    const Eigen::Vector3cd down = derivatives({std::conj(s.constant), std::conj(s.k), std::conj(s.place)});
+    out.col(column++) += ((up + down) / 2.0).real();
+    if (poles_[n].omega > 0) out.col(column++) += ((up - down) / 2.0).imag();
   }
   return out / (4 * c_ * c_);
 }
@@ -80,14 +89,12 @@ Eigen::VectorXd WeightedDamping::third_derivative(double theta, double radius) c
   Eigen::VectorXd out(static_cast<Eigen::Index>(poles_.size()));
   for (std::size_t n = 0; n < poles_.size(); ++n) {
     double sum = 0;
-    for (const double sign : {1.0, -1.0}) {
-      const Complex p(-poles_[n].decay, sign * poles_[n].omega), zp = (c_ + p) / (c_ - p);
-      // The point z moves on the unit circle by twice the angle, and the circle itself keeps 1 − |zp| away.
-      const double d = std::max(std::abs(z - zp) - 2 * radius, 1 - std::abs(zp));
-      const double k = std::abs(std::pow(c_ * c_ - p * p, 2) / (p * p) * 2.0 * c_ / ((c_ - p) * (c_ - p)));
-      sum += k * (8 / (d * d) + 48 / (d * d * d) + 48 / (d * d * d * d));
+    for (const Complex place : {shares_[n].place, std::conj(shares_[n].place)}) {
+      // The point z moves on the unit circle by twice the angle, and the circle itself keeps 1 − |place| away.
+      const double d = std::max(std::abs(z - place) - 2 * radius, 1 - std::abs(place));
+      sum += 8 / (d * d) + 48 / (d * d * d) + 48 / (d * d * d * d);
     }
-    out[static_cast<Eigen::Index>(n)] = sum / (4 * c_ * c_);
+    out[static_cast<Eigen::Index>(n)] = std::abs(shares_[n].k) * sum / (4 * c_ * c_);
   }
   return out;
 }

@@ -2,6 +2,7 @@
 /// \file  Private: whether a pole model can give energy to a motion, and making it unable to. (R15)-(R17)
 #include <Eigen/Core>
 
+#include <complex>
 #include <vector>
 
 #include "hydro/radiation/rational.hpp"
@@ -18,7 +19,7 @@ inline Eigen::Index packed_place(Eigen::Index i, Eigen::Index j) { return j * (j
 /// Everything is linear in the coefficients, so this class only makes rows that multiply them.
 class WeightedDamping {
  public:
-  WeightedDamping(std::vector<Pole> poles, double centre) : poles_(std::move(poles)), c_(centre) {}
+  WeightedDamping(std::vector<Pole> poles, double centre);
 
   double centre() const { return c_; }
   const std::vector<Pole>& poles() const { return poles_; }
@@ -28,8 +29,14 @@ class WeightedDamping {
   Eigen::VectorXd third_derivative(double theta, double radius) const;
 
  private:
+  /// Of the pole p above the axis, on the circle of z = e^{2iθ}: constant + k/(z − place), what W/(s − p) is there.
+  struct Share {
+    std::complex<double> constant, k, place;
+  };
   std::vector<Pole> poles_;
   double c_;
+  Eigen::RowVectorXd falling_;
+  std::vector<Share> shares_;
 };
 
 struct Certificate {

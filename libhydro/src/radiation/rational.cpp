@@ -145,6 +145,10 @@ Data prepared(const DampingTable& given, const std::vector<Eigen::MatrixXd>& A,
 /// draws the whole of a model.
 constexpr std::size_t few_frequencies = 16;
 
+/// Frequencies of which a search takes mixtures and looks ahead: there it takes long, and orders are far from so high
+/// that a model goes through single data, where errors jump from one order to the next.
+constexpr std::size_t many_frequencies = 64;
+
 /// The same with damping weighted where motions are slow.
 Data weighted(Data d) {
   if (d.inside < few_frequencies) return d;
@@ -295,6 +299,54 @@ bool stands_still(const std::vector<Attempt>& all) {
   return since > 0.8 * before;
 }
 
+/// Orders to try, up to `most`.
+std::vector<int> orders(int most) {
+  std::vector<int> out;
+  for (int order = 2; order <= most; order += order < 12 ? 2 : order < 32 ? 4 : order < 64 ? 8 : 16)
+    out.push_back(order);
+  return out;
+}
+
+/// Finds poles of one order.
+class PoleSearch {
+ public:
+  PoleSearch(const Data& d, double tolerance) : d_(d) {
+    // Columns of the search: with as many as there are, poles are no better where data are many.
+    const Eigen::Index enough = d.inside < many_frequencies ? d.samples.values.cols() : 16;
+    searched_ = detail::mixed(detail::compressed(d.samples, 1e-2 * tolerance), enough);
+    double widest = 0;
+    for (std::size_t i = 1; i < d.inside; ++i) widest = std::max(widest, d.samples.omega[i] - d.samples.omega[i - 1]);
+    slowest_ = widest / 10;  // a resonance much narrower than the spacing cannot be told from the data
+  }
+
+  Attempt anew(int order) const {
+    constexpr int rounds = 15;  // by which they settle
+    return settled(detail::spread(d_.samples.omega, order), rounds);
+  }
+  /// From poles of a lower order, and what they missed.
+  Attempt onward(const std::vector<Pole>& poles, int order, const Eigen::VectorXd& missed) const {
+    constexpr int rounds = 5;  // where all but a few were settled
+    return settled(detail::grown(poles, order, d_.samples.omega, missed), rounds);
+  }
+
+ private:
+  /// Where data are few, poles of a high order never settle: the nearest to the data of the last rounds.
+  Attempt settled(std::vector<Pole> poles, int rounds) const {
+    const int looked_at = d_.inside < many_frequencies ? 4 : 0;
+    poles = detail::settled(searched_, std::move(poles), rounds - looked_at, slowest_);
+    Attempt best = attempt(d_, poles);
+    for (int i = 0; i < looked_at; ++i) {
+      poles = detail::settled(searched_, std::move(poles), 1, slowest_);
+      if (Attempt a = attempt(d_, poles); a.report.error < best.report.error) best = std::move(a);
+    }
+    return best;
+  }
+
+  const Data& d_;
+  detail::Samples searched_;
+  double slowest_;
+};
+
 /// Attempts of rising order, until one meets the tolerance; that is then the last. Where none can, until they stand
 /// still.
 struct Attempts {
@@ -303,29 +355,41 @@ struct Attempts {
 };
 
 Attempts attempts(const Data& d, const FitOptions& options, int most, Search search, bool hopeless) {
-  // Columns of the search: with as many as there are, poles are no better where data are many.
-  const Eigen::Index enough = d.inside < 64 ? d.samples.values.cols() : 16;
-  constexpr int rounds = 15, rounds_after = 5;  // by which they settle, and where all but a few were settled
-  const auto& omega = d.samples.omega;
-  const detail::Samples searched = detail::mixed(detail::compressed(d.samples, 1e-2 * options.tolerance), enough);
-  double widest = 0;
-  for (std::size_t i = 1; i < d.inside; ++i) widest = std::max(widest, omega[i] - omega[i - 1]);
-  const double slowest = widest / 10;  // a resonance much narrower than the spacing cannot be told from the data
+  const PoleSearch finder(d, options.tolerance);
   Attempts out;
   std::vector<Pole> poles;
   Eigen::VectorXd missed = squares_at(d.samples.weighted(d.samples.values));
-  for (int order = 2; order <= most && !out.met; order += order < 12 ? 2 : order < 32 ? 4 : order < 64 ? 8 : 16) {
-    poles = search == Search::anew
-                ? detail::settled(searched, detail::spread(omega, order), rounds, slowest)
-                : detail::settled(searched, detail::grown(poles, order, omega, missed), rounds_after, slowest);
-    Attempt a = attempt(d, poles);
+  for (const int order : orders(most)) {
+    Attempt a = search == Search::anew ? finder.anew(order) : finder.onward(poles, order, missed);
+    poles = a.poles;
     missed = a.missed;
     if (a.report.error <= options.tolerance && options.enforce_passivity) make_passive(d, options.tolerance, a);
     out.met = a.report.error <= options.tolerance && (a.report.passive || !options.enforce_passivity);
     out.all.push_back(std::move(a));
-    if (hopeless && stands_still(out.all)) break;
+    if (out.met || (hopeless && stands_still(out.all))) break;
   }
   return out;
+}
+
+/// What another attempt has to come below to stand in place of `best`, since the weights with which that was found
+/// serve slow motions better.
+double worth_it(const FitOptions& options, const FitReport& best) {
+  constexpr double much_nearer = 0.8;
+  return std::max(options.tolerance, much_nearer * best.error);
+}
+
+/// Whether poles searched anew come near enough to that at the largest order or at that of `best`: from order to order
+/// errors scatter by less than a half, and passivity only adds to them. A search at all orders costs three times the
+/// one before.
+bool is_promising(const Data& d, const FitOptions& options, int most, const FitReport& best) {
+  if (d.inside < many_frequencies) return true;
+  constexpr double between_orders = 1.5;
+  const PoleSearch finder(d, options.tolerance);
+  const int largest = orders(most).back();
+  const auto promises = [&](int order) {
+    return finder.anew(order).report.error < between_orders * worth_it(options, best);
+  };
+  return promises(largest) || (best.order != largest && promises(best.order));
 }
 
 /// Of those that all miss the tolerance. The nearest to the data may be far from passive, so a few are made passive,
@@ -402,13 +466,15 @@ RationalFit fit(const DampingTable& damping, const std::vector<Eigen::MatrixXd>&
   if (found.met) return lowest(d, std::move(found));
   Attempt best = nearest(d, options, std::move(found.all));
   // Weights and quick ways may stand in the way of a tolerance that could just be met, or of one much nearer to it.
-  if (!few && !hopeless) {
+  if (!few && !hopeless && is_promising(even, options, most, best.report)) {
     Attempts others = attempts(even, options, most, Search::anew, hopeless);
     if (others.met) return lowest(even, std::move(others));
-    constexpr double much_nearer = 0.8;  // else slow motions, for which the weights are, are better served with them
-    Attempt other = nearest(even, options, std::move(others.all));
-    if (other.report.passive >= best.report.passive && other.report.error < much_nearer * best.report.error)
-      best = std::move(other);
+    const double below = worth_it(options, best.report);
+    std::erase_if(others.all, [&](const Attempt& a) { return a.report.error >= below; });
+    if (!others.all.empty()) {
+      Attempt other = nearest(even, options, std::move(others.all));
+      if (other.report.passive >= best.report.passive && other.report.error < below) best = std::move(other);
+    }
   }
   const FitReport& report = best.report;
   const std::string why =

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "hydro/base/dense.hpp"
+#include "hydro/base/error.hpp"
+#include "hydro/base/product.hpp"
 #include "hydro/base/random.hpp"
 #include "pole_basis.hpp"
 
@@ -46,10 +48,43 @@ std::vector<Pole> zeros(const std::vector<Pole>& poles, const Eigen::VectorXd& c
   return found;
 }
 
+/// What is left of X, a function times σ's basis, once the functions that span Q are projected out, as its triangle R.
+Eigen::MatrixXd by_factors(const Samples& s, const Eigen::MatrixXcd& sigma, const Eigen::MatrixXd& Q) {
+  const Eigen::Index n = sigma.cols(), functions = s.values.cols();
+  Eigen::MatrixXd out(functions * n, n);
+  for (Eigen::Index f = 0; f < functions; ++f) {
+    Eigen::MatrixXd X = s.weighted(s.values.col(f).asDiagonal() * sigma);
+    X -= Q * (Q.transpose() * X);
+    out.middleRows(f * n, n) = dense::HouseholderQr(X).R();
+  }
+  return out;
+}
+
+/// The triangle R of all of them together, RᵀR = Σ XᵀX − (QᵀX)ᵀ(QᵀX), in half of the time. Below what rounding takes of
+/// the sums their difference has no digits: as much is added as makes it positive.
+Eigen::MatrixXd by_squares(const Samples& s, const Eigen::MatrixXcd& sigma, const Eigen::MatrixXd& Q) {
+  const Eigen::Index n = sigma.cols();
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, n), own = all;
+  for (Eigen::Index f = 0; f < s.values.cols(); ++f) {
+    const Eigen::MatrixXd X = s.weighted(s.values.col(f).asDiagonal() * sigma);
+    all += transposed_product(X, X);
+    const Eigen::MatrixXd along = transposed_product(Q, X);
+    own += transposed_product(along, along);
+  }
+  const Eigen::VectorXd size = all.diagonal().cwiseMax(1e-300).cwiseSqrt(), scale = size.cwiseInverse();
+  const Eigen::MatrixXd left = scale.asDiagonal() * (all - own) * scale.asDiagonal();
+  for (double lost = 1e-13; lost < 1; lost *= 10) {
+    Eigen::MatrixXd more = left;
+    more.diagonal().array() += lost;
+    if (const dense::Cholesky factors(more); factors) return factors.L().transpose() * size.asDiagonal();
+  }
+  throw NumericsError("the equations of a search of poles are not finite");
+}
+
 /// One relaxed step of vector fitting: the zeros of σ are the better poles.
 std::vector<Pole> relocated(const Samples& s, const std::vector<Pole>& poles, double slowest) {
   const Eigen::MatrixXcd phi = basis(poles, s.omega);
-  const Eigen::Index rows = phi.rows(), n = phi.cols(), functions = s.values.cols();
+  const Eigen::Index rows = phi.rows(), n = phi.cols();
   Eigen::MatrixXcd numerator(rows, n);  // (σK̂) with its zero at rest, and iω for a shift of A∞
   numerator.leftCols(n - 1) = phi * vanishing_at_rest(poles);
   for (Eigen::Index i = 0; i < rows; ++i) numerator(i, n - 1) = {0, s.omega[static_cast<std::size_t>(i)]};
@@ -59,16 +94,15 @@ std::vector<Pole> relocated(const Samples& s, const std::vector<Pole>& poles, do
   const Eigen::MatrixXd Q = dense::HouseholderQr(F).thin_Q();
   Eigen::MatrixXcd sigma(rows, n + 1);
   sigma << phi, Eigen::VectorXcd::Ones(rows);
-  // Each function's own coefficients are projected out; what is left of it asks something of σ alone.
-  Eigen::MatrixXd system(functions * (n + 1) + 1, n + 1);
-  for (Eigen::Index f = 0; f < functions; ++f) {
-    Eigen::MatrixXd X = s.weighted(s.values.col(f).asDiagonal() * sigma);
-    X -= Q * (Q.transpose() * X);
-    system.middleRows(f * (n + 1), n + 1) = dense::HouseholderQr(X).R();
-  }
+  // Each function's own coefficients are projected out; what is left of it asks something of σ alone. Squares lose half
+  // of the digits, which can be spared where data are many times the unknowns; few unknowns are quick either way.
+  constexpr Eigen::Index many_times = 3, few = 64;
+  const bool squares = n >= few && 2 * rows > many_times * (n + 1);
+  const Eigen::MatrixXd left = squares ? by_squares(s, sigma, Q) : by_factors(s, sigma, Q);
   // Relaxed: the mean of Re σ is one, rather than its value at infinity, so that σ is not pulled by the start.
   const double size = s.weighted(s.values).norm() / static_cast<double>(rows);
-  system.bottomRows(1) = size * sigma.real().colwise().sum();
+  Eigen::MatrixXd system(left.rows() + 1, n + 1);
+  system << left, size * sigma.real().colwise().sum();
   Eigen::VectorXd right = Eigen::VectorXd::Zero(system.rows());
   right[system.rows() - 1] = size * static_cast<double>(rows);
   const Eigen::VectorXd scale = system.colwise().norm().cwiseMax(1e-300).cwiseInverse();
@@ -91,11 +125,24 @@ Eigen::MatrixXd vanishing_at_rest(const std::vector<Pole>& poles) {
 
 Samples compressed(const Samples& s, double relative) {
   const Eigen::MatrixXd Y = s.weighted(s.values);
-  const auto [values, vectors] = dense::symmetric_eigen(Y * Y.transpose());
+  // Y = U S Vᵀ by the smaller of YᵀY = V S² Vᵀ and YYᵀ = U S² Uᵀ; U S = Y V.
+  const bool few = Y.cols() < Y.rows();
+  const auto [values, vectors] =
+      few ? dense::symmetric_eigen(Y.transpose() * Y) : dense::symmetric_eigen(Y * Y.transpose());
   const Eigen::VectorXd size = values.cwiseMax(0).cwiseSqrt();
-  const Eigen::Index n = size.size(), rows = n / 2;
+  const Eigen::Index n = size.size(), rows = Y.rows() / 2;
   const auto kept = std::max<Eigen::Index>(1, (size.array() > relative * size[n - 1]).count());
-  const Eigen::MatrixXd U = vectors.rightCols(kept) * size.tail(kept).asDiagonal();
+  Eigen::MatrixXd U = vectors.rightCols(kept);
+  if (few)
+    U = Y * U;
+  else
+    U *= size.tail(kept).asDiagonal();
+  // Signs are free; mixtures that follow shall not hang on what rounding made of them.
+  for (auto column : U.colwise()) {
+    Eigen::Index largest = 0;
+    column.cwiseAbs().maxCoeff(&largest);
+    if (column[largest] < 0) column = -column;
+  }
   Samples out{s.omega, s.weight, Eigen::MatrixXcd(rows, kept)};
   out.values.real() = s.weight.head(rows).cwiseInverse().asDiagonal() * U.topRows(rows);
   out.values.imag() = s.weight.tail(rows).cwiseInverse().asDiagonal() * U.bottomRows(rows);

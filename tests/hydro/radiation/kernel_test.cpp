@@ -112,7 +112,7 @@ TEST(MemorySurvey, HasTheTransformOfTheBody) {
   const auto damping = body.damping_table(40, 1000);
   const MemorySurvey survey(damping);
   for (const double omega : {0.1, 1.1, 5.0, 30.0}) {
-    const std::complex<double> ours = survey.transform(omega, 60)(0, 0);
+    const std::complex<double> ours = survey.transforms({omega}, 60).front()(0, 0);
     // What lies beyond 40 rad/s, (2/π) ∫ B/ν² dν = (2/π) 2a/(3 · 40³) = 2e-6 of mass, times ω; e^{−18} is cut off; B at
     // 40 rad/s, 4e-4, ends in a step, which rings at its neighbours.
     EXPECT_NEAR(ours.real(), body.B(omega), 1e-3) << omega;

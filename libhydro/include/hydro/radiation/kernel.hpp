@@ -31,13 +31,14 @@ class MemorySurvey {
   double remaining_after(double time_s) const;
   /// The shortest memory that leaves no more than `tolerance`; RetardationKernel::longest_time() if none does.
   double length(double tolerance) const;
-  /// K̂(iω) = ∫₀^L K e^{−iωt} dt of the memory cut at L = `length`, (n, n). Error below 1e-5 of its largest damping up
-  /// to the end of the table, whatever step a run takes. O(n² L).
-  Eigen::MatrixXcd transform(double omega, double length_s) const;
+  /// K̂(iω) = ∫₀^L K e^{−iωt} dt of the memory cut at L = `length`, (n, n), at each ω in rad/s. Error below 1e-5 of its
+  /// largest damping up to the end of the table, whatever step a run takes. O(n² L) each.
+  std::vector<Eigen::MatrixXcd> transforms(const std::vector<double>& omega, double length_s) const;
 
  private:
   double step_, longest_;
-  std::vector<Eigen::MatrixXd> K_;  // at 0, step, 2 step …
+  Eigen::Index modes_;
+  Eigen::MatrixXd K_;  // (samples at 0, step, 2 step …, pairs of modes)
   std::vector<double> remaining_;
 };
 

@@ -1,0 +1,23 @@
+#include "hydro/base/product.hpp"
+
+#ifdef FROUDE_WIDE_PRODUCT
+#include "wide_product.hpp"
+#endif
+
+namespace hydro {
+
+Eigen::MatrixXd transposed_product(const Eigen::Ref<const Eigen::MatrixXd>& A,
+                                   const Eigen::Ref<const Eigen::MatrixXd>& B) {
+#ifdef FROUDE_WIDE_PRODUCT
+  static const bool wide = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (wide) {
+    Eigen::MatrixXd out(A.cols(), B.cols());
+    detail::wide_transposed_product({A.data(), A.rows(), A.cols(), A.outerStride()},
+                                    {B.data(), B.rows(), B.cols(), B.outerStride()}, out.data());
+    return out;
+  }
+#endif
+  return A.transpose() * B;
+}
+
+}  // namespace hydro
