@@ -223,7 +223,12 @@ class Checkpoints(unittest.TestCase):
         line = ('[[line]]\nname = "d"\nfrom = "(0, 0, 0) m"\nto = "(1.2, 0, 0) m"\nlength = "2 m"\nsegments = 5\n'
                 'mass_per_length = "1 kg/m"\n')
         sundials = 'integrator = { name = "sundials_bdf" }\n'
+        switch = ('[[connector]]\nname = "spring"\nbetween = ["disc", "ground"]\nends = ["(0, 0, 2) m", "(0, 9, 2) m"]\n'
+                  'kind = "axial"\nstiffness = "900 N/m"\nrest_length = "as placed"\n[connector.switch]\n'
+                  'watch = "disc.sway"\nevery = "2 s"\nwindow = "4 s"\nhysteresis = "0.001 Hz"\n'
+                  'settings = [{ from = "0 s", stiffness = "900 N/m" }, { from = "1 s", stiffness = "90 N/m" }]\n')
         for text, word in ((OPEN_WATER + line + asked(7, 0.1), "lines"),
+                           (OPEN_WATER + DISC + switch + asked(7, 0.1), "controllers"),
                            (OPEN_WATER + DISC + asked(7, 0.1, solve=sundials), "sundials_bdf"),
                            (module() + MOORING + asked(7, 0.1, ', start = "steady"'), "steady")):
             with self.subTest(word):
