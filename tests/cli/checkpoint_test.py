@@ -15,6 +15,8 @@ import time
 import unittest
 from pathlib import Path
 
+from run_scenes import DISC, OPEN_WATER
+
 FROUDE, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 ENVIRONMENT = dict(os.environ, OPENBLAS_NUM_THREADS="1", FROUDE_CACHE="off")
 
@@ -56,21 +58,6 @@ axis = "z"
 [joint.pto]
 damping = "5 kN s/m"
 """
-DISC = """[[body]]
-name = "disc"
-position = "(0, 0, 2) m"
-centre_of_gravity = "(0, 0, 0) m"
-mass = "20 kg"
-radii_of_gyration = "(0.3, 0.3, 0.4) m"
-weight = true
-[[joint]]
-name = "pivot"
-kind = "hinge"
-between = ["ground", "disc"]
-at = "(0, 1, 2.6) m"
-axis = "x"
-"""
-OPEN_WATER = 'schema = 1\n[water]\ndensity = "1000 kg/m^3"\ndepth = "14 m"\n'
 
 
 def asked(duration, every, extra="", solve=""):
