@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "answers/interruption.hpp"
 #include "scene/scene.hpp"
 
 namespace froude {
@@ -41,10 +42,12 @@ class Checkpoints {
   std::vector<std::string> sentences_;
 };
 
-/// One run among them; without checkpoints only the instants are those of them.
+/// One run among them; without checkpoints only the instants are those of them. What is computed is kept as well where
+/// a signal ends it.
 struct KeptRun {
   Checkpoints* in = nullptr;
   std::string name = {};
+  const Interruption* interruption = nullptr;
 };
 
 }  // namespace froude

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <random>
 
+#include "answers/estimate.hpp"
 #include "answers/simulate.hpp"
 #include "compile/integrator.hpp"
 #include "compile/radiation.hpp"
@@ -86,8 +87,14 @@ void disturb(double by, compile::TimeModel& model) {
 }  // namespace
 
 Companions::Companions(const scene::Scene& scene, compile::Prepared prepared,
-                       const std::function<void(double)>& progress, int threads, Checkpoints* checkpoints)
-    : scene_(scene), prepared_(std::move(prepared)), progress_(progress), threads_(threads), checkpoints_(checkpoints) {
+                       const std::function<void(double)>& progress, int threads, Checkpoints* checkpoints,
+                       const Interruption* interruption)
+    : scene_(scene),
+      prepared_(std::move(prepared)),
+      progress_(progress),
+      threads_(threads),
+      checkpoints_(checkpoints),
+      interruption_(interruption) {
   const scene::Solve& solve = scene.solve;
   by_tolerance_ = solve.tolerance || compile::has_own_tolerance(solve.integrator);
   given_ = by_tolerance_ ? solve.tolerance.has_value() : solve.step.has_value();
@@ -148,8 +155,11 @@ const char* Companions::name_of(Cut what) {
 }
 
 KeptRun Companions::kept(const std::string& name, int level) const {
-  if (checkpoints_ == nullptr) return {};
-  return {checkpoints_, fmt::format("{}-of-level{}-pieces{}", name, level, refined_pieces_)};
+  return {checkpoints_, fmt::format("{}-of-level{}-pieces{}", name, level, refined_pieces_), interruption_};
+}
+
+void Companions::require_uninterrupted() const {
+  if (asks_to_end(interruption_)) throw Interrupted{};
 }
 
 Companions::Made Companions::made(int level, const std::function<void(double)>& progress) const {
@@ -171,6 +181,7 @@ Beside Companions::beside(int level) {
   if (at == runs_.end()) {
     auto known = foreseen_.extract(level);
     at = runs_.emplace(level, known ? std::move(known.mapped()) : made(level, progress_)).first;
+    require_uninterrupted();
   }
   return {&at->second.run, at->second.stride};
 }
@@ -190,6 +201,7 @@ void Companions::foresee(int level, int above) {
   Made one = made(level, progress_);
   foreseen_.merge(longer.get());
   foreseen_.emplace(level, std::move(one));
+  require_uninterrupted();
 }
 
 /// The level is run once more for it, unless it has kept them: velocities at each step of all levels would take much
@@ -202,6 +214,7 @@ const Companions::Followed& Companions::followed(int level) {
   compile::TimeModel model = compile::time_model(scene, prepared_);
   std::optional<compile::VelocityRecord> motion = std::move(runs_.at(level).motion);
   if (!motion) run_model(scene, model, progress_, nullptr, &motion.emplace(), kept("motion", level));
+  require_uninterrupted();
   return followed_.emplace(level, Followed{std::move(scene), std::move(model), std::move(*motion)}).first->second;
 }
 
@@ -211,6 +224,7 @@ std::optional<Run> Companions::with_load(int level, const std::optional<compile:
   const auto& [scene, model, motion] = followed(level);
   Run out =
       run_model(scene, compile::time_model(scene, prepared_, {*load}), progress, nullptr, nullptr, kept(name, level));
+  require_uninterrupted();
   keep_signals_of(at(level), out);
   return out;
 }
@@ -264,6 +278,7 @@ Run Companions::cut_finer(Cut what, int level) {
   } catch (const hydro::NumericsError& e) {
     out.stopped = e.what();
   }
+  require_uninterrupted();
   if (out.stopped.empty()) take_signals_of(whole, scene_, what == Cut::segments ? twice : 1, out);
   return out;
 }
@@ -285,6 +300,7 @@ const Run& Companions::neighbour() {
     compile::TimeModel model = compile::time_model(scene, prepared_);
     disturb(moved_by(), model);
     neighbour_ = run_model(scene, model, progress_, nullptr, nullptr, kept("neighbour", 0));
+    require_uninterrupted();
   }
   return *neighbour_;
 }
@@ -300,6 +316,15 @@ std::vector<const Run*> Companions::completed() const {
 Run Companions::take(int level) {
   Run out = std::move(runs_.at(level).run);
   runs_.erase(level);
+  return out;
+}
+
+Run Companions::interrupted(int level) {
+  runs_.merge(foreseen_);
+  if (!runs_.contains(level)) runs_.emplace(level, made(level, {}));  // which ends after a step
+  Run out = take(level);
+  if (out.stopped.empty()) out.stopped = sentence(*interruption_) + " before the error was estimated";
+  out.error = unknown_error(scene_, sentence(*interruption_));
   return out;
 }
 

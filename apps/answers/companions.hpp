@@ -21,9 +21,10 @@ class Companions {
  public:
   /// Scene and progress are referred to and must live as long. `progress`: told the share done of each run, in the
   /// caller's thread. The step of level 0 is chosen here. `threads`: 1 or 2; runs are the same with either.
-  /// \throws hydro::InputError as compile::choose_step()
+  /// \throws hydro::InputError as compile::choose_step(); whatever makes a run throws Interrupted once a signal has
+  /// come
   Companions(const scene::Scene& scene, compile::Prepared prepared, const std::function<void(double)>& progress,
-             int threads, Checkpoints* checkpoints = nullptr);
+             int threads, Checkpoints* checkpoints = nullptr, const Interruption* interruption = nullptr);
 
   /// True if a tolerance is varied, not a step.
   bool by_tolerance() const { return by_tolerance_; }
@@ -74,6 +75,8 @@ class Companions {
   std::vector<const Run*> completed() const;
   /// Hands a run over; it is made anew if it is asked for again.
   Run take(int level);
+  /// Hands over what there is of a run after a signal, without an estimate of its error.
+  Run interrupted(int level);
 
  private:
   /// A level with the velocities of its bodies at each step.
@@ -100,12 +103,15 @@ class Companions {
   static const char* name_of(Cut what);
   /// The checkpoints of one of the runs.
   KeptRun kept(const std::string& name, int level) const;
+  /// What signals have cut short is compared with nothing. \throws Interrupted
+  void require_uninterrupted() const;
 
   const scene::Scene& scene_;
   compile::Prepared prepared_;
   const std::function<void(double)>& progress_;
   int threads_;
   Checkpoints* checkpoints_;
+  const Interruption* interruption_;
   bool by_tolerance_, given_;
   double step_, tolerance_;  // s; of level 0
   int refined_pieces_ = 1;

@@ -32,19 +32,24 @@ class Refinement {
       : scene_(scene), companions_(companions), weight_(weight_of(prepared)) {}
 
   Run settled() {
-    int level = first_level();
-    for (int finer = level;; level = finer) {
-      companions_.foresee(level, 2);
-      if (!companions_.completes(level)) return without_estimate(level, "the run has stopped early");
-      if (!judge(level)) return without_estimate(level, "runs with other steps do not come to their end");
-      look_at_water(level);
-      look_at_cuts(level);
-      if (const int times = times_as_many_pieces(level); times > 1) {
-        begin_with_pieces(times);
-        continue;
+    int level = 0;
+    try {
+      level = first_level();
+      for (int finer = level;; level = finer) {
+        companions_.foresee(level, 2);
+        if (!companions_.completes(level)) return without_estimate(level, "the run has stopped early");
+        if (!judge(level)) return without_estimate(level, "runs with other steps do not come to their end");
+        look_at_water(level);
+        look_at_cuts(level);
+        if (const int times = times_as_many_pieces(level); times > 1) {
+          begin_with_pieces(times);
+          continue;
+        }
+        finer = finer_level(level);
+        if (finer == level) return told(level);
       }
-      finer = finer_level(level);
-      if (finer == level) return told(level);
+    } catch (const Interrupted&) {
+      return companions_.interrupted(level);
     }
   }
 
@@ -339,9 +344,11 @@ ErrorEstimate unknown_error(const scene::Scene& scene, std::string missing) {
 }
 
 Run run_to_accuracy(const scene::Scene& scene, const compile::Prepared& prepared,
-                    const std::function<void(double)>& progress, int threads, Checkpoints* checkpoints) {
+                    const std::function<void(double)>& progress, int threads, Checkpoints* checkpoints,
+                    const Interruption* interruption) {
   const auto begin = std::chrono::steady_clock::now();
-  Companions companions(scene, prepared, progress, threads, checkpoints);  // which fits the memories that the scene has
+  // Which fits the memories that the scene has.
+  Companions companions(scene, prepared, progress, threads, checkpoints, interruption);
   const std::chrono::duration<double> preparing = std::chrono::steady_clock::now() - begin;
   Run out = Refinement(scene, prepared, companions).settled();
   out.preparation_s += preparing.count();

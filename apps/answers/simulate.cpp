@@ -93,6 +93,10 @@ class March {
           if (done) done(static_cast<double>(n) / static_cast<double>(m_.steps));
         }
         if (checkpoint_steps_ > 0 && (n % checkpoint_steps_ == 0 || n == m_.steps)) checkpoint(n, ledger);
+        if (n < m_.steps && asks_to_end(kept_.interruption)) {
+          record_.stopped = fmt::format("{} at t = {:.6g} s", sentence(*kept_.interruption), workspace_->state.time);
+          break;
+        }
       }
     } catch (const hydro::NumericsError& e) {
       record_.stopped = e.what();
@@ -327,7 +331,8 @@ Run run_model(const scene::Scene& scene, const compile::TimeModel& model, const 
 }
 
 Run simulate(const scene::Scene& scene, const std::function<void(double)>& done, const std::vector<Control>& controls,
-             const std::shared_ptr<compile::Kept>& kept, int threads, Checkpoints* checkpoints) {
+             const std::shared_ptr<compile::Kept>& kept, int threads, Checkpoints* checkpoints,
+             const Interruption* interruption) {
   if (scene.run->steady) {
     if (!controls.empty())
       throw hydro::InputError("[ask.run] start = \"steady\" takes no step at which a controller could decide",
@@ -338,8 +343,8 @@ Run simulate(const scene::Scene& scene, const std::function<void(double)>& done,
   compile::Prepared prepared = compile::prepare(scene, kept);
   compile::set_controllers(controls, prepared);
   const double preparation = seconds_since(begin);
-  Run record =
-      controls.empty() ? run_to_accuracy(scene, prepared, done, threads, checkpoints) : run_once(scene, prepared, done);
+  Run record = controls.empty() ? run_to_accuracy(scene, prepared, done, threads, checkpoints, interruption)
+                                : run_once(scene, prepared, done);
   record.preparation_s += preparation;
   record.estimating_s = seconds_since(begin) - record.preparation_s - record.stepping_s;
   return record;

@@ -23,9 +23,10 @@ Run run_model(const scene::Scene& scene, const compile::TimeModel& model, const 
 /// Compiles and runs a scene that asks for a run. `done` is told the share of the steps completed; `controls` rule
 /// connectors. `threads`: 1 or 2, which the runs that estimate the error take beside the run itself; the answer is the
 /// same with either. `checkpoints`: of this result, if the scene asks for them; what has none of them has the same
-/// bits. \throws hydro::InputError; numerics that give up end the record early with a reason instead
+/// bits. `interruption`: may end it after any step. \throws hydro::InputError; numerics that give up, or a signal, end
+/// the record early with a reason instead
 Run simulate(const scene::Scene& scene, const std::function<void(double)>& done = {},
              const std::vector<Control>& controls = {}, const std::shared_ptr<compile::Kept>& kept = nullptr,
-             int threads = 1, Checkpoints* checkpoints = nullptr);
+             int threads = 1, Checkpoints* checkpoints = nullptr, const Interruption* interruption = nullptr);
 
 }  // namespace froude

@@ -10,12 +10,13 @@
 #include <sstream>
 
 #include "froude/option.hpp"
+#include "froude/signals.hpp"
 #include "hydro/base/error.hpp"
 
 namespace froude {
 namespace {
 
-int tell(const hydro::InputError& error, bool json, ExitStatus status) {
+int tell(const hydro::InputError& error, bool json, int status) {
   std::cerr << error.what() << '\n';
   if (json) {
     const auto& where = error.where();
@@ -89,6 +90,8 @@ int carry_out(const Request& request) {
   } catch (const hydro::NumericsError& error) {
     return tell(hydro::InputError(std::string("the numerics gave up: ") + error.what()), request.json,
                 numerics_gave_up);
+  } catch (const EndedBySignal& ended) {
+    return tell(hydro::InputError(ended.what()), request.json, ended_by_signal + ended.signal());
   } catch (const std::bad_alloc&) {
     return tell(hydro::InputError("out of memory; if the task is a small one, please report it"), request.json,
                 our_fault);

@@ -423,7 +423,8 @@ void describe(CLI::App& app, Request& request) {
   app.footer(
       "Examples:\n  froude new -o scene.toml\n  froude rao scene.toml --picture rao.svg\n  froude run scene.toml -o "
       "run.h5\n"
-      "Exit status: 0 done, 1 a check failed, 2 the input is wrong, 3 the numerics gave up, 4 a fault of froude.");
+      "Exit status: 0 done, 1 a check failed, 2 the input is wrong, 3 the numerics gave up, 4 a fault of froude, "
+      "130 and 143 ended by SIGINT and SIGTERM.");
   app.fallthrough();
   app.require_subcommand(1);
   add_common_flags(app, request);

@@ -9,6 +9,7 @@
 #include "froude/scene_result.hpp"
 #include "froude/series.hpp"
 #include "froude/shares.hpp"
+#include "froude/signals.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/parallel.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -76,6 +77,19 @@ std::optional<Checkpoints> checkpoints_of(const scene::Scene& scene, const Scene
   return std::optional<Checkpoints>(std::in_place, result.string() + ".checkpoints", scene, data);
 }
 
+/// A signal that came after numerics had ended the run, or with its last step, has changed nothing.
+bool was_interrupted(const Run& record) {
+  return asks_to_end(&Signals::asked()) && record.stopped.starts_with(sentence(Signals::asked()));
+}
+
+/// \throws hydro::NumericsError or EndedBySignal, as the run was stopped
+[[noreturn]] void tell_stop(const Run& record, const Path& file, bool has_checkpoints) {
+  const std::string what = record.stopped + "; what was computed is in " + file.string();
+  if (!was_interrupted(record)) throw hydro::NumericsError(what);
+  throw EndedBySignal(Signals::asked(),
+                      what + (has_checkpoints ? "; the same command goes on from the last checkpoint" : ""));
+}
+
 Report report_of(const scene::Scene& scene, const Run& record, const Shares& shares, const Path& file) {
   const std::string name = scene.file.filename().string();
   const Report steps = steps_of(record, name), energy = energy_of(record);
@@ -106,8 +120,11 @@ void run(const SceneArguments& arguments, const Console& console) {
   Progress progress(console.err, "run", console.show_progress);
   shares.end("reading");
   const int threads = std::min(2, hydro::all_processors());
+  std::optional<Signals> signals;  // a steady run has no step at which it could end
+  if (!scene.run->steady) signals.emplace();
   const Run record = simulate(
-      scene, [&](double done) { progress.update(done); }, {}, nullptr, threads, checkpoints ? &*checkpoints : nullptr);
+      scene, [&](double done) { progress.update(done); }, {}, nullptr, threads, checkpoints ? &*checkpoints : nullptr,
+      &Signals::asked());
   if (scene.run->steady)
     shares.end("answering");
   else
@@ -117,13 +134,12 @@ void run(const SceneArguments& arguments, const Console& console) {
   if (arguments.picture)
     hydro::io::write_atomically(*arguments.picture, plot::svg(series_figure(scene.title.empty() ? "Run" : scene.title,
                                                                             record.time, record.signals)));
-  if (checkpoints) checkpoints->remove();
+  if (checkpoints && !was_interrupted(record)) checkpoints->remove();
   shares.end("writing");
   Report report = report_of(scene, record, shares, file);
   if (checkpoints) report.sentences("checkpoints", "note: {}", checkpoints->sentences());
   tell(report, console);
-  if (!record.stopped.empty())
-    throw hydro::NumericsError(record.stopped + "; what was computed is in " + file.string());
+  if (!record.stopped.empty()) tell_stop(record, file, checkpoints.has_value());
 }
 
 }  // namespace froude

@@ -1,13 +1,12 @@
 #include "sweep/sweep.hpp"
 
-#include <atomic>
 #include <charconv>
-#include <csignal>
 
 #include "froude/commands.hpp"
 #include "froude/outputs.hpp"
 #include "froude/progress.hpp"
 #include "froude/report.hpp"
+#include "froude/signals.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/parallel.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -20,28 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using sweep::Cases, sweep::Study, sweep::Tally;
-
-constexpr int ended_by_signal = 130;  // as shells tell it
-
-// Interruption: Ctrl-C, and what batch systems send before they kill. A second one ends the program at once.
-
-std::atomic<bool> asked_to_end = false;
-
-class Signals {
- public:
-  Signals() {
-    for (const int number : {SIGINT, SIGTERM})
-      std::signal(number, [](int which) {
-        asked_to_end = true;
-        std::signal(which, SIG_DFL);
-      });
-  }
-  ~Signals() {
-    for (const int number : {SIGINT, SIGTERM}) std::signal(number, SIG_DFL);
-  }
-  Signals(const Signals&) = delete;
-  Signals& operator=(const Signals&) = delete;
-};
 
 // What is asked
 
@@ -150,7 +127,7 @@ Report written(const Study& study, const sweep::Store& store) {
 
 int status_of(const Tally& tally) {
   constexpr int numerics = 3;
-  return tally.interrupted ? ended_by_signal : tally.failed > 0 ? numerics : 0;
+  return tally.interrupted ? ended_by_signal + SIGINT : tally.failed > 0 ? numerics : 0;
 }
 
 // What is done
@@ -182,7 +159,7 @@ Path folder_of(const SweepArguments& arguments, const Task& task) {
   return arguments.output.value_or(task.study.file.stem().string() + ".sweep");
 }
 
-bool interrupted() { return asked_to_end; }
+bool interrupted() { return asks_to_end(&Signals::asked()); }
 
 /// `master`: of ranks that help, if there are.
 int sweep_study(const SweepArguments& arguments, const Task& task, int threads, sweep::Master* master,

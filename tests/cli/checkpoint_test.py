@@ -15,6 +15,8 @@ import time
 import unittest
 from pathlib import Path
 
+from run_scenes import DISC, OPEN_WATER
+
 FROUDE, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 ENVIRONMENT = dict(os.environ, OPENBLAS_NUM_THREADS="1", FROUDE_CACHE="off")
 
@@ -56,21 +58,6 @@ axis = "z"
 [joint.pto]
 damping = "5 kN s/m"
 """
-DISC = """[[body]]
-name = "disc"
-position = "(0, 0, 2) m"
-centre_of_gravity = "(0, 0, 0) m"
-mass = "20 kg"
-radii_of_gyration = "(0.3, 0.3, 0.4) m"
-weight = true
-[[joint]]
-name = "pivot"
-kind = "hinge"
-between = ["ground", "disc"]
-at = "(0, 1, 2.6) m"
-axis = "x"
-"""
-OPEN_WATER = 'schema = 1\n[water]\ndensity = "1000 kg/m^3"\ndepth = "14 m"\n'
 
 
 def asked(duration, every, extra="", solve=""):
@@ -223,7 +210,12 @@ class Checkpoints(unittest.TestCase):
         line = ('[[line]]\nname = "d"\nfrom = "(0, 0, 0) m"\nto = "(1.2, 0, 0) m"\nlength = "2 m"\nsegments = 5\n'
                 'mass_per_length = "1 kg/m"\n')
         sundials = 'integrator = { name = "sundials_bdf" }\n'
+        switch = ('[[connector]]\nname = "spring"\nbetween = ["disc", "ground"]\nends = ["(0, 0, 2) m", "(0, 9, 2) m"]\n'
+                  'kind = "axial"\nstiffness = "900 N/m"\nrest_length = "as placed"\n[connector.switch]\n'
+                  'watch = "disc.sway"\nevery = "2 s"\nwindow = "4 s"\nhysteresis = "0.001 Hz"\n'
+                  'settings = [{ from = "0 s", stiffness = "900 N/m" }, { from = "1 s", stiffness = "90 N/m" }]\n')
         for text, word in ((OPEN_WATER + line + asked(7, 0.1), "lines"),
+                           (OPEN_WATER + DISC + switch + asked(7, 0.1), "controllers"),
                            (OPEN_WATER + DISC + asked(7, 0.1, solve=sundials), "sundials_bdf"),
                            (module() + MOORING + asked(7, 0.1, ', start = "steady"'), "steady")):
             with self.subTest(word):
