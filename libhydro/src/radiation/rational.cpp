@@ -319,21 +319,11 @@ class PoleSearch {
     slowest_ = widest / 10;  // a resonance much narrower than the spacing cannot be told from the data
   }
 
+  /// Where data are few, poles of a high order never settle: the nearest to the data of the last rounds.
   Attempt anew(int order) const {
     constexpr int rounds = 15;  // by which they settle
-    return settled(detail::spread(d_.samples.omega, order), rounds);
-  }
-  /// From poles of a lower order, and what they missed.
-  Attempt onward(const std::vector<Pole>& poles, int order, const Eigen::VectorXd& missed) const {
-    constexpr int rounds = 5;  // where all but a few were settled
-    return settled(detail::grown(poles, order, d_.samples.omega, missed), rounds);
-  }
-
- private:
-  /// Where data are few, poles of a high order never settle: the nearest to the data of the last rounds.
-  Attempt settled(std::vector<Pole> poles, int rounds) const {
     const int looked_at = d_.inside < many_frequencies ? 4 : 0;
-    poles = detail::settled(searched_, std::move(poles), rounds - looked_at, slowest_);
+    auto poles = detail::settled(searched_, detail::spread(d_.samples.omega, order), rounds - looked_at, slowest_);
     Attempt best = attempt(d_, poles);
     for (int i = 0; i < looked_at; ++i) {
       poles = detail::settled(searched_, std::move(poles), 1, slowest_);
@@ -341,7 +331,14 @@ class PoleSearch {
     }
     return best;
   }
+  /// From poles of a lower order, and what they missed.
+  Attempt onward(const std::vector<Pole>& poles, int order, const Eigen::VectorXd& missed) const {
+    constexpr int rounds = 5;  // where all but a few were settled
+    return attempt(d_,
+                   detail::settled(searched_, detail::grown(poles, order, d_.samples.omega, missed), rounds, slowest_));
+  }
 
+ private:
   const Data& d_;
   detail::Samples searched_;
   double slowest_;
