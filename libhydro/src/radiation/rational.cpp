@@ -376,8 +376,8 @@ double worth_it(const FitOptions& options, const FitReport& best) {
 }
 
 /// Whether poles searched anew come near enough to that at the largest order or at that of `best`: from order to order
-/// errors scatter by less than a half, and passivity only adds to them. A search at all orders costs three times the
-/// one before.
+/// errors scatter by less than a half, and passivity seldom lowers them, and by little. A search at all orders costs
+/// three times the one before.
 bool is_promising(const Data& d, const FitOptions& options, int most, const FitReport& best) {
   if (d.inside < many_frequencies) return true;
   constexpr double between_orders = 1.5;
