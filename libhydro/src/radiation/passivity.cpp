@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "hydro/base/dense.hpp"
+#include "hydro/base/product.hpp"
 #include "pole_basis.hpp"
 
 namespace hydro::radiation::detail {
@@ -254,14 +255,16 @@ Eigen::MatrixXd approached(const Fitting& fitting, const Eigen::MatrixXd& rows, 
   constexpr double falling = 0.99;  // to this share of it, and what the data are missed by in one turn
   const Eigen::Index inner = rows.cols();
   const Targeted fit = targeted(fitting, rows, share);
+  const Eigen::MatrixXd to_angles = rows.transpose(), to_data = fitting.design.transpose(),
+                        from_targets = fit.by_target.transpose();  // as products of each turn want them
   Eigen::MatrixXd x = least_squares(fitting.design, fitting.right), point = x;
   double momentum = 1, last = HUGE_VAL, reference = HUGE_VAL, missed_before = HUGE_VAL;
   bool was_near = false;
   for (int turn = 0; turn < turns; ++turn) {
-    const Eigen::MatrixXd now = rows * point.topRows(inner);
+    const Eigen::MatrixXd now = transposed_product(to_angles, point.topRows(inner));
     const Raised target = raised(now, n, 2 * margins.kept);
     if (turn == 0) report.most_negative = std::min(0.0, target.lowest.minCoeff());
-    const double missed = (fitting.design * point - fitting.right).norm();
+    const double missed = (transposed_product(to_data, point) - fitting.right).norm();
     const bool near = near_enough(margins, target.lowest, share);
     if (near && was_near && missed > falling * missed_before) break;
     was_near = near;
@@ -273,7 +276,7 @@ Eigen::MatrixXd approached(const Fitting& fitting, const Eigen::MatrixXd& rows, 
     }
     if (distance > last) momentum = 1;
     last = distance;
-    Eigen::MatrixXd next = fit.fixed + fit.by_target * (now + beyond * (target.Q - now));
+    Eigen::MatrixXd next = fit.fixed + transposed_product(from_targets, now + beyond * (target.Q - now));
     const double momentum_next = (1 + std::sqrt(1 + 4 * momentum * momentum)) / 2;
     point = next + (momentum - 1) / momentum_next * (next - x);
     x = std::move(next);

@@ -389,8 +389,8 @@ bool is_promising(const Data& d, const FitOptions& options, int most, const FitR
   return promises(largest) || (best.order != largest && promises(best.order));
 }
 
-/// Of those that all miss the tolerance. The nearest to the data may be far from passive, so a few are made passive,
-/// the nearest first, until none that is left was nearer before.
+/// Of those that all miss the tolerance: the nearest to the data, made passive, which is most of the work. It may be
+/// far from passive; then a few more are made so, the nearest first, until none that is left was nearer before.
 Attempt nearest(const Data& d, const FitOptions& options, std::vector<Attempt> tried) {
   std::sort(tried.begin(), tried.end(),
             [](const Attempt& a, const Attempt& b) { return a.report.error < b.report.error; });
@@ -399,11 +399,13 @@ Attempt nearest(const Data& d, const FitOptions& options, std::vector<Attempt> t
   const auto better = [](const FitReport& a, const FitReport& b) {
     return a.passive != b.passive ? a.passive : a.error < b.error;
   };
+  // What others may gain where passivity took little is no more than orders differ by, a tenth or two.
+  const auto is_near_passive = [](const FitReport& r) { return r.error < 3 * r.error_before; };
   const double margin = margin_for(options.tolerance);
   std::size_t best = 0;
   for (std::size_t i = 0; i < std::min(few, tried.size()); ++i) {
     const FitReport& so_far = tried[best].report;
-    if (i > 0 && so_far.passive && so_far.error <= tried[i].report.error) break;
+    if (i > 0 && so_far.passive && (is_near_passive(so_far) || so_far.error <= tried[i].report.error)) break;
     if (!tried[i].report.passive) make_passive(d, {.kept = margin, .lifted = 0}, tried[i]);
     if (better(tried[i].report, so_far)) best = i;
   }
