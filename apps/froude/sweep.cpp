@@ -121,7 +121,11 @@ Report report_of(const Tally& tally, std::size_t cases) {
 Report written(const Study& study, const sweep::Store& store) {
   Report out;
   out.wrote(sweep::database_of(store.folder())).wrote(sweep::write_table(store));
-  for (const fs::path& picture : sweep::write_pictures(study, store)) out.wrote(picture);
+  const sweep::Pictures pictures = sweep::write_pictures(study, store);
+  for (const fs::path& picture : pictures.written) out.wrote(picture);
+  for (const std::string& name : pictures.waiting)
+    out.row("not_drawn", "{} is not drawn yet: cases of two values and more on each of its axes have to be done first",
+            fact("picture", name));
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <set>
 
 #include "hydro/base/digest.hpp"
 #include "hydro/base/random.hpp"
@@ -200,6 +201,7 @@ Cases::Cases(const Study& study, std::string scene_text, const std::vector<std::
   find_slots();
   group_axes();
   check_skips();
+  check_pictures();
   definition_ = defined(files);
 }
 
@@ -396,6 +398,24 @@ void Cases::check_skips() const {
     for (const auto* limit : {&skip.above, &skip.below})
       if (*limit) limit_of(skip, **limit, unit_of(skip));
   }
+}
+
+void Cases::check_pictures() const {
+  for (const Picture& picture : study_.pictures)
+    for (const auto* axis : {&picture.x, picture.y ? &*picture.y : nullptr}) {
+      if (axis == nullptr) continue;
+      const std::size_t at = column(axis->value);
+      if (columns_[at].is_text)
+        throw InputError(
+            fmt::format("the values of axis \"{}\" are no numbers, so nothing can be drawn along it", axis->value),
+            axis->place, "name it with `by`, for a curve each");
+      std::set<std::optional<double>> different;
+      for (const AxisValue& value : values_[at]) different.insert(value.number);
+      if (picture.y && different.size() < 2)
+        throw InputError(
+            fmt::format("[[picture]] is a map, which needs two values and more on axis \"{}\"", axis->value),
+            axis->place, "draw curves instead, with `by` in place of `y`");
+    }
 }
 
 std::optional<std::string> Cases::skipped(std::size_t number) const {

@@ -30,7 +30,8 @@ struct AxisValue {
 class Cases {
  public:
   /// The study, the text of its scene, and the files that this names. \throws hydro::InputError at a key that the scene
-  /// does not write, a value that cannot stand there, axes that go along each other and differ in length
+  /// does not write, a value that cannot stand there, axes that go along each other and differ in length, a picture
+  /// that its axes do not make
   Cases(const Study& study, std::string scene_text, const std::vector<std::filesystem::path>& files);
 
   /// Cases count from 1; the last axis changes first.
@@ -63,6 +64,7 @@ class Cases {
   void group_axes();
   void find_slots();
   void check_skips() const;
+  void check_pictures() const;
   std::vector<std::size_t> indices(std::size_t number) const;
   std::string written(const Slot& slot, const AxisValue& value) const;
   std::size_t column(const std::string& axis) const;

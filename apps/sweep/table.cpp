@@ -128,10 +128,6 @@ std::string title_of(const Study& study, const Grid& grid) {
 
 std::string map_of(const Study& study, const Picture& picture, const Grid& grid, const Columns& columns) {
   const Column& of = columns.of_output(columns.output(picture.of));
-  constexpr std::size_t least = 2;
-  if (grid.xs.size() < least || grid.ys.size() < least)
-    throw InputError("[[picture]] is a map, which needs two values and more on each axis", picture.file.place,
-                     "draw curves instead, with `by` in place of `y`");
   plot::Panel panel{.x = axis_of(columns.of_axis(picture.x.value)),
                     .y = axis_of(columns.of_axis(picture.y->value)),
                     .series = {},
@@ -155,12 +151,11 @@ std::string curves_of(const Study& study, const Picture& picture, const Grid& gr
   return plot::svg({.title = title_of(study, grid), .panels = {panel}});
 }
 
-void require_numbers(const Picture& picture, const Columns& columns) {
-  for (const auto* axis : {&picture.x, picture.y ? &*picture.y : nullptr})
-    if (axis != nullptr && columns.of_axis(axis->value).is_text)
-      throw InputError(
-          fmt::format("the values of axis \"{}\" are no numbers, so nothing can be drawn along it", axis->value),
-          axis->place, "name it with `by`, for a curve each");
+/// A map of cases that are all in one row or column, as of a part of a sweep or of its first cases, is nothing to look
+/// at.
+bool can_be_drawn(const Picture& picture, const Grid& grid) {
+  constexpr std::size_t least = 2;
+  return !picture.y || (grid.xs.size() >= least && grid.ys.size() >= least);
 }
 
 }  // namespace
@@ -182,19 +177,22 @@ fs::path write_table(const Store& store) {
   return file;
 }
 
-std::vector<fs::path> write_pictures(const Study& study, const Store& store) {
-  std::vector<fs::path> out;
+Pictures write_pictures(const Study& study, const Store& store) {
+  Pictures out;
   if (store.columns().empty()) return out;  // no case is done, and nothing to be drawn
   const std::vector<Row> rows = store.rows();
   const Columns columns(store);
   for (const Picture& picture : study.pictures) {
-    require_numbers(picture, columns);
     const Grid grid = grid_of(picture, rows, columns);
+    if (!can_be_drawn(picture, grid)) {
+      out.waiting.push_back(picture.file.value);
+      continue;
+    }
     const fs::path file = store.folder() / picture.file.value;
     hydro::io::write_atomically(
         file, picture.y ? map_of(study, picture, grid, columns) : curves_of(study, picture, grid, columns));
     hydro::io::write_atomically(fs::path(file).replace_extension(".csv"), csv_of(picture, grid, columns));
-    out.push_back(file);
+    out.written.push_back(file);
   }
   return out;
 }

@@ -275,6 +275,30 @@ class Sweeps(unittest.TestCase):
         self.assertEqual(froude("-o", "out", "--part", "2/20").returncode, 0)
         self.assertEqual(len(self.rows("out")), 2)
 
+    def test_a_map_of_a_part_waits_for_the_others(self):
+        study = STUDY.replace("40 values", "2 values") + """\
+[[axis]]
+name = "start"
+key = "body.block.initial.surge"
+values = ["10 cm", "20 cm"]
+[[picture]]
+file = "map.svg"
+of = "block.surge.range"
+x = "mass"
+y = "start"
+"""
+        self.write("study.toml", study)
+        for part in (1, 2):
+            said = self.sweep("study.toml", "--part", f"{part}/2", "-o", f"part{part}").stdout
+            self.assertIn("map.svg is not drawn yet", said)
+            self.assertFalse((self.folder / f"part{part}" / "map.svg").exists())
+        self.assertNotIn("not drawn", self.sweep("--merge", "part1", "part2", "-o", "whole").stdout)
+        self.assertTrue((self.folder / "whole" / "map.svg").exists())
+        self.write("study.toml", study.replace('"10 cm", ', ""))
+        said = self.sweep("study.toml", "-o", "none", status=2).stderr
+        self.assertIn('a map, which needs two values and more on axis "start"', said)
+        self.assertFalse((self.folder / "none").exists())
+
     def test_a_damaged_database_is_refused_and_stays(self):
         self.sweep("study.toml", "-o", "out")
         database = self.folder / "out" / "sweep.sqlite"

@@ -4,6 +4,7 @@
 #include <hdf5_hl.h>
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 #include "hydro/base/error.hpp"
@@ -255,8 +256,8 @@ Hdf5Writer::Hdf5Writer(Packing packing) : impl_(std::make_unique<Impl>()) {
   H5Pset_link_creation_order(creation.get(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
   H5Pset_attr_creation_order(creation.get(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
   // The name is never used on disk, but HDF5 refuses two open files of one name.
-  static int counter = 0;
-  const std::string name = fmt::format("froude-in-memory-{}", counter++);
+  static std::atomic<int> counter = 0;
+  const std::string name = fmt::format("froude-in-memory-{}", counter.fetch_add(1));
   impl_->file = Handle(
       Impl::check(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), "make a file in memory"));
 }
