@@ -288,6 +288,24 @@ def killed_run(times):
             "each, with the bits of an undisturbed run")
 
 
+def killed_map(times):
+    """A map of runs of some length, killed `times` times before its end."""
+    name = Path(__file__).resolve().parents[3] / "examples" / "sweep" / "tongue.toml"
+    begin, moments = time.perf_counter(), random.Random(5)
+    whole = told(name, "-o", "map")
+    lasts = time.perf_counter() - begin
+    for _ in range(times):
+        process = begun(name, "-o", "killed_map")
+        time.sleep(moments.uniform(0.5, 1) * lasts / (times + 1))
+        require(process.poll() is None, "the map was done before it was killed")
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+    last = told(name, "-o", "killed_map")
+    require(table(SCRATCH / "killed_map") == table(SCRATCH / "map"), "killed, the map has other numbers")
+    return (f"{whole['cases']} runs of 600 s, {lasts / 60:.1f} min by the clock; the last start found "
+            f"{whole['cases'] - last['answered']} of them done: the table is that of an undisturbed sweep to the bit")
+
+
 def machine():
     model = next((line.split(":")[1].strip() for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
                   if line.startswith("model name")), "an unknown processor")
@@ -339,6 +357,7 @@ than a case of 0.2 s takes: {1000 * shortest[2] / CASES:.2f} ms. Ranks are more 
 | kill -9 of one of {RANKS} ranks, at 10 random moments | {killed_ranks(10)} |
 | kill -9 of processes of cases, where the study has limits | {limited()} |
 | kill -9 of one `froude run` with checkpoints, `examples/overnight.toml`, at 20 random moments | {killed_run(20)} |
+| kill -9 of the map of `examples/sweep/tongue.toml`, five times | {killed_map(5)} |
 | two sweeps in one folder | {two_at_once()} |
 | disk full | {mounted("small", disk_full)} |
 | files may not grow beyond 400 kB | {size_limited()} |
