@@ -99,7 +99,7 @@ struct PsdArguments {
   double confidence = 0.95;
   std::optional<std::string> input = {};  ///< signal to take as input: H1, H2 and coherence of the others against it
   std::optional<Path> output = {};        ///< .csv or .h5
-  std::optional<Path> picture = {};       ///< .svg
+  std::optional<Path> picture = {};       ///< .svg, .png or .pdf
 };
 void psd(const PsdArguments& arguments, const Console& console);
 
@@ -113,7 +113,7 @@ struct PoincareArguments {
   bool wrap = false;                      ///< angles into −180° … 180°
   std::optional<std::string> from = {};   ///< leave out what comes before; with `every` the first point
   std::optional<Path> output = {};        ///< .csv
-  std::optional<Path> picture = {};       ///< .svg
+  std::optional<Path> picture = {};       ///< .svg, .png or .pdf
 };
 /// A Poincaré section of a record, with the error of each point by interpolation.
 void poincare(const PoincareArguments& arguments, const Console& console);
@@ -130,7 +130,7 @@ struct FatigueArguments {
   SnArguments sn = {};
   std::optional<std::string> from = {};  ///< leave out what comes before
   std::optional<Path> output = {};       ///< .csv of the cycles
-  std::optional<Path> picture = {};      ///< .svg
+  std::optional<Path> picture = {};      ///< .svg, .png or .pdf
 };
 /// Rainflow cycles of a record and their damage.
 void fatigue(const FatigueArguments& arguments, const Console& console);
@@ -146,7 +146,7 @@ struct ExtremesArguments {
   double confidence = 0.95;
   std::optional<std::string> from = {};  ///< leave out what comes before
   std::optional<Path> output = {};       ///< .csv of the peaks
-  std::optional<Path> picture = {};      ///< .svg
+  std::optional<Path> picture = {};      ///< .svg, .png or .pdf
 };
 /// Peaks over a threshold and maxima of blocks of a record, and the largest values that they let one expect.
 void extremes(const ExtremesArguments& arguments, const Console& console);
@@ -158,7 +158,7 @@ struct ResponseArguments {
   SnArguments sn = {};
   std::optional<Path> scatter = {};  ///< .csv of seas and how often they come
   std::optional<Path> output = {};   ///< .csv of spectra; of a scatter diagram levels and how often they are exceeded
-  std::optional<Path> picture = {};  ///< .svg of the same
+  std::optional<Path> picture = {};  ///< .svg, .png or .pdf of the same
 };
 /// Spectra of responses in the sea of a scene, their statistics, largest values and damage.
 void response(const ResponseArguments& arguments, const Console& console);
@@ -202,7 +202,7 @@ struct CostArguments {
   std::optional<double> tolerance = {};  ///< of the error, relative
   std::string by = "rms";                ///< errors of runs: rms, deviation, extreme or range
   std::optional<Path> output = {};       ///< .toml: the scene with the cheapest settings within the tolerance
-  std::optional<Path> picture = {};      ///< .svg
+  std::optional<Path> picture = {};      ///< .svg, .png or .pdf
 };
 /// Error and time of every setting of a scene's approximations, and the cheapest within a tolerance.
 void cost(const CostArguments& arguments, const Console& console);
@@ -241,7 +241,7 @@ struct KinematicsArguments {
   std::optional<std::string> second = {};   ///< another camera that saw the same markers, which then have places in
                                             ///< space: a record of the scene, by name, or a scene of its own
   Path output;                              ///< .csv
-  std::optional<Path> picture = {};         ///< .svg
+  std::optional<Path> picture = {};         ///< .svg, .png or .pdf
 };
 /// Places, velocities and accelerations of a track's markers, and angles of lines, by a smoother.
 void kinematics(const KinematicsArguments& arguments, const Console& console);

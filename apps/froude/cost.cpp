@@ -7,7 +7,7 @@
 #include <limits>
 #include <set>
 
-#include "answers/plot.hpp"
+#include "answers/picture.hpp"
 #include "froude/commands.hpp"
 #include "froude/outputs.hpp"
 #include "froude/progress.hpp"
@@ -208,6 +208,7 @@ void cost(const CostArguments& arguments, const Console& console) {
   const scene::Scene scene = scene::read(arguments.scene);
   check_output(arguments);
   require_outputs(named({{"-o", arguments.output}, {"--picture", arguments.picture}}), files_of_scene(arguments.scene));
+  require_picture(arguments.picture);
   Progress progress(console.err, "cost", console.show_progress);
   const Cost found = cost(scene, {.tolerance = arguments.tolerance, .measure = measure_of(arguments.by)},
                           [&](double done) { progress.update(done); });
@@ -219,8 +220,7 @@ void cost(const CostArguments& arguments, const Console& console) {
     one.part("", table_of_rungs(answer)).part("", summary_of(answer, arguments.tolerance));
     out.one_of("answers", std::move(one));
   }
-  if (arguments.picture)
-    hydro::io::write_atomically(*arguments.picture, plot::svg(figure_of(scene, found, arguments.tolerance)));
+  if (arguments.picture) plot::write_picture(*arguments.picture, figure_of(scene, found, arguments.tolerance));
   if (arguments.output && found.scene) hydro::io::write_atomically(*arguments.output, *found.scene);
   out.wrote(arguments.picture);
   if (found.scene) out.wrote(arguments.output);

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "answers/plot.hpp"
+#include "answers/picture.hpp"
 #include "froude/commands.hpp"
 #include "froude/option.hpp"
 #include "froude/outputs.hpp"
@@ -10,7 +10,6 @@
 #include "froude/report.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
-#include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 #include "hydro/signal/peaks.hpp"
 #include "scene/placed.hpp"
@@ -133,6 +132,7 @@ plot::Figure figure(const Extremes& e, const std::string& file_name) {
 void extremes(const ExtremesArguments& arguments, const Console& console) {
   require_outputs(named({{"-o", arguments.output}, {"--picture", arguments.picture}}),
                   {{"the record", arguments.file}});
+  require_picture(arguments.picture);
   require_csv(arguments.output);
   const Extremes found = scene::placed({.file = arguments.file.string()}, [&] { return find(arguments); });
   if (arguments.output) {
@@ -141,8 +141,7 @@ void extremes(const ExtremesArguments& arguments, const Console& console) {
     hydro::io::write_csv(*arguments.output, {{"peak", found.signal.units, &peaks}},
                          {fmt::format("the extreme of {} between up-crossings of its mean", found.signal.name)});
   }
-  if (arguments.picture)
-    hydro::io::write_atomically(*arguments.picture, plot::svg(figure(found, arguments.file.filename().string())));
+  if (arguments.picture) plot::write_picture(*arguments.picture, figure(found, arguments.file.filename().string()));
   tell(report_of(found).wrote(arguments.output).wrote(arguments.picture), console);
 }
 

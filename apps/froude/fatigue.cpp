@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "answers/plot.hpp"
+#include "answers/picture.hpp"
 #include "froude/commands.hpp"
 #include "froude/option.hpp"
 #include "froude/outputs.hpp"
@@ -14,7 +14,6 @@
 #include "froude/sn_curve.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
-#include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 #include "scene/placed.hpp"
 
@@ -104,13 +103,13 @@ void write_cycles(const Path& path, const Counted& c) {
 void fatigue(const FatigueArguments& arguments, const Console& console) {
   require_outputs(named({{"-o", arguments.output}, {"--picture", arguments.picture}}),
                   {{"the record", arguments.file}});
+  require_picture(arguments.picture);
   require_csv(arguments.output);
   const std::optional<SnOfUnit> sn = sn_curve(arguments.sn);
   const Counted counted = scene::placed({.file = arguments.file.string()}, [&] { return count(arguments); });
   if (sn) require_one_fits(*sn, {counted.signal.units});
   if (arguments.output) write_cycles(*arguments.output, counted);
-  if (arguments.picture)
-    hydro::io::write_atomically(*arguments.picture, plot::svg(figure(counted, arguments.file.filename().string())));
+  if (arguments.picture) plot::write_picture(*arguments.picture, figure(counted, arguments.file.filename().string()));
   tell(report_of(counted, sn).wrote(arguments.output).wrote(arguments.picture), console);
 }
 

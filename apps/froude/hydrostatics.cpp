@@ -5,12 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "answers/plot.hpp"
+#include "answers/picture.hpp"
 #include "froude/commands.hpp"
 #include "froude/outputs.hpp"
 #include "froude/report.hpp"
 #include "hydro/hydrostatics/stability.hpp"
-#include "hydro/io/atomic_file.hpp"
 
 namespace froude {
 namespace {
@@ -190,7 +189,7 @@ void draw(const Path& path, const hh::Hull& hull, const Hydrostatics& r) {
   plot::Figure figure{.title = "Righting arm of " + Path(hull.source()).filename().string(), .panels = {}};
   figure.panels.push_back({.x = heel, .y = {.label = "GZ", .unit = "m"}, .series = {gz, tangent}});
   figure.panels.push_back({.x = heel, .y = {.label = "area", .unit = "m rad"}, .series = {area}});
-  hydro::io::write_atomically(path, plot::svg(figure));
+  plot::write_picture(path, figure);
 }
 
 void check(const HydrostaticsArguments& a) {
@@ -202,6 +201,7 @@ void check(const HydrostaticsArguments& a) {
   hydro::require(!a.picture || a.centre_of_gravity, "--picture draws the righting arms, which need --cog");
   hydro::require(!a.heels.empty(), "--gz has no heels");
   require_outputs(named({{"--picture", a.picture}}), {{"the mesh", a.mesh}});
+  require_picture(a.picture);
 }
 
 }  // namespace

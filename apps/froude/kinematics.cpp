@@ -9,7 +9,7 @@
 #include <span>
 
 #include "answers/camera_track.hpp"
-#include "answers/plot.hpp"
+#include "answers/picture.hpp"
 #include "fit/camera/instants.hpp"
 #include "fit/camera/smooth.hpp"
 #include "fit/offset.hpp"
@@ -122,7 +122,7 @@ void draw(const Path& file, const std::vector<double>& time, const std::vector<S
     }
     panel->series.push_back({c.name, time, c.value});
   }
-  hydro::io::write_atomically(file, plot::svg(figure));
+  plot::write_picture(file, figure);
 }
 
 }  // namespace
@@ -248,6 +248,7 @@ void kinematics(const KinematicsArguments& a, const Console& console) {
   if (std::error_code unknown; a.second && std::filesystem::is_regular_file(*a.second, unknown))
     inputs.push_back({"--second", *a.second});
   require_outputs(named({{"-o", a.output}, {"--picture", a.picture}, {"--start", a.start}}), inputs);
+  require_picture(a.picture);
   if (a.space || a.second) return kinematics_in_space(a, console);
   if (a.bandwidth.empty())
     throw InputError("places are smoothed by a bandwidth, and none is given", {.file = "--bandwidth"},

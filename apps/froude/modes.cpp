@@ -4,10 +4,9 @@
 #include <cmath>
 
 #include "answers/answers.hpp"
-#include "answers/plot.hpp"
+#include "answers/picture.hpp"
 #include "froude/report.hpp"
 #include "froude/scene_result.hpp"
-#include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 
 namespace froude {
@@ -84,7 +83,7 @@ void modes(const SceneArguments& arguments, const Console& console) {
   const Modes found = free_modes(scene);
   found.write(file);
   if (arguments.csv) write_csv(*arguments.csv, found);
-  if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, found)));
+  if (arguments.picture) plot::write_picture(*arguments.picture, figure(scene, found));
   tell(report_of(scene, found, file), console);
 }
 

@@ -1,5 +1,6 @@
 #include "froude/outputs.hpp"
 
+#include "answers/picture.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
@@ -75,6 +76,10 @@ void require_csv(const std::optional<Path>& table) {
   if (!table || !table->has_extension() || table->extension() == ".csv") return;
   throw hydro::InputError(fmt::format("a table is CSV, so its file cannot end in \"{}\"", table->extension().string()),
                           {.file = table->string()}, "end it in .csv");
+}
+
+void require_picture(const std::optional<Path>& picture) {
+  if (picture) plot::require_picture(*picture);
 }
 
 void require_outputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs) {

@@ -26,6 +26,9 @@ void require_outputs(const std::vector<NamedFile>& outputs, const std::vector<Na
 /// \throws hydro::InputError if a table that was asked for has another ending than .csv
 void require_csv(const std::optional<Path>& table);
 
+/// \throws hydro::InputError as plot::require_picture(), if one was asked for
+void require_picture(const std::optional<Path>& picture);
+
 /// A scene of motion or a fit, and every file that it names: each text in it that leads to a file counts, so no key can
 /// be forgotten; of records all that match a `*`; of coefficients the whole set; of a scene and of a table of runs the
 /// files that they name in turn. \throws hydro::InputError if the scene is no TOML

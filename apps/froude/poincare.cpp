@@ -6,14 +6,13 @@
 #include <numbers>
 #include <utility>
 
-#include "answers/plot.hpp"
+#include "answers/picture.hpp"
 #include "froude/commands.hpp"
 #include "froude/outputs.hpp"
 #include "froude/record_file.hpp"
 #include "froude/report.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
-#include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 #include "hydro/signal/welch.hpp"
 #include "scene/placed.hpp"
@@ -153,6 +152,7 @@ plot::Figure figure(const Plane& p, const std::string& file_name) {
 void poincare(const PoincareArguments& arguments, const Console& console) {
   require_outputs(named({{"-o", arguments.output}, {"--picture", arguments.picture}}),
                   {{"the record", arguments.file}});
+  require_picture(arguments.picture);
   Plane plane = scene::placed({.file = arguments.file.string()}, [&] { return plane_of(arguments); });
   hs::PoincareSection& s = plane.section;
   if (arguments.wrap) {
@@ -170,8 +170,7 @@ void poincare(const PoincareArguments& arguments, const Console& console) {
                           {plane.x.name + ".error", plane.x.units, &s.errors[0]},
                           {plane.y.name + ".error", plane.y.units, &s.errors[1]}},
                          {"Poincare section " + plane.how});
-  if (arguments.picture)
-    hydro::io::write_atomically(*arguments.picture, plot::svg(figure(plane, arguments.file.filename().string())));
+  if (arguments.picture) plot::write_picture(*arguments.picture, figure(plane, arguments.file.filename().string()));
   tell(report_of(plane).wrote(arguments.output).wrote(arguments.picture), console);
 }
 

@@ -49,7 +49,7 @@ void calls(CLI::App& command, Request& request, const std::shared_ptr<Arguments>
 void add_scene_outputs(CLI::App& command, const std::string& name, SceneArguments& arguments) {
   command.add_option("-o,--output", arguments.output, "result, HDF5 and netCDF-4; default: SCENE." + name + ".h5 here");
   command.add_option("--csv", arguments.csv, "the same numbers as a CSV table");
-  command.add_option("--picture", arguments.picture, "plot (.svg)");
+  command.add_option("--picture", arguments.picture, "plot (.svg, .png, .pdf)");
 }
 
 /// `modes`, `run` and `plan` take the same words.
@@ -206,7 +206,7 @@ void add_hydrostatics(CLI::App& app, Request& request) {
   command->add_option("--trim", texts->trim, "bow down; with --mass where the search begins")->capture_default_str();
   command->add_option("--gz", texts->heels, "heels of the righting arms")->capture_default_str();
   command->add_flag("--free-trim", arguments->free_trim, "let the hull trim as it heels");
-  command->add_option("--picture", arguments->picture, "plot of the righting arms (.svg)");
+  command->add_option("--picture", arguments->picture, "plot of the righting arms (.svg, .png, .pdf)");
   command->callback([=, &request] {
     request.call = [=](const Console& console) {
       read_hydrostatics(*texts, *arguments);
@@ -232,7 +232,7 @@ void add_psd(CLI::App& app, Request& request) {
   command->add_option("--input", arguments->input,
                       "signal that drives the others: adds transfer function and coherence");
   command->add_option("-o,--output", arguments->output, "table (.csv) or result (.h5)");
-  command->add_option("--picture", arguments->picture, "plot (.svg)");
+  command->add_option("--picture", arguments->picture, "plot (.svg, .png, .pdf)");
   calls(*command, request, arguments, psd);
 }
 
@@ -256,7 +256,7 @@ void add_poincare(CLI::App& app, Request& request) {
   command->add_option("--from", arguments->from, "leave out what comes before; with --every the first point");
   command->add_flag("--wrap", arguments->wrap, "angles between -180 and 180 deg, without their full turns");
   command->add_option("-o,--output", arguments->output, "table (.csv)");
-  command->add_option("--picture", arguments->picture, "plot (.svg)");
+  command->add_option("--picture", arguments->picture, "plot (.svg, .png, .pdf)");
   calls(*command, request, arguments, poincare);
 }
 
@@ -278,7 +278,7 @@ void add_fatigue(CLI::App& app, Request& request) {
   command->add_option("--from", arguments->from, "leave out what comes before: \"60 s\"");
   add_sn_curve(*command, arguments->sn);
   command->add_option("-o,--output", arguments->output, "range, mean and count of each cycle (.csv)");
-  command->add_option("--picture", arguments->picture, "plot (.svg)");
+  command->add_option("--picture", arguments->picture, "plot (.svg, .png, .pdf)");
   calls(*command, request, arguments, fatigue);
 }
 
@@ -297,7 +297,7 @@ void add_extremes(CLI::App& app, Request& request) {
   command->add_option("--confidence", arguments->confidence, "level of the interval")->capture_default_str();
   command->add_option("--from", arguments->from, "leave out what comes before: \"60 s\"");
   command->add_option("-o,--output", arguments->output, "the peaks (.csv)");
-  command->add_option("--picture", arguments->picture, "plot (.svg)");
+  command->add_option("--picture", arguments->picture, "plot (.svg, .png, .pdf)");
   calls(*command, request, arguments, extremes);
 }
 
@@ -318,7 +318,7 @@ void add_response(CLI::App& app, Request& request) {
   command->add_option("--scatter", arguments->scatter,
                       "seas of a lifetime (.csv): columns hs, tp and share, how often each comes");
   command->add_option("-o,--output", arguments->output, "spectra; of a scatter diagram exceedances (.csv)");
-  command->add_option("--picture", arguments->picture, "plot of the same (.svg)");
+  command->add_option("--picture", arguments->picture, "plot of the same (.svg, .png, .pdf)");
   calls(*command, request, arguments, response);
 }
 
@@ -330,7 +330,7 @@ void add_fit(CLI::App& app, Request& request) {
   command->add_option("-o,--output", arguments->output, "the estimates (.toml)");
   command->add_option("--table", arguments->table,
                       "one row for each run: KC, Re, beta, coefficients, intervals (.csv)");
-  command->add_option("--picture", arguments->picture, "plot (.svg)");
+  command->add_option("--picture", arguments->picture, "plot (.svg, .png, .pdf)");
   auto* predict = command->add_flag("--predict", arguments->predict,
                                     "fit nothing: compare the records with a run of the scene, kind \"motion\"");
   command->add_option("--at", arguments->at, "values of an earlier fit (.toml), of its -o; left out: the scene's")
@@ -351,7 +351,7 @@ void add_cost(CLI::App& app, Request& request) {
       ->check(CLI::IsMember({"rms", "deviation", "extreme", "range"}))
       ->capture_default_str();
   command->add_option("-o,--output", arguments->output, "the scene with these settings, beside the scene (.toml)");
-  command->add_option("--picture", arguments->picture, "plot (.svg)");
+  command->add_option("--picture", arguments->picture, "plot (.svg, .png, .pdf)");
   calls(*command, request, arguments, cost);
 }
 
@@ -393,7 +393,7 @@ void add_kinematics(CLI::App& app, Request& request) {
       ->needs(start);
   command->add_option("--release", arguments->release, "a marker that is let go: when?");
   command->add_option("-o,--output", arguments->output, "table with standard deviations (.csv)")->required();
-  command->add_option("--picture", arguments->picture, "plot (.svg)");
+  command->add_option("--picture", arguments->picture, "plot (.svg, .png, .pdf)");
   auto* space = command->add_flag("--space", arguments->space,
                                   "six motions of bodies frame by frame, by the lens and four markers on each");
   auto* second = command->add_option("--second", arguments->second,

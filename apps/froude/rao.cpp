@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "answers/linear_response.hpp"
-#include "answers/plot.hpp"
+#include "answers/picture.hpp"
 #include "answers/rao_check.hpp"
 #include "compile/compile.hpp"
 #include "froude/progress.hpp"
@@ -14,7 +14,6 @@
 #include "froude/shares.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/types.hpp"
-#include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 
 namespace froude {
@@ -190,7 +189,7 @@ void rao(const RaoArguments& arguments, const Console& console) {
   shares.end("answering");
   r.write(file);
   if (arguments.csv) write_rao_csv(*arguments.csv, r);
-  if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, r)));
+  if (arguments.picture) plot::write_picture(*arguments.picture, figure(scene, r));
   shares.end("writing");
   Report report = report_of(scene, r, shares, file, console.json);
   if (!arguments.check.empty()) {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "answers/plot.hpp"
+#include "answers/picture.hpp"
 #include "answers/response_spectra.hpp"
 #include "answers/second_order_spectra.hpp"
 #include "froude/commands.hpp"
@@ -16,7 +16,6 @@
 #include "froude/sn_curve.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
-#include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 #include "hydro/signal/extremes.hpp"
 #include "scene/placed.hpp"
@@ -459,6 +458,7 @@ void response(const ResponseArguments& arguments, const Console& console) {
   std::vector<NamedFile> inputs = files_of_scene(arguments.scene);
   if (arguments.scatter) inputs.push_back({"--scatter", *arguments.scatter});
   require_outputs(named({{"-o", arguments.output}, {"--picture", arguments.picture}}), inputs);
+  require_picture(arguments.picture);
   require_csv(arguments.output);
   const Asked asked = asked_of(arguments);
   const scene::Scene scene = scene::read(arguments.scene);
@@ -473,9 +473,8 @@ void response(const ResponseArguments& arguments, const Console& console) {
     const Report report = scene::placed({.file = "--duration"}, [&] { return report_of(scatter, seas, lives, asked); });
     if (arguments.output) write_exceedances(*arguments.output, lives, asked.duration);
     if (arguments.picture)
-      hydro::io::write_atomically(
-          *arguments.picture,
-          plot::svg(figure(scene.title.empty() ? "Exceedance of levels" : scene.title, lives, asked.duration)));
+      plot::write_picture(*arguments.picture,
+                          figure(scene.title.empty() ? "Exceedance of levels" : scene.title, lives, asked.duration));
     tell(Report(report).wrote(arguments.output).wrote(arguments.picture), console);
     return;
   }
@@ -487,7 +486,7 @@ void response(const ResponseArguments& arguments, const Console& console) {
   Report report = scene::placed({.file = "--duration"}, [&] { return report_of(scene, found, second, asked); });
   const std::vector<NamedSpectrum> spectra = spectra_of(found, second);
   if (arguments.output) write_spectra(*arguments.output, spectra);
-  if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, spectra)));
+  if (arguments.picture) plot::write_picture(*arguments.picture, figure(scene, spectra));
   tell(report.wrote(arguments.output).wrote(arguments.picture), console);
 }
 

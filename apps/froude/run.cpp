@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "answers/checkpoint.hpp"
+#include "answers/picture.hpp"
 #include "answers/simulate.hpp"
 #include "froude/outputs.hpp"
 #include "froude/progress.hpp"
@@ -12,7 +13,6 @@
 #include "froude/signals.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/parallel.hpp"
-#include "hydro/io/atomic_file.hpp"
 
 namespace froude {
 namespace {
@@ -132,8 +132,8 @@ void run(const SceneArguments& arguments, const Console& console) {
   record.write(file);
   if (arguments.csv) write_series_csv(*arguments.csv, record.time, record.signals);
   if (arguments.picture)
-    hydro::io::write_atomically(*arguments.picture, plot::svg(series_figure(scene.title.empty() ? "Run" : scene.title,
-                                                                            record.time, record.signals)));
+    plot::write_picture(*arguments.picture,
+                        series_figure(scene.title.empty() ? "Run" : scene.title, record.time, record.signals));
   if (checkpoints && !was_interrupted(record)) checkpoints->remove();
   shares.end("writing");
   Report report = report_of(scene, record, shares, file);

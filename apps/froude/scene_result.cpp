@@ -15,6 +15,7 @@ Path checked_output(const SceneArguments& arguments, const std::string& ending) 
       named(
           {{arguments.output ? "-o" : "the result", file}, {"--csv", arguments.csv}, {"--picture", arguments.picture}}),
       files_of_scene(arguments.scene));
+  require_picture(arguments.picture);
   return file;
 }
 

@@ -11,14 +11,13 @@
 #include <vector>
 
 #include "answers/answers.hpp"
-#include "answers/plot.hpp"
+#include "answers/picture.hpp"
 #include "answers/plot_field.hpp"
 #include "answers/stability_check.hpp"
 #include "froude/progress.hpp"
 #include "froude/report.hpp"
 #include "froude/scene_result.hpp"
 #include "hydro/base/error.hpp"
-#include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 
 namespace froude {
@@ -317,7 +316,7 @@ void stability(const StabilityArguments& arguments, const Console& console) {
   const StabilityMap map = stability(scene, [&](double done) { progress.update(done); });
   map.write(file);
   if (arguments.csv) write_csv(*arguments.csv, map);
-  if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(figure(scene, map)));
+  if (arguments.picture) plot::write_picture(*arguments.picture, figure(scene, map));
   Report report = report_of(scene, map, file);
   if (!arguments.check.empty()) {
     Progress runs(console.err, "runs", console.show_progress);

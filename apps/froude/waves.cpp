@@ -1,10 +1,10 @@
 /// \file  `froude waves make`: what the water does at the probes of a scene, as time series.
 #include "answers/answers.hpp"
+#include "answers/picture.hpp"
 #include "froude/progress.hpp"
 #include "froude/report.hpp"
 #include "froude/scene_result.hpp"
 #include "froude/series.hpp"
-#include "hydro/io/atomic_file.hpp"
 
 namespace froude {
 namespace {
@@ -31,11 +31,11 @@ void waves_make(const SceneArguments& arguments, const Console& console) {
   series.write(file);
   if (arguments.csv) write_series_csv(*arguments.csv, series.time, series.signals);
   if (arguments.picture)
-    hydro::io::write_atomically(
+    plot::write_picture(
         *arguments.picture,
-        plot::svg(series_figure(
+        series_figure(
             scene.title.empty() ? "Waves" : scene.title, series.time, series.signals,
-            {{"m", "elevation"}, {"m/s", "velocity"}, {"m/s^2", "acceleration"}, {"Pa", "dynamic pressure"}})));
+            {{"m", "elevation"}, {"m/s", "velocity"}, {"m/s^2", "acceleration"}, {"Pa", "dynamic pressure"}}));
   tell(report_of(scene, series, file), console);
 }
 

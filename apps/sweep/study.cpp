@@ -6,9 +6,11 @@
 #include <set>
 
 #include "answers/fit_scene.hpp"
+#include "answers/picture.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "scene/binding.hpp"
 #include "scene/build.hpp"
+#include "scene/placed.hpp"
 #include "sweep/numbers.hpp"
 
 namespace froude::sweep {
@@ -147,7 +149,7 @@ Binding<Picture> picture_binding() {
              "[[picture]]",
              "curves over one axis, or a map over two; the numbers stand in a .csv beside it. Where several "
              "cases share a point it tells their mean")
-      .key(text("file", "its name in the folder of the sweep, .svg"), &Picture::file)
+      .key(text("file", "its name in the folder of the sweep, .svg, .png or .pdf"), &Picture::file)
       .key(text("of", "column of an output: \"buoy.heave.maximum\""), &Picture::of)
       .key(text("x", "axis"), &Picture::x)
       .optional(text("y", "axis: a map with contours"), &Picture::y)
@@ -222,10 +224,12 @@ void check_axes(Study& study) {
 void check_pictures(const Study& study) {
   for (const Picture& picture : study.pictures) {
     const std::filesystem::path name = picture.file.value;
-    if (name.filename() != name || name.extension() != ".svg" || name.stem() == "table")
+    const bool is_picture = name.extension() == ".svg" || name.extension() == ".png" || name.extension() == ".pdf";
+    if (name.filename() != name || !is_picture || name.stem() == "table")
       throw InputError(fmt::format("[[picture]] file = \"{}\" is no name of a picture in the folder of the sweep",
                                    picture.file.value),
-                       picture.file.place, "write a name alone that ends in .svg, other than table.svg");
+                       picture.file.place, "write a name alone that ends in .svg, .png or .pdf, other than table.svg");
+    scene::placed(picture.file.place, [&] { plot::require_picture(name); });
     for (const auto* axis : {&picture.y, &picture.by})
       if (*axis) require_axis(study, **axis);
     require_axis(study, picture.x);

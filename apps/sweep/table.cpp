@@ -8,7 +8,7 @@
 #include <limits>
 #include <map>
 
-#include "answers/plot.hpp"
+#include "answers/picture.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
 
@@ -126,16 +126,16 @@ std::string title_of(const Study& study, const Grid& grid) {
   return grid.most < 2 ? name : fmt::format("{}: means of up to {} cases", name, grid.most);
 }
 
-std::string map_of(const Study& study, const Picture& picture, const Grid& grid, const Columns& columns) {
+plot::Figure map_of(const Study& study, const Picture& picture, const Grid& grid, const Columns& columns) {
   const Column& of = columns.of_output(columns.output(picture.of));
   plot::Panel panel{.x = axis_of(columns.of_axis(picture.x.value)),
                     .y = axis_of(columns.of_axis(picture.y->value)),
                     .series = {},
                     .field = plot::Field{axis_of(of), numbers(grid.xs), numbers(grid.ys), grid.of}};
-  return plot::svg({.title = title_of(study, grid), .panels = {panel}, .panel_height = 420});
+  return {.title = title_of(study, grid), .panels = {panel}, .panel_height = 420};
 }
 
-std::string curves_of(const Study& study, const Picture& picture, const Grid& grid, const Columns& columns) {
+plot::Figure curves_of(const Study& study, const Picture& picture, const Grid& grid, const Columns& columns) {
   plot::Panel panel{.x = axis_of(columns.of_axis(picture.x.value)),
                     .y = axis_of(columns.of_output(columns.output(picture.of))),
                     .series = {}};
@@ -148,7 +148,7 @@ std::string curves_of(const Study& study, const Picture& picture, const Grid& gr
     }
     panel.series.push_back({.name = name, .x = numbers(grid.xs), .y = grid.of[k], .marks = true});
   }
-  return plot::svg({.title = title_of(study, grid), .panels = {panel}});
+  return {.title = title_of(study, grid), .panels = {panel}};
 }
 
 /// A map of cases that are all in one row or column, as of a part of a sweep or of its first cases, is nothing to look
@@ -189,8 +189,8 @@ Pictures write_pictures(const Study& study, const Store& store) {
       continue;
     }
     const fs::path file = store.folder() / picture.file.value;
-    hydro::io::write_atomically(
-        file, picture.y ? map_of(study, picture, grid, columns) : curves_of(study, picture, grid, columns));
+    plot::write_picture(file,
+                        picture.y ? map_of(study, picture, grid, columns) : curves_of(study, picture, grid, columns));
     hydro::io::write_atomically(fs::path(file).replace_extension(".csv"), csv_of(picture, grid, columns));
     out.written.push_back(file);
   }

@@ -6,8 +6,10 @@
 Each command is given each of its inputs as an output. It must say so with exit status 2 and leave every file as it was.
 """
 import os
+import re
 import shutil
 import socket
+import struct
 import subprocess
 import sys
 import tempfile
@@ -169,6 +171,23 @@ class Outputs(unittest.TestCase):
             self.write(name, "half")
         self.assertEqual(self.froude("psd", "m.csv", "-o", "x.csv").returncode, 0)
         self.assertEqual({name: (self.folder / name).exists() for name in left}, left)
+
+    def test_a_picture_is_what_its_name_says(self):
+        for name, begins in (("p.svg", b"<svg"), ("p.png", b"\x89PNG\r\n\x1a\n"), ("p.pdf", b"%PDF-")):
+            self.assertEqual(self.froude("psd", "m.csv", "--picture", name).returncode, 0)
+            self.assertTrue((self.folder / name).read_bytes().startswith(begins), name)
+        width, height = (int(re.search(f' {what}="(\\d+)"', (self.folder / "p.svg").read_text()).group(1))
+                         for what in ("width", "height"))
+        self.assertEqual(struct.unpack(">II", (self.folder / "p.png").read_bytes()[16:24]), (2 * width, 2 * height))
+        for command in (["psd", "m.csv"], ["rao", "s.toml"], ["hydrostatics", "workboat.obj", "--density", "1000 kg/m^3", "--cog",
+                                                                "(0, 0, 0) m"]):
+            self.refuses(*command, "--picture", "p.jpg", words=('cannot end in ".jpg"', ".svg, .png or .pdf"))
+
+    def test_a_picture_whose_program_is_missing_is_refused_before_the_work(self):
+        result = self.froude("run", "s.toml", "-o", "r.h5", "--picture", "p.png", env={"PATH": "/nonexistent"})
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("install librsvg2-bin", result.stderr)
+        self.assertFalse((self.folder / "r.h5").exists())
 
     def test_a_link_stays_and_its_file_is_replaced(self):
         (self.folder / "there").mkdir()

@@ -2,14 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "answers/plot.hpp"
+#include "answers/picture.hpp"
 #include "froude/commands.hpp"
 #include "froude/outputs.hpp"
 #include "froude/report.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/types.hpp"
-#include "hydro/io/atomic_file.hpp"
 #include "hydro/radiation/rational.hpp"
 #include "hydro/radiation/state_space.hpp"
 #include "hydro/radiation/tail.hpp"
@@ -140,10 +139,11 @@ void bem_irf(const BemIrfArguments& arguments, const Console& console) {
   const Path& file = arguments.bem.files.front();
   require_outputs(named({{"-o", arguments.output}, {"--picture", arguments.picture}}),
                   files_of_coefficients(arguments.bem.files));
+  require_picture(arguments.picture);
   const Coefficients c = hydro::potential::read(file, arguments.bem.options);
   const Analysis a = analyse(c, arguments.tolerance);
   export_fit(arguments, c, a);
-  if (arguments.picture) hydro::io::write_atomically(*arguments.picture, plot::svg(picture(c, a)));
+  if (arguments.picture) plot::write_picture(*arguments.picture, picture(c, a));
   tell(report_of(file, c, a).wrote(arguments.output).wrote(arguments.picture), console);
 }
 

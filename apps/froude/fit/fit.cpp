@@ -65,17 +65,14 @@ void deliver(const Outcome& outcome, const FitArguments& arguments, Shares& shar
     hydro::io::write_atomically(*file, content);
     if (!console.json && !outcome.refused) console.out << "wrote " << file->string() << '\n';
   };
-  const std::string picture =
-      arguments.picture && !outcome.picture.panels.empty() ? plot::svg(outcome.picture) : std::string();
-  if (outcome.refused) {
-    write(arguments.picture, picture);
-    std::rethrow_exception(outcome.refused);
-  }
+  const bool drawn = arguments.picture && !outcome.picture.panels.empty();
+  if (drawn) plot::write_picture(*arguments.picture, outcome.picture);
+  if (outcome.refused) std::rethrow_exception(outcome.refused);
   write(arguments.table, outcome.table);
   const std::string comment = fmt::format("{} of `froude fit`, version {}. SI units.",
                                           arguments.predict ? "Prediction" : "Estimates", FROUDE_VERSION);
   if (arguments.output) write(arguments.output, toml_of(outcome.report.tree(), comment));
-  write(arguments.picture, picture);
+  if (drawn && !console.json) console.out << "wrote " << arguments.picture->string() << '\n';
   shares.end("writing");
   if (console.json)
     tell(Report(outcome.report).part("", shares.report()), console);
@@ -92,6 +89,7 @@ void fit(const FitArguments& arguments, const Console& console) {
   if (arguments.at) inputs.push_back({"the values of an earlier fit", *arguments.at});
   require_outputs(named({{"-o", arguments.output}, {"--table", arguments.table}, {"--picture", arguments.picture}}),
                   inputs);
+  require_picture(arguments.picture);
   if (arguments.table && !scene.of->has_table())
     throw hydro::InputError(fmt::format("a fit of kind \"{}\" has no table of runs", scene.kind()), {},
                             "leave out --table");

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "answers/picture.hpp"
 #include "froude/outputs.hpp"
 #include "froude/psd/report.hpp"
 #include "froude/record_file.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
-#include "hydro/io/atomic_file.hpp"
 #include "hydro/signal/lomb_scargle.hpp"
 #include "hydro/signal/multitaper.hpp"
 #include "scene/placed.hpp"
@@ -165,11 +165,11 @@ Analysis analyse(const PsdArguments& arguments) {
 void psd(const PsdArguments& arguments, const Console& console) {
   require_outputs(named({{"-o", arguments.output}, {"--picture", arguments.picture}}),
                   {{"the record", arguments.file}});
+  require_picture(arguments.picture);
   const Analysis analysis = analyse(arguments);
   if (arguments.output) spectra::write_table(*arguments.output, analysis);
   if (arguments.picture)
-    hydro::io::write_atomically(*arguments.picture,
-                                plot::svg(spectra::figure(analysis, arguments.file.filename().string())));
+    plot::write_picture(*arguments.picture, spectra::figure(analysis, arguments.file.filename().string()));
   tell(spectra::report_of(analysis).wrote(arguments.output).wrote(arguments.picture), console);
 }
 
