@@ -159,6 +159,8 @@ struct ResponseArguments {
   std::optional<Path> scatter = {};  ///< .csv of seas and how often they come
   std::optional<Path> output = {};   ///< .csv of spectra; of a scatter diagram levels and how often they are exceeded
   std::optional<Path> picture = {};  ///< .svg, .png or .pdf of the same
+  std::string check = {};            ///< "time": against runs of the sea with other seeds
+  int check_runs = 8;
 };
 /// Spectra of responses in the sea of a scene, their statistics, largest values and damage.
 void response(const ResponseArguments& arguments, const Console& console);

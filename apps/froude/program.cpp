@@ -319,6 +319,13 @@ void add_response(CLI::App& app, Request& request) {
                       "seas of a lifetime (.csv): columns hs, tp and share, how often each comes");
   command->add_option("-o,--output", arguments->output, "spectra; of a scatter diagram exceedances (.csv)");
   command->add_option("--picture", arguments->picture, "plot of the same (.svg, .png, .pdf)");
+  command
+      ->add_option("--check", arguments->check,
+                   "time: hold deviations, periods and largest values against runs of the sea, one a seed")
+      ->check(CLI::IsMember({"time"}));
+  command->add_option("--check-runs", arguments->check_runs, "how many, each of --duration")
+      ->check(CLI::Range(2, 10000))
+      ->capture_default_str();
   calls(*command, request, arguments, response);
 }
 

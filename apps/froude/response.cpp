@@ -4,17 +4,20 @@
 #include <numeric>
 
 #include "answers/picture.hpp"
+#include "answers/response_check.hpp"
 #include "answers/response_spectra.hpp"
 #include "answers/second_order_spectra.hpp"
 #include "froude/commands.hpp"
 #include "froude/density_unit.hpp"
 #include "froude/option.hpp"
 #include "froude/outputs.hpp"
+#include "froude/progress.hpp"
 #include "froude/report.hpp"
 #include "froude/scene.hpp"
 #include "froude/scene_result.hpp"
 #include "froude/sn_curve.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/base/parallel.hpp"
 #include "hydro/base/units.hpp"
 #include "hydro/io/csv.hpp"
 #include "hydro/signal/extremes.hpp"
@@ -194,6 +197,53 @@ Report report_of(const scene::Scene& scene, const ResponseSpectra& r, const Seco
   if (r.drag) out.part("drag", drag_of(*r.drag));
   if (second != nullptr) out.part("second_order", second_order_of(r, *second));
   return std::move(out.sentences("notes", "note: {}", notes).sentences("warnings", "{}", r.warnings));
+}
+
+// ---- the same by runs ----
+
+/// The linear number beside that of the runs. Where they differ by more than the accuracy that the scene asks for, and
+/// that is no chance, the answer says so.
+Report compared(const std::string& signal, const std::string& what, double linear, const OfRuns& runs, double accuracy,
+                std::vector<std::string>& warnings) {
+  constexpr double by_chance = 3;  // standard errors, of a few runs
+  const double off = linear - runs.mean;
+  if (std::abs(off) > accuracy * std::abs(runs.mean) && std::abs(off) > by_chance * runs.error)
+    warnings.push_back(fmt::format("{}: {} is {:.5g} by the linear response and {:.5g} +- {:.2g} by runs, {:+.1f} %",
+                                   signal, what, linear, runs.mean, runs.error, 100 * off / runs.mean));
+  Report out;
+  return std::move(out.keep("linear", linear).keep("runs", runs.mean).keep("standard_error", runs.error));
+}
+
+Report check_of(const ResponseSpectra& r, const std::vector<CheckedStatistics>& checked, const Asked& asked,
+                const ResponseArguments& arguments, double accuracy) {
+  Report out;
+  std::vector<std::string> warnings;
+  out.say("{:<24} {:<7} {:>11} {:>20} {:>8} {:>16} {:>11} {:>20}",
+          fmt::format("by {} runs of {:.4g} h", arguments.check_runs, asked.duration / 3600), "unit", "deviation",
+          "of runs", "Tz [s]", "of runs", "E Rice", "largest of runs");
+  for (const CheckedStatistics& c : checked) {
+    const auto& of = *std::ranges::find(r.signals, c.signal, &ResponseSpectrum::name);
+    const hs::Moments m = *moments_of(of);
+    const double largest = GaussianPeaks(m, PeakLaw::rice).expected_largest(asked.duration);
+    const auto with_error = [](const OfRuns& n) { return fmt::format("{:.5g} +- {:.2g}", n.mean, n.error); };
+    Report one;
+    one.say("{:<24} {:<7} {:>11.5g} {:>20} {:>8.4g} {:>16} {:>11.5g} {:>20}", c.signal, unit_or_dash(c.units),
+            std::sqrt(m.m0), with_error(c.deviation), m.tm02(), with_error(c.tz), largest, with_error(c.largest));
+    one.part("deviation", compared(c.signal, "the deviation", std::sqrt(m.m0), c.deviation, accuracy, warnings));
+    one.part("tz_s", compared(c.signal, "the mean period", m.tm02(), c.tz, accuracy, warnings));
+    one.part("largest", compared(c.signal, "the expected largest value", largest, c.largest, accuracy, warnings));
+    one.keep("mean", c.mean.mean).keep("standard_error_of_mean", c.mean.error);
+    out.part(c.signal, std::move(one));
+  }
+  out.keep("number_of_runs", arguments.check_runs);
+  return std::move(out.sentences("warnings", "warning: {}", warnings));
+}
+
+/// \throws hydro::InputError for what cannot be held against runs
+void require_checkable(const ResponseArguments& arguments) {
+  if (!arguments.check.empty() && arguments.scatter)
+    throw hydro::InputError("--check runs one sea, and --scatter has many", {.file = "--check"},
+                            "leave one of them out");
 }
 
 /// SI of a hertz is 2π rad/s, which write_csv() divides by: it is put in here.
@@ -460,6 +510,7 @@ void response(const ResponseArguments& arguments, const Console& console) {
   require_outputs(named({{"-o", arguments.output}, {"--picture", arguments.picture}}), inputs);
   require_picture(arguments.picture);
   require_csv(arguments.output);
+  require_checkable(arguments);
   const Asked asked = asked_of(arguments);
   const scene::Scene scene = scene::read(arguments.scene);
   require_asked(scene.rao.has_value(), scene, "rao", "rao = { periods = \"3 s .. 25 s, 45 values\" }");
@@ -484,6 +535,12 @@ void response(const ResponseArguments& arguments, const Console& console) {
   const std::optional<SecondOrderResponses> more = second_order_responses(scene, kept);
   const SecondOrderResponses* second = more ? &*more : nullptr;
   Report report = scene::placed({.file = "--duration"}, [&] { return report_of(scene, found, second, asked); });
+  if (!arguments.check.empty()) {
+    Progress progress(console.err, "check", console.show_progress);
+    const auto checked = check_by_runs(scene, found, asked.duration, arguments.check_runs, hydro::all_processors(),
+                                       kept, [&](double done) { progress.update(done); });
+    report.part("check", check_of(found, checked, asked, arguments, scene.accuracy));
+  }
   const std::vector<NamedSpectrum> spectra = spectra_of(found, second);
   if (arguments.output) write_spectra(*arguments.output, spectra);
   if (arguments.picture) plot::write_picture(*arguments.picture, figure(scene, spectra));
