@@ -158,6 +158,7 @@ struct ExtremesArguments {
   std::optional<std::string> block = {};      ///< e.g. "10 min"; a twentieth of the record
   std::vector<double> quantiles = {};         ///< probabilities of staying below; 0.5, 0.9 and 0.99
   double confidence = 0.95;
+  StepArguments steps = {};
   std::optional<std::string> from = {};  ///< leave out what comes before
   std::optional<Path> output = {};       ///< .csv of the peaks
   std::optional<Path> picture = {};      ///< .svg

@@ -316,6 +316,7 @@ void add_extremes(CLI::App& app, Request& request) {
   command->add_option("--block", arguments->block, "length of the blocks: \"10 min\"");
   command->add_option("--quantile", arguments->quantiles, "probability of staying below; several times for several");
   command->add_option("--confidence", arguments->confidence, "level of the interval")->capture_default_str();
+  add_steps(*command, arguments->steps);
   command->add_option("--from", arguments->from, "leave out what comes before: \"60 s\"");
   command->add_option("-o,--output", arguments->output, "the peaks (.csv)");
   command->add_option("--picture", arguments->picture, "plot (.svg)");

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -119,6 +120,23 @@ TEST_F(Psd, ExtremesAreThoseOfThePeaksAndOfTheirMirror) {
               ThrowsMessage<InputError>(HasSubstr("length")));
   EXPECT_THAT([&] { told({.file = folder / "e.csv", .signal = "x", .threshold = "1.95 m"}); },
               ThrowsMessage<InputError>(HasSubstr("a tail needs 10")));
+}
+
+// A spike of the sensor would be the largest value of all, 6 m above waves of 1.5 m.
+TEST_F(Psd, ExtremesAreThoseOfTheRecordWithoutItsSpikes) {
+  const auto told = [&](const froude::ExtremesArguments& arguments) {
+    std::ostringstream out, err;
+    froude::extremes(arguments, {out, err, true});
+    return nlohmann::json::parse(out.str());
+  };
+  for (std::size_t j = 0; j < wave.size(); ++j) wave[j] *= 1 - 0.3 * std::cos(0.01 * time[j]);
+  const double largest = *std::max_element(wave.begin(), wave.end());
+  wave[1234] += 7;
+  const auto as_it_is = told({.file = csv(), .signal = "wave", .threshold = "1 m"}),
+             cleaned = told({.file = csv(), .signal = "wave", .threshold = "1 m", .steps = {.outliers = "2.1 s"}});
+  EXPECT_GT(as_it_is["extreme"].get<double>(), 5);
+  EXPECT_NEAR(cleaned["extreme"].get<double>(), largest, 1e-6);  // digits of the file; the spike is on no crest
+  EXPECT_EQ(cleaned["prepared"]["outliers"][0]["bridged"], 1);
 }
 
 TEST_F(Psd, TellsHeightAndPeriodOfARegularWave) {
