@@ -88,14 +88,28 @@ struct BemIrfArguments {
 /// Radiation in the time domain: poles, certificate of passivity, errors, A(∞) by fit and by Ogilvie's relation.
 void bem_irf(const BemIrfArguments& arguments, const Console& console);
 
+/// Steps before a record is looked at, as [prepare] of a fit has them; what is empty is not done.
+struct StepArguments {
+  std::optional<std::string> longest_gap = {};     ///< rows missing no longer are bridged, e.g. "0.5 s"
+  std::optional<std::string> outliers = {};        ///< window about a sample that is asked, e.g. "1 s"
+  std::optional<double> outlier_deviations = {};   ///< how far off an outlier is; 8 unless given
+  std::optional<std::string> resample = {};        ///< another sampling rate, e.g. "20 Hz"
+  bool detrend = false;                            ///< the straight line of least squares is taken off
+  std::vector<std::string> notch = {};             ///< centre and width, e.g. "50 Hz, 2 Hz"
+  std::optional<std::string> low_pass = {};        ///< cutoff, e.g. "2 Hz"
+  std::optional<std::string> band_pass = {};       ///< both edges, e.g. "0.05 Hz, 0.5 Hz"
+  std::optional<std::string> wave_frequency = {};  ///< instead: a band from 0.2 to 4 times it
+};
+
 struct PsdArguments {
   Path file;                                ///< CSV, or a result of `froude run`
   std::vector<std::string> signals = {};    ///< empty: all (with a time column), `*` allowed
   std::optional<std::string> segment = {};  ///< length of a Welch segment, e.g. "100 s"
   std::optional<std::size_t> tapers = {};   ///< instead of segments: so many over the whole record
   bool uneven = false;                      ///< the record has gaps, or samples at uneven times
-  std::optional<std::string> from = {};     ///< leave out what comes before, e.g. "60 s"
-  std::optional<std::string> to = {};       ///< leave out what comes after, e.g. "360 s"
+  StepArguments steps = {};
+  std::optional<std::string> from = {};  ///< leave out what comes before, e.g. "60 s"
+  std::optional<std::string> to = {};    ///< leave out what comes after, e.g. "360 s"
   double confidence = 0.95;
   std::optional<std::string> input = {};  ///< signal to take as input: H1, H2 and coherence of the others against it
   std::optional<Path> output = {};        ///< .csv or .h5
@@ -144,6 +158,7 @@ struct ExtremesArguments {
   std::optional<std::string> block = {};      ///< e.g. "10 min"; a twentieth of the record
   std::vector<double> quantiles = {};         ///< probabilities of staying below; 0.5, 0.9 and 0.99
   double confidence = 0.95;
+  StepArguments steps = {};
   std::optional<std::string> from = {};  ///< leave out what comes before
   std::optional<Path> output = {};       ///< .csv of the peaks
   std::optional<Path> picture = {};      ///< .svg, .png or .pdf

@@ -7,6 +7,7 @@
 #include "froude/option.hpp"
 #include "froude/outputs.hpp"
 #include "froude/record_file.hpp"
+#include "froude/record_steps.hpp"
 #include "froude/report.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
@@ -28,6 +29,7 @@ struct Extremes {
   hs::ParetoTail tail;
   std::size_t above;
   hs::BlockMaxima blocks;
+  std::optional<StepsDone> prepared;  // where steps were asked for
 };
 
 /// The level that a tenth of the peaks is above, or twenty where that is fewer, or half: many make a tail, and only
@@ -38,11 +40,21 @@ double usual_threshold(std::vector<double> peaks) {
   return peaks[std::max(peaks.size() / 10, std::min<std::size_t>(20, peaks.size() / 2))];
 }
 
+/// The steps asked for, and what comes after --from.
+std::optional<StepsDone> take_part(RunResult& record, const ExtremesArguments& a) {
+  RecordPart part;
+  if (a.from) part.from = option_si("--from", *a.from, hydro::dim::time);
+  auto done = take_steps(record, a.steps, part, a.file);
+  if (!done && part.from) drop_before(record, *part.from, a.file);
+  return done;
+}
+
 Extremes find(const ExtremesArguments& a) {
   RunResult record = read_record(a.file);
   hydro::require(!record.time.empty(), "the record has no samples");
-  if (a.from) drop_before(record, option_si("--from", *a.from, hydro::dim::time), a.file);
-  Extremes out{.signal = signal_of(record, a.signal, a.file),
+  record.signals = {signal_of(record, a.signal, a.file)};
+  auto prepared = take_part(record, a);
+  Extremes out{.signal = record.signals.front(),
                .sign = a.lowest ? -1.0 : 1.0,
                .recorded = record.time.back() - record.time.front(),
                .duration = option_si("--duration", a.duration, hydro::dim::time),
@@ -52,7 +64,8 @@ Extremes find(const ExtremesArguments& a) {
                .probabilities = a.quantiles.empty() ? std::vector{0.5, 0.9, 0.99} : a.quantiles,
                .tail = {},
                .above = 0,
-               .blocks = {}};
+               .blocks = {},
+               .prepared = std::move(prepared)};
   for (double& v : out.signal.values) v *= out.sign;
   out.peaks = hs::crests(record.time, out.signal.values);
   const double threshold =
@@ -80,6 +93,7 @@ Report estimate(const Extremes& e, const Fit& fit, std::size_t count, double p, 
 
 Report report_of(const Extremes& e) {
   Report out;
+  if (e.prepared) out.part("prepared", froude::report_of(*e.prepared));
   out.say("{}: {} peaks between up-crossings of the mean in {:.6g} s, the {} {:.5g} {}", fact("signal", e.signal.name),
           fact("peaks", e.peaks.size()), fact("recorded_s", e.recorded), e.sign > 0 ? "largest" : "lowest",
           fact("extreme", e.sign * *std::max_element(e.signal.values.begin(), e.signal.values.end())),

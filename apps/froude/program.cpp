@@ -216,6 +216,26 @@ void add_hydrostatics(CLI::App& app, Request& request) {
   });
 }
 
+/// Named and ordered as in [prepare] of a fit.
+void add_steps(CLI::App& command, StepArguments& steps) {
+  const char* group = "Steps before, as a fit has them";
+  const auto add = [&](const char* name, auto& value, const char* meaning) {
+    return command.add_option(name, value, meaning)->group(group);
+  };
+  add("--longest-gap,--gaps", steps.longest_gap, "rows missing no longer than this are bridged: \"0.5 s\"");
+  add("--outliers", steps.outliers,
+      "single samples far off their neighbours are bridged; window that is asked: \"1 s\"");
+  add("--outlier-deviations", steps.outlier_deviations, "how far off, in deviations of the neighbours, 3 at least [8]");
+  add("--resample", steps.resample, "another sampling rate, without delay: \"20 Hz\"");
+  command.add_flag("--detrend", steps.detrend, "the slope of the straight line of least squares is taken off")
+      ->group(group);
+  add("--notch", steps.notch, "takes a line out; centre and width between half amplitudes: \"50 Hz, 2 Hz\"")
+      ->allow_extra_args(false);
+  add("--low-pass", steps.low_pass, "Butterworth of order 4 without delay; cutoff: \"2 Hz\"");
+  add("--band-pass", steps.band_pass, "without delay; frequencies of half the amplitude: \"0.05 Hz, 0.5 Hz\"");
+  add("--wave-frequency", steps.wave_frequency, "instead: a band-pass from 0.2 to 4 times it: \"0.125 Hz\"");
+}
+
 void add_psd(CLI::App& app, Request& request) {
   auto* command = app.add_subcommand("psd", "power spectra with confidence intervals, transfer functions, coherence");
   command->footer(
@@ -228,6 +248,7 @@ void add_psd(CLI::App& app, Request& request) {
   command->add_option("--tapers", arguments->tapers, "instead of segments: so many sine tapers over the whole record");
   command->add_option("--from", arguments->from, "leave out what comes before: \"60 s\"");
   command->add_option("--to", arguments->to, "leave out what comes after: \"360 s\"");
+  add_steps(*command, arguments->steps);
   command->add_option("--confidence", arguments->confidence, "level of the interval")->capture_default_str();
   command->add_option("--input", arguments->input,
                       "signal that drives the others: adds transfer function and coherence");
@@ -295,6 +316,7 @@ void add_extremes(CLI::App& app, Request& request) {
   command->add_option("--block", arguments->block, "length of the blocks: \"10 min\"");
   command->add_option("--quantile", arguments->quantiles, "probability of staying below; several times for several");
   command->add_option("--confidence", arguments->confidence, "level of the interval")->capture_default_str();
+  add_steps(*command, arguments->steps);
   command->add_option("--from", arguments->from, "leave out what comes before: \"60 s\"");
   command->add_option("-o,--output", arguments->output, "the peaks (.csv)");
   command->add_option("--picture", arguments->picture, "plot (.svg, .png, .pdf)");

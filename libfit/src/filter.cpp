@@ -17,8 +17,10 @@ constexpr double forgotten = 1e-4;  // of the memory, at the samples next to tho
 
 void check_frequency(const char* what, double hz, double step_s) {
   hydro::require(std::isfinite(step_s) && step_s > 0, "the sampling step must be positive, got {} s", step_s);
-  hydro::require(hz > 0 && hz < 0.5 / step_s, "{} must lie between 0 and half the sampling rate, {:.4g} Hz; got {:.4g}",
-                 what, 0.5 / step_s, hz);
+  if (!(hz > 0 && hz < 0.5 / step_s))
+    throw hydro::InputError(
+        fmt::format("{} must lie between 0 and half the sampling rate, {:.4g} Hz; got {:.4g}", what, 0.5 / step_s, hz),
+        {}, "name another frequency, or take a record with more samples a second");
 }
 
 }  // namespace

@@ -11,10 +11,10 @@
 #include "fit/cycles.hpp"
 #include "fit/delay.hpp"
 #include "fit/differentiate.hpp"
-#include "fit/resample.hpp"
 #include "fit/sensor.hpp"
 #include "hydro/base/error.hpp"
 #include "motion_errors.hpp"
+#include "prepare_steps.hpp"
 
 namespace fit {
 namespace {
@@ -30,6 +30,7 @@ struct Work {
   RawRun run;
   double step = 0;
   Prepared out;
+  StepLog log;
   std::vector<double> pattern;                    // position or velocity: where cycles are seen
   std::vector<std::optional<Rounding>> rounding;  // of each channel of the force
   std::vector<double> zero_errors;                // of each channel of the force, N
@@ -62,22 +63,13 @@ struct Work {
   /// Keeps samples [from, from + count) of every column that is there.
   void cut(std::size_t from, std::size_t count) {
     for (auto* c : columns())
-      if (!c->empty())
-        *c = {c->begin() + static_cast<std::ptrdiff_t>(from), c->begin() + static_cast<std::ptrdiff_t>(from + count)};
-  }
-  template <class... Args>
-  void tell(fmt::format_string<Args...> text, Args&&... args) {
-    out.steps.push_back(fmt::format(text, std::forward<Args>(args)...));
-  }
-  template <class... Args>
-  void warn(fmt::format_string<Args...> text, Args&&... args) {
-    out.cautions.push_back(fmt::format(text, std::forward<Args>(args)...));
+      if (!c->empty()) keep_part(*c, from, count);
   }
 };
 
 /// The raw columns with their names.
-std::vector<std::pair<std::string, std::vector<double>*>> measured(RawRun& run) {
-  std::vector<std::pair<std::string, std::vector<double>*>> all;
+std::vector<NamedColumn> measured(RawRun& run) {
+  std::vector<NamedColumn> all;
   for (ForceChannel& f : run.force) all.push_back({f.name, &f.values});
   for (auto& [name, column] : {std::pair{run.position_name.c_str(), &run.position},
                                {"velocity", &run.velocity},
@@ -116,29 +108,7 @@ void check(RawRun& run) {
   check_columns(run);
 }
 
-void fill_gaps(Work& w, double longest) {  // (F22)
-  const EvenGrid grid = even_grid(w.run.time, longest);
-  w.step = grid.step;
-  if (!grid.filled.empty()) {
-    for (const auto& [name, column] : measured(w.run)) *column = on_grid(grid, *column);
-    w.run.time = grid.time;
-    w.tell("gaps: {} of {} samples were missing and lie on straight lines", grid.filled.size(), grid.time.size());
-  }
-}
-
-/// `rests` stays at one value where nothing is wrong: a carriage.
-void look_at_sensors(Work& w, const std::vector<double>* rests = nullptr) {  // (F19), (F20)
-  for (const auto& [name, column] : measured(w.run)) {
-    if (const auto c = find_clipping(*column); c && column != rests)
-      w.warn("{} stands at {} in {:.2g} % of its samples: the sensor was at its stop, and larger values are lost", name,
-             c->at_low > 0 && c->at_high > 0 ? fmt::format("{:.4g} or {:.4g}", c->low, c->high)
-                                             : fmt::format("{:.4g}", c->at_low > 0 ? c->low : c->high),
-             100.0 * static_cast<double>(c->at_low + c->at_high) / static_cast<double>(column->size()));
-    if (const auto q = find_quantisation(*column))
-      w.tell("resolution: {} knows {} levels, {:.3g} apart, which is a noise of {:.2g}", name, q->levels, q->step,
-             q->noise());
-  }
-}
+RecordColumns record_of(Work& w) { return {w.run.time, w.step, measured(w.run), w.log}; }
 
 /// Channels that carry one body together move together.
 void compare_channels(const RawRun& run) {  // (F26)
@@ -156,51 +126,6 @@ void compare_channels(const RawRun& run) {  // (F26)
                                    run.force[i].name, run.force[0].name, ab / std::sqrt(aa * bb)),
                        {}, fmt::format("write \"-{}\" among the channels to turn it", run.force[i].name));
   }
-}
-
-/// Half of the window about a sample, in samples of the record as it was given; 0 where outliers are not looked for.
-int outlier_half_window(const std::vector<double>& time, const PrepareOptions& options) {
-  if (options.outlier_window_s <= 0) return 0;
-  const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1),
-               half = options.outlier_window_s / (2 * step);
-  if (!(half >= 2) || half > static_cast<double>(time.size()) / 4)
-    throw InputError(
-        fmt::format("outliers are looked for in a window of {:.4g} s: of a record with a sample every {:.4g} "
-                    "s it must be {:.4g} s at least, and half of it, {:.4g} s, at most",
-                    options.outlier_window_s, step, 4 * step, (time.back() - time.front()) / 2),
-        {}, "name [prepare.outliers] window for some ten samples");
-  return static_cast<int>(half);
-}
-
-void take_outliers(Work& w, int half_window, double deviations) {  // (F22)
-  if (half_window == 0) return;
-  for (const auto& [name, column] : measured(w.run)) {
-    const auto found = find_outliers(*column, half_window, deviations);
-    bridge(*column, found);
-    w.tell("outliers: {} of {} samples of {} were more than {:g} deviations off their {} neighbours and are bridged",
-           found.size(), column->size(), name, deviations, 2 * half_window);
-  }
-}
-
-void resample(Work& w, double hz) {  // (F48)
-  if (hz == 0) return;
-  hydro::require(hz > 0 && std::isfinite(hz), "a sampling rate must be positive, got {} Hz", hz);
-  constexpr double most = 100;  // times the rate that was recorded: between samples there is nothing to be found
-  if (hz * w.step > most)
-    throw InputError(fmt::format("a sampling rate of {:.4g} Hz is more than {:g} times that of the record, {:.4g} Hz",
-                                 hz, most, 1 / w.step),
-                     {}, "resample to the rate of the other records");
-  const Resampler to(w.step, 1 / hz);
-  const double first = w.run.time.front() + static_cast<double>(to.settling()) * w.step;
-  for (const auto& [name, column] : measured(w.run)) *column = to.apply(*column);
-  const std::size_t n = w.run.force.front().values.size();
-  w.run.time.resize(n);
-  for (std::size_t k = 0; k < n; ++k) w.run.time[k] = first + static_cast<double>(k) / hz;
-  w.tell(
-      "resampling: from {:.5g} Hz to {:.5g} Hz, all channels alike: 0.2 % to {:.3g} Hz, closed from {:.3g} Hz, "
-      "no delay, {:.3g} s given up at each end",
-      1 / w.step, hz, to.bandwidth_hz(), to.closed_hz(), static_cast<double>(to.settling()) * w.step);
-  w.step = 1 / hz;
 }
 
 /// Standard error of the mean of a record at rest, its memory counted (F3).
@@ -222,12 +147,13 @@ void to_force(Work& w, ForceChannel& f) {
   for (double& v : f.values) v = (v - zero) / slope;
   w.zero_errors.push_back(zero_error / std::abs(slope));
   if (f.calibration)
-    w.tell("calibration: {} has {:.5g} ± {:.2g} {}, {}", f.name, slope, f.calibration->slope_error, f.calibration->unit,
-           f.calibration->pairs > 0 ? fmt::format("hysteresis {:.2g} % of its range", 100 * f.calibration->hysteresis)
-                                    : std::string("hysteresis not known"));
+    w.log.tell(
+        "calibration: {} has {:.5g} ± {:.2g} {}, {}", f.name, slope, f.calibration->slope_error, f.calibration->unit,
+        f.calibration->pairs > 0 ? fmt::format("hysteresis {:.2g} % of its range", 100 * f.calibration->hysteresis)
+                                 : std::string("hysteresis not known"));
   if (!f.zero_run.empty())
-    w.tell("zero: {:.4g} N ± {:.2g} N taken off {}, the mean of {} samples at rest", zero / slope, w.zero_errors.back(),
-           f.name, f.zero_run.size());
+    w.log.tell("zero: {:.4g} N ± {:.2g} N taken off {}, the mean of {} samples at rest", zero / slope,
+               w.zero_errors.back(), f.name, f.zero_run.size());
 }
 
 void sum_forces(Work& w) {
@@ -237,7 +163,7 @@ void sum_forces(Work& w) {
     to_force(w, f);
     for (std::size_t j = 0; j < n; ++j) w.out.record.force[j] += f.values[j];
   }
-  if (w.run.force.size() > 1) w.tell("force: the sum of {} channels", w.run.force.size());
+  if (w.run.force.size() > 1) w.log.tell("force: the sum of {} channels", w.run.force.size());
 }
 
 /// Which sensors of the force round with a memory; looked for in their own samples, before anything moves these. (F69)
@@ -245,8 +171,8 @@ void look_for_rounding(Work& w) {
   for (const ForceChannel& f : w.run.force) {
     w.rounding.push_back(find_rounding(f.values, w.step));
     if (w.rounding.back())
-      w.tell("steps: {} has less noise than half of one; what rounding may have done to it is in the intervals",
-             f.name);
+      w.log.tell("steps: {} has less noise than half of one; what rounding may have done to it is in the intervals",
+                 f.name);
   }
 }
 
@@ -290,7 +216,7 @@ void take_delay(Work& w, double delay_s) {  // (F24)
   w.cut(margin, w.run.time.size() - 2 * margin);
   w.out.record.force = force;
   for (std::size_t i = 0; i < channels.size(); ++i) w.run.force[i].values = channels[i];
-  w.tell("delay: the force is taken {:.4g} s earlier", delay_s);
+  w.log.tell("delay: the force is taken {:.4g} s earlier", delay_s);
 }
 
 /// The phase kx that the body's way through the waves makes; (F62).
@@ -298,10 +224,10 @@ void tell_excursion(Work& w, const ProbeToBody& probe, double k) {
   double furthest = 0;
   for (const double x : w.run.position) furthest = std::max(furthest, std::abs(x));
   if (probe.follow)
-    w.tell("water: taken where the body is, up to {:.3g} m from its place at rest: {:.2g} rad of the main wave",
-           furthest, k * furthest);
+    w.log.tell("water: taken where the body is, up to {:.3g} m from its place at rest: {:.2g} rad of the main wave",
+               furthest, k * furthest);
   else if (k * furthest > 0.1)
-    w.warn(
+    w.log.warn(
         "the water is taken where the body is at rest; it moves up to {:.3g} m from there, {:.2g} rad of the main "
         "wave: "
         "with follow = true in [model] wave it is taken where the body is",
@@ -320,13 +246,14 @@ void add_waves(Work& w) {
   (body_too ? w.run.water_acceleration : w.run.acceleration) = m.acceleration;
   w.run.cross_velocity = m.rise;
   if (w.run.probe->regular)
-    return w.tell(
+    return w.log.tell(
         "water: one linear wave of {:.4g} s fitted to the probe ({:.2g} % of the surface are not in it), {:.4g} m "
         "under "
         "and {:.4g} m ahead of it",
         m.main_period_s, 100 * m.left, -w.run.probe->level, w.run.probe->ahead);
-  w.tell("water: linear waves up to {:.3g} Hz from the surface at the probe, {:.4g} m below and {:.4g} m ahead of it",
-         m.highest_hz, -w.run.probe->level, w.run.probe->ahead);
+  w.log.tell(
+      "water: linear waves up to {:.3g} Hz from the surface at the probe, {:.4g} m below and {:.4g} m ahead of it",
+      m.highest_hz, -w.run.probe->level, w.run.probe->ahead);
 }
 
 /// How derivatives were had, with what they are good for.
@@ -346,7 +273,7 @@ void tell_noise(Work& w, const Motion& m) {  // (F6), (F68)
   const double squares = std::inner_product(a.begin(), a.end(), a.begin(), 0.0) / static_cast<double>(a.size());
   const double share = m.noise_acceleration * m.noise_acceleration / squares;
   if (share <= 0.003) return;
-  w.warn(
+  w.log.warn(
       "noise is {:.2g} % of the derived acceleration's variance: {}; a low pass, or derivatives up to fewer than "
       "{:.3g} "
       "Hz, have less of it",
@@ -377,9 +304,9 @@ void add_motion(Work& w, const PrepareOptions& options) {
   r.motion_errors = std::move(errors);
   r.velocity = m.velocity;
   r.acceleration = w.run.acceleration.empty() ? m.acceleration : w.run.acceleration;
-  w.tell("derivatives of the {} by {}; noise of velocity {:.2g} m/s, of acceleration {:.2g} m/s^2",
-         from_velocity ? "velocity" : "position", method_of(m, options.derivative), m.noise_velocity,
-         m.noise_acceleration);
+  w.log.tell("derivatives of the {} by {}; noise of velocity {:.2g} m/s, of acceleration {:.2g} m/s^2",
+             from_velocity ? "velocity" : "position", method_of(m, options.derivative), m.noise_velocity,
+             m.noise_acceleration);
   if (w.run.acceleration.empty()) tell_noise(w, m);
 }
 
@@ -393,7 +320,7 @@ void add_water(Work& w, const PrepareOptions& options) {
     w.out.record.motion_errors = relative_errors(w.out.record.motion_errors, errors);
     w.run.water_velocity = m.velocity;
     w.run.water_acceleration = m.acceleration;
-    w.tell("acceleration of the water by {}", method_of(m, options.derivative));
+    w.log.tell("acceleration of the water by {}", method_of(m, options.derivative));
   } else {
     w.out.record.motion_errors = relative_errors(w.out.record.motion_errors, {});
   }
@@ -404,7 +331,7 @@ void add_water(Work& w, const PrepareOptions& options) {
   }
   r.water_acceleration = w.run.water_acceleration;
   w.pattern = r.velocity;
-  w.tell("flow: velocity and acceleration of the water less those of the body");
+  w.log.tell("flow: velocity and acceleration of the water less those of the body");
 }
 
 /// √(u² + w²) u where the water moves across as well; (F7).
@@ -414,21 +341,7 @@ void add_cross_flow(Work& w) {
   for (std::size_t j = 0; j < w.run.time.size(); ++j)
     w.out.record.drag_flow.push_back(std::hypot(w.out.record.velocity[j], w.run.cross_velocity[j]) *
                                      w.out.record.velocity[j]);
-  w.tell("drag: the velocity across counts, sqrt(u^2 + w^2) u");
-}
-
-ZeroPhaseFilter made(const FilterChoice& c, double step) {
-  switch (c.kind) {
-    case FilterChoice::Kind::butterworth:
-      return ZeroPhaseFilter::butterworth(c.order, c.hz, step);
-    case FilterChoice::Kind::finite:
-      return ZeroPhaseFilter::finite(c.hz, step);
-    case FilterChoice::Kind::notch:
-      return ZeroPhaseFilter::notch(c.hz, c.width, step);
-    case FilterChoice::Kind::moving_average:
-      break;
-  }
-  return ZeroPhaseFilter::moving_average(2 * static_cast<int>(c.seconds / (2 * step)) + 1, step);
+  w.log.tell("drag: the velocity across counts, sqrt(u^2 + w^2) u");
 }
 
 /// Lines of the force that are no harmonics of the motion, and what the filters leave of them; (F21).
@@ -442,14 +355,14 @@ void tell_lines(Work& w, const std::vector<ZeroPhaseFilter>& filters) {
     double left = 1;
     for (const auto& f : filters) left *= f.gain(2 * std::numbers::pi * line.frequency_hz);
     const bool mains = std::abs(line.frequency_hz - 50) < 0.5 || std::abs(line.frequency_hz - 60) < 0.5;
-    w.tell("line: {:.4g} Hz in the force, amplitude {:.2g} N{}; the filters leave {:.1g} of it", line.frequency_hz,
-           line.amplitude, mains ? ", hum of the mains" : "", left);
+    w.log.tell("line: {:.4g} Hz in the force, amplitude {:.2g} N{}; the filters leave {:.1g} of it", line.frequency_hz,
+               line.amplitude, mains ? ", hum of the mains" : "", left);
   }
 }
 
 void filter_all(Work& w, const std::vector<FilterChoice>& choices, bool linear_drag) {  // (F25)
   std::vector<ZeroPhaseFilter> filters;
-  for (const FilterChoice& c : choices) filters.push_back(made(c, w.step));
+  for (const FilterChoice& c : choices) filters.push_back(filter_of(c, w.step));
   tell_lines(w, filters);
   if (filters.empty()) return;
   ForceRecord& r = w.out.record;
@@ -469,8 +382,8 @@ void filter_all(Work& w, const std::vector<FilterChoice>& choices, bool linear_d
     for (ForceChannel& c : w.run.force) smooth.push_back({&c.values, f.apply(c.values)});
     w.cut(f.settling(), r.time.size() - 2 * f.settling());
     for (auto& [column, values] : smooth) *column = std::move(values);
-    w.tell("{} over force, acceleration and |u|u alike: 1 % to {:.3g} Hz, no delay, {:.3g} s given up at each end",
-           f.name(), f.bandwidth_hz(), static_cast<double>(f.settling()) * w.step);
+    w.log.tell("{} over force, acceleration and |u|u alike: 1 % to {:.3g} Hz, no delay, {:.3g} s given up at each end",
+               f.name(), f.bandwidth_hz(), static_cast<double>(f.settling()) * w.step);
   }
 }
 
@@ -511,7 +424,7 @@ void lay_cycles(Work& w, const std::vector<Cycle>& cycles) {  // (F47)
   for (std::size_t k = 0; k < points; ++k) w.out.mean_force->time.push_back(w.step * static_cast<double>(k));
   for (std::size_t g = 0; g <= cycles.size(); ++g)  // all of one length now
     w.out.cycle_starts[g] = origin + w.step * static_cast<double>(g * points);
-  w.tell(
+  w.log.tell(
       "mean cycle: {} cycles of {:.4g} s over each other at {} phases; single ones differ from their mean by {:.2g} % "
       "of the velocity and {:.2g} % of the force",
       cycles.size(), w.step * static_cast<double>(points), points, 100 * velocity.left, 100 * force.left);
@@ -526,8 +439,8 @@ void cut_cycles(Work& w, const WindowChoice& window, bool average) {  // (F23)
   const double origin = w.run.time.front();
   for (const Cycle& c : cycles) w.out.cycle_starts.push_back(origin + w.step * c.start);
   w.out.cycle_starts.push_back(origin + w.step * cycles.back().end);
-  w.tell("window: {} cycles of full amplitude within {:g} %, from {:.4g} s to {:.4g} s", cycles.size(),
-         100 * window.tolerance, w.out.cycle_starts.front(), w.out.cycle_starts.back());
+  w.log.tell("window: {} cycles of full amplitude within {:g} %, from {:.4g} s to {:.4g} s", cycles.size(),
+             100 * window.tolerance, w.out.cycle_starts.front(), w.out.cycle_starts.back());
   if (average) return lay_cycles(w, cycles);
   const auto from = static_cast<std::size_t>(std::ceil(cycles.front().start)),
              to = static_cast<std::size_t>(std::floor(cycles.back().end));
@@ -539,14 +452,9 @@ void cut_window(Work& w, const WindowChoice& window, bool average) {
                  "a mean cycle needs a window of full cycles");
   if (window.kind == WindowChoice::Kind::full_cycles) return cut_cycles(w, window, average);
   if (window.kind == WindowChoice::Kind::all) return;
-  const auto& t = w.run.time;
-  const auto from = std::lower_bound(t.begin(), t.end(), window.from),
-             to = std::upper_bound(t.begin(), t.end(), window.to);
-  hydro::require(from < to,
-                 "the window from {:.4g} s to {:.4g} s lies outside what is left of the record, {:.4g} s to {:.4g} s",
-                 window.from, window.to, t.front(), t.back());
-  w.cut(static_cast<std::size_t>(from - t.begin()), static_cast<std::size_t>(to - from));
-  w.tell("window: from {:.4g} s to {:.4g} s", w.run.time.front(), w.run.time.back());
+  const SampleSpan part = samples_within(window, w.run.time);
+  w.cut(part.from, part.to - part.from);
+  w.log.tell("window: from {:.4g} s to {:.4g} s", w.run.time.front(), w.run.time.back());
 }
 
 /// What one standard deviation of calibration and zero does to the force; (F26).
@@ -566,19 +474,17 @@ void add_force_errors(Work& w) {
 }
 
 Work begun(RawRun run) {
-  Work w{.run = std::move(run), .step = 0, .out = {}, .pattern = {}, .rounding = {}, .zero_errors = {}};
+  Work w{.run = std::move(run), .step = 0, .out = {}, .log = {}, .pattern = {}, .rounding = {}, .zero_errors = {}};
   hydro::require(w.run.time.size() >= 3, "a record needs at least three samples, got {}", w.run.time.size());
   return w;
 }
 
 /// What every record with a force goes through before anything is made of it.
 void force_on_grid(Work& w, const PrepareOptions& options, const std::vector<double>* rests = nullptr) {
-  const int outlier_half = outlier_half_window(w.run.time, options);
-  fill_gaps(w, options.longest_gap_s);
-  look_at_sensors(w, rests);
   compare_channels(w.run);
-  take_outliers(w, outlier_half, options.outlier_deviations);
-  resample(w, options.resample_hz);
+  RecordColumns record = record_of(w);
+  evened_and_cleaned(record, options, rests);
+  resample(record, options.resample_hz);
   sum_forces(w);
 }
 
@@ -598,6 +504,8 @@ Prepared prepare(RawRun run, const PrepareOptions& options) {
   filter_all(w, options.filters, options.linear_drag);
   cut_window(w, options.window, options.average_cycles);
   add_force_errors(w);
+  w.out.steps = std::move(w.log.steps);
+  w.out.cautions = std::move(w.log.cautions);
   return std::move(w.out);
 }
 
@@ -612,12 +520,10 @@ PreparedMotion prepare_motion(const std::string& name, std::vector<double> time,
   w.run.time = std::move(time);
   w.run.position = std::move(values);
   w.run.position_name = name;
-  const int outlier_half = outlier_half_window(w.run.time, options);
-  fill_gaps(w, options.longest_gap_s);
-  look_at_sensors(w);
-  take_outliers(w, outlier_half, options.outlier_deviations);
+  RecordColumns record = record_of(w);
+  evened_and_cleaned(record, options);
   cut_window(w, options.window, false);
-  return {w.step, std::move(w.run.time), std::move(w.run.position), std::move(w.out.steps), std::move(w.out.cautions)};
+  return {w.step, std::move(w.run.time), std::move(w.run.position), std::move(w.log.steps), std::move(w.log.cautions)};
 }
 
 PreparedTow prepare_towing(RawTow run, const PrepareOptions& options) {
@@ -636,7 +542,7 @@ PreparedTow prepare_towing(RawTow run, const PrepareOptions& options) {
   force_on_grid(w, options, &w.run.position);
   double reach_s = 0;
   for (const FilterChoice& choice : options.filters) {
-    const ZeroPhaseFilter filter = made(choice, w.step);
+    const ZeroPhaseFilter filter = filter_of(choice, w.step);
     reach_s += static_cast<double>(filter.settling()) * w.step;
     std::vector<double> sum = filter.apply(w.out.record.force);
     std::vector<std::vector<double>> single;
@@ -644,8 +550,8 @@ PreparedTow prepare_towing(RawTow run, const PrepareOptions& options) {
     w.cut(filter.settling(), sum.size());
     w.out.record.force = std::move(sum);
     for (std::size_t i = 0; i < single.size(); ++i) w.run.force[i].values = std::move(single[i]);
-    w.tell("{} over the force: 1 % to {:.3g} Hz, no delay, {:.3g} s given up at each end", filter.name(),
-           filter.bandwidth_hz(), static_cast<double>(filter.settling()) * w.step);
+    w.log.tell("{} over the force: 1 % to {:.3g} Hz, no delay, {:.3g} s given up at each end", filter.name(),
+               filter.bandwidth_hz(), static_cast<double>(filter.settling()) * w.step);
   }
   return {.step = w.step,
           .time = std::move(w.run.time),
@@ -654,8 +560,8 @@ PreparedTow prepare_towing(RawTow run, const PrepareOptions& options) {
           .channels = std::move(w.run.force),
           .zero_errors = std::move(w.zero_errors),
           .filter_reach_s = reach_s,
-          .steps = std::move(w.out.steps),
-          .cautions = std::move(w.out.cautions)};
+          .steps = std::move(w.log.steps),
+          .cautions = std::move(w.log.cautions)};
 }
 
 std::string sign_trouble(const Cylinder& cylinder, const MorisonFit& fit) {  // (F26)

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "fit/filter.hpp"
+#include "fit/band_pass.hpp"
 #include "fit/steady.hpp"
 #include "harmonic_series.hpp"
 #include "hydro/base/error.hpp"
@@ -80,24 +80,18 @@ Stretch whole_periods(Stretch w, double period, double step, std::size_t& cycles
   return {w.from, w.from + static_cast<std::size_t>(std::llround(static_cast<double>(cycles) * samples))};
 }
 
-/// Low passes of both edges, one taken from the other: no delay. Empty where the record is shorter than they need.
-/// `lost`: samples given up in front. What has the frequency `omega` keeps its size.
+/// What lies in a band about `omega`, which keeps its size; empty where the record is shorter than that needs. `lost`:
+/// samples given up in front.
 std::vector<double> in_band(Values values, double omega, double low_hz, double high_hz, double step,
                             std::size_t& lost) {
-  const auto slow = ZeroPhaseFilter::butterworth(4, low_hz, step);
   const bool open = high_hz >= 0.45 / step;  // the sampling itself is the upper edge
-  const auto fast = open ? slow : ZeroPhaseFilter::butterworth(4, high_hz, step);
-  lost = std::max(slow.settling(), fast.settling());
+  const BandPass band(low_hz, open ? std::nullopt : std::optional(high_hz), step);
+  lost = band.settling();
   if (values.size() < 2 * lost + 64) return {};
-  const std::vector<double> below = slow.apply(values);
-  std::vector<double> out = open ? std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(slow.settling()),
-                                                       values.end() - static_cast<std::ptrdiff_t>(slow.settling()))
-                                 : fast.apply(values);
-  const std::size_t cut_slow = lost - slow.settling(), cut_out = lost - (open ? slow.settling() : fast.settling());
-  std::vector<double> band(values.size() - 2 * lost);
-  const double gain = (open ? 1 : fast.gain(omega)) - slow.gain(omega);
-  for (std::size_t i = 0; i < band.size(); ++i) band[i] = (out[i + cut_out] - below[i + cut_slow]) / gain;
-  return band;
+  std::vector<double> out = band.apply(values);
+  const double gain = band.gain(omega);
+  for (double& v : out) v /= gain;
+  return out;
 }
 
 /// Half of highest minus lowest sample of each period of the window, by parabolas through the three about each.

@@ -164,8 +164,11 @@ EvenGrid even_grid(std::span<const double> time_s, double longest_gap_s) {  // (
   for (std::size_t j = 0; j < steps.size(); ++j) {
     const double multiple = steps[j] / rough;
     hydro::require(multiple > 0.5, "time does not increase after {:.6g} s", time_s[j]);
-    hydro::require(multiple < 1.5 || steps[j] <= longest_gap_s, "{:.4g} s are missing after {:.6g} s{}", steps[j],
-                   time_s[j], longest_gap_s > 0 ? fmt::format("; gaps may be {:.4g} s long", longest_gap_s) : "");
+    if (!(multiple < 1.5 || steps[j] <= longest_gap_s))
+      throw hydro::InputError(
+          fmt::format("{:.4g} s are missing after {:.6g} s{}", steps[j], time_s[j],
+                      longest_gap_s > 0 ? fmt::format("; gaps may be {:.4g} s long", longest_gap_s) : ""),
+          {}, fmt::format("a longest gap of {:.4g} s bridges it with a straight line", steps[j]));
     index.push_back(index.back() + static_cast<std::size_t>(std::lround(multiple)));
   }
   grid.step = (time_s.back() - time_s.front()) / static_cast<double>(index.back());

@@ -216,6 +216,68 @@ class PartOfARecord(CommandLine):
         refuses(["--from", "200 s"], "table.csv", "the record ends at 99.9 s, before --from 200 s", "leave --from out")
 
 
+class StepsBeforeASpectrum(CommandLine):
+    def setUp(self):
+        super().setUp()
+        rows = "".join(f"{0.1 * i:.1f}, {math.sin(0.25 * i) + 0.002 * i + (5 if i == 700 else 0):.6f}\n"
+                       for i in range(3000) if i not in (1500, 1501))
+        self.write("table.csv", "time [s], force [N]\n" + rows)
+
+    def test_are_done_in_order_and_told(self):
+        told = self.froude("psd", "table.csv", "--gaps", "0.5 s", "--outliers", "1 s", "--detrend", "--wave-frequency", "2.5 rad/s",
+                           "--segment", "30 s")
+        self.assertEqual(told.returncode, 0, told.stderr)
+        places = [told.stdout.find(words) for words in (
+            "gaps: 2 of 3000 samples were missing", "outliers: 1 of 3000 samples of force", "trend: force changes by",
+            "band-pass from 0.07958 Hz to 1.592 Hz", "prepared: steady from", "resolution")]
+        self.assertEqual(places, sorted(places))
+        self.assertGreater(places[0], -1, told.stdout)
+        self.assertEqual(told.stdout, self.froude("psd", "table.csv", "--longest-gap", "0.5 s", "--outliers", "1 s", "--detrend",
+                                                  "--band-pass", "0.5 rad/s, 10 rad/s", "--segment", "30 s").stdout)
+
+    def test_that_cannot_be_done_are_refused_with_the_remedy(self):
+        def refuses(options, *words):
+            result = self.froude("psd", "table.csv", *options, "-o", "out.csv")
+            self.refuses(result, *words)
+            self.assertEqual(result.stderr.count("error:"), 1, result.stderr)
+            self.assertFalse((self.folder / "out.csv").exists())
+
+        refuses(["--detrend"], "table.csv: error: 0.3 s are missing after 149.9 s", "a longest gap of 0.3 s bridges it")
+        refuses(["--gaps", "0.2 s"], "0.3 s are missing after 149.9 s; gaps may be 0.2 s long")
+        refuses(["--gaps", "0.2"], "--longest-gap: error", "has no unit; a time is needed")
+        refuses(["--gaps=-1 s"], "--longest-gap: error", '"-1 s" must be positive', 'for example "0.5 s"')
+        ready = ["--gaps", "0.5 s"]
+        refuses(ready + ["--outliers", "0.1 s"], "table.csv: error", "must be 0.4003 s at least", "ten samples")
+        refuses(ready + ["--outliers", "1 m"], "--outliers: error", "is a length")
+        refuses(ready + ["--outliers", "1 s", "--outlier-deviations", "2"], "--outlier-deviations: error", "3 at least")
+        refuses(ready + ["--outlier-deviations", "5"], "does not act without --outliers", "add --outliers")
+        refuses(ready + ["--band-pass", "0.05 Hz"], "--band-pass: error", '"0.05 Hz" is not two frequencies', "0.05 Hz, 0.5 Hz")
+        refuses(ready + ["--band-pass", "0.05 Hz, 8 s"], "--band-pass: error", "is a time")
+        refuses(ready + ["--band-pass", "0.05, 0.5 Hz"], "--band-pass: error", "has no unit")
+        refuses(ready + ["--band-pass", "0.5 Hz, 0.05 Hz"], "--band-pass: error", '"0.5 Hz, 0.05 Hz"', "exchange the two")
+        refuses(ready + ["--band-pass", "0 Hz, 0.05 Hz"], "--band-pass: error", "must be positive")
+        refuses(ready + ["--band-pass", "0.05 Hz, 5 Hz"], "--band-pass: error", "half the sampling rate, 5 Hz; got 5",
+                "more samples a second")
+        refuses(ready + ["--band-pass", "0.01 Hz, 0.5 Hz"], "table.csv: error", "the record is 299.9 s long", "nothing would be left",
+                "raise the lower edge")
+        refuses(ready + ["--wave-frequency", "8 s"], "--wave-frequency: error", "is a time")
+        refuses(ready + ["--wave-frequency", "2 Hz"], "--wave-frequency: error", "half the sampling rate", "got 8")
+        refuses(ready + ["--wave-frequency", "1 rad/s", "--band-pass", "0.1 Hz, 1 Hz"], "names another", "leave out one")
+        refuses(ready + ["--notch", "1 Hz, 2 Hz"], "--notch: error", "must lie between 0 and its centre")
+        refuses(ready + ["--low-pass", "9 Hz"], "--low-pass: error", "half the sampling rate")
+        refuses(ready + ["--resample", "0 Hz"], "--resample: error", "must be positive")
+        refuses(ready + ["--resample", "2 kHz"], "table.csv: error", "more than 100 times that of the record")
+        refuses(ready + ["--uneven"], "--uneven takes it as it is", "leave out --uneven, or the steps")
+        band = ready + ["--wave-frequency", "1 rad/s"]
+        refuses(band + ["--to", "290 s"], "table.csv: error", "the steps leave", "and --to is 290 s", "give an earlier end")
+        refuses(band + ["--to", "50 s"], "table.csv: error", "lies outside what is left of the record")
+        refuses(band + ["--from", "1000 s"], "the record ends at 299.9 s, before --from 1000 s")
+
+    def test_of_signals_that_never_change_are_refused(self):
+        self.write("still.csv", "time [s], force [N]\n" + "".join(f"{0.1 * i:.1f}, 3\n" for i in range(1000)))
+        self.refuses(self.froude("psd", "still.csv", "--detrend"), "still.csv: error", "no signal changes", "leave the steps out")
+
+
 class KeptFits(CommandLine):
     def planned(self, **environment):
         environment = {**os.environ, "XDG_CACHE_HOME": str(self.folder / "cache"), "FROUDE_CACHE": "on", **environment}

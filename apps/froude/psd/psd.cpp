@@ -5,6 +5,7 @@
 #include "froude/outputs.hpp"
 #include "froude/psd/report.hpp"
 #include "froude/record_file.hpp"
+#include "froude/record_steps.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
 #include "hydro/signal/lomb_scargle.hpp"
@@ -102,14 +103,29 @@ std::optional<double> time_of(const char* option, const std::optional<std::strin
   return scene::placed({.file = option}, [&] { return hydro::parse_si(*text, hydro::dim::time); });
 }
 
-/// Leaves the part of the record from --from to --to, both included.
-void cut_out(RunResult& record, const PsdArguments& arguments) {
-  const auto from = time_of("--from", arguments.from), to = time_of("--to", arguments.to);
-  if (from && to && !(*to > *from))
-    throw hydro::InputError(fmt::format("--to {:.6g} s is not after --from {:.6g} s", *to, *from),
+RecordPart part_of(const PsdArguments& arguments) {
+  const RecordPart part{time_of("--from", arguments.from), time_of("--to", arguments.to)};
+  if (part.from && part.to && !(*part.to > *part.from))
+    throw hydro::InputError(fmt::format("--to {:.6g} s is not after --from {:.6g} s", *part.to, *part.from),
                             {.file = "command line"}, "exchange the two, or leave one out");
-  if (from) drop_before(record, *from, arguments.file);
-  if (to) drop_after(record, *to, arguments.file);
+  return part;
+}
+
+/// Leaves the part of the record from --from to --to, both included.
+void cut_out(RunResult& record, const RecordPart& part, const Path& file) {
+  if (part.from) drop_before(record, *part.from, file);
+  if (part.to) drop_after(record, *part.to, file);
+}
+
+/// The steps asked for, and the part. Filters see the whole record, so that the part need not lose its ends to them.
+std::optional<StepsDone> prepared(RunResult& record, const PsdArguments& arguments) {
+  const RecordPart part = part_of(arguments);
+  RunResult times;  // the part must lie in the record as it was given
+  times.time = record.time;
+  cut_out(times, part, arguments.file);
+  const auto done = take_steps(record, arguments.steps, part, arguments.file);
+  if (!done) cut_out(record, part, arguments.file);
+  return done;
 }
 
 /// Transfer functions are made of segments, not of tapers.
@@ -120,6 +136,9 @@ void require_one_way(const PsdArguments& arguments) {
   if (arguments.uneven && (arguments.tapers || arguments.input))
     throw hydro::InputError("--tapers and --input need even samples, --uneven is for those that are not",
                             {.file = "command line"}, "leave out --uneven, or the other");
+  if (arguments.uneven && names_a_step(arguments.steps))
+    throw hydro::InputError("steps before the spectrum bring the record to an even grid, --uneven takes it as it is",
+                            {.file = "command line"}, "leave out --uneven, or the steps");
 }
 
 /// Of a record with gaps: as asked, or an eighth of it.
@@ -133,7 +152,7 @@ Analysis analyse(const PsdArguments& arguments) {
   RunResult record = read_record(arguments.file);
   record.signals = chosen(record, arguments);
   hydro::require(!record.time.empty(), "the record has no samples");
-  cut_out(record, arguments);
+  auto steps = prepared(record, arguments);
   Analysis a{.samples = record.time.size(),
              .step = 0,
              .options = {},
@@ -141,6 +160,7 @@ Analysis analyse(const PsdArguments& arguments) {
              .uneven_segment = {},
              .band = {},
              .confidence = arguments.confidence,
+             .prepared = std::move(steps),
              .input = arguments.input.value_or(""),
              .estimates = {}};
   scene::placed({.file = arguments.file.string()}, [&] {
@@ -148,7 +168,7 @@ Analysis analyse(const PsdArguments& arguments) {
       a.uneven_segment = uneven_segment(arguments, record);
       a.step = 0.5 / hs::usual_nyquist_hz(record.time);
     } else {
-      a.step = hs::even_step(record.time);
+      a.step = a.prepared ? a.prepared->step : hs::even_step(record.time);
       if (!a.tapers) a.options = welch_options(arguments, a.samples, a.step);
     }
     const auto at =

@@ -161,6 +161,17 @@ const char* method_of(const Analysis& a) {
   return a.tapers ? "sine tapers" : a.uneven_segment ? "least squares (Lomb-Scargle)" : "Welch";
 }
 
+/// What was done before the spectrum, as attributes of the file.
+void note_steps(hydro::io::Hdf5Writer& file, const StepsDone& done) {
+  file.attribute("/", "prepared", fmt::format("{}", fmt::join(done.steps, "; ")));
+  file.attribute("/", "cautions", fmt::format("{}", fmt::join(done.cautions, "; ")));
+  file.attribute("/", "steady_from_s", done.steady_from_s);
+  file.attribute("/", "steady_to_s", done.steady_to_s);
+  file.attribute("/", "samples_filled", static_cast<double>(done.filled));
+  for (const auto& [name, count] : done.outliers)
+    file.attribute("/", "outliers_of_" + name, static_cast<double>(count));
+}
+
 /// The frequency below which 99.9 % of all variance lies: what lies beyond would squeeze the picture.
 double interesting_hz(const Analysis& a) {
   const auto& f = a.estimates.front().welch.spectrum.frequency_hz;
@@ -180,6 +191,7 @@ double interesting_hz(const Analysis& a) {
 Report report_of(const Analysis& a) {
   const hs::WelchSpectrum& w = a.estimates.front().welch;
   Report out, signals;
+  if (a.prepared) out.part("prepared", froude::report_of(*a.prepared));
   if (a.tapers)
     out.say("{} samples every {:.6g} s; {} sine tapers over all of them", fact("samples", a.samples),
             fact("step_s", a.step), fact("tapers", *a.tapers));
@@ -217,9 +229,11 @@ void write_table(const Path& path, const Analysis& a) {
       for (double& v : c.values) v *= factor;
       table.push_back({c.name, c.unit, &c.values});
     }
-    hydro::io::write_csv(
-        path, table,
-        {fmt::format("one-sided densities by {}, {:g} % band from low to high", method_of(a), 100 * a.confidence)});
+    std::vector<std::string> comments{
+        fmt::format("one-sided densities by {}, {:g} % band from low to high", method_of(a), 100 * a.confidence)};
+    const Report before = a.prepared ? froude::report_of(*a.prepared) : Report();
+    comments.insert(comments.end(), before.lines().begin(), before.lines().end());
+    hydro::io::write_csv(path, table, comments);
     return;
   }
   hydro::require(kind == ".h5", "the table is written as .csv or .h5, not as \"{}\"", path.filename().string());
@@ -228,6 +242,7 @@ void write_table(const Path& path, const Analysis& a) {
   file.attribute("/", "froude_version", FROUDE_VERSION);
   file.attribute("/", "confidence", a.confidence);
   file.attribute("/", "degrees_of_freedom", a.estimates.front().welch.dof);
+  if (a.prepared) note_steps(file, *a.prepared);
   for (const Column& c : columns) {
     const std::string name = "/" + c.name;
     file.write(name, c.values, {c.values.size()});

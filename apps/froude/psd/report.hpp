@@ -6,6 +6,7 @@
 
 #include "answers/plot.hpp"
 #include "froude/commands.hpp"
+#include "froude/record_steps.hpp"
 #include "froude/report.hpp"
 #include "froude/result.hpp"
 #include "hydro/signal/welch.hpp"
@@ -35,7 +36,8 @@ struct Analysis {
   std::optional<double> uneven_segment;  ///< s: of a record with gaps; its step is the most usual
   hs::BandFactors band;
   double confidence;
-  std::string input;  ///< empty: none
+  std::optional<StepsDone> prepared;  ///< where steps before the spectrum were asked for
+  std::string input;                  ///< empty: none
   std::vector<Estimate> estimates;
 };
 

@@ -2,12 +2,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstdlib>
+#include <numbers>
 
 #include "answers/linear_response.hpp"
 #include "answers/simulate.hpp"
+#include "compile/compile.hpp"
 #include "scenes.hpp"
 #include "support/pontoons.hpp"
 
@@ -102,6 +105,96 @@ TEST(SizeLeftOut, OfDragIsWhatALinearisedResponseChangesBy) {
   // 0.5 % by three digits of the height, 0.4 % by the load at 4.99 s beside that at 5 s, 0.4 % by the square, seen as
   // 4 % at ten times the height
   EXPECT_NEAR(std::abs(after - before) / std::abs(before), 0.001, 1.3e-2 * 0.001);
+}
+
+/// The number after these words in the note that has them.
+double number_told(const Responses& responses, const std::string& words) {
+  for (const std::string& note : responses.notes)
+    if (const auto at = note.find(words); at != std::string::npos) return std::atof(note.c_str() + at + words.size());
+  return std::nan("");
+}
+
+// Drag goes with the square of the height and the wave load with the height: a tenth at one, and as much more as others
+// are higher. What a gap loses goes with the height.
+TEST(SizeLeftOut, InWavesOfTheSceneGoesWithTheirHeight) {
+  for (const double height : {0.1, 0.7}) {
+    const auto of_drag = respond(froude_test::parse(module_in_waves(height, on_cylinders)));
+    const double tenth = height_told(of_drag, "drag left out"),
+                 own = number_told(of_drag, fmt::format("as those of the scene, {} m, it is ", height));
+    EXPECT_NEAR(own, 0.1 * height / tenth, 1e-2 * own);  // three digits each
+    const auto of_gap = respond(froude_test::parse(module_in_waves(height, wall)));
+    const double closes = height_told(of_gap, "\"quay\""),
+                 taken = number_told(of_gap, fmt::format("as those of the scene, {} m, ", height));
+    EXPECT_NEAR(taken, height / closes, 1e-2 * taken);
+  }
+}
+
+const std::string rail = R"toml([[joint]]
+name = "rail"
+between = ["ground", "m1"]
+at = "(0, 0, 0) m"
+kind = "slider"
+axis = "x"
+friction = { static = "3 kN", dynamic = "2 kN" }
+)toml";
+
+double most_slip(double height) {
+  const Run run = simulate(froude_test::parse(module_in_waves(height, rail)));
+  const auto& surge = run.signal("m1.surge");
+  return *std::max_element(surge.begin(), surge.end()) - *std::min_element(surge.begin(), surge.end());
+}
+
+// One body on a rail is held by its wave load, which the data have: it sticks where that is below the static friction,
+// and a run slips in higher waves alone. The friction that slips has 4/π of its level as first harmonic.
+TEST(SizeLeftOut, OfFrictionIsTheWaveLoadThatItHolds) {
+  const scene::Scene scene = froude_test::parse(module_in_waves(0.1, rail));
+  const auto prepared = compile::prepare(scene);
+  const dynamics::Model model = compile::frequency_model(prepared);
+  double load = 0;
+  for (const double period : {4.99, 5.0})
+    load = std::max(
+        load, std::abs(dynamics::frequency::excitation(model, prepared.groups, 2 * std::numbers::pi / period, 0)[0]));
+  const auto responses = respond(scene);
+  const double sticks = number_told(responses, "\"rail\" sticks in waves of up to "),
+               little = number_told(responses, "move freely, and in waves of ");
+  EXPECT_NEAR(sticks, 2 * 3000 / load, 6e-3 * sticks);  // three digits
+  EXPECT_NEAR(little, 2 * 4 / std::numbers::pi * 2000 / (0.1 * load), 6e-3 * little);
+  EXPECT_THAT(responses.notes, Contains(HasSubstr("as those of the scene, 0.1 m, it sticks")));
+  EXPECT_EQ(most_slip(0.95 * sticks), 0);
+  EXPECT_GT(most_slip(1.1 * sticks), 1e-3);
+}
+
+TEST(SizeLeftOut, OfInertiaIsAShareOfTheWaveLoadInAllWaves) {
+  std::string members = on_cylinders;
+  members.replace(members.find("drag ="), std::string::npos,
+                  "morison = { cd = 1.0, ca = 1.0, partial_immersion = true }\n");
+  const auto low = respond(froude_test::parse(module_in_waves(0.1, members))),
+             high = respond(froude_test::parse(module_in_waves(2, members)));
+  const std::string words = "Morison's loads, left out, is ";
+  EXPECT_GT(number_told(low, words), 0);
+  EXPECT_EQ(number_told(low, words), number_told(high, words));
+  EXPECT_THAT(low.notes, Contains(HasSubstr("the drag left out reaches a tenth")));
+}
+
+// A mooring that is taut across the motion: k(√(ℓ² + x²) − ℓ) x/√(ℓ² + x²), all of which is left out, for its stiffness
+// along the motion is none at rest.
+TEST(SizeLeftOut, OfATautLineAcrossTheMotionIsAllOfItsLoad) {
+  const std::string across = R"toml([[connector]]
+kind = "axial"
+stiffness = "400 kN/m"
+between = ["m1", "ground"]
+ends = ["(0, 0, 0.5) m", "(0, 8, 0.5) m"]
+)toml";
+  const auto responses = respond(froude_test::parse(module_in_waves(2, across)));
+  const scene::Scene scene = froude_test::parse(module_in_waves(2, across));
+  const auto prepared = compile::prepare(scene);
+  const dynamics::Model model = compile::frequency_model(prepared);
+  const double load = std::abs(dynamics::frequency::excitation(model, prepared.groups, 2 * std::numbers::pi / 5, 0)[0]),
+               x = std::abs(responses.signal("m1.surge").values.back()), length = std::hypot(8, x);
+  const double told = number_told(responses, "depart from their linear part by ");
+  // Eight phases of the cube: the largest is missed by at most a fifth.
+  EXPECT_LE(told, 1.02 * 400e3 * (length - 8) * x / length / load);
+  EXPECT_GE(told, 0.78 * 400e3 * (length - 8) * x / length / load);
 }
 
 TEST(SizeLeftOut, OfDragIsNotToldWhereItIsKeptOrACurrentFlows) {
