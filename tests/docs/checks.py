@@ -105,7 +105,7 @@ MAY_USE_OF = {("validation", "tests"): {"support"}, ("tests", "validation"): {"h
 # uses another; files that are in no folder may use all. docs/design.md draws the same.
 # Rooms inside a folder have floors too, where it is listed; "." is what stands in the folder itself.
 FLOORS = {
-    "libhydro": ("base", "io", "signal", "waves", "radiation", "hydrostatics", "potential", "cylinders"),
+    "libhydro": ("base", "io", "signal", "waves", "radiation", "hydrostatics", "potential", "cylinders", "panels"),
     "libdynamics": ("algebra", "spatial", "time", "line", "state", "control", "joint", "force", "model", "integrate", "frequency"),
     "apps": ("scene", "include", "compile", "answers", "sweep", "froude"),
     "validation": ("harness", "*"),

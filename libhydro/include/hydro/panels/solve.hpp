@@ -1,0 +1,82 @@
+#pragma once
+/// \file  Linear radiation and diffraction of waves by hulls of any shape, by panels.
+///
+/// Green's theorem for the potential on flat panels, with the Green function of a free surface over water of any depth.
+/// Panels are those of the mesh: two triangles in one plane make one of four corners, what is above z = 0 is cut off.
+/// Equations (G1)-(G15) are derived and sourced in docs/theory/panels.md.
+#include <Eigen/Core>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hydro/hydrostatics/mesh.hpp"
+#include "hydro/potential/coefficients.hpp"
+
+namespace hydro::panels {
+
+/// A rigid body, its hull as it floats: z = 0 is the still water. It may be wholly under water.
+struct HullBody {
+  std::string name;
+  Eigen::Vector3d reference_point;                   ///< of motions and moments, global, m
+  std::optional<Eigen::Vector3d> centre_of_gravity;  ///< global, m; without it there is no restoring matrix
+  hydrostatics::Hull hull;
+};
+
+struct Options {
+  /// Largest error of A, B and X that is accepted, an entry being measured against its two modes (P11). The estimate
+  /// is made with `refined_frequencies`, and refused if above; empty: told alone.
+  std::optional<double> tolerance = {};
+  /// At how many frequencies the work is repeated with every panel cut in four; 0: none. One costs as much as 16 to 64.
+  int refined_frequencies = 0;
+  /// Panels on the water inside the hull, which remove irregular frequencies.
+  bool lid = true;
+  /// Frequencies that are solved at a time; the result does not depend on it. 0: as many as the machine has cores.
+  int threads = 0;
+  /// Called after each frequency, one call at a time, from any thread: how many are done, of how many.
+  std::function<void(int done, int all)> progress = {};
+};
+
+/// What was used, and what theory says about the result. Relative numbers are measured as in (P11).
+struct SelfCheck {
+  double energy = 0;       ///< largest |B − power carried away by waves|, (G14)
+  double haskind = 0;      ///< largest |X − X from the waves made by motion|, (G14)
+  double reciprocity = 0;  ///< largest asymmetry of A and B, before their symmetric parts were taken
+  /// Estimated largest error of A, B, X against panels of no size on the same flat faces (G15); NaN if not asked for.
+  double estimate = 0;
+  std::vector<double> refined_omega;  ///< where it was measured, rad/s
+  int panels = 0;                     ///< under water
+  int lid_panels = 0;
+  int planes_of_symmetry = 0;  ///< 0, 1 or 2: found in the mesh, and used
+};
+
+struct Solution {
+  potential::Coefficients coefficients;
+  SelfCheck check;
+};
+
+/// What a solution will need, told before it is computed.
+struct Cost {
+  int panels;            ///< under water
+  int unknowns;          ///< of each of `systems` sets of complex equations
+  int systems;           ///< 1, 2 or 4 a frequency, by planes of symmetry
+  int refined_unknowns;  ///< of the refined mesh; 0: none
+  double bytes;          ///< of working memory, all threads together, estimated
+  double seconds;        ///< estimated; good to a factor of three
+};
+
+/// A, B and X of `bodies` at the frequencies `omega` (rad/s, increasing) for waves going towards `heading` (rad,
+/// increasing; may be empty), with A(∞), in deep water A(0), centres of buoyancy, volumes and, where every body has a
+/// centre of gravity, C. A and B are symmetric parts; SelfCheck::reciprocity tells of what.
+/// \throws InputError naming the body: nothing of a hull under water, a hull below the bed, hulls inside one another,
+/// an opening under water; if a frequency is not finite and positive or the lists do not increase; more memory than the
+/// machine has; an estimate above the tolerance
+Solution solve(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
+               const std::vector<double>& heading, const Options& options = {});
+
+/// \throws InputError as solve()
+Cost cost(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
+          const std::vector<double>& heading, const Options& options = {});
+
+}  // namespace hydro::panels

@@ -1,0 +1,65 @@
+#include "green.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "deep_wave.hpp"
+#include "wave_bessel.hpp"
+
+namespace hydro::panels {
+
+using std::numbers::pi;
+
+WaveGreen::WaveGreen(double K, const WaterDepth& depth, double reach) : K_(K), h_(depth.metres()) {
+  if (!depth.is_infinite()) bed_.emplace(K, h_, reach);
+}
+
+double WaveGreen::image_sign() const { return std::isinf(K_) ? -1 : 1; }
+
+WavePart WaveGreen::operator()(double R, double z, double zeta) const {
+  return bed_ ? over_bed(R, z, zeta) : deep(R, -z - zeta);
+}
+
+/// 2K(F − iπe^{−KY}J₀(KR)).
+WavePart WaveGreen::deep(double R, double Y) const {
+  const DeepWave w = deep_wave(K_ * R, K_ * Y);
+  const BesselPair J = bessel_j(K_ * R);
+  const double e = pi * std::exp(-K_ * Y), twice = 2 * K_;
+  return {.G = {twice * w.F, -twice * e * J.order0},
+          .G_R = {twice * K_ * w.F_X, twice * K_ * e * J.order1},
+          .G_zeta = {-twice * K_ * w.F_Y, -twice * K_ * e * J.order0}};
+}
+
+WavePart WaveGreen::over_bed(double R, double z, double zeta) const {
+  const bool waves = !std::isinf(K_);
+  double G = 0, G_R = 0, G_zeta = 0;
+  // V₁ = z + ζ + 2h grows with ζ, V₂ = |z − ζ| with the sign of ζ − z.
+  for (const bool second : {false, true}) {
+    const double V = second ? std::abs(z - zeta) : z + zeta + 2 * h_, Y = 2 * h_ - V;
+    const double grows = second && z > zeta ? -1 : 1;
+    const BedWave d = (*bed_)(R, V);
+    G += d.d;
+    G_R += d.d_R;
+    G_zeta += grows * d.d_V;
+    if (waves) {
+      const DeepWave w = deep_wave(K_ * R, K_ * Y);
+      G += 2 * K_ * w.F;
+      G_R += 2 * K_ * K_ * w.F_X;
+      G_zeta -= grows * 2 * K_ * K_ * w.F_Y;
+    }
+    if (second) {  // the image of the image, which is at least a depth away
+      const double r = std::hypot(R, Y), sign = image_sign() / (r * r * r);
+      G += sign * r * r;
+      G_R -= sign * R;
+      G_zeta += grows * sign * Y;
+    }
+  }
+  if (!waves) return {G, G_R, G_zeta};
+  const double k = bed_->k(), wave = 2 * pi * bed_->wave_strength(-z, -zeta);
+  const BesselPair J = bessel_j(k * R);
+  return {.G = {G, -wave * J.order0},
+          .G_R = {G_R, wave * k * J.order1},
+          .G_zeta = {G_zeta, -wave * k * std::tanh(k * (zeta + h_)) * J.order0}};
+}
+
+}  // namespace hydro::panels

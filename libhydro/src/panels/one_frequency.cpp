@@ -1,0 +1,120 @@
+#include "one_frequency.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "hydro/waves/dispersion.hpp"
+
+namespace hydro::panels {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using std::numbers::pi;
+
+constexpr Complex i_unit(0, 1);
+
+/// The greatest distance along the water between panels, with room for their corners.
+double reach_of(const AllPanels& all, const PanelMesh& mesh) {
+  double size = 0;
+  for (const Panel& p : mesh.hull) size = std::max(size, p.shape.size);
+  for (const Panel& p : mesh.lid) size = std::max(size, p.shape.size);
+  const Eigen::RowVector2d low = all.point.leftCols<2>().colwise().minCoeff(),
+                           high = all.point.leftCols<2>().colwise().maxCoeff();
+  return (high - low).norm() + 4 * size;
+}
+
+}  // namespace
+
+Model::Model(PanelMesh mesh, const std::vector<HullBody>& bodies, const Water& water)
+    : mesh_(std::move(mesh)),
+      water_(water),
+      all_(all_panels(mesh_, bodies)),
+      parts_(rankine_parts(mesh_, all_, water.depth)) {
+  reach_ = reach_of(all_, mesh_);
+}
+
+/// cosh k(z+h)/cosh kh.
+double Model::profile(double k, double z) const {
+  if (water_.depth.is_infinite()) return std::exp(k * z);
+  const double h = water_.depth.metres();
+  return std::exp(k * z) * (1 + std::exp(-2 * k * (z + h))) / (1 + std::exp(-2 * k * h));
+}
+
+MatrixXcd Model::incident(double omega, double k, const std::vector<double>& heading) const {
+  std::vector<Vector3d> points;
+  for (Index i = 0; i < all_.point.rows(); ++i) points.emplace_back(all_.point.row(i));
+  for (const Image& image : mesh_.images)
+    for (const Panel& p : mesh_.lid) points.push_back(image * p.shape.centre);
+  MatrixXcd out(static_cast<Index>(points.size()), static_cast<Index>(heading.size()));
+  for (Index b = 0; b < out.cols(); ++b) {
+    const double c = std::cos(heading[static_cast<std::size_t>(b)]), s = std::sin(heading[static_cast<std::size_t>(b)]);
+    for (Index i = 0; i < out.rows(); ++i) {
+      const Vector3d& p = points[static_cast<std::size_t>(i)];
+      out(i, b) = i_unit * (water_.gravity / omega * profile(k, p.z())) * std::polar(1.0, -k * (p.x() * c + p.y() * s));
+    }
+  }
+  return out;
+}
+
+/// L = ∬ φ n dS, row: load on, column: potential.
+MatrixXcd Model::loads(const MatrixXcd& potential) const {
+  return (all_.area.asDiagonal() * all_.normal).transpose().cast<Complex>() * potential;
+}
+
+MatrixXcd Model::haskind(double omega, double k, const MatrixXcd& motion, const std::vector<double>& heading) const {
+  const MatrixXcd wave = incident(omega, k, heading).topRows(all_.point.rows());
+  MatrixXcd out = loads(wave);
+  for (Index b = 0; b < wave.cols(); ++b) {
+    const double c = std::cos(heading[static_cast<std::size_t>(b)]), s = std::sin(heading[static_cast<std::size_t>(b)]);
+    for (Index i = 0; i < wave.rows(); ++i) {
+      const double z = all_.point(i, 2), K = omega * omega / water_.gravity;
+      const double rise = water_.depth.is_infinite() ? K : k * std::tanh(k * (z + water_.depth.metres()));
+      const Complex slope = -i_unit * k * (c * all_.n(i, 0) + s * all_.n(i, 1)) + rise * all_.n(i, 2);
+      out.col(b) -= (all_.area(i) * slope * wave(i, b)) * motion.row(i).transpose();
+    }
+  }
+  return i_unit * omega * water_.density * out;
+}
+
+MatrixXd Model::damping_far(double omega, double k, const MatrixXcd& motion) const {
+  const int count = 32 + 2 * static_cast<int>(k * reach_);  // of a periodic function: exact once it holds its harmonics
+  std::vector<double> around;
+  for (int i = 0; i < count; ++i) around.push_back(2 * pi * i / count);
+  const MatrixXcd X = haskind(omega, k, motion, around);
+  const double speed = waves::group_velocity(omega, water_);
+  return (k / (8 * pi * water_.density * water_.gravity * speed) * 2 * pi / count) * (X * X.adjoint()).real();
+}
+
+OneFrequency Model::at(double omega, const std::vector<double>& heading) const {
+  const double K = omega * omega / water_.gravity, k = waves::wavenumber(omega, water_);
+  const WaveGreen green(K, water_.depth, reach_);
+  const Potentials phi = solve_system(mesh_, all_, parts_, green, incident(omega, k, heading));
+  const MatrixXcd L = loads(phi.motion);
+  OneFrequency out;
+  out.A = -water_.density * L.real();
+  out.B = omega * water_.density * L.imag();
+  out.X = i_unit * omega * water_.density * loads(phi.wave);
+  out.X_far = haskind(omega, k, phi.motion, heading);
+  out.B_far = damping_far(omega, k, phi.motion);
+  return out;
+}
+
+MatrixXd Model::added_mass_limit(double K) const {
+  PanelMesh open{.hull = mesh_.hull, .lid = {}, .images = mesh_.images, .body_of = mesh_.body_of};
+  const auto hull = static_cast<Index>(mesh_.hull.size());
+  RankineParts parts;
+  for (const RankineParts::OfClass& p : parts_.of_class)
+    parts.of_class.push_back({p.dipole.topRows(hull), p.image_dipole.topRows(hull), p.source.topRows(hull),
+                              p.image_source.topRows(hull), MatrixXd(hull, 0)});
+  const WaveGreen green(K, water_.depth, reach_);
+  const MatrixXcd none(all_.point.rows(), 0);
+  return -water_.density * loads(solve_system(open, all_, parts, green, none).motion).real();
+}
+
+}  // namespace hydro::panels

@@ -1,0 +1,120 @@
+#include "request.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hydro/base/parallel.hpp"
+
+namespace hydro::panels {
+namespace {
+
+using Eigen::Vector3d;
+
+void require_increasing(const std::vector<double>& values, const char* what, const char* unit) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    require(std::isfinite(values[i]), "{} must be finite, got {} {}", what, values[i], unit);
+    require(i == 0 || values[i] > values[i - 1], "{} must increase, but {} {} follows {}", what, values[i], unit,
+            values[i == 0 ? 0 : i - 1]);
+  }
+}
+
+/// The solid angle that the wet part of a body and its image in the surface subtend: 4π inside, 0 outside.
+double angle_of_body(const PanelMesh& mesh, int body, const Vector3d& P) {
+  double sum = 0;
+  for (std::size_t i = 0; i < mesh.hull.size(); ++i)
+    for (std::size_t s = 0; s < mesh.images.size(); ++s)
+      if (mesh.body_of[i][s] == body) {
+        const Vector3d at = mesh.images[s] * P;
+        sum += rankine(mesh.hull[i].shape, at).dipole;
+        sum += rankine(mesh.hull[i].shape, {at.x(), at.y(), -at.z()}).dipole;
+      }
+  return std::abs(sum);
+}
+
+/// Working memory of one mesh, bytes: Rankine's parts for all, equations a thread.
+double bytes_of(double unknowns, double systems, double right, int threads) {
+  return systems * unknowns * (16 * unknowns + 16 * right) +
+         threads * systems * unknowns * (32 * unknowns + 32 * right);
+}
+
+/// Seconds of one frequency: half a microsecond a pair of panels, half a nanosecond a step of elimination.
+double seconds_of(double unknowns, double systems, double right) {
+  const double pairs = unknowns * unknowns * systems;
+  return 1e-6 * pairs + systems * unknowns * unknowns * (unknowns / 3 + right) * 1.6e-9;
+}
+
+}  // namespace
+
+void check_request(const std::vector<double>& omega, const std::vector<double>& heading, const Options& options) {
+  require(!omega.empty(), "no frequency is asked for");
+  require_increasing(omega, "frequencies", "rad/s");
+  require(omega.front() > 0, "a frequency must be positive, got {} rad/s", omega.front());
+  require_increasing(heading, "headings", "rad");
+  require(!options.tolerance || (*options.tolerance > 0 && *options.tolerance < 1),
+          "the tolerance must be between 0 and 1, got {}", options.tolerance.value_or(0));
+  require(options.threads >= 0 && options.threads <= 1024, "the number of threads must be between 0 and 1024, got {}",
+          options.threads);
+  require(options.refined_frequencies >= 0, "the number of frequencies to refine must not be negative, got {}",
+          options.refined_frequencies);
+  require(!options.tolerance || options.refined_frequencies > 0,
+          "a tolerance of {} needs an estimate of the error; ask for refined frequencies, three for example",
+          options.tolerance.value_or(0));
+}
+
+void require_apart(const PanelMesh& mesh, const std::vector<HullBody>& bodies) {
+  for (std::size_t i = 0; bodies.size() > 1 && i < mesh.hull.size(); ++i)
+    for (int other = 0; other < static_cast<int>(bodies.size()); ++other) {
+      const Vector3d& P = mesh.hull[i].shape.centre;
+      if (other == mesh.hull[i].body || angle_of_body(mesh, other, P) < 2 * std::numbers::pi) continue;
+      throw InputError(fmt::format("\"{}\" is inside \"{}\" at ({:.4g}, {:.4g}, {:.4g}) m",
+                                   bodies[static_cast<std::size_t>(mesh.hull[i].body)].name,
+                                   bodies[static_cast<std::size_t>(other)].name, P.x(), P.y(), P.z()),
+                       {}, "move the bodies apart, or make one mesh of them");
+    }
+}
+
+int thread_count(int asked, std::size_t work) {
+  return std::min(asked > 0 ? asked : all_processors(), static_cast<int>(work));
+}
+
+std::vector<std::size_t> spread(std::size_t all, int wanted) {
+  std::vector<std::size_t> chosen;
+  const std::size_t count = std::min(all, static_cast<std::size_t>(wanted));
+  for (std::size_t i = 0; i < count; ++i) chosen.push_back(count == 1 ? all - 1 : i * (all - 1) / (count - 1));
+  return chosen;
+}
+
+Cost cost_of(const PanelMesh& mesh, std::size_t bodies, std::size_t frequencies, std::size_t headings,
+             const Options& options) {
+  const auto systems = static_cast<double>(mesh.images.size());
+  const double right = 6.0 * static_cast<double>(bodies) + static_cast<double>(headings);
+  const auto hull = static_cast<double>(mesh.hull.size()), lid = static_cast<double>(mesh.lid.size());
+  const std::size_t fine = spread(frequencies, options.refined_frequencies).size();
+  const int threads = thread_count(options.threads, frequencies + fine);
+  Cost c{.panels = mesh.hull_panels(),
+         .unknowns = static_cast<int>(hull + lid),
+         .systems = static_cast<int>(systems),
+         .refined_unknowns = fine > 0 ? static_cast<int>(4 * hull + lid) : 0,
+         .bytes = bytes_of(hull + lid, systems, right, threads),
+         .seconds = static_cast<double>(frequencies + 2) * seconds_of(hull + lid, systems, right) / threads};
+  if (fine > 0) {
+    c.bytes += bytes_of(4 * hull + lid, systems, right,
+                        static_cast<int>(std::min<std::size_t>(fine, static_cast<std::size_t>(threads))));
+    c.seconds += static_cast<double>(fine) * seconds_of(4 * hull + lid, systems, right) /
+                 std::min(static_cast<double>(fine), static_cast<double>(threads));
+  }
+  return c;
+}
+
+void require_memory(const Cost& cost) {
+  const double have = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (cost.bytes <= have) return;
+  throw InputError(fmt::format("{} panels need about {:.3g} GB of memory; this machine has {:.3g} GB", cost.panels,
+                               cost.bytes / 1e9, have / 1e9),
+                   {}, "take a coarser mesh, fewer threads or no refined frequencies");
+}
+
+}  // namespace hydro::panels

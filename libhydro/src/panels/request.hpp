@@ -1,0 +1,22 @@
+#pragma once
+/// \file  What is asked for, whether it can be done, and what it takes. Not installed.
+#include <cstddef>
+#include <vector>
+
+#include "panel_mesh.hpp"
+
+namespace hydro::panels {
+
+/// \throws InputError as solve(), for all but the hulls
+void check_request(const std::vector<double>& omega, const std::vector<double>& heading, const Options& options);
+/// \throws InputError if the centre of a panel is inside another body
+void require_apart(const PanelMesh& mesh, const std::vector<HullBody>& bodies);
+Cost cost_of(const PanelMesh& mesh, std::size_t bodies, std::size_t frequencies, std::size_t headings,
+             const Options& options);
+/// \throws InputError if the machine has less
+void require_memory(const Cost& cost);
+int thread_count(int asked, std::size_t work);
+/// So many of `all` indices, from the last to the first in equal steps.
+std::vector<std::size_t> spread(std::size_t all, int wanted);
+
+}  // namespace hydro::panels

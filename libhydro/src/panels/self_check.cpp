@@ -1,0 +1,87 @@
+#include "self_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hydro::panels {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Of the largest mode of the kind: what is smaller is measured against it, since panels know it no better.
+constexpr double least = 0.1;
+
+/// Sizes of the modes, (P11), but at least a tenth of the largest of the kind; rotations of what that of translations
+/// does at the arm whose product with it is `arm`, for a sphere has none of its own.
+void raise_to_floor(VectorXd& size, double arm) {
+  double largest[2] = {0, 0};
+  for (Index i = 0; i < size.size(); ++i) largest[i % 6 / 3] = std::max(largest[i % 6 / 3], size(i));
+  largest[1] = std::max(largest[1], arm * largest[0]);
+  for (Index i = 0; i < size.size(); ++i) size(i) = std::max(size(i), least * largest[i % 6 / 3]);
+}
+
+struct Sizes {
+  VectorXd A, B, X;
+};
+
+Sizes sizes(const std::vector<OneFrequency>& results, double arm) {
+  const Index modes = results.front().A.rows();
+  Sizes s{VectorXd::Zero(modes), VectorXd::Zero(modes), VectorXd::Zero(modes)};
+  for (const OneFrequency& r : results) {
+    s.A = s.A.cwiseMax(r.A.diagonal().cwiseAbs());
+    s.B = s.B.cwiseMax(r.B.diagonal().cwiseAbs());
+    for (Index h = 0; h < r.X.cols(); ++h) s.X = s.X.cwiseMax(r.X.col(h).cwiseAbs());
+  }
+  raise_to_floor(s.A, arm * arm);
+  raise_to_floor(s.B, arm * arm);
+  raise_to_floor(s.X, arm);
+  return s;
+}
+
+double relative(const MatrixXd& difference, const VectorXd& size) {
+  double largest = 0;
+  for (Index i = 0; i < difference.rows(); ++i)
+    for (Index j = 0; j < difference.cols(); ++j)
+      if (size(i) * size(j) > 0) largest = std::max(largest, std::abs(difference(i, j)) / std::sqrt(size(i) * size(j)));
+  return largest;
+}
+
+double relative(const MatrixXcd& difference, const VectorXd& size) {
+  double largest = 0;
+  for (Index i = 0; i < difference.rows(); ++i)
+    for (Index j = 0; j < difference.cols(); ++j)
+      if (size(i) > 0) largest = std::max(largest, std::abs(difference(i, j)) / size(i));
+  return largest;
+}
+
+/// Errors that fall at least as the size of panels: half of that of the coarse mesh is left on the fine one (G15).
+constexpr double coarse_over_change = 2;
+
+}  // namespace
+
+SelfCheck self_check(const std::vector<OneFrequency>& results, const std::vector<OneFrequency>& finer,
+                     const std::vector<std::size_t>& refined, double arm) {
+  const Sizes s = sizes(results, arm);
+  SelfCheck check;
+  for (const OneFrequency& r : results) {
+    check.energy = std::max(check.energy, relative(MatrixXd(r.B - r.B_far), s.B));
+    check.haskind = std::max(check.haskind, relative(MatrixXcd(r.X - r.X_far), s.X));
+    check.reciprocity = std::max({check.reciprocity, relative(MatrixXd(r.A - r.A.transpose()), s.A),
+                                  relative(MatrixXd(r.B - r.B.transpose()), s.B)});
+  }
+  if (finer.empty()) check.estimate = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < finer.size(); ++i) {
+    const OneFrequency& r = results[refined[i]];
+    const double change =
+        std::max({relative(MatrixXd(finer[i].A - r.A), s.A), relative(MatrixXd(finer[i].B - r.B), s.B),
+                  relative(MatrixXcd(finer[i].X - r.X), s.X)});
+    check.estimate = std::max(check.estimate, coarse_over_change * change);
+  }
+  return check;
+}
+
+}  // namespace hydro::panels

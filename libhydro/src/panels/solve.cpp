@@ -1,0 +1,157 @@
+#include "hydro/panels/solve.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "hydro/base/parallel.hpp"
+#include "hydro/hydrostatics/immersion.hpp"
+#include "one_frequency.hpp"
+#include "request.hpp"
+#include "self_check.hpp"
+
+namespace hydro::panels {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using potential::Coefficients;
+
+void fill_bodies(const std::vector<HullBody>& bodies, const Water& water, Coefficients& c) {
+  bool known = true;
+  for (const HullBody& body : bodies) {
+    const hydrostatics::Immersion im = hydrostatics::immersion(body.hull, {});
+    c.body.push_back({.name = body.name,
+                      .reference_point = body.reference_point,
+                      .centre_of_gravity = body.centre_of_gravity,
+                      .centre_of_buoyancy = im.centre_of_buoyancy,
+                      .displaced_volume = im.volume});
+    known = known && body.centre_of_gravity;
+  }
+  if (!known) {
+    c.notes.push_back("no restoring matrix: a body has no centre of gravity");
+    return;
+  }
+  c.C = MatrixXd::Zero(c.modes(), c.modes());
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const HullBody& body = bodies[b];
+    const hydrostatics::Immersion im = hydrostatics::immersion(body.hull, {});
+    const double weight = water.density * water.gravity * im.volume;  // in balance, as (P12) has it
+    const Eigen::Matrix<double, 6, 6> C =
+        hydrostatics::buoyancy_stiffness(im, water, body.reference_point) +
+        hydrostatics::gravity_stiffness(weight, *body.centre_of_gravity, body.reference_point);
+    // Symmetric if the centre of gravity is above that of buoyancy; what is not is a moment at rest.
+    c.C->block<6, 6>(6 * static_cast<Index>(b), 6 * static_cast<Index>(b)) = (C + C.transpose()) / 2;
+  }
+}
+
+void add_notes(const SelfCheck& k, Coefficients& c) {
+  c.notes.push_back(fmt::format("{} panels, {} on the water inside; {} planes of symmetry", k.panels, k.lid_panels,
+                                k.planes_of_symmetry));
+  c.notes.push_back(fmt::format(
+      "self-check, relative: energy {:.1e}, Haskind {:.1e}, reciprocity {:.1e} before A and B were made symmetric",
+      k.energy, k.haskind, k.reciprocity));
+  if (!std::isnan(k.estimate))
+    c.notes.push_back(fmt::format("error by panels, estimated from four times as many at {} of {} frequencies: {:.1e}",
+                                  k.refined_omega.size(), c.omega.size(), k.estimate));
+}
+
+/// Everything that is solved, in one pool of work.
+struct Work {
+  std::vector<OneFrequency> results, finer;
+  std::vector<std::size_t> refined;  ///< frequencies of `finer`
+  MatrixXd A_inf;
+  std::optional<MatrixXd> A_zero;
+};
+
+Work do_work(const Model& model, const Model* fine, const Water& water, const std::vector<double>& omega,
+             const std::vector<double>& heading, const Options& options) {
+  Work w;
+  if (fine != nullptr) w.refined = spread(omega.size(), options.refined_frequencies);
+  w.results.resize(omega.size());
+  w.finer.resize(w.refined.size());
+  const bool zero = water.depth.is_infinite();
+  const std::size_t finer = w.finer.size(), all = finer + omega.size() + (zero ? 2 : 1);
+  std::mutex told;
+  int done = 0;
+  in_parallel(all, thread_count(options.threads, all), [&](std::size_t i) {
+    if (i < finer)
+      w.finer[i] = fine->at(omega[w.refined[i]], heading);
+    else if (i < finer + omega.size())
+      w.results[i - finer] = model.at(omega[i - finer], heading);
+    else if (i == finer + omega.size())
+      w.A_inf = model.added_mass_limit(std::numeric_limits<double>::infinity());
+    else
+      w.A_zero = model.added_mass_limit(0);
+    const std::lock_guard<std::mutex> lock(told);
+    ++done;
+    if (options.progress) options.progress(done, static_cast<int>(all));
+  });
+  return w;
+}
+
+void require_tolerance(const SelfCheck& check, const Options& options) {
+  if (!options.tolerance || check.estimate <= *options.tolerance) return;
+  throw InputError(fmt::format("the error by panels is estimated at {:.2g}; {:.2g} is asked for", check.estimate,
+                               *options.tolerance),
+                   {},
+                   "make the mesh finer, above all at edges and at the waterline, leave out the shortest waves, or "
+                   "ask for less");
+}
+
+void fill(const Work& w, const std::vector<double>& omega, const std::vector<double>& heading, Coefficients& c) {
+  const auto symmetric = [](const MatrixXd& M) { return MatrixXd((M + M.transpose()) / 2); };
+  c.omega = omega;
+  c.heading = heading;
+  c.X.assign(heading.size(), MatrixXcd(c.modes(), static_cast<Index>(omega.size())));
+  for (std::size_t i = 0; i < omega.size(); ++i) {
+    c.A.push_back(symmetric(w.results[i].A));
+    c.B.push_back(symmetric(w.results[i].B));
+    for (std::size_t h = 0; h < heading.size(); ++h)
+      c.X[h].col(static_cast<Index>(i)) = w.results[i].X.col(static_cast<Index>(h));
+  }
+  c.A_inf = symmetric(w.A_inf);
+  if (w.A_zero) c.A_zero = symmetric(*w.A_zero);
+}
+
+}  // namespace
+
+Solution solve(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
+               const std::vector<double>& heading, const Options& options) {
+  check_request(omega, heading, options);
+  PanelMesh mesh = panel_mesh(bodies, water.depth, options.lid);
+  require_apart(mesh, bodies);
+  require_memory(cost_of(mesh, bodies.size(), omega.size(), heading.size(), options));
+  std::optional<Model> fine;
+  const bool refine = options.refined_frequencies > 0;
+  if (refine) fine.emplace(refined(mesh), bodies, water);
+  const Model model(std::move(mesh), bodies, water);
+  const Work w = do_work(model, refine ? &*fine : nullptr, water, omega, heading, options);
+  Solution s;
+  s.check = self_check(w.results, w.finer, w.refined, model.length(bodies.size()));
+  s.check.panels = model.mesh().hull_panels();
+  s.check.lid_panels = model.mesh().lid_panels();
+  s.check.planes_of_symmetry = static_cast<int>(model.mesh().images.size()) / 2;
+  for (const std::size_t i : w.refined) s.check.refined_omega.push_back(omega[i]);
+  require_tolerance(s.check, options);
+  Coefficients& c = s.coefficients;
+  c.water = water;
+  c.source = fmt::format("panels: {} on {} {}", s.check.panels, bodies.size(), bodies.size() == 1 ? "hull" : "hulls");
+  fill_bodies(bodies, water, c);
+  fill(w, omega, heading, c);
+  add_notes(s.check, c);
+  c.validate();
+  return s;
+}
+
+Cost cost(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
+          const std::vector<double>& heading, const Options& options) {
+  check_request(omega, heading, options);
+  return cost_of(panel_mesh(bodies, water.depth, options.lid), bodies.size(), omega.size(), heading.size(), options);
+}
+
+}  // namespace hydro::panels
