@@ -5,7 +5,9 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <utility>
 
+#include "answers/checked_run.hpp"
 #include "answers/convergence.hpp"
 #include "answers/simulate.hpp"
 #include "hydro/base/error.hpp"
@@ -24,18 +26,7 @@ scene::Scene in_regular_wave(scene::Scene scene, double omega, double heading, d
                  .heading = hydro::Angle::from_radians(heading),
                  .ramp = of_ramp * period,
                  .place = scene.rao->place};
-  scene.run = {.duration = periods * period,
-               .every = period / samples_a_period,
-               .from_equilibrium = scene.rao->about.equilibrium,
-               .of = scene.rao->of,
-               .of_places = scene.rao->of_places,
-               .place = scene.rao->place};
-  for (auto& body : scene.bodies) {
-    body.initial.clear();
-    body.initial_velocity.clear();
-  }
-  scene.solve.accept_error = true;  // a run that misses its accuracy still shows what a response ignores
-  return scene;
+  return asked_to_run(std::move(scene), periods * period, period / samples_a_period);
 }
 
 /// Periods from one to another of a run that ends at the last.

@@ -5,7 +5,9 @@
 #include <mutex>
 #include <numbers>
 #include <span>
+#include <utility>
 
+#include "answers/checked_run.hpp"
 #include "answers/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/parallel.hpp"
@@ -32,18 +34,7 @@ scene::Scene in_sea_of_seed(scene::Scene scene, const ResponseSpectra& linear, d
   if (auto* grid = std::get_if<hydro::waves::FftGrid>(&sea.bins))
     grid->repetition_s = std::max(grid->repetition_s, all + every);
   scene.waves->ramp = periods_of_ramp * sea_peak_period(linear);
-  scene.run = {.duration = std::ceil(all / every) * every,
-               .every = every,
-               .from_equilibrium = scene.rao->about.equilibrium,
-               .of = scene.rao->of,
-               .of_places = scene.rao->of_places,
-               .place = scene.rao->place};
-  for (auto& body : scene.bodies) {
-    body.initial.clear();
-    body.initial_velocity.clear();
-  }
-  scene.solve.accept_error = true;  // a run that misses its accuracy still shows what a response ignores
-  return scene;
+  return asked_to_run(std::move(scene), std::ceil(all / every) * every, every);
 }
 
 /// Of one run.

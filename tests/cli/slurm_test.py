@@ -18,42 +18,16 @@ import time
 import unittest
 from pathlib import Path
 
+from run_scenes import SCENE_OF_SWEEPS, STUDY_OF_SWEEPS
+
 FROUDE, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 PATH = f"{FROUDE.parent}:{os.environ['PATH']}:/usr/sbin:/sbin"
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "srun", "scancel", "sinfo")
 MISSING = [program for program in PROGRAMS if shutil.which(program, path=PATH) is None]
 CASES = 12000  # some seconds of work, so that a signal finds it under way
 
-SCENE = """\
-schema = 1
-[water]
-density = "1025 kg/m^3"
-depth = "infinite"
-[[body]]
-name = "block"
-mass = "100 kg"
-free = "surge"
-initial = { surge = "20 cm" }
-[[mooring]]
-on = "block"
-kind = "linear"
-stiffness = { surge = "400 N/m" }
-[ask]
-run = { duration = "1 s", every = "0.1 s", of = ["block.surge"] }
-accuracy = 1e-3
-"""
-STUDY = f"""\
-schema = 1
-scene = "block.toml"
-[[axis]]
-name = "mass"
-key = "body.block.mass"
-range = "100 kg .. 400 kg, {CASES} values"
-[[output]]
-kind = "run"
-of = "block.surge"
-statistic = ["deviation", "maximum", "range"]
-"""
+SCENE = SCENE_OF_SWEEPS.replace('"60 s"', '"1 s"')
+STUDY = STUDY_OF_SWEEPS.replace("40 values", f"{CASES} values")
 
 
 def free_ports(count):

@@ -18,38 +18,9 @@ import time
 import unittest
 from pathlib import Path
 
-FROUDE, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+from run_scenes import SCENE_OF_SWEEPS as SCENE, STUDY_OF_SWEEPS as STUDY
 
-SCENE = """\
-schema = 1
-[water]
-density = "1025 kg/m^3"
-depth = "infinite"
-[[body]]
-name = "block"
-mass = "100 kg"
-free = "surge"
-initial = { surge = "20 cm" }
-[[mooring]]
-on = "block"
-kind = "linear"
-stiffness = { surge = "400 N/m" }
-[ask]
-run = { duration = "60 s", every = "0.1 s", of = ["block.surge"] }
-accuracy = 1e-3
-"""
-STUDY = """\
-schema = 1
-scene = "block.toml"
-[[axis]]
-name = "mass"
-key = "body.block.mass"
-range = "100 kg .. 400 kg, 40 values"
-[[output]]
-kind = "run"
-of = "block.surge"
-statistic = ["deviation", "maximum", "range"]
-"""
+FROUDE, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 
 
 class Sweeps(unittest.TestCase):
