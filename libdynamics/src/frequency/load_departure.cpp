@@ -1,6 +1,8 @@
 #include "dynamics/frequency/load_departure.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 
