@@ -107,6 +107,15 @@ void SizeLeftOut::take_departure(double omega, const Eigen::VectorXcd& xi, const
   if (!no_departure_.empty()) departure_.reset();
 }
 
+/// What stands beside the wave loads.
+void SizeLeftOut::take_loads(double omega, double heading, const Eigen::VectorXcd& xi) {
+  if (!drag_ && !inertia_ && !departure_) return;
+  const Eigen::VectorXcd X = excitation(about_.model, groups_, omega, heading);
+  if (drag_) drag_->take(omega, heading, xi, X);
+  if (inertia_) inertia_->take(omega, heading, xi, X);
+  take_departure(omega, xi, X);
+}
+
 void SizeLeftOut::take(const Cells& cells, const dynamics::frequency::Amplitudes& found) {
   for (std::size_t w = 0; w < cells.omega.size(); ++w) {
     const double omega = cells.omega[w];
@@ -114,11 +123,8 @@ void SizeLeftOut::take(const Cells& cells, const dynamics::frequency::Amplitudes
     std::vector<Eigen::VectorXcd> motions;
     for (std::size_t h = 0; h < cells.headings.size(); ++h) {
       const double heading = cells.headings[h];
-      const Eigen::VectorXcd xi = motions.emplace_back(found.xi[h].col(column)),
-                             X = excitation(about_.model, groups_, omega, heading);
-      if (drag_) drag_->take(omega, heading, xi, X);
-      if (inertia_) inertia_->take(omega, heading, xi, X);
-      take_departure(omega, xi, X);
+      const Eigen::VectorXcd& xi = motions.emplace_back(found.xi[h].col(column));
+      take_loads(omega, heading, xi);
       for (Gap& gap : gaps_) {
         const double amplitude =
             std::abs(dynamics::amplitude(gap.variation, xi, found.lambda[h].col(column), omega, heading));

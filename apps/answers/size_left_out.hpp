@@ -48,6 +48,7 @@ class SizeLeftOut {
   void find_members(const scene::Scene& scene, const compile::Prepared& prepared, bool drag_is_kept);
   void find_joints(const compile::Prepared& prepared);
   void find_gaps(const compile::Prepared& prepared);
+  void take_loads(double omega, double heading, const Eigen::VectorXcd& xi);
   bool own_waves_break(double omega) const;
   void take_departure(double omega, const Eigen::VectorXcd& xi, const Eigen::VectorXcd& X);
   std::string drag_told() const;

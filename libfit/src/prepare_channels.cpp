@@ -1,5 +1,7 @@
 #include "fit/prepare_channels.hpp"
 
+#include <span>
+
 #include "fit/band_pass.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/zero_crossings.hpp"

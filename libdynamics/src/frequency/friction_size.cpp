@@ -1,6 +1,6 @@
 #include "dynamics/frequency/friction_size.hpp"
 
-#include <algorithm>
+#include <complex>
 #include <numbers>
 #include <set>
 

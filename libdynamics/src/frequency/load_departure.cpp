@@ -1,6 +1,8 @@
 #include "dynamics/frequency/load_departure.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 
@@ -26,19 +28,34 @@ DepartureFromLinear::DepartureFromLinear(const SmallMotions& about, double ampli
   }
 }
 
+namespace {
+
+/// (K + iωD) ξ: the linear part of a load is minus its real part, turned.
+VectorXcd linear_part(const BlockMatrix& stiffness, const BlockMatrix& damping, double omega, const VectorXcd& xi) {
+  const VectorXd real = xi.real(), imaginary = xi.imag();
+  VectorXcd out(xi.size());
+  out.real() = stiffness * real - omega * (damping * imaginary);
+  out.imag() = stiffness * imaginary + omega * (damping * real);
+  return out;
+}
+
+}  // namespace
+
 void DepartureFromLinear::take(double omega, const VectorXcd& xi, const VectorXcd& X) {
   constexpr int phases = 8;  // of a cycle: the largest of a cubic is missed by at most 1 − cos³(π/8), a fifth
   for (Index m = 0; m < X.size(); ++m) {
     load_[m] = std::max(load_[m], amplitude_ * std::abs(X[m]));
     work_[m] = std::max(work_[m], std::abs(X[m] * xi[m]));
   }
+  std::vector<VectorXcd> linear;
+  for (const Kind& kind : kinds_) linear.push_back(linear_part(kind.stiffness, kind.damping, omega, xi));
   for (int i = 0; i < phases; ++i) {
     const std::complex<double> turn = std::polar(amplitude_, 2 * std::numbers::pi * i / phases);
-    const VectorXd displacement = (turn * xi).real(), velocity = (std::complex<double>(0, omega) * turn * xi).real();
-    State now = moved(about_.still, displacement);
-    now.velocity = velocity;
-    for (Kind& kind : kinds_) {
-      VectorXd departure = kind.stiffness * displacement + kind.damping * velocity - kind.at_rest;
+    State now = moved(about_.still, (turn * xi).real());
+    now.velocity = (std::complex<double>(0, omega) * turn * xi).real();
+    for (std::size_t n = 0; n < kinds_.size(); ++n) {
+      Kind& kind = kinds_[n];
+      VectorXd departure = (turn * linear[n]).real() - kind.at_rest;
       LoadSink sink(departure);
       kind.of->add_load({now, nullptr}, sink);
       for (Index m = 0; m < departure.size(); ++m) {
