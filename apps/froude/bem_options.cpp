@@ -1,11 +1,14 @@
 #include "froude/bem_options.hpp"
 
+#include <fmt/format.h>
+
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
+#include "scene/placed.hpp"
 
 namespace froude {
 namespace {
@@ -152,18 +155,111 @@ void add_bem_convert(CLI::App& bem, Request& request) {
   });
 }
 
+/// Options of hulls as they were written.
+struct HullTexts {
+  std::string density, gravity = "9.81 m/s^2", depth, unit, frequencies, headings;
+  std::vector<std::string> reference, cog;
+  double tolerance = 0;
+  bool no_lid = false;
+};
+
+std::vector<Eigen::Vector3d> hull_points(const char* option, const std::vector<std::string>& texts,
+                                         std::size_t bodies) {
+  std::vector<Eigen::Vector3d> out;
+  for (const std::string& text : texts)
+    out.push_back(scene::placed({.file = option}, [&] { return hydro::parse_vector(text, hydro::dim::length); }));
+  hydro::require(out.empty() || out.size() == bodies, "{} gives {} points for {} hulls; state one for each", option,
+                 out.size(), bodies);
+  return out;
+}
+
+std::vector<double> hull_range(const char* option, const std::string& text, const hydro::Dimension& needed) {
+  return scene::placed({.file = option}, [&] { return hydro::parse_range(text, needed); });
+}
+
+void require_hull_option(const char* option, const std::string& text, const char* example) {
+  if (text.empty())
+    throw hydro::InputError(fmt::format("{} is needed to solve a hull", option), {},
+                            fmt::format("state it: {} \"{}\"", option, example));
+}
+
+void read_hulls(const HullTexts& texts, BemHullArguments& a) {
+  namespace dim = hydro::dim;
+  require_hull_option("--density", texts.density, "1025 kg/m^3");
+  require_hull_option("--depth", texts.depth, "14 m");
+  require_hull_option("--frequencies", texts.frequencies, "0.2 rad/s .. 3 rad/s, 57 values");
+  a.water.density = *parsed("--density", texts.density, dim::density);
+  a.water.gravity = *parsed("--gravity", texts.gravity, dim::acceleration);
+  hydro::require(a.water.density > 0 && a.water.gravity > 0, "--density and --gravity must be positive");
+  if (texts.depth != "infinite")
+    a.water.depth = hydro::WaterDepth::from_metres(*parsed("--depth", texts.depth, dim::length));
+  if (!texts.unit.empty()) a.mesh.unit = parsed("--unit", "1 " + texts.unit, dim::length);
+  a.omega = hull_range("--frequencies", texts.frequencies, dim::angular_velocity);
+  if (!texts.headings.empty()) a.heading = hull_range("--headings", texts.headings, dim::angle);
+  a.reference = hull_points("--reference", texts.reference, a.meshes.size());
+  a.centre_of_gravity = hull_points("--cog", texts.cog, a.meshes.size());
+  a.options.lid = !texts.no_lid;
+  if (texts.tolerance <= 0) return;
+  a.options.tolerance = texts.tolerance;
+  if (a.options.refined_frequencies == 0) a.options.refined_frequencies = 1;
+}
+
+void add_hull_options(CLI::App& solve, HullTexts& texts, BemHullArguments& a) {
+  solve.add_option("--density", texts.density, "of the water, for hulls: \"1025 kg/m^3\"");
+  solve.add_option("--gravity", texts.gravity, "of the place, for hulls")->capture_default_str();
+  solve.add_option("--depth", texts.depth, "of the water, for hulls: \"14 m\" or infinite");
+  solve.add_option("--frequencies", texts.frequencies, "for hulls: \"0.2 rad/s .. 3 rad/s, 57 values\"");
+  solve.add_option("--headings", texts.headings, "of waves, for hulls: \"0 deg .. 90 deg, 7 values\"; none: no X");
+  solve.add_option("--reference", texts.reference, "point of motions and moments, one a hull; the origin if left out");
+  solve.add_option("--cog", texts.cog, "centre of gravity, one a hull: \"(0, 0, -1) m\"; none: no C");
+  solve.add_option("--unit", texts.unit, "of the numbers of the meshes: mm, cm, in, ft; metres if left out");
+  solve.add_flag("--reverse", a.mesh.reverse, "turn the faces of the meshes inside out");
+  solve.add_option("--tolerance", texts.tolerance, "largest estimated error by panels, relative: 0.02; refused above")
+      ->check(CLI::Range(1e-6, 0.5));
+  solve.add_option("--refine", a.options.refined_frequencies,
+                   "at how many frequencies the error is estimated, by panels cut in four; 1 with --tolerance");
+  solve.add_flag("--no-lid", texts.no_lid, "without panels on the water inside: irregular frequencies stay");
+  solve.add_option("--threads", a.options.threads, "frequencies solved at a time; default: all processors");
+}
+
+/// A scene states all of it; an option that did nothing would mislead.
+void refuse_hull_options(const CLI::App& solve) {
+  for (const CLI::Option* option : solve.get_options()) {
+    const std::string name = option->get_name();
+    const bool of_both = name == "files" || name == "--output" || name == "--format" || name == "--help";
+    if (of_both || option->count() == 0) continue;
+    throw hydro::InputError(fmt::format("{} is for hulls; cylinders are solved as their scene says", name), {},
+                            "leave the option out, or state it in the scene");
+  }
+}
+
 void add_bem_solve(CLI::App& bem, Request& request) {
-  auto* solve = bem.add_subcommand("solve", "compute the coefficients of the cylinders of a scene, exactly");
-  solve->footer("Example:\n  froude bem solve examples/cylinders.toml -o module.h5");
-  auto scene = std::make_shared<Path>(), output = std::make_shared<Path>();
-  auto format = std::make_shared<std::string>();
-  solve->add_option("scene", *scene, "scene with cylinders in [body.hydrodynamics]")->required();
-  solve->add_option("-o,--output", *output, "file to write; its name tells the format")->required();
-  solve->add_option("--format", *format, "of the output, where its name does not tell")
+  auto* solve = bem.add_subcommand(
+      "solve", "compute coefficients: of the cylinders of a scene, exactly, or of hulls given as meshes, by panels");
+  solve->footer(
+      "Examples:\n  froude bem solve examples/cylinders.toml -o module.h5\n"
+      "  froude bem solve hull.stl --density \"1025 kg/m^3\" --depth infinite -o hull.h5\n"
+      "    --frequencies \"0.2 rad/s .. 3 rad/s, 57 values\" --headings \"0 deg .. 180 deg, 7 values\" --cog \"(0, 0, "
+      "-1) m\"");
+  auto arguments = std::make_shared<BemHullArguments>();
+  auto texts = std::make_shared<HullTexts>();
+  solve
+      ->add_option("files", arguments->meshes,
+                   "a scene with cylinders in [body.hydrodynamics], or hulls: .stl, .obj, .gdf")
+      ->required();
+  solve->add_option("-o,--output", arguments->output, "file to write; its name tells the format")->required();
+  solve->add_option("--format", arguments->format, "of the output, where its name does not tell")
       ->check(CLI::IsMember({"froude", "bemio", "wamit", "capytaine"}));
+  add_hull_options(*solve, *texts, *arguments);
   solve->callback([=, &request] {
     request.call = [=](const Console& console) {
-      bem_solve(*scene, *output, *format, console);
+      if (arguments->meshes.size() == 1 && arguments->meshes.front().extension() == ".toml") {
+        refuse_hull_options(*solve);
+        bem_solve(arguments->meshes.front(), arguments->output, arguments->format, console);
+        return done;
+      }
+      read_hulls(*texts, *arguments);
+      bem_solve_hulls(*arguments, console);
       return done;
     };
   });
@@ -192,8 +288,8 @@ void add_bem_irf(CLI::App& bem, Request& request) {
 }  // namespace
 
 void add_bem(CLI::App& app, Request& request) {
-  auto* bem =
-      app.add_subcommand("bem", "hydrodynamic coefficients: info, check, heal, convert, irf; solve for cylinders");
+  auto* bem = app.add_subcommand(
+      "bem", "hydrodynamic coefficients: info, check, heal, convert, irf; solve for cylinders and hulls");
   bem->require_subcommand(1);
   add_bem_info(*bem, request);
   add_bem_check(*bem, request);

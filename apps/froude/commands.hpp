@@ -12,6 +12,7 @@
 
 #include "hydro/base/error.hpp"
 #include "hydro/hydrostatics/mesh.hpp"
+#include "hydro/panels/solve.hpp"
 #include "hydro/potential/coefficients.hpp"
 #include "hydro/potential/doctor/heal.hpp"
 
@@ -78,6 +79,19 @@ void bem_convert(const BemConvertArguments& arguments, const Console& console);
 
 /// Coefficients of the cylinders that a scene describes, written as bem_convert() does.
 void bem_solve(const Path& scene, const Path& output, const std::string& format, const Console& console);
+
+struct BemHullArguments {
+  std::vector<Path> meshes;  ///< .stl, .obj or .gdf, one a body
+  Path output;
+  std::string format;
+  hydro::hydrostatics::MeshOptions mesh = {};
+  hydro::Water water = {};
+  std::vector<double> omega, heading;                         ///< rad/s, rad
+  std::vector<Eigen::Vector3d> reference, centre_of_gravity;  ///< one a body, m; none: waterplane's origin, no C
+  hydro::panels::Options options = {};
+};
+/// Coefficients of hulls given as meshes, by panels, written as bem_convert() does.
+void bem_solve_hulls(const BemHullArguments& arguments, const Console& console);
 
 struct BemIrfArguments {
   BemArguments bem;

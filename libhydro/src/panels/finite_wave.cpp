@@ -76,7 +76,7 @@ Kernel kernel(Complex k, double K, double depth) {
 /// Y.
 BedWave deep_part(double K, double R, double Y) {
   const double r = std::hypot(R, Y), sign = std::isinf(K) ? -1 : 1, cube = r * r * r;
-  BedWave out{sign / r, -sign * R / cube, -sign * Y / cube};
+  BedWave out{sign / r, -sign * R / cube, -sign * Y / cube, false};
   if (std::isinf(K)) return out;
   const DeepWave w = deep_wave(K * R, K * Y);
   out.d += 2 * K * w.F;
@@ -110,7 +110,7 @@ double FiniteWave::wave_strength(double down_P, double down_Q) const {
 }
 
 std::vector<BedWave> FiniteWave::near(const std::vector<double>& R, const std::vector<double>& V) const {
-  std::vector<BedWave> out(R.size() * V.size(), BedWave{0, 0, 0});
+  std::vector<BedWave> out(R.size() * V.size(), BedWave{0, 0, 0, false});
   std::vector<Complex> value(V.size()), slope(V.size());
   for (const auto& [k, dk] : path_above(K_, h_)) {
     const Kernel M = kernel(k, K_, h_);
@@ -139,7 +139,7 @@ std::vector<BedWave> FiniteWave::far(const std::vector<double>& R, const std::ve
     for (std::size_t j = 0; j < V.size(); ++j) {
       const double r = std::hypot(R[i], V[j]), cube = r * r * r;
       const BedWave deep = deep_part(K_, R[i], 2 * h_ - V[j]);
-      out[i * V.size() + j] = {-1 / r - deep.d, R[i] / cube - deep.d_R, V[j] / cube + deep.d_V};
+      out[i * V.size() + j] = {-1 / r - deep.d, R[i] / cube - deep.d_R, V[j] / cube + deep.d_V, false};
     }
   for (std::size_t i = 0; i < R.size(); ++i) {
     const auto add = [&](double f, double f_R, double wavenumber, bool wave) {
@@ -173,12 +173,11 @@ std::vector<BedWave> FiniteWave::far(const std::vector<double>& R, const std::ve
 }
 
 void FiniteWave::tabulate(double reach) {
-  // Deep waves have no part in d beyond e^{−2·8}·…: what is left varies over the depth.
-  const double across = std::min(h_, k_ > 0 ? 1.5 / std::min(k_, 14 / h_) : h_);
-  const double wide = std::min(h_ / 2, across);
-  rows_ = static_cast<int>(std::ceil(2 * h_ / across));
+  // Waves of kh > 20 are below 1e-8 where they are kept (d at the surface, the whole below mid-depth).
+  const double across = std::min(h_ / 2, k_ > 0 ? 1.5 / std::min(k_, 20 / h_) : h_);
+  rows_ = 2 * static_cast<int>(std::ceil(h_ / across));
   height_ = 2 * h_ / rows_;
-  const int in_near = static_cast<int>(std::ceil(switch_at * h_ / wide));
+  const int in_near = static_cast<int>(std::ceil(switch_at * h_ / across));
   width_ = switch_at * h_ / in_near;
   columns_ = std::max(in_near, static_cast<int>(std::ceil(reach / width_ * (1 + 1e-12))));
   std::vector<double> V;
@@ -187,20 +186,26 @@ void FiniteWave::tabulate(double reach) {
   for (int column = 0; column < columns_; ++column) {
     std::vector<double> R;
     for (int a = 0; a < patch_nodes; ++a) R.push_back(width_ * (column + (patch_node(a) + 1) / 2));
-    const std::vector<BedWave> at = column < in_near ? near(R, V) : far(R, V);
-    for (int row = 0; row < rows_; ++row) {
-      std::array<Eigen::MatrixXd, 3> values;
-      values.fill(Eigen::MatrixXd(patch_nodes, patch_nodes));
-      for (int a = 0; a < patch_nodes; ++a)
-        for (int b = 0; b < patch_nodes; ++b) {
-          const BedWave& w =
-              at[static_cast<std::size_t>(a) * V.size() + static_cast<std::size_t>(row * patch_nodes + b)];
-          values[0](a, b) = w.d;
-          values[1](a, b) = w.d_R;
-          values[2](a, b) = w.d_V;
-        }
-      patch_.emplace_back(values);
-    }
+    add_column(R, V, column < in_near ? near(R, V) : far(R, V));
+  }
+}
+
+void FiniteWave::add_column(const std::vector<double>& R, const std::vector<double>& V,
+                            const std::vector<BedWave>& at) {
+  for (int row = 0; row < rows_; ++row) {
+    std::array<Eigen::MatrixXd, 3> values;
+    values.fill(Eigen::MatrixXd(patch_nodes, patch_nodes));
+    for (int a = 0; a < patch_nodes; ++a)
+      for (int b = 0; b < patch_nodes; ++b) {
+        const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(row * patch_nodes + b);
+        const BedWave& w = at[i * V.size() + j];
+        const bool whole = row < rows_ / 2;
+        const BedWave deep = whole ? deep_part(K_, R[i], 2 * h_ - V[j]) : BedWave{0, 0, 0, false};
+        values[0](a, b) = w.d + deep.d;
+        values[1](a, b) = w.d_R + deep.d_R;
+        values[2](a, b) = w.d_V - deep.d_V;
+      }
+    patch_.emplace_back(values);
   }
 }
 
@@ -209,7 +214,7 @@ BedWave FiniteWave::operator()(double R, double V) const {
   const int row = std::min(static_cast<int>(V / height_), rows_ - 1);
   const auto& patch = patch_[static_cast<std::size_t>(column * rows_ + row)];
   const std::array<double, 3> d = patch(2 * (R / width_ - column) - 1, 2 * (V / height_ - row) - 1);
-  return {d[0], d[1], d[2]};
+  return {d[0], d[1], d[2], row < rows_ / 2};
 }
 
 }  // namespace hydro::panels

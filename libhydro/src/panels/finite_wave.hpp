@@ -11,6 +11,7 @@ namespace hydro::panels {
 /// d(R, V) of (G7) and its slopes, real parts, 1/m and 1/m².
 struct BedWave {
   double d, d_R, d_V;
+  bool whole;  ///< in the lower half of the water the part w(R, 2h − V) of deep water is in it
 };
 
 /// For one K in water of one depth; 0 <= R <= reach, 0 <= V <= 2h. K may be +∞.
@@ -28,6 +29,7 @@ class FiniteWave {
   std::vector<BedWave> near(const std::vector<double>& R, const std::vector<double>& V) const;
   std::vector<BedWave> far(const std::vector<double>& R, const std::vector<double>& V) const;
   void tabulate(double reach);
+  void add_column(const std::vector<double>& R, const std::vector<double>& V, const std::vector<BedWave>& at);
   double wave_scaled() const;  ///< C₀ e^{2kh}/4
 
   double K_, h_, k_ = 0;

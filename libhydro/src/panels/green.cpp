@@ -41,18 +41,19 @@ WavePart WaveGreen::over_bed(double R, double z, double zeta) const {
     G += d.d;
     G_R += d.d_R;
     G_zeta += grows * d.d_V;
-    if (waves) {
+    if (waves && !d.whole) {
       const DeepWave w = deep_wave(K_ * R, K_ * Y);
       G += 2 * K_ * w.F;
       G_R += 2 * K_ * K_ * w.F_X;
       G_zeta -= grows * 2 * K_ * K_ * w.F_Y;
     }
-    if (second) {  // the image of the image, which is at least a depth away
-      const double r = std::hypot(R, Y), sign = image_sign() / (r * r * r);
-      G += sign * r * r;
-      G_R -= sign * R;
-      G_zeta += grows * sign * Y;
-    }
+    // Of V₁ this is the image in the surface, which is left out; of V₂ an image of an image, at least a depth away.
+    const double image = image_sign() * ((second ? 1 : 0) - (d.whole ? 1 : 0));
+    if (image == 0) continue;
+    const double r = std::hypot(R, Y), over_cube = image / (r * r * r);
+    G += image / r;
+    G_R -= over_cube * R;
+    G_zeta += grows * over_cube * Y;
   }
   if (!waves) return {G, G_R, G_zeta};
   const double k = bed_->k(), wave = 2 * pi * bed_->wave_strength(-z, -zeta);

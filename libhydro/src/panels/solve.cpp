@@ -7,6 +7,7 @@
 #include <limits>
 #include <mutex>
 
+#include "hydro/base/dense.hpp"
 #include "hydro/base/parallel.hpp"
 #include "hydro/hydrostatics/immersion.hpp"
 #include "one_frequency.hpp"
@@ -55,6 +56,9 @@ void add_notes(const SelfCheck& k, Coefficients& c) {
   c.notes.push_back(fmt::format(
       "self-check, relative: energy {:.1e}, Haskind {:.1e}, reciprocity {:.1e} before A and B were made symmetric",
       k.energy, k.haskind, k.reciprocity));
+  if (k.passivity > 0)
+    c.notes.push_back(
+        fmt::format("B was made free of negative eigenvalues: changed by {:.1e} of its modes at most", k.passivity));
   if (!std::isnan(k.estimate))
     c.notes.push_back(fmt::format("error by panels, estimated from four times as many at {} of {} frequencies: {:.1e}",
                                   k.refined_omega.size(), c.omega.size(), k.estimate));
@@ -103,19 +107,43 @@ void require_tolerance(const SelfCheck& check, const Options& options) {
                    "ask for less");
 }
 
-void fill(const Work& w, const std::vector<double>& omega, const std::vector<double>& heading, Coefficients& c) {
+/// The nearest matrix without negative eigenvalues, entries being measured against the largest of their modes (P11):
+/// a small damping is a difference of large pressures, and panels leave it below zero now and then.
+MatrixXd passive(const MatrixXd& B, const Eigen::VectorXd& size) {
+  const Eigen::VectorXd scale = size.cwiseSqrt();
+  const MatrixXd scaled = scale.cwiseInverse().asDiagonal() * B * scale.cwiseInverse().asDiagonal();
+  const dense::SymmetricEigen eigen = dense::symmetric_eigen(scaled);
+  if (eigen.values.minCoeff() >= 0) return B;
+  const MatrixXd kept = eigen.vectors * eigen.values.cwiseMax(0).asDiagonal() * eigen.vectors.transpose();
+  return scale.asDiagonal() * kept * scale.asDiagonal();
+}
+
+/// The largest B of each mode; a mode without damping anywhere counts as the smallest that has.
+Eigen::VectorXd sizes_of_damping(const std::vector<OneFrequency>& results) {
+  Eigen::VectorXd size = Eigen::VectorXd::Zero(results.front().B.rows());
+  for (const OneFrequency& r : results) size = size.cwiseMax(r.B.diagonal());
+  return size.cwiseMax(1e-12 * size.maxCoeff());
+}
+
+/// Fills A, B and X, and returns the largest change of B that passivity needed, (P11).
+double fill(const Work& w, const std::vector<double>& omega, const std::vector<double>& heading, Coefficients& c) {
   const auto symmetric = [](const MatrixXd& M) { return MatrixXd((M + M.transpose()) / 2); };
+  const Eigen::VectorXd size = sizes_of_damping(w.results), scale = size.cwiseSqrt().cwiseInverse();
+  double changed = 0;
   c.omega = omega;
   c.heading = heading;
   c.X.assign(heading.size(), MatrixXcd(c.modes(), static_cast<Index>(omega.size())));
   for (std::size_t i = 0; i < omega.size(); ++i) {
     c.A.push_back(symmetric(w.results[i].A));
-    c.B.push_back(symmetric(w.results[i].B));
+    const MatrixXd B = symmetric(w.results[i].B);
+    c.B.push_back(symmetric(passive(B, size)));
+    changed = std::max(changed, (scale.asDiagonal() * (c.B.back() - B) * scale.asDiagonal()).cwiseAbs().maxCoeff());
     for (std::size_t h = 0; h < heading.size(); ++h)
       c.X[h].col(static_cast<Index>(i)) = w.results[i].X.col(static_cast<Index>(h));
   }
   c.A_inf = symmetric(w.A_inf);
   if (w.A_zero) c.A_zero = symmetric(*w.A_zero);
+  return changed;
 }
 
 }  // namespace
@@ -142,7 +170,7 @@ Solution solve(const std::vector<HullBody>& bodies, const Water& water, const st
   c.water = water;
   c.source = fmt::format("panels: {} on {} {}", s.check.panels, bodies.size(), bodies.size() == 1 ? "hull" : "hulls");
   fill_bodies(bodies, water, c);
-  fill(w, omega, heading, c);
+  s.check.passivity = fill(w, omega, heading, c);
   add_notes(s.check, c);
   c.validate();
   return s;

@@ -43,6 +43,7 @@ struct SelfCheck {
   double energy = 0;       ///< largest |B − power carried away by waves|, (G14)
   double haskind = 0;      ///< largest |X − X from the waves made by motion|, (G14)
   double reciprocity = 0;  ///< largest asymmetry of A and B, before their symmetric parts were taken
+  double passivity = 0;    ///< largest change of B that took its negative eigenvalues away
   /// Estimated largest error of A, B, X against panels of no size on the same flat faces (G15); NaN if not asked for.
   double estimate = 0;
   std::vector<double> refined_omega;  ///< where it was measured, rad/s
@@ -68,10 +69,10 @@ struct Cost {
 
 /// A, B and X of `bodies` at the frequencies `omega` (rad/s, increasing) for waves going towards `heading` (rad,
 /// increasing; may be empty), with A(∞), in deep water A(0), centres of buoyancy, volumes and, where every body has a
-/// centre of gravity, C. A and B are symmetric parts; SelfCheck::reciprocity tells of what.
-/// \throws InputError naming the body: nothing of a hull under water, a hull below the bed, hulls inside one another,
-/// an opening under water; if a frequency is not finite and positive or the lists do not increase; more memory than the
-/// machine has; an estimate above the tolerance
+/// centre of gravity, C. A and B are symmetric parts and B has no negative eigenvalues; SelfCheck tells what that
+/// changed. \throws InputError naming the body: nothing of a hull under water, a hull below the bed, hulls inside one
+/// another, an opening under water; if a frequency is not finite and positive or the lists do not increase; more memory
+/// than the machine has; an estimate above the tolerance
 Solution solve(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
                const std::vector<double>& heading, const Options& options = {});
 
