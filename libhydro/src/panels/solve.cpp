@@ -6,10 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <numbers>
 
 #include "hydro/base/dense.hpp"
 #include "hydro/base/parallel.hpp"
 #include "hydro/hydrostatics/immersion.hpp"
+#include "hydro/waves/dispersion.hpp"
 #include "one_frequency.hpp"
 #include "request.hpp"
 #include "self_check.hpp"
@@ -51,17 +53,35 @@ void fill_bodies(const std::vector<HullBody>& bodies, const Water& water, Coeffi
 }
 
 void add_notes(const SelfCheck& k, Coefficients& c) {
-  c.notes.push_back(fmt::format("{} panels, {} on the water inside; {} planes of symmetry", k.panels, k.lid_panels,
-                                k.planes_of_symmetry));
+  c.notes.push_back(fmt::format("{} panels, {} on the water inside; {} {} of symmetry", k.panels, k.lid_panels,
+                                k.planes_of_symmetry, k.planes_of_symmetry == 1 ? "plane" : "planes"));
   c.notes.push_back(fmt::format(
       "self-check, relative: energy {:.1e}, Haskind {:.1e}, reciprocity {:.1e} before A and B were made symmetric",
       k.energy, k.haskind, k.reciprocity));
   if (k.passivity > 0)
     c.notes.push_back(
         fmt::format("B was made free of negative eigenvalues: changed by {:.1e} of its modes at most", k.passivity));
-  if (!std::isnan(k.estimate))
+  if (std::isnan(k.estimate))
+    c.notes.push_back("the error by panels is not estimated: that takes panels cut in four, at a frequency at least");
+  else
     c.notes.push_back(fmt::format("error by panels, estimated from four times as many at {} of {} frequencies: {:.1e}",
                                   k.refined_omega.size(), c.omega.size(), k.estimate));
+}
+
+/// Panels that waves reach are short beside the shortest of them: of a hemisphere heave's damping is 4, 9, 15 and 25 %
+/// off with 10, 7, 5 and 3 panels a wave length, against nine times as many.
+void require_short_panels(const PanelMesh& mesh, const Water& water, double highest) {
+  constexpr double least = 5, reached = 0.25;  // panels a wave length; wave lengths of depth
+  const double length = 2 * std::numbers::pi / waves::wavenumber(highest, water);
+  double longest = 0;
+  for (const Panel& p : mesh.hull)
+    if (p.shape.centre.z() > -reached * length) longest = std::max(longest, p.shape.size);
+  if (longest * least > length)
+    throw InputError(
+        fmt::format("panels near the surface are up to {:.3g} m across, and waves of {:.4g} rad/s {:.3g} m "
+                    "long: fewer than {:g} panels a wave length",
+                    longest, highest, length, least),
+        {}, "make the mesh finer at the waterline, or leave out the shortest waves");
 }
 
 /// Everything that is solved, in one pool of work.
@@ -153,6 +173,7 @@ Solution solve(const std::vector<HullBody>& bodies, const Water& water, const st
   check_request(omega, heading, options);
   PanelMesh mesh = panel_mesh(bodies, water.depth, options.lid);
   require_apart(mesh, bodies);
+  require_short_panels(mesh, water, omega.back());
   require_memory(cost_of(mesh, bodies.size(), omega.size(), heading.size(), options));
   std::optional<Model> fine;
   const bool refine = options.refined_frequencies > 0;

@@ -67,6 +67,13 @@ TEST(PanelInput, AnEstimateAboveTheToleranceIsRefusedWithBoth) {
               AllOf(HasSubstr("estimated at"), HasSubstr("0.0001"), HasSubstr("make the mesh finer")));
 }
 
+TEST(PanelInput, PanelsThatAreLongBesideTheShortestWaveAreRefused) {
+  EXPECT_THAT(refusal({named("buoy", hemisphere(1, 6, 24))}, deep, {1.0, 6.5}),
+              AllOf(HasSubstr("6.5 rad/s"), HasSubstr("fewer than 5 panels a wave length"),
+                    HasSubstr("finer at the waterline")));
+  EXPECT_EQ(refusal({named("buoy", hemisphere(1, 6, 24))}, deep, {1.0, 5.0}), "accepted");
+}
+
 TEST(PanelInput, TheCostIsToldBeforeAnythingIsSolved) {
   const Cost c = cost({named("buoy", hemisphere(1, 6, 24))}, deep, {1.0, 2.0}, {0}, {.refined_frequencies = 1});
   EXPECT_EQ(c.panels, 144);

@@ -117,7 +117,7 @@ TEST(PanelTruth, ALidRemovesTheIrregularFrequencyOfACylinder) {
   std::vector<double> omega;  // the polygon's is not quite there, and narrow
   for (int i = -20; i <= 20; ++i) omega.push_back((1 + 0.002 * i) * std::sqrt(K * 9.81));
   const auto exact = cylinders::solve({exact_cylinder(a, draught)}, tank, omega, {}).coefficients;
-  const HullBody hull = body(cylinder(a, draught, 4, 5, 16));
+  const HullBody hull = body(cylinder(a, draught, 5, 5, 20));
   const auto with = solve({hull}, tank, omega, {}).coefficients;
   const auto without = solve({hull}, tank, omega, {}, {.lid = false}).coefficients;
   double worst = 0, worst_without = 0;

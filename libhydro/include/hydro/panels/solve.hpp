@@ -72,7 +72,8 @@ struct Cost {
 /// centre of gravity, C. A and B are symmetric parts and B has no negative eigenvalues; SelfCheck tells what that
 /// changed. \throws InputError naming the body: nothing of a hull under water, a hull below the bed, hulls inside one
 /// another, an opening under water; if a frequency is not finite and positive or the lists do not increase; more memory
-/// than the machine has; an estimate above the tolerance
+/// than the machine has; panels longer than a fifth of the shortest wave where waves reach them; an
+/// estimate above the tolerance
 Solution solve(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
                const std::vector<double>& heading, const Options& options = {});
 
