@@ -71,16 +71,16 @@ void add_notes(const SelfCheck& k, Coefficients& c) {
 /// Panels that waves reach are short beside the shortest of them: of a hemisphere heave's damping is 4, 9, 15 and 25 %
 /// off with 10, 7, 5 and 3 panels a wave length, against nine times as many.
 void require_short_panels(const PanelMesh& mesh, const Water& water, double highest) {
-  constexpr double least = 5, reached = 0.25;  // panels a wave length; wave lengths of depth
+  constexpr double a_wave_length = 5, reached = 0.25;  // panels a wave length; wave lengths of depth
   const double length = 2 * std::numbers::pi / waves::wavenumber(highest, water);
-  double longest = 0;
+  double across = 0;
   for (const Panel& p : mesh.hull)
-    if (p.shape.centre.z() > -reached * length) longest = std::max(longest, p.shape.size);
-  if (longest * least > length)
+    if (p.shape.centre.z() > -reached * length) across = std::max(across, p.shape.size);
+  if (across * a_wave_length > length)
     throw InputError(
         fmt::format("panels near the surface are up to {:.3g} m across, and waves of {:.4g} rad/s {:.3g} m "
                     "long: fewer than {:g} panels a wave length",
-                    longest, highest, length, least),
+                    across, highest, length, a_wave_length),
         {}, "make the mesh finer at the waterline, or leave out the shortest waves");
 }
 
