@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "answers/fit_kind.hpp"
+#include "answers/picture.hpp"
 #include "froude/fit/report.hpp"
 #include "froude/outputs.hpp"
 #include "froude/shares.hpp"
