@@ -2,10 +2,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define FORBIDDEN(name)                                     \
-  int name() {                                              \
-    fprintf(stderr, "asked the network: %s\n", #name);      \
-    _Exit(99);                                              \
+#define FORBIDDEN(name)                                \
+  int name() {                                         \
+    fprintf(stderr, "asked the network: %s\n", #name); \
+    _Exit(99);                                         \
   }
 
 FORBIDDEN(socket)
