@@ -3,6 +3,7 @@
 
 #include "deep.hpp"
 #include "model.hpp"
+#include "potential/solver_request.hpp"
 #include "request.hpp"
 
 namespace hydro::cylinders {
@@ -52,7 +53,7 @@ Cost cost(const std::vector<CylinderBody>& bodies, const Water& water, const std
   add(infinite, usual);
   for (const std::size_t i : frequencies_to_double(omega.size(), options.doubled_frequencies))
     add(omega[i], usual.doubled());
-  const int threads = thread_count(options, omega.size());
+  const int threads = potential::thread_count(options.threads, omega.size());
   c.bytes = bytes * threads;
   c.seconds = work / measured_rate() / threads;
   return c;

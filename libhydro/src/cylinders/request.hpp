@@ -12,9 +12,6 @@ constexpr double share_of_tolerance = 0.2;
 /// \throws InputError as solve()
 void check_request(const std::vector<double>& omega, const std::vector<double>& heading, const Options& options);
 
-/// Threads for so many pieces of work.
-int thread_count(const Options& options, std::size_t work);
-
 /// Frequencies that are repeated with doubled resolution: both ends and evenly between.
 std::vector<std::size_t> frequencies_to_double(std::size_t all, int wanted);
 

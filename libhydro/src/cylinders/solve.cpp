@@ -8,6 +8,7 @@
 #include "deep.hpp"
 #include "hydro/base/parallel.hpp"
 #include "model.hpp"
+#include "potential/solver_request.hpp"
 #include "request.hpp"
 #include "self_check.hpp"
 
@@ -141,7 +142,7 @@ Work do_work(const std::vector<CylinderBody>& bodies, const Water& water, const 
   const std::size_t all = w.finer.size() + omega.size() + 1;
   std::mutex told;
   int done = 0;
-  in_parallel(all, thread_count(options, all), [&](std::size_t i) {
+  in_parallel(all, potential::thread_count(options.threads, all), [&](std::size_t i) {
     if (i < w.finer.size()) {
       const double at = omega[w.doubled[i]];
       w.finer[i] = finer_models->at(at)->at(at, heading);

@@ -30,9 +30,11 @@ BesselPair struve_near(double x) {
 
 /// H − Y of both orders as integrals (12.1.8): (2/π)∫e^{−xt}(1 + t²)^{∓½} dt, the second with a factor x.
 BesselPair struve_less_neumann(double x) {
+  const auto& rule = gauss_rule();
   double a = 0, b = 0;
   for (int i = 0; i < 10; ++i)  // e^{−40} is left out
-    for (const auto& [s, w] : gauss_points) {
+    for (std::size_t n = 0; n < rule.point.size(); ++n) {
+      const double s = rule.point[n], w = rule.weight[n];
       const double u = 4 * i + 2 * (s + 1), t = u / x, f = 2 * w * std::exp(-u);
       a += f / (x * std::sqrt(1 + t * t));
       b += f * std::sqrt(1 + t * t);
@@ -60,9 +62,11 @@ Pair by_quadrature(double X, double Y) {
   const BesselPair S = struve_and_neumann(X);
   const double end = std::asinh(Y / X);
   const int pieces = 1 + static_cast<int>(end);
+  const auto& rule = gauss_rule();
   double f = 0, g = 0;
   for (int i = 0; i < pieces; ++i)
-    for (const auto& [s, w] : gauss_points) {
+    for (std::size_t n = 0; n < rule.point.size(); ++n) {
+      const double s = rule.point[n], w = rule.weight[n];
       const double u = end * (i + (s + 1) / 2) / pieces, e = w * std::exp(X * std::sinh(u) - Y);
       f += e;
       g += e * std::exp(-u);

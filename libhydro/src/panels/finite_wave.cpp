@@ -40,7 +40,9 @@ struct PathPoint {
 };
 
 void add_segment(Complex a, Complex b, std::vector<PathPoint>& path) {
-  for (const auto& [s, w] : gauss_points) path.push_back({a + (b - a) * ((s + 1) / 2), (b - a) * (w / 2)});
+  const auto& rule = gauss_rule();
+  for (std::size_t n = 0; n < rule.point.size(); ++n)
+    path.push_back({a + (b - a) * ((rule.point[n] + 1) / 2), (b - a) * (rule.weight[n] / 2)});
 }
 
 /// From 0 up at 45° in steps that double, then level above the poles of the real axis (G9).

@@ -3,23 +3,14 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
-#include "hydro/base/parallel.hpp"
+#include "potential/solver_request.hpp"
 
 namespace hydro::panels {
 namespace {
 
 using Eigen::Vector3d;
-
-void require_increasing(const std::vector<double>& values, const char* what, const char* unit) {
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    require(std::isfinite(values[i]), "{} must be finite, got {} {}", what, values[i], unit);
-    require(i == 0 || values[i] > values[i - 1], "{} must increase, but {} {} follows {}", what, values[i], unit,
-            values[i == 0 ? 0 : i - 1]);
-  }
-}
 
 /// The solid angle that the wet part of a body and its image in the surface subtend: 4π inside, 0 outside.
 double angle_of_body(const PanelMesh& mesh, int body, const Vector3d& P) {
@@ -49,14 +40,9 @@ double seconds_of(double unknowns, double systems, double right) {
 }  // namespace
 
 void check_request(const std::vector<double>& omega, const std::vector<double>& heading, const Options& options) {
-  require(!omega.empty(), "no frequency is asked for");
-  require_increasing(omega, "frequencies", "rad/s");
-  require(omega.front() > 0, "a frequency must be positive, got {} rad/s", omega.front());
-  require_increasing(heading, "headings", "rad");
+  potential::check_solver_request(omega, heading, options.threads);
   require(!options.tolerance || (*options.tolerance > 0 && *options.tolerance < 1),
           "the tolerance must be between 0 and 1, got {}", options.tolerance.value_or(0));
-  require(options.threads >= 0 && options.threads <= 1024, "the number of threads must be between 0 and 1024, got {}",
-          options.threads);
   require(options.refined_frequencies >= 0, "the number of frequencies to refine must not be negative, got {}",
           options.refined_frequencies);
   require(!options.tolerance || options.refined_frequencies > 0,
@@ -76,15 +62,8 @@ void require_apart(const PanelMesh& mesh, const std::vector<HullBody>& bodies) {
     }
 }
 
-int thread_count(int asked, std::size_t work) {
-  return std::min(asked > 0 ? asked : all_processors(), static_cast<int>(work));
-}
-
-std::vector<std::size_t> spread(std::size_t all, int wanted) {
-  std::vector<std::size_t> chosen;
-  const std::size_t count = std::min(all, static_cast<std::size_t>(wanted));
-  for (std::size_t i = 0; i < count; ++i) chosen.push_back(count == 1 ? all - 1 : i * (all - 1) / (count - 1));
-  return chosen;
+std::vector<std::size_t> frequencies_to_refine(std::size_t all, int wanted) {
+  return potential::spread(all, wanted, all - 1);  // the shortest wave is the hardest
 }
 
 Cost cost_of(const PanelMesh& mesh, std::size_t bodies, std::size_t frequencies, std::size_t headings,
@@ -92,8 +71,8 @@ Cost cost_of(const PanelMesh& mesh, std::size_t bodies, std::size_t frequencies,
   const auto systems = static_cast<double>(mesh.images.size());
   const double right = 6.0 * static_cast<double>(bodies) + static_cast<double>(headings);
   const auto hull = static_cast<double>(mesh.hull.size()), lid = static_cast<double>(mesh.lid.size());
-  const std::size_t fine = spread(frequencies, options.refined_frequencies).size();
-  const int threads = thread_count(options.threads, frequencies + fine);
+  const std::size_t fine = frequencies_to_refine(frequencies, options.refined_frequencies).size();
+  const int threads = potential::thread_count(options.threads, frequencies + fine);
   Cost c{.panels = mesh.hull_panels(),
          .unknowns = static_cast<int>(hull + lid),
          .systems = static_cast<int>(systems),

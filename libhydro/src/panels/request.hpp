@@ -15,8 +15,7 @@ Cost cost_of(const PanelMesh& mesh, std::size_t bodies, std::size_t frequencies,
              const Options& options);
 /// \throws InputError if the machine has less
 void require_memory(const Cost& cost);
-int thread_count(int asked, std::size_t work);
-/// So many of `all` indices, from the last to the first in equal steps.
-std::vector<std::size_t> spread(std::size_t all, int wanted);
+/// Where panels are cut in four: both ends and evenly between; a single one is the last.
+std::vector<std::size_t> frequencies_to_refine(std::size_t all, int wanted);
 
 }  // namespace hydro::panels

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "potential/modes.hpp"
+
 namespace hydro::panels {
 namespace {
 
@@ -42,14 +44,6 @@ Sizes sizes(const std::vector<OneFrequency>& results, double arm) {
   return s;
 }
 
-double relative(const MatrixXd& difference, const VectorXd& size) {
-  double largest = 0;
-  for (Index i = 0; i < difference.rows(); ++i)
-    for (Index j = 0; j < difference.cols(); ++j)
-      if (size(i) * size(j) > 0) largest = std::max(largest, std::abs(difference(i, j)) / std::sqrt(size(i) * size(j)));
-  return largest;
-}
-
 double relative(const MatrixXcd& difference, const VectorXd& size) {
   double largest = 0;
   for (Index i = 0; i < difference.rows(); ++i)
@@ -68,16 +62,16 @@ SelfCheck self_check(const std::vector<OneFrequency>& results, const std::vector
   const Sizes s = sizes(results, arm);
   SelfCheck check;
   for (const OneFrequency& r : results) {
-    check.energy = std::max(check.energy, relative(MatrixXd(r.B - r.B_far), s.B));
+    check.energy = std::max(check.energy, potential::relative_size(r.B - r.B_far, s.B));
     check.haskind = std::max(check.haskind, relative(MatrixXcd(r.X - r.X_far), s.X));
-    check.reciprocity = std::max({check.reciprocity, relative(MatrixXd(r.A - r.A.transpose()), s.A),
-                                  relative(MatrixXd(r.B - r.B.transpose()), s.B)});
+    check.reciprocity = std::max({check.reciprocity, potential::relative_size(r.A - r.A.transpose(), s.A),
+                                  potential::relative_size(r.B - r.B.transpose(), s.B)});
   }
   if (finer.empty()) check.estimate = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i < finer.size(); ++i) {
     const OneFrequency& r = results[refined[i]];
     const double change =
-        std::max({relative(MatrixXd(finer[i].A - r.A), s.A), relative(MatrixXd(finer[i].B - r.B), s.B),
+        std::max({potential::relative_size(finer[i].A - r.A, s.A), potential::relative_size(finer[i].B - r.B, s.B),
                   relative(MatrixXcd(finer[i].X - r.X), s.X)});
     check.estimate = std::max(check.estimate, coarse_over_change * change);
   }

@@ -13,6 +13,7 @@
 #include "hydro/hydrostatics/immersion.hpp"
 #include "hydro/waves/dispersion.hpp"
 #include "one_frequency.hpp"
+#include "potential/solver_request.hpp"
 #include "request.hpp"
 #include "self_check.hpp"
 
@@ -95,14 +96,14 @@ struct Work {
 Work do_work(const Model& model, const Model* fine, const Water& water, const std::vector<double>& omega,
              const std::vector<double>& heading, const Options& options) {
   Work w;
-  if (fine != nullptr) w.refined = spread(omega.size(), options.refined_frequencies);
+  if (fine != nullptr) w.refined = frequencies_to_refine(omega.size(), options.refined_frequencies);
   w.results.resize(omega.size());
   w.finer.resize(w.refined.size());
   const bool zero = water.depth.is_infinite();
   const std::size_t finer = w.finer.size(), all = finer + omega.size() + (zero ? 2 : 1);
   std::mutex told;
   int done = 0;
-  in_parallel(all, thread_count(options.threads, all), [&](std::size_t i) {
+  in_parallel(all, potential::thread_count(options.threads, all), [&](std::size_t i) {
     if (i < finer)
       w.finer[i] = fine->at(omega[w.refined[i]], heading);
     else if (i < finer + omega.size())
