@@ -9,6 +9,7 @@
 
 #include "answers/checked_run.hpp"
 #include "answers/simulate.hpp"
+#include "answers/statistics.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/parallel.hpp"
 #include "hydro/signal/zero_crossings.hpp"
@@ -43,15 +44,13 @@ struct Counted {
 };
 
 Counted counted_in(std::span<const double> time, std::span<const double> values, const std::string& signal) {
-  double mean = 0, squares = 0, highest = values[0];
-  for (const double v : values) mean += v / static_cast<double>(values.size()), highest = std::max(highest, v);
-  for (const double v : values) squares += (v - mean) * (v - mean) / static_cast<double>(values.size());
+  const Statistics all = statistics(values);
   const std::vector<hs::SingleWave> waves = hs::single_waves(time, values);
   constexpr std::size_t enough = 3;
   if (waves.size() < enough)
     throw hydro::NumericsError(fmt::format(
         "{} swings {} times in a run: too seldom for a mean period; take a longer --duration", signal, waves.size()));
-  return {mean, std::sqrt(squares), hs::wave_statistics(waves).mean_period, highest - mean};
+  return {all.mean, all.deviation, hs::wave_statistics(waves).mean_period, all.highest - all.mean};
 }
 
 OfRuns of_runs(const std::vector<std::vector<Counted>>& runs, std::size_t signal, double Counted::*number) {
