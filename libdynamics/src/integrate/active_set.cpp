@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "hydro/base/error.hpp"
 
@@ -39,6 +41,7 @@ ActiveSet::ActiveSet(const ActiveSet& other) : ActiveSet(other.model_) {
   slides_ = other.slides_;
   constraint_scale_ = other.constraint_scale_;
   compliance_ = other.compliance_;
+  mass_of_loads_ = other.mass_of_loads_;
   balancer_->take(model_.pattern(), constraints_);
 }
 
@@ -88,6 +91,24 @@ void ActiveSet::close(std::size_t element, Workspace& workspace) {
     }
 }
 
+// Pads between two bodies are equally soft wherever they are: they take the least mass of any of them.
+void ActiveSet::find_mass_of_loads(Workspace& workspace) {
+  mass_of_loads_ = constraint_scale_.cwiseAbs2();
+  if (contact_ == nullptr) return;
+  std::map<std::pair<int, std::optional<int>>, double> least;
+  const auto each_closed = [&](auto use) {
+    for (std::size_t i = 0; i < contact_->elements(); ++i) {
+      const ContactState& c = contact_memory(workspace).contact[i];
+      if (c.row < 0) continue;
+      const Contact& contact = contact_->element(i);
+      use(least.try_emplace({contact.first, contact.second}, std::numeric_limits<double>::infinity()).first->second,
+          mass_of_loads_.segment(c.row, 1 + (c.is == ContactState::sticks ? c.held : 0)));
+    }
+  };
+  each_closed([](double& of_pair, const auto& rows) { of_pair = std::min(of_pair, rows.minCoeff()); });
+  each_closed([](double of_pair, auto rows) { rows.setConstant(of_pair); });
+}
+
 void ActiveSet::rebuild(Workspace& workspace) {
   constraints_.cut(model_.joints().count());
   slides_.clear();
@@ -100,8 +121,9 @@ void ActiveSet::rebuild(Workspace& workspace) {
   if (contact_ != nullptr)
     for (std::size_t i = 0; i < contact_->elements(); ++i) close(i, workspace);
   find_constraint_scale(workspace.state);
+  find_mass_of_loads(workspace);
   constexpr double share = 1e-7;  // of the inverse mass: an iteration more, and loads to 1e-9
-  compliance_ = share * constraint_scale_.cwiseAbs2().cwiseInverse();
+  compliance_ = share * mass_of_loads_.cwiseInverse();
   compliance_.head(exact).setZero();
   workspace.solver.take(model_.pattern(), constraints_);
   balancer_->take(model_.pattern(), constraints_);

@@ -11,6 +11,11 @@ namespace {
 constexpr double closed = 1e-9;              // m, and sine of an angle: what rounding of a placed body leaves
 constexpr double change_resolution = 1e-12;  // of a step, and of a level of friction: what rounding leaves of both
 constexpr int deepest_halving = 10;          // a step is cut into 2¹⁰ pieces at most
+
+/// Halving is of no use.
+struct NoSmoothStep : hydro::NumericsError {
+  using NumericsError::NumericsError;
+};
 }  // namespace
 
 void Integrator::require_closed_joints(const State& state) const {
@@ -100,8 +105,8 @@ void Integrator::advance_halving(Workspace& workspace, double h, int depth, Step
   if (h < 1e-6 * step_) return go_straight(workspace, h);
   if (try_counted_step(workspace, h, report)) return;
   if (depth == deepest_halving)
-    throw hydro::NumericsError(fmt::format("the run cannot go on from t = {:.6g} s, even with a step of {:.3g} s: {}",
-                                           workspace.state.time, h, failure_));
+    throw NoSmoothStep(fmt::format("the run cannot go on from t = {:.6g} s, even with a step of {:.3g} s: {}",
+                                   workspace.state.time, h, failure_));
   ++report.halvings;
   advance_halving(workspace, h / 2, depth + 1, report);
   advance_halving(workspace, h / 2, depth + 1, report);
@@ -234,14 +239,40 @@ Integrator::Way Integrator::go_to_change(Workspace& workspace, double h, StepRep
   return {at, true};
 }
 
+// (D149) What no smooth step leads through, and what changes on and on, is done by leaps where rough contacts touch.
 void Integrator::advance_to_changes(Workspace& workspace, double h, StepReport& report) {
   constexpr std::size_t most = 1000;  // in one step: more is no motion but a mistake
+  constexpr std::size_t many = 20;    // in one step: what goes on faster and faster is at its end
+  double longest = h / 128;  // a leap: its error is of second order in this, and where one is not enough it doubles
   std::size_t changes = 0;
+  double reach = h;
   laws_.begin_step();
+  const auto happened = [&](const std::vector<Event>& events) {
+    report.events.insert(report.events.end(), events.begin(), events.end());
+  };
+  const auto leap = [&](double left) {
+    const double way = std::min(left, longest);
+    happened(laws_.leap(workspace, way));
+    begin(workspace);
+    ++report.leaps;
+    reach = longest;
+    longest *= 2;
+    return way;
+  };
   for (double left = h; left > h * change_resolution;) {
     const double begin_of_way = workspace.state.time;
     laws_.begin_work(workspace);
-    const Way way = go_to_change(workspace, left, report);
+    Way way;
+    try {
+      way = go_to_change(workspace, std::min(left, reach), report);
+    } catch (const NoSmoothStep&) {
+      if (!laws_.rubs(workspace)) throw;
+      restore(workspace, before_change_);
+      reach = std::min(left, reach) / 2;
+      if (reach < longest) left -= leap(left);
+      continue;
+    }
+    reach *= 2;
     laws_.share_loads(workspace);
     laws_.note_work(workspace);
     left -= way.time;
@@ -249,11 +280,10 @@ void Integrator::advance_to_changes(Workspace& workspace, double h, StepReport& 
     if (++changes > most)
       throw hydro::NumericsError(fmt::format(
           "friction or contacts change more than {} times in the step from t = {:.6g} s", most, begin_of_way));
-    const auto events = laws_.change(workspace, laws_.least_margin(workspace), h);
-    report.events.insert(report.events.end(), events.begin(), events.end());
-    constexpr std::size_t many = 20;  // in one step: what goes on faster and faster is at its end
+    happened(laws_.change(workspace, laws_.least_margin(workspace), h));
     if (changes % many == 0) laws_.still(workspace, h);
     begin(workspace);
+    if (changes % many == 0 && laws_.rubs(workspace)) left -= leap(left);
   }
 }
 

@@ -150,6 +150,10 @@ std::vector<Event> SetValuedLaws::change(Workspace& workspace, const Margin& at,
     take_up(workspace, at);
   }
   settle(workspace);
+  return events_since(was, workspace);
+}
+
+std::vector<Event> SetValuedLaws::events_since(const std::vector<Seen>& was, Workspace& workspace) const {
   const std::vector<Seen> is = situation(workspace);
   const std::size_t frictions = active_.friction() == nullptr ? 0 : active_.friction()->elements();
   std::vector<Event> events;
@@ -310,9 +314,13 @@ void SetValuedLaws::begin_work(Workspace& workspace) {
   find_slip_power(workspace, slip_power_before_);
 }
 
-void SetValuedLaws::note_work(Workspace& workspace) {
+void SetValuedLaws::note_work_of_joints(Workspace& workspace) const {
   if (active_.friction() != nullptr)
     active_.friction()->note_work(before_, workspace.state, active_.friction_memory(workspace));
+}
+
+void SetValuedLaws::note_work(Workspace& workspace) {
+  note_work_of_joints(workspace);
   if (active_.contact() == nullptr) return;
   find_slip_power(workspace, slip_power_);
   auto& contacts = active_.contact_memory(workspace).contact;

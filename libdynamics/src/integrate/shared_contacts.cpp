@@ -22,7 +22,7 @@ struct SetValuedLaws::Shared {
 /// None where loads are unique, or no contact is rough.
 std::optional<SetValuedLaws::Shared> SetValuedLaws::shared(Workspace& workspace) const {
   const JointSet& constraints = active_.constraints();
-  Shared out{active_.constraint_scale().cwiseAbs2(), {}, {}, {}};
+  Shared out{active_.mass_of_loads(), {}, {}, {}};
   bool rough = false;
   for (std::size_t i = 0; i < active_.contact()->elements(); ++i) {
     const ContactState& c = active_.contact_memory(workspace).contact[i];
@@ -30,7 +30,6 @@ std::optional<SetValuedLaws::Shared> SetValuedLaws::shared(Workspace& workspace)
     const double friction = active_.contact()->element(i).friction;
     rough = rough || friction > 0;
     const int held = c.is == ContactState::sticks ? c.held : 0;
-    out.mass.segment(c.row + 1, held).setConstant(out.mass[c.row]);
     out.bearings.push_back({c.row, held, friction});
     out.element.push_back(i);
   }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "dynamics/integrate/set_valued.hpp"
+#include "dynamics/model/assemble.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
 #include "impact.hpp"
@@ -97,13 +98,25 @@ ContactState::Is becomes(double load, double parting, double slip, bool slides, 
 
 }  // namespace
 
+/// Joints, and the frictions of joints that stick.
+JointSet SetValuedLaws::held_now(Workspace& workspace) const {
+  JointSet held = model_.joints();
+  for (std::size_t i = 0; active_.friction() != nullptr && i < active_.friction()->elements(); ++i)
+    if (active_.friction_memory(workspace).direction[i] == 0) held.add(active_.friction()->holding(i, workspace.state));
+  return held;
+}
+
+/// Accelerations without loads of contacts.
+VectorXd SetValuedLaws::without_contacts(const Touching& all, const JointSet& held, Workspace& workspace) const {
+  const VectorXd loads = model_.residual(workspace.state, VectorXd::Zero(model_.modes()), workspace);
+  return all.held.solve(-loads, -held.convective(workspace.state)).x;
+}
+
 /// What touches and does not part, among bodies that joints and frictions hold. What slips already goes on so.
 SetValuedLaws::Touching SetValuedLaws::touching_now(Workspace& workspace) const {
   const ContactLaw& kind = *active_.contact();
   const State& state = workspace.state;
-  JointSet held = model_.joints();
-  for (std::size_t i = 0; active_.friction() != nullptr && i < active_.friction()->elements(); ++i)
-    if (active_.friction_memory(workspace).direction[i] == 0) held.add(active_.friction()->holding(i, state));
+  const JointSet held = held_now(workspace);
   std::vector<std::size_t> elements;
   std::vector<Eigen::Vector3d> slips;
   for (std::size_t i = 0; i < kind.elements(); ++i) {
@@ -116,8 +129,7 @@ SetValuedLaws::Touching SetValuedLaws::touching_now(Workspace& workspace) const 
   for (std::size_t k = 0; k < slips.size(); ++k)
     if (out.laws[k].friction > 0 && slips[k].norm() > slow(workspace))
       out.laws[k].slip = out.along(k).transpose() * slips[k].normalized();
-  const VectorXd loads = model_.residual(state, VectorXd::Zero(model_.modes()), workspace);
-  out.own = out.R * out.held.solve(-loads, -held.convective(state)).x + out.rows.convective(state);
+  out.own = out.R * without_contacts(out, held, workspace) + out.rows.convective(state);
   return out;
 }
 
@@ -147,6 +159,66 @@ bool SetValuedLaws::decide_together(Workspace& workspace) const {
     c.is = is;
   }
   return any;
+}
+
+namespace {
+
+/// Whether friction holds with less than it could.
+bool holds_with_ease(const ImpactLaw& law, const VectorXd& z) {
+  constexpr double rounding = 1e-9;
+  return law.friction > 0 && z.segment<2>(law.row + 1).norm() < (1 - rounding) * law.friction * z[law.row];
+}
+
+}  // namespace
+
+bool SetValuedLaws::rubs(Workspace& workspace) const {
+  for (std::size_t i = 0; active_.contact() != nullptr && i < active_.contact()->elements(); ++i)
+    if (active_.contact_memory(workspace).contact[i].is != ContactState::open &&
+        active_.contact()->element(i).friction > 0)
+      return true;
+  return false;
+}
+
+// (D149)
+std::vector<Event> SetValuedLaws::leap(Workspace& workspace, double h) {
+  const std::vector<Seen> was = situation(workspace);
+  const ContactLaw& kind = *active_.contact();
+  State& state = workspace.state;
+  std::vector<std::size_t> elements;
+  std::vector<double> gaps;
+  for (std::size_t i = 0; i < kind.elements(); ++i) {
+    const ContactLaw::Motion motion = kind.motion(i, state);
+    if (motion.closest_points.gap > closed + h * std::abs(motion.parting)) continue;
+    elements.push_back(i);
+    gaps.push_back(std::max(0.0, motion.closest_points.gap));
+  }
+  const JointSet held = held_now(workspace);
+  Touching all = touching(held, std::move(elements), workspace);
+  const VectorXd a = without_contacts(all, held, workspace), before = all.R * state.velocity;
+  VectorXd without = before + h * (all.R * a + all.rows.convective(state));
+  for (std::size_t k = 0; k < gaps.size(); ++k) {
+    all.laws[k].restitution = 0;
+    without[all.laws[k].row] += gaps[k] / h;  // a gap may close, and no more
+  }
+  const VectorXd z = impulses(all.W, without, all.laws);
+  state.velocity += h * a + all.gained * z;
+  const VectorXd after = all.R * state.velocity;
+  before_ = state;
+  move(before_, h * state.velocity, state);
+  state.time += h;
+  if (model_.joints().count() > 0) close_joints(model_, std::vector<bool>(model_.bodies().size(), false), state);
+  model_.joints().count_turns(state);
+  note_work_of_joints(workspace);
+  classify_contacts(workspace);
+  classify_friction(workspace);
+  for (std::size_t k = 0; k < all.element.size(); ++k) {
+    ContactState& c = active_.contact_memory(workspace).contact[all.element[k]];
+    const Index row = all.laws[k].row, size = all.size(k);
+    c.dissipated -= z.segment(row, size).dot(before.segment(row, size) + after.segment(row, size)) / 2;
+    if (c.is == ContactState::slides && holds_with_ease(all.laws[k], z)) c.is = ContactState::sticks;
+  }
+  settle(workspace);
+  return events_since(was, workspace);
 }
 
 }  // namespace dynamics

@@ -193,10 +193,9 @@ struct Sliding {
     return out;
   }
 
-  Numbers at(double t) const {
+  Numbers at(double t, Numbers q = Numbers::Zero()) const {
     const double h = creep / (2 * block.friction * g);
     const auto steps = static_cast<int>(std::ceil(t / h));
-    Numbers q = Numbers::Zero();
     for (int i = 0; i < steps; ++i) {
       const double dt = t / steps;
       const Numbers a = rates(q), b = rates(q + dt / 2 * a), c = rates(q + dt / 2 * b), d = rates(q + dt * c);
@@ -226,6 +225,42 @@ TEST(RoughContact, TurnsUnderAPushOffTheMiddle) {
       for (int k = 0; k < 3; ++k) {
         EXPECT_NEAR(coarse[k], slow[k], 2e-3) << off << " m off, " << part << ", number " << k;
         EXPECT_NEAR(fine[k], slow[k], 3e-4) << off << " m off, " << part << ", number " << k;
+      }
+    }
+}
+
+struct Spin {
+  double surge, sway, yaw;
+};
+
+// (D149) What slides and spins comes to rest in both at one instant, towards which slips of all pads turn faster and
+// faster. Against the reference, after it has come to rest: to what leaps of h/128 leave, which falls with the step,
+// and its creep; loads are those of equal pads wherever these are. No friction takes more than there is.
+TEST(RoughContact, ComesToRestFromSlidingAndSpinning) {
+  constexpr double mu = 0.3, t = 1;
+  const Pads off_the_middle{{0.35, 0.28}, {0.35, -0.32}, {-0.45, 0.28}, {-0.45, -0.32}};
+  for (const Pads& pads : {four, off_the_middle, three})
+    for (const Spin& v : {Spin{2, 0, 1}, Spin{2, 0, 0}, Spin{0, 0, 1}, Spin{1, 0.5, 4}, Spin{0.3, 0, -3}}) {
+      const Block block{.pads = pads, .friction = mu};
+      const Model model = block.model();
+      Sliding::Numbers start = Sliding::Numbers::Zero();
+      start.tail<3>() << v.surge, v.sway, v.yaw;
+      const Sliding::Numbers slow = Sliding{block}.at(t, start);
+      ASSERT_LT(slow.tail<3>().norm(), 1e-3) << "the reference rests, but for its creep";
+      const auto by_step = [&](double h) {
+        State begin = rest_state(model.bodies());
+        begin.velocity << v.surge, v.sway, 0, 0, 0, v.yaw;
+        Motion run(model, begin);
+        run.go(h, static_cast<int>(std::lround(t / h)));
+        EXPECT_LT(run.workspace.state.velocity.norm(), 1e-12) << "rounding of the speeds that have ended";
+        EXPECT_LT(std::abs(run.ledger.residual()), 2e-3 * run.ledger.turnover());
+        const Vector3d x = run.workspace.state.pose[0].centre;
+        return Vector3d(x.x(), x.y(), yaw(run));
+      };
+      const Vector3d coarse = by_step(0.01), fine = by_step(0.0025);
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_NEAR(coarse[k], slow[k], 1.5e-4) << pads.size() << " pads, " << v.surge << ' ' << v.yaw << ' ' << k;
+        EXPECT_NEAR(fine[k], slow[k], 3e-5) << pads.size() << " pads, " << v.surge << ' ' << v.yaw << ' ' << k;
       }
     }
 }

@@ -56,6 +56,9 @@ class ActiveSet {
   const Eigen::VectorXd& scale() const { return scale_; }
   /// √ of the mass that each constraint moves.
   const Eigen::VectorXd& constraint_scale() const { return constraint_scale_; }
+  /// That mass for each constraint; of closed contacts the least of any between the same two bodies, so that their
+  /// loads over it compare as those of equal pads, wherever these are.
+  const Eigen::VectorXd& mass_of_loads() const { return mass_of_loads_; }
   /// Of closed contacts, which may be more than needed to hold a body: a small inverse mass, for Newton's matrix alone,
   /// by which they share the load evenly (D24). Zero for joints.
   const Eigen::VectorXd& compliance() const { return compliance_; }
@@ -66,6 +69,7 @@ class ActiveSet {
   void close(std::size_t element, Workspace& workspace);
   bool moves(const Constraint& constraint, const State& state) const;
   void find_constraint_scale(const State& state);
+  void find_mass_of_loads(Workspace& workspace);
   bool add_correction(Workspace& workspace, Eigen::VectorXd& acceleration, Eigen::VectorXd& multipliers) const;
   bool balanced_by_kept(Workspace& workspace, Eigen::VectorXd& acceleration, Eigen::VectorXd& multipliers) const;
 
@@ -81,7 +85,7 @@ class ActiveSet {
   std::size_t friction_index_ = 0, contact_index_ = 0;  // among the model's forces
   JointSet constraints_;
   std::vector<Slide> slides_;
-  Eigen::VectorXd scale_, constraint_scale_, compliance_;
+  Eigen::VectorXd scale_, constraint_scale_, mass_of_loads_, compliance_;
   // Factors of masses and constraints, apart from those of the workspace, which are of steps. Its `of_step` is 1 while
   // there are any.
   std::unique_ptr<KktSolver> balancer_;

@@ -16,6 +16,7 @@ struct StepReport {
   int newton_iterations = 0;
   int halvings = 0;  ///< how often a step had to be cut in two
   int parts = 0;     ///< pieces into which a tolerance cut the step
+  int leaps = 0;     ///< taken through what smooth steps cannot follow (D149)
   std::vector<Event> events = {};
 };
 

@@ -44,6 +44,12 @@ class SetValuedLaws {
   /// speed along their normals, and what closes in the rest of the step does so without restitution (D26).
   void still(Workspace& workspace, double step);
 
+  /// Whether a rough contact is closed.
+  bool rubs(Workspace& workspace) const;
+  /// A step of h seconds in which contacts stick, slide, close and part by themselves (D149), through what smooth steps
+  /// cannot follow: slips that end together. Of first order in h, and its work is noted.
+  std::vector<Event> leap(Workspace& workspace, double h);
+
   /// Where contacts are more than bodies need, the multipliers of a step may ask of one what it cannot bear: they
   /// become those of the share nearest to even that all can bear (D130).
   void share_loads(Workspace& workspace);
@@ -82,6 +88,9 @@ class SetValuedLaws {
   double slow(const Workspace& workspace) const;
   double rounding(const Eigen::VectorXd& acceleration, const Eigen::VectorXd& multipliers) const;
   double rounding(const Workspace& workspace) const { return rounding(workspace.acceleration, workspace.multipliers); }
+  JointSet held_now(Workspace& workspace) const;
+  Eigen::VectorXd without_contacts(const Touching& all, const JointSet& held, Workspace& workspace) const;
+  void note_work_of_joints(Workspace& workspace) const;
   void find_slip_power(Workspace& workspace, Eigen::VectorXd& power) const;
   double pull(std::size_t element, const Workspace& workspace) const;
   struct Seen {
@@ -90,6 +99,7 @@ class SetValuedLaws {
     bool operator==(const Seen&) const = default;
   };
   std::vector<Seen> situation(Workspace& workspace) const;
+  std::vector<Event> events_since(const std::vector<Seen>& was, Workspace& workspace) const;
 
   const Model& model_;
   ActiveSet& active_;
