@@ -232,6 +232,9 @@ Binding<MorisonModel> morison_keys() {
             &M::force);
 }
 
+const Words<::fit::RobustLoss> robust_losses{{"huber", ::fit::RobustLoss::huber},
+                                             {"bisquare", ::fit::RobustLoss::bisquare},
+                                             {"least absolute residuals", ::fit::RobustLoss::least_absolute}};
 const Words<::fit::IntervalMethod> interval_methods{{"effective samples", ::fit::IntervalMethod::effective_samples},
                                                     {"cycle clusters", ::fit::IntervalMethod::cycle_clusters},
                                                     {"block bootstrap", ::fit::IntervalMethod::block_bootstrap}};
@@ -279,8 +282,12 @@ Binding<MorisonModel> asked_of_forces() {
   using M = MorisonModel;
   return Binding<M>("", "")
       .optional(texts("coefficients", "drag cd, inertia cm, added mass ca").one_of({"cd", "cm", "ca"}))
-      .key(effect("robust", "wild samples of the force pull less (Huber)"),
-           [](const Value&, M& out) { out.force.robust = true; })
+      .optional(
+          text("robust",
+               "wild samples of the force pull less: beyond 1.345 deviations no more than there (huber), less and "
+               "less (bisquare), or all by their distance and not its square")
+              .one_of(words_of(robust_losses)),
+          [](const Value& v, M& out) { out.force.robust = value_for(robust_losses, v.text); })
       .key(effect("cycles", "coefficients of each cycle too; needs [prepare] window in full cycles"), &M::cycles)
       .optional(text("law", "coefficients of all runs against KC, Re or beta = Re/KC, with runs that differ by chance")
                     .one_of(words_of(laws)),

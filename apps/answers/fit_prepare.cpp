@@ -24,6 +24,26 @@ Binding<PrepareOptions> outliers() {
            });
 }
 
+/// \p least: the lowest order that there is.
+template <int least>
+void take_order(const Value& v, FilterChoice& out) {
+  constexpr int most = 10;
+  out.order = static_cast<int>(v.integer);
+  if (v.integer < least || v.integer > most) throw v.wrong(fmt::format("must lie between {} and {}", least, most));
+}
+
+Binding<FilterChoice> chebyshev_low_pass() {
+  return Binding<FilterChoice>("", "recursive too, forward and backward: falls off sooner, and wavers before")
+      .key(integer("order", "of one pass, 2 to 10").or_default("4", "as steep as most need"), take_order<2>)
+      .key(number("ripple", "share of the amplitude by which it wavers, 1e-6 to 0.1")
+               .or_default("0.005", "as little as a load cell is wrong by"),
+           [](const Value& v, FilterChoice& out) {
+             out.ripple = v.number;
+             if (!(v.number >= 1e-6 && v.number <= 0.1)) throw v.wrong("must lie between 1e-6 and 0.1");
+           })
+      .sets(&FilterChoice::kind, FilterChoice::Kind::chebyshev);
+}
+
 const Binding<FilterChoice>& low_pass() {
   using F = FilterChoice;
   using enum F::Kind;
@@ -31,14 +51,15 @@ const Binding<FilterChoice>& low_pass() {
       Binding<F>("[prepare.low_pass]", "low pass without delay, over force and model alike")
           .key(text("kind", "of filter"))
           .key(positive("cutoff", dim::angular_velocity, "frequency of half the amplitude"), in_hertz(&F::hz))
-          .variant("butterworth",
-                   Binding<F>("", "recursive, forward and backward")
-                       .key(integer("order", "of one pass, 1 to 10").or_default("4", "as steep as most need"),
-                            [](const Value& v, F& out) {
-                              out.order = static_cast<int>(v.integer);
-                              if (v.integer < 1 || v.integer > 10) throw v.wrong("must lie between 1 and 10");
-                            })
-                       .sets(&F::kind, butterworth))
+          .variant(
+              "butterworth",
+              Binding<F>("", "recursive, forward and backward")
+                  .key(integer("order", "of one pass, 1 to 10").or_default("4", "as steep as most need"), take_order<1>)
+                  .sets(&F::kind, butterworth))
+          .variant("chebyshev", chebyshev_low_pass())
+          .variant(
+              "gaussian",
+              Binding<F>("", "finite: weights on a bell; falls off early, and never wavers").sets(&F::kind, gaussian))
           .variant("symmetric weights",
                    Binding<F>("", "finite: sinc under a Kaiser window of 60 dB, from half the cutoff to one and a half")
                        .sets(&F::kind, finite));

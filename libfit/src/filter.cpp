@@ -47,19 +47,69 @@ void ZeroPhaseFilter::settle_sections() {  // (F16)
   settling_ = static_cast<std::size_t>(std::ceil(std::log(forgotten) / std::log(slowest)));
 }
 
+/// 1/(s² + qs + 1) with s = (z − 1)/(z + 1)/k.
+void ZeroPhaseFilter::add_pair(double q, double k) {
+  const double unit = 1 + q * k + k * k;
+  sections_.push_back(
+      {k * k / unit, 2 * k * k / unit, k * k / unit, 2 * (k * k - 1) / unit, (1 - q * k + k * k) / unit});
+}
+
+/// 1/(s + 1) likewise.
+void ZeroPhaseFilter::add_first_order(double k) {
+  sections_.push_back({k / (1 + k), k / (1 + k), 0, (k - 1) / (k + 1), 0});
+}
+
 ZeroPhaseFilter ZeroPhaseFilter::butterworth(int order, double cutoff_hz, double step_s) {  // (F17)
   hydro::require(order >= 1 && order <= 10, "a Butterworth filter has an order from 1 to 10, got {}", order);
   check_frequency("the cutoff of a low pass", cutoff_hz, step_s);
   ZeroPhaseFilter f(fmt::format("Butterworth low pass of order {}, {:.4g} Hz, forward and backward", order, cutoff_hz),
                     step_s);
   const double k = std::tan(pi * cutoff_hz * step_s);
-  for (int pair = 0; pair < order / 2; ++pair) {  // 1/(s² + qs + 1) with s = (z − 1)/(z + 1)/k
-    const double q = 2 * std::sin(pi * (2 * pair + 1) / (2 * order)), unit = 1 + q * k + k * k;
-    f.sections_.push_back(
-        {k * k / unit, 2 * k * k / unit, k * k / unit, 2 * (k * k - 1) / unit, (1 - q * k + k * k) / unit});
-  }
-  if (order % 2 == 1) f.sections_.push_back({k / (1 + k), k / (1 + k), 0, (k - 1) / (k + 1), 0});
+  for (int pair = 0; pair < order / 2; ++pair) f.add_pair(2 * std::sin(pi * (2 * pair + 1) / (2 * order)), k);
+  if (order % 2 == 1) f.add_first_order(k);
   f.settle_sections();
+  return f;
+}
+
+// Poles on an ellipse. Of even order the gain is 1 at its troughs, so that that of a mean is; of odd order at its
+// crests.
+ZeroPhaseFilter ZeroPhaseFilter::chebyshev(int order, double ripple, double cutoff_hz, double step_s) {  // (F18)
+  hydro::require(order >= 2 && order <= 10, "a Chebyshev filter has an order from 2 to 10, got {}", order);
+  hydro::require(ripple >= 1e-6 && ripple <= 0.1, "the ripple of a Chebyshev filter lies between 1e-6 and 0.1, got {}",
+                 ripple);
+  check_frequency("the cutoff of a low pass", cutoff_hz, step_s);
+  ZeroPhaseFilter f(
+      fmt::format("Chebyshev low pass of order {} with a ripple of {:.3g}, {:.4g} Hz, forward and backward", order,
+                  ripple, cutoff_hz),
+      step_s);
+  const bool even = order % 2 == 0;
+  const double square = even ? ripple : ripple / (1 - ripple), at_zero = even ? 1 + square : 1;  // ε² and N
+  const double half = std::cosh(std::acosh(std::sqrt((2 * at_zero - 1) / square)) / order);      // x_c
+  const double a = std::asinh(1 / std::sqrt(square)) / order, k = std::tan(pi * cutoff_hz * step_s) / half;
+  for (int pair = 0; pair < order / 2; ++pair) {
+    const double angle = pi * (2 * pair + 1) / (2 * order);
+    const double decay = std::sinh(a) * std::sin(angle), size = std::hypot(decay, std::cosh(a) * std::cos(angle));
+    f.add_pair(2 * decay / size, k * size);
+  }
+  if (!even) f.add_first_order(k * std::sinh(a));
+  f.settle_sections();
+  return f;
+}
+
+ZeroPhaseFilter ZeroPhaseFilter::gaussian(double cutoff_hz, double step_s) {  // (F18)
+  check_frequency("the cutoff of a low pass", cutoff_hz, step_s);
+  constexpr double highest = 0.2;  // of the sampling rate: above, it folds back more than 1e-4
+  hydro::require(cutoff_hz < highest / step_s,
+                 "the cutoff of a Gaussian filter must lie below {} times the sampling rate, {:.4g} Hz; got {:.4g}",
+                 highest, highest / step_s, cutoff_hz);
+  const double sigma = std::sqrt(std::numbers::ln2 / 2) / (pi * cutoff_hz * step_s);  // samples
+  constexpr double tails = 4.5;                                                       // σ: 7e-6 of the bell lie beyond
+  const auto m = static_cast<int>(std::ceil(tails * sigma));
+  ZeroPhaseFilter f(fmt::format("Gaussian low pass of {} weights, {:.4g} Hz", 2 * m + 1, cutoff_hz), step_s);
+  for (int j = -m; j <= m; ++j) f.weights_.push_back(std::exp(-j * j / (2 * sigma * sigma)));
+  const double sum = std::accumulate(f.weights_.begin(), f.weights_.end(), 0.0);
+  for (double& w : f.weights_) w /= sum;
+  f.settling_ = static_cast<std::size_t>(m);
   return f;
 }
 

@@ -383,10 +383,10 @@ MorisonFit fit_columns(const Cylinder& cylinder, const ForceRecord& record, cons
 
   Eigen::VectorXd scatter;
   if (options.robust && result.search.all_identifiable()) {
-    RobustFit robust = fit_huber(columns, target);
+    RobustFit robust = fit_robust(columns, target, *options.robust);
     x = robust.x;
     result.share_inside = robust.share_inside;
-    scatter = robust.influence / robust.share_inside;  // (F39)
+    scatter = robust.influence / robust.slope;  // (F39)
   }
   const Attenuation put_back = result.search.all_identifiable()
                                    ? attenuation(cylinder, record, at, columns, x)
@@ -395,7 +395,9 @@ MorisonFit fit_columns(const Cylinder& cylinder, const ForceRecord& record, cons
   const Eigen::VectorXd residuals = target - columns * x;
   if (scatter.size() == 0) scatter = residuals;
   result.residual_rms = std::sqrt(residuals.squaredNorm() / rows);
-  result.explained = 1 - residuals.squaredNorm() / (force.array() - force.mean()).matrix().squaredNorm();
+  result.squared_error = residuals.squaredNorm();
+  result.explained = 1 - result.squared_error / (force.array() - force.mean()).matrix().squaredNorm();
+  result.explained_adjusted = 1 - (1 - result.explained) * (rows - 1) / (rows - static_cast<double>(columns.cols()));
   double shortest = result.period;
   for (const double hz : line_hz) shortest = std::min(shortest, 1 / hz);
   Uncertainty u = uncertainty_of(result.search, columns, scatter, unit, result.period / step, shortest / step,

@@ -98,6 +98,10 @@ ZeroPhaseFilter filter_of(const FilterChoice& c, double step) {
   switch (c.kind) {
     case FilterChoice::Kind::butterworth:
       return ZeroPhaseFilter::butterworth(c.order, c.hz, step);
+    case FilterChoice::Kind::chebyshev:
+      return ZeroPhaseFilter::chebyshev(c.order, c.ripple, c.hz, step);
+    case FilterChoice::Kind::gaussian:
+      return ZeroPhaseFilter::gaussian(c.hz, step);
     case FilterChoice::Kind::finite:
       return ZeroPhaseFilter::finite(c.hz, step);
     case FilterChoice::Kind::notch:

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "hydro/base/error.hpp"
 #include "support/coloured_noise.hpp"
@@ -22,8 +23,13 @@ std::vector<double> sinusoid(double hz, std::size_t n, double phase = 0.3) {
 }
 
 std::vector<ZeroPhaseFilter> one_of_each() {
-  return {ZeroPhaseFilter::butterworth(4, 3.33, step), ZeroPhaseFilter::butterworth(5, 8, step),
-          ZeroPhaseFilter::finite(4, step), ZeroPhaseFilter::notch(20, 4, step),
+  return {ZeroPhaseFilter::butterworth(4, 3.33, step),
+          ZeroPhaseFilter::butterworth(5, 8, step),
+          ZeroPhaseFilter::chebyshev(4, 0.005, 3.33, step),
+          ZeroPhaseFilter::chebyshev(3, 0.01, 8, step),
+          ZeroPhaseFilter::gaussian(4, step),
+          ZeroPhaseFilter::finite(4, step),
+          ZeroPhaseFilter::notch(20, 4, step),
           ZeroPhaseFilter::moving_average(11, step)};
 }
 
@@ -55,6 +61,46 @@ TEST(ZeroPhaseFilter, OfButterworthHasTheGainOfTheClosedForm) {
     }
     EXPECT_NEAR(f.gain(two_pi * 3.33), 0.5, 1e-12);
   }
+}
+
+// T_n by its recursion, in place of cosines.
+double chebyshev_polynomial(int n, double x) {
+  double before = 1, now = x;
+  for (int k = 1; k < n; ++k) before = std::exchange(now, 2 * x * now - before);
+  return now;
+}
+
+TEST(ZeroPhaseFilter, OfChebyshevHasTheGainOfTheClosedForm) {
+  for (const int order : {2, 3, 4, 7, 10})
+    for (const double ripple : {1e-4, 0.005, 0.1}) {
+      const auto f = ZeroPhaseFilter::chebyshev(order, ripple, 3.33, step);
+      const double square = order % 2 == 0 ? ripple : ripple / (1 - ripple), top = order % 2 == 0 ? 1 + square : 1;
+      const double wanted = std::sqrt((2 * top - 1) / square);
+      double low = 1, high = 1e5;  // T_n rises there: where it makes the gain ½
+      for (int i = 0; i < 100; ++i)
+        (chebyshev_polynomial(order, (low + high) / 2) < wanted ? low : high) = (low + high) / 2;
+      for (double hz = 0.05; hz < 45; hz += 0.37) {
+        const double warped = std::tan(std::numbers::pi * hz * step) / std::tan(std::numbers::pi * 3.33 * step);
+        const double gain = f.gain(two_pi * hz), t = chebyshev_polynomial(order, low * warped);
+        EXPECT_NEAR(gain, top / (1 + square * t * t), 1e-9) << order << ' ' << ripple << ' ' << hz;  // rounding
+        if (low * warped < 1) {
+          EXPECT_LE(gain, (order % 2 == 0 ? 1 + ripple : 1) + 1e-9);
+          EXPECT_GE(gain, (order % 2 == 0 ? 1 : 1 - ripple) - 1e-9);
+        }
+      }
+      EXPECT_NEAR(f.gain(two_pi * 3.33), 0.5, 1e-9);
+    }
+  EXPECT_THROW(ZeroPhaseFilter::chebyshev(4, 0.2, 3, step), hydro::InputError);
+  EXPECT_THROW(ZeroPhaseFilter::chebyshev(1, 0.01, 3, step), hydro::InputError);
+}
+
+TEST(ZeroPhaseFilter, OfGaussianWeightsHasTheGainOfABell) {
+  for (const double cutoff : {0.5, 4.0, 19.9}) {
+    const auto f = ZeroPhaseFilter::gaussian(cutoff, step);
+    for (double share = 0; share <= 1; share += 0.1)
+      EXPECT_NEAR(f.gain(two_pi * share * cutoff), std::exp(-std::log(2) * share * share), 1e-4) << cutoff;
+  }
+  EXPECT_THROW(ZeroPhaseFilter::gaussian(21, step), hydro::InputError);
 }
 
 TEST(ZeroPhaseFilter, OfSymmetricWeightsKeepsItsBands) {

@@ -327,10 +327,10 @@ TEST(MorisonFit, IsNotPulledByWildSamplesIfItIsRobust) {
     const auto stream = 500 + static_cast<std::uint64_t>(i);
     auto record = made(c, 1.2, 1.0, 0.4, 4, 1000, 0.02);
     add(record.force, ar1_noise(1000, 0.5, 1.0, stream));
-    const auto robust_alone = fit::fit_morison(c, record, {.robust = true}).cd;
+    const auto robust_alone = fit::fit_morison(c, record, {.robust = fit::RobustLoss::huber}).cd;
     width += (robust_alone.interval.high - robust_alone.interval.low) / sets;
     for (std::size_t j = 0; j < 1000; j += 23) record.force[j] += record.velocity[j] > 0 ? 40 : 0;  // one side only
-    const auto plain = fit::fit_morison(c, record).cd, robust = fit::fit_morison(c, record, {.robust = true}).cd;
+    const auto plain = fit::fit_morison(c, record).cd, robust = fit::fit_morison(c, record, {.robust = fit::RobustLoss::huber}).cd;
     plain_holds += plain.interval.low < 1.2 && 1.2 < plain.interval.high;
     robust_holds += robust_alone.interval.low < 1.2 && 1.2 < robust_alone.interval.high;
     EXPECT_LT(std::abs(*robust.value - 1.2), 0.3 * std::abs(*plain.value - 1.2));
@@ -343,7 +343,7 @@ TEST(MorisonFit, ThatIsRobustSolvesHubersEquations) {
   const auto c = cylinder(Experiment::water_moves);
   auto record = made(c, 1.2, 1.7, 0.4, 4, 800, 0.02);
   add(record.force, ar1_noise(800, 0, 2.0, 8));
-  const auto fit = fit::fit_morison(c, record, {.robust = true});
+  const auto fit = fit::fit_morison(c, record, {.robust = fit::RobustLoss::huber});
   std::vector<double> e(800);
   for (std::size_t j = 0; j < 800; ++j) e[j] = record.force[j] - fit.fitted[j];
   auto sorted = e;

@@ -16,6 +16,13 @@ class ZeroPhaseFilter {
   /// Low pass, gain 1/(1 + (tan(ωΔt/2)/tan(ω_cΔt/2))^{2·order}): 1/2 at the cutoff; (F17).
   /// \throws hydro::InputError unless 1 <= order <= 10 and 0 < cutoff < 1/(2Δt); so do the others for their numbers
   static ZeroPhaseFilter butterworth(int order, double cutoff_hz, double step_s);
+  /// Low pass that falls off sooner than a Butterworth filter of that order, and wavers before: gain
+  /// N/(1 + ε²T_n²(x x_c)), x = tan(ωΔt/2)/tan(ω_cΔt/2), 1/2 at the cutoff, within `ripple` of 1 below that but for the
+  /// way down; (F18). \throws also unless 1e-6 <= ripple <= 0.1
+  static ZeroPhaseFilter chebyshev(int order, double ripple, double cutoff_hz, double step_s);
+  /// Low pass of weights e^(−t²/2σ²): gain e^(−ln 2 (f/f_c)²), to 1e-4 up to the cutoff, which never wavers and falls
+  /// off early; (F18). \throws also unless the cutoff lies below 0.2/Δt, above which samples are too few for the bell
+  static ZeroPhaseFilter gaussian(double cutoff_hz, double step_s);
   /// Low pass of symmetric weights, sinc under a Kaiser window of 60 dB: 1/2 at the cutoff, within 2e-3 of 1 below half
   /// the cutoff and of 0 above one and a half of it; (F18).
   static ZeroPhaseFilter finite(double cutoff_hz, double step_s);
@@ -44,6 +51,8 @@ class ZeroPhaseFilter {
     void run(std::vector<double>& values) const;
   };
   ZeroPhaseFilter(std::string name, double step_s) : name_(std::move(name)), step_(step_s) {}
+  void add_pair(double q, double k);
+  void add_first_order(double k);
   void settle_sections();
 
   std::string name_;

@@ -17,6 +17,7 @@
 
 #include "fit/coefficient.hpp"
 #include "fit/least_squares.hpp"
+#include "fit/robust.hpp"
 
 namespace fit {
 
@@ -95,11 +96,11 @@ struct ForceLine {
 struct MorisonOptions {
   double confidence = 0.95;
   IntervalMethod method = IntervalMethod::effective_samples;
-  bool force_offset = false;          ///< fit a constant force as well: an offset of the load cells
-  bool linear_drag = false;           ///< fit a drag that goes with the velocity as well (F51)
-  std::vector<ForceLine> lines = {};  ///< fitted as well
-  bool bands = false;                 ///< tell the bands of the fit (F53)
-  bool robust = false;                ///< Huber's estimate (F39): wild samples of the force pull less
+  bool force_offset = false;              ///< fit a constant force as well: an offset of the load cells
+  bool linear_drag = false;               ///< fit a drag that goes with the velocity as well (F51)
+  std::vector<ForceLine> lines = {};      ///< fitted as well
+  bool bands = false;                     ///< tell the bands of the fit (F53)
+  std::optional<RobustLoss> robust = {};  ///< wild samples of the force pull less (F39)
   CylinderErrors cylinder_errors = {};
   std::vector<ForceError> force_errors = {};
   double delay_error_s = 0;  ///< standard uncertainty of the delay that was taken off the force
@@ -130,7 +131,9 @@ struct MorisonFit {
   std::vector<FittedLine> lines;           ///< in the order asked for
   SearchReport search;
   double residual_rms;        ///< N
-  double explained;           ///< 1 − residual variance / variance of the force
+  double squared_error;       ///< sum of the squared residuals, SSE, N²
+  double explained;           ///< R² = 1 − residual variance / variance of the force
+  double explained_adjusted;  ///< 1 − (1 − R²)(n − 1)/(n − p), p coefficients fitted to n samples
   double period;              ///< main period 2π √(Σwu²/Σwu̇²), s: of a sinusoid its period (w: Hann)
   double velocity_amplitude;  ///< √2 times the rms velocity, m/s: of a sinusoid its amplitude (w: Hann)
   double kc;                  ///< Keulegan–Carpenter number, velocity_amplitude · period / D
@@ -139,7 +142,7 @@ struct MorisonFit {
   double dof;                           ///< of Student's t behind the intervals
   double correlation = 0;               ///< of the errors of the two coefficients, −1 … 1; 0 where not known
   std::vector<SystematicError> budget;  ///< empty where no such uncertainty was stated
-  double share_inside = 1;              ///< of samples that a robust fit counts in full
+  double share_inside = 1;              ///< of samples, as RobustFit has it; 1 without
   std::optional<Coefficient> delay;     ///< s, of the force behind the motion, where it was estimated
   std::string caution;  ///< why the intervals may be too narrow; empty where nothing is known against them
   std::size_t samples;

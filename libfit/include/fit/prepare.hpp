@@ -45,8 +45,9 @@ struct RawRun {
 };
 
 struct FilterChoice {
-  enum class Kind { butterworth, finite, notch, moving_average } kind;
-  int order = 4;       ///< Butterworth
+  enum class Kind { butterworth, chebyshev, gaussian, finite, notch, moving_average } kind;
+  int order = 4;       ///< Butterworth, Chebyshev
+  double ripple = 0;   ///< Chebyshev
   double hz = 0;       ///< cutoff or centre
   double width = 0;    ///< notch: Hz
   double seconds = 0;  ///< moving average

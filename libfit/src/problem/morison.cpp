@@ -78,7 +78,7 @@ std::vector<Otherwise> other_cutoffs(const Options& options, const RawRun& raw, 
   using Filter = FilterChoice::Kind;
   std::vector<Otherwise> out;
   for (std::size_t i = 0; i < options.prepare.filters.size(); ++i) {
-    if (const Filter kind = options.prepare.filters[i].kind; kind != Filter::butterworth && kind != Filter::finite)
+    if (const Filter kind = options.prepare.filters[i].kind; kind == Filter::notch || kind == Filter::moving_average)
       continue;
     Options other = options;
     other.prepare.filters[i].hz *= factor;

@@ -83,7 +83,20 @@ void add_checks(const FittedRun& run, Report& report) {
   });
 }
 
-Report told(const FittedRun& run, bool robust) {
+std::string told(RobustLoss loss, double inside) {
+  switch (loss) {
+    case RobustLoss::huber:
+      return fmt::format("robust, Huber: {:.2f} % of the samples count in full", 100 * inside);
+    case RobustLoss::bisquare:
+      return fmt::format("robust, bisquare: {:.2g} % of the samples count for nothing", 100 * (1 - inside));
+    case RobustLoss::least_absolute:
+      return fmt::format("robust, least absolute residuals: {:.2f} % of the samples lie within 1.345 deviations",
+                         100 * inside);
+  }
+  return {};
+}
+
+Report told(const FittedRun& run, std::optional<RobustLoss> robust) {
   const MorisonFit& f = run.fit;
   Report report = begin_run(run.source);
   report.heading =
@@ -93,7 +106,9 @@ Report told(const FittedRun& run, bool robust) {
   append(report.facts, {{"kc", f.kc},
                         {"period_s", f.period},
                         {"residual_rms_N", f.residual_rms},
+                        {"squared_error_N2", f.squared_error},
                         {"explained", f.explained},
+                        {"explained_adjusted", f.explained_adjusted},
                         {"samples", f.samples},
                         {"iterations", f.search.iterations},
                         {"search", f.search.why},
@@ -104,7 +119,9 @@ Report told(const FittedRun& run, bool robust) {
   add_others(f, report);
   report.say("search: iterations {}, {}; singular values {:.3g} and {:.3g}; {}", f.search.iterations, f.search.why,
              f.search.singular_values[0], f.search.singular_values[1], f.search.identifiability);
-  if (robust) report.say("robust: {:.2f} % of the samples count in full", 100 * f.share_inside);
+  report.say("sum of squared residuals {:.4g} N^2; R^2 {:.6f}, adjusted {:.6f}", f.squared_error, f.explained,
+             f.explained_adjusted);
+  if (robust) report.say("{}", told(*robust, f.share_inside));
   add_bands(f, report);
   add_checks(run, report);
   report.steps = run.prepared.steps;

@@ -84,7 +84,7 @@ void forces() {
   });
   wrong = std::max(wrong, (x - exact).norm());
   const double robust = best_of([&] {
-    for (int k = 0; k < fits; ++k) x = fit::fit_huber(columns, force).x;
+    for (int k = 0; k < fits; ++k) x = fit::fit_robust(columns, force, fit::RobustLoss::huber).x;
   });
   const double whole = best_of([&] {
     for (int k = 0; k < fits; ++k) x[0] = *fit::fit_morison(cylinder, r).cd.value;
