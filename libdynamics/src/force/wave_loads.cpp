@@ -1,5 +1,7 @@
 #include "dynamics/force/wave_loads.hpp"
 
+#include <algorithm>
+
 #include <cmath>
 
 #include "hydro/base/error.hpp"
@@ -54,8 +56,9 @@ class RadiationState final : public Memory {
       past_.push_back(g.method->start(velocity_));
       at_newest_.push_back(Eigen::VectorXd::Zero(g.method->modes()));
       after_.push_back(at_newest_.back());
-      none_.push_back(Eigen::MatrixXd::Zero(g.method->modes(), g.method->modes()));
       at_end_.push_back(g.method->instantaneous(1));
+      at_start_.push_back(at_end_.back());
+      if (g.method->has_past()) at_start_.back().setZero();
     }
   }
   void accept(const State& state) override {
@@ -86,10 +89,10 @@ class RadiationState final : public Memory {
   }
   /// Of that load, W.
   double power(std::size_t group, const State& state) { return load(group, state).dot(velocity_); }
-  /// What multiplies the velocity of this very moment. At the start of a run nothing has been radiated yet.
+  /// What multiplies the velocity of this very moment. At the start of a run a memory has nothing yet.
   const Eigen::MatrixXd& weight(std::size_t group, double fraction) {
     if (fraction == 1) return at_end_[group];
-    if (fraction == 0) return begun_ ? at_end_[group] : none_[group];
+    if (fraction == 0) return begun_ ? at_end_[group] : at_start_[group];
     if (fraction != within_at_) {
       within_.clear();
       for (const auto& g : groups_) within_.push_back(g.method->instantaneous(fraction));
@@ -115,13 +118,17 @@ class RadiationState final : public Memory {
   const std::vector<RadiationMemory>& groups_;
   std::vector<std::unique_ptr<hydro::radiation::MemoryState>> past_;
   std::vector<Eigen::VectorXd> at_newest_, after_;
-  std::vector<Eigen::MatrixXd> none_, at_end_, within_;  // what multiplies the velocity
-  Eigen::VectorXd velocity_, load_;                      // kept to spare making them at each evaluation
-  double newest_, known_at_ = 0, within_at_ = 0;         // fractions for which after_ and within_ hold; 0: none
+  std::vector<Eigen::MatrixXd> at_start_, at_end_, within_;  // what multiplies the velocity
+  Eigen::VectorXd velocity_, load_;                          // kept to spare making them at each evaluation
+  double newest_, known_at_ = 0, within_at_ = 0;             // fractions for which after_ and within_ hold; 0: none
   bool begun_ = false;
 };
 
 }  // namespace
+
+bool RadiationKind::remembers_whole_steps() const {
+  return std::any_of(elements_.begin(), elements_.end(), [](const auto& e) { return e.method->has_past(); });
+}
 
 std::string RadiationKind::method() const { return elements_.front().method->describe(); }
 

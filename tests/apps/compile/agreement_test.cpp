@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <map>
@@ -147,6 +148,51 @@ TEST(HingeAgreement, OfTimeAndFrequencyDomainInHinges) {
 INSTANTIATE_TEST_SUITE_P(Modules, Agreement,
                          testing::Values(Setting{"pontoon1.nc", 3.0}, Setting{"pontoon1.nc", 5.0},
                                          Setting{"pontoon5.nc", 7.0}));
+
+/// One module that surges, heaves and pitches in a regular wave, its radiation constant.
+Run with_constant_radiation(const std::string& solve) {
+  return simulate(froude_test::parse(R"(schema = 1
+[water]
+density = "1000 kg/m^3"
+depth = "14 m"
+[waves]
+kind = "regular"
+amplitude = "0.1 m"
+period = "5 s"
+heading = "0 deg"
+)" + support::pontoons(1) + R"(free = ["surge", "heave", "pitch"]
+initial_velocity = { heave = "0.2 m/s" }
+[body.hydrodynamics]
+file = "pontoon1.nc"
+excitation = true
+radiation = { method = "constant" }
+hydrostatics = true
+[[mooring]]
+on = "m1"
+kind = "linear"
+stiffness = { surge = "4280 N/m" }
+[ask]
+run = { duration = "40 s", every = "0.1 s", of = ["m1"] }
+[solve]
+)" + solve));
+}
+
+// Constant radiation has no past that whole steps would have to keep: methods that look between steps have it too, from
+// the first instant on (Fagerbakke 2023, 4.2 steps so by orders 4 and 5).
+TEST(ConstantRadiation, IsTheSameByTheExplicitPair) {
+  const Run pair = with_constant_radiation("integrator = { name = \"explicit_pair\" }\n"),
+            fine = with_constant_radiation("step = \"5 ms\"\n");
+  for (const char* name : {"m1.surge", "m1.heave", "m1.pitch"}) {
+    double largest = 0, off = 0;
+    for (std::size_t i = 0; i < pair.time.size(); ++i) {
+      largest = std::max(largest, std::abs(fine.signal(name)[i]));
+      off = std::max(off, std::abs(pair.signal(name)[i] - fine.signal(name)[i]));
+    }
+    EXPECT_GT(largest, 1e-3);
+    // The finer run's own error: periods of 2 s and more off by (ωh)²/12 = 2e-5, over twenty of them.
+    EXPECT_LT(off, 3e-3 * largest) << name;
+  }
+}
 
 }  // namespace
 }  // namespace agreement_test

@@ -41,7 +41,7 @@ class RadiationKind final : public ForceKind {
   std::string effect() const override { return "radiation"; }
   std::size_t elements() const override { return elements_.size(); }
   std::string method() const override;
-  bool remembers_whole_steps() const override { return true; }
+  bool remembers_whole_steps() const override;
   void couple(BlockPattern& pattern) const override;
   std::unique_ptr<Memory> make_memory(const State& start) const override;
   void add_load(const Instant& now, LoadSink& out) const override;

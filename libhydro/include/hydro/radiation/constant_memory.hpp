@@ -14,6 +14,7 @@ class ConstantMemory final : public MemoryMethod {
   ConstantMemory(Eigen::MatrixXd B, double omega, double step);
 
   int modes() const override { return static_cast<int>(B_.rows()); }
+  bool has_past() const override { return false; }
   double step() const override { return step_; }
   std::string describe() const override;
   std::unique_ptr<MemoryState> start(const Eigen::VectorXd& velocity) const override;

@@ -36,6 +36,8 @@ class MemoryMethod {
  public:
   virtual ~MemoryMethod() = default;
   virtual int modes() const = 0;
+  /// Whether velocities of the past count. Where they do not, the load is that of the velocity now, at any instant.
+  virtual bool has_past() const { return true; }
   virtual double step() const = 0;           ///< s
   virtual std::string describe() const = 0;  ///< for `froude plan`
   /// At rest before now, moving with `velocity` from now on.
