@@ -92,7 +92,7 @@ std::vector<LinearDrag> drag_of_rao(const scene::Scene& scene, const compile::Pr
                                     std::vector<std::string>& notes) {
   if (!scene.rao->drag) return {};
   const scene::AskRao& ask = *scene.rao;
-  const compile::DragAtRest at_rest = compile::drag_at_rest(scene, prepared.bodies);
+  const compile::DragAtRest at_rest = compile::drag_of_responses(scene, prepared.bodies);
   if (at_rest.in_current())
     throw hydro::InputError("[ask.rao.drag] is for still water, but a current flows past a member", ask.drag->place,
                             "leave it out, or step a run");
@@ -114,7 +114,7 @@ std::vector<LinearDrag> drag_of_rao(const scene::Scene& scene, const compile::Pr
 std::vector<LinearDrag> drag_of_sea(const Eigen::VectorXd& coefficient, const scene::Scene& scene,
                                     const compile::Prepared& prepared, const SmallMotions& about,
                                     const std::vector<double>& frequencies) {
-  const auto pieces = compile::drag_at_rest(scene, prepared.bodies).pieces;
+  const auto pieces = compile::drag_of_responses(scene, prepared.bodies).pieces;
   std::vector<LinearDrag> drags;
   for (const double heading : scene.rao->headings)
     drags.push_back(dynamics::frequency::drag_with(coefficient, about, frequencies, pieces, scene.water, heading));
@@ -146,14 +146,19 @@ std::vector<std::string> left_out_of_linear_responses(const scene::Scene& scene,
                                                       bool with_drag) {
   std::vector<std::string> out;
   const auto one_member = [&](auto has) { return std::any_of(scene.members.begin(), scene.members.end(), has); };
-  if (!with_drag && one_member([](const scene::Member& m) { return m.cd.has_value(); }))
+  if (!with_drag && compile::any_drag(scene))
     out.emplace_back(
         "drag on members is left out: it has no response per metre of wave ([ask.rao.drag] makes it linear for waves "
         "of "
         "one height)");
-  if (one_member([](const scene::Member& m) { return m.morison || m.slamming; }))
-    out.emplace_back(
-        "Morison's loads and impacts on members are left out, also added mass: a run has them where the members are");
+  if (one_member([](const scene::Member& m) { return m.morison && m.morison->cd_tangential > 0; }))
+    out.emplace_back("drag along members is left out: it is in runs only");
+  if (one_member([](const scene::Member& m) {
+        return m.morison && m.morison->line.immersion == dynamics::Immersion::surface;
+      }))
+    out.emplace_back("members have Morison's loads on what is wet at rest, whatever waves wet beside it");
+  if (one_member([](const scene::Member& m) { return m.slamming.has_value(); }))
+    out.emplace_back("impacts on members are left out: a run has them where the members are");
   const auto one_joint = [&](auto has) { return std::any_of(scene.joints.begin(), scene.joints.end(), has); };
   if (one_joint([](const scene::Joint& j) { return j.friction || (j.pto && j.pto->latch); }))
     out.emplace_back("friction and latches are left out: their joints move freely in a linear response");
@@ -199,7 +204,7 @@ Responses respond(const scene::Scene& scene, const compile::Prepared& prepared, 
   Responses out{scene.rao->omega, scene.rao->headings, {}, prepared.notes, {}, provenance_of(scene)};
   compile::check_waves_of_rao(scene, prepared, out.notes);
   const dynamics::Model model = compile::frequency_model(prepared, scene.rao->about);
-  const SmallMotions about = compile::small_motions(model, scene.rao->about, out.notes);
+  const SmallMotions about = compile::small_motions(scene, model, scene.rao->about, out.notes);
   for (const std::string& effect : left_out_of_linear_responses(scene, prepared, scene.rao->drag || how.drag_of_sea))
     out.notes.push_back(effect);
   const auto signals = compile::chosen_responses(compile::signal_list(scene, prepared, model), scene.rao->of,
@@ -260,9 +265,9 @@ Run steady_run(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& 
   const compile::Prepared prepared = compile::prepare(scene, kept);
   require_linear(scene, prepared);
   const dynamics::Model model = compile::frequency_model(prepared);
-  const SmallMotions about(model);
   Run record;
   record.notes = prepared.notes;
+  const SmallMotions about = compile::small_motions(scene, model, {}, record.notes);
   record.provenance = provenance_of(scene);
   const hydro::waves::Sea sea = compile::sea_of_run(scene, prepared, record.notes);
   const auto signals = compile::chosen_responses(compile::signal_list(scene, prepared, model), scene.run->of,

@@ -89,7 +89,7 @@ Modes free_modes(const scene::Scene& scene, const std::shared_ptr<compile::Kept>
   compile::Prepared prepared = compile::prepare(scene, kept);
   for (const std::string& effect : left_out_of_linear_responses(scene, prepared)) prepared.notes.push_back(effect);
   const dynamics::Model model = compile::frequency_model(prepared, scene.ask_modes->about);
-  const SmallMotions about = compile::small_motions(model, scene.ask_modes->about, prepared.notes);
+  const SmallMotions about = compile::small_motions(scene, model, scene.ask_modes->about, prepared.notes);
   const ModeList all = dynamics::frequency::free_motions(about, prepared.groups);
   compile::note_other_depths(scene, prepared, compile::used_by(all), prepared.notes);
   const std::vector<Mode> shown = wanted(all, *scene.ask_modes);

@@ -16,7 +16,7 @@ using dynamics::frequency::RadiatingModes;
 PeriodicParts parts(const scene::Scene& scene, const compile::Prepared& prepared) {
   auto time = std::make_unique<const compile::TimeModel>(compile::time_model(scene, prepared, {}, true));
   std::vector<std::string> told_with_the_map;
-  auto small = compile::small_motions(time->model, scene.stability->about, told_with_the_map);
+  auto small = compile::small_motions(scene, time->model, scene.stability->about, told_with_the_map);
   return {std::move(time), std::move(small)};
 }
 

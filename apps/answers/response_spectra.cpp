@@ -176,7 +176,7 @@ ResponseSpectra answer_of(const scene::Scene& scene, std::size_t sea, const Dens
     units.resize(units.size() - std::string_view("/m").size());  // per metre of wave amplitude no more
     out.signals.push_back({r.signals[s].name, units, found.spectrum(sea, s + 1)});
   }
-  if (compile::any_drag_at_rest(scene) && !out.drag)
+  if (compile::any_drag(scene) && !out.drag)
     out.notes.emplace_back(
         "a current flows past members with drag: equivalent linearisation in a sea is for still water");
   if (random.second_order) out.notes.emplace_back("bound waves of second order are left out");
@@ -224,7 +224,7 @@ std::vector<ResponseSpectra> spectra_of_seas(const std::vector<const scene::Scen
 std::vector<ResponseSpectra> response_spectra(const std::vector<const scene::Scene*>& seas,
                                               const std::shared_ptr<compile::Kept>& kept) {
   require_linear_question(*seas.front());
-  if (!compile::any_drag_at_rest(*seas.front())) return spectra_of_seas(seas, kept);
+  if (!compile::any_drag(*seas.front())) return spectra_of_seas(seas, kept);
   std::vector<ResponseSpectra> out;
   for (const scene::Scene* sea : seas) out.push_back(spectra_of_seas({sea}, kept).front());
   return out;

@@ -20,7 +20,7 @@ double weight(const std::vector<double>& omega, std::size_t w) {
 }  // namespace
 
 bool has_drag_of_sea(const scene::Scene& scene, const compile::Prepared& prepared) {
-  return compile::any_drag_at_rest(scene) && !compile::drag_at_rest(scene, prepared.bodies).in_current();
+  return compile::any_drag(scene) && !compile::drag_of_responses(scene, prepared.bodies).in_current();
 }
 
 dynamics::frequency::SeaDrag sea_drag(const scene::Scene& scene, const compile::Prepared& prepared,
@@ -37,14 +37,14 @@ dynamics::frequency::SeaDrag sea_drag(const scene::Scene& scene, const compile::
             system.waves->spectrum->density(omega[w]) * system.share(d, omega[w]) * weight(omega, w);
   std::vector<std::string> told_by_responses;
   const dynamics::Model model = compile::frequency_model(prepared, scene.rao->about);
-  const auto about = compile::small_motions(model, scene.rao->about, told_by_responses);
+  const auto about = compile::small_motions(scene, model, scene.rao->about, told_by_responses);
   return dynamics::frequency::drag_in_sea(about, prepared.groups, omega,
-                                          compile::drag_at_rest(scene, prepared.bodies).pieces, sea, start);
+                                          compile::drag_of_responses(scene, prepared.bodies).pieces, sea, start);
 }
 
 DragInSea by_member(const scene::Scene& scene, const compile::Prepared& prepared,
                     const dynamics::frequency::SeaDrag& found) {
-  const auto member = compile::drag_at_rest(scene, prepared.bodies).member;
+  const auto member = compile::drag_of_responses(scene, prepared.bodies).member;
   DragInSea out{found.iterations, found.residual, {}};
   for (std::size_t first = 0, end = 0; first < member.size(); first = end) {
     while (end < member.size() && member[end] == member[first]) ++end;

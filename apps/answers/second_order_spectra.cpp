@@ -210,7 +210,7 @@ std::optional<SecondOrderResponses> second_order_responses(const scene::Scene& s
   const compile::Prepared prepared = compile::prepare(scene, kept);
   const dynamics::Model model = compile::frequency_model(prepared, scene.rao->about);
   std::vector<std::string> told_already;  // with the first order
-  const SmallMotions about = compile::small_motions(model, scene.rao->about, told_already);
+  const SmallMotions about = compile::small_motions(scene, model, scene.rao->about, told_already);
   const auto signals = compile::chosen_responses(compile::signal_list(scene, prepared, model), scene.rao->of,
                                                  scene.rao->of_places, told_already);
   const Found found = found_of({scene, prepared, about, signals}, out.error, out.notes);

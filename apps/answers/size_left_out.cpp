@@ -18,16 +18,6 @@ namespace {
 constexpr double told_share = 0.1;       // an effect counts from a tenth on
 constexpr std::size_t most_joints = 50;  // twelve right-hand sides each, at every frequency
 
-/// Pieces of the part of a member that is wet at rest; masses by ½ρDℓ, which is what such a piece has for C_D = 1.
-void add_inertia(const scene::Member& m, const compile::Prepared& prepared,
-                 std::vector<dynamics::frequency::InertiaPiece>& out) {
-  for (const dynamics::DragPiece& piece :
-       dynamics::drag_pieces(prepared.bodies, m.body, m.from, m.to, m.diameter, 1, prepared.water.density)) {
-    const double displaced = piece.factor * std::numbers::pi / 2 * m.diameter;
-    out.push_back({piece, displaced, m.morison->ca * displaced});
-  }
-}
-
 }  // namespace
 
 std::optional<double> own_wave_height(const scene::Scene& scene) {
@@ -49,24 +39,14 @@ SizeLeftOut::SizeLeftOut(const scene::Scene& scene, const compile::Prepared& pre
   if (height_ && *height_ > 0) departure_.emplace(about, *height_ / 2);
 }
 
-/// Drag of [member.drag] may be kept; Morison's is in no response.
 void SizeLeftOut::find_members(const scene::Scene& scene, const compile::Prepared& prepared, bool drag_is_kept) {
-  if (!drag_is_kept && compile::any_drag_at_rest(scene))
-    dragged_ = compile::drag_at_rest(scene, prepared.bodies).pieces;
-  for (const scene::Member& m : scene.members) {
-    impacts_ = impacts_ || m.slamming;
-    if (!m.morison) continue;
-    add_inertia(m, prepared, inert_);
-    if (m.morison->cd == 0) continue;
-    auto pieces =
-        dynamics::drag_pieces(prepared.bodies, m.body, m.from, m.to, m.diameter, m.morison->cd, prepared.water.density);
-    for (auto& piece : pieces)
-      piece.current.head<2>() = scene.current.at(dynamics::rest_position(piece, prepared.bodies).z());
-    dragged_.insert(dragged_.end(), pieces.begin(), pieces.end());
-  }
-  in_current_ = std::any_of(dragged_.begin(), dragged_.end(), [](const auto& p) { return !p.current.isZero(0); });
+  impacts_ = std::any_of(scene.members.begin(), scene.members.end(),
+                         [](const scene::Member& m) { return m.slamming.has_value(); });
+  if (drag_is_kept) return;
+  compile::DragAtRest left_out = compile::drag_of_responses(scene, prepared.bodies);
+  in_current_ = left_out.in_current();
+  dragged_ = std::move(left_out.pieces);
   if (!dragged_.empty() && !in_current_) drag_.emplace(about_, dragged_, scene.water);
-  if (!inert_.empty()) inertia_.emplace(about_, inert_, scene.water);
 }
 
 void SizeLeftOut::find_joints(const compile::Prepared& prepared) {
@@ -109,10 +89,9 @@ void SizeLeftOut::take_departure(double omega, const Eigen::VectorXcd& xi, const
 
 /// What stands beside the wave loads.
 void SizeLeftOut::take_loads(double omega, double heading, const Eigen::VectorXcd& xi) {
-  if (!drag_ && !inertia_ && !departure_) return;
-  const Eigen::VectorXcd X = excitation(about_.model, groups_, omega, heading);
+  if (!drag_ && !departure_) return;
+  const Eigen::VectorXcd X = excitation(about_, groups_, omega, heading);
   if (drag_) drag_->take(omega, heading, xi, X);
-  if (inertia_) inertia_->take(omega, heading, xi, X);
   take_departure(omega, xi, X);
 }
 
@@ -169,16 +148,6 @@ std::string SizeLeftOut::contacts_told() const {
          in_own_waves([&](double a) { return fmt::format("{:.3g} of that gap is taken up", a * share(*first)); });
 }
 
-std::string SizeLeftOut::inertia_told() const {
-  const auto largest = inertia_->largest();
-  if (!largest) return "how large Morison's inertia left out is cannot be told: waves move nothing that has it";
-  return fmt::format(
-      "the inertia of members with Morison's loads, left out, is {:.3g} of the largest wave load on {} at {:.4g} "
-      "rad/s, "
-      "in waves of any height",
-      largest->share, about_.model.mode_name(largest->mode), largest->omega);
-}
-
 std::string SizeLeftOut::friction_told() const {
   if (!friction_)
     return fmt::format("how large friction is cannot be told of more than {} joints, and {} have it", most_joints,
@@ -217,7 +186,6 @@ std::string SizeLeftOut::departure_told() const {
 std::vector<std::string> SizeLeftOut::told() const {
   std::vector<std::string> out;
   if (!dragged_.empty()) out.push_back(drag_told());
-  if (inertia_) out.push_back(inertia_told());
   if (impacts_) out.emplace_back("how large impacts are no height tells: they are of members that meet the water");
   if (!rubbing_.empty()) out.push_back(friction_told());
   if (latches_) out.emplace_back("how large latches are no height tells: they hold whatever the load");

@@ -1,5 +1,5 @@
 #pragma once
-/// \file  Private to apps: how large effects are that a linear response leaves out, by that response. (D144)-(D148)
+/// \file  Private to apps: how large effects are that a linear response leaves out, by that response. (D144)-(D147)
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,7 +10,6 @@
 #include "dynamics/force/contact.hpp"
 #include "dynamics/frequency/drag_size.hpp"
 #include "dynamics/frequency/friction_size.hpp"
-#include "dynamics/frequency/inertia_size.hpp"
 #include "dynamics/frequency/load_departure.hpp"
 
 namespace froude {
@@ -19,7 +18,7 @@ namespace froude {
 /// whose record or list has no single height.
 std::optional<double> own_wave_height(const scene::Scene& scene);
 
-/// Drag and inertia of members beside the wave loads, motions of bodies that may touch beside the gap between them,
+/// Drag of members beside the wave loads, motions of bodies that may touch beside the gap between them,
 /// friction of joints beside the loads that would hold them, and loads beside their linear part.
 class SizeLeftOut {
  public:
@@ -52,7 +51,6 @@ class SizeLeftOut {
   bool own_waves_break(double omega) const;
   void take_departure(double omega, const Eigen::VectorXcd& xi, const Eigen::VectorXcd& X);
   std::string drag_told() const;
-  std::string inertia_told() const;
   std::string contacts_told() const;
   std::string friction_told() const;
   std::string departure_told() const;
@@ -67,8 +65,6 @@ class SizeLeftOut {
   std::vector<dynamics::DragPiece> dragged_;  ///< whose drag is left out
   bool in_current_ = false;                   ///< that is, some of them
   std::optional<dynamics::frequency::DragLeftOut> drag_;
-  std::vector<dynamics::frequency::InertiaPiece> inert_;
-  std::optional<dynamics::frequency::InertiaLeftOut> inertia_;
   bool impacts_ = false;
   std::vector<dynamics::Friction> rubbing_;
   bool latches_ = false;

@@ -37,7 +37,7 @@ class Mapping {
     map_.notes = prepared_.notes;
     map_.provenance = provenance_of(scene);
     const dynamics::Model model = compile::frequency_model(prepared_, ask_.about);
-    const SmallMotions about = compile::small_motions(model, ask_.about, map_.notes);
+    const SmallMotions about = compile::small_motions(scene, model, ask_.about, map_.notes);
     for (Mode& m : free_motions(about, prepared_.groups).modes) modes_.push_back(std::move(m));
     for (int m = 0; m < model.modes(); ++m) motions_.push_back(model.mode_name(m));
     map_.signals = answers_.signals();

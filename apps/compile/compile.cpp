@@ -131,14 +131,15 @@ std::string farthest(const dynamics::Model& model, const dynamics::State& state)
 
 }  // namespace
 
-dynamics::frequency::SmallMotions small_motions(const dynamics::Model& model, const scene::About& about,
-                                                std::vector<std::string>& notes) {
-  if (!about.equilibrium) return {model};
+dynamics::frequency::SmallMotions small_motions(const Scene& scene, const dynamics::Model& model,
+                                                const scene::About& about, std::vector<std::string>& notes) {
+  auto inertia = inertia_of_responses(scene, model.bodies());
+  if (!about.equilibrium) return {model, dynamics::rest_state(model.bodies()), std::move(inertia)};
   return scene::placed(about.place, [&] {
     dynamics::State still = dynamics::equilibrium(model, dynamics::rest_state(model.bodies()));
     notes.push_back(fmt::format("small motions are about the equilibrium, {}; coefficients stay those as placed",
                                 farthest(model, still)));
-    return dynamics::frequency::SmallMotions(model, std::move(still));
+    return dynamics::frequency::SmallMotions(model, std::move(still), std::move(inertia));
   });
 }
 

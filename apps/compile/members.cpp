@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "compile/integrator.hpp"
 #include "compile/waves.hpp"
@@ -130,24 +131,66 @@ bool any_drag_at_rest(const Scene& scene) {
   return std::any_of(scene.members.begin(), scene.members.end(), [](const auto& m) { return m.cd.has_value(); });
 }
 
+bool any_drag(const Scene& scene) {
+  return std::any_of(scene.members.begin(), scene.members.end(),
+                     [](const auto& m) { return m.cd || (m.morison && m.morison->cd > 0); });
+}
+
 bool DragAtRest::in_current() const {
   return std::any_of(pieces.begin(), pieces.end(), [](const auto& piece) { return !piece.current.isZero(0); });
 }
 
-DragAtRest drag_at_rest(const Scene& scene, const std::vector<dynamics::RigidBody>& bodies) {
+namespace {
+
+/// Of a member's part that is wet at rest.
+std::vector<dynamics::DragPiece> wet_at_rest(const Scene& scene, const scene::Member& m, double cd,
+                                             const std::vector<dynamics::RigidBody>& bodies) {
+  return dynamics::drag_pieces(bodies, m.body, m.from, m.to, m.diameter, cd, scene.water.density);
+}
+
+/// Also Morison's where `all`.
+DragAtRest drag_of_members(const Scene& scene, const std::vector<dynamics::RigidBody>& bodies, bool all) {
   DragAtRest out;
-  auto& pieces = out.pieces;
+  const auto add = [&](std::size_t i, const std::vector<dynamics::DragPiece>& wet) {
+    out.pieces.insert(out.pieces.end(), wet.begin(), wet.end());
+    out.member.resize(out.pieces.size(), i);
+  };
   for (std::size_t i = 0; i < scene.members.size(); ++i) {
     const auto& m = scene.members[i];
-    if (!m.cd) continue;
-    const auto wet = dynamics::drag_pieces(bodies, m.body, m.from, m.to, m.diameter, *m.cd, scene.water.density);
-    if (wet.empty())
-      throw InputError(fmt::format("member \"{}\" is above the water at rest and feels no drag", m.name), m.place,
-                       "put it under water, or leave it out");
-    pieces.insert(pieces.end(), wet.begin(), wet.end());
-    out.member.resize(pieces.size(), i);
+    if (m.cd) {
+      const auto wet = wet_at_rest(scene, m, *m.cd, bodies);
+      if (wet.empty())
+        throw InputError(fmt::format("member \"{}\" is above the water at rest and feels no drag", m.name), m.place,
+                         "put it under water, or leave it out");
+      add(i, wet);
+    }
+    if (all && m.morison && m.morison->cd > 0) add(i, wet_at_rest(scene, m, m.morison->cd, bodies));
   }
-  for (auto& piece : pieces) piece.current.head<2>() = scene.current.at(dynamics::rest_position(piece, bodies).z());
+  for (auto& piece : out.pieces) piece.current.head<2>() = scene.current.at(dynamics::rest_position(piece, bodies).z());
+  return out;
+}
+
+}  // namespace
+
+DragAtRest drag_at_rest(const Scene& scene, const std::vector<dynamics::RigidBody>& bodies) {
+  return drag_of_members(scene, bodies, false);
+}
+
+DragAtRest drag_of_responses(const Scene& scene, const std::vector<dynamics::RigidBody>& bodies) {
+  return drag_of_members(scene, bodies, true);
+}
+
+// A piece of ½ρ C_D D ℓ with C_D = 1 displaces ¼πD²ρℓ.
+dynamics::frequency::MemberInertia inertia_of_responses(const Scene& scene,
+                                                        const std::vector<dynamics::RigidBody>& bodies) {
+  dynamics::frequency::MemberInertia out{.pieces = {}, .water = scene.water};
+  for (const scene::Member& m : scene.members) {
+    if (!m.morison) continue;
+    for (const dynamics::DragPiece& piece : wet_at_rest(scene, m, 1, bodies)) {
+      const double displaced = piece.factor * std::numbers::pi / 2 * m.diameter;
+      out.pieces.push_back({piece, displaced, m.morison->ca * displaced});
+    }
+  }
   return out;
 }
 

@@ -9,16 +9,24 @@ namespace froude::compile {
 
 /// True if a member names drag at its place at rest.
 bool any_drag_at_rest(const scene::Scene& scene);
+/// True if a member has drag, there or where it is: both are linear in linear responses.
+bool any_drag(const scene::Scene& scene);
 
-/// Pieces of the members that name drag, in the current, and which of the scene's members each is of.
+/// Pieces of members with drag, in the current, and which of the scene's members each is of.
 struct DragAtRest {
   std::vector<dynamics::DragPiece> pieces;
   std::vector<std::size_t> member;
 
   bool in_current() const;
 };
-/// \throws hydro::InputError at a member that is dry at rest
+/// Of members that name drag at their places at rest. \throws hydro::InputError at one that is dry there
 DragAtRest drag_at_rest(const scene::Scene& scene, const std::vector<dynamics::RigidBody>& bodies);
+/// Of all members with drag, as far as they are wet at rest: what linear responses have. \throws as drag_at_rest()
+DragAtRest drag_of_responses(const scene::Scene& scene, const std::vector<dynamics::RigidBody>& bodies);
+
+/// Morison's inertia of members, as far as they are wet at rest: what linear responses have. (D148)
+dynamics::frequency::MemberInertia inertia_of_responses(const scene::Scene& scene,
+                                                        const std::vector<dynamics::RigidBody>& bodies);
 
 /// (D44): pieces of a member, so short that neither the shortest relevant wave nor turning about an end is missed by
 /// more than the accuracy asked.

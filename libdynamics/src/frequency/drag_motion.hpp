@@ -11,14 +11,26 @@
 
 namespace dynamics::frequency {
 
-/// Arms and axes along global axes, where bodies are still.
+/// Arm and axis along global axes, where bodies are still.
+inline DragPiece turned(DragPiece piece, const State& still) {
+  const Eigen::Quaterniond& attitude = still.pose[static_cast<std::size_t>(piece.body)].attitude;
+  piece.arm = attitude * piece.arm;
+  piece.axis = attitude * piece.axis;
+  return piece;
+}
 inline std::vector<DragPiece> turned(std::vector<DragPiece> pieces, const State& still) {
-  for (DragPiece& piece : pieces) {
-    const Eigen::Quaterniond& attitude = still.pose[static_cast<std::size_t>(piece.body)].attitude;
-    piece.arm = attitude * piece.arm;
-    piece.axis = attitude * piece.axis;
-  }
+  for (DragPiece& piece : pieces) piece = turned(piece, still);
   return pieces;
+}
+
+/// A wave of one metre amplitude without phase.
+inline hydro::waves::Component unit_wave(const hydro::Water& water, double omega, double heading) {
+  return {.omega = omega,
+          .k = hydro::waves::wavenumber(omega, water),
+          .sigma = omega,
+          .amplitude = 1,
+          .phase = 0,
+          .heading = heading};
 }
 
 /// Across the axis of a piece.
@@ -36,12 +48,7 @@ inline Eigen::Matrix<double, 3, 6> velocity_across(const DragPiece& piece) {
 /// Of the undisturbed water at pieces where they are as placed, m/s per metre of wave, (3 pieces).
 inline Eigen::VectorXcd water_velocity(const std::vector<DragPiece>& pieces, const std::vector<RigidBody>& bodies,
                                        const hydro::Water& water, double omega, double heading) {
-  const hydro::waves::Component wave{.omega = omega,
-                                     .k = hydro::waves::wavenumber(omega, water),
-                                     .sigma = omega,
-                                     .amplitude = 1,
-                                     .phase = 0,
-                                     .heading = heading};
+  const hydro::waves::Component wave = unit_wave(water, omega, heading);
   Eigen::VectorXcd out(3 * static_cast<Eigen::Index>(pieces.size()));
   for (std::size_t i = 0; i < pieces.size(); ++i)
     out.segment<3>(3 * static_cast<Eigen::Index>(i)) =

@@ -89,7 +89,7 @@ LinearDrag linearised_drag(const SmallMotions& about, const std::vector<Potentia
   for (Index w = 0; w < frequencies; ++w) {
     const auto at = static_cast<std::size_t>(w);
     drag.velocity.col(w) = water_velocity(pieces, about.model.bodies(), waves.water, omega[at], waves.heading);
-    settle(drag, w, of, omega[at], excitation(about.model, groups, omega[at], waves.heading), of.impedance(omega[at]),
+    settle(drag, w, of, omega[at], excitation(about, groups, omega[at], waves.heading), of.impedance(omega[at]),
            waves.amplitude[at]);
   }
   return drag;

@@ -21,9 +21,9 @@ Eigen::MatrixXcd impedance(const SmallMotions& about, const std::vector<Potentia
   return Z;
 }
 
-Eigen::VectorXcd excitation(const Model& model, const std::vector<PotentialGroup>& groups, double omega,
+Eigen::VectorXcd excitation(const SmallMotions& about, const std::vector<PotentialGroup>& groups, double omega,
                             double heading) {
-  Eigen::VectorXcd F = Eigen::VectorXcd::Zero(model.modes());
+  Eigen::VectorXcd F = about.members.excitation(about.model.bodies(), about.still, omega, heading);
   for (const PotentialGroup& g : groups) {
     if (!g.excitation) continue;
     const Eigen::VectorXcd X = g.table.excitation(omega, heading);
@@ -36,11 +36,11 @@ Eigen::VectorXcd excitation(const Model& model, const std::vector<PotentialGroup
 namespace {
 
 /// The right-hand sides of (Q1), one column a heading, (6N, Nβ).
-Eigen::MatrixXcd excitations(const Model& model, const std::vector<PotentialGroup>& groups, double omega,
+Eigen::MatrixXcd excitations(const SmallMotions& about, const std::vector<PotentialGroup>& groups, double omega,
                              const std::vector<double>& headings) {
-  Eigen::MatrixXcd X(model.modes(), static_cast<Eigen::Index>(headings.size()));
+  Eigen::MatrixXcd X(about.model.modes(), static_cast<Eigen::Index>(headings.size()));
   for (Eigen::Index h = 0; h < X.cols(); ++h)
-    X.col(h) = excitation(model, groups, omega, headings[static_cast<std::size_t>(h)]);
+    X.col(h) = excitation(about, groups, omega, headings[static_cast<std::size_t>(h)]);
   return X;
 }
 
@@ -104,7 +104,7 @@ Amplitudes response_amplitudes(const SmallMotions& about, const std::vector<Pote
   if (equations.are_empty() || headings.empty()) return out;
   hydro::in_parallel(omega.size(), options.threads, [&](std::size_t i) {
     const auto w = static_cast<Eigen::Index>(i);
-    const Eigen::MatrixXcd X = excitations(about.model, groups, omega[i], headings);
+    const Eigen::MatrixXcd X = excitations(about, groups, omega[i], headings);
     put(options.drag.empty() ? motions_at(equations, omega[i], X)
                              : motions_with_drag(equations, omega[i], X, w, options.drag),
         i, out);

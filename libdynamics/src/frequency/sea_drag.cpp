@@ -43,7 +43,7 @@ class SeaResponses {
                 sea.variance.col(static_cast<Index>(w))};
       for (Index h = 0; h < headings; ++h) {
         const double heading = sea.heading[static_cast<std::size_t>(h)];
-        cell.load.col(h) = excitation(about.model, groups, omega[w], heading);
+        cell.load.col(h) = excitation(about, groups, omega[w], heading);
         cell.water.col(h) = water_velocity(pieces, about.model.bodies(), sea.water, omega[w], heading);
       }
       cells_.push_back(std::move(cell));

@@ -18,7 +18,7 @@ namespace size_left_out_test {
 namespace {
 
 using namespace froude;
-using testing::AllOf, testing::Contains, testing::HasSubstr;
+using testing::AllOf, testing::Contains, testing::HasSubstr, testing::Not;
 
 /// One module on a soft mooring that only surges, in waves of 5 s.
 std::string module_in_waves(double height, const std::string& more, const std::string& of_rao = "") {
@@ -150,10 +150,11 @@ TEST(SizeLeftOut, OfFrictionIsTheWaveLoadThatItHolds) {
   const scene::Scene scene = froude_test::parse(module_in_waves(0.1, rail));
   const auto prepared = compile::prepare(scene);
   const dynamics::Model model = compile::frequency_model(prepared);
+  const dynamics::frequency::SmallMotions about(model);
   double load = 0;
   for (const double period : {4.99, 5.0})
     load = std::max(
-        load, std::abs(dynamics::frequency::excitation(model, prepared.groups, 2 * std::numbers::pi / period, 0)[0]));
+        load, std::abs(dynamics::frequency::excitation(about, prepared.groups, 2 * std::numbers::pi / period, 0)[0]));
   const auto responses = respond(scene);
   const double sticks = number_told(responses, "\"rail\" sticks in waves of up to "),
                little = number_told(responses, "move freely, and in waves of ");
@@ -164,16 +165,45 @@ TEST(SizeLeftOut, OfFrictionIsTheWaveLoadThatItHolds) {
   EXPECT_GT(most_slip(1.1 * sticks), 1e-3);
 }
 
-TEST(SizeLeftOut, OfInertiaIsAShareOfTheWaveLoadInAllWaves) {
-  std::string members = on_cylinders;
-  members.replace(members.find("drag ="), std::string::npos,
-                  "morison = { cd = 1.0, ca = 1.0, partial_immersion = true }\n");
-  const auto low = respond(froude_test::parse(module_in_waves(0.1, members))),
-             high = respond(froude_test::parse(module_in_waves(2, members)));
-  const std::string words = "Morison's loads, left out, is ";
-  EXPECT_GT(number_told(low, words), 0);
-  EXPECT_EQ(number_told(low, words), number_told(high, words));
-  EXPECT_THAT(low.notes, Contains(HasSubstr("the drag left out reaches a tenth")));
+std::string with_morison(const std::string& loads) {
+  std::string out = on_cylinders;
+  return out.replace(out.find("drag ="), std::string::npos, "morison = { " + loads + " }\n");
+}
+
+/// Half the way from trough to crest of the last waves of a run.
+double amplitude_in_run(const Run& run, const std::string& signal) {
+  const auto& all = run.signal(signal);
+  const auto [low, high] = std::minmax_element(all.end() - 200, all.end());
+  return (*high - *low) / 2;
+}
+
+// In waves of 1 cm nothing but Morison's inertia acts beside what is linear anyway: the run has as much of it as the
+// response, to what the ramp leaves of free surge, the memory's tolerance and what 0.1 s miss of a crest.
+TEST(LinearMembers, RespondAsARunInLowWaves) {
+  const std::string text = module_in_waves(0.01, with_morison("cd = 0, ca = 1.0"));
+  const auto responses = respond(froude_test::parse(text));
+  const double with = 0.005 * std::abs(responses.signal("m1.surge").values.back()),
+               without = 0.005 * std::abs(surge(module_in_waves(0.01, "")));
+  EXPECT_GT(std::abs(with - without), 0.1 * without);
+  EXPECT_NEAR(amplitude_in_run(simulate(froude_test::parse(text)), "m1.surge"), with, 2e-2 * with);
+  EXPECT_THAT(responses.notes, Not(Contains(HasSubstr("left out"))));
+}
+
+// Drag of [member.morison] is linear where it is asked for, as that of [member.drag] at the same place is.
+TEST(LinearMembers, HaveTheSameDragByEitherName) {
+  const std::string of_rao = "drag = { height = \"1 m\" }, ";
+  const auto by_drag = surge(module_in_waves(1, on_cylinders + with_morison("cd = 0, ca = 1.0"), of_rao)),
+             by_morison = surge(module_in_waves(1, with_morison("cd = 1.0, ca = 1.0"), of_rao));
+  EXPECT_NEAR(std::abs(by_drag - by_morison), 0, 1e-5 * std::abs(by_drag));  // the linearisation settles to 1e-6
+}
+
+TEST(LinearMembers, TellWhatIsNotLinearInThem) {
+  const auto notes = [](const std::string& loads) {
+    return respond(froude_test::parse(module_in_waves(0.1, with_morison(loads)))).notes;
+  };
+  EXPECT_THAT(notes("cd = 1.0, ca = 1.0"), Contains(HasSubstr("the drag left out reaches a tenth")));
+  EXPECT_THAT(notes("cd = 0, ca = 1.0, partial_immersion = true"), Contains(HasSubstr("what is wet at rest")));
+  EXPECT_THAT(notes("cd = 0, ca = 1.0, cd_tangential = 0.01"), Contains(HasSubstr("drag along members is left out")));
 }
 
 // A mooring that is taut across the motion: k(√(ℓ² + x²) − ℓ) x/√(ℓ² + x²), all of which is left out, for its stiffness
@@ -189,7 +219,8 @@ ends = ["(0, 0, 0.5) m", "(0, 8, 0.5) m"]
   const scene::Scene scene = froude_test::parse(module_in_waves(2, across));
   const auto prepared = compile::prepare(scene);
   const dynamics::Model model = compile::frequency_model(prepared);
-  const double load = std::abs(dynamics::frequency::excitation(model, prepared.groups, 2 * std::numbers::pi / 5, 0)[0]),
+  const dynamics::frequency::SmallMotions about(model);
+  const double load = std::abs(dynamics::frequency::excitation(about, prepared.groups, 2 * std::numbers::pi / 5, 0)[0]),
                x = std::abs(responses.signal("m1.surge").values.back()), length = std::hypot(8, x);
   const double told = number_told(responses, "depart from their linear part by ");
   // Eight phases of the cube: the largest is missed by at most a fifth.

@@ -1,5 +1,5 @@
-// How large friction, inertia of members and what is not linear in a load are beside a linear response, (D146)-(D148),
-// each against a closed form.
+// Inertia of members in a linear response, and how large friction and what is not linear in a load are beside one,
+// (D146)-(D148), each against a closed form.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include "dynamics/force/restoring.hpp"
 #include "dynamics/frequency/friction_size.hpp"
-#include "dynamics/frequency/inertia_size.hpp"
 #include "dynamics/frequency/load_departure.hpp"
+#include "dynamics/frequency/rao.hpp"
 #include "hydro/waves/dispersion.hpp"
 
 namespace left_out_sizes_test {
@@ -161,28 +161,43 @@ struct Cylinder {
   }
 };
 
-// A vertical cylinder in deep water: (1 + C_A) ρ¼πD² ω² ∫e^{kz} dz on it where it is held, and C_A ρ¼πD² ω² T ξ more
-// where it moves with ξ; u = ωe^{kz} in phase with the wave, so u̇ leads it by a quarter.
-TEST(InertiaLeftOut, OfAVerticalCylinderIsMorisonsIntegral) {
+// A vertical cylinder in deep water about its top: u = ωe^{kz} goes with the wave and u̇ leads it by a quarter, so the
+// load in surge is i (1 + C_A) ρ¼πD² ω² ∫e^{kz} dz, and that in pitch the same of z e^{kz}.
+TEST(MemberInertia, OfAVerticalCylinderIsMorisonsIntegral) {
   const Cylinder of;
-  const Model model(of.bodies, {}, springs(of.bodies, {held(0, 700)}));
-  const frequency::SmallMotions about(model);
-  const auto pieces = of.pieces();
-  const double omega = 1.3, k = hydro::waves::wavenumber(omega, {});
-  const double along = (1 - std::exp(-k * Cylinder::draught)) / k, of_water = (1 + Cylinder::ca) * of.per_length;
-  for (const Complex motion : {Complex(1e-12, 0), Complex(0, 0.7), Complex(0.4, -0.2)}) {
-    frequency::InertiaLeftOut size(about, pieces, {});
-    EXPECT_FALSE(size.largest());
-    VectorXcd xi = VectorXcd::Zero(6), X = VectorXcd::Zero(6);
-    xi[0] = motion, X[0] = 4e3;
-    size.take(omega, 0, xi, X);
-    const Complex wanted =
-        omega * omega * (of_water * along * Complex(0, 1) + Cylinder::ca * of.per_length * Cylinder::draught * motion);
-    ASSERT_TRUE(size.largest());
-    EXPECT_EQ(size.largest()->mode, 0);
-    // Three points of Gauss: (kT)⁶ h⁷/… of the integral, kT = 0.34, below 1e-8.
-    EXPECT_NEAR(size.largest()->share, std::abs(wanted) / 4e3, 1e-7 * std::abs(wanted) / 4e3);
+  const frequency::MemberInertia inertia{of.pieces(), {.density = Cylinder::density}};
+  const State still = rest_state(of.bodies);
+  for (const double omega : {0.4, 1.3, 2.5}) {
+    const double k = hydro::waves::wavenumber(omega, inertia.water), T = Cylinder::draught;
+    const Complex per_metre(0, (1 + Cylinder::ca) * of.per_length * omega * omega);
+    const VectorXcd X = inertia.excitation(of.bodies, still, omega, 0);
+    const double along = (1 - std::exp(-k * T)) / k, moment = (T * std::exp(-k * T) - along) / k;
+    // Three points of Gauss miss T⁷/2e6 of the sixth derivative, k⁶ of the load and 6k⁵ of its moment, kT below 1.3.
+    EXPECT_NEAR(std::abs(X[0] - per_metre * along), 0, 3e-6 * std::abs(per_metre) * T) << omega;
+    EXPECT_NEAR(std::abs(X[4] - per_metre * moment), 0, 1.2e-5 * std::abs(per_metre) * T * T) << omega;
+    EXPECT_EQ(std::abs(X[2]), 0) << "it has no load along its axis";
   }
+  Eigen::MatrixXd added = Eigen::MatrixXd::Zero(6, 6);
+  inertia.add_mass(still, added);
+  const double mass = Cylinder::ca * of.per_length * Cylinder::draught, T = Cylinder::draught;
+  EXPECT_NEAR(added(0, 0), mass, 1e-12 * mass);
+  EXPECT_NEAR(added(1, 1), mass, 1e-12 * mass);
+  EXPECT_NEAR(added(2, 2), 0, 1e-12 * mass);
+  EXPECT_NEAR(added(0, 4), -mass * T / 2, 1e-12 * mass * T);
+  EXPECT_NEAR(added(4, 4), mass * T * T / 3, 1e-12 * mass * T * T);
+}
+
+// (Q1) with a member in the place of coefficients: (k − ω²(m + C_A ρV)) ξ = X.
+TEST(MemberInertia, StandsInTheEquationsOfMotion) {
+  const Cylinder of;
+  constexpr double stiffness = 700, omega = 1.3;
+  const Model model(of.bodies, {}, springs(of.bodies, {held(0, stiffness)}));
+  const frequency::MemberInertia inertia{of.pieces(), {.density = Cylinder::density}};
+  const frequency::SmallMotions about(model, rest_state(of.bodies), inertia);
+  const Complex X = inertia.excitation(of.bodies, about.still, omega, 0)[0],
+                wanted = X / (stiffness - omega * omega * (1000 + Cylinder::ca * of.per_length * Cylinder::draught));
+  const Complex xi = frequency::response_amplitudes(about, {}, {omega}, 0)(0, 0);
+  EXPECT_NEAR(std::abs(xi - wanted), 0, 1e-12 * std::abs(wanted));
 }
 
 }  // namespace

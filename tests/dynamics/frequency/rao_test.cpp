@@ -230,7 +230,7 @@ Eigen::VectorXcd plain_solution(const frequency::SmallMotions& about, const std:
   whole.topRightCorner(n, m) = G.transpose().cast<std::complex<double>>();
   whole.bottomLeftCorner(m, n) = G.cast<std::complex<double>>();
   Eigen::VectorXcd right = Eigen::VectorXcd::Zero(n + m);
-  right.head(n) = frequency::excitation(about.model, groups, omega, heading);
+  right.head(n) = frequency::excitation(about, groups, omega, heading);
   for (int mode = 0; mode < n; ++mode)
     if (!about.model.is_free(mode)) {
       whole.row(mode).setZero();

@@ -43,8 +43,8 @@ Eigen::MatrixXcd response_amplitudes(const SmallMotions& about, const std::vecto
 /// The matrix of (Q1) at one frequency, (6N, 6N).
 Eigen::MatrixXcd impedance(const SmallMotions& about, const std::vector<PotentialGroup>& groups, double omega);
 
-/// The right-hand side of (Q1), (6N).
-Eigen::VectorXcd excitation(const Model& model, const std::vector<PotentialGroup>& groups, double omega,
+/// The right-hand side of (Q1), (6N): potential flow and the inertia of members.
+Eigen::VectorXcd excitation(const SmallMotions& about, const std::vector<PotentialGroup>& groups, double omega,
                             double heading);
 
 }  // namespace dynamics::frequency
