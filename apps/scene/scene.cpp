@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/io/csv.hpp"
 #include "scene/binding.hpp"
@@ -23,7 +25,7 @@ void check_start(const Record& root, const Scene& scene) {
 }
 
 void check_excitation(const Record& root, const Scene& scene) {
-  bool excited = false;
+  bool excited = std::any_of(scene.members.begin(), scene.members.end(), [](const Member& m) { return m.morison; });
   for (const Record& body : root.tables("body")) {
     if (!body.has("hydrodynamics") || !body.table("hydrodynamics").has("excitation")) continue;
     excited = true;
@@ -32,8 +34,9 @@ void check_excitation(const Record& root, const Scene& scene) {
           .wrong("excitation", "needs waves for a run", "add a [waves] table, or leave the key out");
   }
   if (scene.rao && !excited)
-    throw root.table("ask").table("rao").refused("asks how bodies answer waves, but no body names excitation",
-                                                 "add excitation = true to [body.hydrodynamics]");
+    throw root.table("ask").table("rao").refused(
+        "asks how bodies answer waves, but no body names excitation, and no member Morison's loads",
+        "add excitation = true to [body.hydrodynamics]");
 }
 
 }  // namespace
