@@ -180,8 +180,8 @@ run = { duration = "40 s", every = "0.1 s", of = ["m1"] }
 // Constant radiation has no past that whole steps would have to keep: methods that look between steps have it too, from
 // the first instant on (Fagerbakke 2023, 4.2 steps so by orders 4 and 5).
 TEST(ConstantRadiation, IsTheSameByTheExplicitPair) {
-  const Run pair = with_constant_radiation("integrator = { name = \"explicit_pair\" }\n"),
-            fine = with_constant_radiation("step = \"5 ms\"\n");
+  const froude::Run pair = with_constant_radiation("integrator = { name = \"explicit_pair\" }\n"),
+                    fine = with_constant_radiation("step = \"5 ms\"\n");
   for (const char* name : {"m1.surge", "m1.heave", "m1.pitch"}) {
     double largest = 0, off = 0;
     for (std::size_t i = 0; i < pair.time.size(); ++i) {
