@@ -189,6 +189,9 @@ Snapshots snapshots_of(const SnapshotArguments& a) {
   if (a.lines.empty() && a.bodies.empty())
     throw InputError("a snapshot shows lines or bodies, and none is named", {.file = "command line"},
                      "give --line, or --body");
+  if (a.file.extension() != ".h5" && a.file.extension() != ".nc")
+    throw InputError("a snapshot needs the result itself, whose settings say what holds the ends of lines",
+                     {.file = a.file.string()}, "give the .h5 of `froude run`");
   const RunResult record = read_run(a.file);
   const RunSettings settings(a.file);
   Snapshots out;

@@ -95,6 +95,11 @@ TEST_F(SnapshotCommand, SaysWhatTheResultDoesNotKeep) {
   EXPECT_THAT(refused([&] { json(); }), HasSubstr("of = [\"d.node*\"]"));
   arguments.lines = {};
   EXPECT_THAT(refused([&] { json(); }), HasSubstr("give --line, or --body"));
+  arguments.lines = {"d"};
+  arguments.file = folder / "run.csv";
+  EXPECT_THAT(refused([&] { json(); }), HasSubstr("give the .h5 of `froude run`"));
+  arguments.file = folder / "run.h5";
+  arguments.lines = {};
   arguments.bodies = {"b"};
   signals.pop_back();
   EXPECT_THAT(refused([&] { json(); }), HasSubstr("keeps no pitch of \"b\""));
