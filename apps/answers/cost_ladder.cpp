@@ -262,7 +262,8 @@ void add_lines(const Scene& scene, const Node& document, Ladders& out) {
   bool numbered = of.empty() || std::any_of(of.begin(), of.end(), counts_nodes);
   for (const scene::Line& line : scene.lines)
     for (const bool first : {true, false})
-      numbered = numbered || line.release || (line.end(first).meets && !line.end(first).meets->junction);
+      numbered = numbered || line.release || !line.loads.empty() ||
+                 (line.end(first).meets && !line.end(first).meets->junction);
   if (numbered)
     return out.notes.push_back(
         "segments of lines stay as they are: the scene names nodes or links by number, which would be others");

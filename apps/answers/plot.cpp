@@ -71,6 +71,17 @@ std::string axis_text(const Axis& axis) {
   return escaped(axis.unit.empty() ? axis.label : fmt::format("{} [{}]", axis.label, with_superscripts(axis.unit)));
 }
 
+/// Widens one of the ranges, about its middle, until a pixel is as much of both.
+void equalise(Frame& f) {
+  const double per_pixel = std::max((f.x.second - f.x.first) / f.width, (f.y.second - f.y.first) / f.height);
+  const auto widened = [&](const Range& range, double pixels) {
+    const double middle = (range.first + range.second) / 2, half = per_pixel * pixels / 2;
+    return Range{middle - half, middle + half};
+  };
+  f.x = widened(f.x, f.width);
+  f.y = widened(f.y, f.height);
+}
+
 Frame frame_of(const Panel& panel, double top, double width, double height) {
   if (panel.field)
     return {left_margin,   top,          width, height, extent(panel.field->xs), extent(panel.field->ys),
@@ -88,8 +99,11 @@ Frame frame_of(const Panel& panel, double top, double width, double height) {
     widen(y, b.low, panel.y.scale);
     widen(y, b.high, panel.y.scale);
   }
-  return {left_margin,   top,          width, height, fitted(panel.x, x, false), fitted(panel.y, y, true),
-          panel.x.scale, panel.y.scale};
+  Frame out{
+      left_margin,   top,          width, height, fitted(panel.x, x, panel.equal_scales), fitted(panel.y, y, true),
+      panel.x.scale, panel.y.scale};
+  if (panel.equal_scales) equalise(out);
+  return out;
 }
 
 void draw_axes(Buffer& out, const Panel& panel, const Frame& f) {

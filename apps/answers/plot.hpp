@@ -45,6 +45,7 @@ struct Panel {
   std::vector<Series> series;
   std::vector<Band> bands = {};
   std::optional<Field> field = {};
+  bool equal_scales = false;  ///< a metre is as long up as along; the range that has room left becomes wider
 };
 
 struct Figure {

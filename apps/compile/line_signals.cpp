@@ -42,7 +42,8 @@ void add_nodes(const LineModel& m, const LineModel::Part& part, Teller& tell) {
   for (int i = 0; i < part.nodes; ++i) {
     const int node = part.first_node + i;
     const auto* held = m.line->held(node);
-    if (held != nullptr && !held->path) continue;
+    const bool on_body = (i == 0 && part.from_on_body) || (i == part.nodes - 1 && part.to_on_body);
+    if (held != nullptr && !held->path && !on_body) continue;  // it stays where it is
     for (int axis = 0; axis < 3; ++axis)
       tell(fmt::format("{}.node{}.{}", part.name, i, "xyz"[axis]), "m",
            fmt::format("{} of node {} of {}", "xyz"[axis], i, part.name),

@@ -52,6 +52,13 @@ dl::Description chain(const Scene& scene, const scene::Line& l, std::shared_ptr<
     }
     if (l.end(first).meets) node = {};
   }
+  for (const scene::Line::NodeLoad& load : l.loads) {
+    dl::Node& node = d.nodes[static_cast<std::size_t>(load.node)];
+    if (load.history.is_constant())
+      node.force += load.force;
+    else
+      node.loads.push_back(load);
+  }
   if (l.bed) d.bed.push_back(*l.bed);
   if (l.water.wet != dl::Wet::nothing) d.water.field = std::move(field);
   return d;
@@ -145,30 +152,50 @@ System description(const Scene& scene, const std::vector<std::size_t>& network,
   return out;
 }
 
-/// Where the line reaches of the place at which a node is to be held before its release: places are written with few
-/// digits, and a single link reaches one distance only.
-Eigen::Vector3d reached(const scene::Line& l) {
+/// Where the line reaches of the places at which nodes are to be held before their release, by their nodes: places are
+/// written with few digits, and a single link reaches one distance only.
+std::vector<scene::Line::HeldNode> reached(const scene::Line& l) {
   constexpr double written = 1e-3;  // of the way, that a place may be off
-  const Eigen::Vector3d& from = *l.from.at;
-  const Eigen::Vector3d way = l.release->at - from;
-  double reach = 0;
-  for (int j = 0; j < l.release->node; ++j) reach += l.segments[static_cast<std::size_t>(j)].length;
-  const bool fixed = l.common.is_inextensible() && (l.release->node == 1 || way.norm() > reach);
-  return fixed && std::abs(way.norm() - reach) <= written * reach ? Eigen::Vector3d(from + reach * way.normalized())
-                                                                  : l.release->at;
+  std::vector<scene::Line::HeldNode> out = l.release->in_order();
+  scene::Line::HeldNode before{0, *l.from.at};
+  for (scene::Line::HeldNode& held : out) {
+    const Eigen::Vector3d way = held.at - before.at;
+    double reach = 0;
+    for (int j = before.node; j < held.node; ++j) reach += l.segments[static_cast<std::size_t>(j)].length;
+    const bool fixed = l.common.is_inextensible() && (held.node == before.node + 1 || way.norm() > reach);
+    if (fixed && std::abs(way.norm() - reach) <= written * reach) held.at = before.at + reach * way.normalized();
+    before = held;
+  }
+  return out;
 }
 
 std::string brought(const scene::Line& l) {
   constexpr double digits = 1e-6;  // of the way: not worth telling
-  const double by = (reached(l) - l.release->at).norm();
-  return by > digits * (l.release->at - *l.from.at).norm()
+  const auto given = l.release->in_order(), there = reached(l);
+  double by = 0, way = 0;
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    by = std::max(by, (there[k].at - given[k].at).norm());
+    way = std::max(way, (given[k].at - *l.from.at).norm());
+  }
+  if (by <= digits * way) return "";
+  return given.size() == 1
              ? fmt::format("the place of its release was brought by {:.2g} m to where its links reach", by)
-             : "";
+             : fmt::format("the places of its release were brought by up to {:.2g} m to where its links reach", by);
 }
 
 std::shared_ptr<const hydro::waves::WaveField> without_waves(const Scene& scene) {
   return std::make_shared<hydro::waves::HarmonicField>(std::vector<hydro::waves::Harmonic>{}, scene.water,
                                                        hydro::waves::HarmonicField::Options{}, scene.current);
+}
+
+/// As it rests before a run: in the current, under what of its loads acts at t = 0.
+System still_description(const Scene& scene, const std::vector<std::size_t>& network) {
+  System out = description(scene, network, without_waves(scene));
+  for (dl::Node& node : out.d.nodes) {
+    for (const dl::TimedForce& load : node.loads) node.force += load.history.share(0) * load.force;
+    node.loads.clear();
+  }
+  return out;
 }
 
 /// Places of what holds the lines of a network, in it; zero for all others.
@@ -183,15 +210,16 @@ dl::Places held_places(const Scene& scene, const std::vector<std::size_t>& netwo
   return out;
 }
 
-/// Rest without waves, in the current, with the node that is to be released held.
+/// Rest without waves, in the current, with the nodes that are to be released held.
 dl::State at_rest(const Scene& scene, const std::vector<std::size_t>& network) {
-  System system = description(scene, network, without_waves(scene));
+  System system = still_description(scene, network);
   dl::Places places = held_places(scene, network, system);
   const scene::Line& l = scene.lines[network.front()];
-  if (l.release) {
-    system.d.held.push_back({.node = l.release->node});
-    places.col(l.release->node) = reached(l);
-  }
+  if (l.release)
+    for (const scene::Line::HeldNode& held : reached(l)) {
+      system.d.held.push_back({.node = held.node});
+      places.col(held.node) = held.at;
+    }
   const dl::Line line(std::move(system.d));
   dl::State guess = dl::hanging_shape(line, {.position = std::move(places),
                                              .velocity = dl::Places::Zero(3, line.nodes()),
@@ -254,7 +282,7 @@ bool on_bodies(const Scene& scene, const std::vector<std::size_t>& network) {
 }
 
 dynamics::FastenedLine fastened_line(const Scene& scene, const std::vector<std::size_t>& network) {
-  const System still = description(scene, network, without_waves(scene));
+  const System still = still_description(scene, network);
   dynamics::FastenedLine out{.name = still.parts.front().name,
                              .run = still.d,
                              .still = still.d,
@@ -394,6 +422,7 @@ LineModel free_model(const Scene& scene, const std::vector<std::size_t>& network
 }  // namespace
 
 std::string names_of(const LineModel& model) { return joined(model.parts, ""); }
+std::string quoted_names_of(const LineModel& model) { return joined(model.parts, "\""); }
 
 void add_fastened_lines(const Scene& scene, Prepared& prepared) {
   const dynamics::State placed = dynamics::rest_state(prepared.bodies);
@@ -486,7 +515,7 @@ std::vector<LineModel> lines_as_placed(const Scene& scene) {
   std::vector<LineModel> out;
   std::size_t fastened = 0;
   for (const auto& network : scene.networks) {
-    System system = description(scene, network, without_waves(scene));
+    System system = still_description(scene, network);
     out.push_back({.name = system.parts.front().name,
                    .parts = std::move(system.parts),
                    .knots = std::move(system.knots),
@@ -517,72 +546,6 @@ PlanLine plan_line(const LineModel& m) {
                         m.line->chains(), m.line->description().ties.size())
           : " on a chain of its own, one band elimination an iteration";
   return {names_of(m), method + how + also, size, true};
-}
-
-void LineRun::begin() {
-  first_height_ = energies().height;
-  for (const dl::LinkAngles& a : model_.before) angles_.push_back({a, 0, 0});
-  for (const LineModel::Part& part : model_.parts) {
-    snaps_.emplace_back();
-    if (part.snaps) snaps_.back().emplace(part.segments, part.snaps->slack_below, part.snaps->snap_above);
-  }
-  look();
-  looked_ = false;  // bodies may have been brought to their start meanwhile
-}
-
-void LineRun::note(double h) {
-  looked_ = false;
-  for (std::size_t k = 0; k < snaps_.size(); ++k) {
-    const LineModel::Part& part = model_.parts[k];
-    if (snaps_[k]) snaps_[k]->note(state().time, h, state().tension.segment(part.first_segment, part.segments));
-  }
-}
-
-LineRun::LineRun(const LineModel& model, dl::DrivenLine& driven) : model_(model), driven_(&driven) { begin(); }
-
-LineRun::LineRun(const LineModel& model)
-    : model_(model), state_(model.start), stepper_(std::make_unique<dl::Stepper>(*model.line, model.settings)) {
-  stepper_->start(state_);
-  if (model.lyapunov) perturbed_ = std::make_unique<dl::PerturbedTrajectory>(*model.line, model.settings, state_);
-  begin();
-}
-
-dl::StepReport LineRun::step(double h) {
-  if (driven_ != nullptr) return {};
-  try {
-    const dl::StepReport report = stepper_->step(state_, h);
-    if (perturbed_) perturbed_->follow(state_, report, h);
-    return report;
-  } catch (const hydro::NumericsError& e) {
-    throw hydro::NumericsError(fmt::format("{}: {}", joined(model_.parts, "\""), e.what()));
-  }
-}
-
-std::optional<dynamics::Exponent> LineRun::exponent() const {
-  if (!perturbed_) return std::nullopt;
-  return perturbed_->growth().exponent(model_.lyapunov->from);
-}
-
-void LineRun::look() {
-  if (looked_) return;
-  looked_ = true;
-  const dl::Energies& e = energies();
-  turnover_ = std::max(
-      {turnover_, e.kinetic, e.axial, std::abs(e.height - first_height_), std::abs(e.supplied()), e.dissipated()});
-  if (driven_ == nullptr && !stepper_->find_balance(state_, balance_)) {
-    balance_ = {.acceleration = dl::Places::Zero(3, model_.line->nodes()),
-                .tension = state_.tension,
-                .holding = dl::Places::Zero(3, model_.line->nodes())};
-  }
-  const bool first = angles_.empty();
-  angles_.resize(static_cast<std::size_t>(model_.line->segments()));
-  for (int j = 0; j < model_.line->segments(); ++j) {
-    Angles& a = angles_[static_cast<std::size_t>(j)];
-    const int node = model_.line->first(j);
-    const dl::LinkAngles now = first ? dl::first_link_angles(state(), node) : dl::link_angles(state(), node, a);
-    const dl::LinkAngles rate = dl::link_rates(state(), node, now);
-    a = {{now.polar, now.azimuth}, rate.polar, rate.azimuth};
-  }
 }
 
 }  // namespace froude::compile

@@ -31,7 +31,7 @@ struct LineModel {
     std::optional<scene::Line::Snaps> snaps = {};
     /// Which coefficients its segments took from a table, for people; empty where they were given.
     std::string coefficients = {};
-    /// How far the place of its release was brought to where its links reach, for people; empty if it was not.
+    /// How far the places of its release were brought to where its links reach, for people; empty if they were not.
     std::string released = {};
   };
   struct Knot {
@@ -42,7 +42,7 @@ struct LineModel {
   std::vector<Part> parts;
   std::vector<Knot> knots = {};
   std::unique_ptr<const dynamics::line::Line> line;
-  dynamics::line::State start;  ///< at rest without waves, with the node that is to be released still in its place
+  dynamics::line::State start;  ///< at rest without waves, with the nodes that are to be released still in their places
   dynamics::line::Stepper::Settings settings;
   std::optional<scene::Line::Lyapunov> lyapunov = {};
   std::optional<std::size_t> fastened = {};  ///< its place among the model's FastenedLine; it moves with its bodies
@@ -70,8 +70,9 @@ void add_fastened_lines(const scene::Scene& scene, Prepared& prepared);
 std::unique_ptr<const dynamics::ForceKind> fastened_kind(const scene::Scene& scene, const Prepared& prepared,
                                                          const RunWater& water);
 
-/// "line a", or "lines a, b, c".
+/// "line a", or "lines a, b, c"; the same with each name between quotes.
 std::string names_of(const LineModel& model);
+std::string quoted_names_of(const LineModel& model);
 
 /// What `froude plan` tells of a line, or of lines that meet.
 PlanLine plan_line(const LineModel& model);

@@ -135,11 +135,39 @@ Signal air_gap(const scene::Scene& scene, const std::shared_ptr<const hydro::wav
   return out;
 }
 
+/// Of the body's mass alone: energies of the ledger count added mass besides, and are of all bodies together.
+void add_own_energy(const scene::Scene& scene, const dynamics::RigidBody& body, std::size_t index,
+                    std::vector<Signal>& out) {
+  const char* why = "energies are of second order in the motions";
+  out.push_back({body.name() + ".energy.kinetic",
+                 "J",
+                 fmt::format("kinetic energy of {}, of its mass alone", body.name()),
+                 [body, index](const Moment& m) {
+                   const dynamics::Vector6 v = m.workspace.state.twist(static_cast<int>(index));
+                   const Eigen::Vector3d spin =
+                       m.workspace.state.pose[index].attitude.conjugate() * Eigen::Vector3d(v.tail<3>());  // body axes
+                   return (body.mass() * v.head<3>().squaredNorm() + spin.dot(body.inertia() * spin)) / 2;
+                 },
+                 {},
+                 why});
+  if (!scene.bodies[index].weight) return;
+  out.push_back({body.name() + ".energy.potential",
+                 "J",
+                 fmt::format("weight of {} times the height of its centre of gravity above that at rest", body.name()),
+                 [weight = body.mass() * scene.water.gravity, rest = body.rest_centre().z(), index](const Moment& m) {
+                   return weight * (m.workspace.state.pose[index].centre.z() - rest);
+                 },
+                 {},
+                 why});
+}
+
 /// What the scene names beside what its elements tell.
 void add_named(const scene::Scene& scene, const dynamics::Model& model,
                const std::shared_ptr<const hydro::waves::WaveField>& field, std::vector<Signal>& out) {
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     if (scene.bodies[b].net_load) add(dynamics::net_load_signals(model.bodies()[b], static_cast<int>(b)), out);
+    if (scene.bodies[b].energy) add_own_energy(scene, model.bodies()[b], b, out);
+  }
   for (const scene::Point& p : scene.points) {
     const dynamics::PointOnBody point = point_on(scene, p.body, p.at);
     if (p.position) add(dynamics::place_signals(p.name, point), out);

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "compile/integrator.hpp"
 #include "compile/waves.hpp"
+#include "dynamics/force/constant_load.hpp"
 #include "dynamics/frequency/fastest.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
@@ -97,6 +99,17 @@ Mover snap(const Scene& scene) {
   return out;
 }
 
+/// The shortest ramp of a load on bodies, s; ∞: none rises or falls.
+double shortest_ramp(const Prepared& p) {
+  double out = std::numeric_limits<double>::infinity();
+  for (const auto& elements : p.elements) {
+    const auto force = elements->force({p.bodies, p.water, p.joints});
+    if (const auto* load = dynamic_cast<const dynamics::ConstantLoadKind*>(force.get()))
+      out = std::min(out, load->shortest_ramp());
+  }
+  return out;
+}
+
 Mover fastest_mover(const Scene& scene, const Prepared& p) {
   Mover out;
   const auto compare = [&](Mover other) {
@@ -117,6 +130,8 @@ Mover fastest_mover(const Scene& scene, const Prepared& p) {
   const dynamics::State start = placed_state(scene, p, model, told_with_the_run);
   if (std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const auto& b) { return !b.initial.empty(); }))
     compare(own_motion(model_of_springs(p, start), start));
+  if (const double ramp = shortest_ramp(p); std::isfinite(ramp))  // half a period
+    compare({std::numbers::pi / ramp, fmt::format("a load that rises or falls over {:.4g} s", ramp)});
   compare(turning(p, start));
   compare(snap(scene));
   return out;
@@ -161,6 +176,9 @@ ChosenStep choose_step(const Scene& scene, const Prepared& prepared) {
     return {step, {"step", follows, size(step), true}, {}};
   }
   const double step = given_step(scene);
+  if (const double ramp = shortest_ramp(prepared); step > ramp)
+    throw InputError(fmt::format("a step of {:.4g} s misses a load that rises or falls over {:.4g} s", step, ramp),
+                     scene.solve.step->place, "take a shorter step, or leave it out, or let the load take longer");
   check_count(scene, step, follows);
   ChosenStep out{step, {"step", "as the scene gives it; " + follows, size(step), true}, {}};
   const bool cuts = scene.solve.tolerance || has_own_tolerance(scene.solve.integrator);

@@ -146,6 +146,18 @@ struct PoincareArguments {
 /// A Poincaré section of a record, with the error of each point by interpolation.
 void poincare(const PoincareArguments& arguments, const Console& console);
 
+struct SnapshotArguments {
+  Path file;                                 ///< a result of `froude run`
+  std::vector<std::string> lines = {};       ///< names
+  std::vector<std::string> bodies = {};      ///< names; their members are drawn
+  std::vector<std::string> at;               ///< instants, e.g. "4 s"; each takes the nearest sample
+  std::vector<std::string> planes = {"xz"};  ///< two of x, y and z: along and up the picture
+  std::optional<Path> output = {};           ///< .csv
+  std::optional<Path> picture = {};          ///< .svg, .png or .pdf
+};
+/// Where lines and members of bodies are at chosen instants of a run.
+void snapshot(const SnapshotArguments& arguments, const Console& console);
+
 /// An S–N curve on the command line.
 struct SnArguments {
   std::optional<std::string> range = {};                            ///< e.g. "50 MPa"

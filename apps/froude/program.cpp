@@ -281,6 +281,24 @@ void add_poincare(CLI::App& app, Request& request) {
   calls(*command, request, arguments, poincare);
 }
 
+void add_snapshot(CLI::App& app, Request& request) {
+  auto* command = app.add_subcommand("snapshot", "where lines and members of bodies are at chosen instants of a run");
+  command->footer(
+      "Examples:\n  froude snapshot dropper.h5 --line dropper --at \"4 s\" --at \"6 s\" --picture line.svg\n"
+      "  froude snapshot dropper.h5 --line dropper --at \"4 s\" --plane xz --plane xy --picture both.png");
+  auto arguments = std::make_shared<SnapshotArguments>();
+  command->add_option("file", arguments->file, "result of `froude run`, with the places of all nodes")->required();
+  command->add_option("--line", arguments->lines, "the name of a line; as often as there are lines to show");
+  command->add_option("--body", arguments->bodies, "the name of a body, whose members are shown");
+  command->add_option("--at", arguments->at, "an instant: \"4 s\", of which the nearest sample is shown")->required();
+  command->add_option("--plane", arguments->planes, "what goes along the picture and up it; one picture below another")
+      ->check(CLI::IsMember({"xz", "yz", "xy", "yx", "zx", "zy"}))
+      ->capture_default_str();
+  command->add_option("-o,--output", arguments->output, "table (.csv)");
+  command->add_option("--picture", arguments->picture, "plot (.svg, .png, .pdf)");
+  calls(*command, request, arguments, snapshot);
+}
+
 void add_sn_curve(CLI::App& command, SnArguments& sn) {
   command.add_option("--sn-range", sn.range, "S-N curve: a range, in the unit of the signal: \"50 MPa\"");
   command.add_option("--sn-cycles", sn.cycles, "how often it comes until failure: 1e7");
@@ -468,6 +486,7 @@ void describe(CLI::App& app, Request& request) {
   add_hydrostatics(app, request);
   add_psd(app, request);
   add_poincare(app, request);
+  add_snapshot(app, request);
   add_response(app, request);
   add_fatigue(app, request);
   add_extremes(app, request);

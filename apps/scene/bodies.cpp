@@ -213,6 +213,10 @@ const Binding<Body>& body() {
                       "all loads on the body together are signals: net_force_x to net_moment_z, about its origin along "
                       "global axes"),
                &Body::net_load)
+          .key(effect("energy",
+                      "the body's own energy is a signal, of its mass alone: energy.kinetic, and where it has weight "
+                      "energy.potential, its weight times the height of its centre of gravity above that at rest"),
+               &Body::energy)
           .key(modes("free", "modes that may move; the others are held")
                    .or_default("surge, sway, heave, roll, pitch, yaw", "a body is free unless something holds it"),
                &Body::free)

@@ -46,7 +46,11 @@ void cut_finer(int times, Line& line) {
   for (Line::EvenPart& part : line.parts) part.segments *= times;
   line.segments = cut(line);
   line.node.share /= times;
-  if (line.release) line.release->node *= times;
+  if (line.release) {
+    line.release->node *= times;
+    for (Line::HeldNode& also : line.release->also) also.node *= times;
+  }
+  for (Line::NodeLoad& load : line.loads) load.node *= times;
   if (!line.start) return;
   const auto at_rest = line.to.at ? std::optional<Eigen::Vector3d>(Eigen::Vector3d::Zero()) : std::nullopt;
   line.start->at = with_nodes_between(line.start->at, *line.from.at, line.to.at, times);

@@ -16,9 +16,13 @@ namespace froude::scene {
 
 struct LineProperty {
   Key key;  ///< of the table, in [[line]]
-  /// Called with that table and its line, whose ends and segments are there. \throws hydro::InputError
+  /// Called with that table, or with each of them, and its line, whose ends and segments are there. \throws
+  /// hydro::InputError
   std::function<void(const Record& own, const Record& whole, Line& line)> read;
 };
+
+/// \throws hydro::InputError unless the node that `own` names is one of the line that nothing holds
+void require_free_node(const Record& own, const Line& line);
 
 /// All that are listed, in the order of the reference.
 const std::vector<LineProperty>& line_properties();

@@ -25,6 +25,20 @@ const std::vector<LineProperty>& line_properties() {
   return properties;
 }
 
+void require_free_node(const Record& own, const Line& line) {
+  const std::int64_t node = own["node"].integer, last = line.last_node();
+  if (node > last || (node == last && line.to.at))
+    throw own.wrong("node", fmt::format("is not a free node: the line has {} segments", last),
+                    "count nodes from 0 at `from`");
+}
+
+std::vector<Line::HeldNode> Line::Release::in_order() const {
+  std::vector<HeldNode> out = also;
+  out.push_back(*this);
+  std::sort(out.begin(), out.end(), [](const HeldNode& a, const HeldNode& b) { return a.node < b.node; });
+  return out;
+}
+
 namespace {
 
 namespace dim = hydro::dim;
@@ -164,20 +178,34 @@ Binding<dl::Bed> line_bed() {
            &dl::Bed::friction);
 }
 
+/// Of one that is held alone, or of the first of several.
+template <class T>
+Binding<T> held_node(const char* title, const char* meaning) {
+  return Binding<T>(title, meaning)
+      .key(integer("node", "counted from 0 at `from`").within(Limit::at_least_one), &Line::HeldNode::node)
+      .key(vector("at", dim::length, "where it is held, global"), &Line::HeldNode::at);
+}
+
 Binding<Line::Release> line_release() {
-  return Binding<Line::Release>("[line.release]", "the line starts at rest with one node held, and is let go at t = 0")
-      .key(integer("node", "counted from 0 at `from`").within(Limit::at_least_one), &Line::Release::node)
-      .key(vector("at", dim::length, "where it is held, global"), &Line::Release::at);
+  return held_node<Line::Release>("[line.release]",
+                                  "the line starts at rest with one node held, or several, and is let go at t = 0")
+      .tables(
+          "also",
+          held_node<Line::HeldNode>("[[line.release.also]]", "a further node that is held, and let go with the first"),
+          &Line::Release::also)
+      .optional();
 }
 
 void check_release(const Record& record, const Line& line) {
   if (line.from.meets || line.to.meets)
     throw record.refused("holds a node of a line that meets others, which begin with it",
                          "leave it out, or hold the line by the ground");
-  const std::int64_t node = record["node"].integer, last = line.last_node();
-  if (node > last || (node == last && line.to.at))
-    throw record.wrong("node", fmt::format("is not a free node: the line has {} segments", last),
-                       "count nodes from 0 at `from`");
+  require_free_node(record, line);
+  for (const Record& also : record.tables("also")) require_free_node(also, line);
+  const auto held = line.release->in_order();
+  for (std::size_t k = 1; k < held.size(); ++k)
+    if (held[k].node == held[k - 1].node)
+      throw record.refused(fmt::format("holds node {} twice", held[k].node), "hold each node at one place");
 }
 
 /// The path begins where the end is, at t = 0 or before.
@@ -380,7 +408,7 @@ void place_line(const Record& record, const Scene& scene, Line& line) {
   if (line.prescribed) read_path(record.table("prescribed"), line, *line.prescribed);
   if (record.has("clamp")) check_clamp(record.table("clamp"), line);
   for (const LineProperty& property : line_properties())
-    if (record.has(property.key.name)) property.read(record.table(property.key.name), record, line);
+    for (const Record& own : record.tables(property.key.name)) property.read(own, record, line);
   if (!line.bed) return;
   if (scene.water.depth.is_infinite())
     throw record.table("bed").refused("needs a bed, but the water is infinitely deep", "give [water] a depth");

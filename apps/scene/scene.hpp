@@ -235,6 +235,7 @@ struct Body {
   std::map<hydro::Mode, double> initial_velocity;  ///< m/s or rad/s
   bool weight = false;                             ///< feels gravity; linear hydrostatics hold it already
   bool net_load = false;                           ///< all loads together are signals
+  bool energy = false;                             ///< its own energy is a signal
   std::optional<Buoyancy> buoyancy;
   std::optional<Hydrodynamics> hydrodynamics;
   std::optional<SecondOrder> second_order;
@@ -300,9 +301,17 @@ struct Line {
     std::string file;      ///< as the scene names it
     Place place;
   };
-  struct Release {
+  struct HeldNode {
     int node;
     Eigen::Vector3d at;  ///< m
+  };
+  struct Release : HeldNode {
+    std::vector<HeldNode> also = {};
+    /// All of them, by their nodes.
+    std::vector<HeldNode> in_order() const;
+  };
+  struct NodeLoad : dynamics::line::TimedForce {
+    int node;
   };
   /// Of its nodes in their order, without the ends that are held.
   struct Start {
@@ -341,6 +350,7 @@ struct Line {
   std::optional<Coefficients> coefficients;       ///< instead of those of the segments
   std::optional<dynamics::line::Bed> bed;
   std::optional<Release> release;
+  std::vector<NodeLoad> loads;
   std::optional<Start> start;
   std::optional<PrescribedMotion> prescribed;
   std::optional<Snaps> snaps;

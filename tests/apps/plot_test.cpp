@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <regex>
 #include <stack>
@@ -108,6 +109,19 @@ TEST(PlotSvg, BreaksALineAtAMissingValue) {
   EXPECT_THAT(text, Not(HasSubstr("nan")));
   const std::string curve = text.substr(text.find("class=\"curve\""), 300);
   EXPECT_EQ(std::count(curve.begin(), curve.end(), 'M'), 2) << curve;
+}
+
+TEST(PlotSvg, ShowsAMetreAsLongUpAsAlongWhereItIsAsked) {
+  Panel square{.x = {.label = "x", .unit = "m"},
+               .y = {.label = "z", .unit = "m"},
+               .series = {{.name = "", .x = {0, 2}, .y = {5, 7}}},
+               .equal_scales = true};
+  const std::string drawn = svg({.title = "", .panels = {square}, .width = 900, .panel_height = 300});
+  double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  const std::size_t path = drawn.find(" d=\"M", drawn.find("class=\"curve\""));
+  ASSERT_EQ(std::sscanf(drawn.c_str() + path, " d=\"M%lf %lfL%lf %lf", &x0, &y0, &x1, &y1), 4);
+  EXPECT_NEAR(x1 - x0, y0 - y1, 0.2);  // px: two of the tenths that are written
+  EXPECT_GT(x1 - x0, 150) << "as large as the lower side allows";
 }
 
 TEST(PlotSvg, LeavesOutValuesThatALogarithmicAxisCannotShow) {

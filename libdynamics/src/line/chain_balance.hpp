@@ -50,7 +50,9 @@ class ChainBalance {
   /// Places and tensions that make `right` of the derivatives. Overwrites `right`. Held nodes stay.
   void solve(Balance& right, Eigen::Ref<Places> x, Eigen::Ref<Eigen::VectorXd> T) const;
 
-  bool changes_by_time() const { return loads_.flow_changes() || any_path_; }
+  bool changes_by_time() const { return loads_.flow_changes() || any_path_ || line_.has_timed_loads(); }
+  /// Which piece of the loads over time acts. (D150)
+  void stay_in_piece_of(double t) { loads_.stay_in_piece_of(t); }
   /// Puts held nodes where their paths have them.
   void prescribe(double t, Eigen::Ref<Places> x, Eigen::Ref<Places> v, Eigen::Ref<Places> a) const;
 

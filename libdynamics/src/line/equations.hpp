@@ -58,6 +58,10 @@ class Equations {
   /// come to lie too far from the places at which the stage foresees the flow, these are moved to them.
   Outcome solve(Stage& stage, const State& before, double tolerance, int most, Places& u, Eigen::VectorXd& T);
 
+  /// Which piece of the loads over time acts. (D150)
+  void stay_in_piece_of(double t) { loads_.stay_in_piece_of(t); }
+  double within() const { return loads_.within(); }
+
   /// Accelerations and tensions of a state (D77), in the flow that set_instant() has. False if masses leave them open.
   bool accelerations(const State& state, Places& a, Eigen::VectorXd& T, const Stage* flow_of = nullptr);
 

@@ -41,6 +41,9 @@ void check(const Node& n, std::size_t i) {
   require(std::isfinite(n.mass) && n.mass >= 0, "node {} must not have the mass {} kg", i, n.mass);
   for (const auto& force : n.forces) require(force != nullptr, "node {} has a force that is none", i);
   require(n.force.allFinite(), "the force on node {} is not finite", i);
+  for (const TimedForce& load : n.loads)
+    require(load.force.allFinite() && load.history.is_ordered(),
+            "a load on node {} is not finite, or ends before it has risen", i);
   require(n.sphere.diameter >= 0 && n.sphere.cd >= 0 && n.sphere.ca >= 0,
           "diameter and coefficients of the sphere at node {} must not be negative", i);
 }
@@ -82,6 +85,7 @@ void Line::add_node(int i) {
   diagonal_[i] = n.mass;
   constant_.col(i) = n.force;
   constant_(2, i) -= n.mass * d_.gravity;
+  timed_loads_ = timed_loads_ || !n.loads.empty();
   if (n.sphere.diameter == 0) return;
   spheres_ = true;
   require(d_.water.field != nullptr, "node {} has a sphere, which needs water", i);
@@ -182,6 +186,13 @@ bool Line::has_massless_nodes() const {
   for (int i = 0; i < nodes(); ++i)
     if (moves(i) && whole[i] == 0) return true;
   return false;
+}
+
+double Line::next_corner(double t) const {
+  double out = std::numeric_limits<double>::infinity();
+  for (const Node& n : d_.nodes)
+    for (const TimedForce& load : n.loads) out = std::min(out, load.history.next_corner(t));
+  return out;
 }
 
 double Line::length() const {

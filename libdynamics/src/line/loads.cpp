@@ -99,6 +99,7 @@ void Loads::add(const Motion& now, const By& by, Places& force, Blocks* derivati
 
 void Loads::add_at_nodes(const Motion& now, const By& by, Places& force, Blocks* derivative) const {
   add_node_forces(now, by, force, derivative);
+  if (line_.has_timed_loads()) add_timed_loads(now.t, force);
   if (line_.has_spheres()) add_spheres(now, by, force, derivative);
 }
 
@@ -112,6 +113,13 @@ void Loads::add_node_forces(const Motion& now, const By& by, Places& force, Bloc
     if (derivative != nullptr)
       derivative->diagonal[static_cast<std::size_t>(i)] += node.share * (by.x * d.by_place + by.v * d.by_velocity);
   }
+}
+
+// (D150)
+void Loads::add_timed_loads(double t, Places& force) const {
+  const double within = std::isnan(within_) ? t : within_;
+  for (int i = 0; i < line_.nodes(); ++i)
+    for (const TimedForce& load : line_.node(i).loads) force.col(i) += load.history.share(t, within) * load.force;
 }
 
 void Loads::add_water(int j, const Motion& now, const By& by, Places& force, Blocks* derivative) const {
@@ -154,6 +162,11 @@ void Loads::add_powers_at_nodes(const Motion& now, LoadPowers& out) {
   node_forces_.setZero(3, line_.nodes());
   add_node_forces(now, {0, 0, 0}, node_forces_, nullptr);
   out.damping -= node_forces_.cwiseProduct(now.v).sum();
+  if (line_.has_timed_loads()) {
+    node_forces_.setZero();
+    add_timed_loads(now.t, node_forces_);
+    out.load_supplied += node_forces_.cwiseProduct(now.v).sum();
+  }
   if (line_.has_spheres()) add_sphere_powers(now, out);
 }
 

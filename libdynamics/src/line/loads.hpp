@@ -37,6 +37,7 @@ struct LoadPowers {
   double damping = 0;                                  ///< taken by what acts on nodes by their velocities
   double drag_supplied = 0, drag_dissipated = 0;       ///< F·u and F·(u − w) (D46)
   double inertia_supplied = 0, buoyancy_supplied = 0;  ///< the latter of what is wet in part
+  double load_supplied = 0;                            ///< by loads that are given over time
 
   /// Of a point of a segment.
   void add(const PerLength& c, const WaterPoint& point, bool lifted);
@@ -75,6 +76,12 @@ class Loads {
   void look_at_water(const Motion& now);
   void add_at_nodes(const Motion& now, const By& by, Places& force, Blocks* derivative) const;
   void add_powers_at_nodes(const Motion& now, LoadPowers& out);
+  /// Adds the loads that are given over time at the instant t.
+  void add_timed_loads(double t, Places& force) const;
+  /// From here on they are those of the piece in which `t` lies, until they are told of another; they are those of
+  /// each instant before the first call. (D150)
+  void stay_in_piece_of(double t) { within_ = t; }
+  double within() const { return within_; }
   bool are_wet() const { return line_.description().water.wet != Wet::nothing; }
   bool meet_water() const { return are_wet() || line_.has_spheres(); }
   /// Whether segments are lifted by as much of them as is wet.
@@ -100,6 +107,7 @@ class Loads {
   bool meets_water(int node) const;
   // The flow at nodes that meet it, kept while neither its instant nor its place changes.
   bool still_ = false;
+  double within_ = std::numeric_limits<double>::quiet_NaN();     // s, of the piece of the loads over time
   double looked_at_ = std::numeric_limits<double>::quiet_NaN();  // s
   std::vector<Eigen::Vector3d> points_;
   std::vector<hydro::waves::Kinematics> water_;

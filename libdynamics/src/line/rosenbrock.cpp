@@ -39,6 +39,8 @@ Rosenbrock::Rosenbrock(const Line& line)
   here_ = {Places::Zero(3, nodes_), Eigen::VectorXd::Zero(line.segments())};
   by_time_ = right_ = here_;
   weight_ = line.constant_load().colwise().norm().sum();
+  for (const Node& n : line.description().nodes)
+    for (const TimedForce& load : n.loads) weight_ += load.force.norm();
 }
 
 Instant Rosenbrock::instant(double t, double* y, const Places* water_at) {

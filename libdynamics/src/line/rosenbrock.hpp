@@ -15,6 +15,9 @@ class Rosenbrock {
   /// Begins at a state in balance, with its accelerations a. \returns its powers
   const Powers& begin(const State& state, const Places& a);
 
+  /// Which piece of the loads over time acts; begin() has to follow. (D150)
+  void stay_in_piece_of(double t) { balance_.stay_in_piece_of(t); }
+
   /// Whether it is at this state already, but for what rounding did to its time.
   bool is_at(const State& state);
 

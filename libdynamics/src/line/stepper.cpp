@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "dynamics/time/alpha_parameters.hpp"
@@ -75,6 +76,7 @@ struct Stepper::Work {
     Previous previous;
     double sub_step = 0;
     Earlier earlier = {};
+    double within = std::numeric_limits<double>::quiet_NaN();
   } kept = {};
   // Where a step that is tried began, and what it makes on the way: kept from step to step, so that it asks for no
   // memory.
@@ -106,6 +108,10 @@ struct Stepper::Work {
   void note_powers(const Powers& mean, double h);
   void note_state(const State& state);
   void advance(State& state, double h, int depth, StepReport& report);
+  void stay_in_piece_of(double t);
+  bool changes_piece(double t, double then) const;
+  void enter_piece(State& state, double within);
+  void advance_between_corners(State& state, double h, StepReport& report);
   void advance_by_sub_steps(State& state, double h, StepReport& report);
   double next_sub_step(double taken, double error) const;
   void note_powers_since_sub_step(const Powers& after, double tau);
@@ -147,7 +153,7 @@ const Energies& Stepper::energies() const {
 
 Stepper::Flow Stepper::flow() const {
   const Powers& p = work_->before;
-  return {p.drag_supplied + p.inertia_supplied + p.buoyancy_supplied,
+  return {p.drag_supplied + p.inertia_supplied + p.buoyancy_supplied + p.load_supplied,
           p.damping + p.drag_dissipated + p.axial + p.bed + p.friction};
 }
 
@@ -161,6 +167,7 @@ void Stepper::keep(State& state) {
   w.kept.previous = w.previous;
   w.kept.sub_step = w.sub_step;
   w.kept.earlier = w.earlier;
+  w.kept.within = w.equations.within();
 }
 
 StepReport Stepper::try_step(State& state, double h) {
@@ -172,9 +179,10 @@ StepReport Stepper::try_step(State& state, double h) {
   w.previous = w.kept.previous;
   w.sub_step = w.kept.sub_step;
   w.earlier = w.kept.earlier;
+  w.stay_in_piece_of(w.kept.within);
   w.unbooked = 0;
   StepReport report;
-  w.advance(state, h, 0, report);
+  w.advance_between_corners(state, h, report);
   return report;
 }
 
@@ -269,6 +277,7 @@ void Stepper::go_on(State& state) {
   Work& w = *work_;
   w.previous.h = 0;
   w.sub_step = w.earlier.h = 0;
+  w.stay_in_piece_of(std::numeric_limits<double>::quiet_NaN());  // whichever its time lies in
   if (!w.settle(state) && !w.line.has_massless_nodes())
     throw hydro::NumericsError(fmt::format(
         "the line has no accelerations at t = {} s: masses or loads are singular or not finite", state.time));
@@ -305,6 +314,7 @@ void Stepper::Work::note_powers(const Powers& mean, double h) {
   energies.drag += h * mean.drag_supplied;
   energies.inertia += h * mean.inertia_supplied;
   energies.buoyancy += h * mean.buoyancy_supplied;
+  energies.loads += h * mean.load_supplied;
   energies.lost_damping += h * mean.damping;
   energies.lost_drag += h * mean.drag_dissipated;
   energies.lost_axial += h * mean.axial;
@@ -531,9 +541,47 @@ void Stepper::Work::advance(State& state, double h, int depth, StepReport& repor
   advance(state, h / 2, depth + 1, report);
 }
 
+void Stepper::Work::stay_in_piece_of(double t) {
+  equations.stay_in_piece_of(t);
+  if (rosenbrock) rosenbrock->stay_in_piece_of(t);
+}
+
+bool Stepper::Work::changes_piece(double t, double then) const {
+  if (std::isnan(t)) return true;
+  for (int i = 0; i < line.nodes(); ++i)
+    for (const TimedForce& load : line.node(i).loads)
+      if (load.history.piece(t) != load.history.piece(then)) return true;
+  return false;
+}
+
+/// The motion goes on from the accelerations that the loads of another piece give it: of a jump those behind it. (D150)
+void Stepper::Work::enter_piece(State& state, double within) {
+  if (!changes_piece(equations.within(), within)) return;
+  book(state);
+  stay_in_piece_of(within);
+  previous.h = earlier.h = 0;
+  settle(state);
+  algorithmic = a;
+  before = powers_now(state);
+  if (rosenbrock) rosenbrock->begin(state, a);
+}
+
+/// A step, cut where a load over time has a corner. (D150)
+void Stepper::Work::advance_between_corners(State& state, double h, StepReport& report) {
+  if (!line.has_timed_loads()) return advance(state, h, 0, report);
+  constexpr double rounding = 1e-9;  // of the step: times are sums of steps
+  for (double left = h; left > 0;) {
+    const double way = line.next_corner(state.time + rounding * h) - state.time;
+    const double part = way < left - rounding * h ? way : left;
+    enter_piece(state, state.time + part / 2);
+    advance(state, part, 0, report);
+    left = part < left ? left - part : 0;
+  }
+}
+
 StepReport Stepper::step(State& state, double h) {
   StepReport report;
-  work_->advance(state, h, 0, report);
+  work_->advance_between_corners(state, h, report);
   work_->book(state);
   return report;
 }

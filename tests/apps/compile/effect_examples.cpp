@@ -58,6 +58,7 @@ std::vector<Example> of_body() {
   return {
       body("weight", "weight = true\n", "", {"weight"}),
       body("net load", "net_load = true\n", "", {}),
+      body("own energy", "energy = true\n", "", {}),
       body("start", "initial = { heave = \"0.1 m\" }\ninitial_velocity = { surge = \"0.1 m/s\" }\n", "", {}),
       body("copies", "copies = { count = 2, step = \"(13, 0, 0) m\" }\n", "", {}),
       body("buoyancy of cylinders", "",
@@ -232,7 +233,9 @@ std::vector<Example> of_lines() {
       line("damping of a line", "damping = { quadratic = \"0.1 kg/m\", componentwise = true }\n"),
       line("growth", wide + "buoyancy = true\ngrowth = { thickness = \"10 mm\", density = \"1200 kg/m^3\" }\n"),
       line("bed", wide + "bed = { stiffness = \"3 MPa/m\" }\n"),
-      line("release", "release = { node = 4, at = \"(3, 0, -3) m\" }\n"),
+      line("release",
+           "release = { node = 4, at = \"(3, 0, -3) m\", also = [{ node = 2, at = \"(1.2, 0, -2.2) m\" }] }\n"),
+      line("load on a node", "load = [{ node = 2, force = \"(1, 0, 0) N\", until = \"1 s\" }]\n"),
       line("start",
            "start = { at = [\"(0.1, 0, -1.995) m\", \"(0.2, 0, -2.99) m\", \"(0.3, 0, -3.985) m\", \"(0.4, 0, -4.98) "
            "m\"] }\n"),

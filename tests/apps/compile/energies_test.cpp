@@ -18,6 +18,7 @@ name = "top"
 position = "(0, 0, 1.735) m"
 mass = "24.92 kg"
 weight = true
+energy = true
 centre_of_gravity = "(0, 0, -0.755) m"
 inertia = "(3.07, 3.07, 3.07) kg m^2"
 free = ["surge", "heave", "pitch"]
@@ -28,6 +29,7 @@ name = "bottom"
 position = "(0, 0, 0.485) m"
 mass = "5.26 kg"
 weight = true
+energy = true
 centre_of_gravity = "(0, 0, -0.107) m"
 inertia = "(0.14, 0.14, 0.14) kg m^2"
 free = ["surge", "heave", "pitch"]
@@ -67,6 +69,14 @@ TEST(Energies, AreTheSumsOfVanZantensTable) {
         m1 * g * h1 * (1 - std::cos(top[i])) + m2 * g * (L * (1 - std::cos(top[i])) + h2 * (1 - std::cos(bottom)));
     const double lost = run.signal("energy.friction.dissipated")[i];
     EXPECT_NEAR(run.signal("energy.stored")[i], potential, 1e-9);
+    // The same of the upper and of the lower part alone (fig. 4.5); rates as below.
+    EXPECT_NEAR(run.signal("top.energy.potential")[i], m1 * g * h1 * (1 - std::cos(top[i])), 1e-9);
+    EXPECT_NEAR(run.signal("top.energy.kinetic")[i], 0.5 * (m1 * h1 * h1 + I1) * rate * rate, 0.03);
+    EXPECT_NEAR(run.signal("bottom.energy.kinetic")[i], kinetic - 0.5 * (m1 * h1 * h1 + I1) * rate * rate, 0.03);
+    EXPECT_NEAR(run.signal("top.energy.potential")[i] + run.signal("bottom.energy.potential")[i], potential, 1e-9);
+    // No water moves with these bodies, so their own energies are all that is held: to rounding.
+    EXPECT_NEAR(run.signal("top.energy.kinetic")[i] + run.signal("bottom.energy.kinetic")[i],
+                run.signal("energy.kinetic")[i], 1e-9);
     // Rates are central differences over 20 ms; where friction changes they have a corner, 0.1 % of the energy.
     EXPECT_NEAR(run.signal("energy.elastic")[i], kinetic + potential, 0.03);
     EXPECT_DOUBLE_EQ(run.signal("energy.dissipated")[i], lost);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "dynamics/line/node_force.hpp"
+#include "dynamics/time/load_history.hpp"
 #include "hydro/waves/kinematics/field.hpp"
 
 namespace dynamics::line {
@@ -54,12 +55,19 @@ struct Sphere {
   double volume() const { return std::numbers::pi / 6 * diameter * diameter * diameter; }  ///< m³
 };
 
+/// A force that is given over time. (D150)
+struct TimedForce {
+  Eigen::Vector3d force;  ///< in full, global axes, N
+  LoadHistory history = {};
+};
+
 struct Node {
   double mass = 0;                                  ///< a bob, clump or pin besides the segments' own, kg
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< constant, N
   Sphere sphere = {};
   std::vector<std::shared_ptr<const NodeForce>> forces = {};  ///< by its place and velocity, as NodeDamping
   double share = 1;                                           ///< of each of them that acts here
+  std::vector<TimedForce> loads = {};                         ///< what they give is counted as supplied
 };
 
 /// Where a node is at each time, whatever pulls at it. Immutable.
@@ -162,6 +170,9 @@ class Line {
   /// Area of bed under a node, m²: diameter times half of each segment beside it that meets the bed.
   double bed_area(int i) const { return bed_area_[i]; }
   bool has_spheres() const { return spheres_; }
+  bool has_timed_loads() const { return timed_loads_; }
+  /// Of the histories of loads on nodes, the first corner after t; ∞: there is none. (D150)
+  double next_corner(double t) const;
   /// True if the bed has friction. (D95)
   bool rubs_on_bed() const { return !d_.bed.empty() && d_.bed.front().friction > 0; }
   bool has_massless_nodes() const;
@@ -179,7 +190,7 @@ class Line {
   std::vector<int> first_, after_, tie_;  // −1: none
   Eigen::VectorXd diagonal_, between_, bed_area_, sag_weight_, bending_;
   double hardest_bending_ = 0;
-  bool spheres_ = false;
+  bool spheres_ = false, timed_loads_ = false;
   Places constant_;
 };
 

@@ -31,12 +31,13 @@ struct Energies {
   double shear = 0;                                      ///< held by the bed along itself
   double bending = 0;                                    ///< held
   double held = 0, drag = 0, inertia = 0, buoyancy = 0;  ///< supplied by what moves nodes, and by the water
+  double loads = 0;                                      ///< supplied by loads over time
   double lost_damping = 0, lost_drag = 0, lost_axial = 0, lost_bed = 0, lost_friction = 0;  ///< dissipated
   double at_start = 0;
 
   double stored() const { return height + axial + bed + shear + bending; }
   double total() const { return kinetic + stored(); }
-  double supplied() const { return held + drag + inertia + buoyancy; }
+  double supplied() const { return held + drag + inertia + buoyancy + loads; }
   double dissipated() const { return lost_damping + lost_drag + lost_axial + lost_bed + lost_friction; }
   double residual() const { return total() - at_start - supplied() + dissipated(); }
 };
@@ -76,8 +77,8 @@ class Stepper {
   /// hydro::NumericsError if there are no accelerations
   void go_on(State& state);
 
-  /// One step of h seconds. \throws hydro::NumericsError naming time, node and reason when halving is of no use;
-  /// `state` is then the last good one
+  /// One step of h seconds, which is cut where the history of a load on a node has a corner (D150). \throws
+  /// hydro::NumericsError naming time, node and reason when halving is of no use; `state` is then the last good one
   StepReport step(State& state, double h);
 
   /// Of the state after the last step.
