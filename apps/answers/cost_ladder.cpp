@@ -1,6 +1,6 @@
 #include "answers/cost_ladder.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -305,15 +305,20 @@ Ladder frequencies(const std::string& approximation, const std::vector<std::pair
   return out;
 }
 
-void add_cylinders(const Node& document, Ladders& out) {
-  std::vector<std::pair<std::string, std::string>> ranges;
+/// Of the table that is computed of cylinders or of meshes.
+void add_computed(const Node& document, Ladders& out) {
   const auto& bodies = tables(document, "body");
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (const Node* range = inner(bodies[i], {"hydrodynamics", "cylinders", "frequencies"}))
-      ranges.emplace_back(fmt::format("body[{}].hydrodynamics.cylinders.frequencies", i + 1), range->text);
-  if (ranges.empty()) return;
-  out.all.push_back(frequencies("frequencies of cylinders", ranges, 2));
-  out.all.back().makes_coefficients = true;
+  const auto add = [&](const std::string& what, const std::vector<std::string>& keys) {
+    std::vector<std::pair<std::string, std::string>> ranges;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (const Node* range = inner(bodies[i], keys))
+        ranges.emplace_back(fmt::format("body[{}].{}", i + 1, fmt::join(keys, ".")), range->text);
+    if (ranges.empty()) return;
+    out.all.push_back(frequencies("frequencies of " + what, ranges, 2));
+    out.all.back().makes_coefficients = true;
+  };
+  add("cylinders", {"hydrodynamics", "cylinders", "frequencies"});
+  add("meshes", {"hydrodynamics", "frequencies"});
 }
 
 }  // namespace
@@ -327,7 +332,7 @@ Ladders ladders_of_run(const Scene& scene, double step) {
     add_members(scene, document, out);
     add_lines(scene, document, out);
   }
-  add_cylinders(document, out);
+  add_computed(document, out);
   return out;
 }
 
@@ -338,7 +343,7 @@ Ladders ladders_of_rao(const Scene& scene) {
     if (const Node* range = inner(document, {"ask", "rao", key}); range != nullptr && scene.rao->omega.size() > 1)
       out.all.push_back(frequencies("frequencies", {{fmt::format("ask.rao.{}", key), range->text}}, 16));
   // A scene with both answers has one set of coefficients: that of the run.
-  if (!scene.run) add_cylinders(document, out);
+  if (!scene.run) add_computed(document, out);
   return out;
 }
 

@@ -7,6 +7,7 @@
 
 #include "compile/control.hpp"
 #include "compile/cylinders.hpp"
+#include "compile/hulls.hpp"
 #include "compile/hydrodynamics.hpp"
 #include "compile/integrator.hpp"
 #include "compile/waves.hpp"
@@ -166,26 +167,35 @@ Section plan_waves(const scene::Scene& scene) {
   return s;
 }
 
-/// Coefficients of cylinders, before any is computed.
-Section plan_coefficients(const compile::CylinderPlan& cylinders) {
-  return {"coefficients of cylinders, computed when a run starts:",
-          {{"potential", cylinders.method(), cylinders.size(), true}}};
+/// Coefficients that the scene has the program compute, before any is. \return how long that takes, s
+double plan_coefficients(const scene::Scene& scene, std::vector<Section>& sections) {
+  double seconds = 0;
+  const auto add = [&](const std::string& of, const auto& plan, double takes) {
+    sections.push_back({fmt::format("coefficients of {}, computed when a run starts:", of),
+                        {{"potential", plan.method(), plan.size(), true}}});
+    seconds += takes;
+  };
+  if (const auto bodies = compile::bodies_of_cylinders(scene); !bodies.empty()) {
+    const compile::CylinderPlan plan = compile::plan_cylinders(scene, bodies);
+    add("cylinders", plan, plan.cost.seconds);
+  }
+  if (const auto bodies = compile::bodies_of_meshes(scene); !bodies.empty()) {
+    const compile::HullPlan plan = compile::plan_hulls(scene, bodies);
+    add("meshes", plan, plan.seconds());
+  }
+  return seconds;
 }
 
 }  // namespace
 
 Plan plan(const scene::Scene& scene, const std::shared_ptr<compile::Kept>& kept) {
   Plan out;
-  if (const auto bodies = compile::bodies_of_cylinders(scene); !bodies.empty()) {
-    const compile::CylinderPlan cylinders = compile::plan_cylinders(scene, bodies);
-    out.sections.push_back(plan_coefficients(cylinders));
-    constexpr double patience_s = 60;
-    if (cylinders.cost.seconds > patience_s) {
-      out.notes = {
-          "the rest of the plan depends on these coefficients, which take longer than a plan should: compute "
-          "them with `froude bem solve`, name the file in the scene, and plan again"};
-      return out;
-    }
+  constexpr double patience_s = 60;
+  if (plan_coefficients(scene, out.sections) > patience_s) {
+    out.notes = {
+        "the rest of the plan depends on these coefficients, which take longer than a plan should: compute "
+        "them with `froude bem solve`, name the file in the scene, and plan again"};
+    return out;
   }
   const compile::Prepared prepared = compile::prepare(scene, kept);
   if (prepared.sharing_waves.size() > 1 || (!prepared.sharing_waves.empty() && prepared.sharing_waves[0].size() > 1))

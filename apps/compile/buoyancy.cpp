@@ -12,7 +12,7 @@ using hydro::InputError;
 using Shapes = std::vector<std::shared_ptr<const FloatingShape>>;
 
 hh::Hull read_hull(const scene::Buoyancy& given) {
-  hh::TriangleMesh mesh = hh::read_mesh(given.mesh->value, {.unit = given.unit});
+  hh::TriangleMesh mesh = hh::read_mesh(given.mesh->value, {.unit = given.unit, .reverse = given.reverse});
   if (given.freeboard) mesh = hh::with_freeboard(std::move(mesh), *given.freeboard);
   return hh::Hull(std::move(mesh));
 }

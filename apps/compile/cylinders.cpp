@@ -1,4 +1,5 @@
 #include "compile/cylinders.hpp"
+#include "compile/computed.hpp"
 #include "scene/placed.hpp"
 
 #include <fmt/ranges.h>
@@ -21,20 +22,6 @@ hydro::cylinders::CylinderBody as_cylinders(const scene::Body& body) {
   return out;
 }
 
-/// Where waves go in this scene, each heading once: those that differ by the rounding of a unit are one.
-std::vector<double> headings_asked(const Scene& scene) {
-  std::vector<double> headings;
-  if (scene.rao) headings = scene.rao->headings;
-  if (scene.waves) headings.push_back(scene.waves->heading.radians());
-  if (scene.waves)
-    if (const auto* sea = std::get_if<scene::RandomSea>(&scene.waves->kind))
-      for (const scene::WaveSystem& system : sea->systems) headings.push_back(system.heading.radians());
-  std::sort(headings.begin(), headings.end());
-  const auto same = [](double a, double b) { return b - a < 1e-9; };
-  headings.erase(std::unique(headings.begin(), headings.end(), same), headings.end());
-  return headings;
-}
-
 /// What hydro::cylinders is asked.
 struct Request {
   std::vector<hydro::cylinders::CylinderBody> layout;
@@ -48,9 +35,7 @@ Request request(const Scene& scene, const std::vector<int>& bodies) {
   Request r{{}, first.cylinders->omega, first.cylinders->headings, {}, first.file.place};
   for (const int b : bodies) {
     const scene::Hydrodynamics& h = *body_of(scene, b).hydrodynamics;
-    if (h.cylinders->omega != first.cylinders->omega || h.cylinders->headings != first.cylinders->headings)
-      throw InputError("bodies of cylinders state different frequencies or headings", h.file.place,
-                       "they are solved together: give all the same");
+    require_same_table("cylinders", *first.cylinders, *h.cylinders, h.file.place);
     r.layout.push_back(as_cylinders(body_of(scene, b)));
   }
   if (r.headings.empty()) r.headings = headings_asked(scene);
@@ -63,11 +48,7 @@ Request request(const Scene& scene, const std::vector<int>& bodies) {
 }  // namespace
 
 std::vector<int> bodies_of_cylinders(const Scene& scene) {
-  std::vector<int> bodies;
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    if (scene.bodies[b].hydrodynamics && scene.bodies[b].hydrodynamics->cylinders)
-      bodies.push_back(static_cast<int>(b));
-  return bodies;
+  return bodies_where(scene, [](const scene::Hydrodynamics& h) { return h.cylinders.has_value(); });
 }
 
 hydro::cylinders::Solution solve_cylinders(const Scene& scene, const std::vector<int>& bodies,

@@ -3,35 +3,28 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <string>
+#include <utility>
 
 #include "compile/kept.hpp"
+#include "compile/kept_files.hpp"
 
 namespace froude::compile {
 
-/// Fits of radiation memory by what they were fitted to. An entry holds all of its data, which are compared number by
-/// number, and what says which program fitted them; an entry that was cut short, written over or made by another
-/// program is as good as none. Entries are put there whole, so that programs may use one folder at once. A folder that
-/// cannot be read or written holds nothing: no call throws for it.
+/// Fits of radiation memory by what they were fitted to and by which program, in files of a folder (KeptFiles).
 class FitFolder {
  public:
-  static constexpr std::uintmax_t usual_bytes = std::uintmax_t{256} << 20U;
+  explicit FitFolder(std::filesystem::path folder, std::uintmax_t most_bytes = KeptFiles::usual_bytes)
+      : files_(std::move(folder), most_bytes) {}
 
-  /// Nothing is made or opened yet. `most_bytes`: of all entries together; those longest unused make room.
-  explicit FitFolder(std::filesystem::path folder, std::uintmax_t most_bytes = usual_bytes)
-      : folder_(std::move(folder)), most_bytes_(most_bytes) {}
-
-  const std::filesystem::path& path() const { return folder_; }
+  const std::filesystem::path& path() const { return files_.path(); }
+  /// What else is kept in that folder.
+  const KeptFiles& files() const { return files_; }
   /// The fit of these data to this tolerance, to the bit as it was kept.
   std::optional<hydro::radiation::RationalFit> find(const SymmetricData& data, double tolerance) const;
   void keep(const SymmetricData& data, double tolerance, const hydro::radiation::RationalFit& fit) const;
 
  private:
-  std::filesystem::path file_of(const std::string& key) const;
-  void make_room() const;
-
-  std::filesystem::path folder_;
-  std::uintmax_t most_bytes_;
+  KeptFiles files_;
 };
 
 /// That of this process; none until it is set.

@@ -5,8 +5,10 @@
 #include <map>
 #include <tuple>
 
+#include "compile/computed.hpp"
 #include "compile/cylinders.hpp"
 #include "compile/findings.hpp"
+#include "compile/hulls.hpp"
 #include "compile/kept.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/potential/doctor/check.hpp"
@@ -30,22 +32,35 @@ struct Use {
   std::vector<int> file_body;  // in the file, from 0
 };
 
-const Hydrodynamics& hydrodynamics(const Scene& scene, int body) {
-  return *scene.bodies[static_cast<std::size_t>(body)].hydrodynamics;
+const Hydrodynamics& hydrodynamics(const Scene& scene, int body) { return hydrodynamics_of(scene, body); }
+
+/// Bodies that are solved together with one whose coefficients the program computes; none for one of a file.
+std::vector<int> solved_together(const Scene& scene, const Hydrodynamics& h) {
+  if (h.cylinders) return bodies_of_cylinders(scene);
+  if (h.mesh) return bodies_of_meshes(scene);
+  return {};
+}
+
+/// What the coefficients are from: a file of them, a mesh, or nothing that lies on the disk.
+std::string file_name(const Hydrodynamics& h) {
+  return h.mesh ? h.mesh->file.filename().string() : h.file.value.filename().string();
 }
 
 /// By which what is kept knows the coefficients: what they are read from or computed of, and in which water.
 std::string name_of_data(const Scene& scene, const Hydrodynamics& h) {
   if (h.cylinders) return what_is_solved(scene, bodies_of_cylinders(scene));
+  if (h.mesh) return what_hulls_are_solved(scene, bodies_of_meshes(scene));
   const auto& w = scene.water;
   return fmt::format("{}|{}|{}|{}|{}|{}", h.file.value.string(), w.density, w.gravity, w.depth.metres(),
                      h.ulen.value_or(0), h.iperout.value_or(0));
 }
 
-/// From the file, or computed for all bodies of cylinders together; once for all scenes that share what is kept.
+/// From the file, or computed for all bodies of cylinders or meshes together; once for all scenes that share what is
+/// kept.
 const Coefficients& read(const Scene& scene, const Hydrodynamics& h, const std::string& name, Kept& kept) {
   if (h.cylinders)
     return kept.coefficients(name, [&] { return solve_cylinders(scene, bodies_of_cylinders(scene)).coefficients; });
+  if (h.mesh) return kept.coefficients(name, [&] { return coefficients_of_hulls(scene, bodies_of_meshes(scene)); });
   hydro::potential::ReadOptions options;
   options.density = scene.water.density;
   options.gravity = scene.water.gravity;
@@ -75,8 +90,7 @@ void assign(const Scene& scene, Use& use) {
     const auto& body = scene.bodies[static_cast<std::size_t>(use.bodies[static_cast<std::size_t>(i)])];
     const Hydrodynamics& h = *body.hydrodynamics;
     int index = 0;
-    if (h.cylinders) {
-      const auto all = bodies_of_cylinders(scene);
+    if (const auto all = solved_together(scene, h); !all.empty()) {
       index =
           static_cast<int>(std::find(all.begin(), all.end(), use.bodies[static_cast<std::size_t>(i)]) - all.begin());
     } else if (h.body) {
@@ -108,9 +122,9 @@ std::vector<Use> uses(const Scene& scene, Kept& kept) {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const auto& h = scene.bodies[b].hydrodynamics;
     if (!h) continue;
-    const std::string key =
-        fmt::format("{}|{}|{}|{}|{}{}{}", h->file.value.string(), h->ulen.value_or(0), h->iperout.value_or(0),
-                    h->interaction != Interaction::self, h->radiation, h->excitation, h->hydrostatics);
+    const std::string key = fmt::format(
+        "{}{}|{}|{}|{}|{}{}{}", h->file.value.string(), h->mesh ? "meshes" : "", h->ulen.value_or(0),
+        h->iperout.value_or(0), h->interaction != Interaction::self, h->radiation, h->excitation, h->hydrostatics);
     const auto [at, is_new] = known.try_emplace(key, out.size());
     if (is_new) {
       const std::string name = name_of_data(scene, *h);
@@ -159,13 +173,13 @@ const std::vector<hydro::potential::Finding>& findings(const Scene& scene, const
 /// Lets the doctor look at a file: an error stops the scene unless it is accepted, and what is accepted is recorded.
 void examine(const Scene& scene, const Use& use, Kept& kept, std::vector<std::string>& notes) {
   const Hydrodynamics& h = hydrodynamics(scene, use.bodies.front());
-  if (h.cylinders) return;  // computed here, with a self-check of their own
+  if (h.cylinders) return;  // exact, with a self-check of their own
   std::vector<std::string> accepted;
   for (const int b : use.bodies)
     for (const auto& name : hydrodynamics(scene, b).accept)
       if (std::find(accepted.begin(), accepted.end(), name) == accepted.end()) accepted.push_back(name);
   const auto& found = findings(scene, use, kept);
-  const std::string file = h.file.value.filename().string();
+  const std::string file = file_name(h);
   if (const auto refused = hydro::potential::refused(found, accepted); !refused.empty()) {
     std::vector<std::string> names;
     for (const auto& f : refused)
@@ -183,9 +197,15 @@ void examine(const Scene& scene, const Use& use, Kept& kept, std::vector<std::st
       notes.push_back(fmt::format("{}: accepted, {}: {} (at {})", file, f.check, f.message, f.where));
     if (f.severity == hydro::potential::Severity::warning) ++warnings;
   }
+  if (h.mesh && h.mesh->tolerance.value_or(0) > scene.accuracy)
+    notes.push_back(fmt::format(
+        "{}: its coefficients may be off by up to {:.2g} of their modes by panels, as mesh_tolerance takes; "
+        "errors that are told of motions do not hold that",
+        file, *h.mesh->tolerance));
   if (warnings > 0)
-    notes.push_back(
-        fmt::format("{0}: {1} warning{2}: run `froude bem check {0}`", file, warnings, warnings == 1 ? "" : "s"));
+    notes.push_back(fmt::format("{}: {} warning{}: run {}", file, warnings, warnings == 1 ? "" : "s",
+                                h.mesh ? "`froude bem solve` of this scene, and `froude bem check` of its file"
+                                       : fmt::format("`froude bem check {}`", file)));
 }
 
 /// What the data's depth leaves wrong in the scene's, if they differ. \return the depth to go on with: waves have the
@@ -263,10 +283,12 @@ std::vector<std::vector<int>> sharing_waves(const Scene& scene, const std::vecto
 std::string why_apart(const Scene& scene, int a, int b) {
   const auto name = [&](int body) {
     const Hydrodynamics& h = hydrodynamics(scene, body);
-    return h.cylinders ? std::string("its cylinders") : fmt::format("\"{}\"", h.file.value.filename().string());
+    return h.cylinders ? "its cylinders" : fmt::format("\"{}\"", file_name(h));
   };
   const Hydrodynamics &first = hydrodynamics(scene, a), &second = hydrodynamics(scene, b);
-  if (first.file.value != second.file.value)
+  const bool of_one_kind =
+      first.cylinders.has_value() == second.cylinders.has_value() && first.mesh.has_value() == second.mesh.has_value();
+  if (first.file.value != second.file.value || !of_one_kind)
     return fmt::format("{} has its coefficients from {}, {} from {}, computed one without the other",
                        scene.bodies[static_cast<std::size_t>(a)].name, name(a),
                        scene.bodies[static_cast<std::size_t>(b)].name, name(b));
@@ -292,7 +314,8 @@ void require_said(const Scene& scene, const std::vector<std::vector<int>>& sets)
                       bodies[static_cast<std::size_t>(first)].name, bodies[static_cast<std::size_t>(*one)].name,
                       why_apart(scene, first, *one)),
           hydrodynamics(scene, *one).interaction_place,
-          "compute them together (`froude bem solve` does so for cylinders) and name that file for both, with body = 1 "
+          "compute them together (`froude bem solve` does so for cylinders and for meshes) and name that file for "
+          "both, with body = 1 "
           "and body = 2; or say that they do not feel each other: interaction = \"self\", or \"file\" for bodies that "
           "feel those of their own file alone");
     first = *one;

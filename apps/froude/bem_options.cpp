@@ -228,14 +228,14 @@ void refuse_hull_options(const CLI::App& solve) {
     const std::string name = option->get_name();
     const bool of_both = name == "files" || name == "--output" || name == "--format" || name == "--help";
     if (of_both || option->count() == 0) continue;
-    throw hydro::InputError(fmt::format("{} is for hulls; cylinders are solved as their scene says", name), {},
+    throw hydro::InputError(fmt::format("{} is for meshes; bodies of a scene are solved as it says", name), {},
                             "leave the option out, or state it in the scene");
   }
 }
 
 void add_bem_solve(CLI::App& bem, Request& request) {
   auto* solve = bem.add_subcommand(
-      "solve", "compute coefficients: of the cylinders of a scene, exactly, or of hulls given as meshes, by panels");
+      "solve", "compute coefficients: of a scene's cylinders, exactly, or of hulls given as meshes, by panels");
   solve->footer(
       "Examples:\n  froude bem solve examples/cylinders.toml -o module.h5\n"
       "  froude bem solve hull.stl --density \"1025 kg/m^3\" --depth infinite -o hull.h5\n"
@@ -245,7 +245,7 @@ void add_bem_solve(CLI::App& bem, Request& request) {
   auto texts = std::make_shared<HullTexts>();
   solve
       ->add_option("files", arguments->meshes,
-                   "a scene with cylinders in [body.hydrodynamics], or hulls: .stl, .obj, .gdf")
+                   "a scene with cylinders or meshes in [body.hydrodynamics], or hulls: .stl, .obj, .gdf")
       ->required();
   solve->add_option("-o,--output", arguments->output, "file to write; its name tells the format")->required();
   solve->add_option("--format", arguments->format, "of the output, where its name does not tell")

@@ -77,7 +77,7 @@ struct BemConvertArguments {
 };
 void bem_convert(const BemConvertArguments& arguments, const Console& console);
 
-/// Coefficients of the cylinders that a scene describes, written as bem_convert() does.
+/// Coefficients of the cylinders or the meshes that a scene describes, written as bem_convert() does.
 void bem_solve(const Path& scene, const Path& output, const std::string& format, const Console& console);
 
 struct BemHullArguments {

@@ -9,6 +9,7 @@
 #include "froude/experiment_options.hpp"
 #include "froude/kept_fits.hpp"
 #include "froude/sweep_options.hpp"
+#include "froude/watched_hulls.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/units.hpp"
 #include "scene/placed.hpp"
@@ -541,6 +542,7 @@ int run_program(int argc, char** argv) {
   app.final_callback([&request] {
     request.call = [call = std::move(request.call)](const Console& console) {
       keep_fits_in(users_folder_of_fits());
+      const WatchedHulls watched(console);
       return call(console);
     };
   });

@@ -86,17 +86,21 @@ Binding<Buoyancy> buoyancy() {
                .optional()
                .only_beside("mesh"),
            &Buoyancy::unit)
+      .key(effect("mesh_of_hydrodynamics", "the hull is the mesh of [body.hydrodynamics], which is named once")
+               .optional(),
+           &Buoyancy::of_hydrodynamics)
       .key(quantity("freeboard", dim::length,
                     "height of walls drawn straight up from the rim of an open mesh, with a deck on them")
                .positive()
                .optional()
-               .only_beside("mesh"),
+               .only_beside_one_of({"mesh", "mesh_of_hydrodynamics"}),
            &Buoyancy::freeboard)
       .table("cylinders", hull_cylinders(), &Buoyancy::cylinders)
       .optional()
       .table("spheres", hull_spheres(), &Buoyancy::spheres)
       .optional()
-      .at_least_one_of({"mesh", "cylinders", "spheres"})
+      .at_least_one_of({"mesh", "mesh_of_hydrodynamics", "cylinders", "spheres"})
+      .at_most_one_of({"mesh", "mesh_of_hydrodynamics"})
       .place(&Buoyancy::place);
 }
 
@@ -151,6 +155,19 @@ void require_nothing_twice(const Record& record, const Body& body) {
     throw record.table("buoyancy")
         .refused("would act twice: linear hydrostatics hold buoyancy and weight",
                  "leave out `hydrostatics` and add weight = true, or leave out buoyancy");
+}
+
+/// A hull is named once, for waves and for still water.
+void share_mesh(const Record& record, Body& body) {
+  if (!body.buoyancy || !body.buoyancy->of_hydrodynamics) return;
+  const Record& table = record.table("buoyancy");
+  if (!body.hydrodynamics || !body.hydrodynamics->mesh)
+    throw table.wrong("mesh_of_hydrodynamics", "is of a body that has no mesh in [body.hydrodynamics]",
+                      "name the mesh here: mesh = \"hull.stl\"");
+  const HullMesh& mesh = *body.hydrodynamics->mesh;
+  body.buoyancy->mesh = {mesh.file, table["mesh_of_hydrodynamics"].place};
+  body.buoyancy->unit = mesh.unit;
+  body.buoyancy->reverse = mesh.reverse;
 }
 
 void require_what_rotation_needs(const Record& record, Body& body) {
@@ -240,6 +257,7 @@ const Binding<Body>& body() {
           .then(require_what_rotation_needs)
           .then(require_free_modes)
           .then(require_nothing_twice)
+          .then(share_mesh)
           .then([](const Record& record, const Body& body) {
             if (body.hydrodynamics && body.hydrodynamics->cylinders)
               require_at_still_water(record.table("hydrodynamics").table("cylinders"), body.position.z());

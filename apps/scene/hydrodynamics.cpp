@@ -1,4 +1,4 @@
-/// \file  `[body.hydrodynamics]`: coefficients of a body from a file, or of cylinders, and what of them acts.
+/// \file  `[body.hydrodynamics]`: coefficients of a body from a file, of cylinders or of a mesh, and what of them acts.
 #include "hydro/potential/doctor/check.hpp"
 #include "scene/binding.hpp"
 #include "scene/build.hpp"
@@ -106,9 +106,57 @@ Binding<Cylinders> cylinders() {
            &Cylinders::headings);
 }
 
+/// What is said of a mesh beside it.
+Binding<HullMesh> hull_mesh() {
+  return Binding<HullMesh>("[body.hydrodynamics]", "the hull as a mesh")
+      .key(text("mesh",
+                "of the hull in body axes, closed under water, relative to the scene: STL, OBJ or GDF; the program "
+                "cuts it at the still water and computes the coefficients of all bodies with meshes together, by "
+                "panels")
+               .optional(),
+           &HullMesh::file)
+      .key(quantity("unit", dim::length, "what one unit of the mesh is; left out: metres, or what the file says")
+               .positive()
+               .optional()
+               .only_beside("mesh"),
+           &HullMesh::unit)
+      .key(effect("reverse", "turns the faces of a mesh that is drawn inside out").optional().only_beside("mesh"),
+           &HullMesh::reverse)
+      .key(range("frequencies", dim::angular_velocity,
+                 "of the table that is computed of the mesh, which needs them: \"0.2 rad/s .. 3 rad/s, 29 values\"")
+               .optional()
+               .only_beside("mesh"),
+           &HullMesh::omega)
+      .key(range("headings", dim::angle, "of that table; without it those of [waves] and [ask]")
+               .optional()
+               .only_beside("mesh"),
+           &HullMesh::headings)
+      .key(number("mesh_tolerance",
+                  "largest error by panels of A, B and X, relative to the two modes of an entry, that you take, where "
+                  "it is not the accuracy asked; it is estimated, and a mesh that misses it is refused")
+               .within(Limit::open_fraction)
+               .optional()
+               .only_beside("mesh"),
+           &HullMesh::tolerance)
+      .words(text("lid",
+                  "\"panels\": on the water inside the hull, which remove irregular frequencies; \"none\": those "
+                  "stay, for the doctor to find")
+                 .or_default("panels", "a hull that pierces the surface has irregular frequencies")
+                 .only_beside("mesh"),
+             {{"panels", true}, {"none", false}}, &HullMesh::lid);
+}
+
+/// The keys of a mesh are read with all others of the table, and mean nothing without it.
+void require_whole_mesh(const Record& record, Hydrodynamics& out) {
+  if (!record.has("mesh")) return out.mesh.reset();
+  if (!record.has("frequencies"))
+    throw record.wrong("mesh", "needs the frequencies at which it is solved",
+                       "add frequencies = \"0.2 rad/s .. 3 rad/s, 29 values\"");
+}
+
 /// Where coefficients and the choice of interaction stand.
 void find_places(const Record& record, Hydrodynamics& out) {
-  if (!record.has("file")) out.file.place = record["cylinders"].place;
+  if (!record.has("file")) out.file.place = record[record.has("mesh") ? "mesh" : "cylinders"].place;
   const bool chosen = record.has("interaction") && !record["interaction"].defaulted;
   out.interaction_place = chosen ? record["interaction"].place : out.file.place;
 }
@@ -118,10 +166,11 @@ void find_places(const Record& record, Hydrodynamics& out) {
 Binding<Hydrodynamics> hydrodynamics_binding() {
   return Binding<Hydrodynamics>(
              "[body.hydrodynamics]",
-             "linear potential theory, with coefficients from a file or of cylinders; each effect is named")
+             "linear potential theory, with coefficients from a file, of cylinders or of a mesh; each effect is named")
       .key(text("file", "of coefficients, relative to the scene: any format of `froude bem info`").optional(),
            &Hydrodynamics::file)
       .table("cylinders", cylinders(), &Hydrodynamics::cylinders)
+      .part(hull_mesh(), &Hydrodynamics::mesh)
       .key(integer("body",
                    "which body of the file, from 1 (copies take the following ones); needed where the scene takes "
                    "fewer than the file holds")
@@ -165,7 +214,7 @@ Binding<Hydrodynamics> hydrodynamics_binding() {
                  "result records them")
                .one_of(hydro::potential::check_names())
                .optional()
-               .only_beside("file"),
+               .only_beside_one_of({"file", "mesh"}),
            &Hydrodynamics::accept)
       .key(effect("excitation", "loads of the incoming waves on the body held still"), &Hydrodynamics::excitation)
       .key(modes("excitation_modes",
@@ -187,9 +236,10 @@ Binding<Hydrodynamics> hydrodynamics_binding() {
                  .only_beside_one_of({"radiation", "excitation"}),
              {{"full", Interaction::full}, {"file", Interaction::file}, {"self", Interaction::self}},
              &Hydrodynamics::interaction)
-      .exactly_one_of({"file", "cylinders"})
+      .exactly_one_of({"file", "cylinders", "mesh"})
       .at_least_one_of({"excitation", "radiation", "hydrostatics"})
       .then([](const Record& record, Hydrodynamics& out) { out.radiation = record.has("radiation"); })
+      .then(require_whole_mesh)
       .then(find_places);
 }
 

@@ -164,6 +164,16 @@ struct Cylinders {
   std::vector<double> omega, headings;          ///< rad/s; rad, empty: those that the scene asks for
 };
 
+/// `[body.hydrodynamics] mesh`: the hull of a body, of which the program computes the coefficients by panels.
+struct HullMesh {
+  std::filesystem::path file;           ///< absolute; in body axes
+  std::optional<double> unit;           ///< of the mesh, m
+  bool reverse = false;                 ///< its faces are turned inside out
+  std::vector<double> omega, headings;  ///< as of Cylinders
+  std::optional<double> tolerance;      ///< largest estimated error by panels; empty: the accuracy asked
+  bool lid = true;                      ///< panels on the water inside
+};
+
 /// `[body.hydrodynamics.turning]`: excitation for the heading that a slow yaw leaves.
 struct Turning {
   double from, to, spacing;  ///< rad, of the yaws that are tabled
@@ -174,10 +184,11 @@ struct Turning {
 /// Whose waves a body feels: those of all bodies that make waves; of those of its own file; its own alone.
 enum class Interaction { full, file, self };
 
-/// `[body.hydrodynamics]`: coefficients from a file, or of cylinders.
+/// `[body.hydrodynamics]`: coefficients from a file, of cylinders or of a mesh.
 struct Hydrodynamics {
-  Located<std::filesystem::path> file;  ///< absolute; with cylinders empty, and the place is that of the cylinders
+  Located<std::filesystem::path> file;  ///< absolute; empty with cylinders or a mesh, and the place is theirs
   std::optional<Cylinders> cylinders;
+  std::optional<HullMesh> mesh;
   std::optional<Located<int>> body;  ///< which body of the file, from 1, as written: copies take the following ones
   std::optional<Eigen::Vector3d>
       reference_point;  ///< global, m: the point the coefficients are about, if the file does not say
@@ -214,7 +225,9 @@ struct SecondOrder {
 /// `[body.buoyancy]`: what the body shows the water, in body axes.
 struct Buoyancy {
   std::optional<Located<std::filesystem::path>> mesh;  ///< absolute
+  bool of_hydrodynamics = false;                       ///< the mesh is that of [body.hydrodynamics]
   std::optional<double> unit;                          ///< of the mesh, m
+  bool reverse = false;                                ///< its faces are turned inside out
   std::optional<double> freeboard;                     ///< m: walls drawn up from an open rim, with a deck
   std::vector<hydro::hydrostatics::CircularCylinder> cylinders;
   std::vector<hydro::hydrostatics::Sphere> spheres;

@@ -4,7 +4,9 @@
 #include <ostream>
 
 #include "compile/cylinders.hpp"
+#include "compile/hulls.hpp"
 #include "froude/bem/responses.hpp"
+#include "froude/bem/solve_hulls.hpp"
 #include "froude/coefficient_files.hpp"
 #include "froude/commands.hpp"
 #include "froude/progress.hpp"
@@ -117,10 +119,19 @@ void bem_solve(const Path& file, const Path& output, const std::string& format, 
   const CoefficientFormat target = format_of(output, format);
   const scene::Scene scene = scene::read(file);
   require_outputs(files_to_write(target, output), files_of_scene(file));
-  const std::vector<int> bodies = compile::bodies_of_cylinders(scene);
-  if (bodies.empty())
-    throw hydro::InputError("no body of the scene has cylinders", {.file = file.string()},
-                            "add cylinders = { at = [...], diameter = ..., draught = ... } to [body.hydrodynamics]");
+  const std::vector<int> bodies = compile::bodies_of_cylinders(scene), hulls = compile::bodies_of_meshes(scene);
+  if (bodies.empty() == hulls.empty())
+    throw hydro::InputError(bodies.empty() ? "no body of the scene has cylinders or a mesh"
+                                           : "some bodies of the scene have cylinders, others a mesh: they are solved "
+                                             "apart, and one file would say that no waves pass between them",
+                            {.file = file.string()},
+                            bodies.empty() ? "add cylinders = { at = ..., diameter = ..., draught = ... }, or mesh = "
+                                             "\"hull.stl\", to [body.hydrodynamics]"
+                                           : "make a scene of each kind, or meshes of all");
+  if (!hulls.empty()) {
+    if (console.show_progress) console.err << compile::plan_hulls(scene, hulls).size() << '\n';
+    return write_hulls(compile::solve_hulls(scene, hulls), target, output, console);
+  }
   if (console.show_progress) console.err << compile::plan_cylinders(scene, bodies).size() << '\n';
   Progress progress(console.err, "solve", console.show_progress);
   const auto solution = compile::solve_cylinders(

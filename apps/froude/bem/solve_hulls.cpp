@@ -1,10 +1,10 @@
 // froude bem solve, of hulls given as meshes: reads, tells the cost, solves by panels, writes.
-#include <cmath>
+#include "froude/bem/solve_hulls.hpp"
+
 #include <ostream>
 #include <set>
 
-#include "froude/coefficient_files.hpp"
-#include "froude/commands.hpp"
+#include "compile/hulls.hpp"
 #include "froude/progress.hpp"
 #include "froude/report.hpp"
 #include "hydro/base/error.hpp"
@@ -30,20 +30,16 @@ std::vector<hp::HullBody> hull_bodies(const BemHullArguments& a) {
   return bodies;
 }
 
-std::string hull_cost_text(const hp::Cost& c, std::size_t frequencies, std::size_t headings) {
-  const std::string refined = c.refined_unknowns > 0 ? fmt::format(", {} in the refined mesh", c.refined_unknowns) : "";
-  return fmt::format("{} panels, {} frequencies, {} headings; {} x {} unknowns{}, {:.3g} MB, about {:.2g} s", c.panels,
-                     frequencies, headings, c.systems, c.unknowns, refined, std::ceil(c.bytes / 1e6),
-                     std::max(0.1, c.seconds));
-}
-
 std::vector<NamedFile> mesh_inputs(const std::vector<Path>& meshes) {
   std::vector<NamedFile> files;
   for (const Path& mesh : meshes) files.push_back({"the mesh", mesh});
   return files;
 }
 
-void tell_hulls(const WrittenCoefficients& written, const hp::Solution& solution, const Console& console) {
+}  // namespace
+
+void write_hulls(const hp::Solution& solution, CoefficientFormat format, const Path& output, const Console& console) {
+  const WrittenCoefficients written = write_as(format, solution.coefficients, output);
   const auto& check = solution.check;
   Report out;
   out.say("wrote {}", fact("files", written.files, fmt::join(written.files, ", ")));
@@ -56,19 +52,16 @@ void tell_hulls(const WrittenCoefficients& written, const hp::Solution& solution
   tell(out.keep("self_check/estimated_error", check.estimate), console);
 }
 
-}  // namespace
-
 void bem_solve_hulls(const BemHullArguments& a, const Console& console) {
   const CoefficientFormat target = format_of(a.output, a.format);
   require_outputs(files_to_write(target, a.output), mesh_inputs(a.meshes));
   const std::vector<hp::HullBody> bodies = hull_bodies(a);
   const hp::Cost cost = hp::cost(bodies, a.water, a.omega, a.heading, a.options);
-  if (console.show_progress) console.err << hull_cost_text(cost, a.omega.size(), a.heading.size()) << '\n';
+  if (console.show_progress) console.err << compile::size_of_hulls(cost, a.omega.size(), a.heading.size()) << '\n';
   Progress progress(console.err, "solve", console.show_progress);
   hp::Options options = a.options;
   options.progress = [&](int done, int all) { progress.update(static_cast<double>(done) / all); };
-  const hp::Solution solution = hp::solve(bodies, a.water, a.omega, a.heading, options);
-  tell_hulls(write_as(target, solution.coefficients, a.output), solution, console);
+  write_hulls(hp::solve(bodies, a.water, a.omega, a.heading, options), target, a.output, console);
 }
 
 }  // namespace froude

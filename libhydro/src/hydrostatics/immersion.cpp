@@ -84,8 +84,8 @@ void require_dry_openings(const Hull& hull, const Pose& pose) {
 
 Integrals integrate(const Hull& hull, const Pose& pose, const Vector2d& middle) {
   const double snap = 1e-12 * hull.diagonal();
-  std::vector<Vector3d> x;
-  x.reserve(hull.vertices().size());
+  thread_local std::vector<Vector3d> x;  // its room is kept, so that the steps of a run ask for none
+  x.clear();
   for (const Vector3d& v : hull.vertices()) {
     Vector3d p = pose * v;
     p.head<2>() -= middle;

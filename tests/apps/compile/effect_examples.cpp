@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 
@@ -94,13 +95,23 @@ draught = "1.13 m"
 frequencies = "0.5 rad/s .. 2 rad/s, 3 values"
 others = [{ at = "(0, 5.2, 0) m", diameter = "1.2 m", draught = "1.13 m" }]
 )";
+  const std::string mesh = R"([body.hydrodynamics]
+mesh = "inside_out.obj"
+reverse = true
+frequencies = "0.8 rad/s .. 1.4 rad/s, 3 values"
+mesh_tolerance = 0.9
+)";
   return {
       in_waves("hydrostatics", "", hydrodynamics("hydrostatics = true\n"), {"hydrostatics"}),
       in_waves("excitation", "", hydrodynamics("excitation = true\n"), {"excitation"}),
       in_waves("turning excitation", "", hydrodynamics(turning), {"excitation.turning"}),
       in_waves("radiation", "", hydrodynamics("radiation = { memory_tolerance = 1e-2 }\n"), {"radiation"}),
       in_waves("second order", "", "[body.second_order]\nfile = \"drift.8\"\nmethod = \"newman\"\n", {"second_order"}),
-      in_waves("cylinders", "", cylinders, {"hydrostatics"})};
+      in_waves("cylinders", "", cylinders, {"hydrostatics"}),
+      in_waves("mesh", "", mesh + "hydrostatics = true\n", {"hydrostatics"}),
+      in_waves("mesh in waves and still water", "",
+               mesh + "excitation = true\n[body.buoyancy]\nmesh_of_hydrodynamics = true\n",
+               {"excitation", "buoyancy"})};
 }
 
 std::vector<Example> of_springs() {
@@ -353,6 +364,32 @@ friction = 0.1
           body("contacts that slip", weight + moves, plane, {"weight", "contact"})};
 }
 
+namespace {
+
+/// A box of 4 m x 4 m, from 1 m under water to 1 m above, each face in four: OBJ, whose normals point inwards.
+std::string inside_out_box() {
+  std::string vertices, faces;
+  int count = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0})
+      for (const double u : {-1.0, 0.0})
+        for (const double v : {-1.0, 0.0}) {
+          for (const auto& [du, dv] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+            std::array<double, 3> at{};
+            at[axis] = side;
+            at[(axis + 1) % 3] = u + du;
+            at[(axis + 2) % 3] = v + dv;
+            vertices += fmt::format("v {} {} {}\n", 2 * at[0], 2 * at[1], at[2]);
+          }
+          const int n = count += 4;
+          faces += side > 0 ? fmt::format("f {} {} {} {}\n", n, n - 1, n - 2, n - 3)
+                            : fmt::format("f {} {} {} {}\n", n - 3, n - 2, n - 1, n);
+        }
+  return vertices + faces;
+}
+
+}  // namespace
+
 Files::Files() : folder_(std::filesystem::path(testing::TempDir()) / fmt::format("froude_effects_{}", ::getpid())) {
   std::filesystem::create_directories(folder_);
   std::filesystem::copy_file(froude_test::examples / "data/pontoon1.nc", folder_ / "pontoon1.nc",
@@ -361,6 +398,7 @@ Files::Files() : folder_(std::filesystem::path(testing::TempDir()) / fmt::format
   write("tension.csv", "elongation [m],tension [N]\n-1,-1000\n1,1000\n");
   write("slider_spring.csv", "stroke [m],force [N]\n-1,-1000\n1,1000\n");
   write("hinge_spring.csv", "angle [rad],moment [N m]\n-1,-1000\n1,1000\n");
+  write("inside_out.obj", inside_out_box());
   write("waves.csv", "period [s],amplitude [m],phase [rad]\n4,0.05,0\n5,0.05,1\n");
   write("drift.8", "4 0 0 1 1 0 1 0\n6 0 0 1 2 0 2 0\n");
   write("path.csv", "time [s],x [m],y [m],z [m]\n0,0,0,-1\n1,0.1,0,-1\n3,0.3,0,-1\n");

@@ -17,6 +17,7 @@
 #include "froude/kept_fits.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/io/atomic_file.hpp"
+#include "support/kept_folder.hpp"
 #include "support/scratch.hpp"
 #include "support/two_pole_body.hpp"
 
@@ -199,19 +200,11 @@ TEST(FitFolder, ServesSeveralAtOnce) {
   for (const auto& file : entries(folder.path())) EXPECT_EQ(file.extension(), ".fit") << "what was begun is left";
 }
 
-/// Sets the folder of the process, and takes it away again.
-struct OfProcess {
-  explicit OfProcess(const fs::path& path) { keep_fits_in(path); }
-  ~OfProcess() { keep_fits_in({}); }
-  OfProcess(const OfProcess&) = delete;
-  OfProcess& operator=(const OfProcess&) = delete;
-};
-
 TEST(RadiationFits, OfALaterProcessAreThoseOfAnEarlierOne) {
   const SymmetricData data = data_of();
   compile::RadiationFits alone;
   EXPECT_FALSE(alone.of(data, tolerance).kept_in) << "a library keeps nothing unless it is told to";
-  const OfProcess folder(fresh_folder());
+  const support::KeptFolder folder(fresh_folder());
   compile::RadiationFits earlier, later;
   EXPECT_FALSE(earlier.of(data, tolerance).kept_in);
   const auto& known = later.of(data, tolerance);

@@ -9,17 +9,20 @@
 namespace hydro {
 
 /// Does job(i) for i = 0 … count − 1 on `threads` threads, that of the caller among them. What is thrown first by index
-/// is thrown on, when all that are begun have ended; so results are the same for any number of threads.
+/// is thrown on, when all that are begun have ended and no other is begun; so results are the same for any number of
+/// threads.
 template <class Job>
 void in_parallel(std::size_t count, int threads, const Job& job) {
   std::atomic<std::size_t> next{0};
+  std::atomic<bool> ends{false};
   std::vector<std::exception_ptr> failed(count);
   const auto work = [&] {
-    for (std::size_t i = next++; i < count; i = next++) {
+    for (std::size_t i = next++; i < count && !ends; i = next++) {
       try {
         job(i);
       } catch (...) {
         failed[i] = std::current_exception();
+        ends = true;
       }
     }
   };

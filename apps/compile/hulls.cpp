@@ -1,0 +1,247 @@
+#include "compile/hulls.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "compile/archive.hpp"
+#include "compile/computed.hpp"
+#include "compile/fit_folder.hpp"
+#include "fit_sources.hpp"
+#include "hydro/potential/operations/operations.hpp"
+#include "scene/placed.hpp"
+
+namespace froude::compile {
+namespace {
+
+namespace hp = hydro::panels;
+using hydro::hydrostatics::TriangleMesh;
+using hydro::potential::Coefficients;
+using scene::HullMesh;
+using scene::Scene;
+
+constexpr const char* extension_of_hulls = ".hulls";
+
+std::mutex watcher_lock;
+std::function<void(int, int)> watcher_of_process;
+
+std::function<void(int, int)> watcher_of_hulls() {
+  const std::scoped_lock one_at_a_time(watcher_lock);
+  return watcher_of_process;
+}
+
+/// What hydro::panels is asked. A mesh that is symmetric in x = 0 or y = 0 is solved by its half or quarter, so the
+/// bodies stand about the origin for that: `from_origin` is the way from there to their places.
+struct HullRequest {
+  std::vector<hp::HullBody> bodies;
+  std::vector<double> omega, headings;
+  hp::Options options;
+  Eigen::Vector2d from_origin = Eigen::Vector2d::Zero();
+  hydro::Place place;
+};
+
+Eigen::Vector2d middle_of(const Scene& scene, const std::vector<int>& bodies) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const int b : bodies) sum += scene.bodies[static_cast<std::size_t>(b)].position.head<2>();
+  return sum / static_cast<double>(bodies.size());
+}
+
+/// Bodies that are copies share a file, which is read once.
+class HullMeshes {
+ public:
+  hydro::hydrostatics::Hull at(const HullMesh& mesh, const Eigen::Vector3d& place) {
+    const auto key = std::tuple(mesh.file, mesh.unit, mesh.reverse);
+    if (!known_.contains(key))
+      known_.emplace(key, hydro::hydrostatics::read_mesh(mesh.file, {.unit = mesh.unit, .reverse = mesh.reverse}));
+    TriangleMesh moved = known_.at(key);
+    for (Eigen::Vector3d& v : moved.vertices) v += place;
+    return hydro::hydrostatics::Hull(std::move(moved));
+  }
+
+ private:
+  std::map<std::tuple<std::filesystem::path, std::optional<double>, bool>, TriangleMesh> known_;
+};
+
+void require_same_panels(const HullMesh& first, const HullMesh& other, const hydro::Place& place) {
+  require_same_table("meshes", first, other, place);
+  if (other.tolerance != first.tolerance || other.lid != first.lid)
+    throw hydro::InputError("bodies of meshes state different mesh_tolerance or lid", place,
+                            "they are solved together: give all the same");
+}
+
+/// By name, or what the scene asks of its answers: they are no better than the coefficients.
+double tolerance_of(const HullMesh& mesh, const Scene& scene) { return mesh.tolerance.value_or(scene.accuracy); }
+
+HullRequest hull_request(const Scene& scene, const std::vector<int>& bodies) {
+  const scene::Hydrodynamics& first = hydrodynamics_of(scene, bodies.front());
+  HullRequest r{{}, first.mesh->omega, first.mesh->headings, {}, middle_of(scene, bodies), first.file.place};
+  HullMeshes meshes;
+  for (const int b : bodies) {
+    const scene::Hydrodynamics& h = hydrodynamics_of(scene, b);
+    require_same_panels(*first.mesh, *h.mesh, h.file.place);
+    const scene::Body& body = scene.bodies[static_cast<std::size_t>(b)];
+    const Eigen::Vector3d at = body.position - Eigen::Vector3d(r.from_origin.x(), r.from_origin.y(), 0);
+    r.bodies.push_back(scene::placed(h.file.place, [&] {
+      return hp::HullBody{body.name, at, at + body.centre_of_gravity, meshes.at(*h.mesh, at)};
+    }));
+  }
+  if (r.headings.empty()) r.headings = headings_asked(scene);
+  r.options.tolerance = tolerance_of(*first.mesh, scene);
+  r.options.refined_frequencies = 1;
+  r.options.lid = first.mesh->lid;
+  return r;
+}
+
+/// What decides on every bit of the coefficients: the program that solves, and all that it is asked.
+std::string key_of_hulls(const HullRequest& r, const hydro::Water& water) {
+  ArchiveWriter out{maker("solution by panels", FROUDE_PANEL_SOURCES)};
+  out(water.density);
+  out(water.gravity);
+  out(water.depth.metres());
+  out(r.omega);
+  out(r.headings);
+  out(r.options.tolerance);
+  out(r.options.refined_frequencies);
+  out(r.options.lid);
+  out.list(r.bodies, [](ArchiveWriter& to, const hp::HullBody& body) {
+    to(body.name);
+    to(body.reference_point);
+    to(body.centre_of_gravity);
+    to(body.hull.source());
+    to(body.hull.vertices());
+    to.list(body.hull.triangles(), [](ArchiveWriter& corners, const std::array<int, 3>& triangle) {
+      for (const int corner : triangle) corners(corner);
+    });
+  });
+  return std::move(out.bytes);
+}
+
+/// All of them, either way, but for what they were asked for: the water.
+template <class Archive, class Table>
+void pass_coefficients(Archive& archive, Table& coefficients) {
+  auto& [water, body, omega, heading, A, B, A_zero, A_inf, X, C, source, notes] = coefficients;
+  archive.list(body, [](auto& of, auto& one) {
+    auto& [name, reference_point, centre_of_gravity, centre_of_buoyancy, displaced_volume] = one;
+    of(name);
+    of(reference_point);
+    of(centre_of_gravity);
+    of(centre_of_buoyancy);
+    of(displaced_volume);
+  });
+  archive(omega);
+  archive(heading);
+  archive(A);
+  archive(B);
+  archive(A_zero);
+  archive(A_inf);
+  archive(X);
+  archive(C);
+  archive(source);
+  archive(notes);
+}
+
+std::optional<Coefficients> kept_coefficients(const KeptFiles& files, const HullRequest& r, const hydro::Water& water) {
+  const auto bytes = files.find(key_of_hulls(r, water), extension_of_hulls);
+  if (!bytes) return std::nullopt;
+  try {
+    ArchiveReader reader(*bytes);
+    Coefficients out;
+    pass_coefficients(reader, out);
+    out.water = water;
+    if (reader.at_end()) return out;
+  } catch (const std::length_error&) {
+  }
+  return std::nullopt;
+}
+
+Coefficients in_place(Coefficients c, const HullRequest& r) {
+  if (r.from_origin.isZero(0)) return c;
+  return hydro::potential::translated(std::move(c), r.from_origin);
+}
+
+hp::Solution solved_and_kept(const HullRequest& r, const hydro::Water& water) {
+  hp::Options options = r.options;
+  options.progress = watcher_of_hulls();
+  hp::Solution s = scene::placed(r.place, [&] { return hp::solve(r.bodies, water, r.omega, r.headings, options); });
+  if (const auto folder = fit_folder()) {
+    ArchiveWriter out;
+    pass_coefficients(out, s.coefficients);
+    folder->files().keep(key_of_hulls(r, water), out.bytes, extension_of_hulls);
+  }
+  s.coefficients = in_place(std::move(s.coefficients), r);
+  return s;
+}
+
+}  // namespace
+
+std::vector<int> bodies_of_meshes(const Scene& scene) {
+  return bodies_where(scene, [](const scene::Hydrodynamics& h) { return h.mesh.has_value(); });
+}
+
+void watch_hulls(std::function<void(int, int)> watcher) {
+  const std::scoped_lock one_at_a_time(watcher_lock);
+  watcher_of_process = std::move(watcher);
+}
+
+hp::Solution solve_hulls(const Scene& scene, const std::vector<int>& bodies) {
+  return solved_and_kept(hull_request(scene, bodies), scene.water);
+}
+
+Coefficients coefficients_of_hulls(const Scene& scene, const std::vector<int>& bodies) {
+  const HullRequest r = hull_request(scene, bodies);
+  const auto folder = fit_folder();
+  auto kept = folder ? kept_coefficients(folder->files(), r, scene.water) : std::nullopt;
+  if (!kept) return solved_and_kept(r, scene.water).coefficients;
+  kept->notes.push_back(fmt::format("{}: solved before and kept in {}; FROUDE_CACHE=off solves anew", kept->source,
+                                    folder->path().string()));
+  return in_place(std::move(*kept), r);
+}
+
+std::string what_hulls_are_solved(const Scene& scene, const std::vector<int>& bodies) {
+  const HullMesh& table = *hydrodynamics_of(scene, bodies.front()).mesh;
+  std::string out =
+      fmt::format("meshes {} {} {} {} {} | {} | {}", scene.water.density, scene.water.gravity,
+                  scene.water.depth.metres(), tolerance_of(table, scene), table.lid, fmt::join(table.omega, " "),
+                  fmt::join(table.headings.empty() ? headings_asked(scene) : table.headings, " "));
+  for (const int b : bodies) {
+    const scene::Body& body = scene.bodies[static_cast<std::size_t>(b)];
+    const HullMesh& mesh = *body.hydrodynamics->mesh;
+    out += fmt::format(" | {} {} {} {} {} {}", body.name, fmt::join(body.position, " "),
+                       fmt::join(body.centre_of_gravity, " "), mesh.file.string(), mesh.unit.value_or(0), mesh.reverse);
+  }
+  return out;
+}
+
+std::string size_of_hulls(const hp::Cost& c, std::size_t frequencies, std::size_t headings) {
+  const std::string refined = c.refined_unknowns > 0 ? fmt::format(", {} in the refined mesh", c.refined_unknowns) : "";
+  return fmt::format("{} panels, {} frequencies, {} headings; {} x {} unknowns{}, {:.3g} MB, about {:.2g} s", c.panels,
+                     frequencies, headings, c.systems, c.unknowns, refined, std::ceil(c.bytes / 1e6),
+                     std::max(0.1, c.seconds));
+}
+
+std::string HullPlan::method() const {
+  return kept_in ? fmt::format("panels, solved before and kept in {}", kept_in->string())
+                 : std::string("panels, the equations by elimination");
+}
+
+std::string HullPlan::size() const {
+  const std::string solving = size_of_hulls(cost, frequencies, headings);
+  return kept_in ? fmt::format("{}, none of which is to be done again", solving) : solving;
+}
+
+HullPlan plan_hulls(const Scene& scene, const std::vector<int>& bodies) {
+  const HullRequest r = hull_request(scene, bodies);
+  HullPlan plan{{}, r.omega.size(), r.headings.size(), {}};
+  scene::placed(r.place, [&] { plan.cost = hp::cost(r.bodies, scene.water, r.omega, r.headings, r.options); });
+  const auto folder = fit_folder();
+  if (folder && kept_coefficients(folder->files(), r, scene.water)) plan.kept_in = folder->path();
+  return plan;
+}
+
+}  // namespace froude::compile
