@@ -212,10 +212,14 @@ void add_hull_options(CLI::App& solve, HullTexts& texts, BemHullArguments& a) {
   solve.add_option("--cog", texts.cog, "centre of gravity, one a hull: \"(0, 0, -1) m\"; none: no C");
   solve.add_option("--unit", texts.unit, "of the numbers of the meshes: mm, cm, in, ft; metres if left out");
   solve.add_flag("--reverse", a.mesh.reverse, "turn the faces of the meshes inside out");
-  solve.add_option("--tolerance", texts.tolerance, "of the error by panels, relative: 0.02; they are refined, and the result extrapolated, until it is met")
+  solve
+      .add_option(
+          "--tolerance", texts.tolerance,
+          "of the error by panels, relative: 0.02; they are refined, and the result extrapolated, until it is met")
       ->check(CLI::Range(1e-6, 0.5));
-  solve.add_option("--refine", a.options.refined_frequencies,
-                   "at how many frequencies panels are cut in four: to tell the error, or with --tolerance to begin with");
+  solve.add_option(
+      "--refine", a.options.refined_frequencies,
+      "at how many frequencies panels are cut in four: to tell the error, or with --tolerance to begin with");
   solve.add_flag("--no-lid", texts.no_lid, "without panels on the water inside: irregular frequencies stay");
   solve.add_option("--threads", a.options.threads, "frequencies solved at a time; default: all processors");
 }

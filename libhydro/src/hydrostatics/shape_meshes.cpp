@@ -92,8 +92,7 @@ TriangleMesh cylinder_mesh(double radius, double draught, int side, int bottom, 
   const double a = radius * polygon_radius(columns);
   std::vector<Vector2d> profile;
   for (const double t : divided(side, Spacing::cosine)) profile.emplace_back(a, -draught * t);
-  for (int i = 1; i <= bottom; ++i)
-    profile.emplace_back(i == bottom ? 0 : a * std::cos(pi / 2 * i / bottom), -draught);
+  for (int i = 1; i <= bottom; ++i) profile.emplace_back(i == bottom ? 0 : a * std::cos(pi / 2 * i / bottom), -draught);
   return revolved(profile, columns, centre);
 }
 

@@ -173,8 +173,7 @@ Work Ladder::work() const {
   w.A_inf = inf.back() + step_to_the_limit(inf);
   if (!zero.empty()) w.A_zero = zero.back() + step_to_the_limit(zero);
   const Model& first = *levels_.front().model;
-  w.arm = first.length(bodies_.size());
-  w.check = self_check(w.results, w.arm);
+  w.check = self_check(w.results, first.length(bodies_.size()));
   const Estimate e = estimate(w);
   w.check.estimate = e.total();
   w.check.interpolation = e.interpolation;
@@ -185,7 +184,7 @@ Work Ladder::work() const {
 }
 
 Estimate Ladder::estimate(const Work& w) const {
-  const Sizes size = sizes(w.results, w.arm);
+  const Sizes size = sizes(w.results, w.check.length);
   Estimate e;
   for (const std::size_t i : samples()) e.panels = std::max(e.panels, largest(step(i), size));
   const auto limit = [&](std::optional<MatrixXd> Level::*which) {
@@ -247,7 +246,8 @@ Work controlled_work(const PanelMesh& given, const std::vector<HullBody>& bodies
                       "frequencies; {:.2g} is asked for, and {}",
                       e.total(), e.interpolation, w.check.refined_omega.size(), tolerance, ladder.why_not_finer()),
           {},
-          "make the mesh finer, above all at edges and at the waterline, leave out the shortest waves, or ask for less");
+          "make the mesh finer, above all at edges and at the waterline, leave out the shortest waves, or ask for "
+          "less");
   }
 }
 

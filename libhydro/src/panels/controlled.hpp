@@ -12,7 +12,6 @@ struct Work {
   std::vector<OneFrequency> results;  ///< of each frequency
   Eigen::MatrixXd A_inf;
   std::optional<Eigen::MatrixXd> A_zero;  ///< deep water only
-  double arm = 0;                         ///< of sizes(), m
   SelfCheck check;
 };
 

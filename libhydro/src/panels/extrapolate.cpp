@@ -13,8 +13,8 @@ using Eigen::MatrixXd;
 const double usual_ratio = std::sqrt(8.0);
 constexpr double least_ratio = 2, greatest_ratio = 4;
 
-/// The last difference over (ratio − 1), Richardson's step; the ratio of the last two differences, if there are two that
-/// have one sign, within what theory knows.
+/// The last difference over (ratio − 1), Richardson's step; the ratio of the last two differences, if there are two
+/// that have one sign, within what theory knows.
 template <class Matrix>
 Matrix richardson(const std::vector<const Matrix*>& v) {
   const std::size_t n = v.size();

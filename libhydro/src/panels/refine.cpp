@@ -45,9 +45,9 @@ void add_cut_along_edges(const Panel& p, std::vector<Panel>& out) {
   const std::vector<double> u = cuts(p.edge[3], p.edge[1]), v = cuts(p.edge[0], p.edge[2]);
   for (std::size_t i = 0; i + 1 < u.size(); ++i)
     for (std::size_t j = 0; j + 1 < v.size(); ++j)
-      out.push_back(panel({at(u[i], v[j]), at(u[i + 1], v[j]), at(u[i + 1], v[j + 1]), at(u[i], v[j + 1])}, p.body,
-                          {p.edge[0] && j == 0, p.edge[1] && i + 2 == u.size(), p.edge[2] && j + 2 == v.size(),
-                           p.edge[3] && i == 0}));
+      out.push_back(panel(
+          {at(u[i], v[j]), at(u[i + 1], v[j]), at(u[i + 1], v[j + 1]), at(u[i], v[j + 1])}, p.body,
+          {p.edge[0] && j == 0, p.edge[1] && i + 2 == u.size(), p.edge[2] && j + 2 == v.size(), p.edge[3] && i == 0}));
 }
 
 /// A triangle with one side at an edge: a strip of four corners along it, and the rest.

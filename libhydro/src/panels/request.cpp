@@ -75,11 +75,10 @@ bool too_long(const PanelMesh& mesh, const Water& water, double highest) {
 void require_short_panels(const PanelMesh& mesh, const Water& water, double highest) {
   if (!too_long(mesh, water, highest)) return;
   const double length = shortest_wave(water, highest);
-  throw InputError(
-      fmt::format("panels near the surface are up to {:.3g} m across, and waves of {:.4g} rad/s {:.3g} m "
-                  "long: fewer than {:g} panels a wave length",
-                  longest_reached(mesh, length), highest, length, a_wave_length),
-      {}, "make the mesh finer at the waterline, or leave out the shortest waves");
+  throw InputError(fmt::format("panels near the surface are up to {:.3g} m across, and waves of {:.4g} rad/s {:.3g} m "
+                               "long: fewer than {:g} panels a wave length",
+                               longest_reached(mesh, length), highest, length, a_wave_length),
+                   {}, "make the mesh finer at the waterline, or leave out the shortest waves");
 }
 
 void require_apart(const PanelMesh& mesh, const std::vector<HullBody>& bodies) {

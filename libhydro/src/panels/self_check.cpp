@@ -69,6 +69,7 @@ SelfCheck self_check(const std::vector<OneFrequency>& results, double arm) {
                                   potential::relative_size(r.B - r.B.transpose(), s.B)});
   }
   check.estimate = std::numeric_limits<double>::quiet_NaN();
+  check.length = arm;
   return check;
 }
 
@@ -79,6 +80,25 @@ double estimate_of(const std::vector<OneFrequency>& results, const std::vector<O
   for (std::size_t i = 0; i < finer.size(); ++i)
     change = std::max(change, largest(sum(finer[i], -1, results[refined[i]]), s));
   return coarse_over_change * change;
+}
+
+double difference(const potential::Coefficients& c, const potential::Coefficients& reference, double length) {
+  require(c.omega == reference.omega && c.heading == reference.heading && c.modes() == reference.modes(),
+          "coefficients are compared at the same frequencies and headings, of as many modes");
+  const auto at = [](const potential::Coefficients& of, std::size_t w) {
+    OneFrequency one{of.A[w], of.B[w], of.B[w], {}, {}};
+    one.X.resize(of.modes(), static_cast<Index>(of.heading.size()));
+    for (Index h = 0; h < one.X.cols(); ++h)
+      one.X.col(h) = of.X[static_cast<std::size_t>(h)].col(static_cast<Index>(w));
+    one.X_far = one.X;
+    return one;
+  };
+  std::vector<OneFrequency> all;
+  for (std::size_t w = 0; w < c.omega.size(); ++w) all.push_back(at(reference, w));
+  const Sizes size = sizes(all, length);
+  double out = 0;
+  for (std::size_t w = 0; w < c.omega.size(); ++w) out = std::max(out, largest(sum(at(c, w), -1, all[w]), size));
+  return out;
 }
 
 void describe(const PanelMesh& mesh, SelfCheck& check) {

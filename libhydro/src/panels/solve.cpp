@@ -7,12 +7,12 @@
 #include <limits>
 #include <mutex>
 
+#include "controlled.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/parallel.hpp"
-#include "controlled.hpp"
 #include "hydro/hydrostatics/immersion.hpp"
-#include "refine.hpp"
 #include "potential/solver_request.hpp"
+#include "refine.hpp"
 #include "request.hpp"
 #include "self_check.hpp"
 
@@ -62,17 +62,31 @@ void add_notes(const SelfCheck& k, Coefficients& c) {
     c.notes.push_back(
         fmt::format("B was made free of negative eigenvalues: changed by {:.1e} of its modes at most", k.passivity));
   if (!k.extrapolated_from.empty())
-    c.notes.push_back(
-        fmt::format("extrapolated to panels of no size on the same flat faces from meshes of {} panels, at {} of {} "
-                    "frequencies; between them what refinement changes is interpolated; estimated error {:.1e}, {:.1e} "
-                    "of it by that interpolation",
-                    fmt::join(k.extrapolated_from, ", "), k.refined_omega.size(), c.omega.size(), k.estimate,
-                    k.interpolation));
+    c.notes.push_back(fmt::format(
+        "extrapolated to panels of no size on the same flat faces from meshes of {} panels, at {} of {} "
+        "frequencies; between them what refinement changes is interpolated; estimated error {:.1e}, {:.1e} "
+        "of it by that interpolation",
+        fmt::join(k.extrapolated_from, ", "), k.refined_omega.size(), c.omega.size(), k.estimate, k.interpolation));
   else if (std::isnan(k.estimate))
     c.notes.push_back("the error by panels is not estimated: that takes panels cut in four, at a frequency at least");
   else
     c.notes.push_back(fmt::format("error by panels, estimated from four times as many at {} of {} frequencies: {:.1e}",
                                   k.refined_omega.size(), c.omega.size(), k.estimate));
+}
+
+/// What an estimate by smaller panels on the same faces cannot see.
+void note_flat_faces(const std::vector<HullBody>& bodies, Coefficients& c) {
+  double lacking = 0, all = 0;
+  for (const HullBody& body : bodies) {
+    lacking += hydrostatics::chord_volume(body.hull);
+    all += body.hull.volume();
+  }
+  constexpr double told = 1e-4;
+  if (std::abs(lacking) > told * all)
+    c.notes.push_back(
+        fmt::format("flat faces lack {:.2g} % of the volume of a smooth hull through the same corners; what "
+                    "that does to A, B and X is not part of the estimate",
+                    100 * lacking / all));
 }
 
 /// The mesh as it is given; its error is told if frequencies are to be refined.
@@ -103,10 +117,10 @@ Work plain_work(PanelMesh mesh, const std::vector<HullBody>& bodies, const Water
     ++done;
     if (options.progress) options.progress(done, static_cast<int>(all));
   });
-  w.arm = model.length(bodies.size());
-  w.check = self_check(w.results, w.arm);
+  const double length = model.length(bodies.size());
+  w.check = self_check(w.results, length);
   describe(model.mesh(), w.check);
-  if (fine) w.check.estimate = estimate_of(w.results, finer, refined, w.arm);
+  if (fine) w.check.estimate = estimate_of(w.results, finer, refined, length);
   for (const std::size_t i : refined) w.check.refined_omega.push_back(omega[i]);
   return w;
 }
@@ -126,7 +140,7 @@ MatrixXd passive(const MatrixXd& B, const Eigen::VectorXd& size) {
 /// Fills A, B and X, and returns the largest change of B that passivity needed, (P11).
 double fill(const Work& w, const std::vector<double>& omega, const std::vector<double>& heading, Coefficients& c) {
   const auto symmetric = [](const MatrixXd& M) { return MatrixXd((M + M.transpose()) / 2); };
-  const Eigen::VectorXd size = sizes(w.results, w.arm).B, scale = size.cwiseSqrt().cwiseInverse();
+  const Eigen::VectorXd size = sizes(w.results, w.check.length).B, scale = size.cwiseSqrt().cwiseInverse();
   double changed = 0;
   c.omega = omega;
   c.heading = heading;
@@ -164,6 +178,7 @@ Solution solve(const std::vector<HullBody>& bodies, const Water& water, const st
   fill_bodies(bodies, water, c);
   s.check.passivity = fill(w, omega, heading, c);
   add_notes(s.check, c);
+  if (!std::isnan(s.check.estimate)) note_flat_faces(bodies, c);
   c.validate();
   return s;
 }

@@ -17,11 +17,10 @@ enum class Spacing { equal, cosine };
 /// Radius over that of the circle whose area a regular polygon of so many corners has.
 double polygon_radius(int corners);
 
-/// The surface that a line makes that is turned about the vertical through `centre`: `profile` holds its corners, radius
-/// of the polygon's corners and z, from the top down; radius 0 is allowed at the ends.
-/// \throws InputError unless there are two points and three columns at least, radii are not negative and all is finite
-TriangleMesh revolved(const std::vector<Eigen::Vector2d>& profile, int columns,
-                      const Eigen::Vector2d& centre = {0, 0});
+/// The surface that a line makes that is turned about the vertical through `centre`: `profile` holds its corners,
+/// radius of the polygon's corners and z, from the top down; radius 0 is allowed at the ends. \throws InputError unless
+/// there are two points and three columns at least, radii are not negative and all is finite
+TriangleMesh revolved(const std::vector<Eigen::Vector2d>& profile, int columns, const Eigen::Vector2d& centre = {0, 0});
 
 /// A hemisphere below z = 0, of the volume of the round one: parallels and meridians in equal angles.
 /// \throws InputError unless radius, rows and columns are positive, columns three at least

@@ -53,7 +53,9 @@ struct SelfCheck {
   double interpolation = 0;            ///< part of the estimate: by refining at some frequencies only
   std::vector<double> refined_omega;   ///< where it was measured, rad/s
   std::vector<int> extrapolated_from;  ///< panels of the meshes, coarse to fine; empty: not extrapolated
-  int panels = 0;                     ///< under water
+  /// m, the side of a square of the mean wet area of a hull: by which rotations are measured beside translations.
+  double length = 0;
+  int panels = 0;  ///< under water
   int lid_panels = 0;
   int planes_of_symmetry = 0;  ///< 0, 1 or 2: found in the mesh, and used
 };
@@ -82,6 +84,11 @@ struct Cost {
 /// a tolerance that cannot be met with three meshes of at most 4000 unknowns a system
 Solution solve(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
                const std::vector<double>& heading, const Options& options = {});
+
+/// The largest difference of A, B and X at the same frequencies, measured as the estimate is: each entry against its
+/// two modes in `reference` (P11), but against a tenth of the largest mode of the kind at least. `length` is
+/// SelfCheck::length. \throws InputError if frequencies or headings differ
+double difference(const potential::Coefficients& c, const potential::Coefficients& reference, double length);
 
 /// \throws InputError as solve()
 Cost cost(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
