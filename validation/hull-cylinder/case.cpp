@@ -80,7 +80,7 @@ Outcome outcome(const Folders&) {
   constexpr double tolerance = 0.003;  // three meshes
   const Compared bed = compare({1, 0.8, 3}, mesh, omega, tolerance),
                  deep = compare({1, 0.8, 40, true}, mesh, omega, tolerance);
-  const Coverage many = coverage(150);
+  const Coverage many = coverage(100);
   const double largest = *std::max_element(many.estimate.begin(), many.estimate.end());
   const plot::Panel panel{
       .x = {.label = "estimate"},
@@ -95,7 +95,7 @@ Outcome outcome(const Folders&) {
                       {"draws: largest error", many.largest_error, ""}},
           .pictures = {
               {"estimates",
-               "Error of A, B and X against eigenfunctions, and its estimate, for 150 drawn cylinders of 48 panels.",
+               "Error of A, B and X against eigenfunctions, and its estimate, for 100 drawn cylinders of 48 panels.",
                {.title = "Panels of cylinders", .panels = {panel}}}}};
 }
 

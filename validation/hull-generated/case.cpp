@@ -41,7 +41,8 @@ struct Compared {
   double estimate = 0;
 };
 
-/// `count` of their frequencies from `low` to `high`, rad/s; their reference point and centre of gravity.
+/// `count` of their frequencies from `low` to `high`, rad/s. Where their file names no reference point it is the
+/// origin, as the README of the data tells.
 Compared compare(const Coefficients& theirs, TriangleMesh mesh, double low, double high, std::size_t count,
                  double tolerance) {
   std::vector<std::size_t> inside, at;

@@ -50,7 +50,9 @@ TEST(PanelExtrapolation, BetweenFrequenciesACubicIsExact) {
       double sum = 0;
       for (std::size_t i = 0; i < nodes.size(); ++i) sum += weights[i] * cubic(nodes[i]);
       EXPECT_NEAR(sum, cubic(x), 1e-13) << without << ' ' << x;
-      if (without >= 0) EXPECT_EQ(weights[static_cast<std::size_t>(without)], 0);
+      if (without >= 0) {
+        EXPECT_EQ(weights[static_cast<std::size_t>(without)], 0);
+      }
     }
   EXPECT_EQ(cubic_weights({1.0}, 1.0), std::vector<double>{1});
 }
