@@ -26,6 +26,10 @@ constexpr std::size_t least_samples = 5;  // a cubic, and one to test it by
 /// Less is trusted, since few nodes may not be many enough for the law of small distances.
 constexpr double of_omitted = 0.25;
 
+/// What is added is the slope of the values times a shift in frequency, thus rougher than they are: three times at the
+/// resonance of the water between two boxes.
+constexpr double of_roughness = 4;
+
 /// One mesh, and what it has been asked: of each frequency, and the two limits.
 struct Level {
   std::unique_ptr<Model> model;
@@ -53,6 +57,8 @@ class Ladder {
   void solve();
   Work work() const;
   Estimate estimate(const Work& w) const;
+  /// Of what is added to the first mesh, interpolated.
+  double interpolation_error(const Sizes& size) const;
 
   bool samples_all() const { return samples().size() == omega_.size(); }
   void double_samples() { wanted_ = 2 * wanted_ - 1; }
@@ -195,15 +201,28 @@ Estimate Ladder::estimate(const Work& w) const {
   limit(&Level::A_inf);
   if (w.A_zero) limit(&Level::A_zero);
   e.panels *= doubtful_share(levels_.size());
-  if (samples_all()) return e;
+  if (!samples_all()) e.interpolation = interpolation_error(size);
+  return e;
+}
+
+double Ladder::interpolation_error(const Sizes& size) const {
   const std::vector<OneFrequency> correction = corrections();
   const std::vector<double> nodes = sample_omega();
-  for (std::size_t s = 1; s + 1 < nodes.size(); ++s) {
+  double missed = 0, added = 0, rough = 0;
+  for (std::size_t s = 0; s < nodes.size(); ++s) {
+    added = std::max(added, largest(correction[s], size));
+    if (s == 0 || s + 1 == nodes.size()) continue;
     const std::vector<double> others = cubic_weights(nodes, nodes[s], static_cast<int>(s));
-    const double missed = largest(sum(correction[s], -1, weighted(correction, others)), size);
-    e.interpolation = std::max(e.interpolation, of_omitted * missed);
+    missed = std::max(missed, largest(sum(correction[s], -1, weighted(correction, others)), size));
   }
-  return e;
+  // A resonance between nodes is seen in the values of the first mesh, which are known everywhere: what is added is
+  // taken to be a multiple as rough as they are.
+  std::vector<OneFrequency> at_nodes;
+  for (const std::size_t i : samples()) at_nodes.push_back(*levels_.front().at[i]);
+  for (std::size_t i = 0; i < omega_.size(); ++i)
+    rough = std::max(
+        rough, largest(sum(*levels_.front().at[i], -1, weighted(at_nodes, cubic_weights(nodes, omega_[i]))), size));
+  return std::max(of_omitted * missed, of_roughness * added * rough);
 }
 
 std::string Ladder::why_not_finer() const {
