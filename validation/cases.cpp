@@ -22,6 +22,9 @@ namespace floquet { Outcome outcome(const Folders& folders); }
 namespace formats { Outcome outcome(const Folders& folders); }
 namespace fpso_rao { Outcome outcome(const Folders& folders); }
 namespace hendriksen_waves { Outcome outcome(const Folders& folders); }
+namespace hull_cylinder { Outcome outcome(const Folders& folders); }
+namespace hull_generated { Outcome outcome(const Folders& folders); }
+namespace hull_hulme { Outcome outcome(const Folders& folders); }
 namespace huijgen_cone { Outcome outcome(const Folders& folders); }
 namespace huijgen_damping { Outcome outcome(const Folders& folders); }
 namespace huijgen_double { Outcome outcome(const Folders& folders); }
@@ -91,7 +94,10 @@ const std::vector<Case>& cases() {
       {"dispersion", dispersion::outcome},
       {"spectra", spectra::outcome},
       {"hulme", hulme::outcome, {"hulme_hemisphere"}},
+      {"hull-hulme", hull_hulme::outcome, {"hulme_hemisphere"}},
       {"cylinder", cylinder::outcome},
+      {"hull-cylinder", hull_cylinder::outcome},
+      {"hull-generated", hull_generated::outcome, {"generated-bem"}},
       {"two-pole", two_pole::outcome},
       {"orszaghova-expansion", orszaghova_expansion::outcome},
       {"floquet", floquet::outcome},

@@ -199,9 +199,7 @@ void read_hulls(const HullTexts& texts, BemHullArguments& a) {
   a.reference = hull_points("--reference", texts.reference, a.meshes.size());
   a.centre_of_gravity = hull_points("--cog", texts.cog, a.meshes.size());
   a.options.lid = !texts.no_lid;
-  if (texts.tolerance <= 0) return;
-  a.options.tolerance = texts.tolerance;
-  if (a.options.refined_frequencies == 0) a.options.refined_frequencies = 1;
+  if (texts.tolerance > 0) a.options.tolerance = texts.tolerance;
 }
 
 void add_hull_options(CLI::App& solve, HullTexts& texts, BemHullArguments& a) {
@@ -214,10 +212,14 @@ void add_hull_options(CLI::App& solve, HullTexts& texts, BemHullArguments& a) {
   solve.add_option("--cog", texts.cog, "centre of gravity, one a hull: \"(0, 0, -1) m\"; none: no C");
   solve.add_option("--unit", texts.unit, "of the numbers of the meshes: mm, cm, in, ft; metres if left out");
   solve.add_flag("--reverse", a.mesh.reverse, "turn the faces of the meshes inside out");
-  solve.add_option("--tolerance", texts.tolerance, "largest estimated error by panels, relative: 0.02; refused above")
+  solve
+      .add_option(
+          "--tolerance", texts.tolerance,
+          "of the error by panels, relative: 0.02; they are refined, and the result extrapolated, until it is met")
       ->check(CLI::Range(1e-6, 0.5));
-  solve.add_option("--refine", a.options.refined_frequencies,
-                   "at how many frequencies the error is estimated, by panels cut in four; 1 with --tolerance");
+  solve.add_option(
+      "--refine", a.options.refined_frequencies,
+      "at how many frequencies panels are cut in four: to tell the error, or with --tolerance to begin with");
   solve.add_flag("--no-lid", texts.no_lid, "without panels on the water inside: irregular frequencies stay");
   solve.add_option("--threads", a.options.threads, "frequencies solved at a time; default: all processors");
 }

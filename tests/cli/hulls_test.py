@@ -95,6 +95,15 @@ class Hulls(unittest.TestCase):
         self.assertAlmostEqual(info["bodies"][0]["displaced_volume_m3"], 1.2, places=6)
         self.assertAlmostEqual(info["bodies"][0]["C33_N_per_m"], 1000 * 9.81 * 2.4, delta=1)
 
+    def test_a_tolerance_refines_and_tells_the_error(self):
+        (self.folder / "coarse.obj").write_text(box(2))
+        told = json.loads(self.froude("--json", "bem", "solve", "coarse.obj", *self.water[:4], "--frequencies", "0.5 rad/s .. 2.5 rad/s, 9 values",
+                                      "--headings", "0 deg .. 90 deg, 2 values", "--tolerance", "0.05", "-o", "coarse.h5").stdout)
+        self.assertEqual(len(told["extrapolated_from_panels"]), 2)
+        self.assertGreater(told["extrapolated_from_panels"][1], 3 * told["extrapolated_from_panels"][0])
+        self.assertLess(told["self_check"]["estimated_error"], 0.05)
+        self.assertTrue(any("interpolated" in note for note in told["notes"]), told["notes"])
+
     def test_two_hulls_are_solved_together(self):
         (self.folder / "other.obj").write_text(box(4, at=3.0))
         told = json.loads(self.froude("--json", "bem", "solve", "box.obj", "other.obj", "--density", "1000 kg/m^3", "--depth", "5 m",
@@ -181,8 +190,9 @@ class Hulls(unittest.TestCase):
         self.refused("box.obj", *self.water, "-o", "box.obj", parts=["box.obj"])
         self.refused("box.obj", *self.water, *out, "--cog", "(0, 0, 0) m", "--cog", "(0, 0, 0) m", parts=["--cog gives 2 points"])
         self.refused("box.obj", *self.water, *out, "--reverse", parts=["inside out"])
-        self.refused("box.obj", *self.water[:4], "--frequencies", "1 rad/s .. 2 rad/s, 2 values", "--tolerance", "0.0001", *out,
-                     parts=["estimated at", "make the mesh finer"])
+        (self.folder / "coarse.obj").write_text(box(2))
+        self.refused("coarse.obj", *self.water[:4], "--frequencies", "1 rad/s .. 2 rad/s, 2 values", "--tolerance", "0.0001", *out,
+                     parts=["estimated at", "0.0001 is asked for", "make the mesh finer"])
         self.refused(str(SOURCE / "examples/cylinders.toml"), "--density", "1000 kg/m^3", *out, parts=["--density is for meshes"])
         self.assertFalse((self.folder / "x.h5").exists())
         narrow = SCENE.format(MESH.replace(".. 6 rad/s", ".. 3 rad/s"))

@@ -49,6 +49,7 @@ void write_hulls(const hp::Solution& solution, CoefficientFormat format, const P
   out.keep("planes_of_symmetry", check.planes_of_symmetry);
   out.keep("self_check/energy", check.energy).keep("self_check/haskind", check.haskind);
   out.keep("self_check/reciprocity", check.reciprocity);
+  out.keep("extrapolated_from_panels", check.extrapolated_from);
   tell(out.keep("self_check/estimated_error", check.estimate), console);
 }
 

@@ -22,8 +22,8 @@ WavePart WaveGreen::operator()(double R, double z, double zeta) const {
 
 /// 2K(F − iπe^{−KY}J₀(KR)).
 WavePart WaveGreen::deep(double R, double Y) const {
-  const DeepWave w = deep_wave(K_ * R, K_ * Y);
   const BesselPair J = bessel_j(K_ * R);
+  const DeepWave w = deep_wave(K_ * R, K_ * Y, J);
   const double e = pi * std::exp(-K_ * Y), twice = 2 * K_;
   return {.G = {twice * w.F, -twice * e * J.order0},
           .G_R = {twice * K_ * w.F_X, twice * K_ * e * J.order1},
@@ -33,6 +33,7 @@ WavePart WaveGreen::deep(double R, double Y) const {
 WavePart WaveGreen::over_bed(double R, double z, double zeta) const {
   const bool waves = !std::isinf(K_);
   double G = 0, G_R = 0, G_zeta = 0;
+  std::optional<BesselPair> of_deep;  // the same for both images
   // V₁ = z + ζ + 2h grows with ζ, V₂ = |z − ζ| with the sign of ζ − z.
   for (const bool second : {false, true}) {
     const double V = second ? std::abs(z - zeta) : z + zeta + 2 * h_, Y = 2 * h_ - V;
@@ -42,7 +43,8 @@ WavePart WaveGreen::over_bed(double R, double z, double zeta) const {
     G_R += d.d_R;
     G_zeta += grows * d.d_V;
     if (waves && !d.whole) {
-      const DeepWave w = deep_wave(K_ * R, K_ * Y);
+      if (!of_deep) of_deep = bessel_j(K_ * R);
+      const DeepWave w = deep_wave(K_ * R, K_ * Y, *of_deep);
       G += 2 * K_ * w.F;
       G_R += 2 * K_ * K_ * w.F_X;
       G_zeta -= grows * 2 * K_ * K_ * w.F_Y;

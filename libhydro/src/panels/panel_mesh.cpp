@@ -237,16 +237,6 @@ void add_three_points(const Vector3d& a, const Vector3d& b, const Vector3d& c, i
     rule.push_back({p, weight});
 }
 
-Panel panel(std::vector<Vector3d> corners, int body) {
-  Panel p{.shape = polygon(std::move(corners)), .body = body, .rule = {}};
-  p.rule[0] = {{p.shape.centre, p.shape.area}};
-  const auto& c = p.shape.corners;
-  for (int level = 1; level < 4; ++level)
-    for (std::size_t i = 1; i + 1 < c.size(); ++i)
-      add_three_points(c[0], c[i], c[i + 1], level - 1, p.rule[static_cast<std::size_t>(level)]);
-  return p;
-}
-
 bool inside(const std::vector<Segment>& waterline, const Vector2d& p) {
   bool in = false;
   for (const auto& [a, b] : waterline)
@@ -280,8 +270,37 @@ void add_lid(const WetHull& hull, const std::vector<Image>& images, int body, Pa
     const bool kept = images.size() == 1 || std::all_of(images.begin(), images.end(), [&](const Image& image) {
                         return (image.x > 0 || square.centre.x() > 0) && (image.y > 0 || square.centre.y() > 0);
                       });
-    if (kept) out.lid.push_back(panel(square.corners, body));
+    if (kept) out.lid.push_back(panel(square.corners, body, {}));
   }
+}
+
+// ---- edges
+
+/// Of each side of each outline whether the potential is not smooth there: at the waterline, and at knuckles of more
+/// than 30° like those of hydrostatics::chord_volume().
+std::vector<std::vector<bool>> edges_of(const std::vector<Outline>& all) {
+  constexpr double cosine = 0.866;
+  std::map<std::pair<Key, Key>, Vector3d> normal_of;
+  const auto normal = [](const Corners& c) {
+    Vector3d n = Vector3d::Zero();
+    for (std::size_t i = 1; i + 1 < c.size(); ++i) n += (c[i] - c[0]).cross(c[i + 1] - c[0]);
+    return Vector3d(n.normalized());
+  };
+  const auto next = [](const Corners& c, std::size_t i) { return c[(i + 1) % c.size()]; };
+  for (const Outline& o : all)
+    for (std::size_t i = 0; i < o.corners.size(); ++i)
+      normal_of[{key(o.corners[i]), key(next(o.corners, i))}] = normal(o.corners);
+  std::vector<std::vector<bool>> out;
+  for (const Outline& o : all) {
+    out.emplace_back();
+    for (std::size_t i = 0; i < o.corners.size(); ++i) {
+      const Vector3d &a = o.corners[i], b = next(o.corners, i);
+      const auto other = normal_of.find({key(b), key(a)});
+      const bool knuckle = other != normal_of.end() && other->second.dot(normal(o.corners)) < cosine;
+      out.back().push_back(knuckle || (a.z() == 0 && b.z() == 0));
+    }
+  }
+  return out;
 }
 
 std::vector<Image> images_of(bool x, bool y) {
@@ -293,6 +312,16 @@ std::vector<Image> images_of(bool x, bool y) {
 }
 
 }  // namespace
+
+Panel panel(std::vector<Vector3d> corners, int body, std::vector<bool> edge) {
+  Panel p{.shape = polygon(std::move(corners)), .body = body, .rule = {}, .edge = std::move(edge)};
+  p.rule[0] = {{p.shape.centre, p.shape.area}};
+  const auto& c = p.shape.corners;
+  for (int level = 1; level < 4; ++level)
+    for (std::size_t i = 1; i + 1 < c.size(); ++i)
+      add_three_points(c[0], c[i], c[i + 1], level - 1, p.rule[static_cast<std::size_t>(level)]);
+  return p;
+}
 
 std::vector<Polygon> lid_squares(const std::vector<Segment>& waterline, double side) {
   std::vector<Polygon> out;
@@ -323,10 +352,11 @@ PanelMesh panel_mesh(const std::vector<HullBody>& bodies, const WaterDepth& dept
   const std::vector<int> x = partners(outlines, {-1, 1}, near), y = partners(outlines, {1, -1}, near);
   PanelMesh out;
   out.images = images_of(!x.empty(), !y.empty());
+  const std::vector<std::vector<bool>> edges = edges_of(outlines);
   for (std::size_t i = 0; i < outlines.size(); ++i) {
     const Vector3d centre = mean(outlines[i].corners);
     if ((!x.empty() && centre.x() < 0) || (!y.empty() && centre.y() < 0)) continue;
-    out.hull.push_back(panel(outlines[i].corners, outlines[i].body));
+    out.hull.push_back(panel(outlines[i].corners, outlines[i].body, edges[i]));
     std::array<int, 4> body{};
     for (std::size_t s = 0; s < out.images.size(); ++s) {
       std::size_t at = i;
@@ -337,25 +367,6 @@ PanelMesh panel_mesh(const std::vector<HullBody>& bodies, const WaterDepth& dept
     out.body_of.push_back(body);
   }
   for (std::size_t b = 0; lid && b < bodies.size(); ++b) add_lid(hulls[b], out.images, static_cast<int>(b), out);
-  return out;
-}
-
-PanelMesh refined(const PanelMesh& mesh) {
-  PanelMesh out{.hull = {}, .lid = mesh.lid, .images = mesh.images, .body_of = {}};
-  for (std::size_t i = 0; i < mesh.hull.size(); ++i) {
-    const auto& c = mesh.hull[i].shape.corners;
-    const std::size_t n = c.size();
-    std::vector<Vector3d> middles;
-    for (std::size_t k = 0; k < n; ++k) middles.push_back((c[k] + c[(k + 1) % n]) / 2);
-    const Vector3d centre = mean(c);
-    for (std::size_t k = 0; k < n; ++k) {
-      const Vector3d &a = middles[(k + n - 1) % n], &b = middles[k];
-      out.hull.push_back(panel(n > 3 ? std::vector<Vector3d>{a, c[k], b, centre} : std::vector<Vector3d>{a, c[k], b},
-                               mesh.hull[i].body));
-    }
-    if (n == 3) out.hull.push_back(panel(middles, mesh.hull[i].body));
-    while (out.body_of.size() < out.hull.size()) out.body_of.push_back(mesh.body_of[i]);
-  }
   return out;
 }
 

@@ -19,7 +19,10 @@ struct Panel {
   Polygon shape;
   int body;
   std::array<std::vector<RulePoint>, 4> rule;  ///< from its centre alone to many points
+  std::vector<bool> edge;                      ///< of each side: a knuckle of the hull or its waterline, see graded()
 };
+/// With rules; `edge` belongs to the sides from each corner to the next.
+Panel panel(std::vector<Eigen::Vector3d> corners, int body, std::vector<bool> edge);
 
 /// Signs of x and y in one image of the part that is kept; the first is (1, 1).
 struct Image {
@@ -38,9 +41,6 @@ struct PanelMesh {
 
 /// \throws InputError as solve()
 PanelMesh panel_mesh(const std::vector<HullBody>& bodies, const WaterDepth& depth, bool lid);
-/// Every panel cut through the middles of its sides: a triangle into four, others into as many as they have corners.
-PanelMesh refined(const PanelMesh& mesh);
-
 /// Squares that cover the water inside the closed lines that `waterline` (pairs of points) makes, all but a seam.
 std::vector<Polygon> lid_squares(const std::vector<std::array<Eigen::Vector2d, 2>>& waterline, double side);
 

@@ -11,8 +11,13 @@ namespace hydro::panels {
 void check_request(const std::vector<double>& omega, const std::vector<double>& heading, const Options& options);
 /// \throws InputError if the centre of a panel is inside another body
 void require_apart(const PanelMesh& mesh, const std::vector<HullBody>& bodies);
-Cost cost_of(const PanelMesh& mesh, std::size_t bodies, std::size_t frequencies, std::size_t headings,
-             const Options& options);
+/// True if a panel that waves of rad/s `highest` reach is longer than a fifth of them.
+bool too_long(const PanelMesh& mesh, const Water& water, double highest);
+/// \throws InputError if too_long()
+void require_short_panels(const PanelMesh& mesh, const Water& water, double highest);
+/// Of `mesh`, and of it refined at so many frequencies. `threads` as in Options.
+Cost cost_of(const PanelMesh& mesh, std::size_t bodies, std::size_t frequencies, std::size_t headings, int threads,
+             int refined_frequencies);
 /// \throws InputError if the machine has less
 void require_memory(const Cost& cost);
 /// Where panels are cut in four: both ends and evenly between; a single one is the last.

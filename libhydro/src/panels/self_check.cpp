@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "extrapolate.hpp"
 #include "potential/modes.hpp"
 
 namespace hydro::panels {
@@ -26,9 +27,18 @@ void raise_to_floor(VectorXd& size, double arm) {
   for (Index i = 0; i < size.size(); ++i) size(i) = std::max(size(i), least * largest[i % 6 / 3]);
 }
 
-struct Sizes {
-  VectorXd A, B, X;
-};
+double relative(const MatrixXcd& difference, const VectorXd& size) {
+  double largest = 0;
+  for (Index i = 0; i < difference.rows(); ++i)
+    for (Index j = 0; j < difference.cols(); ++j)
+      if (size(i) > 0) largest = std::max(largest, std::abs(difference(i, j)) / size(i));
+  return largest;
+}
+
+/// Errors that fall at least as the size of panels: half of that of the coarse mesh is left on the fine one (G15).
+constexpr double coarse_over_change = 2;
+
+}  // namespace
 
 Sizes sizes(const std::vector<OneFrequency>& results, double arm) {
   const Index modes = results.front().A.rows();
@@ -44,21 +54,12 @@ Sizes sizes(const std::vector<OneFrequency>& results, double arm) {
   return s;
 }
 
-double relative(const MatrixXcd& difference, const VectorXd& size) {
-  double largest = 0;
-  for (Index i = 0; i < difference.rows(); ++i)
-    for (Index j = 0; j < difference.cols(); ++j)
-      if (size(i) > 0) largest = std::max(largest, std::abs(difference(i, j)) / size(i));
-  return largest;
+double largest(const OneFrequency& difference, const Sizes& size) {
+  return std::max({potential::relative_size(difference.A, size.A), potential::relative_size(difference.B, size.B),
+                   relative(difference.X, size.X)});
 }
 
-/// Errors that fall at least as the size of panels: half of that of the coarse mesh is left on the fine one (G15).
-constexpr double coarse_over_change = 2;
-
-}  // namespace
-
-SelfCheck self_check(const std::vector<OneFrequency>& results, const std::vector<OneFrequency>& finer,
-                     const std::vector<std::size_t>& refined, double arm) {
+SelfCheck self_check(const std::vector<OneFrequency>& results, double arm) {
   const Sizes s = sizes(results, arm);
   SelfCheck check;
   for (const OneFrequency& r : results) {
@@ -67,15 +68,43 @@ SelfCheck self_check(const std::vector<OneFrequency>& results, const std::vector
     check.reciprocity = std::max({check.reciprocity, potential::relative_size(r.A - r.A.transpose(), s.A),
                                   potential::relative_size(r.B - r.B.transpose(), s.B)});
   }
-  if (finer.empty()) check.estimate = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t i = 0; i < finer.size(); ++i) {
-    const OneFrequency& r = results[refined[i]];
-    const double change =
-        std::max({potential::relative_size(finer[i].A - r.A, s.A), potential::relative_size(finer[i].B - r.B, s.B),
-                  relative(MatrixXcd(finer[i].X - r.X), s.X)});
-    check.estimate = std::max(check.estimate, coarse_over_change * change);
-  }
+  check.estimate = std::numeric_limits<double>::quiet_NaN();
+  check.length = arm;
   return check;
+}
+
+double estimate_of(const std::vector<OneFrequency>& results, const std::vector<OneFrequency>& finer,
+                   const std::vector<std::size_t>& refined, double arm) {
+  const Sizes s = sizes(results, arm);
+  double change = 0;
+  for (std::size_t i = 0; i < finer.size(); ++i)
+    change = std::max(change, largest(sum(finer[i], -1, results[refined[i]]), s));
+  return coarse_over_change * change;
+}
+
+double difference(const potential::Coefficients& c, const potential::Coefficients& reference, double length) {
+  require(c.omega == reference.omega && c.heading == reference.heading && c.modes() == reference.modes(),
+          "coefficients are compared at the same frequencies and headings, of as many modes");
+  const auto at = [](const potential::Coefficients& of, std::size_t w) {
+    OneFrequency one{of.A[w], of.B[w], of.B[w], {}, {}};
+    one.X.resize(of.modes(), static_cast<Index>(of.heading.size()));
+    for (Index h = 0; h < one.X.cols(); ++h)
+      one.X.col(h) = of.X[static_cast<std::size_t>(h)].col(static_cast<Index>(w));
+    one.X_far = one.X;
+    return one;
+  };
+  std::vector<OneFrequency> all;
+  for (std::size_t w = 0; w < c.omega.size(); ++w) all.push_back(at(reference, w));
+  const Sizes size = sizes(all, length);
+  double out = 0;
+  for (std::size_t w = 0; w < c.omega.size(); ++w) out = std::max(out, largest(sum(at(c, w), -1, all[w]), size));
+  return out;
+}
+
+void describe(const PanelMesh& mesh, SelfCheck& check) {
+  check.panels = mesh.hull_panels();
+  check.lid_panels = mesh.lid_panels();
+  check.planes_of_symmetry = static_cast<int>(mesh.images.size()) / 2;
 }
 
 }  // namespace hydro::panels

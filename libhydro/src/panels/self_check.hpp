@@ -6,9 +6,21 @@
 
 namespace hydro::panels {
 
-/// Numbers measured as in (P11), with `arm` [m] a length of the hulls. `finer` belongs to the frequencies refined[…] of
-/// `results`.
-SelfCheck self_check(const std::vector<OneFrequency>& results, const std::vector<OneFrequency>& finer,
-                     const std::vector<std::size_t>& refined, double arm);
+/// Sizes of the modes, (P11), by which numbers are measured; a tenth of the largest of the kind at least.
+struct Sizes {
+  Eigen::VectorXd A, B, X;
+};
+/// `arm` [m] is a length of the hulls.
+Sizes sizes(const std::vector<OneFrequency>& results, double arm);
+/// The largest of A, B and X.
+double largest(const OneFrequency& difference, const Sizes& size);
+
+/// What the laws say of results; the estimate is NaN.
+SelfCheck self_check(const std::vector<OneFrequency>& results, double arm);
+/// The error that panels cut in four tell (G15): `finer` belongs to the frequencies refined[…] of `results`.
+double estimate_of(const std::vector<OneFrequency>& results, const std::vector<OneFrequency>& finer,
+                   const std::vector<std::size_t>& refined, double arm);
+/// Numbers of panels and planes.
+void describe(const PanelMesh& mesh, SelfCheck& check);
 
 }  // namespace hydro::panels

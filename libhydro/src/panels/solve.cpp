@@ -6,14 +6,13 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <numbers>
 
+#include "controlled.hpp"
 #include "hydro/base/dense.hpp"
 #include "hydro/base/parallel.hpp"
 #include "hydro/hydrostatics/immersion.hpp"
-#include "hydro/waves/dispersion.hpp"
-#include "one_frequency.hpp"
 #include "potential/solver_request.hpp"
+#include "refine.hpp"
 #include "request.hpp"
 #include "self_check.hpp"
 
@@ -62,53 +61,55 @@ void add_notes(const SelfCheck& k, Coefficients& c) {
   if (k.passivity > 0)
     c.notes.push_back(
         fmt::format("B was made free of negative eigenvalues: changed by {:.1e} of its modes at most", k.passivity));
-  if (std::isnan(k.estimate))
+  if (!k.extrapolated_from.empty())
+    c.notes.push_back(fmt::format(
+        "extrapolated to panels of no size on the same flat faces from meshes of {} panels, at {} of {} "
+        "frequencies; between them what refinement changes is interpolated; estimated error {:.1e}, {:.1e} "
+        "of it by that interpolation",
+        fmt::join(k.extrapolated_from, ", "), k.refined_omega.size(), c.omega.size(), k.estimate, k.interpolation));
+  else if (std::isnan(k.estimate))
     c.notes.push_back("the error by panels is not estimated: that takes panels cut in four, at a frequency at least");
   else
     c.notes.push_back(fmt::format("error by panels, estimated from four times as many at {} of {} frequencies: {:.1e}",
                                   k.refined_omega.size(), c.omega.size(), k.estimate));
 }
 
-/// Panels that waves reach are short beside the shortest of them: of a hemisphere heave's damping is 4, 9, 15 and 25 %
-/// off with 10, 7, 5 and 3 panels a wave length, against nine times as many.
-void require_short_panels(const PanelMesh& mesh, const Water& water, double highest) {
-  constexpr double a_wave_length = 5, reached = 0.25;  // panels a wave length; wave lengths of depth
-  const double length = 2 * std::numbers::pi / waves::wavenumber(highest, water);
-  double across = 0;
-  for (const Panel& p : mesh.hull)
-    if (p.shape.centre.z() > -reached * length) across = std::max(across, p.shape.size);
-  if (across * a_wave_length > length)
-    throw InputError(
-        fmt::format("panels near the surface are up to {:.3g} m across, and waves of {:.4g} rad/s {:.3g} m "
-                    "long: fewer than {:g} panels a wave length",
-                    across, highest, length, a_wave_length),
-        {}, "make the mesh finer at the waterline, or leave out the shortest waves");
+/// What an estimate by smaller panels on the same faces cannot see.
+void note_flat_faces(const std::vector<HullBody>& bodies, Coefficients& c) {
+  double lacking = 0, all = 0;
+  for (const HullBody& body : bodies) {
+    lacking += hydrostatics::chord_volume(body.hull);
+    all += body.hull.volume();
+  }
+  constexpr double told = 1e-4;
+  if (std::abs(lacking) > told * all)
+    c.notes.push_back(
+        fmt::format("flat faces lack {:.2g} % of the volume of a smooth hull through the same corners; what "
+                    "that does to A, B and X is not part of the estimate",
+                    100 * lacking / all));
 }
 
-/// Everything that is solved, in one pool of work.
-struct Work {
-  std::vector<OneFrequency> results, finer;
-  std::vector<std::size_t> refined;  ///< frequencies of `finer`
-  MatrixXd A_inf;
-  std::optional<MatrixXd> A_zero;
-};
-
-Work do_work(const Model& model, const Model* fine, const Water& water, const std::vector<double>& omega,
-             const std::vector<double>& heading, const Options& options) {
+/// The mesh as it is given; its error is told if frequencies are to be refined.
+Work plain_work(PanelMesh mesh, const std::vector<HullBody>& bodies, const Water& water,
+                const std::vector<double>& omega, const std::vector<double>& heading, const Options& options) {
   Work w;
-  if (fine != nullptr) w.refined = frequencies_to_refine(omega.size(), options.refined_frequencies);
+  std::optional<Model> fine;
+  if (options.refined_frequencies > 0) fine.emplace(refined(mesh), bodies, water);
+  const Model model(std::move(mesh), bodies, water);
+  std::vector<std::size_t> refined;
+  if (fine) refined = frequencies_to_refine(omega.size(), options.refined_frequencies);
+  std::vector<OneFrequency> finer(refined.size());
   w.results.resize(omega.size());
-  w.finer.resize(w.refined.size());
   const bool zero = water.depth.is_infinite();
-  const std::size_t finer = w.finer.size(), all = finer + omega.size() + (zero ? 2 : 1);
+  const std::size_t first = finer.size(), all = first + omega.size() + (zero ? 2 : 1);
   std::mutex told;
   int done = 0;
   in_parallel(all, potential::thread_count(options.threads, all), [&](std::size_t i) {
-    if (i < finer)
-      w.finer[i] = fine->at(omega[w.refined[i]], heading);
-    else if (i < finer + omega.size())
-      w.results[i - finer] = model.at(omega[i - finer], heading);
-    else if (i == finer + omega.size())
+    if (i < first)
+      finer[i] = fine->at(omega[refined[i]], heading);
+    else if (i < first + omega.size())
+      w.results[i - first] = model.at(omega[i - first], heading);
+    else if (i == first + omega.size())
       w.A_inf = model.added_mass_limit(std::numeric_limits<double>::infinity());
     else
       w.A_zero = model.added_mass_limit(0);
@@ -116,20 +117,17 @@ Work do_work(const Model& model, const Model* fine, const Water& water, const st
     ++done;
     if (options.progress) options.progress(done, static_cast<int>(all));
   });
+  const double length = model.length(bodies.size());
+  w.check = self_check(w.results, length);
+  describe(model.mesh(), w.check);
+  if (fine) w.check.estimate = estimate_of(w.results, finer, refined, length);
+  for (const std::size_t i : refined) w.check.refined_omega.push_back(omega[i]);
   return w;
 }
 
-void require_tolerance(const SelfCheck& check, const Options& options) {
-  if (!options.tolerance || check.estimate <= *options.tolerance) return;
-  throw InputError(fmt::format("the error by panels is estimated at {:.2g}; {:.2g} is asked for", check.estimate,
-                               *options.tolerance),
-                   {},
-                   "make the mesh finer, above all at edges and at the waterline, leave out the shortest waves, or "
-                   "ask for less");
-}
-
 /// The nearest matrix without negative eigenvalues, entries being measured against the largest of their modes (P11):
-/// a small damping is a difference of large pressures, and panels leave it below zero now and then.
+/// a small damping is a difference of large pressures, and panels leave it below zero now and then. Were a small mode
+/// measured against itself alone, its error would be put on the large ones that it is coupled with.
 MatrixXd passive(const MatrixXd& B, const Eigen::VectorXd& size) {
   const Eigen::VectorXd scale = size.cwiseSqrt();
   const MatrixXd scaled = scale.cwiseInverse().asDiagonal() * B * scale.cwiseInverse().asDiagonal();
@@ -139,17 +137,10 @@ MatrixXd passive(const MatrixXd& B, const Eigen::VectorXd& size) {
   return scale.asDiagonal() * kept * scale.asDiagonal();
 }
 
-/// The largest B of each mode; a mode without damping anywhere counts as the smallest that has.
-Eigen::VectorXd sizes_of_damping(const std::vector<OneFrequency>& results) {
-  Eigen::VectorXd size = Eigen::VectorXd::Zero(results.front().B.rows());
-  for (const OneFrequency& r : results) size = size.cwiseMax(r.B.diagonal());
-  return size.cwiseMax(1e-12 * size.maxCoeff());
-}
-
 /// Fills A, B and X, and returns the largest change of B that passivity needed, (P11).
 double fill(const Work& w, const std::vector<double>& omega, const std::vector<double>& heading, Coefficients& c) {
   const auto symmetric = [](const MatrixXd& M) { return MatrixXd((M + M.transpose()) / 2); };
-  const Eigen::VectorXd size = sizes_of_damping(w.results), scale = size.cwiseSqrt().cwiseInverse();
+  const Eigen::VectorXd size = sizes(w.results, w.check.length).B, scale = size.cwiseSqrt().cwiseInverse();
   double changed = 0;
   c.omega = omega;
   c.heading = heading;
@@ -174,26 +165,20 @@ Solution solve(const std::vector<HullBody>& bodies, const Water& water, const st
   check_request(omega, heading, options);
   PanelMesh mesh = panel_mesh(bodies, water.depth, options.lid);
   require_apart(mesh, bodies);
-  require_short_panels(mesh, water, omega.back());
-  require_memory(cost_of(mesh, bodies.size(), omega.size(), heading.size(), options));
-  std::optional<Model> fine;
-  const bool refine = options.refined_frequencies > 0;
-  if (refine) fine.emplace(refined(mesh), bodies, water);
-  const Model model(std::move(mesh), bodies, water);
-  const Work w = do_work(model, refine ? &*fine : nullptr, water, omega, heading, options);
+  const bool controlled = options.tolerance.has_value();
+  if (!controlled) require_short_panels(mesh, water, omega.back());
+  require_memory(cost(bodies, water, omega, heading, options));
+  const Work w = controlled ? controlled_work(mesh, bodies, water, omega, heading, options)
+                            : plain_work(std::move(mesh), bodies, water, omega, heading, options);
   Solution s;
-  s.check = self_check(w.results, w.finer, w.refined, model.length(bodies.size()));
-  s.check.panels = model.mesh().hull_panels();
-  s.check.lid_panels = model.mesh().lid_panels();
-  s.check.planes_of_symmetry = static_cast<int>(model.mesh().images.size()) / 2;
-  for (const std::size_t i : w.refined) s.check.refined_omega.push_back(omega[i]);
-  require_tolerance(s.check, options);
+  s.check = w.check;
   Coefficients& c = s.coefficients;
   c.water = water;
   c.source = fmt::format("panels: {} on {} {}", s.check.panels, bodies.size(), bodies.size() == 1 ? "hull" : "hulls");
   fill_bodies(bodies, water, c);
   s.check.passivity = fill(w, omega, heading, c);
   add_notes(s.check, c);
+  if (!std::isnan(s.check.estimate)) note_flat_faces(bodies, c);
   c.validate();
   return s;
 }
@@ -201,7 +186,12 @@ Solution solve(const std::vector<HullBody>& bodies, const Water& water, const st
 Cost cost(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
           const std::vector<double>& heading, const Options& options) {
   check_request(omega, heading, options);
-  return cost_of(panel_mesh(bodies, water.depth, options.lid), bodies.size(), omega.size(), heading.size(), options);
+  const PanelMesh given = panel_mesh(bodies, water.depth, options.lid);
+  const auto of = [&](const PanelMesh& mesh, int refined) {
+    return cost_of(mesh, bodies.size(), omega.size(), heading.size(), options.threads, refined);
+  };
+  return options.tolerance ? of(first_mesh(given, water, omega.back()), first_samples(options))
+                           : of(given, options.refined_frequencies);
 }
 
 }  // namespace hydro::panels

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -186,12 +187,11 @@ RankineParts rankine_parts(const PanelMesh& mesh, const AllPanels& all, const Wa
   const std::vector<Signs> classes = classes_of(mesh);
   const auto rows = static_cast<Index>(points.size()), hull = static_cast<Index>(mesh.hull.size());
   RankineParts out;
-  std::vector<MatrixXd> velocity;
-  for (const Signs& signs : classes) {
-    const MatrixXd none = MatrixXd::Zero(rows, hull), load = MatrixXd::Zero(rows, all.normal.cols());
-    out.of_class.push_back({none, none, load, load, MatrixXd::Zero(rows, rows - hull)});
-    velocity.push_back(projected(all.normal, signs));
-    drop_rounding(velocity.back(), all.normal);
+  std::vector<std::array<MatrixXd, 2>> sources;  // of unit strength, and of their images in the surface
+  for (std::size_t c = 0; c < classes.size(); ++c) {
+    const MatrixXd none = MatrixXd::Zero(rows, hull);
+    out.of_class.push_back({none, none, {}, {}, MatrixXd::Zero(rows, rows - hull)});
+    sources.push_back({none, none});
   }
   for (Index i = 0; i < rows; ++i)
     for (Index j = 0; j < rows; ++j)
@@ -213,10 +213,16 @@ RankineParts rankine_parts(const PanelMesh& mesh, const AllPanels& all, const Wa
           }
           o.dipole(i, j) += sign * (direct.dipole + bed.dipole);
           o.image_dipole(i, j) += sign * image.dipole;
-          o.source.row(i) += sign * (direct.source + bed.source) * velocity[c].row(j);
-          o.image_source.row(i) += sign * image.source * velocity[c].row(j);
+          sources[c][0](i, j) += sign * (direct.source + bed.source);
+          sources[c][1](i, j) += sign * image.source;
         }
       }
+  for (std::size_t c = 0; c < classes.size(); ++c) {
+    MatrixXd velocity = projected(all.normal, classes[c]);
+    drop_rounding(velocity, all.normal);
+    out.of_class[c].source = sources[c][0] * velocity;
+    out.of_class[c].image_source = sources[c][1] * velocity;
+  }
   return out;
 }
 

@@ -3,7 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "hydro/base/error.hpp"
-#include "meshes.hpp"
+#include "hydro/hydrostatics/shape_meshes.hpp"
+#include "hydro/panels/solve.hpp"
 
 namespace hydro::panels::bad_input_test {
 namespace {
@@ -13,6 +14,10 @@ using ::testing::HasSubstr;
 
 const Water shallow{.density = 1000, .gravity = 9.81, .depth = WaterDepth::from_metres(0.7)};
 const Water deep{};
+
+hydrostatics::Hull hemisphere(double radius, int rows, int columns) {
+  return hydrostatics::Hull(hydrostatics::hemisphere_mesh(radius, rows, columns));
+}
 
 HullBody named(const std::string& name, hydrostatics::Hull hull) { return {name, {0, 0, 0}, {}, std::move(hull)}; }
 
@@ -58,13 +63,14 @@ TEST(PanelInput, FrequenciesAndOptionsOutOfRangeAreRefused) {
   EXPECT_THAT(refusal(buoy, deep, {}), HasSubstr("no frequency"));
   EXPECT_THAT(refusal(buoy, deep, {2.0, 1.0}), HasSubstr("must increase"));
   EXPECT_THAT(refusal(buoy, deep, {0.0, 1.0}), HasSubstr("must be positive"));
-  EXPECT_THAT(refusal(buoy, deep, {1.0}, {.tolerance = 0.01}), HasSubstr("needs an estimate"));
+  EXPECT_THAT(refusal(buoy, deep, {1.0}, {.tolerance = 0.0}), HasSubstr("between 0 and 1"));
   EXPECT_THAT(refusal({}, deep), HasSubstr("no body"));
 }
 
 TEST(PanelInput, AnEstimateAboveTheToleranceIsRefusedWithBoth) {
-  EXPECT_THAT(refusal({named("buoy", hemisphere(1, 3, 8))}, deep, {1.0}, {.tolerance = 1e-4, .refined_frequencies = 1}),
-              AllOf(HasSubstr("estimated at"), HasSubstr("0.0001"), HasSubstr("make the mesh finer")));
+  EXPECT_THAT(refusal({named("buoy", hemisphere(1, 2, 16))}, deep, {1.0}, {.tolerance = 1e-5}),
+              AllOf(HasSubstr("estimated at"), HasSubstr("1e-05"), HasSubstr("the finest of three meshes"),
+                    HasSubstr("make the mesh finer")));
 }
 
 TEST(PanelInput, PanelsThatAreLongBesideTheShortestWaveAreRefused) {

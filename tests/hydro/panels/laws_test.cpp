@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-#include "meshes.hpp"
+#include "hydro/hydrostatics/shape_meshes.hpp"
+#include "hydro/panels/solve.hpp"
 
 namespace hydro::panels::laws_test {
 namespace {
@@ -12,28 +13,13 @@ using Eigen::Vector3d;
 
 const Water tank{.density = 1000, .gravity = 9.81, .depth = WaterDepth::from_metres(4)};
 
-/// A box without a plane of symmetry about the axes, closed above the water.
+/// A box closed above the water.
 HullBody box(const Vector3d& low, const Vector3d& high, int cuts) {
-  hydrostatics::TriangleMesh mesh{.source = "box", .vertices = {}, .triangles = {}};
-  for (int axis = 0; axis < 3; ++axis)
-    for (const bool far : {false, true})
-      for (int i = 0; i < cuts; ++i)
-        for (int j = 0; j < cuts; ++j) {
-          const int first = static_cast<int>(mesh.vertices.size());
-          for (const auto& [a, b] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
-            Vector3d t;
-            t(axis) = far ? 1 : 0;
-            t((axis + 1) % 3) = static_cast<double>(i + a) / cuts;
-            t((axis + 2) % 3) = static_cast<double>(j + b) / cuts;
-            mesh.vertices.emplace_back(low + t.cwiseProduct(high - low));
-          }
-          mesh.triangles.push_back(far ? std::array{first, first + 1, first + 2}
-                                       : std::array{first, first + 2, first + 1});
-          mesh.triangles.push_back(far ? std::array{first, first + 2, first + 3}
-                                       : std::array{first, first + 3, first + 2});
-        }
   const Vector3d middle = (low + high) / 2;
-  return {"box", {middle.x(), middle.y(), 0}, middle, hydrostatics::Hull(hydrostatics::welded(std::move(mesh), 1e-9))};
+  return {"box",
+          {middle.x(), middle.y(), 0},
+          middle,
+          hydrostatics::Hull(hydrostatics::box_mesh(low, high, {cuts, cuts, cuts}, hydrostatics::Spacing::equal))};
 }
 
 TEST(PanelLaws, PlanesOfSymmetryChangeNothing) {

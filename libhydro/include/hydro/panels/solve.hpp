@@ -3,7 +3,7 @@
 ///
 /// Green's theorem for the potential on flat panels, with the Green function of a free surface over water of any depth.
 /// Panels are those of the mesh: two triangles in one plane make one of four corners, what is above z = 0 is cut off.
-/// Equations (G1)-(G15) are derived and sourced in docs/theory/panels.md.
+/// Equations (G1)-(G17) are derived and sourced in docs/theory/panels.md.
 #include <Eigen/Core>
 
 #include <functional>
@@ -25,16 +25,19 @@ struct HullBody {
 };
 
 struct Options {
-  /// Largest error of A, B and X that is accepted, an entry being measured against its two modes (P11). The estimate
-  /// is made with `refined_frequencies`, and refused if above; empty: told alone.
+  /// Largest error of A, B and X by the size of panels that is accepted, an entry being measured against its two modes
+  /// (P11). Panels are then refined until the estimate is below it, and the values are those of panels of no size,
+  /// extrapolated (G16), (G17). Empty: the values are those of the mesh as it is given.
   std::optional<double> tolerance = {};
   /// At how many frequencies the work is repeated with every panel cut in four; 0: none. One costs as much as 16 to 64.
+  /// With a tolerance: to begin with, and five at least.
   int refined_frequencies = 0;
   /// Panels on the water inside the hull, which remove irregular frequencies.
   bool lid = true;
   /// Frequencies that are solved at a time; the result does not depend on it. 0: as many as the machine has cores.
   int threads = 0;
-  /// Called after each frequency, one call at a time, from any thread: how many are done, of how many.
+  /// Called after each frequency, one call at a time, from any thread: how many are done, of how many; with a tolerance
+  /// there may be more later.
   std::function<void(int done, int all)> progress = {};
 };
 
@@ -44,10 +47,15 @@ struct SelfCheck {
   double haskind = 0;      ///< largest |X − X from the waves made by motion|, (G14)
   double reciprocity = 0;  ///< largest asymmetry of A and B, before their symmetric parts were taken
   double passivity = 0;    ///< largest change of B that took its negative eigenvalues away
-  /// Estimated largest error of A, B, X against panels of no size on the same flat faces (G15); NaN if not asked for.
+  /// Estimated largest error of A, B, X against panels of no size on the same flat faces (G15), (G16); NaN if not asked
+  /// for.
   double estimate = 0;
-  std::vector<double> refined_omega;  ///< where it was measured, rad/s
-  int panels = 0;                     ///< under water
+  double interpolation = 0;            ///< part of the estimate: by refining at some frequencies only
+  std::vector<double> refined_omega;   ///< where it was measured, rad/s
+  std::vector<int> extrapolated_from;  ///< panels of the meshes, coarse to fine; empty: not extrapolated
+  /// m, the side of a square of the mean wet area of a hull: by which rotations are measured beside translations.
+  double length = 0;
+  int panels = 0;  ///< under water
   int lid_panels = 0;
   int planes_of_symmetry = 0;  ///< 0, 1 or 2: found in the mesh, and used
 };
@@ -57,7 +65,7 @@ struct Solution {
   SelfCheck check;
 };
 
-/// What a solution will need, told before it is computed.
+/// What a solution will need, told before it is computed; with a tolerance, its first two meshes.
 struct Cost {
   int panels;            ///< under water
   int unknowns;          ///< of each of `systems` sets of complex equations
@@ -72,10 +80,15 @@ struct Cost {
 /// centre of gravity, C. A and B are symmetric parts and B has no negative eigenvalues; SelfCheck tells what that
 /// changed. \throws InputError naming the body: nothing of a hull under water, a hull below the bed, hulls inside one
 /// another, an opening under water; if a frequency is not finite and positive or the lists do not increase; more memory
-/// than the machine has; panels longer than a fifth of the shortest wave where waves reach them; an
-/// estimate above the tolerance
+/// than the machine has; without a tolerance, panels longer than a fifth of the shortest wave where waves reach them;
+/// a tolerance that cannot be met with three meshes of at most 4000 unknowns a system
 Solution solve(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,
                const std::vector<double>& heading, const Options& options = {});
+
+/// The largest difference of A, B and X at the same frequencies, measured as the estimate is: each entry against its
+/// two modes in `reference` (P11), but against a tenth of the largest mode of the kind at least. `length` is
+/// SelfCheck::length. \throws InputError if frequencies or headings differ
+double difference(const potential::Coefficients& c, const potential::Coefficients& reference, double length);
 
 /// \throws InputError as solve()
 Cost cost(const std::vector<HullBody>& bodies, const Water& water, const std::vector<double>& omega,

@@ -1,0 +1,76 @@
+#include "extrapolate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hydro::panels {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+/// By what the error falls as panels are halved: measured 2.4 to 3.4 on graded cylinders and boxes, √8 in the middle.
+const double usual_ratio = std::sqrt(8.0);
+constexpr double least_ratio = 2, greatest_ratio = 4;
+
+/// The last difference over (ratio − 1), Richardson's step; the ratio of the last two differences, if there are two
+/// that have one sign, within what theory knows.
+template <class Matrix>
+Matrix richardson(const std::vector<const Matrix*>& v) {
+  const std::size_t n = v.size();
+  Matrix step = *v[n - 1] - *v[n - 2];
+  for (Index i = 0; i < step.rows(); ++i)
+    for (Index j = 0; j < step.cols(); ++j) {
+      double ratio = usual_ratio;
+      if (n > 2 && std::abs(step(i, j)) > 0) {
+        const auto observed = ((*v[n - 2])(i, j) - (*v[n - 3])(i, j)) / step(i, j);
+        if (std::real(observed) > 0) ratio = std::clamp(std::abs(observed), least_ratio, greatest_ratio);
+      }
+      step(i, j) /= ratio - 1;
+    }
+  return step;
+}
+
+template <class Matrix>
+Matrix of(const std::vector<const OneFrequency*>& all, Matrix OneFrequency::*member) {
+  std::vector<const Matrix*> values;
+  for (const OneFrequency* one : all) values.push_back(&(one->*member));
+  return richardson(values);
+}
+
+}  // namespace
+
+OneFrequency sum(const OneFrequency& a, double s, const OneFrequency& b) {
+  return {a.A + s * b.A, a.B + s * b.B, a.B_far + s * b.B_far, a.X + s * b.X, a.X_far + s * b.X_far};
+}
+
+OneFrequency step_to_the_limit(const std::vector<const OneFrequency*>& all) {
+  return {of(all, &OneFrequency::A), of(all, &OneFrequency::B), of(all, &OneFrequency::B_far),
+          of(all, &OneFrequency::X), of(all, &OneFrequency::X_far)};
+}
+
+MatrixXd step_to_the_limit(const std::vector<MatrixXd>& all) {
+  std::vector<const MatrixXd*> values;
+  for (const MatrixXd& one : all) values.push_back(&one);
+  return richardson(values);
+}
+
+double doubtful_share(std::size_t meshes) { return meshes > 2 ? 0.3 : 0.6; }
+
+std::vector<double> cubic_weights(const std::vector<double>& nodes, double x, int without) {
+  std::vector<std::size_t> used;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (static_cast<int>(i) != without) used.push_back(i);
+  std::sort(used.begin(), used.end(),
+            [&](std::size_t a, std::size_t b) { return std::abs(nodes[a] - x) < std::abs(nodes[b] - x); });
+  used.resize(std::min<std::size_t>(used.size(), 4));
+  std::vector<double> weights(nodes.size(), 0);
+  for (const std::size_t i : used) {
+    weights[i] = 1;
+    for (const std::size_t j : used)
+      if (j != i) weights[i] *= (x - nodes[j]) / (nodes[i] - nodes[j]);
+  }
+  return weights;
+}
+
+}  // namespace hydro::panels

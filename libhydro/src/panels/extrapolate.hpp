@@ -1,0 +1,23 @@
+#pragma once
+/// \file  Values of panels of no size from those of meshes, each with all panels of the one before cut in four, and
+/// what is left of the error. (G16), (G17) in docs/theory/panels.md. Not installed.
+#include <vector>
+
+#include "one_frequency.hpp"
+
+namespace hydro::panels {
+
+/// a + s b, entry by entry.
+OneFrequency sum(const OneFrequency& a, double s, const OneFrequency& b);
+
+/// What is added to the finest of two or three meshes, coarse to fine, and how much of that is doubtful.
+OneFrequency step_to_the_limit(const std::vector<const OneFrequency*>& coarse_to_fine);
+Eigen::MatrixXd step_to_the_limit(const std::vector<Eigen::MatrixXd>& coarse_to_fine);
+/// The error that is left, as a share of the step.
+double doubtful_share(std::size_t meshes);
+
+/// Weights of values at `nodes` (rising) in the cubic through the four nearest to x, or all if they are fewer; the node
+/// `without` is not used (−1: all are).
+std::vector<double> cubic_weights(const std::vector<double>& nodes, double x, int without = -1);
+
+}  // namespace hydro::panels

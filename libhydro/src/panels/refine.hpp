@@ -1,0 +1,12 @@
+#pragma once
+/// \file  Smaller panels on the same faces. (G15), (G16) in docs/theory/panels.md. Not installed.
+#include "panel_mesh.hpp"
+
+namespace hydro::panels {
+
+/// Every panel cut through the middles of its sides: a triangle into four, others into as many as they have corners.
+PanelMesh refined(const PanelMesh& mesh);
+/// Panels at edges cut along them `times` times over, so that those at the edge are 2^-times as wide.
+PanelMesh graded(const PanelMesh& mesh, int times);
+
+}  // namespace hydro::panels
