@@ -93,7 +93,6 @@ HullRequest hull_request(const Scene& scene, const std::vector<int>& bodies) {
   }
   if (r.headings.empty()) r.headings = headings_asked(scene);
   r.options.tolerance = tolerance_of(*first.mesh, scene);
-  r.options.refined_frequencies = 1;
   r.options.lid = first.mesh->lid;
   return r;
 }

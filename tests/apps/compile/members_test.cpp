@@ -6,6 +6,7 @@
 #include "answers/simulate.hpp"
 #include "compile/kept.hpp"
 #include "hydro/base/error.hpp"
+#include "same_water.hpp"
 #include "scenes.hpp"
 
 namespace members_test {
