@@ -67,6 +67,15 @@ void require_no_beginning(const scene::Scene& scene) {
           scene.run->place, "leave `initial` out, or step the run");
 }
 
+}  // namespace
+
+double height_of(const scene::AskRao::DragIn& waves, double omega, const hydro::Water& water) {
+  return waves.height ? *waves.height
+                      : *waves.steepness * 2 * std::numbers::pi / hydro::waves::wavenumber(omega, water);
+}
+
+namespace {
+
 /// What `notes` tell of linear drag.
 std::string note_on(const std::vector<LinearDrag>& drags, const scene::AskRao::DragIn& waves) {
   double least = std::numeric_limits<double>::infinity(), most = 0;
@@ -97,10 +106,7 @@ std::vector<LinearDrag> drag_of_rao(const scene::Scene& scene, const compile::Pr
     throw hydro::InputError("[ask.rao.drag] is for still water, but a current flows past a member", ask.drag->place,
                             "leave it out, or step a run");
   dynamics::frequency::DragWaves waves{.water = scene.water, .heading = 0, .amplitude = {}};
-  for (const double omega : frequencies) {
-    const double length = 2 * std::numbers::pi / hydro::waves::wavenumber(omega, scene.water);
-    waves.amplitude.push_back((ask.drag->height ? *ask.drag->height : *ask.drag->steepness * length) / 2);
-  }
+  for (const double omega : frequencies) waves.amplitude.push_back(height_of(*ask.drag, omega, scene.water) / 2);
   std::vector<LinearDrag> drags;
   for (const double heading : ask.headings) {
     waves.heading = heading;

@@ -12,6 +12,9 @@
 
 namespace froude {
 
+/// Height, m, of the waves of this frequency, rad/s, for which [ask.rao.drag] makes drag linear.
+double height_of(const scene::AskRao::DragIn& waves, double omega, const hydro::Water& water);
+
 /// Frequencies, rad/s, in each of several headings, rad.
 struct Cells {
   std::vector<double> omega, headings;

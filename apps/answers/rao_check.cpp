@@ -9,6 +9,7 @@
 
 #include "answers/checked_run.hpp"
 #include "answers/convergence.hpp"
+#include "answers/linear_response.hpp"
 #include "answers/simulate.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/signal/harmonics.hpp"
@@ -79,16 +80,23 @@ std::vector<std::size_t> some_of(std::size_t count) {
   return {out.begin(), out.end()};
 }
 
+/// Linear drag is that of waves of one height or steepness: they are those to check it in.
+double height_of_check(const scene::Scene& scene, double omega, std::optional<double> steepness) {
+  constexpr double usual = 0.002;  // of the length
+  if (!steepness && scene.rao->drag) return height_of(*scene.rao->drag, omega, scene.water);
+  return steepness.value_or(usual) * 2 * std::numbers::pi / hydro::waves::wavenumber(omega, scene.water);
+}
+
 }  // namespace
 
-std::vector<CheckedCell> check_in_time(const scene::Scene& scene, const Responses& linear, double steepness,
-                                       const std::function<void(double)>& done) {
+std::vector<CheckedCell> check_in_time(const scene::Scene& scene, const Responses& linear,
+                                       std::optional<double> steepness, const std::function<void(double)>& done) {
   const std::vector<std::size_t> at = some_of(linear.omega.size());
   const std::vector<double> peak = peaks_of(linear);
   std::vector<CheckedCell> out;
   for (std::size_t i = 0; i < at.size(); ++i) {
     const double omega = linear.omega[at[i]];
-    const double height = steepness * 2 * std::numbers::pi / hydro::waves::wavenumber(omega, scene.water);
+    const double height = height_of_check(scene, omega, steepness);
     const auto share = [&](double part) {
       if (done) done((static_cast<double>(i) + part) / static_cast<double>(at.size()));
     };

@@ -2,6 +2,7 @@
 /// \file  Responses held against runs in time: for `froude rao --check time`. Private to apps.
 #include <complex>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,11 +25,12 @@ struct CheckedCell {
 };
 
 /// Runs the scene in a regular wave of the first heading at each of three frequencies of `linear`, a quarter, half and
-/// three quarters of the way, of a height of `steepness` times its length. Waves grow over ten periods; of the last
-/// forty of eighty the amplitudes are taken, of each signal but those that the wave alone tells. `done` is told the
-/// share of the runs completed. \throws hydro::InputError where the scene cannot run, hydro::NumericsError where a run
-/// stops
-std::vector<CheckedCell> check_in_time(const scene::Scene& scene, const Responses& linear, double steepness,
+/// three quarters of the way, of a height of `steepness` times its length; left out: as [ask.rao.drag] has it, or
+/// 0.002. Waves grow over ten periods; of the last forty of eighty the amplitudes are taken, of each signal but those
+/// that the wave alone tells. `done` is told the share of the runs completed. \throws hydro::InputError where the scene
+/// cannot run, hydro::NumericsError where a run stops
+std::vector<CheckedCell> check_in_time(const scene::Scene& scene, const Responses& linear,
+                                       std::optional<double> steepness = {},
                                        const std::function<void(double)>& done = {});
 
 }  // namespace froude

@@ -227,7 +227,8 @@ struct RaoArguments : SceneArguments {
   bool refine = false;              ///< frequencies are put where responses bend
   bool nondimensional = false;      ///< rotations over the slope of the wave
   std::string check = {};           ///< "time": some cells by runs; empty: none
-  double check_steepness = 0.002;   ///< height over length of their waves
+  /// Height over length of their waves; left out: as [ask.rao.drag] has it, or 0.002.
+  std::optional<double> check_steepness = {};
 };
 void rao(const RaoArguments& arguments, const Console& console);
 void modes(const SceneArguments& arguments, const Console& console);

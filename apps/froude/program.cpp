@@ -87,9 +87,10 @@ void add_rao(CLI::App& app, Request& request) {
       ->add_option("--check", arguments->check,
                    "time: hold responses at three frequencies against runs in regular waves, and tell what they ignore")
       ->check(CLI::IsMember({"time"}));
-  command->add_option("--check-steepness", arguments->check_steepness, "height over length of the waves of --check")
-      ->check(CLI::Range(1e-6, 0.1))
-      ->capture_default_str();
+  command
+      ->add_option("--check-steepness", arguments->check_steepness,
+                   "height over length of the waves of --check; left out: those of [ask.rao.drag], else 0.002")
+      ->check(CLI::Range(1e-6, 0.1));
   calls(*command, request, arguments, rao);
 }
 

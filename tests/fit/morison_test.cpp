@@ -330,7 +330,8 @@ TEST(MorisonFit, IsNotPulledByWildSamplesIfItIsRobust) {
     const auto robust_alone = fit::fit_morison(c, record, {.robust = fit::RobustLoss::huber}).cd;
     width += (robust_alone.interval.high - robust_alone.interval.low) / sets;
     for (std::size_t j = 0; j < 1000; j += 23) record.force[j] += record.velocity[j] > 0 ? 40 : 0;  // one side only
-    const auto plain = fit::fit_morison(c, record).cd, robust = fit::fit_morison(c, record, {.robust = fit::RobustLoss::huber}).cd;
+    const auto plain = fit::fit_morison(c, record).cd,
+               robust = fit::fit_morison(c, record, {.robust = fit::RobustLoss::huber}).cd;
     plain_holds += plain.interval.low < 1.2 && 1.2 < plain.interval.high;
     robust_holds += robust_alone.interval.low < 1.2 && 1.2 < robust_alone.interval.high;
     EXPECT_LT(std::abs(*robust.value - 1.2), 0.3 * std::abs(*plain.value - 1.2));

@@ -2,6 +2,7 @@
 /// \file  Coefficients of a floating hemisphere against the tables of Hulme (1982), for every case that computes them.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "harness/case.hpp"
@@ -68,9 +69,8 @@ inline double limit_of(const std::optional<Eigen::MatrixXd>& A, hydro::Mode mode
 struct Tables {
   CsvTable heave, surge;
 };
-inline Tables tables(const Folders& folders) {
-  return {CsvTable::read(folders.shared("hulme_hemisphere/heave.csv")),
-          CsvTable::read(folders.shared("hulme_hemisphere/surge.csv"))};
+inline Tables tables(const std::filesystem::path& heave, const std::filesystem::path& surge) {
+  return {CsvTable::read(heave), CsvTable::read(surge)};
 }
 
 inline Outcome against(const Tables& table, const hydro::potential::FrequencyTable& ours) {

@@ -46,7 +46,8 @@ Coefficients round(const Coefficients& coarse, const Coefficients& fine) {
 }  // namespace
 
 Outcome outcome(const Folders& folders) {
-  const hulme::Tables table = hulme::tables(folders);
+  const auto heave = folders.shared("hulme_hemisphere/heave.csv"), surge = folders.shared("hulme_hemisphere/surge.csv");
+  const hulme::Tables table = hulme::tables(heave, surge);
   const hydro::Water water{.density = 1000, .gravity = 9.81};
   const std::vector<double> omega = frequencies(table, water);
   const auto coarse = hemisphere(6, water, omega), fine = hemisphere(12, water, omega);

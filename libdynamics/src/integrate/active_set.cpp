@@ -2,8 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <map>
-#include <utility>
 
 #include "hydro/base/error.hpp"
 
@@ -29,11 +27,21 @@ ActiveSet::ActiveSet(const Model& model)
       contact_ = kind, contact_index_ = k;
     }
   }
+  find_pairs();
   double farthest = 1;  // what positions and arms are rounded against, m; and directions, unit vectors
   for (const RigidBody& body : model.bodies()) farthest = std::max(farthest, body.rest_centre().norm());
   for (const Joint& joint : model.joints().joints()) farthest = std::max(farthest, joint.place.norm());
   constexpr double roundings = 32;  // sums and products between a state and how far a joint is open
   rounding_ = roundings * std::numeric_limits<double>::epsilon() * farthest;
+}
+
+void ActiveSet::find_pairs() {
+  for (std::size_t i = 0; contact_ != nullptr && i < contact_->elements(); ++i) {
+    const Contact& c = contact_->element(i);
+    std::size_t first = 0;
+    while (contact_->element(first).first != c.first || contact_->element(first).second != c.second) ++first;
+    first_of_pair_.push_back(first);
+  }
 }
 
 ActiveSet::ActiveSet(const ActiveSet& other) : ActiveSet(other.model_) {
@@ -95,13 +103,12 @@ void ActiveSet::close(std::size_t element, Workspace& workspace) {
 void ActiveSet::find_mass_of_loads(Workspace& workspace) {
   mass_of_loads_ = constraint_scale_.cwiseAbs2();
   if (contact_ == nullptr) return;
-  std::map<std::pair<int, std::optional<int>>, double> least;
+  least_of_pair_.setConstant(static_cast<Eigen::Index>(contact_->elements()), std::numeric_limits<double>::infinity());
   const auto each_closed = [&](auto use) {
     for (std::size_t i = 0; i < contact_->elements(); ++i) {
       const ContactState& c = contact_memory(workspace).contact[i];
       if (c.row < 0) continue;
-      const Contact& contact = contact_->element(i);
-      use(least.try_emplace({contact.first, contact.second}, std::numeric_limits<double>::infinity()).first->second,
+      use(least_of_pair_[static_cast<Eigen::Index>(first_of_pair_[i])],
           mass_of_loads_.segment(c.row, 1 + (c.is == ContactState::sticks ? c.held : 0)));
     }
   };

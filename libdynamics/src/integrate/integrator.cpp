@@ -283,7 +283,7 @@ void Integrator::advance_to_changes(Workspace& workspace, double h, StepReport& 
     happened(laws_.change(workspace, laws_.least_margin(workspace), h));
     if (changes % many == 0) laws_.still(workspace, h);
     begin(workspace);
-    if (changes % many == 0 && laws_.rubs(workspace)) left -= leap(left);
+    if (changes % many == 0 && laws_.slides(workspace)) left -= leap(left);
   }
 }
 

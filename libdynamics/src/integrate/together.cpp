@@ -171,12 +171,18 @@ bool holds_with_ease(const ImpactLaw& law, const VectorXd& z) {
 
 }  // namespace
 
-bool SetValuedLaws::rubs(Workspace& workspace) const {
+bool SetValuedLaws::any_rough(Workspace& workspace, bool (*is)(const ContactState&)) const {
   for (std::size_t i = 0; active_.contact() != nullptr && i < active_.contact()->elements(); ++i)
-    if (active_.contact_memory(workspace).contact[i].is != ContactState::open &&
-        active_.contact()->element(i).friction > 0)
-      return true;
+    if (active_.contact()->element(i).friction > 0 && is(active_.contact_memory(workspace).contact[i])) return true;
   return false;
+}
+
+bool SetValuedLaws::rubs(Workspace& workspace) const {
+  return any_rough(workspace, [](const ContactState& c) { return c.is != ContactState::open; });
+}
+
+bool SetValuedLaws::slides(Workspace& workspace) const {
+  return any_rough(workspace, [](const ContactState& c) { return c.is == ContactState::slides; });
 }
 
 // (D149)

@@ -172,7 +172,7 @@ on = "m1"
 kind = "linear"
 stiffness = { surge = "4280 N/m" }
 [ask]
-run = { duration = "40 s", every = "0.1 s", of = ["m1"] }
+run = { duration = "40 s", every = "0.1 s", of = ["m1.surge", "m1.heave", "m1.pitch"] }
 [solve]
 )" + solve));
 }

@@ -70,6 +70,7 @@ class ActiveSet {
   bool moves(const Constraint& constraint, const State& state) const;
   void find_constraint_scale(const State& state);
   void find_mass_of_loads(Workspace& workspace);
+  void find_pairs();
   bool add_correction(Workspace& workspace, Eigen::VectorXd& acceleration, Eigen::VectorXd& multipliers) const;
   bool balanced_by_kept(Workspace& workspace, Eigen::VectorXd& acceleration, Eigen::VectorXd& multipliers) const;
 
@@ -85,6 +86,8 @@ class ActiveSet {
   std::size_t friction_index_ = 0, contact_index_ = 0;  // among the model's forces
   JointSet constraints_;
   std::vector<Slide> slides_;
+  std::vector<std::size_t> first_of_pair_;  // of each contact: the first between the same two bodies
+  Eigen::VectorXd least_of_pair_;
   Eigen::VectorXd scale_, constraint_scale_, mass_of_loads_, compliance_;
   // Factors of masses and constraints, apart from those of the workspace, which are of steps. Its `of_step` is 1 while
   // there are any.

@@ -44,8 +44,9 @@ class SetValuedLaws {
   /// speed along their normals, and what closes in the rest of the step does so without restitution (D26).
   void still(Workspace& workspace, double step);
 
-  /// Whether a rough contact is closed.
+  /// Whether a rough contact is closed; whether one slides.
   bool rubs(Workspace& workspace) const;
+  bool slides(Workspace& workspace) const;
   /// A step of h seconds in which contacts stick, slide, close and part by themselves (D149), through what smooth steps
   /// cannot follow: slips that end together. Of first order in h, and its work is noted.
   std::vector<Event> leap(Workspace& workspace, double h);
@@ -88,6 +89,7 @@ class SetValuedLaws {
   double slow(const Workspace& workspace) const;
   double rounding(const Eigen::VectorXd& acceleration, const Eigen::VectorXd& multipliers) const;
   double rounding(const Workspace& workspace) const { return rounding(workspace.acceleration, workspace.multipliers); }
+  bool any_rough(Workspace& workspace, bool (*is)(const ContactState&)) const;
   JointSet held_now(Workspace& workspace) const;
   Eigen::VectorXd without_contacts(const Touching& all, const JointSet& held, Workspace& workspace) const;
   void note_work_of_joints(Workspace& workspace) const;
