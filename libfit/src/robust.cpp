@@ -91,7 +91,10 @@ void RobustSearch::settle(int rounds_of_scale, Influence influence) {
   double before = std::numeric_limits<double>::infinity();
   for (int round = 1; round <= most; ++round, ++fit_.rounds) {
     if (round <= rounds_of_scale) fit_.deviation = spread(e_, scratch_);
-    if (all_but_exact()) return;
+    if (all_but_exact()) {
+      fit_.influence = e_;
+      return;
+    }
     fit_.slope = influence(fit_.influence);
     if (!(fit_.slope > 0)) break;
     const Eigen::VectorXd gradient = columns_.transpose() * fit_.influence;
