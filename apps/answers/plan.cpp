@@ -10,6 +10,7 @@
 #include "compile/hulls.hpp"
 #include "compile/hydrodynamics.hpp"
 #include "compile/integrator.hpp"
+#include "compile/members.hpp"
 #include "compile/waves.hpp"
 
 namespace froude {
@@ -85,13 +86,15 @@ Section plan_rao(const scene::Scene& scene, const compile::Prepared& p, std::vec
          true});
   }
   const auto one = [&](auto has) { return std::any_of(scene.members.begin(), scene.members.end(), has); };
-  if (one([](const auto& m) { return m.cd.has_value(); }))
+  if (compile::any_drag(scene))
     s.lines.push_back({"drag",
                        scene.rao->drag ? "equivalent linearisation, settled at each frequency"
                                        : "quadratic: no place in a response per metre of wave",
                        "", scene.rao->drag.has_value()});
-  if (one([](const auto& m) { return m.morison || m.slamming; }))
-    s.lines.push_back({"members", "Morison's loads and impact: in runs only", "", false});
+  if (one([](const auto& m) { return m.morison.has_value(); }))
+    s.lines.push_back({"members", "Morison's inertia, linear on what is wet at rest", "", true});
+  if (one([](const auto& m) { return m.slamming.has_value(); }))
+    s.lines.push_back({"impact", "in runs only", "", false});
   return s;
 }
 
