@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "answers/plot.hpp"
+#include "cost/price_list.hpp"
 #include "hydro/cylinders/solve.hpp"
 #include "hydro/hydrostatics/shape_meshes.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -194,14 +195,7 @@ void write_all(const std::filesystem::path& folder) {
 }  // namespace froude::cost
 
 int main(int argc, char** argv) {
-  if (argc != 2 || !std::filesystem::is_directory(argv[1])) {
-    std::cerr << "usage: price_hulls FOLDER   writes FOLDER/hulls.md and FOLDER/hulls.svg\n";
-    return 2;
-  }
-  try {
-    froude::cost::write_all(argv[1]);
-  } catch (const std::exception& e) {
-    std::cerr << e.what() << '\n';
-    return 3;
-  }
+  return froude::cost::write_price_list(argc, argv, 1,
+                                        "price_hulls FOLDER   writes FOLDER/hulls.md and FOLDER/hulls.svg",
+                                        [&] { froude::cost::write_all(argv[1]); });
 }
