@@ -12,6 +12,7 @@
 #include <iostream>
 
 #include "answers/plot.hpp"
+#include "cost/price_list.hpp"
 #include "hydro/cylinders/solve.hpp"
 #include "hydro/io/atomic_file.hpp"
 
@@ -229,14 +230,7 @@ void write_all(const std::filesystem::path& data, const std::filesystem::path& f
 }  // namespace froude::cost
 
 int main(int argc, char** argv) {
-  if (argc != 3 || !std::filesystem::is_directory(argv[2])) {
-    std::cerr << "usage: price_cylinders REFERENCE_DATA FOLDER   writes FOLDER/cylinders.md and FOLDER/cylinders.svg\n";
-    return 2;
-  }
-  try {
-    froude::cost::write_all(argv[1], argv[2]);
-  } catch (const std::exception& e) {
-    std::cerr << e.what() << '\n';
-    return 3;
-  }
+  return froude::cost::write_price_list(
+      argc, argv, 2, "price_cylinders REFERENCE_DATA FOLDER   writes FOLDER/cylinders.md and FOLDER/cylinders.svg",
+      [&] { froude::cost::write_all(argv[1], argv[2]); });
 }

@@ -12,6 +12,7 @@
 #include <iostream>
 
 #include "answers/plot.hpp"
+#include "cost/price_list.hpp"
 #include "hydro/io/atomic_file.hpp"
 #include "hydro/potential/coefficients.hpp"
 #include "hydro/radiation/choice.hpp"
@@ -181,14 +182,7 @@ void write_all(const std::filesystem::path& examples, const std::filesystem::pat
 }  // namespace froude::cost
 
 int main(int argc, char** argv) {
-  if (argc != 3 || !std::filesystem::is_directory(argv[2])) {
-    std::cerr << "usage: price_radiation EXAMPLES_DATA FOLDER   writes FOLDER/radiation.md and FOLDER/radiation.svg\n";
-    return 2;
-  }
-  try {
-    froude::cost::write_all(argv[1], argv[2]);
-  } catch (const std::exception& e) {
-    std::cerr << e.what() << '\n';
-    return 3;
-  }
+  return froude::cost::write_price_list(
+      argc, argv, 2, "price_radiation EXAMPLES_DATA FOLDER   writes FOLDER/radiation.md and FOLDER/radiation.svg",
+      [&] { froude::cost::write_all(argv[1], argv[2]); });
 }
