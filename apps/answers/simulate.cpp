@@ -125,7 +125,7 @@ class March {
     integrator_->keep_state(*workspace_, bytes);
     bytes.pass(n, workspace_->evaluations, ledger, record_.time);
     for (Signal& s : record_.signals) bytes.pass(s.values);
-    bytes.pass(record_.steps, record_.parts, record_.newton_iterations, record_.halvings, record_.events,
+    bytes.pass(record_.steps, record_.parts, record_.newton_iterations, record_.halvings, record_.events, record_.leaps,
                record_.worst_residual.energy, record_.worst_residual.time);
     bool has_motion = motion_ != nullptr;
     bytes.pass(has_motion);
@@ -180,6 +180,7 @@ class March {
     record_.halvings += report.halvings;
     record_.parts += static_cast<std::size_t>(report.parts);
     record_.events += static_cast<int>(report.events.size());
+    record_.leaps += report.leaps;
     record_.steps = n;
     ledger.note(*workspace_);
     for (auto& line : lines_) line->note(m_.step);

@@ -49,13 +49,14 @@ Report steps_of(const Run& record, const std::string& scene) {
   };
   const double a_step =
       static_cast<double>(record.newton_iterations) / static_cast<double>(std::max<std::size_t>(1, record.steps));
-  return Report().say("{}: {:.6g} s in {} steps of {:.4g} s{}, {:.2f} Newton iterations a step{}{}, {:.2f} s of work",
+  return Report().say("{}: {:.6g} s in {} steps of {:.4g} s{}, {:.2f} Newton iterations a step{}{}{}, {:.2f} s of work",
                       scene, fact("duration_s", record.time.back()), fact("steps", record.steps),
                       fact("step_s", record.step),
                       fact("parts", record.parts, if_any(record.parts, " cut into {} parts")),
                       fact("newton_iterations", record.newton_iterations, a_step),
                       fact("halvings", record.halvings, if_any(record.halvings, ", {} halvings")),
                       fact("events", record.events, if_any(record.events, ", {} stick-slip or contact events")),
+                      fact("leaps", record.leaps, if_any(record.leaps, ", {} leaps of rough contacts to rest")),
                       fact("wall_time_s", record.stepping_s));
 }
 

@@ -103,6 +103,7 @@ struct Run {
   std::size_t steps = 0;        ///< completed
   std::size_t parts = 0;        ///< into which a tolerance has cut them
   int newton_iterations = 0, halvings = 0, events = 0;
+  int leaps = 0;  ///< through what smooth steps cannot follow: bodies on rough points coming to rest (D149)
   double preparation_s = 0, stepping_s = 0, estimating_s = 0;    ///< wall time; the last of the runs beside this one
   std::vector<std::pair<std::string, std::size_t>> evaluations;  ///< of the load, by effect
   std::vector<std::pair<std::string, double>> energy;            ///< J, by effect, at the end; residual and turnover

@@ -103,6 +103,11 @@ VectorXd symmetric_eigenvalues(const MatrixXd& A) {
   return Eigen::SelfAdjointEigenSolver<MatrixXd>(A, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
+MatrixXd positive_part(const MatrixXd& A) {
+  const auto [values, vectors] = symmetric_eigen(A);
+  return values[0] >= 0 ? A : MatrixXd(vectors * values.cwiseMax(0).asDiagonal() * vectors.transpose());
+}
+
 VectorXcd eigenvalues(const MatrixXd& A) {
   return Eigen::EigenSolver<MatrixXd>(A, /*computeEigenvectors=*/false).eigenvalues();
 }

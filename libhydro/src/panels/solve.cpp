@@ -131,10 +131,7 @@ Work plain_work(PanelMesh mesh, const std::vector<HullBody>& bodies, const Water
 MatrixXd passive(const MatrixXd& B, const Eigen::VectorXd& size) {
   const Eigen::VectorXd scale = size.cwiseSqrt();
   const MatrixXd scaled = scale.cwiseInverse().asDiagonal() * B * scale.cwiseInverse().asDiagonal();
-  const dense::SymmetricEigen eigen = dense::symmetric_eigen(scaled);
-  if (eigen.values.minCoeff() >= 0) return B;
-  const MatrixXd kept = eigen.vectors * eigen.values.cwiseMax(0).asDiagonal() * eigen.vectors.transpose();
-  return scale.asDiagonal() * kept * scale.asDiagonal();
+  return scale.asDiagonal() * dense::positive_part(scaled) * scale.asDiagonal();
 }
 
 /// Fills A, B and X, and returns the largest change of B that passivity needed, (P11).

@@ -140,7 +140,7 @@ namespace {
 /// Angles that see every pole: even ones, and each resonance with its flanks.
 std::vector<double> angles(const WeightedDamping& weighted) {
   std::vector<double> out;
-  constexpr int even = 160;
+  constexpr int even = 100;
   for (int i = 0; i <= even; ++i) out.push_back(quarter_turn * i / even);
   for (const Pole& p : weighted.poles())
     for (const double flank : {-2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0})
@@ -182,7 +182,24 @@ Raised raised(Eigen::MatrixXd Q, Eigen::Index n, double floor) {
   return out;
 }
 
-/// The smallest x (‖design · x‖ least) with rows · x >= least, by its dual: non-negative multipliers, one at a time.
+/// On the face of the multipliers that are not zero, towards where all its slacks vanish, as far as they stay positive.
+void along_face(const Eigen::MatrixXd& dual, Eigen::VectorXd& multiplier, Eigen::VectorXd& slack) {
+  std::vector<Eigen::Index> on;
+  for (Eigen::Index i = 0; i < multiplier.size(); ++i)
+    if (multiplier[i] > 0) on.push_back(i);
+  Eigen::MatrixXd face = dual(on, on);
+  face.diagonal() *= 1 + 1e-9;  // rows that repeat each other
+  const dense::Cholesky factor(face);
+  if (!factor) return;
+  const Eigen::VectorXd way = -factor.solve(Eigen::VectorXd(slack(on)));
+  const Eigen::ArrayXd at = multiplier(on);
+  const double share = std::min(1.0, (way.array() < 0).select(-at / way.array(), 1.0).minCoeff());
+  multiplier(on) = (at + share * way.array()).max(0);
+  slack += dual(Eigen::all, on) * (multiplier(on) - at.matrix());
+}
+
+/// The smallest x (‖design · x‖ least) with rows · x >= least, by its dual: non-negative multipliers, one at a time and
+/// then all that are not zero together.
 Eigen::VectorXd least_lift(const Eigen::MatrixXd& design, const Eigen::MatrixXd& rows, const Eigen::VectorXd& least) {
   const Eigen::Index n = design.cols();
   Eigen::MatrixXd M = design.transpose() * design;
@@ -190,7 +207,7 @@ Eigen::VectorXd least_lift(const Eigen::MatrixXd& design, const Eigen::MatrixXd&
   const Eigen::MatrixXd toward = dense::Cholesky(M).solve(rows.transpose());  // (n, rows)
   const Eigen::MatrixXd dual = rows * toward;
   Eigen::VectorXd multiplier = Eigen::VectorXd::Zero(rows.rows()), slack = -least;
-  constexpr int sweeps = 3000;
+  constexpr int sweeps = 300;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     double worst = 0;
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
@@ -201,6 +218,7 @@ Eigen::VectorXd least_lift(const Eigen::MatrixXd& design, const Eigen::MatrixXd&
       slack += step * dual.col(i);
     }
     if (worst < 1e-3 * least.cwiseAbs().maxCoeff()) break;
+    along_face(dual, multiplier, slack);
   }
   return toward * multiplier;
 }
@@ -250,9 +268,9 @@ Eigen::MatrixXd approached(const Fitting& fitting, const Eigen::MatrixXd& rows, 
   // A turn costs an eigenproblem of n modes at each angle; large arrays get fewer turns and more lift.
   const double size = static_cast<double>(n);
   const int turns = n <= 40 ? 150 : std::max(10, static_cast<int>(150 * 40 * 40 / (size * size)));
-  constexpr double beyond = 1.8;    // targets beyond the nearest matrix are reached sooner
-  constexpr int once_in = 10;       // turns, in which the distance shall fall
-  constexpr double falling = 0.99;  // to this share of it, and what the data are missed by in one turn
+  constexpr double beyond = 1.8;   // targets beyond the nearest matrix are reached sooner
+  constexpr int once_in = 10;      // turns, in which the distance shall fall
+  constexpr double falling = 0.9;  // to this share of it, and what the data are missed by in one turn
   const Eigen::Index inner = rows.cols();
   const Targeted fit = targeted(fitting, rows, share);
   const Eigen::MatrixXd to_angles = rows.transpose(), to_data = fitting.design.transpose(),
@@ -303,7 +321,8 @@ Enforced enforce(const WeightedDamping& weighted, const Eigen::MatrixXd& null, c
   // What is left is covered by damping that acts on all modes alike, as little of it as does.
   const Eigen::MatrixXd diagonal = packed(Eigen::MatrixXd::Identity(n, n));
   const Eigen::MatrixXd without = out.x;
-  for (int round = 0; round < 8; ++round) {
+  constexpr int rounds = 16;
+  for (int round = 0; round < rounds; ++round) {
     const Eigen::VectorXd lowest = smallest(rows * without.topRows(inner), n);
     out.x = without;
     if (round > 0 || lowest.minCoeff() < margin) {

@@ -47,10 +47,11 @@ namespace {
 
 /// The data of a fit: modes that make waves, scaled to a largest damping of one, and the extrapolated damping beyond.
 struct Data {
-  std::vector<int> modes;  // of the caller that make waves
-  Eigen::VectorXd scale;   // of those, √max B_ii
-  std::size_t inside;      // frequencies of the table; the rest are of the tail
-  detail::Samples samples;
+  std::vector<int> modes;   // of the caller that make waves
+  Eigen::VectorXd scale;    // of those, √max B_ii
+  std::size_t inside;       // frequencies of the table; the rest are of the tail
+  detail::Samples samples;  // damping as the nearest that gives no energy
+  Eigen::MatrixXd taken;    // what the table's damping lost by that, (inside, pairs)
   Eigen::MatrixXd A_inf;
   double centre;                                  // rad/s, where the scaled damping is largest
   std::vector<std::vector<Eigen::Index>> groups;  // of the modes above that feel each other, through others or not
@@ -96,7 +97,7 @@ std::vector<Eigen::Index> pairs_of(const std::vector<Eigen::Index>& group) {
 }
 
 Data prepared(const DampingTable& given, const std::vector<Eigen::MatrixXd>& A,
-              const std::optional<Eigen::MatrixXd>& A_inf, double tolerance) {
+              const std::optional<Eigen::MatrixXd>& A_inf, const FitOptions& options) {
   const ExtrapolatedDamping whole = extrapolated(given, A, A_inf);
   Data d;
   d.A_inf = whole.A_inf;
@@ -112,6 +113,7 @@ Data prepared(const DampingTable& given, const std::vector<Eigen::MatrixXd>& A,
   const auto rows = static_cast<Eigen::Index>(d.samples.omega.size());
   d.samples.weight.resize(2 * rows);
   d.samples.values.resize(rows, n * (n + 1) / 2);
+  d.taken.resize(static_cast<Eigen::Index>(d.inside), d.samples.values.cols());
   double most = -1;
   for (Eigen::Index r = 0; r < rows; ++r) {
     const auto i = static_cast<std::size_t>(r);
@@ -130,14 +132,18 @@ Data prepared(const DampingTable& given, const std::vector<Eigen::MatrixXd>& A,
     // The tail is a guess and only steers what the data leave open.
     const double weight = inside ? 1 : weight_of_tail(given.omega.back(), omega);
     d.samples.weight[r] = d.samples.weight[rows + r] = weight;
-    d.samples.values.row(r).real() = detail::packed(dense::symmetric_part(B));
+    const Eigen::MatrixXd symmetric = dense::symmetric_part(B);
+    const Eigen::MatrixXd positive = options.enforce_passivity ? dense::positive_part(symmetric) : symmetric;
+    if (inside) d.taken.row(r) = detail::packed(symmetric - positive);
+    d.samples.values.row(r).real() = detail::packed(positive);
     d.samples.values.row(r).imag() = omega * detail::packed(dense::symmetric_part(above));
     if (B.trace() > most) {
       most = B.trace();
       d.centre = omega;
     }
   }
-  d.groups = groups(d, tolerance / 1000);  // what is left out between them is of no account beside the tolerance
+  d.groups =
+      groups(d, options.tolerance / 1000);  // what is left out between them is of no account beside the tolerance
   return d;
 }
 
@@ -170,8 +176,9 @@ detail::Fitting fitting(const Data& d, const std::vector<Pole>& poles, const Eig
 
 /// Largest |error| over the table's own frequencies of each pair, relative by the scaling, (1, pairs).
 Eigen::RowVectorXd errors(const Data& d, const detail::Fitting& f, const Eigen::MatrixXd& x) {
-  const Eigen::MatrixXd off = d.samples.weight.cwiseInverse().asDiagonal() * (f.design * x - f.right);
+  Eigen::MatrixXd off = d.samples.weight.cwiseInverse().asDiagonal() * (f.design * x - f.right);
   const auto inside = static_cast<Eigen::Index>(d.inside), rows = off.rows() / 2;
+  off.topRows(inside) -= d.taken;
   const Eigen::MatrixXd size =
       (off.topRows(inside).array().square() + off.middleRows(rows, inside).array().square()).sqrt();
   return size.colwise().maxCoeff();
@@ -264,39 +271,63 @@ void make_passive(const Data& d, double tolerance, Attempt& a) {
 /// poles spread over all frequencies.
 enum class Search { onward, anew };
 
-/// What any passive model misses by, and where.
+/// What keeps passive models from the data, as shares of the largest damping.
 struct Floor {
-  double error = 0, at_omega = 0;  // rad/s
+  double error = 0;     ///< what any of them misses by, at least
+  double nearest = 0;   ///< what the damping changes by where it becomes the nearest that gives no energy
+  double at_omega = 0;  ///< rad/s, where the first is largest, or else the second
+  /// Fits by least squares go to that nearest damping, so that they do not come much nearer.
+  bool is_above(double tolerance) const { return error > tolerance || nearest > 2 * tolerance; }
 };
 
-/// By how much two modes' damping [a c; c b] has to be changed at least, entry by entry, for them to take energy from
-/// no motion; (R27).
+/// By how much a mode's and two modes' damping [a c; c b] has to be changed at least, entry by entry, for them to take
+/// energy from no motion; (R27).
 double short_of_passive(double a, double b, double c) {
   const double trace = a + b + 2 * std::abs(c);
   return std::max({-a, -b, trace > 0 ? (c * c - a * b) / trace : 0});
 }
 
+/// The same of all modes in the motion that is given most energy.
+double short_of_passive(const Eigen::MatrixXd& B) {
+  const auto n = B.rows();
+  double most = 0;
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j <= i; ++j)
+      most = std::max(most, short_of_passive(B(i, i), B(j, j), i == j ? 0 : B(i, j)));
+  const auto [values, vectors] = dense::symmetric_eigen(B);
+  return std::max(most, -values[0] / std::pow(vectors.col(0).lpNorm<1>(), 2));
+}
+
 Floor floor_of_passive(const Data& d) {
   const auto n = static_cast<Eigen::Index>(d.modes.size());
   Floor out;
+  double nearest_at = 0;
   for (std::size_t k = 0; k < d.inside; ++k) {
-    const Eigen::MatrixXd B = detail::unpacked(d.samples.values.row(static_cast<Eigen::Index>(k)).real(), n);
-    for (Eigen::Index i = 0; i < n; ++i)
-      for (Eigen::Index j = 0; j <= i; ++j)
-        if (const double e = short_of_passive(B(i, i), B(j, j), i == j ? 0 : B(i, j)); e > out.error)
-          out = {e, d.samples.omega[k]};
+    const auto row = static_cast<Eigen::Index>(k);
+    const double changed = detail::unpacked(d.taken.row(row), n).cwiseAbs().maxCoeff();
+    if (changed == 0) continue;
+    if (changed > out.nearest) {
+      out.nearest = changed;
+      nearest_at = d.samples.omega[k];
+    }
+    if (const double e = short_of_passive(detail::unpacked(d.samples.values.row(row).real() + d.taken.row(row), n));
+        e > out.error) {
+      out.error = e;
+      out.at_omega = d.samples.omega[k];
+    }
   }
+  if (out.error == 0) out.at_omega = nearest_at;
   return out;
 }
 
-/// True if no attempt has come nearer by a fifth while the order doubled.
-bool stands_still(const std::vector<Attempt>& all) {
+/// True if no attempt has come nearer by a fifth while the order doubled, and one is as near as passive data let it.
+bool stands_still(const std::vector<Attempt>& all, const Floor& floor) {
   double before = std::numeric_limits<double>::infinity(), since = before;
   for (const Attempt& a : all) {
     double& best = 2 * a.report.order <= all.back().report.order ? before : since;
     best = std::min(best, a.report.error);
   }
-  return since > 0.8 * before;
+  return since > 0.8 * before && std::min(since, before) < 2 * std::max(floor.error, floor.nearest);
 }
 
 /// Orders to try, up to `most`.
@@ -351,7 +382,7 @@ struct Attempts {
   bool met = false;
 };
 
-Attempts attempts(const Data& d, const FitOptions& options, int most, Search search, bool hopeless) {
+Attempts attempts(const Data& d, const FitOptions& options, int most, Search search, const Floor& floor) {
   const PoleSearch finder(d, options.tolerance);
   Attempts out;
   std::vector<Pole> poles;
@@ -363,7 +394,7 @@ Attempts attempts(const Data& d, const FitOptions& options, int most, Search sea
     if (a.report.error <= options.tolerance && options.enforce_passivity) make_passive(d, options.tolerance, a);
     out.met = a.report.error <= options.tolerance && (a.report.passive || !options.enforce_passivity);
     out.all.push_back(std::move(a));
-    if (out.met || (hopeless && stands_still(out.all))) break;
+    if (out.met || (floor.is_above(options.tolerance) && stands_still(out.all, floor))) break;
   }
   return out;
 }
@@ -445,7 +476,7 @@ RationalFit fit(const DampingTable& damping, const std::vector<Eigen::MatrixXd>&
   require(options.tolerance > 0 && options.largest_order >= 2,
           "a fit needs a positive tolerance and an order of 2 at least");
   const double negative = negative_share(damping);  // refuses a source of power
-  const Data even = prepared(damping, A, A_inf, options.tolerance), d = weighted(even);
+  const Data even = prepared(damping, A, A_inf, options), d = weighted(even);
   require(!d.modes.empty(), "there is no damping to fit: no mode makes waves");
   const int most = std::min(options.largest_order, static_cast<int>(3 * damping.omega.size() / 2));
   const auto told = [&](const Data& of, Attempt a, std::string why) {
@@ -460,13 +491,13 @@ RationalFit fit(const DampingTable& damping, const std::vector<Eigen::MatrixXd>&
   };
   const bool few = damping.omega.size() < few_frequencies;
   const Floor floor = options.enforce_passivity ? floor_of_passive(even) : Floor{};
-  const bool hopeless = floor.error > options.tolerance;
-  Attempts found = attempts(d, options, most, few ? Search::anew : Search::onward, hopeless);
+  const bool hopeless = floor.is_above(options.tolerance);
+  Attempts found = attempts(d, options, most, few ? Search::anew : Search::onward, floor);
   if (found.met) return lowest(d, std::move(found));
   Attempt best = nearest(d, options, std::move(found.all));
   // Weights and quick ways may stand in the way of a tolerance that could just be met, or of one much nearer to it.
   if (!few && !hopeless && is_promising(even, options, most, best.report)) {
-    Attempts others = attempts(even, options, most, Search::anew, hopeless);
+    Attempts others = attempts(even, options, most, Search::anew, floor);
     if (others.met) return lowest(even, std::move(others));
     const double below = worth_it(options, best.report);
     std::erase_if(others.all, [&](const Attempt& a) { return a.report.error >= below; });
@@ -476,12 +507,12 @@ RationalFit fit(const DampingTable& damping, const std::vector<Eigen::MatrixXd>&
     }
   }
   const FitReport& report = best.report;
-  const std::string why =
-      hopeless ? fmt::format(
-                     "the damping of the data would give energy at {:.3g} rad/s, so that no passive model comes "
-                     "nearer than {:.2g} to them, and none meets the tolerance of {:.2g}",
-                     floor.at_omega, floor.error, options.tolerance)
-               : fmt::format("no order up to {} meets the tolerance of {:.2g}", most, options.tolerance);
+  std::string why = fmt::format("no order up to {} meets the tolerance of {:.2g}", most, options.tolerance);
+  if (hopeless)
+    why = fmt::format(
+        "the damping of the data would give energy at {:.3g} rad/s, so that no passive model comes nearer than {:.2g} "
+        "to them; the nearest damping that gives none is {:.2g} from them, beyond the tolerance of {:.2g}",
+        floor.at_omega, floor.error, floor.nearest, options.tolerance);
   return told(d, best,
               fmt::format("{}; order {} comes nearest with {:.2g}{}", why, report.order, report.error,
                           report.passive || !options.enforce_passivity ? "" : ", and is not certified passive"));

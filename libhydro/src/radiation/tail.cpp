@@ -121,8 +121,7 @@ void prefer_straightness(Problem& p, const Eigen::RowVectorXd& last_B) {
 Eigen::MatrixXd passive(const Eigen::MatrixXd& B, const Eigen::VectorXd& size) {
   const Eigen::MatrixXd scaled =
       size.cwiseInverse().asDiagonal() * dense::symmetric_part(B) * size.cwiseInverse().asDiagonal();
-  const auto [values, vectors] = dense::symmetric_eigen(scaled);
-  return size.asDiagonal() * vectors * values.cwiseMax(0).asDiagonal() * vectors.transpose() * size.asDiagonal();
+  return size.asDiagonal() * dense::positive_part(scaled) * size.asDiagonal();
 }
 
 }  // namespace

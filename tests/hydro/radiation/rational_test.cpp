@@ -161,6 +161,28 @@ TEST(RationalFit, SaysByHowMuchDataThatGiveEnergyAreMissed) {
   EXPECT_THAT(within(0.051).why, testing::Not(HasSubstr("would give energy"))) << "a tolerance that may be met";
 }
 
+// (R27): three modes whose damping is w(I − vvᵀ) with v = (1, 1, 1)/√3, and −0.03 of their largest along v where they
+// make waves: 0.03/(Σ|v|)² = 0.01 keeps every passive model away, while any two of the three take energy from each
+// motion. The nearest damping that gives none is as far, 0.03/3, and fits go there.
+TEST(RationalFit, GoesToTheNearestDampingThatGivesNoEnergy) {
+  auto exact = support::random_passive(11, 3, 2);
+  const Eigen::Matrix3d along = Eigen::Matrix3d::Constant(1.0 / 3), across = Eigen::Matrix3d::Identity() - along;
+  for (std::size_t k = 0; k < exact.poles.size(); ++k) {
+    exact.C[k] = across;
+    exact.S[k] = -exact.poles[k].decay / exact.poles[k].omega * across;
+  }
+  auto data = support::data_of(exact, 5, 50);
+  double largest = 0;
+  for (const auto& B : data.damping.B) largest = std::max(largest, B(0, 0));
+  for (auto& B : data.damping.B)
+    if (B(0, 0) > 0.3 * largest) B -= 0.03 * largest * along;
+  const auto report = hydro::radiation::fit(data.damping, data.A, data.A_inf, {.tolerance = 1e-3}).report;
+  EXPECT_TRUE(report.passive);
+  EXPECT_THAT(report.why, HasSubstr("no passive model comes nearer than 0.01 "));
+  EXPECT_GE(report.error, 0.01) << "the largest damping is 0.99 of what it was, and the floor that much higher";
+  EXPECT_LT(report.error, 0.015) << "that, and what passive models between the data and a margin cost";
+}
+
 // As of a hull with a plane of symmetry, whose modes of one kind move those of the other by what its data's last digits
 // make of nothing. What is above a thousandth of the tolerance is data, not round-off.
 TEST(RationalFit, TakesModesApartThatDoNotMoveEachOther) {

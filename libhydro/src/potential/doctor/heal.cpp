@@ -163,11 +163,9 @@ HealStep make_passive(Coefficients& c, const VectorXd& s) {
   for (auto& B : c.B) {
     const MatrixXd scaled =
         scale.cwiseInverse().asDiagonal() * dense::symmetric_part(B) * scale.cwiseInverse().asDiagonal();
-    const auto [values, vectors] = dense::symmetric_eigen(scaled);
-    if (values(0) >= 0) continue;
+    if (dense::symmetric_eigenvalues(scaled)[0] >= 0) continue;
     const MatrixXd skew = (B - B.transpose()) / 2;  // does no work, and is another step's business
-    const MatrixXd passive =
-        scale.asDiagonal() * vectors * values.cwiseMax(0).asDiagonal() * vectors.transpose() * scale.asDiagonal();
+    const MatrixXd passive = scale.asDiagonal() * dense::positive_part(scaled) * scale.asDiagonal();
     largest = std::max(largest, replace(B, passive + skew, s));
     ++changed;
   }
