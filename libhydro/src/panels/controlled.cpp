@@ -265,8 +265,9 @@ Work controlled_work(const PanelMesh& given, const std::vector<HullBody>& bodies
                       "frequencies; {:.2g} is asked for, and {}",
                       e.total(), e.interpolation, w.check.refined_omega.size(), tolerance, ladder.why_not_finer()),
           {},
-          "make the mesh finer, above all at edges and at the waterline, leave out the shortest waves, or ask for "
-          "less");
+          "make the mesh finer, above all at edges and at the waterline, leave out the shortest waves, or take a "
+          "larger "
+          "error by name: mesh_tolerance in a scene, --tolerance of froude bem solve");
   }
 }
 
