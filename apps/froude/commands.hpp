@@ -307,6 +307,15 @@ struct HydrostaticsArguments {
 /// Volume, centres, waterplane, C, GM and righting arms of a hull.
 void hydrostatics(const HydrostaticsArguments& arguments, const Console& console);
 
+struct ReportArguments {
+  std::vector<Path> results;         ///< files and folders of any command that answers, and fit scenes
+  Path output;                       ///< .html
+  std::optional<std::string> from;   ///< "60 s": statistics and spectra of runs leave out what comes before
+  std::optional<Path> scene_folder;  ///< where the scenes of results stood, for meshes; none: beside the results
+};
+/// One HTML file that shows the results and needs no other. \throws hydro::InputError, also in a build without npm
+void report_results(const ReportArguments& arguments, const Console& console);
+
 struct WavesInfoArguments {
   Path file;                                                ///< scene, list of components, spectrum or record
   hydro::WaterDepth depth = hydro::WaterDepth::infinite();  ///< of the water, where the file does not say

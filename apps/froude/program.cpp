@@ -387,6 +387,27 @@ void add_fit(CLI::App& app, Request& request) {
   calls(*command, request, arguments, fit);
 }
 
+void add_report(CLI::App& app, Request& request) {
+  auto* command = app.add_subcommand("report", "results as one HTML file: figures, tables, an animation in space");
+  command->footer(
+      "Examples:\n  froude report run.h5 rao.h5 -o report.html\n"
+      "  froude report before.h5 after.h5 --from \"60 s\" -o compared.html\n"
+      "  froude report examples/fit/oscillation.toml -o fit.html");
+  auto arguments = std::make_shared<ReportArguments>();
+  command
+      ->add_option("results", arguments->results,
+                   "of run, rao, modes, waves make or psd (.h5), of psd or response (.csv), folders of sweeps, "
+                   "estimates of fit (.toml), or a fit scene, which is then fitted")
+      ->required();
+  command->add_option("-o,--output", arguments->output, "the report (.html)")->required();
+  command->add_option("--from", arguments->from,
+                      "statistics and spectra of runs leave out what comes before: \"60 s\"");
+  command->add_option("--scene-folder", arguments->scene_folder,
+                      "where the scenes stood, whose meshes and data the animation and the plan need; left out: beside "
+                      "each result");
+  calls(*command, request, arguments, report_results);
+}
+
 void add_cost(CLI::App& app, Request& request) {
   auto* command = app.add_subcommand("cost", "what accuracy costs: error and time of a scene's approximations");
   command->footer(
@@ -497,6 +518,7 @@ void describe(CLI::App& app, Request& request) {
   add_scene_command(app, request, "plan", "what a scene will run, by which method, and why the rest will not", &plan,
                     false);
   add_experiment(app, request);
+  add_report(app, request);
   add_cost(app, request);
   add_sweep(app, request, sweep_scenes);
   add_other_programs(app);

@@ -41,6 +41,13 @@ class Demo(unittest.TestCase):
             self.assertIn(name, self.told)
         self.assertIn(f"Open {self.out}/psd.svg first", self.told)
 
+    def test_a_build_with_reports_makes_one(self):
+        report = self.out / "report.html"
+        self.assertEqual(report.exists(), "report.html" in self.told)
+        if report.exists():
+            self.assertLess(report.stat().st_size, 10e6)  # what a report promises
+            self.assertIn("<script type=\"application/json\" id=\"data\">", report.read_text(encoding="utf-8"))
+
     def test_pictures_are_drawings_with_curves(self):
         for name in FILES:
             if name.endswith(".svg"):

@@ -29,6 +29,14 @@ class Shipped(unittest.TestCase):
             self.assertTrue(component.get("version"), component["name"] + " is not installed")
         self.assertTrue(all(each["licenses"][0]["expression"] for each in document["components"]))
 
+    def test_what_reports_bring_from_npm_is_listed_at_the_version_of_the_lock_file(self):
+        listed = {each["name"]: each for each in json.loads(run("scripts/sbom").stdout)["components"]}
+        wanted = json.loads((SOURCE / "apps/report/web/package.json").read_text())["dependencies"]
+        self.assertEqual(set(wanted), {"uplot", "three"})
+        for name, version in wanted.items():
+            self.assertEqual((listed[name]["version"], listed[name]["licenses"][0]["expression"], listed[name]["scope"]),
+                             (version, "MIT", "optional"))
+
     def test_what_is_needed_is_what_set_up_installs(self):
         listed = {line.strip() for line in (SOURCE / "scripts/apt-packages.txt").read_text().splitlines()}
         for component in json.loads(run("scripts/sbom").stdout)["components"]:

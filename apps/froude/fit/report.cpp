@@ -5,6 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include "froude/fit_facts.hpp"
+
 namespace froude {
 namespace {
 
@@ -78,5 +80,7 @@ Report told(const ::fit::Report& fit, double confidence) {
       out.part(part.key, told(part, confidence));
   return out;
 }
+
+Json facts_of_fit(const ::fit::Report& fit, double confidence) { return told(fit, confidence).tree(); }
 
 }  // namespace froude

@@ -1,0 +1,93 @@
+// The surface of the waves in an animation, held against the recorded elevation.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compile/waves.hpp"
+#include "hydro/base/error.hpp"
+#include "report/view.hpp"
+
+namespace froude::html {
+namespace {
+
+constexpr std::size_t most_components = 160;
+constexpr double share_of_variance = 0.999, largest_departure = 0.25;
+
+double variance(const std::vector<hydro::waves::Component>& waves) {
+  double sum = 0;
+  for (const auto& w : waves) sum += w.amplitude * w.amplitude / 2;
+  return sum;
+}
+
+/// The largest components that hold the share shown, or as many as may be.
+std::vector<hydro::waves::Component> largest_of(std::vector<hydro::waves::Component> waves) {
+  std::sort(waves.begin(), waves.end(), [](const auto& a, const auto& b) { return a.amplitude > b.amplitude; });
+  const double all = variance(waves);
+  double held = 0;
+  std::size_t count = 0;
+  while (count < std::min(waves.size(), most_components) && held < share_of_variance * all)
+    held += waves[count].amplitude * waves[count].amplitude / 2, ++count;
+  waves.resize(count);
+  return waves;
+}
+
+/// Rms of what the components differ by from the recorded elevation at the origin, over the rms of that.
+double departure(const std::vector<hydro::waves::Component>& waves, const RunResult& run,
+                 const std::vector<double>& recorded) {
+  double off = 0, all = 0;
+  const std::size_t stride = std::max<std::size_t>(1, run.time.size() / 2000);
+  for (std::size_t i = 0; i < run.time.size(); i += stride) {
+    double sum = 0;
+    for (const auto& w : waves) sum += w.amplitude * std::cos(w.omega * run.time[i] + w.phase);
+    off += (sum - recorded[i]) * (sum - recorded[i]), all += recorded[i] * recorded[i];
+  }
+  return all > 0 ? std::sqrt(off / all) : 0;
+}
+
+}  // namespace
+
+Json surface_of(const scene::Scene& scene, const RunResult& run, const Recorded& recorded,
+                std::vector<std::string>& notes) {
+  if (!scene.waves) return {};
+  std::vector<hydro::waves::Component> all;
+  try {
+    all = compile::free_waves(scene).components();
+  } catch (const hydro::InputError& e) {
+    notes.push_back(
+        fmt::format("The surface is drawn flat: the waves of the scene are no sum of linear waves ({}).", e.rule()));
+    return {};
+  }
+  const auto shown = largest_of(all);
+  std::string told =
+      shown.size() < all.size()
+          ? fmt::format("The surface is the sum of the {} largest of {} waves, with {:.3g} % of their variance",
+                        shown.size(), all.size(), 100 * variance(shown) / variance(all))
+          : fmt::format("The surface is the sum of all waves of the scene, {}", all.size());
+  if (const auto* elevation = recorded.find("wave.elevation")) {
+    const double off = departure(shown, run, *elevation);
+    if (off > largest_departure) {
+      notes.push_back(
+          fmt::format("The surface is drawn flat: a sum of linear waves would be {:.0f} % off the recorded "
+                      "elevation.",
+                      100 * off));
+      return {};
+    }
+    told += fmt::format("; at the origin it differs from the recorded elevation by {:.2g} % (rms)", 100 * off);
+  } else {
+    told += "; the result keeps no wave.elevation to hold it against";
+  }
+  notes.push_back(told + ". Waves that the bodies make or scatter are not drawn.");
+  Json out{{"omega", Json::array()},
+           {"k", Json::array()},
+           {"amplitude", Json::array()},
+           {"phase", Json::array()},
+           {"heading", Json::array()}};
+  for (const auto& w : shown) {
+    out["omega"].push_back(w.omega), out["k"].push_back(w.k), out["amplitude"].push_back(w.amplitude);
+    out["phase"].push_back(w.phase), out["heading"].push_back(w.heading);
+  }
+  return out;
+}
+
+}  // namespace froude::html

@@ -1,0 +1,242 @@
+// Reports as their readers meet them, in Chromium.
+//
+//   node report_test.mjs FROUDE SOURCE PACKAGES
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { CHROMIUM, colouredPixels, openBrowser, openReport } from './browser.mjs';
+
+const [froude, source, packages] = process.argv.slice(2);
+if (!existsSync(CHROMIUM)) {
+  console.log('skipped: there is no Chromium; scripts/setup report installs it');
+  process.exit(77);
+}
+
+const folder = mkdtempSync(join(tmpdir(), 'froude_browser_'));
+const file = (name) => join(folder, name);
+const run = (...words) => execFileSync(froude, words, { cwd: folder, encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
+const report = (name, ...words) => {
+  run('report', ...words, '-o', file(name));
+  return file(name);
+};
+process.on('exit', () => rmSync(folder, { recursive: true, force: true }));
+
+const hostile = readFileSync(join(source, 'examples/moored.toml'), 'utf8')
+  .replace('title = "A module on four chains"', 'title = "</script><script>document.title = \'taken\'</script><b id=taken>"')
+  .replace('data/pontoon1.nc', join(source, 'examples/data/pontoon1.nc'));
+writeFileSync(file('hostile.toml'), hostile);
+run('run', file('hostile.toml'), '-o', 'hostile.h5');
+run('run', join(source, 'examples/moored.toml'), '-o', 'moored.h5');
+run('rao', join(source, 'examples/headings.toml'), '-o', 'rao.h5');
+const browser = await openBrowser(packages);
+
+/** Opens, looks, and expects that nothing went wrong meanwhile. */
+async function looking(html, look, ...more) {
+  const { page, wrong } = await openReport(browser, html, ...more);
+  await look(page);
+  assert.deepEqual(wrong, []);
+  await page.context().close();
+}
+
+const moored = () => report('moored.html', 'moored.h5', '--scene-folder', join(source, 'examples'));
+const figureNamed = (page, name) => page.locator('figure', { has: page.locator('figcaption .name', { hasText: new RegExp(`^${name}$`) }) }).first();
+const rangeOf = async (figure) => (await figure.locator('.plot').getAttribute('data-x')).split(' ').map(Number);
+
+/** From a quarter to three quarters of a figure. */
+async function dragAcross(page, figure) {
+  const over = figure.locator('.u-over');
+  await over.scrollIntoViewIfNeeded();
+  const box = await over.boundingBox();
+  await page.mouse.move(box.x + box.width / 4, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2, { steps: 4 });
+  await page.mouse.move(box.x + (3 * box.width) / 4, box.y + box.height / 2, { steps: 4 });
+  await page.mouse.up();
+}
+
+test('a run has curves that zoom together and follow the units', async () => {
+  await looking(moored(), async (page) => {
+    const heave = figureNamed(page, 'Heave'), surge = figureNamed(page, 'Surge');
+    await surge.scrollIntoViewIfNeeded();
+    await heave.scrollIntoViewIfNeeded();
+    await heave.locator('canvas').waitFor();
+    assert.ok(await colouredPixels(heave.locator('canvas')) > 300);
+    assert.deepEqual(await rangeOf(heave), [0, 40]);
+    await dragAcross(page, heave);
+    const [low, high] = await rangeOf(heave);
+    // A quarter to three quarters of 0 to 40 s; the mouse is told in whole pixels of some 400.
+    assert.ok(Math.abs(low - 10) < 0.3 && Math.abs(high - 30) < 0.3, `${low} ${high}`);
+    assert.deepEqual(await rangeOf(surge), [low, high]);
+    await heave.locator('.u-over').dblclick();
+    assert.deepEqual(await rangeOf(heave), [0, 40]);
+    assert.match(await heave.locator('.plot').getAttribute('data-y'), /\[m\]/);
+    await page.getByLabel('Lengths').selectOption('ft');
+    assert.match(await heave.locator('.plot').getAttribute('data-y'), /\[ft\]/);
+    const pitch = page.locator('.plot[data-y^="pitch"]').first();
+    await pitch.scrollIntoViewIfNeeded();
+    assert.match(await pitch.getAttribute('data-y'), /\[deg\]/);
+    await page.getByLabel('Angles').selectOption('rad');
+    assert.match(await pitch.getAttribute('data-y'), /\[rad\]/);
+  });
+});
+
+test('spectra stand over period, angular frequency or frequency', async () => {
+  await looking(moored(), async (page) => {
+    const spectrum = figureNamed(page, 'Heave: spectral density');
+    await spectrum.scrollIntoViewIfNeeded();
+    await spectrum.locator('canvas').waitFor();
+    const [, longest] = await rangeOf(spectrum);
+    await page.getByLabel('Abscissa of spectra').selectOption('f');
+    const [lowest] = await rangeOf(spectrum);
+    assert.ok(Math.abs(longest * lowest - 1) < 1e-9, 'the longest period is that of the lowest frequency');
+    assert.match(await spectrum.locator('.plot').getAttribute('data-y'), /m²\/Hz/);
+    await page.getByLabel('Abscissa of spectra').selectOption('omega');
+    assert.ok(Math.abs((await rangeOf(spectrum))[0] / (2 * Math.PI * lowest) - 1) < 1e-9);
+    assert.match(await spectrum.locator('.plot').getAttribute('data-y'), /m²\/\(rad\/s\)/);
+    const before = await colouredPixels(spectrum.locator('canvas'));
+    await spectrum.getByRole('button', { name: 'Logarithmic scale' }).click();
+    assert.notEqual(await colouredPixels(spectrum.locator('canvas')), before);
+  });
+});
+
+test('the animation plays, is moved, and turns by the keyboard', async () => {
+  await looking(moored(), async (page) => {
+    const space = page.locator('.space[data-by=webgl]');
+    await space.waitFor();
+    const time = page.locator('output.time'), canvas = space.locator('canvas');
+    const picture = () => canvas.evaluate((c) => c.toDataURL());
+    assert.ok(await colouredPixels(canvas) > 2000);
+    const first = await picture();
+    await page.getByRole('button', { name: 'Play' }).click();
+    await page.waitForFunction(() => parseFloat(document.querySelector('output.time').textContent.slice(4)) > 0.5);
+    await page.getByRole('button', { name: 'Pause' }).click();
+    const told = await time.textContent();
+    assert.notEqual(await picture(), first, 'the picture moves');
+    await page.waitForTimeout(200);
+    assert.equal(await time.textContent(), told, 'it stands still when paused');
+    const before = await picture();
+    await canvas.focus();
+    await page.keyboard.press('ArrowLeft');
+    assert.notEqual(await picture(), before, 'arrow keys turn it');
+    await page.getByLabel('Time, s').fill('20');
+    assert.equal(await time.textContent(), 't = 20.0 s');
+  });
+});
+
+test('without WebGL the side view plays', async () => {
+  const plain = await openBrowser(packages, ['--disable-gpu', '--disable-3d-apis']);
+  const { page, wrong } = await openReport(plain, moored());
+  await page.locator('.space[data-by=canvas]').waitFor();
+  const canvas = page.locator('.space canvas');
+  const first = await canvas.evaluate((c) => c.toDataURL());
+  assert.ok(await colouredPixels(canvas) > 1000);
+  await page.getByLabel('Time, s').fill('13');
+  assert.notEqual(await canvas.evaluate((c) => c.toDataURL()), first);
+  assert.deepEqual(wrong.filter((line) => !/WebGL/.test(line)), []);
+  await plain.close();
+});
+
+test('the title of a scene stays text', async () => {
+  await looking(report('hostile.html', 'hostile.h5'), async (page) => {
+    assert.match(await page.title(), /^<\/script><script>document\.title/);
+    assert.equal(await page.locator('#taken').count(), 0);
+    assert.match(await page.locator('h1').textContent(), /<b id=taken>/);
+  });
+});
+
+test('responses show amplitude and phase of several headings', async () => {
+  await looking(report('rao.html', 'rao.h5'), async (page) => {
+    const heave = figureNamed(page, 'Heave: amplitude');
+    await heave.scrollIntoViewIfNeeded();
+    await heave.locator('canvas').waitFor();
+    assert.ok(await colouredPixels(heave.locator('canvas')) > 300);
+    const boxes = heave.locator('.legend input');
+    assert.equal(await boxes.count(), 13);
+    assert.equal(await heave.locator('.legend input:checked').count(), 6);
+    await boxes.nth(8).click();
+    assert.equal(await heave.locator('.legend input:checked').count(), 6, 'a seventh curve is refused');
+    await boxes.nth(0).click();
+    await boxes.nth(8).click();
+    assert.equal(await heave.locator('.legend input:checked').count(), 6);
+    assert.equal(await figureNamed(page, 'Heave: phase').count(), 1);
+    assert.match(await heave.locator('.plot').getAttribute('data-y'), /\[m\/m\]/);
+  });
+});
+
+test('two runs lie over each other, and a table tells their difference', async () => {
+  await looking(report('two.html', 'moored.h5', 'hostile.h5'), async (page) => {
+    const both = figureNamed(page, 'module.heave');
+    await both.scrollIntoViewIfNeeded();
+    assert.equal(await both.locator('.legend input:checked').count(), 2);
+    const row = page.locator('#comparison table tr', { hasText: 'module.heave' });
+    assert.equal(await row.locator('td').nth(8 - 1).textContent(), '0', 'the same run differs by nothing');
+  });
+});
+
+test('a fit and a table have their figures', async () => {
+  const fit = report('fit.html', join(source, 'examples/fit/oscillation.toml'));
+  await looking(fit, async (page) => {
+    assert.match(await page.locator('table', { hasText: 'Coefficients' }).first().textContent(), /1\.218/);
+    assert.ok(await colouredPixels(page.locator('canvas.plane').first()) > 200);
+  });
+  run('psd', 'moored.h5', '--signal', 'module.heave', '-o', 'psd.csv');
+  await looking(report('psd.html', 'psd.csv'), async (page) => {
+    await page.locator('.plot canvas').first().waitFor();
+    assert.ok(await colouredPixels(page.locator('.plot canvas').first()) > 300);
+  });
+});
+
+test('a sweep is a map that tells its values', async () => {
+  writeFileSync(file('study.toml'), `schema = 1\ntitle = "Map"\nscene = "${join(source, 'examples/headings.toml')}"\n[[axis]]\nname = "mass"\n` +
+    'key = "body.float.mass"\nvalues = ["1017.9 t", "1000 t"]\n[[axis]]\nname = "k"\nkey = "mooring.mooring.stiffness.surge"\nvalues = ["60 kN/m", "80 kN/m", "90 kN/m"]\n' +
+    '[[output]]\nkind = "rao"\nof = "float.pitch"\nstatistic = "peak"\n');
+  run('sweep', 'study.toml', '-o', 'cases');
+  await looking(report('sweep.html', 'cases'), async (page) => {
+    const map = page.locator('canvas.plane').first();
+    await map.waitFor();
+    assert.ok(await colouredPixels(map) > 5000);
+    const box = await map.boundingBox();
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    assert.match(await page.locator('.readout').first().textContent(), /mass .*k .*:/);
+    assert.equal(await page.locator('table tbody tr').count(), 6);
+  });
+});
+
+test('nothing is wider than a telephone, and all controls are reached by the keyboard', async () => {
+  await looking(moored(), async (page) => {
+    const [wide, window] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+    assert.ok(wide <= window, `${wide} px in a window of ${window} px`);
+    const reached = new Set();
+    for (let i = 0; i < 14; ++i) {
+      await page.keyboard.press('Tab');
+      reached.add(await page.evaluate(() => `${document.activeElement.tagName} ${document.activeElement.getAttribute('aria-label') ?? ''}`.trim()));
+    }
+    for (const control of ['SELECT', 'BUTTON Play', 'INPUT Time, s'])
+      assert.ok(reached.has(control), `${control} is reached: ${[...reached]}`);
+  }, { width: 400, height: 800 });
+});
+
+test('a dark page has light ink, and figures can be saved', async () => {
+  await looking(moored(), async (page) => {
+    const paper = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+    const light = await paper();
+    await page.getByLabel('Appearance').selectOption('dark');
+    assert.notEqual(await paper(), light);
+    const heave = figureNamed(page, 'Heave');
+    await heave.scrollIntoViewIfNeeded();
+    await heave.locator('canvas').waitFor();
+    const saved = async (name) => {
+      const [file_] = await Promise.all([page.waitForEvent('download'), heave.getByRole('button', { name }).click()]);
+      return file_.path();
+    };
+    const csv = readFileSync(await saved('Save the numbers of this figure'), 'utf8').split('\n');
+    assert.match(csv[0], /^time t \[s\],module \[m\]/);
+    assert.equal(csv.length, 1 + 401 + 1);
+    assert.ok(statSync(await saved('Save this figure as a picture')).size > 3000);
+  });
+});
+
+test('the browser closes', () => browser.close());
