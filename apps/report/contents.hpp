@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "answers/fit_kind.hpp"
@@ -15,6 +16,9 @@
 #include "report/arrays.hpp"
 
 namespace froude::html {
+
+/// Pairs of a word and a text, in this order; a brace list of pairs would be an object.
+using Facts = std::vector<std::pair<std::string, std::string>>;
 
 struct Options {
   double from = 0;                                    ///< s: statistics and spectra leave out what comes before

@@ -62,8 +62,8 @@ Json json_of_toml(const toml::node& node) {
 
 Json fit_contents(const scene::FitScene& scene, const scene::FitAnswer& answer, const Json& facts) {
   Json out{{"kind", "fit"}, {"name", scene.file.filename().string()}, {"title", scene.title}};
-  out["facts"] = {{"Fit of kind", scene.kind()},
-                  {"Confidence of intervals", fmt::format("{:g} %", 100 * scene.confidence)}};
+  out["facts"] =
+      Facts{{"Fit of kind", scene.kind()}, {"Confidence of intervals", fmt::format("{:g} %", 100 * scene.confidence)}};
   out["scene_text"] = scene.text;
   Json settings = Json::array();
   for (const scene::Echo& echo : scene.echo)
@@ -92,7 +92,7 @@ Json estimates_contents(const std::filesystem::path& path) {
                             "run a scene of motion first, and give the result: froude run SCENE -o run.h5");
   Json tree = json_of_toml(table);
   Json out{{"kind", "fit"}, {"name", path.filename().string()}, {"title", ""}};
-  out["facts"] = {{"Scene", tree.value("scene", "")}, {"Fit of kind", tree.value("kind", "")}};
+  out["facts"] = Facts{{"Scene", tree.value("scene", "")}, {"Fit of kind", tree.value("kind", "")}};
   out["tree"] = tree;
   out["notes"] = {
       "These are estimates without the measurements. Give the fit scene itself, and the fit is made and its "

@@ -73,10 +73,10 @@ Json modes_in(const fs::path& path) {
 Json spectra_in(const fs::path& path) {
   const Hdf5Reader file(path);
   Json out{{"kind", "table"}, {"name", path.filename().string()}, {"title", "Spectra"}};
-  out["facts"] = {
-      {"Made by", file.text_attribute("/", "kind") + ", version " + file.text_attribute("/", "froude_version")},
-      {"Confidence of the intervals", fmt::format("{:g} %", 100 * file.number_attribute("/", "confidence"))},
-      {"Degrees of freedom", fmt::format("{:.3g}", file.number_attribute("/", "degrees_of_freedom"))}};
+  out["facts"] =
+      Facts{{"Made by", file.text_attribute("/", "kind") + ", version " + file.text_attribute("/", "froude_version")},
+            {"Confidence of the intervals", fmt::format("{:g} %", 100 * file.number_attribute("/", "confidence"))},
+            {"Degrees of freedom", fmt::format("{:.3g}", file.number_attribute("/", "degrees_of_freedom"))}};
   Json columns = Json::array();
   const auto add = [&](const std::string& name) {
     const auto values = file.numbers("/" + name);

@@ -42,7 +42,7 @@ Json sweep_contents(const std::filesystem::path& folder) {
                   {"done", in_state(sweep::State::done)},
                   {"failed", in_state(sweep::State::failed)},
                   {"skipped", in_state(sweep::State::skipped)}};
-  out["facts"] = {{"Study", of.name}};
+  out["facts"] = Facts{{"Study", of.name}};
   Json axes = Json::array(), outputs = Json::array(), number = Json::array(), state = Json::array(),
        why = Json::array();
   for (const sweep::Row& row : rows) {

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 
 #include "dynamics/spatial/rotation.hpp"
 #include "hydro/base/error.hpp"
@@ -37,6 +38,7 @@ Json poses_told(const std::vector<Pose>& poses) {
 Json bodies_told(const scene::Scene& scene, const std::vector<BodyMotion>& motions, std::vector<std::string>& notes) {
   Json out = Json::array();
   std::vector<std::string> still;
+  std::map<std::string, std::vector<std::string>> without;  // names by the motions that are not kept
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const BodyMotion& m = motions[i];
     Json one{{"name", scene.bodies[i].name}, {"moves", m.moves}, {"poses", poses_told(m.poses)}};
@@ -45,10 +47,12 @@ Json bodies_told(const scene::Scene& scene, const std::vector<BodyMotion>& motio
     if (!m.moves && !m.missing.empty())
       still.push_back(scene.bodies[i].name);
     else if (!m.missing.empty())
-      notes.push_back(fmt::format("The result does not keep the {} of {}: there it is shown as if it did not move so.",
-                                  fmt::join(m.missing, ", "), scene.bodies[i].name));
+      without[fmt::format("{}", fmt::join(m.missing, ", "))].push_back(scene.bodies[i].name);
     out.push_back(std::move(one));
   }
+  for (const auto& [motions_missing, names] : without)
+    notes.push_back(fmt::format("The result does not keep the {} of {}, shown as if there were none.", motions_missing,
+                                fmt::join(names, ", ")));
   if (!still.empty())
     notes.push_back(
         fmt::format("The result keeps no motion of {}, shown pale where it is at rest; [ask] run = {{ of = "

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "compile/waves.hpp"
 #include "hydro/base/error.hpp"
@@ -11,7 +12,7 @@
 namespace froude::html {
 namespace {
 
-constexpr std::size_t most_components = 160;
+constexpr std::size_t most_along_one_way = 1200, most_short_crested = 250;  // the page sums them at each frame
 constexpr double share_of_variance = 0.999, largest_departure = 0.25;
 
 double variance(const std::vector<hydro::waves::Component>& waves) {
@@ -25,21 +26,28 @@ std::vector<hydro::waves::Component> largest_of(std::vector<hydro::waves::Compon
   std::sort(waves.begin(), waves.end(), [](const auto& a, const auto& b) { return a.amplitude > b.amplitude; });
   const double all = variance(waves);
   double held = 0;
+  const bool one_way =
+      std::all_of(waves.begin(), waves.end(), [&](const auto& w) { return w.heading == waves[0].heading; });
+  const std::size_t most = std::min(waves.size(), one_way ? most_along_one_way : most_short_crested);
   std::size_t count = 0;
-  while (count < std::min(waves.size(), most_components) && held < share_of_variance * all)
+  while (count < most && held < share_of_variance * all)
     held += waves[count].amplitude * waves[count].amplitude / 2, ++count;
   waves.resize(count);
   return waves;
 }
 
+/// Waves grow by a half cosine over the ramp, as a run has them.
+double grown(double t, double ramp) { return t < ramp ? (1 - std::cos(std::numbers::pi * t / ramp)) / 2 : 1; }
+
 /// Rms of what the components differ by from the recorded elevation at the origin, over the rms of that.
 double departure(const std::vector<hydro::waves::Component>& waves, const RunResult& run,
-                 const std::vector<double>& recorded) {
+                 const std::vector<double>& recorded, double ramp) {
   double off = 0, all = 0;
   const std::size_t stride = std::max<std::size_t>(1, run.time.size() / 2000);
   for (std::size_t i = 0; i < run.time.size(); i += stride) {
     double sum = 0;
-    for (const auto& w : waves) sum += w.amplitude * std::cos(w.omega * run.time[i] + w.phase);
+    for (const auto& w : waves)
+      sum += grown(run.time[i], ramp) * w.amplitude * std::cos(w.omega * run.time[i] + w.phase);
     off += (sum - recorded[i]) * (sum - recorded[i]), all += recorded[i] * recorded[i];
   }
   return all > 0 ? std::sqrt(off / all) : 0;
@@ -65,7 +73,7 @@ Json surface_of(const scene::Scene& scene, const RunResult& run, const Recorded&
                         shown.size(), all.size(), 100 * variance(shown) / variance(all))
           : fmt::format("The surface is the sum of all waves of the scene, {}", all.size());
   if (const auto* elevation = recorded.find("wave.elevation")) {
-    const double off = departure(shown, run, *elevation);
+    const double off = departure(shown, run, *elevation, scene.waves->ramp);
     if (off > largest_departure) {
       notes.push_back(
           fmt::format("The surface is drawn flat: a sum of linear waves would be {:.0f} % off the recorded "
@@ -78,11 +86,8 @@ Json surface_of(const scene::Scene& scene, const RunResult& run, const Recorded&
     told += "; the result keeps no wave.elevation to hold it against";
   }
   notes.push_back(told + ". Waves that the bodies make or scatter are not drawn.");
-  Json out{{"omega", Json::array()},
-           {"k", Json::array()},
-           {"amplitude", Json::array()},
-           {"phase", Json::array()},
-           {"heading", Json::array()}};
+  Json out{{"ramp", scene.waves->ramp},  {"omega", Json::array()}, {"k", Json::array()},
+           {"amplitude", Json::array()}, {"phase", Json::array()}, {"heading", Json::array()}};
   for (const auto& w : shown) {
     out["omega"].push_back(w.omega), out["k"].push_back(w.k), out["amplitude"].push_back(w.amplitude);
     out["phase"].push_back(w.phase), out["heading"].push_back(w.heading);

@@ -50,8 +50,8 @@ TEST(ReportArrays, ThatAreShortAreWhole) {
   EXPECT_EQ(html::Thinning(3, 3).values(values), values);
 }
 
-// A line of amplitude a adds a²/2 to ∫ S df.
-TEST(ReportSpectra, HoldTheVarianceOfASine) {
+// All variance lies in one line, which the window spreads over three frequencies: nothing far beyond it is shown.
+TEST(ReportSpectra, ReachBeyondTheLineOfASineAndLeaveOutEnergy) {
   froude::RunResult run;
   froude::Signal heave{"m.heave", "m", "", {}};
   for (int i = 0; i < 8192; ++i) {

@@ -22,7 +22,7 @@ export async function openReport(browser, file, size = { width: 1280, height: 90
   page.on('pageerror', (error) => wrong.push(`exception: ${error.message}`));
   page.on('request', (request) => { if (!/^(file|data|blob):/.test(request.url())) wrong.push(`request: ${request.url()}`); });
   await page.goto(pathToFileURL(file).href);
-  await page.waitForSelector('html[data-ready]', { timeout: 20000 });
+  await page.waitForSelector('html[data-ready]', { timeout: 20000 }).catch(() => { throw new Error(`the page is not ready: ${wrong}`); });
   return { page, wrong };
 }
 

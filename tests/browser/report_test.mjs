@@ -191,7 +191,7 @@ test('a fit and a table have their figures', async () => {
 
 test('a sweep is a map that tells its values', async () => {
   writeFileSync(file('study.toml'), `schema = 1\ntitle = "Map"\nscene = "${join(source, 'examples/headings.toml')}"\n[[axis]]\nname = "mass"\n` +
-    'key = "body.float.mass"\nvalues = ["1017.9 t", "1000 t"]\n[[axis]]\nname = "k"\nkey = "mooring.mooring.stiffness.surge"\nvalues = ["60 kN/m", "80 kN/m", "90 kN/m"]\n' +
+    'key = "body.float.mass"\nvalues = ["1017.9 t", "1000 t"]\n[[axis]]\nname = "k"\nkey = "mooring.stiffness.surge"\nvalues = ["60 kN/m", "80 kN/m", "90 kN/m"]\n' +
     '[[output]]\nkind = "rao"\nof = "float.pitch"\nstatistic = "peak"\n');
   run('sweep', 'study.toml', '-o', 'cases');
   await looking(report('sweep.html', 'cases'), async (page) => {
@@ -223,7 +223,7 @@ test('a dark page has light ink, and figures can be saved', async () => {
   await looking(moored(), async (page) => {
     const paper = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
     const light = await paper();
-    await page.getByLabel('Appearance').selectOption('dark');
+    await page.getByRole('combobox', { name: 'Appearance' }).selectOption('dark');
     assert.notEqual(await paper(), light);
     const heave = figureNamed(page, 'Heave');
     await heave.scrollIntoViewIfNeeded();
