@@ -161,8 +161,8 @@ struct SymmetricEigen {
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A);
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& A);
 
-/// A symmetric A with its negative eigenvalues set to zero: of all symmetric matrices without any the nearest by the sum
-/// of squares (Higham 1988, theory (P74)). A itself where it has none.
+/// A symmetric A with its negative eigenvalues set to zero: of all symmetric matrices without any the nearest by the
+/// sum of squares (Higham 1988, theory (P74)). A itself where it has none.
 Eigen::MatrixXd positive_part(const Eigen::MatrixXd& A);
 
 /// Eigenvalues of any square matrix, in no order.
