@@ -54,7 +54,7 @@ class IrregularWaveFits final : public FitKindOf<IrregularWaveModel, IrregularPr
   void finish(const FitTables& t, const FitScene& scene, IrregularWaveModel& model) const override {
     model.confidence = scene.confidence;
     model.responses = responses_of(t);
-    only_prepares(t, {"longest_gap", "outliers", "window"}, "leave it out: a filter changes both sides of a ratio",
+    only_prepares(t, steps_of_waves, "leave it out: it acts on forces and motions of a cylinder",
                   "which has no cycles");
   }
 

@@ -116,7 +116,7 @@ class FitKindOf : public FitKind {
     Model model = declared_.model.read(tables.model());
     if (tables.root.has("prepare")) {
       if constexpr (requires { model.prepare; })
-        prepare_binding().read_into(tables.root.table("prepare"), model.prepare);
+        take_steps(tables, model.prepare);
       else
         throw prepares_nothing(tables);
     }
@@ -164,6 +164,8 @@ class FitKindOf : public FitKind {
 
   /// What the keys one by one cannot know, and what follows from several tables. \throws hydro::InputError, placed
   virtual void finish(const FitTables& tables, const FitScene& scene, Model& model) const = 0;
+  /// A band about the waves then needs no frequency: that of each run's surface is taken.
+  virtual bool finds_the_waves() const { return false; }
   /// What was measured, with what the scene knows and how it asks to fit it. \throws hydro::InputError naming the file
   virtual Problem problem(const FitScene& scene, const Model& model) const = 0;
   virtual Panels panels(const Problem& problem, const Solution& solution) const = 0;
@@ -174,6 +176,15 @@ class FitKindOf : public FitKind {
   virtual std::string table(const Problem&, const Solution&) const { return {}; }
 
  private:
+  void take_steps(const FitTables& tables, ::fit::PrepareOptions& out) const {
+    const Record& prepare = tables.root.table("prepare");
+    prepare_binding().read_into(prepare, out);
+    if (out.band_about_waves && !finds_the_waves())
+      throw prepare.table("band_pass")
+          .refused("needs the frequency of the waves, which no surface tells in this fit",
+                   "add frequency = \"0.625 Hz\", or the one of your waves");
+  }
+
   Declared declared_;
   FitKeys keys_;
 };

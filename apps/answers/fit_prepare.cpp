@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "answers/fit_kind.hpp"
+#include "answers/record_step_words.hpp"
 
 namespace froude::scene {
 namespace {
@@ -10,6 +11,7 @@ namespace dim = hydro::dim;
 using ::fit::FilterChoice;
 using ::fit::PrepareOptions;
 using ::fit::WindowChoice;
+constexpr double full_circle = 2 * std::numbers::pi;
 
 Binding<PrepareOptions> outliers() {
   return Binding<PrepareOptions>("[prepare.outliers]", "single samples far off their neighbours, which are bridged")
@@ -17,10 +19,12 @@ Binding<PrepareOptions> outliers() {
            &PrepareOptions::outlier_window_s)
       .key(number("deviations", "how far off, in deviations of the neighbours (from their medians), 3 at least")
                .positive()
-               .or_default("8", "noise alone comes so far once in 1e15 samples"),
+               .or_default(fmt::format("{:g}", usual_outlier_deviations),
+                           "noise alone comes so far once in 1e15 samples"),
            [](const Value& v, PrepareOptions& out) {
              out.outlier_deviations = v.number;
-             if (v.number < 3) throw v.wrong("must be 3 at least: noise itself comes so far");
+             if (v.number < least_outlier_deviations)
+               throw v.wrong(fmt::format("must be {:g} at least: noise itself comes so far", least_outlier_deviations));
            });
 }
 
@@ -36,7 +40,7 @@ Binding<FilterChoice> chebyshev_low_pass() {
   return Binding<FilterChoice>("", "recursive too, forward and backward: falls off sooner, and wavers before")
       .key(integer("order", "of one pass, 2 to 10").or_default("4", "as steep as most need"), take_order<2>)
       .key(number("ripple", "share of the amplitude by which it wavers, 1e-6 to 0.1")
-               .or_default("0.005", "as little as a load cell is wrong by"),
+               .or_default(fmt::format("{:g}", usual_ripple), "as little as a load cell is wrong by"),
            [](const Value& v, FilterChoice& out) {
              out.ripple = v.number;
              if (!(v.number >= 1e-6 && v.number <= 0.1)) throw v.wrong("must lie between 1e-6 and 0.1");
@@ -52,15 +56,15 @@ const Binding<FilterChoice>& low_pass() {
           .key(text("kind", "of filter"))
           .key(positive("cutoff", dim::angular_velocity, "frequency of half the amplitude"), in_hertz(&F::hz))
           .variant(
-              "butterworth",
+              word_of(butterworth),
               Binding<F>("", "recursive, forward and backward")
                   .key(integer("order", "of one pass, 1 to 10").or_default("4", "as steep as most need"), take_order<1>)
                   .sets(&F::kind, butterworth))
-          .variant("chebyshev", chebyshev_low_pass())
+          .variant(word_of(chebyshev), chebyshev_low_pass())
           .variant(
-              "gaussian",
+              word_of(gaussian),
               Binding<F>("", "finite: weights on a bell; falls off early, and never wavers").sets(&F::kind, gaussian))
-          .variant("symmetric weights",
+          .variant(word_of(finite),
                    Binding<F>("", "finite: sinc under a Kaiser window of 60 dB, from half the cutoff to one and a half")
                        .sets(&F::kind, finite));
   return table;
@@ -73,6 +77,40 @@ Binding<FilterChoice> notch() {
       .key(positive("centre", dim::angular_velocity, "frequency of the line"), in_hertz(&FilterChoice::hz))
       .key(positive("width", dim::angular_velocity, "between the frequencies of half the amplitude"),
            in_hertz(&FilterChoice::width));
+}
+
+Binding<PrepareOptions> band_by_edges() {
+  return Binding<PrepareOptions>("", "edges that are named")
+      .key(positive("low", dim::angular_velocity, "lower frequency of half the amplitude"),
+           [](const Value& v, PrepareOptions& out) {
+             out.band_pass = {v.number / full_circle, 0};
+           })
+      .key(positive("high", dim::angular_velocity, "higher frequency of half the amplitude"),
+           [](const Value& v, PrepareOptions& out) { out.band_pass->high_hz = v.number / full_circle; })
+      .then([](const Record& band, PrepareOptions& out) {
+        if (!(out.band_pass->low_hz < out.band_pass->high_hz)) throw band.wrong("high", "must be higher than low");
+      });
+}
+
+Binding<PrepareOptions> band_about_waves() {
+  return Binding<PrepareOptions>("", "from 0.2 to 4 times the frequency of waves: drift goes, three harmonics stay")
+      .sets(&PrepareOptions::band_about_waves, true)
+      .optional(positive("frequency", dim::angular_velocity,
+                         "of the waves; left out, in a fit of kind \"regular waves\": of the surface of each run"),
+                [](const Value& v, PrepareOptions& out) {
+                  out.band_about_waves = false;
+                  out.band_pass = ::fit::band_about_waves(v.number / full_circle);
+                });
+}
+
+const Binding<PrepareOptions>& band_pass() {
+  static const auto table = Binding<PrepareOptions>("[prepare.band_pass]",
+                                                    "band-pass of order 4 without delay, after the other filters: "
+                                                    "neither a mean nor a drift passes")
+                                .key(text("kind", "of band"))
+                                .variant("edges", band_by_edges())
+                                .variant("about the waves", band_about_waves());
+  return table;
 }
 
 Binding<WindowChoice> full_cycles_window() {
@@ -141,7 +179,7 @@ const Binding<PrepareOptions>& prepare_binding() {
       Binding<PrepareOptions>("[prepare]",
                               "steps between the measurement and a fit of kind \"morison\"; each is told in the "
                               "report. A decay has longest_gap, outliers and a window of kind \"span\", records of "
-                              "towing these and filters of the force")
+                              "towing these, a rate and filters of the force, runs in waves these, trend and band-pass")
           .optional(positive("longest_gap", dim::time, "rows missing no longer than this are bridged"),
                     &PrepareOptions::longest_gap_s)
           .table("outliers", outliers())
@@ -156,6 +194,11 @@ const Binding<PrepareOptions>& prepare_binding() {
               positive("delay_error", dim::time, "standard uncertainty of a delay that is given").only_beside("delay"))
           .optional(positive("longest_delay", dim::time, "where it is estimated: searched so far either way")
                         .only_beside("delay"))
+          .key(effect("detrend",
+                      "the slope of the straight line of least squares through the window is taken off, through all of "
+                      "the record where that is no span; the mean stays"),
+               &PrepareOptions::detrend)
+          .table("band_pass", band_pass())
           .part(steps_of_forces())
           .table("window", window(), &PrepareOptions::window)
           .optional()

@@ -66,13 +66,15 @@ class RegularWaveFits final : public FitKindOf<RegularWaveModel, WaveProblem> {
   bool has_table() const override { return true; }
 
  private:
+  bool finds_the_waves() const override { return true; }
+
   void finish(const FitTables& t, const FitScene& scene, RegularWaveModel& model) const override {
     model.confidence = scene.confidence;
     if (model.tank.body >= model.tank.end || model.tank.gauge >= model.tank.end)
       throw t.model().table("tank").wrong("end", "lies before the gauge or the body",
                                           "give its distance from the wavemaker");
     model.responses = responses_of(t);
-    only_prepares(t, {"longest_gap", "outliers", "window"}, "leave it out: peaks have a band of their own",
+    only_prepares(t, steps_of_waves, "leave it out: it acts on forces and motions of a cylinder",
                   "for the window is whole periods in any case");
   }
 

@@ -14,6 +14,10 @@ Binding<::fit::WaveTank> wave_tank();
 /// The columns of [data.channels] response: in fit_regular_waves.cpp. \throws hydro::InputError for none, or one twice
 std::vector<std::string> responses_of(const FitTables& tables);
 
+/// Steps of [prepare] that act on surface and responses alike.
+inline const std::vector<std::string> steps_of_waves{"longest_gap", "outliers",       "resample",  "detrend", "notch",
+                                                     "low_pass",    "moving_average", "band_pass", "window"};
+
 /// Runs, units and errors of slopes of a problem of waves. \throws hydro::InputError where units differ between files
 template <class Problem>
 void read_wave_runs(const FitScene& scene, const std::vector<std::string>& responses, Problem& out) {

@@ -110,7 +110,11 @@ struct StepArguments {
   std::optional<std::string> resample = {};        ///< another sampling rate, e.g. "20 Hz"
   bool detrend = false;                            ///< the straight line of least squares is taken off
   std::vector<std::string> notch = {};             ///< centre and width, e.g. "50 Hz, 2 Hz"
+  std::optional<std::string> moving_average = {};  ///< length, e.g. "0.05 s"
   std::optional<std::string> low_pass = {};        ///< cutoff, e.g. "2 Hz"
+  std::optional<std::string> low_pass_kind = {};   ///< as [prepare.low_pass] kind; "butterworth" unless given
+  std::optional<int> low_pass_order = {};          ///< of one pass; 4 unless given
+  std::optional<double> low_pass_ripple = {};      ///< of "chebyshev"; 0.005 unless given
   std::optional<std::string> band_pass = {};       ///< both edges, e.g. "0.05 Hz, 0.5 Hz"
   std::optional<std::string> wave_frequency = {};  ///< instead: a band from 0.2 to 4 times it
 };

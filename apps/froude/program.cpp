@@ -233,7 +233,12 @@ void add_steps(CLI::App& command, StepArguments& steps) {
       ->group(group);
   add("--notch", steps.notch, "takes a line out; centre and width between half amplitudes: \"50 Hz, 2 Hz\"")
       ->allow_extra_args(false);
-  add("--low-pass", steps.low_pass, "Butterworth of order 4 without delay; cutoff: \"2 Hz\"");
+  add("--moving-average", steps.moving_average, "mean over neighbours; a low pass does it better: \"0.05 s\"");
+  add("--low-pass", steps.low_pass, "without delay; frequency of half the amplitude: \"2 Hz\"");
+  add("--low-pass-kind", steps.low_pass_kind,
+      "butterworth, chebyshev, gaussian or \"symmetric weights\" [butterworth]");
+  add("--low-pass-order", steps.low_pass_order, "of one pass, to 10, of the first two kinds [4]");
+  add("--low-pass-ripple", steps.low_pass_ripple, "share of the amplitude by which chebyshev wavers [0.005]");
   add("--band-pass", steps.band_pass, "without delay; frequencies of half the amplitude: \"0.05 Hz, 0.5 Hz\"");
   add("--wave-frequency", steps.wave_frequency, "instead: a band-pass from 0.2 to 4 times it: \"0.125 Hz\"");
 }

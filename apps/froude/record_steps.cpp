@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "answers/record_step_words.hpp"
 #include "fit/band_pass.hpp"
 #include "fit/prepare_channels.hpp"
 #include "fit/sensor.hpp"
@@ -51,9 +52,7 @@ std::optional<fit::BandEdges> band_of(const StepArguments& a) {
     throw InputError("--wave-frequency is a band-pass about the waves, and --band-pass names another",
                      {.file = "command line"}, "leave out one of the two");
   if (a.wave_frequency) {
-    constexpr double lowest = 0.2, highest = 4;  // slow drift is below, the third harmonic inside
-    const double hz = hertz_of("--wave-frequency", *a.wave_frequency, "0.125 Hz");
-    return fit::BandEdges{lowest * hz, highest * hz};
+    return fit::band_about_waves(hertz_of("--wave-frequency", *a.wave_frequency, "0.125 Hz"));
   }
   if (!a.band_pass) return std::nullopt;
   const auto [low, high] = two_frequencies("--band-pass", *a.band_pass, "0.05 Hz, 0.5 Hz");
@@ -63,41 +62,76 @@ std::optional<fit::BandEdges> band_of(const StepArguments& a) {
   return fit::BandEdges{low, high};
 }
 
+/// An option that says more of another, which must be there.
+[[noreturn]] void refuse_alone(const char* option, const char* needs, const char* remedy) {
+  throw InputError(fmt::format("{} does not act without {}", option, needs), {.file = "command line"}, remedy);
+}
+
 double deviations_of(const StepArguments& a) {
-  constexpr double least = 3, usual = 8;  // as [prepare.outliers] of a fit
-  if (!a.outlier_deviations) return usual;
+  constexpr double least = scene::least_outlier_deviations;
+  if (!a.outlier_deviations) return scene::usual_outlier_deviations;
   if (!a.outliers)
-    throw InputError("--outlier-deviations does not act without --outliers", {.file = "command line"},
-                     "add --outliers with the window that is asked, for example \"1 s\"");
+    refuse_alone("--outlier-deviations", "--outliers",
+                 "add --outliers with the window that is asked, for example \"1 s\"");
   if (!(*a.outlier_deviations >= least))
     throw InputError(fmt::format("{:g} must be {:g} at least: noise itself comes so far", *a.outlier_deviations, least),
                      {.file = "--outlier-deviations"}, "leave it out for 8");
   return *a.outlier_deviations;
 }
 
-fit::ChannelSteps steps_of(const StepArguments& a) {
-  fit::ChannelSteps out;
-  if (a.longest_gap) out.prepare.longest_gap_s = positive_of("--longest-gap", *a.longest_gap, dim::time, "0.5 s");
-  if (a.outliers) out.prepare.outlier_window_s = positive_of("--outliers", *a.outliers, dim::time, "1 s");
-  out.prepare.outlier_deviations = deviations_of(a);
-  if (a.resample) out.prepare.resample_hz = hertz_of("--resample", *a.resample, "20 Hz");
+scene::LowPassWord low_pass_of(const std::string& word) {
+  std::string known;
+  for (const scene::LowPassWord& l : scene::low_pass_words) {
+    if (l.word == word) return l;
+    known += fmt::format("{}\"{}\"", known.empty() ? "" : ", ", l.word);
+  }
+  throw InputError(fmt::format("\"{}\" is no kind of low pass", word), {.file = "--low-pass-kind"},
+                   "write one of " + known);
+}
+
+std::optional<fit::FilterChoice> low_pass_of(const StepArguments& a) {
+  if (!a.low_pass) {
+    if (a.low_pass_kind || a.low_pass_order || a.low_pass_ripple)
+      refuse_alone(a.low_pass_kind    ? "--low-pass-kind"
+                   : a.low_pass_order ? "--low-pass-order"
+                                      : "--low-pass-ripple",
+                   "--low-pass", "add --low-pass with its cutoff, for example \"2 Hz\"");
+    return std::nullopt;
+  }
+  const scene::LowPassWord kind = low_pass_of(a.low_pass_kind.value_or("butterworth"));
+  if (a.low_pass_order && !kind.has_order)
+    refuse_alone("--low-pass-order", "an order, which this kind has not", "leave it out, or take another kind");
+  if (a.low_pass_ripple && !kind.has_ripple)
+    refuse_alone("--low-pass-ripple", "--low-pass-kind chebyshev", "leave it out, or name that kind");
+  fit::FilterChoice out{.kind = kind.kind, .hz = hertz_of("--low-pass", *a.low_pass, "2 Hz")};
+  if (a.low_pass_order) out.order = *a.low_pass_order;
+  if (kind.has_ripple) out.ripple = a.low_pass_ripple.value_or(scene::usual_ripple);
+  return out;
+}
+
+fit::PrepareOptions steps_of(const StepArguments& a) {
+  fit::PrepareOptions out;
+  if (a.longest_gap) out.longest_gap_s = positive_of("--longest-gap", *a.longest_gap, dim::time, "0.5 s");
+  if (a.outliers) out.outlier_window_s = positive_of("--outliers", *a.outliers, dim::time, "1 s");
+  out.outlier_deviations = deviations_of(a);
+  if (a.resample) out.resample_hz = hertz_of("--resample", *a.resample, "20 Hz");
   out.detrend = a.detrend;
-  for (const std::string& text : a.notch) out.prepare.filters.push_back(notch_of(text));
-  if (a.low_pass)
-    out.prepare.filters.push_back(
-        {.kind = fit::FilterChoice::Kind::butterworth, .hz = hertz_of("--low-pass", *a.low_pass, "2 Hz")});
+  for (const std::string& text : a.notch) out.filters.push_back(notch_of(text));
+  if (a.moving_average)
+    out.filters.push_back({.kind = fit::FilterChoice::Kind::moving_average,
+                           .seconds = positive_of("--moving-average", *a.moving_average, dim::time, "0.05 s")});
+  if (const auto low_pass = low_pass_of(a)) out.filters.push_back(*low_pass);
   out.band_pass = band_of(a);
   return out;
 }
 
 /// Filters that the sampling does not allow are refused at their option.
-void check_filters(const fit::ChannelSteps& steps, const StepArguments& a, double step) {
-  using fit::ZeroPhaseFilter;
-  for (const fit::FilterChoice& f : steps.prepare.filters)
-    if (f.kind == fit::FilterChoice::Kind::notch)
-      scene::placed({.file = "--notch"}, [&] { ZeroPhaseFilter::notch(f.hz, f.width, step); });
-    else
-      scene::placed({.file = "--low-pass"}, [&] { ZeroPhaseFilter::butterworth(f.order, f.hz, step); });
+void check_filters(const fit::PrepareOptions& steps, const StepArguments& a, double step) {
+  for (const fit::FilterChoice& f : steps.filters) {
+    using enum fit::FilterChoice::Kind;
+    const char* option = f.kind == notch ? "--notch" : f.kind == moving_average ? "--moving-average" : "--low-pass";
+    scene::placed({.file = option}, [&] { fit::filter_of(f, step); });
+  }
   if (steps.band_pass)
     scene::placed({.file = a.wave_frequency ? "--wave-frequency" : "--band-pass"},
                   [&] { fit::BandPass(steps.band_pass->low_hz, steps.band_pass->high_hz, step); });
@@ -148,22 +182,23 @@ void put_back(fit::PreparedChannels& prepared, RunResult& record) {
 
 bool names_a_step(const StepArguments& a) {
   return a.longest_gap || a.outliers || a.outlier_deviations || a.resample || a.detrend || !a.notch.empty() ||
-         a.low_pass || a.band_pass || a.wave_frequency;
+         a.moving_average || a.low_pass || a.low_pass_kind || a.low_pass_order || a.low_pass_ripple || a.band_pass ||
+         a.wave_frequency;
 }
 
 std::optional<StepsDone> take_steps(RunResult& record, const StepArguments& arguments, const RecordPart& part,
                                     const Path& file) {
   using namespace record_steps;
   if (!names_a_step(arguments)) return std::nullopt;
-  fit::ChannelSteps steps = steps_of(arguments);
+  fit::PrepareOptions steps = steps_of(arguments);
   auto channels = channels_of(record);
   if (channels.empty())
     throw InputError("no signal changes: there is nothing to prepare", {.file = file.string()},
                      "leave the steps out, or take other signals");
   fit::PreparedChannels prepared = scene::placed({.file = file.string()}, [&] {
-    const double recorded = fit::even_grid(record.time, steps.prepare.longest_gap_s).step;
-    check_filters(steps, arguments, steps.prepare.resample_hz > 0 ? 1 / steps.prepare.resample_hz : recorded);
-    steps.prepare.window = window_of(part, record.time);
+    const double recorded = fit::even_grid(record.time, steps.longest_gap_s).step;
+    check_filters(steps, arguments, steps.resample_hz > 0 ? 1 / steps.resample_hz : recorded);
+    steps.window = window_of(part, record.time);
     return fit::prepare_channels(record.time, std::move(channels), steps);
   });
   scene::placed({.file = file.string()}, [&] { require_steady_to(part, prepared); });

@@ -270,7 +270,12 @@ std::vector<plot::Panel> panels_of_map(const StabilityMap& map) {
   std::vector<double> multiplier;
   for (const Cell& c : map.cells) multiplier.push_back(c.multiplier);
   add({"largest |multiplier|", ""}, multiplier);
-  for (const Signal& s : map.signals) add({s.name + ", std. dev.", s.units}, s.values);
+  // The field goes on where a run goes elsewhere: said where the marks are.
+  const bool all_last = std::all_of(map.cells.begin(), map.cells.end(), [](const Cell& c) {
+    return c.fate == dynamics::frequency::Fate::stable || c.reached == Reached::beyond_breaking;
+  });
+  for (const Signal& s : map.signals)
+    add({s.name + (all_last ? ", std. dev." : ", std. dev. (not reached where marked)"), s.units}, s.values);
   return out;
 }
 

@@ -23,6 +23,8 @@ double edge_of_flatness(const BandPass& band, double inside, double outside) {
 
 }  // namespace
 
+BandEdges band_about_waves(double hz) { return {0.2 * hz, 4 * hz}; }
+
 BandPass::BandPass(double low_hz, std::optional<double> high_hz, double step_s)  // (F108)
     : low_hz_(low_hz),
       step_(step_s),

@@ -430,4 +430,17 @@ Coefficient inertia_as(const MorisonFit& fit, const std::string& name) {
   return c;
 }
 
+std::string sign_trouble(const Cylinder& cylinder, const MorisonFit& fit) {  // (F26)
+  const double mass = cylinder.mass_beyond_load_cells / (cylinder.density * cylinder.volume());
+  const Interval &drag = fit.cd.interval, &inertia = fit.inertia.interval;
+  const bool drag_back = drag.high < 0 && !(inertia.low + mass > 0),
+             inertia_back = inertia.high + mass < 0 && !(drag.low > 0);
+  if (!drag_back && !inertia_back) return {};
+  return fmt::format("{} (cd {:.3g} at most, inertia {:.3g} at most): the force or the motion has the wrong sign",
+                     drag.high < 0 && inertia.high + mass < 0 ? "drag and inertia both come out negative"
+                     : drag_back ? "drag comes out negative, and inertia no larger than zero for certain"
+                                 : "inertia comes out negative, and drag no larger than zero for certain",
+                     drag.high, inertia.high);
+}
+
 }  // namespace fit

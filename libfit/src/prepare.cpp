@@ -345,46 +345,62 @@ void add_cross_flow(Work& w) {
 }
 
 /// Lines of the force that are no harmonics of the motion, and what the filters leave of them; (F21).
-void tell_lines(Work& w, const std::vector<ZeroPhaseFilter>& filters) {
+void tell_lines(Work& w, const PrepareOptions& options) {
   const auto [low, high] = std::minmax_element(w.pattern.begin(), w.pattern.end());
   if (w.pattern.size() < 64 || !(*high > *low)) return;
   const auto cycles = find_cycles(w.pattern);
   if (cycles.empty()) return;
   const double main_hz = 1 / ((cycles.back().end - cycles.back().start) * w.step);
   for (const SpectralLine& line : find_lines(w.out.record.force, w.step, 10 * main_hz)) {
-    double left = 1;
-    for (const auto& f : filters) left *= f.gain(2 * std::numbers::pi * line.frequency_hz);
+    const double left = gain_of(options, w.step, 2 * std::numbers::pi * line.frequency_hz);
     const bool mains = std::abs(line.frequency_hz - 50) < 0.5 || std::abs(line.frequency_hz - 60) < 0.5;
     w.log.tell("line: {:.4g} Hz in the force, amplitude {:.2g} N{}; the filters leave {:.1g} of it", line.frequency_hz,
                line.amplitude, mains ? ", hum of the mains" : "", left);
   }
 }
 
-void filter_all(Work& w, const std::vector<FilterChoice>& choices, bool linear_drag) {  // (F25)
-  std::vector<ZeroPhaseFilter> filters;
-  for (const FilterChoice& c : choices) filters.push_back(filter_of(c, w.step));
-  tell_lines(w, filters);
-  if (filters.empty()) return;
+/// Columns that a filter of the force runs over: the force, each channel of it, and the model of both.
+std::vector<std::vector<double>*> force_and_model(Work& w) {
+  ForceRecord& r = w.out.record;
+  std::vector<std::vector<double>*> all{&r.force, &r.acceleration, &r.drag_flow, &r.water_acceleration, &r.linear_flow};
+  for (MotionError& e : r.motion_errors)
+    for (auto* column : {&e.acceleration, &e.drag_flow, &e.water_acceleration, &e.linear_flow}) all.push_back(column);
+  for (std::vector<double>& draw : r.rounding) all.push_back(&draw);
+  for (ForceChannel& c : w.run.force) all.push_back(&c.values);
+  std::erase_if(all, [](const auto* column) { return column->empty(); });
+  return all;
+}
+
+/// With the ends that it spoils given up.
+template <class Filter>
+void filter_force(Work& w, const Filter& f) {
+  std::vector<std::pair<std::vector<double>*, std::vector<double>>> smooth;
+  for (auto* column : force_and_model(w)) smooth.push_back({column, f.apply(*column)});
+  w.cut(f.settling(), w.out.record.time.size() - 2 * f.settling());
+  for (auto& [column, values] : smooth) *column = std::move(values);
+  w.log.steps.push_back(told(f, f.name() + " over force, acceleration and |u|u alike", w.step));
+}
+
+/// A line off force and model alike is a line more in the fit. (F108)
+void take_trend(Work& w, const WindowChoice& window) {
+  w.log.steps.push_back(Trend(window, w.out.record.time, w.out.record.force).told("the force") +
+                        ", and those of acceleration and |u|u");
+  for (auto* column : force_and_model(w))
+    Trend(window, w.out.record.time, *column).take_off(w.out.record.time, *column);
+}
+
+void filter_all(Work& w, const PrepareOptions& options) {  // (F25)
+  tell_lines(w, options);
+  if (options.filters.empty() && !options.detrend && !options.band_pass) return;
   ForceRecord& r = w.out.record;
   if (r.drag_flow.empty())
     for (const double u : r.velocity) r.drag_flow.push_back(std::abs(u) * u);
-  if (linear_drag) r.linear_flow = r.velocity;
+  if (options.linear_drag) r.linear_flow = r.velocity;
   for (MotionError& e : r.motion_errors)
-    if (linear_drag) e.linear_flow = e.velocity;
-  for (const ZeroPhaseFilter& f : filters) {
-    std::vector<std::pair<std::vector<double>*, std::vector<double>>> smooth;
-    for (auto* column : {&r.force, &r.acceleration, &r.drag_flow, &r.water_acceleration, &r.linear_flow})
-      if (!column->empty()) smooth.push_back({column, f.apply(*column)});
-    for (MotionError& e : r.motion_errors)
-      for (auto* column : {&e.acceleration, &e.drag_flow, &e.water_acceleration, &e.linear_flow})
-        if (!column->empty()) smooth.push_back({column, f.apply(*column)});
-    for (std::vector<double>& draw : r.rounding) smooth.push_back({&draw, f.apply(draw)});
-    for (ForceChannel& c : w.run.force) smooth.push_back({&c.values, f.apply(c.values)});
-    w.cut(f.settling(), r.time.size() - 2 * f.settling());
-    for (auto& [column, values] : smooth) *column = std::move(values);
-    w.log.tell("{} over force, acceleration and |u|u alike: 1 % to {:.3g} Hz, no delay, {:.3g} s given up at each end",
-               f.name(), f.bandwidth_hz(), static_cast<double>(f.settling()) * w.step);
-  }
+    if (options.linear_drag) e.linear_flow = e.velocity;
+  if (options.detrend) take_trend(w, options.window);
+  for (const FilterChoice& choice : options.filters) filter_force(w, filter_of(choice, w.step));
+  if (options.band_pass) filter_force(w, BandPass(options.band_pass->low_hz, options.band_pass->high_hz, w.step));
 }
 
 std::vector<double> repeated(const std::vector<double>& cycle, std::size_t times) {
@@ -479,6 +495,11 @@ Work begun(RawRun run) {
   return w;
 }
 
+/// Where what is slow is taken off.
+bool straightened(const PrepareOptions& options) {
+  return options.detrend || options.band_pass || options.band_about_waves;
+}
+
 /// What every record with a force goes through before anything is made of it.
 void force_on_grid(Work& w, const PrepareOptions& options, const std::vector<double>* rests = nullptr) {
   compare_channels(w.run);
@@ -491,6 +512,7 @@ void force_on_grid(Work& w, const PrepareOptions& options, const std::vector<dou
 }  // namespace
 
 Prepared prepare(RawRun run, const PrepareOptions& options) {
+  hydro::require(!options.band_about_waves, "a band about the waves needs their frequency where no surface tells it");
   Work w = begun(std::move(run));
   check(w.run);
   force_on_grid(w, options);
@@ -501,7 +523,7 @@ Prepared prepare(RawRun run, const PrepareOptions& options) {
   add_water(w, options);
   add_cross_flow(w);
   add_rounding(w);
-  filter_all(w, options.filters, options.linear_drag);
+  filter_all(w, options);
   cut_window(w, options.window, options.average_cycles);
   add_force_errors(w);
   w.out.steps = std::move(w.log.steps);
@@ -513,9 +535,9 @@ PreparedMotion prepare_motion(const std::string& name, std::vector<double> time,
                               const PrepareOptions& options) {
   hydro::require(time.size() == values.size() && time.size() >= 3, "{} has {} samples, time {}: three are needed", name,
                  values.size(), time.size());
-  hydro::require(options.filters.empty() && options.resample_hz == 0 && options.delay_s == 0 &&
-                     options.window.kind != WindowChoice::Kind::full_cycles,
-                 "a motion alone is not filtered, moved in time or cut into cycles");
+  hydro::require(options.filters.empty() && !straightened(options) && options.resample_hz == 0 &&
+                     options.delay_s == 0 && options.window.kind != WindowChoice::Kind::full_cycles,
+                 "a motion alone is not filtered, straightened, moved in time or cut into cycles");
   Work w;
   w.run.time = std::move(time);
   w.run.position = std::move(values);
@@ -530,6 +552,9 @@ PreparedTow prepare_towing(RawTow run, const PrepareOptions& options) {
   hydro::require(
       options.delay_s == 0 && !options.average_cycles && options.window.kind != WindowChoice::Kind::full_cycles,
       "a record of towing is not moved in time or cut into cycles");
+  hydro::require(!straightened(options),
+                 "what a force does on average is sought in a record of towing, which neither a trend nor a band-pass "
+                 "leaves");
   hydro::require(!run.force.empty(), "a run needs a force");
   RawRun raw{.time = std::move(run.time),
              .force = std::move(run.force),
@@ -550,8 +575,7 @@ PreparedTow prepare_towing(RawTow run, const PrepareOptions& options) {
     w.cut(filter.settling(), sum.size());
     w.out.record.force = std::move(sum);
     for (std::size_t i = 0; i < single.size(); ++i) w.run.force[i].values = std::move(single[i]);
-    w.log.tell("{} over the force: 1 % to {:.3g} Hz, no delay, {:.3g} s given up at each end", filter.name(),
-               filter.bandwidth_hz(), static_cast<double>(filter.settling()) * w.step);
+    w.log.steps.push_back(told(filter, filter.name() + " over the force", w.step));
   }
   return {.step = w.step,
           .time = std::move(w.run.time),
@@ -562,19 +586,6 @@ PreparedTow prepare_towing(RawTow run, const PrepareOptions& options) {
           .filter_reach_s = reach_s,
           .steps = std::move(w.log.steps),
           .cautions = std::move(w.log.cautions)};
-}
-
-std::string sign_trouble(const Cylinder& cylinder, const MorisonFit& fit) {  // (F26)
-  const double mass = cylinder.mass_beyond_load_cells / (cylinder.density * cylinder.volume());
-  const Interval &drag = fit.cd.interval, &inertia = fit.inertia.interval;
-  const bool drag_back = drag.high < 0 && !(inertia.low + mass > 0),
-             inertia_back = inertia.high + mass < 0 && !(drag.low > 0);
-  if (!drag_back && !inertia_back) return {};
-  return fmt::format("{} (cd {:.3g} at most, inertia {:.3g} at most): the force or the motion has the wrong sign",
-                     drag.high < 0 && inertia.high + mass < 0 ? "drag and inertia both come out negative"
-                     : drag_back ? "drag comes out negative, and inertia no larger than zero for certain"
-                                 : "inertia comes out negative, and drag no larger than zero for certain",
-                     drag.high, inertia.high);
 }
 
 }  // namespace fit

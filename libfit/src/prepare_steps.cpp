@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "fit/resample.hpp"
 #include "fit/sensor.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/signal/zero_crossings.hpp"
 
 namespace fit {
 namespace {
@@ -92,6 +94,49 @@ void resample(RecordColumns& r, double hz) {  // (F48)
       "no delay, {:.3g} s given up at each end",
       1 / r.step, hz, to.bandwidth_hz(), to.closed_hz(), static_cast<double>(to.settling()) * r.step);
   r.step = 1 / hz;
+}
+
+Trend::Trend(const WindowChoice& window, const std::vector<double>& time, const std::vector<double>& values) {
+  SampleSpan part{0, time.size()};
+  if (window.kind == WindowChoice::Kind::span) part = samples_within(window, time);
+  const std::size_t count = part.to - part.from;
+  const auto line =
+      hydro::signal::trend_of(std::span(time).subspan(part.from, count), std::span(values).subspan(part.from, count));
+  slope_ = line.slope;
+  middle_s_ = line.middle_s;
+  share_ = line.share;
+  from_s_ = time[part.from];
+  to_s_ = time[part.to - 1];
+}
+
+void Trend::take_off(const std::vector<double>& time, std::vector<double>& values) const {
+  for (std::size_t j = 0; j < values.size(); ++j) values[j] -= slope_ * (time[j] - middle_s_);
+}
+
+std::string Trend::told(const std::string& name) const {
+  return fmt::format(
+      "trend: {} changes by {:.4g} from {:.4g} s to {:.4g} s, {:.2g} % of its variance, which is taken off", name,
+      slope_ * (to_s_ - from_s_), from_s_, to_s_, 100 * share_);
+}
+
+std::string told(const ZeroPhaseFilter& filter, const std::string& name, double step) {
+  return fmt::format("{}: 1 % to {:.3g} Hz, no delay, {:.3g} s given up at each end", name, filter.bandwidth_hz(),
+                     static_cast<double>(filter.settling()) * step);
+}
+
+std::string told(const BandPass& band, const std::string& name, double step) {
+  const auto flat = band.flat_hz();
+  return fmt::format("{}: {}, no delay, {:.4g} s given up at each end", name,
+                     flat ? fmt::format("1 % from {:.3g} Hz to {:.3g} Hz", flat->first, flat->second)
+                          : "its edges are too close for any frequency to keep 99 %",
+                     static_cast<double>(band.settling()) * step);
+}
+
+double gain_of(const PrepareOptions& options, double step, double omega) {
+  double out =
+      options.band_pass ? BandPass(options.band_pass->low_hz, options.band_pass->high_hz, step).gain(omega) : 1;
+  for (const FilterChoice& choice : options.filters) out *= filter_of(choice, step).gain(omega);
+  return out;
 }
 
 ZeroPhaseFilter filter_of(const FilterChoice& c, double step) {

@@ -1,5 +1,6 @@
 #pragma once
-/// \file  Steps that records of every kind go through, each told in numbers; (F19), (F20), (F22), (F25), (F48).
+/// \file  Steps that records of every kind go through, each told in numbers; (F19), (F20), (F22), (F25), (F48),
+///        (F108).
 #include <fmt/format.h>
 
 #include <cstddef>
@@ -7,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "fit/band_pass.hpp"
 #include "fit/filter.hpp"
 #include "fit/prepare.hpp"
 
@@ -50,8 +52,25 @@ Replaced evened_and_cleaned(RecordColumns& record, const PrepareOptions& options
 /// Another rate, 0: as it is. \throws hydro::InputError as Resampler, and for more than a hundred times the rate
 void resample(RecordColumns& record, double hz);
 
-/// \throws hydro::InputError as the filter
-ZeroPhaseFilter filter_of(const FilterChoice& choice, double step_s);
+/// The line of least squares through the window where that is a span, else through all of the record. (F108)
+class Trend {
+ public:
+  /// \throws hydro::InputError as samples_within()
+  Trend(const WindowChoice& window, const std::vector<double>& time, const std::vector<double>& values);
+  /// Its slope, about the middle of the window: the mean stays.
+  void take_off(const std::vector<double>& time, std::vector<double>& values) const;
+  std::string told(const std::string& name) const;
+
+ private:
+  double slope_, middle_s_, from_s_, to_s_, share_;
+};
+
+/// What of a record a filter with the name `name` keeps: "… 1 % to 3.3 Hz, no delay, 0.4 s given up at each end".
+std::string told(const ZeroPhaseFilter& filter, const std::string& name, double step_s);
+std::string told(const BandPass& band, const std::string& name, double step_s);
+
+/// Share of an amplitude of frequency ω that all filters and the band-pass leave.
+double gain_of(const PrepareOptions& options, double step_s, double omega);
 
 /// Samples [from, to) of a window that is a span.
 struct SampleSpan {

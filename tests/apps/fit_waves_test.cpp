@@ -43,6 +43,21 @@ TEST_F(Fit, OfRegularWavesHasTheTruthInItsIntervals) {
   EXPECT_THAT(hydro::io::read_text(folder / "w.csv"), HasSubstr("run_8.csv,"));
 }
 
+// The ratio is free of the band, whose ends leave other periods of the same run: both intervals overlap.
+TEST_F(Fit, OfRegularWavesInABandAboutThemIsThatOfTheWaves) {
+  const auto runs_of = [&](const char* scene) {
+    return nlohmann::json::parse(told({.scene = examples / scene}, true))["run"];
+  };
+  const auto banded = runs_of("waves_band.toml"), plain = runs_of("waves_runs.toml");
+  ASSERT_EQ(banded.size(), 7u);
+  for (std::size_t i = 0; i < banded.size(); ++i) {
+    const auto &a = banded[i]["response"][0]["rao"]["interval"], &b = plain[i]["response"][0]["rao"]["interval"];
+    EXPECT_LT(a[0].get<double>(), b[1].get<double>()) << i;
+    EXPECT_GT(a[1].get<double>(), b[0].get<double>()) << i;
+  }
+  EXPECT_THAT(banded[0]["steps"].dump(), AllOf(HasSubstr("trend: elevation"), HasSubstr("band-pass from")));
+}
+
 TEST_F(Fit, OfRegularWavesRefusesWhatDoesNotGoTogether) {
   const auto refused = [&](const char* from, const char* to) {
     return [=, this] { told({.scene = changed("waves_runs.toml", from, to)}); };
@@ -56,8 +71,10 @@ TEST_F(Fit, OfRegularWavesRefusesWhatDoesNotGoTogether) {
   EXPECT_THAT(refused("tank = {", "#"), ThrowsMessage<InputError>(HasSubstr("tank")));
   EXPECT_THAT(refused("ramp = \"2 s\"", "ramp = \"2 s\"\nharmonics = 0"),
               ThrowsMessage<InputError>(HasSubstr("between 1 and 20")));
-  EXPECT_THAT(refused("[ask]", "[prepare]\nlow_pass = { kind = \"butterworth\", cutoff = \"3 Hz\" }\n[ask]"),
-              ThrowsMessage<InputError>(HasSubstr("peaks have a band of their own")));
+  EXPECT_THAT(refused("[ask]", "[prepare]\nmean_cycle = true\n[ask]"),
+              ThrowsMessage<InputError>(HasSubstr("acts on forces and motions of a cylinder")));
+  EXPECT_THAT(refused("[ask]", "[prepare]\nband_pass = { kind = \"edges\", low = \"2 Hz\", high = \"1 Hz\" }\n[ask]"),
+              ThrowsMessage<InputError>(HasSubstr("must be higher than low")));
 }
 
 TEST_F(Fit, OfOneRunInRegularWavesDrawsItsRecord) {

@@ -91,9 +91,8 @@ TEST_F(LaboratoryRefuses, KeysOfOtherKinds) {
   for (const char* key : {"settle = 3", "harmonics = 3", "longest = \"1 s\""})
     EXPECT_THAT(refusal("sea.toml", "segment = \"24 s\"", std::string("segment = \"24 s\"\n") + key),
                 AllOf(HasSubstr("sea.toml:15:1"), HasSubstr("unknown key")));
-  EXPECT_THAT(
-      refusal("sea.toml", "[model]", "[prepare]\nlow_pass = { kind = \"butterworth\", cutoff = \"3 Hz\" }\n[model]"),
-      HasSubstr("a filter changes both sides of a ratio"));
+  EXPECT_THAT(refusal("sea.toml", "[model]", "[prepare]\nband_pass = { kind = \"about the waves\" }\n[model]"),
+              AllOf(HasSubstr("sea.toml:"), HasSubstr("needs the frequency of the waves")));
   EXPECT_THAT(refusal("delay.toml", "second = \"y\"", "second = \"y\", elevation = \"y\""),
               HasSubstr("its channels are time, first, second, second_time"));
   EXPECT_THAT(refusal("delay.toml", "second_file = \"let_go_film.csv\"", "second_file = \"\""),

@@ -48,7 +48,9 @@ class Stability(unittest.TestCase):
         self.assertGreater(check["run_over_cell"], 1)
         rows = [r for r in csv.reader((self.folder / "map.csv").read_text().splitlines()) if not r[0].startswith("#")]
         self.assertEqual(len(rows), 1 + 4)
-        self.assertIn("</svg>", (self.folder / "map.svg").read_text())
+        picture = (self.folder / "map.svg").read_text()
+        self.assertIn("</svg>", picture)
+        self.assertIn("pivot.angle, std. dev. (not reached where marked)", picture)
 
     def test_a_run_leaves_a_motion_that_doubles(self):
         done = self.froude(self.asking('stability = { periods = "7.4 s .. 7.5 s, 2 values", heights = "2 m .. 2.5 m, 2 values", '

@@ -159,5 +159,39 @@ TEST(IrregularWaves, TellNoGainOfWhatIsUnrelated) {
   EXPECT_NEAR(static_cast<double>(told) / all, 0.05, 0.02);  // 1240 of them, a deviation of 0.6 %
 }
 
+// Of white waves what the band passes has the gain that it has without it, to three of its errors; where the filters
+// leave less than half nothing is told.
+TEST(IrregularWaves, TellNoGainOfWhatFiltersTake) {
+  Problem p{.runs = {white_run(5, 8000)}, .units = {"m"}, .options = {.segment_s = 25.6}};
+  p.options.prepare.detrend = true;
+  p.options.prepare.band_pass = fit::BandEdges{0.5, 2};
+  const auto found = solve(p);
+  const auto& r = found.responses[0];
+  for (std::size_t k = 1; k + 1 < r.gain.size(); ++k) {
+    const double hz = r.transfer.frequency_hz[k];
+    if (hz < 0.48 || hz > 2.04) {
+      EXPECT_FALSE(r.gain[k].value) << hz;
+      EXPECT_THAT(r.gain[k].why_not, HasSubstr("the filters of [prepare] leave"));
+    } else if (hz > 0.52 && hz < 1.96) {
+      ASSERT_TRUE(r.gain[k].value) << hz;
+      EXPECT_NEAR(*r.gain[k].value, gain, 4 * gain * r.transfer.gain_relative_error[k]) << hz;
+    }
+  }
+}
+
+// Runs of two rates are put together at one.
+TEST(IrregularWaves, OfTwoRatesArePooledAtOne) {
+  const double coarse = 2 * step;
+  Problem p{.runs = {white_run(5, 8000), white_run(6, 8000)}, .units = {"m"}, .options = {.segment_s = 25.6}};
+  auto& second = p.runs[1];
+  for (double& t : second.time) t *= 2;
+  p.options.prepare.resample_hz = 1 / coarse;
+  const auto found = solve(p);
+  EXPECT_NEAR(found.records[0].time[1] - found.records[0].time[0], coarse, 1e-12);
+  const auto& r = found.responses[0];
+  for (std::size_t k = 2; r.transfer.frequency_hz[k] < 0.25 / coarse; ++k)
+    EXPECT_NEAR(std::abs(r.transfer.h1[k]), gain, 4 * gain * r.transfer.gain_relative_error[k]);
+}
+
 }  // namespace
 }  // namespace irregular_waves_test

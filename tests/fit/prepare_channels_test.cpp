@@ -54,7 +54,7 @@ TEST(PrepareChannels, TakesTheLineOfTheWindow) {
   const auto wave = [](double at) { return std::cos(two_pi / 8 * (at - 300)); };
   const auto p = prepare_channels(
       t, {{"surge", values_of(t, [&](double at) { return at < 150 ? 30 - at : wave(at) + 0.03 * (at - 300); })}},
-      {.prepare = {.window = span(200, 400)}, .detrend = true});
+      {.detrend = true, .window = span(200, 400)});
   ASSERT_EQ(p.time.size(), 2001u);
   for (std::size_t j = 0; j < p.time.size(); ++j) ASSERT_NEAR(p.channels[0].values[j], wave(p.time[j]), 1e-11);
 }
@@ -65,7 +65,7 @@ TEST(PrepareChannels, FindsOutliersPutInByHandAndBridgesThem) {
   auto x = values_of(t, wave), other = values_of(t, [](double at) { return std::sin(two_pi / 8 * at); });
   const std::vector<std::size_t> spoilt{17, 400, 401, 1733};
   for (const std::size_t j : spoilt) x[j] += j % 2 == 0 ? 3 : -2;
-  const auto p = prepare_channels(t, {{"x", x}, {"other", other}}, {.prepare = {.outlier_window_s = 2.05}});
+  const auto p = prepare_channels(t, {{"x", x}, {"other", other}}, {.outlier_window_s = 2.05});
   EXPECT_EQ(p.channels[0].outliers, spoilt.size());
   EXPECT_EQ(p.channels[1].outliers, 0u);
   // (F22): a straight line over a gap of three steps loses (ωτ)²/8 = 0.0069 of a harmonic.
@@ -108,7 +108,7 @@ TEST(PrepareChannels, LeavesOnlyWhatDoesNotLeanOnWhatLiesBeyondTheRecord) {
   const auto all = times(12001);
   const auto sea =
       values_of(all, [](double at) { return std::cos(0.7 * at) + std::cos(0.31 * at + 1) + 0.4 * std::sin(1.3 * at); });
-  const fit::ChannelSteps steps{.band_pass = fit::BandEdges{0.025, 0.5}};
+  const fit::PrepareOptions steps{.band_pass = fit::BandEdges{0.025, 0.5}};
   const auto whole = prepare_channels(all, {{"x", sea}}, steps);
   const std::vector<double> part_time(all.begin() + 3000, all.begin() + 9001),
       part_sea(sea.begin() + 3000, sea.begin() + 9001);
@@ -139,7 +139,7 @@ TEST(PrepareChannels, GivesAMotionAsAFitSeesIt) {
   const Spoilt s;
   const fit::PrepareOptions options{.longest_gap_s = 0.35, .outlier_window_s = 2.05, .window = span(100, 500)};
   const auto as_fit = fit::prepare_motion("speed", s.time, s.speed, options);
-  const auto p = prepare_channels(s.time, {{"speed", s.speed}}, {.prepare = options});
+  const auto p = prepare_channels(s.time, {{"speed", s.speed}}, options);
   EXPECT_EQ(p.time, as_fit.time);
   EXPECT_EQ(p.channels[0].values, as_fit.values);
   EXPECT_EQ(p.step, as_fit.step);
@@ -156,7 +156,7 @@ TEST(PrepareChannels, GivesAFilteredForceAsAFitSeesIt) {
       .resample_hz = 8,
       .filters = {{.kind = notch, .hz = 2.1, .width = 0.3}, {.kind = butterworth, .hz = 1}}};
   const auto as_fit = fit::prepare_towing({.time = s.time, .speed = s.speed, .force = {{"F", s.force, {}}}}, options);
-  const auto p = prepare_channels(s.time, {{"F", s.force}}, {.prepare = options});
+  const auto p = prepare_channels(s.time, {{"F", s.force}}, options);
   EXPECT_EQ(p.time, as_fit.time);
   EXPECT_EQ(p.channels[0].values, as_fit.force);
 }
@@ -164,14 +164,21 @@ TEST(PrepareChannels, GivesAFilteredForceAsAFitSeesIt) {
 TEST(PrepareChannels, RefusesWhatCannotBeDone) {
   const auto t = times(1000);
   const auto x = values_of(t, [](double at) { return std::cos(at); });
-  const auto refused = [&](const fit::ChannelSteps& steps) {
+  const auto refused = [&](const fit::PrepareOptions& steps) {
     return [&, steps] { prepare_channels(t, {{"x", x}}, steps); };
   };
   using hydro::InputError;
-  EXPECT_THAT(refused({.prepare = {.window = span(200, 300)}}), ThrowsMessage<InputError>(HasSubstr("lies outside")));
-  EXPECT_THAT(refused({.prepare = {.delay_s = 1}}), ThrowsMessage<InputError>(HasSubstr("not moved in time")));
+  EXPECT_THAT(refused({.window = span(200, 300)}), ThrowsMessage<InputError>(HasSubstr("lies outside")));
+  EXPECT_THAT(refused({.delay_s = 1}), ThrowsMessage<InputError>(HasSubstr("not moved in time")));
   EXPECT_THAT(refused({.band_pass = fit::BandEdges{0.02, 0.5}}), ThrowsMessage<InputError>(HasSubstr("nothing would")));
-  EXPECT_THAT(refused({.prepare = {.outlier_window_s = 0.2}}), ThrowsMessage<InputError>(HasSubstr("ten samples")));
+  EXPECT_THAT(refused({.outlier_window_s = 0.2}), ThrowsMessage<InputError>(HasSubstr("ten samples")));
+  EXPECT_THAT([&] { fit::prepare_motion("x", t, x, {.detrend = true}); },
+              ThrowsMessage<InputError>(HasSubstr("not filtered, straightened")));
+  EXPECT_THAT(
+      [&] {
+        fit::prepare_towing({.time = t, .speed = x, .force = {{"F", x, {}}}}, {.band_pass = fit::BandEdges{0.1, 1}});
+      },
+      ThrowsMessage<InputError>(HasSubstr("what a force does on average")));
   EXPECT_THAT([&] { prepare_channels(t, {}, {}); }, ThrowsMessage<InputError>(HasSubstr("needs a channel")));
   EXPECT_THAT([&] { prepare_channels(t, {{"x", {1, 2}}}, {}); }, ThrowsMessage<InputError>(HasSubstr("x has 2")));
   auto gap = t;

@@ -360,5 +360,51 @@ TEST(Prepare, LaysCyclesOverEachOther) {
   EXPECT_THAT([&] { fit::prepare(run, options); }, ThrowsMessage<hydro::InputError>(HasSubstr("full cycles")));
 }
 
+/// Six and a half minutes of a steady oscillation at 20 Hz, whose force has more in it.
+template <class Force>
+RawRun steady_run(Force more) {
+  RawRun run;
+  run.force = {{"F", {}, {}}};
+  const double omega = 2 * std::numbers::pi / period;
+  for (int j = 0; j < 8000; ++j) {
+    const double t = 0.05 * j, v = amplitude * omega * std::cos(omega * t);
+    run.time.push_back(t);
+    run.position.push_back(amplitude * std::sin(omega * t));
+    run.force[0].values.push_back(
+        fit::morison_force(cylinder, truth_cd, truth_ca, v, -omega * omega * run.position.back()) + more(t));
+  }
+  return run;
+}
+
+// A line off the force and off each column of the model is a column more in the fit: what drifts is gone from what is
+// left over, and the coefficients are those of the force alone, to what derivatives lose at 20 Hz.
+TEST(Prepare, TakesADriftOffForceAndModelAlike) {
+  const auto drift = [](double t) { return 0.05 * (t - 200); };
+  const RawRun drifting = steady_run(drift), clean_run = steady_run([](double) { return 0.0; });
+  const auto plain = fitted(clean_run, {}), as_it_is = fitted(drifting, {}),
+             level = fitted(drifting, {.detrend = true});
+  EXPECT_NEAR(*level.cd.value, *plain.cd.value, 1e-3 * truth_cd);
+  EXPECT_NEAR(*level.inertia.value, *plain.inertia.value, 1e-3 * truth_ca);
+  EXPECT_LT(as_it_is.explained, 0.9);
+  EXPECT_GT(level.explained, 1 - 1e-4);
+  const auto p = fit::prepare(drifting, {.detrend = true});
+  EXPECT_THAT(p.steps, Contains(HasSubstr("trend: the force changes by")));
+}
+
+// Drift of a minute and a vibration of 3 Hz are outside of the band, 0.2 to 4 times the frequency of the motion. Third
+// harmonics of drag are within 0.5 % and fifth ones are lost to force and model alike.
+TEST(Prepare, KeepsABandOfForceAndModelAlike) {
+  const RawRun run = steady_run([](double t) {
+    return 6 * std::sin(2 * std::numbers::pi * t / 60) + 2 * std::sin(2 * std::numbers::pi * 3 * t);
+  });
+  const auto fit = fitted(run, {.band_pass = fit::band_about_waves(1 / period)});
+  const auto plain = fitted(steady_run([](double) { return 0.0; }), {});
+  EXPECT_NEAR(*fit.cd.value, *plain.cd.value, 2e-3 * truth_cd);
+  EXPECT_NEAR(*fit.inertia.value, *plain.inertia.value, 2e-3 * truth_ca);
+  EXPECT_GT(fit.explained, 1 - 1e-3);
+  EXPECT_THAT([&] { fit::prepare(run, {.band_about_waves = true}); },
+              ThrowsMessage<hydro::InputError>(HasSubstr("needs their frequency")));
+}
+
 }  // namespace
 }  // namespace prepare_test

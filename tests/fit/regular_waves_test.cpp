@@ -186,6 +186,36 @@ TEST(RepeatedWaves, ArePutTogetherByPeriodAndHeight) {
   EXPECT_GT(group.interval.high, gain);
 }
 
+// Two runs of other periods, drifting: each has the band of its own waves. The ratio is that without filters to the
+// noise that they let by otherwise, 1e-3 of it; drift of 50 s would be a tenth of the response.
+TEST(RegularWaves, HaveTheirOwnBandAboutThem) {
+  fit::regular_waves::Problem problem{.runs = {}, .units = {"m"}, .options = {options()}};
+  const Record clean = recorded({}, 1e-4, 3, 120);
+  Record drifting = clean;
+  for (std::size_t i = 0; i < drifting.time.size(); ++i)
+    drifting.responses[0].values[i] += 0.004 * std::sin(2 * pi * drifting.time[i] / 50) + 1e-4 * drifting.time[i];
+  std::vector<double> slower;  // the same run on a clock that is 1.3 times as slow
+  for (const double t : drifting.time) slower.push_back(1.3 * t);
+  problem.runs = {{{"a.csv"}, drifting.time, drifting.elevation, drifting.responses},
+                  {{"b.csv"}, slower, drifting.elevation, drifting.responses}};
+  problem.options.tank.end = 200;
+  problem.options.prepare.band_about_waves = true;
+  const auto found = solve(problem);
+  const auto rao_of = [](const fit::regular_waves::Solution& s) { return *s.runs[0].fit.responses[0].rao.value; };
+  EXPECT_NEAR(rao_of(found), gain, 1e-3 * gain);
+  EXPECT_NEAR(std::abs(found.runs[0].fit.responses[0].motion.mean), 0, 1e-5) << "no mean passes";
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_THAT(*found.report.parts[i].steps,
+                testing::AllOf(testing::Contains(HasSubstr(i == 0 ? "band-pass from 0.125 Hz to 2.5 Hz"
+                                                                  : "band-pass from 0.09615 Hz to 1.923 Hz")),
+                               testing::Contains(HasSubstr("filters leave 1.0000, 0.9963, 0.9114"))));
+  problem.options.prepare = {.detrend = true, .filters = {{.kind = fit::FilterChoice::Kind::butterworth, .hz = 0.7}}};
+  const auto low = solve(problem);
+  // The drift of 50 s stays: 0.004 m, which 35 periods hear to 2 % of it beside a response of 0.042 m.
+  EXPECT_NEAR(rao_of(low), gain, 2e-3 * gain) << "the ratio is free of a filter of both";
+  EXPECT_THAT(low.report.parts[0].cautions, testing::Contains(HasSubstr("of the amplitude of the waves")));
+}
+
 /// A gauge of 25 V/m, calibrated at nine heights with errors of its readings.
 fit::ChannelLine gauge_line(std::uint64_t seed) {
   const auto e = froude_test::ar1_noise(9, 0, 0.02, 1000 + seed);  // V: 0.4 % of the slope

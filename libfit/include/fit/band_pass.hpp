@@ -11,6 +11,13 @@
 
 namespace fit {
 
+/// Where half of the amplitude passes, Hz.
+struct BandEdges {
+  double low_hz, high_hz;
+};
+/// From 0.2 to 4 times the frequency of waves: slow drift is below, the third harmonic inside.
+BandEdges band_about_waves(double hz);
+
 /// One Butterworth low pass of order 4 (F17) less another: no delay, and a gain of G_high − G_low at each frequency.
 ///
 /// Half of the amplitude passes at each edge where the other edge is far away. Means and straight lines do not pass.

@@ -178,4 +178,8 @@ DelayedFit fit_morison_and_delay(const Cylinder& cylinder, const ForceRecord& re
 /// \throws hydro::InputError for another name
 Coefficient inertia_as(const MorisonFit& fit, const std::string& name);
 
+/// Why the force (or the motion) must have the wrong sign; empty where it need not: drag or all inertia comes out
+/// negative with its whole interval and the other is not positive with its own, which no flow does; (F26).
+std::string sign_trouble(const Cylinder& cylinder, const MorisonFit& fit);
+
 }  // namespace fit

@@ -2,13 +2,14 @@
 /// \file  From raw channels to a record that can be fitted, in steps that are named and kept; (F23)-(F26),
 ///        docs/theory/fit.md.
 ///
-/// Order of the steps: even grid, outliers, another rate, calibration and zero, delay, water, derivatives, filters,
-/// window, mean cycle. A filter runs over the force and over both columns of the model alike, so it takes noise out and
-/// biases nothing.
+/// Order of the steps: even grid, outliers, another rate, calibration and zero, delay, water, derivatives, trend,
+/// filters, band-pass, window, mean cycle. What acts on the force from the trend on acts on both columns of the model
+/// alike, so it takes noise and drift out and biases nothing.
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "fit/band_pass.hpp"
 #include "fit/calibration.hpp"
 #include "fit/differentiate.hpp"
 #include "fit/filter.hpp"
@@ -53,6 +54,9 @@ struct FilterChoice {
   double seconds = 0;  ///< moving average
 };
 
+/// \throws hydro::InputError as the filter
+ZeroPhaseFilter filter_of(const FilterChoice& choice, double step_s);
+
 struct WindowChoice {
   enum class Kind { all, span, full_cycles } kind = Kind::all;
   double from = 0, to = 0;  ///< span: s
@@ -68,7 +72,13 @@ struct PrepareOptions {
   double delay_s = 0;                  ///< of the force behind the motion, taken off
   double derivative_bandwidth_hz = 0;  ///< 0: five times the main frequency
   Derivative derivative = Derivative::local_polynomial;
+  /// The slope of the line of least squares through a window that is a span, else through all of the record, is taken
+  /// off, about its middle: the mean stays (F108).
+  bool detrend = false;
   std::vector<FilterChoice> filters = {};
+  std::optional<BandEdges> band_pass = {};  ///< after the filters (F108)
+  /// Of records that hold a surface: a band about the frequency of its waves (F50), in place of `band_pass`.
+  bool band_about_waves = false;
   bool linear_drag = false;  ///< will be fitted: filters run over the velocity, too
   WindowChoice window = {};
   /// The window's cycles are laid over each other (F47): motion and columns of the model become their mean cycle, end
@@ -104,9 +114,9 @@ struct PreparedMotion {
   std::vector<double> time, values;
   std::vector<std::string> steps, cautions;  ///< as Prepared
 };
-/// Even grid, sensors looked at, outliers, and a window: a span or all. Nothing is filtered, since what is fitted to
-/// the motion is not linear in it. `name`: of the channel, for what is told. \throws hydro::InputError as prepare(),
-/// and for other options
+/// Even grid, sensors looked at, outliers, and a window: a span or all. Nothing is filtered or straightened, since what
+/// is fitted to the motion is not linear in it. `name`: of the channel, for what is told. \throws hydro::InputError as
+/// prepare(), and for other options
 PreparedMotion prepare_motion(const std::string& name, std::vector<double> time_s, std::vector<double> values,
                               const PrepareOptions& options);
 
@@ -126,11 +136,8 @@ struct PreparedTow {
   std::vector<std::string> steps, cautions;  ///< as Prepared
 };
 /// Even grid, sensors looked at, outliers, another rate, calibration and zero, filters over the force. The window is
-/// left to who looks for the steady part. \throws hydro::InputError as prepare(), and for a delay or cycles
+/// left to who looks for the steady part. \throws hydro::InputError as prepare(), and for a delay, cycles, a trend or a
+/// band-pass, which would take off what is sought
 PreparedTow prepare_towing(RawTow run, const PrepareOptions& options);
-
-/// Why the force (or the motion) must have the wrong sign; empty where it need not: drag or all inertia comes out
-/// negative with its whole interval and the other is not positive with its own, which no flow does; (F26).
-std::string sign_trouble(const Cylinder& cylinder, const MorisonFit& fit);
 
 }  // namespace fit

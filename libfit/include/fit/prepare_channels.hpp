@@ -13,19 +13,6 @@
 
 namespace fit {
 
-/// Where half of the amplitude passes, Hz.
-struct BandEdges {
-  double low_hz, high_hz;
-};
-
-struct ChannelSteps {
-  /// Gaps, outliers, rate, filters, and a window that is a span or all; the rest is for forces.
-  PrepareOptions prepare = {};
-  /// The slope of the line of least squares through the window is taken off, about its middle: the mean stays.
-  bool detrend = false;
-  std::optional<BandEdges> band_pass = {};
-};
-
 struct PreparedChannel {
   std::string name;
   std::vector<double> values;
@@ -42,10 +29,11 @@ struct PreparedChannels {
   std::vector<std::string> steps, cautions;  ///< as Prepared
 };
 
-/// All channels go through the same filters, so that ratios of their spectra stay as they are.
+/// All channels go through the same filters, so that ratios of their spectra stay as they are. The window is a span or
+/// all; what is for forces is refused.
 /// \throws hydro::InputError: no channel, lengths that differ, a value that is not finite, a window outside what the
 /// filters leave, options for forces, and as the steps themselves
 PreparedChannels prepare_channels(std::vector<double> time_s, std::vector<PreparedChannel> channels,
-                                  const ChannelSteps& steps);
+                                  const PrepareOptions& options);
 
 }  // namespace fit

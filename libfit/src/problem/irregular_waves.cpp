@@ -6,6 +6,7 @@
 
 #include "hydro/signal/distributions.hpp"
 #include "hydro/waves/dispersion.hpp"
+#include "prepare_steps.hpp"
 #include "telling.hpp"
 #include "wave_records.hpp"
 
@@ -25,7 +26,7 @@ double common_step(const Problem& problem, const std::vector<WaveRecord>& record
                                           "put together",
                                           step_of(records[i]), problem.runs[0].source.name(), step),
                               {.file = problem.runs[i].source.file.string()},
-                              "bring the records to one rate, or fit them apart");
+                              "bring the records to one rate by resample in [prepare], or fit them apart");
   return step;
 }
 
@@ -132,15 +133,21 @@ std::string loss_of(const Problem& problem, const Solution& found, double step) 
       at, 100 * std::min(1.0, most));
 }
 
-/// (S9) with the errors of both slopes (F105).
-Coefficient gain_at(const hs::TransferEstimate& t, std::size_t k, const SlopeError& slope, double confidence) {
+/// (S9) with the errors of both slopes (F105). `passed`: what filters leave of both sides.
+Coefficient gain_at(const hs::TransferEstimate& t, std::size_t k, const SlopeError& slope, double passed,
+                    double confidence) {
+  constexpr double least_passed = 0.5;  // at the edges of a band; beyond, what a segment leaks from within it is seen
   const double gain = std::abs(t.h1[k]), error = gain * t.gain_relative_error[k];
   Coefficient out = with_parts("gain", gain, error, hs::student_t_quantile((1 + confidence) / 2, 2 * (t.averages - 1)),
                                0, confidence);
   count_slope(slope, gain, out);
   out.effective_samples = t.averages;
-  if (t.coherence[k] >= t.coherence_threshold) return out;
+  if (passed >= least_passed && t.coherence[k] >= t.coherence_threshold) return out;
   out.value.reset();
+  if (passed < least_passed) {
+    out.why_not = fmt::format("the filters of [prepare] leave {:.2g} of both channels there", passed);
+    return out;
+  }
   out.why_not = fmt::format("its coherence is {:.2g}, and unrelated channels come to {:.2g}", t.coherence[k],
                             t.coherence_threshold);
   return out;
@@ -157,7 +164,9 @@ Response response_of(const Problem& problem, const Solution& so_far, std::size_t
   out.transfer.coherence_threshold = hs::coherence_threshold(out.transfer.averages, options.confidence);
   const SlopeError slope = slope_error_of(problem.elevation_slope, problem.response_slopes, i);
   for (std::size_t k = 0; k < out.transfer.h1.size(); ++k)
-    out.gain.push_back(gain_at(out.transfer, k, slope, options.confidence));
+    out.gain.push_back(gain_at(out.transfer, k, slope,
+                               gain_of(options.prepare, step, 2 * std::numbers::pi * out.transfer.frequency_hz[k]),
+                               options.confidence));
   return out;
 }
 

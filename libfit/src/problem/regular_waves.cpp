@@ -6,6 +6,8 @@
 
 #include "hydro/base/error.hpp"
 #include "hydro/signal/distributions.hpp"
+#include "hydro/signal/welch.hpp"
+#include "prepare_steps.hpp"
 #include "telling.hpp"
 #include "wave_records.hpp"
 
@@ -77,8 +79,25 @@ SlopeError slope_error_of(const Problem& problem, std::size_t response) {
   return fit::slope_error_of(problem.elevation_slope, problem.response_slopes, response);
 }
 
+/// What filters leave of the harmonics: of both sides of a ratio alike, and so not of it.
+void tell_gains(const PrepareOptions& steps, double step, const RegularWaveFit& fit, Report& report) {
+  if (steps.filters.empty() && !steps.band_pass) return;
+  const std::size_t harmonics = fit.wave.harmonics.size();
+  std::string list;
+  for (std::size_t k = 1; k <= harmonics; ++k)
+    list += fmt::format("{}{:.4f}", k > 1 ? ", " : "", gain_of(steps, step, static_cast<double>(k) * fit.omega));
+  report.steps->push_back(fmt::format("filters leave {} of the amplitude{}", list,
+                                      harmonics > 1 ? fmt::format("s of harmonics 1 to {}", harmonics) : ""));
+  const double first = gain_of(steps, step, fit.omega);
+  if (std::abs(first - 1) > 0.01)
+    report.warn(
+        fmt::format("filters leave {:.3g} of the amplitude of the waves and of what answers to them: amplitudes "
+                    "are told with that in them, the ratio of both is free of it",
+                    first));
+}
+
 FittedRun fitted(const Problem& problem, const WaveRun& run, Report& report) {
-  PrepareOptions steps = problem.options.prepare;
+  PrepareOptions steps = with_band(run, problem.options.prepare);
   steps.window = {};  // times are those of the whole record
   FittedRun out{prepared(run, steps, report), {}};
   std::vector<WaveChannel> responses = run.responses;
@@ -86,6 +105,7 @@ FittedRun fitted(const Problem& problem, const WaveRun& run, Report& report) {
   std::optional<std::pair<double, double>> span;
   if (const auto& w = problem.options.prepare.window; w.kind == WindowChoice::Kind::span) span = {w.from, w.to};
   out.fit = fit_regular_waves(out.time, out.elevation, responses, problem.options, span);
+  tell_gains(steps, hydro::signal::even_step(out.time), out.fit, report);
   for (std::size_t i = 0; i < out.fit.responses.size(); ++i) {
     Coefficient& rao = out.fit.responses[i].rao;
     count_slope(slope_error_of(problem, i), middle(rao), rao);

@@ -18,7 +18,7 @@ struct Options {
   double confidence = 0.95;
   std::optional<double> segment_s = {};  ///< none: eight side by side in the shortest run, fifteen with half overlap
   std::optional<WaveTank> tank = {};     ///< phases are those against the wave at its body; none: at the gauge
-  PrepareOptions prepare = {};           ///< longest gap, outliers, and a window of kind span
+  PrepareOptions prepare = {};           ///< of surface and responses alike; a window of kind span
 };
 
 struct Problem {
@@ -33,7 +33,8 @@ struct Problem {
 struct Response {
   std::string name;
   hydro::signal::TransferEstimate transfer;  ///< phases before the wave at the body, where there is a tank
-  std::vector<Coefficient> gain;             ///< |H₁|; without a value where the two may be unrelated
+  /// |H₁|; without a value where the two may be unrelated, or filters leave less than half of both
+  std::vector<Coefficient> gain;
 };
 
 struct Solution {

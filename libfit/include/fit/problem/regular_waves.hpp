@@ -15,7 +15,8 @@
 namespace fit::regular_waves {
 
 struct Options : RegularWaveOptions {
-  PrepareOptions prepare = {};  ///< longest gap, outliers, and a window of kind span in place of the times of the tank
+  PrepareOptions prepare =
+      {};  ///< of surface and responses alike; a window of kind span in place of the times of the tank
 };
 
 struct Problem {
