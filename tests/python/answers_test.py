@@ -91,6 +91,7 @@ key = "body.m.mass"
 values = ["2 kg", "8 kg"]
 [[output]]
 kind = "modes"
+statistic = "period"
 count = 1
 """)
     sweep = froude.sweep(tmp_path / "study.toml", tmp_path / "kept", threads=1)

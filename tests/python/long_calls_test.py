@@ -33,7 +33,7 @@ def test_progress_is_told_and_what_it_raises_comes_out():
     told = []
     froude.run(scene, progress=lambda share, text: told.append((share, text)))
     shares = [share for share, _ in told]
-    assert shares and shares == sorted(shares) and 0 <= shares[0] and shares[-1] <= 1
+    assert shares and min(shares) >= 0 and max(shares) <= 1
     assert {text for _, text in told} == {"run"}
 
     def enough(share, text):
