@@ -353,9 +353,10 @@ bool is_fit(const fs::path& file) {
   return parse_document(hydro::io::read_text(file), file.string()).find("model") != nullptr;
 }
 
-FitScene parse_fit(std::string_view text, const fs::path& file) {
-  const Node document = parse_document(text, file.string());
+FitScene parse_fit(std::string_view text, const fs::path& file, const std::vector<OverriddenValue>& values) {
+  Node document = parse_document(text, file.string());
   check_version(document);
+  override_values(document, values);
   if (const auto* body = document.find("body"); body != nullptr && document.find("model") == nullptr)
     throw InputError("this scene has a [[body]] and no [model]: it asks for motion, not for a fit", body->place,
                      "use `froude rao` or `froude run`");

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/override.hpp"
 #include "scene/scene.hpp"
 #include "scene/schema.hpp"
 
@@ -58,7 +59,9 @@ struct FitScene {
 bool is_fit(const std::filesystem::path& file);
 /// Reads a scene of kind "fit"; the data files must be there. \throws hydro::InputError
 FitScene read_fit(const std::filesystem::path& file);
-FitScene parse_fit(std::string_view text, const std::filesystem::path& file);
+/// The same of a text, with other values in these places.
+FitScene parse_fit(std::string_view text, const std::filesystem::path& file,
+                   const std::vector<OverriddenValue>& values = {});
 
 const Table& fit_schema();  ///< root of a scene that fits coefficients to measurements
 

@@ -18,10 +18,21 @@ namespace {
 /// A scene of motion, and what others that differ in numbers share with it.
 struct Motion {
   scene::ChangeableScene source;
-  std::vector<scene::OverriddenNumber> numbers;
+  std::vector<scene::OverriddenValue> values;
   scene::Scene read;
   std::shared_ptr<compile::Kept> kept;
 };
+
+/// A scene that fits, and what was written over it.
+struct Fitting {
+  std::vector<scene::OverriddenValue> values;
+  scene::FitScene read;
+};
+
+std::vector<scene::OverriddenValue> joined(std::vector<scene::OverriddenValue> values, const SceneValues& more) {
+  for (const auto& [path, value] : more) values.push_back({path, value});
+  return values;
+}
 
 template <class Ask>
 void require_asked(const std::optional<Ask>& asked, const scene::Scene& scene, const std::string& what,
@@ -34,13 +45,13 @@ void require_asked(const std::optional<Ask>& asked, const scene::Scene& scene, c
 }  // namespace
 
 struct Scene::Shared {
-  std::variant<Motion, scene::FitScene> kind;
+  std::variant<Motion, Fitting> kind;
 
   /// \throws InputError for a scene that fits
   const Motion& motion() const {
-    if (const auto* fit = std::get_if<scene::FitScene>(&kind))
+    if (const auto* fit = std::get_if<Fitting>(&kind))
       throw hydro::InputError("this scene has a [model]: it asks for a fit, not for motion",
-                              {.file = fit->file.string()}, "call fit(), or take the table out");
+                              {.file = fit->read.file.string()}, "call fit(), or take the table out");
     return std::get<Motion>(kind);
   }
 };
@@ -49,17 +60,26 @@ const scene::Scene& Scene::read() const { return shared_->motion().read; }
 
 Parameter Scene::parameter(const std::string& path) const {
   const Motion& motion = shared_->motion();
-  const auto written = motion.source.number(path, motion.numbers);
+  const auto written = motion.source.number(path, motion.values);
   return {path, written.value, written.unit};
 }
 
 Scene Scene::with(const Parameter& parameter, double value) const {
+  shared_->motion();  // numbers of a fit are those of its model
+  return with(SceneValues{{parameter.path, value}});
+}
+
+Scene Scene::with(const SceneValues& values) const {
+  if (const auto* fit = std::get_if<Fitting>(&shared_->kind)) {
+    auto all = joined(fit->values, values);
+    scene::FitScene changed = scene::parse_fit(fit->read.text, fit->read.file, all);
+    return Scene(std::make_shared<const Shared>(Shared{Fitting{std::move(all), std::move(changed)}}));
+  }
   const Motion& motion = shared_->motion();
-  auto numbers = motion.numbers;
-  numbers.push_back({parameter.path, value});
-  scene::Scene changed = motion.source.with(numbers);
-  return Scene(std::make_shared<const Shared>(
-      Shared{Motion{motion.source, std::move(numbers), std::move(changed), motion.kept}}));
+  auto all = joined(motion.values, values);
+  scene::Scene changed = motion.source.with(all);
+  return Scene(
+      std::make_shared<const Shared>(Shared{Motion{motion.source, std::move(all), std::move(changed), motion.kept}}));
 }
 
 Run Scene::run(const std::function<void(double)>& progress, const std::vector<Control>& controls) const {
@@ -85,22 +105,22 @@ WaterSeries Scene::waves(const std::function<void(double)>& progress) const {
 Plan Scene::plan() const { return froude::plan(read(), shared_->motion().kept); }
 
 Cost Scene::cost(const CostOptions& options, const std::function<void(double)>& progress) const {
-  if (const auto& numbers = shared_->motion().numbers; !numbers.empty())
+  if (const auto& values = shared_->motion().values; !values.empty())
     throw hydro::InputError(
-        fmt::format("\"{}\" was changed, and what a scene costs is measured of its text", numbers.front().path),
-        {.file = read().file.string()}, "write the number into the text, and parse() that");
+        fmt::format("\"{}\" was changed, and what a scene costs is measured of its text", values.front().path),
+        {.file = read().file.string()}, "write the value into the text, and parse() that");
   return froude::cost(read(), options, progress);
 }
 
 ::fit::Report Scene::fit() const {
-  if (const auto* asked = std::get_if<scene::FitScene>(&shared_->kind)) return asked->of->answer(*asked).report;
+  if (const auto* asked = std::get_if<Fitting>(&shared_->kind)) return asked->read.of->answer(asked->read).report;
   throw hydro::InputError("the scene has no [model]: it asks for motion, not for a fit", {.file = read().file.string()},
                           "call run() or rao()");
 }
 
 Scene parse(std::string_view text, const std::filesystem::path& file) {
   if (scene::parse_document(text, file.string()).find("model") != nullptr)
-    return Scene(std::make_shared<const Scene::Shared>(Scene::Shared{scene::parse_fit(text, file)}));
+    return Scene(std::make_shared<const Scene::Shared>(Scene::Shared{Fitting{{}, scene::parse_fit(text, file)}}));
   const scene::ChangeableScene source(text, file);
   return Scene(std::make_shared<const Scene::Shared>(
       Scene::Shared{Motion{source, {}, source.with({}), std::make_shared<compile::Kept>()}}));

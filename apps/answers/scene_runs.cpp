@@ -291,8 +291,8 @@ const scene::Located<std::filesystem::path>& SceneRuns::scene_file() const {
 }
 
 /// What is written over the scene's own.
-std::vector<scene::OverriddenNumber> SceneRuns::numbers(const Eigen::VectorXd& parameters) const {
-  std::vector<scene::OverriddenNumber> out;
+std::vector<scene::OverriddenValue> SceneRuns::numbers(const Eigen::VectorXd& parameters) const {
+  std::vector<scene::OverriddenValue> out;
   for (const auto& one : record_.set) out.push_back({one.number.name, one.number.first});
   const std::size_t shared = asked_.parameters.size();
   for (Eigen::Index j = 0; j < parameters.size(); ++j) {

@@ -77,7 +77,7 @@ class SceneRuns final : public ::fit::Simulation {
  private:
   static const scene::MotionModel::Record& as_the_model_says();
   const scene::Located<std::filesystem::path>& scene_file() const;
-  std::vector<scene::OverriddenNumber> numbers(const Eigen::VectorXd& parameters) const;
+  std::vector<scene::OverriddenValue> numbers(const Eigen::VectorXd& parameters) const;
   void compiled(const Eigen::VectorXd& parameters);
   Run run(Eigen::Index samples, compile::MovingState* end);
   void begin_windows();

@@ -13,6 +13,7 @@
 #include "dynamics/force/fastened_line.hpp"
 #include "dynamics/integrate/start_with_lines.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/base/look_up.hpp"
 
 namespace froude {
 namespace {
@@ -86,6 +87,7 @@ class March {
   void march(std::size_t first, dynamics::EnergyLedger& ledger, const std::function<void(double)>& done) {
     try {
       for (std::size_t n = first; n <= m_.steps; ++n) {
+        hydro::look_up();
         advance(n, ledger);
         if (motion_) motion_->of_modes.col(static_cast<Eigen::Index>(n)) = workspace_->state.velocity;
         if (n % m_.steps_per_sample == 0) {

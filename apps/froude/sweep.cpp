@@ -3,10 +3,10 @@
 #include <charconv>
 
 #include "froude/commands.hpp"
-#include "froude/outputs.hpp"
 #include "froude/progress.hpp"
 #include "froude/report.hpp"
 #include "froude/signals.hpp"
+#include "froude/sweep_task.hpp"
 #include "hydro/base/error.hpp"
 #include "hydro/base/parallel.hpp"
 #include "hydro/io/atomic_file.hpp"
@@ -18,7 +18,8 @@ namespace froude {
 namespace {
 
 namespace fs = std::filesystem;
-using sweep::Cases, sweep::Study, sweep::Tally;
+using sweep::Study, sweep::Tally;
+using Task = SweepTask;
 
 // What is asked
 
@@ -41,46 +42,6 @@ int threads_of(const SweepArguments& arguments, int if_left_out) {
     throw hydro::InputError(fmt::format("{} threads cannot work", *arguments.threads), {.file = "--threads"},
                             fmt::format("take 1 to {}, or leave it out", most));
   return *arguments.threads;
-}
-
-/// A study with its cases, and all files that they read.
-struct Task {
-  explicit Task(const Path& file)
-      : study(sweep::read_study(file)),
-        inputs(scene::placed(study.scene.place, [&] { return files_of_scene(study.scene.value); })),
-        cases(study, text(), paths(inputs)) {
-    inputs.push_back({"the study", file});
-  }
-  Task(const Task&) = delete;  // the cases refer to the study
-  Task& operator=(const Task&) = delete;
-  std::string text() const { return hydro::io::read_text(study.scene.value); }
-  /// Without the scene itself.
-  static std::vector<fs::path> paths(const std::vector<NamedFile>& files) {
-    std::vector<fs::path> out;
-    for (std::size_t i = 1; i < files.size(); ++i) out.push_back(files[i].path);
-    return out;
-  }
-  sweep::Identity identity() const {
-    return {cases.definition(), study.file.filename().string(), study.text, text(), cases.count(), cases.columns()};
-  }
-
-  Study study;
-  std::vector<NamedFile> inputs;
-  Cases cases;
-};
-
-void require_folder(const Path& folder, const Task& task) {
-  std::error_code failed;
-  fs::create_directories(folder, failed);
-  if (failed)
-    throw hydro::InputError(fmt::format("cannot make the folder \"{}\": {}", folder.string(), failed.message()), {},
-                            "name another one with -o");
-  std::vector<NamedFile> outputs{{"the table", folder / "table.csv"}, {"the database", sweep::database_of(folder)}};
-  for (const sweep::Picture& picture : task.study.pictures) {
-    outputs.push_back({"[[picture]] file", folder / picture.file.value});
-    outputs.push_back({"its table", (folder / picture.file.value).replace_extension(".csv")});
-  }
-  require_outputs(outputs, task.inputs);
 }
 
 // What is told
@@ -122,7 +83,7 @@ Report written(const Study& study, const sweep::Store& store) {
   Report out;
   out.wrote(sweep::database_of(store.folder())).wrote(sweep::write_table(store));
   const sweep::Pictures pictures = sweep::write_pictures(study, store);
-  for (const fs::path& picture : pictures.written) out.wrote(picture);
+  for (const Path& picture : pictures.written) out.wrote(picture);
   for (const std::string& name : pictures.waiting)
     out.row("not_drawn", "{} is not drawn yet: cases of two values and more on each of its axes have to be done first",
             fact("picture", name));
@@ -171,7 +132,7 @@ int sweep_study(const SweepArguments& arguments, const Task& task, int threads, 
   const auto [part, parts] = part_of(arguments.part);
   const int ranks = master == nullptr ? 1 : master->count();
   const Path folder = folder_of(arguments, task);
-  require_folder(folder, task);
+  task.require_folder(folder);
   sweep::Store store(folder, task.identity());
   const Signals signals;
   Progress progress(console.err, "sweep", console.show_progress);

@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <charconv>
+#include <cmath>
+#include <type_traits>
 
 #include "scene/build.hpp"
 #include "scene/document.hpp"
@@ -70,6 +72,11 @@ class Finder {
     }
     return {at};
   }
+  /// The same; a key that its table does not have is put there, with nothing in it.
+  Found find_or_add(Node& root) {
+    may_add_ = true;
+    return find(root);
+  }
 
  private:
   [[noreturn]] void refuse(const std::string& why, const std::string& remedy) const {
@@ -96,6 +103,13 @@ class Finder {
       known.push_back(entry.key);
       if (entry.key == key) return entry.value.is(Node::Type::list) ? item(entry.value, key, index) : &entry.value;
     }
+    if (may_add_ && index == 0 && next_ == parts_.size() && at.is(Node::Type::table)) {
+      Node& made = at.entries.emplace_back().value;
+      at.entries.back().key = key;
+      made.type = Node::Type::text;
+      made.place = at.entries.back().place = at.place;
+      return &made;
+    }
     if (!at.is(Node::Type::table)) refuse(fmt::format("goes on after a value, with \"{}\"", key), "end it there");
     const std::string near = hydro::nearest(key, known);
     refuse(fmt::format("is not written in the scene: there is no \"{}\"", key),
@@ -118,6 +132,7 @@ class Finder {
   std::vector<std::string> parts_;
   const Place& asked_;
   std::size_t next_ = 0;
+  bool may_add_ = false;
 };
 
 WrittenNumber read_number(const Found& found, const std::string& path, const Place& asked) {
@@ -138,6 +153,7 @@ WrittenNumber read_number(const Found& found, const std::string& path, const Pla
                    asked, "of a vector name one component: load.at.x");
 }
 
+/// Into the unit, the vector or the number that is there.
 void write_number(const Found& found, double value, const std::string& unit) {
   Node& node = *found.node;
   if (found.component >= 0) {
@@ -147,10 +163,61 @@ void write_number(const Found& found, double value, const std::string& unit) {
   } else if (node.is(Node::Type::text)) {
     node.text = fmt::format("{:.17g} {}", value, unit);
   } else {
-    node.type = Node::Type::number;
+    constexpr double exact = 9007199254740992;  // 2^53: up to there a double holds every integer
+    const bool whole = node.is(Node::Type::integer) && value == std::floor(value) && std::abs(value) <= exact;
+    node.type = whole ? Node::Type::integer : Node::Type::number;
     node.number = value;
+    node.integer = whole ? static_cast<std::int64_t>(value) : 0;
   }
   node.raw = node.is(Node::Type::text) ? '"' + node.text + '"' : fmt::format("{}", value);
+}
+
+/// As TOML would have it, whatever stood there.
+void write_as_toml(bool value, Node& node) {
+  node.type = Node::Type::boolean;
+  node.boolean = value;
+  node.raw = value ? "true" : "false";
+}
+void write_as_toml(std::int64_t value, Node& node) {
+  node.type = Node::Type::integer;
+  node.integer = value;
+  node.number = static_cast<double>(value);
+  node.raw = fmt::format("{}", value);
+}
+void write_as_toml(double value, Node& node) {
+  node.type = Node::Type::number;
+  node.number = value;
+  node.raw = fmt::format("{}", value);
+}
+void write_as_toml(const std::string& value, Node& node) {
+  node.type = Node::Type::text;
+  node.text = value;
+  node.raw = '"' + value + '"';
+}
+
+/// A key that was not there holds an empty text, which no scene writes.
+bool is_new(const Node& node) { return node.is(Node::Type::text) && node.raw.empty(); }
+
+void write_value(const Found& found, const OverriddenValue& one, const Place& asked) {
+  Node& node = *found.node;
+  if (node.is(Node::Type::table) || node.is(Node::Type::list))
+    throw InputError(fmt::format("\"{}\" is {} in the scene; a single value is needed", one.path, type_name(node.type)),
+                     asked, "name a key of it, or write it into the scene");
+  std::visit(
+      [&](const auto& value) {
+        using V = std::decay_t<decltype(value)>;
+        constexpr bool is_number = std::is_same_v<V, double> || std::is_same_v<V, std::int64_t>;
+        if constexpr (is_number) {
+          const bool exact = std::is_same_v<V, std::int64_t> && node.is(Node::Type::integer);
+          if (!exact && !is_new(node))
+            return write_number(found, static_cast<double>(value), read_number(found, one.path, asked).unit);
+        } else if (found.component >= 0) {
+          throw InputError(fmt::format("\"{}\" is a component of a vector; a number is needed", one.path), asked,
+                           "leave out the component to write the whole vector");
+        }
+        write_as_toml(value, node);
+      },
+      one.value);
 }
 
 }  // namespace
@@ -209,17 +276,14 @@ WrittenValue value_at(std::string_view text, const std::filesystem::path& file, 
   return out;
 }
 
-WrittenNumber ChangeableScene::number(const std::string& path, const std::vector<OverriddenNumber>& numbers) const {
+WrittenNumber ChangeableScene::number(const std::string& path, const std::vector<OverriddenValue>& values) const {
   Node document = *document_;
-  override_numbers(document, numbers);
+  override_values(document, values);
   return read_number(Finder(path, document.place).find(document), path, document.place);
 }
 
-void override_numbers(Node& root, const std::vector<OverriddenNumber>& numbers) {
-  for (const auto& number : numbers) {
-    const Found found = Finder(number.path, root.place).find(root);
-    write_number(found, number.value, read_number(found, number.path, root.place).unit);
-  }
+void override_values(Node& root, const std::vector<OverriddenValue>& values) {
+  for (const auto& one : values) write_value(Finder(one.path, root.place).find_or_add(root), one, root.place);
 }
 
 }  // namespace froude::scene

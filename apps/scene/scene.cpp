@@ -72,9 +72,9 @@ ChangeableScene::ChangeableScene(std::string_view text, std::filesystem::path fi
   document_ = std::move(document);
 }
 
-Scene ChangeableScene::with(const std::vector<OverriddenNumber>& numbers) const {
+Scene ChangeableScene::with(const std::vector<OverriddenValue>& values) const {
   Node document = *document_;
-  override_numbers(document, numbers);
+  override_values(document, values);
   if (const auto* model = document.find("model"))
     throw InputError("this scene has a [model]: it asks for a fit, not for motion", model->place,
                      "use `froude fit`, or take the table out");
@@ -107,9 +107,8 @@ Scene ChangeableScene::with(const std::vector<OverriddenNumber>& numbers) const 
   return scene;
 }
 
-Scene parse_with(std::string_view text, const std::filesystem::path& file,
-                 const std::vector<OverriddenNumber>& numbers) {
-  return ChangeableScene(text, file).with(numbers);
+Scene parse_with(std::string_view text, const std::filesystem::path& file, const std::vector<OverriddenValue>& values) {
+  return ChangeableScene(text, file).with(values);
 }
 
 Scene parse(std::string_view text, const std::filesystem::path& file) { return parse_with(text, file, {}); }

@@ -10,6 +10,7 @@
 
 #include "hydro/base/dense.hpp"
 #include "hydro/base/error.hpp"
+#include "hydro/base/look_up.hpp"
 #include "quiet_logging.hpp"
 
 namespace fit {
@@ -34,6 +35,7 @@ class ModelCost : public ceres::CostFunction {
     Eigen::MatrixXd jacobian;
     const bool wanted = jacobians != nullptr && jacobians[0] != nullptr;
     if (wanted) jacobian.resize(model_.residuals, p);
+    hydro::look_up();
     model_.evaluate(x, r, wanted ? &jacobian : nullptr);
     Eigen::Map<Eigen::VectorXd>(residuals, model_.residuals) = r;
     if (wanted) Eigen::Map<RowMajor>(jacobians[0], model_.residuals, p) = jacobian;

@@ -86,6 +86,20 @@ TEST(Library, ChangesANumberThroughItsParameter) {
   EXPECT_THAT(error_of([&] { scene.parameter("body.block.mas"); }), HasSubstr("did you mean \"mass\"?"));
 }
 
+TEST(Library, ChangesValuesOfAnyKindInScenesOfBothKinds) {
+  const froude::Scene scene = froude::parse(mass_on_a_spring);
+  const froude::Scene changed = scene.with({{"body.block.mass", std::string("0.4 t")}, {"ask.run.duration", 2.0}});
+  EXPECT_NEAR(changed.modes().omega.front(), 1, 1e-9);
+  EXPECT_NEAR(changed.run().time.back(), 2, 1e-9);
+  EXPECT_EQ(changed.parameter("body.block.mass").unit, "t");
+  EXPECT_THAT(error_of([&] { scene.with({{"body.block.mas", 400.0}}); }), HasSubstr("did you mean \"mass\"?"));
+
+  const froude::Scene fit = froude::read(source_dir() / "examples/fit/oscillation.toml");
+  const auto interval = [](const froude::Scene& s) { return s.fit().find("cd")->coefficient.interval; };
+  const auto narrow = interval(fit.with({{"ask.intervals.level", 0.5}})), wide = interval(fit);
+  EXPECT_LT(narrow.high - narrow.low, 0.5 * (wide.high - wide.low));
+}
+
 TEST(Library, KeepsCoefficientsThatAChangeLeavesAlone) {
   const TempDir folder;
   std::filesystem::copy_file(source_dir() / "examples/pontoon5.toml", folder.path() / "pontoon5.toml");

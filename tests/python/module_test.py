@@ -1,5 +1,4 @@
-#!/usr/bin/env python3
-"""The module froude: module_test.py FROUDE SOURCE. Runs and responses are those of the program; controllers rule."""
+"""Runs, responses and controllers. Runs and responses are those of the program; controllers rule."""
 import pathlib
 import re
 import subprocess
@@ -11,9 +10,7 @@ import h5py
 import numpy as np
 
 import froude
-
-program, source = sys.argv[1], pathlib.Path(sys.argv[2])
-examples = source / "examples"
+from conftest import EXAMPLES as examples, program
 
 # A weight on a spring in no water: the shortest scene with a connector.
 spring = """
@@ -49,7 +46,7 @@ def scene_of(text, numbers={}):
 def result_of(command, example):
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "out.h5"
-        subprocess.run([program, command, str(examples / example), "-o", str(file)], check=True, capture_output=True)
+        program(command, examples / example, "-o", file)
         with h5py.File(file) as h5:
             return {name: h5[name][()] for name in h5 if isinstance(h5[name], h5py.Dataset)}
 
@@ -167,7 +164,3 @@ class Module(unittest.TestCase):
         for line in said.stdout.splitlines():
             stiff, soft, ruled = (float(word) for word in re.findall(r"([0-9.]+) m ", line + " "))
             self.assertLess(ruled, 0.65 * max(stiff, soft))  # a resonance is broken: seen 0.49 and 0.08
-
-
-if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])

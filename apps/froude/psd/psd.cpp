@@ -147,9 +147,10 @@ double uneven_segment(const PsdArguments& arguments, const RunResult& record) {
                            : (record.time.back() - record.time.front()) / 8;
 }
 
-Analysis analyse(const PsdArguments& arguments) {
+}  // namespace
+
+spectra::Analysis spectra::analyse(RunResult record, const PsdArguments& arguments) {
   require_one_way(arguments);
-  RunResult record = read_record(arguments.file);
   record.signals = chosen(record, arguments);
   hydro::require(!record.time.empty(), "the record has no samples");
   auto steps = prepared(record, arguments);
@@ -180,13 +181,11 @@ Analysis analyse(const PsdArguments& arguments) {
   return a;
 }
 
-}  // namespace
-
 void psd(const PsdArguments& arguments, const Console& console) {
   require_outputs(named({{"-o", arguments.output}, {"--picture", arguments.picture}}),
                   {{"the record", arguments.file}});
   require_picture(arguments.picture);
-  const Analysis analysis = analyse(arguments);
+  const Analysis analysis = spectra::analyse(read_record(arguments.file), arguments);
   if (arguments.output) spectra::write_table(*arguments.output, analysis);
   if (arguments.picture)
     plot::write_picture(*arguments.picture, spectra::figure(analysis, arguments.file.filename().string()));

@@ -213,8 +213,15 @@ Report report_of(const Analysis& a) {
           "Tp [s]", "Te [s]", "Tm02 [s]", "Tz [s]", "H1/3", "waves");
   for (const Estimate& e : a.estimates) signals.part(e.signal.name, report_of(e, a.input));
   out.part("signals", std::move(signals));
-  for (const Estimate& e : a.estimates) out.sentences("notes", "note: {}", notes_of(e, a.uneven_segment.has_value()));
+  out.sentences("notes", "note: {}", notes_of(a));
   add_response(a, out);
+  return out;
+}
+
+std::vector<std::string> notes_of(const Analysis& a) {
+  std::vector<std::string> out;
+  for (const Estimate& e : a.estimates)
+    for (std::string& note : notes_of(e, a.uneven_segment.has_value())) out.push_back(std::move(note));
   return out;
 }
 

@@ -41,6 +41,12 @@ struct Analysis {
   std::vector<Estimate> estimates;
 };
 
+/// Spectra of a record, which errors call by the name of `arguments.file`. \throws hydro::InputError
+Analysis analyse(RunResult record, const PsdArguments& arguments);
+
+/// What of the spectra is not to be trusted, one sentence each.
+std::vector<std::string> notes_of(const Analysis& analysis);
+
 /// Tables for people, everything for programs.
 Report report_of(const Analysis& analysis);
 /// Densities with their bands, and responses, along frequency. \throws hydro::InputError unless path ends in .csv or

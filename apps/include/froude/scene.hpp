@@ -6,11 +6,13 @@
 ///   run.write("pontoon.run.h5");
 ///
 /// Errors are hydro::InputError, which says file, line, column, rule and remedy, and hydro::NumericsError.
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "fit/report.hpp"
@@ -32,6 +34,12 @@ struct Parameter {
   std::string unit;  ///< as written; empty for a number without one
 };
 
+/// A value to stand in a scene: a number is in the unit that the scene writes there, a text is the whole value, "30
+/// cm".
+using SceneValue = std::variant<bool, std::int64_t, double, std::string>;
+/// Values by their paths, which are those of Parameter.
+using SceneValues = std::vector<std::pair<std::string, SceneValue>>;
+
 /// A scene of motion, or one that fits: checked, nothing computed. Copies share what they were read from, and with()
 /// shares the coefficients that were read and the poles that were fitted to them, as long as the change leaves them
 /// alone. Of one scene and its copies one thread at a time may ask.
@@ -42,6 +50,9 @@ class Scene {
   /// The same scene with another number there, in the unit of the parameter. \throws hydro::InputError where the number
   /// breaks a rule of the grammar
   Scene with(const Parameter& parameter, double value) const;
+  /// The same scene, of either kind, with other values. A key that its table does not write is written there.
+  /// \throws hydro::InputError where the grammar knows no such key or refuses the value
+  Scene with(const SceneValues& values) const;
 
   /// [ask] run. `progress` is told the share of the steps that are done; `controls` rule connectors. Numerics that give
   /// up end the run early: Run::stopped. \throws hydro::InputError

@@ -1,5 +1,8 @@
-// Numbers of a scene written over by others.
+// Values of a scene written over by others.
 #include "scene/override.hpp"
+
+#include <cstdint>
+#include <numbers>
 
 #include "apps/scene/scenes.hpp"
 #include "hydro/base/error.hpp"
@@ -73,6 +76,60 @@ TEST(Override, RefusesPathsThatLeadNowhereAndSaysWhereToGo) {
 TEST(Override, IsReadLikeAnyNumberOfTheScene) {
   EXPECT_THAT([] { with_number("line[1].length", -1); },
               testing::ThrowsMessage<hydro::InputError>(testing::HasSubstr("must be positive")));
+}
+
+// A seed, a word and a quantity with its unit, where the scene writes one and where it does not.
+const std::string sea =
+    "schema = 1\n[water]\ndensity = \"1000 kg/m^3\"\ndepth = \"20 m\"\n"
+    "[waves]\nkind = \"jonswap\"\nhs = \"1 m\"\ntp = \"6 s\"\nseed = 3\n"
+    "heading = \"0 deg\"\n"
+    "[[probe]]\nname = \"gauge\"\nat = \"(0, 0, 0) m\"\n"
+    "[ask]\nwaves = { duration = \"10 s\", every = \"1 s\" }\n";
+
+const RandomSea& sea_with(const std::vector<OverriddenValue>& values, Scene& kept) {
+  kept = parse_with(sea, "s.toml", values);
+  return std::get<RandomSea>(kept.waves->kind);
+}
+
+std::string refused_in_sea(const OverriddenValue& value) {
+  try {
+    parse_with(sea, "s.toml", {value});
+  } catch (const hydro::InputError& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << value.path << " was accepted";
+  return {};
+}
+
+TEST(Override, LeavesAnIntegerAnInteger) {
+  Scene scene;
+  EXPECT_EQ(sea_with({{"waves.seed", 7}}, scene).seed, 7U);
+  EXPECT_EQ(sea_with({{"waves.seed", 8.0}}, scene).seed, 8U);
+  constexpr std::int64_t beyond_doubles = (std::int64_t{1} << 53) + 1;
+  EXPECT_EQ(sea_with({{"waves.seed", beyond_doubles}}, scene).seed, static_cast<std::uint64_t>(beyond_doubles));
+  EXPECT_THAT(refused_in_sea({"waves.seed", 7.5}), testing::HasSubstr("seed = 7.5"));
+}
+
+TEST(Override, WritesTextsWholeAndKeysThatWereNotThere) {
+  Scene scene;
+  EXPECT_DOUBLE_EQ(sea_with({{"waves.hs", std::string("250 cm")}}, scene).systems[0].spectrum->hs(), 2.5);
+  sea_with({{"waves.heading", std::string("90 deg")}, {"waves.ramp", std::string("30 s")}}, scene);
+  EXPECT_DOUBLE_EQ(scene.waves->heading.radians(), std::numbers::pi / 2);
+  EXPECT_DOUBLE_EQ(scene.waves->ramp, 30);
+  sea_with({{"waves.gamma", 1}}, scene);  // the default is 3.3
+  const auto& spectrum = *std::get<RandomSea>(scene.waves->kind).systems[0].spectrum;
+  EXPECT_DOUBLE_EQ(dynamic_cast<const hydro::waves::PeakedSpectrum&>(spectrum).gamma(), 1);
+}
+
+TEST(Override, LeavesTheGrammarToJudgeWhatIsWritten) {
+  using testing::HasSubstr;
+  EXPECT_THAT(refused_in_sea({"waves.gama", 2}), HasSubstr("did you mean \"gamma\"?"));
+  EXPECT_THAT(refused_in_sea({"waves.ramp", 2}), HasSubstr("ramp"));
+  EXPECT_THAT(refused_in_sea({"waves.hs", std::string("2 kg")}), HasSubstr("hs = \"2 kg\""));
+  EXPECT_THAT(refused_in_sea({"waves.hs", true}), HasSubstr("hs = true"));
+  EXPECT_THAT(refused_in_sea({"waves", std::string("none")}), HasSubstr("a single value is needed"));
+  EXPECT_THAT(refused_in_sea({"probe.gauge.at.x", std::string("1 m")}), HasSubstr("component of a vector"));
+  EXPECT_THAT(refused_in_sea({"wave.hs", 2}), HasSubstr("did you mean \"waves\"?"));
 }
 
 }  // namespace

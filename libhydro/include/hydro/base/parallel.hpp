@@ -6,11 +6,13 @@
 #include <thread>
 #include <vector>
 
+#include "hydro/base/look_up.hpp"
+
 namespace hydro {
 
 /// Does job(i) for i = 0 … count − 1 on `threads` threads, that of the caller among them. What is thrown first by index
 /// is thrown on, when all that are begun have ended and no other is begun; so results are the same for any number of
-/// threads.
+/// threads. Before each of its jobs the caller's thread looks up.
 template <class Job>
 void in_parallel(std::size_t count, int threads, const Job& job) {
   std::atomic<std::size_t> next{0};
@@ -19,6 +21,7 @@ void in_parallel(std::size_t count, int threads, const Job& job) {
   const auto work = [&] {
     for (std::size_t i = next++; i < count && !ends; i = next++) {
       try {
+        look_up();
         job(i);
       } catch (...) {
         failed[i] = std::current_exception();

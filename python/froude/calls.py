@@ -1,0 +1,376 @@
+"""What a scene, a study, a record or a file of coefficients is asked."""
+import os
+from collections.abc import Callable, Mapping, Sequence
+from typing import Optional, Union
+
+from froude import _froude
+from froude.progress import Progress, telling
+
+FileName = Union[str, "os.PathLike[str]"]
+Value = Union[bool, int, float, str]
+AnyScene = Union[_froude.Scene, FileName]
+
+
+def _plain(values: Optional[Mapping[str, Value]]) -> dict:
+    """Numbers of numpy as Python's own: those that the module takes."""
+    return {path: value.item() if hasattr(value, "item") else value for path, value in (values or {}).items()}
+
+
+def _scene(scene: AnyScene) -> _froude.Scene:
+    return scene if isinstance(scene, _froude.Scene) else read(scene)
+
+
+def read(file: FileName, set: Optional[Mapping[str, Value]] = None, *,
+         numbers: Optional[Mapping[str, float]] = None) -> _froude.Scene:
+    """Reads a scene.
+
+    Parameters
+    ----------
+    file : path
+        TOML, as docs/guide/motion.md and docs/guide/fits.md describe it.
+    set : dict, optional
+        Values by their paths, written over those of the file: numbers in the units written there, texts with theirs:
+        ``{"waves.height": 2.0, "waves.seed": 7, "body.buoy.mass": "3 t"}``. Of several tables with one heading the
+        name stands in the path, or the number counts from 1: ``"line[1].length"``; of a vector a component,
+        ``"load.at.x"``. A key that its table does not write is written there.
+    numbers : dict, optional
+        An older name of `set`.
+
+    Returns
+    -------
+    Scene
+
+    Raises
+    ------
+    InputError
+        With file, line, column, the rule that is broken and the remedy.
+    """
+    if set is not None and numbers is not None:
+        raise TypeError("set and numbers are two names of one thing: give one")
+    return _froude.read(file, _plain(set if numbers is None else numbers))
+
+
+def read_text(text: str, folder: FileName = ".", set: Optional[Mapping[str, Value]] = None) -> _froude.Scene:
+    """Reads a scene from a text.
+
+    Parameters
+    ----------
+    text : str
+        As a file would hold it. Errors call it ``scene.toml``.
+    folder : path
+        Where files that the scene names are looked for.
+    set : dict, optional
+        As of `read`.
+
+    Returns
+    -------
+    Scene
+
+    Raises
+    ------
+    InputError
+        With line, column, the rule that is broken and the remedy.
+    """
+    return _froude.read_text(text, os.path.join(folder, "scene.toml"), _plain(set))
+
+
+def run(scene: AnyScene, controllers: Optional[Mapping[str, Callable[[_froude.Sample], Optional[float]]]] = None, *,
+        progress: Progress = None) -> _froude.Run:
+    """Runs a scene in time, as its ``[ask] run`` says.
+
+    Parameters
+    ----------
+    scene : Scene or path
+    controllers : dict, optional
+        For names of axial connectors (``*`` stands for any characters) a function of a `Sample`, called at the end of
+        each step, that returns the new stiffness, N/m, or None to leave it.
+    progress : bool or function, optional
+        True draws a bar on stderr after a second; a function is called with the share done, 0 to 1, and "run".
+
+    Returns
+    -------
+    Run
+        Numerics that give up end it early: `Run.stopped` says why.
+
+    Raises
+    ------
+    InputError
+        For a scene that asks for no run or cannot be, and for controllers without a connector.
+    KeyboardInterrupt
+        At Ctrl-C; nothing is kept.
+    """
+    with telling(progress) as told:
+        return _froude.run(_scene(scene), dict(controllers or {}), told)
+
+
+def rao(scene: AnyScene, *, progress: Progress = None) -> _froude.Rao:
+    """Response amplitude operators, as ``[ask] rao`` says.
+
+    Parameters
+    ----------
+    scene : Scene or path
+    progress : bool or function, optional
+        As of `run`; it is told how far meshes of hulls are solved, where the scene has any.
+
+    Returns
+    -------
+    Rao
+        Complex amplitudes per metre of wave amplitude.
+
+    Raises
+    ------
+    InputError, NumericsError
+        For a scene that asks for none or cannot be; for equations without an answer.
+    """
+    with telling(progress) as told:
+        return _froude.rao(_scene(scene), told)
+
+
+def modes(scene: AnyScene, *, progress: Progress = None) -> _froude.Modes:
+    """Free motions about rest, as ``[ask] modes`` says.
+
+    Parameters
+    ----------
+    scene : Scene or path
+    progress : bool or function, optional
+        As of `rao`.
+
+    Returns
+    -------
+    Modes
+        Periods, damping ratios and shapes, by rising frequency.
+
+    Raises
+    ------
+    InputError, NumericsError
+        For a scene that asks for none or cannot be; for motions that cannot be found.
+    """
+    with telling(progress) as told:
+        return _froude.modes(_scene(scene), told)
+
+
+def plan(scene: AnyScene, *, progress: Progress = None) -> _froude.Plan:
+    """What the answers to a scene will take, and what it leaves out.
+
+    Parameters
+    ----------
+    scene : Scene or path
+    progress : bool or function, optional
+        As of `rao`.
+
+    Returns
+    -------
+    Plan
+        ``print(plan)`` is what ``froude plan`` prints.
+
+    Raises
+    ------
+    InputError
+        For a scene that cannot be.
+    """
+    with telling(progress) as told:
+        return _froude.plan(_scene(scene), told)
+
+
+def waves(scene: AnyScene, *, progress: Progress = None) -> _froude.Water:
+    """What the water does at the probes of a scene, as ``[ask] waves`` says.
+
+    Parameters
+    ----------
+    scene : Scene or path
+    progress : bool or function, optional
+        As of `run`.
+
+    Returns
+    -------
+    Water
+        Elevations, velocities, accelerations, pressures in time.
+
+    Raises
+    ------
+    InputError
+        For a scene that asks for none or cannot be.
+    """
+    with telling(progress) as told:
+        return _froude.waves(_scene(scene), told)
+
+
+def response(scene: AnyScene, *, progress: Progress = None) -> _froude.Densities:
+    """Spectra of responses in the random sea of a scene, from its transfer functions.
+
+    Parameters
+    ----------
+    scene : Scene or path
+        With ``[ask] rao`` and waves that are a random sea.
+    progress : bool or function, optional
+        As of `rao`.
+
+    Returns
+    -------
+    Densities
+        Of "sea" and of each signal; of bodies with second-order loads also of "NAME slow" and "NAME sums".
+
+    Raises
+    ------
+    InputError, NumericsError
+        For a scene that asks for no RAOs, or another sea; for a response that is too sharp.
+    """
+    with telling(progress) as told:
+        return _froude.response(_scene(scene), told)
+
+
+def cost(scene: AnyScene, *, tolerance: Optional[float] = None, measure: str = "rms", repeat_for: float = 15.0,
+         progress: Progress = None) -> _froude.Cost:
+    """What accuracy costs: the settings of a scene's own approximations, each with its error and its time.
+
+    Parameters
+    ----------
+    scene : Scene or path
+        As it is written, without `set`: settings are written into its text.
+    tolerance : float, optional
+        Relative error; with it the cheapest settings within are chosen.
+    measure : {"rms", "deviation", "extreme", "range"}
+        Of errors of runs.
+    repeat_for : float
+        s of processor time of each answer, spent on repeats.
+    progress : bool or function, optional
+        As of `run`.
+
+    Returns
+    -------
+    Cost
+
+    Raises
+    ------
+    InputError, NumericsError
+        For a scene that cannot be, or was changed.
+    """
+    with telling(progress) as told:
+        return _froude.cost(_scene(scene), tolerance, measure, repeat_for, told)
+
+
+def fit(scene: AnyScene) -> _froude.Fit:
+    """What measurements say of the coefficients of a model.
+
+    Parameters
+    ----------
+    scene : Scene or path
+        A scene with a ``[model]``, as docs/guide/fits.md describes it.
+
+    Returns
+    -------
+    Fit
+        ``fit["cd"].value``, ``.interval``, ``.standard_error``.
+
+    Raises
+    ------
+    InputError
+        For a scene or data that cannot be.
+    NumericsError
+        Where no value may be told, with the reason.
+    """
+    return _froude.fit(_scene(scene))
+
+
+def sweep(study: FileName, folder: Optional[FileName] = None, *, threads: Optional[int] = None, retry: bool = False,
+          progress: Progress = None) -> _froude.Sweep:
+    """Answers all cases of a study, and keeps them as they come.
+
+    Parameters
+    ----------
+    study : path
+        TOML, as docs/guide/sweeps.md describes it.
+    folder : path, optional
+        Where database, table and pictures are kept; the study's name with ``.sweep`` in the working folder, as the
+        program does, unless it is given. Cases that are there already are not answered again.
+    threads : int, optional
+        One for each processor unless it is given. Numbers do not depend on it.
+    retry : bool
+        Cases that have failed are answered again.
+    progress : bool or function, optional
+        As of `run`.
+
+    Returns
+    -------
+    Sweep
+
+    Raises
+    ------
+    InputError
+        For a study that cannot be, or a folder of another one.
+    KeyboardInterrupt
+        At Ctrl-C; cases that are done are kept, and the same call goes on from there.
+    """
+    if folder is None:
+        folder = os.path.splitext(os.path.basename(os.fspath(study)))[0] + ".sweep"
+    with telling(progress) as told:
+        return _froude.sweep(study, folder, threads, retry, told)
+
+
+def psd(record: Union[_froude.Run, _froude.Water, Mapping[str, Sequence[float]], FileName],
+        signals: Union[str, Sequence[str]] = (), *, segment: Optional[str] = None, tapers: Optional[int] = None,
+        uneven: bool = False, input: Optional[str] = None, start: Optional[str] = None, end: Optional[str] = None,
+        confidence: float = 0.95) -> _froude.Densities:
+    """Variance spectra of a record, by Welch's method unless something else is asked for.
+
+    Parameters
+    ----------
+    record : Run, Water, dict or path
+        A dict holds "time", s, and signals of that length; a file is a CSV with a header or a result of the program.
+    signals : str or list of str
+        Names; ``*`` stands for any characters. All of them unless some are given.
+    segment : str, optional
+        Length of a segment, "100 s"; 15 half overlapping segments unless it is given.
+    tapers : int, optional
+        Instead of segments so many sine tapers over the whole record.
+    uneven : bool
+        The record has gaps or uneven times: Lomb and Scargle's method.
+    input : str, optional
+        Signal of which the others are responses: `Densities.transfer`, `Densities.coherence`.
+    start, end : str, optional
+        "60 s": what lies before or after is left out.
+    confidence : float
+        Of `Densities.band`.
+
+    Returns
+    -------
+    Densities
+
+    Raises
+    ------
+    InputError
+        For a record that is uneven or too short, or signals that it does not have.
+    """
+    names = [signals] if isinstance(signals, str) else list(signals)
+    given = isinstance(record, (_froude.Run, _froude.Water, Mapping))
+    content = dict(record) if isinstance(record, Mapping) else record
+    return _froude.psd(content, "the record" if given else record, names, segment, tapers, uneven, input, start, end,
+                       confidence)
+
+
+def coefficients(file: FileName, *, density: Optional[float] = None, gravity: Optional[float] = None,
+                 depth: Optional[float] = None, ulen: Optional[float] = None,
+                 iperout: Optional[int] = None) -> _froude.Coefficients:
+    """Reads hydrodynamic coefficients of any format that docs/guide/coefficients.md lists.
+
+    Parameters
+    ----------
+    file : path
+        Formats are told apart by content; of those of several files, any or the folder.
+    density, gravity, depth : float, optional
+        Of the water, kg/m^3, m/s^2, m (math.inf is deep), where the file does not say.
+    ulen : float, optional
+        WAMIT's ULEN, m.
+    iperout : int, optional
+        WAMIT's IPEROUT, 1 to 4.
+
+    Returns
+    -------
+    Coefficients
+
+    Raises
+    ------
+    InputError
+        With file, line and remedy.
+    """
+    return _froude.coefficients(file, density, gravity, depth, ulen, iperout)

@@ -1,0 +1,180 @@
+// Runs, responses, the water and free motions, as numpy arrays.
+#include <algorithm>
+
+#include "bindings.hpp"
+
+namespace froude::python {
+namespace {
+
+/// A signal is a series in a run, and in responses to several headings one row for each of them.
+std::vector<std::size_t> shape_of(const Run& run) { return {run.time.size()}; }
+std::vector<std::size_t> shape_of(const WaterSeries& water) { return {water.time.size()}; }
+std::vector<std::size_t> shape_of(const Responses& r) {
+  if (r.heading.size() == 1) return {r.omega.size()};
+  return {r.heading.size(), r.omega.size()};
+}
+
+template <class Result>
+std::vector<std::string> names_of(const Result& result) {
+  std::vector<std::string> out;
+  for (const auto& s : result.signals) out.push_back(s.name);
+  return out;
+}
+
+template <class Result>
+std::size_t place_of(const Result& result, const std::string& name) {
+  const auto names = names_of(result);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw py::key_error(fmt::format("no signal \"{}\"; signals are: {}", name, fmt::join(names, ", ")));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+/// What all results of signals have alike: signals by name, their units and meanings, notes, a file.
+template <class Result>
+void add_signals(py::class_<Result>& type) {
+  type.def_property_readonly("signals", names_of<Result>, "Names of the signals, in the order of the scene.")
+      .def(
+          "__contains__",
+          [](const Result& r, const std::string& name) {
+            const auto names = names_of(r);
+            return std::find(names.begin(), names.end(), name) != names.end();
+          },
+          py::arg("signal"), "True if there is a signal of this name.")
+      .def(
+          "__getitem__",
+          [](const py::object& self, const std::string& name) {
+            const auto& result = self.cast<const Result&>();
+            return view(result.signals[place_of(result, name)].values, self, shape_of(result));
+          },
+          py::arg("signal"), "Values of a signal, SI; they cannot be written. Raises KeyError if there is none.")
+      .def(
+          "unit", [](const Result& r, const std::string& name) { return r.signals[place_of(r, name)].units; },
+          py::arg("signal"), "Unit of a signal; \"\" for a number.")
+      .def(
+          "meaning", [](const Result& r, const std::string& name) { return r.signals[place_of(r, name)].long_name; },
+          py::arg("signal"), "What a signal is, in words.")
+      .def_readonly("notes", &Result::notes, "What had to be decided, and what is left out; a sentence each.")
+      .def_property_readonly(
+          "settings", [](const Result& r) { return dict_of(r.provenance.settings); },
+          "Every key of the scene that acts and its value, defaults included.")
+      .def(
+          "write", [](const Result& r, const std::filesystem::path& file) { r.write(file); }, py::arg("file"),
+          "Writes the file that the program writes: HDF5, which is netCDF-4 too.\n\n"
+          "It is there as a whole or not at all. Raises InputError if it cannot be written.");
+}
+
+/// What runs and responses tell of their accuracy.
+template <class Result>
+void add_error(py::class_<Result>& type, const char* of) {
+  type.def(
+          "error",
+          [](const Result& r, const std::string& name) -> std::optional<double> {
+            const std::size_t at = place_of(r, name);
+            if (!r.error.missing.empty() || r.error.sources.empty()) return std::nullopt;
+            return r.error.total(at);
+          },
+          py::arg("signal"), of)
+      .def_property_readonly(
+          "accuracy", [](const Result& r) { return r.accuracy(); },
+          "What accuracy was asked and is estimated, in words; \"\" where nothing is estimated.")
+      .def_property_readonly(
+          "warnings", [](const Result& r) { return r.warnings(); }, "What is not to be trusted; a sentence each.");
+}
+
+void add_run(py::module_& m) {
+  py::class_<Run> type(m, "Run",
+                       "A run in time. run[\"m1.heave\"] is a signal as a numpy array, shape (time,), SI.\n\n"
+                       "Motions are about rest, of the centre of gravity, global axes; rotations in radians.");
+  add_signals(type);
+  add_error(type,
+            "Estimated error of a signal, over its size; None where there is no estimate.\n\n"
+            "The largest of rms, standard deviation and extremes (docs/theory/accuracy.md).");
+  type.def_property_readonly("time", view_of(&Run::time), "s, shape (time,).")
+      .def_readonly("step", &Run::step, "s")
+      .def_readonly("steps", &Run::steps, "Steps completed.")
+      .def_readonly("stopped", &Run::stopped, "Why it ended before its time; empty if it did not.")
+      .def_property_readonly(
+          "energy", [](const Run& r) { return dict_of(r.energy); },
+          "J, by effect, at the end; `residual` is what does not balance, of `turnover`; `largest_residual` when it "
+          "was most.")
+      .def_property_readonly(
+          "evaluations", [](const Run& r) { return dict_of(r.evaluations); }, "How often each effect was evaluated.");
+  add_dataset(type, "of_run", "xarray.Dataset along `time`; each signal has `units`, `long_name` and `error`.");
+}
+
+void add_rao(py::module_& m) {
+  py::class_<Responses> type(
+      m, "Rao",
+      "Response amplitude operators: responses per metre of wave amplitude, complex.\n\n"
+      "abs(rao[\"m1.heave\"]) is in m/m; phases are against the crest at the global origin, e^{+i omega t}: a positive "
+      "phase comes before the crest. Shape (omega,); of several headings (heading, omega).");
+  add_signals(type);
+  add_error(type, "Estimated error of a signal, over its peak; None where there is no estimate.");
+  type.def_property_readonly("omega", view_of(&Responses::omega), "Frequency of the waves, rad/s, shape (omega,).")
+      .def_property_readonly("heading", view_of(&Responses::heading),
+                             "Where the waves go, rad, from +x towards +y, shape (heading,), also of one.");
+  add_dataset(type, "of_rao", "xarray.Dataset along `heading` and `omega`, complex; `units` and `long_name` of each.");
+}
+
+void add_water(py::module_& m) {
+  py::class_<WaterSeries> type(m, "Water",
+                               "What the water does at the probes of a scene. water[\"probe.elevation\"] is a numpy "
+                               "array, shape (time,), SI.");
+  add_signals(type);
+  type.def_property_readonly("time", view_of(&WaterSeries::time), "s, shape (time,).")
+      .def_readonly("method", &WaterSeries::method, "How it was computed: \"inverse FFT\", ...");
+  add_dataset(type, "of_run", "xarray.Dataset along `time`; each signal has `units` and `long_name`.");
+}
+
+void add_modes(py::module_& m) {
+  py::class_<Modes> type(m, "Modes", "Free motions about rest, by rising frequency.");
+  type.def_readonly("motions", &Modes::motions, "\"m1.surge\", ...: what the columns of `shape` are.")
+      .def_property_readonly("omega", view_of(&Modes::omega), "Undamped, rad/s, shape (mode,).")
+      .def_property_readonly(
+          "period",
+          [](const Modes& modes) {
+            std::vector<double> out;
+            for (std::size_t i = 0; i < modes.count(); ++i) out.push_back(modes.period(i));
+            return py::array_t<double>(static_cast<py::ssize_t>(out.size()), out.data());
+          },
+          "Undamped, s, shape (mode,).")
+      .def_property_readonly(
+          "damping_ratio",
+          [](const Modes& modes) {
+            std::vector<double> out;
+            for (std::size_t i = 0; i < modes.count(); ++i)
+              out.push_back(modes.damping_ratio(i).value_or(std::numeric_limits<double>::quiet_NaN()));
+            return py::array_t<double>(static_cast<py::ssize_t>(out.size()), out.data());
+          },
+          "Of the critical damping, shape (mode,); NaN where the motion creeps back without swinging.")
+      .def_property_readonly(
+          "shape",
+          [](const py::object& self) {
+            const auto& modes = self.cast<const Modes&>();
+            return view(modes.shape, self, {modes.count(), modes.motions.size()});
+          },
+          "Undamped, of the centres of gravity, m and rad, shape (mode, motion).")
+      .def_property_readonly(
+          "outside_data",
+          [](const Modes& modes) {
+            return py::array(py::cast(std::vector<bool>(modes.outside_data))).attr("astype")("bool");
+          },
+          "True where the frequency is outside those of the coefficients, shape (mode,).")
+      .def_readonly("notes", &Modes::notes, "What had to be decided, and what is left out; a sentence each.")
+      .def(
+          "write", [](const Modes& modes, const std::filesystem::path& file) { modes.write(file); }, py::arg("file"),
+          "Writes the file that the program writes: HDF5, which is netCDF-4 too.");
+  add_dataset(type, "of_modes", "xarray.Dataset along `mode` and `motion`.");
+}
+
+}  // namespace
+
+void add_results(py::module_& m) {
+  add_run(m);
+  add_rao(m);
+  add_water(m);
+  add_modes(m);
+}
+
+}  // namespace froude::python

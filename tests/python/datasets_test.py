@@ -1,0 +1,49 @@
+"""Results as datasets of xarray."""
+import sys
+
+import numpy as np
+import pytest
+
+import froude
+
+xarray = pytest.importorskip("xarray")
+
+
+def test_a_run(examples):
+    run = froude.run(examples / "forced.toml")
+    data = run.to_xarray()
+    assert list(data.data_vars) == run.signals and data.sizes == {"time": len(run.time)}
+    for name in run.signals:
+        np.testing.assert_array_equal(data[name], run[name])
+        assert data[name].attrs["units"] == (run.unit(name) or "1")
+        assert data[name].attrs["long_name"] == run.meaning(name)
+    assert data.time.attrs["units"] == "s"
+
+
+@pytest.mark.parametrize("scene", ["moored.toml", "headings.toml"])
+def test_responses_have_both_dimensions(examples, scene):
+    rao = froude.rao(examples / scene)
+    data = rao.to_xarray()
+    for name in rao.signals:
+        assert data[name].dims == ("heading", "omega") and np.iscomplexobj(data[name])
+        np.testing.assert_array_equal(data[name].values.ravel(), rao[name].ravel())
+    np.testing.assert_array_equal(data.omega, rao.omega)
+
+
+def test_spectra_modes_and_coefficients(examples):
+    spectra = froude.response(examples / "seastate.toml")
+    data = spectra.to_xarray()
+    assert data["float.heave"].attrs["units"] == "m^2/Hz"
+    # m0 by the trapezium rule on the spectrum's own points
+    assert data["float.heave"].integrate("frequency") == pytest.approx(spectra["float.heave"].moments["m0"], rel=1e-12)
+    assert froude.modes(examples / "modes.toml").to_xarray()["shape"].dims == ("mode", "motion")
+    c = froude.coefficients(examples / "data/box2.nc")
+    data = c.to_xarray()
+    one = data.added_mass.sel(radiating_dof=c.modes[0], influenced_dof=c.modes[4])
+    np.testing.assert_array_equal(one, c.added_mass[:, 4, 0])
+
+
+def test_without_xarray_there_is_a_remedy(examples, monkeypatch):
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    with pytest.raises(ImportError, match="python3-xarray"):
+        froude.modes(examples / "modes.toml").to_xarray()

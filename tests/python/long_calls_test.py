@@ -1,0 +1,56 @@
+"""Long calls end at Ctrl-C, tell how far they are, and let other threads work."""
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+
+import froude
+from conftest import EXAMPLES
+
+long_run = {"ask.run.duration": "20000 s", "ask.run.every": "1 s"}
+
+
+@pytest.mark.parametrize("call", [
+    "froude.run(froude.read(file, set={'ask.run.duration': '2000000 s', 'ask.run.every': '100 s'}))",
+])
+def test_ctrl_c_ends_a_call(call, tmp_path):
+    script = (f"import froude, sys\nfile = {str(EXAMPLES / 'forced.toml')!r}\nprint('begins', flush=True)\n"
+              f"try:\n    {call}\nexcept KeyboardInterrupt:\n    sys.exit(7)\n")
+    ran = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True, cwd=tmp_path)
+    assert ran.stdout.readline() == "begins\n"
+    time.sleep(1)
+    ran.send_signal(signal.SIGINT)
+    assert ran.wait(20) == 7
+    assert os.listdir(tmp_path) == []
+
+
+def test_progress_is_told_and_what_it_raises_comes_out():
+    scene = froude.read(EXAMPLES / "forced.toml", set=long_run)
+    told = []
+    froude.run(scene, progress=lambda share, text: told.append((share, text)))
+    shares = [share for share, _ in told]
+    assert shares and min(shares) >= 0 and max(shares) <= 1
+    assert {text for _, text in told} == {"run"}
+
+    def enough(share, text):
+        raise ZeroDivisionError("of the caller")
+
+    with pytest.raises(ZeroDivisionError, match="of the caller"):
+        froude.run(scene, progress=enough)
+    with pytest.raises(TypeError, match="progress is True"):
+        froude.run(scene, progress="yes")
+
+
+def test_other_threads_work_meanwhile():
+    scene = froude.read(EXAMPLES / "forced.toml", set=long_run)
+    ran = threading.Thread(target=froude.run, args=(scene,))
+    ticks = 0
+    ran.start()
+    while ran.is_alive():
+        ticks += 1
+        time.sleep(0.001)
+    assert ticks > 20  # of a call that takes longer than 100 ms; none if it held the lock
