@@ -140,7 +140,7 @@ namespace {
 /// Angles that see every pole: even ones, and each resonance with its flanks.
 std::vector<double> angles(const WeightedDamping& weighted) {
   std::vector<double> out;
-  constexpr int even = 100;
+  constexpr int even = 160;
   for (int i = 0; i <= even; ++i) out.push_back(quarter_turn * i / even);
   for (const Pole& p : weighted.poles())
     for (const double flank : {-2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0})
