@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 
 #include "hydro/base/dense.hpp"
 #include "hydro/base/product.hpp"
@@ -182,11 +183,10 @@ Raised raised(Eigen::MatrixXd Q, Eigen::Index n, double floor) {
   return out;
 }
 
-/// On the face of the multipliers that are not zero, towards where all its slacks vanish, as far as they stay positive.
-void along_face(const Eigen::MatrixXd& dual, Eigen::VectorXd& multiplier, Eigen::VectorXd& slack) {
-  std::vector<Eigen::Index> on;
-  for (Eigen::Index i = 0; i < multiplier.size(); ++i)
-    if (multiplier[i] > 0) on.push_back(i);
+/// On the face of the multipliers `on` that are not zero, towards where all its slacks vanish, as far as they stay
+/// positive.
+void along_face(const Eigen::MatrixXd& dual, const std::vector<Eigen::Index>& on, Eigen::VectorXd& multiplier,
+                Eigen::VectorXd& slack) {
   Eigen::MatrixXd face = dual(on, on);
   face.diagonal() *= 1 + 1e-9;  // rows that repeat each other
   const dense::Cholesky factor(face);
@@ -194,19 +194,27 @@ void along_face(const Eigen::MatrixXd& dual, Eigen::VectorXd& multiplier, Eigen:
   const Eigen::VectorXd way = -factor.solve(Eigen::VectorXd(slack(on)));
   const Eigen::ArrayXd at = multiplier(on);
   const double share = std::min(1.0, (way.array() < 0).select(-at / way.array(), 1.0).minCoeff());
-  multiplier(on) = (at + share * way.array()).max(0);
-  slack += dual(Eigen::all, on) * (multiplier(on) - at.matrix());
+  for (std::size_t k = 0; k < on.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    const double moved = std::max(at[i] + share * way[i], 0.0) - at[i];
+    multiplier[on[k]] += moved;
+    slack += moved * dual.col(on[k]);
+  }
 }
 
-/// The smallest x (‖design · x‖ least) with rows · x >= least, by its dual: non-negative multipliers, one at a time and
-/// then all that are not zero together.
-Eigen::VectorXd least_lift(const Eigen::MatrixXd& design, const Eigen::MatrixXd& rows, const Eigen::VectorXd& least) {
+/// The smallest x (‖design · x‖ least) with rows · x >= least, by its dual: non-negative multipliers, one at a time,
+/// and all that are not zero together once those are the same as before. They are begun from those given, of the first
+/// rows, and left there.
+Eigen::VectorXd least_lift(const Eigen::MatrixXd& design, const Eigen::MatrixXd& rows, const Eigen::VectorXd& least,
+                           Eigen::VectorXd& multiplier) {
   const Eigen::Index n = design.cols();
   Eigen::MatrixXd M = design.transpose() * design;
   M.diagonal().array() += 1e-8 * M.trace() / static_cast<double>(n);
   const Eigen::MatrixXd toward = dense::Cholesky(M).solve(rows.transpose());  // (n, rows)
   const Eigen::MatrixXd dual = rows * toward;
-  Eigen::VectorXd multiplier = Eigen::VectorXd::Zero(rows.rows()), slack = -least;
+  multiplier.conservativeResizeLike(Eigen::VectorXd::Zero(rows.rows()));
+  Eigen::VectorXd slack = dual * multiplier - least;
+  std::vector<Eigen::Index> before;
   constexpr int sweeps = 300;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     double worst = 0;
@@ -218,7 +226,11 @@ Eigen::VectorXd least_lift(const Eigen::MatrixXd& design, const Eigen::MatrixXd&
       slack += step * dual.col(i);
     }
     if (worst < 1e-3 * least.cwiseAbs().maxCoeff()) break;
-    along_face(dual, multiplier, slack);
+    std::vector<Eigen::Index> on;
+    for (Eigen::Index i = 0; i < multiplier.size(); ++i)
+      if (multiplier[i] > 0) on.push_back(i);
+    if (on == before) along_face(dual, on, multiplier, slack);
+    before = std::move(on);
   }
   return toward * multiplier;
 }
@@ -259,33 +271,43 @@ bool near_enough(const Margins& margins, const Eigen::VectorXd& lowest, const Ei
   return margins.lifted > 0 ? (missing * share.array()).maxCoeff() <= margins.lifted : missing.maxCoeff() == 0;
 }
 
-/// Towards the passive ones: fit the data and, at every angle, a matrix without negative eigenvalues near that of the
+}  // namespace
+
+Eigen::MatrixXd least_squares(const Eigen::MatrixXd& design, const Eigen::MatrixXd& right) {
+  const Eigen::VectorXd scale = design.colwise().norm().cwiseMax(1e-300).cwiseInverse();
+  return scale.asDiagonal() * dense::PivotedQr(design * scale.asDiagonal()).solve(right);
+}
+
+/// Each turn fits the data and, at every angle, a matrix without negative eigenvalues near that of the
 /// fit before; the way so far is continued each time (Nesterov's acceleration), and begun anew where the distance from
 /// the targets grows. Turns end where Q is near enough and the data are missed by no less than a turn before, or where
 /// Q comes no nearer since the data pull as hard.
-Eigen::MatrixXd approached(const Fitting& fitting, const Eigen::MatrixXd& rows, const Eigen::VectorXd& share,
-                           Eigen::Index n, const Margins& margins, Enforced& report) {
+Approached approach(const WeightedDamping& weighted, const Eigen::MatrixXd& null, const Fitting& fitting,
+                    Eigen::Index n, const Margins& margins) {
   // A turn costs an eigenproblem of n modes at each angle; large arrays get fewer turns and more lift.
   const double size = static_cast<double>(n);
   const int turns = n <= 40 ? 150 : std::max(10, static_cast<int>(150 * 40 * 40 / (size * size)));
-  constexpr double beyond = 1.8;   // targets beyond the nearest matrix are reached sooner
-  constexpr int once_in = 10;      // turns, in which the distance shall fall
-  constexpr double falling = 0.9;  // to this share of it, and what the data are missed by in one turn
+  constexpr double beyond = 1.8;    // targets beyond the nearest matrix are reached sooner
+  constexpr int once_in = 10;       // turns, in which the distance shall fall
+  constexpr double falling = 0.97;  // to this share of it, and what the data are missed by in one turn
+  const std::vector<double> theta = angles(weighted);
+  const Eigen::MatrixXd rows = rows_at(weighted, theta) * null;
+  const Eigen::VectorXd share = share_of_damping(theta);
   const Eigen::Index inner = rows.cols();
   const Targeted fit = targeted(fitting, rows, share);
   const Eigen::MatrixXd to_angles = rows.transpose(), to_data = fitting.design.transpose(),
                         from_targets = fit.by_target.transpose();  // as products of each turn want them
+  Approached out;
   Eigen::MatrixXd x = least_squares(fitting.design, fitting.right), point = x;
   double momentum = 1, last = HUGE_VAL, reference = HUGE_VAL, missed_before = HUGE_VAL;
-  bool was_near = false;
   for (int turn = 0; turn < turns; ++turn) {
     const Eigen::MatrixXd now = transposed_product(to_angles, point.topRows(inner));
     const Raised target = raised(now, n, 2 * margins.kept);
-    if (turn == 0) report.most_negative = std::min(0.0, target.lowest.minCoeff());
+    if (turn == 0) out.most_negative = std::min(0.0, target.lowest.minCoeff());
     const double missed = (transposed_product(to_data, point) - fitting.right).norm();
     const bool near = near_enough(margins, target.lowest, share);
+    const bool was_near = std::exchange(out.near, near);
     if (near && was_near && missed > falling * missed_before) break;
-    was_near = near;
     missed_before = missed;
     const double distance = (fit.weight.asDiagonal() * (target.Q - now)).norm();
     if (turn % once_in == 0) {
@@ -300,42 +322,31 @@ Eigen::MatrixXd approached(const Fitting& fitting, const Eigen::MatrixXd& rows, 
     x = std::move(next);
     momentum = momentum_next;
   }
-  return point;
+  out.x = std::move(point);
+  return out;
 }
 
-}  // namespace
-
-Eigen::MatrixXd least_squares(const Eigen::MatrixXd& design, const Eigen::MatrixXd& right) {
-  const Eigen::VectorXd scale = design.colwise().norm().cwiseMax(1e-300).cwiseInverse();
-  return scale.asDiagonal() * dense::PivotedQr(design * scale.asDiagonal()).solve(right);
-}
-
-Enforced enforce(const WeightedDamping& weighted, const Eigen::MatrixXd& null, const Fitting& fitting, Eigen::Index n,
-                 const Margins& margins) {
-  const double margin = margins.kept;
-  std::vector<double> theta = angles(weighted);
+Covered cover(const WeightedDamping& weighted, const Eigen::MatrixXd& null, const Fitting& fitting, Eigen::Index n,
+              double margin, const Eigen::MatrixXd& x) {
   const Eigen::Index inner = null.cols();
-  Enforced out;
-  Eigen::MatrixXd rows = rows_at(weighted, theta) * null;
-  out.x = approached(fitting, rows, share_of_damping(theta), n, margins, out);
-  // What is left is covered by damping that acts on all modes alike, as little of it as does.
   const Eigen::MatrixXd diagonal = packed(Eigen::MatrixXd::Identity(n, n));
-  const Eigen::MatrixXd without = out.x;
+  Eigen::MatrixXd rows = rows_at(weighted, angles(weighted)) * null;
+  Eigen::VectorXd multiplier;
+  Covered out;
   constexpr int rounds = 16;
   for (int round = 0; round < rounds; ++round) {
-    const Eigen::VectorXd lowest = smallest(rows * without.topRows(inner), n);
-    out.x = without;
+    const Eigen::VectorXd lowest = smallest(rows * x.topRows(inner), n);
+    out.x = x;
     if (round > 0 || lowest.minCoeff() < margin) {
       const Eigen::VectorXd least = (1.5 * margin - lowest.array()).cwiseMax(0);
-      const Eigen::VectorXd lifted = least_lift(fitting.design.leftCols(inner), rows, least);
+      const Eigen::VectorXd lifted = least_lift(fitting.design.leftCols(inner), rows, least, multiplier);
       out.x.topRows(inner) += lifted * diagonal;
       out.lift = (rows * lifted).maxCoeff();
     }
     const Certificate certificate = certify(weighted, null * out.x.topRows(inner), n, margin);
     out.passive = certificate.passive;
     if (out.passive) break;
-    theta = certificate.open;
-    const Eigen::MatrixXd more = rows_at(weighted, theta) * null;
+    const Eigen::MatrixXd more = rows_at(weighted, certificate.open) * null;
     rows.conservativeResize(rows.rows() + more.rows(), Eigen::NoChange);
     rows.bottomRows(more.rows()) = more;
   }

@@ -59,21 +59,30 @@ struct Fitting {
 /// x with least ‖design · x − right‖, columns scaled.
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& design, const Eigen::MatrixXd& right);
 
-struct Enforced {
-  Eigen::MatrixXd x;
-  bool passive = false;
-  double lift = 0;           ///< largest Q added to all modes alike
-  double most_negative = 0;  ///< eigenvalue of Q on the grid before
-};
-
 struct Margins {
   double kept;    ///< by which Q shall be positive at every angle
   double lifted;  ///< what B may be short of that before damping on all modes alike makes it good; 0: nothing
 };
 
-/// The solution nearest to the least-squares one that is passive with a margin. (R17)
+struct Approached {
+  Eigen::MatrixXd x;
+  bool near = false;         ///< Q is short of its margins at no angle looked at
+  double most_negative = 0;  ///< eigenvalue of Q at those angles before
+};
+
+/// From the least-squares solution towards those that are passive with margins. (R17)
 /// `null` spans coefficients that vanish at rest: coefficients = null · x.
-Enforced enforce(const WeightedDamping& weighted, const Eigen::MatrixXd& null, const Fitting& fitting, Eigen::Index n,
-                 const Margins& margins);
+Approached approach(const WeightedDamping& weighted, const Eigen::MatrixXd& null, const Fitting& fitting,
+                    Eigen::Index n, const Margins& margins);
+
+struct Covered {
+  Eigen::MatrixXd x;
+  bool passive = false;  ///< by a certificate
+  double lift = 0;       ///< largest Q added to all modes alike
+};
+
+/// What x is short of `margin` covered by damping that acts on all modes alike, as little of it as does.
+Covered cover(const WeightedDamping& weighted, const Eigen::MatrixXd& null, const Fitting& fitting, Eigen::Index n,
+              double margin, const Eigen::MatrixXd& x);
 
 }  // namespace hydro::radiation::detail

@@ -228,27 +228,41 @@ Attempt attempt(const Data& d, std::vector<Pole> poles) {
   return a;
 }
 
-void make_passive(const Data& d, const detail::Margins& margins, Attempt& a) {
+/// Made passive with margins, unless the fit that this begins with misses more than `worth` already: what is left to
+/// do adds to that, and is most of the work. Tells whether the fit came near by the margins.
+bool make_passive(const Data& d, const detail::Margins& margins, double worth, Attempt& a) {
   const Eigen::MatrixXd null = detail::vanishing_at_rest(a.poles);
   const detail::Fitting f = fitting(d, a.poles, null);
   const detail::WeightedDamping weighted(a.poles, d.centre);
+  const auto of = [&](const std::vector<Eigen::Index>& pairs) {
+    return detail::Fitting{f.design, f.right(Eigen::all, pairs), f.extra};
+  };
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(f.design.cols(), f.right.cols());
-  a.report.passive = true;
+  bool near = true;
   a.report.most_negative = a.report.lift = 0;
   for (const auto& group : d.groups) {
     const auto pairs = pairs_of(group);
-    const auto enforced = detail::enforce(weighted, null, {f.design, f.right(Eigen::all, pairs), f.extra},
-                                          static_cast<Eigen::Index>(group.size()), margins);
-    x(Eigen::all, pairs) = enforced.x;
-    a.report.passive = a.report.passive && enforced.passive;
-    a.report.most_negative = std::min(a.report.most_negative, enforced.most_negative);
-    a.report.lift = std::max(a.report.lift, enforced.lift);
+    auto approached = detail::approach(weighted, null, of(pairs), static_cast<Eigen::Index>(group.size()), margins);
+    x(Eigen::all, pairs) = approached.x;
+    near = near && approached.near;
+    a.report.most_negative = std::min(a.report.most_negative, approached.most_negative);
   }
+  a.report.passive = errors(d, f, x).maxCoeff() <= worth;
+  if (a.report.passive)
+    for (const auto& group : d.groups) {
+      const auto pairs = pairs_of(group);
+      const auto covered = detail::cover(weighted, null, of(pairs), static_cast<Eigen::Index>(group.size()),
+                                         margins.kept, x(Eigen::all, pairs));
+      x(Eigen::all, pairs) = covered.x;
+      a.report.passive = a.report.passive && covered.passive;
+      a.report.lift = std::max(a.report.lift, covered.lift);
+    }
   a.coefficients = null * x.topRows(null.cols());
   a.shift = x.bottomRows(1);
   a.report.error_per_pair = per_pair(d, errors(d, f, x));
   a.report.error = a.report.error_per_pair.maxCoeff();
   a.report.margin = a.report.passive ? margins.kept : 0;
+  return near;
 }
 
 /// By which Q is kept positive: a small part of the tolerance, yet not so small that a certificate, which must tell it
@@ -257,11 +271,11 @@ double margin_for(double tolerance) { return std::min(std::max(tolerance / 50, 2
 
 /// By a lift as soon as that is small, which is quick; where that costs the tolerance, by what needs hardly any.
 void make_passive(const Data& d, double tolerance, Attempt& a) {
-  const double margin = margin_for(tolerance);
+  const double margin = margin_for(tolerance), worth = 2 * tolerance;
   Attempt quick = a;
-  make_passive(d, {.kept = margin, .lifted = tolerance / 20}, quick);
-  if (!quick.report.passive || quick.report.error > tolerance) {
-    make_passive(d, {.kept = margin, .lifted = 0}, a);
+  const bool near = make_passive(d, {.kept = margin, .lifted = tolerance / 20}, worth, quick);
+  if (near && (!quick.report.passive || quick.report.error > tolerance)) {
+    make_passive(d, {.kept = margin, .lifted = 0}, worth, a);
     if (a.report.passive || !quick.report.passive) return;
   }
   a = std::move(quick);
@@ -320,14 +334,19 @@ Floor floor_of_passive(const Data& d) {
   return out;
 }
 
-/// True if no attempt has come nearer by a fifth while the order doubled, and one is as near as passive data let it.
+/// True if no attempt has come nearer by a fifth while the order doubled, where one is as near as passive data let it,
+/// or else while it grew fourfold: errors may rest for a while before they reach a floor.
 bool stands_still(const std::vector<Attempt>& all, const Floor& floor) {
-  double before = std::numeric_limits<double>::infinity(), since = before;
-  for (const Attempt& a : all) {
-    double& best = 2 * a.report.order <= all.back().report.order ? before : since;
-    best = std::min(best, a.report.error);
-  }
-  return since > 0.8 * before && std::min(since, before) < 2 * std::max(floor.error, floor.nearest);
+  const auto least = [&](int from, int to) {
+    double best = std::numeric_limits<double>::infinity();
+    for (const Attempt& a : all)
+      if (a.report.order > from && a.report.order <= to) best = std::min(best, a.report.error);
+    return best;
+  };
+  const int last = all.back().report.order;
+  const bool reached = least(0, last) < 2 * std::max(floor.error, floor.nearest);
+  const int before = last / (reached ? 2 : 4);
+  return least(before, last) > 0.8 * least(0, before);
 }
 
 /// Orders to try, up to `most`.
@@ -437,7 +456,8 @@ Attempt nearest(const Data& d, const FitOptions& options, std::vector<Attempt> t
   for (std::size_t i = 0; i < std::min(few, tried.size()); ++i) {
     const FitReport& so_far = tried[best].report;
     if (i > 0 && so_far.passive && (is_near_passive(so_far) || so_far.error <= tried[i].report.error)) break;
-    if (!tried[i].report.passive) make_passive(d, {.kept = margin, .lifted = 0}, tried[i]);
+    if (!tried[i].report.passive)
+      make_passive(d, {.kept = margin, .lifted = 0}, std::numeric_limits<double>::infinity(), tried[i]);
     if (better(tried[i].report, so_far)) best = i;
   }
   return std::move(tried[best]);

@@ -3,6 +3,7 @@
 ///   cost_fits            times
 ///   cost_fits rows 1e7   one raw record of so many rows, from position and force to intervals: time and memory
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include <Eigen/QR>
@@ -206,6 +207,8 @@ void rows(std::size_t n) {
 }  // namespace
 
 int main(int count, char** words) {
+  mallopt(M_MMAP_MAX, 0);  // as the program does
+  mallopt(M_TRIM_THRESHOLD, -1);
   if (count == 3 && std::string(words[1]) == "rows") {
     rows(static_cast<std::size_t>(std::strtod(words[2], nullptr)));
     return 0;
