@@ -180,7 +180,7 @@ double plan_coefficients(const scene::Scene& scene, std::vector<Section>& sectio
   };
   if (const auto bodies = compile::bodies_of_cylinders(scene); !bodies.empty()) {
     const compile::CylinderPlan plan = compile::plan_cylinders(scene, bodies);
-    add("cylinders", plan, plan.cost.seconds);
+    add("cylinders", plan, plan.seconds());
   }
   if (const auto bodies = compile::bodies_of_meshes(scene); !bodies.empty()) {
     const compile::HullPlan plan = compile::plan_hulls(scene, bodies);

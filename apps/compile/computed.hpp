@@ -26,6 +26,11 @@ inline const scene::Hydrodynamics& hydrodynamics_of(const scene::Scene& scene, i
 /// Where waves go in this scene, each heading once: those that differ by the rounding of a unit are one.
 std::vector<double> headings_asked(const scene::Scene& scene);
 
+/// What solving takes, in words, of which nothing is left to do where it is kept.
+inline std::string left_to_do(const std::string& size, bool kept) {
+  return kept ? size + ", none of which is to be done again" : size;
+}
+
 /// Bodies that are solved together have one table. \throws hydro::InputError at the second if theirs differ
 template <class Table>
 void require_same_table(const std::string& kind, const Table& first, const Table& other, const hydro::Place& place) {

@@ -1,11 +1,15 @@
 #include "compile/cylinders.hpp"
-#include "compile/computed.hpp"
-#include "scene/placed.hpp"
 
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "compile/computed.hpp"
+#include "compile/kept_coefficients.hpp"
+#include "compile/kept_files.hpp"
+#include "fit_sources.hpp"
+#include "scene/placed.hpp"
 
 namespace froude::compile {
 namespace {
@@ -45,6 +49,11 @@ Request request(const Scene& scene, const std::vector<int>& bodies) {
   return r;
 }
 
+/// What decides on every bit of the coefficients: the program that solves, and all that it is asked.
+std::string key_of_cylinders(const Scene& scene, const std::vector<int>& bodies) {
+  return maker("solution by cylinders", FROUDE_CYLINDER_SOURCES) + what_is_solved(scene, bodies);
+}
+
 }  // namespace
 
 std::vector<int> bodies_of_cylinders(const Scene& scene) {
@@ -56,8 +65,15 @@ hydro::cylinders::Solution solve_cylinders(const Scene& scene, const std::vector
   const Request r = request(scene, bodies);
   hydro::cylinders::Options options = r.options;
   options.progress = std::move(progress);
-  return scene::placed(r.place,
-                       [&] { return hydro::cylinders::solve(r.layout, scene.water, r.omega, r.headings, options); });
+  auto s = scene::placed(r.place,
+                         [&] { return hydro::cylinders::solve(r.layout, scene.water, r.omega, r.headings, options); });
+  keep_coefficients(key_of_cylinders(scene, bodies), s.coefficients);
+  return s;
+}
+
+hydro::potential::Coefficients coefficients_of_cylinders(const Scene& scene, const std::vector<int>& bodies) {
+  auto kept = kept_coefficients(key_of_cylinders(scene, bodies), scene.water);
+  return kept ? std::move(*kept) : solve_cylinders(scene, bodies).coefficients;
 }
 
 std::string what_is_solved(const Scene& scene, const std::vector<int>& bodies) {
@@ -76,19 +92,22 @@ std::string what_is_solved(const Scene& scene, const std::vector<int>& bodies) {
 }
 
 std::string CylinderPlan::method() const {
+  if (kept_in) return fmt::format("exact, solved before and kept in {}", kept_in->string());
   return fmt::format("exact, the equations between groups {}", cost.iterative ? "by iteration" : "by elimination");
 }
 
 std::string CylinderPlan::size() const {
-  return fmt::format(
-      "{} cylinders in {} {}, {} frequencies, {} headings; {} unknowns at most, {:.3g} MB, about {:.2g} s", cylinders,
-      bodies, bodies == 1 ? "body" : "bodies", frequencies, headings, cost.unknowns, std::ceil(cost.bytes / 1e6),
-      std::max(0.1, cost.seconds));
+  return left_to_do(
+      fmt::format("{} cylinders in {} {}, {} frequencies, {} headings; {} unknowns at most, {:.3g} MB, about {:.2g} s",
+                  cylinders, bodies, bodies == 1 ? "body" : "bodies", frequencies, headings, cost.unknowns,
+                  std::ceil(cost.bytes / 1e6), std::max(0.1, cost.seconds)),
+      kept_in.has_value());
 }
 
 CylinderPlan plan_cylinders(const Scene& scene, const std::vector<int>& bodies) {
   const Request r = request(scene, bodies);
-  CylinderPlan plan{{}, 0, bodies.size(), r.omega.size(), r.headings.size()};
+  CylinderPlan plan{
+      {}, 0, bodies.size(), r.omega.size(), r.headings.size(), folder_of_kept(key_of_cylinders(scene, bodies))};
   for (const auto& body : r.layout) plan.cylinders += body.cylinders.size();
   scene::placed(r.place,
                 [&] { plan.cost = hydro::cylinders::cost(r.layout, scene.water, r.omega, r.headings, r.options); });

@@ -1,6 +1,8 @@
 #pragma once
 /// \file  Coefficients of the cylinders that a scene describes.
+#include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,9 @@ std::vector<int> bodies_of_cylinders(const scene::Scene& scene);
 hydro::cylinders::Solution solve_cylinders(const scene::Scene& scene, const std::vector<int>& bodies,
                                            std::function<void(int, int)> progress = {});
 
+/// The same without what checks them, and not solved again where an earlier start of the program has kept them.
+hydro::potential::Coefficients coefficients_of_cylinders(const scene::Scene& scene, const std::vector<int>& bodies);
+
 /// All that the answer of solve_cylinders() depends on, as one text: equal texts, equal answers.
 std::string what_is_solved(const scene::Scene& scene, const std::vector<int>& bodies);
 
@@ -25,6 +30,8 @@ std::string what_is_solved(const scene::Scene& scene, const std::vector<int>& bo
 struct CylinderPlan {
   hydro::cylinders::Cost cost;
   std::size_t cylinders, bodies, frequencies, headings;
+  std::optional<std::filesystem::path> kept_in;  ///< by an earlier start of the program; nothing is then done again
+  double seconds() const { return kept_in ? 0 : cost.seconds; }
   std::string method() const;  ///< "exact, …"
   std::string size() const;    ///< numbers, memory and time in words
 };

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <map>
 #include <mutex>
-#include <stdexcept>
 #include <tuple>
 #include <utility>
 
 #include "compile/archive.hpp"
 #include "compile/computed.hpp"
-#include "compile/fit_folder.hpp"
+#include "compile/kept_coefficients.hpp"
+#include "compile/kept_files.hpp"
 #include "fit_sources.hpp"
 #include "hydro/potential/operations/operations.hpp"
 #include "scene/placed.hpp"
@@ -25,8 +25,6 @@ using hydro::hydrostatics::TriangleMesh;
 using hydro::potential::Coefficients;
 using scene::HullMesh;
 using scene::Scene;
-
-constexpr const char* extension_of_hulls = ".hulls";
 
 std::mutex watcher_lock;
 std::function<void(int, int)> watcher_of_process;
@@ -121,44 +119,6 @@ std::string key_of_hulls(const HullRequest& r, const hydro::Water& water) {
   return std::move(out.bytes);
 }
 
-/// All of them, either way, but for what they were asked for: the water.
-template <class Archive, class Table>
-void pass_coefficients(Archive& archive, Table& coefficients) {
-  auto& [water, body, omega, heading, A, B, A_zero, A_inf, X, C, source, notes] = coefficients;
-  archive.list(body, [](auto& of, auto& one) {
-    auto& [name, reference_point, centre_of_gravity, centre_of_buoyancy, displaced_volume] = one;
-    of(name);
-    of(reference_point);
-    of(centre_of_gravity);
-    of(centre_of_buoyancy);
-    of(displaced_volume);
-  });
-  archive(omega);
-  archive(heading);
-  archive(A);
-  archive(B);
-  archive(A_zero);
-  archive(A_inf);
-  archive(X);
-  archive(C);
-  archive(source);
-  archive(notes);
-}
-
-std::optional<Coefficients> kept_coefficients(const KeptFiles& files, const HullRequest& r, const hydro::Water& water) {
-  const auto bytes = files.find(key_of_hulls(r, water), extension_of_hulls);
-  if (!bytes) return std::nullopt;
-  try {
-    ArchiveReader reader(*bytes);
-    Coefficients out;
-    pass_coefficients(reader, out);
-    out.water = water;
-    if (reader.at_end()) return out;
-  } catch (const std::length_error&) {
-  }
-  return std::nullopt;
-}
-
 Coefficients in_place(Coefficients c, const HullRequest& r) {
   if (r.from_origin.isZero(0)) return c;
   return hydro::potential::translated(std::move(c), r.from_origin);
@@ -168,11 +128,7 @@ hp::Solution solved_and_kept(const HullRequest& r, const hydro::Water& water) {
   hp::Options options = r.options;
   options.progress = watcher_of_hulls();
   hp::Solution s = scene::placed(r.place, [&] { return hp::solve(r.bodies, water, r.omega, r.headings, options); });
-  if (const auto folder = fit_folder()) {
-    ArchiveWriter out;
-    pass_coefficients(out, s.coefficients);
-    folder->files().keep(key_of_hulls(r, water), out.bytes, extension_of_hulls);
-  }
+  keep_coefficients(key_of_hulls(r, water), s.coefficients);
   s.coefficients = in_place(std::move(s.coefficients), r);
   return s;
 }
@@ -194,12 +150,8 @@ hp::Solution solve_hulls(const Scene& scene, const std::vector<int>& bodies) {
 
 Coefficients coefficients_of_hulls(const Scene& scene, const std::vector<int>& bodies) {
   const HullRequest r = hull_request(scene, bodies);
-  const auto folder = fit_folder();
-  auto kept = folder ? kept_coefficients(folder->files(), r, scene.water) : std::nullopt;
-  if (!kept) return solved_and_kept(r, scene.water).coefficients;
-  kept->notes.push_back(fmt::format("{}: solved before and kept in {}; FROUDE_CACHE=off solves anew", kept->source,
-                                    folder->path().string()));
-  return in_place(std::move(*kept), r);
+  auto kept = kept_coefficients(key_of_hulls(r, scene.water), scene.water);
+  return kept ? in_place(std::move(*kept), r) : solved_and_kept(r, scene.water).coefficients;
 }
 
 std::string what_hulls_are_solved(const Scene& scene, const std::vector<int>& bodies) {
@@ -230,16 +182,14 @@ std::string HullPlan::method() const {
 }
 
 std::string HullPlan::size() const {
-  const std::string solving = size_of_hulls(cost, frequencies, headings);
-  return kept_in ? fmt::format("{}, none of which is to be done again", solving) : solving;
+  return left_to_do(size_of_hulls(cost, frequencies, headings), kept_in.has_value());
 }
 
 HullPlan plan_hulls(const Scene& scene, const std::vector<int>& bodies) {
   const HullRequest r = hull_request(scene, bodies);
   HullPlan plan{{}, r.omega.size(), r.headings.size(), {}};
   scene::placed(r.place, [&] { plan.cost = hp::cost(r.bodies, scene.water, r.omega, r.headings, r.options); });
-  const auto folder = fit_folder();
-  if (folder && kept_coefficients(folder->files(), r, scene.water)) plan.kept_in = folder->path();
+  plan.kept_in = folder_of_kept(key_of_hulls(r, scene.water));
   return plan;
 }
 

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using hydro::digest;
 
-constexpr std::array<const char*, 2> kept_extensions{".fit", ".hulls"};
+constexpr std::array<const char*, 2> kept_extensions{".fit", ".coefficients"};
 
 /// What stands after the key and before the sum of all.
 std::optional<std::string> answer_in(std::string_view bytes, const std::string& key) {

@@ -19,7 +19,7 @@ class KeptFiles {
       : folder_(std::move(folder)), most_bytes_(most_bytes) {}
 
   const std::filesystem::path& path() const { return folder_; }
-  /// The bytes that were kept by this key in a file with this extension, one of ".fit" and ".hulls".
+  /// The bytes that were kept by this key in a file with this extension, one of ".fit" and ".coefficients".
   std::optional<std::string> find(const std::string& key, const char* extension) const;
   void keep(const std::string& key, const std::string& answer, const char* extension) const;
 

@@ -158,7 +158,7 @@ class Hulls(unittest.TestCase):
                                   env=environment, check=True).stdout
 
         self.assertIn("coefficients of meshes", plan())  # which solves them, since the rest depends on them
-        self.assertTrue(list((self.folder / "kept/froude").glob("*.hulls")))
+        self.assertTrue(list((self.folder / "kept/froude").glob("*.coefficients")))
         self.assertIn("none of which is to be done again", plan())
         _, first, told = self.responses("mesh", env=environment)
         self.assertTrue(any("solved before and kept" in note for note in told["notes"]), told["notes"])

@@ -10,6 +10,7 @@
 #include "hydro/base/error.hpp"
 #include "hydro/cylinders/solve.hpp"
 #include "scenes.hpp"
+#include "support/kept_folder.hpp"
 #include "support/source_dir.hpp"
 
 namespace cylinders_test {
@@ -118,6 +119,25 @@ TEST(CylindersInAScene, HaveTheirCostToldBeforeTheyAreSolved) {
   EXPECT_GT(plan.cost.unknowns, 2);
   EXPECT_THAT(plan.method(), HasSubstr("by elimination"));
   EXPECT_THAT(plan.size(), AllOf(HasSubstr("2 cylinders in 2 bodies"), HasSubstr("MB, about")));
+}
+
+TEST(CylindersInAScene, AreSolvedOnceForAllLaterStartsOfTheProgram) {
+  const support::KeptFolder kept(std::filesystem::path(testing::TempDir()) / "kept_cylinders");
+  const scene::Scene scene = parse(scene_text(cylinders));
+  const auto bodies = compile::bodies_of_cylinders(scene);
+  const auto first = compile::coefficients_of_cylinders(scene, bodies);
+  const auto again = compile::coefficients_of_cylinders(scene, bodies);
+  EXPECT_EQ(again.A, first.A);
+  EXPECT_EQ(again.X, first.X);
+  EXPECT_THAT(again.notes.back(), HasSubstr("solved before"));
+  const auto plan = compile::plan_cylinders(scene, bodies);
+  EXPECT_EQ(plan.seconds(), 0);
+  EXPECT_THAT(plan.method(), HasSubstr("solved before and kept in"));
+  EXPECT_THAT(plan.size(), HasSubstr("none of which is to be done again"));
+  // Another tolerance asks for other bits.
+  scene::Scene finer = scene;
+  finer.accuracy.value /= 10;
+  EXPECT_GT(compile::plan_cylinders(finer, bodies).seconds(), 0);
 }
 
 TEST(CylindersInAScene, TellWhichAreSolvedTogetherOnlyIfTheyAskForTheSame) {

@@ -223,7 +223,7 @@ TEST(HullsInAScene, AreSolvedOnceForAllLaterStartsOfTheProgram) {
   EXPECT_EQ(watched.solved, 2 * once);
   // What is kept and spoilt is as good as nothing.
   for (const auto& entry : fs::directory_iterator(folder() / "kept")) {
-    EXPECT_EQ(entry.path().extension(), ".hulls");
+    EXPECT_EQ(entry.path().extension(), ".coefficients");
     std::fstream file(entry.path(), std::ios::in | std::ios::out | std::ios::binary);
     file.seekp(-20, std::ios::end);
     file.put('x');
