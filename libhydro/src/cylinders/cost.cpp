@@ -27,10 +27,9 @@ double measured_rate() {
 }
 
 /// One model a frequency, in the water that is used for it.
-ModelCost cost_at(const std::vector<CylinderBody>& bodies, const Water& water, double omega, double headings,
-                  const Resolution& resolution) {
-  const Model model(bodies, effective_water(bodies, water, omega), resolution, {}, Model::Asked::cost);
-  return model.cost(omega, headings);
+Model model_at(const std::vector<CylinderBody>& bodies, const Water& water, double omega,
+               const Resolution& resolution) {
+  return {bodies, effective_water(bodies, water, omega), resolution, {}, Model::Asked::cost};
 }
 
 }  // namespace
@@ -43,7 +42,9 @@ Cost cost(const std::vector<CylinderBody>& bodies, const Water& water, const std
   Cost c{0, 0, 0, false};
   double work = 0, bytes = 0;
   const auto add = [&](double w, const Resolution& resolution) {
-    const ModelCost here = cost_at(bodies, water, w, static_cast<double>(heading.size()), resolution);
+    const Model model = model_at(bodies, water, w, resolution);
+    const ModelCost here = model.cost(w, static_cast<double>(heading.size()));
+    if (water.depth.is_infinite()) work += model.building_work();
     c.unknowns = std::max(c.unknowns, here.unknowns);
     c.iterative = c.iterative || here.iterative;
     bytes = std::max(bytes, here.bytes);
@@ -51,6 +52,8 @@ Cost cost(const std::vector<CylinderBody>& bodies, const Water& water, const std
   };
   for (const double w : omega) add(w, usual);
   add(infinite, usual);
+  constexpr double to_choose = 6;  // models, and then one that serves
+  work += (to_choose + 1) * model_at(bodies, water, infinite, usual).building_work();
   for (const std::size_t i : frequencies_to_double(omega.size(), options.doubled_frequencies))
     add(omega[i], usual.doubled());
   const int threads = potential::thread_count(options.threads, omega.size());

@@ -64,7 +64,7 @@ double weakest_passage(double precision, std::size_t cylinders) {
 }
 
 Grouping grouped(const std::vector<Cylinder>& cylinders, const VerticalModes& modes, double threshold, double reach) {
-  Grouping g{joined(cylinders, reach), {}, {}, 0};
+  Grouping g{joined(cylinders, reach), {}, {}, 0, 0};
   std::vector<std::size_t> group(cylinders.size());
   for (std::size_t s = 0; s < g.members.size(); ++s)
     for (const std::size_t c : g.members[s]) group[c] = s;
@@ -92,7 +92,7 @@ std::string shape_of(const std::vector<std::size_t>& members, const std::vector<
 
 EquationsCost equations_cost(const Grouping& grouping, std::size_t cylinders, const Lattice* lattice, double columns,
                              Equations wanted) {
-  constexpr double steps = 15;  // of the iteration, as seen
+  constexpr double step = 2.5;  // beside the waves that pass, as seen
   const double N = static_cast<double>(cylinders), size = N * grouping.between.count();
   if (grouping.members.size() == 1) return {false, 0, 0};
   const double orders = 0.5 * grouping.between.highest_order();  // for most pairs, as seen
@@ -102,7 +102,7 @@ EquationsCost equations_cost(const Grouping& grouping, std::size_t cylinders, co
   for (const auto& members : grouping.members)
     within += square(static_cast<double>(members.size()) * grouping.between.count());
   const double elimination = cube(size) / 3 + square(size) * columns;
-  const double iteration = columns * steps * (entries + within + steps * size);
+  const double steps = grouping.steps, iteration = step * columns * steps * (entries + within + steps * size);
   const bool iterative = wanted == Equations::automatic ? iteration < elimination : wanted == Equations::iterative;
   const double kept = within + 6 * size * columns, one = columns_at_a_time;
   if (iterative) return {true, iteration, number * (kept + entries + (steps + 5) * size * std::min(columns, one))};
@@ -125,9 +125,10 @@ EquationsCost compounds_cost(const Grouping& grouping, const std::vector<Cylinde
 
 Grouping choose_grouping(const std::vector<Cylinder>& cylinders, const std::vector<std::size_t>& kind,
                          const Lattice* lattice, const VerticalModes& modes, double threshold, double columns,
-                         Equations wanted) {
+                         double steps, Equations wanted) {
   const auto with_reach = [&](double reach) {
     Grouping g = grouped(cylinders, modes, threshold, reach);
+    g.steps = steps;
     g.work =
         equations_cost(g, cylinders.size(), lattice, columns, wanted).work + compounds_cost(g, cylinders, kind).work;
     return g;

@@ -19,6 +19,7 @@ namespace hydro::cylinders {
 struct Grouping {
   std::vector<std::vector<std::size_t>> members;
   Channels within, between;  ///< `within` holds all of `between`
+  double steps;              ///< expected of an iteration between the groups
   double work;               ///< estimate, complex multiplications
 };
 
@@ -42,10 +43,10 @@ EquationsCost compounds_cost(const Grouping& grouping, const std::vector<Cylinde
                              const std::vector<std::size_t>& kind);
 
 /// The grouping that costs least among those that join all pairs closer than some distance. `kind[i]`: equal cylinders
-/// have equal numbers; `columns`: motions.
+/// have equal numbers; `columns`: motions; `steps`: expected of an iteration.
 Grouping choose_grouping(const std::vector<Cylinder>& cylinders, const std::vector<std::size_t>& kind,
                          const Lattice* lattice, const VerticalModes& modes, double threshold, double columns,
-                         Equations wanted);
+                         double steps, Equations wanted);
 
 /// Answers for waves that arrive (columns first) and for motions (columns after).
 struct Response {

@@ -135,14 +135,25 @@ VerticalModes Model::modes(double omega) const {
 }
 
 Grouping Model::grouping(const VerticalModes& modes) const {
+  const double steps = 4 + 0.28 * modes.k * distance_across(cylinders_);  // as seen, up to 100 cylinders
   return choose_grouping(cylinders_, type_of_, lattice(), modes, resolution_.threshold,
-                         static_cast<double>(motion_.cols()), resolution_.equations);
+                         static_cast<double>(motion_.cols()), steps, resolution_.equations);
+}
+
+// The sums over the depth below cylinders that stand above the bed, as seen.
+double Model::building_work() const {
+  constexpr double term = 1.9e3, pair = 0.07;
+  double work = 0;
+  for (const Type& t : types_)
+    if (const double terms = terms_of_radius(t.radius, water_.depth.metres()); t.draught)
+      work += term * terms + pair * terms * terms;
+  return work;
 }
 
 // Beside the equations between groups: those within, the single cylinders with their sums over the depth (as seen), and
 // the waves far away.
 ModelCost Model::cost(double omega, double headings) const {
-  constexpr double single = 3e6, with_column = 3e7, term = 1.2e4, number = 16, term_bytes = 400;
+  constexpr double single = 3e6, with_column = 3e7, term = 1e3, number = 16, term_bytes = 400;
   const VerticalModes depth_modes = coarse_modes(omega);
   const Grouping g = grouping(depth_modes);
   const double motions = static_cast<double>(motion_.cols()), columns = motions + headings;
@@ -154,7 +165,7 @@ ModelCost Model::cost(double omega, double headings) const {
   const double functions = resolution_.gap_functions;  // as many times more than usual
   for (const Type& t : types_) {
     const int terms = terms_of_radius(t.radius, water_.depth.metres());
-    cylinders += (t.top ? with_column : single) + term * functions * functions * terms;
+    cylinders += (t.top ? with_column : single) + term * functions * terms;
     sums = std::max(sums, term_bytes * functions * terms);
   }
   int unknowns = g.members.size() > 1 ? static_cast<int>(size) : g.between.count();

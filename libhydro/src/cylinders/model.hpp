@@ -58,6 +58,9 @@ class Model {
   double difference(const Model& other, double omega) const;
   /// What at() will take.
   ModelCost cost(double omega, double headings) const;
+  /// What the model itself takes to be built, complex multiplications; one in water of finite depth serves all
+  /// frequencies.
+  double building_work() const;
 
  private:
   struct Type {

@@ -58,7 +58,7 @@ struct Solution {
 struct Cost {
   int unknowns;    ///< complex, at the frequency that has most
   double bytes;    ///< of working memory, all threads together, estimated
-  double seconds;  ///< estimated from how fast this machine multiplies matrices now; good to a factor of three
+  double seconds;  ///< estimated from how fast this machine multiplies matrices now; good to a factor of two
   bool iterative;  ///< Equations::automatic takes the iteration at some frequency, or it was asked for
 };
 
