@@ -1,7 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hdf5.h>
+#include <hdf5_hl.h>
 
 #include <fstream>
+#include <functional>
 
 #include "capytaine_file.hpp"
 #include "hydro/base/error.hpp"
@@ -212,6 +215,46 @@ TEST(CapytaineReader, RefusesADamagedHeader) {
   TemporaryFolder folder;
   folder.write("bad.nc", std::string("CDF\x01\0\0\0\0\0\0\0\x0a\x7f\xff\xff\xff", 16));
   EXPECT_THAT([&] { read(folder / "bad.nc"); }, ThrowsMessage<InputError>(HasSubstr("netCDF header")));
+}
+
+/// A file whose axis "complex" was changed through HDF5, which knows nothing of what netCDF asks of axes.
+std::filesystem::path with_axis(const TemporaryFolder& folder, const std::string& name,
+                                const std::function<void(hid_t)>& change) {
+  CapytaineFile{.classic = false}.write(folder / name);
+  const hid_t file = H5Fopen((folder / name).c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  change(file);
+  H5Fclose(file);
+  return folder / name;
+}
+
+TEST(CapytaineReader, RefusesAxesThatNoLongerBelongToTheirVariables) {
+  TemporaryFolder folder;
+  const auto numbered = [](int number) {
+    return [number](hid_t file) { H5LTset_attribute_int(file, "complex", "_Netcdf4Dimid", &number, 1); };
+  };
+  const auto of_length = [](hsize_t length) {
+    return [length](hid_t file) {
+      int number = 0;
+      H5LTget_attribute_int(file, "complex", "_Netcdf4Dimid", &number);
+      H5Ldelete(file, "complex", H5P_DEFAULT);
+      const std::vector<double> values(length);
+      H5LTmake_dataset_double(file, "complex", 1, &length, values.data());
+      H5LTset_attribute_int(file, "complex", "_Netcdf4Dimid", &number, 1);
+      const hid_t axis = H5Dopen(file, "complex", H5P_DEFAULT);
+      H5DSset_scale(axis, "complex");
+      H5Dclose(axis);
+    };
+  };
+  const std::pair<const char*, std::function<void(hid_t)>> changes[] = {
+      {"number.nc", numbered(77)},
+      {"shorter.nc", of_length(1)},
+      {"longer.nc", of_length(3)},
+      {"huge.nc", of_length(100000)},
+      {"gone.nc", [](hid_t file) { H5Ldelete(file, "complex", H5P_DEFAULT); }}};
+  for (const auto& [name, change] : changes) {
+    const auto path = with_axis(folder, name, change);
+    EXPECT_THAT([&] { read(path); }, ThrowsMessage<InputError>(HasSubstr(name))) << name;
+  }
 }
 
 }  // namespace
