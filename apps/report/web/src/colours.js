@@ -16,6 +16,17 @@ const isPrinting = () => matchMedia('print').matches;
 export const colour = (i) => (isDark() ? DARK : LIGHT)[i % 6];
 /** Curves are told apart by their dashes too, so that they are without colours. */
 export const dash = (i) => DASHES[i % 6];
+/** A stroke of curve number i as the background of a mark: its colour with its dashes. */
+export function inked(i, dashes = dash(i)) {
+  if (!dashes.length) return colour(i);
+  const stops = [];
+  let end = 0;
+  dashes.forEach((length, k) => {
+    stops.push(`${k % 2 ? 'transparent' : colour(i)} ${end}px ${end + length}px`);
+    end += length;
+  });
+  return `repeating-linear-gradient(90deg, ${stops.join(', ')})`;
+}
 /** A colour of the style sheet. */
 export const styled = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 

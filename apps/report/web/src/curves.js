@@ -1,7 +1,7 @@
 // Curves over a common abscissa, by uPlot: zoom by dragging, a cursor that tells values, axes that move together.
 import uPlot from 'uplot';
-import { colour, dash, styled } from './colours.js';
-import { csvOf, figure } from './figure.js';
+import { colour, dash, inked, styled } from './colours.js';
+import { csvOf, figure, whenNear } from './figure.js';
 import { format } from './units.js';
 import { onChange } from './settings.js';
 
@@ -17,9 +17,10 @@ function moveTogether(group, range, except) {
  * @param {{title: string, group: string, note?: string, log?: boolean,
  *          read: () => {x: {label: string, values: ArrayLike<number>}, y: {label: string},
  *                       curves: {name: string, values: ArrayLike<number>, low?: ArrayLike<number>,
- *                                high?: ArrayLike<number>}[],
+ *                                high?: ArrayLike<number>, turn?: number}[],
  *                       first?: number[]}}} of
- *        `read` is asked anew when units change; x rises; `first` is the range that is shown before any zoom
+ *        `read` is asked anew when units change; x rises; `first` is the range that is shown before any zoom; values
+ *        of a curve with a `turn` are angles, whose jumps by more than half a turn are no line
  */
 export function curveFigure(of) {
   let data = of.read(),
@@ -63,7 +64,9 @@ export function curveFigure(of) {
   groups.get(of.group).add(self);
 
   const chosenCurves = () => data.curves.filter((c) => shell.chosen.has(c.name));
-  const strokeOf = (name) => colour([...shell.chosen].indexOf(name));
+  const place = (name) => [...shell.chosen].indexOf(name);
+  const strokeOf = (name) => colour(place(name));
+  const dashOf = (name) => (data.x.values.length > 500 ? [] : dash(place(name))); // of many points dashes are noise
 
   function showAll() {
     range = null;
@@ -84,8 +87,10 @@ export function curveFigure(of) {
       label: curve.name,
       stroke: strokeOf(curve.name),
       width: 1.6,
-      dash: curve.values.length > 500 ? [] : dash([...shell.chosen].indexOf(curve.name)),
+      dash: dashOf(curve.name),
       points: { show: curve.values.length < 3 },
+      gaps: (of_, index, from, to, gaps) =>
+        curve.turn ? gaps.concat(turnsOf(of_, index, from, to, curve.turn)).sort((a, b) => a[0] - b[0]) : gaps,
       value: (_, v) => (v === null ? '–' : format(v)),
       scale: 'y',
       index: i,
@@ -135,7 +140,7 @@ export function curveFigure(of) {
             ...pen,
             label: data.y.label,
             labelSize: 22,
-            size: 62,
+            size: (_, texts) => Math.max(62, 16 + 7 * Math.max(0, ...(texts ?? []).map((text) => text.length))),
             values: (_, ticks) => ticks.map((v) => (v === null ? '' : format(v, 3))),
           },
         ],
@@ -156,27 +161,14 @@ export function curveFigure(of) {
       shell.place,
     );
     plot.over.addEventListener('dblclick', showAll);
-    shell.setColours(strokeOf);
+    shell.setColours((name) => inked(place(name), dashOf(name)));
     applyRange();
   }
 
-  // Figures are drawn when they come near the window: long reports open at once.
-  const near = new IntersectionObserver(
-    (entries) => {
-      if (!entries.some((e) => e.isIntersecting) || seen) return;
-      seen = true;
-      near.disconnect();
-      draw();
-      new ResizeObserver(() => plot.setSize({ width: shell.place.clientWidth, height: HEIGHT })).observe(shell.place);
-    },
-    { rootMargin: '400px' },
-  );
-  near.observe(shell.place);
-  addEventListener('beforeprint', () => {
-    if (!seen) {
-      seen = true;
-      draw();
-    }
+  whenNear(shell.place, () => {
+    seen = true;
+    draw();
+    new ResizeObserver(() => plot.setSize({ width: shell.place.clientWidth, height: HEIGHT })).observe(shell.place);
   });
   onChange((settings) => {
     const before = data.x.label;
@@ -185,4 +177,14 @@ export function curveFigure(of) {
     if (seen) draw();
   });
   return shell.element;
+}
+
+/** Where an angle passes from one end of its range to the other: pairs of pixels between which no line is drawn. */
+function turnsOf(plot, index, from, to, turn) {
+  const [x, y] = [plot.data[0], plot.data[index]];
+  const out = [];
+  for (let i = from; i < to; ++i)
+    if (y[i] !== null && y[i + 1] !== null && Math.abs(y[i + 1] - y[i]) > turn / 2)
+      out.push([i, i + 1].map((k) => plot.valToPos(x[k], 'x', true)));
+  return out;
 }

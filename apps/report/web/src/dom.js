@@ -58,7 +58,9 @@ export function table(head, rows, caption) {
         h(
           'tr',
           {},
-          head.map((text, i) => h('th', { scope: 'col', class: i ? 'number' : null }, text)),
+          head.map((text, i) =>
+            h('th', { scope: 'col', class: i && rows.some((row) => isNumber(row[i])) ? 'number' : null }, text),
+          ),
         ),
       ),
       h(
@@ -81,12 +83,20 @@ export function table(head, rows, caption) {
 }
 
 function isNumber(cell) {
-  return typeof cell === 'string' && /^[−+]?[0-9.]/.test(cell);
+  return typeof cell === 'string' && /^([−+]?[0-9.]|–$)/.test(cell);
 }
 
 /** A part that can be folded. */
 export function folded(title, open, ...children) {
   return h('details', { open }, h('summary', {}, title), ...children);
+}
+
+/** A folded part that stands open on paper, where nobody can open it. */
+export function openOnPaper(part) {
+  const before = part.open;
+  addEventListener('beforeprint', () => (part.open = true));
+  addEventListener('afterprint', () => (part.open = before));
+  return part;
 }
 
 /** A file for the reader, made here. */

@@ -10,7 +10,7 @@ let count = 0;
  * @param {{title: string, names: string[], note?: string, csv: () => string, canvas: () => HTMLCanvasElement,
  *          reset?: () => void, log?: (on: boolean) => void, draw: (chosen: Set<string>) => void}} what
  * @returns {{element: HTMLElement, place: HTMLElement, chosen: Set<string>,
- *   setColours: (of: (name: string) => string) => void}}
+ *   setColours: (of: (name: string) => string) => void}} `setColours` takes a background of CSS for each name
  */
 export function figure(what) {
   const chosen = new Set(what.names.slice(0, MOST));
@@ -39,6 +39,23 @@ export function figure(what) {
     what.note ? h('p', { class: 'note' }, what.note) : null,
   );
   return { element, place, chosen, setColours: (of) => legend?.colour(of) };
+}
+
+/**
+ * Figures are drawn when they come near the window, or go on paper: long reports open at once.
+ * @param {HTMLElement} place @param {() => void} draw is called once
+ */
+export function whenNear(place, draw) {
+  const once = () => {
+    near.disconnect();
+    removeEventListener('beforeprint', once);
+    draw();
+  };
+  const near = new IntersectionObserver((entries) => entries.some((e) => e.isIntersecting) && once(), {
+    rootMargin: '400px',
+  });
+  near.observe(place);
+  addEventListener('beforeprint', once);
 }
 
 /** A button that stays pressed. */

@@ -19,12 +19,62 @@ const told = (v) =>
 const isTable = (v) => v !== null && typeof v === 'object' && !Array.isArray(v);
 const isList = (v) => Array.isArray(v) && v.some(isTable);
 
-/** Coefficients as a table: value and what else is told of each, as far as names tell it: cd, cd_interval, … */
-function estimatesTable(tree) {
-  const group = isTable(tree.coefficients) ? tree.coefficients : null;
-  if (!group) return null;
-  const rows = Object.entries(group).map(([name, v]) => [name.replaceAll('_', ' '), told(v)]);
-  return table(['Coefficient', 'Value'], rows, 'Coefficients');
+const isEstimate = (v) => isTable(v) && ('interval' in v || v.identifiable === false);
+
+/** All estimates below, with what they are of, nothing for all together: `{name, of: 'run_1.csv', estimate}`. */
+function estimatesIn(tree, of = []) {
+  return Object.entries(tree).flatMap(([name, v]) => {
+    if (isEstimate(v)) return [{ name, of: of.join(' '), estimate: v }];
+    if (isList(v)) return v.flatMap((one, i) => estimatesIn(one, [...of, one.file ?? one.of ?? `${name} ${i + 1}`]));
+    return isTable(v) ? estimatesIn(v, of) : [];
+  });
+}
+
+/** The one estimate of a coefficient, that of all runs together if there is; none where runs have one each. */
+function estimateOf(name, all) {
+  const same = all.filter((e) => e.name === name);
+  const together = same.filter((e) => e.of === '');
+  return together.length === 1 ? together[0] : same.length === 1 ? same[0] : null;
+}
+
+const HEAD = ['Value', 'Interval', 'Standard error', 'Systematic error'];
+const cellsOf = (value, estimate) => [
+  estimate?.identifiable === false
+    ? `not told: ${estimate.why_not ?? estimate.why ?? 'the data do not tell it'}`
+    : value,
+  estimate?.interval ? estimate.interval.map((v) => format(v, 5)).join(' to ') : '–',
+  format(estimate?.standard_error, 3),
+  format(estimate?.systematic_error, 3),
+];
+
+/** Coefficients with their intervals, and below them the estimates of single runs, where these are others. */
+function estimatesTables(tree) {
+  const all = estimatesIn(tree);
+  const coefficients = Object.entries(isTable(tree.coefficients) ? tree.coefficients : {});
+  const those = coefficients.map(([name, v]) => [name, v, estimateOf(name, all)]);
+  const used = new Set(those.map(([, , found]) => found));
+  const others = all.filter((e) => !used.has(e));
+  const words = (name) => name.replaceAll('_', ' ');
+  return [
+    those.length
+      ? table(
+          ['Coefficient', ...HEAD],
+          those.map(([name, v, found]) => [words(name), ...cellsOf(told(v), found?.estimate)]),
+          'Coefficients',
+        )
+      : null,
+    others.length
+      ? table(
+          ['Of', 'Estimate', ...HEAD],
+          others.map(({ name, of, estimate }) => [
+            of,
+            words(name),
+            ...cellsOf(told(estimate.value ?? null), estimate),
+          ]),
+          'Estimates',
+        )
+      : null,
+  ];
 }
 
 /** Whatever stands in a tree of facts, level by level. */
@@ -48,9 +98,9 @@ export function treeOf(tree, title, open = true) {
 }
 
 export function fitParts(fit) {
-  const { coefficients, ...rest } = fit.tree;
+  const { coefficients: _, ...rest } = fit.tree;
   return [
-    estimatesTable({ coefficients }),
+    ...estimatesTables(fit.tree),
     treeOf(rest, 'All that the fit tells', (fit.panels ?? []).length === 0),
   ].filter(Boolean);
 }

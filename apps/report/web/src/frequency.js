@@ -31,15 +31,23 @@ function curvesOf(results) {
   });
 }
 
-/** Points of a curve on the frequencies of all curves of its figure, by straight lines. */
-function onto(omega, curve, values) {
+const TURN = 2 * Math.PI;
+/** Of a size below this share of the largest one of a figure there is rounding only, which has no phase. */
+const NOTHING = 1e-8;
+const NO_PHASE = 'Where a response is below 1e-8 of the largest one it is rounding, whose phase is not drawn.';
+
+/** Points of a curve on the frequencies of all curves of its figure, by straight lines; phases by the shorter way. */
+function onto(omega, curve, values, turns) {
   if (omega === curve.omega) return Array.from(values);
   let k = 0;
   const w = curve.omega;
   return Array.from(omega, (at) => {
     if (at < w[0] || at > w[w.length - 1]) return NaN;
     while (k + 2 < w.length && w[k + 1] < at) ++k;
-    return values[k] + ((at - w[k]) / (w[k + 1] - w[k])) * (values[k + 1] - values[k]);
+    const step = values[k + 1] - values[k];
+    const value =
+      values[k] + ((at - w[k]) / (w[k + 1] - w[k])) * (turns ? step - TURN * Math.round(step / TURN) : step);
+    return turns ? value - TURN * Math.round(value / TURN) : value;
   });
 }
 
@@ -48,14 +56,16 @@ function raoFigure(title, all, group, part) {
     (c) => c.omega.length === all[0].omega.length && c.omega.every((w, i) => w === all[0].omega[i]),
   );
   const omega = same ? all[0].omega : Float64Array.from(new Set(all.flatMap((c) => [...c.omega]))).sort();
+  const nothing = NOTHING * Math.max(...all.map((c) => Math.max(...sizes(c))));
   return curveFigure({
     title: `${title}: ${part.word}`,
     group,
     log: part.log,
+    note: part.turns && all.some((c) => part.of(c, nothing).some(Number.isNaN)) ? NO_PHASE : undefined,
     read: () => {
       const order = [...omega.keys()];
       if (settings.abscissa === 'T') order.reverse();
-      const lists = all.map((c) => onto(same ? c.omega : omega, c, part.of(c)));
+      const lists = all.map((c) => onto(same ? c.omega : omega, c, part.of(c, nothing), part.turns));
       const largest = Math.max(...lists.map((l) => Math.max(...l.filter(Number.isFinite))));
       const { factor, unit } = part.unit(all[0].unit, largest);
       return {
@@ -64,17 +74,23 @@ function raoFigure(title, all, group, part) {
           values: order.map((i) => ABSCISSAE[settings.abscissa].of(omega[i])),
         },
         y: { label: labelled(part.word, unit) },
-        curves: all.map((c, i) => ({ name: c.label, values: order.map((k) => lists[i][k] * factor) })),
+        curves: all.map((c, i) => ({
+          name: c.label,
+          values: order.map((k) => lists[i][k] * factor),
+          turn: part.turns ? TURN * factor : undefined,
+        })),
       };
     },
   });
 }
 
-const AMPLITUDE = { word: 'amplitude', of: (c) => Array.from(c.re, (re, i) => Math.hypot(re, c.im[i])), unit: shown };
+const sizes = (c) => Array.from(c.re, (re, i) => Math.hypot(re, c.im[i]));
+const AMPLITUDE = { word: 'amplitude', of: sizes, unit: shown };
 const PHASE = {
   word: 'phase',
   log: false,
-  of: (c) => Array.from(c.re, (re, i) => Math.atan2(c.im[i], re)),
+  turns: true,
+  of: (c, nothing) => sizes(c).map((size, i) => (size > nothing ? Math.atan2(c.im[i], c.re[i]) : NaN)),
   unit: () => (settings.angle === 'deg' ? { factor: 1 / DEGREE, unit: 'deg' } : { factor: 1, unit: 'rad' }),
 };
 
@@ -89,7 +105,7 @@ export function raoFigures(results, group) {
 /** The peak of every response. */
 export function peaksTable(rao) {
   const rows = curvesOf([rao]).map((c) => {
-    const size = AMPLITUDE.of(c);
+    const size = sizes(c);
     const i = size.indexOf(Math.max(...size));
     const { factor, unit } = shown(c.unit, size[i]);
     return [

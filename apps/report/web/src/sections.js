@@ -52,7 +52,7 @@ const SECTIONS = {
       part('Cases', folded('All cases', sweep.number.length <= 30, casesTable(sweep))),
       sweep.why.length
         ? part(
-            'What went wrong',
+            'Cases that failed, were skipped or warn',
             h(
               'ul',
               {},

@@ -4,7 +4,7 @@ import { grouped, numbers } from './data.js';
 import { h } from './dom.js';
 import { MODES, isEnergy, isLoad, quantityOf, sortedQuantities, split, titleOf } from './quantity.js';
 import { settings } from './settings.js';
-import { ABSCISSAE, densityUnit, labelled, shown } from './units.js';
+import { ABSCISSAE, densityUnit, format, labelled, shown } from './units.js';
 import { xyFigure } from './xyfigure.js';
 
 /** "Heave", and "Load in heave" where it is a force or a moment. */
@@ -63,7 +63,7 @@ export function spectrumFigures(run, group) {
     curveFigure({
       title: `${headed(key, all)}: spectral density`,
       group,
-      note: number ? undefined : note,
+      note: [number ? '' : note, unresolved(all, spectra)].filter(Boolean).join(' ') || undefined,
       read: () => {
         const order = [...frequency.keys()].slice(begin);
         const abscissa = ABSCISSAE[settings.abscissa];
@@ -89,6 +89,15 @@ export function spectrumFigures(run, group) {
       },
     }),
   );
+}
+
+/** What the segments are too short for. */
+function unresolved(all, spectra) {
+  const names = all.filter((s) => spectra.unresolved.includes(s.name)).map((s) => split(s.name)[0] || s.name);
+  return names.length
+    ? `Not resolved: more than a fifth of the variance of ${names.join(', ')} lies at periods above ` +
+        `${format(spectra.segment / 1.5, 3)} s, for which the record is too short.`
+    : '';
 }
 
 /** Periods from the shortest to that beyond which a thousandth of the variance of each lies. */
@@ -153,7 +162,7 @@ export function trajectoryFigures(run) {
   );
   return paths.flatMap(({ a, b }) => {
     const owners = run.signals
-      .filter((s) => split(s.name)[1] === a)
+      .filter((s) => split(s.name)[1] === a && s.unit === 'm') // a mooring's surge is a load
       .map((s) => split(s.name)[0])
       .filter((owner) => `${owner}.${a}` in phase.signals && `${owner}.${b}` in phase.signals);
     if (!owners.length) return [];

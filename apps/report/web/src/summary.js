@@ -1,5 +1,5 @@
 // What comes first of every result: what it is of, whether it is whole, and what not to trust.
-import { folded, h, table } from './dom.js';
+import { folded, h, openOnPaper, table } from './dom.js';
 import { format } from './units.js';
 
 /** A sentence that must be seen. */
@@ -46,13 +46,15 @@ export function origins(result) {
   const settings = result.settings ?? [];
   return [
     result.notes?.length
-      ? folded(
-          `Notes (${result.notes.length})`,
-          false,
-          h(
-            'ul',
-            {},
-            result.notes.map((n) => h('li', {}, n)),
+      ? openOnPaper(
+          folded(
+            `Notes (${result.notes.length})`,
+            false,
+            h(
+              'ul',
+              {},
+              result.notes.map((n) => h('li', {}, n)),
+            ),
           ),
         )
       : null,

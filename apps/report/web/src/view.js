@@ -72,11 +72,13 @@ export function animation(view) {
     (entries) => {
       if (!entries.some((e) => e.isIntersecting)) return;
       near.disconnect();
-      begin();
+      // The first picture in space can take seconds, and curves near the window are not to wait for it.
+      requestAnimationFrame(() => setTimeout(() => drawn ?? begin()));
     },
     { rootMargin: '200px' },
   );
   near.observe(place);
+  addEventListener('beforeprint', () => drawn ?? begin());
   onChange(() => drawn?.repaint());
   return element;
 }

@@ -1,6 +1,6 @@
 // Curves and marks in a plane whose abscissa need not rise.
-import { colour, dash } from './colours.js';
-import { csvOf, figure } from './figure.js';
+import { colour, dash, inked } from './colours.js';
+import { csvOf, figure, whenNear } from './figure.js';
 import { extentOf, path, plane } from './plane.js';
 import { onChange } from './settings.js';
 
@@ -65,21 +65,27 @@ export function xyFigure(of) {
     };
     drawn = plane(shell.place, what);
     drawn.draw();
-    shell.setColours((name) => colour([...shell.chosen].indexOf(name)));
+    shell.setColours((name) => {
+      const i = shown().findIndex((c) => c.name === name);
+      return inked(i, dashOf(shown()[i], i));
+    });
   }
 
   onChange((settings) => {
     data = of.read(settings);
-    draw();
+    if (drawn) draw();
   });
-  queueMicrotask(draw);
+  whenNear(shell.place, draw);
   return shell.element;
 }
+
+/** Marks alone have no dashes; what is dashed in the fit's own plot is dashed here. */
+const dashOf = (c, i) => (c.line === false ? [] : dash(c.dashed ? 1 : i));
 
 function paintCurve(pen, at, c, i) {
   pen.strokeStyle = pen.fillStyle = colour(i);
   pen.lineWidth = 1.5;
-  pen.setLineDash(c.line === false ? [] : dash(c.dashed ? 1 : i));
+  pen.setLineDash(dashOf(c, i));
   if (c.line !== false) path(pen, at, c.x, c.y);
   pen.setLineDash([]);
   if (c.marks)
